@@ -1,0 +1,3 @@
+//! Cable mechanics after the absolute nodal coordinate formulation (ANCF).
+
+pub mod linalg;

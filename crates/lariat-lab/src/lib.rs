@@ -1,0 +1,1 @@
+//! Scene files, headless runs and reports for Lariat cables.
