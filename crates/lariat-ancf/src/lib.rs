@@ -1,3 +1,62 @@
-//! Cable mechanics after the absolute nodal coordinate formulation (ANCF).
+//! Cable mechanics after the absolute nodal coordinate formulation (ANCF): elements, integrators, statics.
+//!
+//! The crate knows no physics engine, no ECS and no files. All numbers are `f64` in SI units.
+//!
+//! ```
+//! use lariat_ancf::{At, Cable, Section, Vector3};
+//!
+//! // the falling pendulum of Bulin & Hajzman: 2 m, 1 cm square, released from horizontal
+//! let mut cable = Cable::builder()
+//!     .points([Vector3::zeros(), Vector3::new(2.0, 0.0, 0.0)])
+//!     .section(Section::square(0.01, 1.0e8, 4000.0)?)
+//!     .elements(10)
+//!     .fix(At::Start)
+//!     .build()?;
+//! for _ in 0..30 {
+//!     cable.step(1.0 / 60.0)?;
+//! }
+//! let tip = cable.sample(2.0)?.position;
+//! assert!((tip - Vector3::new(1.3108, -1.2034, 0.0)).norm() < 3e-3, "{tip}");
+//! # Ok::<(), lariat_ancf::Error>(())
+//! ```
+//!
+//! | module | what it holds |
+//! |---|---|
+//! | [`element`] | one element as a function of six Gram numbers |
+//! | [`axial`], [`bending`] | one file per rule of the elastic forces |
+//! | [`cable`] | mesh, state, builder, sampling, energies |
+//! | [`integrate`] | one file per time integrator, over one trait |
+//! | [`statics`] | static equilibrium |
+//! | [`linalg`] | the block-tridiagonal solver |
 
+pub mod axial;
+pub mod bending;
+pub mod cable;
+mod diagnostics;
+pub mod element;
+mod error;
+pub mod integrate;
 pub mod linalg;
+mod load;
+mod quadrature;
+mod real;
+mod rule;
+mod section;
+pub mod statics;
+mod support;
+
+pub use cable::builder::CableBuilder;
+pub use cable::energy::{Energy, Momentum};
+pub use cable::sample::{Reaction, Sample};
+pub use cable::{At, Cable, State};
+pub use diagnostics::Diagnostics;
+pub use error::{Error, StepFailure};
+pub use integrate::{Integrator, Method, Preset, StepControl};
+pub use load::PointLoad;
+/// The vector type of the public interface (nalgebra's).
+pub use nalgebra::Vector3;
+pub use real::Real;
+pub use rule::{AxialRule, BendingRule, Rule};
+pub use section::{Section, Shape};
+pub use statics::{EquilibriumOptions, EquilibriumReport};
+pub use support::{Motion, SlopeSupport, Support};

@@ -1,1 +1,59 @@
-//! Linear algebra of a cable: symmetric block-tridiagonal matrices with 6x6 blocks.
+//! Linear algebra of a cable: symmetric block-tridiagonal matrices with 6x6 blocks, O(n).
+//!
+//! Equation: A x = b with A = A^T block tridiagonal (Golub & Van Loan, Matrix Computations, 4th ed.,
+//! section 4.5.1), by one of two factorisations, chosen by the matrix:
+//! - positive definite: block L D L^T without pivoting, eliminated from both ends towards the
+//!   middle node (section 4.5.1 with the scalar L D L^T of section 4.1 inside a block);
+//! - otherwise: L U with partial pivoting on the equilibrated band (sections 3.5.2 and 4.3.3).
+//!
+//! Validity: `Ok` means that all pivots were healthy (fast path) or that pivot growth and an estimate
+//! of the condition number are within their bounds (slow path); everything else is an error that
+//! names a node. Results carry the same bits at every SIMD level: all sums have a fixed order and no
+//! multiply-add is fused.
+//!
+//! Rejected: a general sparse or banded Cholesky for the fast path (six-lane columns fill a register,
+//! a generic band does not), cyclic reduction (two to three times the arithmetic), Bunch-Kaufman
+//! pivoting for the slow path (its symmetric interchanges destroy the band).
+
+mod banded;
+mod block;
+mod equilibrate;
+mod factorisation;
+mod inertia;
+mod lanes;
+mod mass;
+mod substitution;
+mod twisted;
+
+pub use block::{Block, BlockTridiagonal};
+pub use factorisation::{Definiteness, Factorisation};
+pub use mass::{MassFactorisation, MassMatrix};
+
+/// Why a matrix could not be factored.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Reason {
+    /// An entry is NaN or infinite, or the elimination overflowed.
+    NonFinite,
+    /// No usable pivot: the matrix is singular.
+    Pivot,
+    /// The estimated reciprocal condition number is below the bound: singular to working precision.
+    Condition,
+    /// Entries grew so much during the elimination that the factors are worthless.
+    Growth,
+    /// A mass matrix that is not positive definite.
+    NotPositive,
+}
+
+/// The matrix is singular to working precision, or not finite.
+#[derive(thiserror::Error, Debug, Clone, PartialEq)]
+#[error("matrix cannot be factored at node {node}: {reason:?} (pivot {pivot:e}, scale {scale:e})")]
+pub struct SingularMatrix {
+    /// Node of the offending entry or of the smallest pivot.
+    pub node: usize,
+    /// The smallest pivot (of the equilibrated matrix for the general path), 0 if there is none.
+    pub pivot: f64,
+    /// What the pivot is measured against: the largest entry (same scaling), 0 if there is none.
+    pub scale: f64,
+    /// What went wrong.
+    pub reason: Reason,
+}

@@ -1,0 +1,181 @@
+//! Gauss quadrature of the full squared curvature with 1 to 10 points.
+//!
+//! `u = sum_q w_q P_q/Q_q^3`, `Q = |r'|^2 = b.g`, and with `p01 = (1-xi)^2`, `p02 = xi(1-xi) - (1-xi)^2 - xi^2`, `p12 = xi^2`
+//!
+//! ```text
+//! (l/2) r' x r'' = p01 d0xd1 + p02 d0xd2 + p12 d1xd2        P = m . X(g)
+//! ```
+//!
+//! where X are the six products of those cross products, which are the 2x2 minors of the Gram matrix (Binet-Cauchy),
+//! and m the monomials of p. The degree of r' x r'' is two, not three: the cubic terms cancel.
+//!
+//! *Source.* Gerstmayr & Shabana 2006 (curvature); Bulin & Hajzman, *T* points. *Validity.* |r'| > 0 at the points: u grows as
+//! |r'|^-4 with P fixed, and the step that meets it is refused. Two points or more: one leaves spare modes.
+//! *Rejected.* Three-vectors at the points (three times the work); the rational integral in closed form (paper: too long).
+
+use super::Bending;
+use crate::Real;
+use crate::element::gram::{Six, Upper, slope_square, upper, weighted};
+use crate::quadrature::gauss_legendre;
+
+/// Constants of one Gauss point.
+#[derive(Clone, Debug)]
+struct Point {
+    weight: f64,
+    b: Six<f64>,
+    weighted_b: Six<f64>,
+    m: Six<f64>,
+}
+
+/// Gauss quadrature of the full curvature.
+#[derive(Clone, Debug)]
+pub struct Gauss {
+    points: Vec<Point>,
+}
+
+impl Gauss {
+    /// The rule with `points` Gauss points.
+    pub fn new(points: usize) -> Self {
+        let points = gauss_legendre(points)
+            .into_iter()
+            .map(|(xi, weight)| {
+                let b = slope_square(xi);
+                Point { weight, b, weighted_b: weighted(&b), m: minor_coefficients(xi) }
+            })
+            .collect();
+        Gauss { points }
+    }
+}
+
+/// The monomials m with `(l^2/4) |r' x r''|^2 = m . X(g)` at xi.
+pub(crate) fn minor_coefficients(xi: f64) -> Six<f64> {
+    let p01 = (1.0 - xi) * (1.0 - xi);
+    let p12 = xi * xi;
+    let p02 = xi * (1.0 - xi) - p01 - p12;
+    [p01 * p01, 2.0 * p01 * p02, 2.0 * p01 * p12, p02 * p02, 2.0 * p02 * p12, p12 * p12]
+}
+
+/// The 2x2 minors of the Gram matrix, for the pairs of cross products (01,01), (01,02), (01,12), (02,02), (02,12), (12,12).
+#[inline(always)]
+pub(crate) fn minors<T: Real>(g: &Six<T>) -> Six<T> {
+    let [g00, g01, g02, g11, g12, g22] = *g;
+    [
+        g00 * g11 - g01 * g01,
+        g00 * g12 - g02 * g01,
+        g01 * g12 - g02 * g11,
+        g00 * g22 - g02 * g02,
+        g01 * g22 - g02 * g12,
+        g11 * g22 - g12 * g12,
+    ]
+}
+
+#[inline(always)]
+fn form<T: Real>(c: &Six<f64>, x: &Six<T>) -> T {
+    x[0] * c[0] + x[1] * c[1] + x[2] * c[2] + x[3] * c[3] + x[4] * c[4] + x[5] * c[5]
+}
+
+/// Weighted gradient of `m . X(g)`, for numbers m (constants or lanes).
+#[inline(always)]
+fn weighted_minor_gradient<T: Real, M: Copy>(m: &Six<M>, g: &Six<T>) -> Six<T>
+where
+    T: core::ops::Mul<M, Output = T>,
+{
+    let [g00, g01, g02, g11, g12, g22] = *g;
+    let first = g11 * m[0] + g12 * m[1] + g22 * m[3];
+    let fourth = g00 * m[0] - g02 * m[2] + g22 * m[5];
+    let sixth = g00 * m[3] + g01 * m[4] + g11 * m[5];
+    let g01m0 = g01 * m[0];
+    let g02m3 = g02 * m[3];
+    let g12m5 = g12 * m[5];
+    [
+        first + first,
+        g12 * m[2] + g22 * m[4] - g02 * m[1] - (g01m0 + g01m0),
+        -(g01 * m[1]) - g11 * m[2] - g12 * m[4] - (g02m3 + g02m3),
+        fourth + fourth,
+        g00 * m[1] + g01 * m[2] - g02 * m[4] - (g12m5 + g12m5),
+        sixth + sixth,
+    ]
+}
+
+/// Adds the weighted Hessian of `m . X(g)`, which does not depend on g.
+#[inline(always)]
+fn add_weighted_minor_hessian<T: Real>(m: &Six<T>, h: &mut Upper<T>) {
+    let mut add = |a: usize, b: usize, value: T| {
+        let k = upper(a, b);
+        h[k] = h[k] + value;
+    };
+    let twice = |x: T| x + x;
+    add(0, 3, twice(twice(m[0])));
+    add(0, 4, twice(m[1]));
+    add(0, 5, twice(twice(m[3])));
+    add(1, 1, -twice(m[0]));
+    add(1, 2, -m[1]);
+    add(1, 4, m[2]);
+    add(1, 5, twice(m[4]));
+    add(2, 2, -twice(m[3]));
+    add(2, 3, -twice(m[2]));
+    add(2, 4, -m[4]);
+    add(3, 5, twice(twice(m[5])));
+    add(4, 4, -twice(m[5]));
+}
+
+impl Bending for Gauss {
+    fn energy(&self, g: &Six<f64>) -> f64 {
+        let x = minors(g);
+        // P >= 0; rounding of the minors of a straight element may leave it at -1e-16
+        self.points.iter().map(|p| p.weight * form(&p.m, &x).max(0.0) / form(&p.b, g).powi(3)).sum()
+    }
+
+    #[inline(always)]
+    fn add_gradient<T: Real>(&self, g: &Six<T>, scale: T, n: &mut Six<T>) {
+        let x = minors(g);
+        let zero = scale.splat(0.0);
+        // gradient of sum_q c_q P_q at fixed c_q = w_q/Q_q^3 is one sweep over the minors: collect c_q m_q first
+        let mut minor_weights = [zero; 6];
+        for point in &self.points {
+            let inverse = zero.splat(1.0) / form(&point.b, g);
+            let cube = scale * inverse * inverse * inverse * point.weight;
+            let slope = cube * inverse * form(&point.m, &x) * -3.0;
+            for i in 0..6 {
+                minor_weights[i] = minor_weights[i] + cube * point.m[i];
+                n[i] = n[i] + slope * point.weighted_b[i];
+            }
+        }
+        let v = weighted_minor_gradient(&minor_weights, g);
+        for i in 0..6 {
+            n[i] = n[i] + v[i];
+        }
+    }
+
+    #[inline(always)]
+    fn add_hessian<T: Real>(&self, g: &Six<T>, scale: T, n: &mut Six<T>, h: &mut Upper<T>) {
+        let x = minors(g);
+        let zero = scale.splat(0.0);
+        let mut minor_weights = [zero; 6];
+        for point in &self.points {
+            let inverse = zero.splat(1.0) / form(&point.b, g);
+            let cube = scale * inverse * inverse * inverse * point.weight;
+            let fourth = cube * inverse;
+            let p = form(&point.m, &x);
+            let slope = fourth * p * -3.0;
+            // Hessian: c Pi + b u^T + u b^T, u = -3 v/Q^4 + 6 P b/Q^5, v = dP/dg
+            let v = weighted_minor_gradient(&point.m, g);
+            let cross = fourth * -3.0;
+            let square = slope * inverse * -2.0;
+            let u: Six<T> = core::array::from_fn(|i| cross * v[i] + square * point.weighted_b[i]);
+            for i in 0..6 {
+                minor_weights[i] = minor_weights[i] + cube * point.m[i];
+                n[i] = n[i] + slope * point.weighted_b[i];
+                for j in i..6 {
+                    let k = upper(i, j);
+                    h[k] = h[k] + u[j] * point.weighted_b[i] + u[i] * point.weighted_b[j];
+                }
+            }
+        }
+        let v = weighted_minor_gradient(&minor_weights, g);
+        for i in 0..6 {
+            n[i] = n[i] + v[i];
+        }
+        add_weighted_minor_hessian(&minor_weights, h);
+    }
+}

@@ -1,0 +1,47 @@
+//! Bending rules: how the energy EI kappa^2/2 of the curvature kappa = |r' x r''| / |r'|^3 is integrated over an element.
+//!
+//! With `P = |r' x r''|^2 l^2/4` and `Q = |r'|^2`, both scalar functions of the Gram numbers
+//! ([`gram`](crate::element::gram)), every rule has the form `U = (2 EI/l) u(g)`:
+//!
+//! | file | u(g) | paper's name |
+//! |---|---|---|
+//! | [`gauss`] | sum_q w_q P_q/Q_q^3 | *T* points |
+//! | [`t1`] | rho.g: mean of \|r''\|^2, |r'| taken as 1 | T1 |
+//! | [`t2`] | rho.g/(a.g)^2: mean stretch divided out | T2 |
+//! | [`NoBending`] | 0: a chain, a limp rope | - |
+//!
+//! A new rule implements [`Bending`]: a scalar function with its weighted gradient and Hessian; nothing else changes.
+
+pub mod gauss;
+pub mod t1;
+pub mod t2;
+
+use crate::Real;
+use crate::element::gram::{Six, Upper};
+
+/// A bending energy `u(g)` per `2 EI/l`, with weighted derivatives (see [`gram`](crate::element::gram)).
+pub trait Bending {
+    /// True if the rule has no energy at all: the kernel then computes nothing.
+    const ABSENT: bool = false;
+    /// The energy u(g).
+    fn energy(&self, g: &Six<f64>) -> f64;
+    /// Adds `scale * e_a du/dg_a` to `n`.
+    fn add_gradient<T: Real>(&self, g: &Six<T>, scale: T, n: &mut Six<T>);
+    /// Adds the weighted gradient to `n` and the weighted Hessian to `h`, both times `scale`.
+    fn add_hessian<T: Real>(&self, g: &Six<T>, scale: T, n: &mut Six<T>, h: &mut Upper<T>);
+}
+
+/// No bending stiffness: no bending code runs.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct NoBending;
+
+impl Bending for NoBending {
+    const ABSENT: bool = true;
+    fn energy(&self, _: &Six<f64>) -> f64 {
+        0.0
+    }
+    #[inline(always)]
+    fn add_gradient<T: Real>(&self, _: &Six<T>, _: T, _: &mut Six<T>) {}
+    #[inline(always)]
+    fn add_hessian<T: Real>(&self, _: &Six<T>, _: T, _: &mut Six<T>, _: &mut Upper<T>) {}
+}

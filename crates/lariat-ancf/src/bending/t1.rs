@@ -1,0 +1,32 @@
+//! T1: the curvature vector taken as r'' (slopes near 1, small rotations inside the element).
+//!
+//! `u = rho.g`, `rho.g = (l^2/4) int |r''|^2 dxi`, `rho = (1, -1, 1, 1/3, -1, 1)` in the pairs of the d basis. The force is
+//! linear, the tangent constant. *Source.* Berzeri & Shabana 2000, model T1. *Validity.* |r'| within a few percent of 1; it also
+//! resists a change of |r'| along the element, which is why it leaves no spare mode with any axial rule.
+
+use super::Bending;
+use crate::Real;
+use crate::element::gram::{PAIR_WEIGHT, Six, Upper};
+
+/// `(l^2/4) int |r''|^2 dxi = rho . g`.
+pub const RHO: Six<f64> = [1.0, -1.0, 1.0, 1.0 / 3.0, -1.0, 1.0];
+
+/// Rule T1.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct T1;
+
+impl Bending for T1 {
+    fn energy(&self, g: &Six<f64>) -> f64 {
+        (0..6).map(|i| RHO[i] * g[i]).sum()
+    }
+    #[inline(always)]
+    fn add_gradient<T: Real>(&self, _: &Six<T>, scale: T, n: &mut Six<T>) {
+        for i in 0..6 {
+            n[i] = n[i] + scale * (PAIR_WEIGHT[i] * RHO[i]);
+        }
+    }
+    #[inline(always)]
+    fn add_hessian<T: Real>(&self, g: &Six<T>, scale: T, n: &mut Six<T>, _: &mut Upper<T>) {
+        self.add_gradient(g, scale, n);
+    }
+}

@@ -1,0 +1,274 @@
+//! Building a cable.
+
+use super::model::{Element, Model};
+use super::{At, Cable, State, layout};
+use crate::error::{Error, require, require_finite};
+use crate::integrate::{Integrator, Preset};
+use crate::load::PointLoad;
+use crate::rule::Rule;
+use crate::section::Section;
+use crate::support::{Motion, SlopeSupport, Support};
+use nalgebra::Vector3;
+
+/// How a node is held at the start; see [`CableBuilder::fix`] and [`CableBuilder::clamp`].
+#[derive(Clone, Copy, Debug)]
+enum Hold {
+    Pin,
+    Clamp,
+}
+
+/// Builds a [`Cable`]. Needed: two points and a section; everything else has a default.
+#[derive(Clone, Debug)]
+pub struct CableBuilder {
+    name: String,
+    points: Vec<Vector3<f64>>,
+    length: Option<f64>,
+    elements: usize,
+    sections: Vec<(f64, Section)>,
+    nodes_at: Vec<f64>,
+    rule: Rule,
+    allow_rank_deficient: bool,
+    integrator: Result<Integrator, Preset>,
+    gravity: Vector3<f64>,
+    velocity: Vector3<f64>,
+    angular_velocity: Vector3<f64>,
+    holds: Vec<(At, Hold)>,
+    loads: Vec<PointLoad>,
+}
+
+impl Default for CableBuilder {
+    fn default() -> Self {
+        CableBuilder {
+            name: "cable".to_string(),
+            points: Vec::new(),
+            length: None,
+            elements: 10,
+            sections: Vec::new(),
+            nodes_at: Vec::new(),
+            rule: Rule::default(),
+            allow_rank_deficient: false,
+            integrator: Err(Preset::Engineering),
+            gravity: Vector3::new(0.0, -9.81, 0.0),
+            velocity: Vector3::zeros(),
+            angular_velocity: Vector3::zeros(),
+            holds: Vec::new(),
+            loads: Vec::new(),
+        }
+    }
+}
+
+impl CableBuilder {
+    /// Name in errors and reports. Default "cable".
+    pub fn name(mut self, name: impl Into<String>) -> Self {
+        self.name = name.into();
+        self
+    }
+
+    /// Start shape: a polyline through these points, in m. At least two.
+    pub fn points(mut self, points: impl IntoIterator<Item = Vector3<f64>>) -> Self {
+        self.points = points.into_iter().collect();
+        self
+    }
+
+    /// Unstretched length in m. Default: the length of the polyline. Longer: the cable starts slack, in arcs that sag along
+    /// gravity; shorter: it starts stretched.
+    pub fn length(mut self, length: f64) -> Self {
+        self.length = Some(length);
+        self
+    }
+
+    /// Number of elements. Default 10.
+    pub fn elements(mut self, elements: usize) -> Self {
+        self.elements = elements;
+        self
+    }
+
+    /// Section of the whole cable.
+    pub fn section(self, section: Section) -> Self {
+        self.section_from(0.0, section)
+    }
+
+    /// Section from an arc length (m) on, up to the next one given: for cables made of pieces. A node is placed there.
+    pub fn section_from(mut self, arc_length: f64, section: Section) -> Self {
+        self.sections.push((arc_length, section));
+        self
+    }
+
+    /// Places a node at this arc length (m).
+    pub fn node_at(mut self, arc_length: f64) -> Self {
+        self.nodes_at.push(arc_length);
+        self
+    }
+
+    /// Force strategy. Default `projected-3`.
+    pub fn rule(mut self, rule: Rule) -> Self {
+        self.rule = rule;
+        self
+    }
+
+    /// Builds even if the rule leaves modes without energy (see [`Rule::check`]).
+    pub fn allow_rank_deficient(mut self) -> Self {
+        self.allow_rank_deficient = true;
+        self
+    }
+
+    /// Time integrator. Default: preset engineering.
+    pub fn integrator(mut self, integrator: Integrator) -> Self {
+        self.integrator = Ok(integrator);
+        self
+    }
+
+    /// Time integrator by preset. Default: engineering.
+    pub fn preset(mut self, preset: Preset) -> Self {
+        self.integrator = Err(preset);
+        self
+    }
+
+    /// Gravity in m/s^2. Default (0, -9.81, 0).
+    pub fn gravity(mut self, gravity: Vector3<f64>) -> Self {
+        self.gravity = gravity;
+        self
+    }
+
+    /// Initial velocity of the whole cable in m/s. Default zero.
+    pub fn velocity(mut self, velocity: Vector3<f64>) -> Self {
+        self.velocity = velocity;
+        self
+    }
+
+    /// Initial angular velocity about the start point in rad/s. Default zero.
+    pub fn angular_velocity(mut self, angular_velocity: Vector3<f64>) -> Self {
+        self.angular_velocity = angular_velocity;
+        self
+    }
+
+    /// Holds the position of a point where it starts; its slope is free. A node is placed there.
+    pub fn fix(mut self, at: impl Into<At>) -> Self {
+        self.holds.push((at.into(), Hold::Pin));
+        self
+    }
+
+    /// Holds the position and the direction of the tangent of a point where it starts; a node is placed there.
+    pub fn clamp(mut self, at: impl Into<At>) -> Self {
+        self.holds.push((at.into(), Hold::Clamp));
+        self
+    }
+
+    /// Adds a point load.
+    pub fn load(mut self, load: PointLoad) -> Self {
+        self.loads.push(load);
+        self
+    }
+
+    /// Builds the cable.
+    ///
+    /// # Errors
+    /// [`Error::InvalidValue`] for a number that is out of range or not finite, [`Error::InvalidShape`] for fewer than two
+    /// points, coincident points, no elements or no section, [`Error::RankDeficient`] for a rule with spare modes,
+    /// [`Error::OutOfRange`] for an arc length that is not on the cable.
+    pub fn build(self) -> Result<Cable, Error> {
+        let invalid = |reason: String| Error::InvalidShape { cable: self.name.clone(), reason };
+        self.points.iter().try_for_each(|p| require_finite("point (m)", p))?;
+        require_finite("gravity (m/s^2)", &self.gravity)?;
+        require_finite("velocity (m/s)", &self.velocity)?;
+        require_finite("angular velocity (rad/s)", &self.angular_velocity)?;
+        if self.points.len() < 2 {
+            return Err(invalid(format!("needs at least 2 points, got {}", self.points.len())));
+        }
+        if let Some(i) = self.points.windows(2).position(|p| p[0] == p[1]) {
+            return Err(invalid(format!("points {i} and {} coincide at {:?}", i + 1, self.points[i].as_slice())));
+        }
+        if self.elements == 0 {
+            return Err(invalid("needs at least 1 element, got 0".to_string()));
+        }
+        let drawn: f64 = self.points.windows(2).map(|p| (p[1] - p[0]).norm()).sum();
+        let length = self.length.unwrap_or(drawn);
+        require("unstretched length (m)", length, length > 0.0, "> 0")?;
+        require("length of the polyline (m)", drawn, drawn > 0.0, "> 0")?;
+        if !self.allow_rank_deficient {
+            self.rule.check()?;
+        }
+        let mut sections = self.sections.clone();
+        sections.sort_by(|a, b| a.0.total_cmp(&b.0));
+        if sections.first().is_none_or(|(from, _)| *from > 0.0) {
+            return Err(invalid("needs a section from arc length 0 on".to_string()));
+        }
+        let arc_length = |at: At| match at {
+            At::Start | At::Node(0) => Ok(0.0),
+            At::End => Ok(length),
+            At::ArcLength(s) => Ok(s),
+            At::Node(i) => {
+                Err(invalid(format!("node {i} has no place before the cable is built: give an arc length")))
+            }
+        };
+        let mut breaks = vec![0.0, length];
+        breaks.extend(sections.iter().map(|(from, _)| *from));
+        breaks.extend(&self.nodes_at);
+        for (at, _) in &self.holds {
+            breaks.push(arc_length(*at)?);
+        }
+        for &s in breaks.iter().chain(self.loads.iter().map(|l| &l.arc_length)) {
+            if !(s >= 0.0 && s <= length * (1.0 + 1e-12)) {
+                return Err(Error::OutOfRange { cable: self.name, what: "arc length", value: s, limit: length });
+            }
+        }
+        let s = mesh(&mut breaks, length, self.elements);
+        let elements = s
+            .windows(2)
+            .map(|ends| {
+                let middle = 0.5 * (ends[0] + ends[1]);
+                let k = sections.partition_point(|(from, _)| *from <= middle);
+                Element { length: ends[1] - ends[0], section: sections[k - 1].1 }
+            })
+            .collect();
+        let (positions, slopes) = layout::along_polyline(&self.points, &s, self.gravity);
+        let mut state = State::default();
+        for (r, t) in positions.iter().zip(&slopes) {
+            state.phase.q.extend(r.iter().chain(t.iter()));
+            let v = self.velocity + self.angular_velocity.cross(&(r - positions[0]));
+            state.phase.v.extend(v.iter().chain(self.angular_velocity.cross(t).iter()));
+        }
+        let model = Model {
+            name: self.name.clone(),
+            elements,
+            rule: self.rule,
+            gravity: self.gravity,
+            supports: Vec::new(),
+            loads: Vec::new(),
+        };
+        let mut cable = Cable::from_parts(model, state, Integrator::default())?;
+        for (at, hold) in self.holds {
+            let node = cable.node(At::ArcLength(arc_length(at)?.min(length)))?;
+            let slope = match hold {
+                Hold::Pin => SlopeSupport::Free,
+                Hold::Clamp => SlopeSupport::Direction(slopes[node].normalize()),
+            };
+            cable.set_support(At::Node(node), Support { position: Some(Motion::fixed(positions[node])), slope })?;
+        }
+        for load in self.loads {
+            cable.add_load(load)?;
+        }
+        let integrator = match self.integrator {
+            Ok(integrator) => integrator,
+            Err(preset) => preset.integrator(cable.frequency_bound()),
+        };
+        cable.set_integrator(integrator)?;
+        Ok(cable)
+    }
+}
+
+/// Arc lengths of the nodes: all breaks, and between them elements of about equal length, `elements` or a few more in all.
+fn mesh(breaks: &mut Vec<f64>, length: f64, elements: usize) -> Vec<f64> {
+    breaks.sort_by(f64::total_cmp);
+    breaks.dedup_by(|a, b| *a - *b <= 1e-9 * length);
+    let last = breaks.len() - 1;
+    breaks[last] = length;
+    let mut s = vec![0.0];
+    for ends in breaks.windows(2) {
+        let piece = ends[1] - ends[0];
+        let count = ((elements as f64 * piece / length).round() as usize).max(1);
+        s.extend((1..count).map(|i| ends[0] + piece * i as f64 / count as f64));
+        s.push(ends[1]);
+    }
+    s
+}

@@ -1,0 +1,64 @@
+//! Energies and momenta of a cable, summed over its elements.
+
+use super::Cable;
+use nalgebra::Vector3;
+use serde::{Deserialize, Serialize};
+
+/// Energies in J. Potential of gravity is zero at the origin.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Energy {
+    /// Kinetic.
+    pub kinetic: f64,
+    /// Axial strain.
+    pub axial: f64,
+    /// Bending.
+    pub bending: f64,
+    /// Gravity.
+    pub gravity: f64,
+}
+
+impl Energy {
+    /// Sum of all, in J.
+    pub fn total(&self) -> f64 {
+        self.kinetic + self.axial + self.bending + self.gravity
+    }
+}
+
+/// Momentum of a cable.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Momentum {
+    /// Linear, in kg m/s.
+    pub linear: Vector3<f64>,
+    /// Angular about the origin, in kg m^2/s.
+    pub angular: Vector3<f64>,
+}
+
+impl Cable {
+    /// Kinetic, strain and gravity energy of the present state.
+    pub fn energy(&self) -> Energy {
+        let (axial, bending) = self.system.elements.energy(self.positions());
+        let momentum = self.generalised_momentum();
+        let kinetic = 0.5 * momentum.iter().zip(self.velocities()).map(|(p, v)| p * v).sum::<f64>();
+        let gravity = -self.system.gravity_work(self.positions());
+        Energy { kinetic, axial, bending, gravity }
+    }
+
+    /// Linear and angular momentum of the present state.
+    pub fn momentum(&self) -> Momentum {
+        let p = self.generalised_momentum();
+        let vector = |x: &[f64]| Vector3::new(x[0], x[1], x[2]);
+        // q = a + W x q is a rigid motion of (r, t): its conjugate momenta are sums of p over r, and of q x p over all
+        let mut momentum = Momentum { linear: Vector3::zeros(), angular: Vector3::zeros() };
+        for (p, q) in p.chunks_exact(6).zip(self.positions().chunks_exact(6)) {
+            momentum.linear += vector(&p[..3]);
+            momentum.angular += vector(&q[..3]).cross(&vector(&p[..3])) + vector(&q[3..]).cross(&vector(&p[3..]));
+        }
+        momentum
+    }
+
+    fn generalised_momentum(&self) -> Vec<f64> {
+        let mut p = vec![0.0; self.velocities().len()];
+        self.system.multiply_mass(self.velocities(), &mut p);
+        p
+    }
+}

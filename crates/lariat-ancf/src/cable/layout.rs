@@ -1,0 +1,119 @@
+//! Where the nodes of a new cable lie.
+//!
+//! Nodes are at given arc lengths of the unstretched cable. Drawn between points that are as far apart as the cable is long,
+//! or farther, the cable follows the polyline, stretched evenly. If it is longer than the polyline, each segment becomes an
+//! arc of a circle of the right length, sagging along gravity, so that a slack cable starts unstrained.
+
+use nalgebra::Vector3;
+
+/// Positions and slopes at the arc lengths `s` (ascending, from 0 to the unstretched length) of a cable through `points`.
+pub(crate) fn along_polyline(
+    points: &[Vector3<f64>],
+    s: &[f64],
+    gravity: Vector3<f64>,
+) -> (Vec<Vector3<f64>>, Vec<Vector3<f64>>) {
+    let length = s[s.len() - 1];
+    let chords: Vec<f64> = points.windows(2).map(|p| (p[1] - p[0]).norm()).collect();
+    let drawn: f64 = chords.iter().sum();
+    let slack = length > drawn * (1.0 + 1e-9);
+    // arc length of the cable at each point, in proportion to the chords
+    let mut at = vec![0.0];
+    for chord in &chords {
+        at.push(at[at.len() - 1] + chord * length / drawn);
+    }
+    let segments = chords.len();
+    let evaluate = |k: usize, s: f64| {
+        let arc = at[k + 1] - at[k];
+        let x = ((s - at[k]) / arc).clamp(0.0, 1.0);
+        segment(points[k], points[k + 1], arc, x, if slack { gravity } else { Vector3::zeros() })
+    };
+    s.iter()
+        .map(|&s| {
+            let k = at[1..segments].partition_point(|&end| end <= s);
+            let (position, slope) = evaluate(k, s);
+            // a corner that falls on a node takes the mean direction
+            if k > 0 && (s - at[k]).abs() <= 1e-9 * length {
+                let (_, before) = evaluate(k - 1, s);
+                let mean = before + slope;
+                let size = 0.5 * (before.norm() + slope.norm());
+                if mean.norm() > 1e-6 * size {
+                    return (position, mean.normalize() * size);
+                }
+            }
+            (position, slope)
+        })
+        .unzip()
+}
+
+/// Position and slope at the share `x` of a segment from `a` to `b` that holds `arc` of cable; an arc of a circle towards
+/// `sag` if that is not zero, else straight.
+fn segment(
+    a: Vector3<f64>,
+    b: Vector3<f64>,
+    arc: f64,
+    x: f64,
+    sag: Vector3<f64>,
+) -> (Vector3<f64>, Vector3<f64>) {
+    let chord = b - a;
+    let straight = (a + x * chord, chord / arc);
+    let ratio = chord.norm() / arc;
+    if ratio >= 1.0 || sag == Vector3::zeros() && ratio > 0.999_999_999 {
+        return straight;
+    }
+    let along = chord.normalize();
+    let mut down = sag - along * sag.dot(&along);
+    if down.norm() <= 1e-6 * sag.norm() || down.norm() == 0.0 {
+        // a vertical segment sags towards any fixed normal
+        let axis = if along.x.abs() < 0.9 { Vector3::x() } else { Vector3::y() };
+        down = axis - along * axis.dot(&along);
+    }
+    let down = down.normalize();
+    let half = half_angle(ratio);
+    let radius = 0.5 * arc / half;
+    let angle = (2.0 * x - 1.0) * half;
+    let position =
+        0.5 * (a + b) + along * (radius * angle.sin()) + down * (radius * (angle.cos() - half.cos()));
+    (position, along * angle.cos() - down * angle.sin())
+}
+
+/// The half angle of an arc whose chord is `ratio` of its length: sin(y)/y = ratio, 0 < y < pi.
+fn half_angle(ratio: f64) -> f64 {
+    let (mut low, mut high) = (0.0f64, std::f64::consts::PI);
+    for _ in 0..200 {
+        let y = 0.5 * (low + high);
+        if y.sin() > ratio * y {
+            low = y;
+        } else {
+            high = y;
+        }
+    }
+    0.5 * (low + high)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use approx::assert_relative_eq;
+
+    #[test]
+    fn a_slack_cable_is_laid_in_an_arc_of_its_own_length_below_the_chord() {
+        let points = [Vector3::zeros(), Vector3::new(3.0, 0.0, 0.0)];
+        let s: Vec<f64> = (0..=1000).map(|i| 4.0 * f64::from(i) / 1000.0).collect();
+        let (r, t) = along_polyline(&points, &s, Vector3::new(0.0, -9.81, 0.0));
+        let length: f64 = r.windows(2).map(|p| (p[1] - p[0]).norm()).sum();
+        assert_relative_eq!(length, 4.0, max_relative = 1e-5);
+        assert_relative_eq!(r[0], points[0], epsilon = 1e-12);
+        assert_relative_eq!(r[1000], points[1], epsilon = 1e-12);
+        assert!(r[500].y < -1.0 && t.iter().all(|t| (t.norm() - 1.0).abs() < 1e-12));
+    }
+
+    #[test]
+    fn a_taut_cable_follows_the_polyline_evenly_stretched() {
+        let points = [Vector3::zeros(), Vector3::new(1.0, 0.0, 0.0), Vector3::new(1.0, 2.0, 0.0)];
+        let (r, t) = along_polyline(&points, &[0.0, 0.5, 1.0, 1.5], Vector3::zeros());
+        assert_relative_eq!(r[1], Vector3::new(1.0, 0.0, 0.0), epsilon = 1e-12);
+        assert_relative_eq!(r[2], Vector3::new(1.0, 1.0, 0.0), epsilon = 1e-12);
+        assert_relative_eq!(t[0].norm(), 2.0, epsilon = 1e-12);
+        assert_relative_eq!(t[1].x, t[1].y, epsilon = 1e-12);
+    }
+}

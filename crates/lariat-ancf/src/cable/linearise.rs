@@ -1,0 +1,36 @@
+//! The cable's matrices at its present state: for eigenfrequencies, buckling loads and coupling.
+
+use super::Cable;
+use super::projection::project_matrix;
+use crate::linalg::BlockTridiagonal;
+
+impl Cable {
+    /// Consistent mass matrix over all coordinates (kg, kg m, kg m^2); supports are not applied.
+    pub fn mass_matrix(&mut self) -> BlockTridiagonal {
+        let system = &mut self.system;
+        system.matrix.clear();
+        system.add_mass(1.0);
+        system.matrix.clone()
+    }
+
+    /// Tangent stiffness -dF/dq at the present state over all coordinates (N/m, N, N m); supports are not applied.
+    pub fn stiffness_matrix(&mut self) -> BlockTridiagonal {
+        let mut force = vec![0.0; self.positions().len()];
+        let (mut equations, phase) = self.equations();
+        equations.force_and_matrix(phase.time, &phase.q, 1.0, 0.0, &mut force);
+        self.system.matrix.clone()
+    }
+
+    /// Generalised force at the present state: elastic, gravity and loads (N on positions, N m on slopes); no reactions.
+    pub fn force(&mut self) -> Vec<f64> {
+        let mut force = vec![0.0; self.positions().len()];
+        let (mut equations, phase) = self.equations();
+        equations.force(phase.time, &phase.q, 1.0, &mut force);
+        force
+    }
+
+    /// Applies the supports to a matrix: held rows and columns become those of the identity.
+    pub fn apply_supports(&self, matrix: &mut BlockTridiagonal) {
+        project_matrix(&self.model, matrix);
+    }
+}

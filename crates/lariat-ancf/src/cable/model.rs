@@ -1,0 +1,76 @@
+//! What a cable is made of: plain data from which everything else is rebuilt.
+
+use crate::load::PointLoad;
+use crate::rule::Rule;
+use crate::section::Section;
+use crate::support::Support;
+use nalgebra::Vector3;
+use serde::{Deserialize, Serialize};
+
+/// One element: unstretched length in m and section.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Element {
+    /// Unstretched length in m.
+    pub length: f64,
+    /// Section of the whole element.
+    pub section: Section,
+}
+
+/// The description of a cable; see [`CableBuilder`](crate::CableBuilder) for units and defaults.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Model {
+    pub(crate) name: String,
+    pub(crate) elements: Vec<Element>,
+    pub(crate) rule: Rule,
+    pub(crate) gravity: Vector3<f64>,
+    /// Supports by node, ascending, none of them free.
+    pub(crate) supports: Vec<(usize, Support)>,
+    pub(crate) loads: Vec<PointLoad>,
+}
+
+impl Model {
+    /// Number of nodes.
+    pub(crate) fn nodes(&self) -> usize {
+        self.elements.len() + 1
+    }
+
+    /// Unstretched length in m.
+    pub(crate) fn length(&self) -> f64 {
+        self.elements.iter().map(|e| e.length).sum()
+    }
+
+    /// Arc length of each node in m.
+    pub(crate) fn node_arc_lengths(&self) -> Vec<f64> {
+        let mut s = vec![0.0];
+        for element in &self.elements {
+            s.push(s[s.len() - 1] + element.length);
+        }
+        s
+    }
+
+    /// Element and local coordinate xi of an arc length in `[0, length]`.
+    pub(crate) fn locate(&self, arc_length: f64) -> (usize, f64) {
+        let mut rest = arc_length;
+        for (e, element) in self.elements.iter().enumerate() {
+            if rest <= element.length || e + 1 == self.elements.len() {
+                return (e, (rest / element.length).clamp(0.0, 1.0));
+            }
+            rest -= element.length;
+        }
+        unreachable!("a cable has at least one element")
+    }
+
+    /// The support of a node, if any.
+    pub(crate) fn support(&self, node: usize) -> Option<&Support> {
+        self.supports.iter().find(|(n, _)| *n == node).map(|(_, s)| s)
+    }
+
+    /// Sets the support of a node; a free one is removed.
+    pub(crate) fn set_support(&mut self, node: usize, support: Support) {
+        self.supports.retain(|(n, _)| *n != node);
+        if !support.is_free() {
+            let at = self.supports.partition_point(|(n, _)| *n < node);
+            self.supports.insert(at, (node, support));
+        }
+    }
+}

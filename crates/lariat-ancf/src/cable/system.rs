@@ -1,0 +1,232 @@
+//! The numbers of one cable, ready to be evaluated: mass, loads, elements, the step matrix and its factors.
+//!
+//! Everything here is derived from a [`Model`] and rebuilt when the model changes; nothing of it is part of a snapshot.
+
+use super::assembly::Elements;
+use super::model::Model;
+use super::projection::project_matrix;
+use crate::diagnostics::Diagnostics;
+use crate::element::{mass, shape};
+use crate::error::StepFailure;
+use crate::linalg::{BlockTridiagonal, Factorisation, MassFactorisation, MassMatrix};
+use crate::load::{PointLoad, moment_on_slope};
+use crate::support::SlopeSupport;
+use fearless_simd::Level;
+use nalgebra::Vector3;
+
+/// Where the mass matrix is solved.
+#[derive(Clone, Debug)]
+pub(crate) enum MassSolver {
+    /// The same 2x2 blocks for x, y and z.
+    Scalar(MassFactorisation),
+    /// 6x6 blocks, where a slope is held to a direction.
+    Block(Factorisation),
+}
+
+/// Everything derived from a [`Model`], and the buffers to evaluate it.
+#[derive(Clone, Debug)]
+pub(crate) struct System {
+    pub level: Level,
+    pub elements: Elements,
+    mass: MassMatrix,
+    pub mass_solver: MassSolver,
+    gravity_force: Vec<f64>,
+    /// Longest distance over which a slope acts: l/8 by node.
+    arm: Vec<f64>,
+    pub matrix: BlockTridiagonal,
+    pub factorisation: Factorisation,
+    pub rhs: Vec<f64>,
+    pub product: Vec<f64>,
+    pub z: Vec<f64>,
+    pub frequency_bound: f64,
+}
+
+impl System {
+    pub fn new(model: &Model) -> Result<Self, StepFailure> {
+        let level = Level::new();
+        let nodes = model.nodes();
+        let mut mass = MassMatrix { diag: vec![[0.0; 3]; nodes], lower: vec![[0.0; 4]; nodes - 1] };
+        let mut gravity_force = vec![0.0; 6 * nodes];
+        let mut arm = vec![0.0f64; nodes];
+        for (e, element) in model.elements.iter().enumerate() {
+            let m = mass::consistent(element.section.mass_per_length, element.length);
+            for (node, k) in [(e, 0), (e + 1, 2)] {
+                mass.diag[node][0] += m[k][k];
+                mass.diag[node][1] += m[k][k + 1];
+                mass.diag[node][2] += m[k + 1][k + 1];
+                arm[node] = arm[node].max(element.length / 8.0);
+            }
+            mass.lower[e] = [m[2][0], m[2][1], m[3][0], m[3][1]];
+            let weights = mass::load_weights(element.length);
+            for (k, weight) in weights.iter().enumerate() {
+                for x in 0..3 {
+                    gravity_force[6 * e + 3 * k + x] += weight * element.section.mass_per_length * model.gravity[x];
+                }
+            }
+        }
+        let mut system = System {
+            level,
+            elements: Elements::new(model),
+            mass_solver: MassSolver::Scalar(MassFactorisation::default()),
+            mass,
+            gravity_force,
+            arm,
+            matrix: BlockTridiagonal::zeros(nodes),
+            factorisation: Factorisation::default(),
+            rhs: vec![0.0; 6 * nodes],
+            product: vec![0.0; 6 * nodes],
+            z: vec![0.0; 6 * nodes],
+            frequency_bound: super::frequency::bound(model),
+        };
+        system.factor_mass(model)?;
+        Ok(system)
+    }
+
+    /// Factors the mass matrix with the supports in place.
+    pub fn factor_mass(&mut self, model: &Model) -> Result<(), StepFailure> {
+        let directed = model.supports.iter().any(|(_, s)| matches!(s.slope, SlopeSupport::Direction(_)));
+        self.mass_solver = if directed {
+            self.matrix.clear();
+            self.add_mass(1.0);
+            project_matrix(model, &mut self.matrix);
+            let mut factorisation = Factorisation::default();
+            factorisation.factor(self.level, &self.matrix)?;
+            MassSolver::Block(factorisation)
+        } else {
+            let mut held = self.mass.clone();
+            for (node, support) in &model.supports {
+                for (held_here, row) in
+                    [(support.position.is_some(), 0), (support.slope != SlopeSupport::Free, 1)]
+                {
+                    if !held_here {
+                        continue;
+                    }
+                    held.diag[*node][2 * row] = 1.0;
+                    held.diag[*node][1] = 0.0;
+                    if *node > 0 {
+                        held.lower[node - 1][2 * row] = 0.0;
+                        held.lower[node - 1][2 * row + 1] = 0.0;
+                    }
+                    if *node + 1 < model.nodes() {
+                        held.lower[*node][row] = 0.0;
+                        held.lower[*node][2 + row] = 0.0;
+                    }
+                }
+            }
+            let mut factorisation = MassFactorisation::default();
+            factorisation.factor(&held)?;
+            MassSolver::Scalar(factorisation)
+        };
+        Ok(())
+    }
+
+    /// Work of gravity from the origin to `q`, in J.
+    pub fn gravity_work(&self, q: &[f64]) -> f64 {
+        self.gravity_force.iter().zip(q).map(|(f, q)| f * q).sum()
+    }
+
+    /// Work of a share of the point forces from the origin to `q`, in J; moments have none in general.
+    pub fn load_work(&self, model: &Model, share: f64, q: &[f64]) -> f64 {
+        let work = |load: &PointLoad| {
+            let (e, xi) = model.locate(load.arc_length);
+            let weights = shape::position(xi, model.elements[e].length);
+            (0..12).map(|i| weights[i / 3] * load.force[i % 3] * q[6 * e + i]).sum::<f64>()
+        };
+        model.loads.iter().map(|load| share * work(load)).sum()
+    }
+
+    /// `y = M x`.
+    pub fn multiply_mass(&self, x: &[f64], y: &mut [f64]) {
+        self.mass.multiply(x, y);
+    }
+
+    /// Adds `scale M` to the step matrix.
+    pub fn add_mass(&mut self, scale: f64) {
+        for (block, m) in self.matrix.diag.iter_mut().zip(&self.mass.diag) {
+            for x in 0..3 {
+                block.0[x][x] += scale * m[0];
+                block.0[x][3 + x] += scale * m[1];
+                block.0[3 + x][x] += scale * m[1];
+                block.0[3 + x][3 + x] += scale * m[2];
+            }
+        }
+        for (block, m) in self.matrix.lower.iter_mut().zip(&self.mass.lower) {
+            for x in 0..3 {
+                block.0[x][x] += scale * m[0];
+                block.0[3 + x][x] += scale * m[1];
+                block.0[x][3 + x] += scale * m[2];
+                block.0[3 + x][3 + x] += scale * m[3];
+            }
+        }
+    }
+
+    /// Adds `scale` times gravity and point loads at `time` to `out`, and `scale` times their negative tangent if asked.
+    pub fn add_loads(
+        &mut self,
+        model: &Model,
+        time: f64,
+        q: &[f64],
+        scale: f64,
+        out: &mut [f64],
+        tangent: bool,
+        diagnostics: &mut Diagnostics,
+    ) {
+        for (out, g) in out.iter_mut().zip(&self.gravity_force) {
+            *out += scale * g;
+        }
+        for load in &model.loads {
+            diagnostics.load_evaluations += 1;
+            let factor = scale * load.factor(time);
+            let (e, xi) = model.locate(load.arc_length);
+            let length = model.elements[e].length;
+            let n = &mut out[6 * e..6 * e + 12];
+            for (k, weight) in shape::position(xi, length).into_iter().enumerate() {
+                for x in 0..3 {
+                    n[3 * k + x] += factor * weight * load.force[x];
+                }
+            }
+            if load.moment == Vector3::zeros() {
+                continue;
+            }
+            let weights = shape::slope(xi, length);
+            let slope: Vector3<f64> =
+                (0..4).map(|k| weights[k] * Vector3::from_column_slice(&q[6 * e + 3 * k..6 * e + 3 * k + 3])).sum();
+            let (force, derivative) = moment_on_slope(&load.moment, &slope);
+            for k in 0..4 {
+                for x in 0..3 {
+                    n[3 * k + x] += factor * weights[k] * force[x];
+                }
+            }
+            if !tangent {
+                continue;
+            }
+            for (k, m) in (0..4).flat_map(|k| (0..4).map(move |m| (k, m))) {
+                let weight = -factor * weights[k] * weights[m];
+                // rows of coordinate k, columns of coordinate m; only one triangle of blocks is stored
+                let (block, transposed) = match (k / 2, m / 2) {
+                    (0, 0) => (&mut self.matrix.diag[e], false),
+                    (1, 1) => (&mut self.matrix.diag[e + 1], false),
+                    (1, 0) => (&mut self.matrix.lower[e], false),
+                    _ => (&mut self.matrix.lower[e], true),
+                };
+                if transposed {
+                    continue;
+                }
+                for (r, c) in (0..3).flat_map(|r| (0..3).map(move |c| (r, c))) {
+                    block.0[3 * (m % 2) + c][3 * (k % 2) + r] += weight * derivative[(r, c)];
+                }
+            }
+        }
+    }
+
+    /// Largest component of a nodal vector as a displacement in m: of r, and of t over l/8.
+    pub fn displacement(&self, x: &[f64]) -> f64 {
+        x.chunks_exact(6).zip(&self.arm).fold(0.0f64, |worst, (x, arm)| {
+            let r = (x[0] * x[0] + x[1] * x[1] + x[2] * x[2]).sqrt();
+            let t = (x[3] * x[3] + x[4] * x[4] + x[5] * x[5]).sqrt() * arm;
+            let size = if r > t { r } else { t };
+            // a NaN must not hide behind a comparison
+            if size > worst || size.is_nan() { size } else { worst }
+        })
+    }
+}

@@ -1,0 +1,172 @@
+//! Choosing the steps: from one host step to the next, exactly.
+//!
+//! With a tolerance, a step h of a host step H is accepted if its estimated error is below `tolerance h/H` (error per unit
+//! step), so that the errors of a host step add up to the tolerance. The next h follows from the estimate's order p,
+//! `h (0.8 allowed/error)^(1/(p-1))`, within 1/5 and 3. What is left of the host step is split evenly once fewer than two steps
+//! remain, and the last step ends on the host's time to the bit. *Source.* Hairer & Wanner 1996, IV.8.
+//!
+//! A step that fails (Newton, a pivot, a number that is not finite) is retried at 1/4 of its length down to H/2^20; then the drive
+//! stops, and the phase is the last good one, restored to the beginning of the host step by the caller.
+
+use super::method::{Method, Stepper};
+use super::preset::StepControl;
+use super::{Dynamics, Phase, Scratch};
+use crate::error::StepFailure;
+
+/// Steps are not shortened below H times this.
+const SHORTEST: f64 = 1.0 / (1u64 << 20) as f64;
+/// Newton stops below this share of the error allowed to a step.
+const NEWTON_SHARE: f64 = 0.02;
+/// Newton's tolerance in m where no error is controlled.
+const FIXED_STEP_NEWTON: f64 = 1e-10;
+
+/// What a drive did.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Counts {
+    /// Steps accepted.
+    pub steps: u64,
+    /// Steps rejected.
+    pub rejected: u64,
+}
+
+/// A host step that could not be done.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Refusal {
+    /// Time at which the step that failed began, in s.
+    pub time: f64,
+    /// Its length in s.
+    pub step: f64,
+    /// Why it failed.
+    pub failure: StepFailure,
+}
+
+/// Advances `phase` by `horizon` (s).
+///
+/// # Errors
+/// [`Refusal`] if a step cannot be done; `phase` is then the last state reached.
+pub fn advance(
+    system: &mut dyn Dynamics,
+    method: Method,
+    control: StepControl,
+    phase: &mut Phase,
+    horizon: f64,
+    scratch: &mut Scratch,
+    counts: &mut Counts,
+) -> Result<(), Refusal> {
+    let stepper = method.stepper();
+    let one_step = stepper.one_step();
+    scratch.resize(system.size(), one_step.stages());
+    prepare(system, phase)?;
+    let end = phase.time + horizon;
+    let tolerance = match control {
+        StepControl::Tolerance(tolerance) => Some(tolerance),
+        _ => None,
+    };
+    let order = method.properties().estimate_order.unwrap_or(2);
+    let regular = regular_step(system, &stepper, control, horizon, phase.memory.step);
+    let mut proposal = regular;
+    let mut done = 0.0;
+    while done < horizon {
+        let (h, last) = fit(proposal, horizon - done, tolerance.is_some());
+        let newton = tolerance.map_or(FIXED_STEP_NEWTON, |t| NEWTON_SHARE * t * (h / horizon).min(1.0));
+        let outcome = one_step.step(system, phase, h, newton, scratch).and_then(|estimate| {
+            finite(&scratch.next.q, "position")?;
+            finite(&scratch.next.v, "velocity")?;
+            Ok(estimate)
+        });
+        let refuse = |failure, time| Err(Refusal { time, step: h, failure });
+        match (outcome, tolerance) {
+            (Err(failure), _) => {
+                counts.rejected += 1;
+                proposal = 0.25 * h;
+                if proposal < SHORTEST * horizon {
+                    return refuse(failure, phase.time);
+                }
+                continue;
+            }
+            (Ok(Some(estimate)), Some(tolerance)) => {
+                let allowed = tolerance * h / horizon;
+                let factor = (0.8 * allowed / estimate.max(1e-300)).powf(1.0 / f64::from(order - 1)).clamp(0.2, 3.0);
+                if estimate > allowed {
+                    counts.rejected += 1;
+                    proposal = h * factor.min(0.9);
+                    if proposal < SHORTEST * horizon {
+                        return refuse(StepFailure::ErrorTooLarge { estimate, allowed }, phase.time);
+                    }
+                    continue;
+                }
+                // a step cut short to land does not lower the proposal
+                proposal = if last { proposal.max(h * factor).min(3.0 * h.max(proposal)) } else { h * factor };
+            }
+            _ => proposal = (2.0 * proposal).min(regular),
+        }
+        accept(phase, scratch);
+        counts.steps += 1;
+        done += h;
+        phase.time = end - (horizon - done);
+        if last {
+            phase.time = end;
+            break;
+        }
+    }
+    phase.memory.step = if tolerance.is_some() { proposal } else { 0.0 };
+    Ok(())
+}
+
+/// Makes the phase consistent: prescribed coordinates in place, acceleration known.
+fn prepare(system: &mut dyn Dynamics, phase: &mut Phase) -> Result<(), Refusal> {
+    if phase.memory.valid {
+        return Ok(());
+    }
+    let n = system.size();
+    phase.memory.acceleration.resize(n, 0.0);
+    system.prescribe(phase.time, &mut phase.q, &mut phase.v);
+    system
+        .acceleration(phase.time, &phase.q, &phase.v, &mut phase.memory.acceleration)
+        .map_err(|failure| Refusal { time: phase.time, step: 0.0, failure })?;
+    phase.memory.algorithmic.clone_from(&phase.memory.acceleration);
+    phase.memory.valid = true;
+    Ok(())
+}
+
+/// The step to begin with.
+fn regular_step(system: &dyn Dynamics, stepper: &Stepper, control: StepControl, horizon: f64, memory: f64) -> f64 {
+    let equal = |longest: f64| horizon / (horizon / longest - 1e-9).ceil().max(1.0);
+    match control {
+        StepControl::Tolerance(_) if memory > 0.0 => memory,
+        StepControl::Tolerance(_) => 0.1 * horizon,
+        StepControl::Substeps(substeps) => horizon / f64::from(substeps),
+        StepControl::MaxStep(longest) => equal(longest),
+        StepControl::Stable(share) => match stepper {
+            Stepper::Explicit(composition) => {
+                equal(share * composition.stability_limit() / system.frequency_bound().max(1e-12))
+            }
+            _ => horizon,
+        },
+    }
+}
+
+/// The next step and whether it is the last.
+fn fit(proposal: f64, left: f64, even: bool) -> (f64, bool) {
+    if proposal >= left * (1.0 - 1e-9) {
+        (left, true)
+    } else if even && proposal > 0.5 * left {
+        (0.5 * left, false)
+    } else {
+        (proposal, false)
+    }
+}
+
+fn accept(phase: &mut Phase, scratch: &mut Scratch) {
+    core::mem::swap(&mut phase.q, &mut scratch.next.q);
+    core::mem::swap(&mut phase.v, &mut scratch.next.v);
+    core::mem::swap(&mut phase.memory.acceleration, &mut scratch.next.memory.acceleration);
+    core::mem::swap(&mut phase.memory.algorithmic, &mut scratch.next.memory.algorithmic);
+}
+
+fn finite(x: &[f64], what: &'static str) -> Result<(), StepFailure> {
+    match x.iter().position(|x| !x.is_finite()) {
+        None => Ok(()),
+        Some(i) => Err(StepFailure::NotFinite { what, node: i / 6 }),
+    }
+}

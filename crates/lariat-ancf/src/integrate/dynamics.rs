@@ -1,0 +1,68 @@
+//! What an integrator needs to know of a mechanical system, and nothing else.
+
+use crate::error::StepFailure;
+
+/// How Newton's iteration of an implicit stage ends.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Newton {
+    /// Until the next increment is predicted below this size in m.
+    Converge(f64),
+    /// One iteration (a linearly implicit step); a second solve with the same factors checks it, and where it does not
+    /// contract the iteration goes on to this size in m.
+    Once(f64),
+}
+
+/// An implicit stage: find z with `M z = c2 F(base + z, velocity_base + rate z, time)`, `z = y - base`.
+#[derive(Clone, Copy, Debug)]
+pub struct Stage {
+    /// Time of the stage in s.
+    pub time: f64,
+    /// Square of the implicit step in s^2: `z = c2 acceleration`.
+    pub c2: f64,
+    /// `d velocity / d position` in 1/s.
+    pub rate: f64,
+    /// When to stop.
+    pub newton: Newton,
+}
+
+/// A mechanical system `M q'' = F(q, q', t)` with constant M, of which some coordinates may be prescribed in time.
+///
+/// Coordinates, velocities and accelerations are flat slices of [`size`](Dynamics::size) numbers. Every method leaves its
+/// outputs unspecified when it fails; no integrator uses them then.
+pub trait Dynamics {
+    /// Number of coordinates.
+    fn size(&self) -> usize;
+
+    /// Overwrites prescribed coordinates and velocities by their values at `time`.
+    fn prescribe(&self, time: f64, q: &mut [f64], v: &mut [f64]);
+
+    /// The acceleration at a state, prescribed components included.
+    ///
+    /// # Errors
+    /// If a force is not finite or the mass matrix is singular.
+    fn acceleration(&mut self, time: f64, q: &[f64], v: &[f64], acceleration: &mut [f64]) -> Result<(), StepFailure>;
+
+    /// Solves an implicit stage. On entry `base` and `velocity_base` hold the explicit part and `acceleration` a guess;
+    /// on return `y` holds the position and `acceleration` the acceleration of the stage. Prescribed components of `base`
+    /// and `velocity_base` are changed so that they come out as prescribed.
+    ///
+    /// # Errors
+    /// If the iteration does not converge, a quantity is not finite, or the matrix is singular.
+    fn solve_stage(
+        &mut self,
+        stage: &Stage,
+        base: &mut [f64],
+        velocity_base: &mut [f64],
+        y: &mut [f64],
+        acceleration: &mut [f64],
+    ) -> Result<(), StepFailure>;
+
+    /// Damps the stiff part of a position error: `e <- (M + c2 K)^-1 M e` with the matrix of the last stage.
+    fn filter(&mut self, error: &mut [f64]);
+
+    /// Size of a position error in m.
+    fn norm(&self, error: &[f64]) -> f64;
+
+    /// An upper bound of the angular frequencies of the system in rad/s, near its present state.
+    fn frequency_bound(&self) -> f64;
+}

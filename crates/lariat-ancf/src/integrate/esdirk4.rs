@@ -1,0 +1,37 @@
+//! ESDIRK4(3)6L\[2\]SA: five implicit stages, order 4, L-stable, stiffly accurate.
+//!
+//! *Error.* Embedded order 3. *Source.* Kennedy & Carpenter, Appl. Numer. Math. 44 (2003) 139 (the implicit half of
+//! ARK4(3)6L\[2\]SA). *Validity.* Any stiffness; cheaper than order 3 below about 1e-5 m on the paper's pendulum.
+
+use super::dirk::Tableau;
+
+const G: f64 = 0.25;
+const B: [f64; 6] =
+    [82_889.0 / 524_892.0, 0.0, 15_625.0 / 83_664.0, 69_875.0 / 102_672.0, -2_260.0 / 8_211.0, G];
+
+/// The tableau.
+pub const TABLEAU: Tableau = Tableau {
+    a: &[
+        &[0.0],
+        &[G, G],
+        &[8_611.0 / 62_500.0, -1_743.0 / 31_250.0, G],
+        &[5_012_029.0 / 34_652_500.0, -654_441.0 / 2_922_500.0, 174_375.0 / 388_108.0, G],
+        &[
+            15_267_082_809.0 / 155_376_265_600.0,
+            -71_443_401.0 / 120_774_400.0,
+            730_878_875.0 / 902_184_768.0,
+            2_285_395.0 / 8_070_912.0,
+            G,
+        ],
+        &B,
+    ],
+    b: &B,
+    error: &[
+        B[0] - 4_586_570_599.0 / 29_645_900_160.0,
+        0.0,
+        B[2] - 178_811_875.0 / 945_068_544.0,
+        B[3] - 814_220_225.0 / 1_159_782_912.0,
+        B[4] + 3_700_637.0 / 11_593_932.0,
+        B[5] - 61_727.0 / 225_920.0,
+    ],
+};

@@ -1,0 +1,90 @@
+//! Symmetric compositions of kicks and drifts: the engine of the explicit symplectic methods.
+//!
+//! ```text
+//! for each i:  v += b_i h k(q);   q += a_i h v        (b first, and last; k at the end serves the next step)
+//! ```
+//!
+//! M is factored once; a step costs one force evaluation and one mass solve per drift. Symplectic, so energy errors stay
+//! bounded while h omega_max stays below [`Composition::stability_limit`]. *Source.* Hairer, Lubich & Wanner 2006, II and VI; Blanes &
+//! Casas 2016. *Validity.* Soft cables, conservative forces. *Rejected.* Error control: it destroys the symplectic structure.
+
+use super::dirk::add;
+use super::dynamics::Dynamics;
+use super::{OneStep, Phase, Scratch};
+use crate::error::StepFailure;
+
+/// Weights of the first half of a symmetric composition b1 a1 b2 a2 ...; the rest follows by symmetry.
+#[derive(Clone, Copy, Debug)]
+pub struct Composition {
+    /// Kicks b1, b2, ... up to the middle.
+    pub kicks: &'static [f64],
+    /// Drifts a1, a2, ... up to the middle.
+    pub drifts: &'static [f64],
+    /// Number of drifts (and force evaluations) in a step.
+    pub stages: usize,
+}
+
+impl Composition {
+    fn kick(&self, i: usize) -> f64 {
+        self.kicks[i.min(self.stages - i)]
+    }
+
+    fn drift(&self, i: usize) -> f64 {
+        self.drifts[i.min(self.stages - 1 - i)]
+    }
+
+    /// Largest h omega below which a harmonic oscillator stays bounded.
+    pub fn stability_limit(&self) -> f64 {
+        let half_trace = |x: f64| {
+            // columns of the step matrix for q' = v, v' = -x^2 q with h = 1
+            let image = |mut q: f64, mut v: f64| {
+                for i in 0..self.stages {
+                    v -= self.kick(i) * x * x * q;
+                    q += self.drift(i) * v;
+                }
+                (q, v - self.kick(self.stages) * x * x * q)
+            };
+            0.5 * (image(1.0, 0.0).0 + image(0.0, 1.0).1)
+        };
+        let step = 1e-3;
+        let mut x = step;
+        while half_trace(x).abs() <= 1.0 + 1e-9 && x < 100.0 {
+            x += step;
+        }
+        x - step
+    }
+}
+
+impl OneStep for Composition {
+    fn stages(&self) -> usize {
+        0
+    }
+
+    fn step(
+        &self,
+        system: &mut dyn Dynamics,
+        now: &Phase,
+        h: f64,
+        _: f64,
+        scratch: &mut Scratch,
+    ) -> Result<Option<f64>, StepFailure> {
+        let next = &mut scratch.next;
+        next.q.copy_from_slice(&now.q);
+        next.v.copy_from_slice(&now.v);
+        next.memory.acceleration.copy_from_slice(&now.memory.acceleration);
+        let mut time = now.time;
+        for i in 0..self.stages {
+            add(&mut next.v, h * self.kick(i), &next.memory.acceleration);
+            add(&mut next.q, h * self.drift(i), &next.v);
+            time += h * self.drift(i);
+            if i + 1 == self.stages {
+                time = now.time + h;
+            }
+            system.prescribe(time, &mut next.q, &mut next.v);
+            system.acceleration(time, &next.q, &next.v, &mut next.memory.acceleration)?;
+        }
+        add(&mut next.v, h * self.kick(self.stages), &next.memory.acceleration);
+        system.prescribe(now.time + h, &mut next.q, &mut next.v);
+        Ok(None)
+    }
+}

@@ -1,0 +1,122 @@
+//! A method with its step control, and the three choices that most users need.
+
+use super::method::{Method, NewtonMode, Stepper};
+use crate::error::{Error, require};
+use serde::{Deserialize, Serialize};
+
+/// How the length of the integration steps inside a host step is chosen. Each lands exactly on the host's step.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum StepControl {
+    /// Position error in m per host step; steps are chosen, rejected and retried to keep it.
+    Tolerance(f64),
+    /// This many equal steps per host step.
+    Substeps(u32),
+    /// The fewest equal steps no longer than this, in s.
+    MaxStep(f64),
+    /// Explicit methods: the fewest equal steps within this share (0 to 1) of the stability limit.
+    Stable(f64),
+}
+
+/// A method and its step control.
+///
+/// ```
+/// use lariat_ancf::{Integrator, Method, StepControl};
+/// assert_eq!(Integrator::default(), Integrator::tolerance(Method::Esdirk3, 1e-6)?);
+/// assert!(Integrator::tolerance(Method::Verlet, 1e-6).is_err()); // no error estimate
+/// # Ok::<(), lariat_ancf::Error>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Integrator {
+    /// The method.
+    pub method: Method,
+    /// How steps are chosen.
+    pub control: StepControl,
+}
+
+impl Default for Integrator {
+    /// [`Preset::Engineering`]: error-controlled ESDIRK3, 1e-6 m per host step.
+    fn default() -> Self {
+        Integrator { method: Method::Esdirk3, control: StepControl::Tolerance(1e-6) }
+    }
+}
+
+/// Three choices of accuracy against time.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Preset {
+    /// One-iteration generalised-alpha 0.5 at h <= 1/240 s, with full Newton where a step does not contract.
+    Game,
+    /// Error-controlled ESDIRK3, 1e-6 m per host step: the default.
+    Engineering,
+    /// Symplectic explicit of order 6 where the cable is soft enough (omega_max below 1e5 rad/s), else ESDIRK4 at 1e-9 m.
+    Reference,
+}
+
+/// Above this frequency in rad/s the reference preset is implicit.
+const EXPLICIT_FREQUENCY: f64 = 1e5;
+
+impl Preset {
+    /// The integrator, for a cable whose frequencies stay below `frequency_bound` (rad/s).
+    pub fn integrator(self, frequency_bound: f64) -> Integrator {
+        match self {
+            Preset::Game => Integrator {
+                method: Method::GeneralisedAlpha { rho: 0.5, newton: NewtonMode::Once },
+                control: StepControl::MaxStep(1.0 / 240.0),
+            },
+            Preset::Engineering => Integrator::default(),
+            Preset::Reference if frequency_bound < EXPLICIT_FREQUENCY => {
+                Integrator { method: Method::Rkn6, control: StepControl::Stable(0.5) }
+            }
+            Preset::Reference => Integrator { method: Method::Esdirk4, control: StepControl::Tolerance(1e-9) },
+        }
+    }
+}
+
+impl Integrator {
+    /// A method with a tolerance in m of position error per host step.
+    ///
+    /// # Errors
+    /// [`Error::UnsupportedControl`] if the method has no error estimate, [`Error::InvalidValue`] for a bad tolerance.
+    pub fn tolerance(method: Method, tolerance: f64) -> Result<Self, Error> {
+        Integrator { method, control: StepControl::Tolerance(tolerance) }.checked()
+    }
+
+    /// A method with a fixed number of equal steps per host step.
+    ///
+    /// # Errors
+    /// [`Error::InvalidValue`] for zero steps.
+    pub fn substeps(method: Method, substeps: u32) -> Result<Self, Error> {
+        Integrator { method, control: StepControl::Substeps(substeps) }.checked()
+    }
+
+    /// The same, if the method can do what the control asks.
+    ///
+    /// # Errors
+    /// [`Error::UnsupportedControl`] or [`Error::InvalidValue`].
+    pub fn checked(self) -> Result<Self, Error> {
+        if let Method::GeneralisedAlpha { rho, .. } = self.method {
+            require("rho of generalised-alpha", rho, (0.0..=1.0).contains(&rho), "between 0 and 1")?;
+        }
+        let unsupported = |reason| Err(Error::UnsupportedControl { method: self.method.to_string(), reason });
+        match self.control {
+            StepControl::Tolerance(tolerance) => {
+                require("tolerance (m)", tolerance, tolerance > 0.0, "> 0")?;
+                if self.method.properties().estimate_order.is_none() {
+                    return unsupported("it does not estimate its error; give substeps, max_step, or another method");
+                }
+            }
+            StepControl::Substeps(substeps) => {
+                require("substeps", f64::from(substeps), substeps > 0, "> 0")?;
+            }
+            StepControl::MaxStep(step) => require("max_step (s)", step, step > 0.0, "> 0")?,
+            StepControl::Stable(share) => {
+                require("share of the stability limit", share, share > 0.0 && share <= 1.0, "in (0, 1]")?;
+                if !matches!(self.method.stepper(), Stepper::Explicit(_)) {
+                    return unsupported("only explicit methods have a stability limit; give a tolerance or substeps");
+                }
+            }
+        }
+        Ok(self)
+    }
+}

@@ -1,0 +1,255 @@
+//! General path: L U with partial pivoting of the equilibrated band.
+//!
+//! Equation: P S A S = L U, A^-1 = S (P^T L U)^-1 S (Golub & Van Loan, 4th ed., sections 3.4 and
+//! 4.3.3); 11 diagonals below, 11 above, 22 above after the interchanges. Condition: Hager's
+//! estimate of |A^-1|_1 (section 3.5.4; Higham, Accuracy and Stability, 2nd ed., algorithm 15.1),
+//! where A = A^T saves the transposed solution.
+//!
+//! Validity: accepted only if the entries grew by no more than 2^20 and the estimated reciprocal
+//! condition number of the equilibrated matrix is at least 2^-48.
+//!
+//! Rejected: Bunch-Kaufman (symmetric interchanges fill the band), complete pivoting (the same),
+//! a threshold on single pivots (no pivot of a nearly singular matrix need be small).
+
+use super::block::BlockTridiagonal;
+use super::equilibrate::{check_finite, equilibrate, for_lower_triangle};
+use super::factorisation::Definiteness;
+use super::{Reason, SingularMatrix, inertia};
+
+/// Diagonals below the main one.
+const BELOW: usize = 11;
+/// Diagonals above the main one, fill included.
+const ABOVE: usize = 2 * BELOW;
+/// Smallest accepted reciprocal condition number.
+const SMALLEST_RCOND: f64 = 1.0 / (1u64 << 48) as f64;
+/// Largest accepted growth of the entries.
+const LARGEST_GROWTH: f64 = (1u64 << 20) as f64;
+
+/// One column: the entry of row r, column c is at `ABOVE + r - c`.
+type Column = [f64; ABOVE + 1 + BELOW];
+
+/// L U factors of the equilibrated band.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Banded {
+    columns: Vec<Column>,
+    /// Row exchanged with row j at step j.
+    exchanged: Vec<usize>,
+    scale: Vec<f64>,
+    exponents: Vec<i32>,
+    largest: Vec<i32>,
+    /// Work space of the condition estimate: the iterate and two solutions.
+    work: [Vec<f64>; 3],
+}
+
+impl Banded {
+    /// Factors and judges the matrix.
+    pub(super) fn factor(&mut self, a: &BlockTridiagonal) -> Result<Definiteness, SingularMatrix> {
+        check_finite(a)?;
+        equilibrate(a, &mut self.scale, &mut self.exponents, &mut self.largest)?;
+        let (largest, norm) = self.assemble(a);
+        self.eliminate(largest)?;
+
+        let (mut node, mut pivot, mut growth) = (0, f64::INFINITY, 0.0f64);
+        for (j, column) in self.columns.iter().enumerate() {
+            if column[ABOVE].abs() < pivot {
+                (node, pivot) = (j / 6, column[ABOVE].abs());
+            }
+            growth = column[..=ABOVE].iter().fold(growth, |g, v| g.max(v.abs()));
+        }
+        let error = |reason| {
+            Err(SingularMatrix {
+                node,
+                pivot,
+                scale: largest,
+                reason,
+            })
+        };
+        let inverse_norm = self.inverse_norm();
+        let rcond = 1.0 / (norm * inverse_norm);
+        if !inverse_norm.is_finite() || rcond.is_nan() || rcond < SMALLEST_RCOND {
+            return error(Reason::Condition);
+        }
+        if growth > LARGEST_GROWTH * largest {
+            return error(Reason::Growth);
+        }
+        // the estimate is a lower bound, rarely off by more than a factor of three
+        let smallest = 1.0 / (3.0 * inverse_norm);
+        let negative = inertia::negative(a, &self.scale, smallest)
+            .filter(|count| (count % 2 == 1) == (self.determinant_sign() < 0.0));
+        Ok(match negative {
+            Some(0) => Definiteness::PositiveDefinite,
+            negative => Definiteness::Indefinite { negative },
+        })
+    }
+
+    /// Fills the band with S A S; its largest entry and its 1-norm.
+    fn assemble(&mut self, a: &BlockTridiagonal) -> (f64, f64) {
+        let n = self.scale.len();
+        let Self {
+            columns,
+            scale,
+            work,
+            ..
+        } = self;
+        columns.clear();
+        columns.resize(n, [0.0; ABOVE + 1 + BELOW]);
+        let sums = &mut work[0];
+        sums.clear();
+        sums.resize(n, 0.0);
+        let mut largest = 0.0f64;
+        for_lower_triangle(a, |r, c, value| {
+            let value = value * scale[r] * scale[c];
+            largest = largest.max(value.abs());
+            columns[c][ABOVE + r - c] = value;
+            sums[c] += value.abs();
+            if r != c {
+                columns[r][ABOVE + c - r] = value;
+                sums[r] += value.abs();
+            }
+        });
+        (largest, sums.iter().fold(0.0, |m, v| v.max(m)))
+    }
+
+    /// Elimination with row interchanges.
+    fn eliminate(&mut self, largest: f64) -> Result<(), SingularMatrix> {
+        let n = self.columns.len();
+        self.exchanged.clear();
+        for j in 0..n {
+            let reach = BELOW.min(n - 1 - j);
+            let (head, tail) = self.columns[j..].split_at_mut(1);
+            let pivot_column = &mut head[0];
+            let mut best = 0;
+            for k in 1..=reach {
+                if pivot_column[ABOVE + k].abs() > pivot_column[ABOVE + best].abs() {
+                    best = k;
+                }
+            }
+            pivot_column.swap(ABOVE, ABOVE + best);
+            self.exchanged.push(j + best);
+            let pivot = pivot_column[ABOVE];
+            if pivot == 0.0 || !pivot.is_finite() {
+                let reason = if pivot == 0.0 {
+                    Reason::Pivot
+                } else {
+                    Reason::NonFinite
+                };
+                let pivot = 0.0;
+                return Err(SingularMatrix {
+                    node: j / 6,
+                    pivot,
+                    scale: largest,
+                    reason,
+                });
+            }
+            for v in &mut pivot_column[ABOVE + 1..] {
+                *v /= pivot;
+            }
+            let multipliers = &pivot_column[ABOVE + 1..];
+            for (distance, column) in tail.iter_mut().take(ABOVE).enumerate() {
+                let top = ABOVE - 1 - distance; // row j of this column
+                column.swap(top, top + best);
+                let u = column[top];
+                for (v, m) in column[top + 1..=top + BELOW].iter_mut().zip(multipliers) {
+                    *v -= m * u;
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Solves with the factors of the equilibrated matrix.
+    fn solve_scaled(&self, x: &mut [f64]) {
+        let n = self.columns.len();
+        for j in 0..n {
+            x.swap(j, self.exchanged[j]);
+            let value = x[j];
+            for (v, m) in x[j + 1..].iter_mut().zip(&self.columns[j][ABOVE + 1..]) {
+                *v -= m * value;
+            }
+        }
+        for j in (0..n).rev() {
+            let column = &self.columns[j];
+            x[j] /= column[ABOVE];
+            let value = x[j];
+            let reach = ABOVE.min(j);
+            for (v, u) in x[j - reach..j]
+                .iter_mut()
+                .zip(&column[ABOVE - reach..ABOVE])
+            {
+                *v -= u * value;
+            }
+        }
+    }
+
+    /// Replaces `rhs` by A^-1 rhs.
+    pub(super) fn solve(&self, rhs: &mut [f64]) {
+        let scale = |x: &mut [f64]| x.iter_mut().zip(&self.scale).for_each(|(v, s)| *v *= s);
+        scale(rhs);
+        self.solve_scaled(rhs);
+        scale(rhs);
+    }
+
+    /// Sign of the determinant.
+    pub(super) fn determinant_sign(&self) -> f64 {
+        let exchanges = self
+            .exchanged
+            .iter()
+            .enumerate()
+            .filter(|&(j, &p)| p != j)
+            .count();
+        let negative = self.columns.iter().filter(|c| c[ABOVE] < 0.0).count();
+        if (exchanges + negative) % 2 == 0 {
+            1.0
+        } else {
+            -1.0
+        }
+    }
+
+    /// Estimate of |(S A S)^-1|_1, from below.
+    fn inverse_norm(&mut self) -> f64 {
+        let [mut x, mut y, mut z] = core::mem::take(&mut self.work);
+        let n = self.columns.len();
+        let one_norm = |v: &[f64]| v.iter().fold(0.0, |s, v| s + v.abs());
+        // a vector of alternating signs catches what the iteration may miss
+        y.clear();
+        y.extend((0..n).map(|i| {
+            let size = 1.0 + i as f64 / (n - 1).max(1) as f64;
+            if i % 2 == 0 { size } else { -size }
+        }));
+        self.solve_scaled(&mut y);
+        let mut estimate = 2.0 * one_norm(&y) / (3.0 * n as f64);
+        x.clear();
+        x.resize(n, 1.0 / n as f64);
+        for _ in 0..5 {
+            y.clone_from(&x);
+            self.solve_scaled(&mut y);
+            let norm = one_norm(&y);
+            if !norm.is_finite() {
+                estimate = f64::INFINITY;
+                break;
+            }
+            estimate = estimate.max(norm);
+            z.clear();
+            z.extend(y.iter().map(|v| 1f64.copysign(*v)));
+            self.solve_scaled(&mut z);
+            let slope: f64 = z.iter().zip(&x).fold(0.0, |s, (z, x)| s + z * x);
+            let (mut best, mut steepest) = (0, 0.0);
+            for (i, v) in z.iter().enumerate() {
+                if v.abs() > steepest {
+                    (best, steepest) = (i, v.abs());
+                }
+            }
+            if !steepest.is_finite() {
+                estimate = f64::INFINITY;
+                break;
+            }
+            if steepest <= slope {
+                break;
+            }
+            x.fill(0.0);
+            x[best] = 1.0;
+        }
+        self.work = [x, y, z];
+        estimate
+    }
+}

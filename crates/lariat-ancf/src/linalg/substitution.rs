@@ -1,0 +1,95 @@
+//! Substitution with the two-ended factors.
+//!
+//! Equation: with G_i = B_i S_i^-1 towards the middle node m,
+//!   inwards  b_{i+1} -= G_i b_i,  c_i = S_i^-1 b_i;  middle x_m = c_m;  outwards x_i = c_i - G_i^T x_{i+1}
+//! (Golub & Van Loan, 4th ed., section 4.5.1, written for the block factors (I + G) S (I + G)^T).
+//! S_i^-1 is applied by substitution with the scalar L D L^T of S_i, never as an inverse.
+//!
+//! Validity: after an accepted factorisation; one or several right-hand sides at a time give the
+//! same bits.
+//!
+//! Rejected: substitution with the scalar factor of the whole matrix (its critical path has six
+//! dependent steps per node and direction; here it is one 6x6 product, and the S_i^-1 of different
+//! nodes overlap).
+
+use super::lanes::{
+    after, before, columns_times, load, load_block, load_six, splat, store_six, transpose_dots,
+};
+use super::twisted::Node;
+use fearless_simd::{Simd, f64x8, prelude::*};
+
+/// S^-1 b. Column k of `node.columns` holds the unscaled u_rk = d_k l_rk below and, by symmetry,
+/// u_kr above the diagonal; times 1/d_k it serves both triangles.
+#[inline(always)]
+fn solve_block<S: Simd>(simd: S, node: &Node, b: f64x8<S>) -> f64x8<S> {
+    let columns = load_block(simd, &node.columns);
+    let scaled = |k: usize| columns[k] * splat(simd, node.inverse[k]);
+    let mut y = b;
+    for k in 0..5 {
+        y = after(simd, k).select(y - scaled(k) * splat(simd, y[k]), y);
+    }
+    for k in (1..6).rev() {
+        y = before(simd, k).select(y - scaled(k) * splat(simd, y[k]), y);
+    }
+    y * load(simd, &node.inverse)
+}
+
+/// Solves in place for `N` right-hand sides of `nodes.len()` nodes each.
+#[inline(always)]
+pub(super) fn solve<S: Simd, const N: usize>(simd: S, nodes: &[Node], rhs: [&mut [[f64; 6]]; N]) {
+    let n = nodes.len();
+    let middle = n / 2;
+    let from_below = n - 1 - middle;
+    let zero = splat(simd, 0.0);
+    let rhs = rhs.map(|r| &mut r[..n]);
+    let mut top: [f64x8<S>; N] = core::array::from_fn(|r| load_six(simd, &rhs[r][0]));
+    let mut bottom: [f64x8<S>; N] = core::array::from_fn(|r| load_six(simd, &rhs[r][n - 1]));
+
+    for s in 0..middle {
+        let (i, j) = (s, n - 1 - s);
+        let gain = load_block(simd, &nodes[i].gain);
+        for r in 0..N {
+            let c = solve_block(simd, &nodes[i], top[r]);
+            top[r] = load_six(simd, &rhs[r][i + 1]) - columns_times(simd, &gain, top[r]);
+            store_six(simd, c, &mut rhs[r][i]);
+        }
+        if s < from_below {
+            let gain = load_block(simd, &nodes[j].gain);
+            for r in 0..N {
+                let c = solve_block(simd, &nodes[j], bottom[r]);
+                // the middle node's own entries arrive through `top`
+                let last = s + 1 == from_below;
+                let next = if last {
+                    zero
+                } else {
+                    load_six(simd, &rhs[r][j - 1])
+                };
+                bottom[r] = next - columns_times(simd, &gain, bottom[r]);
+                store_six(simd, c, &mut rhs[r][j]);
+            }
+        }
+    }
+    for r in 0..N {
+        if from_below > 0 {
+            top[r] = top[r] + bottom[r];
+        }
+        top[r] = solve_block(simd, &nodes[middle], top[r]);
+        bottom[r] = top[r];
+        store_six(simd, top[r], &mut rhs[r][middle]);
+    }
+    for s in (0..middle).rev() {
+        let (i, j) = (s, n - 1 - s);
+        let gain = load_block(simd, &nodes[i].gain);
+        for r in 0..N {
+            top[r] = load_six(simd, &rhs[r][i]) - transpose_dots(&gain, top[r]);
+            store_six(simd, top[r], &mut rhs[r][i]);
+        }
+        if s < from_below {
+            let gain = load_block(simd, &nodes[j].gain);
+            for r in 0..N {
+                bottom[r] = load_six(simd, &rhs[r][j]) - transpose_dots(&gain, bottom[r]);
+                store_six(simd, bottom[r], &mut rhs[r][j]);
+            }
+        }
+    }
+}

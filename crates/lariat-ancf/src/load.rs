@@ -1,0 +1,49 @@
+//! Point force and moment at an arc length: dead loads in world axes, ramped linearly from zero.
+//!
+//! Force f at arc length s: generalised force `N(s)^T f`. Moment m on the section: the spin of the tangent t = r'(s) is
+//! `t x dt/|t|^2`, so the virtual work `m . (t x dt)/|t|^2` gives the generalised force `(m x t)/|t|^2` on the slope at s.
+//! *Source.* Virtual work; the element has no twist, so the part of m along t does nothing. *Validity.* A moment about a fixed
+//! axis is conservative only while the cable stays in the plane normal to it; its tangent is made symmetric, which leaves the
+//! solution as it is and slows Newton when the cable leaves that plane.
+
+use nalgebra::{Matrix3, Vector3};
+use serde::{Deserialize, Serialize};
+
+/// A force and a moment at one point of a cable.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct PointLoad {
+    /// Where, as arc length of the unstretched cable in m.
+    pub arc_length: f64,
+    /// Force in N, world axes.
+    pub force: Vector3<f64>,
+    /// Moment in N m, world axes.
+    pub moment: Vector3<f64>,
+    /// Time from zero to full load in s; 0 = at once.
+    pub ramp: f64,
+}
+
+impl PointLoad {
+    /// A constant force in N at an arc length in m.
+    pub fn force(arc_length: f64, force: Vector3<f64>) -> Self {
+        PointLoad { arc_length, force, moment: Vector3::zeros(), ramp: 0.0 }
+    }
+
+    /// A constant moment in N m at an arc length in m.
+    pub fn moment(arc_length: f64, moment: Vector3<f64>) -> Self {
+        PointLoad { arc_length, force: Vector3::zeros(), moment, ramp: 0.0 }
+    }
+
+    /// Share of the full load at `time`.
+    pub fn factor(&self, time: f64) -> f64 {
+        if self.ramp > 0.0 { (time / self.ramp).clamp(0.0, 1.0) } else { 1.0 }
+    }
+}
+
+/// Generalised force `(m x t)/|t|^2` of a moment on the slope t, and the symmetric part of its derivative.
+pub(crate) fn moment_on_slope(m: &Vector3<f64>, t: &Vector3<f64>) -> (Vector3<f64>, Matrix3<f64>) {
+    let square = t.norm_squared();
+    let cross = m.cross(t);
+    // d/dt = [m]x/|t|^2 - 2 (m x t) t^T/|t|^4; [m]x is antisymmetric and drops out
+    let outer = cross * t.transpose();
+    (cross / square, -(outer + outer.transpose()) / (square * square))
+}

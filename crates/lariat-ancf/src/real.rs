@@ -1,0 +1,42 @@
+//! The number type of the element kernels: one source for `f64` and for lanes of `f64`.
+//!
+//! A kernel written over [`Real`] evaluates one element with `f64` and eight elements with
+//! [`fearless_simd::f64x8`], whose width in registers (SSE2, AVX2, AVX-512, NEON) is chosen at run time.
+//!
+//! *Bits.* [`Real`] has no fused multiply-add and no horizontal sum, so each lane performs the same IEEE 754
+//! operations in the same order as the scalar kernel: the kernel chosen at run time changes the speed, never
+//! the result. A fused kernel would be about 10 % faster and give different bits on different machines, which
+//! lock-step networking cannot use; it was rejected for that.
+
+use core::ops::{Add, Div, Mul, Neg, Sub};
+use fearless_simd::{ExtractToken, Simd, SimdBase, f64x8};
+
+/// A number, or lanes of numbers, in the element kernels.
+pub trait Real:
+    Copy
+    + Add<Output = Self>
+    + Sub<Output = Self>
+    + Mul<Output = Self>
+    + Div<Output = Self>
+    + Neg<Output = Self>
+    + Add<f64, Output = Self>
+    + Sub<f64, Output = Self>
+    + Mul<f64, Output = Self>
+{
+    /// The constant `value` in every lane of a number like `self`.
+    fn splat(self, value: f64) -> Self;
+}
+
+impl Real for f64 {
+    #[inline(always)]
+    fn splat(self, value: f64) -> Self {
+        value
+    }
+}
+
+impl<S: Simd> Real for f64x8<S> {
+    #[inline(always)]
+    fn splat(self, value: f64) -> Self {
+        <f64x8<S> as SimdBase<S>>::splat(self.token(), value)
+    }
+}

@@ -1,0 +1,125 @@
+//! Cross-section and material of a cable, as the three numbers that the equations need.
+//!
+//! `EA` (N), `EI` (N m^2), `rho A` (kg/m). Round: `A = pi d^2/4`, `I = pi d^4/64`; square: `A = a^2`, `I = a^4/12`;
+//! tube: differences of round ones. *Validity.* A homogeneous elastic section. A stranded rope has about half of the
+//! solid's EA and far less EI: use [`Section::from_stiffness`] with measured values.
+
+use crate::error::{Error, require};
+use serde::{Deserialize, Serialize};
+
+/// Axial stiffness, bending stiffness and mass per length of an element; all that mechanics needs of it.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Section {
+    /// Axial stiffness EA in N, > 0.
+    pub axial_stiffness: f64,
+    /// Bending stiffness EI in N m^2, >= 0.
+    pub bending_stiffness: f64,
+    /// Mass per unstretched length in kg/m, > 0.
+    pub mass_per_length: f64,
+    /// Outer diameter (side, for a square) in m, if a shape was given: for contact, drag and drawing.
+    pub diameter: Option<f64>,
+}
+
+/// Shape of a solid cross-section, in m.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Shape {
+    /// Solid round of this diameter.
+    Round(f64),
+    /// Solid square of this side.
+    Square(f64),
+    /// Tube of outer and inner diameter.
+    Tube(f64, f64),
+}
+
+impl Shape {
+    /// Area in m^2.
+    pub fn area(self) -> f64 {
+        let disc = |d: f64| std::f64::consts::FRAC_PI_4 * d * d;
+        match self {
+            Shape::Round(d) => disc(d),
+            Shape::Square(a) => a * a,
+            Shape::Tube(outer, inner) => disc(outer) - disc(inner),
+        }
+    }
+
+    /// Second moment of area in m^4.
+    pub fn second_moment(self) -> f64 {
+        let disc = |d: f64| std::f64::consts::PI / 64.0 * d.powi(4);
+        match self {
+            Shape::Round(d) => disc(d),
+            Shape::Square(a) => a.powi(4) / 12.0,
+            Shape::Tube(outer, inner) => disc(outer) - disc(inner),
+        }
+    }
+
+    /// Outer diameter or side in m.
+    pub fn outer(self) -> f64 {
+        match self {
+            Shape::Round(d) | Shape::Tube(d, _) => d,
+            Shape::Square(a) => a,
+        }
+    }
+}
+
+impl Section {
+    /// A homogeneous section of Young's modulus `youngs_modulus` in Pa and `density` in kg/m^3.
+    ///
+    /// # Errors
+    /// [`Error::InvalidValue`] for a dimension, modulus or density that is not positive and finite.
+    pub fn new(shape: Shape, youngs_modulus: f64, density: f64) -> Result<Self, Error> {
+        require("section size (m)", shape.outer(), shape.outer() > 0.0, "> 0")?;
+        if let Shape::Tube(outer, inner) = shape {
+            require("inner diameter (m)", inner, inner >= 0.0 && inner < outer, ">= 0 and below the outer diameter")?;
+        }
+        require("Young's modulus (Pa)", youngs_modulus, youngs_modulus > 0.0, "> 0")?;
+        require("density (kg/m^3)", density, density > 0.0, "> 0")?;
+        let mut section = Self::from_stiffness(
+            youngs_modulus * shape.area(),
+            youngs_modulus * shape.second_moment(),
+            density * shape.area(),
+        )?;
+        section.diameter = Some(shape.outer());
+        Ok(section)
+    }
+
+    /// A solid round section: diameter in m, Young's modulus in Pa, density in kg/m^3.
+    ///
+    /// # Errors
+    /// As [`Section::new`].
+    pub fn round(diameter: f64, youngs_modulus: f64, density: f64) -> Result<Self, Error> {
+        Self::new(Shape::Round(diameter), youngs_modulus, density)
+    }
+
+    /// A solid square section: side in m, Young's modulus in Pa, density in kg/m^3.
+    ///
+    /// # Errors
+    /// As [`Section::new`].
+    pub fn square(side: f64, youngs_modulus: f64, density: f64) -> Result<Self, Error> {
+        Self::new(Shape::Square(side), youngs_modulus, density)
+    }
+
+    /// A tube: outer and inner diameter in m, Young's modulus in Pa, density in kg/m^3.
+    ///
+    /// # Errors
+    /// As [`Section::new`].
+    pub fn tube(outer: f64, inner: f64, youngs_modulus: f64, density: f64) -> Result<Self, Error> {
+        Self::new(Shape::Tube(outer, inner), youngs_modulus, density)
+    }
+
+    /// Measured stiffness: EA in N, EI in N m^2, mass per unstretched length in kg/m.
+    ///
+    /// # Errors
+    /// [`Error::InvalidValue`] for a value that is not finite, or not positive (EI may be zero).
+    pub fn from_stiffness(axial: f64, bending: f64, mass_per_length: f64) -> Result<Self, Error> {
+        require("axial stiffness EA (N)", axial, axial > 0.0, "> 0")?;
+        require("bending stiffness EI (N m^2)", bending, bending >= 0.0, ">= 0")?;
+        require("mass per length (kg/m)", mass_per_length, mass_per_length > 0.0, "> 0")?;
+        Ok(Section {
+            axial_stiffness: axial,
+            bending_stiffness: bending,
+            mass_per_length,
+            diameter: None,
+        })
+    }
+}

@@ -1,0 +1,136 @@
+//! Boundary conditions at a node, and their motion in time.
+//!
+//! The position and the slope vector of a node are free, prescribed as a cubic polynomial of time, or (the slope) held to a
+//! direction with its length free. A prescribed coordinate leaves the equations: rows and columns of the step matrix are
+//! projected, `A -> P A P + (I - P)`, P the projector on the free directions. *Why a direction.* A clamp that fixes the slope
+//! *vector* also fixes the stretch at the node, which is then wrong by the tension over EA; a clamp holds the direction alone.
+//! *Rejected.* Penalty springs (they limit the step) and Lagrange multipliers (an indefinite matrix for nothing).
+
+use nalgebra::Vector3;
+use serde::{Deserialize, Serialize};
+
+/// Motion of a vector as a cubic of time: `x(t) = c0 + c1 s + c2 s^2 + c3 s^3`, `s = t - start`.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Motion {
+    /// Time at which s = 0, in s.
+    pub start: f64,
+    /// Coefficients, in the unit of x over s^k.
+    pub coefficients: [Vector3<f64>; 4],
+}
+
+impl Motion {
+    /// No motion: `x` for ever.
+    pub fn fixed(x: Vector3<f64>) -> Self {
+        Self::uniform(0.0, x, Vector3::zeros())
+    }
+
+    /// `x` at time `start`, then constant velocity.
+    pub fn uniform(start: f64, x: Vector3<f64>, velocity: Vector3<f64>) -> Self {
+        Motion { start, coefficients: [x, velocity, Vector3::zeros(), Vector3::zeros()] }
+    }
+
+    /// The cubic from `(x0, v0)` at `start` to `(x1, v1)` a time `duration` later (Hermite); `duration` > 0.
+    pub fn hermite(
+        start: f64,
+        duration: f64,
+        (x0, v0): (Vector3<f64>, Vector3<f64>),
+        (x1, v1): (Vector3<f64>, Vector3<f64>),
+    ) -> Self {
+        let h = duration;
+        let mean = (x1 - x0) / h;
+        Motion { start, coefficients: [x0, v0, (3.0 * mean - 2.0 * v0 - v1) / h, (v0 + v1 - 2.0 * mean) / (h * h)] }
+    }
+
+    /// Value, velocity and acceleration at `time`.
+    pub fn at(&self, time: f64) -> [Vector3<f64>; 3] {
+        let s = time - self.start;
+        let [c0, c1, c2, c3] = self.coefficients;
+        [c0 + s * (c1 + s * (c2 + s * c3)), c1 + s * (2.0 * c2 + 3.0 * s * c3), 2.0 * c2 + 6.0 * s * c3]
+    }
+
+    pub(crate) fn is_finite(&self) -> bool {
+        self.start.is_finite() && self.coefficients.iter().flatten().all(|x| x.is_finite())
+    }
+}
+
+/// What holds the slope vector of a node.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub enum SlopeSupport {
+    /// Nothing.
+    #[default]
+    Free,
+    /// Its direction is this unit vector; its length (the stretch) is free.
+    Direction(Vector3<f64>),
+    /// The whole vector is prescribed.
+    Prescribed(Motion),
+}
+
+/// What holds a node.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Support {
+    /// Prescribed position, if any.
+    pub position: Option<Motion>,
+    /// What holds the slope.
+    pub slope: SlopeSupport,
+}
+
+impl Support {
+    /// True if nothing is held.
+    pub fn is_free(&self) -> bool {
+        self.position.is_none() && self.slope == SlopeSupport::Free
+    }
+
+    /// Removes the held components from a nodal vector (r, t).
+    pub(crate) fn project(&self, x: &mut [f64]) {
+        if self.position.is_some() {
+            x[..3].fill(0.0);
+        }
+        match self.slope {
+            SlopeSupport::Free => {}
+            SlopeSupport::Prescribed(_) => x[3..6].fill(0.0),
+            SlopeSupport::Direction(d) => {
+                let along = d.x * x[3] + d.y * x[4] + d.z * x[5];
+                for i in 0..3 {
+                    x[3 + i] = along * d[i];
+                }
+            }
+        }
+    }
+
+    /// Overwrites the held components of nodal coordinates `q` and velocities `v` by their values at `time`.
+    pub(crate) fn prescribe(&self, time: f64, q: &mut [f64], v: &mut [f64]) {
+        self.project(q);
+        self.project(v);
+        if let Some(motion) = self.position {
+            let [x, dx, _] = motion.at(time);
+            q[..3].copy_from_slice(x.as_slice());
+            v[..3].copy_from_slice(dx.as_slice());
+        }
+        if let SlopeSupport::Prescribed(motion) = self.slope {
+            let [x, dx, _] = motion.at(time);
+            q[3..6].copy_from_slice(x.as_slice());
+            v[3..6].copy_from_slice(dx.as_slice());
+        }
+    }
+
+    /// The accelerations of the held components at `time`; zero elsewhere.
+    pub(crate) fn acceleration(&self, time: f64) -> [f64; 6] {
+        let mut a = [0.0; 6];
+        if let Some(motion) = self.position {
+            a[..3].copy_from_slice(motion.at(time)[2].as_slice());
+        }
+        if let SlopeSupport::Prescribed(motion) = self.slope {
+            a[3..].copy_from_slice(motion.at(time)[2].as_slice());
+        }
+        a
+    }
+
+    /// The projector on the free directions, as a 6x6 matrix `[column][row]`.
+    pub(crate) fn projector(&self) -> [[f64; 6]; 6] {
+        core::array::from_fn(|j| {
+            let mut column = core::array::from_fn(|i| f64::from(u8::from(i == j)));
+            self.project(&mut column);
+            column
+        })
+    }
+}
