@@ -15,6 +15,7 @@ use super::block::BlockTridiagonal;
 use super::equilibrate::{check_finite, equilibrate, for_lower_triangle};
 use super::factorisation::Definiteness;
 use super::{Reason, SingularMatrix, inertia};
+use fearless_simd::{Level, dispatch};
 
 /// Diagonals below the main one.
 const BELOW: usize = 11;
@@ -41,13 +42,97 @@ pub(super) struct Banded {
     work: [Vec<f64>; 3],
 }
 
+/// y -= a x, at full length where possible (a fixed length vectorises).
+#[inline(always)]
+fn subtract<const N: usize>(y: &mut [f64], a: &[f64], x: f64) {
+    if let (Some(y), Some(a)) = (y.first_chunk_mut::<N>(), a.first_chunk::<N>()) {
+        for k in 0..N {
+            y[k] -= a[k] * x;
+        }
+    } else {
+        for (y, a) in y.iter_mut().zip(a) {
+            *y -= a * x;
+        }
+    }
+}
+
+/// Elimination with row interchanges; an unusable pivot stays on the diagonal.
+#[inline(always)]
+fn eliminate(columns: &mut [Column], exchanged: &mut Vec<usize>) {
+    let n = columns.len();
+    exchanged.clear();
+    for j in 0..n {
+        let reach = BELOW.min(n - 1 - j);
+        let (head, tail) = columns[j..].split_at_mut(1);
+        let pivot_column = &mut head[0];
+        let mut best = 0;
+        for k in 1..=reach {
+            if pivot_column[ABOVE + k].abs() > pivot_column[ABOVE + best].abs() {
+                best = k;
+            }
+        }
+        pivot_column.swap(ABOVE, ABOVE + best);
+        exchanged.push(j + best);
+        let pivot = pivot_column[ABOVE];
+        if pivot == 0.0 || !pivot.is_finite() {
+            return;
+        }
+        for v in &mut pivot_column[ABOVE + 1..] {
+            *v /= pivot;
+        }
+        let multipliers = &pivot_column[ABOVE + 1..];
+        for (distance, column) in tail.iter_mut().take(ABOVE).enumerate() {
+            let top = ABOVE - 1 - distance; // row j of this column
+            column.swap(top, top + best);
+            let u = column[top];
+            subtract::<BELOW>(&mut column[top + 1..=top + BELOW], multipliers, u);
+        }
+    }
+}
+
+/// Forward and back substitution.
+#[inline(always)]
+fn substitute(columns: &[Column], exchanged: &[usize], x: &mut [f64]) {
+    for j in 0..columns.len() {
+        x.swap(j, exchanged[j]);
+        let value = x[j];
+        subtract::<BELOW>(&mut x[j + 1..], &columns[j][ABOVE + 1..], value);
+    }
+    for j in (0..columns.len()).rev() {
+        let column = &columns[j];
+        x[j] /= column[ABOVE];
+        let value = x[j];
+        let reach = ABOVE.min(j);
+        subtract::<ABOVE>(&mut x[j - reach..j], &column[ABOVE - reach..ABOVE], value);
+    }
+}
+
 impl Banded {
     /// Factors and judges the matrix.
-    pub(super) fn factor(&mut self, a: &BlockTridiagonal) -> Result<Definiteness, SingularMatrix> {
+    pub(super) fn factor(
+        &mut self,
+        level: Level,
+        a: &BlockTridiagonal,
+    ) -> Result<Definiteness, SingularMatrix> {
         check_finite(a)?;
         equilibrate(a, &mut self.scale, &mut self.exponents, &mut self.largest)?;
         let (largest, norm) = self.assemble(a);
-        self.eliminate(largest)?;
+        dispatch!(level, _ => eliminate(&mut self.columns, &mut self.exchanged));
+        let unusable = |c: &Column| c[ABOVE] == 0.0 || !c[ABOVE].is_finite();
+        if let Some(j) = self.columns.iter().position(unusable) {
+            let zero = self.columns[j][ABOVE] == 0.0;
+            let reason = if zero {
+                Reason::Pivot
+            } else {
+                Reason::NonFinite
+            };
+            return Err(SingularMatrix {
+                node: j / 6,
+                pivot: 0.0,
+                scale: largest,
+                reason,
+            });
+        }
 
         let (mut node, mut pivot, mut growth) = (0, f64::INFINITY, 0.0f64);
         for (j, column) in self.columns.iter().enumerate() {
@@ -64,7 +149,7 @@ impl Banded {
                 reason,
             })
         };
-        let inverse_norm = self.inverse_norm();
+        let inverse_norm = self.inverse_norm(level);
         let rcond = 1.0 / (norm * inverse_norm);
         if !inverse_norm.is_finite() || rcond.is_nan() || rcond < SMALLEST_RCOND {
             return error(Reason::Condition);
@@ -110,82 +195,16 @@ impl Banded {
         (largest, sums.iter().fold(0.0, |m, v| v.max(m)))
     }
 
-    /// Elimination with row interchanges.
-    fn eliminate(&mut self, largest: f64) -> Result<(), SingularMatrix> {
-        let n = self.columns.len();
-        self.exchanged.clear();
-        for j in 0..n {
-            let reach = BELOW.min(n - 1 - j);
-            let (head, tail) = self.columns[j..].split_at_mut(1);
-            let pivot_column = &mut head[0];
-            let mut best = 0;
-            for k in 1..=reach {
-                if pivot_column[ABOVE + k].abs() > pivot_column[ABOVE + best].abs() {
-                    best = k;
-                }
-            }
-            pivot_column.swap(ABOVE, ABOVE + best);
-            self.exchanged.push(j + best);
-            let pivot = pivot_column[ABOVE];
-            if pivot == 0.0 || !pivot.is_finite() {
-                let reason = if pivot == 0.0 {
-                    Reason::Pivot
-                } else {
-                    Reason::NonFinite
-                };
-                let pivot = 0.0;
-                return Err(SingularMatrix {
-                    node: j / 6,
-                    pivot,
-                    scale: largest,
-                    reason,
-                });
-            }
-            for v in &mut pivot_column[ABOVE + 1..] {
-                *v /= pivot;
-            }
-            let multipliers = &pivot_column[ABOVE + 1..];
-            for (distance, column) in tail.iter_mut().take(ABOVE).enumerate() {
-                let top = ABOVE - 1 - distance; // row j of this column
-                column.swap(top, top + best);
-                let u = column[top];
-                for (v, m) in column[top + 1..=top + BELOW].iter_mut().zip(multipliers) {
-                    *v -= m * u;
-                }
-            }
-        }
-        Ok(())
-    }
-
     /// Solves with the factors of the equilibrated matrix.
-    fn solve_scaled(&self, x: &mut [f64]) {
-        let n = self.columns.len();
-        for j in 0..n {
-            x.swap(j, self.exchanged[j]);
-            let value = x[j];
-            for (v, m) in x[j + 1..].iter_mut().zip(&self.columns[j][ABOVE + 1..]) {
-                *v -= m * value;
-            }
-        }
-        for j in (0..n).rev() {
-            let column = &self.columns[j];
-            x[j] /= column[ABOVE];
-            let value = x[j];
-            let reach = ABOVE.min(j);
-            for (v, u) in x[j - reach..j]
-                .iter_mut()
-                .zip(&column[ABOVE - reach..ABOVE])
-            {
-                *v -= u * value;
-            }
-        }
+    fn solve_scaled(&self, level: Level, x: &mut [f64]) {
+        dispatch!(level, _ => substitute(&self.columns, &self.exchanged, x));
     }
 
     /// Replaces `rhs` by A^-1 rhs.
-    pub(super) fn solve(&self, rhs: &mut [f64]) {
+    pub(super) fn solve(&self, level: Level, rhs: &mut [f64]) {
         let scale = |x: &mut [f64]| x.iter_mut().zip(&self.scale).for_each(|(v, s)| *v *= s);
         scale(rhs);
-        self.solve_scaled(rhs);
+        self.solve_scaled(level, rhs);
         scale(rhs);
     }
 
@@ -206,7 +225,7 @@ impl Banded {
     }
 
     /// Estimate of |(S A S)^-1|_1, from below.
-    fn inverse_norm(&mut self) -> f64 {
+    fn inverse_norm(&mut self, level: Level) -> f64 {
         let [mut x, mut y, mut z] = core::mem::take(&mut self.work);
         let n = self.columns.len();
         let one_norm = |v: &[f64]| v.iter().fold(0.0, |s, v| s + v.abs());
@@ -216,13 +235,13 @@ impl Banded {
             let size = 1.0 + i as f64 / (n - 1).max(1) as f64;
             if i % 2 == 0 { size } else { -size }
         }));
-        self.solve_scaled(&mut y);
+        self.solve_scaled(level, &mut y);
         let mut estimate = 2.0 * one_norm(&y) / (3.0 * n as f64);
         x.clear();
         x.resize(n, 1.0 / n as f64);
         for _ in 0..5 {
             y.clone_from(&x);
-            self.solve_scaled(&mut y);
+            self.solve_scaled(level, &mut y);
             let norm = one_norm(&y);
             if !norm.is_finite() {
                 estimate = f64::INFINITY;
@@ -231,7 +250,7 @@ impl Banded {
             estimate = estimate.max(norm);
             z.clear();
             z.extend(y.iter().map(|v| 1f64.copysign(*v)));
-            self.solve_scaled(&mut z);
+            self.solve_scaled(level, &mut z);
             let slope: f64 = z.iter().zip(&x).fold(0.0, |s, (z, x)| s + z * x);
             let (mut best, mut steepest) = (0, 0.0);
             for (i, v) in z.iter().enumerate() {

@@ -90,11 +90,11 @@ fn multiply<S: Simd>(simd: S, a: &BlockTridiagonal, x: &[f64], y: &mut [f64]) {
         let mut sum = columns_times(simd, &load_block(simd, &a.diag[i]), here);
         if i > 0 {
             let before = load_six(simd, &x[i - 1]);
-            sum = sum + columns_times(simd, &load_block(simd, &a.lower[i - 1]), before);
+            sum += columns_times(simd, &load_block(simd, &a.lower[i - 1]), before);
         }
         if i + 1 < x.len() {
             let after = load_six(simd, &x[i + 1]);
-            sum = sum + transpose_dots(&load_block(simd, &a.lower[i]), after);
+            sum += transpose_dots(&load_block(simd, &a.lower[i]), after);
         }
         store_six(simd, sum, &mut y[i]);
     }

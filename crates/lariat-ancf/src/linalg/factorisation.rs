@@ -67,7 +67,7 @@ impl Factorisation {
             self.state = State::Twisted;
             return Ok(Definiteness::PositiveDefinite);
         }
-        let definiteness = self.banded.factor(a)?;
+        let definiteness = self.banded.factor(level, a)?;
         self.state = State::Banded(definiteness);
         Ok(definiteness)
     }
@@ -98,7 +98,7 @@ impl Factorisation {
         }
         if self.state != State::Twisted {
             for one in rhs.chunks_exact_mut(6 * n) {
-                self.banded.solve(one);
+                self.banded.solve(level, one);
             }
             return;
         }

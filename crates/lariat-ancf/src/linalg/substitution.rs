@@ -71,7 +71,7 @@ pub(super) fn solve<S: Simd, const N: usize>(simd: S, nodes: &[Node], rhs: [&mut
     }
     for r in 0..N {
         if from_below > 0 {
-            top[r] = top[r] + bottom[r];
+            top[r] += bottom[r];
         }
         top[r] = solve_block(simd, &nodes[middle], top[r]);
         bottom[r] = top[r];

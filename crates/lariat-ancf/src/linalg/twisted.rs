@@ -62,13 +62,14 @@ impl<S: Simd> Health<S> {
     fn inspect(&mut self, simd: S, columns: &Columns<S>, original: &Block) {
         let pivots = diagonal(simd, columns);
         let entries = diagonal(simd, &load_block(simd, original));
-        let least = (entries * splat(simd, SMALLEST_PIVOT)).max_precise(splat(simd, RANGE));
+        // `max` may pick either of NaN and RANGE: a NaN entry fails the last comparison anyway
+        let least = (entries * splat(simd, SMALLEST_PIVOT)).max(splat(simd, RANGE));
         let good = pivots.simd_gt(least).to_bitmask()
             & entries.simd_lt(splat(simd, 1.0 / RANGE)).to_bitmask();
         self.bad |= good & 0x3f != 0x3f;
         // column 0 has no upper triangle; lower triangles show in the pivots
         let [_, c1, c2, c3, c4, c5] = *columns;
-        self.sum = self.sum + ((c1 + c2) + (c3 + c4) + c5);
+        self.sum += (c1 + c2) + (c3 + c4) + c5;
     }
 }
 
@@ -102,8 +103,8 @@ impl<S: Simd> Step<'_, S> {
         l[K] = w[K] * inverse;
         for c in K + 1..6 {
             let u = splat(*simd, node.columns.0[K][c]);
-            d[c] = d[c] - below * u;
-            w[c] = w[c] - l[K] * u;
+            d[c] -= below * u;
+            w[c] -= l[K] * u;
         }
     }
 
@@ -148,12 +149,12 @@ fn eliminate_node<S: Simd>(
     let mut gain = w;
     for k in (0..6).rev() {
         for j in k + 1..6 {
-            gain[k] = gain[k] - gain[j] * splat(simd, node.columns.0[k][j]);
+            gain[k] -= gain[j] * splat(simd, node.columns.0[k][j]);
         }
-        gain[k] = gain[k] * splat(simd, node.inverse[k]);
+        gain[k] *= splat(simd, node.inverse[k]);
     }
     // column 0 contains every other column times something, 0 * infinity included
-    health.sum = health.sum + gain[0];
+    health.sum += gain[0];
     for c in 0..6 {
         gain[c].store_array(&mut node.gain.0[c]);
     }
@@ -223,7 +224,7 @@ pub(super) fn factor<S: Simd>(simd: S, a: &BlockTridiagonal, nodes: &mut [Node])
     }
     if from_below > 0 {
         for c in 0..6 {
-            top[c] = top[c] + bottom[c];
+            top[c] += bottom[c];
         }
     }
     let mut step = Step {
