@@ -17,6 +17,7 @@ use crate::bending::t1::T1;
 use crate::bending::t2::T2;
 use crate::bending::{Bending, NoBending};
 use crate::element::gram::Control;
+use crate::element::mass;
 use crate::element::kernel::{self, Blocks, Stiffness};
 use crate::linalg::{Block, BlockTridiagonal};
 use crate::rule::BendingRule;
@@ -24,6 +25,10 @@ use fearless_simd::{Level, Simd, SimdBase, dispatch, f64x8};
 
 /// Elements evaluated together.
 const LANES: usize = 8;
+
+/// Rows and columns, over (r_i, t_i, r_j, t_j), of the entries of the mass matrix that lanes load.
+const MASS_ENTRIES: [(usize, usize); 10] =
+    [(0, 0), (0, 1), (1, 1), (2, 0), (2, 1), (3, 0), (3, 1), (2, 2), (2, 3), (3, 3)];
 
 /// A bending rule with its numbers.
 #[derive(Clone, Debug)]
@@ -56,6 +61,8 @@ pub(crate) struct Elements {
     scale: Vec<f64>,
     axial: Vec<f64>,
     flexural: Vec<f64>,
+    /// Entries of the element's mass matrix: (i, i) rr, rt, tt; (j, i) rr, rt, tr, tt; (j, j) rr, rt, tt. Padded likewise.
+    mass: [Vec<f64>; 10],
 }
 
 impl Elements {
@@ -78,6 +85,9 @@ impl Elements {
             scale: padded(&|e| 3.0 / e.length),
             axial: padded(&|e| 0.25 * e.section.axial_stiffness * e.length),
             flexural: padded(&|e| 2.0 * e.section.bending_stiffness / e.length),
+            mass: MASS_ENTRIES.map(|(row, column)| {
+                padded(&|e| mass::consistent(e.section.mass_per_length, e.length)[row][column])
+            }),
         }
     }
 
@@ -111,31 +121,29 @@ impl Elements {
         with_bending!(&self.bending, b => dispatch!(level, simd => self.force_lanes(simd, b, q, scale, out)));
     }
 
-    /// Adds `scale` times the elastic force to `out` and `scale` times its negative derivative (the stiffness) to `a`.
-    pub fn add_force_and_tangent(
+    /// Adds `scale` times the elastic force to `out`, and overwrites `a` by `scale` times its negative derivative (the
+    /// stiffness) plus `mass_scale` times the mass matrix.
+    pub fn add_force_and_matrix(
         &self,
         level: Level,
         q: &[f64],
         scale: f64,
+        mass_scale: f64,
         out: &mut [f64],
         a: &mut BlockTridiagonal,
     ) {
-        with_bending!(&self.bending, b => dispatch!(level, simd => self.tangent_lanes(simd, b, q, scale, out, a)));
+        with_bending!(&self.bending, b => dispatch!(level, simd => {
+            self.matrix_lanes(simd, b, q, scale, mass_scale, out, a)
+        }));
     }
 
     /// Gathers control vectors and stiffness of the group of elements that begins at `first`.
     #[inline(always)]
-    fn gather<S: Simd>(
-        &self,
-        simd: S,
-        first: usize,
-        q: &[f64],
-        scale: f64,
-    ) -> (Control<f64x8<S>>, Stiffness<f64x8<S>>, f64x8<S>) {
+    fn gather<S: Simd>(&self, simd: S, first: usize, q: &[f64], scale: f64) -> (Control<f64x8<S>>, Stiffness<f64x8<S>>) {
         let mut raw = [[[0.0f64; LANES]; 3]; 3];
         for lane in 0..LANES {
             let e = (first + lane).min(self.count - 1);
-            let n: &[f64; 12] = q[6 * e..6 * e + 12].try_into().expect("twelve coordinates");
+            let n = &q[6 * e..6 * e + 12];
             let s = self.scale[e];
             for x in 0..3 {
                 raw[0][x][lane] = n[3 + x];
@@ -143,100 +151,153 @@ impl Elements {
                 raw[2][x][lane] = n[9 + x];
             }
         }
-        let load = |values: &[f64]| f64x8::from_slice(simd, &values[..LANES]);
-        let d = core::array::from_fn(|k| core::array::from_fn(|x| load(&raw[k][x])));
-        let stiffness =
-            Stiffness { axial: load(&self.axial[first..]) * scale, bending: load(&self.flexural[first..]) * scale };
-        (d, stiffness, load(&self.scale[first..]))
+        let mut d = [[f64x8::splat(simd, 0.0); 3]; 3];
+        for k in 0..3 {
+            for x in 0..3 {
+                d[k][x] = f64x8::from_slice(simd, &raw[k][x]);
+            }
+        }
+        let stiffness = Stiffness {
+            axial: load(simd, &self.axial, first) * scale,
+            bending: load(simd, &self.flexural, first) * scale,
+        };
+        (d, stiffness)
     }
 
     #[inline(always)]
     fn force_lanes<S: Simd, B: Bending>(&self, simd: S, bending: &B, q: &[f64], scale: f64, out: &mut [f64]) {
         for first in (0..self.count).step_by(LANES) {
-            let (d, stiffness, s) = self.gather(simd, first, q, scale);
+            let (d, stiffness) = self.gather(simd, first, q, scale);
             let force = kernel::force(&self.table, bending, stiffness, &d);
-            self.scatter_force(first, &force, s, out);
+            self.scatter_force(simd, first, &force, out);
         }
     }
 
     #[inline(always)]
-    fn tangent_lanes<S: Simd, B: Bending>(
+    fn matrix_lanes<S: Simd, B: Bending>(
         &self,
         simd: S,
         bending: &B,
         q: &[f64],
         scale: f64,
+        mass_scale: f64,
         out: &mut [f64],
         a: &mut BlockTridiagonal,
     ) {
+        a.diag[0] = Block::ZERO;
         for first in (0..self.count).step_by(LANES) {
-            let (d, stiffness, s) = self.gather(simd, first, q, scale);
+            let (d, stiffness) = self.gather(simd, first, q, scale);
             let (force, blocks) = kernel::force_and_tangent(&self.table, bending, stiffness, &d);
-            self.scatter_force(first, &force, s, out);
-            self.scatter_tangent(first, blocks, s, a);
+            self.scatter_force(simd, first, &force, out);
+            self.scatter_matrix(simd, first, &blocks, mass_scale, a);
         }
     }
 
     #[inline(always)]
-    fn scatter_force<S: Simd>(&self, first: usize, g: &Control<f64x8<S>>, s: f64x8<S>, out: &mut [f64]) {
-        let store = |v: &[f64x8<S>; 3]| -> [[f64; LANES]; 3] { v.map(|x| x.into()) };
-        let (g0, g1, g2) = (store(&g[0]), store(&g[1].map(|x| x * s)), store(&g[2]));
+    fn scatter_force<S: Simd>(&self, simd: S, first: usize, g: &Control<f64x8<S>>, out: &mut [f64]) {
+        let s = load(simd, &self.scale, first);
+        let mut raw = [[[0.0f64; LANES]; 3]; 3];
+        for x in 0..3 {
+            g[0][x].store_slice(&mut raw[0][x]);
+            (g[1][x] * s).store_slice(&mut raw[1][x]);
+            g[2][x].store_slice(&mut raw[2][x]);
+        }
         for lane in 0..LANES.min(self.count - first) {
-            let n: &mut [f64; 12] =
-                (&mut out[6 * (first + lane)..6 * (first + lane) + 12]).try_into().expect("twelve coordinates");
+            let n = &mut out[6 * (first + lane)..6 * (first + lane) + 12];
             for x in 0..3 {
-                n[x] += g1[x][lane];
-                n[3 + x] -= g0[x][lane];
-                n[6 + x] -= g1[x][lane];
-                n[9 + x] -= g2[x][lane];
+                n[x] += raw[1][x][lane];
+                n[3 + x] -= raw[0][x][lane];
+                n[6 + x] -= raw[1][x][lane];
+                n[9 + x] -= raw[2][x][lane];
             }
         }
     }
 
+    /// Turns the 3x3 blocks over control vectors into 6x6 blocks over nodes, one column of one element per vector of lanes.
     #[inline(always)]
-    fn scatter_tangent<S: Simd>(
+    fn scatter_matrix<S: Simd>(
         &self,
+        simd: S,
         first: usize,
-        blocks: Blocks<f64x8<S>>,
-        s: f64x8<S>,
+        blocks: &Blocks<f64x8<S>>,
+        mass_scale: f64,
         a: &mut BlockTridiagonal,
     ) {
-        let store = |b: [[f64x8<S>; 3]; 3]| -> [[[f64; LANES]; 3]; 3] { b.map(|row| row.map(|x| x.into())) };
-        let times = |b: [[f64x8<S>; 3]; 3], f: f64x8<S>| b.map(|row| row.map(|x| x * f));
         let [k00, k01, k02, k11, k12, k22] = blocks;
-        let (k00, k02, k22) = (store(k00), store(k02), store(k22));
-        let (k01, k12, k11) = (store(times(k01, s)), store(times(k12, s)), store(times(times(k11, s), s)));
-        for lane in 0..LANES.min(self.count - first) {
-            let e = first + lane;
-            let at = |k: &[[[f64; LANES]; 3]; 3], r: usize, c: usize| k[r][c][lane];
-            let lower = &mut a.lower[e].0;
-            for c in 0..3 {
-                for r in 0..3 {
-                    lower[c][r] -= at(&k11, r, c);
-                    lower[3 + c][r] += at(&k01, c, r);
-                    lower[c][3 + r] -= at(&k12, c, r);
-                    lower[3 + c][3 + r] += at(&k02, c, r);
-                }
+        let zero = f64x8::splat(simd, 0.0);
+        let s = load(simd, &self.scale, first);
+        let mut mass = [zero; 10];
+        for (m, values) in mass.iter_mut().zip(&self.mass) {
+            *m = load(simd, values, first) * mass_scale;
+        }
+        let count = LANES.min(self.count - first);
+        for c in 0..3 {
+            // columns of r_i and t_i, then of r_j and t_j
+            let (mut ii_r, mut ii_t) = ([zero; LANES], [zero; LANES]);
+            let (mut ji_r, mut ji_t) = ([zero; LANES], [zero; LANES]);
+            let (mut jj_r, mut jj_t) = ([zero; LANES], [zero; LANES]);
+            for r in 0..3 {
+                let rr = k11[r][c] * s * s;
+                ii_r[r] = rr;
+                jj_r[r] = rr;
+                ji_r[r] = -rr;
+                ii_r[3 + r] = -(k01[r][c] * s);
+                ii_t[r] = -(k01[c][r] * s);
+                ii_t[3 + r] = k00[r][c];
+                ji_r[3 + r] = -(k12[c][r] * s);
+                ji_t[r] = k01[c][r] * s;
+                ji_t[3 + r] = k02[c][r];
+                jj_r[3 + r] = k12[c][r] * s;
+                jj_t[r] = k12[r][c] * s;
+                jj_t[3 + r] = k22[r][c];
             }
-            let (head, tail) = a.diag.split_at_mut(e + 1);
-            let (i, j): (&mut Block, &mut Block) = (&mut head[e], &mut tail[0]);
-            for c in 0..3 {
-                for r in 0..3 {
-                    i.0[c][r] += at(&k11, r, c);
-                    i.0[c][3 + r] -= at(&k01, r, c);
-                    i.0[3 + c][r] -= at(&k01, c, r);
-                    i.0[3 + c][3 + r] += at(&k00, r, c);
-                    j.0[c][r] += at(&k11, r, c);
-                    j.0[c][3 + r] += at(&k12, c, r);
-                    j.0[3 + c][r] += at(&k12, r, c);
-                    j.0[3 + c][3 + r] += at(&k22, r, c);
+            ii_r[c] = ii_r[c] + mass[0];
+            ii_r[3 + c] = ii_r[3 + c] + mass[1];
+            ii_t[c] = ii_t[c] + mass[1];
+            ii_t[3 + c] = ii_t[3 + c] + mass[2];
+            ji_r[c] = ji_r[c] + mass[3];
+            ji_t[c] = ji_t[c] + mass[4];
+            ji_r[3 + c] = ji_r[3 + c] + mass[5];
+            ji_t[3 + c] = ji_t[3 + c] + mass[6];
+            jj_r[c] = jj_r[c] + mass[7];
+            jj_r[3 + c] = jj_r[3 + c] + mass[8];
+            jj_t[c] = jj_t[c] + mass[8];
+            jj_t[3 + c] = jj_t[3 + c] + mass[9];
+            for (column, ii, ji, jj) in [(c, ii_r, ji_r, jj_r), (3 + c, ii_t, ji_t, jj_t)] {
+                let (ii, ji, jj) = (transpose(ii), transpose(ji), transpose(jj));
+                for lane in 0..count {
+                    let e = first + lane;
+                    ji[lane].store_slice(&mut a.lower[e].0[column]);
+                    // the left neighbour wrote its share of the diagonal block before
+                    let diagonal = &mut a.diag[e].0[column];
+                    (f64x8::from_slice(simd, diagonal) + ii[lane]).store_slice(diagonal);
+                    jj[lane].store_slice(&mut a.diag[e + 1].0[column]);
                 }
             }
         }
     }
+}
+
+/// Eight consecutive values from `first` on.
+#[inline(always)]
+fn load<S: Simd>(simd: S, values: &[f64], first: usize) -> f64x8<S> {
+    f64x8::from_slice(simd, &values[first..first + LANES])
+}
+
+/// Transposes an 8x8 matrix: three rounds of a perfect shuffle rotate the six address bits by three.
+#[inline(always)]
+fn transpose<S: Simd>(mut m: [f64x8<S>; LANES]) -> [f64x8<S>; LANES] {
+    for _ in 0..3 {
+        let mut next = m;
+        for i in 0..4 {
+            next[2 * i] = m[i].zip_low(m[i + 4]);
+            next[2 * i + 1] = m[i].zip_high(m[i + 4]);
+        }
+        m = next;
+    }
+    m
 }
 
 fn absent<B: Bending>(_: &B) -> bool {
     B::ABSENT
 }
-

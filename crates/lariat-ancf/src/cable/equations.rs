@@ -17,6 +17,8 @@ use crate::linalg::Definiteness;
 const MAX_ITERATIONS: usize = 12;
 /// Largest change of a slope vector in one Newton iteration.
 const SLOPE_CAP: f64 = 0.5;
+/// Newton's tolerance is at most this share of the displacement that the acceleration makes in the stage.
+const RELATIVE_TOLERANCE: f64 = 1e-3;
 /// One iteration is enough if the second increment is below this share of the first.
 const ONCE_CONTRACTION: f64 = 0.1;
 
@@ -52,9 +54,7 @@ impl Equations<'_> {
     pub fn force_and_matrix(&mut self, time: f64, q: &[f64], scale: f64, mass_scale: f64, out: &mut [f64]) {
         out.fill(0.0);
         let system = &mut *self.system;
-        system.matrix.clear();
-        system.add_mass(mass_scale);
-        system.elements.add_force_and_tangent(system.level, q, scale, out, &mut system.matrix);
+        system.elements.add_force_and_matrix(system.level, q, scale, mass_scale, out, &mut system.matrix);
         self.count_elements(true);
         self.system.add_loads(self.model, time, q, scale, out, true, self.diagnostics);
     }
@@ -102,6 +102,9 @@ impl Equations<'_> {
             Newton::Converge(tolerance) => (tolerance, false),
             Newton::Once(tolerance) => (tolerance, true),
         };
+        // z = c2 k: in a very short step the tolerance must not swallow the acceleration; below rounding it cannot be met
+        let rounding = 4.0 * f64::EPSILON * base.iter().fold(1.0f64, |m, x| m.max(x.abs()));
+        let tolerance = tolerance.min(RELATIVE_TOLERANCE * self.system.displacement(z)).max(rounding);
         let mut before = f64::INFINITY;
         let mut scratch = core::mem::take(&mut self.system.product);
         let outcome = (|| {
