@@ -23,7 +23,7 @@ fn main() {
         for control in controls {
             let mut cable = Cable::builder().points([Vector3::zeros(), Vector3::new(2.0, 0.0, 0.0)])
                 .section(Section::square(0.01, 1.0e8, 4000.0).unwrap()).elements(10).fix(At::Start)
-                .rule(Rule::gauss(10, 10).unwrap()).integrator(Integrator { method, control }).build().unwrap();
+                .rule(Rule::gauss(5, 3).unwrap()).integrator(Integrator { method, control }).build().unwrap();
             let t0 = Instant::now();
             let (mut worst, mut worst_e) = (0.0f64, 0.0f64);
             let mut failed = None;

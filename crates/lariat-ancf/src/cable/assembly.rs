@@ -223,59 +223,68 @@ impl Elements {
         mass_scale: f64,
         a: &mut BlockTridiagonal,
     ) {
-        let [k00, k01, k02, k11, k12, k22] = blocks;
-        let zero = f64x8::splat(simd, 0.0);
-        let s = load(simd, &self.scale, first);
-        let mut mass = [zero; 10];
-        for (m, values) in mass.iter_mut().zip(&self.mass) {
-            *m = load(simd, values, first) * mass_scale;
+        let mut mass = [f64x8::splat(simd, 0.0); 10];
+        for i in 0..10 {
+            mass[i] = load(simd, &self.mass[i], first) * mass_scale;
         }
+        let s = load(simd, &self.scale, first);
         let count = LANES.min(self.count - first);
-        for c in 0..3 {
-            // columns of r_i and t_i, then of r_j and t_j
-            let (mut ii_r, mut ii_t) = ([zero; LANES], [zero; LANES]);
-            let (mut ji_r, mut ji_t) = ([zero; LANES], [zero; LANES]);
-            let (mut jj_r, mut jj_t) = ([zero; LANES], [zero; LANES]);
-            for r in 0..3 {
-                let rr = k11[r][c] * s * s;
-                ii_r[r] = rr;
-                jj_r[r] = rr;
-                ji_r[r] = -rr;
-                ii_r[3 + r] = -(k01[r][c] * s);
-                ii_t[r] = -(k01[c][r] * s);
-                ii_t[3 + r] = k00[r][c];
-                ji_r[3 + r] = -(k12[c][r] * s);
-                ji_t[r] = k01[c][r] * s;
-                ji_t[3 + r] = k02[c][r];
-                jj_r[3 + r] = k12[c][r] * s;
-                jj_t[r] = k12[r][c] * s;
-                jj_t[3 + r] = k22[r][c];
-            }
-            ii_r[c] = ii_r[c] + mass[0];
-            ii_r[3 + c] = ii_r[3 + c] + mass[1];
-            ii_t[c] = ii_t[c] + mass[1];
-            ii_t[3 + c] = ii_t[3 + c] + mass[2];
-            ji_r[c] = ji_r[c] + mass[3];
-            ji_t[c] = ji_t[c] + mass[4];
-            ji_r[3 + c] = ji_r[3 + c] + mass[5];
-            ji_t[3 + c] = ji_t[3 + c] + mass[6];
-            jj_r[c] = jj_r[c] + mass[7];
-            jj_r[3 + c] = jj_r[3 + c] + mass[8];
-            jj_t[c] = jj_t[c] + mass[8];
-            jj_t[3 + c] = jj_t[3 + c] + mass[9];
-            for (column, ii, ji, jj) in [(c, ii_r, ji_r, jj_r), (3 + c, ii_t, ji_t, jj_t)] {
-                let (ii, ji, jj) = (transpose(ii), transpose(ji), transpose(jj));
-                for lane in 0..count {
-                    let e = first + lane;
-                    ji[lane].store_slice(&mut a.lower[e].0[column]);
-                    // the left neighbour wrote its share of the diagonal block before
-                    let diagonal = &mut a.diag[e].0[column];
-                    (f64x8::from_slice(simd, diagonal) + ii[lane]).store_slice(diagonal);
-                    jj[lane].store_slice(&mut a.diag[e + 1].0[column]);
-                }
-            }
+        self.scatter_columns::<S, 0>(simd, first, count, blocks, &mass, s, a);
+        self.scatter_columns::<S, 1>(simd, first, count, blocks, &mass, s, a);
+        self.scatter_columns::<S, 2>(simd, first, count, blocks, &mass, s, a);
+    }
+
+    /// Columns `C` (of the position) and `3 + C` (of the slope).
+    #[inline(always)]
+    fn scatter_columns<S: Simd, const C: usize>(
+        &self,
+        simd: S,
+        first: usize,
+        count: usize,
+        [k00, k01, k02, k11, k12, k22]: &Blocks<f64x8<S>>,
+        mass: &[f64x8<S>; 10],
+        s: f64x8<S>,
+        a: &mut BlockTridiagonal,
+    ) {
+        let rr = [k11[0][C] * s * s, k11[1][C] * s * s, k11[2][C] * s * s];
+        // rows of the position, then of the slope
+        let (ii_r, ii_t) = (
+            [rr[0], rr[1], rr[2], -(k01[0][C] * s), -(k01[1][C] * s), -(k01[2][C] * s)],
+            [-(k01[C][0] * s), -(k01[C][1] * s), -(k01[C][2] * s), k00[0][C], k00[1][C], k00[2][C]],
+        );
+        let (ji_r, ji_t) = (
+            [-rr[0], -rr[1], -rr[2], -(k12[C][0] * s), -(k12[C][1] * s), -(k12[C][2] * s)],
+            [k01[C][0] * s, k01[C][1] * s, k01[C][2] * s, k02[C][0], k02[C][1], k02[C][2]],
+        );
+        let (jj_r, jj_t) = (
+            [rr[0], rr[1], rr[2], k12[C][0] * s, k12[C][1] * s, k12[C][2] * s],
+            [k12[0][C] * s, k12[1][C] * s, k12[2][C] * s, k22[0][C], k22[1][C], k22[2][C]],
+        );
+        let ii = [transpose(simd, with_mass::<S, C>(ii_r, mass[0], mass[1])), transpose(simd, with_mass::<S, C>(ii_t, mass[1], mass[2]))];
+        let ji = [transpose(simd, with_mass::<S, C>(ji_r, mass[3], mass[5])), transpose(simd, with_mass::<S, C>(ji_t, mass[4], mass[6]))];
+        let jj = [transpose(simd, with_mass::<S, C>(jj_r, mass[7], mass[8])), transpose(simd, with_mass::<S, C>(jj_t, mass[8], mass[9]))];
+        for lane in 0..count {
+            let e = first + lane;
+            let lower = &mut a.lower[e].0;
+            ji[0][lane].store_slice(&mut lower[C]);
+            ji[1][lane].store_slice(&mut lower[3 + C]);
+            // the left neighbour wrote its share of the diagonal block before
+            let diagonal = &mut a.diag[e].0;
+            (f64x8::from_slice(simd, &diagonal[C]) + ii[0][lane]).store_slice(&mut diagonal[C]);
+            (f64x8::from_slice(simd, &diagonal[3 + C]) + ii[1][lane]).store_slice(&mut diagonal[3 + C]);
+            let next = &mut a.diag[e + 1].0;
+            jj[0][lane].store_slice(&mut next[C]);
+            jj[1][lane].store_slice(&mut next[3 + C]);
         }
     }
+}
+
+/// Adds the mass of axis `C`: `r` to the position's row, `t` to the slope's.
+#[inline(always)]
+fn with_mass<S: Simd, const C: usize>(mut column: [f64x8<S>; 6], r: f64x8<S>, t: f64x8<S>) -> [f64x8<S>; 6] {
+    column[C] = column[C] + r;
+    column[3 + C] = column[3 + C] + t;
+    column
 }
 
 /// Eight consecutive values from `first` on.
@@ -284,18 +293,25 @@ fn load<S: Simd>(simd: S, values: &[f64], first: usize) -> f64x8<S> {
     f64x8::from_slice(simd, &values[first..first + LANES])
 }
 
-/// Transposes an 8x8 matrix: three rounds of a perfect shuffle rotate the six address bits by three.
+/// Transposes six rows and two of zeros: three rounds of a perfect shuffle rotate the six address bits by three.
 #[inline(always)]
-fn transpose<S: Simd>(mut m: [f64x8<S>; LANES]) -> [f64x8<S>; LANES] {
-    for _ in 0..3 {
-        let mut next = m;
-        for i in 0..4 {
-            next[2 * i] = m[i].zip_low(m[i + 4]);
-            next[2 * i + 1] = m[i].zip_high(m[i + 4]);
-        }
-        m = next;
-    }
-    m
+fn transpose<S: Simd>(simd: S, m: [f64x8<S>; 6]) -> [f64x8<S>; LANES] {
+    let zero = f64x8::splat(simd, 0.0);
+    shuffle(shuffle(shuffle([m[0], m[1], m[2], m[3], m[4], m[5], zero, zero])))
+}
+
+#[inline(always)]
+fn shuffle<S: Simd>(m: [f64x8<S>; LANES]) -> [f64x8<S>; LANES] {
+    [
+        m[0].zip_low(m[4]),
+        m[0].zip_high(m[4]),
+        m[1].zip_low(m[5]),
+        m[1].zip_high(m[5]),
+        m[2].zip_low(m[6]),
+        m[2].zip_high(m[6]),
+        m[3].zip_low(m[7]),
+        m[3].zip_high(m[7]),
+    ]
 }
 
 fn absent<B: Bending>(_: &B) -> bool {

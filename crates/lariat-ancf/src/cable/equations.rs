@@ -1,9 +1,12 @@
 //! The equations of one cable, `M q'' = F(q, t)`, as the integrators see them.
 //!
-//! Newton for a stage `M z = c2 F(base + z)`: `(M + c2 K) dz = c2 F - M z`, a fresh tangent each time, full steps under a cap on
-//! the change of slope. *Stop.* With increments d_k, the next is predicted as d_k (d_k/d_{k-1})^2 (quadratic convergence); the
+//! Newton for a stage `M z = c2 F(base + z)`: `(M + c2 K) dz = c2 F - M z`, full steps under a cap on the change of slope. A
+//! factored tangent is tried again at the next iteration, and at the next stage of the same step, as long as increments shrink by
+//! 0.3 or more with it (a force and a solve cost a third of a new tangent); at the first that does not, it is dropped.
+//! *Stop.* What is left after increment d_k is predicted as 2 d_k^2/d_{k-1} with a kept tangent, d_k^3/d_{k-1}^2 with a fresh one; the
 //! iteration ends when that, or d_k itself, is below the tolerance. *Rejected.* A line search on the residual (stagnates on thin
-//! cables: the residual of stiff axial modes hides the progress of the bending modes), frozen tangents (diverge).
+//! cables: the residual of stiff axial modes hides the progress of the bending modes); a tangent kept blindly over a step (Newton
+//! diverges on steel and steps shrink); tangents kept across host steps (a restored snapshot would not replay bitwise).
 
 use super::model::Model;
 use super::projection::{project_matrix, project_vector};
@@ -19,6 +22,8 @@ const MAX_ITERATIONS: usize = 12;
 const SLOPE_CAP: f64 = 0.5;
 /// Newton's tolerance is at most this share of the displacement that the acceleration makes in the stage.
 const RELATIVE_TOLERANCE: f64 = 1e-3;
+/// A tangent is kept for the next iteration or stage while increments shrink by this factor.
+const CHORD_CONTRACTION: f64 = 0.3;
 /// One iteration is enough if the second increment is below this share of the first.
 const ONCE_CONTRACTION: f64 = 0.1;
 
@@ -97,6 +102,7 @@ impl Equations<'_> {
         y: &mut [f64],
         z: &mut [f64],
         rhs: &mut [f64],
+        product: &mut [f64],
     ) -> Result<(), StepFailure> {
         let (tolerance, once) = match stage.newton {
             Newton::Converge(tolerance) => (tolerance, false),
@@ -105,54 +111,53 @@ impl Equations<'_> {
         // z = c2 k: in a very short step the tolerance must not swallow the acceleration; below rounding it cannot be met
         let rounding = 4.0 * f64::EPSILON * base.iter().fold(1.0f64, |m, x| m.max(x.abs()));
         let tolerance = tolerance.min(RELATIVE_TOLERANCE * self.system.displacement(z)).max(rounding);
+        let mut chord = stage.reuse && self.system.factored == stage.c2;
+        let mut chords_contract = true;
         let mut before = f64::INFINITY;
-        let mut scratch = core::mem::take(&mut self.system.product);
-        let outcome = (|| {
-            for iteration in 1..=MAX_ITERATIONS {
-                self.diagnostics.newton_iterations += 1;
-                self.residual(stage, y, z, rhs, &mut scratch, true);
+        for iteration in 1..=MAX_ITERATIONS {
+            self.diagnostics.newton_iterations += 1;
+            self.residual(stage, y, z, rhs, product, !chord);
+            if !chord {
+                self.system.factored = 0.0;
                 self.factor()?;
-                self.solve(rhs);
-                let largest = rhs.chunks_exact(6).fold(0.0f64, |m, x| m.max(x[3].abs()).max(x[4].abs()).max(x[5].abs()));
-                let damp = if largest > SLOPE_CAP { SLOPE_CAP / largest } else { 1.0 };
-                let mut size = damp * self.system.displacement(rhs);
-                if !size.is_finite() {
-                    return Err(not_finite("Newton increment", rhs));
-                }
-                for i in 0..z.len() {
-                    z[i] += damp * rhs[i];
-                    y[i] = base[i] + z[i];
-                }
-                if once && iteration == 1 && damp == 1.0 {
-                    self.residual(stage, y, z, rhs, &mut scratch, false);
-                    self.solve(rhs);
-                    let second = self.system.displacement(rhs);
-                    if second.is_nan() {
-                        return Err(not_finite("Newton increment", rhs));
-                    }
-                    if second <= ONCE_CONTRACTION * size || second <= tolerance {
-                        for i in 0..z.len() {
-                            z[i] += rhs[i];
-                            y[i] = base[i] + z[i];
-                        }
-                        return Ok(());
-                    }
-                    size = size.max(second);
-                }
-                let ratio = size / before;
-                let next = if iteration == 1 { size } else { size * ratio * ratio };
-                if damp == 1.0 && size.min(next) <= tolerance {
-                    return Ok(());
-                }
-                if iteration == MAX_ITERATIONS || (iteration > 4 && ratio > 2.0) {
-                    return Err(StepFailure::NotConverged { iterations: iteration, increment: size });
-                }
-                before = size;
+                self.system.factored = stage.c2;
             }
-            unreachable!("the loop returns at its last iteration")
-        })();
-        self.system.product = scratch;
-        outcome
+            self.solve(rhs);
+            let slope = rhs.chunks_exact(6).fold(0.0f64, |m, x| m.max(x[3].abs()).max(x[4].abs()).max(x[5].abs()));
+            let damp = if slope > SLOPE_CAP { SLOPE_CAP / slope } else { 1.0 };
+            let size = damp * self.system.displacement(rhs);
+            let ratio = size / before;
+            if chord && !(ratio < CHORD_CONTRACTION || iteration == 1 && damp == 1.0) {
+                // the old tangent does not serve: drop this increment and take a new one
+                chord = false;
+                chords_contract = false;
+                if size.is_finite() {
+                    continue;
+                }
+            }
+            if !size.is_finite() {
+                return Err(not_finite("Newton increment", rhs));
+            }
+            for i in 0..z.len() {
+                z[i] += damp * rhs[i];
+                y[i] = base[i] + z[i];
+            }
+            // what is left, if increments go on as they did: with one tangent linearly, with fresh ones quadratically
+            let left = match (iteration, chord) {
+                (1, _) => size,
+                (_, true) => size * (2.0 * ratio).min(1.0),
+                (_, false) => size * ratio * ratio,
+            };
+            if damp == 1.0 && (left.min(size) <= tolerance || once && chord && ratio <= ONCE_CONTRACTION) {
+                return Ok(());
+            }
+            if iteration == MAX_ITERATIONS || (!chord && iteration > 5 && ratio > 2.0) {
+                return Err(StepFailure::NotConverged { iterations: iteration, increment: size });
+            }
+            chord = chords_contract && damp == 1.0;
+            before = size;
+        }
+        unreachable!("the loop returns at its last iteration")
     }
 }
 
@@ -229,7 +234,9 @@ impl Dynamics for Equations<'_> {
             z[i] = stage.c2 * acceleration[i];
             y[i] = base[i] + z[i];
         }
-        let outcome = self.newton(stage, base, y, &mut z, &mut rhs);
+        let mut product = core::mem::take(&mut self.system.product);
+        let outcome = self.newton(stage, base, y, &mut z, &mut rhs, &mut product);
+        self.system.product = product;
         for i in 0..z.len() {
             acceleration[i] = z[i] / stage.c2;
         }

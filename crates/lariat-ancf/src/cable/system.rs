@@ -39,6 +39,8 @@ pub(crate) struct System {
     pub product: Vec<f64>,
     pub z: Vec<f64>,
     pub frequency_bound: f64,
+    /// c2 of the stage whose matrix is factored; 0 = none.
+    pub factored: f64,
 }
 
 impl System {
@@ -77,6 +79,7 @@ impl System {
             product: vec![0.0; 6 * nodes],
             z: vec![0.0; 6 * nodes],
             frequency_bound: super::frequency::bound(model),
+            factored: 0.0,
         };
         system.factor_mass(model)?;
         Ok(system)

@@ -33,6 +33,23 @@ impl Tableau {
         self.a[i].iter().sum()
     }
 
+    /// Guesses the acceleration of stage `i` by the polynomial through those of the stages before it.
+    fn predict(&self, i: usize, before: &[Vec<f64>], at_start: &[f64], k: &mut [f64]) {
+        if before.is_empty() {
+            k.copy_from_slice(at_start);
+            return;
+        }
+        k.fill(0.0);
+        // the last three stages at most: higher polynomials amplify what is not smooth
+        let first = i.saturating_sub(3);
+        for j in first..i {
+            let weight = (first..i).filter(|&m| m != j).fold(1.0, |w, m| {
+                w * (self.c(i) - self.c(m)) / (self.c(j) - self.c(m))
+            });
+            add(k, weight, &before[j]);
+        }
+    }
+
     /// True if the last stage is the result.
     pub fn stiffly_accurate(&self) -> bool {
         self.a[self.a.len() - 1] == self.b
@@ -80,12 +97,13 @@ impl OneStep for Tableau {
             add(base, diagonal, velocity_base);
             let (before, rest) = stage_k.split_at_mut(i);
             let k = &mut rest[0];
-            k.copy_from_slice(before.last().unwrap_or(&now.memory.acceleration));
+            self.predict(i, before, &now.memory.acceleration, k);
             let stage = Stage {
                 time: now.time + self.c(i) * h,
                 c2: diagonal * diagonal,
                 rate: 1.0 / diagonal,
                 newton: Newton::Converge(newton_tolerance),
+                reuse: i > 1,
             };
             system.solve_stage(&stage, base, velocity_base, &mut next.q, k)?;
             let v = &mut stage_v[i];

@@ -23,6 +23,8 @@ pub struct Stage {
     pub rate: f64,
     /// When to stop.
     pub newton: Newton,
+    /// Whether the tangent of the stage before may be tried first.
+    pub reuse: bool,
 }
 
 /// A mechanical system `M q'' = F(q, q', t)` with constant M, of which some coordinates may be prescribed in time.
