@@ -21,7 +21,7 @@ use crate::element::mass;
 use crate::element::kernel::{self, Blocks, Stiffness};
 use crate::linalg::{Block, BlockTridiagonal};
 use crate::rule::BendingRule;
-use fearless_simd::{Level, Simd, SimdBase, dispatch, f64x8};
+use fearless_simd::{Level, Simd, SimdBase, SimdFrom, dispatch, f64x8};
 
 /// Elements evaluated together.
 const LANES: usize = 8;
@@ -140,22 +140,18 @@ impl Elements {
     /// Gathers control vectors and stiffness of the group of elements that begins at `first`.
     #[inline(always)]
     fn gather<S: Simd>(&self, simd: S, first: usize, q: &[f64], scale: f64) -> (Control<f64x8<S>>, Stiffness<f64x8<S>>) {
-        let mut raw = [[[0.0f64; LANES]; 3]; 3];
-        for lane in 0..LANES {
+        let node = |lane: usize| -> &[f64; 12] {
             let e = (first + lane).min(self.count - 1);
-            let n = &q[6 * e..6 * e + 12];
-            let s = self.scale[e];
-            for x in 0..3 {
-                raw[0][x][lane] = n[3 + x];
-                raw[1][x][lane] = s * (n[6 + x] - n[x]);
-                raw[2][x][lane] = n[9 + x];
-            }
-        }
-        let mut d = [[f64x8::splat(simd, 0.0); 3]; 3];
-        for k in 0..3 {
-            for x in 0..3 {
-                d[k][x] = f64x8::from_slice(simd, &raw[k][x]);
-            }
+            q[6 * e..6 * e + 12].try_into().expect("twelve coordinates")
+        };
+        let n = [node(0), node(1), node(2), node(3), node(4), node(5), node(6), node(7)];
+        let s = load(simd, &self.scale, first);
+        let zero = f64x8::splat(simd, 0.0);
+        let mut d = [[zero; 3]; 3];
+        for x in 0..3 {
+            d[0][x] = lanes(simd, &n, 3 + x);
+            d[1][x] = (lanes(simd, &n, 6 + x) - lanes(simd, &n, x)) * s;
+            d[2][x] = lanes(simd, &n, 9 + x);
         }
         let stiffness = Stiffness {
             axial: load(simd, &self.axial, first) * scale,
@@ -285,6 +281,12 @@ fn with_mass<S: Simd, const C: usize>(mut column: [f64x8<S>; 6], r: f64x8<S>, t:
     column[C] = column[C] + r;
     column[3 + C] = column[3 + C] + t;
     column
+}
+
+/// Coordinate `i` of eight elements.
+#[inline(always)]
+fn lanes<S: Simd>(simd: S, n: &[&[f64; 12]; LANES], i: usize) -> f64x8<S> {
+    f64x8::simd_from(simd, [n[0][i], n[1][i], n[2][i], n[3][i], n[4][i], n[5][i], n[6][i], n[7][i]])
 }
 
 /// Eight consecutive values from `first` on.

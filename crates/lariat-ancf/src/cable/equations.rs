@@ -110,7 +110,7 @@ impl Equations<'_> {
         };
         // z = c2 k: in a very short step the tolerance must not swallow the acceleration; below rounding it cannot be met
         let rounding = 4.0 * f64::EPSILON * base.iter().fold(1.0f64, |m, x| m.max(x.abs()));
-        let tolerance = tolerance.min(RELATIVE_TOLERANCE * self.system.displacement(z)).max(rounding);
+        let tolerance = tolerance.min(RELATIVE_TOLERANCE * self.system.extent(z).0).max(rounding);
         let mut chord = stage.reuse && self.system.factored == stage.c2;
         let mut chords_contract = true;
         let mut before = f64::INFINITY;
@@ -123,9 +123,9 @@ impl Equations<'_> {
                 self.system.factored = stage.c2;
             }
             self.solve(rhs);
-            let slope = rhs.chunks_exact(6).fold(0.0f64, |m, x| m.max(x[3].abs()).max(x[4].abs()).max(x[5].abs()));
+            let (size, slope) = self.system.extent(rhs);
             let damp = if slope > SLOPE_CAP { SLOPE_CAP / slope } else { 1.0 };
-            let size = damp * self.system.displacement(rhs);
+            let size = damp * size;
             let ratio = size / before;
             if chord && !(ratio < CHORD_CONTRACTION || iteration == 1 && damp == 1.0) {
                 // the old tangent does not serve: drop this increment and take a new one
@@ -254,7 +254,7 @@ impl Dynamics for Equations<'_> {
     }
 
     fn norm(&self, error: &[f64]) -> f64 {
-        self.system.displacement(error)
+        self.system.extent(error).0
     }
 
     fn frequency_bound(&self) -> f64 {

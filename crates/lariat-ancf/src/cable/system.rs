@@ -222,14 +222,17 @@ impl System {
         }
     }
 
-    /// Largest component of a nodal vector as a displacement in m: of r, and of t over l/8.
-    pub fn displacement(&self, x: &[f64]) -> f64 {
-        x.chunks_exact(6).zip(&self.arm).fold(0.0f64, |worst, (x, arm)| {
-            let r = (x[0] * x[0] + x[1] * x[1] + x[2] * x[2]).sqrt();
-            let t = (x[3] * x[3] + x[4] * x[4] + x[5] * x[5]).sqrt() * arm;
-            let size = if r > t { r } else { t };
-            // a NaN must not hide behind a comparison
-            if size > worst || size.is_nan() { size } else { worst }
-        })
+    /// Largest component of a nodal vector as a displacement in m (of r, and of t over l/8), and the largest |t|.
+    pub fn extent(&self, x: &[f64]) -> (f64, f64) {
+        let (mut displacement, mut slope, mut not_finite) = (0.0f64, 0.0f64, 0.0f64);
+        for (x, arm) in x.chunks_exact(6).zip(&self.arm) {
+            let r = x[0] * x[0] + x[1] * x[1] + x[2] * x[2];
+            let t = x[3] * x[3] + x[4] * x[4] + x[5] * x[5];
+            displacement = displacement.max(r).max(arm * arm * t);
+            slope = slope.max(t);
+            // a sum carries the NaN that max drops
+            not_finite += 0.0 * (r + t);
+        }
+        (displacement.sqrt() + not_finite, slope.sqrt() + not_finite)
     }
 }
