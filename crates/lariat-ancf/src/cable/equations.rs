@@ -20,8 +20,9 @@ use crate::linalg::Definiteness;
 const MAX_ITERATIONS: usize = 12;
 /// Largest change of a slope vector in one Newton iteration.
 const SLOPE_CAP: f64 = 0.5;
-/// Newton's tolerance is at most this share of the displacement that the acceleration makes in the stage.
-const RELATIVE_TOLERANCE: f64 = 1e-3;
+/// Newton's tolerance is at most this share of the displacement that the acceleration makes in the stage, and of the strain
+/// that it makes in the cable (loosened a hundred times, steel gains energy and shows spurious tension at coarse tolerances).
+const RELATIVE_TOLERANCE: f64 = 1e-2;
 /// A tangent is kept for the next iteration or stage while increments shrink by this factor.
 const CHORD_CONTRACTION: f64 = 0.3;
 /// One iteration is enough if the second increment is below this share of the first.
@@ -108,9 +109,12 @@ impl Equations<'_> {
             Newton::Converge(tolerance) => (tolerance, false),
             Newton::Once(tolerance) => (tolerance, true),
         };
-        // z = c2 k: in a very short step the tolerance must not swallow the acceleration; below rounding it cannot be met
+        // z = c2 k. In a short step the tolerance must not swallow the acceleration; on a stiff cable a displacement d within
+        // the tolerance may be a large strain d/l, so EA d/l is held below a share of the inertia force rho A L k as well.
+        // Below rounding nothing can be met.
+        let scale = self.system.extent(z).0 * (self.system.stiff_time_squared / stage.c2).min(1.0);
         let rounding = 4.0 * f64::EPSILON * base.iter().fold(1.0f64, |m, x| m.max(x.abs()));
-        let tolerance = tolerance.min(RELATIVE_TOLERANCE * self.system.extent(z).0).max(rounding);
+        let tolerance = tolerance.min(RELATIVE_TOLERANCE * scale).max(rounding);
         let mut chord = stage.reuse && self.system.factored == stage.c2;
         let mut chords_contract = true;
         let mut before = f64::INFINITY;

@@ -41,6 +41,8 @@ pub(crate) struct System {
     pub frequency_bound: f64,
     /// c2 of the stage whose matrix is factored; 0 = none.
     pub factored: f64,
+    /// Smallest `L l rhoA/EA` in s^2: an acceleration k strains an element by this times k/l.
+    pub stiff_time_squared: f64,
 }
 
 impl System {
@@ -80,6 +82,9 @@ impl System {
             z: vec![0.0; 6 * nodes],
             frequency_bound: super::frequency::bound(model),
             factored: 0.0,
+            stiff_time_squared: model.elements.iter().fold(f64::INFINITY, |least, e| {
+                least.min(model.length() * e.length * e.section.mass_per_length / e.section.axial_stiffness)
+            }),
         };
         system.factor_mass(model)?;
         Ok(system)

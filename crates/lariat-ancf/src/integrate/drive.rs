@@ -2,7 +2,7 @@
 //!
 //! With a tolerance, a step h of a host step H is accepted if its estimated error is below `tolerance h/H` (error per unit
 //! step), so that the errors of a host step add up to the tolerance. The next h follows from the estimate's order p,
-//! `h (0.8 allowed/error)^(1/(p-1))`, within 1/5 and 3. What is left of the host step is split evenly once fewer than two steps
+//! `h (0.5 allowed/error)^(1/(p-1))`, within 1/5 and 3. What is left of the host step is split evenly once fewer than two steps
 //! remain, and the last step ends on the host's time to the bit. *Source.* Hairer & Wanner 1996, IV.8.
 //!
 //! A step that fails (Newton, a pivot, a number that is not finite) is retried at 1/4 of its length down to H/2^20; then the drive
@@ -16,7 +16,9 @@ use crate::error::StepFailure;
 /// Steps are not shortened below H times this.
 const SHORTEST: f64 = 1.0 / (1u64 << 20) as f64;
 /// Newton stops below this share of the error allowed to a step.
-const NEWTON_SHARE: f64 = 0.02;
+const NEWTON_SHARE: f64 = 0.1;
+/// The next step aims at this share of the allowed error: fewer rejections (one half costs less than 0.8, measured).
+const SAFETY: f64 = 0.5;
 /// Newton's tolerance in m where no error is controlled.
 const FIXED_STEP_NEWTON: f64 = 1e-10;
 
@@ -86,7 +88,7 @@ pub fn advance(
             }
             (Ok(Some(estimate)), Some(tolerance)) => {
                 let allowed = tolerance * h / horizon;
-                let factor = (0.8 * allowed / estimate.max(1e-300)).powf(1.0 / f64::from(order - 1)).clamp(0.2, 3.0);
+                let factor = (SAFETY * allowed / estimate.max(1e-300)).powf(1.0 / f64::from(order - 1)).clamp(0.2, 3.0);
                 if estimate > allowed {
                     counts.rejected += 1;
                     proposal = h * factor.min(0.9);
