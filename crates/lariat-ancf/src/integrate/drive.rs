@@ -66,6 +66,7 @@ pub fn advance(
     };
     let order = method.properties().estimate_order.unwrap_or(2);
     let regular = regular_step(system, &stepper, control, horizon, phase.memory.step);
+    check_stability(system, &stepper, regular, phase.time)?;
     let mut proposal = regular;
     let mut done = 0.0;
     while done < horizon {
@@ -131,6 +132,17 @@ fn prepare(system: &mut dyn Dynamics, phase: &mut Phase) -> Result<(), Refusal> 
     Ok(())
 }
 
+/// Refuses an explicit step that would blow up: the frequency bound is that of one element plus 5 %, and tight.
+fn check_stability(system: &dyn Dynamics, stepper: &Stepper, step: f64, time: f64) -> Result<(), Refusal> {
+    if let Stepper::Explicit(composition) = stepper {
+        let limit = 1.05 * composition.stability_limit / system.frequency_bound().max(1e-12);
+        if step > limit {
+            return Err(Refusal { time, step, failure: StepFailure::Unstable { step, limit } });
+        }
+    }
+    Ok(())
+}
+
 /// The step to begin with.
 fn regular_step(system: &dyn Dynamics, stepper: &Stepper, control: StepControl, horizon: f64, memory: f64) -> f64 {
     let equal = |longest: f64| horizon / (horizon / longest - 1e-9).ceil().max(1.0);
@@ -141,7 +153,7 @@ fn regular_step(system: &dyn Dynamics, stepper: &Stepper, control: StepControl, 
         StepControl::MaxStep(longest) => equal(longest),
         StepControl::Stable(share) => match stepper {
             Stepper::Explicit(composition) => {
-                equal(share * composition.stability_limit() / system.frequency_bound().max(1e-12))
+                equal(share * composition.stability_limit / system.frequency_bound().max(1e-12))
             }
             _ => horizon,
         },
