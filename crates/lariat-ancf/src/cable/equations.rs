@@ -1,32 +1,19 @@
 //! The equations of one cable, `M q'' = F(q, t)`, as the integrators see them.
 //!
-//! Newton for a stage `M z = c2 F(base + z)`: `(M + c2 K) dz = c2 F - M z`, full steps under a cap on the change of slope. A
-//! factored tangent is tried again at the next iteration, and at the next stage of the same step, as long as increments shrink by
-//! 0.3 or more with it (a force and a solve cost a third of a new tangent); at the first that does not, it is dropped.
-//! *Stop.* What is left after increment d_k is predicted as 2 d_k^2/d_{k-1} with a kept tangent, d_k^3/d_{k-1}^2 with a fresh one; the
-//! iteration ends when that, or d_k itself, is below the tolerance. *Rejected.* A line search on the residual (stagnates on thin
-//! cables: the residual of stiff axial modes hides the progress of the bending modes); a tangent kept blindly over a step (Newton
-//! diverges on steel and steps shrink); tangents kept across host steps (a restored snapshot would not replay bitwise).
+//! A stage `M z = c2 F(base + z)` is solved with `(M + c2 K) dz = c2 F - M z` by [`newton`](crate::integrate::newton).
 
 use super::model::Model;
 use super::projection::{project_matrix, project_vector};
 use super::system::{MassSolver, System};
 use crate::diagnostics::Diagnostics;
 use crate::error::StepFailure;
-use crate::integrate::{Dynamics, Newton, Stage};
+use crate::integrate::newton::{self, Increment, Linearised};
+use crate::integrate::{Dynamics, Stage};
 use crate::linalg::Definiteness;
 
-/// Newton iterations before a stage is given up.
-const MAX_ITERATIONS: usize = 12;
-/// Largest change of a slope vector in one Newton iteration.
-const SLOPE_CAP: f64 = 0.5;
 /// Newton's tolerance is at most this share of the displacement that the acceleration makes in the stage, and of the strain
 /// that it makes in the cable (loosened a hundred times, steel gains energy and shows spurious tension at coarse tolerances).
 const RELATIVE_TOLERANCE: f64 = 1e-2;
-/// A tangent is kept for the next iteration or stage while increments shrink by this factor.
-const CHORD_CONTRACTION: f64 = 0.3;
-/// One iteration is enough if the second increment is below this share of the first.
-const ONCE_CONTRACTION: f64 = 0.1;
 
 /// A model with its system and counters: what the integrators see.
 pub(crate) struct Equations<'a> {
@@ -96,72 +83,53 @@ impl Equations<'_> {
         }
     }
 
-    fn newton(
-        &mut self,
-        stage: &Stage,
-        base: &[f64],
-        y: &mut [f64],
-        z: &mut [f64],
-        rhs: &mut [f64],
-        product: &mut [f64],
-    ) -> Result<(), StepFailure> {
-        let (tolerance, once) = match stage.newton {
-            Newton::Converge(tolerance) => (tolerance, false),
-            Newton::Once(tolerance) => (tolerance, true),
-        };
-        // z = c2 k. In a short step the tolerance must not swallow the acceleration; on a stiff cable a displacement d within
-        // the tolerance may be a large strain d/l, so EA d/l is held below a share of the inertia force rho A L k as well.
-        // Below rounding nothing can be met.
+    /// The stage's Newton tolerance in m, at most `tolerance`, for the initial guess `z` and coordinates `base`.
+    ///
+    /// z = c2 k: in a short step the tolerance must not swallow the acceleration; on a stiff cable a displacement d within the
+    /// tolerance may be a large strain d/l, so EA d/l is held below a share of the inertia force rho A L k as well. Below
+    /// rounding nothing can be met.
+    pub fn tolerance(&self, tolerance: f64, stage: &Stage, base: &[f64], z: &[f64]) -> f64 {
         let scale = self.system.extent(z).0 * (self.system.stiff_time_squared / stage.c2).min(1.0);
         let rounding = 4.0 * f64::EPSILON * base.iter().fold(1.0f64, |m, x| m.max(x.abs()));
-        let tolerance = tolerance.min(RELATIVE_TOLERANCE * scale).max(rounding);
-        let mut chord = stage.reuse && self.system.factored == stage.c2;
-        let mut chords_contract = true;
-        let mut before = f64::INFINITY;
-        for iteration in 1..=MAX_ITERATIONS {
-            self.diagnostics.newton_iterations += 1;
-            self.residual(stage, y, z, rhs, product, !chord);
-            if !chord {
-                self.system.factored = 0.0;
-                self.factor()?;
-                self.system.factored = stage.c2;
-            }
-            self.solve(rhs);
-            let (size, slope) = self.system.extent(rhs);
-            let damp = if slope > SLOPE_CAP { SLOPE_CAP / slope } else { 1.0 };
-            let size = damp * size;
-            let ratio = size / before;
-            if chord && !(ratio < CHORD_CONTRACTION || iteration == 1 && damp == 1.0) {
-                // the old tangent does not serve: drop this increment and take a new one
-                chord = false;
-                chords_contract = false;
-                if size.is_finite() {
-                    continue;
-                }
-            }
-            if !size.is_finite() {
-                return Err(not_finite("Newton increment", rhs));
-            }
-            for i in 0..z.len() {
-                z[i] += damp * rhs[i];
-                y[i] = base[i] + z[i];
-            }
-            // what is left, if increments go on as they did: with one tangent linearly, with fresh ones quadratically
-            let left = match (iteration, chord) {
-                (1, _) => size,
-                (_, true) => size * (2.0 * ratio).min(1.0),
-                (_, false) => size * ratio * ratio,
-            };
-            if damp == 1.0 && (left.min(size) <= tolerance || once && chord && ratio <= ONCE_CONTRACTION) {
-                return Ok(());
-            }
-            if iteration == MAX_ITERATIONS || (!chord && iteration > 5 && ratio > 2.0) {
-                return Err(StepFailure::NotConverged { iterations: iteration, increment: size });
-            }
-            chord = chords_contract && damp == 1.0;
-            before = size;
+        tolerance.min(RELATIVE_TOLERANCE * scale).max(rounding)
+    }
+}
+
+/// One stage of one cable, as Newton sees it.
+struct CableStage<'a, 'b> {
+    equations: &'a mut Equations<'b>,
+    stage: &'a Stage,
+    base: &'a [f64],
+    y: &'a mut [f64],
+    z: &'a mut [f64],
+    rhs: &'a mut [f64],
+    product: &'a mut [f64],
+}
+
+impl Linearised for CableStage<'_, '_> {
+    fn increment(&mut self, fresh: bool) -> Result<Increment, StepFailure> {
+        let equations = &mut *self.equations;
+        equations.diagnostics.newton_iterations += 1;
+        equations.residual(self.stage, self.y, self.z, self.rhs, self.product, fresh);
+        if fresh {
+            equations.system.factored = 0.0;
+            equations.factor()?;
+            equations.system.factored = self.stage.c2;
         }
-        unreachable!("the loop returns at its last iteration")
+        equations.solve(self.rhs);
+        let (displacement, slope) = equations.system.extent(self.rhs);
+        Ok(Increment { displacement, rotation: slope })
+    }
+
+    fn apply(&mut self, share: f64) {
+        for i in 0..self.z.len() {
+            self.z[i] += share * self.rhs[i];
+            self.y[i] = self.base[i] + self.z[i];
+        }
+    }
+
+    fn not_finite(&self) -> StepFailure {
+        not_finite("Newton increment", self.rhs)
     }
 }
 
@@ -239,7 +207,11 @@ impl Dynamics for Equations<'_> {
             y[i] = base[i] + z[i];
         }
         let mut product = core::mem::take(&mut self.system.product);
-        let outcome = self.newton(stage, base, y, &mut z, &mut rhs, &mut product);
+        let tolerance = self.tolerance(stage.newton.tolerance(), stage, base, &z);
+        let keep = stage.reuse && self.system.factored == stage.c2;
+        let mut problem =
+            CableStage { equations: self, stage, base, y, z: &mut z, rhs: &mut rhs, product: &mut product };
+        let outcome = newton::iterate(&mut problem, tolerance, stage.newton.once(), keep);
         self.system.product = product;
         for i in 0..z.len() {
             acceleration[i] = z[i] / stage.c2;

@@ -12,6 +12,20 @@ pub enum Newton {
     Once(f64),
 }
 
+impl Newton {
+    /// The size in m to converge to.
+    pub fn tolerance(self) -> f64 {
+        match self {
+            Newton::Converge(tolerance) | Newton::Once(tolerance) => tolerance,
+        }
+    }
+
+    /// Whether one checked iteration is enough.
+    pub fn once(self) -> bool {
+        matches!(self, Newton::Once(_))
+    }
+}
+
 /// An implicit stage: find z with `M z = c2 F(base + z, velocity_base + rate z, time)`, `z = y - base`.
 #[derive(Clone, Copy, Debug)]
 pub struct Stage {
