@@ -15,6 +15,8 @@ use crate::error::StepFailure;
 
 /// Steps are not shortened below H times this.
 const SHORTEST: f64 = 1.0 / (1u64 << 20) as f64;
+/// A step is allowed at least this share of the tolerance: after a jump of velocity errors fall only as fast as h.
+const LEAST_SHARE: f64 = 1.0 / 1024.0;
 /// Newton stops below this share of the error allowed to a step.
 const NEWTON_SHARE: f64 = 0.1;
 /// The next step aims at this share of the allowed error: fewer rejections (one half costs less than 0.8, measured).
@@ -88,7 +90,7 @@ pub fn advance(
                 continue;
             }
             (Ok(Some(estimate)), Some(tolerance)) => {
-                let allowed = tolerance * h / horizon;
+                let allowed = tolerance * (h / horizon).max(LEAST_SHARE);
                 let factor = (SAFETY * allowed / estimate.max(1e-300)).powf(1.0 / f64::from(order - 1)).clamp(0.2, 3.0);
                 if estimate > allowed {
                     counts.rejected += 1;

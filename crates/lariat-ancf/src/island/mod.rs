@@ -5,7 +5,7 @@
 //! follows its body,
 //!
 //! ```text
-//! r = x + rho + gap (1 - s),   rho = R a        r'' = x'' + omega' x rho + omega x (omega x rho)
+//! r = x + rho + gap (1 - 3 s^2 + 2 s^3),   rho = R a        r'' = x'' + omega' x rho + omega x (omega x rho) + gap'' ...
 //! ```
 //!
 //! where `gap` is what pin and node were apart when the step began and s its elapsed share. Virtual work carries the cable's

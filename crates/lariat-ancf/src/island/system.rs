@@ -123,8 +123,16 @@ impl Workspace {
     }
 
     fn gap(&self, pin: usize, time: f64) -> (Vector3<f64>, Vector3<f64>) {
-        let left = (1.0 - (time - self.start) / self.duration).clamp(0.0, 1.0);
-        (self.gaps[pin] * left, -self.gaps[pin] / self.duration)
+        // a cubic with zero rate at both ends: a jump of velocity would strike the cable
+        let s = ((time - self.start) / self.duration).clamp(0.0, 1.0);
+        (self.gaps[pin] * (1.0 - s * s * (3.0 - 2.0 * s)), self.gaps[pin] * (-6.0 * s * (1.0 - s) / self.duration))
+    }
+}
+
+impl Workspace {
+    fn closing_acceleration(&self, pin: usize, time: f64) -> Vector3<f64> {
+        let s = ((time - self.start) / self.duration).clamp(0.0, 1.0);
+        self.gaps[pin] * (-6.0 * (1.0 - 2.0 * s) / (self.duration * self.duration))
     }
 }
 
@@ -157,13 +165,14 @@ impl Work<'_, '_> {
     }
 
     /// Puts pinned accelerations where their bodies have them; `k` holds chart accelerations of the bodies.
-    fn follow_acceleration(&self, q: &[f64], v: &[f64], k: &mut [f64]) {
+    fn follow_acceleration(&self, time: f64, q: &[f64], v: &[f64], k: &mut [f64]) {
         for pin in 0..self.pins.len() {
             let (motion, rho) = self.lever(pin, q, v);
             let at = self.body_at(self.pins[pin].body);
+            let closing = self.workspace.closing_acceleration(pin, time);
             let alpha = self.angular_acceleration(&q[at + 3..], &v[at + 3..], &k[at + 3..]);
             let spin = motion.spin;
-            let a = vector(&k[at..]) + alpha.cross(&rho) + spin.cross(&spin.cross(&rho));
+            let a = vector(&k[at..]) + alpha.cross(&rho) + spin.cross(&spin.cross(&rho)) + closing;
             let at = self.pin_at(pin);
             k[at..at + 3].copy_from_slice(a.as_slice());
         }
@@ -414,7 +423,7 @@ impl IslandStage<'_, '_, '_> {
         let c2 = self.stage.c2;
         // z is c2 k: let the pinned accelerations follow, then restore the identity y = base + z
         self.z.iter_mut().for_each(|z| *z /= c2);
-        self.work.follow_acceleration(self.y, self.v, self.z);
+        self.work.follow_acceleration(self.stage.time, self.y, self.v, self.z);
         self.z.iter_mut().for_each(|z| *z *= c2);
         for pin in 0..self.work.pins.len() {
             let at = self.work.pin_at(pin);
@@ -533,7 +542,7 @@ impl Dynamics for Work<'_, '_> {
             let k0 = -(jacobian_inverse(&theta) * (jacobian_rate(&theta, &rate) * rate));
             k[at + 3..at + 6].copy_from_slice(k0.as_slice());
         }
-        self.follow_acceleration(q, v, k);
+        self.follow_acceleration(time, q, v, k);
         let mut rhs = core::mem::take(&mut self.workspace.rhs);
         self.factor_mass(q, v)?;
         self.cable_rows(time, 1.0, q, k, &mut rhs, false)?;
