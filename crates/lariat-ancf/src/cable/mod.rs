@@ -137,7 +137,7 @@ impl Cable {
         if dt == 0.0 {
             return Ok(());
         }
-        self.saved.clone_from(&self.state.phase);
+        self.saved.copy_from(&self.state.phase);
         let mut counts = Counts::default();
         let mut equations =
             Equations { model: &self.model, system: &mut self.system, diagnostics: &mut self.diagnostics };
