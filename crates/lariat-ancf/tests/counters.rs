@@ -12,7 +12,7 @@ fn counted(name: &str, load: bool, method: Method, steps: usize) -> Diagnostics 
     }
     let mut cable = builder.build().unwrap();
     for _ in 0..steps {
-        cable.step(1.0 / 60.0).unwrap();
+        cable.step(1.0 / 240.0).unwrap();
     }
     *cable.diagnostics()
 }

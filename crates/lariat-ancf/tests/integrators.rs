@@ -4,9 +4,7 @@ mod common;
 
 use common::{EXACT_IN_TIME, Random, largest_difference, map3, soft_cable};
 use lariat_ancf::integrate::NewtonMode;
-use lariat_ancf::{
-    At, Cable, Integrator, Method, Motion, PointLoad, SlopeSupport, StepControl, Support, Vector3,
-};
+use lariat_ancf::{At, Cable, Integrator, Method, Motion, PointLoad, SlopeSupport, StepControl, Support, Vector3};
 
 /// The soft cable held at its start, which then moves along a cubic of time.
 fn towed() -> Cable {
@@ -44,10 +42,10 @@ fn with(mut cable: Cable, method: Method, control: StepControl) -> Cable {
     cable
 }
 
-/// State after 0.4 s.
+/// State after 0.25 s.
 fn end(mut cable: Cable, method: Method, steps: u32) -> Vec<f64> {
     cable.set_integrator(Integrator::substeps(method, steps).unwrap()).unwrap();
-    cable.step(0.4).unwrap_or_else(|e| panic!("{method}: {e}"));
+    cable.step(0.25).unwrap_or_else(|e| panic!("{method}: {e}"));
     cable.positions().iter().chain(cable.velocities()).copied().collect()
 }
 
@@ -58,11 +56,19 @@ fn orders(start: fn() -> Cable, method: Method) -> [f64; 2] {
         2 => 800,
         3 => 1600,
         4 => 320,
-        _ => 160,
+        _ => 60,
     };
     let errors = [steps, 2 * steps, 4 * steps].map(|n| largest_difference(&end(start(), method, n), &reference));
     println!("{method}: errors 1e{:.1?} with {steps} steps and more", errors.map(|e| e.log10()));
     [(errors[0] / errors[1]).log2(), (errors[1] / errors[2]).log2()]
+}
+
+/// Both halvings reach the claimed order, and the second does not pass it: then the steps are in the range where the order shows.
+fn assert_order(method: Method, observed: [f64; 2]) {
+    let claimed = f64::from(method.properties().order);
+    println!("{method}: claimed {claimed}, observed {observed:.2?}");
+    assert!(observed.iter().all(|p| *p > claimed - 0.35), "{method}: {observed:?}, claimed {claimed}");
+    assert!(observed[1] < claimed + 0.5, "{method}: {observed:?}, claimed {claimed}");
 }
 
 /// Halving the step divides the error by 2^order, as each method claims, for a cable that swings, and whose supports do not move.
@@ -72,9 +78,7 @@ fn orders(start: fn() -> Cable, method: Method) -> [f64; 2] {
 #[test]
 fn every_method_converges_with_its_order() {
     for method in Method::ALL {
-        let (claimed, observed) = (f64::from(method.properties().order), orders(swinging, method));
-        println!("{method}: claimed {claimed}, observed {observed:.2?}");
-        assert!(observed.iter().all(|p| (p - claimed).abs() < 0.35), "{method}: {observed:?}, claimed {claimed}");
+        assert_order(method, orders(swinging, method));
     }
 }
 
@@ -90,9 +94,7 @@ fn a_moving_support_does_not_lower_the_order() {
         cable
     };
     for method in Method::ALL {
-        let (claimed, observed) = (f64::from(method.properties().order), orders(start, method));
-        println!("{method}: claimed {claimed}, observed {observed:.2?}");
-        assert!(observed.iter().all(|p| (p - claimed).abs() < 0.35), "{method}: {observed:?}, claimed {claimed}");
+        assert_order(method, orders(start, method));
     }
 }
 
@@ -152,13 +154,9 @@ fn energy_error_of_symplectic_methods_stays_bounded_and_falls_with_their_order()
         let points = [Vector3::zeros(), Vector3::new(1.05, 0.0, 0.0)];
         soft_cable().points(points).fix(At::Start).fix(At::End).build().unwrap()
     };
-    for (method, substeps) in [
-        (Method::Midpoint, 16),
-        (Method::Trapezoid, 16),
-        (Method::Verlet, 16),
-        (Method::Rkn4, 3),
-        (Method::Rkn6, 2),
-    ] {
+    for (method, substeps) in
+        [(Method::Midpoint, 16), (Method::Trapezoid, 16), (Method::Verlet, 16), (Method::Rkn4, 3), (Method::Rkn6, 2)]
+    {
         let worst = |substeps: u32, seconds: u32| {
             let mut cable = with(start(), method, StepControl::Substeps(substeps));
             let before = cable.energy().total();
@@ -238,7 +236,9 @@ fn every_method_lands_on_the_hosts_time_to_the_bit() {
 fn uneven_host_steps_give_the_same_motion() {
     let mut exact = soft_cable().fix(At::Start).integrator(EXACT_IN_TIME).build().unwrap();
     exact.step(0.3).unwrap();
-    for method in [Method::Esdirk3, Method::Esdirk4, Method::GeneralisedAlpha { rho: 0.5, newton: NewtonMode::Converged }] {
+    for method in
+        [Method::Esdirk3, Method::Esdirk4, Method::GeneralisedAlpha { rho: 0.5, newton: NewtonMode::Converged }]
+    {
         let control = StepControl::Tolerance(1e-8);
         let mut cable = soft_cable().fix(At::Start).integrator(Integrator { method, control }).build().unwrap();
         for dt in [0.1, 1e-4, 0.02, 0.0799, 0.1] {

@@ -3,7 +3,9 @@
 mod common;
 
 use common::soft_cable;
-use lariat_ancf::{At, Cable, Error, Integrator, Method, Motion, PointLoad, SlopeSupport, StepControl, Support, Vector3};
+use lariat_ancf::{
+    At, Cable, Error, Integrator, Method, Motion, PointLoad, SlopeSupport, StepControl, Support, Vector3,
+};
 
 /// A cable that uses everything a state could forget: a moving support, a clamp's direction, a load that ramps up.
 fn busy(method: Method, control: StepControl) -> Option<Cable> {
@@ -12,7 +14,7 @@ fn busy(method: Method, control: StepControl) -> Option<Cable> {
     let mut cable = soft_cable()
         .fix(At::Start)
         .integrator(integrator)
-        .load(PointLoad { ramp: 0.3, ..PointLoad::force(0.4, Vector3::new(0.0, 1.0, 3.0)) })
+        .load(PointLoad { ramp: 0.3, ..PointLoad::force(0.4, Vector3::new(0.0, 1.0, 2.0)) })
         .load(PointLoad { ramp: 0.1, ..PointLoad::moment(1.0, Vector3::new(0.0, 0.02, 0.01)) })
         .build()
         .unwrap();
@@ -24,7 +26,7 @@ fn busy(method: Method, control: StepControl) -> Option<Cable> {
 
 /// Every method with fixed steps, and with a tolerance where it has an estimate.
 fn cases() -> impl Iterator<Item = (Method, StepControl)> {
-    Method::ALL.into_iter().flat_map(|m| [StepControl::Substeps(8), StepControl::Tolerance(1e-5)].map(|c| (m, c)))
+    Method::ALL.into_iter().flat_map(|m| [StepControl::Substeps(20), StepControl::Tolerance(1e-5)].map(|c| (m, c)))
 }
 
 fn run(cable: &mut Cable, steps: usize) {
@@ -81,28 +83,29 @@ fn a_cable_read_back_from_json_continues_bitwise_the_same_run() {
     }
 }
 
-/// Two cables made alike do the same to the bit, and a clone goes its own way.
+/// Two cables made alike do the same to the bit, and so does a clone.
 ///
 /// *Source.* Bitwise equality: no hash map, no clock, no shared state.
 #[test]
 fn two_cables_made_alike_give_the_same_bits() {
     for (method, control) in cases() {
         let (Some(mut a), Some(mut b)) = (busy(method, control), busy(method, control)) else { continue };
-        run(&mut a, 5);
+        run(&mut a, 6);
+        run(&mut b, 6);
         let mut clone = a.clone();
-        run(&mut a, 15);
-        run(&mut b, 20);
+        run(&mut a, 12);
+        run(&mut b, 12);
         assert_eq!(bits(&a), bits(&b), "{method}, {control:?}");
         assert_eq!(a.diagnostics(), b.diagnostics(), "{method}, {control:?}");
-        run(&mut clone, 15);
-        // the pattern of host steps differs after 5 steps, so only the state before is compared
-        assert!(clone.time() > 0.0 && clone.positions().iter().all(|x| x.is_finite()));
+        run(&mut clone, 12);
+        assert_eq!(bits(&a), bits(&clone), "{method}, {control:?}: clone");
     }
 }
 
 /// Reading reactions does not change the run.
 ///
-/// *Source.* Bitwise equality with a run that is not read.
+/// *Source.* Bitwise equality with a run that is not read. It guards against reactions that are read before a new support has put its node in place
+/// marking the accelerations as known, so that the next step began from the old place.
 #[test]
 fn reading_reactions_and_energies_does_not_change_the_run() {
     for (method, control) in cases() {

@@ -37,7 +37,10 @@ fn five_seconds(method: Method, control: StepControl) {
         let d = cable.diagnostics();
         println!(
             "{method} {control:?} at 1/{rate}: energy {:+.1e} to {:+.1e} of the swing, largest pin force {tension:.2} N, {} steps, {} rejected",
-            highest / swing, lowest / swing, d.steps, d.rejected_steps
+            highest / swing,
+            lowest / swing,
+            d.steps,
+            d.rejected_steps
         );
         assert!(highest < 1e-3 * swing, "{method} at 1/{rate}: energy rises by {highest} J of {swing} J");
         assert!(tension < 60.0, "{method} at 1/{rate}: {tension} N at the pin");
