@@ -29,6 +29,14 @@ pub enum StepFailure {
         /// Allowed error of the step in m.
         allowed: f64,
     },
+    /// An explicit step beyond the stability limit of the cable.
+    #[error("explicit step {step:.3e} s is beyond the stability limit {limit:.3e} s: use more substeps, or an implicit method")]
+    Unstable {
+        /// Step asked for in s.
+        step: f64,
+        /// Longest stable step in s.
+        limit: f64,
+    },
     /// The matrix of the step is singular.
     #[error("singular step matrix: {0}")]
     Singular(#[from] crate::linalg::SingularMatrix),

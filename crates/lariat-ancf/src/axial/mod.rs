@@ -23,7 +23,7 @@ pub mod mean;
 pub mod projected;
 
 use crate::Real;
-use crate::element::gram::{PAIR_WEIGHT, Six, Upper, quadratic_form, slope_square, upper};
+use crate::element::gram::{PAIR_WEIGHT, Six, Upper, form, quadratic_form, slope_square, upper};
 use crate::quadrature::gauss_legendre;
 
 /// An axial rule as numbers: `U = EA l/8 (g.A.g - 2 a.g + 1)`.
@@ -62,24 +62,27 @@ impl AxialTable {
 
     /// Energy of an element divided by `EA l/8`.
     pub fn energy(&self, g: &Six<f64>) -> f64 {
-        let ag: f64 = (0..6).map(|i| self.a[i] * g[i]).sum();
-        quadratic_form(&self.matrix, g, g) - 2.0 * ag + 1.0
+        quadratic_form(&self.matrix, g, g) - 2.0 * form(&self.a, g) + 1.0
     }
 
     /// Weighted gradient n, with `quarter = EA l/4`.
     #[inline(always)]
     pub fn gradient<T: Real>(&self, g: &Six<T>, quarter: T) -> Six<T> {
-        core::array::from_fn(|i| {
-            let row = &self.weighted_rows[i];
-            let sum = g[0] * row[0] + g[1] * row[1] + g[2] * row[2] + g[3] * row[3] + g[4] * row[4] + g[5] * row[5];
-            (sum - self.weighted_a[i]) * quarter
-        })
+        let mut n = *g;
+        for i in 0..6 {
+            n[i] = (form(&self.weighted_rows[i], g) - self.weighted_a[i]) * quarter;
+        }
+        n
     }
 
     /// Weighted Hessian h, with `quarter = EA l/4`.
     #[inline(always)]
     pub fn hessian<T: Real>(&self, quarter: T) -> Upper<T> {
-        core::array::from_fn(|i| quarter * self.weighted_matrix[i])
+        let mut h = [quarter; 21];
+        for i in 0..21 {
+            h[i] = quarter * self.weighted_matrix[i];
+        }
+        h
     }
 }
 

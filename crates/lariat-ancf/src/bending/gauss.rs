@@ -15,7 +15,7 @@
 
 use super::Bending;
 use crate::Real;
-use crate::element::gram::{Six, Upper, slope_square, upper, weighted};
+use crate::element::gram::{Six, Upper, form, slope_square, upper, weighted};
 use crate::quadrature::gauss_legendre;
 
 /// Constants of one Gauss point.
@@ -69,11 +69,6 @@ pub(crate) fn minors<T: Real>(g: &Six<T>) -> Six<T> {
     ]
 }
 
-#[inline(always)]
-fn form<T: Real>(c: &Six<f64>, x: &Six<T>) -> T {
-    x[0] * c[0] + x[1] * c[1] + x[2] * c[2] + x[3] * c[3] + x[4] * c[4] + x[5] * c[5]
-}
-
 /// Weighted gradient of `m . X(g)`, for numbers m (constants or lanes).
 #[inline(always)]
 fn weighted_minor_gradient<T: Real, M: Copy>(m: &Six<M>, g: &Six<T>) -> Six<T>
@@ -100,23 +95,24 @@ where
 /// Adds the weighted Hessian of `m . X(g)`, which does not depend on g.
 #[inline(always)]
 fn add_weighted_minor_hessian<T: Real>(m: &Six<T>, h: &mut Upper<T>) {
-    let mut add = |a: usize, b: usize, value: T| {
-        let k = upper(a, b);
-        h[k] = h[k] + value;
-    };
-    let twice = |x: T| x + x;
-    add(0, 3, twice(twice(m[0])));
-    add(0, 4, twice(m[1]));
-    add(0, 5, twice(twice(m[3])));
-    add(1, 1, -twice(m[0]));
-    add(1, 2, -m[1]);
-    add(1, 4, m[2]);
-    add(1, 5, twice(m[4]));
-    add(2, 2, -twice(m[3]));
-    add(2, 3, -twice(m[2]));
-    add(2, 4, -m[4]);
-    add(3, 5, twice(twice(m[5])));
-    add(4, 4, -twice(m[5]));
+    let two = [m[0] + m[0], m[1] + m[1], m[2] + m[2], m[3] + m[3], m[4] + m[4], m[5] + m[5]];
+    let entries = [
+        (0, 3, two[0] + two[0]),
+        (0, 4, two[1]),
+        (0, 5, two[3] + two[3]),
+        (1, 1, -two[0]),
+        (1, 2, -m[1]),
+        (1, 4, m[2]),
+        (1, 5, two[4]),
+        (2, 2, -two[3]),
+        (2, 3, -two[2]),
+        (2, 4, -m[4]),
+        (3, 5, two[5] + two[5]),
+        (4, 4, -two[5]),
+    ];
+    for (a, b, value) in entries {
+        h[upper(a, b)] = h[upper(a, b)] + value;
+    }
 }
 
 impl Bending for Gauss {
@@ -162,7 +158,10 @@ impl Bending for Gauss {
             let v = weighted_minor_gradient(&point.m, g);
             let cross = fourth * -3.0;
             let square = slope * inverse * -2.0;
-            let u: Six<T> = core::array::from_fn(|i| cross * v[i] + square * point.weighted_b[i]);
+            let mut u = v;
+            for i in 0..6 {
+                u[i] = cross * v[i] + square * point.weighted_b[i];
+            }
             for i in 0..6 {
                 minor_weights[i] = minor_weights[i] + cube * point.m[i];
                 n[i] = n[i] + slope * point.weighted_b[i];

@@ -6,7 +6,7 @@
 
 use super::Bending;
 use crate::Real;
-use crate::element::gram::{PAIR_WEIGHT, Six, Upper};
+use crate::element::gram::{PAIR_WEIGHT, Six, Upper, form};
 
 /// `(l^2/4) int |r''|^2 dxi = rho . g`.
 pub const RHO: Six<f64> = [1.0, -1.0, 1.0, 1.0 / 3.0, -1.0, 1.0];
@@ -17,7 +17,7 @@ pub struct T1;
 
 impl Bending for T1 {
     fn energy(&self, g: &Six<f64>) -> f64 {
-        (0..6).map(|i| RHO[i] * g[i]).sum()
+        form(&RHO, g)
     }
     #[inline(always)]
     fn add_gradient<T: Real>(&self, _: &Six<T>, scale: T, n: &mut Six<T>) {

@@ -9,7 +9,7 @@ use super::Bending;
 use super::t1::RHO;
 use crate::Real;
 use crate::axial::moment;
-use crate::element::gram::{PAIR_WEIGHT, Six, Upper, upper, weighted};
+use crate::element::gram::{PAIR_WEIGHT, Six, Upper, form, upper, weighted};
 
 /// Rule T2.
 #[derive(Clone, Debug)]
@@ -28,8 +28,7 @@ impl Default for T2 {
 impl T2 {
     #[inline(always)]
     fn parts<T: Real>(&self, g: &Six<T>) -> (T, T) {
-        let form = |c: &Six<f64>| g[0] * c[0] + g[1] * c[1] + g[2] * c[2] + g[3] * c[3] + g[4] * c[4] + g[5] * c[5];
-        (form(&RHO), form(&self.a))
+        (form(&RHO, g), form(&self.a, g))
     }
 }
 
@@ -57,8 +56,10 @@ impl Bending for T2 {
         // -2 (rho a^T + a rho^T)/A^3 + 6 R a a^T/A^4 = a u^T + u a^T,  u = -2 rho/A^3 + 3 R a/A^4
         let cross = first * inverse * -2.0;
         let square = second * inverse * -1.5;
-        let u: Six<T> =
-            core::array::from_fn(|i| cross * (PAIR_WEIGHT[i] * RHO[i]) + square * self.weighted_a[i]);
+        let mut u = *g;
+        for i in 0..6 {
+            u[i] = cross * (PAIR_WEIGHT[i] * RHO[i]) + square * self.weighted_a[i];
+        }
         for i in 0..6 {
             n[i] = n[i] + first * (PAIR_WEIGHT[i] * RHO[i]) + second * self.weighted_a[i];
             for j in i..6 {

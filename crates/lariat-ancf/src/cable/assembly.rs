@@ -17,13 +17,18 @@ use crate::bending::t1::T1;
 use crate::bending::t2::T2;
 use crate::bending::{Bending, NoBending};
 use crate::element::gram::Control;
+use crate::element::mass;
 use crate::element::kernel::{self, Blocks, Stiffness};
 use crate::linalg::{Block, BlockTridiagonal};
 use crate::rule::BendingRule;
-use fearless_simd::{Level, Simd, SimdBase, dispatch, f64x8};
+use fearless_simd::{Level, Simd, SimdBase, SimdFrom, dispatch, f64x8};
 
 /// Elements evaluated together.
 const LANES: usize = 8;
+
+/// Rows and columns, over (r_i, t_i, r_j, t_j), of the entries of the mass matrix that lanes load.
+const MASS_ENTRIES: [(usize, usize); 10] =
+    [(0, 0), (0, 1), (1, 1), (2, 0), (2, 1), (3, 0), (3, 1), (2, 2), (2, 3), (3, 3)];
 
 /// A bending rule with its numbers.
 #[derive(Clone, Debug)]
@@ -56,6 +61,8 @@ pub(crate) struct Elements {
     scale: Vec<f64>,
     axial: Vec<f64>,
     flexural: Vec<f64>,
+    /// Entries of the element's mass matrix: (i, i) rr, rt, tt; (j, i) rr, rt, tr, tt; (j, j) rr, rt, tt. Padded likewise.
+    mass: [Vec<f64>; 10],
 }
 
 impl Elements {
@@ -78,6 +85,9 @@ impl Elements {
             scale: padded(&|e| 3.0 / e.length),
             axial: padded(&|e| 0.25 * e.section.axial_stiffness * e.length),
             flexural: padded(&|e| 2.0 * e.section.bending_stiffness / e.length),
+            mass: MASS_ENTRIES.map(|(row, column)| {
+                padded(&|e| mass::consistent(e.section.mass_per_length, e.length)[row][column])
+            }),
         }
     }
 
@@ -111,132 +121,201 @@ impl Elements {
         with_bending!(&self.bending, b => dispatch!(level, simd => self.force_lanes(simd, b, q, scale, out)));
     }
 
-    /// Adds `scale` times the elastic force to `out` and `scale` times its negative derivative (the stiffness) to `a`.
-    pub fn add_force_and_tangent(
+    /// Adds `scale` times the elastic force to `out`, and overwrites `a` by `scale` times its negative derivative (the
+    /// stiffness) plus `mass_scale` times the mass matrix.
+    pub fn add_force_and_matrix(
         &self,
         level: Level,
         q: &[f64],
         scale: f64,
+        mass_scale: f64,
         out: &mut [f64],
         a: &mut BlockTridiagonal,
     ) {
-        with_bending!(&self.bending, b => dispatch!(level, simd => self.tangent_lanes(simd, b, q, scale, out, a)));
+        with_bending!(&self.bending, b => dispatch!(level, simd => {
+            self.matrix_lanes(simd, b, q, scale, mass_scale, out, a)
+        }));
     }
 
     /// Gathers control vectors and stiffness of the group of elements that begins at `first`.
     #[inline(always)]
-    fn gather<S: Simd>(
-        &self,
-        simd: S,
-        first: usize,
-        q: &[f64],
-        scale: f64,
-    ) -> (Control<f64x8<S>>, Stiffness<f64x8<S>>, f64x8<S>) {
-        let mut raw = [[[0.0f64; LANES]; 3]; 3];
-        for lane in 0..LANES {
+    fn gather<S: Simd>(&self, simd: S, first: usize, q: &[f64], scale: f64) -> (Control<f64x8<S>>, Stiffness<f64x8<S>>) {
+        let node = |lane: usize| -> &[f64; 12] {
             let e = (first + lane).min(self.count - 1);
-            let n: &[f64; 12] = q[6 * e..6 * e + 12].try_into().expect("twelve coordinates");
-            let s = self.scale[e];
-            for x in 0..3 {
-                raw[0][x][lane] = n[3 + x];
-                raw[1][x][lane] = s * (n[6 + x] - n[x]);
-                raw[2][x][lane] = n[9 + x];
-            }
+            q[6 * e..6 * e + 12].try_into().expect("twelve coordinates")
+        };
+        let n = [node(0), node(1), node(2), node(3), node(4), node(5), node(6), node(7)];
+        let s = load(simd, &self.scale, first);
+        let zero = f64x8::splat(simd, 0.0);
+        let mut d = [[zero; 3]; 3];
+        for x in 0..3 {
+            d[0][x] = lanes(simd, &n, 3 + x);
+            d[1][x] = (lanes(simd, &n, 6 + x) - lanes(simd, &n, x)) * s;
+            d[2][x] = lanes(simd, &n, 9 + x);
         }
-        let load = |values: &[f64]| f64x8::from_slice(simd, &values[..LANES]);
-        let d = core::array::from_fn(|k| core::array::from_fn(|x| load(&raw[k][x])));
-        let stiffness =
-            Stiffness { axial: load(&self.axial[first..]) * scale, bending: load(&self.flexural[first..]) * scale };
-        (d, stiffness, load(&self.scale[first..]))
+        let stiffness = Stiffness {
+            axial: load(simd, &self.axial, first) * scale,
+            bending: load(simd, &self.flexural, first) * scale,
+        };
+        (d, stiffness)
     }
 
     #[inline(always)]
     fn force_lanes<S: Simd, B: Bending>(&self, simd: S, bending: &B, q: &[f64], scale: f64, out: &mut [f64]) {
         for first in (0..self.count).step_by(LANES) {
-            let (d, stiffness, s) = self.gather(simd, first, q, scale);
+            let (d, stiffness) = self.gather(simd, first, q, scale);
             let force = kernel::force(&self.table, bending, stiffness, &d);
-            self.scatter_force(first, &force, s, out);
+            self.scatter_force(simd, first, &force, out);
         }
     }
 
     #[inline(always)]
-    fn tangent_lanes<S: Simd, B: Bending>(
+    fn matrix_lanes<S: Simd, B: Bending>(
         &self,
         simd: S,
         bending: &B,
         q: &[f64],
         scale: f64,
+        mass_scale: f64,
         out: &mut [f64],
         a: &mut BlockTridiagonal,
     ) {
+        a.diag[0] = Block::ZERO;
         for first in (0..self.count).step_by(LANES) {
-            let (d, stiffness, s) = self.gather(simd, first, q, scale);
+            let (d, stiffness) = self.gather(simd, first, q, scale);
             let (force, blocks) = kernel::force_and_tangent(&self.table, bending, stiffness, &d);
-            self.scatter_force(first, &force, s, out);
-            self.scatter_tangent(first, blocks, s, a);
+            self.scatter_force(simd, first, &force, out);
+            self.scatter_matrix(simd, first, &blocks, mass_scale, a);
         }
     }
 
     #[inline(always)]
-    fn scatter_force<S: Simd>(&self, first: usize, g: &Control<f64x8<S>>, s: f64x8<S>, out: &mut [f64]) {
-        let store = |v: &[f64x8<S>; 3]| -> [[f64; LANES]; 3] { v.map(|x| x.into()) };
-        let (g0, g1, g2) = (store(&g[0]), store(&g[1].map(|x| x * s)), store(&g[2]));
+    fn scatter_force<S: Simd>(&self, simd: S, first: usize, g: &Control<f64x8<S>>, out: &mut [f64]) {
+        let s = load(simd, &self.scale, first);
+        let mut raw = [[[0.0f64; LANES]; 3]; 3];
+        for x in 0..3 {
+            g[0][x].store_slice(&mut raw[0][x]);
+            (g[1][x] * s).store_slice(&mut raw[1][x]);
+            g[2][x].store_slice(&mut raw[2][x]);
+        }
         for lane in 0..LANES.min(self.count - first) {
-            let n: &mut [f64; 12] =
-                (&mut out[6 * (first + lane)..6 * (first + lane) + 12]).try_into().expect("twelve coordinates");
+            let n = &mut out[6 * (first + lane)..6 * (first + lane) + 12];
             for x in 0..3 {
-                n[x] += g1[x][lane];
-                n[3 + x] -= g0[x][lane];
-                n[6 + x] -= g1[x][lane];
-                n[9 + x] -= g2[x][lane];
+                n[x] += raw[1][x][lane];
+                n[3 + x] -= raw[0][x][lane];
+                n[6 + x] -= raw[1][x][lane];
+                n[9 + x] -= raw[2][x][lane];
             }
         }
     }
 
+    /// Turns the 3x3 blocks over control vectors into 6x6 blocks over nodes, one column of one element per vector of lanes.
     #[inline(always)]
-    fn scatter_tangent<S: Simd>(
+    fn scatter_matrix<S: Simd>(
         &self,
+        simd: S,
         first: usize,
-        blocks: Blocks<f64x8<S>>,
+        blocks: &Blocks<f64x8<S>>,
+        mass_scale: f64,
+        a: &mut BlockTridiagonal,
+    ) {
+        let mut mass = [f64x8::splat(simd, 0.0); 10];
+        for i in 0..10 {
+            mass[i] = load(simd, &self.mass[i], first) * mass_scale;
+        }
+        let s = load(simd, &self.scale, first);
+        let count = LANES.min(self.count - first);
+        self.scatter_columns::<S, 0>(simd, first, count, blocks, &mass, s, a);
+        self.scatter_columns::<S, 1>(simd, first, count, blocks, &mass, s, a);
+        self.scatter_columns::<S, 2>(simd, first, count, blocks, &mass, s, a);
+    }
+
+    /// Columns `C` (of the position) and `3 + C` (of the slope).
+    #[inline(always)]
+    fn scatter_columns<S: Simd, const C: usize>(
+        &self,
+        simd: S,
+        first: usize,
+        count: usize,
+        [k00, k01, k02, k11, k12, k22]: &Blocks<f64x8<S>>,
+        mass: &[f64x8<S>; 10],
         s: f64x8<S>,
         a: &mut BlockTridiagonal,
     ) {
-        let store = |b: [[f64x8<S>; 3]; 3]| -> [[[f64; LANES]; 3]; 3] { b.map(|row| row.map(|x| x.into())) };
-        let times = |b: [[f64x8<S>; 3]; 3], f: f64x8<S>| b.map(|row| row.map(|x| x * f));
-        let [k00, k01, k02, k11, k12, k22] = blocks;
-        let (k00, k02, k22) = (store(k00), store(k02), store(k22));
-        let (k01, k12, k11) = (store(times(k01, s)), store(times(k12, s)), store(times(times(k11, s), s)));
-        for lane in 0..LANES.min(self.count - first) {
+        let rr = [k11[0][C] * s * s, k11[1][C] * s * s, k11[2][C] * s * s];
+        // rows of the position, then of the slope
+        let (ii_r, ii_t) = (
+            [rr[0], rr[1], rr[2], -(k01[0][C] * s), -(k01[1][C] * s), -(k01[2][C] * s)],
+            [-(k01[C][0] * s), -(k01[C][1] * s), -(k01[C][2] * s), k00[0][C], k00[1][C], k00[2][C]],
+        );
+        let (ji_r, ji_t) = (
+            [-rr[0], -rr[1], -rr[2], -(k12[C][0] * s), -(k12[C][1] * s), -(k12[C][2] * s)],
+            [k01[C][0] * s, k01[C][1] * s, k01[C][2] * s, k02[C][0], k02[C][1], k02[C][2]],
+        );
+        let (jj_r, jj_t) = (
+            [rr[0], rr[1], rr[2], k12[C][0] * s, k12[C][1] * s, k12[C][2] * s],
+            [k12[0][C] * s, k12[1][C] * s, k12[2][C] * s, k22[0][C], k22[1][C], k22[2][C]],
+        );
+        let ii = [transpose(simd, with_mass::<S, C>(ii_r, mass[0], mass[1])), transpose(simd, with_mass::<S, C>(ii_t, mass[1], mass[2]))];
+        let ji = [transpose(simd, with_mass::<S, C>(ji_r, mass[3], mass[5])), transpose(simd, with_mass::<S, C>(ji_t, mass[4], mass[6]))];
+        let jj = [transpose(simd, with_mass::<S, C>(jj_r, mass[7], mass[8])), transpose(simd, with_mass::<S, C>(jj_t, mass[8], mass[9]))];
+        for lane in 0..count {
             let e = first + lane;
-            let at = |k: &[[[f64; LANES]; 3]; 3], r: usize, c: usize| k[r][c][lane];
             let lower = &mut a.lower[e].0;
-            for c in 0..3 {
-                for r in 0..3 {
-                    lower[c][r] -= at(&k11, r, c);
-                    lower[3 + c][r] += at(&k01, c, r);
-                    lower[c][3 + r] -= at(&k12, c, r);
-                    lower[3 + c][3 + r] += at(&k02, c, r);
-                }
-            }
-            let (head, tail) = a.diag.split_at_mut(e + 1);
-            let (i, j): (&mut Block, &mut Block) = (&mut head[e], &mut tail[0]);
-            for c in 0..3 {
-                for r in 0..3 {
-                    i.0[c][r] += at(&k11, r, c);
-                    i.0[c][3 + r] -= at(&k01, r, c);
-                    i.0[3 + c][r] -= at(&k01, c, r);
-                    i.0[3 + c][3 + r] += at(&k00, r, c);
-                    j.0[c][r] += at(&k11, r, c);
-                    j.0[c][3 + r] += at(&k12, c, r);
-                    j.0[3 + c][r] += at(&k12, r, c);
-                    j.0[3 + c][3 + r] += at(&k22, r, c);
-                }
-            }
+            ji[0][lane].store_slice(&mut lower[C]);
+            ji[1][lane].store_slice(&mut lower[3 + C]);
+            // the left neighbour wrote its share of the diagonal block before
+            let diagonal = &mut a.diag[e].0;
+            (f64x8::from_slice(simd, &diagonal[C]) + ii[0][lane]).store_slice(&mut diagonal[C]);
+            (f64x8::from_slice(simd, &diagonal[3 + C]) + ii[1][lane]).store_slice(&mut diagonal[3 + C]);
+            let next = &mut a.diag[e + 1].0;
+            jj[0][lane].store_slice(&mut next[C]);
+            jj[1][lane].store_slice(&mut next[3 + C]);
         }
     }
+}
+
+/// Adds the mass of axis `C`: `r` to the position's row, `t` to the slope's.
+#[inline(always)]
+fn with_mass<S: Simd, const C: usize>(mut column: [f64x8<S>; 6], r: f64x8<S>, t: f64x8<S>) -> [f64x8<S>; 6] {
+    column[C] = column[C] + r;
+    column[3 + C] = column[3 + C] + t;
+    column
+}
+
+/// Coordinate `i` of eight elements.
+#[inline(always)]
+fn lanes<S: Simd>(simd: S, n: &[&[f64; 12]; LANES], i: usize) -> f64x8<S> {
+    f64x8::simd_from(simd, [n[0][i], n[1][i], n[2][i], n[3][i], n[4][i], n[5][i], n[6][i], n[7][i]])
+}
+
+/// Eight consecutive values from `first` on.
+#[inline(always)]
+fn load<S: Simd>(simd: S, values: &[f64], first: usize) -> f64x8<S> {
+    f64x8::from_slice(simd, &values[first..first + LANES])
+}
+
+/// Transposes six rows and two of zeros: three rounds of a perfect shuffle rotate the six address bits by three.
+#[inline(always)]
+fn transpose<S: Simd>(simd: S, m: [f64x8<S>; 6]) -> [f64x8<S>; LANES] {
+    let zero = f64x8::splat(simd, 0.0);
+    shuffle(shuffle(shuffle([m[0], m[1], m[2], m[3], m[4], m[5], zero, zero])))
+}
+
+#[inline(always)]
+fn shuffle<S: Simd>(m: [f64x8<S>; LANES]) -> [f64x8<S>; LANES] {
+    [
+        m[0].zip_low(m[4]),
+        m[0].zip_high(m[4]),
+        m[1].zip_low(m[5]),
+        m[1].zip_high(m[5]),
+        m[2].zip_low(m[6]),
+        m[2].zip_high(m[6]),
+        m[3].zip_low(m[7]),
+        m[3].zip_high(m[7]),
+    ]
 }
 
 fn absent<B: Bending>(_: &B) -> bool {
     B::ABSENT
 }
-

@@ -1,24 +1,19 @@
 //! The equations of one cable, `M q'' = F(q, t)`, as the integrators see them.
 //!
-//! Newton for a stage `M z = c2 F(base + z)`: `(M + c2 K) dz = c2 F - M z`, a fresh tangent each time, full steps under a cap on
-//! the change of slope. *Stop.* With increments d_k, the next is predicted as d_k (d_k/d_{k-1})^2 (quadratic convergence); the
-//! iteration ends when that, or d_k itself, is below the tolerance. *Rejected.* A line search on the residual (stagnates on thin
-//! cables: the residual of stiff axial modes hides the progress of the bending modes), frozen tangents (diverge).
+//! A stage `M z = c2 F(base + z)` is solved with `(M + c2 K) dz = c2 F - M z` by [`newton`](crate::integrate::newton).
 
 use super::model::Model;
 use super::projection::{project_matrix, project_vector};
 use super::system::{MassSolver, System};
 use crate::diagnostics::Diagnostics;
 use crate::error::StepFailure;
-use crate::integrate::{Dynamics, Newton, Stage};
+use crate::integrate::newton::{self, Increment, Linearised};
+use crate::integrate::{Dynamics, Stage};
 use crate::linalg::Definiteness;
 
-/// Newton iterations before a stage is given up.
-const MAX_ITERATIONS: usize = 12;
-/// Largest change of a slope vector in one Newton iteration.
-const SLOPE_CAP: f64 = 0.5;
-/// One iteration is enough if the second increment is below this share of the first.
-const ONCE_CONTRACTION: f64 = 0.1;
+/// Newton's tolerance is at most this share of the displacement that the acceleration makes in the stage, and of the strain
+/// that it makes in the cable (loosened a hundred times, steel gains energy and shows spurious tension at coarse tolerances).
+const RELATIVE_TOLERANCE: f64 = 1e-2;
 
 /// A model with its system and counters: what the integrators see.
 pub(crate) struct Equations<'a> {
@@ -52,9 +47,7 @@ impl Equations<'_> {
     pub fn force_and_matrix(&mut self, time: f64, q: &[f64], scale: f64, mass_scale: f64, out: &mut [f64]) {
         out.fill(0.0);
         let system = &mut *self.system;
-        system.matrix.clear();
-        system.add_mass(mass_scale);
-        system.elements.add_force_and_tangent(system.level, q, scale, out, &mut system.matrix);
+        system.elements.add_force_and_matrix(system.level, q, scale, mass_scale, out, &mut system.matrix);
         self.count_elements(true);
         self.system.add_loads(self.model, time, q, scale, out, true, self.diagnostics);
     }
@@ -90,66 +83,53 @@ impl Equations<'_> {
         }
     }
 
-    fn newton(
-        &mut self,
-        stage: &Stage,
-        base: &[f64],
-        y: &mut [f64],
-        z: &mut [f64],
-        rhs: &mut [f64],
-    ) -> Result<(), StepFailure> {
-        let (tolerance, once) = match stage.newton {
-            Newton::Converge(tolerance) => (tolerance, false),
-            Newton::Once(tolerance) => (tolerance, true),
-        };
-        let mut before = f64::INFINITY;
-        let mut scratch = core::mem::take(&mut self.system.product);
-        let outcome = (|| {
-            for iteration in 1..=MAX_ITERATIONS {
-                self.diagnostics.newton_iterations += 1;
-                self.residual(stage, y, z, rhs, &mut scratch, true);
-                self.factor()?;
-                self.solve(rhs);
-                let largest = rhs.chunks_exact(6).fold(0.0f64, |m, x| m.max(x[3].abs()).max(x[4].abs()).max(x[5].abs()));
-                let damp = if largest > SLOPE_CAP { SLOPE_CAP / largest } else { 1.0 };
-                let mut size = damp * self.system.displacement(rhs);
-                if !size.is_finite() {
-                    return Err(not_finite("Newton increment", rhs));
-                }
-                for i in 0..z.len() {
-                    z[i] += damp * rhs[i];
-                    y[i] = base[i] + z[i];
-                }
-                if once && iteration == 1 && damp == 1.0 {
-                    self.residual(stage, y, z, rhs, &mut scratch, false);
-                    self.solve(rhs);
-                    let second = self.system.displacement(rhs);
-                    if second.is_nan() {
-                        return Err(not_finite("Newton increment", rhs));
-                    }
-                    if second <= ONCE_CONTRACTION * size || second <= tolerance {
-                        for i in 0..z.len() {
-                            z[i] += rhs[i];
-                            y[i] = base[i] + z[i];
-                        }
-                        return Ok(());
-                    }
-                    size = size.max(second);
-                }
-                let ratio = size / before;
-                let next = if iteration == 1 { size } else { size * ratio * ratio };
-                if damp == 1.0 && size.min(next) <= tolerance {
-                    return Ok(());
-                }
-                if iteration == MAX_ITERATIONS || (iteration > 4 && ratio > 2.0) {
-                    return Err(StepFailure::NotConverged { iterations: iteration, increment: size });
-                }
-                before = size;
-            }
-            unreachable!("the loop returns at its last iteration")
-        })();
-        self.system.product = scratch;
-        outcome
+    /// The stage's Newton tolerance in m, at most `tolerance`, for the initial guess `z` and coordinates `base`.
+    ///
+    /// z = c2 k: in a short step the tolerance must not swallow the acceleration; on a stiff cable a displacement d within the
+    /// tolerance may be a large strain d/l, so EA d/l is held below a share of the inertia force rho A L k as well. Below
+    /// rounding nothing can be met.
+    pub fn tolerance(&self, tolerance: f64, stage: &Stage, base: &[f64], z: &[f64]) -> f64 {
+        let scale = self.system.extent(z).0 * (self.system.stiff_time_squared / stage.c2).min(1.0);
+        let rounding = 4.0 * f64::EPSILON * base.iter().fold(1.0f64, |m, x| m.max(x.abs()));
+        tolerance.min(RELATIVE_TOLERANCE * scale).max(rounding)
+    }
+}
+
+/// One stage of one cable, as Newton sees it.
+struct CableStage<'a, 'b> {
+    equations: &'a mut Equations<'b>,
+    stage: &'a Stage,
+    base: &'a [f64],
+    y: &'a mut [f64],
+    z: &'a mut [f64],
+    rhs: &'a mut [f64],
+    product: &'a mut [f64],
+}
+
+impl Linearised for CableStage<'_, '_> {
+    fn increment(&mut self, fresh: bool) -> Result<Increment, StepFailure> {
+        let equations = &mut *self.equations;
+        equations.diagnostics.newton_iterations += 1;
+        equations.residual(self.stage, self.y, self.z, self.rhs, self.product, fresh);
+        if fresh {
+            equations.system.factored = 0.0;
+            equations.factor()?;
+            equations.system.factored = self.stage.c2;
+        }
+        equations.solve(self.rhs);
+        let (displacement, slope) = equations.system.extent(self.rhs);
+        Ok(Increment { displacement, rotation: slope })
+    }
+
+    fn apply(&mut self, share: f64) {
+        for i in 0..self.z.len() {
+            self.z[i] += share * self.rhs[i];
+            self.y[i] = self.base[i] + self.z[i];
+        }
+    }
+
+    fn not_finite(&self) -> StepFailure {
+        not_finite("Newton increment", self.rhs)
     }
 }
 
@@ -226,7 +206,13 @@ impl Dynamics for Equations<'_> {
             z[i] = stage.c2 * acceleration[i];
             y[i] = base[i] + z[i];
         }
-        let outcome = self.newton(stage, base, y, &mut z, &mut rhs);
+        let mut product = core::mem::take(&mut self.system.product);
+        let tolerance = self.tolerance(stage.newton.tolerance(), stage, base, &z);
+        let keep = stage.reuse && self.system.factored == stage.c2;
+        let mut problem =
+            CableStage { equations: self, stage, base, y, z: &mut z, rhs: &mut rhs, product: &mut product };
+        let outcome = newton::iterate(&mut problem, tolerance, stage.newton.once(), keep);
+        self.system.product = product;
         for i in 0..z.len() {
             acceleration[i] = z[i] / stage.c2;
         }
@@ -244,7 +230,7 @@ impl Dynamics for Equations<'_> {
     }
 
     fn norm(&self, error: &[f64]) -> f64 {
-        self.system.displacement(error)
+        self.system.extent(error).0
     }
 
     fn frequency_bound(&self) -> f64 {

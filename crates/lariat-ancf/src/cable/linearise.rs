@@ -16,17 +16,28 @@ impl Cable {
     /// Tangent stiffness -dF/dq at the present state over all coordinates (N/m, N, N m); supports are not applied.
     pub fn stiffness_matrix(&mut self) -> BlockTridiagonal {
         let mut force = vec![0.0; self.positions().len()];
-        let (mut equations, phase) = self.equations();
-        equations.force_and_matrix(phase.time, &phase.q, 1.0, 0.0, &mut force);
-        self.system.matrix.clone()
+        self.evaluate_with_stiffness(&mut force).clone()
     }
 
     /// Generalised force at the present state: elastic, gravity and loads (N on positions, N m on slopes); no reactions.
     pub fn force(&mut self) -> Vec<f64> {
         let mut force = vec![0.0; self.positions().len()];
-        let (mut equations, phase) = self.equations();
-        equations.force(phase.time, &phase.q, 1.0, &mut force);
+        self.evaluate(&mut force);
         force
+    }
+
+    /// [`force`](Self::force) into a slice of 6 numbers per node; allocates nothing.
+    pub fn evaluate(&mut self, force: &mut [f64]) {
+        let (mut equations, phase) = self.equations();
+        equations.force(phase.time, &phase.q, 1.0, force);
+    }
+
+    /// Force into a slice of 6 numbers per node, and the stiffness as [`stiffness_matrix`](Self::stiffness_matrix); allocates
+    /// nothing.
+    pub fn evaluate_with_stiffness(&mut self, force: &mut [f64]) -> &BlockTridiagonal {
+        let (mut equations, phase) = self.equations();
+        equations.force_and_matrix(phase.time, &phase.q, 1.0, 0.0, force);
+        &self.system.matrix
     }
 
     /// Applies the supports to a matrix: held rows and columns become those of the identity.

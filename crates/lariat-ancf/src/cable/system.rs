@@ -39,6 +39,10 @@ pub(crate) struct System {
     pub product: Vec<f64>,
     pub z: Vec<f64>,
     pub frequency_bound: f64,
+    /// c2 of the stage whose matrix is factored; 0 = none.
+    pub factored: f64,
+    /// Smallest `L l rhoA/EA` in s^2: an acceleration k strains an element by this times k/l.
+    pub stiff_time_squared: f64,
 }
 
 impl System {
@@ -77,6 +81,10 @@ impl System {
             product: vec![0.0; 6 * nodes],
             z: vec![0.0; 6 * nodes],
             frequency_bound: super::frequency::bound(model),
+            factored: 0.0,
+            stiff_time_squared: model.elements.iter().fold(f64::INFINITY, |least, e| {
+                least.min(model.length() * e.length * e.section.mass_per_length / e.section.axial_stiffness)
+            }),
         };
         system.factor_mass(model)?;
         Ok(system)
@@ -219,14 +227,17 @@ impl System {
         }
     }
 
-    /// Largest component of a nodal vector as a displacement in m: of r, and of t over l/8.
-    pub fn displacement(&self, x: &[f64]) -> f64 {
-        x.chunks_exact(6).zip(&self.arm).fold(0.0f64, |worst, (x, arm)| {
-            let r = (x[0] * x[0] + x[1] * x[1] + x[2] * x[2]).sqrt();
-            let t = (x[3] * x[3] + x[4] * x[4] + x[5] * x[5]).sqrt() * arm;
-            let size = if r > t { r } else { t };
-            // a NaN must not hide behind a comparison
-            if size > worst || size.is_nan() { size } else { worst }
-        })
+    /// Largest component of a nodal vector as a displacement in m (of r, and of t over l/8), and the largest |t|.
+    pub fn extent(&self, x: &[f64]) -> (f64, f64) {
+        let (mut displacement, mut slope, mut not_finite) = (0.0f64, 0.0f64, 0.0f64);
+        for (x, arm) in x.chunks_exact(6).zip(&self.arm) {
+            let r = x[0] * x[0] + x[1] * x[1] + x[2] * x[2];
+            let t = x[3] * x[3] + x[4] * x[4] + x[5] * x[5];
+            displacement = displacement.max(r).max(arm * arm * t);
+            slope = slope.max(t);
+            // a sum carries the NaN that max drops
+            not_finite += 0.0 * (r + t);
+        }
+        (displacement.sqrt() + not_finite, slope.sqrt() + not_finite)
     }
 }

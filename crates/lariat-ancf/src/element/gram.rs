@@ -69,36 +69,51 @@ pub fn gram<T: Real>(d: &Control<T>) -> Six<T> {
 /// Gradient of the energy with respect to the control vectors: `sum_j n_ij d_j`.
 #[inline(always)]
 pub fn gradient<T: Real>(n: &Six<T>, d: &Control<T>) -> Control<T> {
-    core::array::from_fn(|i| {
-        core::array::from_fn(|x| {
-            n[PAIR[i][0]] * d[0][x] + n[PAIR[i][1]] * d[1][x] + n[PAIR[i][2]] * d[2][x]
-        })
-    })
+    let mut out = *d;
+    for i in 0..3 {
+        for x in 0..3 {
+            out[i][x] = n[PAIR[i][0]] * d[0][x] + n[PAIR[i][1]] * d[1][x] + n[PAIR[i][2]] * d[2][x];
+        }
+    }
+    out
 }
 
 /// Second derivative of the energy with respect to the control vectors (i, k): a 3x3 block `[row][column]`.
+/// On the diagonal, i = k, the block is symmetric and only its upper triangle is computed and then copied.
 #[inline(always)]
-pub fn hessian_block<T: Real>(
-    i: usize,
-    k: usize,
-    n: &Six<T>,
-    h: &Upper<T>,
-    d: &Control<T>,
-) -> [[T; 3]; 3] {
+pub fn hessian_block<T: Real>(i: usize, k: usize, n: &Six<T>, h: &Upper<T>, d: &Control<T>) -> [[T; 3]; 3] {
     // y_m = sum_n h_(im)(kn) d_n, then block = sum_m d_m y_m^T + n_ik I
-    let y: Control<T> = core::array::from_fn(|m| {
-        let row = |n: usize| h[upper(PAIR[i][m], PAIR[k][n])];
-        let (h0, h1, h2) = (row(0), row(1), row(2));
-        core::array::from_fn(|x| h0 * d[0][x] + h1 * d[1][x] + h2 * d[2][x])
-    });
-    let mut block: [[T; 3]; 3] = core::array::from_fn(|r| {
-        core::array::from_fn(|c| d[0][r] * y[0][c] + d[1][r] * y[1][c] + d[2][r] * y[2][c])
-    });
-    let diagonal = n[PAIR[i][k]];
-    for x in 0..3 {
-        block[x][x] = block[x][x] + diagonal;
+    let mut y = *d;
+    for m in 0..3 {
+        let (h0, h1, h2) = (
+            h[upper(PAIR[i][m], PAIR[k][0])],
+            h[upper(PAIR[i][m], PAIR[k][1])],
+            h[upper(PAIR[i][m], PAIR[k][2])],
+        );
+        for x in 0..3 {
+            y[m][x] = h0 * d[0][x] + h1 * d[1][x] + h2 * d[2][x];
+        }
+    }
+    let mut block = *d;
+    for r in 0..3 {
+        let first = if i == k { r } else { 0 };
+        for c in first..3 {
+            block[r][c] = d[0][r] * y[0][c] + d[1][r] * y[1][c] + d[2][r] * y[2][c];
+        }
+        block[r][r] = block[r][r] + n[PAIR[i][k]];
+    }
+    if i == k {
+        block[1][0] = block[0][1];
+        block[2][0] = block[0][2];
+        block[2][1] = block[1][2];
     }
     block
+}
+
+/// Linear form `c . x` with constant coefficients.
+#[inline(always)]
+pub fn form<T: Real>(c: &Six<f64>, x: &Six<T>) -> T {
+    x[0] * c[0] + x[1] * c[1] + x[2] * c[2] + x[3] * c[3] + x[4] * c[4] + x[5] * c[5]
 }
 
 /// Coefficients of the slope `r' = b0 d0 + b1 d1 + b2 d2` at xi in `[0, 1]`.

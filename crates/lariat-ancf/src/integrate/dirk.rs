@@ -25,12 +25,31 @@ pub struct Tableau {
     pub b: &'static [f64],
     /// Weights `b - b^` of the error estimate; empty = none.
     pub error: &'static [f64],
+    /// What the estimate is multiplied by, so that a tolerance meets the error of the result (see `tests/tolerance.rs`).
+    pub calibration: f64,
 }
 
 impl Tableau {
     /// Abscissa of stage `i`.
     pub fn c(&self, i: usize) -> f64 {
         self.a[i].iter().sum()
+    }
+
+    /// Guesses the acceleration of stage `i` by the polynomial through those of the stages before it.
+    fn predict(&self, i: usize, before: &[Vec<f64>], at_start: &[f64], k: &mut [f64]) {
+        if before.is_empty() {
+            k.copy_from_slice(at_start);
+            return;
+        }
+        k.fill(0.0);
+        // the last three stages at most: higher polynomials amplify what is not smooth
+        let first = i.saturating_sub(3);
+        for j in first..i {
+            let weight = (first..i).filter(|&m| m != j).fold(1.0, |w, m| {
+                w * (self.c(i) - self.c(m)) / (self.c(j) - self.c(m))
+            });
+            add(k, weight, &before[j]);
+        }
     }
 
     /// True if the last stage is the result.
@@ -80,12 +99,13 @@ impl OneStep for Tableau {
             add(base, diagonal, velocity_base);
             let (before, rest) = stage_k.split_at_mut(i);
             let k = &mut rest[0];
-            k.copy_from_slice(before.last().unwrap_or(&now.memory.acceleration));
+            self.predict(i, before, &now.memory.acceleration, k);
             let stage = Stage {
                 time: now.time + self.c(i) * h,
                 c2: diagonal * diagonal,
                 rate: 1.0 / diagonal,
                 newton: Newton::Converge(newton_tolerance),
+                reuse: i > 1,
             };
             system.solve_stage(&stage, base, velocity_base, &mut next.q, k)?;
             let v = &mut stage_v[i];
@@ -116,6 +136,6 @@ impl OneStep for Tableau {
             }
         }
         system.filter(error);
-        Ok(Some(system.norm(error)))
+        Ok(Some(self.calibration * system.norm(error)))
     }
 }

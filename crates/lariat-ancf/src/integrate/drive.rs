@@ -2,7 +2,7 @@
 //!
 //! With a tolerance, a step h of a host step H is accepted if its estimated error is below `tolerance h/H` (error per unit
 //! step), so that the errors of a host step add up to the tolerance. The next h follows from the estimate's order p,
-//! `h (0.8 allowed/error)^(1/(p-1))`, within 1/5 and 3. What is left of the host step is split evenly once fewer than two steps
+//! `h (0.5 allowed/error)^(1/(p-1))`, within 1/5 and 3. What is left of the host step is split evenly once fewer than two steps
 //! remain, and the last step ends on the host's time to the bit. *Source.* Hairer & Wanner 1996, IV.8.
 //!
 //! A step that fails (Newton, a pivot, a number that is not finite) is retried at 1/4 of its length down to H/2^20; then the drive
@@ -16,7 +16,9 @@ use crate::error::StepFailure;
 /// Steps are not shortened below H times this.
 const SHORTEST: f64 = 1.0 / (1u64 << 20) as f64;
 /// Newton stops below this share of the error allowed to a step.
-const NEWTON_SHARE: f64 = 0.02;
+const NEWTON_SHARE: f64 = 0.1;
+/// The next step aims at this share of the allowed error: fewer rejections (one half costs less than 0.8, measured).
+const SAFETY: f64 = 0.5;
 /// Newton's tolerance in m where no error is controlled.
 const FIXED_STEP_NEWTON: f64 = 1e-10;
 
@@ -64,6 +66,7 @@ pub fn advance(
     };
     let order = method.properties().estimate_order.unwrap_or(2);
     let regular = regular_step(system, &stepper, control, horizon, phase.memory.step);
+    check_stability(system, &stepper, regular, phase.time)?;
     let mut proposal = regular;
     let mut done = 0.0;
     while done < horizon {
@@ -86,7 +89,7 @@ pub fn advance(
             }
             (Ok(Some(estimate)), Some(tolerance)) => {
                 let allowed = tolerance * h / horizon;
-                let factor = (0.8 * allowed / estimate.max(1e-300)).powf(1.0 / f64::from(order - 1)).clamp(0.2, 3.0);
+                let factor = (SAFETY * allowed / estimate.max(1e-300)).powf(1.0 / f64::from(order - 1)).clamp(0.2, 3.0);
                 if estimate > allowed {
                     counts.rejected += 1;
                     proposal = h * factor.min(0.9);
@@ -129,6 +132,17 @@ fn prepare(system: &mut dyn Dynamics, phase: &mut Phase) -> Result<(), Refusal> 
     Ok(())
 }
 
+/// Refuses an explicit step that would blow up: the frequency bound is that of one element plus 5 %, and tight.
+fn check_stability(system: &dyn Dynamics, stepper: &Stepper, step: f64, time: f64) -> Result<(), Refusal> {
+    if let Stepper::Explicit(composition) = stepper {
+        let limit = 1.05 * composition.stability_limit / system.frequency_bound().max(1e-12);
+        if step > limit {
+            return Err(Refusal { time, step, failure: StepFailure::Unstable { step, limit } });
+        }
+    }
+    Ok(())
+}
+
 /// The step to begin with.
 fn regular_step(system: &dyn Dynamics, stepper: &Stepper, control: StepControl, horizon: f64, memory: f64) -> f64 {
     let equal = |longest: f64| horizon / (horizon / longest - 1e-9).ceil().max(1.0);
@@ -139,7 +153,7 @@ fn regular_step(system: &dyn Dynamics, stepper: &Stepper, control: StepControl, 
         StepControl::MaxStep(longest) => equal(longest),
         StepControl::Stable(share) => match stepper {
             Stepper::Explicit(composition) => {
-                equal(share * composition.stability_limit() / system.frequency_bound().max(1e-12))
+                equal(share * composition.stability_limit / system.frequency_bound().max(1e-12))
             }
             _ => horizon,
         },

@@ -12,6 +12,20 @@ pub enum Newton {
     Once(f64),
 }
 
+impl Newton {
+    /// The size in m to converge to.
+    pub fn tolerance(self) -> f64 {
+        match self {
+            Newton::Converge(tolerance) | Newton::Once(tolerance) => tolerance,
+        }
+    }
+
+    /// Whether one checked iteration is enough.
+    pub fn once(self) -> bool {
+        matches!(self, Newton::Once(_))
+    }
+}
+
 /// An implicit stage: find z with `M z = c2 F(base + z, velocity_base + rate z, time)`, `z = y - base`.
 #[derive(Clone, Copy, Debug)]
 pub struct Stage {
@@ -23,6 +37,8 @@ pub struct Stage {
     pub rate: f64,
     /// When to stop.
     pub newton: Newton,
+    /// Whether the tangent of the stage before may be tried first.
+    pub reuse: bool,
 }
 
 /// A mechanical system `M q'' = F(q, q', t)` with constant M, of which some coordinates may be prescribed in time.

@@ -22,6 +22,8 @@ pub struct Composition {
     pub drifts: &'static [f64],
     /// Number of drifts (and force evaluations) in a step.
     pub stages: usize,
+    /// Largest h omega below which a harmonic oscillator stays bounded (a test scans for it).
+    pub stability_limit: f64,
 }
 
 impl Composition {
@@ -31,27 +33,6 @@ impl Composition {
 
     fn drift(&self, i: usize) -> f64 {
         self.drifts[i.min(self.stages - 1 - i)]
-    }
-
-    /// Largest h omega below which a harmonic oscillator stays bounded.
-    pub fn stability_limit(&self) -> f64 {
-        let half_trace = |x: f64| {
-            // columns of the step matrix for q' = v, v' = -x^2 q with h = 1
-            let image = |mut q: f64, mut v: f64| {
-                for i in 0..self.stages {
-                    v -= self.kick(i) * x * x * q;
-                    q += self.drift(i) * v;
-                }
-                (q, v - self.kick(self.stages) * x * x * q)
-            };
-            0.5 * (image(1.0, 0.0).0 + image(0.0, 1.0).1)
-        };
-        let step = 1e-3;
-        let mut x = step;
-        while half_trace(x).abs() <= 1.0 + 1e-9 && x < 100.0 {
-            x += step;
-        }
-        x - step
     }
 }
 
@@ -86,5 +67,34 @@ impl OneStep for Composition {
         add(&mut next.v, h * self.kick(self.stages), &next.memory.acceleration);
         system.prescribe(now.time + h, &mut next.q, &mut next.v);
         Ok(None)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Composition;
+    use crate::integrate::{rkn, verlet};
+
+    /// Half the trace of the step matrix of q' = v, v' = -x^2 q with h = 1: bounded while it stays within [-1, 1].
+    fn half_trace(method: &Composition, x: f64) -> f64 {
+        let image = |mut q: f64, mut v: f64| {
+            for i in 0..method.stages {
+                v -= method.kick(i) * x * x * q;
+                q += method.drift(i) * v;
+            }
+            (q, v - method.kick(method.stages) * x * x * q)
+        };
+        0.5 * (image(1.0, 0.0).0 + image(0.0, 1.0).1)
+    }
+
+    #[test]
+    fn the_stability_limit_is_where_the_oscillator_stops_being_bounded() {
+        for method in [&verlet::METHOD, &rkn::ORDER_4, &rkn::ORDER_6] {
+            let mut x = 1e-3;
+            while half_trace(method, x).abs() <= 1.0 + 1e-9 {
+                x += 1e-3;
+            }
+            assert!((x - 1e-3 - method.stability_limit).abs() < 2e-3, "{x} {}", method.stability_limit);
+        }
     }
 }

@@ -62,7 +62,7 @@ impl OneStep for GeneralisedAlpha {
             NewtonMode::Converged => Newton::Converge(newton_tolerance),
             NewtonMode::Once => Newton::Once(newton_tolerance),
         };
-        let stage = Stage { time: now.time + h, c2, rate: c1 / c2, newton };
+        let stage = Stage { time: now.time + h, c2, rate: c1 / c2, newton, reuse: false };
         system.solve_stage(&stage, base, velocity_base, &mut next.q, acceleration)?;
         next.v.copy_from_slice(velocity_base);
         add(&mut next.v, c1, acceleration);

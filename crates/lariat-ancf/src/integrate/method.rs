@@ -148,9 +148,9 @@ impl Method {
             }
             Method::TrBdf2 => implicit(2, 2, Some(3), "L-stable", "any stiffness, coarse tolerance"),
             Method::Esdirk3 => {
-                implicit(3, 3, Some(3), "L-stable", "any stiffness (preset engineering, the default)")
+                implicit(3, 3, Some(3), "L-stable", "any stiffness, coarse steps")
             }
-            Method::Esdirk4 => implicit(4, 5, Some(4), "L-stable", "any stiffness, fine tolerance (preset reference)"),
+            Method::Esdirk4 => implicit(4, 5, Some(4), "L-stable", "any stiffness (preset engineering, the default)"),
             Method::Verlet => explicit(2, 1, "soft cables, many small steps"),
             Method::Rkn4 => explicit(4, 6, "soft cables, fine accuracy"),
             Method::Rkn6 => explicit(6, 11, "soft cables, reference runs (preset reference)"),

@@ -7,4 +7,4 @@
 use super::dirk::Tableau;
 
 /// The tableau.
-pub const TABLEAU: Tableau = Tableau { a: &[&[0.5]], b: &[1.0], error: &[] };
+pub const TABLEAU: Tableau = Tableau { a: &[&[0.5]], b: &[1.0], error: &[], calibration: 1.0 };

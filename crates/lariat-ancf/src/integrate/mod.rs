@@ -22,6 +22,7 @@ pub mod explicit;
 pub mod generalised_alpha;
 mod method;
 pub mod midpoint;
+pub mod newton;
 mod preset;
 pub mod rkn;
 pub mod tr_bdf2;

@@ -22,7 +22,7 @@ pub enum StepControl {
 ///
 /// ```
 /// use lariat_ancf::{Integrator, Method, StepControl};
-/// assert_eq!(Integrator::default(), Integrator::tolerance(Method::Esdirk3, 1e-6)?);
+/// assert_eq!(Integrator::default(), Integrator::tolerance(Method::Esdirk4, 1e-6)?);
 /// assert!(Integrator::tolerance(Method::Verlet, 1e-6).is_err()); // no error estimate
 /// # Ok::<(), lariat_ancf::Error>(())
 /// ```
@@ -35,9 +35,9 @@ pub struct Integrator {
 }
 
 impl Default for Integrator {
-    /// [`Preset::Engineering`]: error-controlled ESDIRK3, 1e-6 m per host step.
+    /// [`Preset::Engineering`]: error-controlled ESDIRK4, 1e-6 m per host step.
     fn default() -> Self {
-        Integrator { method: Method::Esdirk3, control: StepControl::Tolerance(1e-6) }
+        Integrator { method: Method::Esdirk4, control: StepControl::Tolerance(1e-6) }
     }
 }
 
@@ -47,7 +47,7 @@ impl Default for Integrator {
 pub enum Preset {
     /// One-iteration generalised-alpha 0.5 at h <= 1/240 s, with full Newton where a step does not contract.
     Game,
-    /// Error-controlled ESDIRK3, 1e-6 m per host step: the default.
+    /// Error-controlled ESDIRK4, 1e-6 m per host step: the default.
     Engineering,
     /// Symplectic explicit of order 6 where the cable is soft enough (omega_max below 1e5 rad/s), else ESDIRK4 at 1e-9 m.
     Reference,

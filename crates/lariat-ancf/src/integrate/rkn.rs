@@ -14,6 +14,7 @@ pub const ORDER_4: Composition = Composition {
     kicks: &[B4[0], B4[1], B4[2], 1.0 - 2.0 * (B4[0] + B4[1] + B4[2])],
     drifts: &[A4[0], A4[1], 0.5 - (A4[0] + A4[1])],
     stages: 6,
+    stability_limit: 3.163,
 };
 
 const B6: [f64; 5] = [
@@ -31,4 +32,5 @@ pub const ORDER_6: Composition = Composition {
     kicks: &[B6[0], B6[1], B6[2], B6[3], B6[4], 0.5 - (B6[0] + B6[1] + B6[2] + B6[3] + B6[4])],
     drifts: &[A6[0], A6[1], A6[2], A6[3], A6[4], 1.0 - 2.0 * (A6[0] + A6[1] + A6[2] + A6[3] + A6[4])],
     stages: 11,
+    stability_limit: 3.141,
 };

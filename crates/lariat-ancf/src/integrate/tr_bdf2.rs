@@ -16,4 +16,5 @@ pub const TABLEAU: Tableau = Tableau {
     a: &[&[0.0], &[D, D], &[W, W, D]],
     b: &[W, W, D],
     error: &[W - (1.0 - W) / 3.0, W - (3.0 * W + 1.0) / 3.0, D - D / 3.0],
+    calibration: 1.0,
 };

@@ -5,4 +5,4 @@
 use super::explicit::Composition;
 
 /// Half a kick, a drift, half a kick.
-pub const METHOD: Composition = Composition { kicks: &[0.5], drifts: &[1.0], stages: 1 };
+pub const METHOD: Composition = Composition { kicks: &[0.5], drifts: &[1.0], stages: 1, stability_limit: 2.0 };
