@@ -42,7 +42,8 @@ fn counts_are_reproducible() {
     }
 }
 
-/// Explicit methods solve with the mass matrix and factor nothing; implicit ones factor, once per Newton iteration.
+/// Explicit methods solve with the mass matrix and factor nothing; implicit ones iterate in every stage, with a new tangent at most in
+/// every iteration.
 ///
 /// *Source.* The number of stages each method claims; 3 host steps of 40 steps, and one acceleration to begin with.
 #[test]
@@ -51,8 +52,8 @@ fn methods_cost_what_they_claim() {
         let (d, p) = (counted("projected-3", false, method, 3), method.properties());
         assert_eq!((d.host_steps, d.steps, d.rejected_steps), (3, 120, 0), "{method}");
         if p.implicit {
-            assert!(d.factorisations >= u64::from(p.stages) * d.steps, "{method}: {d:?}");
-            assert_eq!(d.factorisations, d.newton_iterations, "{method}: {d:?}");
+            assert!(d.newton_iterations >= u64::from(p.stages) * d.steps, "{method}: {d:?}");
+            assert!((1..=d.newton_iterations).contains(&d.factorisations), "{method}: {d:?}");
         } else {
             assert_eq!(d.factorisations, 0, "{method}");
             assert_eq!(d.mass_solves, u64::from(p.stages) * d.steps + 1, "{method}: {d:?}");

@@ -25,7 +25,7 @@ fn tip_loaded(axial: f64, bending: f64, force: [f64; 2], elements: usize, rule: 
             .load(PointLoad::force(1.0, Vector3::new(force[0], force[1], 0.0))),
         reference: Elastica { axial, bending, length: 1.0, force },
         tolerance: 1e-6,
-        source: "elastica with the Green-law stretch: shooting on the root moment, classical Runge-Kutta, 4000 steps",
+        source: "elastica with the Green-law stretch: shooting on the root moment, classical Runge-Kutta, 1000 steps",
     }
 }
 

@@ -160,7 +160,7 @@ pub struct Tip {
 }
 
 impl Elastica {
-    /// Integrates from the clamp with root moment `m0` by the classical Runge-Kutta method in 4000 steps.
+    /// Integrates from the clamp with root moment `m0` by the classical Runge-Kutta method in 1000 steps.
     pub fn shoot(&self, m0: f64) -> Tip {
         let [fx, fy] = self.force;
         let rate = |y: [f64; 4]| {
@@ -169,7 +169,7 @@ impl Elastica {
             let f = stretch(self.axial, fx * c + fy * s, m * m / self.bending);
             [f * c, f * s, m * f * f / self.bending, -f * (fy * c - fx * s)]
         };
-        let steps = 4000;
+        let steps = 1000;
         let h = self.length / f64::from(steps);
         let mut y = [0.0, 0.0, 0.0, m0];
         let plus = |y: [f64; 4], k: [f64; 4], h: f64| core::array::from_fn(|i| y[i] + h * k[i]);
