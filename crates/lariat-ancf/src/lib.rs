@@ -36,6 +36,7 @@ mod diagnostics;
 pub mod element;
 mod error;
 pub mod integrate;
+pub mod island;
 pub mod linalg;
 mod load;
 mod quadrature;

@@ -6,6 +6,7 @@
 //! *vector* also fixes the stretch at the node, which is then wrong by the tension over EA; a clamp holds the direction alone.
 //! *Rejected.* Penalty springs (they limit the step) and Lagrange multipliers (an indefinite matrix for nothing).
 
+use crate::integrate::Stage;
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
@@ -72,35 +73,61 @@ pub struct Support {
     pub position: Option<Motion>,
     /// What holds the slope.
     pub slope: SlopeSupport,
+    /// The position follows a body of an [`island`](crate::island); set by [`Cable::attach`](crate::Cable::attach).
+    #[serde(default)]
+    pub attached: bool,
 }
 
 impl Support {
     /// True if nothing is held.
     pub fn is_free(&self) -> bool {
-        self.position.is_none() && self.slope == SlopeSupport::Free
+        !self.holds_position() && self.slope == SlopeSupport::Free
+    }
+
+    /// True if the position is not free.
+    pub(crate) fn holds_position(&self) -> bool {
+        self.position.is_some() || self.attached
     }
 
     /// Removes the held components from a nodal vector (r, t).
     pub(crate) fn project(&self, x: &mut [f64]) {
-        if self.position.is_some() {
+        if self.holds_position() {
             x[..3].fill(0.0);
         }
+        self.project_slope(&mut x[3..6]);
+    }
+
+    fn project_slope(&self, t: &mut [f64]) {
         match self.slope {
             SlopeSupport::Free => {}
-            SlopeSupport::Prescribed(_) => x[3..6].fill(0.0),
+            SlopeSupport::Prescribed(_) => t.fill(0.0),
             SlopeSupport::Direction(d) => {
-                let along = d.x * x[3] + d.y * x[4] + d.z * x[5];
+                let along = d.x * t[0] + d.y * t[1] + d.z * t[2];
                 for i in 0..3 {
-                    x[3 + i] = along * d[i];
+                    t[i] = along * d[i];
                 }
             }
         }
     }
 
+    /// Makes the held components of an implicit stage come out as prescribed: `base + c2 k` and `velocity_base + rate c2 k`.
+    pub(crate) fn prescribe_stage(&self, stage: &Stage, base: &mut [f64], velocity_base: &mut [f64], k: &mut [f64]) {
+        self.prescribe(stage.time, base, velocity_base);
+        let held = self.acceleration(stage.time);
+        self.project(k);
+        for i in 0..6 {
+            base[i] -= stage.c2 * held[i];
+            velocity_base[i] -= stage.rate * stage.c2 * held[i];
+            k[i] += held[i];
+        }
+    }
+
     /// Overwrites the held components of nodal coordinates `q` and velocities `v` by their values at `time`.
     pub(crate) fn prescribe(&self, time: f64, q: &mut [f64], v: &mut [f64]) {
-        self.project(q);
-        self.project(v);
+        if let SlopeSupport::Direction(_) = self.slope {
+            self.project_slope(&mut q[3..6]);
+            self.project_slope(&mut v[3..6]);
+        }
         if let Some(motion) = self.position {
             let [x, dx, _] = motion.at(time);
             q[..3].copy_from_slice(x.as_slice());

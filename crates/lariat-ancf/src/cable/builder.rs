@@ -243,7 +243,7 @@ impl CableBuilder {
                 Hold::Pin => SlopeSupport::Free,
                 Hold::Clamp => SlopeSupport::Direction(slopes[node].normalize()),
             };
-            cable.set_support(At::Node(node), Support { position: Some(Motion::fixed(positions[node])), slope })?;
+            cable.set_support(At::Node(node), Support { position: Some(Motion::fixed(positions[node])), slope, attached: false })?;
         }
         for load in self.loads {
             cable.add_load(load)?;

@@ -191,14 +191,12 @@ impl Dynamics for Equations<'_> {
     ) -> Result<(), StepFailure> {
         for (node, support) in &self.model.supports {
             let range = 6 * node..6 * node + 6;
-            support.prescribe(stage.time, &mut base[range.clone()], &mut velocity_base[range.clone()]);
-            let held = support.acceleration(stage.time);
-            support.project(&mut acceleration[range.clone()]);
-            for (i, a) in range.zip(held) {
-                base[i] -= stage.c2 * a;
-                velocity_base[i] -= stage.rate * stage.c2 * a;
-                acceleration[i] += a;
-            }
+            support.prescribe_stage(
+                stage,
+                &mut base[range.clone()],
+                &mut velocity_base[range.clone()],
+                &mut acceleration[range],
+            );
         }
         let mut z = core::mem::take(&mut self.system.z);
         let mut rhs = core::mem::take(&mut self.system.rhs);

@@ -24,7 +24,7 @@ use crate::support::{Motion, SlopeSupport, Support};
 use builder::CableBuilder;
 pub(crate) use equations::Equations;
 use nalgebra::Vector3;
-pub(crate) use projection::project_vector;
+pub(crate) use projection::{project_matrix, project_vector};
 use serde::{Deserialize, Serialize};
 use system::System;
 
@@ -377,7 +377,7 @@ impl Cable {
     pub fn fix(&mut self, at: impl Into<At>) -> Result<(), Error> {
         let node = self.node(at)?;
         let position = Some(Motion::fixed(self.node_position(node)));
-        self.set_support(At::Node(node), Support { position, slope: SlopeSupport::Free })
+        self.set_support(At::Node(node), Support { position, slope: SlopeSupport::Free, attached: false })
     }
 
     /// Frees a node.

@@ -104,7 +104,7 @@ impl System {
             let mut held = self.mass.clone();
             for (node, support) in &model.supports {
                 for (held_here, row) in
-                    [(support.position.is_some(), 0), (support.slope != SlopeSupport::Free, 1)]
+                    [(support.holds_position(), 0), (support.slope != SlopeSupport::Free, 1)]
                 {
                     if !held_here {
                         continue;

@@ -1,0 +1,89 @@
+//! A rigid body as an island sees it.
+//!
+//! `m x'' = f`, `I omega' + omega x I omega = tau` about the centre of mass, f and tau constant over a step, in world axes.
+
+use crate::error::{Error, require, require_finite};
+use nalgebra::{Matrix3, UnitQuaternion, Vector3};
+
+/// A rigid body. All vectors in world axes, SI units.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RigidBody {
+    /// Mass in kg; 0 for a massless junction of cables.
+    pub mass: f64,
+    /// Inertia about the centre of mass in kg m^2, in body axes.
+    pub inertia: Matrix3<f64>,
+    /// Centre of mass in m.
+    pub position: Vector3<f64>,
+    /// Attitude: body axes to world axes.
+    pub rotation: UnitQuaternion<f64>,
+    /// Velocity of the centre of mass in m/s.
+    pub velocity: Vector3<f64>,
+    /// Angular velocity in rad/s.
+    pub angular_velocity: Vector3<f64>,
+    /// Force through the centre of mass in N, gravity included.
+    pub force: Vector3<f64>,
+    /// Torque in N m.
+    pub torque: Vector3<f64>,
+    /// World axes along which the body may move (x, y, z) and about which it may turn (x, y, z).
+    pub free: [bool; 6],
+}
+
+impl RigidBody {
+    /// A free body at rest, without force.
+    ///
+    /// # Errors
+    /// [`Error::InvalidValue`] for a mass that is not positive, or numbers that are not finite.
+    pub fn new(mass: f64, inertia: Matrix3<f64>, position: Vector3<f64>) -> Result<Self, Error> {
+        require("body mass (kg)", mass, mass > 0.0, "> 0")?;
+        for (i, principal) in inertia.symmetric_eigenvalues().iter().enumerate() {
+            require(&format!("principal inertia {i} (kg m^2)"), *principal, *principal > 0.0, "> 0")?;
+        }
+        require_finite("body position (m)", &position)?;
+        Ok(RigidBody {
+            mass,
+            inertia,
+            position,
+            rotation: UnitQuaternion::identity(),
+            velocity: Vector3::zeros(),
+            angular_velocity: Vector3::zeros(),
+            force: Vector3::zeros(),
+            torque: Vector3::zeros(),
+            free: [true; 6],
+        })
+    }
+
+    /// A massless point that holds cables together.
+    ///
+    /// # Errors
+    /// [`Error::InvalidValue`] for a position that is not finite.
+    pub fn junction(position: Vector3<f64>) -> Result<Self, Error> {
+        let mut body = RigidBody::new(1.0, Matrix3::identity(), position)?;
+        body.mass = 0.0;
+        body.free = [true, true, true, false, false, false];
+        Ok(body)
+    }
+
+    /// Inertia about the centre of mass in world axes, at attitude `rotation`.
+    pub fn world_inertia(&self, rotation: &UnitQuaternion<f64>) -> Matrix3<f64> {
+        let r = rotation.to_rotation_matrix();
+        r * self.inertia * r.transpose()
+    }
+
+    /// Kinetic energy in J.
+    pub fn kinetic_energy(&self) -> f64 {
+        let spin = self.world_inertia(&self.rotation) * self.angular_velocity;
+        0.5 * (self.mass * self.velocity.norm_squared() + self.angular_velocity.dot(&spin))
+    }
+
+    /// Linear momentum in kg m/s and angular momentum about the origin in kg m^2/s.
+    pub fn momentum(&self) -> (Vector3<f64>, Vector3<f64>) {
+        let linear = self.mass * self.velocity;
+        let spin = self.world_inertia(&self.rotation) * self.angular_velocity;
+        (linear, self.position.cross(&linear) + spin)
+    }
+
+    /// World position of a point given in body axes from the centre of mass.
+    pub fn point(&self, local: &Vector3<f64>) -> Vector3<f64> {
+        self.position + self.rotation * local
+    }
+}

@@ -1,0 +1,116 @@
+//! What a cable is to the bodies that hold it: its step matrix condensed on the pinned coordinates.
+//!
+//! With f the free coordinates of a cable and p those of its pinned positions,
+//!
+//! ```text
+//! Y = A_ff^-1 A_fp        W = A_pp - A_pf Y        r_p - A_pf A_ff^-1 r_f
+//! ```
+//!
+//! W (3 rows per pin) is the dynamic stiffness that bodies feel; Y carries their increments back into the cable. *Source.* Static
+//! condensation (Guyan 1965; Golub & Van Loan 2013, section 4.5.1 on bordered systems). *Rejected.* Lagrange multipliers: the same
+//! solves, and an indefinite matrix on top.
+
+use crate::linalg::{BlockTridiagonal, Factorisation};
+use fearless_simd::Level;
+
+/// Nonzero rows of a column of A: up to three nodes from `first`.
+#[derive(Clone, Copy, Debug, Default)]
+struct Column {
+    first: usize,
+    nodes: usize,
+    rows: [f64; 18],
+}
+
+/// A condensed cable.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Condensed {
+    /// By pinned coordinate: the column of A, before and after projection.
+    columns: Vec<Column>,
+    /// A_ff^-1 A_fp, one column of 6 per node after the other.
+    y: Vec<f64>,
+    /// W, row-major.
+    pub w: Vec<f64>,
+    size: usize,
+}
+
+impl Condensed {
+    /// Reads the columns of the pinned positions of `nodes` from `a`, before it is projected.
+    pub fn read(&mut self, a: &BlockTridiagonal, nodes: &[usize]) {
+        self.size = 6 * a.nodes();
+        self.columns.clear();
+        for &node in nodes {
+            for x in 0..3 {
+                let first = node.saturating_sub(1);
+                let mut column = Column { first, nodes: (node + 2).min(a.nodes()) - first, rows: [0.0; 18] };
+                for k in 0..column.nodes {
+                    let at = first + k;
+                    for r in 0..6 {
+                        column.rows[6 * k + r] = match at.cmp(&node) {
+                            std::cmp::Ordering::Less => a.lower[at].0[r][x],
+                            std::cmp::Ordering::Equal => a.diag[at].0[x][r],
+                            std::cmp::Ordering::Greater => a.lower[node].0[x][r],
+                        };
+                    }
+                }
+                self.columns.push(column);
+            }
+        }
+    }
+
+    /// Completes the condensation with the factored, projected matrix; `project` removes held rows from a vector.
+    pub fn complete(
+        &mut self,
+        level: Level,
+        factorisation: &Factorisation,
+        nodes: &[usize],
+        project: impl Fn(&mut [f64]),
+    ) {
+        let (count, size) = (self.columns.len(), self.size);
+        self.y.clear();
+        self.y.resize(count * size, 0.0);
+        self.w.clear();
+        self.w.resize(count * count, 0.0);
+        for (j, column) in self.columns.iter_mut().enumerate() {
+            for (q, &node) in nodes.iter().enumerate() {
+                if node >= column.first && node < column.first + column.nodes {
+                    let at = 6 * (node - column.first);
+                    for x in 0..3 {
+                        self.w[(3 * q + x) * count + j] = column.rows[at + x];
+                    }
+                }
+            }
+            let y = &mut self.y[j * size..(j + 1) * size];
+            y[6 * column.first..6 * (column.first + column.nodes)].copy_from_slice(&column.rows[..6 * column.nodes]);
+            project(y);
+            column.rows[..6 * column.nodes]
+                .copy_from_slice(&y[6 * column.first..6 * (column.first + column.nodes)]);
+        }
+        if count > 0 {
+            factorisation.solve_many(level, &mut self.y, count);
+        }
+        for i in 0..count {
+            for j in 0..count {
+                self.w[i * count + j] -= self.columns[i].dot(&self.y[j * size..(j + 1) * size]);
+            }
+        }
+    }
+
+    /// `A_pf u`, for pinned coordinate `i`.
+    pub fn border(&self, i: usize, u: &[f64]) -> f64 {
+        self.columns[i].dot(u)
+    }
+
+    /// `u -= Y_i displacement`.
+    pub fn spread(&self, i: usize, displacement: f64, u: &mut [f64]) {
+        for (u, y) in u.iter_mut().zip(&self.y[i * self.size..(i + 1) * self.size]) {
+            *u -= y * displacement;
+        }
+    }
+}
+
+impl Column {
+    fn dot(&self, u: &[f64]) -> f64 {
+        let u = &u[6 * self.first..6 * (self.first + self.nodes)];
+        self.rows.iter().zip(u).map(|(a, b)| a * b).sum()
+    }
+}

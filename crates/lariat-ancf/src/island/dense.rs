@@ -1,0 +1,144 @@
+//! The small dense symmetric system of an island's bodies: L D L^T with diagonal pivoting.
+//!
+//! *Source.* Golub & Van Loan 2013, section 4.4 (symmetric indefinite systems, here with 1x1 pivots chosen on the diagonal).
+//! *Validity.* Positive definite matrices, and nearly so; a pivot below rounding is an error, never a silent wrong answer.
+//! O(n^3): meant for tens of bodies. *Rejected.* nalgebra's Cholesky (its products choose kernels at run time: other bits on other
+//! machines).
+
+use crate::linalg::{Reason, SingularMatrix};
+
+/// A factored symmetric matrix.
+#[derive(Clone, Debug, Default)]
+pub struct Dense {
+    n: usize,
+    factors: Vec<f64>,
+    order: Vec<usize>,
+    scratch: Vec<f64>,
+    scale: Vec<f64>,
+}
+
+impl Dense {
+    /// Factors the symmetric `n` x `n` matrix `a` (row-major; the lower triangle is read).
+    ///
+    /// # Errors
+    /// [`SingularMatrix`] if no pivot above rounding is left, or an entry is not finite.
+    pub fn factor(&mut self, a: &[f64], n: usize) -> Result<(), SingularMatrix> {
+        self.n = n;
+        self.factors.clear();
+        self.factors.extend_from_slice(&a[..n * n]);
+        self.order.clear();
+        self.order.extend(0..n);
+        self.scratch.resize(n, 0.0);
+        let f = &mut self.factors;
+        for i in 0..n {
+            for j in 0..i {
+                f[j * n + i] = f[i * n + j];
+            }
+        }
+        self.scale.clear();
+        self.scale.extend((0..n).map(|i| f[i * n + i].abs()));
+        let scale = &self.scale;
+        let fail = |node: usize, pivot: f64, scale: f64, reason| Err(SingularMatrix { node, pivot, scale, reason });
+        if f.iter().any(|x| !x.is_finite()) {
+            return fail(0, 0.0, 0.0, Reason::NonFinite);
+        }
+        for k in 0..n {
+            // the pivot that lost least of its diagonal entry: rows of bodies differ in unit and size
+            let quality = |f: &[f64], i: usize, order: &[usize]| f[i * n + i].abs() / scale[order[i]].max(f64::MIN_POSITIVE);
+            let best = (k..n).fold(k, |b, i| if quality(f, i, &self.order) > quality(f, b, &self.order) { i } else { b });
+            swap(f, n, k, best);
+            self.order.swap(k, best);
+            let pivot = f[k * n + k];
+            let size = scale[self.order[k]];
+            if pivot.abs() <= 64.0 * f64::EPSILON * size || pivot == 0.0 {
+                return fail(self.order[k] / 6, pivot, size, Reason::Pivot);
+            }
+            for i in k + 1..n {
+                let l = f[i * n + k] / pivot;
+                for j in k + 1..=i {
+                    f[i * n + j] -= l * f[j * n + k];
+                }
+            }
+            for i in k + 1..n {
+                f[i * n + k] /= pivot;
+                for j in k + 1..i {
+                    f[j * n + i] = f[i * n + j];
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Solves in place.
+    pub fn solve(&mut self, rhs: &mut [f64]) {
+        let n = self.n;
+        let (f, x) = (&self.factors, &mut self.scratch);
+        for i in 0..n {
+            x[i] = rhs[self.order[i]];
+        }
+        for i in 0..n {
+            for j in 0..i {
+                x[i] -= f[i * n + j] * x[j];
+            }
+        }
+        for i in (0..n).rev() {
+            x[i] /= f[i * n + i];
+            for j in i + 1..n {
+                x[i] -= f[j * n + i] * x[j];
+            }
+        }
+        for i in 0..n {
+            rhs[self.order[i]] = x[i];
+        }
+    }
+}
+
+/// Swaps rows and columns `a` and `b` of a full symmetric matrix whose first columns hold factors.
+fn swap(f: &mut [f64], n: usize, a: usize, b: usize) {
+    if a == b {
+        return;
+    }
+    for j in 0..n {
+        f.swap(a * n + j, b * n + j);
+    }
+    for i in a.min(b)..n {
+        f.swap(i * n + a, i * n + b);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Dense;
+    use nalgebra::{DMatrix, DVector};
+
+    #[test]
+    fn the_solution_of_random_definite_systems_is_that_of_an_independent_factorisation() {
+        let mut state = 1u64;
+        let mut random = || {
+            state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+            (state >> 11) as f64 / (1u64 << 53) as f64 - 0.5
+        };
+        for n in 1..20 {
+            let b = DMatrix::from_fn(n, n, |_, _| random());
+            // rows of very different size, as of positions and rotations
+            let d = DMatrix::from_diagonal(&DVector::from_fn(n, |i, _| 10f64.powi(i as i32 % 7 - 3)));
+            let a = &d * (&b * b.transpose() + DMatrix::identity(n, n) * 0.1) * &d;
+            let x = DVector::from_fn(n, |_, _| random());
+            let mut rhs = (&a * &x).as_slice().to_vec();
+            let mut dense = Dense::default();
+            dense.factor(a.as_slice(), n).unwrap();
+            dense.solve(&mut rhs);
+            let expected = a.clone().cholesky().unwrap().solve(&(&a * &x));
+            for i in 0..n {
+                assert!((rhs[i] - x[i]).abs() < 1e-9 * (1.0 + (expected[i] - x[i]).abs() * 1e9), "{n} {i}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_singular_matrix_is_an_error() {
+        let mut dense = Dense::default();
+        assert!(dense.factor(&[1.0, 1.0, 1.0, 1.0], 2).is_err());
+        assert!(dense.factor(&[f64::NAN], 1).is_err());
+    }
+}

@@ -1,0 +1,213 @@
+//! Cables and rigid bodies pinned together, integrated as one system.
+//!
+//! An island is a set of cables and the bodies their nodes are pinned to. It is a [`Dynamics`], so every integrator of this crate
+//! drives it, to the same order and with the same error control as a cable alone. A pinned position is not a coordinate: it
+//! follows its body,
+//!
+//! ```text
+//! r = x + rho + gap (1 - s),   rho = R a        r'' = x'' + omega' x rho + omega x (omega x rho)
+//! ```
+//!
+//! where `gap` is what pin and node were apart when the step began and s its elapsed share. Virtual work carries the cable's
+//! residual to the body: force f_p and torque rho x f_p. So no multiplier, no penalty, and no drift. In Newton's iteration each
+//! cable is condensed on its pins ([`condense`]), the bodies are solved together ([`dense`]), and the cables follow; the tangent
+//! includes the geometric stiffness of the lever, -[f_p]x [rho]x, without which light bodies on taut cables converge badly.
+//!
+//! *Validity.* Bodies that turn by less than a full turn in a step; tens of bodies ([`dense`] is cubic). *Rejected.* Bodies as
+//! points with directors (constant mass, but flat bodies make it singular), staggered solution (blows up for light bodies).
+//!
+//! [`Dynamics`]: crate::integrate::Dynamics
+
+mod body;
+mod condense;
+mod dense;
+mod rotation;
+mod system;
+
+pub use body::RigidBody;
+
+use crate::cable::{At, Cable};
+use crate::error::{Error, require, require_finite};
+use crate::integrate::drive::{self, Counts};
+use crate::integrate::{Integrator, Phase, Scratch};
+use nalgebra::Vector3;
+use system::{Work, Workspace};
+
+/// A node of a cable held to a point of a body.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Pin {
+    /// Index of the cable in the island.
+    pub cable: usize,
+    /// Node of the cable; it must be [attached](Cable::attach).
+    pub node: usize,
+    /// Index of the body in the island.
+    pub body: usize,
+    /// Point of the body in body axes, from the centre of mass, in m.
+    pub anchor: Vector3<f64>,
+}
+
+/// What a pin did over a step.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct PinForce {
+    /// Force of the cable on the body at the end of the step, in N, world axes.
+    pub force: Vector3<f64>,
+}
+
+/// Buffers of an island, reused from step to step; nothing in them is state.
+#[derive(Clone, Debug, Default)]
+pub struct Island {
+    workspace: Workspace,
+    scratch: Scratch,
+    phase: Phase,
+}
+
+impl Island {
+    /// Advances `cables` and `bodies`, held together by `pins`, by `dt` (s) with `integrator`.
+    ///
+    /// # Errors
+    /// [`Error::StepRefused`] if the step cannot be done, [`Error::OutOfRange`] or [`Error::InvalidShape`] for a pin that fits
+    /// no cable, body or attached node. Cables and bodies are then exactly as before.
+    pub fn step(
+        &mut self,
+        cables: &mut [&mut Cable],
+        bodies: &mut [RigidBody],
+        pins: &[Pin],
+        integrator: Integrator,
+        dt: f64,
+    ) -> Result<(), Error> {
+        require("dt (s)", dt, dt >= 0.0, ">= 0")?;
+        check(cables, bodies, pins)?;
+        if dt == 0.0 {
+            return Ok(());
+        }
+        let Island { workspace, scratch, phase } = self;
+        workspace.begin(cables, bodies, pins, dt);
+        gather(cables, bodies, phase);
+        let mut counts = Counts::default();
+        let mut system = Work { cables, bodies, pins, workspace };
+        let Integrator { method, control } = integrator;
+        let outcome = drive::advance(&mut system, method, control, phase, dt, scratch, &mut counts);
+        for cable in cables.iter_mut() {
+            let diagnostics = cable.diagnostics_mut();
+            diagnostics.steps += counts.steps;
+            diagnostics.rejected_steps += counts.rejected;
+        }
+        if let Err(refusal) = outcome {
+            return Err(cables[0].refused(refusal.time, refusal.step, refusal.failure));
+        }
+        scatter(cables, bodies, phase, workspace);
+        Ok(())
+    }
+
+    /// Force of the cable on the body at each pin, at the end of the last step.
+    ///
+    /// # Errors
+    /// As [`step`](Self::step).
+    pub fn pin_forces(
+        &mut self,
+        cables: &mut [&mut Cable],
+        bodies: &mut [RigidBody],
+        pins: &[Pin],
+    ) -> Result<Vec<PinForce>, Error> {
+        check(cables, bodies, pins)?;
+        let Island { workspace, phase, .. } = self;
+        workspace.begin(cables, bodies, pins, 1.0);
+        workspace.close_gaps();
+        gather(cables, bodies, phase);
+        let mut system = Work { cables, bodies, pins, workspace };
+        match system.pin_forces(phase) {
+            Ok(forces) => Ok(forces),
+            Err(failure) => Err(cables[0].refused(phase.time, 0.0, failure)),
+        }
+    }
+}
+
+impl Cable {
+    /// Gives the position of a node to an island: it will follow the body that a [`Pin`] names.
+    ///
+    /// # Errors
+    /// As [`node`](Self::node).
+    pub fn attach(&mut self, at: impl Into<At>) -> Result<usize, Error> {
+        let node = self.node(at)?;
+        let mut support = self.support(At::Node(node))?;
+        support.position = None;
+        support.attached = true;
+        self.set_support(At::Node(node), support)?;
+        Ok(node)
+    }
+}
+
+fn check(cables: &[&mut Cable], bodies: &[RigidBody], pins: &[Pin]) -> Result<(), Error> {
+    let out_of_range = |what, value: usize, limit: usize| {
+        Err(Error::OutOfRange { cable: String::new(), what, value: value as f64, limit: limit as f64 })
+    };
+    if cables.is_empty() {
+        return out_of_range("number of cables in an island", 0, 0);
+    }
+    for (i, pin) in pins.iter().enumerate() {
+        if pin.cable >= cables.len() {
+            return out_of_range("cable of a pin", pin.cable, cables.len());
+        }
+        if pin.body >= bodies.len() {
+            return out_of_range("body of a pin", pin.body, bodies.len());
+        }
+        require_finite("anchor of a pin (m)", &pin.anchor)?;
+        let cable = &cables[pin.cable];
+        let invalid = |reason: String| Err(Error::InvalidShape { cable: cable.name().to_string(), reason });
+        if !cable.support(At::Node(pin.node))?.attached {
+            return invalid(format!("node {} is pinned but not attached", pin.node));
+        }
+        if pins[..i].iter().any(|p| p.cable == pin.cable && p.node == pin.node) {
+            return invalid(format!("node {} has two pins", pin.node));
+        }
+    }
+    for (c, cable) in cables.iter().enumerate() {
+        for (node, support) in &cable.model.supports {
+            if support.attached && !pins.iter().any(|p| p.cable == c && p.node == *node) {
+                let reason = format!("node {node} is attached but has no pin");
+                return Err(Error::InvalidShape { cable: cable.name().to_string(), reason });
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Coordinates of cables, then of bodies (position, rotation vector from the present attitude).
+fn gather(cables: &[&mut Cable], bodies: &[RigidBody], phase: &mut Phase) {
+    phase.q.clear();
+    phase.v.clear();
+    for cable in cables {
+        phase.q.extend_from_slice(cable.positions());
+        phase.v.extend_from_slice(cable.velocities());
+    }
+    for body in bodies {
+        phase.q.extend(body.position.iter().chain(&[0.0; 3]));
+        phase.v.extend(body.velocity.iter().chain(body.angular_velocity.iter()));
+    }
+    phase.time = cables[0].time();
+    phase.memory.valid = false;
+    phase.memory.step = cables.iter().map(|c| c.state.phase.memory.step).fold(f64::INFINITY, f64::min);
+}
+
+fn scatter(cables: &mut [&mut Cable], bodies: &mut [RigidBody], phase: &Phase, workspace: &Workspace) {
+    let mut at = 0;
+    for cable in cables.iter_mut() {
+        let n = cable.positions().len();
+        let own = &mut cable.state.phase;
+        own.q.copy_from_slice(&phase.q[at..at + n]);
+        own.v.copy_from_slice(&phase.v[at..at + n]);
+        own.time = phase.time;
+        own.memory.valid = false;
+        own.memory.step = phase.memory.step;
+        cable.diagnostics_mut().host_steps += 1;
+        at += n;
+    }
+    for (i, body) in bodies.iter_mut().enumerate() {
+        let at = at + 6 * i;
+        let motion = workspace.motion(i, &phase.q[at..at + 6], &phase.v[at..at + 6]);
+        body.position = motion.position;
+        body.rotation = motion.rotation;
+        body.velocity = motion.velocity;
+        body.angular_velocity = motion.spin;
+    }
+}
