@@ -15,7 +15,7 @@ fn towed() -> Cable {
         (Vector3::zeros(), Vector3::zeros()),
         (Vector3::new(-0.1, 0.15, 0.05), Vector3::new(0.5, 0.0, -0.3)),
     );
-    cable.set_support(At::Start, Support { position: Some(motion), slope: SlopeSupport::Free }).unwrap();
+    cable.set_support(At::Start, Support { position: Some(motion), ..Support::default() }).unwrap();
     cable
 }
 
@@ -23,7 +23,7 @@ fn towed() -> Cable {
 fn swinging() -> Cable {
     let mut cable = soft_cable().fix(At::Start).velocity(Vector3::new(0.0, 0.3, 0.5)).build().unwrap();
     let slope = SlopeSupport::Direction(Vector3::new(1.0, 0.0, 0.0));
-    cable.set_support(At::End, Support { position: None, slope }).unwrap();
+    cable.set_support(At::End, Support { slope, ..Support::default() }).unwrap();
     cable
 }
 

@@ -20,7 +20,7 @@ fn busy(method: Method, control: StepControl) -> Option<Cable> {
         .unwrap();
     let motion = Motion::uniform(0.0, Vector3::zeros(), Vector3::new(0.1, 0.3, 0.0));
     let slope = SlopeSupport::Direction(Vector3::new(0.6, 0.8, 0.0));
-    cable.set_support(At::Start, Support { position: Some(motion), slope }).unwrap();
+    cable.set_support(At::Start, Support { position: Some(motion), slope, ..Support::default() }).unwrap();
     Some(cable)
 }
 
