@@ -112,10 +112,8 @@ fn unknown_and_unsuitable_rules_and_integrators_are_refused() {
     assert!(matches!(&error, Error::UnknownRule { rule, .. } if rule == "G3-99"), "{error}");
     assert!(matches!(Rule::gauss(0, 3), Err(Error::UnknownRule { .. })));
     let error = "euler".parse::<Method>().unwrap_err();
-    assert!(
-        matches!(&error, Error::UnknownIntegrator { name, expected } if name == "euler" && expected.contains("esdirk3")),
-        "{error}"
-    );
+    assert!(error.to_string().contains("esdirk3"), "{error}");
+    assert!(matches!(&error, Error::UnknownIntegrator { name, .. } if name == "euler"), "{error}");
     assert_names("generalised-alpha-1.5".parse::<Method>(), 1.5, "rho");
     assert!("generalised-alpha-NaN".parse::<Method>().is_err());
     for name in ["G2-2", "mean-3", "G1-none", "projected-1"] {

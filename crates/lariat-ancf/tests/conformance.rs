@@ -1,4 +1,5 @@
-//! One suite over every pair of an axial and a bending rule: derivatives, frame indifference, rest, and modes without energy.
+//! One suite over every pair of an axial and a bending rule: derivatives, frame indifference, rest, and modes without
+//! energy.
 
 mod common;
 
@@ -91,9 +92,11 @@ fn tangent<B: Bending>(table: &AxialTable, bending: &B, d: &Flat) -> DMatrix<f64
     m
 }
 
-/// The force is the gradient of the energy, and the tangent the gradient of the force; the diagonal blocks are symmetric.
+/// The force is the gradient of the energy, and the tangent the gradient of the force; the diagonal blocks are
+/// symmetric.
 ///
-/// *Source.* Central differences of the energy and of the force. Of the paper's rules T2 fails this if fbar is frozen while differentiating.
+/// *Source.* Central differences of the energy and of the force. Of the paper's rules T2 fails this if fbar is frozen
+/// while differentiating.
 #[test]
 fn force_is_the_gradient_of_the_energy_and_the_tangent_that_of_the_force() {
     fn check<B: Bending>(rule: Rule, table: &AxialTable, bending: &B) {
@@ -152,10 +155,11 @@ fn a_rotated_element_has_the_rotated_force_and_the_same_energy() {
     for_every_rule!(check);
 }
 
-/// The straight unstressed element has no force and a finite tangent; the straight stretched one carries N = EA f (f^2 - 1)/2.
+/// The straight unstressed element has no force and a finite tangent; the straight stretched one carries N = EA f (f^2
+/// - 1)/2.
 ///
-/// *Source.* The Green law. Finite-difference tangents of other codes are rank deficient here; one axial point does not integrate the virtual strain of a slope,
-/// so its nodal forces are left out (its energy is right).
+/// *Source.* The Green law. Finite-difference tangents of other codes are rank deficient here; one axial point does not
+/// integrate the virtual strain of a slope, so its nodal forces are left out (its energy is right).
 #[test]
 fn straight_element_is_at_rest_unstressed_and_carries_the_green_law_stretched() {
     fn check<B: Bending>(rule: Rule, table: &AxialTable, bending: &B) {
@@ -198,12 +202,14 @@ fn chain(rule: Rule, elements: usize) -> Cable {
         .unwrap()
 }
 
-/// Zero eigenvalues of the stiffness of a straight cable at rest: 3 translations and 2 rotations (it has no twist), all transverse motions without
-/// bending (4 per node, of which 4 are rigid), and whatever a rule adds. Rules that add are exactly those that `Rule::check` refuses.
+/// Zero eigenvalues of the stiffness of a straight cable at rest: 3 translations and 2 rotations (it has no twist), all
+/// transverse motions without bending (4 per node, of which 4 are rigid), and whatever a rule adds. Rules that add are
+/// exactly those that `Rule::check` refuses.
 ///
-/// *Source.* Counting: an element has three axial strain numbers and two curvatures per direction; L or T points see at most L or T of them. So
-/// G2-x leaves one axial mode of the whole chain (the one that spoils G2-2 in Table 1), G1 and mean strain as many as elements plus one, T = 1 one per
-/// element and direction; T1 and T2 hold the slope and remove the axial ones.
+/// *Source.* Counting: an element has three axial strain numbers and two curvatures per direction; L or T points see at
+/// most L or T of them. So G2-x leaves one axial mode of the whole chain (the one that spoils G2-2 in Table 1), G1 and
+/// mean strain as many as elements plus one, T = 1 one per element and direction; T1 and T2 hold the slope and remove
+/// the axial ones.
 #[test]
 fn modes_without_energy_are_those_counted_and_only_in_rules_that_are_refused() {
     for axial in axial_rules() {
@@ -251,10 +257,11 @@ fn rigid_motion_of_a_cable_leaves_its_force() {
     }
 }
 
-/// The cable's force, computed eight elements at a time with the vector unit of this machine, is the sum of the scalar kernels to the bit.
+/// The cable's force, computed eight elements at a time with the vector unit of this machine, is the sum of the scalar
+/// kernels to the bit.
 ///
-/// *Source.* IEEE 754: the lanes do the same operations in the same order, so the result is the same on every machine. Eleven elements fill one
-/// group of lanes and a part of the next.
+/// *Source.* IEEE 754: the lanes do the same operations in the same order, so the result is the same on every machine.
+/// Eleven elements fill one group of lanes and a part of the next.
 #[test]
 fn lanes_give_the_bits_of_the_scalar_kernel() {
     fn check<B: Bending>(rule: Rule, table: &AxialTable, bending: &B) {
@@ -283,7 +290,8 @@ fn lanes_give_the_bits_of_the_scalar_kernel() {
     for_every_rule!(check);
 }
 
-/// The assembled stiffness is minus the derivative of the assembled force, with a point load, for pieces of different section.
+/// The assembled stiffness is minus the derivative of the assembled force, with a point load, for pieces of different
+/// section.
 ///
 /// *Source.* Central differences.
 #[test]

@@ -42,8 +42,8 @@ fn counts_are_reproducible() {
     }
 }
 
-/// Explicit methods solve with the mass matrix and factor nothing; implicit ones iterate in every stage, with a new tangent at most in
-/// every iteration.
+/// Explicit methods solve with the mass matrix and factor nothing; implicit ones iterate in every stage, with a new
+/// tangent at most in every iteration.
 ///
 /// *Source.* The number of stages each method claims; 3 host steps of 40 steps, and one acceleration to begin with.
 #[test]

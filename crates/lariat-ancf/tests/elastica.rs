@@ -39,8 +39,9 @@ fn tip_error(model: Model<CableBuilder, Elastica>) -> f64 {
 
 /// The shooting solution itself, against elliptic integrals, so that the reference of this file is not its own judge.
 ///
-/// *Source.* Inextensible elastica, tip force F normal to the clamp, F L^2/EI = 1: deflection 0.30172 L, shortening 0.05643 L, tip angle 0.46135 rad
-/// (Mattiasson 1981, Int. J. Numer. Methods Eng. 17, 145, table 1; five printed digits); F L^2/EI = 10: 0.81061, 0.55500, 1.43029.
+/// *Source.* Inextensible elastica, tip force F normal to the clamp, F L^2/EI = 1: deflection 0.30172 L, shortening
+/// 0.05643 L, tip angle 0.46135 rad (Mattiasson 1981, Int. J. Numer. Methods Eng. 17, 145, table 1; five printed
+/// digits); F L^2/EI = 10: 0.81061, 0.55500, 1.43029.
 #[test]
 fn shooting_solution_agrees_with_the_elliptic_integrals_of_the_elastica() {
     for (load, down, short, angle) in [(1.0, 0.30172, 0.05643, 0.46135), (10.0, 0.81061, 0.55500, 1.43029)] {
@@ -50,7 +51,8 @@ fn shooting_solution_agrees_with_the_elliptic_integrals_of_the_elastica() {
     }
 }
 
-/// A cantilever bent through large angles by a tip force, thick enough that stretch matters: tip, slope and root moment.
+/// A cantilever bent through large angles by a tip force, thick enough that stretch matters: tip, slope and root
+/// moment.
 ///
 /// *Source.* Shooting (see the model's source), the loads from moderate to a tip that almost points along the force.
 #[test]
@@ -66,7 +68,8 @@ fn tip_loaded_cantilever_takes_the_shape_of_the_elastica() {
             let angle = (end.slope.y.atan2(end.slope.x) - tip.angle).abs();
             let reaction = cable.reactions().unwrap()[0];
             println!(
-                "{name} {force:?}: tip {error:.2e} m, angle {angle:.2e} rad, root moment {:.6} against {root:.6}, stable {}",
+                "{name} {force:?}: tip {error:.2e} m, angle {angle:.2e} rad, \
+                 root moment {:.6} against {root:.6}, stable {}",
                 -reaction.moment.z, report.stable
             );
             assert!(error < share * model.tolerance, "{name}, {force:?}: {error:e} m from the {}", model.source);
@@ -93,7 +96,8 @@ fn tip_error_falls_with_the_fourth_power_of_the_element_length() {
 
 /// Membrane locking of a thin rod, EA L^2/EI = 1e6: projected strain against exact strain with 4, 8, 16 elements.
 ///
-/// *Source.* Independent prototype, tip-loaded cantilever with F L^2/EI = 10: 2e-3, 1e-4, 6e-6 of L projected; 2e-2, 3e-3, 3e-4 exact (one digit).
+/// *Source.* Independent prototype, tip-loaded cantilever with F L^2/EI = 10: 2e-3, 1e-4, 6e-6 of L projected; 2e-2,
+/// 3e-3, 3e-4 exact (one digit).
 #[test]
 fn thin_rod_locks_with_exact_strain_and_not_with_projected_strain() {
     for (name, expected) in [("projected-3", [2e-3, 1e-4, 6e-6]), ("exact-3", [2e-2, 3e-3, 3e-4])] {
@@ -105,8 +109,8 @@ fn thin_rod_locks_with_exact_strain_and_not_with_projected_strain() {
     }
 }
 
-/// An end moment M bends the rod into an arc and, by this energy, stretches it: f^2 = 1 + 2 M^2/(EA EI), theta' = M f^2/EI. The moment that makes
-/// a full circle brings the tip back to the clamp.
+/// An end moment M bends the rod into an arc and, by this energy, stretches it: f^2 = 1 + 2 M^2/(EA EI), theta' = M
+/// f^2/EI. The moment that makes a full circle brings the tip back to the clamp.
 ///
 /// Beyond 90 degrees the plane shape is an unstable equilibrium, since a cable has no torsional stiffness.
 ///
@@ -135,7 +139,8 @@ fn end_moment_rolls_the_rod_into_a_circle_of_the_analytic_stretch() {
         cable.clear_loads();
         cable.add_load(PointLoad::moment(1.0, Vector3::new(0.0, 0.0, m))).unwrap();
         let report = cable.equilibrium().unwrap_or_else(|e| panic!("angle {angle}: {e}"));
-        // tilting the plane of the rod about the clamp adds to the angle about z once that is beyond 90 degrees: unstable in space
+        // tilting the plane of the rod about the clamp adds to the angle about z once that is beyond 90 degrees:
+        // unstable in space
         assert!((angle - TAU / 4.0).abs() < 0.01 || report.stable == (angle < TAU / 4.0), "angle {angle}: {report:?}");
         let expected = Vector3::new(radius * angle.sin(), radius * (1.0 - angle.cos()), 0.0);
         let error = (common::tip(&cable) - expected).norm();
@@ -143,7 +148,8 @@ fn end_moment_rolls_the_rod_into_a_circle_of_the_analytic_stretch() {
         // the raw stretch |r'| oscillates inside an element, the projected strain does not
         let stretch = (1.0 + 2.0 * middle.green_strain).sqrt();
         println!(
-            "angle {angle:.3}: {} iterations, tip {error:.2e} m, stretch {stretch:.8} against {f:.8}, moment {:.6} against {:.6}",
+            "angle {angle:.3}: {} iterations, tip {error:.2e} m, stretch {stretch:.8} against {f:.8}, \
+             moment {:.6} against {:.6}",
             report.iterations,
             middle.moment.z,
             m * f

@@ -19,7 +19,8 @@ fn rod(length: f64, f: f64, section: Section, elements: usize, rule: Rule) -> Ca
         .rule(rule)
 }
 
-/// A straight rod pressed to the even stretch f < 1: built between points nearer than its length it would start as an arc.
+/// A straight rod pressed to the even stretch f < 1: built between points nearer than its length it would start as an
+/// arc.
 fn squeeze(mut cable: Cable, f: f64) -> Cable {
     let q: Vec<f64> = cable.node_arc_lengths().iter().flat_map(|s| [f * s, 0.0, 0.0, f, 0.0, 0.0]).collect();
     cable.set_coordinates(&q, &vec![0.0; q.len()]).unwrap();
@@ -36,7 +37,8 @@ enum Along {
     Y,
 }
 
-/// Ascending angular frequencies in rad/s of the motion along one axis, supports in place; at the straight state the axes are uncoupled.
+/// Ascending angular frequencies in rad/s of the motion along one axis, supports in place; at the straight state the
+/// axes are uncoupled.
 fn frequencies(cable: &mut Cable, along: Along) -> Vec<f64> {
     let (mut k, mut m) = (cable.stiffness_matrix(), cable.mass_matrix());
     cable.apply_supports(&mut k);
@@ -67,8 +69,9 @@ fn reference_section() -> Section {
 
 /// First four bending frequencies of a cantilever and of a beam on two pins, 4, 8, 16 elements.
 ///
-/// *Source.* `D03_eigenfrequencies.json`: the discrete values of an independent code (exact axial, full curvature), and Euler-Bernoulli's
-/// (beta L)^2 sqrt(EI/m)/L^2, cosh cos = -1 for the cantilever. Projected strain is the same here: an unstressed straight cable bends without axial energy.
+/// *Source.* `D03_eigenfrequencies.json`: the discrete values of an independent code (exact axial, full curvature), and
+/// Euler-Bernoulli's (beta L)^2 sqrt(EI/m)/L^2, cosh cos = -1 for the cantilever. Projected strain is the same here: an
+/// unstressed straight cable bends without axial energy.
 #[test]
 fn cantilever_and_pinned_beam_have_the_frequencies_of_the_reference() {
     let file = reference_json("D03_eigenfrequencies.json");
@@ -104,8 +107,9 @@ fn cantilever_and_pinned_beam_have_the_frequencies_of_the_reference() {
 
 /// A rod under a tension of 200 N, pins at its stretched length.
 ///
-/// *Source.* `D03_eigenfrequencies.json`, "taut": discrete values of an independent code, and m omega^2 = EA eps k^2 + EI k^4/f^4 (the Green law in material
-/// coordinates; the textbook beam of stretched length and thinned mass differs in the fourth digit, since the law does).
+/// *Source.* `D03_eigenfrequencies.json`, "taut": discrete values of an independent code, and m omega^2 = EA eps k^2 +
+/// EI k^4/f^4 (the Green law in material coordinates; the textbook beam of stretched length and thinned mass differs in
+/// the fourth digit, since the law does).
 #[test]
 fn taut_rod_has_the_frequencies_of_the_reference() {
     let file = &reference_json("D03_eigenfrequencies.json")["taut"];
@@ -157,8 +161,9 @@ fn buckling_load(supports: fn(CableBuilder) -> CableBuilder, elements: usize, ru
 
 /// Euler's loads, found as the force at which the stiffness stops being positive definite.
 ///
-/// *Source.* `D05_buckling.json`: discrete values of an independent code, the continuum with the Green law (19.7509 N and 4.93553 N), and Euler's pi^2 EI/L^2 and
-/// pi^2 EI/(4 L^2), from which that differs by the shortening before buckling.
+/// *Source.* `D05_buckling.json`: discrete values of an independent code, the continuum with the Green law (19.7509 N
+/// and 4.93553 N), and Euler's pi^2 EI/L^2 and pi^2 EI/(4 L^2), from which that differs by the shortening before
+/// buckling.
 #[test]
 fn rod_buckles_at_the_load_of_the_reference() {
     let file = reference_json("D05_buckling.json");
@@ -173,7 +178,8 @@ fn rod_buckles_at_the_load_of_the_reference() {
             let found = buckling_load(supports, elements, rule("G5-3"));
             let default = buckling_load(supports, elements, Rule::default());
             println!(
-                "{key}, {elements} elements: {found:.8} N, reference {discrete:.8}, default rule {default:.8}, continuum {continuum:.8}, Euler {euler:.8}"
+                "{key}, {elements} elements: {found:.8} N, reference {discrete:.8}, default rule {default:.8}, \
+                 continuum {continuum:.8}, Euler {euler:.8}"
             );
             assert!((found / discrete - 1.0).abs() < 1e-6, "{key}, {elements}: {found} {discrete}");
             assert!((default / continuum - 1.0).abs() < 1.05 * (discrete / continuum - 1.0) + 1e-7, "{key}: {default}");
@@ -213,9 +219,9 @@ fn bar_held_at_one_end_has_the_axial_frequencies_of_theory() {
     assert!(order > 5.5, "order {order}");
 }
 
-/// The price of projected strain: one axial mode of the whole cable, in which the stretch of all nodes oscillates against that between them, is held by the share delta
-/// of exact strain alone. Its frequency is 0.21 c/l whatever the length, so axial waves are right only below it: the second axial frequency of this bar needs 32
-/// elements.
+/// The price of projected strain: one axial mode of the whole cable, in which the stretch of all nodes oscillates
+/// against that between them, is held by the share delta of exact strain alone. Its frequency is 0.21 c/l whatever the
+/// length, so axial waves are right only below it: the second axial frequency of this bar needs 32 elements.
 ///
 /// *Source.* The bar of theory; the mode is G2-2's zero-energy mode (see `conformance.rs`), lifted by sqrt(delta).
 #[test]
@@ -260,10 +266,12 @@ fn taut_string_has_the_harmonics_of_its_wave_speed() {
     }
 }
 
-/// A hump on a taut string splits into two that travel at sqrt(EA eps/m) (unstretched lengths per second) and come back upside down.
+/// A hump on a taut string splits into two that travel at sqrt(EA eps/m) (unstretched lengths per second) and come back
+/// upside down.
 ///
-/// *Source.* d'Alembert: after half a round trip, t = L/c, the string is its own mirror image, upside down. The hump is 1e-3 of the length high, so the tension
-/// changes by 1e-4. ESDIRK4 at a tolerance of 1e-9 m, so that the mesh and the hump's height are the only errors.
+/// *Source.* d'Alembert: after half a round trip, t = L/c, the string is its own mirror image, upside down. The hump is
+/// 1e-3 of the length high, so the tension changes by 1e-4. ESDIRK4 at a tolerance of 1e-9 m, so that the mesh and the
+/// hump's height are the only errors.
 #[test]
 fn hump_on_a_taut_string_travels_at_the_wave_speed() {
     let section = Section::from_stiffness(1e4, 0.0, 0.1).unwrap();
@@ -300,8 +308,9 @@ fn hump_on_a_taut_string_travels_at_the_wave_speed() {
     assert!(off < 0.02 * a, "{off:e} m");
 }
 
-/// A rod squeezed beyond Euler's load between two pins is in equilibrium while it is straight, and the report says that it would not stay there; below the
-/// load it says that it would. A cable pinned at one end without gravity may lie anywhere: not stable either.
+/// A rod squeezed beyond Euler's load between two pins is in equilibrium while it is straight, and the report says that
+/// it would not stay there; below the load it says that it would. A cable pinned at one end without gravity may lie
+/// anywhere: not stable either.
 ///
 /// *Source.* Euler's load of the reference section is 19.75 N, at a stretch of 0.99980.
 #[test]

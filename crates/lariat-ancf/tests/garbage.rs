@@ -6,12 +6,15 @@ use lariat_ancf::{At, Cable, EquilibriumOptions, Error, Integrator, Method, Poin
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
 
+/// Numbers that break things.
+const ODD: [f64; 9] = [0.0, -0.0, 1.0, f64::NAN, f64::INFINITY, f64::MIN_POSITIVE, 1e300, -1e300, 5e-324];
+
 /// A number of any kind, most of them reasonable.
 fn number() -> impl Strategy<Value = f64> {
     prop_oneof![
         6 => -10.0..10.0f64,
         2 => (-12.0..12.0f64).prop_map(|e| 10f64.powf(e)),
-        1 => prop::sample::select(vec![0.0, -0.0, 1.0, f64::NAN, f64::INFINITY, f64::MIN_POSITIVE, 1e300, -1e300, 5e-324]),
+        1 => prop::sample::select(ODD.to_vec()),
     ]
 }
 
@@ -30,9 +33,15 @@ fn vector() -> impl Strategy<Value = Vector3<f64>> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 200, failure_persistence: None, rng_seed: RngSeed::Fixed(2), ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig {
+        cases: 200,
+        failure_persistence: None,
+        rng_seed: RngSeed::Fixed(2),
+        ..ProptestConfig::default()
+    })]
 
-    /// Garbage in: an error or a cable, whose steps end well or are refused with the state kept; never a panic, never a NaN.
+    /// Garbage in: an error or a cable, whose steps end well or are refused with the state kept; never a panic, never a
+    /// NaN.
     ///
     /// *Source.* The contract.
     #[test]
@@ -73,7 +82,7 @@ proptest! {
             match cable.step(if dt > 0.1 { 0.1 } else { dt }) {
                 Ok(()) => {}
                 Err(Error::StepRefused { .. }) => prop_assert_eq!(cable.positions(), before),
-                Err(Error::InvalidValue { .. }) => prop_assert!(!(dt >= 1e-100)),
+                Err(Error::InvalidValue { .. }) => prop_assert!(dt.is_nan() || dt < 1e-100),
                 Err(error) => prop_assert!(false, "{}", error),
             }
             prop_assert!(cable.positions().iter().chain(cable.velocities()).all(|x| x.is_finite()));

@@ -63,7 +63,8 @@ fn orders(start: fn() -> Cable, method: Method) -> [f64; 2] {
     [(errors[0] / errors[1]).log2(), (errors[1] / errors[2]).log2()]
 }
 
-/// Both halvings reach the claimed order, and the second does not pass it: then the steps are in the range where the order shows.
+/// Both halvings reach the claimed order, and the second does not pass it: then the steps are in the range where the
+/// order shows.
 fn assert_order(method: Method, observed: [f64; 2]) {
     let claimed = f64::from(method.properties().order);
     println!("{method}: claimed {claimed}, observed {observed:.2?}");
@@ -71,10 +72,11 @@ fn assert_order(method: Method, observed: [f64; 2]) {
     assert!(observed[1] < claimed + 0.5, "{method}: {observed:?}, claimed {claimed}");
 }
 
-/// Halving the step divides the error by 2^order, as each method claims, for a cable that swings, and whose supports do not move.
+/// Halving the step divides the error by 2^order, as each method claims, for a cable that swings, and whose supports do
+/// not move.
 ///
-/// *Source.* The claimed order (`Method::properties`). The reference is the sixth-order symplectic method at a tenth of the step or less, error below
-/// 1e-13, itself checked in `independent_solver_agrees_with_the_reference_method`.
+/// *Source.* The claimed order (`Method::properties`). The reference is the sixth-order symplectic method at a tenth of
+/// the step or less, error below 1e-13, itself checked in `independent_solver_agrees_with_the_reference_method`.
 #[test]
 fn every_method_converges_with_its_order() {
     for method in Method::ALL {
@@ -98,7 +100,8 @@ fn a_moving_support_does_not_lower_the_order() {
     }
 }
 
-/// A free cable keeps its linear momentum to rounding with every method, and its centre of mass moves on a straight line.
+/// A free cable keeps its linear momentum to rounding with every method, and its centre of mass moves on a straight
+/// line.
 ///
 /// *Source.* Newton's third law: the rules' forces sum to zero, and every method keeps linear invariants.
 #[test]
@@ -117,8 +120,9 @@ fn a_free_cable_keeps_its_linear_momentum() {
 
 /// Angular momentum is quadratic in the state: symplectic methods keep it to rounding, the others to their order.
 ///
-/// *Source.* Hairer, Lubich & Wanner 2006, theorems IV.2.2 and VI.4: symplectic Runge-Kutta methods and compositions of kicks and drifts keep it; midpoint is the only
-/// implicit one here (the trapezoidal rule is conjugate to it and keeps a nearby quantity).
+/// *Source.* Hairer, Lubich & Wanner 2006, theorems IV.2.2 and VI.4: symplectic Runge-Kutta methods and compositions of
+/// kicks and drifts keep it; midpoint is the only implicit one here (the trapezoidal rule is conjugate to it and keeps
+/// a nearby quantity).
 #[test]
 fn symplectic_methods_keep_the_angular_momentum_and_the_others_lose_it_at_their_order() {
     for method in Method::ALL {
@@ -146,7 +150,8 @@ fn symplectic_methods_keep_the_angular_momentum_and_the_others_lose_it_at_their_
 
 /// The energy error of a symplectic method oscillates and does not grow, and falls with its order.
 ///
-/// *Source.* Backward error analysis (Hairer, Lubich & Wanner 2006, IX.8). The trapezoidal rule is conjugate symplectic: as well behaved. 20 s against 2 s.
+/// *Source.* Backward error analysis (Hairer, Lubich & Wanner 2006, IX.8). The trapezoidal rule is conjugate
+/// symplectic: as well behaved. 20 s against 2 s.
 #[test]
 fn energy_error_of_symplectic_methods_stays_bounded_and_falls_with_their_order() {
     // stretched by 5 % between two pins and let fall: nonlinear, but it never goes slack
@@ -250,8 +255,8 @@ fn uneven_host_steps_give_the_same_motion() {
     }
 }
 
-/// A solver that shares nothing with the integrators and the block-tridiagonal matrices agrees on two elements: the assembled force, a dense mass
-/// matrix, its dense inverse, and the classical Runge-Kutta method of order 4.
+/// A solver that shares nothing with the integrators and the block-tridiagonal matrices agrees on two elements: the
+/// assembled force, a dense mass matrix, its dense inverse, and the classical Runge-Kutta method of order 4.
 ///
 /// *Source.* Kutta 1901, 8000 steps: error below 1e-9 m by halving the step.
 #[test]

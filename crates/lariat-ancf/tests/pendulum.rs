@@ -46,8 +46,9 @@ fn assert_within(what: &str, value: f64, expected: f64, share: f64) {
 
 /// Ten elements G10-10: the tip, its velocity, the energies, the pin's reaction and the mid strain, over 2 s.
 ///
-/// *Source.* `pendulum_G10-10_10el.csv`: an independent double-precision solver with shape-function matrices and a time error
-/// below 1e-12 m. Its mid strain is the raw Green strain (|r'|^2 - 1)/2 at node 5, not the projected one that `sample` gives.
+/// *Source.* `pendulum_G10-10_10el.csv`: an independent double-precision solver with shape-function matrices and a time
+/// error below 1e-12 m. Its mid strain is the raw Green strain (|r'|^2 - 1)/2 at node 5, not the projected one that
+/// `sample` gives.
 #[test]
 fn ten_element_pendulum_follows_the_independent_solver_through_two_seconds() {
     let rows = reference("pendulum_G10-10_10el.csv");
@@ -87,7 +88,8 @@ fn ten_element_pendulum_follows_the_independent_solver_through_two_seconds() {
     assert!(worst[4] < 1e-9, "strain {:e}", worst[4]);
 }
 
-/// A symplectic method on a conservative system: the energy of the exact-in-time run is constant to 1e-6 J of the 8 J that swing.
+/// A symplectic method on a conservative system: the energy of the exact-in-time run is constant to 1e-6 J of the 8 J
+/// that swing.
 ///
 /// *Source.* Energy conservation; the reference run starts with zero energy.
 #[test]
@@ -100,8 +102,8 @@ fn energy_of_the_exact_in_time_run_is_constant() {
 
 /// Table 1 of the paper, exact in time: too few Gauss points change the tip by these amounts.
 ///
-/// *Source.* `table1_reproduction.csv` (independent solver); the paper prints 3.36e-1, 4.16e-3, 1.84e-4, 3.29e-5 and 1.02e-4. Its G5-5
-/// value is the error of its own time integration: five points integrate the axial energy exactly.
+/// *Source.* `table1_reproduction.csv` (independent solver); the paper prints 3.36e-1, 4.16e-3, 1.84e-4, 3.29e-5 and
+/// 1.02e-4. Its G5-5 value is the error of its own time integration: five points integrate the axial energy exactly.
 #[test]
 fn table_1_of_the_paper_exact_in_time() {
     for (name, expected, share) in
@@ -113,10 +115,11 @@ fn table_1_of_the_paper_exact_in_time() {
     assert!(five < 1e-7, "G5-5: {five:e} m");
 }
 
-/// L2T2 is our documented number, not the paper's 1.02e-2 m: the text that defines L2 (Berzeri & Shabana 2000) was not available, and our
-/// reading (mean Green strain, T2 with its derivative) gives another.
+/// L2T2 is our documented number, not the paper's 1.02e-2 m: the text that defines L2 (Berzeri & Shabana 2000) was not
+/// available, and our reading (mean Green strain, T2 with its derivative) gives another.
 ///
-/// *Source.* `table1_reproduction.csv`, "mean Green strain const + T2 rms": 1.67e-2 m (independent solver, which drops a derivative of T2).
+/// *Source.* `table1_reproduction.csv`, "mean Green strain const + T2 rms": 1.67e-2 m (independent solver, which drops
+/// a derivative of T2).
 #[test]
 fn l2t2_differs_from_g10_10_by_our_documented_number() {
     assert_within("L2T2", vertical_difference("L2T2"), 1.667e-2, 0.01);
@@ -124,8 +127,8 @@ fn l2t2_differs_from_g10_10_by_our_documented_number() {
 
 /// The full elements against the real beam: membrane locking at 10 elements, then convergence.
 ///
-/// *Source.* `pendulum_converged_tip.csv` and `pendulum_convergence.json`: 1.085e-2, 9.199e-4, 4.548e-5 m (independent solver, 3D distance from 160 elements
-/// extrapolated).
+/// *Source.* `pendulum_converged_tip.csv` and `pendulum_convergence.json`: 1.085e-2, 9.199e-4, 4.548e-5 m (independent
+/// solver, 3D distance from 160 elements extrapolated).
 #[test]
 fn five_point_elements_converge_to_the_real_beam_as_the_independent_solver_says() {
     for (elements, expected) in [(10, 1.1e-2), (20, 9.2e-4), (40, 4.6e-5)] {
@@ -134,10 +137,11 @@ fn five_point_elements_converge_to_the_real_beam_as_the_independent_solver_says(
     }
 }
 
-/// The default rule does not lock: nearer to the real beam than exact strain at each number of elements, and within 1 mm with 16 elements or
-/// fewer.
+/// The default rule does not lock: nearer to the real beam than exact strain at each number of elements, and within 1
+/// mm with 16 elements or fewer.
 ///
-/// *Source.* The real beam as above; the figures of the default rule from an independent prototype (2.4e-3, 1.0e-3, 3.5e-4, 3.7e-5 m).
+/// *Source.* The real beam as above; the figures of the default rule from an independent prototype (2.4e-3, 1.0e-3,
+/// 3.5e-4, 3.7e-5 m).
 #[test]
 fn default_rule_is_nearer_to_the_real_beam_than_exact_strain() {
     let exact = [(10, 1.085e-2), (14, 3.6e-3), (20, 9.199e-4), (40, 4.548e-5)];

@@ -1,11 +1,13 @@
-//! Steps that cannot be done: refused with the reason, the last good state kept, and the next step works when the cause is gone.
+//! Steps that cannot be done: refused with the reason, the last good state kept, and the next step works when the cause
+//! is gone.
 
 mod common;
 
 use common::{pendulum, soft_cable};
 use lariat_ancf::{At, Cable, Error, Integrator, Method, PointLoad, Section, StepControl, StepFailure, Vector3};
 
-/// A load that no step can carry: the step is refused with its reason, the state is the last good one to the bit, and the next step works when the load is gone.
+/// A load that no step can carry: the step is refused with its reason, the state is the last good one to the bit, and
+/// the next step works when the load is gone.
 ///
 /// *Source.* The contract. 1e300 N overflows.
 #[test]
@@ -28,7 +30,8 @@ fn an_impossible_load_is_refused_and_the_next_step_works_without_it() {
     }
 }
 
-/// An explicit method far beyond its stability limit is refused, by the limit or by the overflow that follows; shorter steps work from the state that was kept.
+/// An explicit method far beyond its stability limit is refused, by the limit or by the overflow that follows; shorter
+/// steps work from the state that was kept.
 ///
 /// *Source.* Stability of the harmonic oscillator: 2/omega for Verlet. Ten elements of steel, omega about 5e5 rad/s.
 #[test]
@@ -61,7 +64,8 @@ fn an_explicit_step_beyond_stability_is_refused_and_a_stable_one_works() {
     }
 }
 
-/// A collapsed element: |r'| = 0 where bending divides by it. The step is refused, no NaN leaves it, and the cable steps again when it is stretched out.
+/// A collapsed element: |r'| = 0 where bending divides by it. The step is refused, no NaN leaves it, and the cable
+/// steps again when it is stretched out.
 ///
 /// *Source.* Bending grows as |r'|^-5.
 #[test]

@@ -40,9 +40,11 @@ fn bits(cable: &Cable) -> Vec<u64> {
     numbers.map(|x| x.to_bits()).chain([cable.time().to_bits()]).collect()
 }
 
-/// A state put back into a cable that has gone on, or into another one, continues as the run did that was not interrupted.
+/// A state put back into a cable that has gone on, or into another one, continues as the run did that was not
+/// interrupted.
 ///
-/// *Source.* Bitwise equality of the two runs. It guards against memory of a method (accelerations, the proposed step) that lives outside the state.
+/// *Source.* Bitwise equality of the two runs. It guards against memory of a method (accelerations, the proposed step)
+/// that lives outside the state.
 #[test]
 fn a_restored_state_continues_bitwise_the_same_run() {
     for (method, control) in cases() {
@@ -104,8 +106,9 @@ fn two_cables_made_alike_give_the_same_bits() {
 
 /// Reading reactions does not change the run.
 ///
-/// *Source.* Bitwise equality with a run that is not read. It guards against reactions that are read before a new support has put its node in place
-/// marking the accelerations as known, so that the next step began from the old place.
+/// *Source.* Bitwise equality with a run that is not read. It guards against reactions that are read before a new
+/// support has put its node in place marking the accelerations as known, so that the next step began from the old
+/// place.
 #[test]
 fn reading_reactions_and_energies_does_not_change_the_run() {
     for (method, control) in cases() {

@@ -20,8 +20,9 @@ fn wire(integrator: Integrator) -> Cable {
 
 /// Five seconds at host steps of 1/60 and 1/240 s: finite, no energy created, and no spurious tension at the pin.
 ///
-/// *Source.* Energy conservation: it starts with zero, and 12.1 J of potential energy swing (0.6165 kg/m, 2 m, 1 m down). Tension: a
-/// rigid rod pulls 2.5 times its weight, 30.2 N, at the bottom; 60 N allows the waves of bending. Explicit methods would need 2e6 steps; generalised-alpha with rho >= 0.5 survives with kilonewtons.
+/// *Source.* Energy conservation: it starts with zero, and 12.1 J of potential energy swing (0.6165 kg/m, 2 m, 1 m
+/// down). Tension: a rigid rod pulls 2.5 times its weight, 30.2 N, at the bottom; 60 N allows the waves of bending.
+/// Explicit methods would need 2e6 steps; generalised-alpha with rho >= 0.5 survives with kilonewtons.
 fn five_seconds(method: Method, control: StepControl) {
     for rate in [60, 240] {
         let mut cable = wire(Integrator { method, control });
@@ -36,7 +37,8 @@ fn five_seconds(method: Method, control: StepControl) {
         }
         let d = cable.diagnostics();
         println!(
-            "{method} {control:?} at 1/{rate}: energy {:+.1e} to {:+.1e} of the swing, largest pin force {tension:.2} N, {} steps, {} rejected",
+            "{method} {control:?} at 1/{rate}: energy {:+.1e} to {:+.1e} of the swing, \
+             largest pin force {tension:.2} N, {} steps, {} rejected",
             highest / swing,
             lowest / swing,
             d.steps,

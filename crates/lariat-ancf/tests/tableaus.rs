@@ -25,9 +25,11 @@ fn order_conditions(t: &Tableau, b: &[f64]) -> [f64; 4] {
     ]
 }
 
-/// The tableaus satisfy Butcher's conditions to their order, their embedded formulas to theirs and no further: else there would be no estimate.
+/// The tableaus satisfy Butcher's conditions to their order, their embedded formulas to theirs and no further: else
+/// there would be no estimate.
 ///
-/// *Source.* Butcher's order conditions (Hairer, Norsett & Wanner 1993, II.2, table 2.1), to the rounding of the printed fractions.
+/// *Source.* Butcher's order conditions (Hairer, Norsett & Wanner 1993, II.2, table 2.1), to the rounding of the
+/// printed fractions.
 #[test]
 fn tableaus_satisfy_the_order_conditions_they_claim() {
     for (name, tableau, order, embedded) in [

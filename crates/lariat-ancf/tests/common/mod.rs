@@ -32,7 +32,8 @@ pub fn reference_json(name: &str) -> serde_json::Value {
     serde_json::from_str(&std::fs::read_to_string(&path).unwrap_or_else(|e| panic!("{path}: {e}"))).unwrap()
 }
 
-/// Symplectic Runge-Kutta-Nystrom of order 6 at half its stability limit: its time error is below 1e-11 m in 2 s of the pendulum.
+/// Symplectic Runge-Kutta-Nystrom of order 6 at half its stability limit: its time error is below 1e-11 m in 2 s of the
+/// pendulum.
 pub const EXACT_IN_TIME: Integrator = Integrator { method: Method::Rkn6, control: StepControl::Stable(0.5) };
 
 /// A rule by name.
@@ -40,7 +41,8 @@ pub fn rule(name: &str) -> Rule {
     name.parse().unwrap()
 }
 
-/// The falling pendulum of Bulin & Hajzman: 2 m, square of 1 cm, E = 1e8 Pa, 4000 kg/m^3, pinned, released from horizontal.
+/// The falling pendulum of Bulin & Hajzman: 2 m, square of 1 cm, E = 1e8 Pa, 4000 kg/m^3, pinned, released from
+/// horizontal.
 pub fn pendulum(elements: usize) -> CableBuilder {
     Cable::builder()
         .name("pendulum")
@@ -50,8 +52,8 @@ pub fn pendulum(elements: usize) -> CableBuilder {
         .fix(At::Start)
 }
 
-/// A soft cable in space whose frequencies stay below about 150 rad/s, so that every method resolves it: 1 m, 3 elements,
-/// bent start shape, with a velocity.
+/// A soft cable in space whose frequencies stay below about 150 rad/s, so that every method resolves it: 1 m, 3
+/// elements, bent start shape, with a velocity.
 pub fn soft_cable() -> CableBuilder {
     Cable::builder()
         .name("soft")

@@ -1,7 +1,7 @@
 //! The continuum that the elements approximate, solved by shooting: nothing here uses the crate under test.
 //!
-//! A planar rod with the energy per unstretched length EA (f^2 - 1)^2/8 + EI kappa^2/2, f = |r'|, kappa = theta'/f the curvature
-//! per deformed length. With the force n carried by the section and the moment M:
+//! A planar rod with the energy per unstretched length EA (f^2 - 1)^2/8 + EI kappa^2/2, f = |r'|, kappa = theta'/f the
+//! curvature per deformed length. With the force n carried by the section and the moment M:
 //!
 //! ```text
 //! M = dW/dtheta' = EI theta'/f^2      n.t = dW/df = EA f (f^2 - 1)/2 - M^2 f/EI      M' = -f (n.nu)      r' = f t
@@ -53,7 +53,8 @@ fn integrate(f: &dyn Fn(f64) -> [f64; 2], a: f64, b: f64) -> [f64; 2] {
 
 /// A hanging cable without bending stiffness: the catenary of the Green law.
 ///
-/// H and V(s) = V0 + w s are the components of the section force, T = |(H, V)|, EA f (f^2 - 1)/2 = T; dx/ds = f H/T, dy/ds = f V/T.
+/// H and V(s) = V0 + w s are the components of the section force, T = |(H, V)|, EA f (f^2 - 1)/2 = T; dx/ds = f H/T,
+/// dy/ds = f V/T.
 #[derive(Clone, Copy, Debug)]
 pub struct Catenary {
     /// EA in N.
