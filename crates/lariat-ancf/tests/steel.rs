@@ -49,7 +49,7 @@ fn five_seconds(method: Method, control: StepControl) {
     }
 }
 
-/// The default integrator (error-controlled ESDIRK3); see [`five_seconds`].
+/// The default integrator; see [`five_seconds`].
 ///
 /// *Source.* As there.
 #[test]
