@@ -5,19 +5,23 @@
 //! ```
 //!
 //! Large mu follows the gradient of the potential energy in the metric of mass, mu = 0 is Newton's method. A step is kept if it
-//! lowers the energy (the residual, where moments make the load non-conservative) and the matrix is positive definite; then mu
-//! falls, else it grows. So the iteration goes downhill to a *stable* shape, and ends quadratically. Increments are capped.
-//! If it fails, point loads are ramped; if that fails, the cable is moved by an L-stable integrator whose velocities are
-//! dropped at every peak of kinetic energy (dynamic relaxation), and the iteration starts again from there.
+//! lowers the energy and the matrix is positive definite; then mu falls, else it grows. A moment enters by its work over the
+//! step, the angle about its axis by which the tangent turns: it has no potential, but the work of each step is its own. So the iteration goes downhill to a *stable* shape, and ends quadratically. Increments are capped.
+//! If it fails, point loads are ramped; if that fails, the ramp is followed by plain Newton steps, which also find unstable shapes;
+//! if that fails or ends unstable, the cable is moved by an L-stable integrator whose velocities are dropped at every peak of
+//! kinetic energy (dynamic relaxation), and the iteration starts again from there. An unstable shape is returned if no stable one is found.
 //!
 //! *Source.* Kelley & Keyes 1998 (pseudo-transient continuation); Barnes 1999 (dynamic relaxation with kinetic damping).
 //! *Validity.* Any cable that is held against its loads; without bending, slack parts without load are indeterminate and any shape
 //! of zero force is returned. *Rejected.* Plain Newton (a slack cable is singular), arc length methods (no branch is followed).
 
 use crate::cable::{Cable, Equations, Model, project_vector};
+use crate::element::shape;
 use crate::error::{Error, StepFailure};
 use crate::integrate::{Dynamics, Integrator, Method, NewtonMode, StepControl};
 use crate::linalg::Definiteness;
+use crate::load::PointLoad;
+use nalgebra::Vector3;
 
 /// When a shape counts as an equilibrium, and when to give up.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -49,7 +53,9 @@ pub struct EquilibriumReport {
 const SLOPE_CAP: f64 = 0.3;
 /// Ramp steps of the second attempt.
 const RAMP_STEPS: usize = 20;
-/// Steps of dynamic relaxation in the third attempt.
+/// Newton iterations of a ramp step in the third attempt.
+const FOLLOW_ITERATIONS: usize = 25;
+/// Steps of dynamic relaxation in the fourth attempt.
 const RELAXATION_STEPS: usize = 400;
 
 impl Cable {
@@ -113,15 +119,74 @@ impl Cable {
                 return Ok(report);
             }
         }
+        let unstable = if self.model.loads.is_empty() {
+            None
+        } else {
+            // at full load from a shape near by, else from no load
+            [RAMP_STEPS, 1].into_iter().find_map(|first| {
+                self.state = start.clone();
+                self.follow(first, options, &mut done).map(|report| (report, self.state.clone()))
+            })
+        };
+        if let Some((report, state)) = unstable.as_ref().filter(|(report, _)| report.stable) {
+            self.state = state.clone();
+            return Ok(*report);
+        }
         self.state = start;
-        self.relax().map_err(|cause| Failure { cause: Some(cause), residual: f64::NAN, iterations: done })?;
-        self.descend(1.0, options, &mut done)
+        let relaxed = match self.relax() {
+            Ok(()) => self.descend(1.0, options, &mut done),
+            Err(cause) => Err(Failure { cause: Some(cause), residual: f64::NAN, iterations: done }),
+        };
+        match (relaxed, unstable) {
+            (Ok(report), _) if report.stable => Ok(report),
+            (_, Some((report, state))) => {
+                self.state = state;
+                Ok(EquilibriumReport { iterations: done, ..report })
+            }
+            (relaxed, None) => relaxed,
+        }
+    }
+
+    /// Newton's method with capped increments along the ramp of the loads from its step `first` on: finds unstable shapes too. `None` if it does not converge.
+    fn follow(&mut self, first: usize, options: EquilibriumOptions, done: &mut usize) -> Option<EquilibriumReport> {
+        let scale = LoadScale::of(&self.model, self.positions());
+        let mut phase = core::mem::take(&mut self.state.phase);
+        let mut rhs = vec![0.0; phase.q.len()];
+        let (mut equations, _) = self.equations();
+        equations.prescribe(phase.time, &mut phase.q, &mut phase.v);
+        let mut report = None;
+        'ramp: for i in first..=RAMP_STEPS {
+            report = None;
+            for _ in 0..FOLLOW_ITERATIONS {
+                *done += 1;
+                equations.force_and_matrix(i as f64 / RAMP_STEPS as f64, &phase.q, 1.0, 0.0, &mut rhs);
+                project_vector(equations.model, &mut rhs);
+                let residual = largest_force(&rhs, scale.element);
+                let Ok(kind) = equations.factor() else { break 'ramp };
+                if residual <= options.tolerance * scale.force + scale.rounding {
+                    let stable = matches!(kind, Definiteness::PositiveDefinite);
+                    report = Some(EquilibriumReport { iterations: *done, residual, stable });
+                    break;
+                }
+                equations.solve(&mut rhs);
+                let slope = rhs.chunks_exact(6).flat_map(|x| &x[3..]).fold(0.0f64, |m, x| m.max(x.abs()));
+                let damp = SLOPE_CAP / slope.max(SLOPE_CAP);
+                if !damp.is_finite() {
+                    break 'ramp;
+                }
+                phase.q.iter_mut().zip(&rhs).for_each(|(q, dq)| *q += damp * dq);
+            }
+            if report.is_none() {
+                break;
+            }
+        }
+        self.state.phase = phase;
+        report
     }
 
     /// The iteration at a share `load` of the point loads.
     fn descend(&mut self, load: f64, options: EquilibriumOptions, done: &mut usize) -> Result<EquilibriumReport, Failure> {
         let scale = LoadScale::of(&self.model, self.positions());
-        let conservative = self.model.loads.iter().all(|l| l.moment.norm() == 0.0);
         let time = self.time();
         let n = self.positions().len();
         let mut phase = core::mem::take(&mut self.state.phase);
@@ -137,18 +202,18 @@ impl Cable {
             *done += 1;
             equations.force_and_matrix(load, &phase.q, 1.0, mu, &mut rhs);
             project_vector(equations.model, &mut rhs);
-            residual = largest_force(&rhs);
+            residual = largest_force(&rhs, scale.element);
             if !residual.is_finite() {
                 cause = Some(StepFailure::NotFinite { what: "force", node: 0 });
                 break;
             }
             if !merit.is_finite() {
-                merit = if conservative { potential(&equations, load, &phase.q) } else { residual };
+                merit = potential(&equations, load, &phase.q);
             }
             let small = residual <= options.tolerance * scale.force + scale.rounding;
             let kind = equations.factor();
             let definite = matches!(kind, Ok(Definiteness::PositiveDefinite));
-            if small && (mu == 0.0 || residual <= scale.rounding) {
+            if small && mu == 0.0 {
                 report = Some(EquilibriumReport { iterations: *done, residual, stable: definite });
                 break;
             }
@@ -181,12 +246,11 @@ impl Cable {
             }
             equations.force(load, &trial, 1.0, &mut rhs);
             project_vector(equations.model, &mut rhs);
-            let after = largest_force(&rhs);
-            let trial_merit = if conservative { potential(&equations, load, &trial) } else { after };
+            let after = largest_force(&rhs, scale.element);
+            let trial_merit = potential(&equations, load, &trial);
+            let change = trial_merit - merit - load * moment_work(equations.model, &phase.q, &trial);
             // energies differ by less than their rounding near the end: then the residual decides
-            let lower = trial_merit < merit - scale.energy_rounding
-                || (trial_merit <= merit + scale.energy_rounding && after <= residual)
-                || (!conservative && after.is_finite() && (damp < 1.0 || after < 2.0 * residual));
+            let lower = change < -scale.energy_rounding || (change <= scale.energy_rounding && after <= residual);
             if lower {
                 phase.q.copy_from_slice(&trial);
                 merit = trial_merit;
@@ -260,6 +324,8 @@ struct LoadScale {
     mu: f64,
     /// Length of the cable in m.
     length: f64,
+    /// Length of the shortest element in m.
+    element: f64,
 }
 
 impl LoadScale {
@@ -283,16 +349,40 @@ impl LoadScale {
             energy_rounding: 16.0 * stiffest * length * f64::EPSILON,
             mu: 10.0 * force / (mass * length),
             length,
+            element: shortest,
         }
     }
 }
 
-/// Largest force on a node's position in N.
-fn largest_force(rhs: &[f64]) -> f64 {
+/// Largest force on a node in N: on its position, and on its slope over the length `arm` (m), which is where moments act.
+fn largest_force(rhs: &[f64], arm: f64) -> f64 {
     rhs.chunks_exact(6).fold(0.0f64, |worst, x| {
-        let size = (x[0] * x[0] + x[1] * x[1] + x[2] * x[2]).sqrt();
+        let force = (x[0] * x[0] + x[1] * x[1] + x[2] * x[2]).sqrt();
+        let moment = (x[3] * x[3] + x[4] * x[4] + x[5] * x[5]).sqrt() / arm;
+        let size = if force > moment || force.is_nan() { force } else { moment };
         if size > worst || size.is_nan() { size } else { worst }
     })
+}
+
+/// Work in J of the full moments while the tangents at their points turn from `from` to `to`: moment times angle about its axis.
+fn moment_work(model: &Model, from: &[f64], to: &[f64]) -> f64 {
+    let turn = |load: &PointLoad| {
+        let size = load.moment.norm();
+        if size == 0.0 {
+            return 0.0;
+        }
+        let axis = load.moment / size;
+        let (e, xi) = model.locate(load.arc_length);
+        let weights = shape::slope(xi, model.elements[e].length);
+        let normal = |q: &[f64]| {
+            let n = &q[6 * e..6 * e + 12];
+            let t: Vector3<f64> = (0..4).map(|k| weights[k] * Vector3::from_column_slice(&n[3 * k..3 * k + 3])).sum();
+            t - axis * axis.dot(&t)
+        };
+        let (a, b) = (normal(from), normal(to));
+        size * axis.dot(&a.cross(&b)).atan2(a.dot(&b))
+    };
+    model.loads.iter().map(turn).sum()
 }
 
 /// Potential energy in J, forces at a share `load`.

@@ -28,6 +28,9 @@ pub(crate) use projection::{project_matrix, project_vector};
 use serde::{Deserialize, Serialize};
 use system::System;
 
+/// Shortest step in s: squares of its smallest part must not vanish.
+const SHORTEST_STEP: f64 = 1e-100;
+
 /// A point of a cable.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
@@ -130,14 +133,14 @@ impl Cable {
     /// Advances the cable by `dt` (s), the host's step, with its integrator. `dt` = 0 does nothing.
     ///
     /// # Errors
-    /// [`Error::InvalidValue`] for a negative or non-finite `dt`; [`Error::StepRefused`] if the step cannot be done: the cable
+    /// [`Error::InvalidValue`] for a `dt` that is negative, not finite, or below 1e-100 and not zero; [`Error::StepRefused`] if the step cannot be done: the cable
     /// is then exactly as before.
     pub fn step(&mut self, dt: f64) -> Result<(), Error> {
-        require("dt (s)", dt, dt >= 0.0, ">= 0")?;
+        require("dt (s)", dt, dt == 0.0 || dt >= SHORTEST_STEP, "0, or >= 1e-100")?;
         if dt == 0.0 {
             return Ok(());
         }
-        self.saved.clone_from(&self.state.phase);
+        self.saved.copy_from(&self.state.phase);
         let mut counts = Counts::default();
         let mut equations =
             Equations { model: &self.model, system: &mut self.system, diagnostics: &mut self.diagnostics };

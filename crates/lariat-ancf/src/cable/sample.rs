@@ -84,19 +84,18 @@ impl Cable {
     pub fn reactions(&mut self) -> Result<Vec<Reaction>, Error> {
         let n = self.positions().len();
         let mut residual = vec![0.0; n];
-        if !self.state.phase.memory.valid {
-            let mut acceleration = vec![0.0; n];
-            let (mut equations, phase) = self.equations();
+        let mut acceleration = self.state.phase.memory.acceleration.clone();
+        let known = self.state.phase.memory.valid;
+        let (mut equations, phase) = self.equations();
+        if !known {
+            acceleration.resize(n, 0.0);
             let outcome = equations.acceleration(phase.time, &phase.q, &phase.v, &mut acceleration);
             outcome.map_err(|failure| self.refused(self.time(), 0.0, failure))?;
-            self.state.phase.memory.acceleration.clone_from(&acceleration);
-            self.state.phase.memory.algorithmic = acceleration;
-            self.state.phase.memory.valid = true;
         }
         let (mut equations, phase) = self.equations();
         equations.force(phase.time, &phase.q, -1.0, &mut residual);
         let mut inertia = vec![0.0; n];
-        equations.system.multiply_mass(&phase.memory.acceleration, &mut inertia);
+        equations.system.multiply_mass(&acceleration, &mut inertia);
         let vector = |x: &[f64], y: &[f64]| Vector3::new(x[0] + y[0], x[1] + y[1], x[2] + y[2]);
         Ok(equations
             .model

@@ -63,6 +63,20 @@ pub struct Phase {
     pub memory: Memory,
 }
 
+impl Phase {
+    /// Copies `other` into the buffers that are there; the derived `clone_from` would allocate new ones.
+    pub(crate) fn copy_from(&mut self, other: &Phase) {
+        let Phase { time, q, v, memory: Memory { acceleration, algorithmic, valid, step } } = other;
+        self.time = *time;
+        self.q.clone_from(q);
+        self.v.clone_from(v);
+        self.memory.acceleration.clone_from(acceleration);
+        self.memory.algorithmic.clone_from(algorithmic);
+        self.memory.valid = *valid;
+        self.memory.step = *step;
+    }
+}
+
 /// Scratch vectors of a method; allocated once.
 #[derive(Clone, Debug, Default)]
 pub struct Scratch {

@@ -1,0 +1,73 @@
+//! A warm cable steps without allocating.
+
+#![allow(unsafe_code)] // a global allocator is unsafe by nature
+
+mod common;
+
+use common::pendulum;
+use lariat_ancf::{Integrator, Method, PointLoad, StepControl, Vector3};
+use std::alloc::{GlobalAlloc, Layout, System};
+use std::cell::Cell;
+
+/// The system's allocator, counting what the present thread asks for.
+struct Counting;
+
+thread_local! {
+    static COUNT: Cell<u64> = const { Cell::new(0) };
+}
+
+fn count() {
+    let _ = COUNT.try_with(|c| c.set(c.get() + 1));
+}
+
+// SAFETY: every call goes to the system's allocator unchanged
+unsafe impl GlobalAlloc for Counting {
+    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
+        count();
+        unsafe { System.alloc(layout) }
+    }
+    unsafe fn dealloc(&self, pointer: *mut u8, layout: Layout) {
+        unsafe { System.dealloc(pointer, layout) }
+    }
+    unsafe fn realloc(&self, pointer: *mut u8, layout: Layout, size: usize) -> *mut u8 {
+        count();
+        unsafe { System.realloc(pointer, layout, size) }
+    }
+}
+
+#[global_allocator]
+static ALLOCATOR: Counting = Counting;
+
+fn allocations(run: impl FnOnce()) -> u64 {
+    let before = COUNT.get();
+    run();
+    COUNT.get() - before
+}
+
+/// The counter counts.
+///
+/// *Source.* A vector on the heap.
+#[test]
+fn the_counter_sees_an_allocation() {
+    assert_eq!(allocations(|| drop(std::hint::black_box(vec![1.0f64; 100]))), 1);
+}
+
+/// A hundred host steps of every method, fixed and error controlled, after ten to warm up: no allocation.
+///
+/// *Source.* The contract; a real-time host cannot wait for an allocator.
+#[test]
+fn a_warm_cable_steps_without_allocating() {
+    for method in Method::ALL {
+        for control in [StepControl::Substeps(40), StepControl::Tolerance(1e-4)] {
+            let integrator = Integrator { method, control };
+            if integrator.checked().is_err() {
+                continue;
+            }
+            let load = PointLoad::force(1.3, Vector3::new(0.0, -1.0, 0.5));
+            let mut cable = pendulum(10).load(load).integrator(integrator).build().unwrap();
+            let mut run = |steps: usize| (0..steps).for_each(|_| cable.step(1.0 / 240.0).unwrap());
+            run(10);
+            assert_eq!(allocations(|| run(100)), 0, "{method}, {control:?}");
+        }
+    }
+}

@@ -1,0 +1,188 @@
+//! Bad input: typed errors that name the value, and nothing changes.
+
+mod common;
+
+use common::pendulum;
+use lariat_ancf::integrate::NewtonMode;
+use lariat_ancf::{
+    At, Cable, CableBuilder, Error, Integrator, Method, Motion, PointLoad, Preset, Rule, Section, SlopeSupport,
+    StepControl, Support, Vector3,
+};
+
+/// What is never acceptable where a positive finite number is asked for.
+const NOT_POSITIVE: [f64; 5] = [0.0, -1.0, f64::NAN, f64::INFINITY, f64::NEG_INFINITY];
+
+/// The error is `InvalidValue` and says which number it met.
+fn assert_names<T: std::fmt::Debug>(result: Result<T, Error>, bad: f64, context: &str) {
+    let error = result.expect_err(context);
+    let Error::InvalidValue { value, .. } = &error else { panic!("{context}: {error}") };
+    assert!(*value == bad || value.is_nan() && bad.is_nan(), "{context}: {error}");
+    assert!(error.to_string().contains(&bad.to_string()), "{context}: {error}");
+}
+
+/// Every number of a section, one after the other.
+///
+/// *Source.* The contract: errors carry the value.
+#[test]
+fn a_section_refuses_numbers_that_are_not_positive_and_finite() {
+    for bad in NOT_POSITIVE {
+        assert_names(Section::round(bad, 1e9, 1e3), bad, "diameter");
+        assert_names(Section::square(bad, 1e9, 1e3), bad, "side");
+        assert_names(Section::tube(bad, 0.0, 1e9, 1e3), bad, "outer diameter");
+        assert_names(Section::round(0.01, bad, 1e3), bad, "modulus");
+        assert_names(Section::round(0.01, 1e9, bad), bad, "density");
+        assert_names(Section::from_stiffness(bad, 1.0, 1.0), bad, "EA");
+        assert_names(Section::from_stiffness(1.0, 1.0, bad), bad, "mass per length");
+    }
+    assert!(Section::from_stiffness(1.0, 0.0, 1.0).is_ok(), "EI may be zero");
+    assert_names(Section::from_stiffness(1.0, -1e-3, 1.0), -1e-3, "EI");
+    assert_names(Section::tube(0.01, 0.02, 1e9, 1e3), 0.02, "inner diameter above the outer");
+    // each number is fine, their product is not
+    assert!(matches!(Section::round(1e200, 1e9, 1e3), Err(Error::InvalidValue { .. })));
+}
+
+/// Points, length, elements, gravity, velocities.
+///
+/// *Source.* The contract: errors carry the value.
+#[test]
+fn a_builder_refuses_shapes_that_are_no_cable() {
+    let build = |f: &dyn Fn(CableBuilder) -> CableBuilder| f(pendulum(4)).build();
+    let shape = |f: &dyn Fn(CableBuilder) -> CableBuilder, word: &str| {
+        let error = build(f).expect_err(word);
+        assert!(
+            matches!(&error, Error::InvalidShape { cable, reason } if cable == "pendulum" && reason.contains(word)),
+            "{word}: {error}"
+        );
+    };
+    let x = Vector3::x;
+    shape(&|b| b.points([]), "0");
+    shape(&|b| b.points([x()]), "1");
+    shape(&|b| b.points([x(), x()]), "coincide");
+    shape(&|b| b.points([Vector3::zeros(), x(), x(), 2.0 * x()]), "coincide");
+    shape(&|b| b.elements(0), "0");
+    let bare = Cable::builder().points([Vector3::zeros(), x()]).build().unwrap_err();
+    assert!(matches!(&bare, Error::InvalidShape { reason, .. } if reason.contains("section")), "{bare}");
+    for bad in NOT_POSITIVE {
+        assert_names(build(&|b| b.length(bad)), bad, "length");
+    }
+    for bad in [f64::NAN, f64::INFINITY] {
+        let v = Vector3::new(0.0, bad, 0.0);
+        assert_names(build(&|b| b.points([Vector3::zeros(), v])), bad, "point");
+        assert_names(build(&|b| b.gravity(v)), bad, "gravity");
+        assert_names(build(&|b| b.velocity(v)), bad, "velocity");
+        assert_names(build(&|b| b.angular_velocity(v)), bad, "angular velocity");
+        assert_names(build(&|b| b.load(PointLoad::force(1.0, v))), bad, "force");
+        assert_names(build(&|b| b.load(PointLoad::moment(1.0, v))), bad, "moment");
+    }
+}
+
+/// Places that are not on the cable, before and after it is built.
+///
+/// *Source.* The contract: errors carry the value and the limit.
+#[test]
+fn places_off_the_cable_are_refused_with_the_limit() {
+    for s in [-0.1, 2.1, f64::NAN, f64::INFINITY] {
+        for builder in [
+            pendulum(4).fix(s),
+            pendulum(4).clamp(s),
+            pendulum(4).node_at(s),
+            pendulum(4).load(PointLoad::force(s, Vector3::x())),
+            pendulum(4).section_from(s, Section::round(0.01, 1e9, 1e3).unwrap()),
+        ] {
+            let error = builder.build().expect_err("a place off the cable");
+            let Error::OutOfRange { value, limit, .. } = error else { panic!("{s}: {error}") };
+            assert!((value == s || s.is_nan()) && limit == 2.0);
+        }
+        let mut cable = pendulum(4).build().unwrap();
+        assert!(matches!(cable.sample(s), Err(Error::OutOfRange { limit: 2.0, .. })), "{s}");
+        assert!(matches!(cable.node(s), Err(Error::OutOfRange { .. })), "{s}");
+        assert!(matches!(cable.add_load(PointLoad::force(s, Vector3::x())), Err(Error::OutOfRange { .. })), "{s}");
+    }
+    let mut cable = pendulum(4).build().unwrap();
+    assert!(matches!(cable.fix(At::Node(5)), Err(Error::OutOfRange { value: 5.0, limit: 4.0, .. })));
+    assert!(matches!(cable.fix(0.3), Err(Error::InvalidShape { .. })), "no node there");
+}
+
+/// Rules and integrators by name, rank deficient rules, controls that a method cannot follow.
+///
+/// *Source.* The contract: the error shows what was given and what is accepted.
+#[test]
+fn unknown_and_unsuitable_rules_and_integrators_are_refused() {
+    let error = "G3-99".parse::<Rule>().unwrap_err();
+    assert!(matches!(&error, Error::UnknownRule { rule, .. } if rule == "G3-99"), "{error}");
+    assert!(matches!(Rule::gauss(0, 3), Err(Error::UnknownRule { .. })));
+    let error = "euler".parse::<Method>().unwrap_err();
+    assert!(error.to_string().contains("esdirk3"), "{error}");
+    assert!(matches!(&error, Error::UnknownIntegrator { name, .. } if name == "euler"), "{error}");
+    assert_names("generalised-alpha-1.5".parse::<Method>(), 1.5, "rho");
+    assert!("generalised-alpha-NaN".parse::<Method>().is_err());
+    for name in ["G2-2", "mean-3", "G1-none", "projected-1"] {
+        let rule = common::rule(name);
+        let error = pendulum(4).rule(rule).build().unwrap_err();
+        assert!(matches!(&error, Error::RankDeficient { rule, .. } if rule == name), "{error}");
+        assert!(pendulum(4).rule(rule).allow_rank_deficient().build().is_ok());
+    }
+    for method in Method::ALL {
+        let (estimates, explicit) = (method.properties().estimate_order.is_some(), !method.properties().implicit);
+        assert_eq!(Integrator::tolerance(method, 1e-5).is_ok(), estimates, "{method}");
+        assert_eq!(Integrator { method, control: StepControl::Stable(0.5) }.checked().is_ok(), explicit, "{method}");
+        assert!(matches!(Integrator::substeps(method, 0), Err(Error::InvalidValue { .. })));
+    }
+    for bad in NOT_POSITIVE {
+        assert_names(Integrator::tolerance(Method::Esdirk3, bad), bad, "tolerance");
+        assert_names(
+            Integrator { method: Method::Verlet, control: StepControl::MaxStep(bad) }.checked(),
+            bad,
+            "max step",
+        );
+        assert_names(Integrator { method: Method::Verlet, control: StepControl::Stable(bad) }.checked(), bad, "share");
+    }
+    assert_names(Integrator { method: Method::Verlet, control: StepControl::Stable(1.5) }.checked(), 1.5, "share");
+    let alpha = Method::GeneralisedAlpha { rho: -0.1, newton: NewtonMode::Converged };
+    assert_names(Integrator::substeps(alpha, 1), -0.1, "rho");
+    // a builder checks its integrator too
+    let verlet = Integrator { method: Method::Verlet, control: StepControl::Tolerance(1e-3) };
+    assert!(matches!(pendulum(4).integrator(verlet).build(), Err(Error::UnsupportedControl { .. })));
+}
+
+/// Numbers given to a living cable: the error names them, and nothing changes.
+///
+/// *Source.* The contract: no error loses the last good state.
+#[test]
+fn bad_numbers_given_to_a_cable_leave_it_as_it_was() {
+    let mut cable = pendulum(4).build().unwrap();
+    cable.step(0.01).unwrap();
+    let before = cable.state().clone();
+    for bad in [-1e-3, f64::NAN, f64::INFINITY, 5e-324] {
+        assert_names(cable.step(bad), bad, "dt");
+    }
+    let (q, v) = (cable.positions().to_vec(), cable.velocities().to_vec());
+    let mut broken = q.clone();
+    broken[7] = f64::NAN;
+    assert_names(cable.set_coordinates(&broken, &v), f64::NAN, "coordinate");
+    assert!(matches!(cable.set_coordinates(&q[1..], &v), Err(Error::InvalidShape { .. })));
+    let support = |position, slope| Support { position, slope, ..Support::default() };
+    let nan = Motion::fixed(Vector3::new(0.0, f64::NAN, 0.0));
+    assert!(cable.set_support(At::End, support(Some(nan), SlopeSupport::Free)).is_err());
+    assert!(cable.set_support(At::End, support(None, SlopeSupport::Prescribed(nan))).is_err());
+    let long = SlopeSupport::Direction(Vector3::new(2.0, 0.0, 0.0));
+    assert_names(cable.set_support(At::End, support(None, long)), 2.0, "direction");
+    assert!(cable.set_support(At::End, support(None, SlopeSupport::Direction(Vector3::zeros()))).is_err());
+    let ramp = PointLoad { ramp: -1.0, ..PointLoad::force(1.0, Vector3::x()) };
+    assert_names(cable.add_load(ramp), -1.0, "ramp");
+    assert_eq!(*cable.state(), before);
+    assert!(cable.loads().is_empty() && cable.support(At::End).unwrap().is_free());
+    cable.step(0.01).unwrap();
+}
+
+/// Presets and their integrators are always valid.
+///
+/// *Source.* Their own checks, for any frequency.
+#[test]
+fn presets_give_valid_integrators() {
+    for preset in [Preset::Game, Preset::Engineering, Preset::Reference] {
+        for frequency in [0.0, 1.0, 1e5, 1e9, f64::INFINITY] {
+            assert!(preset.integrator(frequency).checked().is_ok(), "{preset:?}, {frequency}");
+        }
+    }
+}

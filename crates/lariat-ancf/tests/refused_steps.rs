@@ -1,0 +1,96 @@
+//! Steps that cannot be done: refused with the reason, the last good state kept, and the next step works when the cause
+//! is gone.
+
+mod common;
+
+use common::{pendulum, soft_cable};
+use lariat_ancf::{At, Cable, Error, Integrator, Method, PointLoad, Section, StepControl, StepFailure, Vector3};
+
+/// A load that no step can carry: the step is refused with its reason, the state is the last good one to the bit, and
+/// the next step works when the load is gone.
+///
+/// *Source.* The contract. 1e300 N overflows.
+#[test]
+fn an_impossible_load_is_refused_and_the_next_step_works_without_it() {
+    for method in Method::ALL {
+        let mut cable = pendulum(4).integrator(Integrator::substeps(method, 200).unwrap()).build().unwrap();
+        let mut alone = cable.clone();
+        cable.step(0.01).unwrap();
+        alone.step(0.01).unwrap();
+        cable.add_load(PointLoad::force(2.0, Vector3::new(0.0, 1e300, 0.0))).unwrap();
+        let error = cable.step(0.01).expect_err("an impossible step");
+        let Error::StepRefused { cable: name, time, step, .. } = &error else { panic!("{method}: {error}") };
+        assert!(name == "pendulum" && *step >= 0.0 && (0.01..0.02).contains(time), "{method}: {error}");
+        assert_eq!(cable.positions(), alone.positions(), "{method}");
+        assert_eq!(cable.velocities(), alone.velocities(), "{method}");
+        assert_eq!(cable.time(), 0.01, "{method}");
+        assert!(cable.positions().iter().chain(cable.velocities()).all(|x| x.is_finite()));
+        cable.clear_loads();
+        cable.step(0.01).unwrap_or_else(|e| panic!("{method}: {e}"));
+    }
+}
+
+/// An explicit method far beyond its stability limit is refused, by the limit or by the overflow that follows; shorter
+/// steps work from the state that was kept.
+///
+/// *Source.* Stability of the harmonic oscillator: 2/omega for Verlet. Ten elements of steel, omega about 5e5 rad/s.
+#[test]
+fn an_explicit_step_beyond_stability_is_refused_and_a_stable_one_works() {
+    let steel = Section::round(0.01, 2.1e11, 7850.0).unwrap();
+    for method in [Method::Verlet, Method::Rkn4, Method::Rkn6] {
+        let coarse = Integrator::substeps(method, 4).unwrap();
+        let mut cable = Cable::builder()
+            .points([Vector3::zeros(), Vector3::x()])
+            .section(steel)
+            .fix(At::Start)
+            .integrator(coarse)
+            .build()
+            .unwrap();
+        let before = cable.state().clone();
+        let mut refused = None;
+        for _ in 0..50 {
+            let last = cable.state().clone();
+            if let Err(error) = cable.step(1.0 / 60.0) {
+                assert_eq!(*cable.state(), last, "{method}: the last good state");
+                refused = Some(error);
+                break;
+            }
+        }
+        let error = refused.unwrap_or_else(|| panic!("{method}: never refused"));
+        assert!(matches!(error, Error::StepRefused { .. }), "{method}: {error}");
+        cable.restore(before).unwrap();
+        cable.set_integrator(Integrator { method, control: StepControl::Stable(0.8) }).unwrap();
+        cable.step(1e-3).unwrap_or_else(|e| panic!("{method}: {e}"));
+    }
+}
+
+/// A collapsed element: |r'| = 0 where bending divides by it. The step is refused, no NaN leaves it, and the cable
+/// steps again when it is stretched out.
+///
+/// *Source.* Bending grows as |r'|^-5.
+#[test]
+fn a_collapsed_element_is_refused_and_no_nan_leaves_the_step() {
+    for method in Method::ALL {
+        let mut cable = soft_cable().integrator(Integrator::substeps(method, 50).unwrap()).build().unwrap();
+        let good = (cable.positions().to_vec(), cable.velocities().to_vec());
+        // all nodes in one point, all slopes zero
+        cable.set_coordinates(&vec![0.0; good.0.len()], &good.1).unwrap();
+        let before = (cable.positions().to_vec(), cable.velocities().to_vec());
+        let error = cable.step(0.01).expect_err("no shape at all");
+        assert!(
+            matches!(
+                &error,
+                Error::StepRefused {
+                    failure: StepFailure::NotFinite { .. }
+                        | StepFailure::Singular(_)
+                        | StepFailure::NotConverged { .. },
+                    ..
+                }
+            ),
+            "{method}: {error}"
+        );
+        assert_eq!((cable.positions(), cable.velocities()), (&before.0[..], &before.1[..]), "{method}");
+        cable.set_coordinates(&good.0, &good.1).unwrap();
+        cable.step(0.01).unwrap_or_else(|e| panic!("{method}: {e}"));
+    }
+}
