@@ -96,7 +96,7 @@ pub enum Error {
         source: io::Error,
     },
     /// The mechanics refused: a step that cannot be done, no equilibrium. Names the cable and the time.
-    #[error("{source}")]
+    #[error("at t = {time} s: {source}")]
     Mechanics {
         /// Simulated time of the last good state in s.
         time: f64,

@@ -6,11 +6,10 @@
 use super::keys;
 use crate::error::{Error, Place};
 use serde::de::DeserializeOwned;
-use std::borrow::Cow;
 use std::fmt::Write as _;
 use std::ops::Range;
 use toml::Spanned;
-use toml::de::{DeTable, DeValue};
+use toml::de::{DeArray, DeTable, DeValue};
 
 /// One step of a path.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -55,25 +54,24 @@ impl KeyPath {
 
 /// A parsed scene file with its overrides in place.
 #[derive(Debug)]
-pub struct Document {
+pub struct Document<'t> {
     file: String,
-    text: String,
-    pub(super) root: Spanned<DeTable<'static>>,
-    pub(super) overrides: Vec<String>,
+    text: &'t str,
+    pub(super) root: Spanned<DeTable<'t>>,
+    pub(super) overrides: Vec<&'t str>,
 }
 
-impl Document {
+impl<'t> Document<'t> {
     /// Parses the text of a scene file; `file` is its name in errors.
     ///
     /// # Errors
     /// [`Error::Syntax`].
-    pub fn parse(file: &str, text: &str) -> Result<Self, Error> {
-        let mut root = DeTable::parse(text).map_err(|error| Error::Syntax {
+    pub fn parse(file: &str, text: &'t str) -> Result<Self, Error> {
+        let root = DeTable::parse(text).map_err(|error| Error::Syntax {
             place: Place::Line { file: file.to_string(), line: line_of(text, error.span().map_or(0, |s| s.start)) },
             problem: error.message().replace('\n', ", "),
         })?;
-        root.get_mut().make_owned();
-        Ok(Document { file: file.to_string(), text: text.to_string(), root: owned(root), overrides: Vec::new() })
+        Ok(Document { file: file.to_string(), text, root, overrides: Vec::new() })
     }
 
     /// The span that stands for an override, past the end of the file.
@@ -85,9 +83,9 @@ impl Document {
     fn place(&self, span: &Range<usize>) -> Place {
         if span.start > self.text.len() + 1 {
             let index = (span.start - self.text.len() - 2) / 2;
-            return Place::Override(self.overrides[index.min(self.overrides.len() - 1)].clone());
+            return Place::Override(self.overrides.get(index).copied().unwrap_or_default().to_string());
         }
-        Place::Line { file: self.file.clone(), line: line_of(&self.text, span.start) }
+        Place::Line { file: self.file.clone(), line: line_of(self.text, span.start) }
     }
 
     /// Where a path was written: its value, or the nearest table around it.
@@ -235,63 +233,23 @@ fn line_of(text: &str, offset: usize) -> usize {
     1 + text.as_bytes()[..offset.min(text.len())].iter().filter(|&&b| b == b'\n').count()
 }
 
-/// A copy of a tree that borrows nothing.
-pub(super) fn owned(table: Spanned<DeTable<'_>>) -> Spanned<DeTable<'static>> {
-    let span = table.span();
-    Spanned::new(span, own_table(table.into_inner(), None))
-}
-
-/// A copy of a value that borrows nothing, with all its spans replaced.
-pub(super) fn respanned(value: DeValue<'_>, span: &Range<usize>) -> Spanned<DeValue<'static>> {
-    Spanned::new(span.clone(), own_value(value, Some(span)))
-}
-
-fn own_table(table: DeTable<'_>, respan: Option<&Range<usize>>) -> DeTable<'static> {
-    let mut out = DeTable::new();
-    for (key, value) in table {
-        let at = |span: Range<usize>| respan.cloned().unwrap_or(span);
-        let key = Spanned::new(at(key.span()), Cow::Owned(key.into_inner().into_owned()));
-        let value_span = at(value.span());
-        out.insert(key, Spanned::new(value_span, own_value(value.into_inner(), respan)));
-    }
-    out
-}
-
-fn own_value(value: DeValue<'_>, respan: Option<&Range<usize>>) -> DeValue<'static> {
-    match value {
-        DeValue::Table(table) => DeValue::Table(own_table(table, respan)),
+/// A value with all its spans replaced.
+pub(super) fn respanned<'t>(value: DeValue<'t>, span: &Range<usize>) -> Spanned<DeValue<'t>> {
+    let value = match value {
+        DeValue::Table(table) => DeValue::Table(
+            table
+                .into_iter()
+                .map(|(key, value)| (Spanned::new(span.clone(), key.into_inner()), respanned(value.into_inner(), span)))
+                .collect(),
+        ),
         DeValue::Array(array) => {
-            let mut out = toml::de::DeArray::new();
+            let mut out = DeArray::new();
             for item in array {
-                let span = respan.cloned().unwrap_or(item.span());
-                out.push(Spanned::new(span, own_value(item.into_inner(), respan)));
+                out.push(respanned(item.into_inner(), span));
             }
             DeValue::Array(out)
         }
-        DeValue::String(text) => DeValue::String(Cow::Owned(text.into_owned())),
-        DeValue::Boolean(value) => DeValue::Boolean(value),
-        DeValue::Datetime(value) => DeValue::Datetime(value),
-        DeValue::Integer(mut value) => {
-            value.make_owned();
-            own_leaf(DeValue::Integer(value))
-        }
-        DeValue::Float(mut value) => {
-            value.make_owned();
-            own_leaf(DeValue::Float(value))
-        }
-    }
-}
-
-/// A number whose text is owned already, freed of its lifetime by reading it back.
-fn own_leaf(value: DeValue<'_>) -> DeValue<'static> {
-    let text = match &value {
-        DeValue::Integer(number) => number.to_string(),
-        DeValue::Float(number) => number.as_str().to_string(),
-        _ => String::new(),
+        leaf => leaf,
     };
-    let leaked: Result<Spanned<DeValue<'_>>, _> = DeValue::parse(&text);
-    match leaked.map(Spanned::into_inner) {
-        Ok(DeValue::Boolean(value)) => DeValue::Boolean(value),
-        _ => DeValue::String(Cow::Owned(text)),
-    }
+    Spanned::new(span.clone(), value)
 }
