@@ -2,9 +2,11 @@
 //!
 //! Fonts are the reader's sans-serif; colours are told apart by the colour-blind too (Okabe & Ito 2008, and a ramp for time).
 
+mod pendulum;
 mod snapshots;
 mod tip;
 
+pub use pendulum::pendulum_tip;
 pub use snapshots::{Snapshot, snapshots};
 pub use tip::{Curve, TipFigure, tip};
 

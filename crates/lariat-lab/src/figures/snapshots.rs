@@ -11,6 +11,9 @@ const POINTS: usize = 12;
 /// Width of the plotted area in px.
 const WIDTH: f64 = 760.0;
 
+/// Space left of the axis description in px.
+const EDGE: u32 = 8;
+
 /// A cable at a time.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Snapshot {
@@ -48,7 +51,7 @@ pub fn snapshots(path: &Path, title: &str, shots: &[Snapshot]) -> Result<(), Err
     let (x, y) = ((left - margin)..(right + margin), (low - margin)..(high + margin));
     let height = WIDTH * (y.end - y.start) / (x.end - x.start);
     let (axis, head, legend) = (62, 46, 110);
-    let size = (WIDTH as u32 + axis + legend, height as u32 + axis + head);
+    let size = (WIDTH as u32 + axis + legend + EDGE, height as u32 + axis + head);
     let mut svg = String::new();
     draw(&mut svg, size, title, shots, (x, y), (axis, head, legend)).map_err(|reason| failed(path)(&reason))?;
     save(path, &svg)
@@ -69,7 +72,7 @@ fn draw(
     root.fill(&WHITE).map_err(|e| text(&e))?;
     root.draw(&Text::new(title.to_string(), (axis as i32, 14), (FONT, 21).into_font().color(&INK)))
         .map_err(|e| text(&e))?;
-    let plot = root.margin(head, 0, 0, legend);
+    let plot = root.margin(head, 0, EDGE, legend);
     let mut chart = ChartBuilder::on(&plot)
         .x_label_area_size(axis)
         .y_label_area_size(axis)

@@ -73,7 +73,7 @@ const ACCEPTED: &[(&str, &str)] = &[
     ("attachment.body", "\"world\" | the name of a body"),
     (
         "attachment.anchor",
-        "three finite numbers, in m; to the world of a cable with initial = \"straight\" the place of the cable point, within 1e-6 m",
+        "three finite numbers, in m: where the cable point starts, within 1e-6 m, or any place if the cable has initial = \"equilibrium\"",
     ),
     ("attachment.kind", "\"ball\" | \"clamp\""),
     ("load", "cable and at, with force or moment or both"),
