@@ -96,7 +96,7 @@ pub enum Error {
         source: io::Error,
     },
     /// The mechanics refused: a step that cannot be done, no equilibrium. Names the cable and the time.
-    #[error("at t = {time} s: {source}")]
+    #[error("{}{source}", moment(source, *time))]
     Mechanics {
         /// Simulated time of the last good state in s.
         time: f64,
@@ -143,5 +143,13 @@ impl From<lariat_ancf::Error> for Error {
             _ => 0.0,
         };
         Error::Mechanics { time, source }
+    }
+}
+
+/// The time, where the mechanics does not name it itself.
+fn moment(source: &lariat_ancf::Error, time: f64) -> String {
+    match source {
+        lariat_ancf::Error::StepRefused { .. } => String::new(),
+        _ => format!("at t = {time} s: "),
     }
 }

@@ -75,10 +75,8 @@ pub fn run(scene: &Scene, out: &Path, options: &mut Options<'_>) -> Result<Summa
                 let every = scene.probes[probe].every.unwrap_or(scene.dt);
                 output.sample(probe, nominal(sample, every).min(scene.duration), world)?;
             }
-            if event.host {
-                if let Some(progress) = options.progress.as_mut() {
-                    progress(event.time);
-                }
+            if let Some(progress) = options.progress.as_mut().filter(|_| event.host) {
+                progress(event.time);
             }
             if options.stop.load(Ordering::Relaxed) && event.time < scene.duration {
                 return Err(Error::Interrupted { time: event.time });

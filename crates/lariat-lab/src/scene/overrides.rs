@@ -58,7 +58,7 @@ impl<'t> Document<'t> {
                 let Some(i) = names.iter().position(|name| name == wanted).or_else(by_position) else {
                     return fail(format!("no {step} is named {wanted:?}; accepted: {}", names.join(", ")));
                 };
-                let Some(item) = items.iter_mut().nth(i) else { return fail(format!("no {step} {i}")) };
+                let Some(item) = items.get_mut(i) else { return fail(format!("no {step} {i}")) };
                 here = item.get_mut();
             }
             match here {
