@@ -1,1 +1,22 @@
 //! Scene files, headless runs and reports for Lariat cables.
+//!
+//! | module | what it holds |
+//! |---|---|
+//! | [`scene`] | scene files: TOML in, a checked scene out |
+//! | [`run`] | headless runs: probes to CSV, a summary as JSON |
+//! | [`pendulum`] | the falling pendulum and its reference |
+//! | [`table1`] | the paper's Table 1, measured |
+//! | [`figures`] | SVG plots |
+//!
+//! The library prints nothing; the `lariat` command does.
+
+mod error;
+pub mod figures;
+
+pub mod pendulum;
+pub mod run;
+pub mod scene;
+pub mod table1;
+
+pub use error::{Error, Place};
+pub use scene::{Purpose, Scene};

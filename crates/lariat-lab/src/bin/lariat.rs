@@ -1,2 +1,0 @@
-//! The `lariat` command.
-fn main() {}

@@ -1,0 +1,45 @@
+//! Figures as SVG: the pendulum in motion, and its tip against time.
+//!
+//! Fonts are the reader's sans-serif; colours are told apart by the colour-blind too (Okabe & Ito 2008, and a ramp for time).
+
+mod pendulum;
+mod snapshots;
+mod tip;
+
+pub use pendulum::pendulum_tip;
+pub use snapshots::{Snapshot, snapshots};
+pub use tip::{Curve, TipFigure, tip};
+
+use crate::error::Error;
+use plotters::style::RGBColor;
+use std::fmt::Display;
+use std::path::Path;
+
+const FONT: &str = "sans-serif";
+const INK: RGBColor = RGBColor(45, 45, 48);
+const GRID: RGBColor = RGBColor(225, 225, 228);
+/// Blue, vermilion, green, purple, orange.
+const PALETTE: [RGBColor; 5] =
+    [RGBColor(0, 114, 178), RGBColor(213, 94, 0), RGBColor(0, 158, 115), RGBColor(170, 68, 153), RGBColor(230, 159, 0)];
+
+/// Writes a finished drawing to a file.
+fn save(path: &Path, svg: &str) -> Result<(), Error> {
+    std::fs::write(path, svg).map_err(|source| Error::Output { path: path.to_path_buf(), source })
+}
+
+/// A drawing that failed.
+fn failed(path: &Path) -> impl Fn(&dyn Display) -> Error + '_ {
+    move |reason| Error::Figure { path: path.to_path_buf(), reason: reason.to_string() }
+}
+
+/// Smallest and largest finite value, at least `least` apart.
+fn range(values: impl Iterator<Item = f64>, least: f64) -> (f64, f64) {
+    let (low, high) = values
+        .filter(|x| x.is_finite())
+        .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)));
+    if low > high {
+        return (0.0, least);
+    }
+    let widen = (0.5 * (least - (high - low))).max(0.0);
+    (low - widen, high + widen)
+}

@@ -1,0 +1,80 @@
+//! The folder of a run: `probes/NAME.csv` and `summary.json`.
+//!
+//! Numbers are the shortest text that reads back to the same f64. Every row is written through to the file.
+
+use super::{Summary, World, probe};
+use crate::error::Error;
+use crate::scene::Scene;
+use std::fmt::Write as _;
+use std::fs::{self, File};
+use std::io::{self, Write as _};
+use std::path::{Path, PathBuf};
+
+/// The open files of a run.
+pub(super) struct Output {
+    folder: PathBuf,
+    files: Vec<(PathBuf, File)>,
+    row: Vec<f64>,
+    text: String,
+}
+
+impl Output {
+    /// Makes the folder and its files, with their headers. Files of probes that an earlier run left are removed.
+    pub fn create(scene: &Scene, folder: &Path) -> Result<Self, Error> {
+        let fail = |path: &Path| {
+            let path = path.to_path_buf();
+            move |source| Error::Output { path, source }
+        };
+        let probes = folder.join("probes");
+        fs::create_dir_all(&probes).map_err(fail(&probes))?;
+        for stale in old_results(folder, &probes).map_err(fail(&probes))? {
+            fs::remove_file(&stale).map_err(fail(&stale))?;
+        }
+        let mut files = Vec::new();
+        for p in &scene.probes {
+            let path = probes.join(format!("{}.csv", p.name));
+            let mut file = File::create(&path).map_err(fail(&path))?;
+            file.write_all((probe::columns(p.target).join(",") + "\n").as_bytes()).map_err(fail(&path))?;
+            files.push((path, file));
+        }
+        Ok(Output { folder: folder.to_path_buf(), files, row: Vec::new(), text: String::new() })
+    }
+
+    /// Writes one row of a probe.
+    pub fn sample(&mut self, index: usize, time: f64, world: &mut World) -> Result<(), Error> {
+        self.row.clear();
+        self.row.push(time);
+        probe::read(world.scene.probes[index].target, world, &mut self.row)?;
+        self.text.clear();
+        for (i, x) in self.row.iter().enumerate() {
+            // the shortest text that reads back to the same number; writing to a String cannot fail
+            let _ = write!(self.text, "{}{x:?}", if i > 0 { "," } else { "" });
+        }
+        self.text.push('\n');
+        let (path, file) = &mut self.files[index];
+        file.write_all(self.text.as_bytes()).map_err(|source| Error::Write { path: path.clone(), time, source })
+    }
+
+    /// Writes the summary.
+    pub fn finish(self, summary: &Summary, time: f64) -> Result<(), Error> {
+        let path = self.folder.join("summary.json");
+        let text = summary.to_json() + "\n";
+        fs::write(&path, text).map_err(|source| Error::Write { path, time, source })
+    }
+}
+
+/// Files that a run writes and an earlier run left.
+fn old_results(folder: &Path, probes: &Path) -> io::Result<Vec<PathBuf>> {
+    let mut found = Vec::new();
+    for entry in fs::read_dir(probes)? {
+        let path = entry?.path();
+        if path.extension().is_some_and(|e| e == "csv") && path.is_file() {
+            found.push(path);
+        }
+    }
+    let summary = folder.join("summary.json");
+    if summary.is_file() {
+        found.push(summary);
+    }
+    Ok(found)
+}

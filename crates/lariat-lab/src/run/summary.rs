@@ -1,0 +1,77 @@
+//! `summary.json`: what a run did, in one object.
+
+use super::World;
+use crate::error::Error;
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+use std::time::Duration;
+
+/// The summary of a run; keys as SCENE.md lists them.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Summary {
+    /// Name of the scene.
+    pub name: String,
+    /// Time simulated in s.
+    pub simulated_s: f64,
+    /// CPU time of the process during the run in s.
+    pub cpu_s: f64,
+    /// Wall time of the run in s.
+    pub wall_s: f64,
+    /// Simulated time over wall time: above 1 is faster than the clock.
+    pub real_time_factor: f64,
+    /// Integration steps, all cables together.
+    pub steps: u64,
+    /// Integration steps thrown away.
+    pub rejected_steps: u64,
+    /// Newton iterations, those of statics included.
+    pub newton_iterations: u64,
+    /// Factorisations of step matrices.
+    pub factorisations: u64,
+    /// Elements evaluated, with or without tangent.
+    pub element_evaluations: u64,
+    /// Evaluations by effect, for the effects that are on.
+    pub effect_evaluations: BTreeMap<String, u64>,
+    /// Largest distance between an attachment's two sides in m.
+    pub max_gap_m: f64,
+    /// Total energy at t = 0 in J; null if it is not finite.
+    pub energy_start_j: Option<f64>,
+    /// Total energy at the end in J; null if it is not finite.
+    pub energy_end_j: Option<f64>,
+    /// What the user should know.
+    pub warnings: Vec<String>,
+    /// Why the run failed; null if it did not.
+    pub failed: Option<String>,
+}
+
+impl Summary {
+    pub(super) fn of(world: &World, cpu: Duration, wall: Duration, failed: Option<&Error>) -> Self {
+        let count = |read: fn(&lariat_ancf::Diagnostics) -> u64| -> u64 {
+            world.cables.iter().map(|cable| read(cable.diagnostics())).sum()
+        };
+        let finite = |x: f64| Some(x).filter(|x| x.is_finite());
+        let simulated = world.time();
+        Summary {
+            name: world.scene.name.clone(),
+            simulated_s: simulated,
+            cpu_s: cpu.as_secs_f64(),
+            wall_s: wall.as_secs_f64(),
+            real_time_factor: simulated / wall.as_secs_f64().max(1e-9),
+            steps: count(|d| d.steps),
+            rejected_steps: count(|d| d.rejected_steps),
+            newton_iterations: count(|d| d.newton_iterations) + world.static_iterations,
+            factorisations: count(|d| d.factorisations),
+            element_evaluations: count(|d| d.element_evaluations()),
+            effect_evaluations: BTreeMap::new(),
+            max_gap_m: 0.0,
+            energy_start_j: finite(world.energy_start),
+            energy_end_j: finite(world.energy(None).total()),
+            warnings: world.warnings.clone(),
+            failed: failed.map(ToString::to_string),
+        }
+    }
+
+    /// The summary as JSON.
+    pub fn to_json(&self) -> String {
+        serde_json::to_string_pretty(self).unwrap_or_else(|error| format!("{{\"failed\": \"{error}\"}}"))
+    }
+}

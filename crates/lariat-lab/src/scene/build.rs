@@ -1,0 +1,85 @@
+//! From a checked scene to cables: mesh, supports, loads, start.
+
+use super::Scene;
+use lariat_ancf::{At, Cable, Error, Motion, PointLoad, SlopeSupport};
+
+impl Scene {
+    /// A cable at its drawn start, held by its attachments where it is drawn, without loads.
+    ///
+    /// # Errors
+    /// As [`CableBuilder::build`](lariat_ancf::CableBuilder::build).
+    pub fn build_cable(&self, index: usize) -> Result<Cable, Error> {
+        let scene = &self.cables[index];
+        let mut builder = Cable::builder()
+            .name(scene.name.as_str())
+            .points(scene.points.iter().copied())
+            .length(scene.length)
+            .elements(scene.elements)
+            .section(scene.section)
+            .rule(scene.rule)
+            .allow_rank_deficient()
+            .gravity(self.gravity)
+            .velocity(scene.velocity)
+            .angular_velocity(scene.angular_velocity);
+        builder = match scene.integrator {
+            Ok(integrator) => builder.integrator(integrator),
+            Err(preset) => builder.preset(preset),
+        };
+        for attachment in self.attachments.iter().filter(|a| a.cable == index) {
+            let at = At::ArcLength(attachment.arc_length);
+            builder = if attachment.clamp { builder.clamp(at) } else { builder.fix(at) };
+        }
+        builder.build()
+    }
+
+    /// Adds the point loads of a cable: those with a ramp, or those without. `at_once` drops the ramps.
+    ///
+    /// # Errors
+    /// As [`Cable::add_load`].
+    pub fn add_loads(&self, cable: &mut Cable, index: usize, ramped: bool, at_once: bool) -> Result<(), Error> {
+        for load in self.loads.iter().filter(|l| l.cable == index && (l.ramp > 0.0) == ramped) {
+            let ramp = if at_once { 0.0 } else { load.ramp };
+            cable.add_load(PointLoad { arc_length: load.arc_length, force: load.force, moment: load.moment, ramp })?;
+        }
+        Ok(())
+    }
+
+    /// Moves the supports of a cable to their anchors.
+    ///
+    /// # Errors
+    /// As [`Cable::set_support`].
+    pub fn move_to_anchors(&self, cable: &mut Cable, index: usize) -> Result<(), Error> {
+        for attachment in self.attachments.iter().filter(|a| a.cable == index) {
+            let Some(anchor) = attachment.anchor else { continue };
+            let mut support = cable.support(attachment.arc_length)?;
+            support.position = Some(Motion::fixed(anchor));
+            cable.set_support(attachment.arc_length, support)?;
+        }
+        Ok(())
+    }
+
+    /// Gives a cable its initial rigid motion, with held points at rest.
+    ///
+    /// # Errors
+    /// As [`Cable::set_coordinates`].
+    pub fn set_in_motion(&self, cable: &mut Cable, index: usize) -> Result<(), Error> {
+        let scene = &self.cables[index];
+        let positions = cable.positions().to_vec();
+        let vector = |x: &[f64]| lariat_ancf::Vector3::new(x[0], x[1], x[2]);
+        let start = vector(&positions);
+        let mut velocities = Vec::with_capacity(positions.len());
+        for (node, q) in positions.chunks_exact(6).enumerate() {
+            let support = cable.support(At::Node(node))?;
+            let mut v = scene.velocity + scene.angular_velocity.cross(&(vector(q) - start));
+            let mut dt = scene.angular_velocity.cross(&vector(&q[3..]));
+            if support.position.is_some() {
+                v.fill(0.0);
+            }
+            if let SlopeSupport::Direction(d) = support.slope {
+                dt = d * d.dot(&dt);
+            }
+            velocities.extend(v.iter().chain(dt.iter()));
+        }
+        cable.set_coordinates(&positions, &velocities)
+    }
+}

@@ -1,0 +1,186 @@
+//! Scene files: TOML in, a checked [`Scene`] out. The format is the contract of SCENE.md.
+//!
+//! Everything is checked before anything is written: an unknown key, a missing key, a value out of range or a reference to
+//! nothing is an error that names file, line, key and what is accepted. Parts of the format that this version does not compute
+//! (bodies, the Rapier engine, effects) are read and then refused by name, never ignored.
+//!
+//! Extensions of the format: `section = { tube = [outer, inner] }`; `allow_rank_deficient = true` runs a rule that leaves modes
+//! without energy (Table 1 needs G2-2); `integrator = { preset = ".." }`, `{ method, max_step }`, `{ method, stable }`; energy
+//! and momentum probes of one cable; `axial = "projected"` and rules such as `projected-3`.
+//!
+//! An `anchor` to the world must be where the cable point starts (within 1e-6 m), because a straight start has no way to get
+//! to any other place without a jump; with `initial = "equilibrium"` and in `lariat static` any anchor will do, and the cable
+//! is moved there. A load with a ramp is zero at t = 0, so it takes no part in `initial = "equilibrium"`; `lariat static`
+//! applies all loads in full.
+//!
+//! | file | what it holds |
+//! |---|---|
+//! | [`table`], [`value`] | the tables as written |
+//! | [`document`], `overrides` | the file as a tree with places; `--set` |
+//! | [`keys`] | what is accepted, in words |
+//! | `check`, `check_cable` | ranges and references |
+//! | `build` | from a scene to cables |
+
+mod build;
+mod check;
+mod check_cable;
+pub mod document;
+pub mod keys;
+mod overrides;
+pub mod table;
+pub mod value;
+
+use crate::error::Error;
+use document::Document;
+use lariat_ancf::{Integrator, Preset, Rule, Section, Vector3};
+use std::path::Path;
+use value::At;
+
+/// What a scene is read for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Purpose {
+    /// A run in time.
+    Run,
+    /// The static equilibrium: no duration needed, anchors anywhere.
+    Static,
+}
+
+/// A checked scene.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Scene {
+    /// Name.
+    pub name: String,
+    /// Simulated time in s; 0 if none was given (statics).
+    pub duration: f64,
+    /// Host step in s.
+    pub dt: f64,
+    /// Gravity in m/s^2.
+    pub gravity: Vector3<f64>,
+    /// Cables.
+    pub cables: Vec<CableScene>,
+    /// Attachments to the world.
+    pub attachments: Vec<AttachmentScene>,
+    /// Point loads.
+    pub loads: Vec<LoadScene>,
+    /// Probes.
+    pub probes: Vec<ProbeScene>,
+}
+
+/// A checked cable.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CableScene {
+    /// Name.
+    pub name: String,
+    /// Start shape in m.
+    pub points: Vec<Vector3<f64>>,
+    /// Unstretched length in m.
+    pub length: f64,
+    /// True to start from static equilibrium.
+    pub equilibrium: bool,
+    /// Number of elements.
+    pub elements: usize,
+    /// Section.
+    pub section: Section,
+    /// Force strategy.
+    pub rule: Rule,
+    /// Integrator, or a preset.
+    pub integrator: Result<Integrator, Preset>,
+    /// Initial velocity in m/s.
+    pub velocity: Vector3<f64>,
+    /// Initial angular velocity about the start point in rad/s.
+    pub angular_velocity: Vector3<f64>,
+}
+
+/// A checked attachment of a cable to the world.
+#[derive(Clone, Debug, PartialEq)]
+pub struct AttachmentScene {
+    /// Name.
+    pub name: String,
+    /// Position of the cable in [`Scene::cables`].
+    pub cable: usize,
+    /// Arc length in m.
+    pub arc_length: f64,
+    /// World position in m; `None` = where the cable point is.
+    pub anchor: Option<Vector3<f64>>,
+    /// True to hold the direction of the tangent too.
+    pub clamp: bool,
+}
+
+/// A checked point load.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LoadScene {
+    /// Position of the cable in [`Scene::cables`].
+    pub cable: usize,
+    /// Arc length in m.
+    pub arc_length: f64,
+    /// Force in N.
+    pub force: Vector3<f64>,
+    /// Moment in N m.
+    pub moment: Vector3<f64>,
+    /// Time from zero to full in s.
+    pub ramp: f64,
+}
+
+/// A checked probe.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ProbeScene {
+    /// Name; its file is `probes/NAME.csv`.
+    pub name: String,
+    /// Interval in s; `None` = each host step.
+    pub every: Option<f64>,
+    /// What is read.
+    pub target: Target,
+}
+
+/// What a probe reads; numbers are positions in the scene's lists.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Target {
+    /// A point of a cable.
+    Point {
+        /// The cable.
+        cable: usize,
+        /// Arc length in m.
+        arc_length: f64,
+    },
+    /// Force and moment of an attachment.
+    Attachment(usize),
+    /// Energy of a cable, or of all.
+    Energy(Option<usize>),
+    /// Momentum of a cable, or of all.
+    Momentum(Option<usize>),
+}
+
+impl Scene {
+    /// Reads and checks a scene file, with overrides `KEY=VALUE`.
+    ///
+    /// # Errors
+    /// [`Error::Read`], [`Error::Syntax`], [`Error::Override`], [`Error::Scene`], [`Error::NotBuilt`].
+    pub fn read(path: &Path, overrides: &[String], purpose: Purpose) -> Result<Self, Error> {
+        let text = std::fs::read_to_string(path).map_err(|source| Error::Read { path: path.to_path_buf(), source })?;
+        let stem = path.file_stem().map_or_else(|| "scene".to_string(), |s| s.to_string_lossy().into_owned());
+        Self::parse_named(&path.display().to_string(), &stem, &text, overrides, purpose)
+    }
+
+    /// Checks the text of a scene; `file` is its name in errors.
+    ///
+    /// # Errors
+    /// As [`read`](Self::read).
+    pub fn parse(file: &str, text: &str, overrides: &[String], purpose: Purpose) -> Result<Self, Error> {
+        Self::parse_named(file, file, text, overrides, purpose)
+    }
+
+    fn parse_named(file: &str, name: &str, text: &str, overrides: &[String], purpose: Purpose) -> Result<Self, Error> {
+        let mut document = Document::parse(file, text)?;
+        overrides.iter().try_for_each(|argument| document.set(argument))?;
+        check::scene(&document, document.read()?, name, purpose)
+    }
+}
+
+/// The arc length of a place on a cable of this length, in m.
+fn arc_length(at: At, length: f64) -> f64 {
+    match at {
+        At::Start => 0.0,
+        At::End => length,
+        At::ArcLength(s) => s,
+    }
+}
