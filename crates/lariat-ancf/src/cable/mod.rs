@@ -10,6 +10,7 @@ pub mod linearise;
 mod model;
 mod projection;
 pub mod sample;
+mod simd;
 mod system;
 
 pub use model::{Element, Model};
