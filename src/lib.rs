@@ -1,2 +1,3 @@
 //! Lariat: cables that obey real materials.
-pub use lariat_ancf as ancf;
+pub use lariat_ancf::*;
+pub use lariat_ancf::integrate::NewtonMode;
