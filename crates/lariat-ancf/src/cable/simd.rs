@@ -23,7 +23,7 @@ impl Cable {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{At, Integrator, Method, Rule, Section, Vector3};
+    use crate::{At, Integrator, Method, Rule, Section, StepControl, Vector3};
 
     /// Every level of this processor; the first is the one that a cable chooses.
     fn levels() -> Vec<(&'static str, Level)> {
@@ -79,9 +79,11 @@ mod tests {
             assert_same_run(&cable(rule, false), rule);
         }
         assert_same_run(&cable("projected-3", true), "clamped");
-        for method in [Method::Rkn4, Method::TrBdf2] {
+        for (method, control) in
+            [(Method::Rkn4, StepControl::Stable(0.9)), (Method::TrBdf2, StepControl::Substeps(20))]
+        {
             let mut cable = cable("projected-3", false);
-            cable.set_integrator(Integrator::substeps(method, 60).unwrap()).unwrap();
+            cable.set_integrator(Integrator { method, control }).unwrap();
             assert_same_run(&cable, &method.to_string());
         }
     }
