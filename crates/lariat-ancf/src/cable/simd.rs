@@ -79,8 +79,7 @@ mod tests {
             assert_same_run(&cable(rule, false), rule);
         }
         assert_same_run(&cable("projected-3", true), "clamped");
-        for (method, control) in
-            [(Method::Rkn4, StepControl::Stable(0.9)), (Method::TrBdf2, StepControl::Substeps(20))]
+        for (method, control) in [(Method::Rkn4, StepControl::Stable(0.9)), (Method::TrBdf2, StepControl::Substeps(20))]
         {
             let mut cable = cable("projected-3", false);
             cable.set_integrator(Integrator { method, control }).unwrap();
