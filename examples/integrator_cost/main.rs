@@ -1,6 +1,6 @@
 //! What accuracy costs: whole runs of falling cables with every integrator, error against time, as Markdown.
 //!
-//! `cargo run --release --example integrator_cost -- --out docs/cost.md`
+//! `cargo run --release --example integrator_cost -- --out docs/cost.md --readme README.md`
 //!
 //! The measure of error is the largest 3D distance of the tip, at the host's steps, from the solution of the same elements that
 //! is exact in time. Times are wall-clock minima of several runs on one thread; what is timed is `Cable::step` and nothing else.
@@ -8,6 +8,7 @@
 mod kernels;
 mod measure;
 mod pendulum;
+mod readme;
 mod steel;
 
 use measure::Row;
@@ -18,7 +19,7 @@ use std::process::Command;
 type Outcome<T> = Result<T, Box<dyn Error>>;
 
 /// The command that makes the report, printed in it.
-const COMMAND: &str = "cargo run --release --example integrator_cost -- --out docs/cost.md";
+const COMMAND: &str = "cargo run --release --example integrator_cost -- --out docs/cost.md --readme README.md";
 
 /// Targets for the default integrator on the paper's pendulum: error in m, time in ms, and the time it is a share of.
 const TARGETS: [(f64, f64, &str); 3] = [(5.4e-4, 107.0, "1/25"), (4.0e-5, 349.0, "1/40"), (8.0e-6, 603.0, "1/50")];
@@ -114,12 +115,15 @@ fn summary(ladders: &[(String, bool, Vec<Row>)], mesh: &[pendulum::Mesh]) -> Out
 }
 
 fn main() -> Outcome<()> {
-    let arguments: Vec<String> = std::env::args().skip(1).collect();
-    let file = match arguments.as_slice() {
-        [] => None,
-        [flag, file] if flag == "--out" => Some(file.clone()),
-        _ => return Err("usage: integrator_cost [--out FILE]".into()),
-    };
+    let (mut file, mut readme) = (None, None);
+    let mut arguments = std::env::args().skip(1);
+    while let Some(flag) = arguments.next() {
+        match (flag.as_str(), arguments.next()) {
+            ("--out", Some(value)) => file = Some(value),
+            ("--readme", Some(value)) => readme = Some(value),
+            _ => return Err("usage: integrator_cost [--out FILE] [--readme FILE]".into()),
+        }
+    }
     let machine = machine();
     let paper = pendulum::PAPER;
     let exact = pendulum::exact(&paper, 0.25)?;
@@ -145,6 +149,9 @@ fn main() -> Outcome<()> {
     out += &pendulum::others()?;
     out += &steel::report()?;
     print!("{out}");
+    if let Some(readme) = readme {
+        readme::update(&readme, &machine, &ladders.iter().flat_map(|(.., rows)| rows).collect::<Vec<_>>())?;
+    }
     if let Some(file) = file {
         std::fs::write(file, out)?;
     }

@@ -17,7 +17,7 @@ pub struct Reading {
 
 /// A setting and what came of it.
 pub struct Row {
-    pub setting: String,
+    pub integrator: Integrator,
     pub milliseconds: f64,
     /// Largest tip error in m.
     pub error: f64,
@@ -47,7 +47,7 @@ pub fn run(cable: &Cable, integrator: Integrator, host: f64, exact: &[Reading], 
     let mut start = cable.clone();
     start.set_integrator(integrator)?;
     let mut row = Row {
-        setting: format!("{} | {}", integrator.method, control(integrator.control)),
+        integrator,
         milliseconds: f64::INFINITY,
         error: 0.0,
         tension: 0.0,
@@ -78,12 +78,20 @@ pub fn run(cable: &Cable, integrator: Integrator, host: f64, exact: &[Reading], 
     Ok(row)
 }
 
-fn control(control: StepControl) -> String {
-    match control {
-        StepControl::Tolerance(t) => format!("tolerance {t:.0e} m"),
-        StepControl::Substeps(n) => format!("{n} substeps"),
-        StepControl::MaxStep(h) => format!("steps <= 1/{:.0} s", 1.0 / h),
-        StepControl::Stable(share) => format!("{share} of the stable step"),
+impl Row {
+    /// The step control in words.
+    pub fn control(&self) -> String {
+        match self.integrator.control {
+            StepControl::Tolerance(t) => format!("tolerance {t:.0e} m"),
+            StepControl::Substeps(n) => format!("{n} substeps"),
+            StepControl::MaxStep(h) => format!("steps <= 1/{:.0} s", 1.0 / h),
+            StepControl::Stable(share) => format!("{share} of the stable step"),
+        }
+    }
+
+    /// Method and step control as two columns.
+    pub fn setting(&self) -> String {
+        format!("{} | {}", self.integrator.method, self.control())
     }
 }
 
@@ -108,7 +116,7 @@ pub fn table<'a>(rows: impl IntoIterator<Item = &'a Row>) -> String {
             None => format!("{:.2} | {:.1e} | {:+.0e}", r.milliseconds, r.error, r.energy),
             Some(_) => format!("refused at host step {} | - | -", d.host_steps + 1),
         };
-        let _ = writeln!(out, "| {} | {result} | {counts} |", r.setting);
+        let _ = writeln!(out, "| {} | {result} | {counts} |", r.setting());
     }
     out
 }

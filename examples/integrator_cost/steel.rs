@@ -63,7 +63,11 @@ pub fn report() -> Outcome<String> {
             writeln!(
                 out,
                 "| {} | {result} | {} | {} | {} | {} |",
-                row.setting, d.steps, d.rejected_steps, d.newton_iterations, d.factorisations
+                row.setting(),
+                d.steps,
+                d.rejected_steps,
+                d.newton_iterations,
+                d.factorisations
             )?;
         }
     }
