@@ -43,6 +43,8 @@
 //!
 //! What accuracy costs, by integrator: `docs/cost.md` in the repository.
 
+#[doc(no_inline)]
+pub use lariat_ancf as ancf;
 #[doc(inline)]
 pub use lariat_ancf::integrate::NewtonMode;
 #[doc(inline)]

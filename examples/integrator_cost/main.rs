@@ -3,7 +3,7 @@
 //! `cargo run --release --example integrator_cost -- --out docs/cost.md --readme README.md`
 //!
 //! The measure of error is the largest 3D distance of the tip, at the host's steps, from the solution of the same elements that
-//! is exact in time. Times are wall-clock minima of several runs on one thread; what is timed is `Cable::step` and nothing else.
+//! is exact in time. Times are CPU time, the least of several runs, on one thread; what is timed is `Cable::step` and nothing else.
 
 mod kernels;
 mod measure;
@@ -45,7 +45,7 @@ fn machine() -> String {
     let commit = first_line("git", &["rev-parse", "--short", "HEAD"]);
     format!(
         "Machine: {} ({} MHz), {cores} cores, {}; {}; commit {commit}; shared machine, load {load} at the start, so times are \
-         minima of several runs and still noisy by some 10 %.",
+         the least of several runs, and may still be some 10 % too long.",
         field("model name"),
         field("cpu MHz"),
         simd.unwrap_or("SIMD unknown"),
@@ -132,7 +132,7 @@ fn main() -> Outcome<()> {
     let mesh = pendulum::mesh()?;
     let mut out = format!(
         "# What accuracy costs\n\nMade by `{COMMAND}`; do not edit. {machine}\n\n\
-         *Time* is the least wall-clock time of a whole run, on one thread. *Tip error* is the largest 3D distance of the tip, at \
+         *Time* is the CPU time of a whole run on one thread, the least of 7 runs or more (steel: 5). *Tip error* is the largest 3D distance of the tip, at \
          the host's steps, from the solution of the same elements that is exact in time. *Tolerance* is the position error in m \
          that the integrator allows itself per host step. *Newton* counts every iteration: with a fresh tangent (force, tangent, \
          factor, solve: as many as *factorisations*) or with kept factors (force and solve only; its forces are among *forces*). \

@@ -48,7 +48,7 @@ pub fn report() -> Outcome<String> {
         )?;
         let cable = steel(Integrator::default())?;
         for integrator in settings(&cable) {
-            let row = run(&cable, integrator, host, &exact, 3)?;
+            let row = run(&cable, integrator, host, &exact, 5)?;
             let d = &row.diagnostics;
             let result = match &row.outcome {
                 None => format!(
