@@ -381,6 +381,21 @@ impl Cable {
         self.set_support(At::Node(node), Support { position, slope: SlopeSupport::Free, attached: false })
     }
 
+    /// Prescribes the position of a node as `motion`, keeping what holds its slope; cheap if it was prescribed already.
+    ///
+    /// # Errors
+    /// As [`set_support`](Self::set_support).
+    pub fn set_motion(&mut self, node: usize, motion: Motion) -> Result<(), Error> {
+        let support = self.support(At::Node(node))?;
+        let new = Support { position: Some(motion), attached: false, ..support };
+        if support.position.is_none() || !motion.is_finite() {
+            return self.set_support(At::Node(node), new);
+        }
+        self.model.set_support(node, new);
+        self.state.phase.memory.valid = false;
+        Ok(())
+    }
+
     /// Frees a node.
     ///
     /// # Errors

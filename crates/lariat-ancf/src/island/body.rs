@@ -26,6 +26,8 @@ pub struct RigidBody {
     pub torque: Vector3<f64>,
     /// World axes along which the body may move (x, y, z) and about which it may turn (x, y, z).
     pub free: [bool; 6],
+    /// Whether the gyroscopic torque -omega x I omega acts (an engine may leave it out).
+    pub gyroscopic: bool,
 }
 
 impl RigidBody {
@@ -49,6 +51,7 @@ impl RigidBody {
             force: Vector3::zeros(),
             torque: Vector3::zeros(),
             free: [true; 6],
+            gyroscopic: true,
         })
     }
 

@@ -21,10 +21,12 @@
 mod body;
 mod condense;
 mod dense;
+mod impedance;
 mod rotation;
 mod system;
 
 pub use body::RigidBody;
+pub use impedance::Impedance;
 
 use crate::cable::{At, Cable};
 use crate::error::{Error, require, require_finite};

@@ -1,0 +1,111 @@
+//! Rapier's bodies as the mechanics sees them, and what is remembered of each between steps.
+
+use crate::Error;
+use crate::convert::{matrix, rotation, vector};
+use ::nalgebra::Vector3;
+use lariat_ancf::island::RigidBody;
+use rapier::dynamics::{LockedAxes, RigidBodyHandle};
+use rapier::math::{AngVector, Pose, Vector};
+use rapier::pipeline::PhysicsWorld;
+use serde::{Deserialize, Serialize};
+
+/// What the coupling remembers of a body.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub(crate) struct BodyMemory {
+    pub handle: RigidBodyHandle,
+    /// Learnt force of contacts and joints, in N.
+    pub force: Vector3<f64>,
+    /// Learnt torque of contacts and joints, in N m.
+    pub torque: Vector3<f64>,
+    /// The body in `f64`, as long as Rapier's copy is what was written last.
+    pub exact: Option<Exact>,
+}
+
+/// A body's state in `f64` beside the state in Rapier that stands for it.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub(crate) struct Exact {
+    pub position: Vector3<f64>,
+    pub rotation: ::nalgebra::UnitQuaternion<f64>,
+    pub velocity: Vector3<f64>,
+    pub spin: Vector3<f64>,
+    pub pose: Pose,
+    pub linvel: Vector,
+    pub angvel: AngVector,
+}
+
+impl BodyMemory {
+    pub fn new(handle: RigidBodyHandle) -> Self {
+        BodyMemory { handle, force: Vector3::zeros(), torque: Vector3::zeros(), exact: None }
+    }
+}
+
+/// True if the coupling integrates this body: dynamic, awake, enabled, of finite mass. Others move the cable and feel nothing.
+pub(crate) fn is_integrated(world: &PhysicsWorld, handle: RigidBodyHandle) -> bool {
+    world.bodies.get(handle).is_some_and(|b| {
+        b.is_dynamic() && b.is_enabled() && b.mass_properties().local_mprops.inv_mass > 0.0
+    })
+}
+
+/// Reads a body: its mass, its state (in `f64` if Rapier's is what was written last), gravity, the user's and the learnt forces.
+pub(crate) fn read(
+    world: &PhysicsWorld,
+    handle: RigidBodyHandle,
+    memory: &BodyMemory,
+    time: f64,
+) -> Result<RigidBody, Error> {
+    let body = &world.bodies[handle];
+    let properties = body.mass_properties();
+    let local = &properties.local_mprops;
+    let mass = 1.0 / f64::from(local.inv_mass);
+    let free = properties.flags;
+    let allowed = |axis: LockedAxes| !free.contains(axis);
+    let turns = [
+        allowed(LockedAxes::ROTATION_LOCKED_X),
+        allowed(LockedAxes::ROTATION_LOCKED_Y),
+        allowed(LockedAxes::ROTATION_LOCKED_Z),
+    ];
+    let rigid = local.inv_principal_inertia;
+    let turnable = rigid.x > 0.0 && rigid.y > 0.0 && rigid.z > 0.0;
+    let inertia = if turnable { matrix(&local.reconstruct_inertia_matrix()) } else { ::nalgebra::Matrix3::identity() };
+    let mut out = RigidBody {
+        mass,
+        inertia,
+        position: vector(body.center_of_mass()),
+        rotation: rotation(*body.rotation()),
+        velocity: vector(body.linvel()),
+        angular_velocity: vector(body.angvel()),
+        force: vector(world.gravity) * mass * f64::from(body.gravity_scale()) + vector(body.user_force()) + memory.force,
+        torque: vector(body.user_torque()) + memory.torque,
+        free: [
+            allowed(LockedAxes::TRANSLATION_LOCKED_X),
+            allowed(LockedAxes::TRANSLATION_LOCKED_Y),
+            allowed(LockedAxes::TRANSLATION_LOCKED_Z),
+            turns[0] && turnable,
+            turns[1] && turnable,
+            turns[2] && turnable,
+        ],
+        gyroscopic: body.gyroscopic_forces_enabled(),
+    };
+    if let Some(exact) = &memory.exact {
+        if exact.pose == *body.position() {
+            out.position = exact.position;
+            out.rotation = exact.rotation;
+            if exact.linvel == body.linvel() {
+                out.velocity = exact.velocity;
+            }
+            if exact.angvel == body.angvel() {
+                out.angular_velocity = exact.spin;
+            }
+        }
+    }
+    let checks: [(&'static str, bool); 4] = [
+        ("position", out.position.iter().chain(out.rotation.coords.iter()).all(|x| x.is_finite())),
+        ("velocity", out.velocity.iter().chain(out.angular_velocity.iter()).all(|x| x.is_finite())),
+        ("force", out.force.iter().chain(out.torque.iter()).all(|x| x.is_finite())),
+        ("mass", mass.is_finite() && out.inertia.iter().all(|x| x.is_finite())),
+    ];
+    match checks.iter().find(|(_, ok)| !ok) {
+        None => Ok(out),
+        Some((what, _)) => Err(Error::BodyNotFinite { body: handle, what, time }),
+    }
+}

@@ -1,0 +1,110 @@
+//! Giving Rapier the predicted motion, and reading what became of it.
+
+use crate::body::{BodyMemory, Exact};
+use crate::convert::{rotation, to_vector, vector};
+use crate::islands::Given;
+use ::nalgebra::Vector3;
+use lariat_ancf::island::RigidBody;
+use rapier::dynamics::RigidBodyHandle;
+use rapier::math::Real;
+use rapier::pipeline::PhysicsWorld;
+
+/// Share by which the learnt reaction follows.
+const LEARNING: f64 = 0.3;
+/// A body landed where predicted if it is within this many units of `Real`'s rounding.
+const ROUNDING: f64 = 32.0;
+
+/// Makes Rapier move the body uniformly from where it is to where `end` is, in `h` (s).
+pub(crate) fn give(world: &mut PhysicsWorld, handle: RigidBodyHandle, end: &RigidBody, memory: &BodyMemory, h: f64) -> Given {
+    let gravity = world.gravity;
+    let body = &mut world.bodies[handle];
+    let mass = end.mass as Real;
+    let linvel = to_vector(&((end.position - vector(body.center_of_mass())) / h));
+    let turn = (end.rotation * rotation(*body.rotation()).inverse()).scaled_axis() / h;
+    let angvel = to_vector(&turn);
+    let given = Given {
+        linvel,
+        angvel,
+        user_force: body.user_force(),
+        user_torque: body.user_torque(),
+        gyroscopic: body.gyroscopic_forces_enabled(),
+        linear_damping: body.linear_damping(),
+        angular_damping: body.angular_damping(),
+    };
+    let balance = -to_vector(&memory.force) - gravity * (mass * body.gravity_scale());
+    body.reset_forces(false);
+    body.reset_torques(false);
+    body.add_force(balance, false);
+    body.add_torque(-to_vector(&memory.torque), false);
+    body.enable_gyroscopic_forces(false);
+    body.set_linear_damping(0.0);
+    body.set_angular_damping(0.0);
+    body.set_linvel(linvel, false);
+    body.set_angvel(angvel, false);
+    given
+}
+
+/// Restores what [`give`] put aside, and settles the body's state: as predicted if it landed there, else Rapier's position with
+/// the velocity that contacts and joints left of the predicted one. `impulse` and `couple` are what motors did to the body.
+/// Returns whether it deviated.
+pub(crate) fn settle(
+    world: &mut PhysicsWorld,
+    handle: RigidBodyHandle,
+    end: &RigidBody,
+    given: &Given,
+    memory: &mut BodyMemory,
+    (impulse, couple): (Vector3<f64>, Vector3<f64>),
+    h: f64,
+) -> bool {
+    let body = &mut world.bodies[handle];
+    body.reset_forces(false);
+    body.reset_torques(false);
+    body.add_force(given.user_force, false);
+    body.add_torque(given.user_torque, false);
+    body.enable_gyroscopic_forces(given.gyroscopic);
+    body.set_linear_damping(given.linear_damping);
+    body.set_angular_damping(given.angular_damping);
+
+    let (before, spin_before) = (vector(given.linvel), vector(given.angvel));
+    let (after, spin_after) = (vector(body.linvel()), vector(body.angvel()));
+    let deviation = after - before;
+    let turn = spin_after - spin_before;
+    let epsilon = f64::from(Real::EPSILON) * ROUNDING;
+    let reach = vector(body.center_of_mass()).norm().max(1.0);
+    let off = (vector(body.center_of_mass()) - end.position).norm();
+    let attitude = (rotation(*body.rotation()).inverse() * end.rotation).angle();
+    let landed = off <= epsilon * reach
+        && attitude <= epsilon.max(1e-3 * f64::from(Real::EPSILON).sqrt()) * 4.0
+        && deviation.norm() <= epsilon * before.norm().max(1e-3)
+        && turn.norm() <= epsilon * spin_before.norm().max(1e-3);
+
+    let still = (1.0 / (1.0 + h * f64::from(given.linear_damping)), 1.0 / (1.0 + h * f64::from(given.angular_damping)));
+    let (velocity, spin) = if landed {
+        (end.velocity, end.angular_velocity)
+    } else {
+        let share = |deviation: f64, change: f64, size: f64| (1.0 - deviation / (change + size).max(1e-12)).max(0.0);
+        let s = share(deviation.norm(), (end.velocity - before).norm(), before.norm());
+        let t = share(turn.norm(), (end.angular_velocity - spin_before).norm(), spin_before.norm());
+        (after + (end.velocity - before) * s, spin_after + (end.angular_velocity - spin_before) * t)
+    };
+    let (velocity, spin) = (velocity * still.0, spin * still.1);
+    let inertia = end.world_inertia(&end.rotation);
+    memory.force += LEARNING * (end.mass * deviation - impulse) / h;
+    memory.torque += LEARNING * (inertia * turn - couple) / h;
+    body.set_linvel(to_vector(&velocity), false);
+    body.set_angvel(to_vector(&spin), false);
+    memory.exact = landed.then(|| Exact {
+        position: end.position,
+        rotation: end.rotation,
+        velocity,
+        spin,
+        pose: *body.position(),
+        linvel: body.linvel(),
+        angvel: body.angvel(),
+    });
+    if landed {
+        memory.force = Vector3::zeros();
+        memory.torque = Vector3::zeros();
+    }
+    !landed
+}

@@ -1,0 +1,67 @@
+//! Cables pinned to the bodies of rapier3d.
+//!
+//! ```
+//! use lariat_ancf::{At, Cable, Section, Vector3};
+//! use lariat_rapier::CableSet;
+//! use rapier::prelude::*;
+//!
+//! let mut world = PhysicsWorld::new();
+//! let (crate_, _) = world.insert(
+//!     RigidBodyBuilder::dynamic().translation(Vector::new(2.0, -0.1, 0.0)),
+//!     ColliderBuilder::cuboid(0.1, 0.1, 0.1).mass(50.0),
+//! );
+//! let mut cables = CableSet::new();
+//! let sling = cables.insert(
+//!     Cable::builder()
+//!         .points([Vector3::zeros(), Vector3::new(2.0, 0.0, 0.0)])
+//!         .section(Section::square(0.01, 1.0e9, 4000.0)?)
+//!         .fix(At::Start)
+//!         .build()?,
+//! );
+//! cables.attach(&world, sling, At::End, crate_, Vector::new(0.0, 0.1, 0.0))?;
+//! for _ in 0..30 {
+//!     cables.step(&mut world)?; // one host step: predict, Rapier's step, reconcile, four times
+//! }
+//! assert!((world.bodies[crate_].translation().y + 1.218).abs() < 6e-3);
+//! # Ok::<(), lariat_rapier::Error>(())
+//! ```
+//!
+//! # The scheme
+//!
+//! Rapier has no room for a foreign constraint inside its solver, so the coupling acts between its steps. Per Rapier step h:
+//!
+//! 1. **Predict.** Cables and the dynamic bodies they hold are integrated together as one system
+//!    ([`lariat_ancf::island`]), with the cables' own integrator and tolerance, bodies free but for gravity, the user's forces and
+//!    a learnt reaction r of whatever contacts and joints did to them before.
+//! 2. **Hand over.** Rapier is given the predicted motion as a uniform one, `linvel = dx/h`, `angvel = log(R1 R0^-1)/h`, and a force
+//!    `-r` in place of gravity and user forces (restored afterwards). A body that meets nothing lands where it was predicted,
+//!    whatever Rapier's settings. A body near others also gets an impedance: a motor per pin to a heavy *ledger* body, of
+//!    damping D/h in the axes of D, the pin's block of (C + B')^-1, with C the cable's compliance over the step and B' the mobility
+//!    of the bodies (the body's own scaled by 0.1). If the prediction was right the motors do nothing; if a contact or a joint
+//!    makes the body deviate, it feels the cable within the same step.
+//! 3. **Reconcile.** A body that landed where predicted keeps its predicted state in `f64`: Rapier's single precision never shakes a
+//!    stiff cable. For one that deviated, p, the motors' impulse, is read from the ledger; the cable gets it back,
+//!    `dv = -A^-1 J^T p`, `dx = h dv`; the reaction learns, `r += 0.3 (m (v_after - v0)/h - p/h)`; the gap that is left closes
+//!    during the next prediction.
+//!
+//! *Tried and failed* (measured by us before): explicit staggering (blows up for light bodies and steel), impulses of cable and free
+//! body (contacts break it), prescribing the body's motion with full debt (blows up), motors alone (gaps in jams), rolling Rapier
+//! back (four times the cost, still fails in jams).
+//!
+//! *Limits.* Pins hold positions (ball); a pinned sleeping body is woken; damping of Rapier's bodies acts at the end of a step.
+
+mod attachment;
+mod body;
+mod convert;
+mod error;
+mod hand_over;
+mod impedance;
+mod islands;
+mod set;
+mod step;
+
+pub use attachment::{Attachment, AttachmentHandle, Event};
+pub use error::Error;
+pub use lariat_ancf;
+pub use rapier;
+pub use set::{CableHandle, CableSet, Settings};
