@@ -278,8 +278,8 @@ impl Elements {
 /// Adds the mass of axis `C`: `r` to the position's row, `t` to the slope's.
 #[inline(always)]
 fn with_mass<S: Simd, const C: usize>(mut column: [f64x8<S>; 6], r: f64x8<S>, t: f64x8<S>) -> [f64x8<S>; 6] {
-    column[C] = column[C] + r;
-    column[3 + C] = column[3 + C] + t;
+    column[C] += r;
+    column[3 + C] += t;
     column
 }
 

@@ -16,6 +16,7 @@ use nalgebra::Vector3;
 
 /// Where the mass matrix is solved.
 #[derive(Clone, Debug)]
+#[expect(clippy::large_enum_variant)] // one per cable
 pub(crate) enum MassSolver {
     /// The same 2x2 blocks for x, y and z.
     Scalar(MassFactorisation),

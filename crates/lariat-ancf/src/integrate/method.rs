@@ -140,7 +140,7 @@ impl Method {
             Method::GeneralisedAlpha { newton: NewtonMode::Once, .. } => {
                 implicit(2, 1, Some(3), "A-stable; linearly implicit, checked", "games, h <= 1/240 s (preset game)")
             }
-            Method::GeneralisedAlpha { rho, .. } if rho == 0.0 => {
+            Method::GeneralisedAlpha { rho: 0.0, .. } => {
                 implicit(2, 1, Some(3), "L-stable", "stiff cables at coarse fixed steps; 2-3 % of energy lost")
             }
             Method::GeneralisedAlpha { .. } => {
