@@ -106,9 +106,8 @@ impl Cable {
         }
         if !self.model.loads.is_empty() {
             self.state = start.clone();
-            let ramp = (1..=RAMP_STEPS).try_fold(None, |_, i| {
-                self.descend(i as f64 / RAMP_STEPS as f64, options, &mut done).map(Some)
-            });
+            let ramp = (1..=RAMP_STEPS)
+                .try_fold(None, |_, i| self.descend(i as f64 / RAMP_STEPS as f64, options, &mut done).map(Some));
             if let Ok(Some(report)) = ramp {
                 return Ok(report);
             }
@@ -119,7 +118,12 @@ impl Cable {
     }
 
     /// The iteration at a share `load` of the point loads.
-    fn descend(&mut self, load: f64, options: EquilibriumOptions, done: &mut usize) -> Result<EquilibriumReport, Failure> {
+    fn descend(
+        &mut self,
+        load: f64,
+        options: EquilibriumOptions,
+        done: &mut usize,
+    ) -> Result<EquilibriumReport, Failure> {
         let scale = LoadScale::of(&self.model, self.positions());
         let conservative = self.model.loads.iter().all(|l| l.moment.norm() == 0.0);
         let time = self.time();

@@ -165,8 +165,7 @@ impl Cable {
     }
 
     pub(crate) fn equations(&mut self) -> (Equations<'_>, &Phase) {
-        let equations =
-            Equations { model: &self.model, system: &mut self.system, diagnostics: &mut self.diagnostics };
+        let equations = Equations { model: &self.model, system: &mut self.system, diagnostics: &mut self.diagnostics };
         (equations, &self.state.phase)
     }
 

@@ -104,9 +104,7 @@ impl System {
         } else {
             let mut held = self.mass.clone();
             for (node, support) in &model.supports {
-                for (held_here, row) in
-                    [(support.holds_position(), 0), (support.slope != SlopeSupport::Free, 1)]
-                {
+                for (held_here, row) in [(support.holds_position(), 0), (support.slope != SlopeSupport::Free, 1)] {
                     if !held_here {
                         continue;
                     }

@@ -332,7 +332,8 @@ impl Work<'_, '_> {
                 work.mass.read(&system.matrix, &work.nodes);
                 project_matrix(&cable.model, &mut system.matrix);
                 work.mass_factorisation.factor(system.level, &system.matrix)?;
-                work.mass.complete(system.level, &work.mass_factorisation, &work.nodes, |x| project_vector(&cable.model, x));
+                work.mass
+                    .complete(system.level, &work.mass_factorisation, &work.nodes, |x| project_vector(&cable.model, x));
             }
             self.workspace.mass_ready = true;
         }
@@ -596,16 +597,8 @@ impl Dynamics for Work<'_, '_> {
             tolerance = tolerance.min(equations.tolerance(wanted, stage, &base[range.clone()], &z[range]));
         }
         let keep = stage.reuse && self.workspace.factored == stage.c2;
-        let mut problem = IslandStage {
-            work: self,
-            stage,
-            base,
-            velocity_base,
-            y,
-            v: &mut velocity,
-            z: &mut z,
-            rhs: &mut rhs,
-        };
+        let mut problem =
+            IslandStage { work: self, stage, base, velocity_base, y, v: &mut velocity, z: &mut z, rhs: &mut rhs };
         problem.update();
         let outcome = newton::iterate(&mut problem, tolerance, stage.newton.once(), keep);
         for i in 0..z.len() {
