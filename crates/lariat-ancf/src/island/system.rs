@@ -184,7 +184,8 @@ impl Work<'_, '_> {
             let inertia = body.world_inertia(&motion.rotation);
             let alpha = self.angular_acceleration(&q[at + 3..], &v[at + 3..], &k[at + 3..]);
             let force = body.force - body.mass * vector(&k[at..]);
-            let gyroscopic = if body.gyroscopic { motion.spin.cross(&(inertia * motion.spin)) } else { Vector3::zeros() };
+            let gyroscopic =
+                if body.gyroscopic { motion.spin.cross(&(inertia * motion.spin)) } else { Vector3::zeros() };
             let torque = body.torque - inertia * alpha - gyroscopic;
             rhs[at..at + 3].copy_from_slice((force * scale).as_slice());
             rhs[at + 3..at + 6].copy_from_slice((torque * scale).as_slice());
