@@ -1,2 +1,56 @@
 //! Lariat: cables that obey real materials.
+//!
+//! Young's modulus, density and section go in; motion, tension and bending moment come out. A cable is a chain of ANCF
+//! elements (absolute nodal coordinate formulation), stepped by an integrator that controls its own error.
+//!
+//! A wire rope hangs between two points; then one end is let go:
+//!
+//! ```
+//! use lariat::{At, Cable, Section, Vector3};
+//!
+//! # fn main() -> Result<(), lariat::Error> {
+//! let mut rope = Cable::builder()
+//!     .points([Vector3::zeros(), Vector3::new(2.5, 0.0, 0.0)])  // m
+//!     .length(3.0)                                              // m, unstretched: it hangs slack
+//!     .section(Section::from_stiffness(1.6e6, 0.5, 0.14)?)      // 6 mm rope: EA N, EI N m^2, kg/m
+//!     .elements(20)
+//!     .fix(At::Start)
+//!     .fix(At::End)
+//!     .build()?;
+//! rope.equilibrium()?;
+//! let middle = rope.sample(1.5)?;
+//! println!("sag {:.3} m, tension {:.2} N", -middle.position.y, middle.tension);
+//! rope.release(At::End)?;
+//! for _ in 0..60 {
+//!     rope.step(1.0 / 60.0)?;                                   // s; error-controlled inside
+//! }
+//! println!("after {:.0} s the pin holds {:.1} N", rope.time(), rope.reactions()?[0].force.norm());
+//! # assert!((-middle.position.y - 0.735).abs() < 0.005 && (middle.tension - 1.27).abs() < 0.05, "{middle:?}");
+//! # Ok(())
+//! # }
+//! ```
+//!
+//! The crate re-exports [`lariat_ancf`], the mechanics, which knows no engine. Units are SI throughout, numbers are `f64`.
+//!
+//! | to | look at |
+//! |---|---|
+//! | make a cable | [`CableBuilder`], [`Section`], [`Support`], [`PointLoad`] |
+//! | choose the force model | [`Rule`]: `projected-3` (default), the paper's `G5-3`, `ST2`, `L2T2` ... |
+//! | choose the integrator | [`Integrator`], [`Preset`], [`Method`] |
+//! | read it | [`Cable::sample`], [`Cable::reactions`], [`Cable::energy`], [`Cable::diagnostics`] |
+//! | find its static shape | [`Cable::equilibrium`] |
+//! | take and restore snapshots | [`Cable::state`], [`Cable::restore`], serde |
+//!
+//! What accuracy costs, by integrator: `docs/cost.md` in the repository.
+
+#[doc(no_inline)]
 pub use lariat_ancf as ancf;
+#[doc(inline)]
+pub use lariat_ancf::integrate::NewtonMode;
+#[doc(inline)]
+pub use lariat_ancf::*;
+
+/// The README's example compiles and runs.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

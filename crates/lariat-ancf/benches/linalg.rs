@@ -26,10 +26,7 @@ fn matrix(nodes: usize) -> BlockTridiagonal {
 }
 
 fn mass(nodes: usize) -> MassMatrix {
-    MassMatrix {
-        diag: vec![[312.0, 0.0, 8.0]; nodes],
-        lower: vec![[54.0, 13.0, -13.0, -3.0]; nodes - 1],
-    }
+    MassMatrix { diag: vec![[312.0, 0.0, 8.0]; nodes], lower: vec![[54.0, 13.0, -13.0, -3.0]; nodes - 1] }
 }
 
 fn levels() -> Vec<(&'static str, Level)> {
@@ -58,14 +55,10 @@ fn linalg(criterion: &mut Criterion) {
             let id = |what: &str| BenchmarkId::new(what.to_string(), n);
             let mut f = Factorisation::default();
             group.throughput(Throughput::Elements(n as u64));
-            group.bench_function(id("factor_indefinite"), |b| {
-                b.iter(|| f.factor(level, black_box(&indefinite)))
-            });
+            group.bench_function(id("factor_indefinite"), |b| b.iter(|| f.factor(level, black_box(&indefinite))));
             group.bench_function(id("factor"), |b| b.iter(|| f.factor(level, black_box(&a))));
             let small = BatchSize::SmallInput;
-            group.bench_function(id("solve"), |b| {
-                b.iter_batched_ref(|| rhs.clone(), |x| f.solve(level, x), small)
-            });
+            group.bench_function(id("solve"), |b| b.iter_batched_ref(|| rhs.clone(), |x| f.solve(level, x), small));
             group.bench_function(id("mass_solve"), |b| {
                 b.iter_batched_ref(|| rhs.clone(), |x| mass_factors.solve(level, x), small)
             });

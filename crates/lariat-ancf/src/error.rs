@@ -30,7 +30,9 @@ pub enum StepFailure {
         allowed: f64,
     },
     /// An explicit step beyond the stability limit of the cable.
-    #[error("explicit step {step:.3e} s is beyond the stability limit {limit:.3e} s: use more substeps, or an implicit method")]
+    #[error(
+        "explicit step {step:.3e} s is beyond the stability limit {limit:.3e} s: use more substeps, or an implicit method"
+    )]
     Unstable {
         /// Step asked for in s.
         step: f64,
@@ -135,11 +137,7 @@ pub enum Error {
 
 /// A range check: `Err` unless `value` is finite and `ok`.
 pub(crate) fn require(what: &str, value: f64, ok: bool, expected: &'static str) -> Result<(), Error> {
-    if value.is_finite() && ok {
-        Ok(())
-    } else {
-        Err(Error::InvalidValue { what: what.to_string(), value, expected })
-    }
+    if value.is_finite() && ok { Ok(()) } else { Err(Error::InvalidValue { what: what.to_string(), value, expected }) }
 }
 
 /// [`require`] for every component of a vector.

@@ -64,8 +64,7 @@ mod tests {
             }
             // error of x^(2n) on [0, 1]: (n!)^4 / ((2n+1) ((2n)!)^2)  (Davis & Rabinowitz 1984, 2.7.12)
             let factorial = |k: usize| (1..=k).map(|v| v as f64).product::<f64>();
-            let exact_error = factorial(points).powi(4)
-                / ((2 * points + 1) as f64 * factorial(2 * points).powi(2));
+            let exact_error = factorial(points).powi(4) / ((2 * points + 1) as f64 * factorial(2 * points).powi(2));
             let error = 1.0 / (2 * points + 1) as f64 - integral(2 * points as i32);
             assert_abs_diff_eq!(error, exact_error, epsilon = 1e-15);
         }

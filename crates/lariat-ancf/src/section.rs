@@ -115,11 +115,6 @@ impl Section {
         require("axial stiffness EA (N)", axial, axial > 0.0, "> 0")?;
         require("bending stiffness EI (N m^2)", bending, bending >= 0.0, ">= 0")?;
         require("mass per length (kg/m)", mass_per_length, mass_per_length > 0.0, "> 0")?;
-        Ok(Section {
-            axial_stiffness: axial,
-            bending_stiffness: bending,
-            mass_per_length,
-            diameter: None,
-        })
+        Ok(Section { axial_stiffness: axial, bending_stiffness: bending, mass_per_length, diameter: None })
     }
 }

@@ -112,9 +112,8 @@ impl Cable {
         }
         if !self.model.loads.is_empty() {
             self.state = start.clone();
-            let ramp = (1..=RAMP_STEPS).try_fold(None, |_, i| {
-                self.descend(i as f64 / RAMP_STEPS as f64, options, &mut done).map(Some)
-            });
+            let ramp = (1..=RAMP_STEPS)
+                .try_fold(None, |_, i| self.descend(i as f64 / RAMP_STEPS as f64, options, &mut done).map(Some));
             if let Ok(Some(report)) = ramp {
                 return Ok(report);
             }
@@ -185,7 +184,12 @@ impl Cable {
     }
 
     /// The iteration at a share `load` of the point loads.
-    fn descend(&mut self, load: f64, options: EquilibriumOptions, done: &mut usize) -> Result<EquilibriumReport, Failure> {
+    fn descend(
+        &mut self,
+        load: f64,
+        options: EquilibriumOptions,
+        done: &mut usize,
+    ) -> Result<EquilibriumReport, Failure> {
         let scale = LoadScale::of(&self.model, self.positions());
         let time = self.time();
         let n = self.positions().len();

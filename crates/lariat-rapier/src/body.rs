@@ -41,9 +41,10 @@ impl BodyMemory {
 
 /// True if the coupling integrates this body: dynamic, awake, enabled, of finite mass. Others move the cable and feel nothing.
 pub(crate) fn is_integrated(world: &PhysicsWorld, handle: RigidBodyHandle) -> bool {
-    world.bodies.get(handle).is_some_and(|b| {
-        b.is_dynamic() && b.is_enabled() && b.mass_properties().local_mprops.inv_mass > 0.0
-    })
+    world
+        .bodies
+        .get(handle)
+        .is_some_and(|b| b.is_dynamic() && b.is_enabled() && b.mass_properties().local_mprops.inv_mass > 0.0)
 }
 
 /// Reads a body: its mass, its state (in `f64` if Rapier's is what was written last), gravity, the user's and the learnt forces.
@@ -74,7 +75,9 @@ pub(crate) fn read(
         rotation: rotation(*body.rotation()),
         velocity: vector(body.linvel()),
         angular_velocity: vector(body.angvel()),
-        force: vector(world.gravity) * mass * f64::from(body.gravity_scale()) + vector(body.user_force()) + memory.force,
+        force: vector(world.gravity) * mass * f64::from(body.gravity_scale())
+            + vector(body.user_force())
+            + memory.force,
         torque: vector(body.user_torque()) + memory.torque,
         free: [
             allowed(LockedAxes::TRANSLATION_LOCKED_X),

@@ -15,7 +15,13 @@ const LEARNING: f64 = 0.3;
 const ROUNDING: f64 = 32.0;
 
 /// Makes Rapier move the body uniformly from where it is to where `end` is, in `h` (s).
-pub(crate) fn give(world: &mut PhysicsWorld, handle: RigidBodyHandle, end: &RigidBody, memory: &BodyMemory, h: f64) -> Given {
+pub(crate) fn give(
+    world: &mut PhysicsWorld,
+    handle: RigidBodyHandle,
+    end: &RigidBody,
+    memory: &BodyMemory,
+    h: f64,
+) -> Given {
     let gravity = world.gravity;
     let body = &mut world.bodies[handle];
     let mass = end.mass as Real;

@@ -22,18 +22,15 @@ const AXES: [JointAxis; 3] = [JointAxis::LinX, JointAxis::LinY, JointAxis::LinZ]
 
 /// Whether a body is near another or held by joints, so that it may deviate from its prediction.
 pub(crate) fn may_meet_something(world: &PhysicsWorld, handle: RigidBodyHandle) -> bool {
-    let touches = world.bodies[handle]
-        .colliders()
-        .iter()
-        .any(|&c| world.narrow_phase.contact_pairs_with(c).next().is_some());
+    let touches =
+        world.bodies[handle].colliders().iter().any(|&c| world.narrow_phase.contact_pairs_with(c).next().is_some());
     touches || world.multibody_joints.rigid_body_link(handle).is_some()
 }
 
 /// D for every pin of `island` on body `body`, by pin index.
 pub(crate) fn driving_point(island: &IslandStep, start: &[RigidBody], body: usize) -> Vec<(usize, Matrix3<f64>)> {
-    let cables: Vec<usize> = (0..island.cables.len())
-        .filter(|&c| island.pins.iter().any(|p| p.cable == c && p.body == body))
-        .collect();
+    let cables: Vec<usize> =
+        (0..island.cables.len()).filter(|&c| island.pins.iter().any(|p| p.cable == c && p.body == body)).collect();
     let near: Vec<usize> = (0..island.pins.len()).filter(|&p| cables.contains(&island.pins[p].cable)).collect();
     let n = 3 * near.len();
     let mut m = DMatrix::<f64>::zeros(n, n);
@@ -84,7 +81,11 @@ pub(crate) fn drive(
 ) {
     let ledger = *attachment.ledger.get_or_insert_with(|| {
         let body = world.insert_body(
-            RigidBodyBuilder::dynamic().gravity_scale(0.0).additional_mass(LEDGER_MASS as Real).lock_rotations().can_sleep(false),
+            RigidBodyBuilder::dynamic()
+                .gravity_scale(0.0)
+                .additional_mass(LEDGER_MASS as Real)
+                .lock_rotations()
+                .can_sleep(false),
         );
         let mut joint = GenericJointBuilder::new(JointAxesMask::empty());
         for axis in AXES {

@@ -79,7 +79,8 @@ impl CableSet {
             island.handles.sort_by_key(|h| h.into_raw_parts());
             for (attachment, cable, body) in &held {
                 let Some(cable) = island.cables.iter().position(|c| c == cable) else { continue };
-                let body_index = island.handles.iter().position(|b| b == body).expect("bodies of held cables are listed");
+                let body_index =
+                    island.handles.iter().position(|b| b == body).expect("bodies of held cables are listed");
                 let a = self.attachments[*attachment].as_ref().expect("listed above");
                 let local_com = crate::convert::vector(world.bodies[*body].local_center_of_mass());
                 island.pins.push(Pin { cable, node: a.node, body: body_index, anchor: a.anchor - local_com });

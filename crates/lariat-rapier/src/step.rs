@@ -41,7 +41,9 @@ impl CableSet {
         let targets: Targets = world
             .bodies
             .iter()
-            .filter(|(_, b)| b.body_type() == RigidBodyType::KinematicPositionBased && b.next_position() != b.position())
+            .filter(|(_, b)| {
+                b.body_type() == RigidBodyType::KinematicPositionBased && b.next_position() != b.position()
+            })
             .map(|(h, b)| (h, *b.position(), *b.next_position()))
             .collect();
         world.integration_parameters.dt = dt / steps as Real;

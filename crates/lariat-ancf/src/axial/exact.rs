@@ -38,7 +38,12 @@ mod tests {
             let g_d = gram(d);
             let quadratic: f64 =
                 (0..6).map(|i| (0..6).map(|j| g_c[i] * A630[i][j] * g_c[j]).sum::<f64>()).sum::<f64>() / 630.0;
-            assert_relative_eq!(quadratic_form(&table.matrix, &g_d, &g_d), quadratic, epsilon = 1e-14, max_relative = 1e-13);
+            assert_relative_eq!(
+                quadratic_form(&table.matrix, &g_d, &g_d),
+                quadratic,
+                epsilon = 1e-14,
+                max_relative = 1e-13
+            );
             let linear: f64 = (0..6).map(|i| A[i] * g_c[i]).sum();
             let ours: f64 = (0..6).map(|i| table.a[i] * g_d[i]).sum();
             assert_relative_eq!(ours, linear, epsilon = 1e-14, max_relative = 1e-13);

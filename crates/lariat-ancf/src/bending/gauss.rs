@@ -71,9 +71,9 @@ pub(crate) fn minors<T: Real>(g: &Six<T>) -> Six<T> {
 
 /// Weighted gradient of `m . X(g)`, for numbers m (constants or lanes).
 #[inline(always)]
-fn weighted_minor_gradient<T: Real, M: Copy>(m: &Six<M>, g: &Six<T>) -> Six<T>
+fn weighted_minor_gradient<T, M: Copy>(m: &Six<M>, g: &Six<T>) -> Six<T>
 where
-    T: core::ops::Mul<M, Output = T>,
+    T: Real + core::ops::Mul<M, Output = T>,
 {
     let [g00, g01, g02, g11, g12, g22] = *g;
     let first = g11 * m[0] + g12 * m[1] + g22 * m[3];

@@ -17,8 +17,8 @@ use crate::bending::t1::T1;
 use crate::bending::t2::T2;
 use crate::bending::{Bending, NoBending};
 use crate::element::gram::Control;
-use crate::element::mass;
 use crate::element::kernel::{self, Blocks, Stiffness};
+use crate::element::mass;
 use crate::linalg::{Block, BlockTridiagonal};
 use crate::rule::BendingRule;
 use fearless_simd::{Level, Simd, SimdBase, SimdFrom, dispatch, f64x8};
@@ -85,9 +85,8 @@ impl Elements {
             scale: padded(&|e| 3.0 / e.length),
             axial: padded(&|e| 0.25 * e.section.axial_stiffness * e.length),
             flexural: padded(&|e| 2.0 * e.section.bending_stiffness / e.length),
-            mass: MASS_ENTRIES.map(|(row, column)| {
-                padded(&|e| mass::consistent(e.section.mass_per_length, e.length)[row][column])
-            }),
+            mass: MASS_ENTRIES
+                .map(|(row, column)| padded(&|e| mass::consistent(e.section.mass_per_length, e.length)[row][column])),
         }
     }
 
@@ -109,8 +108,7 @@ impl Elements {
         for e in 0..self.count {
             let stiffness = Stiffness { axial: self.axial[e], bending: self.flexural[e] };
             let d = self.control(e, q);
-            let (axial, bending) =
-                with_bending!(&self.bending, b => kernel::energy(&self.table, b, stiffness, &d));
+            let (axial, bending) = with_bending!(&self.bending, b => kernel::energy(&self.table, b, stiffness, &d));
             sum = (sum.0 + axial, sum.1 + bending);
         }
         sum
@@ -139,7 +137,13 @@ impl Elements {
 
     /// Gathers control vectors and stiffness of the group of elements that begins at `first`.
     #[inline(always)]
-    fn gather<S: Simd>(&self, simd: S, first: usize, q: &[f64], scale: f64) -> (Control<f64x8<S>>, Stiffness<f64x8<S>>) {
+    fn gather<S: Simd>(
+        &self,
+        simd: S,
+        first: usize,
+        q: &[f64],
+        scale: f64,
+    ) -> (Control<f64x8<S>>, Stiffness<f64x8<S>>) {
         let node = |lane: usize| -> &[f64; 12] {
             let e = (first + lane).min(self.count - 1);
             q[6 * e..6 * e + 12].try_into().expect("twelve coordinates")
@@ -256,9 +260,18 @@ impl Elements {
             [rr[0], rr[1], rr[2], k12[C][0] * s, k12[C][1] * s, k12[C][2] * s],
             [k12[0][C] * s, k12[1][C] * s, k12[2][C] * s, k22[0][C], k22[1][C], k22[2][C]],
         );
-        let ii = [transpose(simd, with_mass::<S, C>(ii_r, mass[0], mass[1])), transpose(simd, with_mass::<S, C>(ii_t, mass[1], mass[2]))];
-        let ji = [transpose(simd, with_mass::<S, C>(ji_r, mass[3], mass[5])), transpose(simd, with_mass::<S, C>(ji_t, mass[4], mass[6]))];
-        let jj = [transpose(simd, with_mass::<S, C>(jj_r, mass[7], mass[8])), transpose(simd, with_mass::<S, C>(jj_t, mass[8], mass[9]))];
+        let ii = [
+            transpose(simd, with_mass::<S, C>(ii_r, mass[0], mass[1])),
+            transpose(simd, with_mass::<S, C>(ii_t, mass[1], mass[2])),
+        ];
+        let ji = [
+            transpose(simd, with_mass::<S, C>(ji_r, mass[3], mass[5])),
+            transpose(simd, with_mass::<S, C>(ji_t, mass[4], mass[6])),
+        ];
+        let jj = [
+            transpose(simd, with_mass::<S, C>(jj_r, mass[7], mass[8])),
+            transpose(simd, with_mass::<S, C>(jj_t, mass[8], mass[9])),
+        ];
         for lane in 0..count {
             let e = first + lane;
             let lower = &mut a.lower[e].0;
@@ -278,8 +291,8 @@ impl Elements {
 /// Adds the mass of axis `C`: `r` to the position's row, `t` to the slope's.
 #[inline(always)]
 fn with_mass<S: Simd, const C: usize>(mut column: [f64x8<S>; 6], r: f64x8<S>, t: f64x8<S>) -> [f64x8<S>; 6] {
-    column[C] = column[C] + r;
-    column[3 + C] = column[3 + C] + t;
+    column[C] += r;
+    column[3 + C] += t;
     column
 }
 

@@ -197,9 +197,7 @@ impl CableBuilder {
             At::Start | At::Node(0) => Ok(0.0),
             At::End => Ok(length),
             At::ArcLength(s) => Ok(s),
-            At::Node(i) => {
-                Err(invalid(format!("node {i} has no place before the cable is built: give an arc length")))
-            }
+            At::Node(i) => Err(invalid(format!("node {i} has no place before the cable is built: give an arc length"))),
         };
         let mut breaks = vec![0.0, length];
         breaks.extend(sections.iter().map(|(from, _)| *from));
@@ -243,7 +241,10 @@ impl CableBuilder {
                 Hold::Pin => SlopeSupport::Free,
                 Hold::Clamp => SlopeSupport::Direction(slopes[node].normalize()),
             };
-            cable.set_support(At::Node(node), Support { position: Some(Motion::fixed(positions[node])), slope, attached: false })?;
+            cable.set_support(
+                At::Node(node),
+                Support { position: Some(Motion::fixed(positions[node])), slope, attached: false },
+            )?;
         }
         for load in self.loads {
             cable.add_load(load)?;

@@ -47,13 +47,7 @@ pub(crate) fn along_polyline(
 
 /// Position and slope at the share `x` of a segment from `a` to `b` that holds `arc` of cable; an arc of a circle towards
 /// `sag` if that is not zero, else straight.
-fn segment(
-    a: Vector3<f64>,
-    b: Vector3<f64>,
-    arc: f64,
-    x: f64,
-    sag: Vector3<f64>,
-) -> (Vector3<f64>, Vector3<f64>) {
+fn segment(a: Vector3<f64>, b: Vector3<f64>, arc: f64, x: f64, sag: Vector3<f64>) -> (Vector3<f64>, Vector3<f64>) {
     let chord = b - a;
     let straight = (a + x * chord, chord / arc);
     let ratio = chord.norm() / arc;
@@ -71,8 +65,7 @@ fn segment(
     let half = half_angle(ratio);
     let radius = 0.5 * arc / half;
     let angle = (2.0 * x - 1.0) * half;
-    let position =
-        0.5 * (a + b) + along * (radius * angle.sin()) + down * (radius * (angle.cos() - half.cos()));
+    let position = 0.5 * (a + b) + along * (radius * angle.sin()) + down * (radius * (angle.cos() - half.cos()));
     (position, along * angle.cos() - down * angle.sin())
 }
 

@@ -10,6 +10,7 @@ pub mod linearise;
 mod model;
 mod projection;
 pub mod sample;
+mod simd;
 mod system;
 
 pub use model::{Element, Model};
@@ -167,8 +168,7 @@ impl Cable {
     }
 
     pub(crate) fn equations(&mut self) -> (Equations<'_>, &Phase) {
-        let equations =
-            Equations { model: &self.model, system: &mut self.system, diagnostics: &mut self.diagnostics };
+        let equations = Equations { model: &self.model, system: &mut self.system, diagnostics: &mut self.diagnostics };
         (equations, &self.state.phase)
     }
 

@@ -20,9 +20,7 @@ pub(crate) fn project_matrix(model: &Model, a: &mut BlockTridiagonal) {
             let mut y = *x;
             if left {
                 for c in 0..6 {
-                    y[c] = core::array::from_fn(|r| {
-                        if r < 6 { (0..6).map(|k| p[k][r] * x[c][k]).sum() } else { 0.0 }
-                    });
+                    y[c] = core::array::from_fn(|r| if r < 6 { (0..6).map(|k| p[k][r] * x[c][k]).sum() } else { 0.0 });
                 }
             }
             let z = y;

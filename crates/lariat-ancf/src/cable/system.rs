@@ -16,6 +16,7 @@ use nalgebra::Vector3;
 
 /// Where the mass matrix is solved.
 #[derive(Clone, Debug)]
+#[expect(clippy::large_enum_variant)] // one per cable
 pub(crate) enum MassSolver {
     /// The same 2x2 blocks for x, y and z.
     Scalar(MassFactorisation),
@@ -103,9 +104,7 @@ impl System {
         } else {
             let mut held = self.mass.clone();
             for (node, support) in &model.supports {
-                for (held_here, row) in
-                    [(support.holds_position(), 0), (support.slope != SlopeSupport::Free, 1)]
-                {
+                for (held_here, row) in [(support.holds_position(), 0), (support.slope != SlopeSupport::Free, 1)] {
                     if !held_here {
                         continue;
                     }

@@ -56,14 +56,7 @@ pub fn dot<T: Real>(a: &[T; 3], b: &[T; 3]) -> T {
 /// Gram numbers of the control vectors.
 #[inline(always)]
 pub fn gram<T: Real>(d: &Control<T>) -> Six<T> {
-    [
-        dot(&d[0], &d[0]),
-        dot(&d[0], &d[1]),
-        dot(&d[0], &d[2]),
-        dot(&d[1], &d[1]),
-        dot(&d[1], &d[2]),
-        dot(&d[2], &d[2]),
-    ]
+    [dot(&d[0], &d[0]), dot(&d[0], &d[1]), dot(&d[0], &d[2]), dot(&d[1], &d[1]), dot(&d[1], &d[2]), dot(&d[2], &d[2])]
 }
 
 /// Gradient of the energy with respect to the control vectors: `sum_j n_ij d_j`.
@@ -85,11 +78,8 @@ pub fn hessian_block<T: Real>(i: usize, k: usize, n: &Six<T>, h: &Upper<T>, d: &
     // y_m = sum_n h_(im)(kn) d_n, then block = sum_m d_m y_m^T + n_ik I
     let mut y = *d;
     for m in 0..3 {
-        let (h0, h1, h2) = (
-            h[upper(PAIR[i][m], PAIR[k][0])],
-            h[upper(PAIR[i][m], PAIR[k][1])],
-            h[upper(PAIR[i][m], PAIR[k][2])],
-        );
+        let (h0, h1, h2) =
+            (h[upper(PAIR[i][m], PAIR[k][0])], h[upper(PAIR[i][m], PAIR[k][1])], h[upper(PAIR[i][m], PAIR[k][2])]);
         for x in 0..3 {
             y[m][x] = h0 * d[0][x] + h1 * d[1][x] + h2 * d[2][x];
         }

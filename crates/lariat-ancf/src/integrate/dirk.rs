@@ -45,9 +45,8 @@ impl Tableau {
         // the last three stages at most: higher polynomials amplify what is not smooth
         let first = i.saturating_sub(3);
         for j in first..i {
-            let weight = (first..i).filter(|&m| m != j).fold(1.0, |w, m| {
-                w * (self.c(i) - self.c(m)) / (self.c(j) - self.c(m))
-            });
+            let weight =
+                (first..i).filter(|&m| m != j).fold(1.0, |w, m| w * (self.c(i) - self.c(m)) / (self.c(j) - self.c(m)));
             add(k, weight, &before[j]);
         }
     }

@@ -126,9 +126,11 @@ fn prepare(system: &mut dyn Dynamics, phase: &mut Phase) -> Result<(), Refusal> 
     let n = system.size();
     phase.memory.acceleration.resize(n, 0.0);
     system.prescribe(phase.time, &mut phase.q, &mut phase.v);
-    system
-        .acceleration(phase.time, &phase.q, &phase.v, &mut phase.memory.acceleration)
-        .map_err(|failure| Refusal { time: phase.time, step: 0.0, failure })?;
+    system.acceleration(phase.time, &phase.q, &phase.v, &mut phase.memory.acceleration).map_err(|failure| Refusal {
+        time: phase.time,
+        step: 0.0,
+        failure,
+    })?;
     phase.memory.algorithmic.clone_from(&phase.memory.acceleration);
     phase.memory.valid = true;
     Ok(())

@@ -140,16 +140,14 @@ impl Method {
             Method::GeneralisedAlpha { newton: NewtonMode::Once, .. } => {
                 implicit(2, 1, Some(3), "A-stable; linearly implicit, checked", "games, h <= 1/240 s (preset game)")
             }
-            Method::GeneralisedAlpha { rho, .. } if rho == 0.0 => {
+            Method::GeneralisedAlpha { rho: 0.0, .. } => {
                 implicit(2, 1, Some(3), "L-stable", "stiff cables at coarse fixed steps; 2-3 % of energy lost")
             }
             Method::GeneralisedAlpha { .. } => {
                 implicit(2, 1, Some(3), "A-stable, damps above 1/h", "soft cables; spurious tension on steel at 1/60 s")
             }
             Method::TrBdf2 => implicit(2, 2, Some(3), "L-stable", "any stiffness, coarse tolerance"),
-            Method::Esdirk3 => {
-                implicit(3, 3, Some(3), "L-stable", "any stiffness, coarse steps")
-            }
+            Method::Esdirk3 => implicit(3, 3, Some(3), "L-stable", "any stiffness, coarse steps"),
             Method::Esdirk4 => implicit(4, 5, Some(4), "L-stable", "any stiffness (preset engineering, the default)"),
             Method::Verlet => explicit(2, 1, "soft cables, many small steps"),
             Method::Rkn4 => explicit(4, 6, "soft cables, fine accuracy"),

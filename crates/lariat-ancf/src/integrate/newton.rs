@@ -48,12 +48,7 @@ pub trait Linearised {
 ///
 /// # Errors
 /// [`StepFailure::NotConverged`], or what an increment fails with.
-pub fn iterate(
-    problem: &mut impl Linearised,
-    tolerance: f64,
-    once: bool,
-    keep: bool,
-) -> Result<(), StepFailure> {
+pub fn iterate(problem: &mut impl Linearised, tolerance: f64, once: bool, keep: bool) -> Result<(), StepFailure> {
     let mut chord = keep;
     let mut chords_contract = true;
     let mut before = f64::INFINITY;

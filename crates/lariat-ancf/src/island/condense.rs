@@ -82,8 +82,7 @@ impl Condensed {
             let y = &mut self.y[j * size..(j + 1) * size];
             y[6 * column.first..6 * (column.first + column.nodes)].copy_from_slice(&column.rows[..6 * column.nodes]);
             project(y);
-            column.rows[..6 * column.nodes]
-                .copy_from_slice(&y[6 * column.first..6 * (column.first + column.nodes)]);
+            column.rows[..6 * column.nodes].copy_from_slice(&y[6 * column.first..6 * (column.first + column.nodes)]);
         }
         if count > 0 {
             factorisation.solve_many(level, &mut self.y, count);

@@ -44,8 +44,10 @@ impl Dense {
         }
         for k in 0..n {
             // the pivot that lost least of its diagonal entry: rows of bodies differ in unit and size
-            let quality = |f: &[f64], i: usize, order: &[usize]| f[i * n + i].abs() / scale[order[i]].max(f64::MIN_POSITIVE);
-            let best = (k..n).fold(k, |b, i| if quality(f, i, &self.order) > quality(f, b, &self.order) { i } else { b });
+            let quality =
+                |f: &[f64], i: usize, order: &[usize]| f[i * n + i].abs() / scale[order[i]].max(f64::MIN_POSITIVE);
+            let best =
+                (k..n).fold(k, |b, i| if quality(f, i, &self.order) > quality(f, b, &self.order) { i } else { b });
             swap(f, n, k, best);
             self.order.swap(k, best);
             let pivot = f[k * n + k];

@@ -10,10 +10,10 @@
 //!
 //! where `gap` is what pin and node were apart when the step began and s its elapsed share. Virtual work carries the cable's
 //! residual to the body: force f_p and torque rho x f_p. So no multiplier, no penalty, and no drift. In Newton's iteration each
-//! cable is condensed on its pins ([`condense`]), the bodies are solved together ([`dense`]), and the cables follow; the tangent
-//! includes the geometric stiffness of the lever, -[f_p]x [rho]x, without which light bodies on taut cables converge badly.
+//! cable is condensed on its pins (`condense`), the bodies are solved together (`dense`), and the cables follow; the tangent
+//! includes the geometric stiffness of the lever, `-[f_p]x [rho]x`, without which light bodies on taut cables converge badly.
 //!
-//! *Validity.* Bodies that turn by less than a full turn in a step; tens of bodies ([`dense`] is cubic). *Rejected.* Bodies as
+//! *Validity.* Bodies that turn by less than a full turn in a step; tens of bodies (`dense` is cubic). *Rejected.* Bodies as
 //! points with directors (constant mass, but flat bodies make it singular), staggered solution (blows up for light bodies).
 //!
 //! [`Dynamics`]: crate::integrate::Dynamics

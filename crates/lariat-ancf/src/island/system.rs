@@ -193,7 +193,8 @@ impl Work<'_, '_> {
             let inertia = body.world_inertia(&motion.rotation);
             let alpha = self.angular_acceleration(&q[at + 3..], &v[at + 3..], &k[at + 3..]);
             let force = body.force - body.mass * vector(&k[at..]);
-            let gyroscopic = if body.gyroscopic { motion.spin.cross(&(inertia * motion.spin)) } else { Vector3::zeros() };
+            let gyroscopic =
+                if body.gyroscopic { motion.spin.cross(&(inertia * motion.spin)) } else { Vector3::zeros() };
             let torque = body.torque - inertia * alpha - gyroscopic;
             rhs[at..at + 3].copy_from_slice((force * scale).as_slice());
             rhs[at + 3..at + 6].copy_from_slice((torque * scale).as_slice());
@@ -341,7 +342,8 @@ impl Work<'_, '_> {
                 work.mass.read(&system.matrix, &work.nodes);
                 project_matrix(&cable.model, &mut system.matrix);
                 work.mass_factorisation.factor(system.level, &system.matrix)?;
-                work.mass.complete(system.level, &work.mass_factorisation, &work.nodes, |x| project_vector(&cable.model, x));
+                work.mass
+                    .complete(system.level, &work.mass_factorisation, &work.nodes, |x| project_vector(&cable.model, x));
             }
             self.workspace.mass_ready = true;
         }
@@ -605,16 +607,8 @@ impl Dynamics for Work<'_, '_> {
             tolerance = tolerance.min(equations.tolerance(wanted, stage, &base[range.clone()], &z[range]));
         }
         let keep = stage.reuse && self.workspace.factored == stage.c2;
-        let mut problem = IslandStage {
-            work: self,
-            stage,
-            base,
-            velocity_base,
-            y,
-            v: &mut velocity,
-            z: &mut z,
-            rhs: &mut rhs,
-        };
+        let mut problem =
+            IslandStage { work: self, stage, base, velocity_base, y, v: &mut velocity, z: &mut z, rhs: &mut rhs };
         problem.update();
         let outcome = newton::iterate(&mut problem, tolerance, stage.newton.once(), keep);
         for i in 0..z.len() {

@@ -109,11 +109,7 @@ fn substitute(columns: &[Column], exchanged: &[usize], x: &mut [f64]) {
 
 impl Banded {
     /// Factors and judges the matrix.
-    pub(super) fn factor(
-        &mut self,
-        level: Level,
-        a: &BlockTridiagonal,
-    ) -> Result<Definiteness, SingularMatrix> {
+    pub(super) fn factor(&mut self, level: Level, a: &BlockTridiagonal) -> Result<Definiteness, SingularMatrix> {
         check_finite(a)?;
         equilibrate(a, &mut self.scale, &mut self.exponents, &mut self.largest)?;
         let (largest, norm) = self.assemble(a);
@@ -121,17 +117,8 @@ impl Banded {
         let unusable = |c: &Column| c[ABOVE] == 0.0 || !c[ABOVE].is_finite();
         if let Some(j) = self.columns.iter().position(unusable) {
             let zero = self.columns[j][ABOVE] == 0.0;
-            let reason = if zero {
-                Reason::Pivot
-            } else {
-                Reason::NonFinite
-            };
-            return Err(SingularMatrix {
-                node: j / 6,
-                pivot: 0.0,
-                scale: largest,
-                reason,
-            });
+            let reason = if zero { Reason::Pivot } else { Reason::NonFinite };
+            return Err(SingularMatrix { node: j / 6, pivot: 0.0, scale: largest, reason });
         }
 
         let (mut node, mut pivot, mut growth) = (0, f64::INFINITY, 0.0f64);
@@ -141,14 +128,7 @@ impl Banded {
             }
             growth = column[..=ABOVE].iter().fold(growth, |g, v| g.max(v.abs()));
         }
-        let error = |reason| {
-            Err(SingularMatrix {
-                node,
-                pivot,
-                scale: largest,
-                reason,
-            })
-        };
+        let error = |reason| Err(SingularMatrix { node, pivot, scale: largest, reason });
         let inverse_norm = self.inverse_norm(level);
         let rcond = 1.0 / (norm * inverse_norm);
         if !inverse_norm.is_finite() || rcond.is_nan() || rcond < SMALLEST_RCOND {
@@ -170,12 +150,7 @@ impl Banded {
     /// Fills the band with S A S; its largest entry and its 1-norm.
     fn assemble(&mut self, a: &BlockTridiagonal) -> (f64, f64) {
         let n = self.scale.len();
-        let Self {
-            columns,
-            scale,
-            work,
-            ..
-        } = self;
+        let Self { columns, scale, work, .. } = self;
         columns.clear();
         columns.resize(n, [0.0; ABOVE + 1 + BELOW]);
         let sums = &mut work[0];
@@ -210,18 +185,9 @@ impl Banded {
 
     /// Sign of the determinant.
     pub(super) fn determinant_sign(&self) -> f64 {
-        let exchanges = self
-            .exchanged
-            .iter()
-            .enumerate()
-            .filter(|&(j, &p)| p != j)
-            .count();
+        let exchanges = self.exchanged.iter().enumerate().filter(|&(j, &p)| p != j).count();
         let negative = self.columns.iter().filter(|c| c[ABOVE] < 0.0).count();
-        if (exchanges + negative) % 2 == 0 {
-            1.0
-        } else {
-            -1.0
-        }
+        if (exchanges + negative) % 2 == 0 { 1.0 } else { -1.0 }
     }
 
     /// Estimate of |(S A S)^-1|_1, from below.

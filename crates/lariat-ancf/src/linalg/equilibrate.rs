@@ -31,17 +31,9 @@ pub(super) fn for_lower_triangle(a: &BlockTridiagonal, mut visit: impl FnMut(usi
 pub(super) fn check_finite(a: &BlockTridiagonal) -> Result<(), SingularMatrix> {
     for i in 0..a.diag.len() {
         let blocks = [Some(&a.diag[i]), a.lower.get(i)];
-        let mut entries = blocks
-            .into_iter()
-            .flatten()
-            .flat_map(|b| b.0.iter().flat_map(|c| &c[..6]));
+        let mut entries = blocks.into_iter().flatten().flat_map(|b| b.0.iter().flat_map(|c| &c[..6]));
         if !entries.all(|v| v.is_finite()) {
-            return Err(SingularMatrix {
-                node: i,
-                pivot: 0.0,
-                scale: 0.0,
-                reason: Reason::NonFinite,
-            });
+            return Err(SingularMatrix { node: i, pivot: 0.0, scale: 0.0, reason: Reason::NonFinite });
         }
     }
     Ok(())
@@ -79,12 +71,7 @@ pub(super) fn equilibrate(
         });
         if let Some(row) = largest.iter().position(|&e| e == i32::MIN) {
             let reason = Reason::Pivot;
-            return Err(SingularMatrix {
-                node: row / 6,
-                pivot: 0.0,
-                scale: 0.0,
-                reason,
-            });
+            return Err(SingularMatrix { node: row / 6, pivot: 0.0, scale: 0.0, reason });
         }
         for i in 0..n {
             exponents[i] -= largest[i].div_euclid(2);

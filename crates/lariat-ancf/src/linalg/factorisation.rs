@@ -54,11 +54,7 @@ impl Factorisation {
     ///
     /// # Panics
     /// If the numbers of diagonal and lower blocks do not match.
-    pub fn factor(
-        &mut self,
-        level: Level,
-        a: &BlockTridiagonal,
-    ) -> Result<Definiteness, SingularMatrix> {
+    pub fn factor(&mut self, level: Level, a: &BlockTridiagonal) -> Result<Definiteness, SingularMatrix> {
         a.check();
         self.state = State::Empty;
         self.nodes.resize(a.nodes(), Node::ZERO);

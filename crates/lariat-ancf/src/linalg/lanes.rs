@@ -33,14 +33,7 @@ pub(super) fn load<S: Simd>(simd: S, column: &[f64; 8]) -> f64x8<S> {
 #[inline(always)]
 pub(super) fn load_block<S: Simd>(simd: S, block: &Block) -> Columns<S> {
     let b = &block.0;
-    [
-        load(simd, &b[0]),
-        load(simd, &b[1]),
-        load(simd, &b[2]),
-        load(simd, &b[3]),
-        load(simd, &b[4]),
-        load(simd, &b[5]),
-    ]
+    [load(simd, &b[0]), load(simd, &b[1]), load(simd, &b[2]), load(simd, &b[3]), load(simd, &b[4]), load(simd, &b[5])]
 }
 
 /// The six columns of the transposed block.

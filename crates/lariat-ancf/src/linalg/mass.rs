@@ -26,10 +26,7 @@ pub struct MassMatrix {
 impl MassMatrix {
     /// The zero matrix of that many nodes.
     pub fn zeros(nodes: usize) -> Self {
-        Self {
-            diag: vec![[0.0; 3]; nodes],
-            lower: vec![[0.0; 4]; nodes.saturating_sub(1)],
-        }
+        Self { diag: vec![[0.0; 3]; nodes], lower: vec![[0.0; 4]; nodes.saturating_sub(1)] }
     }
 
     /// Number of nodes.
@@ -43,11 +40,7 @@ impl MassMatrix {
     /// If a length does not match.
     pub fn multiply(&self, x: &[f64], y: &mut [f64]) {
         let n = self.nodes();
-        assert_eq!(
-            self.lower.len(),
-            n.saturating_sub(1),
-            "number of lower blocks"
-        );
+        assert_eq!(self.lower.len(), n.saturating_sub(1), "number of lower blocks");
         assert_eq!(x.len(), 6 * n, "length of x");
         assert_eq!(y.len(), 6 * n, "length of y");
         dispatch!(Level::new(), simd => multiply(simd, self, x, y));
@@ -59,10 +52,7 @@ type Pair<S> = [f64x4<S>; 2];
 
 #[inline(always)]
 fn load<S: Simd>(simd: S, v: &[f64; 6]) -> Pair<S> {
-    [
-        f64x4::load_array(simd, [v[0], v[1], v[2], 0.0]),
-        f64x4::load_array(simd, [v[3], v[4], v[5], 0.0]),
-    ]
+    [f64x4::load_array(simd, [v[0], v[1], v[2], 0.0]), f64x4::load_array(simd, [v[3], v[4], v[5], 0.0])]
 }
 
 #[inline(always)]
@@ -75,10 +65,7 @@ fn store<S: Simd>(v: Pair<S>, out: &mut [f64; 6]) {
 #[inline(always)]
 fn minus<S: Simd>(simd: S, y: Pair<S>, g: [f64; 4], x: Pair<S>) -> Pair<S> {
     let s = |k: usize| f64x4::splat(simd, g[k]);
-    [
-        y[0] - (s(0) * x[0] + s(1) * x[1]),
-        y[1] - (s(2) * x[0] + s(3) * x[1]),
-    ]
+    [y[0] - (s(0) * x[0] + s(1) * x[1]), y[1] - (s(2) * x[0] + s(3) * x[1])]
 }
 
 #[inline(always)]
@@ -128,20 +115,10 @@ fn eliminate(s: [f64; 3], entries: [f64; 3], node: usize) -> Result<[f64; 3], Si
         let inverse = 1.0 / pivot;
         if !pivot.is_finite() || !scale.is_finite() {
             let (pivot, scale, reason) = (0.0, 0.0, Reason::NonFinite);
-            return Err(SingularMatrix {
-                node,
-                pivot,
-                scale,
-                reason,
-            });
+            return Err(SingularMatrix { node, pivot, scale, reason });
         }
         if pivot <= SMALLEST * scale || pivot <= 0.0 || !inverse.is_finite() {
-            return Err(SingularMatrix {
-                node,
-                pivot,
-                scale,
-                reason: Reason::NotPositive,
-            });
+            return Err(SingularMatrix { node, pivot, scale, reason: Reason::NotPositive });
         }
     }
     Ok([l, 1.0 / s[0], 1.0 / q])
@@ -159,11 +136,7 @@ fn gain(b: [f64; 4], [l, p, q]: [f64; 3]) -> [f64; 4] {
 
 /// S - G B^T
 fn schur(s: [f64; 3], g: [f64; 4], b: [f64; 4]) -> [f64; 3] {
-    [
-        s[0] - (g[0] * b[0] + g[1] * b[1]),
-        s[1] - (g[2] * b[0] + g[3] * b[1]),
-        s[2] - (g[2] * b[2] + g[3] * b[3]),
-    ]
+    [s[0] - (g[0] * b[0] + g[1] * b[1]), s[1] - (g[2] * b[0] + g[3] * b[1]), s[2] - (g[2] * b[2] + g[3] * b[3])]
 }
 
 impl MassFactorisation {
@@ -213,10 +186,7 @@ impl MassFactorisation {
         let last = if middle + 1 < n { bottom } else { top };
         let inner = eliminate(last, m.diag[middle], middle)?;
         finite(&inner, middle)?;
-        self.nodes[middle] = Node {
-            gain: [0.0; 4],
-            inner,
-        };
+        self.nodes[middle] = Node { gain: [0.0; 4], inner };
         Ok(())
     }
 
@@ -230,11 +200,7 @@ impl MassFactorisation {
     /// # Panics
     /// If the length does not match the matrix that was factored last (successfully).
     pub fn solve(&self, level: Level, rhs: &mut [f64]) {
-        assert_eq!(
-            rhs.len(),
-            6 * self.nodes.len(),
-            "length of the right-hand side"
-        );
+        assert_eq!(rhs.len(), 6 * self.nodes.len(), "length of the right-hand side");
         let (rhs, _) = rhs.as_chunks_mut::<6>();
         if !rhs.is_empty() {
             dispatch!(level, simd => solve(simd, &self.nodes, rhs));
@@ -247,12 +213,7 @@ fn finite(values: &[f64], node: usize) -> Result<(), SingularMatrix> {
         return Ok(());
     }
     let (pivot, scale, reason) = (0.0, 0.0, Reason::NonFinite);
-    Err(SingularMatrix {
-        node,
-        pivot,
-        scale,
-        reason,
-    })
+    Err(SingularMatrix { node, pivot, scale, reason })
 }
 
 /// S^-1 b
@@ -281,11 +242,7 @@ fn solve<S: Simd>(simd: S, nodes: &[Node], rhs: &mut [[f64; 6]]) {
             let c = inner(simd, &nodes[j], bottom);
             // the middle node's own entries arrive through `top`
             let last = s + 1 == from_below;
-            let next = if last {
-                [zero; 2]
-            } else {
-                load(simd, &rhs[j - 1])
-            };
+            let next = if last { [zero; 2] } else { load(simd, &rhs[j - 1]) };
             bottom = minus(simd, next, nodes[j].gain, bottom);
             store(c, &mut rhs[j]);
         }

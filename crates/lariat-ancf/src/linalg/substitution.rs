@@ -12,9 +12,7 @@
 //! dependent steps per node and direction; here it is one 6x6 product, and the S_i^-1 of different
 //! nodes overlap).
 
-use super::lanes::{
-    after, before, columns_times, load, load_block, load_six, splat, store_six, transpose_dots,
-};
+use super::lanes::{after, before, columns_times, load, load_block, load_six, splat, store_six, transpose_dots};
 use super::twisted::Node;
 use fearless_simd::{Simd, f64x8, prelude::*};
 
@@ -59,11 +57,7 @@ pub(super) fn solve<S: Simd, const N: usize>(simd: S, nodes: &[Node], rhs: [&mut
                 let c = solve_block(simd, &nodes[j], bottom[r]);
                 // the middle node's own entries arrive through `top`
                 let last = s + 1 == from_below;
-                let next = if last {
-                    zero
-                } else {
-                    load_six(simd, &rhs[r][j - 1])
-                };
+                let next = if last { zero } else { load_six(simd, &rhs[r][j - 1]) };
                 bottom[r] = next - columns_times(simd, &gain, bottom[r]);
                 store_six(simd, c, &mut rhs[r][j]);
             }

@@ -37,11 +37,7 @@ pub(super) struct Node {
 }
 
 impl Node {
-    pub(super) const ZERO: Self = Self {
-        columns: Block::ZERO,
-        gain: Block::ZERO,
-        inverse: [0.0; 8],
-    };
+    pub(super) const ZERO: Self = Self { columns: Block::ZERO, gain: Block::ZERO, inverse: [0.0; 8] };
 }
 
 /// Smallest accepted pivot relative to the diagonal entry of the matrix.
@@ -64,8 +60,7 @@ impl<S: Simd> Health<S> {
         let entries = diagonal(simd, &load_block(simd, original));
         // `max` may pick either of NaN and RANGE: a NaN entry fails the last comparison anyway
         let least = (entries * splat(simd, SMALLEST_PIVOT)).max(splat(simd, RANGE));
-        let good = pivots.simd_gt(least).to_bitmask()
-            & entries.simd_lt(splat(simd, 1.0 / RANGE)).to_bitmask();
+        let good = pivots.simd_gt(least).to_bitmask() & entries.simd_lt(splat(simd, 1.0 / RANGE)).to_bitmask();
         self.bad |= good & 0x3f != 0x3f;
         // column 0 has no upper triangle; lower triangles show in the pivots
         let [_, c1, c2, c3, c4, c5] = *columns;
@@ -168,10 +163,7 @@ pub(super) fn factor<S: Simd>(simd: S, a: &BlockTridiagonal, nodes: &mut [Node])
     let middle = n / 2;
     let from_below = n - 1 - middle;
     let zero = splat(simd, 0.0);
-    let mut health = Health {
-        bad: false,
-        sum: zero,
-    };
+    let mut health = Health { bad: false, sum: zero };
     let diag = &a.diag[..n];
     let lower = &a.lower[..n - 1];
     let nodes = &mut nodes[..n];
@@ -181,58 +173,25 @@ pub(super) fn factor<S: Simd>(simd: S, a: &BlockTridiagonal, nodes: &mut [Node])
         let (i, j) = (s, n - 1 - s);
         let coupling = load_block(simd, &lower[i]);
         let next = load_block(simd, &diag[i + 1]);
-        eliminate_node(
-            simd,
-            &mut top,
-            coupling,
-            next,
-            &diag[i],
-            &mut nodes[i],
-            &mut health,
-        );
+        eliminate_node(simd, &mut top, coupling, next, &diag[i], &mut nodes[i], &mut health);
         let coupling = load_transposed(simd, &lower[j - 1]);
         // the middle node's own block arrives through `top`
         let last = s + 1 == from_below;
-        let next = if last {
-            [zero; 6]
-        } else {
-            load_block(simd, &diag[j - 1])
-        };
-        eliminate_node(
-            simd,
-            &mut bottom,
-            coupling,
-            next,
-            &diag[j],
-            &mut nodes[j],
-            &mut health,
-        );
+        let next = if last { [zero; 6] } else { load_block(simd, &diag[j - 1]) };
+        eliminate_node(simd, &mut bottom, coupling, next, &diag[j], &mut nodes[j], &mut health);
     }
     if middle > from_below {
         let i = middle - 1;
         let coupling = load_block(simd, &lower[i]);
         let next = load_block(simd, &diag[middle]);
-        eliminate_node(
-            simd,
-            &mut top,
-            coupling,
-            next,
-            &diag[i],
-            &mut nodes[i],
-            &mut health,
-        );
+        eliminate_node(simd, &mut top, coupling, next, &diag[i], &mut nodes[i], &mut health);
     }
     if from_below > 0 {
         for c in 0..6 {
             top[c] += bottom[c];
         }
     }
-    let mut step = Step {
-        simd,
-        d: &mut top,
-        w: [zero; 6],
-        l: [zero; 6],
-    };
+    let mut step = Step { simd, d: &mut top, w: [zero; 6], l: [zero; 6] };
     step.eliminate(&mut nodes[middle]);
     health.inspect(simd, &top, &diag[middle]);
     let finite = (health.sum * zero).simd_eq(zero).to_bitmask() & 0x3f == 0x3f;

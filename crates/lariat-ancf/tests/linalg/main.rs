@@ -103,10 +103,7 @@ fn backward_error(a: &BlockTridiagonal, x: &[f64], b: &[f64]) -> f64 {
     a.multiply(x, &mut ax);
     let norm = dense(a).row_iter().fold(0.0f64, |m, r| m.max(r.lp_norm(1)));
     let size = x.iter().fold(0.0f64, |m, v| m.max(v.abs()));
-    ax.iter()
-        .zip(b)
-        .fold(0.0f64, |m, (p, q)| m.max((p - q).abs()))
-        / (norm * size)
+    ax.iter().zip(b).fold(0.0f64, |m, (p, q)| m.max((p - q).abs())) / (norm * size)
 }
 
 fn bits(x: &[f64]) -> Vec<u64> {
@@ -122,23 +119,13 @@ fn solve_everywhere(a: &BlockTridiagonal, b: &[f64]) -> (Definiteness, f64) {
         let mut x = b.to_vec();
         f.solve(level, &mut x);
         assert!(x.iter().all(|v| v.is_finite()));
-        let many: Vec<f64> = (0..7)
-            .flat_map(|k| b.iter().map(move |v| v * f64::from(k)))
-            .collect();
+        let many: Vec<f64> = (0..7).flat_map(|k| b.iter().map(move |v| v * f64::from(k))).collect();
         let mut solved = many;
         f.solve_many(level, &mut solved, 7);
-        assert_eq!(
-            bits(&solved[b.len()..2 * b.len()]),
-            bits(&x),
-            "solve_many, group of four"
-        );
+        assert_eq!(bits(&solved[b.len()..2 * b.len()]), bits(&x), "solve_many, group of four");
         let mut last: Vec<f64> = b.iter().map(|v| v * 6.0).collect();
         f.solve(level, &mut last);
-        assert_eq!(
-            bits(&solved[6 * b.len()..]),
-            bits(&last),
-            "solve_many, remainder"
-        );
+        assert_eq!(bits(&solved[6 * b.len()..]), bits(&last), "solve_many, remainder");
         match &first {
             None => first = Some((verdict, x)),
             Some((v, y)) => {
@@ -152,11 +139,7 @@ fn solve_everywhere(a: &BlockTridiagonal, b: &[f64]) -> (Definiteness, f64) {
 }
 
 fn negative_eigenvalues(a: &BlockTridiagonal) -> usize {
-    dense(a)
-        .symmetric_eigenvalues()
-        .iter()
-        .filter(|v| **v < 0.0)
-        .count()
+    dense(a).symmetric_eigenvalues().iter().filter(|v| **v < 0.0).count()
 }
 
 #[test]
@@ -187,10 +170,7 @@ fn positive_definite_of_every_length() {
         f.solve(Level::new(), &mut y);
         let exact = dense(&a).lu().solve(&DVector::from_vec(b)).unwrap();
         assert!((DVector::from_vec(y) - exact).amax() < 1e-13);
-        assert_eq!(
-            (f.negative_eigenvalues(), f.determinant_sign()),
-            (Some(0), Some(1.0))
-        );
+        assert_eq!((f.negative_eigenvalues(), f.determinant_sign()), (Some(0), Some(1.0)));
     }
 }
 
@@ -203,10 +183,7 @@ fn indefinite_of_every_length_with_inertia() {
         let b = random.vector(6 * n);
         let (verdict, error) = solve_everywhere(&a, &b);
         assert!(error < 1e-14, "n = {n}: {error:e}");
-        if let Definiteness::Indefinite {
-            negative: Some(count),
-        } = verdict
-        {
+        if let Definiteness::Indefinite { negative: Some(count) } = verdict {
             assert_eq!(count, negative_eigenvalues(&a));
             certain += 1;
         }
@@ -221,12 +198,7 @@ fn zero_leading_pivot() {
         let a = from_fn(n, |r, c| f64::from(r / 2 == c / 2 && r != c));
         let b: Vec<f64> = (0..6 * n).map(|i| i as f64).collect();
         let (verdict, error) = solve_everywhere(&a, &b);
-        assert_eq!(
-            verdict,
-            Definiteness::Indefinite {
-                negative: Some(3 * n)
-            }
-        );
+        assert_eq!(verdict, Definiteness::Indefinite { negative: Some(3 * n) });
         assert_eq!(error, 0.0);
     }
 }
@@ -253,8 +225,7 @@ fn extreme_scales() {
 fn empty_matrix_and_reuse() {
     let mut f = Factorisation::default();
     assert_eq!(f.determinant_sign(), None);
-    f.factor(Level::new(), &BlockTridiagonal::default())
-        .unwrap();
+    f.factor(Level::new(), &BlockTridiagonal::default()).unwrap();
     f.solve(Level::new(), &mut []);
     let mut random = Random(3);
     for (n, shift) in [(9, 6.0), (3, 0.0), (4, 6.0), (11, 0.0)] {

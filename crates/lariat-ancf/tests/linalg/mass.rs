@@ -75,10 +75,7 @@ fn bad_mass_matrices_are_errors() {
         assert!(f.factor(&MassMatrix::zeros(n)).is_err());
         assert_eq!(f.nodes(), 0);
     }
-    let one = MassMatrix {
-        diag: vec![[2.0, 0.5, 1.0]],
-        lower: vec![],
-    };
+    let one = MassMatrix { diag: vec![[2.0, 0.5, 1.0]], lower: vec![] };
     f.factor(&one).unwrap();
     let mut x = [2.5, 0.0, 0.0, 1.5, 0.0, 0.0];
     f.solve(Level::new(), &mut x);

@@ -80,9 +80,7 @@ fn entries_that_are_not_finite_are_errors() {
                         } else {
                             a.diag[node].0[c][r] = bad;
                         }
-                        let error = Factorisation::default()
-                            .factor(Level::new(), &a)
-                            .unwrap_err();
+                        let error = Factorisation::default().factor(Level::new(), &a).unwrap_err();
                         assert_eq!((error.node, error.reason), (node, Reason::NonFinite));
                     }
                 }

@@ -1,0 +1,89 @@
+//! Which vector instructions a cable's kernels use: the best the processor has, found at run time.
+//!
+//! Every level runs the same source with the same order of operations and no fused multiply-add, so the choice changes the time
+//! and nothing else: a run is bitwise the same at every level.
+
+use super::Cable;
+use crate::error::Error;
+use fearless_simd::Level;
+
+impl Cable {
+    /// Forces a SIMD level, for benchmarks and for the test that all levels agree. Not part of the state.
+    ///
+    /// # Errors
+    /// [`Error::StepRefused`] if the mass matrix cannot be factored.
+    #[doc(hidden)]
+    pub fn set_simd_level(&mut self, level: Level) -> Result<(), Error> {
+        self.system.level = level;
+        let failure = self.system.factor_mass(&self.model).err();
+        failure.map_or(Ok(()), |failure| Err(self.refused(self.time(), 0.0, failure)))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{At, Integrator, Method, Rule, Section, StepControl, Vector3};
+
+    /// Every level of this processor; the first is the one that a cable chooses.
+    fn levels() -> Vec<(&'static str, Level)> {
+        let best = Level::new();
+        #[allow(unused_mut)]
+        let mut levels = vec![("best", best), ("baseline", Level::baseline())];
+        #[cfg(target_arch = "x86_64")]
+        {
+            levels.extend(best.as_avx512().map(|t| ("avx512", Level::Avx512(t))));
+            levels.extend(best.as_avx2().map(|t| ("avx2", Level::Avx2(t))));
+            levels.extend(best.as_sse4_2().map(|t| ("sse4.2", Level::Sse4_2(t))));
+            levels.extend(best.as_sse2().map(|t| ("sse2", Level::Sse2(t))));
+        }
+        #[cfg(target_arch = "aarch64")]
+        levels.extend(best.as_neon().map(|t| ("neon", Level::Neon(t))));
+        levels
+    }
+
+    /// 21 elements: the last group of lanes is padded. It starts slack and turning out of plane, so that every component matters.
+    fn cable(rule: &str, clamped: bool) -> Cable {
+        let points = [Vector3::zeros(), Vector3::new(1.8, 0.2, 0.7)];
+        let builder = Cable::builder().points(points).section(Section::square(0.01, 1e8, 4000.0).unwrap());
+        let builder = builder.length(2.0).elements(21).angular_velocity(Vector3::new(0.0, 1.0, 0.0));
+        let builder = builder.rule(rule.parse::<Rule>().unwrap());
+        let builder = if clamped { builder.clamp(At::Start) } else { builder.fix(At::Start) };
+        builder.build().unwrap()
+    }
+
+    /// Positions and velocities, to the bit.
+    fn bits(cable: &Cable) -> Vec<u64> {
+        cable.positions().iter().chain(cable.velocities()).map(|x| x.to_bits()).collect()
+    }
+
+    fn assert_same_run(cable: &Cable, what: &str) {
+        let mut reference: Option<(Vec<u64>, u64)> = None;
+        for (name, level) in levels() {
+            let mut cable = cable.clone();
+            cable.set_simd_level(level).unwrap();
+            for _ in 0..50 {
+                cable.step(0.01).unwrap();
+            }
+            let run = (bits(&cable), cable.diagnostics().newton_iterations);
+            match &reference {
+                None => reference = Some(run),
+                Some(best) => assert!(*best == run, "{what}: {name} differs from the chosen level"),
+            }
+        }
+    }
+
+    #[test]
+    fn a_run_is_bitwise_the_same_at_every_simd_level() {
+        for rule in ["projected-3", "G5-3", "ST2", "L2T2", "G5-none"] {
+            assert_same_run(&cable(rule, false), rule);
+        }
+        assert_same_run(&cable("projected-3", true), "clamped");
+        for (method, control) in [(Method::Rkn4, StepControl::Stable(0.9)), (Method::TrBdf2, StepControl::Substeps(20))]
+        {
+            let mut cable = cable("projected-3", false);
+            cable.set_integrator(Integrator { method, control }).unwrap();
+            assert_same_run(&cable, &method.to_string());
+        }
+    }
+}
