@@ -89,16 +89,16 @@ pub(crate) fn read(
         ],
         gyroscopic: body.gyroscopic_forces_enabled(),
     };
-    if let Some(exact) = &memory.exact {
-        if exact.pose == *body.position() {
-            out.position = exact.position;
-            out.rotation = exact.rotation;
-            if exact.linvel == body.linvel() {
-                out.velocity = exact.velocity;
-            }
-            if exact.angvel == body.angvel() {
-                out.angular_velocity = exact.spin;
-            }
+    if let Some(exact) = &memory.exact
+        && exact.pose == *body.position()
+    {
+        out.position = exact.position;
+        out.rotation = exact.rotation;
+        if exact.linvel == body.linvel() {
+            out.velocity = exact.velocity;
+        }
+        if exact.angvel == body.angvel() {
+            out.angular_velocity = exact.spin;
         }
     }
     let checks: [(&'static str, bool); 4] = [

@@ -114,10 +114,10 @@ pub(crate) fn drive(
 /// Switches the motors of an attachment off.
 pub(crate) fn idle(world: &mut PhysicsWorld, attachment: &Attachment) {
     let Some(ledger) = attachment.ledger else { return };
-    if world.impulse_joints.get(ledger.joint).is_some_and(|j| j.data.is_enabled()) {
-        if let Some(joint) = world.impulse_joints.get_mut(ledger.joint, false) {
-            joint.data.set_enabled(false);
-        }
+    if world.impulse_joints.get(ledger.joint).is_some_and(|j| j.data.is_enabled())
+        && let Some(joint) = world.impulse_joints.get_mut(ledger.joint, false)
+    {
+        joint.data.set_enabled(false);
     }
 }
 

@@ -206,10 +206,8 @@ impl CableSet {
             }
         }
         for (pin, driven) in island.motors.iter().enumerate() {
-            if !driven {
-                if let Some(attachment) = &self.attachments[island.attachments[pin]] {
-                    impedance::idle(world, attachment);
-                }
+            if !driven && let Some(attachment) = &self.attachments[island.attachments[pin]] {
+                impedance::idle(world, attachment);
             }
         }
         Ok(())
@@ -218,10 +216,10 @@ impl CableSet {
     fn reconcile_island(&mut self, world: &mut PhysicsWorld, island: &mut IslandStep, h: f64) {
         let mut impulses = vec![Vector3::zeros(); island.pins.len()];
         for (pin, impulse) in impulses.iter_mut().enumerate() {
-            if island.motors[pin] {
-                if let Some(attachment) = &self.attachments[island.attachments[pin]] {
-                    *impulse = impedance::passed(world, attachment);
-                }
+            if island.motors[pin]
+                && let Some(attachment) = &self.attachments[island.attachments[pin]]
+            {
+                *impulse = impedance::passed(world, attachment);
             }
         }
         for (b, &handle) in island.handles.iter().enumerate() {

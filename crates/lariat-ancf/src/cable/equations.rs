@@ -206,7 +206,7 @@ impl Dynamics for Equations<'_> {
         }
         let mut product = core::mem::take(&mut self.system.product);
         let tolerance = self.tolerance(stage.newton.tolerance(), stage, base, &z);
-        let keep = stage.reuse && self.system.factored == stage.c2;
+        let keep = stage.reuse && stage.c2 > 0.0 && self.system.factored == stage.c2;
         let mut problem =
             CableStage { equations: self, stage, base, y, z: &mut z, rhs: &mut rhs, product: &mut product };
         let outcome = newton::iterate(&mut problem, tolerance, stage.newton.once(), keep);

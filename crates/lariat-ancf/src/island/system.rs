@@ -606,7 +606,7 @@ impl Dynamics for Work<'_, '_> {
             let range = part.at..part.at + part.size;
             tolerance = tolerance.min(equations.tolerance(wanted, stage, &base[range.clone()], &z[range]));
         }
-        let keep = stage.reuse && self.workspace.factored == stage.c2;
+        let keep = stage.reuse && stage.c2 > 0.0 && self.workspace.factored == stage.c2;
         let mut problem =
             IslandStage { work: self, stage, base, velocity_base, y, v: &mut velocity, z: &mut z, rhs: &mut rhs };
         problem.update();
