@@ -6,12 +6,17 @@
 //!
 //! J reads the pinned positions, *free* here. C (1/kg) is the velocity that a unit impulse makes at a pin over the step: the
 //! inverse of the mass that a body feels there. *Source.* One implicit Euler step of the cable, linearised. *Validity.* Short steps;
-//! it damps, so it decides only how a deviation from the prediction is shared, never the prediction itself.
+//! it damps, so it decides only how a deviation from the prediction is shared, never the prediction itself. Under compression
+//! A may be indefinite, or nearly singular, and answer a small impulse with any velocity; then M counts twice, four times ...
+//! until half of it suffices.
 
 use crate::cable::{Cable, project_matrix, project_vector};
 use crate::error::{Error, StepFailure};
-use crate::linalg::Factorisation;
+use crate::linalg::{Definiteness, Factorisation};
 use nalgebra::{DMatrix, Vector3};
+
+/// Inertia is raised at most this much against compression that makes A indefinite.
+const MOST_INERTIA: f64 = 1e6;
 
 /// The impulse response of one cable at some of its nodes.
 #[derive(Clone, Debug, Default)]
@@ -45,13 +50,21 @@ impl Impedance {
 
     fn linearise(&mut self, cable: &mut Cable, h: f64) -> Result<(), StepFailure> {
         let size = cable.positions().len();
-        let mut force = core::mem::take(&mut cable.system.product);
-        let (mut equations, phase) = cable.equations();
-        equations.force_and_matrix(phase.time, &phase.q, h * h, 1.0, &mut force);
-        cable.system.product = force;
+        let mut inertia = 1.0;
+        loop {
+            // definite with half the inertia: then the response is at most twice that of the inertia alone
+            let definite = self.factor(cable, h, 0.5 * inertia);
+            if definite == Ok(true) {
+                break;
+            }
+            inertia *= 2.0;
+            if inertia > MOST_INERTIA {
+                definite?;
+                break;
+            }
+        }
+        self.factor(cable, h, inertia)?;
         let (model, system) = (&cable.model, &mut cable.system);
-        project_matrix(model, &mut system.matrix);
-        self.factorisation.factor(system.level, &system.matrix)?;
         for (i, column) in self.columns.chunks_exact_mut(size).enumerate() {
             column[6 * self.nodes[i / 3] + i % 3] = 1.0;
             project_vector(model, column);
@@ -60,6 +73,18 @@ impl Impedance {
             self.factorisation.solve_many(system.level, &mut self.columns, 3 * self.nodes.len());
         }
         Ok(())
+    }
+
+    /// Factors `inertia M + h^2 K`; whether it is positive definite.
+    fn factor(&mut self, cable: &mut Cable, h: f64, inertia: f64) -> Result<bool, StepFailure> {
+        let mut force = core::mem::take(&mut cable.system.product);
+        let (mut equations, phase) = cable.equations();
+        equations.force_and_matrix(phase.time, &phase.q, h * h, inertia, &mut force);
+        cable.system.product = force;
+        let (model, system) = (&cable.model, &mut cable.system);
+        project_matrix(model, &mut system.matrix);
+        let kind = self.factorisation.factor(system.level, &system.matrix)?;
+        Ok(matches!(kind, Definiteness::PositiveDefinite))
     }
 
     /// Velocity in m/s of coordinate `i` of the nodes (three per node) for a unit impulse at coordinate `j`, in 1/kg.
