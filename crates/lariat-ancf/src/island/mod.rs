@@ -23,7 +23,9 @@ mod condense;
 mod dense;
 mod impedance;
 mod rotation;
+mod stage;
 mod system;
+mod workspace;
 
 pub use body::RigidBody;
 pub use impedance::Impedance;
@@ -33,7 +35,8 @@ use crate::error::{Error, require, require_finite};
 use crate::integrate::drive::{self, Counts};
 use crate::integrate::{Integrator, Phase, Scratch};
 use nalgebra::Vector3;
-use system::{Work, Workspace};
+use system::Work;
+use workspace::Workspace;
 
 /// A node of a cable held to a point of a body.
 #[derive(Clone, Copy, Debug, PartialEq)]
