@@ -4,6 +4,7 @@ use thiserror::Error as ThisError;
 
 /// Why a time step could not be done, at the smallest step that was tried.
 #[derive(Clone, Debug, PartialEq, ThisError)]
+#[non_exhaustive]
 pub enum StepFailure {
     /// Newton's iteration did not converge.
     #[error("Newton did not converge in {iterations} iterations, last increment {increment:.3e} m")]
@@ -39,6 +40,14 @@ pub enum StepFailure {
         /// Longest stable step in s.
         limit: f64,
     },
+    /// Fixed steps so short that a host step would take more than a million of them.
+    #[error("step {step:.3e} s is shorter than a millionth of the host's step, {least:.3e} s")]
+    TooShort {
+        /// Step asked for in s.
+        step: f64,
+        /// Shortest step in s.
+        least: f64,
+    },
     /// The matrix of the step is singular.
     #[error("singular step matrix: {0}")]
     Singular(#[from] crate::linalg::SingularMatrix),
@@ -46,6 +55,7 @@ pub enum StepFailure {
 
 /// The error type of this crate.
 #[derive(Clone, Debug, PartialEq, ThisError)]
+#[non_exhaustive]
 pub enum Error {
     /// A number outside its range, infinite or NaN.
     #[error("{what} is {value}: must be finite and {expected}")]
@@ -110,13 +120,15 @@ pub enum Error {
         limit: f64,
     },
     /// A step that could not be done. The cable is as it was at `time`.
-    #[error("cable {cable:?}: step refused at t = {time} s (step {step:.3e} s): {failure}")]
+    #[error("cable {cable:?}: step refused at t = {at} s (step {step:.3e} s), state kept at t = {time} s: {failure}")]
     StepRefused {
         /// Name of the cable.
         cable: String,
-        /// Time of the last good state in s.
+        /// Time in s of the state that the cable has now: that before the host step.
         time: f64,
-        /// The smallest step tried in s.
+        /// Time in s inside the host step at which it could not go on.
+        at: f64,
+        /// The last step tried in s.
         step: f64,
         /// Why.
         failure: StepFailure,

@@ -20,22 +20,25 @@ pub struct PointLoad {
     pub moment: Vector3<f64>,
     /// Time from zero to full load in s; 0 = at once.
     pub ramp: f64,
+    /// Time at which the ramp begins, in s. [`Cable::add_load`](crate::Cable::add_load) sets it to the cable's time.
+    #[serde(default)]
+    pub start: f64,
 }
 
 impl PointLoad {
     /// A constant force in N at an arc length in m.
     pub fn force(arc_length: f64, force: Vector3<f64>) -> Self {
-        PointLoad { arc_length, force, moment: Vector3::zeros(), ramp: 0.0 }
+        PointLoad { arc_length, force, moment: Vector3::zeros(), ramp: 0.0, start: 0.0 }
     }
 
     /// A constant moment in N m at an arc length in m.
     pub fn moment(arc_length: f64, moment: Vector3<f64>) -> Self {
-        PointLoad { arc_length, force: Vector3::zeros(), moment, ramp: 0.0 }
+        PointLoad { arc_length, force: Vector3::zeros(), moment, ramp: 0.0, start: 0.0 }
     }
 
     /// Share of the full load at `time`.
     pub fn factor(&self, time: f64) -> f64 {
-        if self.ramp > 0.0 { (time / self.ramp).clamp(0.0, 1.0) } else { 1.0 }
+        if self.ramp > 0.0 { ((time - self.start) / self.ramp).clamp(0.0, 1.0) } else { 1.0 }
     }
 }
 

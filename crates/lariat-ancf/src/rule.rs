@@ -95,7 +95,22 @@ impl Rule {
     /// [`Error::RankDeficient`] with the reason. [`CableBuilder::allow_rank_deficient`](crate::CableBuilder::allow_rank_deficient)
     /// builds such a cable all the same.
     pub fn check(self) -> Result<(), Error> {
+        self.check_points()?;
         self.spare_modes().map_or(Ok(()), |reason| Err(Error::RankDeficient { rule: self.to_string(), reason }))
+    }
+
+    /// Refuses a number of Gauss points that is out of range.
+    ///
+    /// # Errors
+    /// [`Error::UnknownRule`].
+    pub(crate) fn check_points(self) -> Result<(), Error> {
+        let range = 1..=MAX_POINTS;
+        let axial = matches!(self.axial, AxialRule::Gauss(n) if !range.contains(&n));
+        let bending = matches!(self.bending, BendingRule::Gauss(n) if !range.contains(&n));
+        if axial || bending {
+            return Err(unknown(&self.to_string(), "1 to 10 Gauss points"));
+        }
+        Ok(())
     }
 
     /// Why the pair leaves modes of deformation without energy, if it does.

@@ -83,6 +83,18 @@ impl Section {
         Ok(section)
     }
 
+    /// The same, if its numbers are in range.
+    ///
+    /// # Errors
+    /// As [`Section::from_stiffness`].
+    pub fn checked(self) -> Result<Self, Error> {
+        let (axial, bending, mass) = (self.axial_stiffness, self.bending_stiffness, self.mass_per_length);
+        require("axial stiffness EA (N)", axial, axial > 0.0, "> 0")?;
+        require("bending stiffness EI (N m^2)", bending, bending >= 0.0, ">= 0")?;
+        require("mass per length (kg/m)", mass, mass > 0.0, "> 0")?;
+        Ok(self)
+    }
+
     /// A solid round section: diameter in m, Young's modulus in Pa, density in kg/m^3.
     ///
     /// # Errors
@@ -112,9 +124,6 @@ impl Section {
     /// # Errors
     /// [`Error::InvalidValue`] for a value that is not finite, or not positive (EI may be zero).
     pub fn from_stiffness(axial: f64, bending: f64, mass_per_length: f64) -> Result<Self, Error> {
-        require("axial stiffness EA (N)", axial, axial > 0.0, "> 0")?;
-        require("bending stiffness EI (N m^2)", bending, bending >= 0.0, ">= 0")?;
-        require("mass per length (kg/m)", mass_per_length, mass_per_length > 0.0, "> 0")?;
-        Ok(Section { axial_stiffness: axial, bending_stiffness: bending, mass_per_length, diameter: None })
+        Section { axial_stiffness: axial, bending_stiffness: bending, mass_per_length, diameter: None }.checked()
     }
 }

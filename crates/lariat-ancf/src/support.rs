@@ -6,6 +6,7 @@
 //! *vector* also fixes the stretch at the node, which is then wrong by the tension over EA; a clamp holds the direction alone.
 //! *Rejected.* Penalty springs (they limit the step) and Lagrange multipliers (an indefinite matrix for nothing).
 
+use crate::error::{Error, require};
 use crate::integrate::Stage;
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
@@ -79,6 +80,21 @@ pub struct Support {
 }
 
 impl Support {
+    /// Refuses motions that are not finite and directions that are not unit vectors.
+    pub(crate) fn check(&self) -> Result<(), Error> {
+        let slope = match &self.slope {
+            SlopeSupport::Prescribed(motion) => Some(motion),
+            _ => None,
+        };
+        for motion in self.position.iter().chain(slope) {
+            require("prescribed motion", if motion.is_finite() { 0.0 } else { f64::NAN }, true, "a number")?;
+        }
+        if let SlopeSupport::Direction(d) = &self.slope {
+            require("length of a clamp's direction", d.norm(), (d.norm() - 1.0).abs() < 1e-6, "1")?;
+        }
+        Ok(())
+    }
+
     /// True if nothing is held.
     pub fn is_free(&self) -> bool {
         !self.holds_position() && self.slope == SlopeSupport::Free
@@ -106,6 +122,16 @@ impl Support {
                 for i in 0..3 {
                     t[i] = along * d[i];
                 }
+            }
+        }
+    }
+
+    /// Turns a slope vector to the direction that holds it, if one does, keeping its length.
+    pub(crate) fn turn(&self, t: &mut [f64]) {
+        if let SlopeSupport::Direction(d) = self.slope {
+            let length = (t[0] * t[0] + t[1] * t[1] + t[2] * t[2]).sqrt();
+            for i in 0..3 {
+                t[i] = length * d[i];
             }
         }
     }

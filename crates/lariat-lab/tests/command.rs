@@ -28,8 +28,11 @@ fn rows(file: PathBuf) -> (String, Vec<Vec<f64>>) {
     (header, lines.map(|line| line.split(',').map(|x| x.parse().unwrap()).collect()).collect())
 }
 
-/// An explicit method at one step per host step, far beyond its stability limit.
-const UNSTABLE: &[&str] = &["--set", "cable.pendulum.integrator={ method = \"verlet\", substeps = 1 }"];
+/// An explicit method within its stability limit, as the cable is at the start.
+const EXPLICIT: &[&str] = &["--set", "cable.pendulum.integrator={ method = \"verlet\", stable = 0.9 }"];
+
+/// A load that stretches the cable fourfold: its frequencies rise past the explicit step, which blows up in mid-run.
+const STRETCH: &str = "\n[[load]]\ncable = \"pendulum\"\nat = \"end\"\nforce = [3.0e5, 0.0, 0.0]\nramp = 1.0\n";
 
 #[test]
 fn a_run_writes_its_probes_and_a_summary_with_every_key() {
@@ -112,8 +115,10 @@ fn a_folder_that_cannot_be_made_is_named() {
 fn a_run_that_fails_exits_with_3_names_cable_and_time_and_keeps_its_samples() {
     let folder = tempfile::tempdir().unwrap();
     let out = folder.path();
-    let file = scene("falling_pendulum");
-    let output = lariat(&[&["run", &file, "--out", out.to_str().unwrap()], UNSTABLE].concat());
+    let file = out.join("stretched.toml");
+    fs::write(&file, fs::read_to_string(scene("falling_pendulum")).unwrap() + STRETCH).unwrap();
+    let file = file.to_str().unwrap();
+    let output = lariat(&[&["run", file, "--out", out.to_str().unwrap()], EXPLICIT].concat());
     assert_eq!(output.status.code(), Some(3), "{}", stderr(&output));
     let message = stderr(&output);
     assert!(message.contains("pendulum") && message.contains("t = "), "{message}");

@@ -10,7 +10,7 @@
 //! ```
 //!
 //! *Source.* Assumed-strain / B-bar projection (Hughes 2000, section 4.5; Simo & Hughes 1986), applied to this element here.
-//! *Validity.* With 2-point bending or more, T1 or T2. *Measured* (`tests/pendulum.rs`, `tests/statics.rs`): 10 elements,
+//! *Validity.* With 2-point bending or more, T1 or T2. *Measured* (`tests/pendulum.rs`, `tests/elastica.rs`): 10 elements,
 //! paper's pendulum against the real beam 2.4e-3 m, exact strain 1.1e-2 m. *Rejected.* Two-point axial quadrature (a zero-energy
 //! mode); mean strain with full curvature (two); delta = 0 (one); 1e-2 locks again in part.
 

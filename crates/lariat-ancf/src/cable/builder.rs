@@ -10,6 +10,9 @@ use crate::section::Section;
 use crate::support::{Motion, SlopeSupport, Support};
 use nalgebra::Vector3;
 
+/// Largest number of elements of a cable.
+const MOST_ELEMENTS: usize = 1_000_000;
+
 /// How a node is held at the start; see [`CableBuilder::fix`] and [`CableBuilder::clamp`].
 #[derive(Clone, Copy, Debug)]
 enum Hold {
@@ -178,6 +181,9 @@ impl CableBuilder {
         if let Some(i) = self.points.windows(2).position(|p| p[0] == p[1]) {
             return Err(invalid(format!("points {i} and {} coincide at {:?}", i + 1, self.points[i].as_slice())));
         }
+        if self.elements > MOST_ELEMENTS {
+            return Err(invalid(format!("takes at most {MOST_ELEMENTS} elements, got {}", self.elements)));
+        }
         if self.elements == 0 {
             return Err(invalid("needs at least 1 element, got 0".to_string()));
         }
@@ -185,6 +191,7 @@ impl CableBuilder {
         let length = self.length.unwrap_or(drawn);
         require("unstretched length (m)", length, length > 0.0, "> 0")?;
         require("length of the polyline (m)", drawn, drawn > 0.0, "> 0")?;
+        self.rule.check_points()?;
         if !self.allow_rank_deficient {
             self.rule.check()?;
         }
@@ -246,6 +253,7 @@ impl CableBuilder {
                 Support { position: Some(Motion::fixed(positions[node])), slope, attached: false },
             )?;
         }
+        cable.settle_held();
         for load in self.loads {
             cable.add_load(load)?;
         }

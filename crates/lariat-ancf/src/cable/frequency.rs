@@ -13,6 +13,7 @@
 use super::model::Model;
 use crate::element::{mass, shape};
 use crate::quadrature::gauss_legendre;
+use crate::rule::BendingRule;
 use nalgebra::Matrix4;
 
 /// Largest eigenvalue of `M^-1 K` for unit mass per length, length and stiffness, `K = int D^T D`.
@@ -33,6 +34,7 @@ pub(crate) fn bound(model: &Model) -> f64 {
         let s = &e.section;
         let wave = (s.axial_stiffness / s.mass_per_length).sqrt() / e.length;
         let flexure = (s.bending_stiffness / s.mass_per_length).sqrt() / (e.length * e.length);
+        let flexure = if model.rule.bending == BendingRule::None { 0.0 } else { flexure };
         worst.max(axial * wave).max(bending * flexure)
     });
     1.05 * worst

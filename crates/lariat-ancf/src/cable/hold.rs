@@ -14,29 +14,33 @@ impl Cable {
         Ok(self.model.support(self.node(at)?).copied().unwrap_or_default())
     }
 
-    /// Holds a node, or frees it with `Support::default()`. A prescribed position or slope jumps to its value at the next step.
+    /// Holds a node, or frees it with `Support::default()`. A prescribed position or slope jumps to its value at the next step; a
+    /// slope held to a direction is turned there at once, keeping its length.
     ///
     /// # Errors
     /// As [`node`](Self::node); [`Error::InvalidValue`] for numbers that are not finite or a direction that is not a unit vector.
     pub fn set_support(&mut self, at: impl Into<At>, support: Support) -> Result<(), Error> {
         let node = self.node(at)?;
-        let motions = support.position.iter().chain(match &support.slope {
-            SlopeSupport::Prescribed(motion) => Some(motion),
-            _ => None,
-        });
-        for motion in motions {
-            require("prescribed motion", if motion.is_finite() { 0.0 } else { f64::NAN }, true, "a number")?;
+        support.check()?;
+        let mut support = support;
+        if let SlopeSupport::Direction(d) = &mut support.slope {
+            d.normalize_mut();
         }
-        if let SlopeSupport::Direction(d) = support.slope {
-            require("length of a clamp's direction", d.norm(), (d.norm() - 1.0).abs() < 1e-6, "1")?;
-        }
+        let before = self.model.support(node).copied().unwrap_or_default();
         self.model.set_support(node, support);
-        let failure = self.system.factor_mass(&self.model).err();
-        self.disturb();
-        failure.map_or(Ok(()), |failure| Err(self.refused(self.time(), 0.0, failure)))
+        if let Err(failure) = self.system.factor_mass(&self.model) {
+            self.model.set_support(node, before);
+            let _ = self.system.factor_mass(&self.model);
+            return Err(self.refused(self.time(), 0.0, failure));
+        }
+        if before.slope != support.slope {
+            support.turn(&mut self.state.phase.q[6 * node + 3..6 * node + 6]);
+        }
+        self.revise();
+        Ok(())
     }
 
-    /// Holds the position of a node where it is.
+    /// Holds the position of a node where it is; its slope is free.
     ///
     /// # Errors
     /// As [`node`](Self::node).
@@ -57,7 +61,9 @@ impl Cable {
             return self.set_support(At::Node(node), new);
         }
         self.model.set_support(node, new);
-        self.state.phase.memory.valid = false;
+        let step = self.state.phase.memory.step;
+        self.revise();
+        self.state.phase.memory.step = step;
         Ok(())
     }
 
@@ -69,12 +75,21 @@ impl Cable {
         self.set_support(at, Support::default())
     }
 
+    /// Puts held coordinates and velocities where their supports have them.
+    pub(crate) fn settle_held(&mut self) {
+        let phase = &mut self.state.phase;
+        for (node, support) in &self.model.supports {
+            let range = 6 * node..6 * node + 6;
+            support.prescribe(phase.time, &mut phase.q[range.clone()], &mut phase.v[range]);
+        }
+    }
+
     /// Point loads.
     pub fn loads(&self) -> &[PointLoad] {
         &self.model.loads
     }
 
-    /// Adds a point load.
+    /// Adds a point load; a ramp begins now.
     ///
     /// # Errors
     /// [`Error::OutOfRange`] for an arc length off the cable, [`Error::InvalidValue`] for numbers that are not finite.
@@ -83,14 +98,14 @@ impl Cable {
         require_finite("force (N)", &load.force)?;
         require_finite("moment (N m)", &load.moment)?;
         require("ramp (s)", load.ramp, load.ramp >= 0.0, ">= 0")?;
-        self.model.loads.push(load);
-        self.disturb();
+        self.model.loads.push(PointLoad { start: self.time(), ..load });
+        self.revise();
         Ok(())
     }
 
     /// Removes all point loads.
     pub fn clear_loads(&mut self) {
         self.model.loads.clear();
-        self.disturb();
+        self.revise();
     }
 }

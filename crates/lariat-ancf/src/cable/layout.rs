@@ -29,7 +29,7 @@ pub(crate) fn along_polyline(
     };
     s.iter()
         .map(|&s| {
-            let k = at[1..segments].partition_point(|&end| end <= s);
+            let k = at[1..segments].partition_point(|&end| end <= s + 1e-9 * length);
             let (position, slope) = evaluate(k, s);
             // a corner that falls on a node takes the mean direction
             if k > 0 && (s - at[k]).abs() <= 1e-9 * length {

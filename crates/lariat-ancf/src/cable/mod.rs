@@ -29,7 +29,7 @@ use serde::{Deserialize, Serialize};
 use system::System;
 
 /// Shortest step in s: squares of its smallest part must not vanish.
-const SHORTEST_STEP: f64 = 1e-100;
+pub(crate) const SHORTEST_STEP: f64 = 1e-100;
 
 /// A point of a cable.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -71,6 +71,8 @@ pub struct Cable {
     scratch: Scratch,
     /// State at the beginning of the host step, to go back to.
     saved: Phase,
+    /// Counts changes of supports, loads and integrator.
+    revision: u64,
 }
 
 /// A cable as it is serialised.
@@ -81,12 +83,14 @@ struct Saved {
     state: State,
     integrator: Integrator,
     diagnostics: Diagnostics,
+    #[serde(default)]
+    revision: u64,
 }
 
 impl From<Cable> for Saved {
     fn from(cable: Cable) -> Self {
-        let Cable { model, state, integrator, diagnostics, .. } = cable;
-        Saved { model, state, integrator, diagnostics }
+        let Cable { model, state, integrator, diagnostics, revision, .. } = cable;
+        Saved { model, state, integrator, diagnostics, revision }
     }
 }
 
@@ -95,6 +99,7 @@ impl TryFrom<Saved> for Cable {
     fn try_from(saved: Saved) -> Result<Self, Error> {
         let mut cable = Cable::from_parts(saved.model, saved.state, saved.integrator)?;
         cable.diagnostics = saved.diagnostics;
+        cable.revision = saved.revision;
         Ok(cable)
     }
 }
@@ -106,16 +111,15 @@ impl Cable {
     }
 
     pub(crate) fn from_parts(model: Model, state: State, integrator: Integrator) -> Result<Self, Error> {
-        let n = 6 * model.nodes();
-        if model.elements.is_empty() || state.phase.q.len() != n || state.phase.v.len() != n {
-            return Err(Error::InvalidShape {
-                cable: model.name,
-                reason: format!("{} coordinates do not fit {} elements", state.phase.q.len(), model.elements.len()),
-            });
-        }
+        model.check()?;
+        state
+            .phase
+            .check(6 * model.nodes())
+            .map_err(|reason| Error::InvalidShape { cable: model.name.clone(), reason })?;
         let system = System::new(&model).map_err(|failure| Error::StepRefused {
             cable: model.name.clone(),
             time: state.phase.time,
+            at: state.phase.time,
             step: 0.0,
             failure,
         })?;
@@ -127,20 +131,24 @@ impl Cable {
             system,
             scratch: Scratch::default(),
             saved: Phase::default(),
+            revision: 0,
         })
     }
 
     /// Advances the cable by `dt` (s), the host's step, with its integrator. `dt` = 0 does nothing.
     ///
     /// # Errors
-    /// [`Error::InvalidValue`] for a `dt` that is negative, not finite, or below 1e-100 and not zero; [`Error::StepRefused`] if the step cannot be done: the cable
-    /// is then exactly as before.
+    /// [`Error::InvalidValue`] for a `dt` that is negative, not finite, or below 1e-100 and not zero; [`Error::StepRefused`] if
+    /// the step cannot be done: the cable is then exactly as before. [`Error::InvalidShape`] for a cable with
+    /// [attached](Self::attach) nodes, which only an [`island`](crate::island) can step.
     pub fn step(&mut self, dt: f64) -> Result<(), Error> {
         require("dt (s)", dt, dt == 0.0 || dt >= SHORTEST_STEP, "0, or >= 1e-100")?;
         if dt == 0.0 {
             return Ok(());
         }
+        self.check_not_attached()?;
         self.saved.copy_from(&self.state.phase);
+        self.refresh_memory();
         let mut counts = Counts::default();
         let mut equations =
             Equations { model: &self.model, system: &mut self.system, diagnostics: &mut self.diagnostics };
@@ -161,9 +169,29 @@ impl Cable {
         }
     }
 
-    pub(crate) fn refused(&self, time: f64, step: f64, failure: StepFailure) -> Error {
-        log::warn!("cable {:?}: step refused at t = {time} s: {failure}", self.model.name);
-        Error::StepRefused { cable: self.model.name.clone(), time, step, failure }
+    pub(crate) fn refused(&self, at: f64, step: f64, failure: StepFailure) -> Error {
+        log::warn!("cable {:?}: step refused at t = {at} s: {failure}", self.model.name);
+        Error::StepRefused { cable: self.model.name.clone(), time: self.time(), at, step, failure }
+    }
+
+    /// Accelerations of another description of the cable (a snapshot from before a change) are not used.
+    pub(crate) fn refresh_memory(&mut self) {
+        let memory = &mut self.state.phase.memory;
+        if memory.revision != self.revision {
+            memory.valid = false;
+            memory.step = 0.0;
+            memory.revision = self.revision;
+        }
+    }
+
+    pub(crate) fn check_not_attached(&self) -> Result<(), Error> {
+        match self.model.supports.iter().find(|(_, s)| s.attached) {
+            None => Ok(()),
+            Some((node, _)) => Err(Error::InvalidShape {
+                cable: self.name().to_string(),
+                reason: format!("node {node} is attached to a body: only an island can move it"),
+            }),
+        }
     }
 
     pub(crate) fn equations(&mut self) -> (Equations<'_>, &Phase) {
@@ -222,6 +250,9 @@ impl Cable {
     }
 
     /// Position of a node in m.
+    ///
+    /// # Panics
+    /// If there is no such node.
     pub fn node_position(&self, node: usize) -> Vector3<f64> {
         Vector3::from_column_slice(&self.positions()[6 * node..6 * node + 3])
     }
@@ -247,7 +278,7 @@ impl Cable {
     /// As [`Integrator::checked`].
     pub fn set_integrator(&mut self, integrator: Integrator) -> Result<(), Error> {
         self.integrator = integrator.checked()?;
-        self.disturb();
+        self.revise();
         Ok(())
     }
 
@@ -261,17 +292,16 @@ impl Cable {
         &self.state
     }
 
-    /// Puts a state back; the run then continues bitwise as it did from there.
+    /// Puts a state back; the run then continues bitwise as it did from there (if supports, loads and integrator are as they
+    /// were, else from its positions and velocities).
     ///
     /// # Errors
-    /// [`Error::InvalidShape`] if the state is of a cable with another number of nodes.
+    /// [`Error::InvalidShape`] if the state is of a cable with another number of nodes, or is not finite.
     pub fn restore(&mut self, state: State) -> Result<(), Error> {
-        if state.phase.q.len() != self.positions().len() {
-            return Err(Error::InvalidShape {
-                cable: self.name().to_string(),
-                reason: format!("a state of {} nodes does not fit {}", state.phase.q.len() / 6, self.nodes()),
-            });
-        }
+        state
+            .phase
+            .check(self.positions().len())
+            .map_err(|reason| Error::InvalidShape { cable: self.name().to_string(), reason })?;
         self.state = state;
         Ok(())
     }
@@ -296,10 +326,16 @@ impl Cable {
         Ok(())
     }
 
-    /// The state or the equations changed under the integrator: accelerations must be computed anew.
+    /// The state changed under the integrator: accelerations must be computed anew.
     pub(crate) fn disturb(&mut self) {
         self.state.phase.memory.valid = false;
         self.state.phase.memory.step = 0.0;
+    }
+
+    /// Supports, loads or integrator changed: states from before keep their positions and velocities only.
+    pub(crate) fn revise(&mut self) {
+        self.revision += 1;
+        self.refresh_memory();
     }
 
     pub(crate) fn check_arc_length(&self, s: f64) -> Result<(), Error> {

@@ -1,5 +1,6 @@
 //! What a cable is made of: plain data from which everything else is rebuilt.
 
+use crate::error::{Error, require, require_finite};
 use crate::load::PointLoad;
 use crate::rule::Rule;
 use crate::section::Section;
@@ -29,6 +30,32 @@ pub struct Model {
 }
 
 impl Model {
+    /// Refuses numbers that make no cable: for descriptions that come from a file.
+    pub(crate) fn check(&self) -> Result<(), Error> {
+        let invalid = |reason: &str| Error::InvalidShape { cable: self.name.clone(), reason: reason.to_string() };
+        if self.elements.is_empty() {
+            return Err(invalid("needs at least 1 element, got 0"));
+        }
+        self.rule.check_points()?;
+        for element in &self.elements {
+            require("element length (m)", element.length, element.length > 0.0, "> 0")?;
+            element.section.checked()?;
+        }
+        require_finite("gravity (m/s^2)", &self.gravity)?;
+        let length = self.length();
+        for load in &self.loads {
+            let s = load.arc_length;
+            require("arc length of a load (m)", s, s >= 0.0 && s <= length * (1.0 + 1e-12), "on the cable")?;
+            require_finite("force (N)", &load.force)?;
+            require_finite("moment (N m)", &load.moment)?;
+            require("ramp (s)", load.ramp, load.ramp >= 0.0, ">= 0")?;
+        }
+        if self.supports.windows(2).any(|s| s[0].0 >= s[1].0) || self.supports.iter().any(|(n, _)| *n >= self.nodes()) {
+            return Err(invalid("supports must be at ascending nodes of the cable"));
+        }
+        self.supports.iter().try_for_each(|(_, support)| support.check())
+    }
+
     /// Number of nodes.
     pub(crate) fn nodes(&self) -> usize {
         self.elements.len() + 1

@@ -63,7 +63,8 @@ impl Cable {
         let second = combine(q, shape::second_derivative(xi, element.length));
         let stretch = slope.norm();
         let green_strain = projected_strain(&gram(&self.system.elements.control(e, q)), xi);
-        let curvature = slope.cross(&second) / stretch.powi(3);
+        // a collapsed element has no curvature to speak of
+        let curvature = if stretch > 0.0 { slope.cross(&second) / stretch.powi(3) } else { Vector3::zeros() };
         Ok(Sample {
             position: combine(q, position),
             velocity: combine(v, position),
@@ -85,6 +86,7 @@ impl Cable {
         let n = self.positions().len();
         let mut residual = vec![0.0; n];
         let mut acceleration = self.state.phase.memory.acceleration.clone();
+        self.refresh_memory();
         let known = self.state.phase.memory.valid;
         let (mut equations, phase) = self.equations();
         if !known {

@@ -144,7 +144,7 @@ impl System {
 
     /// `y = M x`.
     pub fn multiply_mass(&self, x: &[f64], y: &mut [f64]) {
-        self.mass.multiply(x, y);
+        self.mass.multiply_at(self.level, x, y);
     }
 
     /// Adds `scale M` to the step matrix.
@@ -210,15 +210,12 @@ impl System {
             for (k, m) in (0..4).flat_map(|k| (0..4).map(move |m| (k, m))) {
                 let weight = -factor * weights[k] * weights[m];
                 // rows of coordinate k, columns of coordinate m; only one triangle of blocks is stored
-                let (block, transposed) = match (k / 2, m / 2) {
-                    (0, 0) => (&mut self.matrix.diag[e], false),
-                    (1, 1) => (&mut self.matrix.diag[e + 1], false),
-                    (1, 0) => (&mut self.matrix.lower[e], false),
-                    _ => (&mut self.matrix.lower[e], true),
+                let block = match (k / 2, m / 2) {
+                    (0, 0) => &mut self.matrix.diag[e],
+                    (1, 1) => &mut self.matrix.diag[e + 1],
+                    (1, 0) => &mut self.matrix.lower[e],
+                    _ => continue,
                 };
-                if transposed {
-                    continue;
-                }
                 for (r, c) in (0..3).flat_map(|r| (0..3).map(move |c| (r, c))) {
                     block.0[3 * (m % 2) + c][3 * (k % 2) + r] += weight * derivative[(r, c)];
                 }

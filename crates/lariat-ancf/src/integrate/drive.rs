@@ -1,7 +1,7 @@
 //! Choosing the steps: from one host step to the next, exactly.
 //!
 //! With a tolerance, a step h of a host step H is accepted if its estimated error is below `tolerance h/H` (error per unit
-//! step), so that the errors of a host step add up to the tolerance. The next h follows from the estimate's order p,
+//! step; a step shorter than H/1024 is allowed tolerance/1024), so that the errors of up to 1024 steps add up to the tolerance. The next h follows from the estimate's order p,
 //! `h (0.5 allowed/error)^(1/(p-1))`, within 1/5 and 3. What is left of the host step is split evenly once fewer than two steps
 //! remain, and the last step ends on the host's time to the bit. *Source.* Hairer & Wanner 1996, IV.8.
 //!
@@ -60,7 +60,7 @@ pub fn advance(
     let stepper = method.stepper();
     let one_step = stepper.one_step();
     scratch.resize(system.size(), one_step.stages());
-    prepare(system, phase)?;
+    prepare(system, phase, matches!(stepper, Stepper::Alpha(_)))?;
     let end = phase.time + horizon;
     let tolerance = match control {
         StepControl::Tolerance(tolerance) => Some(tolerance),
@@ -69,6 +69,10 @@ pub fn advance(
     let order = method.properties().estimate_order.unwrap_or(2);
     let regular = regular_step(system, &stepper, control, horizon, phase.memory.step);
     check_stability(system, &stepper, regular, phase.time)?;
+    if regular < SHORTEST * horizon && tolerance.is_none() {
+        let failure = StepFailure::TooShort { step: regular, least: SHORTEST * horizon };
+        return Err(Refusal { time: phase.time, step: regular, failure });
+    }
     let mut proposal = regular;
     let mut done = 0.0;
     while done < horizon {
@@ -77,7 +81,11 @@ pub fn advance(
         let outcome = one_step.step(system, phase, h, newton, scratch).and_then(|estimate| {
             finite(&scratch.next.q, "position")?;
             finite(&scratch.next.v, "velocity")?;
-            Ok(estimate)
+            finite(&scratch.next.memory.acceleration, "acceleration")?;
+            match estimate {
+                Some(e) if !e.is_finite() => Err(StepFailure::NotFinite { what: "error estimate", node: 0 }),
+                _ => Ok(estimate),
+            }
         });
         let refuse = |failure, time| Err(Refusal { time, step: h, failure });
         match (outcome, tolerance) {
@@ -91,7 +99,7 @@ pub fn advance(
             }
             (Ok(Some(estimate)), Some(tolerance)) => {
                 let allowed = tolerance * (h / horizon).max(LEAST_SHARE);
-                let factor = (SAFETY * allowed / estimate.max(1e-300)).powf(1.0 / f64::from(order - 1)).clamp(0.2, 3.0);
+                let factor = root(SAFETY * allowed / estimate.max(1e-300), order - 1).clamp(0.2, 3.0);
                 if estimate > allowed {
                     counts.rejected += 1;
                     proposal = h * factor.min(0.9);
@@ -105,7 +113,7 @@ pub fn advance(
             }
             _ => proposal = (2.0 * proposal).min(regular),
         }
-        accept(phase, scratch);
+        accept(phase, scratch, matches!(stepper, Stepper::Alpha(_)));
         counts.steps += 1;
         done += h;
         phase.time = end - (horizon - done);
@@ -119,7 +127,7 @@ pub fn advance(
 }
 
 /// Makes the phase consistent: prescribed coordinates in place, acceleration known.
-fn prepare(system: &mut dyn Dynamics, phase: &mut Phase) -> Result<(), Refusal> {
+fn prepare(system: &mut dyn Dynamics, phase: &mut Phase, algorithmic: bool) -> Result<(), Refusal> {
     if phase.memory.valid {
         return Ok(());
     }
@@ -131,7 +139,10 @@ fn prepare(system: &mut dyn Dynamics, phase: &mut Phase) -> Result<(), Refusal> 
         step: 0.0,
         failure,
     })?;
-    phase.memory.algorithmic.clone_from(&phase.memory.acceleration);
+    phase.memory.algorithmic.clear();
+    if algorithmic {
+        phase.memory.algorithmic.extend_from_slice(&phase.memory.acceleration);
+    }
     phase.memory.valid = true;
     Ok(())
 }
@@ -175,11 +186,30 @@ fn fit(proposal: f64, left: f64, even: bool) -> (f64, bool) {
     }
 }
 
-fn accept(phase: &mut Phase, scratch: &mut Scratch) {
+/// Takes over the step in `scratch`; only generalised-alpha has algorithmic accelerations.
+fn accept(phase: &mut Phase, scratch: &mut Scratch, algorithmic: bool) {
     core::mem::swap(&mut phase.q, &mut scratch.next.q);
     core::mem::swap(&mut phase.v, &mut scratch.next.v);
     core::mem::swap(&mut phase.memory.acceleration, &mut scratch.next.memory.acceleration);
-    core::mem::swap(&mut phase.memory.algorithmic, &mut scratch.next.memory.algorithmic);
+    if algorithmic {
+        core::mem::swap(&mut phase.memory.algorithmic, &mut scratch.next.memory.algorithmic);
+    }
+}
+
+/// The `degree`-th root, 1 to 3, by basic arithmetic: a library's `powf` may give other bits on another processor.
+fn root(x: f64, degree: u32) -> f64 {
+    match degree {
+        1 => x,
+        2 => x.sqrt(),
+        _ => {
+            let x = x.clamp(1e-12, 1e12);
+            let mut y = if x > 1.0 { x.sqrt() } else { 1.0 };
+            for _ in 0..60 {
+                y = (2.0 * y + x / (y * y)) / 3.0;
+            }
+            y
+        }
+    }
 }
 
 fn finite(x: &[f64], what: &'static str) -> Result<(), StepFailure> {

@@ -46,6 +46,9 @@ pub struct Memory {
     pub algorithmic: Vec<f64>,
     /// Whether the accelerations belong to the present state.
     pub valid: bool,
+    /// Which state of the system's description they belong to: a change of supports, loads or method makes another.
+    #[serde(default)]
+    pub revision: u64,
     /// Length of the next step in s as error control proposes it; 0 = no proposal.
     pub step: f64,
 }
@@ -66,14 +69,38 @@ pub struct Phase {
 impl Phase {
     /// Copies `other` into the buffers that are there; the derived `clone_from` would allocate new ones.
     pub(crate) fn copy_from(&mut self, other: &Phase) {
-        let Phase { time, q, v, memory: Memory { acceleration, algorithmic, valid, step } } = other;
+        let Phase { time, q, v, memory: Memory { acceleration, algorithmic, valid, step, revision } } = other;
         self.time = *time;
         self.q.clone_from(q);
         self.v.clone_from(v);
+        self.memory.revision = *revision;
         self.memory.acceleration.clone_from(acceleration);
         self.memory.algorithmic.clone_from(algorithmic);
         self.memory.valid = *valid;
         self.memory.step = *step;
+    }
+}
+
+impl Phase {
+    /// Refuses a phase that is not one of `size` coordinates, or not finite; says why.
+    pub(crate) fn check(&self, size: usize) -> Result<(), String> {
+        let memory = &self.memory;
+        let lengths = [self.q.len(), self.v.len()];
+        if lengths.iter().any(|&n| n != size) {
+            return Err(format!("a state of {lengths:?} coordinates does not fit {size}"));
+        }
+        let fits = |v: &Vec<f64>| v.is_empty() || v.len() == size;
+        if memory.valid && memory.acceleration.len() != size
+            || !fits(&memory.acceleration)
+            || !fits(&memory.algorithmic)
+        {
+            return Err("a state whose accelerations do not fit its coordinates".to_string());
+        }
+        let all = [&self.q, &self.v, &memory.acceleration, &memory.algorithmic];
+        if !all.into_iter().flatten().chain([&self.time, &memory.step]).all(|x| x.is_finite()) || memory.step < 0.0 {
+            return Err("a state that is not finite".to_string());
+        }
+        Ok(())
     }
 }
 

@@ -30,7 +30,7 @@ mod workspace;
 pub use body::RigidBody;
 pub use impedance::Impedance;
 
-use crate::cable::{At, Cable};
+use crate::cable::{At, Cable, SHORTEST_STEP};
 use crate::error::{Error, require, require_finite};
 use crate::integrate::drive::{self, Counts};
 use crate::integrate::{Integrator, Phase, Scratch};
@@ -80,7 +80,8 @@ impl Island {
         integrator: Integrator,
         dt: f64,
     ) -> Result<(), Error> {
-        require("dt (s)", dt, dt >= 0.0, ">= 0")?;
+        require("dt (s)", dt, dt == 0.0 || dt >= SHORTEST_STEP, "0, or >= 1e-100")?;
+        let integrator = integrator.checked()?;
         check(cables, bodies, pins)?;
         if dt == 0.0 {
             return Ok(());
@@ -148,6 +149,11 @@ fn check(cables: &[&mut Cable], bodies: &[RigidBody], pins: &[Pin]) -> Result<()
     };
     if cables.is_empty() {
         return out_of_range("number of cables in an island", 0, 0);
+    }
+    let time = cables[0].time();
+    if let Some(other) = cables.iter().find(|c| c.time() != time) {
+        let reason = format!("is at t = {} s, another cable of its island at {time} s", other.time());
+        return Err(Error::InvalidShape { cable: other.name().to_string(), reason });
     }
     for (i, pin) in pins.iter().enumerate() {
         if pin.cable >= cables.len() {

@@ -150,11 +150,13 @@ impl Dynamics for Work<'_, '_> {
             k[at + 3..at + 6].copy_from_slice(k0.as_slice());
         }
         self.follow_acceleration(time, q, v, k);
-        let mut rhs = core::mem::take(&mut self.workspace.rhs);
         self.factor_mass(q, v)?;
-        self.cable_rows(time, 1.0, q, k, &mut rhs, false)?;
-        self.body_rows(1.0, q, v, k, &mut rhs);
-        self.solve_rows(true, q, v, &mut rhs);
+        let mut rhs = core::mem::take(&mut self.workspace.rhs);
+        let rows = self.cable_rows(time, 1.0, q, k, &mut rhs, false);
+        if rows.is_ok() {
+            self.body_rows(1.0, q, v, k, &mut rhs);
+            self.solve_rows(true, q, v, &mut rhs);
+        }
         for i in 0..self.workspace.bodies_at {
             k[i] += rhs[i];
         }
@@ -167,6 +169,7 @@ impl Dynamics for Work<'_, '_> {
             }
         }
         self.workspace.rhs = rhs;
+        rows?;
         match k.iter().position(|x| !x.is_finite()) {
             None => Ok(()),
             Some(i) => Err(StepFailure::NotFinite { what: "acceleration", node: i / 6 }),

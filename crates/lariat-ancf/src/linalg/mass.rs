@@ -39,11 +39,19 @@ impl MassMatrix {
     /// # Panics
     /// If a length does not match.
     pub fn multiply(&self, x: &[f64], y: &mut [f64]) {
+        self.multiply_at(Level::new(), x, y);
+    }
+
+    /// [`multiply`](Self::multiply) with the instructions of `level`.
+    ///
+    /// # Panics
+    /// If a length does not match.
+    pub fn multiply_at(&self, level: Level, x: &[f64], y: &mut [f64]) {
         let n = self.nodes();
         assert_eq!(self.lower.len(), n.saturating_sub(1), "number of lower blocks");
         assert_eq!(x.len(), 6 * n, "length of x");
         assert_eq!(y.len(), 6 * n, "length of y");
-        dispatch!(Level::new(), simd => multiply(simd, self, x, y));
+        dispatch!(level, simd => multiply(simd, self, x, y));
     }
 }
 

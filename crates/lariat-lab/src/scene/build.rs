@@ -39,7 +39,13 @@ impl Scene {
     pub fn add_loads(&self, cable: &mut Cable, index: usize, ramped: bool, at_once: bool) -> Result<(), Error> {
         for load in self.loads.iter().filter(|l| l.cable == index && (l.ramp > 0.0) == ramped) {
             let ramp = if at_once { 0.0 } else { load.ramp };
-            cable.add_load(PointLoad { arc_length: load.arc_length, force: load.force, moment: load.moment, ramp })?;
+            cable.add_load(PointLoad {
+                arc_length: load.arc_length,
+                force: load.force,
+                moment: load.moment,
+                ramp,
+                start: 0.0,
+            })?;
         }
         Ok(())
     }

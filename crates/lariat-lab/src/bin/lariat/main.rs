@@ -24,7 +24,7 @@ struct Cli {
 
 #[derive(Subcommand)]
 enum Command {
-    /// Run a scene: writes DIR/summary.json and DIR/probes/*.csv
+    /// Run a scene: writes DIR/summary.json and DIR/probes/*.csv, in place of all that are there
     Run(SceneArguments),
     /// Find the static equilibrium of a scene: the same files, at t = 0
     Static(SceneArguments),
@@ -120,9 +120,13 @@ fn describe(summary: &Summary, arguments: &SceneArguments) -> String {
 }
 
 fn measure_table1(csv: Option<PathBuf>) -> Result<String, Error> {
+    // a file that cannot be written is known before the measurement, not after
+    let failed = |path: &PathBuf, source| Error::Output { path: path.clone(), source };
+    let file =
+        csv.as_ref().map(|path| std::fs::File::create(path).map_err(|source| failed(path, source))).transpose()?;
     let table = table1::measure()?;
-    if let Some(path) = csv {
-        std::fs::write(&path, table.to_csv()).map_err(|source| Error::Output { path, source })?;
+    if let (Some(path), Some(mut file)) = (&csv, file) {
+        file.write_all(table.to_csv().as_bytes()).map_err(|source| failed(path, source))?;
     }
     Ok(table.to_text())
 }
