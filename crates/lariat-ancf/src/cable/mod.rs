@@ -24,6 +24,7 @@ use crate::rule::Rule;
 use crate::support::{Motion, SlopeSupport, Support};
 use builder::CableBuilder;
 pub(crate) use equations::Equations;
+pub(crate) use layout::along_polyline;
 use nalgebra::Vector3;
 pub(crate) use projection::{project_matrix, project_vector};
 use serde::{Deserialize, Serialize};
