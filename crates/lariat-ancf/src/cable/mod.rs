@@ -23,6 +23,7 @@ use crate::integrate::{Integrator, Phase, Scratch};
 use crate::rule::Rule;
 use builder::CableBuilder;
 pub(crate) use equations::Equations;
+pub(crate) use layout::along_polyline;
 use nalgebra::Vector3;
 pub(crate) use projection::{project_matrix, project_vector};
 use serde::{Deserialize, Serialize};

@@ -1,0 +1,34 @@
+//! What the iteration lowers: the potential energy, and the work of moments over a step.
+
+use crate::cable::{Equations, Model};
+use crate::element::shape;
+use crate::load::PointLoad;
+use nalgebra::Vector3;
+
+/// Work in J of the full moments while the tangents at their points turn from `from` to `to`: moment times angle
+/// about its axis.
+pub(super) fn moment_work(model: &Model, from: &[f64], to: &[f64]) -> f64 {
+    let turn = |load: &PointLoad| {
+        let size = load.moment.norm();
+        if size == 0.0 {
+            return 0.0;
+        }
+        let axis = load.moment / size;
+        let (e, xi) = model.locate(load.arc_length);
+        let weights = shape::slope(xi, model.elements[e].length);
+        let normal = |q: &[f64]| {
+            let n = &q[6 * e..6 * e + 12];
+            let t: Vector3<f64> = (0..4).map(|k| weights[k] * Vector3::from_column_slice(&n[3 * k..3 * k + 3])).sum();
+            t - axis * axis.dot(&t)
+        };
+        let (a, b) = (normal(from), normal(to));
+        size * axis.dot(&a.cross(&b)).atan2(a.dot(&b))
+    };
+    model.loads.iter().map(turn).sum()
+}
+
+/// Potential energy in J, forces at a share `load`.
+pub(super) fn potential(equations: &Equations<'_>, load: f64, q: &[f64]) -> f64 {
+    let (axial, bending) = equations.system.elements.energy(q);
+    axial + bending - equations.system.gravity_work(q) - equations.system.load_work(equations.model, load, q)
+}
