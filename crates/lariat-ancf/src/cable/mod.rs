@@ -73,7 +73,7 @@ pub struct Cable {
     /// State at the beginning of the host step, to go back to.
     saved: Phase,
     /// Counts changes of supports, loads and integrator.
-    revision: u64,
+    pub(crate) revision: u64,
 }
 
 /// A cable as it is serialised.

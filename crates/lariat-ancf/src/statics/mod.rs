@@ -25,7 +25,7 @@ mod relax;
 mod scale;
 
 use crate::cable::{Cable, Model};
-use crate::error::{Error, StepFailure};
+use crate::error::{Error, StepFailure, require};
 use crate::integrate::Dynamics;
 use crate::support::SlopeSupport;
 use nalgebra::Vector3;
@@ -100,7 +100,8 @@ impl Cable {
     /// zero.
     ///
     /// # Errors
-    /// [`Error::NoEquilibrium`] if none is found; the cable is then as before.
+    /// [`Error::NoEquilibrium`] if none is found; the cable is then as before. [`Error::InvalidShape`] for a cable with
+    /// [attached](Self::attach) nodes.
     pub fn equilibrium(&mut self) -> Result<EquilibriumReport, Error> {
         self.equilibrium_with(EquilibriumOptions::default())
     }
@@ -114,13 +115,15 @@ impl Cable {
             let reason = format!("at t = {} s {reason}", cable.time());
             Error::NoEquilibrium { cable: cable.name().to_string(), reason, residual, iterations }
         };
+        self.check_not_attached()?;
+        require("equilibrium tolerance", options.tolerance, options.tolerance > 0.0, "> 0")?;
         if let Some(resultant) = unheld(&self.model) {
             return Err(no_equilibrium(self, "nothing holds the cable in place".to_string(), resultant, 0));
         }
-        let before = self.state.clone();
+        let (before, revision) = (self.state.clone(), self.revision);
         let loads = self.model.loads.clone();
         // "time" runs from no load (0) to full load (1) while statics are solved
-        self.model.loads.iter_mut().for_each(|load| load.ramp = 1.0);
+        self.model.loads.iter_mut().for_each(|load| (load.ramp, load.start) = (1.0, 0.0));
         let mut budget = Budget { tolerance: options.tolerance, attempt: options.iterations, done: 0 };
         let outcome = self.attempts(&mut budget);
         self.model.loads = loads;
@@ -132,6 +135,7 @@ impl Cable {
             Err(failure) => {
                 let fold = folded::folded(&self.model, self.positions());
                 self.state = before;
+                self.revision = revision;
                 let reason = match (failure.cause, fold) {
                     (Some(cause), _) => cause.to_string(),
                     (None, Some(e)) => format!("no shape was found without folds: element {e} is folded on itself"),
