@@ -72,7 +72,7 @@ fn milliseconds(time: Option<f64>) -> String {
     time.map_or("not reached".to_string(), |t| format!("{t:.2} ms"))
 }
 
-fn summary(ladders: &[(String, bool, Vec<Row>)], mesh: &[pendulum::Mesh]) -> Outcome<String> {
+fn summary(ladders: &[(String, bool, Vec<Row>)], mesh: &[pendulum::Mesh], kernels: &kernels::Costs) -> Outcome<String> {
     let rows_of = |name: &str| ladders.iter().find(|(n, ..)| n == name).map(|(.., rows)| rows.as_slice());
     let default = lariat::Integrator::default().method.to_string();
     let rows = rows_of(&default).ok_or("the default integrator is in the table")?;
@@ -104,7 +104,6 @@ fn summary(ladders: &[(String, bool, Vec<Row>)], mesh: &[pendulum::Mesh]) -> Out
         enough.map_or("not reached".to_string(), |m| format!("{} ({:.1e} m)", m.elements, m.default_rule)),
         if enough.is_some_and(|m| m.elements <= 16) { "met" } else { "missed" },
     )?;
-    let kernels = kernels::default_rule()?;
     for (what, limit, time) in
         [("force + exact tangent", 120.0, kernels.tangent), ("whole implicit step", 250.0, kernels.step)]
     {
@@ -141,16 +140,22 @@ fn main() -> Outcome<()> {
          shares of what Exudyn took for the same errors, with its best settings, on the machine where they were set (107, 349, 603 ms); \
          it was not run again here. Kernels: default rule, 64 elements.\n\n"
     );
-    out += &summary(&ladders, &mesh)?;
+    let levels = kernels::by_level()?;
+    out += &summary(&ladders, &mesh, &levels.best)?;
     write!(out, "\n## Every integrator on the paper's pendulum\n\n{paper}, host step 0.01 s, 2 s.\n\n{proof}\n")?;
     out += &measure::table(ladders.iter().flat_map(|(.., rows)| rows));
-    out += &kernels::report()?;
+    out += &kernels::report(&levels)?;
     out += &pendulum::mesh_table(&mesh)?;
     out += &pendulum::others()?;
     out += &steel::report()?;
     print!("{out}");
     if let Some(readme) = readme {
-        readme::update(&readme, &machine, &ladders.iter().flat_map(|(.., rows)| rows).collect::<Vec<_>>())?;
+        readme::update(
+            &readme,
+            &machine,
+            &levels.table,
+            &ladders.iter().flat_map(|(.., rows)| rows).collect::<Vec<_>>(),
+        )?;
     }
     if let Some(file) = file {
         std::fs::write(file, out)?;

@@ -27,6 +27,7 @@
 //! | [`cable`] | mesh, state, builder, sampling, energies |
 //! | [`integrate`] | one file per time integrator, over one trait |
 //! | [`statics`] | static equilibrium |
+//! | [`island`] | cables and rigid bodies pinned together, as one system |
 //! | [`linalg`] | the block-tridiagonal solver |
 
 pub mod axial;

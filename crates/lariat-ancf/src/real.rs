@@ -5,8 +5,8 @@
 //!
 //! *Bits.* [`Real`] has no fused multiply-add and no horizontal sum, so each lane performs the same IEEE 754
 //! operations in the same order as the scalar kernel: the kernel chosen at run time changes the speed, never
-//! the result. A fused kernel would be about 10 % faster and give different bits on different machines, which
-//! lock-step networking cannot use; it was rejected for that.
+//! the result. *Rejected.* Fused multiply-add: faster, and different bits on different machines, which lock-step networking
+//! cannot use.
 
 use core::ops::{Add, Div, Mul, Neg, Sub};
 use fearless_simd::{ExtractToken, Simd, SimdBase, f64x8};

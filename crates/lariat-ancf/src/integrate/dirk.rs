@@ -10,7 +10,7 @@
 //!
 //! *Error.* `e = h sum (b_j - b^_j) V_j`, filtered by (M + c^2 K)^-1 M so that stiff components, which an L-stable method
 //! damps, do not drive the step (Shampine 1980; Hosea & Shampine 1996). *Validity.* Any stiffness for L-stable tableaus.
-//! *Rejected.* Tangents kept over the stages: Newton fails on thin cables and steps shrink, 2.5 to 3.5 times dearer.
+//! *Rejected.* Tangents kept blindly over the stages: Newton fails on thin cables and steps shrink.
 
 use super::dynamics::{Dynamics, Newton, Stage};
 use super::{OneStep, Phase, Scratch};

@@ -1,9 +1,10 @@
 //! ESDIRK4(3)6L\[2\]SA: five implicit stages, order 4, L-stable, stiffly accurate. The default.
 //!
-//! *Error.* Embedded order 3; on pendulums it sees 40 % of the error of the result, and is multiplied by 2.5. *Source.* Kennedy & Carpenter, Appl. Numer. Math. 44 (2003) 139 (the implicit half of
-//! ARK4(3)6L\[2\]SA). *Validity.* Any stiffness. On the paper's pendulum it costs less than order 3 below 5e-4 m,
-//! half of it at 1e-5 m; on steel at 1/60 s it is four times more accurate at less cost. *Rejected.* Rosenbrock methods (RODAS4,
-//! 5P): on stiff cables at 1/60 s they end, without a word, at a wrong answer; two-stage Gauss: Newton diverges on thin cables.
+//! *Error.* Embedded order 3, multiplied by 2.5: on pendulums it sees 40 % of the error of the result (`tests/tolerance.rs` holds
+//! the product to the error). *Source.* Kennedy & Carpenter, Appl. Numer. Math. 44 (2003) 139 (the implicit half of
+//! ARK4(3)6L\[2\]SA). *Validity.* Any stiffness. *Why the default.* Against ESDIRK3 it costs less below 5e-4 m on the paper's
+//! pendulum and is more accurate on steel at 1/60 s (docs/cost.md). *Rejected.* Rosenbrock methods (RODAS4, 5P): on stiff cables
+//! at 1/60 s they end, without a word, at a wrong answer; two-stage Gauss: Newton diverges on thin cables.
 
 use super::dirk::Tableau;
 

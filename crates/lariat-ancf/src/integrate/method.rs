@@ -141,7 +141,7 @@ impl Method {
                 implicit(2, 1, Some(3), "A-stable; linearly implicit, checked", "games, h <= 1/240 s (preset game)")
             }
             Method::GeneralisedAlpha { rho: 0.0, .. } => {
-                implicit(2, 1, Some(3), "L-stable", "stiff cables at coarse fixed steps; 2-3 % of energy lost")
+                implicit(2, 1, Some(3), "L-stable", "stiff cables at coarse fixed steps; loses energy")
             }
             Method::GeneralisedAlpha { .. } => {
                 implicit(2, 1, Some(3), "A-stable, damps above 1/h", "soft cables; spurious tension on steel at 1/60 s")

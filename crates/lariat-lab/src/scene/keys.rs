@@ -62,7 +62,10 @@ const ACCEPTED: &[(&str, &str)] = &[
         "cable.integrator.tolerance",
         "a finite number > 0, in m per host step, for a method with an error estimate (`lariat integrators`)",
     ),
-    ("cable.integrator.substeps", "a whole number >= 1, for each host step"),
+    (
+        "cable.integrator.substeps",
+        "a whole number >= 1, for each host step (a probe between two of them splits the host step)",
+    ),
     ("cable.integrator.max_step", "a finite number > 0, in s"),
     ("cable.integrator.stable", "a share of the stability limit in (0, 1], for an explicit method"),
     ("cable.velocity", VECTOR),

@@ -31,9 +31,8 @@ pub fn rules() -> String {
     text += "\nAny pair can be written as AXIAL-BENDING or { axial, bending }:\n\
              \x20 axial    projected | exact | mean | gauss-N (GN), N from 1 to 10\n\
              \x20 bending  none | t1 (mean of |r''|^2) | t2 | gauss-N (N), N from 1 to 10\n\
-             Order in the element length: 3 or better in the tip of the falling pendulum, 10 to 40 elements. Cost: the axial\n\
-             energy is a constant quadratic form of six numbers whatever the rule; Gauss bending costs in proportion to its\n\
-             points; `lariat table1` measures both.\n\n\
+             Cost: the axial energy is a constant quadratic form of six numbers whatever the rule; Gauss bending costs in\n\
+             proportion to its points; `lariat table1` measures both.\n\n\
              Refused, because modes of deformation cost no energy (allow_rank_deficient = true runs them all the same):\n";
     for (reason, names) in refused() {
         text += &format!("  {}\n    {reason}\n", names.join(", "));
