@@ -5,7 +5,8 @@
 mod common;
 
 use common::pendulum;
-use lariat_ancf::{Integrator, Method, PointLoad, StepControl, Vector3};
+use lariat_ancf::island::{Island, Pin, RigidBody};
+use lariat_ancf::{At, Integrator, Method, PointLoad, StepControl, Vector3};
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
 
@@ -66,6 +67,32 @@ fn a_warm_cable_steps_without_allocating() {
             let load = PointLoad::force(1.3, Vector3::new(0.0, -1.0, 0.5));
             let mut cable = pendulum(10).load(load).integrator(integrator).build().unwrap();
             let mut run = |steps: usize| (0..steps).for_each(|_| cable.step(1.0 / 240.0).unwrap());
+            run(10);
+            assert_eq!(allocations(|| run(100)), 0, "{method}, {control:?}");
+        }
+    }
+}
+
+/// The same for a cable and a body as one system.
+///
+/// *Source.* The contract.
+#[test]
+fn a_warm_island_steps_without_allocating() {
+    for method in Method::ALL {
+        for control in [StepControl::Substeps(40), StepControl::Tolerance(1e-4)] {
+            let integrator = Integrator { method, control };
+            if integrator.checked().is_err() {
+                continue;
+            }
+            let mut cable = pendulum(10).build().unwrap();
+            let node = cable.attach(At::End).unwrap();
+            let body = RigidBody::new(1.0, nalgebra::Matrix3::identity(), Vector3::new(2.0, -0.1, 0.0)).unwrap();
+            let pins = [Pin { cable: 0, node, body: 0, anchor: Vector3::new(0.0, 0.1, 0.0) }];
+            let (mut bodies, mut island) = ([body], Island::default());
+            let mut run = |steps: usize| {
+                (0..steps)
+                    .for_each(|_| island.step(&mut [&mut cable], &mut bodies, &pins, integrator, 1.0 / 240.0).unwrap())
+            };
             run(10);
             assert_eq!(allocations(|| run(100)), 0, "{method}, {control:?}");
         }

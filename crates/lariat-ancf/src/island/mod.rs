@@ -165,7 +165,10 @@ fn check(cables: &[&mut Cable], bodies: &[RigidBody], pins: &[Pin]) -> Result<()
         require_finite("anchor of a pin (m)", &pin.anchor)?;
         let cable = &cables[pin.cable];
         let invalid = |reason: String| Err(Error::InvalidShape { cable: cable.name().to_string(), reason });
-        if !cable.support(At::Node(pin.node))?.attached {
+        if pin.node >= cable.nodes() {
+            return out_of_range("node", pin.node, cable.nodes() - 1);
+        }
+        if !cable.model.support(pin.node).is_some_and(|s| s.attached) {
             return invalid(format!("node {} is pinned but not attached", pin.node));
         }
         if pins[..i].iter().any(|p| p.cable == pin.cable && p.node == pin.node) {

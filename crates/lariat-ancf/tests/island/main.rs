@@ -1,0 +1,13 @@
+//! Cables and rigid bodies as one system, without any engine: against independent solutions, conservation laws and statics.
+
+#[path = "../common/mod.rs"]
+mod common;
+
+mod bench;
+mod momentum;
+mod order;
+mod payload;
+mod pins;
+mod reference;
+mod shapes;
+mod spin;
