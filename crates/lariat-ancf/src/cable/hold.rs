@@ -99,6 +99,7 @@ impl Cable {
         require_finite("moment (N m)", &load.moment)?;
         require("ramp (s)", load.ramp, load.ramp >= 0.0, ">= 0")?;
         self.model.loads.push(PointLoad { start: self.time(), ..load });
+        self.system.locate_loads(&self.model);
         self.revise();
         Ok(())
     }
@@ -106,6 +107,7 @@ impl Cable {
     /// Removes all point loads.
     pub fn clear_loads(&mut self) {
         self.model.loads.clear();
+        self.system.locate_loads(&self.model);
         self.revise();
     }
 }

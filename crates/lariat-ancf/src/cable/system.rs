@@ -14,6 +14,14 @@ use crate::support::SlopeSupport;
 use fearless_simd::Level;
 use nalgebra::Vector3;
 
+/// Element of a point load, and the weights of its coordinates in position and slope there.
+#[derive(Clone, Copy, Debug)]
+struct Located {
+    element: usize,
+    position: [f64; 4],
+    slope: [f64; 4],
+}
+
 /// Where the mass matrix is solved.
 #[derive(Clone, Debug)]
 #[expect(clippy::large_enum_variant)] // one per cable
@@ -29,6 +37,8 @@ pub(crate) enum MassSolver {
 pub(crate) struct System {
     pub level: Level,
     pub elements: Elements,
+    /// By point load of the model.
+    located: Vec<Located>,
     mass: MassMatrix,
     pub mass_solver: MassSolver,
     gravity_force: Vec<f64>,
@@ -70,6 +80,7 @@ impl System {
             }
         }
         let mut system = System {
+            located: Vec::new(),
             level,
             elements: Elements::new(model),
             mass_solver: MassSolver::Scalar(MassFactorisation::default()),
@@ -87,8 +98,19 @@ impl System {
                 least.min(model.length() * e.length * e.section.mass_per_length / e.section.axial_stiffness)
             }),
         };
+        system.locate_loads(model);
         system.factor_mass(model)?;
         Ok(system)
+    }
+
+    /// Finds the elements of the point loads.
+    pub fn locate_loads(&mut self, model: &Model) {
+        self.located.clear();
+        self.located.extend(model.loads.iter().map(|load| {
+            let (element, xi) = model.locate(load.arc_length);
+            let length = model.elements[element].length;
+            Located { element, position: shape::position(xi, length), slope: shape::slope(xi, length) }
+        }));
     }
 
     /// Factors the mass matrix with the supports in place.
@@ -181,13 +203,11 @@ impl System {
         for (out, g) in out.iter_mut().zip(&self.gravity_force) {
             *out += scale * g;
         }
-        for load in &model.loads {
+        for (load, &Located { element: e, position, slope: weights }) in model.loads.iter().zip(&self.located) {
             diagnostics.load_evaluations += 1;
             let factor = scale * load.factor(time);
-            let (e, xi) = model.locate(load.arc_length);
-            let length = model.elements[e].length;
             let n = &mut out[6 * e..6 * e + 12];
-            for (k, weight) in shape::position(xi, length).into_iter().enumerate() {
+            for (k, weight) in position.into_iter().enumerate() {
                 for x in 0..3 {
                     n[3 * k + x] += factor * weight * load.force[x];
                 }
@@ -195,7 +215,6 @@ impl System {
             if load.moment == Vector3::zeros() {
                 continue;
             }
-            let weights = shape::slope(xi, length);
             let slope: Vector3<f64> =
                 (0..4).map(|k| weights[k] * Vector3::from_column_slice(&q[6 * e + 3 * k..6 * e + 3 * k + 3])).sum();
             let (force, derivative) = moment_on_slope(&load.moment, &slope);
