@@ -1,0 +1,60 @@
+//! A winch lifts a box from the ground: from slack to taut to hanging.
+
+use super::bench::{add_cube, cable, damping, gap, soft, tension, wire};
+use lariat_rapier::CableSet;
+use lariat_rapier::lariat_ancf::{At, Section};
+use lariat_rapier::rapier::prelude::*;
+
+fn hoist(section: Section) {
+    let mut world = PhysicsWorld::new();
+    let ground = RigidBodyBuilder::fixed().translation(Vector::new(0.0, -0.5, 0.0));
+    world.insert(ground, ColliderBuilder::cuboid(5.0, 0.5, 5.0));
+    let load = add_cube(&mut world, 10.0, 0.1, [0.0, 0.1, 0.0]);
+    let winch = world.insert_body(RigidBodyBuilder::kinematic_velocity_based().translation(Vector::new(0.0, 2.1, 0.0)));
+    let mut set = CableSet::new();
+    let builder = cable([0.0, 2.1, 0.0], [0.0, 0.2, 0.0], section).length(1.92).integrator(damping());
+    let rope = set.insert(builder.build().unwrap());
+    set.attach(&world, rope, At::Start, winch, Vector::ZERO).unwrap();
+    set.attach(&world, rope, At::End, load, Vector::new(0.0, 0.1, 0.0)).unwrap();
+    let smooth = |t: f32| t.clamp(0.0, 1.0).powi(2) * (3.0 - 2.0 * t.clamp(0.0, 1.0));
+    let (mut jitter, mut widest, mut held) = (0.0f32, 0.0f64, Vec::new());
+    for k in 0..1440 {
+        let time = k as f32 / 60.0;
+        // 1 cm/s from 2 s on, until the rope is taut and the box in the air; 20 cm/s from 7 s on, none from 9 s on
+        let speed = 0.01 * smooth(time - 2.0) + 0.19 * smooth(time - 7.0) - 0.2 * smooth(time - 9.0);
+        world.bodies[winch].set_linvel(Vector::new(0.0, speed, 0.0), true);
+        set.step(&mut world).unwrap();
+        widest = widest.max(gap(&set));
+        if (1.0..2.0).contains(&time) {
+            jitter = jitter.max(world.bodies[load].linvel().length());
+        }
+        if time > 23.0 {
+            held.push(tension(&set, rope, 1.92));
+        }
+    }
+    let (low, high) = held.iter().fold((f64::MAX, f64::MIN), |a, x| (a.0.min(*x), a.1.max(*x)));
+    assert!(jitter < 1e-3, "before lift-off: {jitter:.1e} m/s");
+    assert!(low > 98.1 * 0.995 && high < 98.1 * 1.005, "{low} to {high} N");
+    assert!(widest < 1e-3, "{widest:.1e} m");
+    let lift = f64::from(world.bodies[load].translation().y) - 0.1;
+    let winch = f64::from(world.bodies[winch].translation().y) - 2.1;
+    let stretch = 1.92 * 9.81 * (10.0 + 0.5 * 1.92 * section.mass_per_length) / section.axial_stiffness;
+    assert!((lift - (winch - 0.02 - stretch)).abs() < 1e-4, "{lift} m, winch {winch} m");
+}
+
+/// A box of 10 kg on the ground, its rope 2 cm slack; the winch takes up the slack at 1 cm/s, lifts at 20 cm/s and stops. At rest
+/// on the ground nothing moves; hanging, the rope carries the weight, and the box is as high as winch, slack and stretch say.
+///
+/// *Source.* 98.10 N; EA of the rope.
+#[test]
+fn a_box_is_lifted_from_the_ground_by_a_soft_rope() {
+    hoist(soft());
+}
+
+/// The same with a steel wire of 3 mm.
+///
+/// *Source.* As above.
+#[test]
+fn a_box_is_lifted_from_the_ground_by_a_steel_wire() {
+    hoist(wire());
+}

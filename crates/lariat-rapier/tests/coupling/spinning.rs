@@ -1,0 +1,126 @@
+//! Free flight: momenta that Rapier's steps must not touch.
+
+use super::bench::{cable, gap, soft, tension, v, weightless, wire};
+use lariat_rapier::CableSet;
+use lariat_rapier::lariat_ancf::{At, Cable, Section, Vector3};
+use lariat_rapier::rapier::prelude::*;
+
+const SPIN: f64 = 5.0;
+/// Distance of the anchors from the centres of the balls in m.
+const ARM: f64 = 0.1;
+
+/// Stretch as a function of arc length of a cable of Green-strain material spinning in equilibrium between two balls: places
+/// from the centre of rotation, tension, by shooting on the place of its start.
+struct Steady {
+    start: f64,
+    places: Vec<(f64, f64)>,
+    /// By node, tension.
+    tension: Vec<f64>,
+}
+
+/// `N = EA (f^2 - 1)/2 f`: the stretch f at a tension.
+fn stretch(n: f64, ea: f64) -> f64 {
+    let mut f = 1.0 + n / ea;
+    for _ in 0..50 {
+        f -= (0.5 * (f * f - 1.0) * f - n / ea) / (1.5 * f * f - 0.5);
+    }
+    f
+}
+
+impl Steady {
+    /// The cable of `length` (m) between balls of masses `m` (kg); x' = f(N), N' = -mu w^2 x with Runge-Kutta steps.
+    fn solve(section: Section, length: f64, m: [f64; 2], nodes: usize) -> Steady {
+        let (ea, mu) = (section.axial_stiffness, section.mass_per_length);
+        let shoot = |start: f64| {
+            // the first ball, at start - ARM < 0, is pulled inwards
+            let (mut x, mut n) = (start, -m[0] * SPIN * SPIN * (start - ARM));
+            let (fine, mut places, mut tensions) = (200, vec![], vec![]);
+            let h = length / ((nodes - 1) * fine) as f64;
+            let rate = |x: f64, n: f64| (stretch(n, ea), -mu * SPIN * SPIN * x);
+            for k in 0..=(nodes - 1) * fine {
+                if k % fine == 0 {
+                    places.push((x, stretch(n, ea)));
+                    tensions.push(n);
+                }
+                if k < (nodes - 1) * fine {
+                    let a = rate(x, n);
+                    let b = rate(x + 0.5 * h * a.0, n + 0.5 * h * a.1);
+                    x += h * b.0;
+                    n += h * b.1;
+                }
+            }
+            let missing = n - m[1] * SPIN * SPIN * (x + ARM);
+            (missing, places, tensions)
+        };
+        let (mut low, mut high) = (-length, 0.0);
+        for _ in 0..100 {
+            let middle = 0.5 * (low + high);
+            if shoot(middle).0 > 0.0 { low = middle } else { high = middle }
+        }
+        let (_, places, tension) = shoot(low);
+        Steady { start: low, places, tension }
+    }
+}
+
+/// Balls of 1 kg and 10 kg on a cable of 1.8 m (soft; steel wire), spinning at 5 rad/s in space for 10 s, started in their steady state: linear
+/// and angular momentum stay, and at every node at every frame the tension is the analytic one.
+///
+/// *Source.* Conservation laws; [`Steady`], the rotating cable's own equilibrium.
+#[test]
+fn a_spinning_dumbbell_keeps_its_momenta_and_its_tension() {
+    for section in [soft(), wire()] {
+        let steady = Steady::solve(section, 1.8, [1.0, 10.0], 11);
+        let mut world = weightless();
+        let ends = [steady.start - ARM, steady.places[10].0 + ARM];
+        let balls = [(1.0, ends[0]), (10.0, ends[1])].map(|(mass, x)| {
+            let body = RigidBodyBuilder::dynamic()
+                .translation(Vector::new(x as f32, 0.0, 0.0))
+                .linvel(Vector::new(0.0, (SPIN * x) as f32, 0.0))
+                .angvel(Vector::new(0.0, 0.0, SPIN as f32));
+            world.insert(body, ColliderBuilder::ball(0.1).mass(mass)).0
+        });
+        let builder =
+            cable([steady.start, 0.0, 0.0], [steady.start + 1.8, 0.0, 0.0], section).gravity(Vector3::zeros());
+        let mut sling: Cable = builder.build().unwrap();
+        let (q, rates): (Vec<_>, Vec<_>) = steady
+            .places
+            .iter()
+            .map(|(x, f)| ([*x, 0.0, 0.0, *f, 0.0, 0.0], [0.0, SPIN * x, 0.0, 0.0, SPIN * f, 0.0]))
+            .unzip();
+        sling.set_coordinates(&q.concat(), &rates.concat()).unwrap();
+        let mut set = CableSet::new();
+        let sling = set.insert(sling);
+        set.attach(&world, sling, At::Start, balls[0], Vector::new(0.1, 0.0, 0.0)).unwrap();
+        set.attach(&world, sling, At::End, balls[1], Vector::new(-0.1, 0.0, 0.0)).unwrap();
+        let momenta = |world: &PhysicsWorld, set: &CableSet| {
+            let m = set.get(sling).unwrap().momentum();
+            let (mut p, mut l) = (m.linear, m.angular);
+            for ball in balls {
+                let b = &world.bodies[ball];
+                let mass = f64::from(b.mass());
+                let push = v(b.linvel()) * mass;
+                p += push;
+                l += v(b.center_of_mass()).cross(&push) + v(b.angvel()) * (0.4 * mass * 0.01);
+            }
+            (p, l)
+        };
+        let (p0, l0) = momenta(&world, &set);
+        let (mut worst, mut widest, mut dp) = (0.0f64, 0.0f64, 0.0f64);
+        for _ in 0..600 {
+            set.step(&mut world).unwrap();
+            widest = widest.max(gap(&set));
+            dp = dp.max((momenta(&world, &set).0 - p0).norm());
+            for (node, n) in steady.tension.iter().enumerate() {
+                worst = worst.max((tension(&set, sling, 0.18 * node as f64) / n - 1.0).abs());
+            }
+        }
+        let (p, l) = momenta(&world, &set);
+        let turned = (l - l0).norm() / l0.norm();
+        let case = format!(
+            "EA {:.1e} N: dp {dp:.1e} kg m/s, dL/L {turned:.1e}, tension {worst:.1e}, gap {widest:.1e} m",
+            section.axial_stiffness
+        );
+        println!("{case}");
+        assert!(dp < 1e-5 && (p - p0).norm() < 1e-5 && turned < 1e-5 && worst < 5e-3 && widest < 1e-6, "{case}");
+    }
+}
