@@ -43,15 +43,13 @@ fn jam(section: Section, mass: f32) {
 }
 
 /// A light and a heavy cube jammed between posts; the winch stops at 5 kN: the tension stays, the pin is closed, and nothing
-/// moves. A soft rope, a steel wire of 3 mm, a steel bar.
+/// moves. A soft rope, a steel wire of 3 mm; a steel bar with the heavy one.
 ///
 /// *Source.* Statics: the tension is what the winch was stopped at; 2 % for the contact to settle.
 #[test]
 fn a_jammed_cube_holds_what_the_winch_pulls() {
-    for section in [soft(), wire(), steel()] {
-        for mass in [1.0, 100.0] {
-            jam(section, mass);
-        }
+    for (section, mass) in [(soft(), 1.0), (soft(), 100.0), (wire(), 1.0), (wire(), 100.0), (steel(), 100.0)] {
+        jam(section, mass);
     }
 }
 
