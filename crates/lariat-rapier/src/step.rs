@@ -58,7 +58,7 @@ impl CableSet {
                 let pose = if k == steps { *to } else { crate::convert::to_pose(&place, &attitude) };
                 world.bodies[*handle].set_next_kinematic_position(pose);
             }
-            outcome = self.predict(world);
+            outcome = self.predict_part(world, steps);
             if outcome.is_err() {
                 break;
             }
@@ -78,12 +78,17 @@ impl CableSet {
     /// # Errors
     /// As [`step`](Self::step).
     pub fn predict(&mut self, world: &mut PhysicsWorld) -> Result<(), Error> {
+        self.predict_part(world, 1)
+    }
+
+    /// One of `parts` equal parts of a host step.
+    fn predict_part(&mut self, world: &mut PhysicsWorld, parts: u32) -> Result<(), Error> {
         let h = f64::from(world.integration_parameters.dt);
         self.end_lost_attachments(world)?;
         self.find_islands(world);
         self.move_ends(world, h)?;
         let mut islands = core::mem::take(&mut self.islands);
-        let outcome = islands.iter_mut().try_for_each(|island| self.predict_island(world, island, h));
+        let outcome = islands.iter_mut().try_for_each(|island| self.predict_island(world, island, h, parts));
         self.islands = islands;
         outcome
     }
@@ -148,8 +153,14 @@ impl CableSet {
         Ok(())
     }
 
-    fn predict_island(&mut self, world: &mut PhysicsWorld, island: &mut IslandStep, h: f64) -> Result<(), Error> {
-        let integrator = self.island_integrator(&island.cables);
+    fn predict_island(
+        &mut self,
+        world: &mut PhysicsWorld,
+        island: &mut IslandStep,
+        h: f64,
+        parts: u32,
+    ) -> Result<(), Error> {
+        let integrator = part_of(self.island_integrator(&island.cables), parts);
         let mut cables = pick(&mut self.cables, &island.cables);
         let time = cables[0].time();
         island.bodies.clear();
@@ -278,6 +289,16 @@ impl CableSet {
         };
         all().fold(first, |best, i| if rank(&i) < rank(&best) { i } else { best })
     }
+}
+
+/// What `integrator` promises for a host step, for one of its `parts`.
+fn part_of(integrator: Integrator, parts: u32) -> Integrator {
+    let control = match integrator.control {
+        StepControl::Tolerance(tolerance) => StepControl::Tolerance(tolerance / f64::from(parts)),
+        StepControl::Substeps(substeps) => StepControl::Substeps(substeps.div_ceil(parts)),
+        control => control,
+    };
+    Integrator { control, ..integrator }
 }
 
 /// The cables of an island, in its order (ascending indices).

@@ -66,8 +66,8 @@ fn the_error_falls_with_the_order_of_the_method() {
     }
 }
 
-/// One integration step per host step of 1/60 s: already within 1 mm (0.5 mm from order 3 on; 2 mm for a gram of steel's
-/// waves), whatever the masses and the stiffness.
+/// One integration step per host step of 1/60 s, whatever the masses and the stiffness: the pose (m and rad) is within 1e-3 with
+/// TR-BDF2, 2.1e-3 with ESDIRK3 (a cube of 80 g on steel; others 4e-4), 2e-4 with ESDIRK4.
 ///
 /// *Source.* The monolithic reference.
 #[test]
