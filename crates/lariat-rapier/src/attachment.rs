@@ -18,9 +18,7 @@ pub struct Attachment {
     /// Point of the body, in body axes from its origin, in m.
     pub(crate) anchor: Vector3<f64>,
     pub(crate) ledger: Option<Ledger>,
-    pub(crate) force: Vector3<f64>,
     pub(crate) gap: f64,
-    pub(crate) work: f64,
 }
 
 /// The heavy body and the joint through which a pinned body feels its cable within Rapier's step.
@@ -46,19 +44,9 @@ impl Attachment {
         self.body
     }
 
-    /// Force of the cable on the body at the end of the last step, in N, world axes.
-    pub fn force(&self) -> Vector3<f64> {
-        self.force
-    }
-
     /// Distance of node and anchor after the last step, in m.
     pub fn gap(&self) -> f64 {
         self.gap
-    }
-
-    /// Work that the cable did on the body since it was attached, in J.
-    pub fn work(&self) -> f64 {
-        self.work
     }
 }
 

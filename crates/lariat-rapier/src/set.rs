@@ -123,18 +123,8 @@ impl CableSet {
         if self.attachments().any(|(_, a)| a.cable == cable && a.node == node) {
             return Err(Error::AlreadyAttached { cable: name, node });
         }
-        let zero = lariat_ancf::Vector3::zeros();
         let anchor = vector(anchor);
-        self.attachments.push(Some(Attachment {
-            cable,
-            node,
-            body,
-            anchor,
-            ledger: None,
-            force: zero,
-            gap: 0.0,
-            work: 0.0,
-        }));
+        self.attachments.push(Some(Attachment { cable, node, body, anchor, ledger: None, gap: 0.0 }));
         Ok(AttachmentHandle(self.attachments.len() as u32 - 1))
     }
 
