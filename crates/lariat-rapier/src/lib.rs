@@ -54,8 +54,6 @@
 //!   ESDIRK4, hardly damps, and lets a steel wire of 3 mm ring by 70 N on it.
 //! - One solver iteration with one Rapier step per host step does not hold a 1 kg box in a jam. Either alone
 //!   is enough with generalised-alpha-0 (gap 1e-6 m); one iteration with ESDIRK4 opens gaps of 9 mm.
-//! - A velocity that a user or a collision gives to a body is the pin's at once: the cable's end follows without an impulse on
-//!   the body, and momentum changes by the share of the cable's mass at the pin (0.4 % for 5 kg on 0.4 kg/m).
 //! - Generalised-alpha begins anew in every Rapier step, and explicit methods see velocities late where bodies turn: both are of
 //!   order 1 here.
 //! - Kinematic bodies move by Rapier's single precision: far from the origin a slow winch moves in jumps of 2e-7 m at 2 m, 2 N of a

@@ -91,6 +91,9 @@ impl Island {
         gather(cables, bodies, phase);
         let mut counts = Counts::default();
         let mut system = Work { cables, bodies, pins, workspace };
+        if let Err(failure) = system.meet(phase) {
+            return Err(cables[0].refused(phase.time, 0.0, failure));
+        }
         let Integrator { method, control } = integrator;
         let outcome = drive::advance(&mut system, method, control, phase, dt, scratch, &mut counts);
         for cable in cables.iter_mut() {

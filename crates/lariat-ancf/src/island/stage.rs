@@ -252,16 +252,7 @@ impl Dynamics for Work<'_, '_> {
         }
         // attitudes at the start of the step are near enough for a filter
         let zero = core::mem::take(&mut self.workspace.zero);
-        for pin in 0..self.pins.len() {
-            let (_, rho) = self.lever(pin, &zero, &zero);
-            let passed = vector(&rhs[self.pin_at(pin)..]);
-            let torque = rho.cross(&passed);
-            let at = self.body_at(self.pins[pin].body);
-            for x in 0..3 {
-                rhs[at + x] += passed[x];
-                rhs[at + 3 + x] += torque[x];
-            }
-        }
+        self.pass_pinned_rows(&zero, &zero, &mut rhs);
         self.solve_rows(false, &zero, &zero, &mut rhs);
         error.copy_from_slice(&rhs);
         self.workspace.zero = zero;

@@ -8,6 +8,9 @@ use crate::error::StepFailure;
 use crate::integrate::{Dynamics, Phase};
 use nalgebra::{Matrix3, Vector3};
 
+/// Jumps of velocity at pins below this in m/s are rounding.
+const LEAST_JUMP: f64 = 1e-10;
+
 /// An island with its buffers: what the integrators see.
 pub(crate) struct Work<'a, 'b> {
     pub cables: &'a mut [&'b mut Cable],
@@ -79,10 +82,14 @@ impl Work<'_, '_> {
             rhs[at..at + 3].copy_from_slice((force * scale).as_slice());
             rhs[at + 3..at + 6].copy_from_slice((torque * scale).as_slice());
         }
+        self.pass_pinned_rows(q, v, rhs);
+    }
+
+    /// Adds the rows of pinned positions to those of their bodies, as force and moment.
+    pub(super) fn pass_pinned_rows(&self, q: &[f64], v: &[f64], rhs: &mut [f64]) {
         for pin in 0..self.pins.len() {
             let (_, rho) = self.lever(pin, q, v);
-            let row = self.pin_at(pin);
-            let passed = vector(&rhs[row..]);
+            let passed = vector(&rhs[self.pin_at(pin)..]);
             let at = self.body_at(self.pins[pin].body);
             let torque = rho.cross(&passed);
             for x in 0..3 {
@@ -90,6 +97,54 @@ impl Work<'_, '_> {
                 rhs[at + 3 + x] += torque[x];
             }
         }
+    }
+
+    /// Brings pinned nodes to the velocity of their bodies as an inelastic impact does: with the impulse that it takes on both
+    /// sides, so that momentum is kept when an engine, a user or a collision has changed a body's velocity.
+    pub(super) fn meet(&mut self, phase: &mut Phase) -> Result<(), StepFailure> {
+        let Phase { time, q, v, .. } = phase;
+        let mut jump = core::mem::take(&mut self.workspace.product);
+        jump.copy_from_slice(v);
+        self.prescribe(*time, q, v);
+        let mut largest = 0.0f64;
+        for (jump, v) in jump.iter_mut().zip(v.iter()) {
+            *jump -= v;
+        }
+        for (c, part) in self.workspace.cables.iter().enumerate() {
+            for node in 0..part.size / 6 {
+                let at = part.at + 6 * node;
+                let pinned = self.pins.iter().any(|p| p.cable == c && p.node == node);
+                jump[at + 3..at + 6].fill(0.0);
+                if pinned {
+                    largest = largest.max(vector(&jump[at..]).norm());
+                } else {
+                    jump[at..at + 3].fill(0.0);
+                }
+            }
+        }
+        let outcome = if largest > LEAST_JUMP { self.share_jump(&jump, q, v) } else { Ok(()) };
+        self.workspace.product = jump;
+        outcome?;
+        self.follow(*time, q, v);
+        Ok(())
+    }
+
+    fn share_jump(&mut self, jump: &[f64], q: &[f64], v: &mut [f64]) -> Result<(), StepFailure> {
+        self.factor_mass(q, v)?;
+        let mut rhs = core::mem::take(&mut self.workspace.rhs);
+        rhs.fill(0.0);
+        for (cable, part) in self.cables.iter().zip(&self.workspace.cables) {
+            let range = part.at..part.at + part.size;
+            cable.system.multiply_mass(&jump[range.clone()], &mut rhs[range]);
+        }
+        self.pass_pinned_rows(q, v, &mut rhs);
+        self.solve_rows(true, q, v, &mut rhs);
+        // the chart is at its origin: rates of the rotation vector are angular velocities
+        for (v, change) in v.iter_mut().zip(&rhs) {
+            *v += change;
+        }
+        self.workspace.rhs = rhs;
+        Ok(())
     }
 
     /// Factors the matrix of the bodies: masses, condensed cables, and the geometric stiffness of levers under `passed` forces.

@@ -59,8 +59,8 @@ fn three_bricks(integrator: Integrator) -> Scene {
         .pin(1, At::End, 2, Vector3::new(-0.1, 0.1, 0.0))
 }
 
-/// Relative changes of linear momentum, angular momentum and energy over 1 s at 1/60 s, from the first step on: that one gives
-/// the cables' ends, at rest at first, the velocity of their bodies.
+/// Relative changes of linear momentum, angular momentum and energy over 1 s at 1/60 s, from the first step on: in that one
+/// the cables, at rest at first, are struck by their bodies.
 fn changes(mut scene: Scene) -> (f64, f64, f64) {
     scene.run(1.0 / 60.0, 1);
     let ((p0, l0), e0) = (scene.momentum(), scene.energy());
@@ -72,7 +72,7 @@ fn changes(mut scene: Scene) -> (f64, f64, f64) {
 
 /// A dumbbell, and three tumbling bricks on two cables, 3D, pinned off their axes, one cable slack, for 1 s at 1/60 s: momenta
 /// and energy stay to what the integrator promises. With a tolerance of 1e-8 m momenta stay to rounding; TR-BDF2 damps waves, so
-/// its energy falls, and its momenta stay to its order; explicit methods see the bodies' velocities half a step late, so
+/// its energy falls (by 3.5 % here: the cables start at rest and are struck), and its momenta stay to its order; explicit methods see the bodies' velocities half a step late, so
 /// here they are of order 1, and small only because their steps are.
 ///
 /// *Source.* Conservation laws. Changes are relative to the angular momentum and the energy of the start.
@@ -82,7 +82,7 @@ fn free_systems_keep_their_momenta() {
     let cases = [
         (Integrator::tolerance(Method::Esdirk4, 1e-8).unwrap(), 1e-11, 1e-11, 1e-7),
         (Integrator::default(), 1e-9, 1e-7, 1e-4),
-        (Integrator { method: Method::TrBdf2, control: StepControl::MaxStep(1.0 / 240.0) }, 1e-5, 1e-4, 0.03),
+        (Integrator { method: Method::TrBdf2, control: StepControl::MaxStep(1.0 / 240.0) }, 1e-5, 1e-4, 0.05),
         (explicit(Method::Verlet, 0.5), 2e-5, 5e-5, 1e-4),
         (explicit(Method::Verlet, 0.25), 1e-5, 2.5e-5, 5e-5),
         (explicit(Method::Rkn6, 0.5), 1e-5, 2e-5, 5e-5),
@@ -127,4 +127,21 @@ fn a_turned_system_runs_the_same() {
             assert!(off < 1e-11 && spin < 1e-9, "{off:.1e} m, {spin:.1e} rad/s");
         }
     }
+}
+
+/// A body whose velocity is changed from outside (an engine's collision, a user) takes its cable along, and the cable's mass holds
+/// it back: what the system has after a step is what the change gave it, not more.
+///
+/// *Source.* Conservation of linear and angular momentum in an inelastic impact.
+#[test]
+fn a_struck_body_shares_its_momentum_with_its_cable() {
+    let mut scene = three_bricks(Integrator::tolerance(Method::Esdirk4, 1e-8).unwrap());
+    scene.run(1e-3, 1);
+    scene.bodies[0].velocity += Vector3::new(3.0, 1.0, -2.0);
+    scene.bodies[0].angular_velocity += Vector3::new(0.0, 2.0, 1.0);
+    let (linear, angular) = scene.momentum();
+    scene.run(1e-3, 1);
+    let (after, turned) = scene.momentum();
+    assert!((after - linear).norm() < 1e-9 * linear.norm(), "{linear} {after}");
+    assert!((turned - angular).norm() < 1e-7 * angular.norm(), "{angular} {turned}");
 }
