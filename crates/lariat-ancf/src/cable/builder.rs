@@ -173,8 +173,6 @@ impl CableBuilder {
         let invalid = |reason: String| Error::InvalidShape { cable: self.name.clone(), reason };
         self.points.iter().try_for_each(|p| require_finite("point (m)", p))?;
         require_finite("gravity (m/s^2)", &self.gravity)?;
-        require_finite("velocity (m/s)", &self.velocity)?;
-        require_finite("angular velocity (rad/s)", &self.angular_velocity)?;
         if self.points.len() < 2 {
             return Err(invalid(format!("needs at least 2 points, got {}", self.points.len())));
         }
@@ -230,9 +228,8 @@ impl CableBuilder {
         let mut state = State::default();
         for (r, t) in positions.iter().zip(&slopes) {
             state.phase.q.extend(r.iter().chain(t.iter()));
-            let v = self.velocity + self.angular_velocity.cross(&(r - positions[0]));
-            state.phase.v.extend(v.iter().chain(self.angular_velocity.cross(t).iter()));
         }
+        state.phase.v.resize(state.phase.q.len(), 0.0);
         let model = Model {
             name: self.name.clone(),
             elements,
@@ -253,7 +250,7 @@ impl CableBuilder {
                 Support { position: Some(Motion::fixed(positions[node])), slope, attached: false },
             )?;
         }
-        cable.settle_held();
+        cable.set_rigid_motion(self.velocity, self.angular_velocity)?;
         for load in self.loads {
             cable.add_load(load)?;
         }

@@ -4,6 +4,7 @@ use super::{At, Cable};
 use crate::error::{Error, require, require_finite};
 use crate::load::PointLoad;
 use crate::support::{Motion, SlopeSupport, Support};
+use nalgebra::Vector3;
 
 impl Cable {
     /// What holds a node.
@@ -75,13 +76,28 @@ impl Cable {
         self.set_support(at, Support::default())
     }
 
-    /// Puts held coordinates and velocities where their supports have them.
-    pub(crate) fn settle_held(&mut self) {
+    /// Gives the cable the velocity field of a rigid motion: `velocity` (m/s) of the start point, `angular_velocity` (rad/s) about it.
+    /// Held points keep the velocity of what holds them.
+    ///
+    /// # Errors
+    /// [`Error::InvalidValue`] for numbers that are not finite.
+    pub fn set_rigid_motion(&mut self, velocity: Vector3<f64>, angular_velocity: Vector3<f64>) -> Result<(), Error> {
+        require_finite("velocity (m/s)", &velocity)?;
+        require_finite("angular velocity (rad/s)", &angular_velocity)?;
+        let start = self.node_position(0);
         let phase = &mut self.state.phase;
-        for (node, support) in &self.model.supports {
-            let range = 6 * node..6 * node + 6;
-            support.prescribe(phase.time, &mut phase.q[range.clone()], &mut phase.v[range]);
+        for (q, v) in phase.q.chunks_exact(6).zip(phase.v.chunks_exact_mut(6)) {
+            let (r, t) = (Vector3::new(q[0], q[1], q[2]), Vector3::new(q[3], q[4], q[5]));
+            v[..3].copy_from_slice((velocity + angular_velocity.cross(&(r - start))).as_slice());
+            v[3..].copy_from_slice(angular_velocity.cross(&t).as_slice());
         }
+        for (node, support) in &self.model.supports {
+            // what is held is moved there by the next step; here only its velocity counts
+            let mut position = [0.0; 6];
+            support.prescribe(phase.time, &mut position, &mut phase.v[6 * node..6 * node + 6]);
+        }
+        self.disturb();
+        Ok(())
     }
 
     /// Point loads.

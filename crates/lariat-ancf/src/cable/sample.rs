@@ -13,6 +13,7 @@ use crate::error::Error;
 use crate::integrate::Dynamics;
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
+use std::sync::LazyLock;
 
 /// What a cable is like at one point.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -118,7 +119,8 @@ impl Cable {
 
 /// Green strain at xi, projected on linear functions: `((a.g - 1) + 12 (d.g) (xi - 1/2))/2`.
 fn projected_strain(g: &Six<f64>, xi: f64) -> f64 {
-    let (a, d) = (moment(|_| 1.0), moment(|x| x - 0.5));
+    static MOMENTS: LazyLock<[Six<f64>; 2]> = LazyLock::new(|| [moment(|_| 1.0), moment(|x| x - 0.5)]);
+    let [a, d] = &*MOMENTS;
     let dot = |x: &Six<f64>| (0..6).map(|i| x[i] * g[i]).sum::<f64>();
-    0.5 * ((dot(&a) - 1.0) + 12.0 * dot(&d) * (xi - 0.5))
+    0.5 * ((dot(a) - 1.0) + 12.0 * dot(d) * (xi - 0.5))
 }

@@ -1,8 +1,8 @@
 //! Choosing the steps: from one host step to the next, exactly.
 //!
 //! With a tolerance, a step h of a host step H is accepted if its estimated error is below `tolerance h/H` (error per unit
-//! step; a step shorter than H/1024 is allowed tolerance/1024), so that the errors of up to 1024 steps add up to the tolerance. The next h follows from the estimate's order p,
-//! `h (0.5 allowed/error)^(1/(p-1))`, within 1/5 and 3. What is left of the host step is split evenly once fewer than two steps
+//! step; a step shorter than H/1024 is allowed tolerance/1024), so that the errors of up to 1024 steps add up to the
+//! tolerance. The next h follows from the estimate's order p, `h (0.5 allowed/error)^(1/(p-1))`, within 1/5 and 3. What is left of the host step is split evenly once fewer than two steps
 //! remain, and the last step ends on the host's time to the bit. *Source.* Hairer & Wanner 1996, IV.8.
 //!
 //! A step that fails (Newton, a pivot, a number that is not finite) is retried at 1/4 of its length down to H/2^20; then the drive

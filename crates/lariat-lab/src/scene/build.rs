@@ -1,7 +1,7 @@
 //! From a checked scene to cables: mesh, supports, loads, start.
 
 use super::Scene;
-use lariat_ancf::{At, Cable, Error, Motion, PointLoad, SlopeSupport};
+use lariat_ancf::{At, Cable, Error, Motion, PointLoad};
 
 impl Scene {
     /// A cable at its drawn start, held by its attachments where it is drawn, without loads.
@@ -67,25 +67,9 @@ impl Scene {
     /// Gives a cable its initial rigid motion, with held points at rest.
     ///
     /// # Errors
-    /// As [`Cable::set_coordinates`].
+    /// As [`Cable::set_rigid_motion`].
     pub fn set_in_motion(&self, cable: &mut Cable, index: usize) -> Result<(), Error> {
         let scene = &self.cables[index];
-        let positions = cable.positions().to_vec();
-        let vector = |x: &[f64]| lariat_ancf::Vector3::new(x[0], x[1], x[2]);
-        let start = vector(&positions);
-        let mut velocities = Vec::with_capacity(positions.len());
-        for (node, q) in positions.chunks_exact(6).enumerate() {
-            let support = cable.support(At::Node(node))?;
-            let mut v = scene.velocity + scene.angular_velocity.cross(&(vector(q) - start));
-            let mut dt = scene.angular_velocity.cross(&vector(&q[3..]));
-            if support.position.is_some() {
-                v.fill(0.0);
-            }
-            if let SlopeSupport::Direction(d) = support.slope {
-                dt = d * d.dot(&dt);
-            }
-            velocities.extend(v.iter().chain(dt.iter()));
-        }
-        cable.set_coordinates(&positions, &velocities)
+        cable.set_rigid_motion(scene.velocity, scene.angular_velocity)
     }
 }
