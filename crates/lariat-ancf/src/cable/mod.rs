@@ -10,6 +10,7 @@ mod layout;
 pub mod linearise;
 mod model;
 mod projection;
+mod refine;
 pub mod sample;
 mod simd;
 mod system;

@@ -115,7 +115,7 @@ impl System {
 
     /// Factors the mass matrix with the supports in place.
     pub fn factor_mass(&mut self, model: &Model) -> Result<(), StepFailure> {
-        let directed = model.supports.iter().any(|(_, s)| matches!(s.slope, SlopeSupport::Direction(_)));
+        let directed = model.supports.iter().any(|(_, s)| s.slope.is_direction());
         self.mass_solver = if directed {
             self.matrix.clear();
             self.add_mass(1.0);
