@@ -133,7 +133,7 @@ impl Cable {
         Ok(node)
     }
 
-    /// Frees a node that was attached.
+    /// Frees a node that was attached: its position, and its tangent if that was clamped to the body.
     ///
     /// # Errors
     /// As [`node`](Self::node).
@@ -141,6 +141,7 @@ impl Cable {
         let node = self.node(at)?;
         let mut support = self.support(At::Node(node))?;
         support.attached = false;
+        support.position = None;
         if let SlopeSupport::Attached(_) = support.slope {
             support.slope = SlopeSupport::Free;
         }
