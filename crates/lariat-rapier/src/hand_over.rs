@@ -2,6 +2,7 @@
 
 use crate::body::{Exact, Remembered};
 use crate::convert::{rotation, to_vector, vector};
+use crate::impedance;
 use crate::islands::Given;
 use ::nalgebra::Vector3;
 use lariat_ancf::island::RigidBody;
@@ -13,6 +14,8 @@ use rapier::pipeline::PhysicsWorld;
 const LEARNING: f64 = 0.3;
 /// A body landed where predicted if it is within this many units of `Real`'s rounding.
 const ROUNDING: f64 = 32.0;
+/// ... and its velocities within this many times more: Rapier adds up forces that balance.
+const VELOCITY_ROUNDING: f64 = 8.0;
 
 /// Makes Rapier move the body uniformly from where it is to where `end` is, in `h` (s).
 pub(crate) fn give(
@@ -23,6 +26,7 @@ pub(crate) fn give(
     h: f64,
 ) -> Given {
     let gravity = world.gravity;
+    let alone = impedance::is_alone(world, handle);
     let body = &mut world.bodies[handle];
     let mass = end.mass as Real;
     let linvel = to_vector(&((end.position - vector(body.center_of_mass())) / h));
@@ -32,6 +36,7 @@ pub(crate) fn give(
     let given = Given {
         linvel,
         angvel,
+        alone,
         rounding: (weight + memory.force.norm() / end.mass) * h,
         own_linvel: body.linvel(),
         own_angvel: body.angvel(),
@@ -107,10 +112,11 @@ pub(crate) fn settle(
     let reach = vector(body.center_of_mass()).norm().max(1.0);
     let off = (vector(body.center_of_mass()) - end.position).norm();
     let attitude = (rotation(*body.rotation()).inverse() * end.rotation).angle();
+    let slow = epsilon * VELOCITY_ROUNDING;
     let landed = off <= epsilon * reach
         && attitude <= epsilon.max(1e-3 * f64::from(Real::EPSILON).sqrt()) * 4.0
-        && deviation.norm() <= epsilon * (before.norm() + given.rounding).max(1e-3)
-        && turn.norm() <= epsilon * spin_before.norm().max(1e-3);
+        && deviation.norm() <= slow * (before.norm() + given.rounding).max(1e-3)
+        && turn.norm() <= slow * spin_before.norm().max(1e-2);
 
     let still = (1.0 / (1.0 + h * f64::from(given.linear_damping)), 1.0 / (1.0 + h * f64::from(given.angular_damping)));
     let (velocity, spin) = if landed {
@@ -137,7 +143,7 @@ pub(crate) fn settle(
         linvel: body.linvel(),
         angvel: body.angvel(),
     });
-    if landed {
+    if landed && given.alone {
         memory.force = Vector3::zeros();
         memory.torque = Vector3::zeros();
     }

@@ -29,6 +29,13 @@ pub(crate) fn may_meet_something(world: &PhysicsWorld, handle: RigidBodyHandle) 
     touches || world.multibody_joints.rigid_body_link(handle).is_some()
 }
 
+/// Whether a body is near no other, and no joint holds it but to a ledger.
+pub(crate) fn is_alone(world: &PhysicsWorld, handle: RigidBodyHandle) -> bool {
+    let ledger = |b: RigidBodyHandle| world.bodies.get(b).is_some_and(|b| f64::from(b.mass()) >= 0.5 * LEDGER_MASS);
+    let held = world.impulse_joints.attached_joints(handle).any(|(a, b, _, _)| !ledger(a) && !ledger(b));
+    !held && !may_meet_something(world, handle)
+}
+
 /// D for every pin of `island` on body `body`, by pin index.
 pub(crate) fn driving_point(island: &IslandStep, body: usize) -> Vec<(usize, Matrix3<f64>)> {
     let start = &island.start;

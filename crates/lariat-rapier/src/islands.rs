@@ -92,6 +92,8 @@ impl IslandStep {
 pub(crate) struct Given {
     pub linvel: Vector,
     pub angvel: AngVector,
+    /// Whether it touches nothing and no joint holds it.
+    pub alone: bool,
     /// Velocities in m/s that balancing its forces adds and takes within Rapier's step.
     pub rounding: f64,
     pub own_linvel: Vector,

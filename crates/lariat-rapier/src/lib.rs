@@ -62,6 +62,8 @@
 mod attachment;
 mod body;
 mod convert;
+#[cfg(feature = "debug-render")]
+mod draw;
 mod ends;
 mod error;
 mod event;
@@ -75,11 +77,15 @@ mod reconcile;
 mod rest;
 mod set;
 mod step;
+mod totals;
 
 pub use attachment::{Attachment, AttachmentHandle, Pin};
+#[cfg(feature = "debug-render")]
+pub use draw::DrawStyle;
 pub use error::Error;
 pub use event::Event;
 pub use junction::{Junction, JunctionHandle};
 pub use lariat_ancf;
 pub use rapier;
 pub use set::{CableHandle, CableSet, Settings};
+pub use totals::WorldEnergy;

@@ -6,7 +6,7 @@ use lariat_rapier::rapier::prelude::*;
 use lariat_rapier::{CableSet, Pin};
 
 /// A cube behind two posts, 5 cm away; a winch pulls until the cable carries 5 kN, and stops.
-fn jam(section: Section, mass: f32) {
+fn jam(section: Section, mass: Real) {
     const PULL: f64 = 5e3;
     let mut world = weightless();
     for y in [-0.35, 0.35] {
@@ -29,7 +29,7 @@ fn jam(section: Section, mass: f32) {
         let missing = (PULL - tension(&set, rope, 1.0)) * compliance;
         let speed = if k < 60 { 0.05 } else { (5.0 * missing).clamp(-0.05, 0.05) };
         let speed = if k < 600 { speed } else { 0.0 };
-        world.bodies[winch].set_linvel(Vector::new(speed as f32, 0.0, 0.0), true);
+        world.bodies[winch].set_linvel(Vector::new(speed as Real, 0.0, 0.0), true);
         set.step(&mut world).unwrap();
         if k >= 600 {
             widest = widest.max(gap(&set));
@@ -80,7 +80,7 @@ fn a_cube_starts_to_slide_when_the_pull_is_friction_times_weight() {
         run(&mut world, &mut set, 60);
         let from = world.bodies[load].translation().x;
         let speed = 60.0 * 2.0 / section.axial_stiffness;
-        world.bodies[winch].set_linvel(Vector::new(speed as f32, 0.0, 0.0), true);
+        world.bodies[winch].set_linvel(Vector::new(speed as Real, 0.0, 0.0), true);
         let (mut crept, mut peak) = (0.0, 0.0f64);
         for _ in 0..300 {
             set.step(&mut world).unwrap();

@@ -24,7 +24,7 @@ fn kinematic_bodies_carry_the_end_exactly() {
         let mut worst = 0.0f64;
         for k in 1..=120 {
             if position_based {
-                let t = k as f32 / 60.0;
+                let t = k as Real / 60.0;
                 let pose = Pose::new(Vector::new(0.2 * t, 0.0, 0.1 * t), Vector::new(0.0, 0.0, 2.0 * t));
                 world.bodies[arm].set_next_kinematic_position(pose);
             } else {

@@ -16,9 +16,9 @@ struct Swing {
     last: f64,
 }
 
-fn swing(section: Section, mass: f32, hz: usize) -> Swing {
+fn swing(section: Section, mass: Real, hz: usize) -> Swing {
     let mut world = PhysicsWorld::new();
-    world.integration_parameters.dt = 1.0 / hz as f32;
+    world.integration_parameters.dt = 1.0 / hz as Real;
     let cube = add_cube(&mut world, mass, 0.1, [2.0, -0.1, 0.0]);
     let mut set = CableSet::new();
     let builder = cable([0.0; 3], [2.0, 0.0, 0.0], section).rule("G5-3".parse().unwrap()).fix(At::Start);

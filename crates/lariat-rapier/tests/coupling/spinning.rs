@@ -74,9 +74,9 @@ fn a_spinning_dumbbell_keeps_its_momenta_and_its_tension() {
         let ends = [steady.start - ARM, steady.places[10].0 + ARM];
         let balls = [(1.0, ends[0]), (10.0, ends[1])].map(|(mass, x)| {
             let body = RigidBodyBuilder::dynamic()
-                .translation(Vector::new(x as f32, 0.0, 0.0))
-                .linvel(Vector::new(0.0, (SPIN * x) as f32, 0.0))
-                .angvel(Vector::new(0.0, 0.0, SPIN as f32));
+                .translation(Vector::new(x as Real, 0.0, 0.0))
+                .linvel(Vector::new(0.0, (SPIN * x) as Real, 0.0))
+                .angvel(Vector::new(0.0, 0.0, SPIN as Real));
             world.insert(body, ColliderBuilder::ball(0.1).mass(mass)).0
         });
         let builder =
