@@ -1,0 +1,86 @@
+//! From checked bodies to Rapier's.
+
+use super::convert::{to_pose, to_vector, vector};
+use crate::scene::body::{BodyKind, BodyMass, BodyScene, BodyShape};
+use lariat_rapier::rapier::dynamics::{MassProperties, RigidBodyHandle};
+use lariat_rapier::rapier::math::{Real, Vector};
+use lariat_rapier::rapier::prelude::{ColliderBuilder, PhysicsWorld, RigidBodyBuilder};
+
+/// The collider of a body, with its mass; `None` if it has no shape.
+///
+/// # Errors
+/// In words, for a mesh that makes no shape, or a mass that single precision cannot hold.
+pub fn collider(body: &BodyScene) -> Result<Option<ColliderBuilder>, String> {
+    let real = |x: f64| x as Real;
+    let builder = match &body.shape {
+        BodyShape::None => return Ok(None),
+        BodyShape::Cuboid(half) => ColliderBuilder::cuboid(real(half.x), real(half.y), real(half.z)),
+        BodyShape::Ball(radius) => ColliderBuilder::ball(real(*radius)),
+        BodyShape::Cylinder([half, radius]) => ColliderBuilder::cylinder(real(*half), real(*radius)),
+        BodyShape::Capsule([half, radius]) => ColliderBuilder::capsule_y(real(*half), real(*radius)),
+        BodyShape::Plane(normal) => {
+            ColliderBuilder::new(lariat_rapier::rapier::geometry::SharedShape::halfspace(to_vector(normal)))
+        }
+        BodyShape::Mesh { vertices, triangles } => {
+            let corners: Vec<Vector> = vertices.iter().map(|x| to_vector(&(*x).into())).collect();
+            if body.kind == BodyKind::Dynamic {
+                ColliderBuilder::convex_hull(&corners).ok_or("the mesh has no convex hull")?
+            } else {
+                ColliderBuilder::trimesh(corners, triangles.clone()).map_err(|error| error.to_string())?
+            }
+        }
+    };
+    let builder = match body.friction {
+        Some(friction) => builder.friction(real(friction)),
+        None => builder,
+    };
+    let builder = match body.mass {
+        None => return Ok(Some(builder.density(0.0))),
+        Some(BodyMass::Mass(mass)) => builder.mass(real(mass)),
+        Some(BodyMass::Density(density)) => builder.density(real(density)),
+    };
+    let own = builder.clone().build().mass_properties();
+    let builder = match body.inertia {
+        None => builder,
+        Some(moments) => builder.mass_properties(MassProperties::new(own.local_com, own.mass(), to_vector(&moments))),
+    };
+    let has = builder.clone().build().mass_properties();
+    let fine = |x: Real| x > 0.0 && x.is_finite();
+    let inverse = has.inv_principal_inertia;
+    if [has.inv_mass, inverse.x, inverse.y, inverse.z].into_iter().all(fine) && has.local_com.is_finite() {
+        Ok(Some(builder))
+    } else {
+        Err("the shape encloses no volume, or one beyond single precision".to_string())
+    }
+}
+
+/// Adds a body as the scene draws it.
+///
+/// # Errors
+/// As [`collider`]; not for a checked scene.
+pub fn insert(world: &mut PhysicsWorld, body: &BodyScene) -> Result<RigidBodyHandle, String> {
+    let builder = match body.kind {
+        BodyKind::Dynamic => RigidBodyBuilder::dynamic(),
+        BodyKind::Fixed => RigidBodyBuilder::fixed(),
+        BodyKind::Kinematic => RigidBodyBuilder::kinematic_position_based(),
+    };
+    let mut builder = builder.pose(to_pose(&body.pose(0.0)));
+    let collider = collider(body)?;
+    if let (None, Some(BodyMass::Mass(mass))) = (&collider, body.mass) {
+        let moments = body.inertia.map_or(Vector::ZERO, |moments| to_vector(&moments));
+        builder = builder.additional_mass_properties(MassProperties::new(Vector::ZERO, mass as Real, moments));
+    }
+    let handle = world.insert_body(builder);
+    if let Some(collider) = collider {
+        world.insert_collider(collider, Some(handle));
+    }
+    if body.kind == BodyKind::Dynamic {
+        let inserted = &mut world.bodies[handle];
+        inserted.recompute_mass_properties_from_colliders(&world.colliders);
+        // Rapier's velocity is that of the centre of mass
+        let arm = body.rotation * vector(inserted.local_center_of_mass());
+        inserted.set_linvel(to_vector(&(body.velocity + body.angular_velocity.cross(&arm))), true);
+        inserted.set_angvel(to_vector(&body.angular_velocity), true);
+    }
+    Ok(handle)
+}

@@ -1,0 +1,209 @@
+//! The Rapier side of a scene: its bodies, and its cables once they hold to them.
+//!
+//! One step goes to a time that the run stops at. A step shorter than the host's is split into proportionally fewer Rapier steps,
+//! so that probes between host times do not make Rapier's steps shorter than its usual ones by much. Loads on bodies act with
+//! their value at the middle of the step, at the point of the body where it is when the step begins.
+
+mod build;
+mod convert;
+pub mod pins;
+mod reading;
+
+pub use build::collider;
+pub use reading::BodyState;
+
+use crate::error::Error;
+use crate::scene::Scene;
+use crate::scene::body::BodyKind;
+use convert::{to_pose, to_vector};
+use lariat_ancf::{Cable, Momentum, Vector3};
+use lariat_rapier::rapier::dynamics::RigidBodyHandle;
+use lariat_rapier::rapier::math::Real;
+use lariat_rapier::rapier::prelude::PhysicsWorld;
+use lariat_rapier::{AttachmentHandle, CableHandle, CableSet};
+
+/// Bodies of a scene, and its cables while they run.
+pub struct Physics {
+    world: PhysicsWorld,
+    bodies: Vec<RigidBodyHandle>,
+    cables: CableSet,
+    handles: Vec<CableHandle>,
+    /// By attachment of the scene; `None` for the world, which is a support of the cable.
+    pins: Vec<Option<AttachmentHandle>>,
+    /// Rapier steps per host step.
+    rapier_steps: u32,
+    /// Largest gap so far in m.
+    max_gap: f64,
+}
+
+impl Physics {
+    /// Bodies as drawn, no cables yet.
+    ///
+    /// # Errors
+    /// [`Error::Body`]; not for a checked scene.
+    pub fn build(scene: &Scene) -> Result<Self, Error> {
+        let mut world = PhysicsWorld::new();
+        world.gravity = to_vector(&scene.gravity);
+        if let Some(n) = scene.solver_iterations {
+            world.integration_parameters.num_solver_iterations = n;
+        }
+        let mut bodies = Vec::new();
+        for body in &scene.bodies {
+            let refuse = |problem| Error::Body { time: 0.0, body: body.name.clone(), problem };
+            bodies.push(build::insert(&mut world, body).map_err(refuse)?);
+        }
+        let cables = CableSet::new();
+        let rapier_steps = cables.settings.rapier_steps.max(1);
+        Ok(Physics { world, bodies, cables, handles: Vec::new(), pins: Vec::new(), rapier_steps, max_gap: 0.0 })
+    }
+
+    /// Takes the cables of the scene and holds them to the bodies, where they are.
+    ///
+    /// # Errors
+    /// [`Error::Mechanics`] or [`Error::Coupling`]; not for a checked scene.
+    pub fn take(&mut self, scene: &Scene, cables: Vec<Cable>) -> Result<(), Error> {
+        self.handles = cables.into_iter().map(|cable| self.cables.insert(cable)).collect();
+        for attachment in &scene.attachments {
+            let Some(body) = attachment.body else {
+                self.pins.push(None);
+                continue;
+            };
+            let cable = (self.handles[attachment.cable], attachment.arc_length);
+            let anchor = match attachment.anchor {
+                Some(anchor) => anchor,
+                None => {
+                    let held = self.cables.get(cable.0).map_err(|error| self.explain(scene, 0.0, error))?;
+                    scene.bodies[body].to_body(&held.sample(attachment.arc_length)?.position)
+                }
+            };
+            let place = (self.bodies[body], &anchor);
+            let pin = pins::attach(&mut self.cables, &self.world, cable, place, attachment.clamp);
+            self.pins.push(Some(pin.map_err(|error| self.explain(scene, 0.0, error))?));
+        }
+        Ok(())
+    }
+
+    /// Moves everything from one time to another, in s.
+    ///
+    /// # Errors
+    /// [`Error::Mechanics`] names the cable and the time, [`Error::Body`] the body.
+    pub fn advance(&mut self, scene: &Scene, from: f64, to: f64) -> Result<(), Error> {
+        self.drive(scene, to);
+        self.load(scene, from, to);
+        // cables count time in the steps that Rapier's single precision makes of it: the next step makes up for the last
+        let reached = self.cables.iter().map(|(_, cable)| cable.time()).fold(from, f64::max);
+        let dt = to - reached;
+        if dt <= 0.0 {
+            return Ok(());
+        }
+        let share = f64::from(self.rapier_steps) * dt / scene.dt;
+        self.cables.settings.rapier_steps = (share - 1e-3).ceil().clamp(1.0, f64::from(self.rapier_steps)) as u32;
+        self.world.integration_parameters.dt = dt as Real;
+        self.cables.step(&mut self.world).map_err(|error| self.explain(scene, from, error))?;
+        for (_, attachment) in self.cables.attachments() {
+            self.max_gap = self.max_gap.max(attachment.gap());
+        }
+        // Rapier disables what is not finite any more
+        match self.bodies.iter().position(|&body| !self.world.bodies[body].is_enabled()) {
+            None => Ok(()),
+            Some(i) => {
+                let problem = "its position or velocity is not finite".to_string();
+                Err(Error::Body { time: to, body: scene.bodies[i].name.clone(), problem })
+            }
+        }
+    }
+
+    /// Tells kinematic bodies where to be at a time.
+    fn drive(&mut self, scene: &Scene, time: f64) {
+        for (body, &handle) in scene.bodies.iter().zip(&self.bodies) {
+            if body.kind == BodyKind::Kinematic {
+                self.world.bodies[handle].set_next_kinematic_position(to_pose(&body.pose(time)));
+            }
+        }
+    }
+
+    /// Sets the loads on bodies for a step.
+    fn load(&mut self, scene: &Scene, from: f64, to: f64) {
+        for load in &scene.body_loads {
+            let body = &mut self.world.bodies[self.bodies[load.body]];
+            body.reset_forces(false);
+            body.reset_torques(false);
+        }
+        for load in &scene.body_loads {
+            let body = &mut self.world.bodies[self.bodies[load.body]];
+            let share = if load.ramp > 0.0 { (0.5 * (from + to) / load.ramp).min(1.0) } else { 1.0 };
+            // a load that grows wakes what rests; one that stays lets it sleep
+            let wakes = from <= load.ramp;
+            let point = reading::state(body).position + reading::state(body).rotation * load.point;
+            body.add_force_at_point(to_vector(&(load.force * share)), to_vector(&point), wakes);
+            body.add_torque(to_vector(&(load.moment * share)), wakes);
+        }
+    }
+
+    /// An error of the coupling, in the words of the scene.
+    fn explain(&self, scene: &Scene, time: f64, error: lariat_rapier::Error) -> Error {
+        match error {
+            lariat_rapier::Error::Cable(source) => Error::mechanics(time, source),
+            lariat_rapier::Error::BodyNotFinite { body, what, time } => {
+                let name = self.bodies.iter().position(|b| *b == body).map(|i| scene.bodies[i].name.clone());
+                Error::Body { time, body: name.unwrap_or_default(), problem: format!("its {what} is not finite") }
+            }
+            source => Error::Coupling { time, source },
+        }
+    }
+
+    /// The cables, in the order of the scene.
+    pub fn cables(&self) -> Vec<&Cable> {
+        self.cables.iter().map(|(_, cable)| cable).collect()
+    }
+
+    /// A cable, to read its reactions.
+    pub fn cable_mut(&mut self, index: usize) -> Option<&mut Cable> {
+        self.handles.get(index).and_then(|&handle| self.cables.get_mut(handle).ok())
+    }
+
+    /// What passes at an attachment; `None` for one to the world.
+    ///
+    /// # Errors
+    /// [`Error::Coupling`]; not for an attachment of the scene.
+    pub fn passing(&self, index: usize, time: f64) -> Result<Option<pins::Passing>, Error> {
+        let Some(pin) = self.pins.get(index).copied().flatten() else { return Ok(None) };
+        pins::passing(&self.cables, pin).map(Some).map_err(|source| Error::Coupling { time, source })
+    }
+
+    /// Largest gap of all attachments at the ends of all steps so far, in m.
+    pub fn max_gap(&self) -> f64 {
+        self.max_gap
+    }
+
+    /// State of a body at a time.
+    pub fn body(&self, scene: &Scene, index: usize, time: f64) -> BodyState {
+        let state = reading::state(&self.world.bodies[self.bodies[index]]);
+        let body = &scene.bodies[index];
+        if body.kind == BodyKind::Kinematic {
+            // Rapier's is the mean over its last step
+            return BodyState { velocity: body.velocity(time), angular_velocity: body.angular_velocity, ..state };
+        }
+        state
+    }
+
+    /// Kinetic energy of the dynamic bodies and their potential in gravity, in J.
+    pub fn energy(&self, scene: &Scene) -> (f64, f64) {
+        self.dynamic(scene)
+            .map(|handle| reading::energy(&self.world.bodies[handle], &scene.gravity))
+            .fold((0.0, 0.0), |sum, e| (sum.0 + e.0, sum.1 + e.1))
+    }
+
+    /// Momentum of the dynamic bodies.
+    pub fn momentum(&self, scene: &Scene) -> Momentum {
+        let zero = Momentum { linear: Vector3::zeros(), angular: Vector3::zeros() };
+        self.dynamic(scene)
+            .map(|handle| reading::momentum(&self.world.bodies[handle]))
+            .fold(zero, |sum, p| Momentum { linear: sum.linear + p.linear, angular: sum.angular + p.angular })
+    }
+
+    fn dynamic(&self, scene: &Scene) -> impl Iterator<Item = RigidBodyHandle> {
+        let bodies = scene.bodies.iter().zip(&self.bodies);
+        bodies.filter(|(body, _)| body.kind == BodyKind::Dynamic).map(|(_, &handle)| handle)
+    }
+}
