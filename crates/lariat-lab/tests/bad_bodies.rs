@@ -62,8 +62,8 @@ const BOX: &str = "shape = { cuboid = [0.1, 0.1, 0.1] }";
 const PATH: &str = "path = [[0.0, 0.0, 0.0, 0.0], [1.0, 0.0, 0.5, 0.0]]";
 
 const CASES: &[Case] = &[
-    ("engine = \"rapier\"", "engine = \"none\"", 5, &["solver_iterations", "engine = \"rapier\""]),
-    ("engine = \"rapier\"\nsolver_iterations = 4", "engine = \"none\"", 5, &["body.crate", "has no bodies"]),
+    ("engine = \"rapier\"", "engine = \"none\"", 6, &["body.crate", "engine = \"none\" has no bodies"]),
+    ("engine = \"rapier\"", "engine = \"bullet\"", 4, &["engine: unknown engine \"bullet\"", "\"rapier\""]),
     ("solver_iterations = 4", "solver_iterations = 0", 5, &["solver_iterations: 0 iterations", "whole number >= 1"]),
     ("solver_iterations = 4", "solver_iterations = -1", 5, &["solver_iterations", "-1", "whole number >= 1"]),
     ("solver_iterations = 4", "solver_iterations = 1.5", 5, &["solver_iterations", "1.5", "whole number >= 1"]),
@@ -96,12 +96,6 @@ const CASES: &[Case] = &[
     ("mass = 50.0", "", 6, &["body.crate.mass: missing key", "density"]),
     ("mass = 50.0", "mass = 50.0\ndensity = 100.0", 11, &["body.crate.density: both mass and density"]),
     ("mass = 50.0", "density = nan", 10, &["body.crate.density: NaN "]),
-    (
-        "shape = { cuboid = [0.1, 0.1, 0.1] }\nmass = 50.0",
-        "shape = \"none\"\ndensity = 100.0",
-        10,
-        &["body.crate.density", "no volume"],
-    ),
     (BOX, "shape = \"none\"", 16, &["body.crate.friction", "meets nothing"]),
     ("inertia = [0.33, 0.33, 0.33]", "inertia = [0.33, 0.33]", 11, &["body.crate.inertia", "three finite numbers"]),
     ("inertia = [0.33, 0.33, 0.33]", "inertia = [0.33, 0.0, 0.33]", 11, &["body.crate.inertia: 0 "]),
@@ -207,6 +201,13 @@ fn what_the_format_offers_is_accepted() {
             panic!("{to}: {error}");
         }
     }
+    // no shape, and no friction then
+    let point = |text: &str| text.replacen(BOX, "shape = \"none\"", 1).replacen("friction = 0.5\n", "", 1);
+    Scene::parse("scene.toml", &point(GOOD), &[], Purpose::Run).unwrap();
+    let message =
+        Scene::parse("scene.toml", &point(GOOD).replacen("mass = 50.0", "density = 3.0", 1), &[], Purpose::Run);
+    let message = message.unwrap_err().to_string();
+    assert!(message.contains("scene.toml:10: body.crate.density: a body without shape has no volume"), "{message}");
     // Rapier without bodies
     let bare = GOOD.find("[[body]]").zip(GOOD.find("[[cable]]")).zip(GOOD.find("[[attachment]]"));
     let ((body, cable), attachment) = bare.unwrap();

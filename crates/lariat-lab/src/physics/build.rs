@@ -39,18 +39,29 @@ pub fn collider(body: &BodyScene) -> Result<Option<ColliderBuilder>, String> {
         Some(BodyMass::Mass(mass)) => builder.mass(real(mass)),
         Some(BodyMass::Density(density)) => builder.density(real(density)),
     };
-    let own = builder.clone().build().mass_properties();
-    let builder = match body.inertia {
-        None => builder,
-        Some(moments) => builder.mass_properties(MassProperties::new(own.local_com, own.mass(), to_vector(&moments))),
-    };
-    let has = builder.clone().build().mass_properties();
-    let fine = |x: Real| x > 0.0 && x.is_finite();
+    let own = has_mass(&builder)?;
+    match body.inertia {
+        None => Ok(Some(builder)),
+        Some(moments) => {
+            let builder = builder.mass_properties(MassProperties::new(own.local_com, own.mass(), to_vector(&moments)));
+            has_mass(&builder)?;
+            Ok(Some(builder))
+        }
+    }
+}
+
+/// The mass of a collider, if it is one that a body can move with.
+fn has_mass(builder: &ColliderBuilder) -> Result<MassProperties, String> {
+    let of = |builder: ColliderBuilder| builder.build().mass_properties();
+    let (solid, has) = (of(builder.clone().density(1.0)), of(builder.clone()));
     let inverse = has.inv_principal_inertia;
-    if [has.inv_mass, inverse.x, inverse.y, inverse.z].into_iter().all(fine) && has.local_com.is_finite() {
-        Ok(Some(builder))
+    let fine = |x: Real| x > 0.0 && x.is_finite();
+    if [solid.inv_mass, has.inv_mass, inverse.x, inverse.y, inverse.z].into_iter().all(fine)
+        && has.local_com.is_finite()
+    {
+        Ok(has)
     } else {
-        Err("the shape encloses no volume, or one beyond single precision".to_string())
+        Err("the shape encloses no volume, or its mass is beyond single precision".to_string())
     }
 }
 

@@ -22,6 +22,9 @@ use lariat_rapier::rapier::math::Real;
 use lariat_rapier::rapier::prelude::PhysicsWorld;
 use lariat_rapier::{AttachmentHandle, CableHandle, CableSet};
 
+/// Difference of velocities at the start that goes without a word, in m/s.
+const JOLT: f64 = 1e-5;
+
 /// Bodies of a scene, and its cables while they run.
 pub struct Physics {
     world: PhysicsWorld,
@@ -81,6 +84,28 @@ impl Physics {
             self.pins.push(Some(pin.map_err(|error| self.explain(scene, 0.0, error))?));
         }
         Ok(())
+    }
+
+    /// Attachments whose two sides start at different velocities, in words.
+    ///
+    /// # Errors
+    /// [`Error::Mechanics`]; not for a checked scene.
+    pub fn jolts(&self, scene: &Scene) -> Result<Vec<String>, Error> {
+        let (cables, mut jolts) = (self.cables(), Vec::new());
+        for attachment in &scene.attachments {
+            let Some(body) = attachment.body else { continue };
+            let point = cables[attachment.cable].sample(attachment.arc_length)?;
+            let state = self.body(scene, body, 0.0);
+            let there = state.velocity + state.angular_velocity.cross(&(point.position - state.position));
+            let difference = (point.velocity - there).norm();
+            if difference > JOLT {
+                jolts.push(format!(
+                    "attachment {:?}: cable and body start {difference:.3e} m/s apart in velocity, and meet with a jolt",
+                    attachment.name
+                ));
+            }
+        }
+        Ok(jolts)
     }
 
     /// Moves everything from one time to another, in s.

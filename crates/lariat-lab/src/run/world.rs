@@ -86,7 +86,11 @@ impl World {
             }
         }
         match &mut self.physics {
-            Some(physics) if purpose == Purpose::Run => physics.take(&self.scene, std::mem::take(&mut self.alone)),
+            Some(physics) if purpose == Purpose::Run => {
+                physics.take(&self.scene, std::mem::take(&mut self.alone))?;
+                self.warnings.extend(physics.jolts(&self.scene)?);
+                Ok(())
+            }
             _ => Ok(()),
         }
     }

@@ -1,0 +1,6 @@
+//! Scenes with rigid bodies through the command, against values from outside.
+
+mod bench;
+mod motion;
+mod runs;
+mod scenes;
