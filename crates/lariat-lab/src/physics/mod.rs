@@ -35,6 +35,8 @@ pub struct Physics {
     pins: Vec<Option<AttachmentHandle>>,
     /// Rapier steps per host step.
     rapier_steps: u32,
+    /// Sum of all steps done, in s.
+    reached: f64,
     /// Largest gap so far in m.
     max_gap: f64,
 }
@@ -57,7 +59,16 @@ impl Physics {
         }
         let cables = CableSet::new();
         let rapier_steps = cables.settings.rapier_steps.max(1);
-        Ok(Physics { world, bodies, cables, handles: Vec::new(), pins: Vec::new(), rapier_steps, max_gap: 0.0 })
+        Ok(Physics {
+            world,
+            bodies,
+            cables,
+            handles: Vec::new(),
+            pins: Vec::new(),
+            rapier_steps,
+            reached: 0.0,
+            max_gap: 0.0,
+        })
     }
 
     /// Takes the cables of the scene and holds them to the bodies, where they are.
@@ -115,16 +126,17 @@ impl Physics {
     pub fn advance(&mut self, scene: &Scene, from: f64, to: f64) -> Result<(), Error> {
         self.drive(scene, to);
         self.load(scene, from, to);
-        // cables count time in the steps that Rapier's single precision makes of it: the next step makes up for the last
-        let reached = self.cables.iter().map(|(_, cable)| cable.time()).fold(from, f64::max);
-        let dt = to - reached;
+        // the steps that single precision makes of the time add up to another time: the next step makes up for the last
+        let dt = (to - self.reached) as Real;
         if dt <= 0.0 {
             return Ok(());
         }
-        let share = f64::from(self.rapier_steps) * dt / scene.dt;
-        self.cables.settings.rapier_steps = (share - 1e-3).ceil().clamp(1.0, f64::from(self.rapier_steps)) as u32;
-        self.world.integration_parameters.dt = dt as Real;
+        let share = f64::from(self.rapier_steps) * f64::from(dt) / scene.dt;
+        let steps = (share - 1e-3).ceil().clamp(1.0, f64::from(self.rapier_steps)) as u32;
+        self.cables.settings.rapier_steps = steps;
+        self.world.integration_parameters.dt = dt;
         self.cables.step(&mut self.world).map_err(|error| self.explain(scene, from, error))?;
+        self.reached += f64::from(dt / steps as Real) * f64::from(steps);
         for (_, attachment) in self.cables.attachments() {
             self.max_gap = self.max_gap.max(attachment.gap());
         }
@@ -180,11 +192,6 @@ impl Physics {
     /// The cables, in the order of the scene.
     pub fn cables(&self) -> Vec<&Cable> {
         self.cables.iter().map(|(_, cable)| cable).collect()
-    }
-
-    /// A cable, to read its reactions.
-    pub fn cable_mut(&mut self, index: usize) -> Option<&mut Cable> {
-        self.handles.get(index).and_then(|&handle| self.cables.get_mut(handle).ok())
     }
 
     /// What passes at an attachment; `None` for one to the world.

@@ -206,11 +206,12 @@ impl World {
             return Ok((passing.force, passing.moment, passing.gap));
         }
         let AttachmentScene { cable, arc_length, .. } = self.scene.attachments[index];
-        let held = match &mut self.physics {
-            Some(physics) if self.alone.is_empty() => physics.cable_mut(cable),
-            _ => self.alone.get_mut(cable),
+        // a copy, because reading reactions counts as touching a cable, which wakes it
+        let mut coupled = None;
+        let cable = match self.alone.get_mut(cable) {
+            Some(cable) => cable,
+            None => coupled.insert(self.cables()[cable].clone()),
         };
-        let Some(cable) = held else { return Ok((Vector3::zeros(), Vector3::zeros(), 0.0)) };
         let node = cable.node(arc_length)?;
         let held = |reaction: &&Reaction| reaction.node == node;
         let on_cable = cable.reactions()?.iter().find(held).map(|r| (r.force, r.moment));
