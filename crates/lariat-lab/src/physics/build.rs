@@ -13,7 +13,17 @@ use lariat_rapier::rapier::prelude::{ColliderBuilder, PhysicsWorld, RigidBodyBui
 pub fn collider(body: &BodyScene) -> Result<Option<ColliderBuilder>, String> {
     let real = |x: f64| x as Real;
     let builder = match &body.shape {
-        BodyShape::None => return Ok(None),
+        BodyShape::None => {
+            let mass = match body.mass {
+                Some(BodyMass::Mass(mass) | BodyMass::Density(mass)) => mass,
+                None => return Ok(None),
+            };
+            let heavy = [mass].into_iter().chain(body.inertia.iter().flatten().copied());
+            if !heavy.map(real).all(|x| x.recip().is_finite()) {
+                return Err("its mass is beyond single precision".to_string());
+            }
+            return Ok(None);
+        }
         BodyShape::Cuboid(half) => ColliderBuilder::cuboid(real(half.x), real(half.y), real(half.z)),
         BodyShape::Ball(radius) => ColliderBuilder::ball(real(*radius)),
         BodyShape::Cylinder([half, radius]) => ColliderBuilder::cylinder(real(*half), real(*radius)),
@@ -75,7 +85,8 @@ pub fn insert(world: &mut PhysicsWorld, body: &BodyScene) -> Result<RigidBodyHan
         BodyKind::Fixed => RigidBodyBuilder::fixed(),
         BodyKind::Kinematic => RigidBodyBuilder::kinematic_position_based(),
     };
-    let mut builder = builder.pose(to_pose(&body.pose(0.0)));
+    // a cap of 45 degrees in each step would change the motion without a word
+    let mut builder = builder.pose(to_pose(&body.pose(0.0))).allow_fast_rotation(true);
     let collider = collider(body)?;
     if let (None, Some(BodyMass::Mass(mass))) = (&collider, body.mass) {
         let moments = body.inertia.map_or(Vector::ZERO, |moments| to_vector(&moments));

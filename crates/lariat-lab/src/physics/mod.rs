@@ -49,6 +49,8 @@ impl Physics {
     pub fn build(scene: &Scene) -> Result<Self, Error> {
         let mut world = PhysicsWorld::new();
         world.gravity = to_vector(&scene.gravity);
+        // a cap of 400 m/s would change the motion without a word
+        world.integration_parameters.normalized_max_linear_velocity = Real::MAX;
         if let Some(n) = scene.solver_iterations {
             world.integration_parameters.num_solver_iterations = n;
         }

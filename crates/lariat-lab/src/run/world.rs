@@ -85,6 +85,9 @@ impl World {
                 scene.set_in_motion(cable, i)?;
             }
         }
+        if purpose == Purpose::Static && !self.scene.body_loads.is_empty() {
+            self.warnings.push("loads on bodies take no part: statics hold bodies where they are drawn".to_string());
+        }
         match &mut self.physics {
             Some(physics) if purpose == Purpose::Run => {
                 physics.take(&self.scene, std::mem::take(&mut self.alone))?;

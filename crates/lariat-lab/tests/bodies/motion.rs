@@ -47,6 +47,20 @@ fn a_body_has_the_mass_of_its_shape_and_the_velocity_that_it_was_given() {
     assert!((row[4] - 0.8).abs() < 1e-6 && row[5].abs() < 1e-6 && (results.rows("energy")[0][1] - 0.8).abs() < 1e-6);
 }
 
+/// Rapier caps velocities unless it is told not to.
+///
+/// *Source.* Newton's first law.
+#[test]
+fn a_fast_body_is_not_slowed_down() {
+    let fast = free(
+        "shape = { ball = 0.1 }\nmass = 1.0\nvelocity = [1000.0, 0.0, 0.0]\nangular_velocity = [0.0, 0.0, 1000.0]",
+        "",
+    );
+    let row = Results::of_text("run", &fast).done().last("b");
+    assert!((row[1] / 1000.0 - 1.0).abs() < 1e-4 && (row[8] - 1000.0).abs() < 0.1, "{row:?}");
+    assert!((row[13] / 1000.0 - 1.0).abs() < 1e-3, "{row:?}");
+}
+
 /// A hull whose centre of mass is not its origin: velocity is that of the origin, and the momentum that of the centre.
 ///
 /// *Source.* Tetrahedron of legs a: volume a^3/6, centre of mass at a/4 along each.

@@ -25,6 +25,54 @@ fn a_box_on_a_slope_slides_if_its_friction_is_small() {
     assert!((slides[1] / x - 1.0).abs() < 2e-2 && (slides[2] - 0.1).abs() < 2e-3, "{slides:?}, {x}");
 }
 
+/// Every shape comes to rest on a plane, and on a mesh, as high as its size says; single precision contacts give way by 1 mm.
+#[test]
+fn shapes_rest_at_their_height() {
+    let folder = tempfile::tempdir().unwrap();
+    let square = "v -1 0 -1\nv 1 0 -1\nv 1 0 1\nv -1 0 1\nf 1 4 3 2\n";
+    let corners: String = (0..8)
+        .map(|i| {
+            format!(
+                "v {} {} {}\n",
+                (i & 1) as f64 * 0.4 - 0.2,
+                f64::from(i >> 1 & 1) * 0.3,
+                f64::from(i >> 2) * 0.4 - 0.2
+            )
+        })
+        .collect();
+    fs::write(folder.path().join("square.obj"), square).unwrap();
+    fs::write(folder.path().join("brick.obj"), corners + "f 1 2 3\nf 4 5 6\nf 6 7 8\n").unwrap();
+    for (shape, height) in [
+        ("cuboid = [0.2, 0.15, 0.1]", 0.15),
+        ("ball = 0.2", 0.2),
+        ("cylinder = [0.1, 0.2]", 0.1),
+        ("mesh = \"brick.obj\"", 0.0),
+    ] {
+        for floor in ["plane = [0.0, 2.0, 0.0]", "mesh = \"square.obj\""] {
+            let body = format!("shape = {{ {shape} }}\nmass = 3.0\nposition = [0.0, {}, 0.0]", height + 0.02);
+            let floor = format!("[[body]]\nname = \"floor\"\nkind = \"fixed\"\nshape = {{ {floor} }}\n");
+            let text = free(&body, &floor).replace("gravity = [0.0, 0.0, 0.0]", "gravity = [0.0, -10.0, 0.0]");
+            let file = folder.path().join("scene.toml");
+            fs::write(&file, text).unwrap();
+            let row = Results::of("run", &file, &[]).done().last("b");
+            assert!((row[2] - height).abs() < 3e-3 && row[9].abs() < 1e-3, "{shape} on {floor}: {row:?}");
+        }
+    }
+    // a capsule stands as high as half its length and its radius, until it tips over
+    let floor = "[[body]]\nname = \"floor\"\nkind = \"fixed\"\nshape = { plane = [0.0, 1.0, 0.0] }\n";
+    let body = "shape = { capsule = [0.1, 0.2] }\nmass = 3.0\nposition = [0.0, 0.3, 0.0]";
+    let text = free(body, floor).replace("gravity = [0.0, 0.0, 0.0]", "gravity = [0.0, -10.0, 0.0]");
+    let row = Results::of_text("run", &text).done().last("b");
+    assert!((row[2] - 0.3).abs() < 3e-3, "{row:?}");
+}
+
+#[test]
+fn statics_tell_that_loads_on_bodies_take_no_part() {
+    let text = CATENARY.to_string() + "\n[[load]]\nbody = \"ball\"\nforce = [0.0, 1.0, 0.0]\n";
+    let warnings = Results::of_text("static", &text).done().summary().warnings;
+    assert!(warnings.len() == 1 && warnings[0].contains("loads on bodies"), "{warnings:?}");
+}
+
 #[test]
 fn the_number_of_solver_iterations_reaches_rapier() {
     let run = |n: usize| Results::of_text("run", &slope(0.2, &format!("solver_iterations = {n}"))).done().last("b");
