@@ -61,7 +61,6 @@ impl System {
         let level = Level::new();
         let nodes = model.nodes();
         let mut mass = MassMatrix { diag: vec![[0.0; 3]; nodes], lower: vec![[0.0; 4]; nodes - 1] };
-        let mut gravity_force = vec![0.0; 6 * nodes];
         let mut arm = vec![0.0f64; nodes];
         for (e, element) in model.elements.iter().enumerate() {
             let m = mass::consistent(element.section.mass_per_length, element.length);
@@ -72,12 +71,6 @@ impl System {
                 arm[node] = arm[node].max(element.length / 8.0);
             }
             mass.lower[e] = [m[2][0], m[2][1], m[3][0], m[3][1]];
-            let weights = mass::load_weights(element.length);
-            for (k, weight) in weights.iter().enumerate() {
-                for x in 0..3 {
-                    gravity_force[6 * e + 3 * k + x] += weight * element.section.mass_per_length * model.gravity[x];
-                }
-            }
         }
         let mut system = System {
             located: Vec::new(),
@@ -85,7 +78,7 @@ impl System {
             elements: Elements::new(model),
             mass_solver: MassSolver::Scalar(MassFactorisation::default()),
             mass,
-            gravity_force,
+            gravity_force: vec![0.0; 6 * nodes],
             arm,
             matrix: BlockTridiagonal::zeros(nodes),
             factorisation: Factorisation::default(),
@@ -98,9 +91,23 @@ impl System {
                 least.min(model.length() * e.length * e.section.mass_per_length / e.section.axial_stiffness)
             }),
         };
+        system.weigh(model);
         system.locate_loads(model);
         system.factor_mass(model)?;
         Ok(system)
+    }
+
+    /// Sums the weight of the elements.
+    pub fn weigh(&mut self, model: &Model) {
+        self.gravity_force.fill(0.0);
+        for (e, element) in model.elements.iter().enumerate() {
+            for (k, weight) in mass::load_weights(element.length).iter().enumerate() {
+                for x in 0..3 {
+                    self.gravity_force[6 * e + 3 * k + x] +=
+                        weight * element.section.mass_per_length * model.gravity[x];
+                }
+            }
+        }
     }
 
     /// Finds the elements of the point loads.
@@ -115,7 +122,7 @@ impl System {
 
     /// Factors the mass matrix with the supports in place.
     pub fn factor_mass(&mut self, model: &Model) -> Result<(), StepFailure> {
-        let directed = model.supports.iter().any(|(_, s)| matches!(s.slope, SlopeSupport::Direction(_)));
+        let directed = model.supports.iter().any(|(_, s)| s.slope.is_direction());
         self.mass_solver = if directed {
             self.matrix.clear();
             self.add_mass(1.0);

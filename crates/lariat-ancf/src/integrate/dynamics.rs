@@ -1,5 +1,6 @@
 //! What an integrator needs to know of a mechanical system, and nothing else.
 
+use super::Phase;
 use crate::error::StepFailure;
 
 /// How Newton's iteration of an implicit stage ends.
@@ -78,6 +79,14 @@ pub trait Dynamics {
 
     /// Size of a position error in m.
     fn norm(&self, error: &[f64]) -> f64;
+
+    /// Told the phase at the beginning of a host step and after every step that is accepted; accelerations are valid then.
+    fn reached(&mut self, _phase: &Phase) {}
+
+    /// Whether accelerations depend on velocities.
+    fn follows_velocity(&self) -> bool {
+        false
+    }
 
     /// An upper bound of the angular frequencies of the system in rad/s, near its present state.
     fn frequency_bound(&self) -> f64;

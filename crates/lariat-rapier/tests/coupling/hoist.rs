@@ -1,9 +1,9 @@
 //! A winch lifts a box from the ground: from slack to taut to hanging.
 
 use super::bench::{add_cube, cable, damping, gap, soft, tension, wire};
-use lariat_rapier::CableSet;
 use lariat_rapier::lariat_ancf::{At, Section};
 use lariat_rapier::rapier::prelude::*;
+use lariat_rapier::{CableSet, Pin};
 
 fn hoist(section: Section) {
     let mut world = PhysicsWorld::new();
@@ -14,8 +14,8 @@ fn hoist(section: Section) {
     let mut set = CableSet::new();
     let builder = cable([0.0, 2.1, 0.0], [0.0, 0.2, 0.0], section).length(1.92).integrator(damping());
     let rope = set.insert(builder.build().unwrap());
-    set.attach(&world, rope, At::Start, winch, Vector::ZERO).unwrap();
-    set.attach(&world, rope, At::End, load, Vector::new(0.0, 0.1, 0.0)).unwrap();
+    set.attach(&world, rope, At::Start, winch, Vector::ZERO, Pin::Ball).unwrap();
+    set.attach(&world, rope, At::End, load, Vector::new(0.0, 0.1, 0.0), Pin::Ball).unwrap();
     let smooth = |t: f32| t.clamp(0.0, 1.0).powi(2) * (3.0 - 2.0 * t.clamp(0.0, 1.0));
     let (mut jitter, mut widest, mut held) = (0.0f32, 0.0f64, Vec::new());
     for k in 0..1440 {
