@@ -86,7 +86,7 @@ pub fn insert(world: &mut PhysicsWorld, body: &BodyScene) -> Result<RigidBodyHan
         BodyKind::Kinematic => RigidBodyBuilder::kinematic_position_based(),
     };
     // a cap of 45 degrees in each step would change the motion without a word
-    let mut builder = builder.pose(to_pose(&body.pose(0.0))).allow_fast_rotation(true);
+    let mut builder = builder.pose(to_pose(&body.pose(0.0))).allow_fast_rotation(true).can_sleep(false);
     let collider = collider(body)?;
     if let (None, Some(BodyMass::Mass(mass))) = (&collider, body.mass) {
         let moments = body.inertia.map_or(Vector::ZERO, |moments| to_vector(&moments));

@@ -1,6 +1,6 @@
 //! The Rapier side of a scene: its bodies, and its cables once they hold to them.
 //!
-//! One step goes to a time that the run stops at. A step shorter than the host's is split into proportionally fewer Rapier steps,
+//! Nothing sleeps: a run is there for its numbers. One step goes to a time that the run stops at. A step shorter than the host's is split into proportionally fewer Rapier steps,
 //! so that probes between host times do not make Rapier's steps shorter than its usual ones by much. Loads on bodies act with
 //! their value at the middle of the step, at the point of the body where it is when the step begins.
 
@@ -85,14 +85,7 @@ impl Physics {
                 continue;
             };
             let cable = (self.handles[attachment.cable], attachment.arc_length);
-            let anchor = match attachment.anchor {
-                Some(anchor) => anchor,
-                None => {
-                    let held = self.cables.get(cable.0).map_err(|error| self.explain(scene, 0.0, error))?;
-                    scene.bodies[body].to_body(&held.sample(attachment.arc_length)?.position)
-                }
-            };
-            let place = (self.bodies[body], &anchor);
+            let place = (self.bodies[body], attachment.anchor);
             let pin = pins::attach(&mut self.cables, &self.world, cable, place, attachment.clamp);
             self.pins.push(Some(pin.map_err(|error| self.explain(scene, 0.0, error))?));
         }
@@ -171,11 +164,9 @@ impl Physics {
         for load in &scene.body_loads {
             let body = &mut self.world.bodies[self.bodies[load.body]];
             let share = if load.ramp > 0.0 { (0.5 * (from + to) / load.ramp).min(1.0) } else { 1.0 };
-            // a load that grows wakes what rests; one that stays lets it sleep
-            let wakes = from <= load.ramp;
             let point = reading::state(body).position + reading::state(body).rotation * load.point;
-            body.add_force_at_point(to_vector(&(load.force * share)), to_vector(&point), wakes);
-            body.add_torque(to_vector(&(load.moment * share)), wakes);
+            body.add_force_at_point(to_vector(&(load.force * share)), to_vector(&point), true);
+            body.add_torque(to_vector(&(load.moment * share)), true);
         }
     }
 

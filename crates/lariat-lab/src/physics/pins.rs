@@ -4,12 +4,7 @@ use super::convert::to_vector;
 use lariat_ancf::{At, Vector3};
 use lariat_rapier::rapier::dynamics::RigidBodyHandle;
 use lariat_rapier::rapier::prelude::PhysicsWorld;
-use lariat_rapier::{AttachmentHandle, CableHandle, CableSet, Error};
-
-/// True if the coupling can hold a tangent to a body.
-pub const CLAMPS: bool = false;
-/// True if the coupling tells force, moment and work at a body.
-pub const FORCES: bool = false;
+use lariat_rapier::{AttachmentHandle, CableHandle, CableSet, Error, Pin};
 
 /// What passes at an attachment.
 #[derive(Clone, Copy, Debug, Default)]
@@ -24,19 +19,24 @@ pub struct Passing {
     pub work: f64,
 }
 
-/// Holds the point of a cable at an arc length (m) to a point of a body, with its tangent if `clamp`.
+/// Holds the point of a cable at an arc length (m) to a point of a body in its axes, or to where the cable is if none is given, with
+/// its tangent if `clamp`.
 pub fn attach(
     set: &mut CableSet,
     world: &PhysicsWorld,
     (cable, arc_length): (CableHandle, f64),
-    (body, anchor): (RigidBodyHandle, &Vector3<f64>),
-    _clamp: bool,
+    (body, anchor): (RigidBodyHandle, Option<Vector3<f64>>),
+    clamp: bool,
 ) -> Result<AttachmentHandle, Error> {
-    set.attach(world, cable, At::ArcLength(arc_length), body, to_vector(anchor))
+    let (at, pin) = (At::ArcLength(arc_length), if clamp { Pin::Clamp } else { Pin::Ball });
+    match anchor {
+        None => set.attach_here(world, cable, at, body, pin),
+        Some(anchor) => set.attach(world, cable, at, body, to_vector(&anchor), pin),
+    }
 }
 
 /// What passes at an attachment after the last step.
 pub fn passing(set: &CableSet, attachment: AttachmentHandle) -> Result<Passing, Error> {
-    let attachment = set.attachment(attachment)?;
-    Ok(Passing { gap: attachment.gap(), ..Passing::default() })
+    let a = set.attachment(attachment)?;
+    Ok(Passing { force: a.force(), moment: a.moment(), gap: a.gap(), work: a.work() })
 }

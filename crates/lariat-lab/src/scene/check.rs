@@ -6,7 +6,6 @@ use super::table::{ProbeTable, SceneTable};
 use super::value::At;
 use super::{CableScene, Engine, ProbeScene, Purpose, Scene, Target, arc_length, check_body, check_cable, check_hold};
 use crate::error::Error;
-use crate::physics::pins;
 use lariat_ancf::Vector3;
 use std::path::Path;
 
@@ -152,9 +151,6 @@ fn probe(doc: &Document<'_>, scene: &Scene, i: usize, row: ProbeTable) -> Result
             let problem = format!("no attachment is named {name:?}");
             return Err(doc.error_accepting(&at.key("attachment"), problem, list(&names)));
         };
-        if scene.attachments[k].body.is_some() && !pins::FORCES {
-            return Err(doc.not_built(&at.key("attachment"), "the force of an attachment to a body"));
-        }
         Target::Attachment(k)
     } else if let Some(name) = &row.energy {
         Target::Energy(some_or_all("energy", name)?)

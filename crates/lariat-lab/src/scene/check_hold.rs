@@ -7,7 +7,6 @@ use super::document::{Document, KeyPath};
 use super::table::{AttachmentTable, LoadTable};
 use super::{AttachmentScene, BodyLoadScene, LoadScene, Purpose, Scene};
 use crate::error::Error;
-use crate::physics::pins;
 use crate::scene::body::BodyKind;
 
 /// How far from its cable point an anchor may be, in m.
@@ -39,9 +38,6 @@ pub(super) fn attachment(
         Some("clamp") => true,
         Some(kind) => return Err(doc.error(&at.key("kind"), format!("unknown kind {kind:?}"))),
     };
-    if clamp && body.is_some() && !pins::CLAMPS {
-        return Err(doc.not_built(&at.key("kind"), "a clamp on a body"));
-    }
     let anchor = row.anchor.map(|anchor| vector(doc, &at.key("anchor"), anchor)).transpose()?;
     let name = row.name.unwrap_or_else(|| format!("attachment-{i}"));
     unique(doc, &at.key("name"), &name, scene.attachments.iter().map(|a| a.name.as_str()))?;
