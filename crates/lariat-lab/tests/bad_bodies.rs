@@ -193,6 +193,7 @@ fn what_the_format_offers_is_accepted() {
         (PATH, "velocity = [0.0, 0.0, 0.1]\nangular_velocity = [0.0, 1.0, 0.0]"),
         (PATH, "position = [0.0, 0.0, 0.0]\npath = [[-1.0, 0.0, -1.0, 0.0], [1.0, 0.0, 1.0, 0.0]]"),
         ("body = \"winch\"", "body = \"world\""),
+        ("kind = \"ball\"", "kind = \"clamp\""),
         ("at = \"end\"\nbody = \"crate\"\nanchor = [0.0, 0.1, 0.0]", "at = 1.23\nbody = \"crate\""),
         ("body = \"crate\"\npoint = [0.1, 0.0, 0.0]", "body = \"crate\""),
     ] {

@@ -33,6 +33,8 @@ pub struct Physics {
     handles: Vec<CableHandle>,
     /// By attachment of the scene; `None` for the world, which is a support of the cable.
     pins: Vec<Option<AttachmentHandle>>,
+    /// By attachment, force and moment of the cable at t = 0, with the body still held.
+    held_by: Vec<(Vector3<f64>, Vector3<f64>)>,
     /// Rapier steps per host step.
     rapier_steps: u32,
     /// Sum of all steps done, in s.
@@ -67,18 +69,26 @@ impl Physics {
             cables,
             handles: Vec::new(),
             pins: Vec::new(),
+            held_by: Vec::new(),
             rapier_steps,
             reached: 0.0,
             max_gap: 0.0,
         })
     }
 
-    /// Takes the cables of the scene and holds them to the bodies, where they are.
+    /// Takes the cables of the scene and holds them to the bodies, where they are; `held_by` are force (N) and moment (N m) by which
+    /// each attachment was held until now.
     ///
     /// # Errors
     /// [`Error::Mechanics`] or [`Error::Coupling`]; not for a checked scene.
-    pub fn take(&mut self, scene: &Scene, cables: Vec<Cable>) -> Result<(), Error> {
+    pub fn take(
+        &mut self,
+        scene: &Scene,
+        cables: Vec<Cable>,
+        held_by: &[(Vector3<f64>, Vector3<f64>)],
+    ) -> Result<(), Error> {
         self.handles = cables.into_iter().map(|cable| self.cables.insert(cable)).collect();
+        self.held_by = held_by.to_vec();
         for attachment in &scene.attachments {
             let Some(body) = attachment.body else {
                 self.pins.push(None);
@@ -187,13 +197,18 @@ impl Physics {
         self.cables.iter().map(|(_, cable)| cable).collect()
     }
 
-    /// What passes at an attachment; `None` for one to the world.
+    /// What passes at an attachment; `None` for one to the world. At t = 0 that which holds the cable at a body that does not move yet.
     ///
     /// # Errors
     /// [`Error::Coupling`]; not for an attachment of the scene.
     pub fn passing(&self, index: usize, time: f64) -> Result<Option<pins::Passing>, Error> {
         let Some(pin) = self.pins.get(index).copied().flatten() else { return Ok(None) };
-        pins::passing(&self.cables, pin).map(Some).map_err(|source| Error::Coupling { time, source })
+        let mut passing = pins::passing(&self.cables, pin).map_err(|source| Error::Coupling { time, source })?;
+        if time == 0.0 {
+            // before the first step nothing has passed yet
+            (passing.force, passing.moment) = self.held_by[index];
+        }
+        Ok(Some(passing))
     }
 
     /// Largest gap of all attachments at the ends of all steps so far, in m.

@@ -3,7 +3,7 @@
 //! `dissipated` is what effects take out of the scene: zero here. `interface_work` is the work that cables did so far on the bodies
 //! they are held to, the part of a cable's energy that went there; `total` is what is there now, kinetic to gravity, with `"all"`
 //! that of dynamic bodies too. The gap of an attachment to the world is zero: it holds the cable point itself. Force and moment of
-//! an attachment are those on the body or the world.
+//! an attachment are those on the body or the world; at t = 0 they are those of a cable whose bodies are still held.
 
 use super::World;
 use crate::error::Error;

@@ -59,6 +59,7 @@ impl World {
     /// [`Error::Mechanics`] if there is no equilibrium.
     pub fn start(&mut self, purpose: Purpose) -> Result<(), Error> {
         let World { scene, alone, warnings, static_iterations, .. } = self;
+        let mut held_by = vec![Default::default(); scene.attachments.len()];
         for (i, cable) in alone.iter_mut().enumerate() {
             let fully = purpose == Purpose::Static;
             let settle = fully || scene.cables[i].equilibrium;
@@ -78,8 +79,13 @@ impl World {
                 }
             }
             if !fully {
-                for attachment in scene.attachments.iter().filter(|a| a.cable == i && a.body.is_some()) {
-                    cable.set_support(At::ArcLength(attachment.arc_length), Support::default())?;
+                let by_bodies = |k: &usize| scene.attachments[*k].cable == i && scene.attachments[*k].body.is_some();
+                for k in (0..scene.attachments.len()).filter(by_bodies) {
+                    held_by[k] = pull(cable, scene.attachments[k].arc_length)?;
+                }
+                for k in (0..scene.attachments.len()).filter(by_bodies) {
+                    let at = At::ArcLength(scene.attachments[k].arc_length);
+                    cable.set_support(at, Support::default())?;
                 }
                 scene.add_loads(cable, i, true, false)?;
                 scene.set_in_motion(cable, i)?;
@@ -90,7 +96,7 @@ impl World {
         }
         match &mut self.physics {
             Some(physics) if purpose == Purpose::Run => {
-                physics.take(&self.scene, std::mem::take(&mut self.alone))?;
+                physics.take(&self.scene, std::mem::take(&mut self.alone), &held_by)?;
                 self.warnings.extend(physics.jolts(&self.scene)?);
                 Ok(())
             }
@@ -215,11 +221,17 @@ impl World {
             Some(cable) => cable,
             None => coupled.insert(self.cables()[cable].clone()),
         };
-        let node = cable.node(arc_length)?;
-        let held = |reaction: &&Reaction| reaction.node == node;
-        let on_cable = cable.reactions()?.iter().find(held).map(|r| (r.force, r.moment));
-        let (force, moment) = on_cable.unwrap_or_default();
-        // 0 - 0 is 0, not -0
-        Ok((Vector3::zeros() - force, Vector3::zeros() - moment, 0.0))
+        let (force, moment) = pull(cable, arc_length)?;
+        Ok((force, moment, 0.0))
     }
+}
+
+/// Force (N) and moment (N m) of a cable on what supports it at an arc length; zero if nothing does.
+fn pull(cable: &mut Cable, arc_length: f64) -> Result<(Vector3<f64>, Vector3<f64>), Error> {
+    let node = cable.node(arc_length)?;
+    let held = |reaction: &&Reaction| reaction.node == node;
+    let on_cable = cable.reactions()?.iter().find(held).map(|r| (r.force, r.moment));
+    let (force, moment) = on_cable.unwrap_or_default();
+    // 0 - 0 is 0, not -0
+    Ok((Vector3::zeros() - force, Vector3::zeros() - moment))
 }
