@@ -16,7 +16,7 @@
 //! shape and `inertia` a body does not turn. `velocity` is that of the origin. A kinematic body follows its `path`, or moves at its
 //! constant `velocity`; it turns at its constant `angular_velocity` either way. Paths are met at host times and linear between
 //! them, so put corners on multiples of `dt`. A load on a body keeps its direction in world axes; `point` without value is the
-//! origin. Rapier's caps on velocities are lifted. With `initial = "equilibrium"` and in `lariat static` bodies are held where they are drawn while the cables settle.
+//! origin. Rapier's caps on velocities are lifted, and nothing sleeps. With `initial = "equilibrium"` and in `lariat static` bodies are held where they are drawn while the cables settle.
 //!
 //! # Anchors
 //!
