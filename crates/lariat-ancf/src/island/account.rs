@@ -48,8 +48,7 @@ impl Work<'_, '_> {
             let (motion, rho) = self.lever(pin, q, v);
             let force = vector(&rhs[at..]);
             let clamped = self.workspace.clamps[pin].is_some();
-            let moment =
-                if clamped { vector(&q[at + 3..]).cross(&vector(&rhs[at + 3..])) } else { Vector3::zeros() };
+            let moment = if clamped { vector(&q[at + 3..]).cross(&vector(&rhs[at + 3..])) } else { Vector3::zeros() };
             let power = force.dot(&(motion.velocity + motion.spin.cross(&rho))) + moment.dot(&motion.spin);
             let account = &mut self.workspace.accounts[pin];
             account.impulse += (account.force + force) * half;
