@@ -1,6 +1,9 @@
 //! A cable: its mesh, its state, and its step.
 
 mod assembly;
+mod effects;
+mod fluid;
+mod kernel_effects;
 pub mod builder;
 pub mod energy;
 mod equations;
@@ -17,12 +20,15 @@ mod system;
 pub use model::{Element, Model};
 
 use crate::diagnostics::Diagnostics;
+use crate::effect::Account;
 use crate::error::{Error, StepFailure, require};
 use crate::integrate::drive::{self, Counts};
 use crate::integrate::{Integrator, Phase, Scratch};
 use crate::rule::Rule;
 use builder::CableBuilder;
+pub(crate) use effects::check_integrator;
 pub(crate) use equations::Equations;
+pub(crate) use kernel_effects::Rates;
 pub(crate) use layout::along_polyline;
 use nalgebra::Vector3;
 pub(crate) use projection::{project_matrix, project_vector};
@@ -56,6 +62,9 @@ impl From<f64> for At {
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct State {
     pub(crate) phase: Phase,
+    /// Work of effects so far.
+    #[serde(default)]
+    pub(crate) account: Account,
 }
 
 /// A cable of ANCF elements with its force strategy, integrator and state.
@@ -124,6 +133,7 @@ impl Cable {
             step: 0.0,
             failure,
         })?;
+        check_integrator(&model, integrator)?;
         Ok(Cable {
             model,
             state,
@@ -150,6 +160,7 @@ impl Cable {
         self.check_not_attached()?;
         self.saved.copy_from(&self.state.phase);
         self.refresh_memory();
+        self.system.account = Account::default();
         let mut counts = Counts::default();
         let mut equations =
             Equations { model: &self.model, system: &mut self.system, diagnostics: &mut self.diagnostics };
@@ -161,6 +172,9 @@ impl Cable {
         match outcome {
             Ok(()) => {
                 self.diagnostics.host_steps += 1;
+                let saved = core::mem::take(&mut self.saved);
+                self.settle(&saved.q);
+                self.saved = saved;
                 Ok(())
             }
             Err(refusal) => {
@@ -278,6 +292,7 @@ impl Cable {
     /// # Errors
     /// As [`Integrator::checked`].
     pub fn set_integrator(&mut self, integrator: Integrator) -> Result<(), Error> {
+        check_integrator(&self.model, integrator)?;
         self.integrator = integrator.checked()?;
         self.revise();
         Ok(())
@@ -303,6 +318,8 @@ impl Cable {
             .phase
             .check(self.positions().len())
             .map_err(|reason| Error::InvalidShape { cable: self.name().to_string(), reason })?;
+        let Account { damping, drag, line_load } = state.account;
+        [damping, drag, line_load].into_iter().try_for_each(|x| require("work of effects (J)", x, true, "a number"))?;
         self.state = state;
         Ok(())
     }

@@ -1,5 +1,6 @@
 //! What an integrator needs to know of a mechanical system, and nothing else.
 
+use super::Phase;
 use crate::error::StepFailure;
 
 /// How Newton's iteration of an implicit stage ends.
@@ -78,6 +79,9 @@ pub trait Dynamics {
 
     /// Size of a position error in m.
     fn norm(&self, error: &[f64]) -> f64;
+
+    /// Called once for every step of length `h` (s) that was accepted, with the phases at both ends; accelerations are known in both.
+    fn accepted(&mut self, _before: &Phase, _after: &Phase, _h: f64) {}
 
     /// An upper bound of the angular frequencies of the system in rad/s, near its present state.
     fn frequency_bound(&self) -> f64;

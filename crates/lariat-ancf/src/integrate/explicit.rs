@@ -6,7 +6,8 @@
 //!
 //! M is factored once; a step costs one force evaluation and one mass solve per drift. Symplectic, so energy errors stay
 //! bounded while h omega_max stays below [`Composition::stability_limit`]. *Source.* Hairer, Lubich & Wanner 2006, II and VI; Blanes &
-//! Casas 2016. *Validity.* Soft cables, conservative forces. *Rejected.* Error control: it destroys the symplectic structure.
+//! Casas 2016. *Validity.* Soft cables, forces that depend on positions and time alone:
+//! a kick has no velocity at its own time, so the order would fall to one; cables with damping or drag are refused. *Rejected.* Error control: it destroys the symplectic structure.
 
 use super::dirk::add;
 use super::dynamics::Dynamics;

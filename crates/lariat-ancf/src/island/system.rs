@@ -3,7 +3,7 @@
 use super::rotation::{jacobian, jacobian_rate, skew};
 use super::workspace::{CableWork, Motion, Workspace, vector};
 use super::{Pin, PinForce, RigidBody};
-use crate::cable::{Cable, Equations, project_matrix, project_vector};
+use crate::cable::{Cable, Equations, Rates, project_matrix, project_vector};
 use crate::error::StepFailure;
 use crate::integrate::{Dynamics, Phase};
 use nalgebra::{Matrix3, Vector3};
@@ -291,6 +291,7 @@ impl Work<'_, '_> {
         time: f64,
         scale: f64,
         q: &[f64],
+        rates: Rates<'_>,
         z: &[f64],
         rhs: &mut [f64],
         matrix: bool,
@@ -302,7 +303,8 @@ impl Work<'_, '_> {
             let range = work.at..work.at + work.size;
             let rows = &mut rhs[range.clone()];
             if matrix {
-                equations.force_and_matrix(time, &q[range.clone()], scale, 1.0, rows);
+                let rates = Rates { v: &rates.v[range.clone()], ..rates };
+                equations.moving_force_and_matrix(time, &q[range.clone()], rates, scale, 1.0, rows);
                 work.step.read(&equations.system.matrix, &work.nodes);
                 outcome = equations.factor().map(|_| ());
                 if outcome.is_err() {
@@ -311,7 +313,7 @@ impl Work<'_, '_> {
                 let (level, model) = (equations.system.level, equations.model);
                 work.step.complete(level, &equations.system.factorisation, &work.nodes, |x| project_vector(model, x));
             } else {
-                equations.force(time, &q[range.clone()], scale, rows);
+                equations.moving_force(time, &q[range.clone()], &rates.v[range.clone()], scale, rows);
             }
             equations.system.multiply_mass(&z[range.clone()], &mut product[range.clone()]);
             for (r, m) in rows.iter_mut().zip(&product[range]) {
@@ -328,7 +330,7 @@ impl Work<'_, '_> {
         let (mut q, mut v, mut k, mut rhs) = (phase.q.clone(), phase.v.clone(), vec![0.0; n], vec![0.0; n]);
         self.prescribe(phase.time, &mut q, &mut v);
         self.acceleration(phase.time, &q, &v, &mut k)?;
-        self.cable_rows(phase.time, 1.0, &q, &k, &mut rhs, false)?;
+        self.cable_rows(phase.time, 1.0, &q, Rates { v: &v, rate: 0.0 }, &k, &mut rhs, false)?;
         Ok((0..self.pins.len()).map(|pin| PinForce { force: vector(&rhs[self.pin_at(pin)..]) }).collect())
     }
 }

@@ -120,6 +120,7 @@ impl Cable {
         if let Some(resultant) = unheld(&self.model) {
             return Err(no_equilibrium(self, "nothing holds the cable in place".to_string(), resultant, 0));
         }
+        self.system.static_time = self.time();
         let (before, revision) = (self.state.clone(), self.revision);
         let loads = self.model.loads.clone();
         // "time" runs from no load (0) to full load (1) while statics are solved
@@ -224,9 +225,8 @@ impl Cable {
 /// The resultant of the loads in N that no support can take, if there is one: a force on a cable whose position
 /// nothing holds, or nothing but moments (over the length) on one that may turn about the one point that is held.
 fn unheld(model: &Model) -> Option<f64> {
-    let mass: f64 = model.elements.iter().map(|e| e.length * e.section.mass_per_length).sum();
-    let weight = mass * model.gravity;
-    let size = model.loads.iter().fold(weight.norm(), |sum, load| sum + load.force.norm());
+    let (weight, size) = model.dead_resultant();
+    let size = model.loads.iter().fold(size, |sum, load| sum + load.force.norm());
     let held = model.supports.iter().filter(|(_, support)| support.holds_position()).count();
     let turns = model.supports.iter().all(|(_, support)| support.slope == SlopeSupport::Free);
     let force = model.loads.iter().fold(weight, |sum, load| sum + load.force).norm();

@@ -1,0 +1,432 @@
+//! Each effect against an outside value, named with its source.
+
+mod common;
+
+use common::rule;
+use lariat_ancf::{
+    At, Buoyancy, Cable, CableBuilder, Damping, Drag, Effects, Flow, Integrator, LineLoad, Method, PointLoad, RestShape,
+    Section, Vector3,
+};
+use nalgebra::{DMatrix, SymmetricEigen};
+
+const G: f64 = 9.81;
+
+fn only(change: impl FnOnce(&mut Effects)) -> Effects {
+    let mut effects = Effects::default();
+    change(&mut effects);
+    effects
+}
+
+/// A rod of unit length and stiffness, clamped, without gravity.
+fn cantilever(elements: usize) -> CableBuilder {
+    Cable::builder()
+        .points([Vector3::zeros(), Vector3::new(1.0, 0.0, 0.0)])
+        .section(Section::from_stiffness(1e4, 1.0, 1.0).unwrap())
+        .elements(elements)
+        .gravity(Vector3::zeros())
+        .clamp(At::Start)
+}
+
+/// Lowest eigenfrequency (rad/s) and mode of a cable at its present state.
+fn first_mode(cable: &mut Cable) -> (f64, Vec<f64>) {
+    let (mut k, mut m) = (cable.stiffness_matrix(), cable.mass_matrix());
+    cable.apply_supports(&mut k);
+    cable.apply_supports(&mut m);
+    let (k, m): (DMatrix<f64>, DMatrix<f64>) = (common::dense(&k), common::dense(&m));
+    let inverse = m.cholesky().unwrap().l().try_inverse().unwrap();
+    let eigen = SymmetricEigen::new(&inverse * k * inverse.transpose());
+    // held coordinates have eigenvalue 1 by the projection; unit stiffness puts the first mode at 12.4
+    let lowest = (0..eigen.eigenvalues.len())
+        .filter(|&i| eigen.eigenvalues[i] > 1.0 + 1e-6)
+        .min_by(|&a, &b| eigen.eigenvalues[a].total_cmp(&eigen.eigenvalues[b]))
+        .unwrap();
+    let mode = inverse.transpose() * eigen.eigenvectors.column(lowest);
+    (eigen.eigenvalues[lowest].sqrt(), mode.as_slice().to_vec())
+}
+
+/// Extrema of the tip of a vibrating cantilever.
+fn extrema(cable: &mut Cable, dt: f64, steps: usize) -> Vec<f64> {
+    let y: Vec<f64> = (0..steps)
+        .map(|_| {
+            cable.step(dt).unwrap();
+            cable.node_position(cable.nodes() - 1).y
+        })
+        .collect();
+    y.windows(3)
+        .filter(|w| (w[1] - w[0]) * (w[2] - w[1]) < 0.0)
+        .map(|w| {
+            // vertex of the parabola through three samples
+            let (a, b) = (0.5 * (w[0] - 2.0 * w[1] + w[2]), 0.5 * (w[2] - w[0]));
+            w[1] - 0.25 * b * b / a
+        })
+        .collect()
+}
+
+/// The first bending mode of a cantilever decays by the logarithmic decrement of its damping ratio, and the energy it loses is the
+/// account's.
+///
+/// *Source.* delta = 2 pi zeta/sqrt(1 - zeta^2), zeta = tau omega/2 (Clough & Penzien 1993, section 2-6; omega = 3.5160 for unit EI,
+/// rhoA, L: Blevins 1979, table 8-1). Amplitude 2 % of the length: the large-rotation change of frequency is below 0.1 %.
+#[test]
+fn a_damped_mode_decays_by_its_logarithmic_decrement() {
+    for zeta in [0.01f64, 0.03] {
+        let damping = Damping::from_ratio(zeta, 3.5160).unwrap();
+        let integrator = Integrator::tolerance(Method::Esdirk4, 1e-8).unwrap();
+        let mut cable = cantilever(10).integrator(integrator).build().unwrap();
+        let (omega, mode) = first_mode(&mut cable);
+        assert!((omega / 3.5160 - 1.0).abs() < 2e-3, "{omega}");
+        cable.set_damping(damping).unwrap();
+        let n = mode.len();
+        let (x, y): (Vec<f64>, Vec<f64>) = (cable.positions().to_vec(), mode.clone());
+        // the eigenvector may lie in any plane: turn it into y
+        let tip = Vector3::from_column_slice(&y[n - 6..n - 3]);
+        let amplitude = 0.02 / tip.norm();
+        let mut q = x.clone();
+        for i in 0..n / 3 {
+            let part = Vector3::from_column_slice(&y[3 * i..3 * i + 3]).dot(&tip) / tip.norm();
+            q[3 * i + 1] += amplitude * part;
+        }
+        cable.set_coordinates(&q, &vec![0.0; n]).unwrap();
+        let start = cable.energy().total();
+        let peaks = extrema(&mut cable, 0.01, 1100);
+        let swings = peaks.len() - 1;
+        let decrement = 2.0 * (peaks[0] / peaks[swings]).abs().ln() / swings as f64;
+        let expected = 2.0 * std::f64::consts::PI * zeta / (1.0 - zeta * zeta).sqrt();
+        println!("zeta {zeta}: decrement {decrement:.6}, expected {expected:.6}, {swings} half swings");
+        assert!((decrement / expected - 1.0).abs() < 0.01, "{decrement} {expected}");
+        let lost = start - cable.energy().total();
+        let account = cable.account().damping;
+        println!("lost {lost:e} account {account:e}");
+        assert!((lost - account).abs() < 1e-3 * lost, "{lost} {account}");
+    }
+}
+
+/// A straight rod under axial vibration decays by the same law: stress waves of the first mode.
+///
+/// *Source.* omega = (pi/2) sqrt(EA/rhoA)/L for fixed-free (Blevins 1979, table 8-16); zeta = tau omega/2.
+#[test]
+fn a_damped_axial_mode_decays_by_its_logarithmic_decrement() {
+    let omega = std::f64::consts::FRAC_PI_2 * 100.0;
+    let zeta = 0.02f64;
+    let damping = Damping { bending: 0.0, ..Damping::from_ratio(zeta, omega).unwrap() };
+    let integrator = Integrator::substeps(Method::Esdirk4, 4).unwrap();
+    let mut cable = cantilever(8).effects(only(|e| e.damping = Some(damping))).integrator(integrator).build().unwrap();
+    let mut q = cable.positions().to_vec();
+    for (node, s) in cable.node_arc_lengths().into_iter().enumerate() {
+        let phase = std::f64::consts::FRAC_PI_2 * s;
+        q[6 * node] += 1e-5 * phase.sin();
+        q[6 * node + 3] += 1e-5 * std::f64::consts::FRAC_PI_2 * phase.cos();
+    }
+    let v = vec![0.0; q.len()];
+    cable.set_coordinates(&q, &v).unwrap();
+    let start = cable.energy().total();
+    let x: Vec<f64> = (0..400)
+        .map(|_| {
+            cable.step(1e-3).unwrap();
+            cable.node_position(cable.nodes() - 1).x - 1.0
+        })
+        .collect();
+    let peaks: Vec<f64> = x
+        .windows(3)
+        .filter(|w| (w[1] - w[0]) * (w[2] - w[1]) < 0.0)
+        .map(|w| w[1] - 0.0625 * (w[2] - w[0]).powi(2) / (0.5 * (w[0] - 2.0 * w[1] + w[2])))
+        .collect();
+    let swings = peaks.len() - 1;
+    let decrement = 2.0 * (peaks[0] / peaks[swings]).abs().ln() / swings as f64;
+    let expected = 2.0 * std::f64::consts::PI * zeta / (1.0 - zeta * zeta).sqrt();
+    println!("axial decrement {decrement:.6} expected {expected:.6}");
+    assert!((decrement / expected - 1.0).abs() < 0.005, "{decrement} {expected}");
+    let lost = start - cable.energy().total();
+    assert!((lost - cable.account().damping).abs() < 2e-3 * lost, "{lost} {:?}", cable.account());
+}
+
+/// Damping does not change the static shape, and a damped cable comes to rest in it.
+///
+/// *Source.* The equilibrium of the undamped cable.
+#[test]
+fn damping_leaves_the_static_shape_alone() {
+    let build = |effects: Effects| {
+        Cable::builder()
+            .points([Vector3::zeros(), Vector3::new(0.8, 0.0, 0.0)])
+            .length(1.0)
+            .section(Section::from_stiffness(400.0, 0.01, 0.5).unwrap())
+            .elements(8)
+            .fix(At::Start)
+            .fix(At::End)
+            .effects(effects)
+            .build()
+            .unwrap()
+    };
+    let (mut bare, mut damped) = (build(Effects::default()), build(only(|e| e.damping = Some(Damping { axial: 0.05, bending: 0.3 }))));
+    bare.equilibrium().unwrap();
+    damped.equilibrium().unwrap();
+    assert_eq!(bare.positions(), damped.positions());
+    // pushed, and left alone
+    let push = Vector3::new(0.0, 0.0, 0.3);
+    damped.set_rigid_motion(push, Vector3::zeros()).unwrap();
+    for _ in 0..60 {
+        damped.step(1.0 / 60.0).unwrap();
+    }
+    let shaken = common::largest_difference(bare.positions(), damped.positions());
+    let speed = damped.velocities().iter().fold(0.0f64, |m, v| m.max(v.abs()));
+    for _ in 0..600 {
+        damped.step(1.0 / 60.0).unwrap();
+    }
+    let later = common::largest_difference(bare.positions(), damped.positions());
+    println!("after 1 s {shaken:e} m {speed:e} m/s, after 11 s {later:e} m, dissipated {:e} J", damped.account().damping);
+    assert!(damped.account().damping > 0.0);
+}
+
+/// A horizontal cable that falls in a fluid reaches the speed at which drag carries its weight.
+///
+/// *Source.* w = 1/2 rho d C_n v^2 per length, v(t) = v_T tanh(g t/v_T) (free fall with quadratic drag).
+#[test]
+fn a_falling_cable_follows_the_law_of_quadratic_drag() {
+    let section = Section::round(0.01, 1e8, 4000.0).unwrap();
+    let (rho, cn) = (1.2, 1.1);
+    let mut cable = Cable::builder()
+        .points([Vector3::zeros(), Vector3::new(2.0, 0.0, 0.0)])
+        .section(section)
+        .elements(4)
+        .effects(only(|e| e.drag = Some(Drag::new(rho, cn, 0.05, Flow::default()))))
+        .integrator(Integrator::tolerance(Method::Esdirk4, 1e-9).unwrap())
+        .build()
+        .unwrap();
+    let terminal = (2.0 * section.mass_per_length * G / (rho * 0.01 * cn)).sqrt();
+    for i in 1..=30 {
+        let t = 0.5 * f64::from(i);
+        cable.step(0.5).unwrap();
+        let v = -cable.sample(1.3).unwrap().velocity.y;
+        let expected = terminal * (G * t / terminal).tanh();
+        assert!((v - expected).abs() < 1e-6 * terminal, "{t}: {v} {expected}");
+    }
+    // potential energy lost = kinetic + given to the fluid
+    let e = cable.energy();
+    assert!((e.total() + cable.account().drag).abs() < 1e-6 * cable.account().drag, "{e:?} {:?}", cable.account());
+}
+
+/// A cable hung in a cross flow takes the angle at which normal drag and weight balance, everywhere the same; statics and a run agree.
+///
+/// *Source.* Towed cable at its critical angle: 1/2 rho d C_n U^2 cos^2 a = w sin a, a from the vertical (Berteaux 1976, section 6;
+/// Pode 1951). Tangential drag zero; EA large, EI zero.
+#[test]
+fn a_towed_cable_takes_its_critical_angle() {
+    let section = Section::round(0.01, 2e9, 3000.0).unwrap();
+    let (rho, cn, u) = (1000.0, 1.2, 0.6);
+    let flow = Flow::uniform(Vector3::new(u, 0.0, 0.0));
+    let effects = Effects {
+        drag: Some(Drag::new(rho, cn, 0.0, flow)),
+        buoyancy: Some(Buoyancy::new(rho, 1.0)),
+        ..Effects::default()
+    };
+    let weight = (section.mass_per_length - rho * std::f64::consts::FRAC_PI_4 * 1e-4) * G;
+    let f = 0.5 * rho * 0.01 * cn * u * u;
+    // f cos^2 a = w sin a
+    let sine = (-weight + (weight * weight + 4.0 * f * f).sqrt()) / (2.0 * f);
+    let build = || {
+        Cable::builder()
+            .points([Vector3::zeros(), Vector3::new(0.0, -10.0, 0.0)])
+            .section(section)
+            .rule(rule("G5-none"))
+            .elements(10)
+            .fix(At::Start)
+            .effects(effects.clone())
+    };
+    let mut still = build().build().unwrap();
+    let report = still.equilibrium().unwrap();
+    let angle = |cable: &Cable, s: f64| {
+        let t = cable.sample(s).unwrap().slope;
+        t.x / t.norm()
+    };
+    println!("sin a expected {sine:.6}: statics {:.6} after {} iterations", angle(&still, 5.0), report.iterations);
+    for s in [0.5, 5.0, 9.5] {
+        assert!((angle(&still, s) - sine).abs() < 1e-4, "{s}: {} {sine}", angle(&still, s));
+    }
+    let mut run = build().integrator(Integrator::tolerance(Method::Esdirk3, 1e-4).unwrap()).build().unwrap();
+    for _ in 0..300 {
+        run.step(0.2).unwrap();
+    }
+    for s in [0.5, 5.0, 9.5] {
+        assert!((angle(&run, s) - sine).abs() < 2e-3, "{s}: {} {sine}", angle(&run, s));
+    }
+}
+
+/// A cable of the fluid's density is at rest wherever it is put, and its weight returns with the effect off.
+///
+/// *Source.* Archimedes.
+#[test]
+fn a_neutrally_buoyant_cable_stays_where_it_is() {
+    let mut cable = Cable::builder()
+        .points([Vector3::zeros(), Vector3::new(1.0, 0.5, 0.0), Vector3::new(2.0, 0.0, 0.3)])
+        .section(Section::round(0.02, 1e7, 1000.0).unwrap())
+        .rule(rule("G5-none"))
+        .elements(8)
+        .effects(only(|e| e.buoyancy = Some(Buoyancy::new(1000.0, 1.0))))
+        .build()
+        .unwrap();
+    // unstressed: laid out at its own length
+    let q = cable.positions().to_vec();
+    let (mut slope_error, weight) = (0.0f64, 1000.0 * std::f64::consts::FRAC_PI_4 * 4e-4 * G * cable.length());
+    let force = cable.force();
+    for f in force.chunks_exact(6) {
+        slope_error = slope_error.max(Vector3::new(f[0], f[1], f[2]).norm());
+    }
+    let resultant: Vector3<f64> = force.chunks_exact(6).map(|f| Vector3::new(f[0], f[1], f[2])).sum();
+    assert!(resultant.norm() < 1e-12 * weight, "{resultant}");
+    let straight = [Vector3::zeros(), Vector3::new(1.2, -0.9, 0.7)];
+    let mut cable2 = Cable::builder()
+        .points(straight)
+        .section(Section::round(0.02, 1e7, 1000.0).unwrap())
+        .elements(8)
+        .effects(only(|e| e.buoyancy = Some(Buoyancy::new(1000.0, 1.0))))
+        .build()
+        .unwrap();
+    let start = cable2.positions().to_vec();
+    (0..60).for_each(|_| cable2.step(1.0 / 60.0).unwrap());
+    let moved = common::largest_difference(&start, cable2.positions());
+    assert!(moved < 1e-9, "{moved:e}");
+    cable2.set_buoyancy(None).unwrap();
+    cable2.set_rigid_motion(Vector3::zeros(), Vector3::zeros()).unwrap();
+    (0..60).for_each(|_| cable2.step(1.0 / 60.0).unwrap());
+    let fallen = start[1] - cable2.positions()[1];
+    assert!((fallen - 0.5 * G).abs() < 1e-6, "{fallen}");
+    drop((q, slope_error));
+}
+
+/// Added mass lowers the frequencies of a submerged rod by sqrt(m/(m + C_a rho_f A)).
+///
+/// *Source.* Blevins 1979, section 14 (beams in still fluid); 3.5160 for unit EI, L.
+#[test]
+fn added_mass_lowers_the_eigenfrequency_as_the_mass_ratio_says() {
+    let buoyancy = Buoyancy { fluid_density: 1000.0, added_mass: 0.8, area: Some(1.5e-3) };
+    let mut cable = cantilever(10).effects(only(|e| e.buoyancy = Some(buoyancy))).build().unwrap();
+    let omega = first_mode(&mut cable).0;
+    let expected = 3.5160 / (1.0f64 + 0.8 * 1.5).sqrt();
+    assert!((omega / expected - 1.0).abs() < 2e-3, "{omega} {expected}");
+    // and a free cable falls with g (rhoA - rho_f A)/(rhoA + C_a rho_f A)
+    let mut free = Cable::builder()
+        .points([Vector3::zeros(), Vector3::new(1.0, 0.0, 0.0)])
+        .section(Section::from_stiffness(1e4, 1.0, 2.0).unwrap())
+        .effects(only(|e| e.buoyancy = Some(buoyancy)))
+        .build()
+        .unwrap();
+    (0..10).for_each(|_| free.step(0.1).unwrap());
+    let fallen = -free.node_position(3).y;
+    let expected = 0.5 * G * (2.0 - 1.5) / (2.0 + 1.2);
+    assert!((fallen - expected).abs() < 1e-9, "{fallen} {expected}");
+}
+
+/// A pre-curved rod without load is an arc of its natural curvature, and an end moment M changes the curvature by M/EI.
+///
+/// *Source.* Euler-Bernoulli rod, kappa = kappa_0 + M/EI (Timoshenko 1930, part II, initially curved bars); the stretch that the Green
+/// law makes is below 1e-4 here.
+#[test]
+fn a_pre_curved_rod_takes_its_natural_shape() {
+    let (k0, n) = (1.2, 10);
+    // drawn as a polyline on the arc
+    let arc = |k: f64, s: f64| Vector3::new((k * s).sin() / k, (1.0 - (k * s).cos()) / k, 0.0);
+    let points: Vec<_> = (0..=60).map(|i| arc(0.9 * k0, f64::from(i) / 60.0)).collect();
+    let build = || {
+        let mut cable = Cable::builder()
+            .points(points.clone())
+            .length(1.0)
+            .section(Section::from_stiffness(1e5, 1.0, 1.0).unwrap())
+            .elements(n)
+            .gravity(Vector3::zeros())
+            .effects(only(|e| e.rest_shape = Some(RestShape::curved(k0))))
+            .build()
+            .unwrap();
+        let mut support = cable.support(At::Start).unwrap();
+        support.position = Some(lariat_ancf::Motion::fixed(Vector3::zeros()));
+        support.slope = lariat_ancf::SlopeSupport::Direction(Vector3::x());
+        cable.set_support(At::Start, support).unwrap();
+        cable
+    };
+    let mut cable = build();
+    cable.equilibrium().unwrap();
+    for i in 0..=n {
+        let s = i as f64 / n as f64;
+        let r = cable.node_position(i);
+        assert!((r - arc(k0, s)).norm() < 1e-5, "{s}: {r} {}", arc(k0, s));
+    }
+    assert!(cable.energy().bending < 1e-6 && cable.sample(0.55).unwrap().moment.norm() < 1e-3);
+    for moment in [0.5, -0.3] {
+        let mut cable = build();
+        cable.add_load(PointLoad::moment(1.0, Vector3::new(0.0, 0.0, moment))).unwrap();
+        cable.equilibrium().unwrap();
+        let (r, expected) = (cable.node_position(n), arc(k0 + moment, 1.0));
+        assert!((r - expected).norm() < 5e-4, "{moment}: {r} {expected}");
+        let read = cable.sample(0.5).unwrap().moment.norm();
+        assert!((read - moment.abs()).abs() < 5e-3, "{read}");
+    }
+}
+
+/// A cable laid between supports at its reference length, stress-free at a stretch below 1, is under the tension EA (1 - f_0^2)/2.
+///
+/// *Source.* The Green law. A string so tensioned vibrates at pi sqrt(N/rhoA)/L.
+#[test]
+fn pre_strain_is_tension() {
+    let f0: f64 = 0.98;
+    let mut cable = Cable::builder()
+        .points([Vector3::zeros(), Vector3::new(1.0, 0.0, 0.0)])
+        .section(Section::from_stiffness(1e4, 1e-4, 0.1).unwrap())
+        .elements(10)
+        .gravity(Vector3::zeros())
+        .fix(At::Start)
+        .fix(At::End)
+        .effects(only(|e| e.rest_shape = Some(RestShape::stretched(f0))))
+        .build()
+        .unwrap();
+    let tension = 1e4 * 0.5 * (1.0 - f0 * f0);
+    assert!((cable.sample(0.37).unwrap().tension - tension).abs() < 1e-9 * tension);
+    let reaction = cable.reactions().unwrap()[0].force.x;
+    assert!((reaction + tension).abs() < 1e-9 * tension, "{reaction} {tension}");
+    let (omega, _) = first_mode(&mut cable);
+    let expected = std::f64::consts::PI * (tension / 0.1f64).sqrt();
+    assert!((omega / expected - 1.0).abs() < 1e-3, "{omega} {expected}");
+    let energy = cable.energy().axial;
+    assert!((energy - 0.5 * 1e4 * (0.5 * (1.0 - f0 * f0)).powi(2)).abs() < 1e-9);
+}
+
+/// A cantilever under a force per length bends as a beam does, on a part of it too; the line load's work is accounted.
+///
+/// *Source.* Tip deflections q L^4/(8 EI), and for a load on the outer half 41 q L^4/(384 EI) (superposition of Timoshenko 1930).
+#[test]
+fn line_loads_bend_a_cantilever_as_a_beam() {
+    let q = Vector3::new(0.0, 0.0, 1e-3);
+    for (load, expected) in [
+        (LineLoad::uniform(q), 1e-3 / 8.0),
+        (LineLoad { from: 0.5, to: 1.0, force: q }, 41e-3 / 384.0),
+        // inside elements: the sum of two pieces is the whole
+        (LineLoad { from: 0.0, to: 0.33, force: q }, 1e-3 / 8.0),
+    ] {
+        let mut cable = cantilever(7).build().unwrap();
+        cable.add_line_load(load).unwrap();
+        if load.to == 0.33 {
+            cable.add_line_load(LineLoad { from: 0.33, to: 5.0, force: q }).unwrap();
+        }
+        cable.equilibrium().unwrap();
+        let tip = cable.node_position(7).z;
+        assert!((tip / expected - 1.0).abs() < 1e-4, "{load:?}: {tip} {expected}");
+    }
+    let mut cable = cantilever(7).build().unwrap();
+    cable.add_line_load(LineLoad::uniform(1000.0 * q)).unwrap();
+    (0..20).for_each(|_| cable.step(0.02).unwrap());
+    let (total, work) = (cable.energy().total(), cable.account().line_load);
+    assert!(work > 1e-3 && (total - work).abs() < 1e-5 * work, "{total} {work}");
+}
+
+/// Gravity's scale is gravity's scale.
+///
+/// *Source.* A run with that gravity, to rounding.
+#[test]
+fn a_gravity_scale_is_a_scaled_gravity() {
+    let run = |scale: f64, g: f64| {
+        let mut cable = common::pendulum(6).gravity(Vector3::new(0.0, -g, 0.0)).build().unwrap();
+        cable.set_gravity_scale(scale).unwrap();
+        (0..20).for_each(|_| cable.step(0.01).unwrap());
+        cable.positions().to_vec()
+    };
+    assert!(common::largest_difference(&run(0.5, 9.0), &run(1.0, 4.5)) < 1e-12);
+    assert!(common::largest_difference(&run(0.0, 9.0), &run(0.0, 4.5)) == 0.0);
+}
