@@ -101,43 +101,32 @@ fn a_damped_mode_decays_by_its_logarithmic_decrement() {
     }
 }
 
-/// A straight rod under axial vibration decays by the same law: stress waves of the first mode.
+/// A straight rod under axial vibration loses energy by the same law: exp(-2 zeta omega t), read after ten periods.
 ///
 /// *Source.* omega = (pi/2) sqrt(EA/rhoA)/L for fixed-free (Blevins 1979, table 8-16); zeta = tau omega/2.
 #[test]
-fn a_damped_axial_mode_decays_by_its_logarithmic_decrement() {
-    let omega = std::f64::consts::FRAC_PI_2 * 100.0;
-    let zeta = 0.02f64;
+fn a_damped_axial_mode_loses_energy_by_its_damping_ratio() {
+    let (omega, zeta) = (std::f64::consts::FRAC_PI_2 * 100.0, 0.02f64);
     let damping = Damping { bending: 0.0, ..Damping::from_ratio(zeta, omega).unwrap() };
     let integrator = Integrator::substeps(Method::Esdirk4, 4).unwrap();
-    let mut cable = cantilever(8).effects(only(|e| e.damping = Some(damping))).integrator(integrator).build().unwrap();
+    let builder = cantilever(8).rule(rule("G5-3")).effects(only(|e| e.damping = Some(damping)));
+    let mut cable = builder.integrator(integrator).build().unwrap();
     let mut q = cable.positions().to_vec();
     for (node, s) in cable.node_arc_lengths().into_iter().enumerate() {
         let phase = std::f64::consts::FRAC_PI_2 * s;
-        q[6 * node] += 1e-5 * phase.sin();
-        q[6 * node + 3] += 1e-5 * std::f64::consts::FRAC_PI_2 * phase.cos();
+        q[6 * node] += 1e-6 * phase.sin();
+        q[6 * node + 3] += 1e-6 * std::f64::consts::FRAC_PI_2 * phase.cos();
     }
     let v = vec![0.0; q.len()];
     cable.set_coordinates(&q, &v).unwrap();
     let start = cable.energy().total();
-    let x: Vec<f64> = (0..400)
-        .map(|_| {
-            cable.step(1e-3).unwrap();
-            cable.node_position(cable.nodes() - 1).x - 1.0
-        })
-        .collect();
-    let peaks: Vec<f64> = x
-        .windows(3)
-        .filter(|w| (w[1] - w[0]) * (w[2] - w[1]) < 0.0)
-        .map(|w| w[1] - 0.0625 * (w[2] - w[0]).powi(2) / (0.5 * (w[0] - 2.0 * w[1] + w[2])))
-        .collect();
-    let swings = peaks.len() - 1;
-    let decrement = 2.0 * (peaks[0] / peaks[swings]).abs().ln() / swings as f64;
-    let expected = 2.0 * std::f64::consts::PI * zeta / (1.0 - zeta * zeta).sqrt();
-    println!("axial decrement {decrement:.6} expected {expected:.6}");
-    assert!((decrement / expected - 1.0).abs() < 0.005, "{decrement} {expected}");
+    let period = 2.0 * std::f64::consts::PI / (omega * (1.0 - zeta * zeta).sqrt());
+    (0..400).for_each(|_| cable.step(period / 40.0).unwrap());
+    let decay = (start / cable.energy().total()).ln();
+    let expected = 2.0 * zeta * omega * 10.0 * period;
+    assert!((decay / expected - 1.0).abs() < 2e-3, "{decay} {expected}");
     let lost = start - cable.energy().total();
-    assert!((lost - cable.account().damping).abs() < 2e-3 * lost, "{lost} {:?}", cable.account());
+    assert!((lost - cable.account().damping).abs() < 1e-4 * lost, "{lost} {:?}", cable.account());
 }
 
 /// Damping does not change the static shape, and a damped cable comes to rest in it.
@@ -264,13 +253,8 @@ fn a_neutrally_buoyant_cable_stays_where_it_is() {
         .effects(only(|e| e.buoyancy = Some(Buoyancy::new(1000.0, 1.0))))
         .build()
         .unwrap();
-    // unstressed: laid out at its own length
-    let q = cable.positions().to_vec();
-    let (mut slope_error, weight) = (0.0f64, 1000.0 * std::f64::consts::FRAC_PI_4 * 4e-4 * G * cable.length());
+    let weight = 1000.0 * std::f64::consts::FRAC_PI_4 * 4e-4 * G * cable.length();
     let force = cable.force();
-    for f in force.chunks_exact(6) {
-        slope_error = slope_error.max(Vector3::new(f[0], f[1], f[2]).norm());
-    }
     let resultant: Vector3<f64> = force.chunks_exact(6).map(|f| Vector3::new(f[0], f[1], f[2])).sum();
     assert!(resultant.norm() < 1e-12 * weight, "{resultant}");
     let straight = [Vector3::zeros(), Vector3::new(1.2, -0.9, 0.7)];
@@ -290,7 +274,6 @@ fn a_neutrally_buoyant_cable_stays_where_it_is() {
     (0..60).for_each(|_| cable2.step(1.0 / 60.0).unwrap());
     let fallen = start[1] - cable2.positions()[1];
     assert!((fallen - 0.5 * G).abs() < 1e-6, "{fallen}");
-    drop((q, slope_error));
 }
 
 /// Added mass lowers the frequencies of a submerged rod by sqrt(m/(m + C_a rho_f A)).
@@ -325,7 +308,7 @@ fn a_pre_curved_rod_takes_its_natural_shape() {
     let (k0, n) = (1.2, 10);
     // drawn as a polyline on the arc
     let arc = |k: f64, s: f64| Vector3::new((k * s).sin() / k, (1.0 - (k * s).cos()) / k, 0.0);
-    let points: Vec<_> = (0..=60).map(|i| arc(0.9 * k0, f64::from(i) / 60.0)).collect();
+    let points: Vec<_> = (0..=60).map(|i| arc(1.1 * k0, f64::from(i) / 60.0)).collect();
     let build = || {
         let mut cable = Cable::builder()
             .points(points.clone())
@@ -350,7 +333,7 @@ fn a_pre_curved_rod_takes_its_natural_shape() {
         assert!((r - arc(k0, s)).norm() < 1e-5, "{s}: {r} {}", arc(k0, s));
     }
     assert!(cable.energy().bending < 1e-6 && cable.sample(0.55).unwrap().moment.norm() < 1e-3);
-    for moment in [0.5, -0.3] {
+    for moment in [0.5, 1.0] {
         let mut cable = build();
         cable.add_load(PointLoad::moment(1.0, Vector3::new(0.0, 0.0, moment))).unwrap();
         cable.equilibrium().unwrap();

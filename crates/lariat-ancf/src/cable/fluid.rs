@@ -74,6 +74,17 @@ impl Fluid {
         })
     }
 
+    /// Whether the fluid moves, somewhere and at some time.
+    pub fn flows(&self) -> bool {
+        self.flow.velocity != Vector3::zeros()
+    }
+
+    /// Makes the flow that of a time, for ever.
+    pub fn hold(&mut self, time: f64) {
+        self.flow.velocity = self.flow.in_time(time);
+        self.flow.history.clear();
+    }
+
     /// Adds `scale` times the drag to `out`.
     pub fn add_force(&self, level: Level, time: f64, q: &[f64], v: &[f64], scale: f64, out: &mut [f64]) {
         dispatch!(level, simd => self.run(simd, time, q, Rates { v, rate: 0.0 }, scale, out, None));

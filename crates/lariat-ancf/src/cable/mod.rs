@@ -28,6 +28,7 @@ use crate::rule::Rule;
 use builder::CableBuilder;
 pub(crate) use effects::check_integrator;
 pub(crate) use equations::Equations;
+pub(crate) use fluid::Fluid;
 pub(crate) use kernel_effects::Rates;
 pub(crate) use layout::along_polyline;
 use nalgebra::Vector3;

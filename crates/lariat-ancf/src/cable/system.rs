@@ -135,6 +135,18 @@ impl System {
         Ok(system)
     }
 
+    /// Makes the flow that of a time, for ever.
+    pub fn hold_flow(&mut self, time: f64) {
+        if let Some(fluid) = &mut self.fluid {
+            fluid.hold(time);
+        }
+    }
+
+    /// Puts the flow back that the model has.
+    pub fn release_flow(&mut self, model: &Model) {
+        self.fluid = Fluid::new(model);
+    }
+
     /// Finds the elements of the point loads.
     pub fn locate_loads(&mut self, model: &Model) {
         self.located.clear();

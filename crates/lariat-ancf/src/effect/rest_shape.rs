@@ -11,7 +11,8 @@
 //! (Langer & Singer 1996, SIAM Review 38:605, on the twist-free frame). *Validity.* The *direction* of the natural curvature is free:
 //! a coil may unwind into any curve of the same curvature, out of plane without resistance, and one that passes through the straight
 //! line may come out on the other side. k_r rounds the cusp there: between kappa_0/2 and 2 kappa_0 moments are off by less than 0.5 % of EI
-//! kappa_0. The straight cable is an unstable equilibrium. f_0 within a few percent of 1: EA counts per length of the reference.
+//! kappa_0. The straight cable is an unstable equilibrium, and so, out of plane, is any shape straighter than kappa_0: statics and
+//! undamped runs that start there may fail; start at kappa_0 or beyond. f_0 within a few percent of 1: EA counts per length of the reference.
 //! *Rejected.* A natural curvature with a direction: it needs the twist that this element does not have. Points of zero k_r: the tangent is
 //! infinite at the straight cable.
 

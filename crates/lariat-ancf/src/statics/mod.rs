@@ -8,6 +8,8 @@
 //! - `lay`: downhill from the shape that a new cable would have between the supports;
 //! - `relax`: dynamic relaxation, then downhill from there.
 //!
+//! In a flow there is nothing to go down: `drift` alone.
+//!
 //! A shape with folded elements is straightened once and goes downhill again; if it folds again it is not an answer.
 //! A stable shape is preferred, an unstable one is returned if no stable one is found. Iterations are bounded, each
 //! way and all together.
@@ -17,6 +19,7 @@
 //! (no branch is followed).
 
 mod descend;
+mod drift;
 mod folded;
 mod follow;
 mod lay;
@@ -24,7 +27,7 @@ mod potential;
 mod relax;
 mod scale;
 
-use crate::cable::{Cable, Model};
+use crate::cable::{Cable, Fluid, Model};
 use crate::error::{Error, StepFailure, require};
 use crate::integrate::Dynamics;
 use crate::support::SlopeSupport;
@@ -149,6 +152,9 @@ impl Cable {
 
     fn attempts(&mut self, budget: &mut Budget) -> Result<EquilibriumReport, Failure> {
         self.place_supports();
+        if self.system.fluid.as_ref().is_some_and(Fluid::flows) {
+            return self.drift(budget);
+        }
         let start = self.state.clone();
         let moments = self.model.loads.iter().any(|load| load.moment != Vector3::zeros());
         let pure = moments
