@@ -98,7 +98,9 @@ fn the_damping_matrix_is_the_derivative_of_the_force_by_velocity() {
 #[test]
 fn the_stiffness_matrix_is_the_derivative_of_the_force_by_position() {
     for name in ["projected-3", "ST2", "G5-5"] {
-        let effects = Effects { damping: None, drag: None, ..all() };
+        let mut effects = Effects { damping: None, drag: None, ..all() };
+        // natural curvatures that the shaken cable exceeds: below, its tangent is not exact on purpose
+        effects.rest_shape.iter_mut().flat_map(|r| &mut r.pieces).for_each(|p| p.curvature *= 0.01);
         let mut cable = shaken(effects, name);
         let k = dense(&cable.stiffness_matrix());
         let expected = -differences(&mut cable, false);

@@ -170,7 +170,7 @@ impl Linearised for CableStage<'_, '_> {
     }
 
     fn exact(&self) -> bool {
-        self.v.is_empty()
+        self.equations.model.effects.exact_tangent()
     }
 
     fn not_finite(&self) -> StepFailure {

@@ -64,4 +64,10 @@ impl Effects {
     pub fn depend_on_velocity(&self) -> bool {
         self.damping.is_some() || self.drag.is_some()
     }
+
+    /// Whether the step matrix holds the exact tangent of the force.
+    pub(crate) fn exact_tangent(&self) -> bool {
+        let curved = |rest: &RestShape| rest.pieces.iter().any(|piece| piece.curvature > 0.0);
+        !self.depend_on_velocity() && !self.rest_shape.as_ref().is_some_and(curved)
+    }
 }

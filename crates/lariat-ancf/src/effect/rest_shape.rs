@@ -10,9 +10,10 @@
 //! section spin, 1/2 EI |kappa - kappa_0 n|^2 is least where the natural direction n lies along kappa, which leaves 1/2 EI (kappa - kappa_0)^2
 //! (Langer & Singer 1996, SIAM Review 38:605, on the twist-free frame). *Validity.* The *direction* of the natural curvature is free:
 //! a coil may unwind into any curve of the same curvature, out of plane without resistance, and one that passes through the straight
-//! line may come out on the other side. k_r rounds the cusp there: between kappa_0/2 and 2 kappa_0 moments are off by less than 0.5 % of EI
-//! kappa_0. The straight cable is an unstable equilibrium, and so, out of plane, is any shape straighter than kappa_0: statics and
-//! undamped runs that start there may fail; start at kappa_0 or beyond. f_0 within a few percent of 1: EA counts per length of the reference.
+//! line may come out on the other side. So a cable that is *straighter* than kappa_0 has no resistance across its plane, and less than
+//! none: it may wrinkle at the size of the mesh. Meant for cables that stay near one plane or beyond kappa_0. k_r rounds the cusp there: between kappa_0/2 and 2 kappa_0 moments are off by less than 0.5 % of EI
+//! kappa_0. The straight cable is an unstable equilibrium. *Tangent.* Exact beyond kappa_0; below, the compressive bending moment's
+//! geometric stiffness is left out, which keeps the step matrix definite and costs Newton iterations. f_0 within a few percent of 1: EA counts per length of the reference.
 //! *Rejected.* A natural curvature with a direction: it needs the twist that this element does not have. Points of zero k_r: the tangent is
 //! infinite at the straight cable.
 
@@ -117,7 +118,7 @@ impl<T: Real> NaturalCurvature<T> {
         }
     }
 
-    /// Adds gradient and Hessian of the energy.
+    /// Adds the gradient of the energy to `n`, and its Hessian to `geometric` and `h`: without what would be negative stiffness.
     #[inline(always)]
     pub fn add_hessian(
         &self,
@@ -132,9 +133,12 @@ impl<T: Real> NaturalCurvature<T> {
             let square = at.w + self.rounding;
             let first = -(flexural * self.target * point.weight / square.sqrt());
             at.add_gradient(first, n);
-            at.add_gradient(first, geometric);
             at.add_square(first / square * -0.5, h);
-            point.add_second(g, &at, first, h);
+            // with the bending rule's own share: not below zero
+            let own = flexural * point.weight;
+            let kept = (first - own + (first + own).abs()) * 0.5;
+            at.add_gradient(kept, geometric);
+            point.add_second(g, &at, kept, h);
         }
     }
 }

@@ -92,7 +92,7 @@ impl Linearised for IslandStage<'_, '_, '_> {
     }
 
     fn exact(&self) -> bool {
-        !self.work.cables.iter().any(|cable| cable.effects().depend_on_velocity())
+        self.work.cables.iter().all(|cable| cable.effects().exact_tangent())
     }
 
     fn not_finite(&self) -> StepFailure {
