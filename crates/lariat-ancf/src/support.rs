@@ -65,6 +65,16 @@ pub enum SlopeSupport {
     Direction(Vector3<f64>),
     /// The whole vector is prescribed.
     Prescribed(Motion),
+    /// Its direction follows a body of an [`island`](crate::island), and is this unit vector now; its length is free. Set by
+    /// [`Cable::attach_clamped`](crate::Cable::attach_clamped).
+    Attached(Vector3<f64>),
+}
+
+impl SlopeSupport {
+    /// True if a direction is held and the length free.
+    pub(crate) fn is_direction(&self) -> bool {
+        matches!(self, SlopeSupport::Direction(_) | SlopeSupport::Attached(_))
+    }
 }
 
 /// What holds a node.
@@ -89,7 +99,7 @@ impl Support {
         for motion in self.position.iter().chain(slope) {
             require("prescribed motion", if motion.is_finite() { 0.0 } else { f64::NAN }, true, "a number")?;
         }
-        if let SlopeSupport::Direction(d) = &self.slope {
+        if let SlopeSupport::Direction(d) | SlopeSupport::Attached(d) = &self.slope {
             require("length of a clamp's direction", d.norm(), (d.norm() - 1.0).abs() < 1e-6, "1")?;
         }
         Ok(())
@@ -117,7 +127,7 @@ impl Support {
         match self.slope {
             SlopeSupport::Free => {}
             SlopeSupport::Prescribed(_) => t.fill(0.0),
-            SlopeSupport::Direction(d) => {
+            SlopeSupport::Direction(d) | SlopeSupport::Attached(d) => {
                 let along = d.x * t[0] + d.y * t[1] + d.z * t[2];
                 for i in 0..3 {
                     t[i] = along * d[i];

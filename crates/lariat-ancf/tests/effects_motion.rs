@@ -157,7 +157,7 @@ fn an_island_carries_the_effects_as_a_cable_alone_does() {
         let mut cable = alone.clone();
         let node = cable.attach(At::Start).unwrap();
         let (mut bodies, mut island) = ([fixed_body()], Island::default());
-        let pins = [Pin { cable: 0, node, body: 0, anchor: Vector3::zeros() }];
+        let pins = [Pin { cable: 0, node, body: 0, anchor: Vector3::zeros(), direction: None }];
         for _ in 0..12 {
             alone.step(1.0 / 60.0).unwrap();
             island.step(&mut [&mut cable], &mut bodies, &pins, integrator, 1.0 / 60.0).unwrap();
@@ -174,7 +174,7 @@ fn an_island_carries_the_effects_as_a_cable_alone_does() {
     }
     let mut cable = wet(all()).build().unwrap();
     let node = cable.attach(At::Start).unwrap();
-    let pins = [Pin { cable: 0, node, body: 0, anchor: Vector3::zeros() }];
+    let pins = [Pin { cable: 0, node, body: 0, anchor: Vector3::zeros(), direction: None }];
     let explicit = Integrator::substeps(Method::Verlet, 1000).unwrap();
     assert!(Island::default().step(&mut [&mut cable], &mut [fixed_body()], &pins, explicit, 0.01).is_err());
 }
@@ -191,7 +191,7 @@ fn an_island_balances_its_energy_with_effects() {
     let mut body = RigidBody::new(2.0, Matrix3::identity() * 0.02, tip - Vector3::new(0.0, 0.1, 0.0)).unwrap();
     body.force = Vector3::new(0.0, -2.0 * 9.81, 0.0);
     let (mut bodies, mut island) = ([body], Island::default());
-    let pins = [Pin { cable: 0, node, body: 0, anchor: Vector3::new(0.0, 0.1, 0.0) }];
+    let pins = [Pin { cable: 0, node, body: 0, anchor: Vector3::new(0.0, 0.1, 0.0), direction: None }];
     let balance = |cable: &Cable, body: &RigidBody| {
         cable.energy().total() + cable.account().dissipated() - cable.account().line_load + body.kinetic_energy()
             - body.force.dot(&body.position)

@@ -104,6 +104,25 @@ pub enum Error {
         #[source]
         source: lariat_ancf::Error,
     },
+    /// A rigid body that cannot go on.
+    #[error("at t = {time} s: body {body:?}: {problem}")]
+    Body {
+        /// Simulated time in s.
+        time: f64,
+        /// Name of the body.
+        body: String,
+        /// Why.
+        problem: String,
+    },
+    /// The coupling of cables and bodies refused.
+    #[error("at t = {time} s: {source}")]
+    Coupling {
+        /// Simulated time in s.
+        time: f64,
+        /// Why.
+        #[source]
+        source: lariat_rapier::Error,
+    },
     /// The run was interrupted; every sample so far is on disk.
     #[error("interrupted at t = {time} s; samples so far are kept")]
     Interrupted {
@@ -130,19 +149,30 @@ impl Error {
             | Error::Override { .. }
             | Error::Read { .. }
             | Error::Output { .. } => 2,
-            Error::Write { .. } | Error::Mechanics { .. } | Error::Figure { .. } => 3,
+            Error::Write { .. }
+            | Error::Mechanics { .. }
+            | Error::Body { .. }
+            | Error::Coupling { .. }
+            | Error::Figure { .. } => 3,
             Error::Interrupted { .. } => 130,
         }
     }
 }
 
-impl From<lariat_ancf::Error> for Error {
-    fn from(source: lariat_ancf::Error) -> Self {
+impl Error {
+    /// A refusal of the mechanics at a time in s, unless it names its own.
+    pub(crate) fn mechanics(time: f64, source: lariat_ancf::Error) -> Self {
         let time = match &source {
             lariat_ancf::Error::StepRefused { time, .. } => *time,
-            _ => 0.0,
+            _ => time,
         };
         Error::Mechanics { time, source }
+    }
+}
+
+impl From<lariat_ancf::Error> for Error {
+    fn from(source: lariat_ancf::Error) -> Self {
+        Error::mechanics(0.0, source)
     }
 }
 

@@ -12,8 +12,8 @@
 
 mod error;
 pub mod figures;
-
 pub mod pendulum;
+mod physics;
 pub mod run;
 pub mod scene;
 pub mod table1;

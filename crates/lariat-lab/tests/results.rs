@@ -92,8 +92,8 @@ fn the_catenary_scene_hangs_as_a_catenary() {
         if 2.0 * a * (0.5 * w / a).sinh() > chord { low = a } else { high = a }
     }
     let horizontal = weight * low;
-    let (left, _) = world.attachment(0).unwrap();
-    let (right, _) = world.attachment(1).unwrap();
+    let (left, ..) = world.attachment(0).unwrap();
+    let (right, ..) = world.attachment(1).unwrap();
     assert_relative_eq!(left.x, horizontal, max_relative = 2e-3);
     assert_relative_eq!(right.x, -horizontal, max_relative = 2e-3);
     assert_relative_eq!(left.y + right.y, -weight * length, max_relative = 1e-9);

@@ -3,7 +3,7 @@
 use crate::Error;
 use crate::convert::{matrix, rotation, vector};
 use ::nalgebra::Vector3;
-use lariat_ancf::island::RigidBody;
+use lariat_ancf::island::{BodyMemory, RigidBody};
 use rapier::dynamics::{LockedAxes, RigidBodyHandle};
 use rapier::math::{AngVector, Pose, Vector};
 use rapier::pipeline::PhysicsWorld;
@@ -11,7 +11,7 @@ use serde::{Deserialize, Serialize};
 
 /// What the coupling remembers of a body.
 #[derive(Clone, Debug, Serialize, Deserialize)]
-pub(crate) struct BodyMemory {
+pub(crate) struct Remembered {
     pub handle: RigidBodyHandle,
     /// Learnt force of contacts and joints, in N.
     pub force: Vector3<f64>,
@@ -28,18 +28,20 @@ pub(crate) struct Exact {
     pub rotation: ::nalgebra::UnitQuaternion<f64>,
     pub velocity: Vector3<f64>,
     pub spin: Vector3<f64>,
+    /// Its accelerations at the end of the step that made this state.
+    pub accelerations: Option<BodyMemory>,
     pub pose: Pose,
     pub linvel: Vector,
     pub angvel: AngVector,
 }
 
-impl BodyMemory {
+impl Remembered {
     pub fn new(handle: RigidBodyHandle) -> Self {
-        BodyMemory { handle, force: Vector3::zeros(), torque: Vector3::zeros(), exact: None }
+        Remembered { handle, force: Vector3::zeros(), torque: Vector3::zeros(), exact: None }
     }
 }
 
-/// True if the coupling integrates this body: dynamic, awake, enabled, of finite mass. Others move the cable and feel nothing.
+/// True if the coupling integrates this body: dynamic, enabled, of finite mass. Others move the cable and feel nothing.
 pub(crate) fn is_integrated(world: &PhysicsWorld, handle: RigidBodyHandle) -> bool {
     world
         .bodies
@@ -47,11 +49,12 @@ pub(crate) fn is_integrated(world: &PhysicsWorld, handle: RigidBodyHandle) -> bo
         .is_some_and(|b| b.is_dynamic() && b.is_enabled() && b.mass_properties().local_mprops.inv_mass > 0.0)
 }
 
-/// Reads a body: its mass, its state (in `f64` if Rapier's is what was written last), gravity, the user's and the learnt forces.
+/// Reads a body: its mass, its state (in `f64` if Rapier's is what was written last), gravity, the user's and the learnt forces. A
+/// sleeping one stands still.
 pub(crate) fn read(
     world: &PhysicsWorld,
     handle: RigidBodyHandle,
-    memory: &BodyMemory,
+    memory: &Remembered,
     time: f64,
 ) -> Result<RigidBody, Error> {
     let body = &world.bodies[handle];
@@ -88,18 +91,26 @@ pub(crate) fn read(
             turns[2] && turnable,
         ],
         gyroscopic: body.gyroscopic_forces_enabled(),
+        memory: None,
     };
     if let Some(exact) = &memory.exact
         && exact.pose == *body.position()
     {
         out.position = exact.position;
         out.rotation = exact.rotation;
-        if exact.linvel == body.linvel() {
+        let (moves, turns) = (exact.linvel == body.linvel(), exact.angvel == body.angvel());
+        if moves {
             out.velocity = exact.velocity;
         }
-        if exact.angvel == body.angvel() {
+        if turns {
             out.angular_velocity = exact.spin;
         }
+        out.memory = exact.accelerations.filter(|_| moves && turns);
+    }
+    if body.is_sleeping() {
+        out.free = [false; 6];
+        out.velocity = Vector3::zeros();
+        out.angular_velocity = Vector3::zeros();
     }
     let checks: [(&'static str, bool); 4] = [
         ("position", out.position.iter().chain(out.rotation.coords.iter()).all(|x| x.is_finite())),

@@ -1,10 +1,11 @@
 //! What can go wrong between cables and bodies.
 
-use crate::{AttachmentHandle, CableHandle};
+use crate::{AttachmentHandle, CableHandle, JunctionHandle};
 use thiserror::Error as ThisError;
 
 /// The error type of this crate.
 #[derive(Clone, Debug, PartialEq, ThisError)]
+#[non_exhaustive]
 pub enum Error {
     /// From the mechanics of a cable.
     #[error(transparent)]
@@ -15,10 +16,21 @@ pub enum Error {
     /// A handle of an attachment that is not, or no longer, in the set.
     #[error("no attachment {0:?} in this set")]
     NoAttachment(AttachmentHandle),
+    /// A handle of a junction that is not, or no longer, in the set.
+    #[error("no junction {0:?} in this set")]
+    NoJunction(JunctionHandle),
     /// A body that is not in the world.
     #[error("no body {0:?} in this world")]
     NoBody(rapier::dynamics::RigidBodyHandle),
-    /// A node that already holds to a body.
+    /// An anchor that is not finite.
+    #[error("the anchor on body {body:?} is not finite: {anchor:?} m")]
+    AnchorNotFinite {
+        /// The body.
+        body: rapier::dynamics::RigidBodyHandle,
+        /// The anchor in m.
+        anchor: ::nalgebra::Vector3<f64>,
+    },
+    /// A node that already holds to a body or a junction.
     #[error("cable {cable:?}: node {node} is attached already")]
     AlreadyAttached {
         /// Name of the cable.

@@ -1,7 +1,8 @@
 //! Giving Rapier the predicted motion, and reading what became of it.
 
-use crate::body::{BodyMemory, Exact};
+use crate::body::{Exact, Remembered};
 use crate::convert::{rotation, to_vector, vector};
+use crate::impedance;
 use crate::islands::Given;
 use ::nalgebra::Vector3;
 use lariat_ancf::island::RigidBody;
@@ -13,24 +14,32 @@ use rapier::pipeline::PhysicsWorld;
 const LEARNING: f64 = 0.3;
 /// A body landed where predicted if it is within this many units of `Real`'s rounding.
 const ROUNDING: f64 = 32.0;
+/// ... and its velocities within this many times more: Rapier adds up forces that balance.
+const VELOCITY_ROUNDING: f64 = 8.0;
 
 /// Makes Rapier move the body uniformly from where it is to where `end` is, in `h` (s).
 pub(crate) fn give(
     world: &mut PhysicsWorld,
     handle: RigidBodyHandle,
     end: &RigidBody,
-    memory: &BodyMemory,
+    memory: &Remembered,
     h: f64,
 ) -> Given {
     let gravity = world.gravity;
+    let alone = impedance::is_alone(world, handle);
     let body = &mut world.bodies[handle];
     let mass = end.mass as Real;
     let linvel = to_vector(&((end.position - vector(body.center_of_mass())) / h));
     let turn = (end.rotation * rotation(*body.rotation()).inverse()).scaled_axis() / h;
     let angvel = to_vector(&turn);
+    let weight = vector(gravity).norm() * f64::from(body.gravity_scale()).abs();
     let given = Given {
         linvel,
         angvel,
+        alone,
+        rounding: (weight + memory.force.norm() / end.mass) * h,
+        own_linvel: body.linvel(),
+        own_angvel: body.angvel(),
         user_force: body.user_force(),
         user_torque: body.user_torque(),
         gyroscopic: body.gyroscopic_forces_enabled(),
@@ -50,6 +59,36 @@ pub(crate) fn give(
     given
 }
 
+/// Restores the user's forces and settings, which [`give`] put aside.
+fn restore(body: &mut rapier::dynamics::RigidBody, given: &Given) {
+    body.reset_forces(false);
+    body.reset_torques(false);
+    body.add_force(given.user_force, false);
+    body.add_torque(given.user_torque, false);
+    body.enable_gyroscopic_forces(given.gyroscopic);
+    body.set_linear_damping(given.linear_damping);
+    body.set_angular_damping(given.angular_damping);
+}
+
+/// Undoes [`give`]: the body is as it was.
+pub(crate) fn take_back(world: &mut PhysicsWorld, handle: RigidBodyHandle, given: &Given) {
+    let body = &mut world.bodies[handle];
+    restore(body, given);
+    body.set_linvel(given.own_linvel, false);
+    body.set_angvel(given.own_angvel, false);
+}
+
+/// Settles a body that Rapier put to sleep instead of stepping it: it is where it was, at rest.
+pub(crate) fn fall_asleep(world: &mut PhysicsWorld, handle: RigidBodyHandle, given: &Given, memory: &mut Remembered) {
+    let body = &mut world.bodies[handle];
+    restore(body, given);
+    if let Some(exact) = &mut memory.exact {
+        (exact.velocity, exact.spin) = (Vector3::zeros(), Vector3::zeros());
+        (exact.linvel, exact.angvel) = (body.linvel(), body.angvel());
+        exact.accelerations = None;
+    }
+}
+
 /// Restores what [`give`] put aside, and settles the body's state: as predicted if it landed there, else Rapier's position with
 /// the velocity that contacts and joints left of the predicted one. `impulse` and `couple` are what motors did to the body.
 /// Returns whether it deviated.
@@ -58,18 +97,12 @@ pub(crate) fn settle(
     handle: RigidBodyHandle,
     end: &RigidBody,
     given: &Given,
-    memory: &mut BodyMemory,
+    memory: &mut Remembered,
     (impulse, couple): (Vector3<f64>, Vector3<f64>),
     h: f64,
 ) -> bool {
     let body = &mut world.bodies[handle];
-    body.reset_forces(false);
-    body.reset_torques(false);
-    body.add_force(given.user_force, false);
-    body.add_torque(given.user_torque, false);
-    body.enable_gyroscopic_forces(given.gyroscopic);
-    body.set_linear_damping(given.linear_damping);
-    body.set_angular_damping(given.angular_damping);
+    restore(body, given);
 
     let (before, spin_before) = (vector(given.linvel), vector(given.angvel));
     let (after, spin_after) = (vector(body.linvel()), vector(body.angvel()));
@@ -79,10 +112,11 @@ pub(crate) fn settle(
     let reach = vector(body.center_of_mass()).norm().max(1.0);
     let off = (vector(body.center_of_mass()) - end.position).norm();
     let attitude = (rotation(*body.rotation()).inverse() * end.rotation).angle();
+    let slow = epsilon * VELOCITY_ROUNDING;
     let landed = off <= epsilon * reach
         && attitude <= epsilon.max(1e-3 * f64::from(Real::EPSILON).sqrt()) * 4.0
-        && deviation.norm() <= epsilon * before.norm().max(1e-3)
-        && turn.norm() <= epsilon * spin_before.norm().max(1e-3);
+        && deviation.norm() <= slow * (before.norm() + given.rounding).max(1e-3)
+        && turn.norm() <= slow * spin_before.norm().max(1e-2);
 
     let still = (1.0 / (1.0 + h * f64::from(given.linear_damping)), 1.0 / (1.0 + h * f64::from(given.angular_damping)));
     let (velocity, spin) = if landed {
@@ -104,11 +138,12 @@ pub(crate) fn settle(
         rotation: end.rotation,
         velocity,
         spin,
+        accelerations: end.memory,
         pose: *body.position(),
         linvel: body.linvel(),
         angvel: body.angvel(),
     });
-    if landed {
+    if landed && given.alone {
         memory.force = Vector3::zeros();
         memory.torque = Vector3::zeros();
     }

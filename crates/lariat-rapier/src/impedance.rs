@@ -16,6 +16,8 @@ use rapier::pipeline::PhysicsWorld;
 
 /// Mass of a ledger in kg: what it gains in a step is the impulse that passed.
 const LEDGER_MASS: f64 = 1e9;
+/// A junction has no mass, but the matrix must have an inverse: as light as this, in kg.
+const JUNCTION_MASS: f64 = 1e-6;
 /// Share of the body's own mobility in B'.
 const OWN_SHARE: f64 = 0.1;
 const AXES: [JointAxis; 3] = [JointAxis::LinX, JointAxis::LinY, JointAxis::LinZ];
@@ -27,8 +29,16 @@ pub(crate) fn may_meet_something(world: &PhysicsWorld, handle: RigidBodyHandle) 
     touches || world.multibody_joints.rigid_body_link(handle).is_some()
 }
 
+/// Whether a body is near no other, and no joint holds it but to a ledger.
+pub(crate) fn is_alone(world: &PhysicsWorld, handle: RigidBodyHandle) -> bool {
+    let ledger = |b: RigidBodyHandle| world.bodies.get(b).is_some_and(|b| f64::from(b.mass()) >= 0.5 * LEDGER_MASS);
+    let held = world.impulse_joints.attached_joints(handle).any(|(a, b, _, _)| !ledger(a) && !ledger(b));
+    !held && !may_meet_something(world, handle)
+}
+
 /// D for every pin of `island` on body `body`, by pin index.
-pub(crate) fn driving_point(island: &IslandStep, start: &[RigidBody], body: usize) -> Vec<(usize, Matrix3<f64>)> {
+pub(crate) fn driving_point(island: &IslandStep, body: usize) -> Vec<(usize, Matrix3<f64>)> {
+    let start = &island.start;
     let cables: Vec<usize> =
         (0..island.cables.len()).filter(|&c| island.pins.iter().any(|p| p.cable == c && p.body == body)).collect();
     let near: Vec<usize> = (0..island.pins.len()).filter(|&p| cables.contains(&island.pins[p].cable)).collect();
@@ -62,7 +72,8 @@ pub(crate) fn driving_point(island: &IslandStep, start: &[RigidBody], body: usiz
 /// Velocity at one point of a body per impulse at another, in 1/kg.
 fn mobility(body: &RigidBody, a: &Vector3<f64>, b: &Vector3<f64>) -> Matrix3<f64> {
     let (ra, rb) = (body.rotation * a, body.rotation * b);
-    let masked = Matrix3::from_diagonal(&Vector3::from_fn(|i, _| f64::from(u8::from(body.free[i])) / body.mass));
+    let mass = if body.mass > 0.0 { body.mass } else { JUNCTION_MASS };
+    let masked = Matrix3::from_diagonal(&Vector3::from_fn(|i, _| f64::from(u8::from(body.free[i])) / mass));
     let mut inverse = body.world_inertia(&body.rotation).try_inverse().unwrap_or_else(Matrix3::zeros);
     for x in (0..3).filter(|&x| !body.free[3 + x]) {
         inverse.row_mut(x).fill(0.0);
@@ -81,11 +92,7 @@ pub(crate) fn drive(
 ) {
     let ledger = *attachment.ledger.get_or_insert_with(|| {
         let body = world.insert_body(
-            RigidBodyBuilder::dynamic()
-                .gravity_scale(0.0)
-                .additional_mass(LEDGER_MASS as Real)
-                .lock_rotations()
-                .can_sleep(false),
+            RigidBodyBuilder::dynamic().gravity_scale(0.0).additional_mass(LEDGER_MASS as Real).lock_rotations(),
         );
         let mut joint = GenericJointBuilder::new(JointAxesMask::empty());
         for axis in AXES {

@@ -2,7 +2,7 @@
 //!
 //! ```
 //! use lariat_ancf::{At, Cable, Section, Vector3};
-//! use lariat_rapier::CableSet;
+//! use lariat_rapier::{CableSet, Pin};
 //! use rapier::prelude::*;
 //!
 //! let mut world = PhysicsWorld::new();
@@ -18,7 +18,7 @@
 //!         .fix(At::Start)
 //!         .build()?,
 //! );
-//! cables.attach(&world, sling, At::End, crate_, Vector::new(0.0, 0.1, 0.0))?;
+//! cables.attach(&world, sling, At::End, crate_, Vector::new(0.0, 0.1, 0.0), Pin::Ball)?;
 //! for _ in 0..30 {
 //!     cables.step(&mut world)?; // one host step: predict, Rapier's step, reconcile, four times
 //! }
@@ -62,15 +62,30 @@
 mod attachment;
 mod body;
 mod convert;
+#[cfg(feature = "debug-render")]
+mod draw;
+mod ends;
 mod error;
+mod event;
 mod hand_over;
+mod hold;
 mod impedance;
 mod islands;
+mod junction;
+mod predict;
+mod reconcile;
+mod rest;
 mod set;
 mod step;
+mod totals;
 
-pub use attachment::{Attachment, AttachmentHandle, Event};
+pub use attachment::{Attachment, AttachmentHandle, Pin};
+#[cfg(feature = "debug-render")]
+pub use draw::DrawStyle;
 pub use error::Error;
+pub use event::Event;
+pub use junction::{Junction, JunctionHandle};
 pub use lariat_ancf;
 pub use rapier;
 pub use set::{CableHandle, CableSet, Settings};
+pub use totals::WorldEnergy;

@@ -1,11 +1,13 @@
-//! The set of cables of a world, and their attachments.
+//! The set of cables of a world.
 
-use crate::attachment::{Attachment, AttachmentHandle, Event};
-use crate::body::BodyMemory;
-use crate::convert::vector;
-use crate::{Error, islands};
+use crate::attachment::{Attachment, AttachmentHandle};
+use crate::body::Remembered;
+use crate::event::Event;
+use crate::islands::{Held, IslandStep};
+use crate::junction::{Junction, JunctionHandle};
+use crate::{Error, convert};
+use lariat_ancf::Cable;
 use lariat_ancf::island::Island;
-use lariat_ancf::{At, Cable, Support};
 use rapier::dynamics::RigidBodyHandle;
 use rapier::math::Vector;
 use rapier::pipeline::PhysicsWorld;
@@ -20,12 +22,27 @@ pub struct CableHandle(pub(crate) u32);
 pub struct Settings {
     /// Rapier steps per host step. Default 4: as accurate in free flight as one, and far better in contact.
     pub rapier_steps: u32,
+    /// Cables and bodies on them that are slower than this, in m/s, may sleep, if their forces are steady. Default 2e-3; 0: never.
+    pub sleep_speed: f64,
 }
 
 impl Default for Settings {
     fn default() -> Self {
-        Settings { rapier_steps: 4 }
+        Settings { rapier_steps: 4, sleep_speed: 2e-3 }
     }
+}
+
+/// A cable in its set.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub(crate) struct Slot {
+    pub cable: Cable,
+    pub asleep: bool,
+    /// Touched by the user since the last step.
+    pub stirred: bool,
+    /// Whether its gravity is the world's.
+    pub falls: bool,
+    /// Where the ends were when it was inserted, and its length, in m.
+    pub first: [f64; 7],
 }
 
 /// Cables and what they hold to. Serialises with its state; a snapshot of (world, set) replays bitwise.
@@ -33,11 +50,16 @@ impl Default for Settings {
 pub struct CableSet {
     /// How the set steps.
     pub settings: Settings,
-    pub(crate) cables: Vec<Option<Cable>>,
+    pub(crate) cables: Vec<Option<Slot>>,
     pub(crate) attachments: Vec<Option<Attachment>>,
-    pub(crate) memory: Vec<BodyMemory>,
+    pub(crate) junctions: Vec<Option<Junction>>,
+    /// Ascending by handle.
+    pub(crate) memory: Vec<Remembered>,
+    pub(crate) gravity: Option<Vector>,
     #[serde(skip)]
-    pub(crate) islands: Vec<islands::IslandStep>,
+    pub(crate) held: Vec<Held>,
+    #[serde(skip)]
+    pub(crate) islands: Vec<IslandStep>,
     #[serde(skip)]
     pub(crate) solver: Island,
     #[serde(skip)]
@@ -50,23 +72,36 @@ impl CableSet {
         Self::default()
     }
 
-    /// Adds a cable.
+    /// Adds a cable. If its gravity is the world's, or the builder's default, it follows the world's from now on; else it keeps its own.
     pub fn insert(&mut self, cable: Cable) -> CableHandle {
-        self.cables.push(Some(cable));
+        let (start, end) = (cable.node_position(0), cable.node_position(cable.nodes() - 1));
+        let first = [start.x, start.y, start.z, end.x, end.y, end.z, cable.length()];
+        let falls = cable.gravity() == ::nalgebra::Vector3::new(0.0, -9.81, 0.0);
+        self.cables.push(Some(Slot { cable, asleep: false, stirred: true, falls, first }));
+        self.islands.clear();
+        self.gravity = None;
         CableHandle(self.cables.len() as u32 - 1)
     }
 
-    /// Removes a cable and its attachments.
+    /// Removes a cable, its attachments and its part in junctions.
     ///
     /// # Errors
     /// [`Error::NoCable`].
     pub fn remove(&mut self, world: &mut PhysicsWorld, cable: CableHandle) -> Result<Cable, Error> {
+        self.get(cable)?;
         for i in 0..self.attachments.len() {
             if self.attachments[i].as_ref().is_some_and(|a| a.cable == cable) {
                 self.detach(world, AttachmentHandle(i as u32))?;
             }
         }
-        self.cables.get_mut(cable.0 as usize).and_then(Option::take).ok_or(Error::NoCable(cable))
+        for i in 0..self.junctions.len() {
+            if self.junctions[i].as_ref().is_some_and(|j| j.nodes.iter().any(|(c, _)| *c == cable)) {
+                self.leave(JunctionHandle(i as u32), cable)?;
+            }
+        }
+        self.islands.clear();
+        let slot = self.cables.get_mut(cable.0 as usize).and_then(Option::take);
+        slot.map(|s| s.cable).ok_or(Error::NoCable(cable))
     }
 
     /// A cable.
@@ -74,20 +109,31 @@ impl CableSet {
     /// # Errors
     /// [`Error::NoCable`].
     pub fn get(&self, cable: CableHandle) -> Result<&Cable, Error> {
-        self.cables.get(cable.0 as usize).and_then(Option::as_ref).ok_or(Error::NoCable(cable))
+        self.cables.get(cable.0 as usize).and_then(Option::as_ref).map(|s| &s.cable).ok_or(Error::NoCable(cable))
     }
 
-    /// A cable, to change it.
+    /// A cable, to change it; a sleeping one wakes.
     ///
     /// # Errors
     /// [`Error::NoCable`].
     pub fn get_mut(&mut self, cable: CableHandle) -> Result<&mut Cable, Error> {
-        self.cables.get_mut(cable.0 as usize).and_then(Option::as_mut).ok_or(Error::NoCable(cable))
+        let slot = self.cables.get_mut(cable.0 as usize).and_then(Option::as_mut).ok_or(Error::NoCable(cable))?;
+        slot.stirred = true;
+        Ok(&mut slot.cable)
     }
 
     /// All cables.
     pub fn iter(&self) -> impl Iterator<Item = (CableHandle, &Cable)> {
-        self.cables.iter().enumerate().filter_map(|(i, c)| c.as_ref().map(|c| (CableHandle(i as u32), c)))
+        self.cables.iter().enumerate().filter_map(|(i, c)| c.as_ref().map(|s| (CableHandle(i as u32), &s.cable)))
+    }
+
+    /// Whether a cable sleeps with the bodies that it holds.
+    ///
+    /// # Errors
+    /// [`Error::NoCable`].
+    pub fn is_asleep(&self, cable: CableHandle) -> Result<bool, Error> {
+        self.get(cable)?;
+        Ok(self.cables[cable.0 as usize].as_ref().is_some_and(|s| s.asleep))
     }
 
     /// All attachments.
@@ -103,49 +149,52 @@ impl CableSet {
         self.attachments.get(attachment.0 as usize).and_then(Option::as_ref).ok_or(Error::NoAttachment(attachment))
     }
 
-    /// Pins a node of a cable to a point of a body (body axes from its origin, in m): a ball joint. A gap closes in the next step.
+    /// A junction.
     ///
     /// # Errors
-    /// [`Error::NoCable`], [`Error::NoBody`], [`Error::AlreadyAttached`], or [`Error::Cable`] if no node is there.
-    pub fn attach(
-        &mut self,
-        world: &PhysicsWorld,
-        cable: CableHandle,
-        at: impl Into<At>,
-        body: RigidBodyHandle,
-        anchor: Vector,
-    ) -> Result<AttachmentHandle, Error> {
-        if !world.bodies.contains(body) {
-            return Err(Error::NoBody(body));
-        }
-        let name = self.get(cable)?.name().to_string();
-        let node = self.get_mut(cable)?.attach(at)?;
-        if self.attachments().any(|(_, a)| a.cable == cable && a.node == node) {
-            return Err(Error::AlreadyAttached { cable: name, node });
-        }
-        let anchor = vector(anchor);
-        self.attachments.push(Some(Attachment { cable, node, body, anchor, ledger: None, gap: 0.0 }));
-        Ok(AttachmentHandle(self.attachments.len() as u32 - 1))
-    }
-
-    /// Ends an attachment; the node is free.
-    ///
-    /// # Errors
-    /// [`Error::NoAttachment`].
-    pub fn detach(&mut self, world: &mut PhysicsWorld, attachment: AttachmentHandle) -> Result<(), Error> {
-        let slot = self.attachments.get_mut(attachment.0 as usize);
-        let ended = slot.and_then(Option::take).ok_or(Error::NoAttachment(attachment))?;
-        if let Some(ledger) = ended.ledger {
-            world.remove_body(ledger.body);
-        }
-        let cable = self.get_mut(ended.cable)?;
-        let support = Support { position: None, attached: false, ..cable.support(At::Node(ended.node))? };
-        cable.set_support(At::Node(ended.node), support)?;
-        Ok(())
+    /// [`Error::NoJunction`].
+    pub fn junction(&self, junction: JunctionHandle) -> Result<&Junction, Error> {
+        self.junctions.get(junction.0 as usize).and_then(Option::as_ref).ok_or(Error::NoJunction(junction))
     }
 
     /// What happened during the last host step.
     pub fn events(&self) -> &[Event] {
         &self.events
+    }
+
+    /// What is remembered of a body.
+    pub(crate) fn remembered(&self, body: RigidBodyHandle) -> Option<&Remembered> {
+        let key = |m: &Remembered| m.handle.into_raw_parts();
+        self.memory.binary_search_by_key(&body.into_raw_parts(), key).ok().map(|i| &self.memory[i])
+    }
+
+    /// What is remembered of a body, to change it; nothing at first.
+    pub(crate) fn remember(&mut self, body: RigidBodyHandle) -> &mut Remembered {
+        let key = |m: &Remembered| m.handle.into_raw_parts();
+        let i = match self.memory.binary_search_by_key(&body.into_raw_parts(), key) {
+            Ok(i) => i,
+            Err(i) => {
+                self.memory.insert(i, Remembered::new(body));
+                i
+            }
+        };
+        &mut self.memory[i]
+    }
+
+    /// Gives cables that fall with the world its gravity when it changed; one that is the world's to the world's precision stays as it is.
+    pub(crate) fn follow_gravity(&mut self, world: &PhysicsWorld) -> Result<(), Error> {
+        if self.gravity == Some(world.gravity) {
+            return Ok(());
+        }
+        for slot in self.cables.iter_mut().flatten() {
+            if convert::to_vector(&slot.cable.gravity()) == world.gravity {
+                slot.falls = true;
+            } else if slot.falls {
+                slot.cable.set_gravity(convert::vector(world.gravity))?;
+                slot.stirred = true;
+            }
+        }
+        self.gravity = Some(world.gravity);
+        Ok(())
     }
 }

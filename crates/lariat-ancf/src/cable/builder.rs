@@ -248,7 +248,7 @@ impl CableBuilder {
             loads: Vec::new(),
             effects: self.effects,
         };
-        let implicit = model.effects.depend_on_velocity();
+        let implicit = model.effects.damping.is_some();
         let mut cable = Cable::from_parts(model, state, Integrator::default())?;
         for (at, hold) in self.holds {
             let node = cable.node(At::ArcLength(arc_length(at)?.min(length)))?;
@@ -267,7 +267,7 @@ impl CableBuilder {
         }
         let integrator = match self.integrator {
             Ok(integrator) => integrator,
-            // damping and drag need an implicit method, however soft the cable
+            // damping needs an implicit method, however soft the cable
             Err(preset) => preset.integrator(if implicit { f64::INFINITY } else { cable.frequency_bound() }),
         };
         cable.set_integrator(integrator)?;

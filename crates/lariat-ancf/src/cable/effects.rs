@@ -28,7 +28,7 @@ impl Cable {
     ///
     /// # Errors
     /// [`Error::InvalidValue`] for a number out of range, [`Error::InvalidShape`] for an effect that the cable's section or rule has no
-    /// number for (a diameter, an area, a bending rule), [`Error::UnsupportedControl`] for damping or drag with an explicit integrator.
+    /// number for (a diameter, an area, a bending rule), [`Error::UnsupportedControl`] for damping with an explicit integrator.
     /// The cable is then as before.
     pub fn set_effects(&mut self, effects: Effects) -> Result<(), Error> {
         let before = core::mem::replace(&mut self.model.effects, effects);
@@ -123,12 +123,12 @@ impl Cable {
     }
 }
 
-/// Refuses damping and drag under an explicit integrator.
+/// Refuses damping under an explicit integrator.
 pub(crate) fn check_integrator(model: &Model, integrator: Integrator) -> Result<(), Error> {
-    if model.effects.depend_on_velocity() && !integrator.method.properties().implicit {
+    if model.effects.damping.is_some() && !integrator.method.properties().implicit {
         return Err(Error::UnsupportedControl {
             method: integrator.method.to_string(),
-            reason: "explicit methods take forces that depend on positions alone; damping and drag need an implicit one",
+            reason: "internal damping lowers the stability limit of explicit methods far below any step; use an implicit one",
         });
     }
     Ok(())

@@ -24,6 +24,15 @@ impl Energy {
     }
 }
 
+impl core::ops::AddAssign for Energy {
+    fn add_assign(&mut self, other: Energy) {
+        self.kinetic += other.kinetic;
+        self.axial += other.axial;
+        self.bending += other.bending;
+        self.gravity += other.gravity;
+    }
+}
+
 /// Momentum of a cable.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Momentum {

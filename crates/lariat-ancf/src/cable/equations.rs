@@ -287,6 +287,10 @@ impl Dynamics for Equations<'_> {
         self.system.extent(error).0
     }
 
+    fn follows_velocity(&self) -> bool {
+        self.model.effects.depend_on_velocity()
+    }
+
     fn accepted(&mut self, before: &Phase, after: &Phase, h: f64) {
         self.account_step(before, after, h, 0..after.q.len());
     }

@@ -100,6 +100,18 @@ impl Cable {
         Ok(())
     }
 
+    /// Changes gravity (m/s^2).
+    ///
+    /// # Errors
+    /// [`Error::InvalidValue`] for numbers that are not finite.
+    pub fn set_gravity(&mut self, gravity: Vector3<f64>) -> Result<(), Error> {
+        require_finite("gravity (m/s^2)", &gravity)?;
+        self.model.gravity = gravity;
+        self.system.weigh(&self.model);
+        self.revise();
+        Ok(())
+    }
+
     /// Point loads.
     pub fn loads(&self) -> &[PointLoad] {
         &self.model.loads

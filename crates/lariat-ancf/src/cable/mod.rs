@@ -13,6 +13,8 @@ mod layout;
 pub mod linearise;
 mod model;
 mod projection;
+mod refine;
+mod rest;
 pub mod sample;
 mod simd;
 mod system;
@@ -154,6 +156,15 @@ impl Cable {
     /// the step cannot be done: the cable is then exactly as before. [`Error::InvalidShape`] for a cable with
     /// [attached](Self::attach) nodes, which only an [`island`](crate::island) can step.
     pub fn step(&mut self, dt: f64) -> Result<(), Error> {
+        self.step_with(dt, self.integrator)
+    }
+
+    /// [`step`](Self::step) with this integrator instead of the cable's own: for callers who split a host step, and its tolerance.
+    ///
+    /// # Errors
+    /// As [`step`](Self::step).
+    pub fn step_with(&mut self, dt: f64, integrator: Integrator) -> Result<(), Error> {
+        let Integrator { method, control } = integrator.checked()?;
         require("dt (s)", dt, dt == 0.0 || dt >= SHORTEST_STEP, "0, or >= 1e-100")?;
         if dt == 0.0 {
             return Ok(());
@@ -165,7 +176,6 @@ impl Cable {
         let mut counts = Counts::default();
         let mut equations =
             Equations { model: &self.model, system: &mut self.system, diagnostics: &mut self.diagnostics };
-        let Integrator { method, control } = self.integrator;
         let phase = &mut self.state.phase;
         let outcome = drive::advance(&mut equations, method, control, phase, dt, &mut self.scratch, &mut counts);
         self.diagnostics.steps += counts.steps;

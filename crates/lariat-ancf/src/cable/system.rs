@@ -82,11 +82,9 @@ impl System {
     pub fn with_level(model: &Model, level: Level) -> Result<Self, StepFailure> {
         let nodes = model.nodes();
         let mut mass = MassMatrix { diag: vec![[0.0; 3]; nodes], lower: vec![[0.0; 4]; nodes - 1] };
-        let mut gravity_force = vec![0.0; 6 * nodes];
         let mut arm = vec![0.0f64; nodes];
         for (e, element) in model.elements.iter().enumerate() {
             let m = mass::consistent(model.inertia(e), element.length);
-            let gravity = model.weight(e);
             for (node, k) in [(e, 0), (e + 1, 2)] {
                 mass.diag[node][0] += m[k][k];
                 mass.diag[node][1] += m[k][k + 1];
@@ -94,30 +92,21 @@ impl System {
                 arm[node] = arm[node].max(element.length / 8.0);
             }
             mass.lower[e] = [m[2][0], m[2][1], m[3][0], m[3][1]];
-            let weights = mass::load_weights(element.length);
-            for (k, weight) in weights.iter().enumerate() {
-                for x in 0..3 {
-                    gravity_force[6 * e + 3 * k + x] += weight * gravity[x];
-                }
-            }
         }
-        let line_force = model.line_force();
-        let mut dead_force = gravity_force.clone();
-        dead_force.iter_mut().zip(&line_force).for_each(|(f, line)| *f += line);
         let mut system = System {
             kernel: KernelEffects::new(model),
             fluid: Fluid::new(model),
             account: Account::default(),
             static_time: 0.0,
-            line_force,
-            dead_force,
+            line_force: model.line_force(),
+            dead_force: vec![0.0; 6 * nodes],
             velocity: vec![0.0; if model.effects.depend_on_velocity() { 6 * nodes } else { 0 }],
             located: Vec::new(),
             level,
             elements: Elements::new(model),
             mass_solver: MassSolver::Scalar(MassFactorisation::default()),
             mass,
-            gravity_force,
+            gravity_force: vec![0.0; 6 * nodes],
             arm,
             matrix: BlockTridiagonal::zeros(nodes),
             factorisation: Factorisation::default(),
@@ -130,6 +119,7 @@ impl System {
                 least.min(model.length() * e.length * model.inertia(i) / e.section.axial_stiffness)
             }),
         };
+        system.weigh(model);
         system.locate_loads(model);
         system.factor_mass(model)?;
         Ok(system)
@@ -147,6 +137,21 @@ impl System {
         self.fluid = Fluid::new(model);
     }
 
+    /// Sums the weight of the elements, and the line loads.
+    pub fn weigh(&mut self, model: &Model) {
+        self.gravity_force.fill(0.0);
+        for (e, element) in model.elements.iter().enumerate() {
+            let gravity = model.weight(e);
+            for (k, weight) in mass::load_weights(element.length).iter().enumerate() {
+                for x in 0..3 {
+                    self.gravity_force[6 * e + 3 * k + x] += weight * gravity[x];
+                }
+            }
+        }
+        self.dead_force.copy_from_slice(&self.gravity_force);
+        self.dead_force.iter_mut().zip(&self.line_force).for_each(|(f, line)| *f += line);
+    }
+
     /// Finds the elements of the point loads.
     pub fn locate_loads(&mut self, model: &Model) {
         self.located.clear();
@@ -159,7 +164,7 @@ impl System {
 
     /// Factors the mass matrix with the supports in place.
     pub fn factor_mass(&mut self, model: &Model) -> Result<(), StepFailure> {
-        let directed = model.supports.iter().any(|(_, s)| matches!(s.slope, SlopeSupport::Direction(_)));
+        let directed = model.supports.iter().any(|(_, s)| s.slope.is_direction());
         self.mass_solver = if directed {
             self.matrix.clear();
             self.add_mass(1.0);

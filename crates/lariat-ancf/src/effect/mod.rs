@@ -14,8 +14,8 @@
 //! | [`line_load`] | force per length | a constant vector, once |
 //! | [`gravity`] | scale of gravity | the weight, once |
 //!
-//! Effects are part of a cable's description: serialised with it, changed between steps ([`Cable::set_effects`]). Those that depend
-//! on velocity (damping, drag) need an implicit integrator; explicit ones are refused, see [`explicit`].
+//! Effects are part of a cable's description: serialised with it, changed between steps ([`Cable::set_effects`]). Internal
+//! damping needs an implicit integrator, and explicit ones have order 2 with drag: see [`explicit`].
 //!
 //! [`Cable::set_effects`]: crate::Cable::set_effects
 //! [`explicit`]: crate::integrate::explicit

@@ -61,6 +61,7 @@ pub fn advance(
     let one_step = stepper.one_step();
     scratch.resize(system.size(), one_step.stages());
     prepare(system, phase, matches!(stepper, Stepper::Alpha(_)))?;
+    system.reached(phase);
     let end = phase.time + horizon;
     let tolerance = match control {
         StepControl::Tolerance(tolerance) => Some(tolerance),
@@ -121,6 +122,9 @@ pub fn advance(
         phase.time = end - (horizon - done);
         if last {
             phase.time = end;
+        }
+        system.reached(phase);
+        if last {
             break;
         }
     }
@@ -130,10 +134,10 @@ pub fn advance(
 
 /// Makes the phase consistent: prescribed coordinates in place, acceleration known.
 fn prepare(system: &mut dyn Dynamics, phase: &mut Phase, algorithmic: bool) -> Result<(), Refusal> {
-    if phase.memory.valid {
+    let n = system.size();
+    if phase.memory.valid && (!algorithmic || phase.memory.algorithmic.len() == n) {
         return Ok(());
     }
-    let n = system.size();
     phase.memory.acceleration.resize(n, 0.0);
     system.prescribe(phase.time, &mut phase.q, &mut phase.v);
     system.acceleration(phase.time, &phase.q, &phase.v, &mut phase.memory.acceleration).map_err(|failure| Refusal {

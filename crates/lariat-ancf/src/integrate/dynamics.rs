@@ -82,6 +82,13 @@ pub trait Dynamics {
 
     /// Called once for every step of length `h` (s) that was accepted, with the phases at both ends; accelerations are known in both.
     fn accepted(&mut self, _before: &Phase, _after: &Phase, _h: f64) {}
+    /// Told the phase at the beginning of a host step and after every step that is accepted; accelerations are valid then.
+    fn reached(&mut self, _phase: &Phase) {}
+
+    /// Whether accelerations depend on velocities.
+    fn follows_velocity(&self) -> bool {
+        false
+    }
 
     /// An upper bound of the angular frequencies of the system in rad/s, near its present state.
     fn frequency_bound(&self) -> f64;

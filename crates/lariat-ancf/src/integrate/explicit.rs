@@ -4,10 +4,13 @@
 //! for each i:  v += b_i h k(q);   q += a_i h v        (b first, and last; k at the end serves the next step)
 //! ```
 //!
+//! Where k depends on v (rotating bodies, damping), it is evaluated at v extrapolated with the k before it to the time of q: then
+//! Verlet keeps its order, and the higher methods have order 2 in that part.
+//!
 //! M is factored once; a step costs one force evaluation and one mass solve per drift. Symplectic, so energy errors stay
 //! bounded while h omega_max stays below [`Composition::stability_limit`]. *Source.* Hairer, Lubich & Wanner 2006, II and VI; Blanes &
-//! Casas 2016. *Validity.* Soft cables, forces that depend on positions and time alone:
-//! a kick has no velocity at its own time, so the order would fall to one; cables with damping or drag are refused. *Rejected.* Error control: it destroys the symplectic structure.
+//! Casas 2016. *Validity.* Soft cables; drag, with order 2. Cables with internal damping are refused: it lowers the stability limit to
+//! h < 2/(tau omega_max^2), far below what a step here can be. *Rejected.* Error control: it destroys the symplectic structure.
 
 use super::dirk::add;
 use super::dynamics::Dynamics;
@@ -50,11 +53,12 @@ impl OneStep for Composition {
         _: f64,
         scratch: &mut Scratch,
     ) -> Result<Option<f64>, StepFailure> {
-        let next = &mut scratch.next;
+        let Scratch { next, velocity_base, .. } = scratch;
         next.q.copy_from_slice(&now.q);
         next.v.copy_from_slice(&now.v);
         next.memory.acceleration.copy_from_slice(&now.memory.acceleration);
         let mut time = now.time;
+        let (mut kicked, mut drifted) = (0.0, 0.0);
         for i in 0..self.stages {
             add(&mut next.v, h * self.kick(i), &next.memory.acceleration);
             add(&mut next.q, h * self.drift(i), &next.v);
@@ -63,7 +67,16 @@ impl OneStep for Composition {
                 time = now.time + h;
             }
             system.prescribe(time, &mut next.q, &mut next.v);
-            system.acceleration(time, &next.q, &next.v, &mut next.memory.acceleration)?;
+            kicked += self.kick(i);
+            drifted += self.drift(i);
+            if system.follows_velocity() {
+                velocity_base.copy_from_slice(&next.v);
+                add(velocity_base, h * (drifted - kicked), &next.memory.acceleration);
+                system.prescribe(time, &mut next.q, velocity_base);
+                system.acceleration(time, &next.q, velocity_base, &mut next.memory.acceleration)?;
+            } else {
+                system.acceleration(time, &next.q, &next.v, &mut next.memory.acceleration)?;
+            }
         }
         add(&mut next.v, h * self.kick(self.stages), &next.memory.acceleration);
         system.prescribe(now.time + h, &mut next.q, &mut next.v);

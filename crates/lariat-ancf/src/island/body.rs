@@ -2,6 +2,7 @@
 //!
 //! `m x'' = f`, `I omega' + omega x I omega = tau` about the centre of mass, f and tau constant over a step, in world axes.
 
+use super::memory::BodyMemory;
 use crate::error::{Error, require, require_finite};
 use nalgebra::{Matrix3, UnitQuaternion, Vector3};
 
@@ -24,10 +25,13 @@ pub struct RigidBody {
     pub force: Vector3<f64>,
     /// Torque in N m.
     pub torque: Vector3<f64>,
-    /// World axes along which the body may move (x, y, z) and about which it may turn (x, y, z).
+    /// World axes along which forces move the body (x, y, z) and about which they turn it (x, y, z); along others it keeps its
+    /// velocity. All false: a driven body.
     pub free: [bool; 6],
     /// Whether the gyroscopic torque -omega x I omega acts (an engine may leave it out).
     pub gyroscopic: bool,
+    /// What integrators carry from step to step; `None` if the state was not the result of a step.
+    pub memory: Option<BodyMemory>,
 }
 
 impl RigidBody {
@@ -52,6 +56,7 @@ impl RigidBody {
             torque: Vector3::zeros(),
             free: [true; 6],
             gyroscopic: true,
+            memory: None,
         })
     }
 

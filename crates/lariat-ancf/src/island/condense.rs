@@ -1,15 +1,16 @@
 //! What a cable is to the bodies that hold it: its step matrix condensed on the pinned coordinates.
 //!
-//! With f the free coordinates of a cable and p those of its pinned positions,
+//! With f the free coordinates of a cable and p those of its pinned positions and clamped slopes (whose length is free),
 //!
 //! ```text
 //! Y = A_ff^-1 A_fp        W = A_pp - A_pf Y        r_p - A_pf A_ff^-1 r_f
 //! ```
 //!
-//! W (3 rows per pin) is the dynamic stiffness that bodies feel; Y carries their increments back into the cable. *Source.* Static
+//! W (3 rows per pin, 6 per clamp) is the dynamic stiffness that bodies feel; Y carries their increments back into the cable. *Source.* Static
 //! condensation (Guyan 1965; Golub & Van Loan 2013, section 4.5.1 on bordered systems). *Rejected.* Lagrange multipliers: the same
 //! solves, and an indefinite matrix on top.
 
+use super::workspace::Hold;
 use crate::linalg::{BlockTridiagonal, Factorisation};
 use fearless_simd::Level;
 
@@ -34,12 +35,13 @@ pub(crate) struct Condensed {
 }
 
 impl Condensed {
-    /// Reads the columns of the pinned positions of `nodes` from `a`, before it is projected.
-    pub fn read(&mut self, a: &BlockTridiagonal, nodes: &[usize]) {
+    /// Reads the columns of the held coordinates from `a`, before it is projected.
+    pub fn read(&mut self, a: &BlockTridiagonal, holds: &[Hold]) {
         self.size = 6 * a.nodes();
         self.columns.clear();
-        for &node in nodes {
-            for x in 0..3 {
+        for &Hold { node, slope, .. } in holds {
+            let offset = if slope { 3 } else { 0 };
+            for x in offset..offset + 3 {
                 let first = node.saturating_sub(1);
                 let mut column = Column { first, nodes: (node + 2).min(a.nodes()) - first, rows: [0.0; 18] };
                 for k in 0..column.nodes {
@@ -62,7 +64,7 @@ impl Condensed {
         &mut self,
         level: Level,
         factorisation: &Factorisation,
-        nodes: &[usize],
+        holds: &[Hold],
         project: impl Fn(&mut [f64]),
     ) {
         let (count, size) = (self.columns.len(), self.size);
@@ -71,9 +73,9 @@ impl Condensed {
         self.w.clear();
         self.w.resize(count * count, 0.0);
         for (j, column) in self.columns.iter_mut().enumerate() {
-            for (q, &node) in nodes.iter().enumerate() {
+            for (q, &Hold { node, slope, .. }) in holds.iter().enumerate() {
                 if node >= column.first && node < column.first + column.nodes {
-                    let at = 6 * (node - column.first);
+                    let at = 6 * (node - column.first) + if slope { 3 } else { 0 };
                     for x in 0..3 {
                         self.w[(3 * q + x) * count + j] = column.rows[at + x];
                     }

@@ -2,10 +2,14 @@
 //!
 //! *Source.* Golub & Van Loan 2013, section 4.4 (symmetric indefinite systems, here with 1x1 pivots chosen on the diagonal).
 //! *Validity.* Positive definite matrices, and nearly so; a pivot below rounding is an error, never a silent wrong answer.
-//! O(n^3): meant for tens of bodies. *Rejected.* nalgebra's Cholesky (its products choose kernels at run time: other bits on other
+//! The order is kept while pivots are sound, and zeros are skipped: a chain of bodies in its order costs O(n), a full matrix O(n^3).
+//! *Rejected.* nalgebra's Cholesky (its products choose kernels at run time: other bits on other
 //! machines).
 
 use crate::linalg::{Reason, SingularMatrix};
+
+/// A pivot that kept this share of its diagonal entry needs no exchange.
+const SOUND: f64 = 1e-3;
 
 /// A factored symmetric matrix.
 #[derive(Clone, Debug, Default)]
@@ -15,6 +19,7 @@ pub struct Dense {
     order: Vec<usize>,
     scratch: Vec<f64>,
     scale: Vec<f64>,
+    filled: Vec<usize>,
 }
 
 impl Dense {
@@ -46,26 +51,28 @@ impl Dense {
             // the pivot that lost least of its diagonal entry: rows of bodies differ in unit and size
             let quality =
                 |f: &[f64], i: usize, order: &[usize]| f[i * n + i].abs() / scale[order[i]].max(f64::MIN_POSITIVE);
-            let best =
-                (k..n).fold(k, |b, i| if quality(f, i, &self.order) > quality(f, b, &self.order) { i } else { b });
-            swap(f, n, k, best);
-            self.order.swap(k, best);
+            if quality(f, k, &self.order) < SOUND {
+                let better = |b, i| if quality(f, i, &self.order) > quality(f, b, &self.order) { i } else { b };
+                let best = (k..n).fold(k, better);
+                swap(f, n, k, best);
+                self.order.swap(k, best);
+            }
             let pivot = f[k * n + k];
             let size = scale[self.order[k]];
             if pivot.abs() <= 64.0 * f64::EPSILON * size || pivot == 0.0 {
                 return fail(self.order[k] / 6, pivot, size, Reason::Pivot);
             }
-            for i in k + 1..n {
+            self.filled.clear();
+            self.filled.extend((k + 1..n).filter(|i| f[i * n + k] != 0.0));
+            for (a, &i) in self.filled.iter().enumerate() {
                 let l = f[i * n + k] / pivot;
-                for j in k + 1..=i {
+                for &j in &self.filled[..=a] {
                     f[i * n + j] -= l * f[j * n + k];
-                }
-            }
-            for i in k + 1..n {
-                f[i * n + k] /= pivot;
-                for j in k + 1..i {
                     f[j * n + i] = f[i * n + j];
                 }
+            }
+            for &i in &self.filled {
+                f[i * n + k] /= pivot;
             }
         }
         Ok(())

@@ -8,7 +8,7 @@
 //! r = x + rho + gap (1 - 3 s^2 + 2 s^3),   rho = R a        r'' = x'' + omega' x rho + omega x (omega x rho) + gap'' ...
 //! ```
 //!
-//! where `gap` is what pin and node were apart when the step began and s its elapsed share. Virtual work carries the cable's
+//! where `gap` is what pin and node were apart when the step began and s its elapsed share (`kinematics`, for clamps too). Virtual work carries the cable's
 //! residual to the body: force f_p and torque rho x f_p. So no multiplier, no penalty, and no drift. In Newton's iteration each
 //! cable is condensed on its pins (`condense`), the bodies are solved together (`dense`), and the cables follow; the tangent
 //! includes the geometric stiffness of the lever, `-[f_p]x [rho]x`, without which light bodies on taut cables converge badly.
@@ -18,23 +18,30 @@
 //!
 //! [`Dynamics`]: crate::integrate::Dynamics
 
+mod account;
 mod body;
+mod clamp;
 mod condense;
 mod dense;
 mod impedance;
+mod kinematics;
+mod memory;
 mod rotation;
 mod stage;
 mod system;
 mod workspace;
 
+pub use account::PinAccount;
 pub use body::RigidBody;
 pub use impedance::Impedance;
+pub use memory::BodyMemory;
 
 use crate::cable::{At, Cable, SHORTEST_STEP, check_integrator};
 use crate::effect::Account;
 use crate::error::{Error, require, require_finite};
 use crate::integrate::drive::{self, Counts};
 use crate::integrate::{Integrator, Phase, Scratch};
+use crate::support::{SlopeSupport, Support};
 use nalgebra::Vector3;
 use system::Work;
 use workspace::Workspace;
@@ -50,13 +57,9 @@ pub struct Pin {
     pub body: usize,
     /// Point of the body in body axes, from the centre of mass, in m.
     pub anchor: Vector3<f64>,
-}
-
-/// What a pin did over a step.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct PinForce {
-    /// Force of the cable on the body at the end of the step, in N, world axes.
-    pub force: Vector3<f64>,
+    /// For a clamp, the direction of the tangent in body axes, a unit vector; the node must be
+    /// [attached so](Cable::attach_clamped).
+    pub direction: Option<Vector3<f64>>,
 }
 
 /// Buffers of an island, reused from step to step; nothing in them is state.
@@ -92,8 +95,9 @@ impl Island {
         let Island { workspace, scratch, phase } = self;
         workspace.begin(cables, bodies, pins, dt);
         gather(cables, bodies, phase);
+        memory::recall(cables, bodies, pins, phase, workspace);
         let mut counts = Counts::default();
-        let mut system = Work { cables, bodies, pins, workspace };
+        let mut system = Work { cables: &mut *cables, bodies: &*bodies, pins, workspace: &mut *workspace };
         if let Err(failure) = system.meet(phase) {
             return Err(cables[0].refused(phase.time, 0.0, failure));
         }
@@ -107,30 +111,14 @@ impl Island {
         if let Err(refusal) = outcome {
             return Err(cables[0].refused(refusal.time, refusal.step, refusal.failure));
         }
+        memory::keep(cables, bodies, pins, phase);
         scatter(cables, bodies, phase, workspace);
         Ok(())
     }
 
-    /// Force of the cable on the body at each pin, at the end of the last step.
-    ///
-    /// # Errors
-    /// As [`step`](Self::step).
-    pub fn pin_forces(
-        &mut self,
-        cables: &mut [&mut Cable],
-        bodies: &mut [RigidBody],
-        pins: &[Pin],
-    ) -> Result<Vec<PinForce>, Error> {
-        check(cables, bodies, pins)?;
-        let Island { workspace, phase, .. } = self;
-        workspace.begin(cables, bodies, pins, 1.0);
-        workspace.close_gaps();
-        gather(cables, bodies, phase);
-        let mut system = Work { cables, bodies, pins, workspace };
-        match system.pin_forces(phase) {
-            Ok(forces) => Ok(forces),
-            Err(failure) => Err(cables[0].refused(phase.time, 0.0, failure)),
-        }
+    /// What passed through each pin during the last step.
+    pub fn accounts(&self) -> &[PinAccount] {
+        &self.workspace.accounts
     }
 }
 
@@ -144,6 +132,36 @@ impl Cable {
         let mut support = self.support(At::Node(node))?;
         support.position = None;
         support.attached = true;
+        self.set_support(At::Node(node), support)?;
+        Ok(node)
+    }
+
+    /// Frees a node that was attached: its position, and its tangent if that was clamped to the body.
+    ///
+    /// # Errors
+    /// As [`node`](Self::node).
+    pub fn detach(&mut self, at: impl Into<At>) -> Result<(), Error> {
+        let node = self.node(at)?;
+        let mut support = self.support(At::Node(node))?;
+        support.attached = false;
+        support.position = None;
+        if let SlopeSupport::Attached(_) = support.slope {
+            support.slope = SlopeSupport::Free;
+        }
+        self.set_support(At::Node(node), support)
+    }
+
+    /// Gives the position of a node and the direction of its tangent to an island, for a [`Pin`] with a direction.
+    ///
+    /// # Errors
+    /// As [`node`](Self::node); [`Error::InvalidShape`] if the tangent has no length.
+    pub fn attach_clamped(&mut self, at: impl Into<At>) -> Result<usize, Error> {
+        let node = self.node(at)?;
+        let Some(tangent) = workspace::vector(&self.positions()[6 * node + 3..]).try_normalize(1e-9) else {
+            let reason = format!("node {node} has no tangent to clamp");
+            return Err(Error::InvalidShape { cable: self.name().to_string(), reason });
+        };
+        let support = Support { position: None, slope: SlopeSupport::Attached(tangent), attached: true };
         self.set_support(At::Node(node), support)?;
         Ok(node)
     }
@@ -174,8 +192,14 @@ fn check(cables: &[&mut Cable], bodies: &[RigidBody], pins: &[Pin]) -> Result<()
         if pin.node >= cable.nodes() {
             return out_of_range("node", pin.node, cable.nodes() - 1);
         }
-        if !cable.model.support(pin.node).is_some_and(|s| s.attached) {
+        let Some(support) = cable.model.support(pin.node).filter(|s| s.attached) else {
             return invalid(format!("node {} is pinned but not attached", pin.node));
+        };
+        if matches!(support.slope, SlopeSupport::Attached(_)) != pin.direction.is_some() {
+            return invalid(format!("node {} and its pin do not agree on whether the tangent is clamped", pin.node));
+        }
+        if let Some(d) = &pin.direction {
+            require("length of a clamp's direction", d.norm(), (d.norm() - 1.0).abs() < 1e-6, "1")?;
         }
         if pins[..i].iter().any(|p| p.cable == pin.cable && p.node == pin.node) {
             return invalid(format!("node {} has two pins", pin.node));
@@ -205,7 +229,6 @@ fn gather(cables: &[&mut Cable], bodies: &[RigidBody], phase: &mut Phase) {
         phase.v.extend(body.velocity.iter().chain(body.angular_velocity.iter()));
     }
     phase.time = cables[0].time();
-    phase.memory.valid = false;
     phase.memory.step = cables.iter().map(|c| c.state.phase.memory.step).fold(f64::INFINITY, f64::min);
 }
 
@@ -219,8 +242,6 @@ fn scatter(cables: &mut [&mut Cable], bodies: &mut [RigidBody], phase: &Phase, w
         own.q.copy_from_slice(&phase.q[at..at + n]);
         own.v.copy_from_slice(&phase.v[at..at + n]);
         own.time = phase.time;
-        own.memory.valid = false;
-        own.memory.step = phase.memory.step;
         cable.settle(&before);
         cable.system.rhs = before;
         cable.diagnostics_mut().host_steps += 1;

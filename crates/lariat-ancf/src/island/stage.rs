@@ -12,7 +12,7 @@ use crate::integrate::{Dynamics, Phase, Stage};
 struct IslandStage<'a, 'b, 'c> {
     work: &'a mut Work<'b, 'c>,
     stage: &'a Stage,
-    base: &'a mut [f64],
+    base: &'a [f64],
     velocity_base: &'a [f64],
     y: &'a mut [f64],
     v: &'a mut [f64],
@@ -21,24 +21,14 @@ struct IslandStage<'a, 'b, 'c> {
 }
 
 impl IslandStage<'_, '_, '_> {
-    /// Positions and velocities from z, pinned ones from their bodies; z and base of pinned ones follow.
+    /// Positions and velocities from z, held ones from their bodies; z of held ones follows.
     fn update(&mut self) {
         for i in 0..self.z.len() {
             self.y[i] = self.base[i] + self.z[i];
             self.v[i] = self.velocity_base[i] + self.stage.rate * self.z[i];
         }
         self.work.follow(self.stage.time, self.y, self.v);
-        let c2 = self.stage.c2;
-        // z is c2 k: let the pinned accelerations follow, then restore the identity y = base + z
-        self.z.iter_mut().for_each(|z| *z /= c2);
-        self.work.follow_acceleration(self.stage.time, self.y, self.v, self.z);
-        self.z.iter_mut().for_each(|z| *z *= c2);
-        for pin in 0..self.work.pins.len() {
-            let at = self.work.pin_at(pin);
-            for i in at..at + 3 {
-                self.base[i] = self.y[i] - self.z[i];
-            }
-        }
+        self.work.follow_acceleration(self.stage.time, self.stage.c2, self.y, self.v, self.z);
     }
 }
 
@@ -57,12 +47,7 @@ impl Linearised for IslandStage<'_, '_, '_> {
             work.factor_bodies(false, y, v, rhs)?;
             work.workspace.factored = stage.c2;
         }
-        let mut k = core::mem::take(&mut work.workspace.product);
-        for i in 0..k.len() {
-            k[i] = z[i] / stage.c2;
-        }
-        work.body_rows(stage.c2, y, v, &k, rhs);
-        work.workspace.product = k;
+        work.body_rows(stage.c2, y, v, z, rhs);
         work.solve_rows(false, y, v, rhs);
         let mut size = Increment { displacement: work.norm_of(rhs), rotation: 0.0 };
         for (cable, part) in work.cables.iter().zip(&work.workspace.cables) {
@@ -133,7 +118,7 @@ impl Dynamics for Work<'_, '_> {
         for (i, body) in self.workspace.bodies.iter().enumerate() {
             let at = self.body_at(i);
             for x in (0..6).filter(|&x| !body.free[x]) {
-                v[at + x] = 0.0;
+                v[at + x] = if x < 3 { body.velocity[x] } else { body.angular_velocity[x - 3] };
             }
         }
         self.follow(time, q, v);
@@ -155,7 +140,7 @@ impl Dynamics for Work<'_, '_> {
             let k0 = -(jacobian_inverse(&theta) * (jacobian_rate(&theta, &rate) * rate));
             k[at + 3..at + 6].copy_from_slice(k0.as_slice());
         }
-        self.follow_acceleration(time, q, v, k);
+        self.follow_acceleration(time, 1.0, q, v, k);
         self.factor_mass(q, v)?;
         let mut rhs = core::mem::take(&mut self.workspace.rhs);
         let rows = self.cable_rows(time, 1.0, q, Rates { v, rate: 0.0 }, k, &mut rhs, false);
@@ -228,10 +213,9 @@ impl Dynamics for Work<'_, '_> {
         for i in 0..z.len() {
             acceleration[i] = z[i] / stage.c2;
         }
-        // the velocities of pinned nodes are those of their bodies, not of the integrator's base
-        for pin in 0..self.pins.len() {
-            let at = self.pin_at(pin);
-            for i in at..at + 3 {
+        // the velocities of held coordinates are those of their bodies, not of the integrator's base
+        for hold in self.workspace.cables.iter().flat_map(|work| &work.holds) {
+            for i in hold.at..hold.at + 3 {
                 velocity_base[i] = velocity[i] - stage.rate * z[i];
             }
         }
@@ -275,6 +259,14 @@ impl Dynamics for Work<'_, '_> {
             let range = part.at..part.at + part.size;
             equations.account_step(before, after, h, range);
         }
+    }
+
+    fn reached(&mut self, phase: &Phase) {
+        self.account(phase);
+    }
+
+    fn follows_velocity(&self) -> bool {
+        true
     }
 
     fn frequency_bound(&self) -> f64 {

@@ -1,11 +1,12 @@
 //! The rows and matrices of an island: see [`island`](super) for the equations.
 
-use super::rotation::{jacobian, jacobian_rate, skew};
-use super::workspace::{CableWork, Motion, Workspace, vector};
-use super::{Pin, PinForce, RigidBody};
+use super::rotation::{angular_acceleration, skew};
+use super::workspace::{CableWork, Hold, Workspace, direction, vector};
+use super::{Pin, RigidBody};
 use crate::cable::{Cable, Equations, Rates, project_matrix, project_vector};
 use crate::error::StepFailure;
 use crate::integrate::{Dynamics, Phase};
+use crate::support::SlopeSupport;
 use nalgebra::{Matrix3, Vector3};
 
 /// Jumps of velocity at pins below this in m/s are rounding.
@@ -28,81 +29,69 @@ impl Work<'_, '_> {
         self.workspace.cables[self.pins[pin].cable].at + 6 * self.pins[pin].node
     }
 
-    /// The lever of a pin in world axes, with the body's motion.
-    pub(super) fn lever(&self, pin: usize, q: &[f64], v: &[f64]) -> (Motion, Vector3<f64>) {
-        let body = self.pins[pin].body;
-        let at = self.body_at(body);
-        let motion = self.workspace.motion(body, &q[at..at + 6], &v[at..at + 6]);
-        (motion, motion.rotation * self.pins[pin].anchor)
-    }
-
-    /// Puts pinned positions and velocities where their bodies have them.
-    pub(super) fn follow(&self, time: f64, q: &mut [f64], v: &mut [f64]) {
-        for pin in 0..self.pins.len() {
-            let (motion, rho) = self.lever(pin, q, v);
-            let (gap, closing) = self.workspace.gap(pin, time);
-            let at = self.pin_at(pin);
-            q[at..at + 3].copy_from_slice((motion.position + rho + gap).as_slice());
-            v[at..at + 3].copy_from_slice((motion.velocity + motion.spin.cross(&rho) + closing).as_slice());
-        }
-    }
-
-    /// Puts pinned accelerations where their bodies have them; `k` holds chart accelerations of the bodies.
-    pub(super) fn follow_acceleration(&self, time: f64, q: &[f64], v: &[f64], k: &mut [f64]) {
-        for pin in 0..self.pins.len() {
-            let (motion, rho) = self.lever(pin, q, v);
-            let at = self.body_at(self.pins[pin].body);
-            let closing = self.workspace.closing_acceleration(pin, time);
-            let alpha = self.angular_acceleration(&q[at + 3..], &v[at + 3..], &k[at + 3..]);
-            let spin = motion.spin;
-            let a = vector(&k[at..]) + alpha.cross(&rho) + spin.cross(&spin.cross(&rho)) + closing;
-            let at = self.pin_at(pin);
-            k[at..at + 3].copy_from_slice(a.as_slice());
-        }
-    }
-
-    fn angular_acceleration(&self, theta: &[f64], rate: &[f64], k: &[f64]) -> Vector3<f64> {
-        let (theta, rate) = (vector(theta), vector(rate));
-        jacobian(&theta) * vector(k) + jacobian_rate(&theta, &rate) * rate
-    }
-
-    /// Adds to the rows of the bodies: their own loads and inertia times `scale`, and what pins pass on from the rows of the
-    /// cables. `k` are chart accelerations.
+    /// Adds to the rows of the bodies: their own loads times `scale`, their inertia, and what pins pass on from the rows of the
+    /// cables. `k` are accelerations times `scale`, in the chart.
     pub(super) fn body_rows(&mut self, scale: f64, q: &[f64], v: &[f64], k: &[f64], rhs: &mut [f64]) {
         for i in 0..self.bodies.len() {
             let at = self.body_at(i);
             let motion = self.workspace.motion(i, &q[at..at + 6], &v[at..at + 6]);
             let body = &self.workspace.bodies[i];
             let inertia = body.world_inertia(&motion.rotation);
-            let alpha = self.angular_acceleration(&q[at + 3..], &v[at + 3..], &k[at + 3..]);
-            let force = body.force - body.mass * vector(&k[at..]);
+            let (theta, rate) = (vector(&q[at + 3..]), vector(&v[at + 3..]));
+            let alpha = angular_acceleration(scale, &theta, &rate, &vector(&k[at + 3..]));
+            let force = body.force * scale - body.mass * vector(&k[at..]);
             let gyroscopic =
                 if body.gyroscopic { motion.spin.cross(&(inertia * motion.spin)) } else { Vector3::zeros() };
-            let torque = body.torque - inertia * alpha - gyroscopic;
-            rhs[at..at + 3].copy_from_slice((force * scale).as_slice());
-            rhs[at + 3..at + 6].copy_from_slice((torque * scale).as_slice());
+            let torque = (body.torque - gyroscopic) * scale - inertia * alpha;
+            rhs[at..at + 3].copy_from_slice(force.as_slice());
+            rhs[at + 3..at + 6].copy_from_slice(torque.as_slice());
         }
         self.pass_pinned_rows(q, v, rhs);
     }
 
-    /// Adds the rows of pinned positions to those of their bodies, as force and moment.
+    /// Adds the rows of held coordinates to those of their bodies, as force and moment.
     pub(super) fn pass_pinned_rows(&self, q: &[f64], v: &[f64], rhs: &mut [f64]) {
-        for pin in 0..self.pins.len() {
-            let (_, rho) = self.lever(pin, q, v);
-            let passed = vector(&rhs[self.pin_at(pin)..]);
-            let at = self.body_at(self.pins[pin].body);
-            let torque = rho.cross(&passed);
-            for x in 0..3 {
+        for hold in self.workspace.cables.iter().flat_map(|work| &work.holds) {
+            let passed = vector(&rhs[hold.at..]);
+            self.pass(hold, &passed, &self.arm(hold, q, v), rhs);
+        }
+    }
+
+    /// Adds what a hold passes on to the rows of its body.
+    fn pass(&self, hold: &Hold, passed: &Vector3<f64>, arm: &Vector3<f64>, rhs: &mut [f64]) {
+        let at = self.body_at(self.pins[hold.pin].body);
+        let torque = arm.cross(passed);
+        for x in 0..3 {
+            if !hold.slope {
                 rhs[at + x] += passed[x];
-                rhs[at + 3 + x] += torque[x];
             }
+            rhs[at + 3 + x] += torque[x];
+        }
+    }
+
+    /// Gives the supports of cable `c` the directions of its clamps at `q`, and notes them as those of the matrix to be factored.
+    fn aim(&mut self, c: usize, mass: bool, q: &[f64]) {
+        let work = &mut self.workspace.cables[c];
+        let supports = &mut self.cables[c].model.supports;
+        let directions = if mass { &mut work.mass_directions } else { &mut work.step_directions };
+        directions.clear();
+        for hold in &work.holds {
+            let mut d = Vector3::zeros();
+            if hold.slope
+                && let Some(SlopeSupport::Attached(held)) =
+                    supports.iter_mut().find(|(n, _)| *n == hold.node).map(|(_, s)| &mut s.slope)
+            {
+                *held = direction(&q[hold.at..], held);
+                d = *held;
+            }
+            directions.push(d);
         }
     }
 
     /// Brings pinned nodes to the velocity of their bodies as an inelastic impact does: with the impulse that it takes on both
     /// sides, so that momentum is kept when an engine, a user or a collision has changed a body's velocity.
     pub(super) fn meet(&mut self, phase: &mut Phase) -> Result<(), StepFailure> {
-        let Phase { time, q, v, .. } = phase;
+        let Phase { time, q, v, memory } = phase;
         let mut jump = core::mem::take(&mut self.workspace.product);
         jump.copy_from_slice(v);
         self.prescribe(*time, q, v);
@@ -113,16 +102,22 @@ impl Work<'_, '_> {
         for (c, part) in self.workspace.cables.iter().enumerate() {
             for node in 0..part.size / 6 {
                 let at = part.at + 6 * node;
-                let pinned = self.pins.iter().any(|p| p.cable == c && p.node == node);
-                jump[at + 3..at + 6].fill(0.0);
-                if pinned {
-                    largest = largest.max(vector(&jump[at..]).norm());
-                } else {
+                let pin = self.pins.iter().position(|p| p.cable == c && p.node == node);
+                if pin.is_none() {
                     jump[at..at + 3].fill(0.0);
                 }
+                if pin.is_none_or(|pin| self.workspace.clamps[pin].is_none()) {
+                    jump[at + 3..at + 6].fill(0.0);
+                }
+                largest = largest.max(vector(&jump[at..]).norm()).max(vector(&jump[at + 3..]).norm());
             }
         }
-        let outcome = if largest > LEAST_JUMP { self.share_jump(&jump, q, v) } else { Ok(()) };
+        let outcome = if largest > LEAST_JUMP {
+            memory.valid = false;
+            self.share_jump(&jump, q, v)
+        } else {
+            Ok(())
+        };
         self.workspace.product = jump;
         outcome?;
         self.follow(*time, q, v);
@@ -165,33 +160,36 @@ impl Work<'_, '_> {
                 }
             }
         }
-        for pin in 0..self.pins.len() {
-            if mass {
-                break;
-            }
-            let (_, rho) = self.lever(pin, q, v);
-            let f = vector(&rhs[self.pin_at(pin)..]);
-            let geometric = -skew(&f) * skew(&rho);
-            let symmetric = (geometric + geometric.transpose()) * 0.5;
-            let body = self.pins[pin].body;
-            for (r, c) in pairs(3) {
-                add(6 * body + 3 + r, 6 * body + 3 + c, symmetric[(r, c)]);
-            }
-        }
         for work in &self.workspace.cables {
             let w = if mass { &work.mass.w } else { &work.step.w };
-            let count = 3 * work.pins.len();
-            for (a, b) in pairs(work.pins.len()) {
-                let block = Matrix3::from_fn(|r, c| w[(3 * a + r) * count + 3 * b + c]);
-                let (pa, pb) = (work.pins[a], work.pins[b]);
-                let (ga, gb) = (-skew(&self.lever(pa, q, v).1), -skew(&self.lever(pb, q, v).1));
-                let (ia, ib) = (6 * self.pins[pa].body, 6 * self.pins[pb].body);
-                let blocks = [block, block * gb, ga.transpose() * block, ga.transpose() * block * gb];
-                for (r, c) in pairs(3) {
-                    add(ia + r, ib + c, blocks[0][(r, c)]);
-                    add(ia + r, ib + 3 + c, blocks[1][(r, c)]);
-                    add(ia + 3 + r, ib + c, blocks[2][(r, c)]);
-                    add(ia + 3 + r, ib + 3 + c, blocks[3][(r, c)]);
+            let count = 3 * work.holds.len();
+            for (a, hold) in work.holds.iter().enumerate() {
+                let (arm, body) = (self.arm(hold, q, v), 6 * self.pins[hold.pin].body);
+                if !mass {
+                    let geometric = -skew(&vector(&rhs[hold.at..])) * skew(&arm);
+                    let symmetric = (geometric + geometric.transpose()) * 0.5;
+                    for (r, c) in pairs(3) {
+                        add(body + 3 + r, body + 3 + c, symmetric[(r, c)]);
+                    }
+                }
+                let ga = -skew(&arm);
+                for (b, other) in work.holds.iter().enumerate() {
+                    let block = Matrix3::from_fn(|r, c| w[(3 * a + r) * count + 3 * b + c]);
+                    let gb = -skew(&self.arm(other, q, v));
+                    let second = 6 * self.pins[other.pin].body;
+                    let turned = block * gb;
+                    for (r, c) in pairs(3) {
+                        add(body + 3 + r, second + 3 + c, (ga.transpose() * turned)[(r, c)]);
+                        if !hold.slope {
+                            add(body + r, second + 3 + c, turned[(r, c)]);
+                        }
+                        if !other.slope {
+                            add(body + 3 + r, second + c, (ga.transpose() * block)[(r, c)]);
+                        }
+                        if !hold.slope && !other.slope {
+                            add(body + r, second + c, block[(r, c)]);
+                        }
+                    }
                 }
             }
         }
@@ -215,25 +213,27 @@ impl Work<'_, '_> {
         for c in 0..self.cables.len() {
             let work = &self.workspace.cables[c];
             let cable = &mut *self.cables[c];
+            let directions = if mass { &work.mass_directions } else { &work.step_directions };
+            for (hold, factored) in work.holds.iter().zip(directions).filter(|(h, _)| h.slope) {
+                // the matrix knows the direction that it was factored with
+                let along = direction(&q[hold.at..], factored).dot(&vector(&rhs[hold.at..]));
+                rhs[hold.at..hold.at + 3].copy_from_slice((factored * along).as_slice());
+                if let Some((_, support)) = cable.model.supports.iter_mut().find(|(n, _)| *n == hold.node) {
+                    support.slope = SlopeSupport::Attached(*factored);
+                }
+            }
             let rows = &mut rhs[work.at..work.at + work.size];
             project_vector(&cable.model, rows);
             let factorisation = if mass { &work.mass_factorisation } else { &cable.system.factorisation };
             factorisation.solve(cable.system.level, rows);
             cable.diagnostics_mut().solves += 1;
         }
-        for c in 0..self.cables.len() {
-            let work = &self.workspace.cables[c];
+        for work in &self.workspace.cables {
             let condensed = if mass { &work.mass } else { &work.step };
-            for (p, &pin) in work.pins.iter().enumerate() {
+            for (h, hold) in work.holds.iter().enumerate() {
                 let rows = &rhs[work.at..work.at + work.size];
-                let passed = Vector3::from_fn(|x, _| -condensed.border(3 * p + x, rows));
-                let (_, rho) = self.lever(pin, q, v);
-                let torque = rho.cross(&passed);
-                let at = self.body_at(self.pins[pin].body);
-                for x in 0..3 {
-                    rhs[at + x] += passed[x];
-                    rhs[at + 3 + x] += torque[x];
-                }
+                let passed = Vector3::from_fn(|x, _| -condensed.border(3 * h + x, rows));
+                self.pass(hold, &passed, &self.arm(hold, q, v), rhs);
             }
         }
         let at = self.workspace.bodies_at;
@@ -244,19 +244,28 @@ impl Work<'_, '_> {
         }
         let n = 6 * self.bodies.len();
         self.workspace.dense.solve(&mut rhs[at..at + n]);
-        for c in 0..self.cables.len() {
-            let work = &self.workspace.cables[c];
-            let condensed = if mass { &work.mass } else { &work.step };
-            for (p, &pin) in work.pins.iter().enumerate() {
-                let (_, rho) = self.lever(pin, q, v);
-                let at = self.body_at(self.pins[pin].body);
-                let displacement = vector(&rhs[at..]) + vector(&rhs[at + 3..]).cross(&rho);
+        for work in &self.workspace.cables {
+            let (condensed, directions) =
+                if mass { (&work.mass, &work.mass_directions) } else { (&work.step, &work.step_directions) };
+            let displacement = |hold: &Hold, rhs: &[f64]| {
+                let at = self.body_at(self.pins[hold.pin].body);
+                let turned = vector(&rhs[at + 3..]).cross(&self.arm(hold, q, v));
+                if hold.slope { turned } else { vector(&rhs[at..]) + turned }
+            };
+            for (h, hold) in work.holds.iter().enumerate() {
+                let displacement = displacement(hold, rhs);
                 let rows = &mut rhs[work.at..work.at + work.size];
                 for x in 0..3 {
-                    condensed.spread(3 * p + x, displacement[x], rows);
+                    condensed.spread(3 * h + x, displacement[x], rows);
                 }
-                let node = self.pin_at(pin);
-                rhs[node..node + 3].copy_from_slice(displacement.as_slice());
+            }
+            for (hold, factored) in work.holds.iter().zip(directions) {
+                let mut held = displacement(hold, rhs);
+                if hold.slope {
+                    let along = factored.dot(&vector(&rhs[hold.at..]));
+                    held += direction(&q[hold.at..], factored) * along;
+                }
+                rhs[hold.at..hold.at + 3].copy_from_slice(held.as_slice());
             }
         }
     }
@@ -267,18 +276,20 @@ impl Work<'_, '_> {
 
     /// Mass matrices of all cables, factored and condensed, and the bodies' matrix at this configuration.
     pub(super) fn factor_mass(&mut self, q: &[f64], v: &[f64]) -> Result<(), StepFailure> {
-        if !self.workspace.mass_ready {
+        let clamped = self.workspace.clamps.iter().any(Option::is_some);
+        if !self.workspace.mass_ready || clamped {
             for c in 0..self.cables.len() {
+                self.aim(c, true, &q[..]);
                 let cable = &mut *self.cables[c];
                 let work = &mut self.workspace.cables[c];
                 let system = &mut cable.system;
                 system.matrix.clear();
                 system.add_mass(1.0);
-                work.mass.read(&system.matrix, &work.nodes);
+                work.mass.read(&system.matrix, &work.holds);
                 project_matrix(&cable.model, &mut system.matrix);
                 work.mass_factorisation.factor(system.level, &system.matrix)?;
                 work.mass
-                    .complete(system.level, &work.mass_factorisation, &work.nodes, |x| project_vector(&cable.model, x));
+                    .complete(system.level, &work.mass_factorisation, &work.holds, |x| project_vector(&cable.model, x));
             }
             self.workspace.mass_ready = true;
         }
@@ -299,19 +310,22 @@ impl Work<'_, '_> {
         let mut product = core::mem::take(&mut self.workspace.product);
         let mut outcome = Ok(());
         for c in 0..self.cables.len() {
+            if matrix {
+                self.aim(c, false, q);
+            }
             let (mut equations, work) = self.equations(c);
             let range = work.at..work.at + work.size;
             let rows = &mut rhs[range.clone()];
             if matrix {
                 let rates = Rates { v: &rates.v[range.clone()], ..rates };
                 equations.moving_force_and_matrix(time, &q[range.clone()], rates, scale, 1.0, rows);
-                work.step.read(&equations.system.matrix, &work.nodes);
+                work.step.read(&equations.system.matrix, &work.holds);
                 outcome = equations.factor().map(|_| ());
                 if outcome.is_err() {
                     break;
                 }
                 let (level, model) = (equations.system.level, equations.model);
-                work.step.complete(level, &equations.system.factorisation, &work.nodes, |x| project_vector(model, x));
+                work.step.complete(level, &equations.system.factorisation, &work.holds, |x| project_vector(model, x));
             } else {
                 equations.moving_force(time, &q[range.clone()], &rates.v[range.clone()], scale, rows);
             }
@@ -322,16 +336,6 @@ impl Work<'_, '_> {
         }
         self.workspace.product = product;
         outcome
-    }
-
-    /// Forces of the cables on the bodies at a phase, by pin.
-    pub fn pin_forces(&mut self, phase: &Phase) -> Result<Vec<PinForce>, StepFailure> {
-        let n = phase.q.len();
-        let (mut q, mut v, mut k, mut rhs) = (phase.q.clone(), phase.v.clone(), vec![0.0; n], vec![0.0; n]);
-        self.prescribe(phase.time, &mut q, &mut v);
-        self.acceleration(phase.time, &q, &v, &mut k)?;
-        self.cable_rows(phase.time, 1.0, &q, Rates { v: &v, rate: 0.0 }, &k, &mut rhs, false)?;
-        Ok((0..self.pins.len()).map(|pin| PinForce { force: vector(&rhs[self.pin_at(pin)..]) }).collect())
     }
 }
 

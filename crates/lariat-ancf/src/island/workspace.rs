@@ -1,5 +1,7 @@
 //! Buffers of an island, and where its bodies are: nothing here outlives a step.
 
+use super::account::PinAccount;
+use super::clamp::Clamp;
 use super::condense::Condensed;
 use super::dense::Dense;
 use super::rotation::jacobian;
@@ -8,17 +10,33 @@ use crate::cable::Cable;
 use crate::linalg::Factorisation;
 use nalgebra::{UnitQuaternion, Vector3};
 
+/// Three coordinates of a cable that follow a body: a pinned position, or a clamped slope.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Hold {
+    pub pin: usize,
+    pub node: usize,
+    /// Where they are among the island's coordinates.
+    pub at: usize,
+    pub slope: bool,
+}
+
+/// Gaps below this in m are rounding.
+const LEAST_GAP: f64 = 1e-12;
+/// A slope shorter than this has no direction.
+const LEAST_SLOPE: f64 = 1e-9;
+
 /// Buffers of one cable in an island.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct CableWork {
     /// Where its coordinates begin.
     pub at: usize,
     pub size: usize,
-    /// Its pins, as indices into the island's, and their nodes.
-    pub pins: Vec<usize>,
-    pub nodes: Vec<usize>,
+    pub holds: Vec<Hold>,
     pub step: Condensed,
     pub mass: Condensed,
+    /// By hold, the direction of the slope when the matrices were factored.
+    pub step_directions: Vec<Vector3<f64>>,
+    pub mass_directions: Vec<Vector3<f64>>,
     pub mass_factorisation: Factorisation,
 }
 
@@ -42,6 +60,12 @@ pub(crate) struct Workspace {
     /// Zeros, as many as coordinates.
     pub zero: Vec<f64>,
     pub gaps: Vec<Vector3<f64>>,
+    /// By pin, its direction if it is a clamp.
+    pub clamps: Vec<Option<Clamp>>,
+    /// By pin, what passed in this step.
+    pub accounts: Vec<PinAccount>,
+    /// The time to which the accounts are kept.
+    pub accounted: Option<f64>,
     pub start: f64,
     pub duration: f64,
     /// Where the coordinates of the bodies begin.
@@ -54,6 +78,11 @@ pub(crate) struct Workspace {
     pub product: Vec<f64>,
     pub z: Vec<f64>,
     pub velocity: Vec<f64>,
+}
+
+/// The direction of a slope; `otherwise` if it has none.
+pub(super) fn direction(slope: &[f64], otherwise: &Vector3<f64>) -> Vector3<f64> {
+    vector(slope).try_normalize(LEAST_SLOPE).unwrap_or(*otherwise)
 }
 
 /// The vector that begins a slice.
@@ -70,10 +99,14 @@ impl Workspace {
             work.at = at;
             work.size = cable.positions().len();
             at += work.size;
-            work.pins.clear();
-            work.pins.extend((0..pins.len()).filter(|&i| pins[i].cable == c));
-            work.nodes.clear();
-            work.nodes.extend(work.pins.iter().map(|&i| pins[i].node));
+            work.holds.clear();
+            for (i, pin) in pins.iter().enumerate().filter(|(_, p)| p.cable == c) {
+                let position = Hold { pin: i, node: pin.node, at: work.at + 6 * pin.node, slope: false };
+                work.holds.push(position);
+                if pin.direction.is_some() {
+                    work.holds.push(Hold { at: position.at + 3, slope: true, ..position });
+                }
+            }
         }
         self.bodies_at = at;
         self.bodies.clear();
@@ -81,10 +114,19 @@ impl Workspace {
         self.levers.clear();
         self.levers.resize(bodies.len(), 0.0);
         self.gaps.clear();
+        self.clamps.clear();
+        self.accounts.clear();
+        self.accounts.resize(pins.len(), PinAccount::default());
+        self.accounted = None;
         for pin in pins {
-            let gap = cables[pin.cable].node_position(pin.node) - bodies[pin.body].point(&pin.anchor);
-            self.gaps.push(gap);
+            let (cable, body) = (&cables[pin.cable], &bodies[pin.body]);
+            let gap = cable.node_position(pin.node) - body.point(&pin.anchor);
+            self.gaps.push(if gap.amax() < LEAST_GAP { Vector3::zeros() } else { gap });
             self.levers[pin.body] = self.levers[pin.body].max(pin.anchor.norm());
+            self.clamps.push(pin.direction.map(|wanted| {
+                let slope = body.rotation.inverse() * vector(&cable.positions()[6 * pin.node + 3..]);
+                Clamp::new(slope.try_normalize(LEAST_SLOPE).unwrap_or(wanted), wanted, dt)
+            }));
         }
         self.start = cables[0].time();
         self.duration = dt;
@@ -96,9 +138,14 @@ impl Workspace {
         }
     }
 
-    /// Takes all pins as closed.
-    pub fn close_gaps(&mut self) {
-        self.gaps.iter_mut().for_each(|gap| *gap = Vector3::zeros());
+    /// Whether no pin has a gap to close and no clamp has to turn.
+    pub fn closed(&self) -> bool {
+        self.gaps.iter().all(|gap| *gap == Vector3::zeros()) && self.clamps.iter().flatten().all(Clamp::settled)
+    }
+
+    /// Elapsed share of the step.
+    pub fn elapsed(&self, time: f64) -> f64 {
+        ((time - self.start) / self.duration).clamp(0.0, 1.0)
     }
 
     /// Body `i` at chart coordinates `q` and rates `v`.
@@ -114,12 +161,12 @@ impl Workspace {
 
     pub fn gap(&self, pin: usize, time: f64) -> (Vector3<f64>, Vector3<f64>) {
         // a cubic with zero rate at both ends: a jump of velocity would strike the cable
-        let s = ((time - self.start) / self.duration).clamp(0.0, 1.0);
+        let s = self.elapsed(time);
         (self.gaps[pin] * (1.0 - s * s * (3.0 - 2.0 * s)), self.gaps[pin] * (-6.0 * s * (1.0 - s) / self.duration))
     }
 
     pub fn closing_acceleration(&self, pin: usize, time: f64) -> Vector3<f64> {
-        let s = ((time - self.start) / self.duration).clamp(0.0, 1.0);
+        let s = self.elapsed(time);
         self.gaps[pin] * (-6.0 * (1.0 - 2.0 * s) / (self.duration * self.duration))
     }
 }

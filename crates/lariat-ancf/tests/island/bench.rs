@@ -1,6 +1,6 @@
 //! Scenes and tools that several files share.
 
-use lariat_ancf::island::{Island, Pin, RigidBody};
+use lariat_ancf::island::{Island, Pin, PinAccount, RigidBody};
 use lariat_ancf::{At, Cable, Integrator, Section, Vector3};
 use nalgebra::Matrix3;
 
@@ -36,7 +36,16 @@ impl Scene {
     /// Holds a node of a cable to a point of a body.
     pub fn pin(mut self, cable: usize, at: impl Into<At>, body: usize, anchor: Vector3<f64>) -> Self {
         let node = self.cables[cable].attach(at).unwrap();
-        self.pins.push(Pin { cable, node, body, anchor });
+        self.pins.push(Pin { cable, node, body, anchor, direction: None });
+        self
+    }
+
+    /// Clamps a node of a cable, as it is, to a point of a body.
+    pub fn clamp(mut self, cable: usize, at: impl Into<At>, body: usize, anchor: Vector3<f64>) -> Self {
+        let node = self.cables[cable].attach_clamped(at).unwrap();
+        let slope = Vector3::from_column_slice(&self.cables[cable].positions()[6 * node + 3..6 * node + 6]);
+        let direction = Some(self.bodies[body].rotation.inverse() * slope.normalize());
+        self.pins.push(Pin { cable, node, body, anchor, direction });
         self
     }
 
@@ -53,10 +62,13 @@ impl Scene {
     }
 
     /// Force of each cable on its body in N, by pin.
-    pub fn pin_forces(&mut self) -> Vec<Vector3<f64>> {
-        let mut cables: Vec<&mut Cable> = self.cables.iter_mut().collect();
-        let forces = self.island.pin_forces(&mut cables, &mut self.bodies, &self.pins).unwrap();
-        forces.iter().map(|f| f.force).collect()
+    pub fn pin_forces(&self) -> Vec<Vector3<f64>> {
+        self.island.accounts().iter().map(|a| a.force).collect()
+    }
+
+    /// What passed through each pin during the last step.
+    pub fn accounts(&self) -> &[PinAccount] {
+        self.island.accounts()
     }
 
     /// Linear momentum (kg m/s) and angular momentum about the origin (kg m^2/s) of all.

@@ -1,7 +1,9 @@
 //! What a probe writes: the columns of its file and a row of numbers.
 //!
-//! `dissipated` is what effects take out of the scene and `interface_work` what passes between cables and bodies: zero here.
-//! `gap` is zero: an attachment to the world holds the cable point itself. The force of an attachment is the one on the world.
+//! `dissipated` is what damping and drag took from the cables so far. `interface_work` is the work that cables did so far on the bodies
+//! they are held to, the part of a cable's energy that went there; `total` is what is there now, kinetic to gravity, with `"all"`
+//! that of dynamic bodies too. The gap of an attachment to the world is zero: it holds the cable point itself. Force and moment of
+//! an attachment are those on the body or the world; at t = 0 they are those of a cable whose bodies are still held.
 
 use super::World;
 use crate::error::Error;
@@ -13,6 +15,7 @@ pub(super) fn columns(target: Target) -> &'static [&'static str] {
         Target::Point { .. } => {
             &["t", "x", "y", "z", "vx", "vy", "vz", "sx", "sy", "sz", "tension", "curvature", "moment"]
         }
+        Target::Body(_) => &["t", "x", "y", "z", "qx", "qy", "qz", "qw", "vx", "vy", "vz", "wx", "wy", "wz"],
         Target::Attachment(_) => &["t", "fx", "fy", "fz", "mx", "my", "mz", "gap"],
         Target::Energy(_) => &["t", "kinetic", "axial", "bending", "gravity", "dissipated", "interface_work", "total"],
         Target::Momentum(_) => &["t", "px", "py", "pz", "lx", "ly", "lz"],
@@ -23,19 +26,28 @@ pub(super) fn columns(target: Target) -> &'static [&'static str] {
 pub(super) fn read(target: Target, world: &mut World, row: &mut Vec<f64>) -> Result<(), Error> {
     match target {
         Target::Point { cable, arc_length } => {
-            let sample = world.cables[cable].sample(arc_length)?;
+            let sample = world.cables()[cable].sample(arc_length)?;
             for vector in [sample.position, sample.velocity, sample.slope] {
                 row.extend(vector.iter());
             }
             row.extend([sample.tension, sample.curvature.norm(), sample.moment.norm()]);
         }
+        Target::Body(index) => {
+            if let Some(body) = world.body(index) {
+                let q = body.rotation;
+                row.extend(body.position.iter().chain(&[q.i, q.j, q.k, q.w]));
+                row.extend(body.velocity.iter().chain(body.angular_velocity.iter()));
+            }
+        }
         Target::Attachment(index) => {
-            let (force, moment) = world.attachment(index)?;
-            row.extend(force.iter().chain(moment.iter()).chain(&[0.0]));
+            let (force, moment, gap) = world.attachment(index)?;
+            row.extend(force.iter().chain(moment.iter()).chain(&[gap]));
         }
         Target::Energy(cable) => {
             let energy = world.energy(cable);
-            row.extend([energy.kinetic, energy.axial, energy.bending, energy.gravity, 0.0, 0.0, energy.total()]);
+            let work = world.interface_work(cable)?;
+            row.extend([energy.kinetic, energy.axial, energy.bending, energy.gravity]);
+            row.extend([world.dissipated(cable), work, energy.total()]);
         }
         Target::Momentum(cable) => {
             let momentum = world.momentum(cable);

@@ -31,7 +31,7 @@ pub struct Summary {
     pub element_evaluations: u64,
     /// Evaluations by effect, for the effects that are on.
     pub effect_evaluations: BTreeMap<String, u64>,
-    /// Largest distance between an attachment's two sides in m.
+    /// Largest distance between an attachment's two sides at the ends of all steps, in m.
     pub max_gap_m: f64,
     /// Total energy at t = 0 in J; null if it is not finite.
     pub energy_start_j: Option<f64>,
@@ -46,7 +46,7 @@ pub struct Summary {
 impl Summary {
     pub(super) fn of(world: &World, cpu: Duration, wall: Duration, failed: Option<&Error>) -> Self {
         let count = |read: fn(&lariat_ancf::Diagnostics) -> u64| -> u64 {
-            world.cables.iter().map(|cable| read(cable.diagnostics())).sum()
+            world.cables().iter().map(|cable| read(cable.diagnostics())).sum()
         };
         let finite = |x: f64| Some(x).filter(|x| x.is_finite());
         let simulated = world.time();
@@ -61,8 +61,8 @@ impl Summary {
             newton_iterations: count(|d| d.newton_iterations) + world.static_iterations,
             factorisations: count(|d| d.factorisations),
             element_evaluations: count(|d| d.element_evaluations()),
-            effect_evaluations: BTreeMap::new(),
-            max_gap_m: 0.0,
+            effect_evaluations: world.effect_evaluations(),
+            max_gap_m: world.max_gap(),
             energy_start_j: finite(world.energy_start),
             energy_end_j: finite(world.energy(None).total()),
             warnings: world.warnings.clone(),

@@ -1,14 +1,20 @@
-//! The cables of a scene while it runs.
+//! The cables and bodies of a scene while it runs.
 
 use crate::error::Error;
-use crate::scene::{AttachmentScene, Purpose, Scene};
-use lariat_ancf::{Cable, Energy, Momentum, Reaction, Vector3};
+use crate::physics::{BodyState, Physics};
+use crate::scene::{AttachmentScene, Engine, Purpose, Scene};
+use lariat_ancf::{At, Cable, Energy, Momentum, Reaction, Support, Vector3};
+use std::collections::BTreeMap;
 
-/// The cables of a scene in their present state.
-#[derive(Clone, Debug)]
+/// The cables and bodies of a scene in their present state.
 pub struct World {
     pub(super) scene: Scene,
-    pub(super) cables: Vec<Cable>,
+    /// Cables that no body moves; empty once `physics` has taken them.
+    alone: Vec<Cable>,
+    /// Bodies, with `engine = "rapier"`.
+    physics: Option<Box<Physics>>,
+    /// Time that cables and bodies have reached together, in s.
+    time: f64,
     pub(super) warnings: Vec<String>,
     /// Iterations of the statics, which are Newton iterations too.
     pub(super) static_iterations: u64,
@@ -16,15 +22,26 @@ pub struct World {
 }
 
 impl World {
-    /// Builds the cables of a scene as drawn.
+    /// Builds the cables and bodies of a scene as drawn.
     ///
     /// # Errors
-    /// [`Error::Mechanics`]; not for a checked scene.
+    /// [`Error::Mechanics`], [`Error::Body`]; not for a checked scene.
     pub fn build(scene: &Scene) -> Result<Self, Error> {
         let cables = (0..scene.cables.len()).map(|i| scene.build_cable(i)).collect::<Result<Vec<_>, _>>()?;
-        let mut world =
-            World { scene: scene.clone(), cables, warnings: Vec::new(), static_iterations: 0, energy_start: 0.0 };
-        for cable in &world.cables {
+        let physics = match scene.engine {
+            Engine::None => None,
+            Engine::Rapier => Some(Box::new(Physics::build(scene)?)),
+        };
+        let mut world = World {
+            scene: scene.clone(),
+            alone: cables,
+            physics,
+            time: 0.0,
+            warnings: Vec::new(),
+            static_iterations: 0,
+            energy_start: 0.0,
+        };
+        for cable in &world.alone {
             if let Some(reason) = cable.rule().spare_modes() {
                 world.warnings.push(format!(
                     "cable {:?}: rule {} leaves modes without energy, as allowed: {reason}",
@@ -36,13 +53,15 @@ impl World {
         Ok(world)
     }
 
-    /// Puts the cables into their start: static equilibrium where the scene asks for it, loads, initial motion.
+    /// Puts the cables into their start: static equilibrium where the scene asks for it, with bodies held where they are drawn;
+    /// loads; initial motion. For a run with Rapier the bodies then take hold of the cables.
     ///
     /// # Errors
     /// [`Error::Mechanics`] if there is no equilibrium.
     pub fn start(&mut self, purpose: Purpose) -> Result<(), Error> {
-        let World { scene, cables, warnings, static_iterations, .. } = self;
-        for (i, cable) in cables.iter_mut().enumerate() {
+        let World { scene, alone, warnings, static_iterations, .. } = self;
+        let mut held_by = vec![Default::default(); scene.attachments.len()];
+        for (i, cable) in alone.iter_mut().enumerate() {
             let fully = purpose == Purpose::Static;
             let settle = fully || scene.cables[i].equilibrium;
             scene.add_loads(cable, i, false, fully)?;
@@ -61,11 +80,29 @@ impl World {
                 }
             }
             if !fully {
+                let by_bodies = |k: &usize| scene.attachments[*k].cable == i && scene.attachments[*k].body.is_some();
+                for k in (0..scene.attachments.len()).filter(by_bodies) {
+                    held_by[k] = pull(cable, scene.attachments[k].arc_length)?;
+                }
+                for k in (0..scene.attachments.len()).filter(by_bodies) {
+                    let at = At::ArcLength(scene.attachments[k].arc_length);
+                    cable.set_support(at, Support::default())?;
+                }
                 scene.add_loads(cable, i, true, false)?;
                 scene.set_in_motion(cable, i)?;
             }
         }
-        Ok(())
+        if purpose == Purpose::Static && !self.scene.body_loads.is_empty() {
+            self.warnings.push("loads on bodies take no part: statics hold bodies where they are drawn".to_string());
+        }
+        match &mut self.physics {
+            Some(physics) if purpose == Purpose::Run => {
+                physics.take(&self.scene, std::mem::take(&mut self.alone), &held_by)?;
+                self.warnings.extend(physics.jolts(&self.scene)?);
+                Ok(())
+            }
+            _ => Ok(()),
+        }
     }
 
     /// Remembers the energy at the start.
@@ -73,12 +110,17 @@ impl World {
         self.energy_start = self.energy(None).total();
     }
 
-    /// Advances all cables to a time in s.
+    /// Advances all cables and bodies to a time in s.
     ///
     /// # Errors
-    /// [`Error::Mechanics`] names the cable and the time; that cable is then at the last good state.
+    /// [`Error::Mechanics`] names the cable and the time; that cable is then at the last good state. [`Error::Body`] names the body.
     pub fn advance(&mut self, time: f64) -> Result<(), Error> {
-        for cable in &mut self.cables {
+        if let Some(physics) = &mut self.physics {
+            physics.advance(&self.scene, self.time, time)?;
+            self.time = time;
+            return Ok(());
+        }
+        for cable in &mut self.alone {
             let dt = time - cable.time();
             if dt > 0.0 {
                 cable.step(dt)?;
@@ -88,49 +130,132 @@ impl World {
     }
 
     /// Cables of the scene, in its order.
-    pub fn cables(&self) -> &[Cable] {
-        &self.cables
+    pub fn cables(&self) -> Vec<&Cable> {
+        match &self.physics {
+            Some(physics) if self.alone.is_empty() => physics.cables(),
+            _ => self.alone.iter().collect(),
+        }
     }
 
-    /// Time that all cables have reached, in s.
+    /// Time that all have reached, in s.
     pub fn time(&self) -> f64 {
-        self.cables.iter().map(Cable::time).fold(f64::INFINITY, f64::min)
+        match &self.physics {
+            Some(_) => self.time,
+            None => self.alone.iter().map(Cable::time).fold(f64::INFINITY, f64::min),
+        }
     }
 
-    fn chosen(&self, cable: Option<usize>) -> impl Iterator<Item = &Cable> {
-        self.cables.iter().enumerate().filter(move |(i, _)| cable.is_none_or(|c| c == *i)).map(|(_, cable)| cable)
+    fn chosen(&self, cable: Option<usize>) -> Vec<&Cable> {
+        let mut cables = self.cables();
+        if let Some(index) = cable {
+            cables = cables.split_off(index);
+            cables.truncate(1);
+        }
+        cables
     }
 
-    /// Energy of a cable, or of all.
+    /// Energy of a cable, or of all cables and dynamic bodies.
     pub fn energy(&self, cable: Option<usize>) -> Energy {
-        self.chosen(cable).map(Cable::energy).fold(Energy::default(), |sum, e| Energy {
-            kinetic: sum.kinetic + e.kinetic,
-            axial: sum.axial + e.axial,
-            bending: sum.bending + e.bending,
-            gravity: sum.gravity + e.gravity,
-        })
+        let mut sum = Energy::default();
+        for e in self.chosen(cable).into_iter().map(Cable::energy) {
+            sum.kinetic += e.kinetic;
+            sum.axial += e.axial;
+            sum.bending += e.bending;
+            sum.gravity += e.gravity;
+        }
+        if let (None, Some(physics)) = (cable, &self.physics) {
+            let (kinetic, gravity) = physics.energy(&self.scene);
+            sum.kinetic += kinetic;
+            sum.gravity += gravity;
+        }
+        sum
     }
 
-    /// Momentum of a cable, or of all.
+    /// Energy in J that damping and drag took so far from a cable, or from all.
+    pub fn dissipated(&self, cable: Option<usize>) -> f64 {
+        self.chosen(cable).into_iter().map(|cable| cable.account().dissipated()).sum()
+    }
+
+    /// Evaluations by effect, summed over the cables that have it; of buoyancy none, it is in weight and mass.
+    pub fn effect_evaluations(&self) -> BTreeMap<String, u64> {
+        let mut counts = BTreeMap::new();
+        for cable in self.cables() {
+            let (effects, diagnostics) = (cable.effects(), cable.diagnostics());
+            for (name, on, count) in [
+                ("damping", effects.damping.is_some(), diagnostics.damping_evaluations),
+                ("drag", effects.drag.is_some(), diagnostics.drag_evaluations),
+                ("buoyancy", effects.buoyancy.is_some(), 0),
+            ] {
+                if on {
+                    *counts.entry(name.to_string()).or_insert(0) += count;
+                }
+            }
+        }
+        counts
+    }
+
+    /// Work in J that a cable, or all, did so far on the bodies they hold to.
+    ///
+    /// # Errors
+    /// [`Error::Coupling`]; not for a running scene.
+    pub fn interface_work(&self, cable: Option<usize>) -> Result<f64, Error> {
+        let Some(physics) = &self.physics else { return Ok(0.0) };
+        let mut sum = 0.0;
+        for (k, _) in self.scene.attachments.iter().enumerate().filter(|(_, a)| cable.is_none_or(|c| c == a.cable)) {
+            sum += physics.passing(k, self.time)?.map_or(0.0, |passing| passing.work);
+        }
+        Ok(sum)
+    }
+
+    /// Momentum of a cable, or of all cables and dynamic bodies.
     pub fn momentum(&self, cable: Option<usize>) -> Momentum {
         let zero = Momentum { linear: Vector3::zeros(), angular: Vector3::zeros() };
+        let bodies = self.physics.as_ref().filter(|_| cable.is_none()).map(|physics| physics.momentum(&self.scene));
         self.chosen(cable)
+            .into_iter()
             .map(Cable::momentum)
+            .chain(bodies)
             .fold(zero, |sum, p| Momentum { linear: sum.linear + p.linear, angular: sum.angular + p.angular })
     }
 
-    /// Force (N) and moment (N m) of the cable on what an attachment holds it to.
+    /// State of a body; `None` without bodies.
+    pub fn body(&self, index: usize) -> Option<BodyState> {
+        self.physics.as_ref().map(|physics| physics.body(&self.scene, index, self.time))
+    }
+
+    /// Largest distance so far between a cable's point and the body's that it is held to, in m.
+    pub fn max_gap(&self) -> f64 {
+        self.physics.as_ref().map_or(0.0, |physics| physics.max_gap())
+    }
+
+    /// Force (N) and moment (N m) of the cable on what an attachment holds it to, and the gap (m) between the two.
     ///
     /// # Errors
     /// [`Error::Mechanics`] if the present state has no finite acceleration.
-    pub fn attachment(&mut self, index: usize) -> Result<(Vector3<f64>, Vector3<f64>), Error> {
+    pub fn attachment(&mut self, index: usize) -> Result<(Vector3<f64>, Vector3<f64>, f64), Error> {
+        if let Some(physics) = &self.physics
+            && let Some(passing) = physics.passing(index, self.time)?
+        {
+            return Ok((passing.force, passing.moment, passing.gap));
+        }
         let AttachmentScene { cable, arc_length, .. } = self.scene.attachments[index];
-        let cable = &mut self.cables[cable];
-        let node = cable.node(arc_length)?;
-        let held = |reaction: &&Reaction| reaction.node == node;
-        let on_cable = cable.reactions()?.iter().find(held).map(|r| (r.force, r.moment));
-        let (force, moment) = on_cable.unwrap_or_default();
-        // 0 - 0 is 0, not -0
-        Ok((Vector3::zeros() - force, Vector3::zeros() - moment))
+        // a copy, because reading reactions counts as touching a cable, which wakes it
+        let mut coupled = None;
+        let cable = match self.alone.get_mut(cable) {
+            Some(cable) => cable,
+            None => coupled.insert(self.cables()[cable].clone()),
+        };
+        let (force, moment) = pull(cable, arc_length)?;
+        Ok((force, moment, 0.0))
     }
+}
+
+/// Force (N) and moment (N m) of a cable on what supports it at an arc length; zero if nothing does.
+fn pull(cable: &mut Cable, arc_length: f64) -> Result<(Vector3<f64>, Vector3<f64>), Error> {
+    let node = cable.node(arc_length)?;
+    let held = |reaction: &&Reaction| reaction.node == node;
+    let on_cable = cable.reactions()?.iter().find(held).map(|r| (r.force, r.moment));
+    let (force, moment) = on_cable.unwrap_or_default();
+    // 0 - 0 is 0, not -0
+    Ok((Vector3::zeros() - force, Vector3::zeros() - moment))
 }

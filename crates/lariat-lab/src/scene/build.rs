@@ -1,7 +1,7 @@
 //! From a checked scene to cables: mesh, supports, loads, start.
 
-use super::Scene;
-use lariat_ancf::{At, Cable, Error, Motion, PointLoad};
+use super::{AttachmentScene, Scene};
+use lariat_ancf::{At, Cable, Error, Motion, PointLoad, Vector3};
 
 impl Scene {
     /// A cable at its drawn start, held by its attachments where it is drawn, without loads.
@@ -17,6 +17,7 @@ impl Scene {
             .elements(scene.elements)
             .section(scene.section)
             .rule(scene.rule)
+            .effects(scene.effects.clone())
             .allow_rank_deficient()
             .gravity(self.gravity)
             .velocity(scene.velocity)
@@ -50,13 +51,19 @@ impl Scene {
         Ok(())
     }
 
+    /// Where in the world the anchor of an attachment is at t = 0, in m; `None` = where the cable point is.
+    pub fn anchor(&self, attachment: &AttachmentScene) -> Option<Vector3<f64>> {
+        let body = attachment.body.map(|body| &self.bodies[body]);
+        attachment.anchor.map(|anchor| body.map_or(anchor, |body| body.to_world(&anchor)))
+    }
+
     /// Moves the supports of a cable to their anchors.
     ///
     /// # Errors
     /// As [`Cable::set_support`].
     pub fn move_to_anchors(&self, cable: &mut Cable, index: usize) -> Result<(), Error> {
         for attachment in self.attachments.iter().filter(|a| a.cable == index) {
-            let Some(anchor) = attachment.anchor else { continue };
+            let Some(anchor) = self.anchor(attachment) else { continue };
             let mut support = cable.support(attachment.arc_length)?;
             support.position = Some(Motion::fixed(anchor));
             cable.set_support(attachment.arc_length, support)?;

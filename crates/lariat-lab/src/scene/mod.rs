@@ -2,13 +2,25 @@
 //!
 //! Everything is checked before anything is written: an unknown key, a missing key, a value out of range or a reference to
 //! nothing is an error that names file, line, key and what is accepted. Parts of the format that this version does not compute
-//! (bodies, the Rapier engine, effects) are read and then refused by name, never ignored.
+//! (contact, breaking, reeling) are read and then refused by name, never ignored.
 //!
 //! Extensions of the format: `section = { tube = [outer, inner] }`; `allow_rank_deficient = true` runs a rule that leaves modes
 //! without energy (Table 1 needs G2-2); `integrator = { preset = ".." }`, `{ method, max_step }`, `{ method, stable }`; energy
 //! and momentum probes of one cable; `axial = "projected"` and rules such as `projected-3`.
 //!
-//! An `anchor` to the world must be where the cable point starts (within 1e-6 m), because a straight start has no way to get
+//! # Bodies
+//!
+//! Without `engine`, a scene with bodies runs in Rapier and one without does not. A `[[body]]` without `kind` is dynamic; `shape`
+//! must be given, a dynamic body needs `mass` or `density`, and other bodies have neither. Cylinders and capsules stand along the
+//! body's y. `inertia` is about the body's axes through its centre of mass, which for a mesh is that of the convex hull; without
+//! shape and `inertia` a body does not turn. `velocity` is that of the origin. A kinematic body follows its `path`, or moves at its
+//! constant `velocity`; it turns at its constant `angular_velocity` either way. Paths are met at host times and linear between
+//! them, so put corners on multiples of `dt`. A load on a body keeps its direction in world axes; `point` without value is the
+//! origin. Rapier's caps on velocities are lifted, and nothing sleeps. With `initial = "equilibrium"` and in `lariat static` bodies are held where they are drawn while the cables settle.
+//!
+//! # Anchors
+//!
+//! An `anchor` to the world or a body must be where the cable point starts (within 1e-6 m), because a straight start has no way to get
 //! to any other place without a jump; with `initial = "equilibrium"` and in `lariat static` any anchor will do, and the cable
 //! is moved there. A load with a ramp is zero at t = 0, so it takes no part in `initial = "equilibrium"`; `lariat static`
 //! applies all loads in full.
@@ -18,21 +30,29 @@
 //! | [`table`], [`value`] | the tables as written |
 //! | [`document`], `overrides` | the file as a tree with places; `--set` |
 //! | [`keys`] | what is accepted, in words |
-//! | `check`, `check_cable` | ranges and references |
+//! | `check`, `check_cable`, `check_body`, `check_hold` | ranges and references |
+//! | [`body`], `mesh` | bodies, and the files of their shapes |
 //! | `build` | from a scene to cables |
 
+pub mod body;
 mod build;
 mod check;
+mod check_body;
 mod check_cable;
+mod check_effects;
+mod check_hold;
 pub mod document;
 pub mod keys;
+mod mesh;
 mod overrides;
 pub mod table;
 pub mod value;
 
 use crate::error::Error;
+use crate::physics::collider as physics_of;
+use body::BodyScene;
 use document::Document;
-use lariat_ancf::{Integrator, Preset, Rule, Section, Vector3};
+use lariat_ancf::{Effects, Integrator, Preset, Rule, Section, Vector3};
 use std::path::Path;
 use value::At;
 
@@ -43,6 +63,15 @@ pub enum Purpose {
     Run,
     /// The static equilibrium: no duration needed, anchors anywhere.
     Static,
+}
+
+/// What moves bodies.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Engine {
+    /// Nothing: there are none.
+    None,
+    /// rapier3d.
+    Rapier,
 }
 
 /// A checked scene.
@@ -56,12 +85,20 @@ pub struct Scene {
     pub dt: f64,
     /// Gravity in m/s^2.
     pub gravity: Vector3<f64>,
+    /// What moves bodies.
+    pub engine: Engine,
+    /// Rapier's number of solver iterations; `None` = its own.
+    pub solver_iterations: Option<usize>,
+    /// Rigid bodies.
+    pub bodies: Vec<BodyScene>,
     /// Cables.
     pub cables: Vec<CableScene>,
-    /// Attachments to the world.
+    /// Attachments to bodies and to the world.
     pub attachments: Vec<AttachmentScene>,
-    /// Point loads.
+    /// Point loads on cables.
     pub loads: Vec<LoadScene>,
+    /// Loads on bodies.
+    pub body_loads: Vec<BodyLoadScene>,
     /// Probes.
     pub probes: Vec<ProbeScene>,
 }
@@ -83,6 +120,8 @@ pub struct CableScene {
     pub section: Section,
     /// Force strategy.
     pub rule: Rule,
+    /// Effects.
+    pub effects: Effects,
     /// Integrator, or a preset.
     pub integrator: Result<Integrator, Preset>,
     /// Initial velocity in m/s.
@@ -91,7 +130,7 @@ pub struct CableScene {
     pub angular_velocity: Vector3<f64>,
 }
 
-/// A checked attachment of a cable to the world.
+/// A checked attachment of a cable to a body or the world.
 #[derive(Clone, Debug, PartialEq)]
 pub struct AttachmentScene {
     /// Name.
@@ -100,7 +139,9 @@ pub struct AttachmentScene {
     pub cable: usize,
     /// Arc length in m.
     pub arc_length: f64,
-    /// World position in m; `None` = where the cable point is.
+    /// Position of the body in [`Scene::bodies`]; `None` = the world.
+    pub body: Option<usize>,
+    /// Place in m, in axes of the body or the world; `None` = where the cable point is.
     pub anchor: Option<Vector3<f64>>,
     /// True to hold the direction of the tangent too.
     pub clamp: bool,
@@ -116,6 +157,21 @@ pub struct LoadScene {
     /// Force in N.
     pub force: Vector3<f64>,
     /// Moment in N m.
+    pub moment: Vector3<f64>,
+    /// Time from zero to full in s.
+    pub ramp: f64,
+}
+
+/// A checked load on a body.
+#[derive(Clone, Debug, PartialEq)]
+pub struct BodyLoadScene {
+    /// Position of the body in [`Scene::bodies`].
+    pub body: usize,
+    /// Where the force acts, in axes of the body from its origin, in m.
+    pub point: Vector3<f64>,
+    /// Force in N, world axes.
+    pub force: Vector3<f64>,
+    /// Moment in N m, world axes.
     pub moment: Vector3<f64>,
     /// Time from zero to full in s.
     pub ramp: f64,
@@ -142,7 +198,9 @@ pub enum Target {
         /// Arc length in m.
         arc_length: f64,
     },
-    /// Force and moment of an attachment.
+    /// Pose and velocity of a body.
+    Body(usize),
+    /// Force, moment and gap of an attachment.
     Attachment(usize),
     /// Energy of a cable, or of all.
     Energy(Option<usize>),
@@ -172,7 +230,8 @@ impl Scene {
     fn parse_named(file: &str, name: &str, text: &str, overrides: &[String], purpose: Purpose) -> Result<Self, Error> {
         let mut document = Document::parse(file, text)?;
         overrides.iter().try_for_each(|argument| document.set(argument))?;
-        check::scene(&document, document.read()?, name, purpose)
+        let folder = Path::new(file).parent().unwrap_or(Path::new(""));
+        check::scene(&document, document.read()?, name, folder, purpose)
     }
 }
 

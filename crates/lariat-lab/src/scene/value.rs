@@ -104,14 +104,14 @@ pub enum ShapeValue {
 impl<'de> Deserialize<'de> for ShapeValue {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         #[derive(Deserialize)]
-        #[serde(deny_unknown_fields, rename_all = "snake_case")]
-        enum Table {
-            Cuboid([f64; 3]),
-            Ball(f64),
-            Cylinder([f64; 2]),
-            Capsule([f64; 2]),
-            Plane([f64; 3]),
-            Mesh(String),
+        #[serde(deny_unknown_fields)]
+        struct Table {
+            cuboid: Option<[f64; 3]>,
+            ball: Option<f64>,
+            cylinder: Option<[f64; 2]>,
+            capsule: Option<[f64; 2]>,
+            plane: Option<[f64; 3]>,
+            mesh: Option<String>,
         }
         struct Reader;
         impl<'de> Visitor<'de> for Reader {
@@ -123,15 +123,22 @@ impl<'de> Deserialize<'de> for ShapeValue {
                 if text == "none" { Ok(ShapeValue::None) } else { Err(E::custom(format!("unknown shape {text:?}"))) }
             }
             fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<ShapeValue, A::Error> {
-                let table = Table::deserialize(MapAccessDeserializer::new(map)).map_err(A::Error::custom)?;
-                Ok(match table {
-                    Table::Cuboid(x) => ShapeValue::Cuboid(x),
-                    Table::Ball(x) => ShapeValue::Ball(x),
-                    Table::Cylinder(x) => ShapeValue::Cylinder(x),
-                    Table::Capsule(x) => ShapeValue::Capsule(x),
-                    Table::Plane(x) => ShapeValue::Plane(x),
-                    Table::Mesh(x) => ShapeValue::Mesh(x),
-                })
+                let table = Table::deserialize(MapAccessDeserializer::new(map))?;
+                let mut given: Vec<ShapeValue> = [
+                    table.cuboid.map(ShapeValue::Cuboid),
+                    table.ball.map(ShapeValue::Ball),
+                    table.cylinder.map(ShapeValue::Cylinder),
+                    table.capsule.map(ShapeValue::Capsule),
+                    table.plane.map(ShapeValue::Plane),
+                    table.mesh.map(ShapeValue::Mesh),
+                ]
+                .into_iter()
+                .flatten()
+                .collect();
+                match (given.pop(), given.len()) {
+                    (Some(shape), 0) => Ok(shape),
+                    _ => Err(A::Error::custom("not exactly one shape")),
+                }
             }
         }
         deserializer.deserialize_any(Reader)

@@ -42,7 +42,7 @@ pub fn weightless() -> PhysicsWorld {
 }
 
 /// A dynamic cube of half side `half` (m).
-pub fn add_cube(world: &mut PhysicsWorld, mass: f32, half: f32, at: [f32; 3]) -> RigidBodyHandle {
+pub fn add_cube(world: &mut PhysicsWorld, mass: Real, half: Real, at: [Real; 3]) -> RigidBodyHandle {
     let body = RigidBodyBuilder::dynamic().translation(Vector::from(at));
     world.insert(body, ColliderBuilder::cuboid(half, half, half).mass(mass)).0
 }

@@ -1,12 +1,12 @@
 //! Bodies in contact while a cable pulls: jams and friction.
 
 use super::bench::{add_cube, cable, damping, gap, run, soft, steel, tension, weightless, wire};
-use lariat_rapier::CableSet;
 use lariat_rapier::lariat_ancf::{At, Section, Vector3};
 use lariat_rapier::rapier::prelude::*;
+use lariat_rapier::{CableSet, Pin};
 
 /// A cube behind two posts, 5 cm away; a winch pulls until the cable carries 5 kN, and stops.
-fn jam(section: Section, mass: f32) {
+fn jam(section: Section, mass: Real) {
     const PULL: f64 = 5e3;
     let mut world = weightless();
     for y in [-0.35, 0.35] {
@@ -19,8 +19,8 @@ fn jam(section: Section, mass: f32) {
     let mut set = CableSet::new();
     let rope = cable([0.0; 3], [-2.0, 0.0, 0.0], section).integrator(damping()).gravity(Vector3::zeros());
     let rope = set.insert(rope.build().unwrap());
-    set.attach(&world, rope, At::Start, winch, Vector::ZERO).unwrap();
-    set.attach(&world, rope, At::End, load, Vector::new(0.1, 0.0, 0.0)).unwrap();
+    set.attach(&world, rope, At::Start, winch, Vector::ZERO, Pin::Ball).unwrap();
+    set.attach(&world, rope, At::End, load, Vector::new(0.1, 0.0, 0.0), Pin::Ball).unwrap();
     // the rope's, and that of Rapier's contacts, 15 mm for 5 kN on 1 kg
     let compliance = 2.0 / section.axial_stiffness + 3e-6 / f64::from(mass);
     let (mut widest, mut held) = (0.0f64, Vec::new());
@@ -29,7 +29,7 @@ fn jam(section: Section, mass: f32) {
         let missing = (PULL - tension(&set, rope, 1.0)) * compliance;
         let speed = if k < 60 { 0.05 } else { (5.0 * missing).clamp(-0.05, 0.05) };
         let speed = if k < 600 { speed } else { 0.0 };
-        world.bodies[winch].set_linvel(Vector::new(speed as f32, 0.0, 0.0), true);
+        world.bodies[winch].set_linvel(Vector::new(speed as Real, 0.0, 0.0), true);
         set.step(&mut world).unwrap();
         if k >= 600 {
             widest = widest.max(gap(&set));
@@ -75,12 +75,12 @@ fn a_cube_starts_to_slide_when_the_pull_is_friction_times_weight() {
         let mut set = CableSet::new();
         let rope = cable([0.0, 0.1, 0.0], [-2.0, 0.1, 0.0], section).integrator(damping()).gravity(Vector3::zeros());
         let rope = set.insert(rope.build().unwrap());
-        set.attach(&world, rope, At::Start, winch, Vector::ZERO).unwrap();
-        set.attach(&world, rope, At::End, load, Vector::new(0.1, 0.0, 0.0)).unwrap();
+        set.attach(&world, rope, At::Start, winch, Vector::ZERO, Pin::Ball).unwrap();
+        set.attach(&world, rope, At::End, load, Vector::new(0.1, 0.0, 0.0), Pin::Ball).unwrap();
         run(&mut world, &mut set, 60);
         let from = world.bodies[load].translation().x;
         let speed = 60.0 * 2.0 / section.axial_stiffness;
-        world.bodies[winch].set_linvel(Vector::new(speed as f32, 0.0, 0.0), true);
+        world.bodies[winch].set_linvel(Vector::new(speed as Real, 0.0, 0.0), true);
         let (mut crept, mut peak) = (0.0, 0.0f64);
         for _ in 0..300 {
             set.step(&mut world).unwrap();

@@ -1,9 +1,9 @@
 //! A winch lifts a box from the ground: from slack to taut to hanging.
 
 use super::bench::{add_cube, cable, damping, gap, soft, tension, wire};
-use lariat_rapier::CableSet;
 use lariat_rapier::lariat_ancf::{At, Section};
 use lariat_rapier::rapier::prelude::*;
+use lariat_rapier::{CableSet, Pin};
 
 fn hoist(section: Section) {
     let mut world = PhysicsWorld::new();
@@ -14,12 +14,12 @@ fn hoist(section: Section) {
     let mut set = CableSet::new();
     let builder = cable([0.0, 2.1, 0.0], [0.0, 0.2, 0.0], section).length(1.92).integrator(damping());
     let rope = set.insert(builder.build().unwrap());
-    set.attach(&world, rope, At::Start, winch, Vector::ZERO).unwrap();
-    set.attach(&world, rope, At::End, load, Vector::new(0.0, 0.1, 0.0)).unwrap();
-    let smooth = |t: f32| t.clamp(0.0, 1.0).powi(2) * (3.0 - 2.0 * t.clamp(0.0, 1.0));
-    let (mut jitter, mut widest, mut held) = (0.0f32, 0.0f64, Vec::new());
+    set.attach(&world, rope, At::Start, winch, Vector::ZERO, Pin::Ball).unwrap();
+    set.attach(&world, rope, At::End, load, Vector::new(0.0, 0.1, 0.0), Pin::Ball).unwrap();
+    let smooth = |t: Real| t.clamp(0.0, 1.0).powi(2) * (3.0 - 2.0 * t.clamp(0.0, 1.0));
+    let (mut jitter, mut widest, mut held) = (0.0 as Real, 0.0f64, Vec::new());
     for k in 0..1440 {
-        let time = k as f32 / 60.0;
+        let time = k as Real / 60.0;
         // 1 cm/s from 2 s on, until the rope is taut and the box in the air; 20 cm/s from 7 s on, none from 9 s on
         let speed = 0.01 * smooth(time - 2.0) + 0.19 * smooth(time - 7.0) - 0.2 * smooth(time - 9.0);
         world.bodies[winch].set_linvel(Vector::new(0.0, speed, 0.0), true);

@@ -1,9 +1,9 @@
 //! Kinematic and fixed bodies carry a cable's end; users push bodies between steps.
 
 use super::bench::{add_cube, cable, gap, run, soft, v, weightless};
-use lariat_rapier::CableSet;
 use lariat_rapier::lariat_ancf::{At, Vector3};
 use lariat_rapier::rapier::prelude::*;
+use lariat_rapier::{CableSet, Pin};
 
 /// Both kinds of kinematic body, moving and turning for 2 s, the anchor off their axis: the cable's end is on it to single precision.
 ///
@@ -20,11 +20,11 @@ fn kinematic_bodies_carry_the_end_exactly() {
         let arm = world.insert_body(builder);
         let mut set = CableSet::new();
         let rope = set.insert(cable([0.3, 0.0, 0.0], [1.3, 0.0, 0.0], soft()).build().unwrap());
-        set.attach(&world, rope, At::Start, arm, Vector::new(0.3, 0.0, 0.0)).unwrap();
+        set.attach(&world, rope, At::Start, arm, Vector::new(0.3, 0.0, 0.0), Pin::Ball).unwrap();
         let mut worst = 0.0f64;
         for k in 1..=120 {
             if position_based {
-                let t = k as f32 / 60.0;
+                let t = k as Real / 60.0;
                 let pose = Pose::new(Vector::new(0.2 * t, 0.0, 0.1 * t), Vector::new(0.0, 0.0, 2.0 * t));
                 world.bodies[arm].set_next_kinematic_position(pose);
             } else {
@@ -56,7 +56,7 @@ fn what_a_user_set_is_untouched_by_a_step() {
     body.set_gravity_scale(0.5, true);
     let mut set = CableSet::new();
     let rope = set.insert(cable([0.0; 3], [2.0, 0.0, 0.0], soft()).fix(At::Start).build().unwrap());
-    set.attach(&world, rope, At::End, load, Vector::new(0.0, 0.1, 0.0)).unwrap();
+    set.attach(&world, rope, At::End, load, Vector::new(0.0, 0.1, 0.0), Pin::Ball).unwrap();
     let dt = world.integration_parameters.dt;
     run(&mut world, &mut set, 30);
     let body = &world.bodies[load];
@@ -79,7 +79,7 @@ fn impulses_and_velocities_between_steps_act() {
         let mut set = CableSet::new();
         let rope = cable([0.1, 0.0, 0.0], [1.1, 0.0, 0.0], soft()).gravity(Vector3::zeros());
         let rope = set.insert(rope.build().unwrap());
-        set.attach(&world, rope, At::Start, load, Vector::new(0.1, 0.0, 0.0)).unwrap();
+        set.attach(&world, rope, At::Start, load, Vector::new(0.1, 0.0, 0.0), Pin::Ball).unwrap();
         run(&mut world, &mut set, 10);
         change(&mut world.bodies[load]);
         let momentum = |world: &PhysicsWorld, set: &CableSet| {

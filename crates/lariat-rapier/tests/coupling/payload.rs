@@ -1,9 +1,9 @@
 //! The payload pendulum: a 50 kg cube hung by its top face on a 0.8 kg cable, released from horizontal.
 
 use super::bench::{add_cube, cable, gap, soft, steel, v};
-use lariat_rapier::CableSet;
 use lariat_rapier::lariat_ancf::{At, Section};
 use lariat_rapier::rapier::prelude::*;
+use lariat_rapier::{CableSet, Pin};
 
 /// Centre of the cube at 0.5 s and 1 s in m: a fine run of an independent monolithic code, good to 2e-5.
 const CENTRES: [(f64, f64); 2] = [(1.70292, -1.21801), (-0.82138, -1.91419)];
@@ -16,14 +16,14 @@ struct Swing {
     last: f64,
 }
 
-fn swing(section: Section, mass: f32, hz: usize) -> Swing {
+fn swing(section: Section, mass: Real, hz: usize) -> Swing {
     let mut world = PhysicsWorld::new();
-    world.integration_parameters.dt = 1.0 / hz as f32;
+    world.integration_parameters.dt = 1.0 / hz as Real;
     let cube = add_cube(&mut world, mass, 0.1, [2.0, -0.1, 0.0]);
     let mut set = CableSet::new();
     let builder = cable([0.0; 3], [2.0, 0.0, 0.0], section).rule("G5-3".parse().unwrap()).fix(At::Start);
     let sling = set.insert(builder.build().unwrap());
-    set.attach(&world, sling, At::End, cube, Vector::new(0.0, 0.1, 0.0)).unwrap();
+    set.attach(&world, sling, At::End, cube, Vector::new(0.0, 0.1, 0.0), Pin::Ball).unwrap();
     let mut out = Swing { off: [0.0; 2], gap: 0.0, energy: f64::MIN, last: 0.0 };
     for k in 1..=hz {
         set.step(&mut world).unwrap();

@@ -1,9 +1,9 @@
 //! Free flight: momenta that Rapier's steps must not touch.
 
 use super::bench::{cable, gap, soft, tension, v, weightless, wire};
-use lariat_rapier::CableSet;
 use lariat_rapier::lariat_ancf::{At, Cable, Section, Vector3};
 use lariat_rapier::rapier::prelude::*;
+use lariat_rapier::{CableSet, Pin};
 
 const SPIN: f64 = 5.0;
 /// Distance of the anchors from the centres of the balls in m.
@@ -74,9 +74,9 @@ fn a_spinning_dumbbell_keeps_its_momenta_and_its_tension() {
         let ends = [steady.start - ARM, steady.places[10].0 + ARM];
         let balls = [(1.0, ends[0]), (10.0, ends[1])].map(|(mass, x)| {
             let body = RigidBodyBuilder::dynamic()
-                .translation(Vector::new(x as f32, 0.0, 0.0))
-                .linvel(Vector::new(0.0, (SPIN * x) as f32, 0.0))
-                .angvel(Vector::new(0.0, 0.0, SPIN as f32));
+                .translation(Vector::new(x as Real, 0.0, 0.0))
+                .linvel(Vector::new(0.0, (SPIN * x) as Real, 0.0))
+                .angvel(Vector::new(0.0, 0.0, SPIN as Real));
             world.insert(body, ColliderBuilder::ball(0.1).mass(mass)).0
         });
         let builder =
@@ -90,8 +90,8 @@ fn a_spinning_dumbbell_keeps_its_momenta_and_its_tension() {
         sling.set_coordinates(&q.concat(), &rates.concat()).unwrap();
         let mut set = CableSet::new();
         let sling = set.insert(sling);
-        set.attach(&world, sling, At::Start, balls[0], Vector::new(0.1, 0.0, 0.0)).unwrap();
-        set.attach(&world, sling, At::End, balls[1], Vector::new(-0.1, 0.0, 0.0)).unwrap();
+        set.attach(&world, sling, At::Start, balls[0], Vector::new(0.1, 0.0, 0.0), Pin::Ball).unwrap();
+        set.attach(&world, sling, At::End, balls[1], Vector::new(-0.1, 0.0, 0.0), Pin::Ball).unwrap();
         let momenta = |world: &PhysicsWorld, set: &CableSet| {
             let m = set.get(sling).unwrap().momentum();
             let (mut p, mut l) = (m.linear, m.angular);

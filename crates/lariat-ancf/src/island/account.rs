@@ -1,0 +1,67 @@
+//! What passes through the pins of an island over a step.
+//!
+//! ```text
+//! f = F_r - (M q'')_r      m = t x (F_t - (M q'')_t)      impulse = int f dt      work = int f.v + m.omega dt
+//! ```
+//!
+//! f and m are force and moment of the cable on the body at the anchor, read from the cable's residual at the pinned rows after
+//! every step of the integrator; integrals by the trapezoidal rule over these steps. *Source.* Virtual work; the residual of a held
+//! row is its reaction.
+
+use super::system::Work;
+use super::workspace::vector;
+use crate::cable::Rates;
+use crate::integrate::Phase;
+use nalgebra::Vector3;
+
+/// What the cable did to the body at one pin during the last step. World axes.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct PinAccount {
+    /// Force at the end of the step in N.
+    pub force: Vector3<f64>,
+    /// Moment about the anchor at the end of the step in N m; zero at a ball.
+    pub moment: Vector3<f64>,
+    /// Impulse over the step in N s.
+    pub impulse: Vector3<f64>,
+    /// Angular impulse about the anchor over the step in N m s.
+    pub angular_impulse: Vector3<f64>,
+    /// Work over the step in J.
+    pub work: f64,
+    power: f64,
+}
+
+impl Work<'_, '_> {
+    /// Brings the accounts to a phase whose accelerations are known.
+    pub(super) fn account(&mut self, phase: &Phase) {
+        if self.pins.is_empty() {
+            return;
+        }
+        let mut rhs = core::mem::take(&mut self.workspace.rhs);
+        let (q, v) = (&phase.q, &phase.v);
+        // without a matrix nothing is factored, and nothing can fail
+        let rows = self.cable_rows(phase.time, 1.0, q, Rates { v, rate: 0.0 }, &phase.memory.acceleration, &mut rhs, false);
+        let half = match self.workspace.accounted {
+            Some(before) => 0.5 * (phase.time - before),
+            None => 0.0,
+        };
+        for pin in 0..self.pins.len() {
+            let at = self.pin_at(pin);
+            let (motion, rho) = self.lever(pin, q, v);
+            let force = vector(&rhs[at..]);
+            let clamped = self.workspace.clamps[pin].is_some();
+            let moment =
+                if clamped { vector(&q[at + 3..]).cross(&vector(&rhs[at + 3..])) } else { Vector3::zeros() };
+            let power = force.dot(&(motion.velocity + motion.spin.cross(&rho))) + moment.dot(&motion.spin);
+            let account = &mut self.workspace.accounts[pin];
+            account.impulse += (account.force + force) * half;
+            account.angular_impulse += (account.moment + moment) * half;
+            account.work += (account.power + power) * half;
+            account.force = force;
+            account.moment = moment;
+            account.power = power;
+        }
+        self.workspace.accounted = Some(phase.time);
+        self.workspace.rhs = rhs;
+        debug_assert!(rows.is_ok());
+    }
+}

@@ -1,0 +1,249 @@
+//! The Rapier side of a scene: its bodies, and its cables once they hold to them.
+//!
+//! Nothing sleeps: a run is there for its numbers. One step goes to a time that the run stops at. A step shorter than the host's is split into proportionally fewer Rapier steps,
+//! so that probes between host times do not make Rapier's steps shorter than its usual ones by much. Loads on bodies act with
+//! their value at the middle of the step, at the point of the body where it is when the step begins.
+
+mod build;
+mod convert;
+pub mod pins;
+mod reading;
+
+pub use build::collider;
+pub use reading::BodyState;
+
+use crate::error::Error;
+use crate::scene::Scene;
+use crate::scene::body::BodyKind;
+use convert::{to_pose, to_vector};
+use lariat_ancf::{Cable, Momentum, Vector3};
+use lariat_rapier::rapier::dynamics::RigidBodyHandle;
+use lariat_rapier::rapier::math::Real;
+use lariat_rapier::rapier::prelude::PhysicsWorld;
+use lariat_rapier::{AttachmentHandle, CableHandle, CableSet};
+
+/// Difference of velocities at the start that goes without a word, in m/s.
+const JOLT: f64 = 1e-5;
+
+/// Bodies of a scene, and its cables while they run.
+pub struct Physics {
+    world: PhysicsWorld,
+    bodies: Vec<RigidBodyHandle>,
+    cables: CableSet,
+    handles: Vec<CableHandle>,
+    /// By attachment of the scene; `None` for the world, which is a support of the cable.
+    pins: Vec<Option<AttachmentHandle>>,
+    /// By attachment, force and moment of the cable at t = 0, with the body still held.
+    held_by: Vec<(Vector3<f64>, Vector3<f64>)>,
+    /// Rapier steps per host step.
+    rapier_steps: u32,
+    /// Sum of all steps done, in s.
+    reached: f64,
+    /// Largest gap so far in m.
+    max_gap: f64,
+}
+
+impl Physics {
+    /// Bodies as drawn, no cables yet.
+    ///
+    /// # Errors
+    /// [`Error::Body`]; not for a checked scene.
+    pub fn build(scene: &Scene) -> Result<Self, Error> {
+        let mut world = PhysicsWorld::new();
+        world.gravity = to_vector(&scene.gravity);
+        // a cap of 400 m/s would change the motion without a word
+        world.integration_parameters.normalized_max_linear_velocity = Real::MAX;
+        if let Some(n) = scene.solver_iterations {
+            world.integration_parameters.num_solver_iterations = n;
+        }
+        let mut bodies = Vec::new();
+        for body in &scene.bodies {
+            let refuse = |problem| Error::Body { time: 0.0, body: body.name.clone(), problem };
+            bodies.push(build::insert(&mut world, body).map_err(refuse)?);
+        }
+        let cables = CableSet::new();
+        let rapier_steps = cables.settings.rapier_steps.max(1);
+        Ok(Physics {
+            world,
+            bodies,
+            cables,
+            handles: Vec::new(),
+            pins: Vec::new(),
+            held_by: Vec::new(),
+            rapier_steps,
+            reached: 0.0,
+            max_gap: 0.0,
+        })
+    }
+
+    /// Takes the cables of the scene and holds them to the bodies, where they are; `held_by` are force (N) and moment (N m) by which
+    /// each attachment was held until now.
+    ///
+    /// # Errors
+    /// [`Error::Mechanics`] or [`Error::Coupling`]; not for a checked scene.
+    pub fn take(
+        &mut self,
+        scene: &Scene,
+        cables: Vec<Cable>,
+        held_by: &[(Vector3<f64>, Vector3<f64>)],
+    ) -> Result<(), Error> {
+        self.handles = cables.into_iter().map(|cable| self.cables.insert(cable)).collect();
+        self.held_by = held_by.to_vec();
+        for attachment in &scene.attachments {
+            let Some(body) = attachment.body else {
+                self.pins.push(None);
+                continue;
+            };
+            let cable = (self.handles[attachment.cable], attachment.arc_length);
+            let place = (self.bodies[body], attachment.anchor);
+            let pin = pins::attach(&mut self.cables, &self.world, cable, place, attachment.clamp);
+            self.pins.push(Some(pin.map_err(|error| self.explain(scene, 0.0, error))?));
+        }
+        Ok(())
+    }
+
+    /// Attachments whose two sides start at different velocities, in words.
+    ///
+    /// # Errors
+    /// [`Error::Mechanics`]; not for a checked scene.
+    pub fn jolts(&self, scene: &Scene) -> Result<Vec<String>, Error> {
+        let (cables, mut jolts) = (self.cables(), Vec::new());
+        for attachment in &scene.attachments {
+            let Some(body) = attachment.body else { continue };
+            let point = cables[attachment.cable].sample(attachment.arc_length)?;
+            let state = self.body(scene, body, 0.0);
+            let there = state.velocity + state.angular_velocity.cross(&(point.position - state.position));
+            let difference = (point.velocity - there).norm();
+            if difference > JOLT {
+                jolts.push(format!(
+                    "attachment {:?}: cable and body start {difference:.3e} m/s apart in velocity, and meet with a jolt",
+                    attachment.name
+                ));
+            }
+        }
+        Ok(jolts)
+    }
+
+    /// Moves everything from one time to another, in s.
+    ///
+    /// # Errors
+    /// [`Error::Mechanics`] names the cable and the time, [`Error::Body`] the body.
+    pub fn advance(&mut self, scene: &Scene, from: f64, to: f64) -> Result<(), Error> {
+        self.drive(scene, to);
+        self.load(scene, from, to);
+        // the steps that single precision makes of the time add up to another time: the next step makes up for the last
+        let dt = (to - self.reached) as Real;
+        if dt <= 0.0 {
+            return Ok(());
+        }
+        let share = f64::from(self.rapier_steps) * f64::from(dt) / scene.dt;
+        let steps = (share - 1e-3).ceil().clamp(1.0, f64::from(self.rapier_steps)) as u32;
+        self.cables.settings.rapier_steps = steps;
+        self.world.integration_parameters.dt = dt;
+        self.cables.step(&mut self.world).map_err(|error| self.explain(scene, from, error))?;
+        self.reached += f64::from(dt / steps as Real) * f64::from(steps);
+        for (_, attachment) in self.cables.attachments() {
+            self.max_gap = self.max_gap.max(attachment.gap());
+        }
+        // Rapier disables what is not finite any more
+        match self.bodies.iter().position(|&body| !self.world.bodies[body].is_enabled()) {
+            None => Ok(()),
+            Some(i) => {
+                let problem = "its position or velocity is not finite".to_string();
+                Err(Error::Body { time: to, body: scene.bodies[i].name.clone(), problem })
+            }
+        }
+    }
+
+    /// Tells kinematic bodies where to be at a time.
+    fn drive(&mut self, scene: &Scene, time: f64) {
+        for (body, &handle) in scene.bodies.iter().zip(&self.bodies) {
+            if body.kind == BodyKind::Kinematic {
+                self.world.bodies[handle].set_next_kinematic_position(to_pose(&body.pose(time)));
+            }
+        }
+    }
+
+    /// Sets the loads on bodies for a step.
+    fn load(&mut self, scene: &Scene, from: f64, to: f64) {
+        for load in &scene.body_loads {
+            let body = &mut self.world.bodies[self.bodies[load.body]];
+            body.reset_forces(false);
+            body.reset_torques(false);
+        }
+        for load in &scene.body_loads {
+            let body = &mut self.world.bodies[self.bodies[load.body]];
+            let share = if load.ramp > 0.0 { (0.5 * (from + to) / load.ramp).min(1.0) } else { 1.0 };
+            let point = reading::state(body).position + reading::state(body).rotation * load.point;
+            body.add_force_at_point(to_vector(&(load.force * share)), to_vector(&point), true);
+            body.add_torque(to_vector(&(load.moment * share)), true);
+        }
+    }
+
+    /// An error of the coupling, in the words of the scene.
+    fn explain(&self, scene: &Scene, time: f64, error: lariat_rapier::Error) -> Error {
+        match error {
+            lariat_rapier::Error::Cable(source) => Error::mechanics(time, source),
+            lariat_rapier::Error::BodyNotFinite { body, what, time } => {
+                let name = self.bodies.iter().position(|b| *b == body).map(|i| scene.bodies[i].name.clone());
+                Error::Body { time, body: name.unwrap_or_default(), problem: format!("its {what} is not finite") }
+            }
+            source => Error::Coupling { time, source },
+        }
+    }
+
+    /// The cables, in the order of the scene.
+    pub fn cables(&self) -> Vec<&Cable> {
+        self.cables.iter().map(|(_, cable)| cable).collect()
+    }
+
+    /// What passes at an attachment; `None` for one to the world. At t = 0 that which holds the cable at a body that does not move yet.
+    ///
+    /// # Errors
+    /// [`Error::Coupling`]; not for an attachment of the scene.
+    pub fn passing(&self, index: usize, time: f64) -> Result<Option<pins::Passing>, Error> {
+        let Some(pin) = self.pins.get(index).copied().flatten() else { return Ok(None) };
+        let mut passing = pins::passing(&self.cables, pin).map_err(|source| Error::Coupling { time, source })?;
+        if time == 0.0 {
+            // before the first step nothing has passed yet
+            (passing.force, passing.moment) = self.held_by[index];
+        }
+        Ok(Some(passing))
+    }
+
+    /// Largest gap of all attachments at the ends of all steps so far, in m.
+    pub fn max_gap(&self) -> f64 {
+        self.max_gap
+    }
+
+    /// State of a body at a time.
+    pub fn body(&self, scene: &Scene, index: usize, time: f64) -> BodyState {
+        let state = reading::state(&self.world.bodies[self.bodies[index]]);
+        let body = &scene.bodies[index];
+        if body.kind == BodyKind::Kinematic {
+            // Rapier's is the mean over its last step
+            return BodyState { velocity: body.velocity(time), angular_velocity: body.angular_velocity, ..state };
+        }
+        state
+    }
+
+    /// Kinetic energy of the dynamic bodies and their potential in gravity, in J.
+    pub fn energy(&self, scene: &Scene) -> (f64, f64) {
+        self.dynamic(scene)
+            .map(|handle| reading::energy(&self.world.bodies[handle], &scene.gravity))
+            .fold((0.0, 0.0), |sum, e| (sum.0 + e.0, sum.1 + e.1))
+    }
+
+    /// Momentum of the dynamic bodies.
+    pub fn momentum(&self, scene: &Scene) -> Momentum {
+        let zero = Momentum { linear: Vector3::zeros(), angular: Vector3::zeros() };
+        self.dynamic(scene)
+            .map(|handle| reading::momentum(&self.world.bodies[handle]))
+            .fold(zero, |sum, p| Momentum { linear: sum.linear + p.linear, angular: sum.angular + p.angular })
+    }
+
+    fn dynamic(&self, scene: &Scene) -> impl Iterator<Item = RigidBodyHandle> {
+        let bodies = scene.bodies.iter().zip(&self.bodies);
+        bodies.filter(|(body, _)| body.kind == BodyKind::Dynamic).map(|(_, &handle)| handle)
+    }
+}

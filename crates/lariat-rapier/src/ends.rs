@@ -1,0 +1,103 @@
+//! Ends on bodies that feel nothing: fixed, kinematic, disabled ones carry them along.
+
+use crate::convert::{rotation, vector};
+use crate::islands::{IslandStep, Member};
+use crate::set::CableSet;
+use ::nalgebra::{Matrix3, UnitQuaternion, Vector3};
+use lariat_ancf::island::RigidBody;
+use lariat_ancf::{At, Motion};
+use rapier::dynamics::{RigidBodyHandle, RigidBodyType};
+use rapier::math::Real;
+use rapier::pipeline::PhysicsWorld;
+
+/// An anchor nearer than this to where it was, in m, has not moved.
+const STILL: f64 = 1e-12;
+
+/// Place and attitude of a body now.
+fn pose(world: &PhysicsWorld, body: RigidBodyHandle) -> (Vector3<f64>, UnitQuaternion<f64>) {
+    let body = &world.bodies[body];
+    (vector(body.translation()), rotation(*body.rotation()))
+}
+
+/// Place and attitude of a body that Rapier moves by itself, `h` (s) from now.
+fn pose_after(world: &PhysicsWorld, handle: RigidBodyHandle, h: f64) -> (Vector3<f64>, UnitQuaternion<f64>) {
+    let body = &world.bodies[handle];
+    match body.body_type() {
+        _ if !body.is_enabled() => pose(world, handle),
+        RigidBodyType::KinematicPositionBased => {
+            (vector(body.next_position().translation), rotation(body.next_position().rotation))
+        }
+        RigidBodyType::KinematicVelocityBased => {
+            let next = body.predict_position_using_velocity(h as Real);
+            (vector(next.translation), rotation(next.rotation))
+        }
+        _ => pose(world, handle),
+    }
+}
+
+/// A body that feels nothing as an island sees it: its origin and attitude, with the uniform motion of the coming step.
+pub(crate) fn driven(world: &PhysicsWorld, handle: RigidBodyHandle, h: f64) -> Result<RigidBody, lariat_ancf::Error> {
+    let ((place, attitude), (to, turned)) = (pose(world, handle), pose_after(world, handle, h));
+    let mut body = RigidBody::new(1.0, Matrix3::identity(), place)?;
+    body.rotation = attitude;
+    body.velocity = (to - place) / h;
+    body.angular_velocity = (turned * attitude.inverse()).scaled_axis() / h;
+    body.free = [false; 6];
+    Ok(body)
+}
+
+impl CableSet {
+    /// Whether anything that an island's ends are prescribed by, or clamped to, moves in the coming step, or was moved.
+    pub(crate) fn is_pulled(&self, world: &PhysicsWorld, island: &IslandStep, h: f64) -> bool {
+        let by_support = island.supports.iter().any(|&index| {
+            let Some(a) = &self.attachments[index] else { return false };
+            let (place, attitude) = pose_after(world, a.body, h);
+            a.placed.is_none_or(|before| (place + attitude * a.anchor - before).norm() > STILL)
+        });
+        let turns =
+            |member: &Member| matches!(member, Member::Driven(b) if pose(world, *b) != pose_after(world, *b, h));
+        by_support || island.members.iter().any(turns)
+    }
+
+    /// Prescribes the ends of an island whose bodies feel nothing, over the coming step.
+    pub(crate) fn move_ends(&mut self, world: &PhysicsWorld, island: &IslandStep, h: f64) -> Result<(), crate::Error> {
+        for &index in &island.supports {
+            let Some(a) = &mut self.attachments[index] else { continue };
+            let Some(slot) = &mut self.cables[a.cable.0 as usize] else { continue };
+            let cable = &mut slot.cable;
+            let ((place, attitude), (to, turned)) = (pose(world, a.body), pose_after(world, a.body, h));
+            let (start, end) = (place + attitude * a.anchor, to + turned * a.anchor);
+            let from = cable.node_position(a.node);
+            let motion = if start == end && from == end {
+                Motion::fixed(end)
+            } else {
+                let velocity = (end - start) / h;
+                Motion::hermite(cable.time(), h, (from, velocity), (end, velocity))
+            };
+            if cable.support(At::Node(a.node))?.position != Some(motion) {
+                cable.set_motion(a.node, motion)?;
+            }
+            a.placed.get_or_insert(start);
+        }
+        Ok(())
+    }
+
+    /// Reads what the prescribed ends of an island felt in the step that was done.
+    pub(crate) fn account_ends(&mut self, world: &PhysicsWorld, island: &IslandStep) {
+        for &index in &island.supports {
+            let Some(a) = &mut self.attachments[index] else { continue };
+            let Some(slot) = &mut self.cables[a.cable.0 as usize] else { continue };
+            let Some(body) = world.bodies.get(a.body) else { continue };
+            let anchor = vector(body.translation()) + rotation(*body.rotation()) * a.anchor;
+            let (force, _) = slot.cable.pull(a.node);
+            let mean = 0.5 * (a.account.force + force);
+            let gap = slot.cable.node_position(a.node) - anchor;
+            let before = a.placed.replace(anchor).unwrap_or(anchor);
+            a.account.work += mean.dot(&(anchor - before));
+            a.account.residual += mean.dot(&(a.account.gap - gap));
+            a.account.force = force;
+            a.account.moment = Vector3::zeros();
+            a.account.gap = gap;
+        }
+    }
+}

@@ -1,0 +1,186 @@
+//! Before a Rapier step: cables and bodies are integrated together, and the motion is handed over.
+
+use crate::body;
+use crate::islands::{IslandStep, Member};
+use crate::set::{CableSet, Slot};
+use crate::{Error, ends, hand_over, impedance};
+use lariat_ancf::{Cable, Integrator, StepControl};
+use rapier::pipeline::PhysicsWorld;
+
+impl CableSet {
+    /// Predicts one of `parts` equal parts of a host step. If an island cannot step, all of them and their bodies are as before.
+    pub(crate) fn predict_part(&mut self, world: &mut PhysicsWorld, parts: u32) -> Result<(), Error> {
+        let h = f64::from(world.integration_parameters.dt);
+        self.end_lost_attachments(world)?;
+        self.follow_gravity(world)?;
+        self.find_islands(world)?;
+        let mut islands = core::mem::take(&mut self.islands);
+        let mut outcome = Ok(());
+        for k in 0..islands.len() {
+            outcome = self.predict_island(world, &mut islands[k], h, parts);
+            if outcome.is_err() {
+                islands[..=k].iter().for_each(|island| self.undo(world, island));
+                break;
+            }
+        }
+        self.islands = islands;
+        outcome
+    }
+
+    fn predict_island(
+        &mut self,
+        world: &mut PhysicsWorld,
+        island: &mut IslandStep,
+        h: f64,
+        parts: u32,
+    ) -> Result<(), Error> {
+        island.given.clear();
+        island.before.clear();
+        island
+            .before
+            .extend(island.cables.iter().filter_map(|&c| self.cables[c].as_ref()).map(|s| s.cable.state().clone()));
+        island.idle = self.sleeps(world, island, h);
+        if island.idle {
+            pick(&mut self.cables, &island.cables).into_iter().for_each(|cable| cable.rest(h));
+            return Ok(());
+        }
+        self.move_ends(world, island, h)?;
+        let integrator = part_of(self.island_integrator(&island.cables), parts);
+        if island.members.is_empty() {
+            for cable in pick(&mut self.cables, &island.cables) {
+                cable.step_with(h, integrator)?;
+            }
+            return Ok(());
+        }
+        self.read_members(world, island, h)?;
+        let mut cables = pick(&mut self.cables, &island.cables);
+        self.solver.step(&mut cables, &mut island.bodies, &island.pins, integrator, h)?;
+        for (pin, account) in self.solver.accounts().iter().enumerate() {
+            if let Some(a) = island.attachments[pin].and_then(|a| self.attachments[a].as_mut()) {
+                a.passed = *account;
+            }
+        }
+        for (i, member) in island.members.iter().enumerate() {
+            let mut given = None;
+            match member {
+                Member::Body(handle) if !world.bodies[*handle].is_sleeping() => {
+                    let remembered = self.remember(*handle);
+                    given = Some(hand_over::give(world, *handle, &island.bodies[i], remembered, h));
+                }
+                Member::Junction(j) => {
+                    if let Some(junction) = &mut self.junctions[*j] {
+                        junction.memory = island.bodies[i].memory;
+                    }
+                }
+                _ => {}
+            }
+            island.given.push(given);
+        }
+        self.set_motors(world, island, h)
+    }
+
+    /// Members as they are when the step begins.
+    fn read_members(&mut self, world: &PhysicsWorld, island: &mut IslandStep, h: f64) -> Result<(), Error> {
+        let time = self.cables[island.cables[0]].as_ref().map_or(0.0, |s| s.cable.time());
+        island.start.clear();
+        for member in &island.members {
+            let body = match member {
+                Member::Body(handle) => body::read(world, *handle, self.remember(*handle), time)?,
+                Member::Driven(handle) => ends::driven(world, *handle, h)?,
+                Member::Junction(j) => {
+                    let junction = self.junctions[*j].as_ref().expect("islands are found anew when one ends");
+                    junction.point(self.get(junction.nodes[0].0)?)?
+                }
+            };
+            island.start.push(body);
+        }
+        island.bodies.clear();
+        island.bodies.extend_from_slice(&island.start);
+        Ok(())
+    }
+
+    /// Lets a body that may deviate from its prediction feel the cables within Rapier's step.
+    fn set_motors(&mut self, world: &mut PhysicsWorld, island: &mut IslandStep, h: f64) -> Result<(), Error> {
+        let near = |world: &PhysicsWorld, i: usize| match (&island.members[i], &island.given[i]) {
+            (Member::Body(handle), Some(_)) => impedance::may_meet_something(world, *handle),
+            _ => false,
+        };
+        island.motors.clear();
+        island.motors.resize(island.pins.len(), false);
+        if (0..island.members.len()).any(|i| near(world, i)) {
+            let mut cables = pick(&mut self.cables, &island.cables);
+            island.impedances.resize_with(cables.len(), Default::default);
+            for (c, cable) in cables.iter_mut().enumerate() {
+                let nodes: Vec<usize> = island.pins.iter().filter(|p| p.cable == c).map(|p| p.node).collect();
+                island.impedances[c].update(cable, &nodes, h)?;
+            }
+        }
+        for i in 0..island.members.len() {
+            if !near(world, i) {
+                continue;
+            }
+            for (pin, d) in impedance::driving_point(island, i) {
+                let anchor = island.pins[pin].anchor;
+                let target = (island.bodies[i].point(&anchor) - island.start[i].point(&anchor)) / h;
+                if let Some(a) = island.attachments[pin].and_then(|a| self.attachments[a].as_mut()) {
+                    impedance::drive(world, a, &d, &target, h);
+                    island.motors[pin] = true;
+                }
+            }
+        }
+        for (pin, driven) in island.motors.iter().enumerate() {
+            if !driven && let Some(a) = island.attachments[pin].and_then(|a| self.attachments[a].as_ref()) {
+                impedance::idle(world, a);
+            }
+        }
+        Ok(())
+    }
+
+    /// Takes a prediction back.
+    fn undo(&mut self, world: &mut PhysicsWorld, island: &IslandStep) {
+        for (cable, before) in pick(&mut self.cables, &island.cables).into_iter().zip(&island.before) {
+            // a state of the cable itself always fits
+            let _ = cable.restore(before.clone());
+        }
+        for (member, given) in island.members.iter().zip(&island.given) {
+            if let (Member::Body(handle), Some(given)) = (member, given) {
+                hand_over::take_back(world, *handle, given);
+            }
+        }
+    }
+
+    /// The integrator of an island: its cables' if they agree, else the tightest tolerance among them.
+    fn island_integrator(&self, cables: &[usize]) -> Integrator {
+        let all = || cables.iter().filter_map(|&c| self.cables[c].as_ref()).map(|s| s.cable.integrator());
+        let first = all().next().unwrap_or_default();
+        if all().all(|i| i == first) {
+            return first;
+        }
+        let rank = |i: &Integrator| match i.control {
+            StepControl::Tolerance(tolerance) => tolerance,
+            _ => f64::INFINITY,
+        };
+        all().fold(first, |best, i| if rank(&i) < rank(&best) { i } else { best })
+    }
+}
+
+/// What `integrator` promises for a host step, for one of its `parts`.
+fn part_of(integrator: Integrator, parts: u32) -> Integrator {
+    let control = match integrator.control {
+        StepControl::Tolerance(tolerance) => StepControl::Tolerance(tolerance / f64::from(parts)),
+        StepControl::Substeps(substeps) => StepControl::Substeps(substeps.div_ceil(parts)),
+        control => control,
+    };
+    Integrator { control, ..integrator }
+}
+
+/// The cables of an island, in its order.
+pub(crate) fn pick<'a>(cables: &'a mut [Option<Slot>], indices: &[usize]) -> Vec<&'a mut Cable> {
+    let mut picked: Vec<(usize, &mut Cable)> = cables
+        .iter_mut()
+        .enumerate()
+        .filter_map(|(i, slot)| Some((indices.iter().position(|&k| k == i)?, &mut slot.as_mut()?.cable)))
+        .collect();
+    picked.sort_by_key(|(place, _)| *place);
+    picked.into_iter().map(|(_, cable)| cable).collect()
+}
