@@ -136,6 +136,13 @@ impl Section {
     /// # Errors
     /// [`Error::InvalidValue`] for a value that is not finite, or not positive (EI may be zero).
     pub fn from_stiffness(axial: f64, bending: f64, mass_per_length: f64) -> Result<Self, Error> {
-        Section { axial_stiffness: axial, bending_stiffness: bending, mass_per_length, diameter: None, outer_area: None }.checked()
+        Section {
+            axial_stiffness: axial,
+            bending_stiffness: bending,
+            mass_per_length,
+            diameter: None,
+            outer_area: None,
+        }
+        .checked()
     }
 }

@@ -47,7 +47,11 @@ fn differences(cable: &mut Cable, by_velocity: bool) -> DMatrix<f64> {
     let n = q.len();
     let mut at = |i: usize, h: f64| {
         let (mut q, mut v) = (q.clone(), v.clone());
-        if by_velocity { v[i] += h } else { q[i] += h }
+        if by_velocity {
+            v[i] += h
+        } else {
+            q[i] += h
+        }
         cable.set_coordinates(&q, &v).unwrap();
         DVector::from_vec(cable.force())
     };
@@ -77,10 +81,9 @@ fn the_damping_matrix_is_the_derivative_of_the_force_by_velocity() {
     for name in ["projected-3", "G5-none", "ST2", "exact-T1", "G5-5"] {
         let axial_only = Damping { bending: 0.0, ..DAMPING };
         let damping = if name == "G5-none" { axial_only } else { DAMPING };
-        for effects in [
-            only(|e| e.damping = Some(damping)),
-            only(|e| e.drag = Some(drag(Vector3::new(0.5, 0.2, -0.1)))),
-        ] {
+        for effects in
+            [only(|e| e.damping = Some(damping)), only(|e| e.drag = Some(drag(Vector3::new(0.5, 0.2, -0.1))))]
+        {
             let mut cable = shaken(effects, name);
             let c = dense(&cable.damping_matrix());
             let expected = -differences(&mut cable, true);
@@ -136,7 +139,8 @@ fn the_force_of_a_rest_shape_is_the_gradient_of_its_energy() {
         };
         for i in 0..q.len() {
             let central = |a: f64, b: f64, h: f64| (a - b) / (2.0 * h);
-            let (c, f) = (central(energy(i, 1e-3), energy(i, -1e-3), 1e-3), central(energy(i, 5e-4), energy(i, -5e-4), 5e-4));
+            let (c, f) =
+                (central(energy(i, 1e-3), energy(i, -1e-3), 1e-3), central(energy(i, 5e-4), energy(i, -5e-4), 5e-4));
             let slope = (4.0 * f - c) / 3.0;
             assert!((slope + force[i]).abs() < 1e-7, "{name} {i}: {slope} {}", force[i]);
         }

@@ -5,8 +5,8 @@ mod common;
 use common::{largest_difference, pendulum, rule};
 use lariat_ancf::island::{Island, Pin, RigidBody};
 use lariat_ancf::{
-    At, Buoyancy, Cable, CableBuilder, Damping, Drag, Effects, Flow, GravityScale, Integrator, LineLoad, Method, Preset,
-    RestPiece, RestShape, Section, StepControl, Vector3,
+    At, Buoyancy, Cable, CableBuilder, Damping, Drag, Effects, Flow, GravityScale, Integrator, LineLoad, Method,
+    Preset, RestPiece, RestShape, Section, StepControl, Vector3,
 };
 use nalgebra::Matrix3;
 
@@ -168,7 +168,7 @@ fn an_island_carries_the_effects_as_a_cable_alone_does() {
         let bound = if matches!(method, Method::GeneralisedAlpha { .. }) { 1e-4 } else { 1e-7 };
         assert!(difference < bound, "{method}: {difference:e}");
         let (a, b) = (alone.account(), cable.account());
-        assert!((a.drag - b.drag).abs() < 1e-3 * a.drag.abs() , "{a:?} {b:?}");
+        assert!((a.drag - b.drag).abs() < 1e-3 * a.drag.abs(), "{a:?} {b:?}");
         assert!((a.damping - b.damping).abs() < 1e-2 * a.damping, "{method}: {a:?} {b:?}");
         assert!((a.line_load - b.line_load).abs() < 1e-3 * a.line_load.abs(), "{a:?} {b:?}");
     }
@@ -218,8 +218,7 @@ fn from_rest() -> Effects {
 fn hard_cases_pass_with_every_effect_on() {
     let steel = || {
         Cable::builder()
-            .points([Vector3::zeros(), Vector3::new(1.998, 0.0, 0.0)])
-            .length(2.0)
+            .points([Vector3::zeros(), Vector3::new(2.0, 0.0, 0.0)])
             .section(Section::round(0.01, 2.1e11, 7850.0).unwrap())
             .elements(20)
             .fix(At::Start)
@@ -246,6 +245,10 @@ fn hard_cases_pass_with_every_effect_on() {
         for preset in [Preset::Game, Preset::Engineering] {
             let mut bare = builder.clone().preset(preset).build().unwrap();
             let mut cable = builder.clone().effects(effects.clone()).preset(preset).build().unwrap();
+            // drawn unstretched: shrunk to its rest shape about the point that holds it
+            let rest = cable.effects().rest_shape.as_ref().map_or(1.0, |rest| rest.at(0.0).0);
+            let q: Vec<f64> = cable.positions().iter().map(|x| rest * x).collect();
+            cable.set_coordinates(&q, &vec![0.0; q.len()]).unwrap();
             let start = cable.energy().total();
             for _ in 0..120 {
                 cable.step(1.0 / 60.0).unwrap();
@@ -255,9 +258,14 @@ fn hard_cases_pass_with_every_effect_on() {
                 let scale = cable.energy().kinetic + start.abs() + given.abs() + 1.0;
                 assert!(now <= start + given + 0.02 * scale, "{name} {preset:?}: {now} {start} {account:?}");
             }
-            let ok = (0..120).all(|_| bare.step(1.0 / 60.0).is_ok());
+            (0..120).for_each(|_| bare.step(1.0 / 60.0).unwrap());
             let (a, b) = (bare.diagnostics(), cable.diagnostics());
-            println!("{name} {preset:?}: bare steps {} rejected {} newton {} ok {ok}; all effects {} {} {}", a.steps, a.rejected_steps, a.newton_iterations, b.steps, b.rejected_steps, b.newton_iterations);
+            println!(
+                "{name} {preset:?}: steps, rejected, Newton: bare {} {} {}, all effects {} {} {}",
+                a.steps, a.rejected_steps, a.newton_iterations, b.steps, b.rejected_steps, b.newton_iterations
+            );
+            // effects may cost steps that are rejected and retried shorter, but not many
+            assert!(b.steps <= 2 * a.steps.max(480), "{name} {preset:?}: {b:?}");
         }
     }
 }

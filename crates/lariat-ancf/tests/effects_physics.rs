@@ -4,8 +4,8 @@ mod common;
 
 use common::rule;
 use lariat_ancf::{
-    At, Buoyancy, Cable, CableBuilder, Damping, Drag, Effects, Flow, Integrator, LineLoad, Method, PointLoad, RestShape,
-    Section, Vector3,
+    At, Buoyancy, Cable, CableBuilder, Damping, Drag, Effects, Flow, Integrator, LineLoad, Method, PointLoad,
+    RestShape, Section, Vector3,
 };
 use nalgebra::{DMatrix, SymmetricEigen};
 
@@ -146,7 +146,8 @@ fn damping_leaves_the_static_shape_alone() {
             .build()
             .unwrap()
     };
-    let (mut bare, mut damped) = (build(Effects::default()), build(only(|e| e.damping = Some(Damping { axial: 0.05, bending: 0.3 }))));
+    let (mut bare, mut damped) =
+        (build(Effects::default()), build(only(|e| e.damping = Some(Damping { axial: 0.05, bending: 0.3 }))));
     bare.equilibrium().unwrap();
     damped.equilibrium().unwrap();
     assert_eq!(bare.positions(), damped.positions());
@@ -162,7 +163,10 @@ fn damping_leaves_the_static_shape_alone() {
         damped.step(1.0 / 60.0).unwrap();
     }
     let later = common::largest_difference(bare.positions(), damped.positions());
-    println!("after 1 s {shaken:e} m {speed:e} m/s, after 11 s {later:e} m, dissipated {:e} J", damped.account().damping);
+    println!(
+        "after 1 s {shaken:e} m {speed:e} m/s, after 11 s {later:e} m, dissipated {:e} J",
+        damped.account().damping
+    );
     assert!(damped.account().damping > 0.0);
 }
 

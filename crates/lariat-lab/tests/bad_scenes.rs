@@ -123,7 +123,12 @@ const CASES: &[Case] = &[
     ("", "[cable.damping]", 19, &["cable.sling.damping", "neither axial nor bending"]),
     ("", "[cable.drag]\nfluid_density = 0.0", 20, &["cable.sling.drag.fluid_density", "> 0"]),
     ("", "[cable.drag]\nnormal = 1.0", 19, &["cable.sling.drag", "fluid_density"]),
-    ("", "[cable.buoyancy]\nfluid_density = 1000.0\nadded_mass = nan", 21, &["cable.sling.buoyancy.added_mass", ">= 0"]),
+    (
+        "",
+        "[cable.buoyancy]\nfluid_density = 1000.0\nadded_mass = nan",
+        21,
+        &["cable.sling.buoyancy.added_mass", ">= 0"],
+    ),
     ("", "[cable.contact]\nradius = 0.01", 19, &["cable.sling.contact", "not built yet"]),
     ("", "[cable.break]\ntension = 10.0", 19, &["cable.sling.break", "not built yet"]),
     ("", "[cable.reel]\nend = \"start\"\nrate = [[0.0, 0.0]]", 19, &["cable.sling.reel", "not built yet"]),

@@ -118,7 +118,8 @@ impl Cable {
         state.account.add(&core::mem::take(&mut system.account));
         if !system.line_force.is_empty() {
             let moved = state.phase.q.iter().zip(before);
-            state.account.line_load += system.line_force.iter().zip(moved).map(|(f, (q, q0))| f * (q - q0)).sum::<f64>();
+            state.account.line_load +=
+                system.line_force.iter().zip(moved).map(|(f, (q, q0))| f * (q - q0)).sum::<f64>();
         }
     }
 }
@@ -169,7 +170,12 @@ impl Model {
             }
         }
         for load in line_loads {
-            require("begin of a line load (m)", load.from, load.from >= 0.0 && load.from < self.length(), "on the cable")?;
+            require(
+                "begin of a line load (m)",
+                load.from,
+                load.from >= 0.0 && load.from < self.length(),
+                "on the cable",
+            )?;
             require("end of a line load (m)", load.to, load.to > load.from, "> its begin")?;
             require_finite("line load (N/m)", &load.force)?;
         }
@@ -178,9 +184,10 @@ impl Model {
 
     /// Displaced fluid in kg/m.
     fn displaced(&self, element: usize) -> f64 {
-        self.effects.buoyancy.as_ref().map_or(0.0, |b| {
-            b.fluid_density * b.area.or(self.elements[element].section.outer_area).unwrap_or(0.0)
-        })
+        self.effects
+            .buoyancy
+            .as_ref()
+            .map_or(0.0, |b| b.fluid_density * b.area.or(self.elements[element].section.outer_area).unwrap_or(0.0))
     }
 
     /// Mass per length in kg/m that resists acceleration, added mass included.

@@ -21,8 +21,7 @@ use fearless_simd::{Level, Simd, SimdBase, SimdFrom, dispatch, f64x8};
 use nalgebra::Vector3;
 
 /// Pairs (k, m), k >= m, of the coordinates (r_i, t_i, r_j, t_j).
-const PAIRS: [(usize, usize); 10] =
-    [(0, 0), (1, 0), (1, 1), (2, 0), (2, 1), (2, 2), (3, 0), (3, 1), (3, 2), (3, 3)];
+const PAIRS: [(usize, usize); 10] = [(0, 0), (1, 0), (1, 1), (2, 0), (2, 1), (2, 2), (3, 0), (3, 1), (3, 2), (3, 3)];
 
 /// A Gauss point: weight, and weights of position and slope on a unit element.
 #[derive(Clone, Copy, Debug)]
@@ -125,8 +124,7 @@ impl Fluid {
         for k in 0..4 {
             for c in 0..3 {
                 let i = 3 * k + c;
-                let lanes: [f64; 8] =
-                    [at(0, i), at(1, i), at(2, i), at(3, i), at(4, i), at(5, i), at(6, i), at(7, i)];
+                let lanes: [f64; 8] = [at(0, i), at(1, i), at(2, i), at(3, i), at(4, i), at(5, i), at(6, i), at(7, i)];
                 let value = Lanes::simd_from(simd, lanes);
                 out[k][c] = if k % 2 == 1 { value * length } else { value };
             }

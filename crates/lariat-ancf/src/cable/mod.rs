@@ -1,14 +1,14 @@
 //! A cable: its mesh, its state, and its step.
 
 mod assembly;
-mod effects;
-mod fluid;
-mod kernel_effects;
 pub mod builder;
+mod effects;
 pub mod energy;
 mod equations;
+mod fluid;
 mod frequency;
 mod hold;
+mod kernel_effects;
 mod layout;
 pub mod linearise;
 mod model;

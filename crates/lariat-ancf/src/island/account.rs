@@ -39,7 +39,8 @@ impl Work<'_, '_> {
         let mut rhs = core::mem::take(&mut self.workspace.rhs);
         let (q, v) = (&phase.q, &phase.v);
         // without a matrix nothing is factored, and nothing can fail
-        let rows = self.cable_rows(phase.time, 1.0, q, Rates { v, rate: 0.0 }, &phase.memory.acceleration, &mut rhs, false);
+        let rows =
+            self.cable_rows(phase.time, 1.0, q, Rates { v, rate: 0.0 }, &phase.memory.acceleration, &mut rhs, false);
         let half = match self.workspace.accounted {
             Some(before) => 0.5 * (phase.time - before),
             None => 0.0,
@@ -49,8 +50,7 @@ impl Work<'_, '_> {
             let (motion, rho) = self.lever(pin, q, v);
             let force = vector(&rhs[at..]);
             let clamped = self.workspace.clamps[pin].is_some();
-            let moment =
-                if clamped { vector(&q[at + 3..]).cross(&vector(&rhs[at + 3..])) } else { Vector3::zeros() };
+            let moment = if clamped { vector(&q[at + 3..]).cross(&vector(&rhs[at + 3..])) } else { Vector3::zeros() };
             let power = force.dot(&(motion.velocity + motion.spin.cross(&rho))) + moment.dot(&motion.spin);
             let account = &mut self.workspace.accounts[pin];
             account.impulse += (account.force + force) * half;

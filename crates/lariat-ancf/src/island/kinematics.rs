@@ -37,7 +37,8 @@ impl Work<'_, '_> {
     }
 
     fn direction(&self, pin: usize, time: f64, motion: &Motion) -> Option<Direction> {
-        let [u, du, ddu] = self.workspace.clamps[pin].as_ref()?.at(self.workspace.elapsed(time)).map(|x| motion.rotation * x);
+        let [u, du, ddu] =
+            self.workspace.clamps[pin].as_ref()?.at(self.workspace.elapsed(time)).map(|x| motion.rotation * x);
         let spin = motion.spin;
         Some(Direction {
             d: u,

@@ -43,9 +43,8 @@ pub(super) fn recall(
         let kept = |m: &BodyMemory| m.force == b.force && m.torque == b.torque && m.pins == pins_of(pins, i);
         driven(b) || b.memory.as_ref().is_some_and(kept)
     };
-    memory.valid = workspace.closed()
-        && cables.iter().all(|c| c.state.phase.memory.valid)
-        && bodies.iter().enumerate().all(same);
+    memory.valid =
+        workspace.closed() && cables.iter().all(|c| c.state.phase.memory.valid) && bodies.iter().enumerate().all(same);
     if !memory.valid {
         return;
     }
@@ -70,12 +69,7 @@ pub(super) fn recall(
 }
 
 /// Keeps the accelerations of `phase` with the cables and bodies they belong to.
-pub(super) fn keep(
-    cables: &mut [&mut Cable],
-    bodies: &mut [RigidBody],
-    pins: &[Pin],
-    phase: &Phase,
-) {
+pub(super) fn keep(cables: &mut [&mut Cable], bodies: &mut [RigidBody], pins: &[Pin], phase: &Phase) {
     let memory = &phase.memory;
     let both = memory.algorithmic.len() == memory.acceleration.len();
     let mut at = 0;

@@ -69,12 +69,7 @@ pub fn jacobian_rate(theta: &Vector3<f64>, rate: &Vector3<f64>) -> Matrix3<f64> 
 }
 
 /// `scale` times the angular acceleration, of `scale` times the acceleration `k` of the rotation vector.
-pub fn angular_acceleration(
-    scale: f64,
-    theta: &Vector3<f64>,
-    rate: &Vector3<f64>,
-    k: &Vector3<f64>,
-) -> Vector3<f64> {
+pub fn angular_acceleration(scale: f64, theta: &Vector3<f64>, rate: &Vector3<f64>, k: &Vector3<f64>) -> Vector3<f64> {
     jacobian(theta) * k + jacobian_rate(theta, rate) * rate * scale
 }
 

@@ -43,7 +43,11 @@ fn turned(scene: &Scene, pin: usize) -> f64 {
 #[test]
 fn a_clamp_to_a_body_at_rest_is_the_cables_own_clamp() {
     let build = || {
-        Cable::builder().points([Vector3::zeros(), Vector3::new(1.0, 0.0, 0.0)]).section(soft()).elements(6).integrator(fine())
+        Cable::builder()
+            .points([Vector3::zeros(), Vector3::new(1.0, 0.0, 0.0)])
+            .section(soft())
+            .elements(6)
+            .integrator(fine())
     };
     let mut own = build().clamp(At::Start).build().unwrap();
     let held = build().build().unwrap();
@@ -69,11 +73,7 @@ fn a_body_on_the_tip_of_a_beam_has_its_two_frequencies() {
     let (ei, mass, inertia): (f64, f64, f64) = (10.0, 2.0, 0.4);
     let k = [[12.0 * ei, -6.0 * ei], [-6.0 * ei, 4.0 * ei]];
     // det(K - w^2 M) = 0
-    let (a, b, c) = (
-        mass * inertia,
-        -(k[0][0] * inertia + k[1][1] * mass),
-        k[0][0] * k[1][1] - k[0][1] * k[1][0],
-    );
+    let (a, b, c) = (mass * inertia, -(k[0][0] * inertia + k[1][1] * mass), k[0][0] * k[1][1] - k[0][1] * k[1][0]);
     for sign in [-1.0f64, 1.0] {
         let omega = ((-b + sign * (b * b - 4.0 * a * c).sqrt()) / (2.0 * a)).sqrt();
         let shape = [1.0, (k[0][0] - omega * omega * mass) / -k[0][1]];
@@ -84,9 +84,10 @@ fn a_body_on_the_tip_of_a_beam_has_its_two_frequencies() {
         body.angular_velocity.z = speed * shape[1];
         let start = body.clone();
         let rest = driven(Vector3::zeros(), Vector3::zeros(), Vector3::zeros());
-        let mut scene = Scene::new(vec![bar(light)], vec![rest, body], Integrator::tolerance(Method::Esdirk3, 1e-9).unwrap())
-            .clamp(0, At::Start, 0, Vector3::zeros())
-            .clamp(0, At::End, 1, Vector3::zeros());
+        let mut scene =
+            Scene::new(vec![bar(light)], vec![rest, body], Integrator::tolerance(Method::Esdirk3, 1e-9).unwrap())
+                .clamp(0, At::Start, 0, Vector3::zeros())
+                .clamp(0, At::End, 1, Vector3::zeros());
         scene.run(std::f64::consts::TAU / omega / 40.0, 40);
         let after = &scene.bodies[1];
         let (away, error) = (speed / omega, (after.position - start.position).norm());
@@ -113,9 +114,12 @@ fn clamped_bodies_keep_their_momenta_and_energy() {
     let anchors = [0.0, 1.0].map(|x| Vector3::new(x, 0.0, 0.0));
     let local: Vec<Vector3<f64>> =
         ends.iter().zip(anchors).map(|(b, a)| b.rotation.inverse() * (a - b.position)).collect();
-    let mut scene = Scene::new(vec![bar(soft())], ends.to_vec(), fine())
-        .clamp(0, At::Start, 0, local[0])
-        .clamp(0, At::End, 1, local[1]);
+    let mut scene = Scene::new(vec![bar(soft())], ends.to_vec(), fine()).clamp(0, At::Start, 0, local[0]).clamp(
+        0,
+        At::End,
+        1,
+        local[1],
+    );
     scene.run(1e-3, 1);
     let (before, energy) = (scene.momentum(), scene.energy());
     scene.run(1.0 / 60.0, 60);

@@ -72,7 +72,8 @@ fn the_error_falls_with_the_order_of_the_method() {
 /// *Source.* The monolithic reference; order 2 of the methods, as for a cable alone (tests/integrators.rs).
 #[test]
 fn memory_lives_across_host_steps() {
-    let methods = ["generalised-alpha-0", "generalised-alpha-0.5", "generalised-alpha-0.8", "trapezoid", "verlet", "rkn4"];
+    let methods =
+        ["generalised-alpha-0", "generalised-alpha-0.5", "generalised-alpha-0.8", "trapezoid", "verlet", "rkn4"];
     let mass = 50.0;
     let exact = exact(soft(), mass);
     for method in methods {

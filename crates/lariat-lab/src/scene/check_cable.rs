@@ -1,10 +1,10 @@
 //! Ranges of a `[[cable]]`.
 
-use super::{CableScene, check_effects};
 use super::check::{missing, number, vector};
 use super::document::{Document, KeyPath};
 use super::table::{CableTable, IntegratorTable, SectionTable};
 use super::value::RuleValue;
+use super::{CableScene, check_effects};
 use crate::error::Error;
 use lariat_ancf::{Integrator, Method, Preset, Rule, Section, Shape, StepControl, Vector3};
 
@@ -48,11 +48,8 @@ pub(super) fn cable(doc: &Document<'_>, at: &KeyPath, table: CableTable) -> Resu
 }
 
 fn refuse_effects(doc: &Document<'_>, at: &KeyPath, table: &CableTable) -> Result<(), Error> {
-    let effects = [
-        ("contact", table.contact.is_some()),
-        ("break", table.breaking.is_some()),
-        ("reel", table.reel.is_some()),
-    ];
+    let effects =
+        [("contact", table.contact.is_some()), ("break", table.breaking.is_some()), ("reel", table.reel.is_some())];
     match effects.iter().find(|(_, present)| *present) {
         Some((name, _)) => Err(doc.not_built(&at.key(name), format!("the effect {name:?}"))),
         None => Ok(()),
