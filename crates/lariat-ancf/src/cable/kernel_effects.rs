@@ -19,6 +19,9 @@ use fearless_simd::{Level, Simd, dispatch, f64x8};
 /// Gauss points of bending effects beside a bending rule that has none of its own.
 const POINTS: usize = 3;
 
+/// f_0^2 - 1 of an element, and its natural curvature.
+type Rest = (f64, NaturalCurvature<f64>);
+
 /// Velocities at which forces are evaluated: none at all means at rest.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Rates<'a> {
@@ -65,7 +68,7 @@ impl KernelEffects {
             let (stretch, curvature) = effects.rest_shape.as_ref().map_or((1.0, 0.0), |shape| shape.at(middle));
             rest.push((stretch * stretch - 1.0, NaturalCurvature::new(curvature, element.length)));
         }
-        let padded = |f: &dyn Fn(&(f64, NaturalCurvature<f64>)) -> f64, on: bool| {
+        let padded = |f: &dyn Fn(&Rest) -> f64, on: bool| {
             let mut values: Vec<f64> = if on { rest.iter().map(f).collect() } else { Vec::new() };
             if on {
                 values.resize(values.len().next_multiple_of(LANES), values[values.len() - 1]);

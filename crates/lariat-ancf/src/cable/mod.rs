@@ -16,6 +16,7 @@ mod projection;
 mod refine;
 mod rest;
 pub mod sample;
+mod saved;
 mod simd;
 mod system;
 
@@ -74,7 +75,7 @@ pub struct State {
 ///
 /// Serialises as its description and state; a deserialised cable continues bitwise the same run.
 #[derive(Clone, Debug, Serialize, Deserialize)]
-#[serde(try_from = "Saved", into = "Saved")]
+#[serde(try_from = "saved::Saved", into = "saved::Saved")]
 pub struct Cable {
     pub(crate) model: Model,
     pub(crate) state: State,
@@ -86,35 +87,6 @@ pub struct Cable {
     saved: Phase,
     /// Counts changes of supports, loads and integrator.
     pub(crate) revision: u64,
-}
-
-/// A cable as it is serialised.
-#[derive(Clone, Serialize, Deserialize)]
-#[serde(rename = "Cable")]
-struct Saved {
-    model: Model,
-    state: State,
-    integrator: Integrator,
-    diagnostics: Diagnostics,
-    #[serde(default)]
-    revision: u64,
-}
-
-impl From<Cable> for Saved {
-    fn from(cable: Cable) -> Self {
-        let Cable { model, state, integrator, diagnostics, revision, .. } = cable;
-        Saved { model, state, integrator, diagnostics, revision }
-    }
-}
-
-impl TryFrom<Saved> for Cable {
-    type Error = Error;
-    fn try_from(saved: Saved) -> Result<Self, Error> {
-        let mut cable = Cable::from_parts(saved.model, saved.state, saved.integrator)?;
-        cable.diagnostics = saved.diagnostics;
-        cable.revision = saved.revision;
-        Ok(cable)
-    }
 }
 
 impl Cable {

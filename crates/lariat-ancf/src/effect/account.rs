@@ -7,8 +7,8 @@
 //! R is the dissipation function of [`damping`](super::damping), F_drag the generalised force of [`drag`](super::drag). The integrals are
 //! taken step by step with two Gauss points on the cubics through positions, velocities and accelerations at both ends of the step:
 //! order 4, like the best implicit method here. *Source.* Rayleigh 1873 (dissipation function); Hermite interpolation. *Validity.* As
-//! accurate as the step: what the *integrator* itself dissipates is not in it, so kinetic + strain + gravity energy + dissipated + drag
-//! - line_load is constant up to the error in time. *Rejected.* Differences of the total energy: they count the integrator's loss as
+//! accurate as the step: what the *integrator* itself dissipates is not in it, so the sum of kinetic, strain and
+//! gravity energy, dissipated and drag, less line_load, is constant up to the error in time. *Rejected.* Differences of the total energy: they count the integrator's loss as
 //! the effect's.
 
 use serde::{Deserialize, Serialize};

@@ -279,7 +279,7 @@ impl Work<'_, '_> {
         let clamped = self.workspace.clamps.iter().any(Option::is_some);
         if !self.workspace.mass_ready || clamped {
             for c in 0..self.cables.len() {
-                self.aim(c, true, &q[..]);
+                self.aim(c, true, q);
                 let cable = &mut *self.cables[c];
                 let work = &mut self.workspace.cables[c];
                 let system = &mut cable.system;
