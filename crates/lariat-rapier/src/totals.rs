@@ -72,12 +72,11 @@ impl CableSet {
         world: &PhysicsWorld,
     ) -> impl Iterator<Item = Result<(RigidBodyHandle, lariat_ancf::island::RigidBody), Error>> {
         let ledgers: Vec<RigidBodyHandle> = self.attachments().filter_map(|(_, a)| a.ledger.map(|l| l.body)).collect();
-        world.bodies.iter().filter(move |(h, _)| !ledgers.contains(h)).filter_map(move |(handle, _)| {
-            crate::body::is_integrated(world, handle).then(|| {
-                let unknown = Remembered::new(handle);
-                let memory = self.remembered(handle).unwrap_or(&unknown);
-                Ok((handle, read(world, handle, memory, 0.0)?))
-            })
+        let counts = move |h| !ledgers.contains(&h) && crate::body::is_integrated(world, h);
+        world.bodies.iter().filter(move |(h, _)| counts(*h)).map(move |(handle, _)| {
+            let unknown = Remembered::new(handle);
+            let memory = self.remembered(handle).unwrap_or(&unknown);
+            Ok((handle, read(world, handle, memory, 0.0)?))
         })
     }
 }

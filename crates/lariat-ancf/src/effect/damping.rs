@@ -13,9 +13,9 @@
 //! makes no force to the last bit of g' = 0, and at rest nothing is left of it.
 //!
 //! *Source.* Garcia-Vallejo, Valverde & Dominguez, Nonlinear Dyn. 42 (2005) 347 (internal damping of ANCF beams by the rates of Green
-//! strain and of the scalar curvature). *Validity.* Damping ratio tau omega/2: it grows with frequency. e = 2.5e-11: a curvature that turns
-//! the cable by less than 1e-5 rad per element is not damped in bending, and of a bending vibration of curvature k about the straight
-//! line a share of about 2e-5/(k l) is missing. The scalar curvature sees a curvature that *turns about the axis* as no change: this is
+//! strain and of the scalar curvature). *Validity.* Damping ratio tau omega/2: it grows with frequency. e = 2.5e-13: a curvature that turns
+//! the cable by less than 1e-6 rad per element is not damped in bending, and of a bending vibration of curvature k about the straight
+//! line a share of about 2e-6/(k l) is missing. The scalar curvature sees a curvature that *turns about the axis* as no change: this is
 //! the cable that may spin freely in its own axis, which is what an element without twist is.
 //!
 //! *No choice.* A dissipation that is continuous, vanishes in every rigid motion and knows positions alone must vanish at the straight
@@ -34,7 +34,7 @@ use crate::error::{Error, require};
 use serde::{Deserialize, Serialize};
 
 /// Square of half the turn per element, in rad, below which bending is not damped.
-const LEAST_SQUARE: f64 = 2.5e-11;
+const LEAST_SQUARE: f64 = 2.5e-13;
 
 /// Kelvin-Voigt times: how long the rate of strain must last to double the stress.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]

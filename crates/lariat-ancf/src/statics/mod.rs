@@ -99,8 +99,8 @@ impl Default for Failure {
 }
 
 impl Cable {
-    /// Moves the cable to static equilibrium under gravity, its full point loads and its supports; velocities become
-    /// zero.
+    /// Moves the cable to static equilibrium under gravity, its full point loads, its effects and its supports; velocities become
+    /// zero. A flow is that of the cable's time.
     ///
     /// # Errors
     /// [`Error::NoEquilibrium`] if none is found; the cable is then as before. [`Error::InvalidShape`] for a cable with
