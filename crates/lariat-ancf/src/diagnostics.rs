@@ -29,6 +29,15 @@ pub struct Diagnostics {
     pub bending_evaluations: u64,
     /// Point loads evaluated.
     pub load_evaluations: u64,
+    /// Elements for which damping was evaluated; zero for a cable without.
+    #[serde(default)]
+    pub damping_evaluations: u64,
+    /// Elements for which drag was evaluated; zero for a cable without.
+    #[serde(default)]
+    pub drag_evaluations: u64,
+    /// Elements for which a rest shape was evaluated; zero for a cable that is straight and unstretched at rest.
+    #[serde(default)]
+    pub rest_shape_evaluations: u64,
 }
 
 impl Diagnostics {

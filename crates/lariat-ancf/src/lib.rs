@@ -24,6 +24,7 @@
 //! |---|---|
 //! | [`element`] | one element as a function of six Gram numbers |
 //! | [`axial`], [`bending`] | one file per rule of the elastic forces |
+//! | [`effect`] | one file per effect: damping, drag, buoyancy, rest shape ... |
 //! | [`cable`] | mesh, state, builder, sampling, energies |
 //! | [`integrate`] | one file per time integrator, over one trait |
 //! | [`statics`] | static equilibrium |
@@ -34,6 +35,7 @@ pub mod axial;
 pub mod bending;
 pub mod cable;
 mod diagnostics;
+pub mod effect;
 pub mod element;
 mod error;
 pub mod integrate;
@@ -52,6 +54,7 @@ pub use cable::energy::{Energy, Momentum};
 pub use cable::sample::{Reaction, Sample};
 pub use cable::{At, Cable, State};
 pub use diagnostics::Diagnostics;
+pub use effect::{Account, Buoyancy, Damping, Drag, Effects, Flow, GravityScale, LineLoad, RestPiece, RestShape};
 pub use error::{Error, StepFailure};
 pub use integrate::{Integrator, Method, Preset, StepControl};
 pub use load::PointLoad;

@@ -9,7 +9,7 @@
 //! cannot use.
 
 use core::ops::{Add, Div, Mul, Neg, Sub};
-use fearless_simd::{ExtractToken, Simd, SimdBase, f64x8};
+use fearless_simd::{ExtractToken, Simd, SimdBase, SimdFloat, f64x8};
 
 /// A number, or lanes of numbers, in the element kernels.
 pub trait Real:
@@ -25,6 +25,10 @@ pub trait Real:
 {
     /// The constant `value` in every lane of a number like `self`.
     fn splat(self, value: f64) -> Self;
+    /// Square root, correctly rounded.
+    fn sqrt(self) -> Self;
+    /// Absolute value.
+    fn abs(self) -> Self;
 }
 
 impl Real for f64 {
@@ -32,11 +36,27 @@ impl Real for f64 {
     fn splat(self, value: f64) -> Self {
         value
     }
+    #[inline(always)]
+    fn sqrt(self) -> Self {
+        f64::sqrt(self)
+    }
+    #[inline(always)]
+    fn abs(self) -> Self {
+        f64::abs(self)
+    }
 }
 
 impl<S: Simd> Real for f64x8<S> {
     #[inline(always)]
     fn splat(self, value: f64) -> Self {
         <f64x8<S> as SimdBase<S>>::splat(self.token(), value)
+    }
+    #[inline(always)]
+    fn sqrt(self) -> Self {
+        <f64x8<S> as SimdFloat<S>>::sqrt(self)
+    }
+    #[inline(always)]
+    fn abs(self) -> Self {
+        <f64x8<S> as SimdBase<S>>::abs(self)
     }
 }

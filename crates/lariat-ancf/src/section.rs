@@ -18,6 +18,9 @@ pub struct Section {
     pub mass_per_length: f64,
     /// Outer diameter (side, for a square) in m, if a shape was given: for contact, drag and drawing.
     pub diameter: Option<f64>,
+    /// Area inside the outer outline in m^2, if a shape was given: for buoyancy.
+    #[serde(default)]
+    pub outer_area: Option<f64>,
 }
 
 /// Shape of a solid cross-section, in m.
@@ -53,6 +56,14 @@ impl Shape {
         }
     }
 
+    /// Area inside the outer outline in m^2: what a closed cable displaces.
+    pub fn outer_area(self) -> f64 {
+        match self {
+            Shape::Tube(outer, _) => Shape::Round(outer).area(),
+            solid => solid.area(),
+        }
+    }
+
     /// Outer diameter or side in m.
     pub fn outer(self) -> f64 {
         match self {
@@ -80,6 +91,7 @@ impl Section {
             density * shape.area(),
         )?;
         section.diameter = Some(shape.outer());
+        section.outer_area = Some(shape.outer_area());
         Ok(section)
     }
 
@@ -124,6 +136,13 @@ impl Section {
     /// # Errors
     /// [`Error::InvalidValue`] for a value that is not finite, or not positive (EI may be zero).
     pub fn from_stiffness(axial: f64, bending: f64, mass_per_length: f64) -> Result<Self, Error> {
-        Section { axial_stiffness: axial, bending_stiffness: bending, mass_per_length, diameter: None }.checked()
+        Section {
+            axial_stiffness: axial,
+            bending_stiffness: bending,
+            mass_per_length,
+            diameter: None,
+            outer_area: None,
+        }
+        .checked()
     }
 }

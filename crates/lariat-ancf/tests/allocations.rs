@@ -6,7 +6,9 @@ mod common;
 
 use common::pendulum;
 use lariat_ancf::island::{Island, Pin, RigidBody};
-use lariat_ancf::{At, Integrator, Method, PointLoad, StepControl, Vector3};
+use lariat_ancf::{
+    At, Damping, Drag, Effects, Flow, Integrator, LineLoad, Method, PointLoad, RestShape, StepControl, Vector3,
+};
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
 
@@ -70,6 +72,44 @@ fn a_warm_cable_steps_without_allocating() {
             run(10);
             assert_eq!(allocations(|| run(100)), 0, "{method}, {control:?}");
         }
+    }
+}
+
+/// Effects that are evaluated in the step, on a cable alone and on one that holds a body.
+fn effects() -> Effects {
+    let flow = Flow::power_law(Vector3::new(1.0, 0.0, 0.3), Vector3::y(), 1.0, 0.14, 10.0)
+        .with_history([[0.0, 0.5], [1.0, 1.0]]);
+    Effects {
+        damping: Some(Damping { axial: 1e-3, bending: 1e-3 }),
+        drag: Some(Drag::new(1.2, 1.2, 0.01, flow)),
+        rest_shape: Some(RestShape::curved(0.01)),
+        line_loads: vec![LineLoad::uniform(Vector3::x())],
+        ..Effects::default()
+    }
+}
+
+/// The same with effects.
+///
+/// *Source.* The contract.
+#[test]
+fn a_warm_cable_with_effects_steps_without_allocating() {
+    for method in Method::ALL.into_iter().filter(|m| m.properties().implicit) {
+        let integrator = Integrator { method, control: StepControl::Substeps(40) };
+        let mut cable = pendulum(10).effects(effects()).integrator(integrator).build().unwrap();
+        let mut run = |steps: usize| (0..steps).for_each(|_| cable.step(1.0 / 240.0).unwrap());
+        run(10);
+        assert_eq!(allocations(|| run(100)), 0, "{method}");
+        let mut cable = pendulum(10).effects(effects()).build().unwrap();
+        let node = cable.attach(At::End).unwrap();
+        let body = RigidBody::new(1.0, nalgebra::Matrix3::identity(), Vector3::new(2.0, -0.1, 0.0)).unwrap();
+        let pins = [Pin { cable: 0, node, body: 0, anchor: Vector3::new(0.0, 0.1, 0.0), direction: None }];
+        let (mut bodies, mut island) = ([body], Island::default());
+        let mut run = |steps: usize| {
+            (0..steps)
+                .for_each(|_| island.step(&mut [&mut cable], &mut bodies, &pins, integrator, 1.0 / 240.0).unwrap())
+        };
+        run(10);
+        assert_eq!(allocations(|| run(100)), 0, "island, {method}");
     }
 }
 

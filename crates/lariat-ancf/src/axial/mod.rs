@@ -75,6 +75,30 @@ impl AxialTable {
         n
     }
 
+    /// Adds `scale A x`, weighted, to `n`.
+    #[inline(always)]
+    pub(crate) fn add_product<T: Real>(&self, x: &Six<T>, scale: T, n: &mut Six<T>) {
+        for i in 0..6 {
+            n[i] = n[i] + form(&self.weighted_rows[i], x) * scale;
+        }
+    }
+
+    /// Adds `scale a`, weighted, to `n`.
+    #[inline(always)]
+    pub(crate) fn add_mean<T: Real>(&self, scale: T, n: &mut Six<T>) {
+        for i in 0..6 {
+            n[i] = n[i] + scale * self.weighted_a[i];
+        }
+    }
+
+    /// Adds `scale A`, weighted on both sides, to `h`.
+    #[inline(always)]
+    pub(crate) fn add_hessian<T: Real>(&self, scale: T, h: &mut Upper<T>) {
+        for i in 0..21 {
+            h[i] = h[i] + scale * self.weighted_matrix[i];
+        }
+    }
+
     /// Weighted Hessian h, with `quarter = EA l/4`.
     #[inline(always)]
     pub fn hessian<T: Real>(&self, quarter: T) -> Upper<T> {

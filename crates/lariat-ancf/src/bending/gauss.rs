@@ -71,7 +71,7 @@ pub(crate) fn minors<T: Real>(g: &Six<T>) -> Six<T> {
 
 /// Weighted gradient of `m . X(g)`, for numbers m (constants or lanes).
 #[inline(always)]
-fn weighted_minor_gradient<T, M: Copy>(m: &Six<M>, g: &Six<T>) -> Six<T>
+pub(crate) fn weighted_minor_gradient<T, M: Copy>(m: &Six<M>, g: &Six<T>) -> Six<T>
 where
     T: Real + core::ops::Mul<M, Output = T>,
 {
@@ -94,7 +94,7 @@ where
 
 /// Adds the weighted Hessian of `m . X(g)`, which does not depend on g.
 #[inline(always)]
-fn add_weighted_minor_hessian<T: Real>(m: &Six<T>, h: &mut Upper<T>) {
+pub(crate) fn add_weighted_minor_hessian<T: Real>(m: &Six<T>, h: &mut Upper<T>) {
     let two = [m[0] + m[0], m[1] + m[1], m[2] + m[2], m[3] + m[3], m[4] + m[4], m[5] + m[5]];
     let entries = [
         (0, 3, two[0] + two[0]),

@@ -24,7 +24,7 @@ use crate::rule::BendingRule;
 use fearless_simd::{Level, Simd, SimdBase, SimdFrom, dispatch, f64x8};
 
 /// Elements evaluated together.
-const LANES: usize = 8;
+pub(super) const LANES: usize = 8;
 
 /// Rows and columns, over (r_i, t_i, r_j, t_j), of the entries of the mass matrix that lanes load.
 const MASS_ENTRIES: [(usize, usize); 10] =
@@ -51,16 +51,18 @@ macro_rules! with_bending {
     };
 }
 
+pub(super) use with_bending;
+
 /// The numbers of all elements, ready for the kernels.
 #[derive(Clone, Debug)]
 pub(crate) struct Elements {
-    table: AxialTable,
-    bending: BendingKernel,
-    count: usize,
+    pub(super) table: AxialTable,
+    pub(super) bending: BendingKernel,
+    pub(super) count: usize,
     /// 3/l, EA l/4 and 2 EI/l by element, padded to a multiple of [`LANES`].
     scale: Vec<f64>,
-    axial: Vec<f64>,
-    flexural: Vec<f64>,
+    pub(super) axial: Vec<f64>,
+    pub(super) flexural: Vec<f64>,
     /// Entries of the element's mass matrix: (i, i) rr, rt, tt; (j, i) rr, rt, tr, tt; (j, j) rr, rt, tt. Padded likewise.
     mass: [Vec<f64>; 10],
 }
@@ -85,8 +87,13 @@ impl Elements {
             scale: padded(&|e| 3.0 / e.length),
             axial: padded(&|e| 0.25 * e.section.axial_stiffness * e.length),
             flexural: padded(&|e| 2.0 * e.section.bending_stiffness / e.length),
-            mass: MASS_ENTRIES
-                .map(|(row, column)| padded(&|e| mass::consistent(e.section.mass_per_length, e.length)[row][column])),
+            mass: MASS_ENTRIES.map(|(row, column)| {
+                let entry =
+                    |(i, e): (usize, &super::model::Element)| mass::consistent(model.inertia(i), e.length)[row][column];
+                let mut values: Vec<f64> = model.elements.iter().enumerate().map(entry).collect();
+                values.resize(values.len().next_multiple_of(LANES), values[values.len() - 1]);
+                values
+            }),
         }
     }
 
@@ -137,7 +144,7 @@ impl Elements {
 
     /// Gathers control vectors and stiffness of the group of elements that begins at `first`.
     #[inline(always)]
-    fn gather<S: Simd>(
+    pub(super) fn gather<S: Simd>(
         &self,
         simd: S,
         first: usize,
@@ -194,7 +201,7 @@ impl Elements {
     }
 
     #[inline(always)]
-    fn scatter_force<S: Simd>(&self, simd: S, first: usize, g: &Control<f64x8<S>>, out: &mut [f64]) {
+    pub(super) fn scatter_force<S: Simd>(&self, simd: S, first: usize, g: &Control<f64x8<S>>, out: &mut [f64]) {
         let s = load(simd, &self.scale, first);
         let mut raw = [[[0.0f64; LANES]; 3]; 3];
         for x in 0..3 {
@@ -215,7 +222,7 @@ impl Elements {
 
     /// Turns the 3x3 blocks over control vectors into 6x6 blocks over nodes, one column of one element per vector of lanes.
     #[inline(always)]
-    fn scatter_matrix<S: Simd>(
+    pub(super) fn scatter_matrix<S: Simd>(
         &self,
         simd: S,
         first: usize,
@@ -304,7 +311,7 @@ fn lanes<S: Simd>(simd: S, n: &[&[f64; 12]; LANES], i: usize) -> f64x8<S> {
 
 /// Eight consecutive values from `first` on.
 #[inline(always)]
-fn load<S: Simd>(simd: S, values: &[f64], first: usize) -> f64x8<S> {
+pub(super) fn load<S: Simd>(simd: S, values: &[f64], first: usize) -> f64x8<S> {
     f64x8::from_slice(simd, &values[first..first + LANES])
 }
 

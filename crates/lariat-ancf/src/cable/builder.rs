@@ -2,6 +2,7 @@
 
 use super::model::{Element, Model};
 use super::{At, Cable, State, layout};
+use crate::effect::Effects;
 use crate::error::{Error, require, require_finite};
 use crate::integrate::{Integrator, Preset};
 use crate::load::PointLoad;
@@ -37,6 +38,7 @@ pub struct CableBuilder {
     angular_velocity: Vector3<f64>,
     holds: Vec<(At, Hold)>,
     loads: Vec<PointLoad>,
+    effects: Effects,
 }
 
 impl Default for CableBuilder {
@@ -56,6 +58,7 @@ impl Default for CableBuilder {
             angular_velocity: Vector3::zeros(),
             holds: Vec::new(),
             loads: Vec::new(),
+            effects: Effects::default(),
         }
     }
 }
@@ -163,12 +166,18 @@ impl CableBuilder {
         self
     }
 
+    /// Effects beside inertia and elasticity. Default: none.
+    pub fn effects(mut self, effects: Effects) -> Self {
+        self.effects = effects;
+        self
+    }
+
     /// Builds the cable.
     ///
     /// # Errors
     /// [`Error::InvalidValue`] for a number that is out of range or not finite, [`Error::InvalidShape`] for fewer than two
     /// points, coincident points, no elements or no section, [`Error::RankDeficient`] for a rule with spare modes,
-    /// [`Error::OutOfRange`] for an arc length that is not on the cable.
+    /// [`Error::OutOfRange`] for an arc length that is not on the cable, and as [`Cable::set_effects`].
     pub fn build(self) -> Result<Cable, Error> {
         let invalid = |reason: String| Error::InvalidShape { cable: self.name.clone(), reason };
         self.points.iter().try_for_each(|p| require_finite("point (m)", p))?;
@@ -237,7 +246,9 @@ impl CableBuilder {
             gravity: self.gravity,
             supports: Vec::new(),
             loads: Vec::new(),
+            effects: self.effects,
         };
+        let implicit = model.effects.damping.is_some();
         let mut cable = Cable::from_parts(model, state, Integrator::default())?;
         for (at, hold) in self.holds {
             let node = cable.node(At::ArcLength(arc_length(at)?.min(length)))?;
@@ -256,7 +267,8 @@ impl CableBuilder {
         }
         let integrator = match self.integrator {
             Ok(integrator) => integrator,
-            Err(preset) => preset.integrator(cable.frequency_bound()),
+            // damping needs an implicit method, however soft the cable
+            Err(preset) => preset.integrator(if implicit { f64::INFINITY } else { cable.frequency_bound() }),
         };
         cable.set_integrator(integrator)?;
         Ok(cable)

@@ -7,13 +7,13 @@ use serde::{Deserialize, Serialize};
 /// Energies in J. Potential of gravity is zero at the origin.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Energy {
-    /// Kinetic.
+    /// Kinetic, that of added mass included.
     pub kinetic: f64,
-    /// Axial strain.
+    /// Axial strain, from the rest shape.
     pub axial: f64,
-    /// Bending.
+    /// Bending, from the rest shape.
     pub bending: f64,
-    /// Gravity.
+    /// Gravity, less buoyancy.
     pub gravity: f64,
 }
 
@@ -45,7 +45,7 @@ pub struct Momentum {
 impl Cable {
     /// Kinetic, strain and gravity energy of the present state.
     pub fn energy(&self) -> Energy {
-        let (axial, bending) = self.system.elements.energy(self.positions());
+        let (axial, bending) = self.system.strain_energy(self.positions());
         let momentum = self.generalised_momentum();
         let kinetic = 0.5 * momentum.iter().zip(self.velocities()).map(|(p, v)| p * v).sum::<f64>();
         let gravity = -self.system.gravity_work(self.positions());

@@ -1,14 +1,16 @@
-//! The equations of one cable, `M q'' = F(q, t)`, as the integrators see them.
+//! The equations of one cable, `M q'' = F(q, q', t)`, as the integrators see them.
 //!
-//! A stage `M z = c2 F(base + z)` is solved with `(M + c2 K) dz = c2 F - M z` by [`newton`](crate::integrate::newton).
+//! A stage `M z = c2 F(base + z, velocity_base + rate z)` is solved with `(M + c2 (K + rate C)) dz = c2 F - M z` by
+//! [`newton`](crate::integrate::newton); K = -dF/dq, C = -dF/dq'.
 
+use super::kernel_effects::Rates;
 use super::model::Model;
 use super::projection::{project_matrix, project_vector};
 use super::system::{MassSolver, System};
 use crate::diagnostics::Diagnostics;
 use crate::error::StepFailure;
 use crate::integrate::newton::{self, Increment, Linearised};
-use crate::integrate::{Dynamics, Stage};
+use crate::integrate::{Dynamics, Phase, Stage};
 use crate::linalg::Definiteness;
 
 /// Newton's tolerance is at most this share of the displacement that the acceleration makes in the stage, and of the strain
@@ -35,19 +37,43 @@ impl Equations<'_> {
         }
     }
 
-    /// `out = scale F(q, time)`: elastic forces, gravity, loads.
+    /// `out = scale F(q, 0, time)`: elastic forces, gravity, loads of a cable at rest. For statics: `time` is that of the point
+    /// loads, a flow is that of the cable's own time.
     pub fn force(&mut self, time: f64, q: &[f64], scale: f64, out: &mut [f64]) {
         out.fill(0.0);
-        self.system.elements.add_force(self.system.level, q, scale, out);
+        self.system.add_force(self.system.static_time, q, Rates::REST, scale, None, out, self.diagnostics);
         self.count_elements(false);
         self.system.add_loads(self.model, time, q, scale, out, false, self.diagnostics);
     }
 
-    /// `out = scale F(q, time)`, and the step matrix `mass_scale M - scale dF/dq`, not yet projected.
+    /// [`force`](Self::force), and the step matrix `mass_scale M + scale K`, not yet projected.
     pub fn force_and_matrix(&mut self, time: f64, q: &[f64], scale: f64, mass_scale: f64, out: &mut [f64]) {
         out.fill(0.0);
-        let system = &mut *self.system;
-        system.elements.add_force_and_matrix(system.level, q, scale, mass_scale, out, &mut system.matrix);
+        self.system.add_force(self.system.static_time, q, Rates::REST, scale, Some(mass_scale), out, self.diagnostics);
+        self.count_elements(true);
+        self.system.add_loads(self.model, time, q, scale, out, true, self.diagnostics);
+    }
+
+    /// `out = scale F(q, v, time)`.
+    pub fn moving_force(&mut self, time: f64, q: &[f64], v: &[f64], scale: f64, out: &mut [f64]) {
+        out.fill(0.0);
+        self.system.add_force(time, q, Rates { v, rate: 0.0 }, scale, None, out, self.diagnostics);
+        self.count_elements(false);
+        self.system.add_loads(self.model, time, q, scale, out, false, self.diagnostics);
+    }
+
+    /// [`moving_force`](Self::moving_force), and the step matrix `mass_scale M + scale (K + rate C)`, not yet projected.
+    pub fn moving_force_and_matrix(
+        &mut self,
+        time: f64,
+        q: &[f64],
+        rates: Rates<'_>,
+        scale: f64,
+        mass_scale: f64,
+        out: &mut [f64],
+    ) {
+        out.fill(0.0);
+        self.system.add_force(time, q, rates, scale, Some(mass_scale), out, self.diagnostics);
         self.count_elements(true);
         self.system.add_loads(self.model, time, q, scale, out, true, self.diagnostics);
     }
@@ -70,12 +96,21 @@ impl Equations<'_> {
         self.system.factorisation.solve(self.system.level, rhs);
     }
 
-    /// `rhs = c2 F(y) - M z`; with the matrix if asked.
-    fn residual(&mut self, stage: &Stage, y: &[f64], z: &[f64], rhs: &mut [f64], scratch: &mut [f64], matrix: bool) {
+    /// `rhs = c2 F(y, v) - M z`; with the matrix if asked.
+    fn residual(
+        &mut self,
+        stage: &Stage,
+        y: &[f64],
+        v: &[f64],
+        z: &[f64],
+        rhs: &mut [f64],
+        scratch: &mut [f64],
+        matrix: bool,
+    ) {
         if matrix {
-            self.force_and_matrix(stage.time, y, stage.c2, 1.0, rhs);
+            self.moving_force_and_matrix(stage.time, y, Rates { v, rate: stage.rate }, stage.c2, 1.0, rhs);
         } else {
-            self.force(stage.time, y, stage.c2, rhs);
+            self.moving_force(stage.time, y, v, stage.c2, rhs);
         }
         self.system.multiply_mass(z, scratch);
         for (r, m) in rhs.iter_mut().zip(scratch.iter()) {
@@ -100,7 +135,10 @@ struct CableStage<'a, 'b> {
     equations: &'a mut Equations<'b>,
     stage: &'a Stage,
     base: &'a [f64],
+    velocity_base: &'a [f64],
     y: &'a mut [f64],
+    /// Velocities, if a force depends on them.
+    v: &'a mut [f64],
     z: &'a mut [f64],
     rhs: &'a mut [f64],
     product: &'a mut [f64],
@@ -110,7 +148,10 @@ impl Linearised for CableStage<'_, '_> {
     fn increment(&mut self, fresh: bool) -> Result<Increment, StepFailure> {
         let equations = &mut *self.equations;
         equations.diagnostics.newton_iterations += 1;
-        equations.residual(self.stage, self.y, self.z, self.rhs, self.product, fresh);
+        for (i, v) in self.v.iter_mut().enumerate() {
+            *v = self.velocity_base[i] + self.stage.rate * self.z[i];
+        }
+        equations.residual(self.stage, self.y, self.v, self.z, self.rhs, self.product, fresh);
         if fresh {
             equations.system.factored = 0.0;
             equations.factor()?;
@@ -126,6 +167,10 @@ impl Linearised for CableStage<'_, '_> {
             self.z[i] += share * self.rhs[i];
             self.y[i] = self.base[i] + self.z[i];
         }
+    }
+
+    fn exact(&self) -> bool {
+        self.equations.model.effects.exact_tangent()
     }
 
     fn not_finite(&self) -> StepFailure {
@@ -149,9 +194,9 @@ impl Dynamics for Equations<'_> {
         }
     }
 
-    fn acceleration(&mut self, time: f64, q: &[f64], _: &[f64], acceleration: &mut [f64]) -> Result<(), StepFailure> {
+    fn acceleration(&mut self, time: f64, q: &[f64], v: &[f64], acceleration: &mut [f64]) -> Result<(), StepFailure> {
         let mut rhs = core::mem::take(&mut self.system.rhs);
-        self.force(time, q, 1.0, &mut rhs);
+        self.moving_force(time, q, v, 1.0, &mut rhs);
         acceleration.fill(0.0);
         let mut moving = false;
         for (node, support) in &self.model.supports {
@@ -207,10 +252,21 @@ impl Dynamics for Equations<'_> {
         let mut product = core::mem::take(&mut self.system.product);
         let tolerance = self.tolerance(stage.newton.tolerance(), stage, base, &z);
         let keep = stage.reuse && stage.c2 > 0.0 && self.system.factored == stage.c2;
-        let mut problem =
-            CableStage { equations: self, stage, base, y, z: &mut z, rhs: &mut rhs, product: &mut product };
+        let mut velocity = core::mem::take(&mut self.system.velocity);
+        let mut problem = CableStage {
+            equations: self,
+            stage,
+            base,
+            velocity_base,
+            y,
+            v: &mut velocity,
+            z: &mut z,
+            rhs: &mut rhs,
+            product: &mut product,
+        };
         let outcome = newton::iterate(&mut problem, tolerance, stage.newton.once(), keep);
         self.system.product = product;
+        self.system.velocity = velocity;
         for i in 0..z.len() {
             acceleration[i] = z[i] / stage.c2;
         }
@@ -229,6 +285,14 @@ impl Dynamics for Equations<'_> {
 
     fn norm(&self, error: &[f64]) -> f64 {
         self.system.extent(error).0
+    }
+
+    fn follows_velocity(&self) -> bool {
+        self.model.effects.depend_on_velocity()
+    }
+
+    fn accepted(&mut self, before: &Phase, after: &Phase, h: f64) {
+        self.account_step(before, after, h, 0..after.q.len());
     }
 
     fn frequency_bound(&self) -> f64 {

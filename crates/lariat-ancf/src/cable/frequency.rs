@@ -29,11 +29,14 @@ fn largest(derivative: fn(f64, f64) -> [f64; 4]) -> f64 {
 
 /// The bound in rad/s.
 pub(crate) fn bound(model: &Model) -> f64 {
+    // tangent EA (3 f^2 - f_0^2)/2 at f = f_0 and at f = 1
+    let pieces = model.effects.rest_shape.iter().flat_map(|rest| &rest.pieces);
+    let prestrain = pieces.map(|p| p.stretch * p.stretch).fold(1.0f64, |worst, s| worst.max(s).max(0.5 * (3.0 - s)));
     let (axial, bending) = (largest(shape::slope).sqrt(), largest(shape::second_derivative).sqrt());
-    let worst = model.elements.iter().fold(0.0f64, |worst, e| {
-        let s = &e.section;
-        let wave = (s.axial_stiffness / s.mass_per_length).sqrt() / e.length;
-        let flexure = (s.bending_stiffness / s.mass_per_length).sqrt() / (e.length * e.length);
+    let worst = model.elements.iter().enumerate().fold(0.0f64, |worst, (i, e)| {
+        let (s, mass) = (&e.section, model.inertia(i));
+        let wave = (s.axial_stiffness * prestrain / mass).sqrt() / e.length;
+        let flexure = (s.bending_stiffness / mass).sqrt() / (e.length * e.length);
         let flexure = if model.rule.bending == BendingRule::None { 0.0 } else { flexure };
         worst.max(axial * wave).max(bending * flexure)
     });

@@ -2,10 +2,13 @@
 
 mod assembly;
 pub mod builder;
+mod effects;
 pub mod energy;
 mod equations;
+mod fluid;
 mod frequency;
 mod hold;
+mod kernel_effects;
 mod layout;
 pub mod linearise;
 mod model;
@@ -13,18 +16,23 @@ mod projection;
 mod refine;
 mod rest;
 pub mod sample;
+mod saved;
 mod simd;
 mod system;
 
 pub use model::{Element, Model};
 
 use crate::diagnostics::Diagnostics;
+use crate::effect::Account;
 use crate::error::{Error, StepFailure, require};
 use crate::integrate::drive::{self, Counts};
 use crate::integrate::{Integrator, Phase, Scratch};
 use crate::rule::Rule;
 use builder::CableBuilder;
+pub(crate) use effects::check_integrator;
 pub(crate) use equations::Equations;
+pub(crate) use fluid::Fluid;
+pub(crate) use kernel_effects::Rates;
 pub(crate) use layout::along_polyline;
 use nalgebra::Vector3;
 pub(crate) use projection::{project_matrix, project_vector};
@@ -58,13 +66,16 @@ impl From<f64> for At {
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct State {
     pub(crate) phase: Phase,
+    /// Work of effects so far.
+    #[serde(default)]
+    pub(crate) account: Account,
 }
 
 /// A cable of ANCF elements with its force strategy, integrator and state.
 ///
 /// Serialises as its description and state; a deserialised cable continues bitwise the same run.
 #[derive(Clone, Debug, Serialize, Deserialize)]
-#[serde(try_from = "Saved", into = "Saved")]
+#[serde(try_from = "saved::Saved", into = "saved::Saved")]
 pub struct Cable {
     pub(crate) model: Model,
     pub(crate) state: State,
@@ -76,35 +87,6 @@ pub struct Cable {
     saved: Phase,
     /// Counts changes of supports, loads and integrator.
     pub(crate) revision: u64,
-}
-
-/// A cable as it is serialised.
-#[derive(Clone, Serialize, Deserialize)]
-#[serde(rename = "Cable")]
-struct Saved {
-    model: Model,
-    state: State,
-    integrator: Integrator,
-    diagnostics: Diagnostics,
-    #[serde(default)]
-    revision: u64,
-}
-
-impl From<Cable> for Saved {
-    fn from(cable: Cable) -> Self {
-        let Cable { model, state, integrator, diagnostics, revision, .. } = cable;
-        Saved { model, state, integrator, diagnostics, revision }
-    }
-}
-
-impl TryFrom<Saved> for Cable {
-    type Error = Error;
-    fn try_from(saved: Saved) -> Result<Self, Error> {
-        let mut cable = Cable::from_parts(saved.model, saved.state, saved.integrator)?;
-        cable.diagnostics = saved.diagnostics;
-        cable.revision = saved.revision;
-        Ok(cable)
-    }
 }
 
 impl Cable {
@@ -126,6 +108,7 @@ impl Cable {
             step: 0.0,
             failure,
         })?;
+        check_integrator(&model, integrator)?;
         Ok(Cable {
             model,
             state,
@@ -161,6 +144,7 @@ impl Cable {
         self.check_not_attached()?;
         self.saved.copy_from(&self.state.phase);
         self.refresh_memory();
+        self.system.account = Account::default();
         let mut counts = Counts::default();
         let mut equations =
             Equations { model: &self.model, system: &mut self.system, diagnostics: &mut self.diagnostics };
@@ -171,6 +155,9 @@ impl Cable {
         match outcome {
             Ok(()) => {
                 self.diagnostics.host_steps += 1;
+                let saved = core::mem::take(&mut self.saved);
+                self.settle(&saved.q);
+                self.saved = saved;
                 Ok(())
             }
             Err(refusal) => {
@@ -288,6 +275,7 @@ impl Cable {
     /// # Errors
     /// As [`Integrator::checked`].
     pub fn set_integrator(&mut self, integrator: Integrator) -> Result<(), Error> {
+        check_integrator(&self.model, integrator)?;
         self.integrator = integrator.checked()?;
         self.revise();
         Ok(())
@@ -313,6 +301,8 @@ impl Cable {
             .phase
             .check(self.positions().len())
             .map_err(|reason| Error::InvalidShape { cable: self.name().to_string(), reason })?;
+        let Account { damping, drag, line_load } = state.account;
+        [damping, drag, line_load].into_iter().try_for_each(|x| require("work of effects (J)", x, true, "a number"))?;
         self.state = state;
         Ok(())
     }

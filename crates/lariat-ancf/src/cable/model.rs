@@ -1,5 +1,6 @@
 //! What a cable is made of: plain data from which everything else is rebuilt.
 
+use crate::effect::Effects;
 use crate::error::{Error, require, require_finite};
 use crate::load::PointLoad;
 use crate::rule::Rule;
@@ -27,6 +28,8 @@ pub struct Model {
     /// Supports by node, ascending, none of them free.
     pub(crate) supports: Vec<(usize, Support)>,
     pub(crate) loads: Vec<PointLoad>,
+    #[serde(default)]
+    pub(crate) effects: Effects,
 }
 
 impl Model {
@@ -53,7 +56,8 @@ impl Model {
         if self.supports.windows(2).any(|s| s[0].0 >= s[1].0) || self.supports.iter().any(|(n, _)| *n >= self.nodes()) {
             return Err(invalid("supports must be at ascending nodes of the cable"));
         }
-        self.supports.iter().try_for_each(|(_, support)| support.check())
+        self.supports.iter().try_for_each(|(_, support)| support.check())?;
+        self.check_effects()
     }
 
     /// Number of nodes.

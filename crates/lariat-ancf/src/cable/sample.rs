@@ -3,11 +3,14 @@
 //! Tension is `N = EA eps f`, f = |r'|, with eps the Green strain *projected on a linear function inside the element*. Under
 //! bending the raw strain of this element oscillates inside it (a bent cubic cannot be inextensible everywhere); the linear
 //! projection is what the oscillation leaves unchanged, and converges one order faster (Barlow 1976; superconvergent points).
-//! Curvature is `|r' x r''|/|r'|^3`, moment `EI kappa` about the binormal; they are read raw.
+//! Curvature is `|r' x r''|/|r'|^3`, moment `EI kappa` about the binormal; they are read raw. A rest shape and damping change both:
+//! `N = EA (eps - eps_0 + tau eps') f`, `EI (kappa - kappa_0 + tau kappa')`.
 
 use super::Cable;
 use crate::axial::moment;
-use crate::element::gram::{Six, gram};
+use crate::effect::damping::gram_rates;
+use crate::effect::rest_shape::NaturalCurvature;
+use crate::element::gram::{Control, Six, gram};
 use crate::element::shape;
 use crate::error::Error;
 use crate::integrate::Dynamics;
@@ -63,7 +66,8 @@ impl Cable {
         let slope = combine(q, shape::slope(xi, element.length));
         let second = combine(q, shape::second_derivative(xi, element.length));
         let stretch = slope.norm();
-        let green_strain = projected_strain(&gram(&self.system.elements.control(e, q)), xi);
+        let d = self.system.elements.control(e, q);
+        let green_strain = projected_strain(&gram(&d), xi);
         // a collapsed element has no curvature to speak of
         let curvature = if stretch > 0.0 { slope.cross(&second) / stretch.powi(3) } else { Vector3::zeros() };
         Ok(Sample {
@@ -71,10 +75,43 @@ impl Cable {
             velocity: combine(v, position),
             slope,
             green_strain,
-            tension: element.section.axial_stiffness * green_strain * (1.0 + 2.0 * green_strain).max(0.0).sqrt(),
+            tension: element.section.axial_stiffness
+                * (green_strain + self.strain_shift(e, xi, &d))
+                * (1.0 + 2.0 * green_strain).max(0.0).sqrt(),
             curvature,
-            moment: curvature * element.section.bending_stiffness,
+            moment: curvature * (element.section.bending_stiffness * self.moment_factor(e, xi, curvature.norm())),
         })
+    }
+
+    /// What a rest shape and damping add to the strain that makes stress.
+    fn strain_shift(&self, e: usize, xi: f64, d: &Control<f64>) -> f64 {
+        let effects = self.effects();
+        let mut shift = 0.0;
+        if effects.rest_shape.is_some() {
+            let stretch = self.model.rest(e).0;
+            shift -= 0.5 * (stretch * stretch - 1.0);
+        }
+        if let Some(damping) = &effects.damping {
+            let rates = gram_rates(d, &self.system.elements.control(e, self.velocities()));
+            // linear in the Gram numbers, and -1/2 at zero
+            shift += damping.axial * (projected_strain(&rates, xi) + 0.5);
+        }
+        shift
+    }
+
+    /// The factor of EI kappa that is the moment.
+    fn moment_factor(&self, e: usize, xi: f64, curvature: f64) -> f64 {
+        let (effects, length) = (self.effects(), self.model.elements[e].length);
+        let mut factor = 1.0;
+        if effects.rest_shape.is_some() {
+            factor = NaturalCurvature::new(self.model.rest(e).1, length).moment_factor(curvature, length);
+        }
+        if let Some(damping) = effects.damping.filter(|damping| damping.bending > 0.0) {
+            let elements = &self.system.elements;
+            let (d, v) = (elements.control(e, self.positions()), elements.control(e, self.velocities()));
+            factor += damping.moment_share(xi, &gram(&d), &gram_rates(&d, &v));
+        }
+        factor
     }
 
     /// Reactions of all supports, by ascending node: what the supports do to the cable now.
@@ -96,7 +133,7 @@ impl Cable {
             outcome.map_err(|failure| self.refused(self.time(), 0.0, failure))?;
         }
         let (mut equations, phase) = self.equations();
-        equations.force(phase.time, &phase.q, -1.0, &mut residual);
+        equations.moving_force(phase.time, &phase.q, &phase.v, -1.0, &mut residual);
         let mut inertia = vec![0.0; n];
         equations.system.multiply_mass(&acceleration, &mut inertia);
         let vector = |x: &[f64], y: &[f64]| Vector3::new(x[0] + y[0], x[1] + y[1], x[2] + y[2]);

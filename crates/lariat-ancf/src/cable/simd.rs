@@ -24,6 +24,7 @@ impl Cable {
 mod tests {
     use super::*;
     use crate::{At, Integrator, Method, Rule, Section, StepControl, Vector3};
+    use crate::{Damping, Drag, Effects, Flow, RestPiece, RestShape};
 
     /// Every level of this processor; the first is the one that a cable chooses.
     fn levels() -> Vec<(&'static str, Level)> {
@@ -70,6 +71,22 @@ mod tests {
                 None => reference = Some(run),
                 Some(best) => assert!(*best == run, "{what}: {name} differs from the chosen level"),
             }
+        }
+    }
+
+    #[test]
+    fn effects_are_bitwise_the_same_at_every_simd_level() {
+        let wind = Flow::power_law(Vector3::new(1.0, 0.2, 0.3), Vector3::y(), 1.0, 0.14, 10.0);
+        for rule in ["projected-3", "ST2"] {
+            let mut cable = cable(rule, false);
+            let effects = Effects {
+                damping: Some(Damping { axial: 1e-3, bending: 1e-2 }),
+                drag: Some(Drag { diameter: Some(0.02), ..Drag::new(100.0, 1.2, 0.1, wind.clone()) }),
+                rest_shape: Some(RestShape { pieces: vec![RestPiece { from: 0.5, stretch: 0.999, curvature: 0.1 }] }),
+                ..Effects::default()
+            };
+            cable.set_effects(effects).unwrap();
+            assert_same_run(&cable, rule);
         }
     }
 

@@ -3,9 +3,12 @@
 //! Everything here is derived from a [`Model`] and rebuilt when the model changes; nothing of it is part of a snapshot.
 
 use super::assembly::Elements;
+use super::fluid::Fluid;
+use super::kernel_effects::{KernelEffects, Rates};
 use super::model::Model;
 use super::projection::project_matrix;
 use crate::diagnostics::Diagnostics;
+use crate::effect::Account;
 use crate::element::{mass, shape};
 use crate::error::StepFailure;
 use crate::linalg::{BlockTridiagonal, Factorisation, MassFactorisation, MassMatrix};
@@ -37,11 +40,23 @@ pub(crate) enum MassSolver {
 pub(crate) struct System {
     pub level: Level,
     pub elements: Elements,
+    /// Damping and rest shape, if on.
+    pub kernel: Option<KernelEffects>,
+    /// Drag, if on.
+    pub fluid: Option<Fluid>,
+    /// Work of effects in the present host step.
+    pub account: Account,
+    /// Time in s at which statics see a flow.
+    pub static_time: f64,
     /// By point load of the model.
     located: Vec<Located>,
     mass: MassMatrix,
     pub mass_solver: MassSolver,
     gravity_force: Vec<f64>,
+    /// Generalised force of line loads; empty without.
+    pub line_force: Vec<f64>,
+    /// Gravity and line loads.
+    dead_force: Vec<f64>,
     /// Longest distance over which a slope acts: l/8 by node.
     arm: Vec<f64>,
     pub matrix: BlockTridiagonal,
@@ -49,6 +64,8 @@ pub(crate) struct System {
     pub rhs: Vec<f64>,
     pub product: Vec<f64>,
     pub z: Vec<f64>,
+    /// Velocities of a stage; empty where no force depends on them.
+    pub velocity: Vec<f64>,
     pub frequency_bound: f64,
     /// c2 of the stage whose matrix is factored; 0 = none.
     pub factored: f64,
@@ -58,12 +75,16 @@ pub(crate) struct System {
 
 impl System {
     pub fn new(model: &Model) -> Result<Self, StepFailure> {
-        let level = Level::new();
+        Self::with_level(model, Level::new())
+    }
+
+    /// The same, for a SIMD level.
+    pub fn with_level(model: &Model, level: Level) -> Result<Self, StepFailure> {
         let nodes = model.nodes();
         let mut mass = MassMatrix { diag: vec![[0.0; 3]; nodes], lower: vec![[0.0; 4]; nodes - 1] };
         let mut arm = vec![0.0f64; nodes];
         for (e, element) in model.elements.iter().enumerate() {
-            let m = mass::consistent(element.section.mass_per_length, element.length);
+            let m = mass::consistent(model.inertia(e), element.length);
             for (node, k) in [(e, 0), (e + 1, 2)] {
                 mass.diag[node][0] += m[k][k];
                 mass.diag[node][1] += m[k][k + 1];
@@ -73,6 +94,13 @@ impl System {
             mass.lower[e] = [m[2][0], m[2][1], m[3][0], m[3][1]];
         }
         let mut system = System {
+            kernel: KernelEffects::new(model),
+            fluid: Fluid::new(model),
+            account: Account::default(),
+            static_time: 0.0,
+            line_force: model.line_force(),
+            dead_force: vec![0.0; 6 * nodes],
+            velocity: vec![0.0; if model.effects.depend_on_velocity() { 6 * nodes } else { 0 }],
             located: Vec::new(),
             level,
             elements: Elements::new(model),
@@ -87,8 +115,8 @@ impl System {
             z: vec![0.0; 6 * nodes],
             frequency_bound: super::frequency::bound(model),
             factored: 0.0,
-            stiff_time_squared: model.elements.iter().fold(f64::INFINITY, |least, e| {
-                least.min(model.length() * e.length * e.section.mass_per_length / e.section.axial_stiffness)
+            stiff_time_squared: model.elements.iter().enumerate().fold(f64::INFINITY, |least, (i, e)| {
+                least.min(model.length() * e.length * model.inertia(i) / e.section.axial_stiffness)
             }),
         };
         system.weigh(model);
@@ -97,17 +125,31 @@ impl System {
         Ok(system)
     }
 
-    /// Sums the weight of the elements.
+    /// Makes the flow that of a time, for ever.
+    pub fn hold_flow(&mut self, time: f64) {
+        if let Some(fluid) = &mut self.fluid {
+            fluid.hold(time);
+        }
+    }
+
+    /// Puts the flow back that the model has.
+    pub fn release_flow(&mut self, model: &Model) {
+        self.fluid = Fluid::new(model);
+    }
+
+    /// Sums the weight of the elements, and the line loads.
     pub fn weigh(&mut self, model: &Model) {
         self.gravity_force.fill(0.0);
         for (e, element) in model.elements.iter().enumerate() {
+            let gravity = model.weight(e);
             for (k, weight) in mass::load_weights(element.length).iter().enumerate() {
                 for x in 0..3 {
-                    self.gravity_force[6 * e + 3 * k + x] +=
-                        weight * element.section.mass_per_length * model.gravity[x];
+                    self.gravity_force[6 * e + 3 * k + x] += weight * gravity[x];
                 }
             }
         }
+        self.dead_force.copy_from_slice(&self.gravity_force);
+        self.dead_force.iter_mut().zip(&self.line_force).for_each(|(f, line)| *f += line);
     }
 
     /// Finds the elements of the point loads.
@@ -161,6 +203,58 @@ impl System {
         self.gravity_force.iter().zip(q).map(|(f, q)| f * q).sum()
     }
 
+    /// Work of line loads from the origin to `q`, in J.
+    pub fn line_work(&self, q: &[f64]) -> f64 {
+        self.line_force.iter().zip(q).map(|(f, q)| f * q).sum()
+    }
+
+    /// Axial and bending energy in J.
+    pub fn strain_energy(&self, q: &[f64]) -> (f64, f64) {
+        let (axial, bending) = self.elements.energy(q);
+        match self.kernel.as_ref().filter(|kernel| kernel.rests()) {
+            None => (axial, bending),
+            Some(kernel) => {
+                let rest = self.elements.rest_energy(kernel, q);
+                (axial + rest.0, bending + rest.1)
+            }
+        }
+    }
+
+    /// `out = scale F` without point loads and gravity: elastic force and the effects that depend on the state.
+    pub fn add_force(
+        &mut self,
+        time: f64,
+        q: &[f64],
+        rates: Rates<'_>,
+        scale: f64,
+        mass_scale: Option<f64>,
+        out: &mut [f64],
+        diagnostics: &mut Diagnostics,
+    ) {
+        let System { level, elements, kernel, fluid, matrix, .. } = self;
+        let level = *level;
+        match (&kernel, mass_scale) {
+            (None, None) => elements.add_force(level, q, scale, out),
+            (None, Some(mass)) => elements.add_force_and_matrix(level, q, scale, mass, out, matrix),
+            (Some(kernel), None) => elements.add_force_with(level, kernel, q, rates.v, scale, out),
+            (Some(kernel), Some(mass)) => {
+                elements.add_force_and_matrix_with(level, kernel, q, rates, scale, mass, out, matrix);
+            }
+        }
+        let count = elements.count as u64;
+        if let Some(kernel) = kernel {
+            diagnostics.damping_evaluations += if kernel.damps() && !rates.v.is_empty() { count } else { 0 };
+            diagnostics.rest_shape_evaluations += if kernel.rests() { count } else { 0 };
+        }
+        if let Some(fluid) = fluid {
+            diagnostics.drag_evaluations += count;
+            match mass_scale {
+                None => fluid.add_force(level, time, q, rates.v, scale, out),
+                Some(_) => fluid.add_force_and_matrix(level, time, q, rates, scale, out, matrix),
+            }
+        }
+    }
+
     /// Work of a share of the point forces from the origin to `q`, in J; moments have none in general.
     pub fn load_work(&self, model: &Model, share: f64, q: &[f64]) -> f64 {
         let work = |load: &PointLoad| {
@@ -196,7 +290,7 @@ impl System {
         }
     }
 
-    /// Adds `scale` times gravity and point loads at `time` to `out`, and `scale` times their negative tangent if asked.
+    /// Adds `scale` times gravity, line and point loads at `time` to `out`, and `scale` times their negative tangent if asked.
     pub fn add_loads(
         &mut self,
         model: &Model,
@@ -207,7 +301,7 @@ impl System {
         tangent: bool,
         diagnostics: &mut Diagnostics,
     ) {
-        for (out, g) in out.iter_mut().zip(&self.gravity_force) {
+        for (out, g) in out.iter_mut().zip(&self.dead_force) {
             *out += scale * g;
         }
         for (load, &Located { element: e, position, slope: weights }) in model.loads.iter().zip(&self.located) {

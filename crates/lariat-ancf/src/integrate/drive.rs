@@ -115,6 +115,8 @@ pub fn advance(
             _ => proposal = (2.0 * proposal).min(regular),
         }
         accept(phase, scratch, matches!(stepper, Stepper::Alpha(_)));
+        scratch.next.time = phase.time;
+        system.accepted(&scratch.next, phase, h);
         counts.steps += 1;
         done += h;
         phase.time = end - (horizon - done);

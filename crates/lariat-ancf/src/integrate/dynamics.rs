@@ -80,6 +80,8 @@ pub trait Dynamics {
     /// Size of a position error in m.
     fn norm(&self, error: &[f64]) -> f64;
 
+    /// Called once for every step of length `h` (s) that was accepted, with the phases at both ends; accelerations are known in both.
+    fn accepted(&mut self, _before: &Phase, _after: &Phase, _h: f64) {}
     /// Told the phase at the beginning of a host step and after every step that is accepted; accelerations are valid then.
     fn reached(&mut self, _phase: &Phase) {}
 

@@ -9,7 +9,8 @@
 //!
 //! M is factored once; a step costs one force evaluation and one mass solve per drift. Symplectic, so energy errors stay
 //! bounded while h omega_max stays below [`Composition::stability_limit`]. *Source.* Hairer, Lubich & Wanner 2006, II and VI; Blanes &
-//! Casas 2016. *Validity.* Soft cables, conservative forces. *Rejected.* Error control: it destroys the symplectic structure.
+//! Casas 2016. *Validity.* Soft cables; drag, with order 2. Cables with internal damping are refused: it lowers the stability limit to
+//! h < 2/(tau omega_max^2), far below what a step here can be. *Rejected.* Error control: it destroys the symplectic structure.
 
 use super::dirk::add;
 use super::dynamics::Dynamics;

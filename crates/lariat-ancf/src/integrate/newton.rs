@@ -39,6 +39,10 @@ pub trait Linearised {
     fn increment(&mut self, fresh: bool) -> Result<Increment, StepFailure>;
     /// Adds this share of the increment to the iterate.
     fn apply(&mut self, share: f64);
+    /// Whether a fresh tangent is the exact derivative: without, fresh increments shrink linearly too.
+    fn exact(&self) -> bool {
+        true
+    }
     /// The failure that an increment that is not finite means.
     fn not_finite(&self) -> StepFailure;
 }
@@ -73,6 +77,7 @@ pub fn iterate(problem: &mut impl Linearised, tolerance: f64, once: bool, keep: 
         let left = match (iteration, chord) {
             (1, _) => size,
             (_, true) => size * (2.0 * ratio).min(1.0),
+            (_, false) if !problem.exact() => size * (2.0 * ratio).min(1.0),
             (_, false) => size * ratio * ratio,
         };
         if damp == 1.0 && (left.min(size) <= tolerance || once && chord && ratio <= ONCE_CONTRACTION) {

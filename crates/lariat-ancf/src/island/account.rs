@@ -10,6 +10,7 @@
 
 use super::system::Work;
 use super::workspace::vector;
+use crate::cable::Rates;
 use crate::integrate::Phase;
 use nalgebra::Vector3;
 
@@ -38,7 +39,8 @@ impl Work<'_, '_> {
         let mut rhs = core::mem::take(&mut self.workspace.rhs);
         let (q, v) = (&phase.q, &phase.v);
         // without a matrix nothing is factored, and nothing can fail
-        let rows = self.cable_rows(phase.time, 1.0, q, &phase.memory.acceleration, &mut rhs, false);
+        let rows =
+            self.cable_rows(phase.time, 1.0, q, Rates { v, rate: 0.0 }, &phase.memory.acceleration, &mut rhs, false);
         let half = match self.workspace.accounted {
             Some(before) => 0.5 * (phase.time - before),
             None => 0.0,

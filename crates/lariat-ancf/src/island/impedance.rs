@@ -1,16 +1,16 @@
 //! How a cable answers an impulse at its pins within one step: for engines that must be told before they step.
 //!
 //! ```text
-//! A = M + h^2 K        C = J A^-1 J^T        dv = -A^-1 J^T p,  dx = h dv
+//! A = M + h D + h^2 K        C = J A^-1 J^T        dv = -A^-1 J^T p,  dx = h dv
 //! ```
 //!
-//! J reads the pinned positions, *free* here. C (1/kg) is the velocity that a unit impulse makes at a pin over the step: the
+//! D is the damping of effects. J reads the pinned positions, *free* here. C (1/kg) is the velocity that a unit impulse makes at a pin over the step: the
 //! inverse of the mass that a body feels there. *Source.* One implicit Euler step of the cable, linearised. *Validity.* Short steps;
 //! it damps, so it decides only how a deviation from the prediction is shared, never the prediction itself. Under compression
 //! A may be indefinite, or nearly singular, and answer a small impulse with any velocity; then M counts twice, four times ...
 //! until half of it suffices.
 
-use crate::cable::{Cable, project_matrix, project_vector};
+use crate::cable::{Cable, Rates, project_matrix, project_vector};
 use crate::error::{Error, StepFailure};
 use crate::linalg::{Definiteness, Factorisation};
 use nalgebra::{DMatrix, Vector3};
@@ -79,7 +79,8 @@ impl Impedance {
     fn factor(&mut self, cable: &mut Cable, h: f64, inertia: f64) -> Result<bool, StepFailure> {
         let mut force = core::mem::take(&mut cable.system.product);
         let (mut equations, phase) = cable.equations();
-        equations.force_and_matrix(phase.time, &phase.q, h * h, inertia, &mut force);
+        let rates = Rates { v: &phase.v, rate: 1.0 / h };
+        equations.moving_force_and_matrix(phase.time, &phase.q, rates, h * h, inertia, &mut force);
         cable.system.product = force;
         let (model, system) = (&cable.model, &mut cable.system);
         project_matrix(model, &mut system.matrix);

@@ -36,7 +36,8 @@ pub use body::RigidBody;
 pub use impedance::Impedance;
 pub use memory::BodyMemory;
 
-use crate::cable::{At, Cable, SHORTEST_STEP};
+use crate::cable::{At, Cable, SHORTEST_STEP, check_integrator};
+use crate::effect::Account;
 use crate::error::{Error, require, require_finite};
 use crate::integrate::drive::{self, Counts};
 use crate::integrate::{Integrator, Phase, Scratch};
@@ -86,9 +87,11 @@ impl Island {
         require("dt (s)", dt, dt == 0.0 || dt >= SHORTEST_STEP, "0, or >= 1e-100")?;
         let integrator = integrator.checked()?;
         check(cables, bodies, pins)?;
+        cables.iter().try_for_each(|cable| check_integrator(&cable.model, integrator))?;
         if dt == 0.0 {
             return Ok(());
         }
+        cables.iter_mut().for_each(|cable| cable.system.account = Account::default());
         let Island { workspace, scratch, phase } = self;
         workspace.begin(cables, bodies, pins, dt);
         gather(cables, bodies, phase);
@@ -234,9 +237,13 @@ fn scatter(cables: &mut [&mut Cable], bodies: &mut [RigidBody], phase: &Phase, w
     for cable in cables.iter_mut() {
         let n = cable.positions().len();
         let own = &mut cable.state.phase;
+        let mut before = core::mem::take(&mut cable.system.rhs);
+        core::mem::swap(&mut before, &mut own.q);
         own.q.copy_from_slice(&phase.q[at..at + n]);
         own.v.copy_from_slice(&phase.v[at..at + n]);
         own.time = phase.time;
+        cable.settle(&before);
+        cable.system.rhs = before;
         cable.diagnostics_mut().host_steps += 1;
         at += n;
     }

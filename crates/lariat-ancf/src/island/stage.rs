@@ -3,6 +3,7 @@
 use super::rotation::{jacobian_inverse, jacobian_rate};
 use super::system::Work;
 use super::workspace::vector;
+use crate::cable::Rates;
 use crate::error::StepFailure;
 use crate::integrate::newton::{self, Increment, Linearised};
 use crate::integrate::{Dynamics, Phase, Stage};
@@ -40,7 +41,8 @@ impl Linearised for IslandStage<'_, '_, '_> {
         if fresh {
             work.workspace.factored = 0.0;
         }
-        work.cable_rows(stage.time, stage.c2, y, z, rhs, fresh)?;
+        let rates = Rates { v, rate: stage.rate };
+        work.cable_rows(stage.time, stage.c2, y, rates, z, rhs, fresh)?;
         if fresh {
             work.factor_bodies(false, y, v, rhs)?;
             work.workspace.factored = stage.c2;
@@ -72,6 +74,10 @@ impl Linearised for IslandStage<'_, '_, '_> {
             }
         }
         self.update();
+    }
+
+    fn exact(&self) -> bool {
+        self.work.cables.iter().all(|cable| cable.effects().exact_tangent())
     }
 
     fn not_finite(&self) -> StepFailure {
@@ -137,7 +143,7 @@ impl Dynamics for Work<'_, '_> {
         self.follow_acceleration(time, 1.0, q, v, k);
         self.factor_mass(q, v)?;
         let mut rhs = core::mem::take(&mut self.workspace.rhs);
-        let rows = self.cable_rows(time, 1.0, q, k, &mut rhs, false);
+        let rows = self.cable_rows(time, 1.0, q, Rates { v, rate: 0.0 }, k, &mut rhs, false);
         if rows.is_ok() {
             self.body_rows(1.0, q, v, k, &mut rhs);
             self.solve_rows(true, q, v, &mut rhs);
@@ -245,6 +251,14 @@ impl Dynamics for Work<'_, '_> {
 
     fn norm(&self, error: &[f64]) -> f64 {
         self.norm_of(error)
+    }
+
+    fn accepted(&mut self, before: &Phase, after: &Phase, h: f64) {
+        for c in 0..self.cables.len() {
+            let (mut equations, part) = self.equations(c);
+            let range = part.at..part.at + part.size;
+            equations.account_step(before, after, h, range);
+        }
     }
 
     fn reached(&mut self, phase: &Phase) {

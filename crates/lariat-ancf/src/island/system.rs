@@ -3,7 +3,7 @@
 use super::rotation::{angular_acceleration, skew};
 use super::workspace::{CableWork, Hold, Workspace, direction, vector};
 use super::{Pin, RigidBody};
-use crate::cable::{Cable, Equations, project_matrix, project_vector};
+use crate::cable::{Cable, Equations, Rates, project_matrix, project_vector};
 use crate::error::StepFailure;
 use crate::integrate::{Dynamics, Phase};
 use crate::support::SlopeSupport;
@@ -302,6 +302,7 @@ impl Work<'_, '_> {
         time: f64,
         scale: f64,
         q: &[f64],
+        rates: Rates<'_>,
         z: &[f64],
         rhs: &mut [f64],
         matrix: bool,
@@ -316,7 +317,8 @@ impl Work<'_, '_> {
             let range = work.at..work.at + work.size;
             let rows = &mut rhs[range.clone()];
             if matrix {
-                equations.force_and_matrix(time, &q[range.clone()], scale, 1.0, rows);
+                let rates = Rates { v: &rates.v[range.clone()], ..rates };
+                equations.moving_force_and_matrix(time, &q[range.clone()], rates, scale, 1.0, rows);
                 work.step.read(&equations.system.matrix, &work.holds);
                 outcome = equations.factor().map(|_| ());
                 if outcome.is_err() {
@@ -325,7 +327,7 @@ impl Work<'_, '_> {
                 let (level, model) = (equations.system.level, equations.model);
                 work.step.complete(level, &equations.system.factorisation, &work.holds, |x| project_vector(model, x));
             } else {
-                equations.force(time, &q[range.clone()], scale, rows);
+                equations.moving_force(time, &q[range.clone()], &rates.v[range.clone()], scale, rows);
             }
             equations.system.multiply_mass(&z[range.clone()], &mut product[range.clone()]);
             for (r, m) in rows.iter_mut().zip(&product[range]) {

@@ -8,6 +8,8 @@
 //! - `lay`: downhill from the shape that a new cable would have between the supports;
 //! - `relax`: dynamic relaxation, then downhill from there.
 //!
+//! In a flow there is nothing to go down: `drift` alone.
+//!
 //! A shape with folded elements is straightened once and goes downhill again; if it folds again it is not an answer.
 //! A stable shape is preferred, an unstable one is returned if no stable one is found. Iterations are bounded, each
 //! way and all together.
@@ -17,6 +19,7 @@
 //! (no branch is followed).
 
 mod descend;
+mod drift;
 mod folded;
 mod follow;
 mod lay;
@@ -24,7 +27,7 @@ mod potential;
 mod relax;
 mod scale;
 
-use crate::cable::{Cable, Model};
+use crate::cable::{Cable, Fluid, Model};
 use crate::error::{Error, StepFailure, require};
 use crate::integrate::Dynamics;
 use crate::support::SlopeSupport;
@@ -96,8 +99,8 @@ impl Default for Failure {
 }
 
 impl Cable {
-    /// Moves the cable to static equilibrium under gravity, its full point loads and its supports; velocities become
-    /// zero.
+    /// Moves the cable to static equilibrium under gravity, its full point loads, its effects and its supports; velocities become
+    /// zero. A flow is that of the cable's time.
     ///
     /// # Errors
     /// [`Error::NoEquilibrium`] if none is found; the cable is then as before. [`Error::InvalidShape`] for a cable with
@@ -120,7 +123,8 @@ impl Cable {
         if let Some(resultant) = unheld(&self.model) {
             return Err(no_equilibrium(self, "nothing holds the cable in place".to_string(), resultant, 0));
         }
-        let (before, revision) = (self.state.clone(), self.revision);
+        self.system.static_time = self.time();
+        let (before, revision, account) = (self.state.clone(), self.revision, self.state.account);
         let loads = self.model.loads.clone();
         // "time" runs from no load (0) to full load (1) while statics are solved
         self.model.loads.iter_mut().for_each(|load| (load.ramp, load.start) = (1.0, 0.0));
@@ -129,6 +133,8 @@ impl Cable {
         self.model.loads = loads;
         match outcome {
             Ok(report) => {
+                // what drag takes on the way to rest is no part of the cable's history
+                self.state.account = account;
                 self.still();
                 Ok(report)
             }
@@ -148,6 +154,9 @@ impl Cable {
 
     fn attempts(&mut self, budget: &mut Budget) -> Result<EquilibriumReport, Failure> {
         self.place_supports();
+        if self.system.fluid.as_ref().is_some_and(Fluid::flows) {
+            return self.drift(budget);
+        }
         let start = self.state.clone();
         let moments = self.model.loads.iter().any(|load| load.moment != Vector3::zeros());
         let pure = moments
@@ -224,9 +233,8 @@ impl Cable {
 /// The resultant of the loads in N that no support can take, if there is one: a force on a cable whose position
 /// nothing holds, or nothing but moments (over the length) on one that may turn about the one point that is held.
 fn unheld(model: &Model) -> Option<f64> {
-    let mass: f64 = model.elements.iter().map(|e| e.length * e.section.mass_per_length).sum();
-    let weight = mass * model.gravity;
-    let size = model.loads.iter().fold(weight.norm(), |sum, load| sum + load.force.norm());
+    let (weight, size) = model.dead_resultant();
+    let size = model.loads.iter().fold(size, |sum, load| sum + load.force.norm());
     let held = model.supports.iter().filter(|(_, support)| support.holds_position()).count();
     let turns = model.supports.iter().all(|(_, support)| support.slope == SlopeSupport::Free);
     let force = model.loads.iter().fold(weight, |sum, load| sum + load.force).norm();

@@ -29,6 +29,9 @@ pub(super) fn moment_work(model: &Model, from: &[f64], to: &[f64]) -> f64 {
 
 /// Potential energy in J, forces at a share `load`.
 pub(super) fn potential(equations: &Equations<'_>, load: f64, q: &[f64]) -> f64 {
-    let (axial, bending) = equations.system.elements.energy(q);
-    axial + bending - equations.system.gravity_work(q) - equations.system.load_work(equations.model, load, q)
+    let (axial, bending) = equations.system.strain_energy(q);
+    axial + bending
+        - equations.system.gravity_work(q)
+        - equations.system.line_work(q)
+        - equations.system.load_work(equations.model, load, q)
 }

@@ -29,7 +29,7 @@ impl LoadScale {
             .chunks_exact(6)
             .map(|x| 0.5 * (x[3] * x[3] + x[4] * x[4] + x[5] * x[5] - 1.0).abs())
             .fold(0.0f64, f64::max);
-        let outer = loads + mass * model.gravity.norm();
+        let outer = loads + model.dead_resultant().1;
         let force = if outer > 0.0 { outer } else { stiffest * strain.clamp(1e-9, 1.0) };
         let reach = q.chunks_exact(6).flat_map(|x| &x[..3]).fold(1.0f64, |m, x| m.max(x.abs()));
         let epsilon = f64::EPSILON * (1.0 + reach / shortest);

@@ -1,6 +1,7 @@
 //! Problems with reference, tolerance and source, and small tools, shared by the integration tests.
 #![allow(dead_code)] // each test binary uses a part
 
+pub mod beam;
 pub mod rod;
 
 use lariat_ancf::linalg::BlockTridiagonal;

@@ -1,6 +1,6 @@
 //! What a probe writes: the columns of its file and a row of numbers.
 //!
-//! `dissipated` is what effects take out of the scene: zero here. `interface_work` is the work that cables did so far on the bodies
+//! `dissipated` is what damping and drag took from the cables so far. `interface_work` is the work that cables did so far on the bodies
 //! they are held to, the part of a cable's energy that went there; `total` is what is there now, kinetic to gravity, with `"all"`
 //! that of dynamic bodies too. The gap of an attachment to the world is zero: it holds the cable point itself. Force and moment of
 //! an attachment are those on the body or the world; at t = 0 they are those of a cable whose bodies are still held.
@@ -46,7 +46,8 @@ pub(super) fn read(target: Target, world: &mut World, row: &mut Vec<f64>) -> Res
         Target::Energy(cable) => {
             let energy = world.energy(cable);
             let work = world.interface_work(cable)?;
-            row.extend([energy.kinetic, energy.axial, energy.bending, energy.gravity, 0.0, work, energy.total()]);
+            row.extend([energy.kinetic, energy.axial, energy.bending, energy.gravity]);
+            row.extend([world.dissipated(cable), work, energy.total()]);
         }
         Target::Momentum(cable) => {
             let momentum = world.momentum(cable);

@@ -61,7 +61,7 @@ impl Summary {
             newton_iterations: count(|d| d.newton_iterations) + world.static_iterations,
             factorisations: count(|d| d.factorisations),
             element_evaluations: count(|d| d.element_evaluations()),
-            effect_evaluations: BTreeMap::new(),
+            effect_evaluations: world.effect_evaluations(),
             max_gap_m: world.max_gap(),
             energy_start_j: finite(world.energy_start),
             energy_end_j: finite(world.energy(None).total()),

@@ -4,6 +4,7 @@ use crate::error::Error;
 use crate::physics::{BodyState, Physics};
 use crate::scene::{AttachmentScene, Engine, Purpose, Scene};
 use lariat_ancf::{At, Cable, Energy, Momentum, Reaction, Support, Vector3};
+use std::collections::BTreeMap;
 
 /// The cables and bodies of a scene in their present state.
 pub struct World {
@@ -168,6 +169,29 @@ impl World {
             sum.gravity += gravity;
         }
         sum
+    }
+
+    /// Energy in J that damping and drag took so far from a cable, or from all.
+    pub fn dissipated(&self, cable: Option<usize>) -> f64 {
+        self.chosen(cable).into_iter().map(|cable| cable.account().dissipated()).sum()
+    }
+
+    /// Evaluations by effect, summed over the cables that have it; of buoyancy none, it is in weight and mass.
+    pub fn effect_evaluations(&self) -> BTreeMap<String, u64> {
+        let mut counts = BTreeMap::new();
+        for cable in self.cables() {
+            let (effects, diagnostics) = (cable.effects(), cable.diagnostics());
+            for (name, on, count) in [
+                ("damping", effects.damping.is_some(), diagnostics.damping_evaluations),
+                ("drag", effects.drag.is_some(), diagnostics.drag_evaluations),
+                ("buoyancy", effects.buoyancy.is_some(), 0),
+            ] {
+                if on {
+                    *counts.entry(name.to_string()).or_insert(0) += count;
+                }
+            }
+        }
+        counts
     }
 
     /// Work in J that a cable, or all, did so far on the bodies they hold to.

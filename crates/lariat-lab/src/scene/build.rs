@@ -17,6 +17,7 @@ impl Scene {
             .elements(scene.elements)
             .section(scene.section)
             .rule(scene.rule)
+            .effects(scene.effects.clone())
             .allow_rank_deficient()
             .gravity(self.gravity)
             .velocity(scene.velocity)

@@ -1,10 +1,10 @@
 //! Ranges of a `[[cable]]`.
 
-use super::CableScene;
 use super::check::{missing, number, vector};
 use super::document::{Document, KeyPath};
 use super::table::{CableTable, IntegratorTable, SectionTable};
 use super::value::RuleValue;
+use super::{CableScene, check_effects};
 use crate::error::Error;
 use lariat_ancf::{Integrator, Method, Preset, Rule, Section, Shape, StepControl, Vector3};
 
@@ -29,14 +29,17 @@ pub(super) fn cable(doc: &Document<'_>, at: &KeyPath, table: CableTable) -> Resu
         return Err(doc.error(&at.key("elements"), format!("{elements} elements")));
     }
     let rule = rule(doc, &at.key("rule"), table.rule.as_ref(), table.allow_rank_deficient.unwrap_or(false))?;
+    let section = section(doc, at, &table)?;
+    let effects = check_effects::effects(doc, at, &table, &section, rule)?;
     let motion = |key: &str, value: Option<[f64; 3]>| vector(doc, &at.key(key), value.unwrap_or_default());
     Ok(CableScene {
         points,
         length,
         equilibrium,
         elements,
-        section: section(doc, at, &table)?,
+        section,
         rule,
+        effects,
         integrator: integrator(doc, &at.key("integrator"), table.integrator.as_ref())?,
         velocity: motion("velocity", table.velocity)?,
         angular_velocity: motion("angular_velocity", table.angular_velocity)?,
@@ -45,14 +48,8 @@ pub(super) fn cable(doc: &Document<'_>, at: &KeyPath, table: CableTable) -> Resu
 }
 
 fn refuse_effects(doc: &Document<'_>, at: &KeyPath, table: &CableTable) -> Result<(), Error> {
-    let effects = [
-        ("damping", table.damping.is_some()),
-        ("drag", table.drag.is_some()),
-        ("buoyancy", table.buoyancy.is_some()),
-        ("contact", table.contact.is_some()),
-        ("break", table.breaking.is_some()),
-        ("reel", table.reel.is_some()),
-    ];
+    let effects =
+        [("contact", table.contact.is_some()), ("break", table.breaking.is_some()), ("reel", table.reel.is_some())];
     match effects.iter().find(|(_, present)| *present) {
         Some((name, _)) => Err(doc.not_built(&at.key(name), format!("the effect {name:?}"))),
         None => Ok(()),

@@ -2,7 +2,7 @@
 //!
 //! Everything is checked before anything is written: an unknown key, a missing key, a value out of range or a reference to
 //! nothing is an error that names file, line, key and what is accepted. Parts of the format that this version does not compute
-//! (effects) are read and then refused by name, never ignored.
+//! (contact, breaking, reeling) are read and then refused by name, never ignored.
 //!
 //! Extensions of the format: `section = { tube = [outer, inner] }`; `allow_rank_deficient = true` runs a rule that leaves modes
 //! without energy (Table 1 needs G2-2); `integrator = { preset = ".." }`, `{ method, max_step }`, `{ method, stable }`; energy
@@ -39,6 +39,7 @@ mod build;
 mod check;
 mod check_body;
 mod check_cable;
+mod check_effects;
 mod check_hold;
 pub mod document;
 pub mod keys;
@@ -51,7 +52,7 @@ use crate::error::Error;
 use crate::physics::collider as physics_of;
 use body::BodyScene;
 use document::Document;
-use lariat_ancf::{Integrator, Preset, Rule, Section, Vector3};
+use lariat_ancf::{Effects, Integrator, Preset, Rule, Section, Vector3};
 use std::path::Path;
 use value::At;
 
@@ -119,6 +120,8 @@ pub struct CableScene {
     pub section: Section,
     /// Force strategy.
     pub rule: Rule,
+    /// Effects.
+    pub effects: Effects,
     /// Integrator, or a preset.
     pub integrator: Result<Integrator, Preset>,
     /// Initial velocity in m/s.

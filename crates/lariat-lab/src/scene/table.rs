@@ -170,6 +170,8 @@ pub struct DragTable {
     pub tangential: Option<f64>,
     /// Velocity of the fluid in m/s.
     pub flow: Option<[f64; 3]>,
+    /// Extension: diameter in m, for a cable without section shape.
+    pub diameter: Option<f64>,
 }
 
 /// `[cable.buoyancy]`.
@@ -180,6 +182,8 @@ pub struct BuoyancyTable {
     pub fluid_density: f64,
     /// Coefficient of added mass.
     pub added_mass: Option<f64>,
+    /// Extension: displaced area in m^2, for a cable without section shape.
+    pub area: Option<f64>,
 }
 
 /// `[cable.contact]`.

@@ -1,0 +1,37 @@
+//! A cable as it is serialised: its description and state; the rest is derived.
+
+use super::model::Model;
+use super::{Cable, State};
+use crate::diagnostics::Diagnostics;
+use crate::error::Error;
+use crate::integrate::Integrator;
+use serde::{Deserialize, Serialize};
+
+/// A cable as it is serialised.
+#[derive(Clone, Serialize, Deserialize)]
+#[serde(rename = "Cable")]
+pub(super) struct Saved {
+    model: Model,
+    state: State,
+    integrator: Integrator,
+    diagnostics: Diagnostics,
+    #[serde(default)]
+    revision: u64,
+}
+
+impl From<Cable> for Saved {
+    fn from(cable: Cable) -> Self {
+        let Cable { model, state, integrator, diagnostics, revision, .. } = cable;
+        Saved { model, state, integrator, diagnostics, revision }
+    }
+}
+
+impl TryFrom<Saved> for Cable {
+    type Error = Error;
+    fn try_from(saved: Saved) -> Result<Self, Error> {
+        let mut cable = Cable::from_parts(saved.model, saved.state, saved.integrator)?;
+        cable.diagnostics = saved.diagnostics;
+        cable.revision = saved.revision;
+        Ok(cable)
+    }
+}

@@ -1,0 +1,145 @@
+//! The velocity of a fluid as a function of place and time.
+//!
+//! ```text
+//! u(r, t) = U profile(up . r) history(t)
+//! ```
+//!
+//! profile and history are piecewise linear, constant beyond their first and last row. *Source.* The power law of wind
+//! (Hellmann 1916) and other profiles by tables. *Validity.* One direction; for a field that no product describes, set another flow
+//! between steps. *Rejected.* A function of the user's: it cannot be serialised, and a snapshot would not replay; powers and sines
+//! evaluated in the step: their last bits differ between machines.
+
+use crate::error::{Error, require, require_finite};
+use nalgebra::Vector3;
+use serde::{Deserialize, Serialize};
+
+/// Rows of a table built from a formula.
+const ROWS: usize = 65;
+
+/// A factor of the flow by height.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Profile {
+    /// Direction along which height is measured from the origin; of any length but zero.
+    pub up: Vector3<f64>,
+    /// Height in m and factor, heights ascending.
+    pub rows: Vec<[f64; 2]>,
+}
+
+/// The velocity of a fluid.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Flow {
+    /// Velocity in m/s where the factors are 1.
+    pub velocity: Vector3<f64>,
+    /// Change with height.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub profile: Option<Profile>,
+    /// Time in s and factor, times ascending; empty = constant in time.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub history: Vec<[f64; 2]>,
+}
+
+impl Flow {
+    /// The same velocity (m/s) everywhere and always; zero for a fluid at rest.
+    pub fn uniform(velocity: Vector3<f64>) -> Self {
+        Flow { velocity, ..Flow::default() }
+    }
+
+    /// Wind after the power law: `velocity` (m/s) at `reference` (m) above the origin along `up`, times (height/reference)^exponent, up to
+    /// `top` (m); none below the origin. A table of 64 pieces, denser near the ground.
+    pub fn power_law(velocity: Vector3<f64>, up: Vector3<f64>, reference: f64, exponent: f64, top: f64) -> Self {
+        let row = |i: usize| {
+            let height = top * (i as f64 / (ROWS - 1) as f64).powi(3);
+            [height, (height / reference).powf(exponent)]
+        };
+        Flow { velocity, profile: Some(Profile { up, rows: (0..ROWS).map(row).collect() }), history: Vec::new() }
+    }
+
+    /// The same flow with a factor in time: rows of time (s) and factor.
+    pub fn with_history(mut self, rows: impl IntoIterator<Item = [f64; 2]>) -> Self {
+        self.history = rows.into_iter().collect();
+        self
+    }
+
+    /// Velocity in m/s at a place and a time.
+    pub fn at(&self, time: f64, place: &Vector3<f64>) -> Vector3<f64> {
+        let velocity = self.in_time(time);
+        match &self.profile {
+            None => velocity,
+            Some(profile) => velocity * profile.factor(place),
+        }
+    }
+
+    /// Velocity where the profile is 1.
+    pub(crate) fn in_time(&self, time: f64) -> Vector3<f64> {
+        if self.history.is_empty() { self.velocity } else { self.velocity * interpolate(&self.history, time) }
+    }
+
+    pub(crate) fn check(&self) -> Result<(), Error> {
+        require_finite("flow (m/s)", &self.velocity)?;
+        if let Some(Profile { up, rows }) = &self.profile {
+            require_finite("up of a flow's profile", up)?;
+            require("length of up of a flow's profile", up.norm(), up.norm() > 0.0, "> 0")?;
+            check_rows("a flow's profile", rows)?;
+            require("rows of a flow's profile", rows.len() as f64, !rows.is_empty(), ">= 1")?;
+        }
+        check_rows("a flow's history", &self.history)
+    }
+}
+
+impl Profile {
+    pub(crate) fn factor(&self, place: &Vector3<f64>) -> f64 {
+        interpolate(&self.rows, place.dot(&self.up) / self.up.norm())
+    }
+}
+
+fn check_rows(what: &str, rows: &[[f64; 2]]) -> Result<(), Error> {
+    rows.iter().flatten().try_for_each(|&x| require(what, x, true, "a number"))?;
+    match rows.windows(2).find(|r| r[1][0] <= r[0][0]) {
+        None => Ok(()),
+        Some(r) => require(what, r[1][0], false, "above the row before it"),
+    }
+}
+
+/// Piecewise linear, constant outside; `rows` is not empty.
+fn interpolate(rows: &[[f64; 2]], x: f64) -> f64 {
+    let after = rows.partition_point(|row| row[0] <= x);
+    match (after.checked_sub(1).and_then(|i| rows.get(i)), rows.get(after)) {
+        (Some(a), Some(b)) => a[1] + (b[1] - a[1]) * ((x - a[0]) / (b[0] - a[0])),
+        (Some(only), None) | (None, Some(only)) => only[1],
+        (None, None) => 1.0,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_power_law_is_met_at_its_rows_and_between_them() {
+        let flow = Flow::power_law(Vector3::new(10.0, 0.0, 0.0), Vector3::new(0.0, 2.0, 0.0), 10.0, 0.14, 40.0);
+        for height in [1.0, 5.0, 10.0, 25.0] {
+            let u = flow.at(0.0, &Vector3::new(3.0, height, -1.0));
+            assert!((u.x - 10.0 * (height / 10.0f64).powf(0.14)).abs() < 5e-3, "{height}: {u}");
+        }
+        assert_eq!(flow.at(0.0, &Vector3::new(0.0, -1.0, 0.0)).x, 0.0);
+        assert_eq!(flow.at(0.0, &Vector3::new(0.0, 90.0, 0.0)), flow.at(0.0, &Vector3::new(0.0, 40.0, 0.0)));
+    }
+
+    #[test]
+    fn a_history_is_linear_between_its_rows_and_constant_outside() {
+        let flow = Flow::uniform(Vector3::new(0.0, 0.0, 2.0)).with_history([[1.0, 0.0], [3.0, 4.0]]);
+        let z = |t: f64| flow.at(t, &Vector3::zeros()).z;
+        assert_eq!([z(0.0), z(1.0), z(2.0), z(3.0), z(9.0)], [0.0, 0.0, 4.0, 8.0, 8.0]);
+    }
+
+    #[test]
+    fn tables_that_do_not_ascend_or_are_not_finite_are_refused() {
+        let flow = Flow::uniform(Vector3::x());
+        assert!(flow.check().is_ok());
+        assert!(flow.clone().with_history([[1.0, 0.0], [1.0, 4.0]]).check().is_err());
+        assert!(flow.clone().with_history([[1.0, f64::NAN]]).check().is_err());
+        let profile = Some(Profile { up: Vector3::zeros(), rows: vec![[0.0, 1.0]] });
+        assert!(Flow { profile, ..flow }.check().is_err());
+    }
+}

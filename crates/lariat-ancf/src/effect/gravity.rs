@@ -1,0 +1,23 @@
+//! Gravity, scaled for one cable.
+//!
+//! ```text
+//! w = scale (rhoA - rho_f A_d) g        force per unstretched length, N/m
+//! ```
+//!
+//! rho_f A_d is the displaced mass, zero without [`buoyancy`](super::buoyancy): the scale acts on what hydrostatics makes of
+//! gravity too, so that a scale of zero leaves neither weight nor lift. *Source.* Work of a constant force per length, integrated
+//! with Hermite's functions ([`load_weights`](crate::element::mass::load_weights)). *Validity.* Uniform gravity. It enters a constant
+//! vector: no work in a step.
+
+use serde::{Deserialize, Serialize};
+
+/// What gravity is multiplied by for one cable; default 1.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(transparent)]
+pub struct GravityScale(pub f64);
+
+impl Default for GravityScale {
+    fn default() -> Self {
+        GravityScale(1.0)
+    }
+}
