@@ -72,8 +72,12 @@ impl CableSet {
         Self::default()
     }
 
-    /// Adds a cable. If its gravity is the world's, or the builder's default, it follows the world's from now on; else it keeps its own.
-    pub fn insert(&mut self, cable: Cable) -> CableHandle {
+    /// Adds a cable; its clock is set to that of the others. If its gravity is the world's, or the builder's default, it follows the world's from now on; else it keeps its own.
+    pub fn insert(&mut self, mut cable: Cable) -> CableHandle {
+        if let Some(other) = self.cables.iter().flatten().next() {
+            // the time of a cable is always a number
+            let _ = cable.set_time(other.cable.time());
+        }
         let (start, end) = (cable.node_position(0), cable.node_position(cable.nodes() - 1));
         let first = [start.x, start.y, start.z, end.x, end.y, end.z, cable.length()];
         let falls = cable.gravity() == ::nalgebra::Vector3::new(0.0, -9.81, 0.0);

@@ -2,7 +2,7 @@
 
 use super::model::{Element, Model};
 use super::{At, Cable, State, layout};
-use crate::effect::Effects;
+use crate::effect::{Damping, Effects};
 use crate::error::{Error, require, require_finite};
 use crate::integrate::{Integrator, Preset};
 use crate::load::PointLoad;
@@ -169,6 +169,12 @@ impl CableBuilder {
     /// Effects beside inertia and elasticity. Default: none.
     pub fn effects(mut self, effects: Effects) -> Self {
         self.effects = effects;
+        self
+    }
+
+    /// Internal damping: the shorthand for its field of [`Effects`].
+    pub fn damping(mut self, damping: Damping) -> Self {
+        self.effects.damping = Some(damping);
         self
     }
 

@@ -1,6 +1,8 @@
 //! A cable at rest: whether it is, and time passing over it without a step.
 
 use super::Cable;
+use crate::error::{Error, require};
+use crate::support::SlopeSupport;
 use nalgebra::Vector3;
 
 impl Cable {
@@ -23,6 +25,26 @@ impl Cable {
         phase.v.fill(0.0);
         phase.memory.valid = false;
         phase.memory.step = 0.0;
+    }
+
+    /// Sets the clock to `time` (s); prescribed motions and the ramps of loads keep their distance from it.
+    ///
+    /// # Errors
+    /// [`Error::InvalidValue`] for a time that is not finite.
+    pub fn set_time(&mut self, time: f64) -> Result<(), Error> {
+        require("time (s)", time, true, "a number")?;
+        let later = time - self.time();
+        self.model.loads.iter_mut().for_each(|load| load.start += later);
+        for (_, support) in &mut self.model.supports {
+            let slope = match &mut support.slope {
+                SlopeSupport::Prescribed(motion) => Some(motion),
+                _ => None,
+            };
+            support.position.iter_mut().chain(slope).for_each(|motion| motion.start += later);
+        }
+        self.state.phase.time = time;
+        self.revise();
+        Ok(())
     }
 
     /// Force (N) and moment about the node (N m) of the cable on what holds `node`, at the present state and its known
