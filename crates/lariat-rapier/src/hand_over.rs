@@ -14,6 +14,8 @@ use rapier::pipeline::PhysicsWorld;
 const LEARNING: f64 = 0.3;
 /// A body landed where predicted if it is within this many units of `Real`'s rounding.
 const ROUNDING: f64 = 32.0;
+/// Rapier's default number of substeps, for which [`ROUNDING`] is meant.
+const SUBSTEPS: usize = 4;
 /// ... and its velocities within this many times more: Rapier adds up forces that balance.
 const VELOCITY_ROUNDING: f64 = 8.0;
 
@@ -90,15 +92,13 @@ pub(crate) fn fall_asleep(world: &mut PhysicsWorld, handle: RigidBodyHandle, giv
 }
 
 /// Restores what [`give`] put aside, and settles the body's state: as predicted if it landed there, else Rapier's position with
-/// the velocity that contacts and joints left of the predicted one. `impulse` and `couple` are what motors did to the body.
-/// Returns whether it deviated.
+/// the velocity that contacts and joints left of the predicted one. Returns whether it deviated.
 pub(crate) fn settle(
     world: &mut PhysicsWorld,
     handle: RigidBodyHandle,
     end: &RigidBody,
     given: &Given,
     memory: &mut Remembered,
-    (impulse, couple): (Vector3<f64>, Vector3<f64>),
     h: f64,
 ) -> bool {
     let body = &mut world.bodies[handle];
@@ -108,7 +108,9 @@ pub(crate) fn settle(
     let (after, spin_after) = (vector(body.linvel()), vector(body.angvel()));
     let deviation = after - before;
     let turn = spin_after - spin_before;
-    let epsilon = f64::from(Real::EPSILON) * ROUNDING;
+    // every substep rounds
+    let substeps = world.integration_parameters.num_solver_iterations.max(SUBSTEPS) as f64 / SUBSTEPS as f64;
+    let epsilon = f64::from(Real::EPSILON) * ROUNDING * substeps;
     let reach = vector(body.center_of_mass()).norm().max(1.0);
     let off = (vector(body.center_of_mass()) - end.position).norm();
     let attitude = (rotation(*body.rotation()).inverse() * end.rotation).angle();
@@ -129,8 +131,10 @@ pub(crate) fn settle(
     };
     let (velocity, spin) = (velocity * still.0, spin * still.1);
     let inertia = end.world_inertia(&end.rotation);
-    memory.force += LEARNING * (end.mass * deviation - impulse) / h;
-    memory.torque += LEARNING * (inertia * turn - couple) / h;
+    let moved = (vector(body.center_of_mass()) - end.position) / h;
+    let turned = (rotation(*body.rotation()) * end.rotation.inverse()).scaled_axis() / h;
+    memory.force += LEARNING * end.mass * (deviation + moved) / h;
+    memory.torque += LEARNING * inertia * (turn + turned) / h;
     body.set_linvel(to_vector(&velocity), false);
     body.set_angvel(to_vector(&spin), false);
     memory.exact = landed.then(|| Exact {

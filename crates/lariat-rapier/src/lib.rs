@@ -41,8 +41,8 @@
 //!    makes the body deviate, it feels the cable within the same step.
 //! 3. **Reconcile.** A body that landed where predicted keeps its predicted state in `f64`: Rapier's single precision never shakes a
 //!    stiff cable. For one that deviated, p, the motors' impulse, is read from the ledger; the cable gets it back,
-//!    `dv = -A^-1 J^T p`, `dx = h dv`; the reaction learns, `r += 0.3 (m (v_after - v0)/h - p/h)`; the gap that is left closes
-//!    during the next prediction.
+//!    `dv = -A^-1 J^T p`, `dx = h dv`; the reaction learns from what velocity and place deviate by,
+//!    `r += 0.3 m ((v_after - v0) + (x_after - x1)/h)/h`; the gap that is left closes during the next prediction.
 //!
 //! *Tried and failed* (measured by us before): explicit staggering (blows up for light bodies and steel), impulses of cable and free
 //! body (contacts break it), prescribing the body's motion with full debt (blows up), motors alone (gaps in jams), rolling Rapier

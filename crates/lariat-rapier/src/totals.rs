@@ -1,8 +1,7 @@
 //! Momentum and energy of cables and dynamic bodies together.
 
-use crate::body::Remembered;
-use crate::body::read;
-use crate::error::Error;
+use crate::Error;
+use crate::body::{Remembered, is_integrated, read};
 use crate::set::CableSet;
 use ::nalgebra::Vector3;
 use lariat_ancf::{Energy, Momentum};
@@ -72,8 +71,8 @@ impl CableSet {
         world: &PhysicsWorld,
     ) -> impl Iterator<Item = Result<(RigidBodyHandle, lariat_ancf::island::RigidBody), Error>> {
         let ledgers: Vec<RigidBodyHandle> = self.attachments().filter_map(|(_, a)| a.ledger.map(|l| l.body)).collect();
-        let counts = move |h| !ledgers.contains(&h) && crate::body::is_integrated(world, h);
-        world.bodies.iter().filter(move |(h, _)| counts(*h)).map(move |(handle, _)| {
+        let counts = move |handle: &RigidBodyHandle| is_integrated(world, *handle) && !ledgers.contains(handle);
+        world.bodies.iter().map(|(handle, _)| handle).filter(counts).map(move |handle| {
             let unknown = Remembered::new(handle);
             let memory = self.remembered(handle).unwrap_or(&unknown);
             Ok((handle, read(world, handle, memory, 0.0)?))

@@ -78,7 +78,7 @@ pub fn advance(
     let mut done = 0.0;
     while done < horizon {
         let (h, last) = fit(proposal, horizon - done, tolerance.is_some());
-        let newton = tolerance.map_or(FIXED_STEP_NEWTON, |t| NEWTON_SHARE * t * (h / horizon).min(1.0));
+        let newton = tolerance.map_or(FIXED_STEP_NEWTON, |t| NEWTON_SHARE * t * (h / horizon).clamp(LEAST_SHARE, 1.0));
         let outcome = one_step.step(system, phase, h, newton, scratch).and_then(|estimate| {
             finite(&scratch.next.q, "position")?;
             finite(&scratch.next.v, "velocity")?;

@@ -17,7 +17,7 @@ fn hoist(section: Section) {
     set.attach(&world, rope, At::Start, winch, Vector::ZERO, Pin::Ball).unwrap();
     set.attach(&world, rope, At::End, load, Vector::new(0.0, 0.1, 0.0), Pin::Ball).unwrap();
     let smooth = |t: Real| t.clamp(0.0, 1.0).powi(2) * (3.0 - 2.0 * t.clamp(0.0, 1.0));
-    let (mut jitter, mut widest, mut held) = (0.0 as Real, 0.0f64, Vec::new());
+    let (mut jitter, mut widest, mut held): (Real, f64, Vec<f64>) = (0.0, 0.0, Vec::new());
     for k in 0..1440 {
         let time = k as Real / 60.0;
         // 1 cm/s from 2 s on, until the rope is taut and the box in the air; 20 cm/s from 7 s on, none from 9 s on

@@ -2,10 +2,13 @@
 
 mod bench;
 mod changes;
+mod clamps;
 mod contact;
 mod hanging;
 mod hoist;
+mod joints;
 mod motion;
+mod nodes;
 mod payload;
 mod replay;
 mod spinning;
