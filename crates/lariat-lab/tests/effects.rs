@@ -96,7 +96,7 @@ cable = "line"
 at = 5.0
 "#;
     let (_, rows) = results("static", text, Purpose::Static);
-    let (w, f) = (0.2 * 9.81, 0.5 * 1000.0 * 0.01 * 1.2 * 0.25);
+    let (w, f): (f64, f64) = (0.2 * 9.81, 0.5 * 1000.0 * 0.01 * 1.2 * 0.25);
     let sine = (-w + (w * w + 4.0 * f * f).sqrt()) / (2.0 * f);
     let (sx, sy) = (rows[0][7], rows[0][8]);
     assert!((sx / (sx * sx + sy * sy).sqrt() - sine).abs() < 1e-4, "{sx} {sy} {sine}");

@@ -13,9 +13,9 @@
 //! makes no force to the last bit of g' = 0, and at rest nothing is left of it.
 //!
 //! *Source.* Garcia-Vallejo, Valverde & Dominguez, Nonlinear Dyn. 42 (2005) 347 (internal damping of ANCF beams by the rates of Green
-//! strain and of the scalar curvature). *Validity.* Damping ratio tau omega/2: it grows with frequency. e = 2.5e-13: a curvature that turns
-//! the cable by less than 1e-6 rad per element is not damped in bending, and of a bending vibration of curvature k about the straight
-//! line a share of about 2e-6/(k l) is missing. The scalar curvature sees a curvature that *turns about the axis* as no change: this is
+//! strain and of the scalar curvature). *Validity.* Damping ratio tau omega/2: it grows with frequency. e = 2.5e-12: a curvature that turns
+//! the cable by less than 3e-6 rad per element is not damped in bending, and of a bending vibration of curvature k about the straight
+//! line a share of about 6e-6/(k l) is missing. The scalar curvature sees a curvature that *turns about the axis* as no change: this is
 //! the cable that may spin freely in its own axis, which is what an element without twist is.
 //!
 //! *No choice.* A dissipation that is continuous, vanishes in every rigid motion and knows positions alone must vanish at the straight
@@ -23,7 +23,8 @@
 //! *Rejected.* The rate of the curvature vector: smooth at the straight cable, and a spinning bent cable heats up. Rayleigh damping by the
 //! mass matrix: it damps falling. *Tangent.* By velocity exact. By position the part that keeps the step matrix symmetric: geometric
 //! stiffness of the viscous stress (of bending: where it stiffens). What is left out, C (dg'/dq), lies in the range of C, so Newton loses
-//! one iteration and no stability; its symmetric half, taken in, makes stiff matrices indefinite.
+//! one iteration and no stability; its symmetric half, taken in, makes stiff matrices indefinite. Times far beyond the step on a stiff, nearly
+//! straight cable cost rejected steps: there the direction of the curvature, and with it C, turns within a step.
 
 use super::curvature::Point;
 use crate::Real;
@@ -34,7 +35,7 @@ use crate::error::{Error, require};
 use serde::{Deserialize, Serialize};
 
 /// Square of half the turn per element, in rad, below which bending is not damped.
-const LEAST_SQUARE: f64 = 2.5e-13;
+const LEAST_SQUARE: f64 = 2.5e-12;
 
 /// Kelvin-Voigt times: how long the rate of strain must last to double the stress.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]

@@ -101,7 +101,7 @@ impl NaturalCurvature<f64> {
         points.iter().map(|point| point.weight * (constant - 2.0 * self.target * root(point))).sum()
     }
 
-    /// S/S_0 - 1 turned round: the factor of EI kappa that is the moment, for a curvature in 1/m on an element of this length.
+    /// 1 - S_0/S: the factor of EI kappa that is the moment, for a curvature in 1/m on an element of this length.
     pub fn moment_factor(&self, curvature: f64, length: f64) -> f64 {
         let half = 0.5 * curvature * length;
         1.0 - self.target / (half * half + self.rounding).sqrt()
