@@ -28,7 +28,7 @@ pub(crate) fn give(
     h: f64,
 ) -> Given {
     let gravity = world.gravity;
-    let alone = impedance::is_alone(world, handle);
+    let (alone, linked) = (impedance::is_alone(world, handle), impedance::is_linked(world, handle));
     let body = &mut world.bodies[handle];
     let mass = end.mass as Real;
     let linvel = to_vector(&((end.position - vector(body.center_of_mass())) / h));
@@ -39,6 +39,7 @@ pub(crate) fn give(
         linvel,
         angvel,
         alone,
+        linked,
         rounding: (weight + memory.force.norm() / end.mass) * h,
         own_linvel: body.linvel(),
         own_angvel: body.angvel(),
@@ -92,13 +93,14 @@ pub(crate) fn fall_asleep(world: &mut PhysicsWorld, handle: RigidBodyHandle, giv
 }
 
 /// Restores what [`give`] put aside, and settles the body's state: as predicted if it landed there, else Rapier's position with
-/// the velocity that contacts and joints left of the predicted one. Returns whether it deviated.
+/// the velocity that contacts and joints left of the predicted one. `impulse` and `couple` are what motors did to it. Returns whether it deviated.
 pub(crate) fn settle(
     world: &mut PhysicsWorld,
     handle: RigidBodyHandle,
     end: &RigidBody,
     given: &Given,
     memory: &mut Remembered,
+    (impulse, couple): (Vector3<f64>, Vector3<f64>),
     h: f64,
 ) -> bool {
     let body = &mut world.bodies[handle];
@@ -133,8 +135,10 @@ pub(crate) fn settle(
     let inertia = end.world_inertia(&end.rotation);
     let moved = (vector(body.center_of_mass()) - end.position) / h;
     let turned = (rotation(*body.rotation()) * end.rotation.inverse()).scaled_axis() / h;
-    memory.force += LEARNING * end.mass * (deviation + moved) / h;
-    memory.torque += LEARNING * inertia * (turn + turned) / h;
+    // what motors did is not a reaction; but in a chain of joints they work against each other, and settle on a wrong force without
+    let (impulse, couple) = if given.linked { (Vector3::zeros(), Vector3::zeros()) } else { (impulse, couple) };
+    memory.force += LEARNING * (end.mass * (deviation + moved) - impulse) / h;
+    memory.torque += LEARNING * (inertia * (turn + turned) - couple) / h;
     body.set_linvel(to_vector(&velocity), false);
     body.set_angvel(to_vector(&spin), false);
     memory.exact = landed.then(|| Exact {

@@ -28,11 +28,15 @@ const AXES: [JointAxis; 3] = [JointAxis::LinX, JointAxis::LinY, JointAxis::LinZ]
 pub(crate) fn may_meet_something(world: &PhysicsWorld, handle: RigidBodyHandle) -> bool {
     let touches =
         world.bodies[handle].colliders().iter().any(|&c| world.narrow_phase.contact_pairs_with(c).next().is_some());
+    touches || is_linked(world, handle)
+}
+
+/// Whether a body is a link of a multibody, or joined to a dynamic body.
+pub(crate) fn is_linked(world: &PhysicsWorld, handle: RigidBodyHandle) -> bool {
     let dynamic = |b: RigidBodyHandle| {
         b != handle && world.bodies.get(b).is_some_and(|b| b.is_dynamic() && f64::from(b.mass()) < 0.5 * LEDGER_MASS)
     };
-    touches
-        || world.multibody_joints.rigid_body_link(handle).is_some()
+    world.multibody_joints.rigid_body_link(handle).is_some()
         || world.impulse_joints.attached_enabled_joints(handle).any(|(a, b, _, _)| dynamic(a) || dynamic(b))
 }
 

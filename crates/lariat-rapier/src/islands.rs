@@ -94,6 +94,8 @@ pub(crate) struct Given {
     pub angvel: AngVector,
     /// Whether it touches nothing and no joint holds it.
     pub alone: bool,
+    /// Whether it is a link of a multibody, or joined to a dynamic body.
+    pub linked: bool,
     /// Velocities in m/s that balancing its forces adds and takes within Rapier's step.
     pub rounding: f64,
     pub own_linvel: Vector,

@@ -59,7 +59,12 @@ impl CableSet {
                 continue;
             }
             let end = &island.bodies[b];
-            let deviated = hand_over::settle(world, *handle, end, given, self.remember(*handle), h);
+            let mut total = (Vector3::zeros(), Vector3::zeros());
+            for (pin, p) in island.pins.iter().zip(&island.impulses).filter(|(p, _)| p.body == b) {
+                total.0 += p;
+                total.1 += (end.rotation * pin.anchor).cross(p);
+            }
+            let deviated = hand_over::settle(world, *handle, end, given, self.remember(*handle), total, h);
             if !deviated {
                 for (_, p) in island.pins.iter().zip(&mut island.impulses).filter(|(p, _)| p.body == b) {
                     *p = Vector3::zeros();

@@ -14,3 +14,4 @@ mod payload;
 mod replay;
 mod sleep;
 mod spinning;
+mod split;

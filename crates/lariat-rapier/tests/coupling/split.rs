@@ -1,0 +1,59 @@
+//! How finely the host step is split: what still holds with Rapier's step unsplit, and with few solver iterations.
+
+use super::bench::{add_cube, cable, damping, gap, soft, tension, weightless, wire};
+use lariat_rapier::lariat_ancf::{At, Section, Vector3};
+use lariat_rapier::rapier::prelude::*;
+use lariat_rapier::{CableSet, Pin};
+
+/// A cube of `mass` wedged between posts, pulled to 5 kN and held: lowest and highest tension, widest gap.
+fn jam(section: Section, mass: Real, rapier_steps: u32, iterations: usize) -> (f64, f64, f64) {
+    let mut world = weightless();
+    world.integration_parameters.num_solver_iterations = iterations;
+    for y in [-0.35, 0.35] {
+        let post = RigidBodyBuilder::fixed().translation(Vector::new(-1.85, y, 0.0));
+        world.insert(post, ColliderBuilder::cuboid(0.1, 0.3, 1.0));
+    }
+    let load = add_cube(&mut world, mass, 0.1, [-2.1, 0.0, 0.0]);
+    let winch = world.insert_body(RigidBodyBuilder::kinematic_velocity_based());
+    let mut set = CableSet::new();
+    set.settings.rapier_steps = rapier_steps;
+    let rope = cable([0.0; 3], [-2.0, 0.0, 0.0], section).integrator(damping()).gravity(Vector3::zeros());
+    let rope = set.insert(rope.build().unwrap());
+    set.attach(&world, rope, At::Start, winch, Vector::ZERO, Pin::Ball).unwrap();
+    set.attach(&world, rope, At::End, load, Vector::new(0.1, 0.0, 0.0), Pin::Ball).unwrap();
+    let compliance = 2.0 / section.axial_stiffness + 3e-6 / f64::from(mass);
+    let (mut low, mut high, mut widest) = (f64::MAX, f64::MIN, 0.0f64);
+    for k in 0..720 {
+        let missing = (5e3 - tension(&set, rope, 1.0)) * compliance;
+        let speed = if k < 60 { 0.05 } else { (5.0 * missing).clamp(-0.05, 0.05) };
+        let speed = if k < 600 { speed } else { 0.0 };
+        world.bodies[winch].set_linvel(Vector::new(speed as Real, 0.0, 0.0), true);
+        set.step(&mut world).unwrap();
+        if k >= 600 {
+            let now = tension(&set, rope, 1.0);
+            (low, high, widest) = (low.min(now), high.max(now), widest.max(gap(&set)));
+        }
+    }
+    (low, high, widest)
+}
+
+/// Jams at 5 kN with the host step unsplit, and with one solver iteration in each of four: stable, the tension within 2 %, the gap
+/// below 1e-3 m.
+///
+/// *Source.* Statics.
+#[test]
+fn a_jam_holds_with_the_step_unsplit() {
+    for section in [soft(), wire()] {
+        for mass in [1.0, 100.0] {
+            for (steps, iterations) in [(1, 4), (4, 1)] {
+                let (low, high, widest) = jam(section, mass, steps, iterations);
+                let case = format!(
+                    "EA {:.1e} N, {mass} kg, {steps} steps of {iterations}: {low:.1} to {high:.1} N, gap {widest:.1e} m",
+                    section.axial_stiffness
+                );
+                println!("{case}");
+                assert!(low > 0.98 * 5e3 && high < 1.02 * 5e3 && widest < 1e-3, "{case}");
+            }
+        }
+    }
+}
