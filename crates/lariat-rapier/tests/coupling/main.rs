@@ -4,6 +4,7 @@ mod bench;
 mod changes;
 mod clamps;
 mod contact;
+mod draw;
 mod hanging;
 mod hoist;
 mod joints;
