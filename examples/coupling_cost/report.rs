@@ -71,7 +71,8 @@ pub fn head(command: &str, machine: &str) -> String {
          - **soft rope**: `SoftBodyBuilder::rope`, 11 particles of the cable's mass, the first pinned, the last attached with \
          `attach_particle`, no collider; once with the default material, once with edges of 1e6 Hz, what Rapier's joints have.\n\
          - **capsules**: 10 rigid links as thick and heavy as the cable, without contacts, with spherical joints: impulse joints or \
-         multibody joints. They have no stiffness to choose; what they stretch is the solver's error.\n\n\
+         multibody joints. They have no stiffness to choose; what they stretch is the solver's error. Nor can they \
+         stretch as the soft cable does: that is part of their error there.\n\n\
          World settings are Rapier's defaults but for the split.\n"
     )
 }
