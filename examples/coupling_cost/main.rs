@@ -102,7 +102,7 @@ fn main() -> Outcome<()> {
 
     let ways = makes();
     let mut out = report::head(COMMAND, &machine);
-    let centres = CENTRES.map(|c| Vector3::from(c));
+    let centres = CENTRES.map(Vector3::from);
     let (soft_fine, steel_fine) = (fine(&soft)?, fine(&steel)?);
     let off = report::distances(&soft_fine, &centres);
     write!(

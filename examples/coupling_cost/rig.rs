@@ -31,7 +31,7 @@ pub struct Split {
 
 enum Cables {
     None,
-    Lariat(CableSet, Vec<CableHandle>),
+    Lariat(Box<CableSet>, Vec<CableHandle>),
     Soft(Vec<SoftBodyHandle>),
     Capsules(Vec<Vec<RigidBodyHandle>>),
 }
@@ -84,7 +84,7 @@ impl Rig {
                     Ok(handle)
                 });
                 let handles = handles.collect::<Outcome<_>>()?;
-                Cables::Lariat(set, handles)
+                Cables::Lariat(Box::new(set), handles)
             }
             Make::SoftRope(frequency) => {
                 Cables::Soft(every.map(|i| peers::soft_rope(scene, &mut world, boxes[i], i, frequency)).collect())
