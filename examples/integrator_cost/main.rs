@@ -6,6 +6,8 @@
 //! is exact in time. Times are CPU time, the least of several runs, on one thread; what is timed is `Cable::step` and nothing else.
 
 mod kernels;
+#[path = "../common/machine.rs"]
+mod machine;
 mod measure;
 mod pendulum;
 mod readme;
@@ -14,7 +16,6 @@ mod steel;
 use measure::Row;
 use std::error::Error;
 use std::fmt::Write as _;
-use std::process::Command;
 
 type Outcome<T> = Result<T, Box<dyn Error>>;
 
@@ -24,34 +25,6 @@ const COMMAND: &str = "cargo run --release --example integrator_cost -- --out do
 /// Targets for the default integrator on the paper's pendulum: error in m, time in ms, and the time it is a share of.
 const TARGETS: [(f64, f64, &str); 3] = [(5.4e-4, 107.0, "1/25"), (4.0e-5, 349.0, "1/40"), (8.0e-6, 603.0, "1/50")];
 const SHARES: [f64; 3] = [25.0, 40.0, 50.0];
-
-fn first_line(program: &str, arguments: &[&str]) -> String {
-    let output = Command::new(program).args(arguments).output();
-    let text = output.map(|o| String::from_utf8_lossy(&o.stdout).into_owned()).unwrap_or_default();
-    text.lines().next().unwrap_or("unknown").to_string()
-}
-
-fn machine() -> String {
-    let cpuinfo = std::fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
-    let field = |name: &str| {
-        let line = cpuinfo.lines().find(|line| line.starts_with(name)).unwrap_or_default();
-        line.split_once(':').map_or("unknown", |(_, value)| value.trim()).to_string()
-    };
-    let flags = field("flags");
-    let simd = ["avx512f", "avx2", "sse4_2", "sse2"].into_iter().find(|f| flags.split(' ').any(|x| x == *f));
-    let cores = std::thread::available_parallelism().map_or(1, usize::from);
-    let load = std::fs::read_to_string("/proc/loadavg").unwrap_or_default();
-    let load = load.split(' ').next().unwrap_or("unknown").to_string();
-    let commit = first_line("git", &["rev-parse", "--short", "HEAD"]);
-    format!(
-        "Machine: {} ({} MHz), {cores} cores, {}; {}; commit {commit}; shared machine, load {load} at the start, so times are \
-         the least of several runs, and may still be some 10 % too long.",
-        field("model name"),
-        field("cpu MHz"),
-        simd.unwrap_or("SIMD unknown"),
-        first_line("rustc", &["--version"]),
-    )
-}
 
 /// Time at which a ladder of settings reaches an error: log-log between neighbours in the order given.
 fn time_at(rows: &[Row], error: f64) -> Option<f64> {
@@ -123,7 +96,7 @@ fn main() -> Outcome<()> {
             _ => return Err("usage: integrator_cost [--out FILE] [--readme FILE]".into()),
         }
     }
-    let machine = machine();
+    let machine = machine::line();
     let paper = pendulum::PAPER;
     let exact = pendulum::exact(&paper, 0.25)?;
     let proof = pendulum::proof(&exact)?;

@@ -51,6 +51,7 @@ impl OneStep for Composition {
         now: &Phase,
         h: f64,
         _: f64,
+        _: bool,
         scratch: &mut Scratch,
     ) -> Result<Option<f64>, StepFailure> {
         let Scratch { next, velocity_base, .. } = scratch;

@@ -39,6 +39,7 @@ impl OneStep for GeneralisedAlpha {
         now: &Phase,
         h: f64,
         newton_tolerance: f64,
+        wanted: bool,
         scratch: &mut Scratch,
     ) -> Result<Option<f64>, StepFailure> {
         let am = (2.0 * self.rho - 1.0) / (self.rho + 1.0);
@@ -70,6 +71,9 @@ impl OneStep for GeneralisedAlpha {
             next.memory.algorithmic[i] = share * acceleration[i] + (af * k[i] - am * a[i]) / (1.0 - am);
         }
         system.prescribe(now.time + h, &mut next.q, &mut next.v);
+        if !wanted {
+            return Ok(None);
+        }
         let constant = h * h * (beta - 1.0 / 6.0 + 0.5 * (am - af));
         for i in 0..error.len() {
             error[i] = constant * (acceleration[i] - k[i]);

@@ -145,7 +145,7 @@ pub trait OneStep {
     fn stages(&self) -> usize;
 
     /// Steps from `now` by `h` (s) into `scratch.next`, and returns the estimated position error of the step in m, if the
-    /// method has an estimate. `now.memory.acceleration` is valid on entry, that of `scratch.next` on return.
+    /// method has an estimate and it is `wanted`. `now.memory.acceleration` is valid on entry, that of `scratch.next` on return.
     ///
     /// # Errors
     /// As the stages and accelerations of `system`.
@@ -155,6 +155,7 @@ pub trait OneStep {
         now: &Phase,
         h: f64,
         newton_tolerance: f64,
+        wanted: bool,
         scratch: &mut Scratch,
     ) -> Result<Option<f64>, StepFailure>;
 }

@@ -12,7 +12,7 @@ pub enum StepControl {
     Tolerance(f64),
     /// This many equal steps per host step.
     Substeps(u32),
-    /// The fewest equal steps no longer than this, in s.
+    /// The fewest equal steps no longer than this, in s (by more than single precision: a host's own step may be so).
     MaxStep(f64),
     /// Explicit methods: the fewest equal steps within this share (0 to 1) of the stability limit.
     Stable(f64),

@@ -4,7 +4,7 @@ use super::account::PinAccount;
 use super::clamp::Clamp;
 use super::condense::Condensed;
 use super::dense::Dense;
-use super::rotation::jacobian;
+use super::rotation::{exponential, spin};
 use super::{Pin, RigidBody};
 use crate::cable::Cable;
 use crate::linalg::Factorisation;
@@ -148,14 +148,15 @@ impl Workspace {
         ((time - self.start) / self.duration).clamp(0.0, 1.0)
     }
 
-    /// Body `i` at chart coordinates `q` and rates `v`.
+    /// Body `i` at chart coordinates `q` and rates `v`. Inlined, so that callers pay only for what they use.
+    #[inline(always)]
     pub fn motion(&self, i: usize, q: &[f64], v: &[f64]) -> Motion {
         let theta = vector(&q[3..]);
         Motion {
             position: vector(q),
-            rotation: UnitQuaternion::from_scaled_axis(theta) * self.bodies[i].rotation,
+            rotation: exponential(&theta) * self.bodies[i].rotation,
             velocity: vector(v),
-            spin: jacobian(&theta) * vector(&v[3..]),
+            spin: spin(&theta, &vector(&v[3..])),
         }
     }
 
