@@ -12,6 +12,8 @@ use rapier::pipeline::PhysicsWorld;
 
 /// An anchor nearer than this to where it was, in m, has not moved.
 const STILL: f64 = 1e-12;
+/// A gap closes no faster than this in m/s.
+const CLOSING_SPEED: f64 = 10.0;
 
 /// Place and attitude of a body now.
 fn pose(world: &PhysicsWorld, body: RigidBodyHandle) -> (Vector3<f64>, UnitQuaternion<f64>) {
@@ -68,10 +70,14 @@ impl CableSet {
             let ((place, attitude), (to, turned)) = (pose(world, a.body), pose_after(world, a.body, h));
             let (start, end) = (place + attitude * a.anchor, to + turned * a.anchor);
             let from = cable.node_position(a.node);
+            // after a teleport the cable must live through it
+            let behind = from - start;
+            let left = (1.0 - CLOSING_SPEED * h / (1.5 * behind.norm()).max(f64::MIN_POSITIVE)).max(0.0);
+            let end = end + behind * left;
             let motion = if start == end && from == end {
                 Motion::fixed(end)
             } else {
-                let velocity = (end - start) / h;
+                let velocity = (to + turned * a.anchor - start) / h;
                 Motion::hermite(cable.time(), h, (from, velocity), (end, velocity))
             };
             if cable.support(At::Node(a.node))?.position != Some(motion) {

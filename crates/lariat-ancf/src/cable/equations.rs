@@ -78,11 +78,25 @@ impl Equations<'_> {
         self.system.add_loads(self.model, time, q, scale, out, true, self.diagnostics);
     }
 
-    /// Projects and factors the step matrix.
+    /// Projects and factors the step matrix, and tells whether it is positive definite.
     pub fn factor(&mut self) -> Result<Definiteness, StepFailure> {
+        self.factor_with(true)
+    }
+
+    /// Projects and factors the step matrix.
+    pub fn factor_to_solve(&mut self) -> Result<(), StepFailure> {
+        self.factor_with(false).map(|_| ())
+    }
+
+    fn factor_with(&mut self, count: bool) -> Result<Definiteness, StepFailure> {
         project_matrix(self.model, &mut self.system.matrix);
         self.diagnostics.factorisations += 1;
-        let kind = self.system.factorisation.factor(self.system.level, &self.system.matrix)?;
+        let (level, system) = (self.system.level, &mut *self.system);
+        let kind = if count {
+            system.factorisation.factor(level, &system.matrix)?
+        } else {
+            system.factorisation.factor_to_solve(level, &system.matrix)?
+        };
         if !matches!(kind, Definiteness::PositiveDefinite) {
             self.diagnostics.indefinite_factorisations += 1;
         }
@@ -154,7 +168,7 @@ impl Linearised for CableStage<'_, '_> {
         equations.residual(self.stage, self.y, self.v, self.z, self.rhs, self.product, fresh);
         if fresh {
             equations.system.factored = 0.0;
-            equations.factor()?;
+            equations.factor_to_solve()?;
             equations.system.factored = self.stage.c2;
         }
         equations.solve(self.rhs);

@@ -32,8 +32,12 @@ impl Work<'_, '_> {
     }
 
     /// What a rotation of the body about its centre moves: `turn x arm` is the change of the held vector.
-    pub(super) fn arm(&self, hold: &Hold, q: &[f64], v: &[f64]) -> Vector3<f64> {
-        if hold.slope { vector(&q[hold.at..]) } else { self.lever(hold.pin, q, v).1 }
+    pub(super) fn arm(&self, hold: &Hold, q: &[f64]) -> Vector3<f64> {
+        if hold.slope {
+            return vector(&q[hold.at..]);
+        }
+        let pin = &self.pins[hold.pin];
+        self.workspace.attitude(pin.body, &q[self.body_at(pin.body)..]) * pin.anchor
     }
 
     fn direction(&self, pin: usize, time: f64, motion: &Motion) -> Option<Direction> {

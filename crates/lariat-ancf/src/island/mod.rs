@@ -8,7 +8,7 @@
 //! r = x + rho + gap (1 - 3 s^2 + 2 s^3),   rho = R a        r'' = x'' + omega' x rho + omega x (omega x rho) + gap'' ...
 //! ```
 //!
-//! where `gap` is what pin and node were apart when the step began and s its elapsed share (`kinematics`, for clamps too). Virtual work carries the cable's
+//! where `gap` is what pin and node were apart when the step began (of a wide one the part that closes at 10 m/s) and s its elapsed share (`kinematics`, for clamps too). Virtual work carries the cable's
 //! residual to the body: force f_p and torque rho x f_p. So no multiplier, no penalty, and no drift. In Newton's iteration each
 //! cable is condensed on its pins (`condense`), the bodies are solved together (`dense`), and the cables follow; the tangent
 //! includes the geometric stiffness of the lever, `-[f_p]x [rho]x`, without which light bodies on taut cables converge badly.

@@ -48,7 +48,7 @@ impl Linearised for IslandStage<'_, '_, '_> {
             work.workspace.factored = stage.c2;
         }
         work.body_rows(stage.c2, y, v, z, rhs);
-        work.solve_rows(false, y, v, rhs);
+        work.solve_rows(false, y, rhs);
         let mut size = Increment { displacement: work.norm_of(rhs), rotation: 0.0 };
         for (cable, part) in work.cables.iter().zip(&work.workspace.cables) {
             let (_, slope) = cable.system.extent(&rhs[part.at..part.at + part.size]);
@@ -146,7 +146,7 @@ impl Dynamics for Work<'_, '_> {
         let rows = self.cable_rows(time, 1.0, q, Rates { v, rate: 0.0 }, k, &mut rhs, false);
         if rows.is_ok() {
             self.body_rows(1.0, q, v, k, &mut rhs);
-            self.solve_rows(true, q, v, &mut rhs);
+            self.solve_rows(true, q, &mut rhs);
         }
         for i in 0..self.workspace.bodies_at {
             k[i] += rhs[i];
@@ -242,8 +242,8 @@ impl Dynamics for Work<'_, '_> {
         }
         // attitudes at the start of the step are near enough for a filter
         let zero = core::mem::take(&mut self.workspace.zero);
-        self.pass_pinned_rows(&zero, &zero, &mut rhs);
-        self.solve_rows(false, &zero, &zero, &mut rhs);
+        self.pass_pinned_rows(&zero, &mut rhs);
+        self.solve_rows(false, &zero, &mut rhs);
         error.copy_from_slice(&rhs);
         self.workspace.zero = zero;
         self.workspace.rhs = rhs;

@@ -46,14 +46,14 @@ impl Work<'_, '_> {
             rhs[at..at + 3].copy_from_slice(force.as_slice());
             rhs[at + 3..at + 6].copy_from_slice(torque.as_slice());
         }
-        self.pass_pinned_rows(q, v, rhs);
+        self.pass_pinned_rows(q, rhs);
     }
 
     /// Adds the rows of held coordinates to those of their bodies, as force and moment.
-    pub(super) fn pass_pinned_rows(&self, q: &[f64], v: &[f64], rhs: &mut [f64]) {
+    pub(super) fn pass_pinned_rows(&self, q: &[f64], rhs: &mut [f64]) {
         for hold in self.workspace.cables.iter().flat_map(|work| &work.holds) {
             let passed = vector(&rhs[hold.at..]);
-            self.pass(hold, &passed, &self.arm(hold, q, v), rhs);
+            self.pass(hold, &passed, &self.arm(hold, q), rhs);
         }
     }
 
@@ -132,8 +132,8 @@ impl Work<'_, '_> {
             let range = part.at..part.at + part.size;
             cable.system.multiply_mass(&jump[range.clone()], &mut rhs[range]);
         }
-        self.pass_pinned_rows(q, v, &mut rhs);
-        self.solve_rows(true, q, v, &mut rhs);
+        self.pass_pinned_rows(q, &mut rhs);
+        self.solve_rows(true, q, &mut rhs);
         // the chart is at its origin: rates of the rotation vector are angular velocities
         for (v, change) in v.iter_mut().zip(&rhs) {
             *v += change;
@@ -164,7 +164,7 @@ impl Work<'_, '_> {
             let w = if mass { &work.mass.w } else { &work.step.w };
             let count = 3 * work.holds.len();
             for (a, hold) in work.holds.iter().enumerate() {
-                let (arm, body) = (self.arm(hold, q, v), 6 * self.pins[hold.pin].body);
+                let (arm, body) = (self.arm(hold, q), 6 * self.pins[hold.pin].body);
                 if !mass {
                     let geometric = -skew(&vector(&rhs[hold.at..])) * skew(&arm);
                     let symmetric = (geometric + geometric.transpose()) * 0.5;
@@ -175,7 +175,7 @@ impl Work<'_, '_> {
                 let ga = -skew(&arm);
                 for (b, other) in work.holds.iter().enumerate() {
                     let block = Matrix3::from_fn(|r, c| w[(3 * a + r) * count + 3 * b + c]);
-                    let gb = -skew(&self.arm(other, q, v));
+                    let gb = -skew(&self.arm(other, q));
                     let second = 6 * self.pins[other.pin].body;
                     let turned = block * gb;
                     for (r, c) in pairs(3) {
@@ -209,7 +209,7 @@ impl Work<'_, '_> {
     }
 
     /// Solves for increments in place: rows in, increments out (pinned positions and spins of the bodies included).
-    pub(super) fn solve_rows(&mut self, mass: bool, q: &[f64], v: &[f64], rhs: &mut [f64]) {
+    pub(super) fn solve_rows(&mut self, mass: bool, q: &[f64], rhs: &mut [f64]) {
         for c in 0..self.cables.len() {
             let work = &self.workspace.cables[c];
             let cable = &mut *self.cables[c];
@@ -233,7 +233,7 @@ impl Work<'_, '_> {
             for (h, hold) in work.holds.iter().enumerate() {
                 let rows = &rhs[work.at..work.at + work.size];
                 let passed = Vector3::from_fn(|x, _| -condensed.border(3 * h + x, rows));
-                self.pass(hold, &passed, &self.arm(hold, q, v), rhs);
+                self.pass(hold, &passed, &self.arm(hold, q), rhs);
             }
         }
         let at = self.workspace.bodies_at;
@@ -249,7 +249,7 @@ impl Work<'_, '_> {
                 if mass { (&work.mass, &work.mass_directions) } else { (&work.step, &work.step_directions) };
             let displacement = |hold: &Hold, rhs: &[f64]| {
                 let at = self.body_at(self.pins[hold.pin].body);
-                let turned = vector(&rhs[at + 3..]).cross(&self.arm(hold, q, v));
+                let turned = vector(&rhs[at + 3..]).cross(&self.arm(hold, q));
                 if hold.slope { turned } else { vector(&rhs[at..]) + turned }
             };
             for (h, hold) in work.holds.iter().enumerate() {
@@ -320,7 +320,7 @@ impl Work<'_, '_> {
                 let rates = Rates { v: &rates.v[range.clone()], ..rates };
                 equations.moving_force_and_matrix(time, &q[range.clone()], rates, scale, 1.0, rows);
                 work.step.read(&equations.system.matrix, &work.holds);
-                outcome = equations.factor().map(|_| ());
+                outcome = equations.factor_to_solve();
                 if outcome.is_err() {
                     break;
                 }

@@ -22,6 +22,8 @@ pub(crate) struct Hold {
 
 /// Gaps below this in m are rounding.
 const LEAST_GAP: f64 = 1e-12;
+/// A gap closes no faster than this in m/s: after a teleport the cable must live through it.
+const CLOSING_SPEED: f64 = 10.0;
 /// A slope shorter than this has no direction.
 const LEAST_SLOPE: f64 = 1e-9;
 
@@ -59,7 +61,9 @@ pub(crate) struct Workspace {
     pub levers: Vec<f64>,
     /// Zeros, as many as coordinates.
     pub zero: Vec<f64>,
+    /// By pin, what of the gap closes in this step, and what is left.
     pub gaps: Vec<Vector3<f64>>,
+    pub left: Vec<Vector3<f64>>,
     /// By pin, its direction if it is a clamp.
     pub clamps: Vec<Option<Clamp>>,
     /// By pin, what passed in this step.
@@ -114,6 +118,7 @@ impl Workspace {
         self.levers.clear();
         self.levers.resize(bodies.len(), 0.0);
         self.gaps.clear();
+        self.left.clear();
         self.clamps.clear();
         self.accounts.clear();
         self.accounts.resize(pins.len(), PinAccount::default());
@@ -121,7 +126,10 @@ impl Workspace {
         for pin in pins {
             let (cable, body) = (&cables[pin.cable], &bodies[pin.body]);
             let gap = cable.node_position(pin.node) - body.point(&pin.anchor);
-            self.gaps.push(if gap.amax() < LEAST_GAP { Vector3::zeros() } else { gap });
+            let gap = if gap.amax() < LEAST_GAP { Vector3::zeros() } else { gap };
+            let share = (CLOSING_SPEED * dt / (1.5 * gap.norm()).max(LEAST_GAP)).min(1.0);
+            self.gaps.push(gap * share);
+            self.left.push(gap * (1.0 - share));
             self.levers[pin.body] = self.levers[pin.body].max(pin.anchor.norm());
             self.clamps.push(pin.direction.map(|wanted| {
                 let slope = body.rotation.inverse() * vector(&cable.positions()[6 * pin.node + 3..]);
@@ -140,12 +148,18 @@ impl Workspace {
 
     /// Whether no pin has a gap to close and no clamp has to turn.
     pub fn closed(&self) -> bool {
-        self.gaps.iter().all(|gap| *gap == Vector3::zeros()) && self.clamps.iter().flatten().all(Clamp::settled)
+        self.gaps.iter().chain(&self.left).all(|gap| *gap == Vector3::zeros())
+            && self.clamps.iter().flatten().all(Clamp::settled)
     }
 
     /// Elapsed share of the step.
     pub fn elapsed(&self, time: f64) -> f64 {
         ((time - self.start) / self.duration).clamp(0.0, 1.0)
+    }
+
+    /// Attitude of body `i` at chart coordinates `q`.
+    pub fn attitude(&self, i: usize, q: &[f64]) -> UnitQuaternion<f64> {
+        exponential(&vector(&q[3..])) * self.bodies[i].rotation
     }
 
     /// Body `i` at chart coordinates `q` and rates `v`. Inlined, so that callers pay only for what they use.
@@ -163,7 +177,8 @@ impl Workspace {
     pub fn gap(&self, pin: usize, time: f64) -> (Vector3<f64>, Vector3<f64>) {
         // a cubic with zero rate at both ends: a jump of velocity would strike the cable
         let s = self.elapsed(time);
-        (self.gaps[pin] * (1.0 - s * s * (3.0 - 2.0 * s)), self.gaps[pin] * (-6.0 * s * (1.0 - s) / self.duration))
+        let open = self.left[pin] + self.gaps[pin] * (1.0 - s * s * (3.0 - 2.0 * s));
+        (open, self.gaps[pin] * (-6.0 * s * (1.0 - s) / self.duration))
     }
 
     pub fn closing_acceleration(&self, pin: usize, time: f64) -> Vector3<f64> {

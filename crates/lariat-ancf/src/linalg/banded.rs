@@ -109,7 +109,12 @@ fn substitute(columns: &[Column], exchanged: &[usize], x: &mut [f64]) {
 
 impl Banded {
     /// Factors and judges the matrix.
-    pub(super) fn factor(&mut self, level: Level, a: &BlockTridiagonal) -> Result<Definiteness, SingularMatrix> {
+    pub(super) fn factor(
+        &mut self,
+        level: Level,
+        a: &BlockTridiagonal,
+        count: bool,
+    ) -> Result<Definiteness, SingularMatrix> {
         check_finite(a)?;
         equilibrate(a, &mut self.scale, &mut self.exponents, &mut self.largest)?;
         let (largest, norm) = self.assemble(a);
@@ -136,6 +141,9 @@ impl Banded {
         }
         if growth > LARGEST_GROWTH * largest {
             return error(Reason::Growth);
+        }
+        if !count {
+            return Ok(Definiteness::Indefinite { negative: None });
         }
         // the estimate is a lower bound, rarely off by more than a factor of three
         let smallest = 1.0 / (3.0 * inverse_norm);

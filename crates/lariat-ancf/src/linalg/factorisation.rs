@@ -55,6 +55,19 @@ impl Factorisation {
     /// # Panics
     /// If the numbers of diagonal and lower blocks do not match.
     pub fn factor(&mut self, level: Level, a: &BlockTridiagonal) -> Result<Definiteness, SingularMatrix> {
+        self.factor_with(level, a, true)
+    }
+
+    /// [`factor`](Self::factor) for who only wants to solve: negative eigenvalues are not counted (a matrix that is positive
+    /// definite but for rounding may then be called indefinite). The same factors.
+    ///
+    /// # Errors
+    /// As [`factor`](Self::factor).
+    pub fn factor_to_solve(&mut self, level: Level, a: &BlockTridiagonal) -> Result<Definiteness, SingularMatrix> {
+        self.factor_with(level, a, false)
+    }
+
+    fn factor_with(&mut self, level: Level, a: &BlockTridiagonal, count: bool) -> Result<Definiteness, SingularMatrix> {
         a.check();
         self.state = State::Empty;
         self.nodes.resize(a.nodes(), Node::ZERO);
@@ -63,7 +76,7 @@ impl Factorisation {
             self.state = State::Twisted;
             return Ok(Definiteness::PositiveDefinite);
         }
-        let definiteness = self.banded.factor(level, a)?;
+        let definiteness = self.banded.factor(level, a, count)?;
         self.state = State::Banded(definiteness);
         Ok(definiteness)
     }
