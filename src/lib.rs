@@ -30,7 +30,8 @@
 //! # }
 //! ```
 //!
-//! The crate re-exports [`lariat_ancf`], the mechanics, which knows no engine. Units are SI throughout, numbers are `f64`.
+//! The crate re-exports [`lariat_ancf`], the mechanics, which knows no engine; with feature `rapier` also the coupling to rapier3d, as
+//! `lariat::coupling`. Units are SI throughout, numbers are `f64`.
 //!
 //! | to | look at |
 //! |---|---|
@@ -49,6 +50,9 @@ pub use lariat_ancf as ancf;
 pub use lariat_ancf::integrate::NewtonMode;
 #[doc(inline)]
 pub use lariat_ancf::*;
+#[cfg(feature = "rapier")]
+#[doc(no_inline)]
+pub use lariat_rapier as coupling;
 
 /// The README's example compiles and runs.
 #[cfg(doctest)]

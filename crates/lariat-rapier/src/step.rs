@@ -70,7 +70,7 @@ impl CableSet {
     }
 
     /// Before a Rapier step of `world.integration_parameters.dt`: integrates cables and their bodies, and hands the motion over.
-    /// For those who own the loop; follow with Rapier's step and [`reconcile`](Self::reconcile).
+    /// A tolerance counts for this step. For those who own the loop; follow with Rapier's step and [`reconcile`](Self::reconcile).
     ///
     /// # Errors
     /// As [`step`](Self::step).

@@ -60,7 +60,7 @@ fn a_jammed_cube_holds_what_the_winch_pulls() {
 /// A cube of 20 kg on the ground, friction 0.5; the winch stretches the rope by one newton per frame. The cube holds until the pull
 /// is mu m g, then slides at it.
 ///
-/// *Source.* Coulomb: 98.10 N, within 5 %.
+/// *Source.* Coulomb: 98.10 N, within 2 %.
 #[test]
 fn a_cube_starts_to_slide_when_the_pull_is_friction_times_weight() {
     let grip = 0.5 * 20.0 * 9.81;
@@ -96,7 +96,7 @@ fn a_cube_starts_to_slide_when_the_pull_is_friction_times_weight() {
             "friction EA {:.1e}: peak {peak:.2} N, crept {crept:.1e} m, slid {slid:.1e} of {wound:.1e} m",
             section.axial_stiffness
         );
-        assert!(peak > 0.95 * grip && peak < 1.05 * grip, "peak {peak} N of {grip}");
+        assert!(peak > 0.98 * grip && peak < 1.02 * grip, "peak {peak} N of {grip}");
         assert!(crept < 0.05 * wound, "crept {crept:.1e} m of {wound:.1e}");
         assert!((slid / wound - 0.67).abs() < 0.1, "slid {slid:.1e} m of {wound:.1e}");
     }

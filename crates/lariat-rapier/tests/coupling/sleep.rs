@@ -79,7 +79,8 @@ fn a_resting_load_sleeps_wakes_and_sleeps_higher() {
 /// *Source.* The contract.
 #[test]
 fn whatever_stirs_it_wakes_it() {
-    let stirs: [(&str, fn(&mut Hoist)); 6] = [
+    type Stir = fn(&mut Hoist);
+    let stirs: [(&str, Stir); 6] = [
         ("force", |h| h.world.bodies[h.load].add_force(Vector::new(5.0, 0.0, 0.0), true)),
         ("impulse", |h| h.world.bodies[h.load].apply_impulse(Vector::new(1.0, 0.0, 0.0), true)),
         ("load on the cable", |h| {
