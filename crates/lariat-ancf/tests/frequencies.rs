@@ -329,3 +329,24 @@ fn unstable_and_indifferent_shapes_are_reported_as_not_stable() {
     let mut free = rod(1.0, 1.0, reference_section(), 8, Rule::default()).fix(At::Start).build().unwrap();
     assert!(!free.equilibrium().unwrap().stable);
 }
+
+/// All frequencies of a cantilever of 1 m in space at once: the lowest are its first three bending modes, each in two planes; and a ratio
+/// given to one of them is the one it decays with.
+///
+/// *Source.* Euler-Bernoulli: (1.87510, 4.69409, 7.85476)^2 sqrt(EI/(mu L^4)).
+#[test]
+fn a_cantilever_has_its_frequencies_in_both_planes() {
+    let section = Section::round(0.01, 1e9, 1000.0).unwrap();
+    let mut cable = rod(1.0, 1.0, section, 12, rule("projected-3")).clamp(At::Start).build().unwrap();
+    let all = cable.natural_frequencies();
+    assert_eq!(all.len(), cable.positions().len() - 5, "a clamp holds a position and a direction");
+    let unit = (section.bending_stiffness / section.mass_per_length).sqrt();
+    for (k, beta) in [1.87510f64, 4.69409, 7.85476].into_iter().enumerate() {
+        for plane in 0..2 {
+            let (found, expected) = (all[2 * k + plane], beta * beta * unit);
+            assert!((found / expected - 1.0).abs() < 2e-3, "mode {k}, plane {plane}: {found} rad/s, {expected}");
+        }
+    }
+    let damping = lariat_ancf::Damping::from_ratio(0.05, all[2]).unwrap();
+    assert!((damping.bending_ratio(all[2]) - 0.05).abs() < 1e-12);
+}

@@ -4,6 +4,7 @@ use super::Cable;
 use super::kernel_effects::Rates;
 use super::projection::project_matrix;
 use crate::linalg::BlockTridiagonal;
+use nalgebra::DMatrix;
 
 impl Cable {
     /// Consistent mass matrix over all coordinates (kg, kg m, kg m^2); supports are not applied.
@@ -64,4 +65,45 @@ impl Cable {
     pub fn apply_supports(&self, matrix: &mut BlockTridiagonal) {
         project_matrix(&self.model, matrix);
     }
+
+    /// Angular frequencies in rad/s of small motions about the present state, supports in place, ascending: `det(K - omega^2 M) = 0`. 0
+    /// for a motion that meets no stiffness, or a negative one (buckling). A dense eigenproblem: for tens or hundreds of nodes.
+    /// With [`Damping::from_ratio`](crate::Damping::from_ratio), damps a given mode by a given ratio.
+    ///
+    /// *Source.* Golub & Van Loan 2013, section 8.7 (Cholesky reduction of a symmetric pencil).
+    pub fn natural_frequencies(&mut self) -> Vec<f64> {
+        let held_at = 10.0 * self.frequency_bound() * self.frequency_bound();
+        let mut held = BlockTridiagonal::zeros(self.nodes());
+        self.apply_supports(&mut held);
+        let (mut k, mut m) = (self.stiffness_matrix(), self.mass_matrix());
+        self.apply_supports(&mut k);
+        self.apply_supports(&mut m);
+        let held = dense(&held);
+        // what is held is put above all frequencies, and dropped
+        let k = dense(&k) + &held * (held_at - 1.0);
+        let dropped = held.trace().round() as usize;
+        let Some(factor) = dense(&m).cholesky() else { return Vec::new() };
+        let half = factor.l().solve_lower_triangular(&k).expect("a factor has no zero on its diagonal");
+        let reduced = factor.l().solve_lower_triangular(&half.transpose()).expect("as above");
+        let mut squares: Vec<f64> = ((&reduced + reduced.transpose()) * 0.5).symmetric_eigenvalues().as_slice().to_vec();
+        squares.sort_by(f64::total_cmp);
+        squares.truncate(squares.len() - dropped);
+        squares.into_iter().map(|x| x.max(0.0).sqrt()).collect()
+    }
+}
+
+fn dense(a: &BlockTridiagonal) -> DMatrix<f64> {
+    let mut out = DMatrix::zeros(6 * a.nodes(), 6 * a.nodes());
+    for (i, block) in a.diag.iter().enumerate() {
+        for (r, c) in (0..6).flat_map(|r| (0..6).map(move |c| (r, c))) {
+            out[(6 * i + r, 6 * i + c)] = block.0[c][r];
+        }
+    }
+    for (i, block) in a.lower.iter().enumerate() {
+        for (r, c) in (0..6).flat_map(|r| (0..6).map(move |c| (r, c))) {
+            out[(6 * i + 6 + r, 6 * i + c)] = block.0[c][r];
+            out[(6 * i + c, 6 * i + 6 + r)] = block.0[c][r];
+        }
+    }
+    out
 }
