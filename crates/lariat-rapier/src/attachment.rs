@@ -27,6 +27,8 @@ pub enum Pin {
 pub struct Attachment {
     pub(crate) cable: CableHandle,
     pub(crate) node: usize,
+    /// Of the node, in m.
+    pub(crate) arc_length: f64,
     pub(crate) body: RigidBodyHandle,
     /// Point of the body, in body axes from its origin, in m.
     pub(crate) anchor: Vector3<f64>,

@@ -30,6 +30,9 @@ pub(crate) struct Exact {
     pub spin: Vector3<f64>,
     /// Its accelerations at the end of the step that made this state.
     pub accelerations: Option<BodyMemory>,
+    /// Centre of mass in body axes and inverse mass, as Rapier had them.
+    pub centre: Vector,
+    pub inverse_mass: rapier::math::Real,
     pub pose: Pose,
     pub linvel: Vector,
     pub angvel: AngVector,
@@ -38,6 +41,11 @@ pub(crate) struct Exact {
 impl Remembered {
     pub fn new(handle: RigidBodyHandle) -> Self {
         Remembered { handle, force: Vector3::zeros(), torque: Vector3::zeros(), exact: None }
+    }
+
+    /// Forgets state and reaction: they belong to a body as it was.
+    pub fn forget(&mut self) {
+        *self = Remembered::new(self.handle);
     }
 }
 
@@ -95,6 +103,8 @@ pub(crate) fn read(
     };
     if let Some(exact) = &memory.exact
         && exact.pose == *body.position()
+        && exact.centre == body.local_center_of_mass()
+        && exact.inverse_mass == local.inv_mass
     {
         out.position = exact.position;
         out.rotation = exact.rotation;

@@ -56,9 +56,15 @@ impl CableSet {
             let (place, attitude) = pose_after(world, a.body, h);
             a.placed.is_none_or(|before| (place + attitude * a.anchor - before).norm() > STILL)
         });
+        let moved = island.pins.iter().zip(&island.attachments).any(|(pin, index)| {
+            let a = index.and_then(|i| self.attachments[i].as_ref());
+            let (Member::Driven(body), Some(a)) = (island.members[pin.body], a) else { return false };
+            let (place, attitude) = pose(world, body);
+            a.placed.is_none_or(|before| (place + attitude * a.anchor - before).norm() > STILL)
+        });
         let turns =
             |member: &Member| matches!(member, Member::Driven(b) if pose(world, *b) != pose_after(world, *b, h));
-        by_support || island.members.iter().any(turns)
+        by_support || moved || island.members.iter().any(turns)
     }
 
     /// Prescribes the ends of an island whose bodies feel nothing, over the coming step.

@@ -22,6 +22,12 @@ pub enum Error {
     /// A body that is not in the world.
     #[error("no body {0:?} in this world")]
     NoBody(rapier::dynamics::RigidBodyHandle),
+    /// A time step that is negative or not finite.
+    #[error("a time step of {dt} s; expected 0 or more")]
+    TimeStep {
+        /// The step in s.
+        dt: f64,
+    },
     /// An anchor that is not finite.
     #[error("the anchor on body {body:?} is not finite: {anchor:?} m")]
     AnchorNotFinite {

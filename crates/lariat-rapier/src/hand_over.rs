@@ -38,6 +38,7 @@ pub(crate) fn give(
     let given = Given {
         linvel,
         angvel,
+        centre: body.local_center_of_mass(),
         alone,
         linked,
         rounding: (weight + memory.force.norm() / end.mass) * h,
@@ -105,6 +106,11 @@ pub(crate) fn settle(
 ) -> bool {
     let body = &mut world.bodies[handle];
     restore(body, given);
+    if body.local_center_of_mass() != given.centre {
+        // its mass changed under way: what it did says nothing about forces
+        memory.forget();
+        return true;
+    }
 
     let (before, spin_before) = (vector(given.linvel), vector(given.angvel));
     let (after, spin_after) = (vector(body.linvel()), vector(body.angvel()));
@@ -147,6 +153,8 @@ pub(crate) fn settle(
         velocity,
         spin,
         accelerations: end.memory,
+        centre: given.centre,
+        inverse_mass: body.mass_properties().local_mprops.inv_mass,
         pose: *body.position(),
         linvel: body.linvel(),
         angvel: body.angvel(),

@@ -35,6 +35,7 @@ impl CableSet {
         }
         let node = self.free_node(cable, at.into())?;
         let held = self.get_mut(cable)?;
+        let arc_length = held.node_arc_lengths()[node];
         let direction = match pin {
             Pin::Ball => {
                 held.attach(At::Node(node))?;
@@ -49,6 +50,7 @@ impl CableSet {
         self.attachments.push(Some(Attachment {
             cable,
             node,
+            arc_length,
             body,
             anchor,
             direction,
@@ -58,7 +60,7 @@ impl CableSet {
             steady: Vector3::zeros(),
             passed: PinAccount::default(),
         }));
-        self.islands.clear();
+        self.stale = true;
         Ok(AttachmentHandle(self.attachments.len() as u32 - 1))
     }
 
@@ -93,9 +95,14 @@ impl CableSet {
     pub fn detach(&mut self, world: &mut PhysicsWorld, attachment: AttachmentHandle) -> Result<(), Error> {
         let slot = self.attachments.get_mut(attachment.0 as usize);
         let ended = slot.and_then(Option::take).ok_or(Error::NoAttachment(attachment))?;
-        self.islands.clear();
+        self.stale = true;
         if let Some(ledger) = ended.ledger {
             world.remove_body(ledger.body);
+        }
+        if let Ok(i) = self.memory.binary_search_by_key(&ended.body.into_raw_parts(), |m| m.handle.into_raw_parts()) {
+            // what was learnt was learnt with this cable
+            self.memory[i].force = Vector3::zeros();
+            self.memory[i].torque = Vector3::zeros();
         }
         if world.bodies.contains(ended.body) {
             world.islands.wake_up(&mut world.bodies, ended.body, true);
@@ -116,24 +123,31 @@ impl CableSet {
         (first, at_first): (CableHandle, At),
         (second, at_second): (CableHandle, At),
     ) -> Result<JunctionHandle, Error> {
-        self.get(second)?.arc_length(at_second)?;
         // arc lengths do not move when nodes are inserted
-        let at_first = At::ArcLength(self.get(first)?.arc_length(at_first)?);
+        let lengths = [self.get(first)?.arc_length(at_first)?, self.get(second)?.arc_length(at_second)?];
+        let [at_first, at_second] = lengths.map(At::ArcLength);
         let tied = |set: &Self, cable: CableHandle, at: At| {
             let node = set.get(cable).ok()?.node(at).ok()?;
             set.junctions.iter().position(|j| j.as_ref().is_some_and(|j| j.nodes.contains(&(cable, node))))
         };
         let existing = tied(self, first, at_first);
+        if existing.is_none() && tied(self, second, at_second).is_some() {
+            return self.join((second, at_second), (first, at_first));
+        }
         let index = match existing {
             Some(index) => index,
             None => {
                 let node = self.free_node(first, at_first)?;
                 self.get_mut(first)?.attach(At::Node(node))?;
-                self.junctions.push(Some(Junction { nodes: vec![(first, node)], memory: None }));
+                self.junctions.push(Some(Junction {
+                    nodes: vec![(first, node)],
+                    arc_lengths: vec![lengths[0]],
+                    memory: None,
+                }));
                 self.junctions.len() - 1
             }
         };
-        self.islands.clear();
+        self.stale = true;
         let joined = self.free_node(second, at_second).and_then(|node| {
             self.get_mut(second)?.attach(At::Node(node))?;
             Ok(node)
@@ -142,6 +156,7 @@ impl CableSet {
             Ok(node) => {
                 let junction = self.junctions[index].as_mut().expect("found or made above");
                 junction.nodes.push((second, node));
+                junction.arc_lengths.push(lengths[1]);
                 junction.memory = None;
                 Ok(JunctionHandle(index as u32))
             }
@@ -158,20 +173,27 @@ impl CableSet {
     /// Unties a cable from a junction; one that is left with a single node ends.
     ///
     /// # Errors
-    /// [`Error::NoJunction`], [`Error::NoCable`].
+    /// [`Error::NoJunction`]; [`Error::NoCable`] for one that is not in it.
     pub fn leave(&mut self, junction: JunctionHandle, cable: CableHandle) -> Result<(), Error> {
-        self.junction(junction)?;
-        self.get(cable)?;
-        self.islands.clear();
-        let slot = &mut self.junctions[junction.0 as usize];
-        let Some(tied) = slot else { return Err(Error::NoJunction(junction)) };
-        let mut left: Vec<(CableHandle, usize)> = tied.nodes.iter().filter(|(c, _)| *c == cable).copied().collect();
-        tied.nodes.retain(|(c, _)| *c != cable);
-        tied.memory = None;
-        if tied.nodes.len() < 2 {
-            left.append(&mut tied.nodes);
-            *slot = None;
+        let tied = self.junction(junction)?.clone();
+        if !tied.nodes.iter().any(|(c, _)| *c == cable) {
+            return Err(Error::NoCable(cable));
         }
+        self.stale = true;
+        // all of it wakes
+        for (other, _) in &tied.nodes {
+            self.get_mut(*other)?;
+        }
+        let of = |own: bool| tied.nodes.iter().zip(&tied.arc_lengths).filter(move |((c, _), _)| (*c == cable) == own);
+        let mut left: Vec<(CableHandle, usize)> = of(true).map(|(n, _)| *n).collect();
+        let nodes: Vec<(CableHandle, usize)> = of(false).map(|(n, _)| *n).collect();
+        let arc_lengths = of(false).map(|(_, s)| *s).collect();
+        self.junctions[junction.0 as usize] = if nodes.len() < 2 {
+            left.extend(nodes);
+            None
+        } else {
+            Some(Junction { nodes, arc_lengths, memory: None })
+        };
         for (cable, node) in left {
             self.get_mut(cable)?.detach(At::Node(node))?;
         }
@@ -192,7 +214,7 @@ impl CableSet {
             };
             self.attachments.iter_mut().flatten().map(|a| (a.cable, &mut a.node)).for_each(behind);
             self.junctions.iter_mut().flatten().flat_map(|j| &mut j.nodes).map(|(c, n)| (*c, n)).for_each(behind);
-            self.islands.clear();
+            self.stale = true;
         }
         let attached = self.attachments().any(|(_, a)| a.cable == cable && a.node == node);
         let tied = self.junctions.iter().flatten().any(|j| j.nodes.contains(&(cable, node)));

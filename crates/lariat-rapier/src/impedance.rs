@@ -111,6 +111,10 @@ pub(crate) fn drive(
         }
         Ledger { body, joint: world.insert_impulse_joint(body, attachment.body, joint) }
     });
+    if let Some(body) = world.bodies.get_mut(ledger.body) {
+        body.set_linvel(Vector::ZERO, false);
+        body.reset_forces(false);
+    }
     let eigen = ((d + d.transpose()) * 0.5).symmetric_eigen();
     let mut axes = eigen.eigenvectors;
     if axes.determinant() < 0.0 {

@@ -92,6 +92,8 @@ impl IslandStep {
 pub(crate) struct Given {
     pub linvel: Vector,
     pub angvel: AngVector,
+    /// Centre of mass in body axes.
+    pub centre: Vector,
     /// Whether it touches nothing and no joint holds it.
     pub alone: bool,
     /// Whether it is a link of a multibody, or joined to a dynamic body.
@@ -124,9 +126,13 @@ impl CableSet {
     pub(crate) fn find_islands(&mut self, world: &PhysicsWorld) -> Result<(), Error> {
         let attached = || self.attachments.iter().enumerate().filter_map(|(i, a)| a.as_ref().map(|a| (i, a)));
         let same = attached().map(|(i, a)| hold(world, i, a)).eq(self.held.iter().copied());
-        if same && !self.islands.is_empty() {
+        let stirred = self.cables.iter().flatten().any(|slot| slot.stirred);
+        if same && !stirred && !self.stale && !self.islands.is_empty() {
             return Ok(());
         }
+        self.stale = false;
+        self.renumber()?;
+        let attached = || self.attachments.iter().enumerate().filter_map(|(i, a)| a.as_ref().map(|a| (i, a)));
         self.held = attached().map(|(i, a)| hold(world, i, a)).collect();
         let mut order: Vec<usize> = (0..self.cables.len()).filter(|&c| self.cables[c].is_some()).collect();
         let slot = |c: usize| self.cables[c].as_ref().expect("filtered above");
@@ -150,6 +156,22 @@ impl CableSet {
         Ok(())
     }
 
+    /// Finds the nodes of attachments and junctions by their arc lengths: a user may have placed others.
+    fn renumber(&mut self) -> Result<(), Error> {
+        let node = |cables: &[Option<Slot>], cable: CableHandle, s: f64| {
+            cables[cable.0 as usize].as_ref().map_or(Ok(0), |slot| slot.cable.node(s))
+        };
+        for a in self.attachments.iter_mut().flatten() {
+            a.node = node(&self.cables, a.cable, a.arc_length)?;
+        }
+        for junction in self.junctions.iter_mut().flatten() {
+            for ((cable, index), s) in junction.nodes.iter_mut().zip(&junction.arc_lengths) {
+                *index = node(&self.cables, *cable, *s)?;
+            }
+        }
+        Ok(())
+    }
+
     /// Tells nodes who moves them.
     fn give_nodes(&mut self, held: &[Held]) -> Result<(), Error> {
         for h in held {
@@ -157,7 +179,7 @@ impl CableSet {
             let support = slot.cable.support(At::Node(h.node))?;
             let clamped = matches!(support.slope, SlopeSupport::Attached(_));
             match h.role {
-                Role::Support => {}
+                Role::Support => continue,
                 _ if support.attached && clamped == h.direction.is_some() => {}
                 _ if h.direction.is_some() => {
                     slot.cable.attach_clamped(At::Node(h.node))?;
@@ -165,6 +187,16 @@ impl CableSet {
                 _ => {
                     slot.cable.attach(At::Node(h.node))?;
                 }
+            }
+            if let (Role::Integrated, Some(a)) = (h.role, &mut self.attachments[h.attachment]) {
+                a.placed = None;
+            }
+        }
+        for (cable, node) in self.junctions.iter().flatten().flat_map(|j| &j.nodes) {
+            if let Some(slot) = &mut self.cables[cable.0 as usize]
+                && !slot.cable.support(At::Node(*node))?.attached
+            {
+                slot.cable.attach(At::Node(*node))?;
             }
         }
         Ok(())

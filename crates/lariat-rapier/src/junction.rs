@@ -13,6 +13,8 @@ pub struct JunctionHandle(pub(crate) u32);
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Junction {
     pub(crate) nodes: Vec<(CableHandle, usize)>,
+    /// By node, its arc length in m.
+    pub(crate) arc_lengths: Vec<f64>,
     pub(crate) memory: Option<BodyMemory>,
 }
 

@@ -69,6 +69,8 @@
 //!   joints is off by up to 12 % with 4 solver iterations, 3 % with 16. A multibody is exact, but where its joints are at their limits: they
 //!   chatter, 12 to 18 N where 14.7 hang.
 //! - A cable is smooth at a node: bent sharply over a hook, its tension wavers near it; tie two cables with [`CableSet::join`].
+//! - Where a user sets the velocity of a kinematic body anew at every host step, the work of a clamp on it is some per cent short of the
+//!   energy that the cable gains: what passes in the jumps is only approximately known.
 //! - Damping of Rapier's bodies acts at the end of a step; with it a body's accelerations are not carried on.
 //! - Kinematic bodies move by Rapier's precision: in single precision a slow winch moves in jumps of 2e-7 m at 2 m, 2 N of a
 //!   steel bar. The package `lariat-rapier-f64`, of the same source, has none of this.

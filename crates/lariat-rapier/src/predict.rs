@@ -11,10 +11,17 @@ impl CableSet {
     /// Predicts one of `parts` equal parts of a host step. If an island cannot step, all of them and their bodies are as before.
     pub(crate) fn predict_part(&mut self, world: &mut PhysicsWorld, parts: u32) -> Result<(), Error> {
         let h = f64::from(world.integration_parameters.dt);
+        if core::mem::take(&mut self.pending) {
+            // predicted, and never reconciled
+            let islands = core::mem::take(&mut self.islands);
+            islands.iter().for_each(|island| take_back(world, island));
+            self.islands = islands;
+        }
         self.end_lost_attachments(world)?;
         self.follow_gravity(world)?;
         self.find_islands(world)?;
         let mut islands = core::mem::take(&mut self.islands);
+        islands.iter_mut().for_each(|island| island.given.clear());
         let mut outcome = Ok(());
         for k in 0..islands.len() {
             outcome = self.predict_island(world, &mut islands[k], h, parts);
@@ -23,6 +30,7 @@ impl CableSet {
                 break;
             }
         }
+        self.pending = outcome.is_ok();
         self.islands = islands;
         outcome
     }
@@ -55,8 +63,8 @@ impl CableSet {
         self.read_members(world, island, h)?;
         let mut cables = pick(&mut self.cables, &island.cables);
         self.solver.step(&mut cables, &mut island.bodies, &island.pins, integrator, h)?;
-        for (pin, account) in self.solver.accounts().iter().enumerate() {
-            if let Some(a) = island.attachments[pin].and_then(|a| self.attachments[a].as_mut()) {
+        for (account, attachment) in self.solver.accounts().iter().zip(&island.attachments) {
+            if let Some(a) = attachment.and_then(|a| self.attachments[a].as_mut()) {
                 a.passed = *account;
             }
         }
@@ -128,6 +136,11 @@ impl CableSet {
                 }
             }
         }
+        for &index in &island.supports {
+            if let Some(a) = &self.attachments[index] {
+                impedance::idle(world, a);
+            }
+        }
         for (pin, driven) in island.motors.iter().enumerate() {
             if !driven && let Some(a) = island.attachments[pin].and_then(|a| self.attachments[a].as_ref()) {
                 impedance::idle(world, a);
@@ -142,11 +155,14 @@ impl CableSet {
             // a state of the cable itself always fits
             let _ = cable.restore(before.clone());
         }
-        for (member, given) in island.members.iter().zip(&island.given) {
-            if let (Member::Body(handle), Some(given)) = (member, given) {
-                hand_over::take_back(world, *handle, given);
+        for member in &island.members {
+            if let Member::Junction(j) = member
+                && let Some(junction) = &mut self.junctions[*j]
+            {
+                junction.memory = None;
             }
         }
+        take_back(world, island);
     }
 
     /// The integrator of an island: its cables' if they agree, else the tightest tolerance among them.
@@ -161,6 +177,17 @@ impl CableSet {
             _ => f64::INFINITY,
         };
         all().fold(first, |best, i| if rank(&i) < rank(&best) { i } else { best })
+    }
+}
+
+/// Gives the bodies of an island back what they were given in place of.
+fn take_back(world: &mut PhysicsWorld, island: &IslandStep) {
+    for (member, given) in island.members.iter().zip(&island.given) {
+        if let (Member::Body(handle), Some(given)) = (member, given)
+            && world.bodies.contains(*handle)
+        {
+            hand_over::take_back(world, *handle, given);
+        }
     }
 }
 

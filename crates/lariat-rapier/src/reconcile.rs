@@ -13,6 +13,11 @@ impl CableSet {
         if island.idle {
             return;
         }
+        if self.stale {
+            // cables or attachments changed since the prediction: the bodies alone are settled
+            self.settle_members(world, island, h);
+            return;
+        }
         if self.fell_asleep(world, island) {
             self.undo_for_sleep(world, island, h);
             return;
@@ -58,6 +63,10 @@ impl CableSet {
             if !world.bodies.contains(*handle) {
                 continue;
             }
+            if world.bodies[*handle].is_sleeping() {
+                hand_over::fall_asleep(world, *handle, given, self.remember(*handle));
+                continue;
+            }
             let end = &island.bodies[b];
             let mut total = (Vector3::zeros(), Vector3::zeros());
             for (pin, p) in island.pins.iter().zip(&island.impulses).filter(|(p, _)| p.body == b) {
@@ -71,7 +80,7 @@ impl CableSet {
                 }
             }
         }
-        if island.impulses.iter().any(|p| *p != Vector3::zeros()) {
+        if !self.stale && island.impulses.iter().any(|p| *p != Vector3::zeros()) {
             for (c, cable) in pick(&mut self.cables, &island.cables).into_iter().enumerate() {
                 let of = |(p, _): &(&lariat_ancf::island::Pin, &Vector3<f64>)| p.cable == c;
                 let own: Vec<Vector3<f64>> =
@@ -116,6 +125,9 @@ impl CableSet {
             account.force = a.passed.force + island.impulses[i] / h;
             account.moment = a.passed.moment;
             account.gap = gap;
+            if let Member::Driven(_) = island.members[pin.body] {
+                a.placed = Some(anchor);
+            }
         }
     }
 }

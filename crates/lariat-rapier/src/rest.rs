@@ -86,10 +86,9 @@ impl CableSet {
             _ => true,
         };
         island.members.iter().enumerate().all(|(i, member)| still(i, member))
-            && island
-                .cables
-                .iter()
-                .filter_map(|&c| self.cables[c].as_ref())
-                .all(|slot| slot.asleep || slot.cable.speed() < most && slot.cable.is_loaded_steadily())
+            && island.cables.iter().filter_map(|&c| self.cables[c].as_ref()).all(|slot| {
+                slot.asleep
+                    || slot.cable.speed() < most && slot.cable.is_loaded_steadily() && slot.cable.is_held_still()
+            })
     }
 }

@@ -39,8 +39,9 @@ pub(crate) struct Slot {
     pub asleep: bool,
     /// Touched by the user since the last step.
     pub stirred: bool,
-    /// Whether its gravity is the world's.
+    /// Whether its gravity is the world's, and what it was when the set last looked, in m/s^2.
     pub falls: bool,
+    pub gravity: ::nalgebra::Vector3<f64>,
     /// Where the ends were when it was inserted, and its length, in m.
     pub first: [f64; 7],
 }
@@ -56,6 +57,12 @@ pub struct CableSet {
     /// Ascending by handle.
     pub(crate) memory: Vec<Remembered>,
     pub(crate) gravity: Option<Vector>,
+    /// Whether islands must be found anew.
+    #[serde(skip)]
+    pub(crate) stale: bool,
+    /// Whether a prediction waits to be reconciled.
+    #[serde(skip)]
+    pub(crate) pending: bool,
     #[serde(skip)]
     pub(crate) held: Vec<Held>,
     #[serde(skip)]
@@ -72,7 +79,8 @@ impl CableSet {
         Self::default()
     }
 
-    /// Adds a cable; its clock is set to that of the others. If its gravity is the world's, or the builder's default, it follows the world's from now on; else it keeps its own.
+    /// Adds a cable; its clock is set to that of the others. If its gravity is the builder's default, it follows the world's until the user
+    /// sets it; else it keeps its own.
     pub fn insert(&mut self, mut cable: Cable) -> CableHandle {
         if let Some(other) = self.cables.iter().flatten().next() {
             // the time of a cable is always a number
@@ -81,8 +89,8 @@ impl CableSet {
         let (start, end) = (cable.node_position(0), cable.node_position(cable.nodes() - 1));
         let first = [start.x, start.y, start.z, end.x, end.y, end.z, cable.length()];
         let falls = cable.gravity() == ::nalgebra::Vector3::new(0.0, -9.81, 0.0);
-        self.cables.push(Some(Slot { cable, asleep: false, stirred: true, falls, first }));
-        self.islands.clear();
+        self.cables.push(Some(Slot { asleep: false, stirred: true, falls, gravity: cable.gravity(), first, cable }));
+        self.stale = true;
         self.gravity = None;
         CableHandle(self.cables.len() as u32 - 1)
     }
@@ -103,7 +111,7 @@ impl CableSet {
                 self.leave(JunctionHandle(i as u32), cable)?;
             }
         }
-        self.islands.clear();
+        self.stale = true;
         let slot = self.cables.get_mut(cable.0 as usize).and_then(Option::take);
         slot.map(|s| s.cable).ok_or(Error::NoCable(cable))
     }
@@ -191,12 +199,13 @@ impl CableSet {
             return Ok(());
         }
         for slot in self.cables.iter_mut().flatten() {
-            if convert::to_vector(&slot.cable.gravity()) == world.gravity {
-                slot.falls = true;
-            } else if slot.falls {
+            // a user who sets a cable's gravity wants it so
+            slot.falls &= slot.gravity == slot.cable.gravity();
+            if slot.falls && convert::to_vector(&slot.cable.gravity()) != world.gravity {
                 slot.cable.set_gravity(convert::vector(world.gravity))?;
                 slot.stirred = true;
             }
+            slot.gravity = slot.cable.gravity();
         }
         self.gravity = Some(world.gravity);
         Ok(())

@@ -34,6 +34,10 @@ impl CableSet {
         events: &dyn EventHandler,
     ) -> Result<(), Error> {
         let dt = world.integration_parameters.dt;
+        if !self.moves_on(dt)? {
+            world.step_with_events(hooks, events);
+            return Ok(());
+        }
         let steps = self.settings.rapier_steps.max(1);
         let targets: Targets = world
             .bodies
@@ -66,7 +70,18 @@ impl CableSet {
             }
         }
         world.integration_parameters.dt = dt;
+        if outcome.is_err() {
+            for (handle, _, to) in targets {
+                world.bodies[handle].set_next_kinematic_position(to);
+            }
+        }
         outcome
+    }
+
+    /// Whether time passes in a step of `dt` (s).
+    fn moves_on(&self, dt: Real) -> Result<bool, Error> {
+        let valid = dt.is_finite() && dt >= 0.0;
+        if valid { Ok(dt > 0.0) } else { Err(Error::TimeStep { dt: f64::from(dt) }) }
     }
 
     /// Before a Rapier step of `world.integration_parameters.dt`: integrates cables and their bodies, and hands the motion over.
@@ -75,7 +90,8 @@ impl CableSet {
     /// # Errors
     /// As [`step`](Self::step).
     pub fn predict(&mut self, world: &mut PhysicsWorld) -> Result<(), Error> {
-        self.predict_part(world, 1)
+        self.events.clear();
+        if self.moves_on(world.integration_parameters.dt)? { self.predict_part(world, 1) } else { Ok(()) }
     }
 
     /// After the Rapier step: settles bodies and cables.
@@ -84,9 +100,13 @@ impl CableSet {
     /// As [`step`](Self::step).
     pub fn reconcile(&mut self, world: &mut PhysicsWorld) -> Result<(), Error> {
         let h = f64::from(world.integration_parameters.dt);
+        if !core::mem::take(&mut self.pending) {
+            return Ok(());
+        }
         let mut islands = core::mem::take(&mut self.islands);
         for island in &mut islands {
             self.reconcile_island(world, island, h);
+            island.given.clear();
         }
         self.islands = islands;
         Ok(())

@@ -85,7 +85,8 @@ impl Cable {
         let Some(factor) = dense(&m).cholesky() else { return Vec::new() };
         let half = factor.l().solve_lower_triangular(&k).expect("a factor has no zero on its diagonal");
         let reduced = factor.l().solve_lower_triangular(&half.transpose()).expect("as above");
-        let mut squares: Vec<f64> = ((&reduced + reduced.transpose()) * 0.5).symmetric_eigenvalues().as_slice().to_vec();
+        let mut squares: Vec<f64> =
+            ((&reduced + reduced.transpose()) * 0.5).symmetric_eigenvalues().as_slice().to_vec();
         squares.sort_by(f64::total_cmp);
         squares.truncate(squares.len() - dropped);
         squares.into_iter().map(|x| x.max(0.0).sqrt()).collect()

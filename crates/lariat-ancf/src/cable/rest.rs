@@ -2,7 +2,7 @@
 
 use super::Cable;
 use crate::error::{Error, require};
-use crate::support::SlopeSupport;
+use crate::support::{Motion, SlopeSupport};
 use nalgebra::Vector3;
 
 impl Cable {
@@ -15,6 +15,15 @@ impl Cable {
     /// Whether all loads are at their full value now: no ramp is under way.
     pub fn is_loaded_steadily(&self) -> bool {
         self.model.loads.iter().all(|load| load.factor(self.time()) == 1.0)
+    }
+
+    /// Whether no prescribed motion of a support moves.
+    pub fn is_held_still(&self) -> bool {
+        let still = |motion: &Motion| motion.coefficients[1..].iter().all(|c| *c == Vector3::zeros());
+        self.model.supports.iter().all(|(_, support)| {
+            support.position.as_ref().is_none_or(still)
+                && !matches!(&support.slope, SlopeSupport::Prescribed(motion) if !still(motion))
+        })
     }
 
     /// Lets `dt` (s) pass at rest: positions stay, velocities become zero. For a caller who knows that the cable is at rest, or
@@ -54,7 +63,7 @@ impl Cable {
         let mut rows = core::mem::take(&mut self.system.rhs);
         let mut inertia = core::mem::take(&mut self.system.product);
         let (mut equations, phase) = self.equations();
-        equations.force(phase.time, &phase.q, 1.0, &mut rows);
+        equations.moving_force(phase.time, &phase.q, &phase.v, 1.0, &mut rows);
         if phase.memory.valid {
             equations.system.multiply_mass(&phase.memory.acceleration, &mut inertia);
             rows.iter_mut().zip(&inertia).for_each(|(r, m)| *r -= m);

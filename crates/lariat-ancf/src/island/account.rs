@@ -31,6 +31,35 @@ pub struct PinAccount {
 }
 
 impl Work<'_, '_> {
+    /// Adds what bodies and cables passed to each other when pinned nodes, `jump` (m/s) faster than their bodies, met them: `change` is
+    /// that of all velocities. The work is that on the body; what a cable lost beyond it is heat.
+    pub(super) fn account_jump(&mut self, jump: &[f64], q: &[f64], v: &[f64], change: &[f64]) {
+        let mut gained = core::mem::take(&mut self.workspace.z);
+        let mut momentum = core::mem::take(&mut self.workspace.velocity);
+        for (cable, part) in self.cables.iter().zip(&self.workspace.cables) {
+            let range = part.at..part.at + part.size;
+            for i in range.clone() {
+                gained[i] = change[i] - jump[i];
+            }
+            cable.system.multiply_mass(&gained[range.clone()], &mut momentum[range]);
+        }
+        for pin in 0..self.pins.len() {
+            let (at, body) = (self.pin_at(pin), self.body_at(self.pins[pin].body));
+            let impulse = -vector(&momentum[at..]);
+            let mean = vector(&v[at..]) + 0.5 * vector(&change[at..]);
+            let account = &mut self.workspace.accounts[pin];
+            account.impulse += impulse;
+            account.work += impulse.dot(&mean);
+            if self.workspace.clamps[pin].is_some() {
+                let turn = -vector(&q[at + 3..]).cross(&vector(&momentum[at + 3..]));
+                account.angular_impulse += turn;
+                account.work += turn.dot(&(vector(&v[body + 3..]) + 0.5 * vector(&change[body + 3..])));
+            }
+        }
+        self.workspace.z = gained;
+        self.workspace.velocity = momentum;
+    }
+
     /// Brings the accounts to a phase whose accelerations are known.
     pub(super) fn account(&mut self, phase: &Phase) {
         if self.pins.is_empty() {

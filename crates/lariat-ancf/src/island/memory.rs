@@ -9,7 +9,7 @@ use super::workspace::{Workspace, vector};
 use super::{Pin, RigidBody};
 use crate::cable::Cable;
 use crate::integrate::Phase;
-use nalgebra::Vector3;
+use nalgebra::{Matrix3, Vector3};
 use serde::{Deserialize, Serialize};
 
 /// Accelerations of a body at the end of a step, in m/s^2 and rad/s^2, world axes; plain data, part of a snapshot.
@@ -19,6 +19,9 @@ pub struct BodyMemory {
     algorithmic: Option<[Vector3<f64>; 2]>,
     force: Vector3<f64>,
     torque: Vector3<f64>,
+    mass: f64,
+    inertia: Matrix3<f64>,
+    free: [bool; 6],
     pins: usize,
 }
 
@@ -40,7 +43,10 @@ pub(super) fn recall(
     cables.iter_mut().for_each(|c| c.refresh_memory());
     let driven = |b: &RigidBody| b.free == [false; 6];
     let same = |(i, b): (usize, &RigidBody)| {
-        let kept = |m: &BodyMemory| m.force == b.force && m.torque == b.torque && m.pins == pins_of(pins, i);
+        let kept = |m: &BodyMemory| {
+            let loads = m.force == b.force && m.torque == b.torque && m.pins == pins_of(pins, i);
+            loads && m.mass == b.mass && m.inertia == b.inertia && m.free == b.free
+        };
         driven(b) || b.memory.as_ref().is_some_and(kept)
     };
     memory.valid =
@@ -98,6 +104,9 @@ pub(super) fn keep(cables: &mut [&mut Cable], bodies: &mut [RigidBody], pins: &[
             algorithmic: both.then(|| of(&memory.algorithmic)),
             force: body.force,
             torque: body.torque,
+            mass: body.mass,
+            inertia: body.inertia,
+            free: body.free,
             pins: pins_of(pins, i),
         });
     }

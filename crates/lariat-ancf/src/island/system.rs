@@ -134,6 +134,7 @@ impl Work<'_, '_> {
         }
         self.pass_pinned_rows(q, &mut rhs);
         self.solve_rows(true, q, &mut rhs);
+        self.account_jump(jump, q, v, &rhs);
         // the chart is at its origin: rates of the rotation vector are angular velocities
         for (v, change) in v.iter_mut().zip(&rhs) {
             *v += change;
