@@ -4,7 +4,7 @@ use crate::convert::{rotation, vector};
 use crate::islands::{IslandStep, Member};
 use crate::set::CableSet;
 use ::nalgebra::{Matrix3, UnitQuaternion, Vector3};
-use lariat_ancf::island::RigidBody;
+use lariat_ancf::island::{CLOSING_SPEED, RigidBody};
 use lariat_ancf::{At, Motion};
 use rapier::dynamics::{RigidBodyHandle, RigidBodyType};
 use rapier::math::Real;
@@ -12,8 +12,6 @@ use rapier::pipeline::PhysicsWorld;
 
 /// An anchor nearer than this to where it was, in m, has not moved.
 const STILL: f64 = 1e-12;
-/// A gap closes no faster than this in m/s.
-const CLOSING_SPEED: f64 = 10.0;
 
 /// Place and attitude of a body now.
 fn pose(world: &PhysicsWorld, body: RigidBodyHandle) -> (Vector3<f64>, UnitQuaternion<f64>) {

@@ -99,11 +99,9 @@ impl CableSet {
         if let Some(ledger) = ended.ledger {
             world.remove_body(ledger.body);
         }
-        if let Ok(i) = self.memory.binary_search_by_key(&ended.body.into_raw_parts(), |m| m.handle.into_raw_parts()) {
-            // what was learnt was learnt with this cable
-            self.memory[i].force = Vector3::zeros();
-            self.memory[i].torque = Vector3::zeros();
-        }
+        // what was learnt of the body was learnt with this cable
+        let remembered = self.remember(ended.body);
+        (remembered.force, remembered.torque) = (Vector3::zeros(), Vector3::zeros());
         if world.bodies.contains(ended.body) {
             world.islands.wake_up(&mut world.bodies, ended.body, true);
         }

@@ -53,6 +53,9 @@ impl CableSet {
             return Ok(());
         }
         self.move_ends(world, island, h)?;
+        for a in island.supports.iter().filter_map(|&index| self.attachments[index].as_ref()) {
+            impedance::idle(world, a);
+        }
         let integrator = part_of(self.island_integrator(&island.cables), parts);
         if island.members.is_empty() {
             for cable in pick(&mut self.cables, &island.cables) {
@@ -136,11 +139,6 @@ impl CableSet {
                 }
             }
         }
-        for &index in &island.supports {
-            if let Some(a) = &self.attachments[index] {
-                impedance::idle(world, a);
-            }
-        }
         for (pin, driven) in island.motors.iter().enumerate() {
             if !driven && let Some(a) = island.attachments[pin].and_then(|a| self.attachments[a].as_ref()) {
                 impedance::idle(world, a);
@@ -151,10 +149,7 @@ impl CableSet {
 
     /// Takes a prediction back.
     fn undo(&mut self, world: &mut PhysicsWorld, island: &IslandStep) {
-        for (cable, before) in pick(&mut self.cables, &island.cables).into_iter().zip(&island.before) {
-            // a state of the cable itself always fits
-            let _ = cable.restore(before.clone());
-        }
+        self.restore_cables(island);
         for member in &island.members {
             if let Member::Junction(j) = member
                 && let Some(junction) = &mut self.junctions[*j]
@@ -163,6 +158,14 @@ impl CableSet {
             }
         }
         take_back(world, island);
+    }
+
+    /// Puts the cables of an island back to where they were before the step.
+    pub(crate) fn restore_cables(&mut self, island: &IslandStep) {
+        for (cable, before) in pick(&mut self.cables, &island.cables).into_iter().zip(&island.before) {
+            // a state of the cable itself always fits
+            let _ = cable.restore(before.clone());
+        }
     }
 
     /// The integrator of an island: its cables' if they agree, else the tightest tolerance among them.

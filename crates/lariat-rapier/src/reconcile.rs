@@ -38,11 +38,8 @@ impl CableSet {
 
     /// They did not move: neither do the cables.
     fn undo_for_sleep(&mut self, world: &mut PhysicsWorld, island: &IslandStep, h: f64) {
-        for (cable, before) in pick(&mut self.cables, &island.cables).into_iter().zip(&island.before) {
-            // a state of the cable itself always fits
-            let _ = cable.restore(before.clone());
-            cable.rest(h);
-        }
+        self.restore_cables(island);
+        pick(&mut self.cables, &island.cables).into_iter().for_each(|cable| cable.rest(h));
         for (member, given) in island.members.iter().zip(&island.given) {
             if let (Member::Body(handle), Some(given)) = (member, given) {
                 hand_over::fall_asleep(world, *handle, given, self.remember(*handle));

@@ -2,8 +2,8 @@
 //!
 //! The element is cut at xi; the new node gets the position and the slope dr/ds that the element has there, and their rates. A cubic
 //! is its own Hermite interpolant on any part, so both parts reproduce it exactly: strains, momenta and kinetic energy stay to
-//! rounding, elastic energy to the error of the rule. *Source.* de Casteljau's subdivision. *Validity.* Any element; a cut near a node leaves a short, stiff one, which
-//! explicit methods pay for.
+//! rounding, elastic energy to the error of the rule. *Source.* de Casteljau's subdivision. *Validity.* Any element; a cut near a node
+//! leaves a short, stiff one, which explicit methods pay for.
 
 use super::{At, Cable, Element};
 use crate::element::shape;

@@ -35,6 +35,7 @@ pub use account::PinAccount;
 pub use body::RigidBody;
 pub use impedance::Impedance;
 pub use memory::BodyMemory;
+pub use workspace::CLOSING_SPEED;
 
 use crate::cable::{At, Cable, SHORTEST_STEP, check_integrator};
 use crate::effect::Account;

@@ -23,7 +23,7 @@ pub(crate) struct Hold {
 /// Gaps below this in m are rounding.
 const LEAST_GAP: f64 = 1e-12;
 /// A gap closes no faster than this in m/s: after a teleport the cable must live through it.
-const CLOSING_SPEED: f64 = 10.0;
+pub const CLOSING_SPEED: f64 = 10.0;
 /// A slope shorter than this has no direction.
 const LEAST_SLOPE: f64 = 1e-9;
 
