@@ -31,7 +31,7 @@
 //! ```
 //!
 //! The crate re-exports [`lariat_ancf`], the mechanics, which knows no engine; with feature `rapier` also the coupling to rapier3d, as
-//! `lariat::coupling`. Units are SI throughout, numbers are `f64`.
+//! `lariat::coupling`; with feature `bevy` cables as components of bevy_ecs, as `lariat::ecs`. Units are SI throughout, numbers are `f64`.
 //!
 //! | to | look at |
 //! |---|---|
@@ -50,6 +50,9 @@ pub use lariat_ancf as ancf;
 pub use lariat_ancf::integrate::NewtonMode;
 #[doc(inline)]
 pub use lariat_ancf::*;
+#[cfg(feature = "bevy")]
+#[doc(no_inline)]
+pub use lariat_bevy as ecs;
 #[cfg(feature = "rapier")]
 #[doc(no_inline)]
 pub use lariat_rapier as coupling;

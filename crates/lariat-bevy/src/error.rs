@@ -22,6 +22,9 @@ pub enum Error {
     /// An attachment to an entity that is no body.
     #[error("entity {0} is no body")]
     NotABody(Entity),
+    /// From the engine that steps the bodies.
+    #[error("{0}")]
+    Engine(String),
     /// The schedules and resources of [`install`](crate::install) are missing.
     #[error("no cables in this world: call lariat_bevy::install first")]
     NotInstalled,

@@ -39,6 +39,19 @@ pub struct CableAwake {
     pub entity: Entity,
 }
 
+/// A cable parted because its tension grew beyond [`BreakTension`](crate::BreakTension).
+#[derive(EntityEvent, Message, Clone, Debug, PartialEq)]
+pub struct CableBroken {
+    /// The cable: what is before the break.
+    pub entity: Entity,
+    /// A new entity: the rest.
+    pub rest: Entity,
+    /// Where it broke, in m along the unstretched cable: its length from now on.
+    pub arc_length: f64,
+    /// The tension in N that broke it.
+    pub tension: f64,
+}
+
 /// Why an attachment ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum End {
@@ -80,6 +93,7 @@ pub(crate) enum Notice {
     Refused(StepRefused),
     Asleep(CableAsleep),
     Awake(CableAwake),
+    Broken(CableBroken),
     Ended(AttachmentEnded),
     NotAttached(AttachmentFailed),
 }
@@ -99,6 +113,7 @@ impl Notice {
             Notice::Refused(event) => both(world, event),
             Notice::Asleep(event) => both(world, event),
             Notice::Awake(event) => both(world, event),
+            Notice::Broken(event) => both(world, event),
             Notice::Ended(event) => both(world, event),
             Notice::NotAttached(event) => both(world, event),
         }
@@ -108,7 +123,7 @@ impl Notice {
 /// Calls `$apply!` with the type of each event.
 macro_rules! for_each_event {
     ($apply:ident) => {
-        $apply!(CableFailed, StepRefused, CableAsleep, CableAwake, AttachmentEnded, AttachmentFailed)
+        $apply!(CableFailed, StepRefused, CableAsleep, CableAwake, CableBroken, AttachmentEnded, AttachmentFailed)
     };
 }
 #[cfg(feature = "bevy_app")]

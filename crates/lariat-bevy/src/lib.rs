@@ -29,7 +29,7 @@
 //! | to | look at |
 //! |---|---|
 //! | make a cable | [`Cable`], [`Rule`], and the effects [`Bending`], [`Damping`], [`Drag`], [`Buoyancy`], [`RestShape`], [`LineLoads`], [`PointLoads`], [`GravityScale`] |
-//! | hold it | [`Attachment`], [`OnCable`], [`ToBody`], [`BreakForce`]; read [`AttachmentReading`] |
+//! | hold it | [`Attachment`], [`OnCable`], [`ToBody`], [`BreakForce`], [`BreakTension`]; read [`AttachmentReading`] |
 //! | make bodies | [`Body`], [`KinematicTarget`]; read [`BodyPose`], [`Bodies`] |
 //! | step | [`advance`], or [`CableStep`] in a schedule of your own; with feature `bevy_app` the plugin |
 //! | put systems between | [`CableSystems`] |
@@ -48,6 +48,7 @@
 
 mod attachment;
 mod body;
+mod breaking;
 mod cable;
 mod clock;
 mod diagnostics;
@@ -71,6 +72,7 @@ pub use attachment::{
     ToBodyBundle, ToWorldBundle,
 };
 pub use body::{Bodies, Body, BodyHandle, BodyPose, KinematicTarget};
+pub use breaking::BreakTension;
 pub use cable::{Cable, CableSample};
 pub use clock::{FixedClock, advance};
 pub use diagnostics::{Diagnostics, Times};
@@ -80,8 +82,8 @@ pub use interpolate::Interpolate;
 pub use lariat_ancf::{self, At};
 pub use lariat_rapier::{self, Pin, Settings, rapier};
 #[cfg(feature = "bevy_app")]
-pub use plugin::LariatPlugin;
+pub use plugin::{LariatPlugin, install_in};
 pub use point::Point;
-pub use schedule::{CableStep, CableSystems, RapierStep, install};
+pub use schedule::{AfterEngine, BeforeEngine, CableStep, CableSystems, RapierStep, install};
 pub use snapshot::Snapshot;
 pub use world::{Cables, Physics};

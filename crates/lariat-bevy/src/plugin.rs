@@ -26,15 +26,20 @@ impl LariatPlugin {
     }
 }
 
+/// Adds resources, messages, schedules and types, and no system: for plugins that step with an engine of their own.
+pub fn install_in(app: &mut App) {
+    macro_rules! add {
+        ($($event:ident),*) => { $( app.add_message::<$event>(); )* };
+    }
+    for_each_event!(add);
+    install(app.world_mut());
+    #[cfg(feature = "reflect")]
+    crate::effects::register(app);
+}
+
 impl Plugin for LariatPlugin {
     fn build(&self, app: &mut App) {
-        macro_rules! add {
-            ($($event:ident),*) => { $( app.add_message::<$event>(); )* };
-        }
-        for_each_event!(add);
-        install(app.world_mut());
-        #[cfg(feature = "reflect")]
-        crate::effects::register(app);
+        install_in(app);
         app.add_systems(self.schedule, |world: &mut World| world.run_schedule(CableStep));
     }
 }

@@ -1,5 +1,6 @@
 //! Schedules and system sets: what runs when, so that users can put systems between.
 
+use crate::breaking;
 use crate::clock::FixedClock;
 use crate::diagnostics::Diagnostics;
 use crate::event;
@@ -17,6 +18,15 @@ pub struct CableStep;
 /// One Rapier step: [`CableSystems::Predict`], [`CableSystems::Engine`], [`CableSystems::Reconcile`].
 #[derive(ScheduleLabel, Clone, Debug, PartialEq, Eq, Hash, Default)]
 pub struct RapierStep;
+
+/// For hosts that step Rapier themselves: [`CableSystems::Prepare`] and [`CableSystems::Predict`] of a host step that is one Rapier step.
+/// [`Physics`] must hold Rapier's world, with its `integration_parameters.dt`.
+#[derive(ScheduleLabel, Clone, Debug, PartialEq, Eq, Hash, Default)]
+pub struct BeforeEngine;
+
+/// For hosts that step Rapier themselves: [`CableSystems::Reconcile`] and [`CableSystems::Publish`].
+#[derive(ScheduleLabel, Clone, Debug, PartialEq, Eq, Hash, Default)]
+pub struct AfterEngine;
 
 /// The stages of a host step, in their order. Put systems before, between and after them.
 ///
@@ -53,13 +63,37 @@ pub fn install(world: &mut World) {
     world.init_resource::<FixedClock>();
     event::register(world);
     let mut schedules = world.get_resource_or_init::<Schedules>();
-    schedules.insert(cable_step());
-    schedules.insert(rapier_step());
+    for schedule in [cable_step(), rapier_step(), before_engine(), after_engine()] {
+        schedules.insert(schedule);
+    }
 }
 
 fn cable_step() -> Schedule {
     let mut schedule = Schedule::new(CableStep);
     schedule.configure_sets((CableSystems::Prepare, CableSystems::Publish).chain());
+    add_prepare(&mut schedule);
+    schedule.add_systems(step::advance.after(CableSystems::Prepare).before(CableSystems::Publish));
+    add_publish(&mut schedule);
+    schedule
+}
+
+fn before_engine() -> Schedule {
+    let mut schedule = Schedule::new(BeforeEngine);
+    schedule.configure_sets((CableSystems::Prepare, CableSystems::Predict).chain());
+    add_prepare(&mut schedule);
+    schedule.add_systems((step::begin_one.before(step::predict), step::predict).in_set(CableSystems::Predict));
+    schedule
+}
+
+fn after_engine() -> Schedule {
+    let mut schedule = Schedule::new(AfterEngine);
+    schedule.configure_sets((CableSystems::Reconcile, CableSystems::Publish).chain());
+    schedule.add_systems((step::reconcile, step::finish).chain().in_set(CableSystems::Reconcile));
+    add_publish(&mut schedule);
+    schedule
+}
+
+fn add_prepare(schedule: &mut Schedule) {
     schedule.add_systems(
         (
             prepare::begin,
@@ -75,13 +109,14 @@ fn cable_step() -> Schedule {
             .chain()
             .in_set(CableSystems::Prepare),
     );
-    schedule.add_systems(step::advance.after(CableSystems::Prepare).before(CableSystems::Publish));
+}
+
+fn add_publish(schedule: &mut Schedule) {
     schedule.add_systems(
-        (publish::read_attachments, publish::count, publish::read_bodies, publish::send)
+        (publish::read_attachments, publish::count, publish::read_bodies, breaking::part, publish::send)
             .chain()
             .in_set(CableSystems::Publish),
     );
-    schedule
 }
 
 fn rapier_step() -> Schedule {

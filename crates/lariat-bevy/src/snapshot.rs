@@ -5,6 +5,7 @@
 
 use crate::attachment::{Attachment, AttachmentReading, BreakForce, Holds, OnCable, ToBody, Unable};
 use crate::body::{Body, BodyHandle, BodyPose, KinematicTarget};
+use crate::breaking::BreakTension;
 use crate::cable::Cable;
 use crate::clock::FixedClock;
 use crate::effects::{Bending, Buoyancy, Damping, Drag, GravityScale, LineLoads, PointLoads, RestShape, Rule};
@@ -86,7 +87,7 @@ macro_rules! plain {
 
 plain! {
     name: Name, rule: Rule, bending: Bending, damping: Damping, drag: Drag, buoyancy: Buoyancy, rest_shape: RestShape,
-    line_loads: LineLoads, point_loads: PointLoads, gravity_scale: GravityScale, break_force: BreakForce,
+    line_loads: LineLoads, point_loads: PointLoads, gravity_scale: GravityScale, break_force: BreakForce, break_tension: BreakTension,
     attachment: Attachment, reading: AttachmentReading, unable: Unable, target: KinematicTarget, pose: BodyPose,
     handle: BodyHandle, holds: Holds,
 }

@@ -34,7 +34,16 @@ fn begin(world: &mut World) -> Result<(), lariat_rapier::Error> {
     })
 }
 
-fn finish(world: &mut World) {
+/// Begins a host step that is one Rapier step.
+pub(crate) fn begin_one(world: &mut World) {
+    world.resource_mut::<Cables>().set.settings.rapier_steps = 1;
+    if let Err(error) = begin(world) {
+        refuse(&mut world.resource_mut::<Cables>(), error);
+    }
+    world.resource_mut::<Diagnostics>().host_steps += 1;
+}
+
+pub(crate) fn finish(world: &mut World) {
     world.resource_scope(|world, mut cables: bevy_ecs::change_detection::Mut<Cables>| {
         if let Some(host) = cables.host.take() {
             cables.set.finish(&mut world.resource_mut::<Physics>(), host);

@@ -3,7 +3,8 @@
 use crate::attachment::Attachment;
 use crate::cable::Cable;
 use crate::cable::State;
-use crate::event::Notice;
+use crate::error::Error;
+use crate::event::{Notice, StepRefused};
 use bevy_ecs::change_detection::DetectChangesMut;
 use bevy_ecs::entity::Entity;
 use bevy_ecs::resource::Resource;
@@ -78,6 +79,17 @@ impl Cables {
     /// Changes how cables step.
     pub fn set_settings(&mut self, settings: Settings) {
         self.set.settings = settings;
+    }
+
+    /// Whether the step that began was refused: there is nothing for the engine to step.
+    pub fn is_refused(&self) -> bool {
+        self.host.as_ref().is_none_or(HostStep::is_refused)
+    }
+
+    /// Refuses a step from outside, with the reason.
+    pub fn refuse(&mut self, reason: impl Into<String>) {
+        let event = StepRefused { entity: Entity::PLACEHOLDER, error: Error::Engine(reason.into()) };
+        self.notices.push(Notice::Refused(event));
     }
 
     /// Number of attachments that hold.

@@ -74,6 +74,11 @@ impl Attachment {
         self.node
     }
 
+    /// The point of the cable, as arc length in m.
+    pub fn arc_length(&self) -> f64 {
+        self.arc_length
+    }
+
     /// The body.
     pub fn body(&self) -> RigidBodyHandle {
         self.body

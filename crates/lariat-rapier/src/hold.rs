@@ -112,6 +112,34 @@ impl CableSet {
         Ok(())
     }
 
+    /// Cuts a cable at a point between its ends: `cable` keeps what is before it, the handle is that of the rest. Attachments and
+    /// junctions go with their part, those at the cut stay with `cable`.
+    ///
+    /// # Errors
+    /// [`Error::NoCable`], or [`Error::Cable`] for a point that is not between the ends.
+    pub fn cut(&mut self, cable: CableHandle, at: impl Into<At>) -> Result<CableHandle, Error> {
+        let held = self.get_mut(cable)?;
+        let rest = held.cut(at)?;
+        let s = held.length();
+        let falls = self.cables[cable.0 as usize].as_ref().is_some_and(|slot| slot.falls);
+        let tail = self.insert(rest);
+        if let Some(slot) = &mut self.cables[tail.0 as usize] {
+            slot.falls = falls;
+        }
+        let beyond = |at: f64| at > s * (1.0 + 1e-9);
+        for a in self.attachments.iter_mut().flatten().filter(|a| a.cable == cable && beyond(a.arc_length)) {
+            (a.cable, a.arc_length) = (tail, a.arc_length - s);
+        }
+        for junction in self.junctions.iter_mut().flatten() {
+            for ((of, _), at) in junction.nodes.iter_mut().zip(&mut junction.arc_lengths) {
+                if *of == cable && beyond(*at) {
+                    (*of, *at) = (tail, *at - s);
+                }
+            }
+        }
+        Ok(tail)
+    }
+
     /// Ties a point of a cable to a point of another, or of itself: they share one position, like a shackle without mass. Nodes are placed
     /// there if there are none; a gap closes in the next step. A point that is tied already takes the other into its junction.
     ///

@@ -2,6 +2,7 @@
 
 mod assembly;
 pub mod builder;
+mod cut;
 mod effects;
 pub mod energy;
 mod equations;

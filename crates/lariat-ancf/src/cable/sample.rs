@@ -56,6 +56,11 @@ impl Cable {
     pub fn sample(&self, arc_length: f64) -> Result<Sample, Error> {
         self.check_arc_length(arc_length)?;
         let (e, xi) = self.model.locate(arc_length);
+        Ok(self.sample_in(e, xi))
+    }
+
+    /// State at a local coordinate of an element.
+    pub(crate) fn sample_in(&self, e: usize, xi: f64) -> Sample {
         let element = &self.model.elements[e];
         let combine = |x: &[f64], weights: [f64; 4]| {
             let n = &x[6 * e..6 * e + 12];
@@ -70,7 +75,7 @@ impl Cable {
         let green_strain = projected_strain(&gram(&d), xi);
         // a collapsed element has no curvature to speak of
         let curvature = if stretch > 0.0 { slope.cross(&second) / stretch.powi(3) } else { Vector3::zeros() };
-        Ok(Sample {
+        Sample {
             position: combine(q, position),
             velocity: combine(v, position),
             slope,
@@ -80,7 +85,7 @@ impl Cable {
                 * (1.0 + 2.0 * green_strain).max(0.0).sqrt(),
             curvature,
             moment: curvature * (element.section.bending_stiffness * self.moment_factor(e, xi, curvature.norm())),
-        })
+        }
     }
 
     /// What a rest shape and damping add to the strain that makes stress.

@@ -2,6 +2,7 @@
 
 mod attachments;
 mod bench;
+mod breaking;
 mod cables;
 mod changes;
 mod clock;

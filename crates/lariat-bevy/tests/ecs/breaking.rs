@@ -1,0 +1,61 @@
+//! Cables that part.
+
+use super::bench::{cube, height, pin, soft, steps, world};
+use approx::assert_relative_eq;
+use bevy_ecs::prelude::*;
+use lariat_bevy::event::{AttachmentEnded, CableBroken};
+use lariat_bevy::lariat_ancf::{PointLoad, Vector3};
+use lariat_bevy::{
+    At, Attachment, AttachmentReading, Bending, BreakTension, Cable, CableAttachments, Cables, Damping, PointLoads,
+};
+
+/// A crate of 5 kg hangs on a cable that bears 80 N; then the crate is pulled down with 50 N by way of the cable. It parts at the top,
+/// where its own weight hangs besides, and crate and rest fall freely.
+///
+/// *Source.* N = (M + rho A L) g + F; free fall.
+#[test]
+fn a_cable_parts_where_it_is_pulled_most_and_the_rest_falls_with_its_load() {
+    let mut world = world();
+    let load = world.spawn(cube(0.1, 5.0, [0.0, -2.1, 0.0])).id();
+    let cable = soft([0.0; 3], [0.0, -2.0, 0.0]);
+    let cable = world.spawn((cable, Bending, Damping::critical_fraction(1.0), BreakTension(80.0))).id();
+    let top = world.spawn(pin(cable)).id();
+    let hook = world.spawn(Attachment::ball(cable, At::End).to(load).at([0.0, 0.1, 0.0])).id();
+    // while the crate drops into the cable the tension is up to twice the weight
+    world.entity_mut(cable).insert(BreakTension(200.0));
+    steps(&mut world, 300);
+    assert_eq!(world.resource::<Messages<CableBroken>>().len(), 0);
+    world.entity_mut(cable).insert(BreakTension(80.0));
+    let pull = PointLoad { ramp: 2.0, ..PointLoad::force(1.9, Vector3::new(0.0, -50.0, 0.0)) };
+    world.entity_mut(cable).insert(PointLoads(vec![pull]));
+    let mut broken = Vec::new();
+    let mut before = 0.0;
+    for step in 0..150 {
+        before = height(&world, load);
+        steps(&mut world, 1);
+        broken.extend(world.resource_mut::<Messages<CableBroken>>().drain());
+        if !broken.is_empty() {
+            // (80 - 49.05 - 6.2)/50 of 2 s
+            assert!((58..62).contains(&step), "{step}");
+            break;
+        }
+    }
+    let [CableBroken { entity, rest, arc_length, tension }] = broken[..] else { panic!("{broken:?}") };
+    assert_eq!(entity, cable);
+    assert_relative_eq!(arc_length, 0.2, epsilon = 1e-9);
+    assert!(tension > 80.0 && tension < 82.0, "{tension}");
+    assert_eq!(world.get::<CableAttachments>(cable).unwrap().iter().collect::<Vec<_>>(), [top]);
+    assert_eq!(world.get::<CableAttachments>(rest).unwrap().iter().collect::<Vec<_>>(), [hook]);
+    assert!(world.get::<PointLoads>(cable).unwrap().0.is_empty());
+    assert_relative_eq!(world.get::<PointLoads>(rest).unwrap().0[0].arc_length, 1.7, epsilon = 1e-9);
+    world.entity_mut(rest).remove::<PointLoads>();
+    steps(&mut world, 30);
+    let fallen = before - height(&world, load);
+    assert!((fallen - 0.5 * 9.81 * 0.25).abs() < 0.1, "{fallen}");
+    assert!(world.get::<AttachmentReading>(hook).unwrap().gap < 1e-6);
+    assert_eq!(world.resource::<Cables>().attachments(), 2);
+    assert_eq!(world.resource::<Messages<AttachmentEnded>>().len(), 0);
+    let lengths = [cable, rest].map(|c| world.get::<Cable>(c).unwrap().core().unwrap().length());
+    assert_relative_eq!(lengths[0] + lengths[1], 2.0, epsilon = 1e-9);
+    assert!(world.get::<Bending>(rest).is_some() && world.get::<BreakTension>(rest).is_some());
+}
