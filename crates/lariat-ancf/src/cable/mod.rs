@@ -5,6 +5,7 @@ pub mod builder;
 mod effects;
 pub mod energy;
 mod equations;
+pub mod exact;
 mod fluid;
 mod frequency;
 mod hold;
