@@ -50,7 +50,7 @@ mod section;
 pub mod statics;
 mod support;
 
-pub use cable::builder::CableBuilder;
+pub use cable::builder::{CableBuilder, STANDARD_GRAVITY};
 pub use cable::energy::{Energy, Momentum};
 pub use cable::exact::Jacobians;
 pub use cable::sample::{Reaction, Sample};

@@ -88,7 +88,7 @@ impl CableSet {
         }
         let (start, end) = (cable.node_position(0), cable.node_position(cable.nodes() - 1));
         let first = [start.x, start.y, start.z, end.x, end.y, end.z, cable.length()];
-        let falls = cable.gravity() == ::nalgebra::Vector3::new(0.0, -9.81, 0.0);
+        let falls = cable.gravity() == lariat_ancf::STANDARD_GRAVITY;
         self.cables.push(Some(Slot { asleep: false, stirred: true, falls, gravity: cable.gravity(), first, cable }));
         self.stale = true;
         self.gravity = None;
