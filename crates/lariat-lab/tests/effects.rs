@@ -188,20 +188,22 @@ at = 0.37
     let expected = 1e4 * 0.5 * (1.0 - 0.98 * 0.98);
     assert!((end[10] / expected - 1.0).abs() < 1e-9, "{end:?}");
     assert_eq!(effects, ["rest_shape"]);
-    let arc = |s: f64| [s.sin(), 1.0 - s.cos(), 0.0];
-    let points: Vec<_> = (0..=20).map(|i| arc(f64::from(i) / 20.0)).collect();
+    // drawn finely: corners of a coarse polyline may stay as wrinkles, which no curvature without direction resists
+    let k = 1.6f64;
+    let arc = |s: f64| [(k * s).sin() / k, (1.0 - (k * s).cos()) / k, 0.0];
+    let points: Vec<_> = (0..=200).map(|i| arc(f64::from(i) / 200.0)).collect();
     let rod = |rest: &str| {
         format!(
             "duration = 3.0\ngravity = [0.0, 0.0, 0.0]\n[[cable]]\nname = \"rod\"\npoints = {points:?}\nlength = 1.0\n\
-             axial_stiffness = 1e5\nbending_stiffness = 1.0\nmass_per_length = 1.0\n[cable.damping]\nbending = 0.05\n\
-             {rest}[[probe]]\nname = \"p\"\ncable = \"rod\"\nat = 0.75\n"
+             axial_stiffness = 1e5\nbending_stiffness = 1.0\nmass_per_length = 1.0\nelements = 20\n[cable.damping]\nbending = 0.05\n\
+             {rest}[[probe]]\nname = \"p\"\ncable = \"rod\"\nat = 0.775\n"
         )
     };
     let pieces = "[[cable.rest_shape.piece]]\nfrom = 0.0\ncurvature = 1.5\n\
                   [[cable.rest_shape.piece]]\nfrom = 0.5\ncurvature = 1.2\n";
     for rest in ["[cable.rest_shape]\ncurvature = 1.2\n", pieces] {
         let (end, _) = last("rod", &rod(rest));
-        assert!((end[11] / 1.2 - 1.0).abs() < 5e-3 && end[12].abs() < 5e-3, "{rest}: {end:?}");
+        assert!((end[11] / 1.2 - 1.0).abs() < 5e-4 && end[12].abs() < 5e-4, "{rest}: {end:?}");
     }
 }
 
