@@ -1,5 +1,6 @@
 //! What a cable did: counts, so that cost can be read without a clock, and the same on every machine.
 
+use core::ops::AddAssign;
 use serde::{Deserialize, Serialize};
 
 /// Counts since the cable was built or [`reset`](Diagnostics::reset). Plain data; two runs of the same cable count the same.
@@ -40,7 +41,28 @@ pub struct Diagnostics {
     pub rest_shape_evaluations: u64,
 }
 
+/// Applies `$op` field by field.
+macro_rules! by_field {
+    ($a:expr, $b:expr, $op:expr) => {
+        by_field!(@ $a, $b, $op; host_steps, steps, rejected_steps, newton_iterations, factorisations,
+            indefinite_factorisations, solves, mass_solves, force_evaluations, tangent_evaluations, bending_evaluations,
+            load_evaluations, damping_evaluations, drag_evaluations, rest_shape_evaluations)
+    };
+    (@ $a:expr, $b:expr, $op:expr; $($field:ident),*) => { Diagnostics { $($field: $op($a.$field, $b.$field)),* } };
+}
+
+impl AddAssign for Diagnostics {
+    fn add_assign(&mut self, other: Self) {
+        *self = by_field!(self, other, |a: u64, b: u64| a + b);
+    }
+}
+
 impl Diagnostics {
+    /// What was counted after `earlier`; zero where it was reset since.
+    pub fn since(&self, earlier: &Self) -> Self {
+        by_field!(self, earlier, u64::saturating_sub)
+    }
+
     /// All counts to zero.
     pub fn reset(&mut self) {
         *self = Self::default();

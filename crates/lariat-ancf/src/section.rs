@@ -95,6 +95,25 @@ impl Section {
         Ok(section)
     }
 
+    /// A steel wire rope, 6x36WS with an independent wire rope core, of this nominal diameter d in m.
+    ///
+    /// Mass 4.09e3 d^2 kg/m and metallic area 0.460 d^2 (EN 12385-4, factors W = 0.409 and C = 0.460 of the class), rope modulus
+    /// 1.0e11 Pa on that area (Feyrer, Wire Ropes, 2015, chapter 2: 0.95 to 1.1e11 after bedding). Bending stiffness: wires of 0.046 d that
+    /// slide without friction, EI = 2.06e11 * 0.460 d^2 * (0.046 d)^2/16, the lower bound; friction between wires raises it several
+    /// times.
+    ///
+    /// # Errors
+    /// [`Error::InvalidValue`] for a diameter that is not positive and finite.
+    pub fn wire_rope(diameter: f64) -> Result<Self, Error> {
+        require("rope diameter (m)", diameter, diameter > 0.0, "> 0")?;
+        let (metal, wire) = (0.460 * diameter * diameter, 0.046 * diameter);
+        let mut section =
+            Self::from_stiffness(1.0e11 * metal, 2.06e11 * metal * wire * wire / 16.0, 4.09e3 * diameter * diameter)?;
+        section.diameter = Some(diameter);
+        section.outer_area = Some(Shape::Round(diameter).area());
+        Ok(section)
+    }
+
     /// The same, if its numbers are in range.
     ///
     /// # Errors

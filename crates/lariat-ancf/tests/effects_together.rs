@@ -7,7 +7,7 @@ use common::{Random, rule, soft_cable};
 use lariat_ancf::effect::Profile;
 use lariat_ancf::{
     At, Buoyancy, Cable, Damping, Drag, Effects, Error, Flow, GravityScale, Integrator, LineLoad, Method, PointLoad,
-    RestPiece, RestShape, Section, Vector3,
+    RestPiece, RestShape, Vector3,
 };
 use nalgebra::DMatrix;
 

@@ -91,8 +91,10 @@ impl CableSet {
     /// Ends an attachment; the node is free.
     ///
     /// # Errors
-    /// [`Error::NoAttachment`].
+    /// [`Error::NoAttachment`]; [`Error::Lent`] if its cable is.
     pub fn detach(&mut self, world: &mut PhysicsWorld, attachment: AttachmentHandle) -> Result<(), Error> {
+        let cable = self.attachment(attachment)?.cable;
+        self.get(cable)?;
         let slot = self.attachments.get_mut(attachment.0 as usize);
         let ended = slot.and_then(Option::take).ok_or(Error::NoAttachment(attachment))?;
         self.stale = true;

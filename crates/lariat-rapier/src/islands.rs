@@ -158,7 +158,7 @@ impl CableSet {
 
     /// Finds the nodes of attachments and junctions by their arc lengths: a user may have placed others.
     fn renumber(&mut self) -> Result<(), Error> {
-        let node = |cables: &[Option<Slot>], cable: CableHandle, s: f64| {
+        let node = |cables: &[Option<Box<Slot>>], cable: CableHandle, s: f64| {
             cables[cable.0 as usize].as_ref().map_or(Ok(0), |slot| slot.cable.node(s))
         };
         for a in self.attachments.iter_mut().flatten() {

@@ -3,7 +3,7 @@
 use crate::body;
 use crate::islands::{IslandStep, Member};
 use crate::set::{CableSet, Slot};
-use crate::{Error, ends, hand_over, impedance};
+use crate::{CableHandle, Error, ends, hand_over, impedance};
 use lariat_ancf::{Cable, Integrator, StepControl};
 use rapier::pipeline::PhysicsWorld;
 
@@ -17,16 +17,19 @@ impl CableSet {
             islands.iter().for_each(|island| take_back(world, island));
             self.islands = islands;
         }
+        self.complete()?;
         self.end_lost_attachments(world)?;
         self.follow_gravity(world)?;
         self.find_islands(world)?;
         let mut islands = core::mem::take(&mut self.islands);
         islands.iter_mut().for_each(|island| island.given.clear());
+        self.refused.clear();
         let mut outcome = Ok(());
         for k in 0..islands.len() {
             outcome = self.predict_island(world, &mut islands[k], h, parts);
             if outcome.is_err() {
                 islands[..=k].iter().for_each(|island| self.undo(world, island));
+                self.refused.extend(islands[k].cables.iter().map(|&c| CableHandle(c as u32)));
                 break;
             }
         }
@@ -205,7 +208,7 @@ fn part_of(integrator: Integrator, parts: u32) -> Integrator {
 }
 
 /// The cables of an island, in its order.
-pub(crate) fn pick<'a>(cables: &'a mut [Option<Slot>], indices: &[usize]) -> Vec<&'a mut Cable> {
+pub(crate) fn pick<'a>(cables: &'a mut [Option<Box<Slot>>], indices: &[usize]) -> Vec<&'a mut Cable> {
     let mut picked: Vec<(usize, &mut Cable)> = cables
         .iter_mut()
         .enumerate()

@@ -51,7 +51,10 @@ pub(crate) struct Slot {
 pub struct CableSet {
     /// How the set steps.
     pub settings: Settings,
-    pub(crate) cables: Vec<Option<Slot>>,
+    pub(crate) cables: Vec<Option<Box<Slot>>>,
+    /// Handles of cables that are lent, ascending.
+    #[serde(default)]
+    pub(crate) lent: Vec<u32>,
     pub(crate) attachments: Vec<Option<Attachment>>,
     pub(crate) junctions: Vec<Option<Junction>>,
     /// Ascending by handle.
@@ -71,6 +74,8 @@ pub struct CableSet {
     pub(crate) solver: Island,
     #[serde(skip)]
     pub(crate) events: Vec<Event>,
+    #[serde(skip)]
+    pub(crate) refused: Vec<CableHandle>,
 }
 
 impl CableSet {
@@ -89,7 +94,8 @@ impl CableSet {
         let (start, end) = (cable.node_position(0), cable.node_position(cable.nodes() - 1));
         let first = [start.x, start.y, start.z, end.x, end.y, end.z, cable.length()];
         let falls = cable.gravity() == lariat_ancf::STANDARD_GRAVITY;
-        self.cables.push(Some(Slot { asleep: false, stirred: true, falls, gravity: cable.gravity(), first, cable }));
+        let gravity = cable.gravity();
+        self.cables.push(Some(Box::new(Slot { asleep: false, stirred: true, falls, gravity, first, cable })));
         self.stale = true;
         self.gravity = None;
         CableHandle(self.cables.len() as u32 - 1)
@@ -101,6 +107,13 @@ impl CableSet {
     /// [`Error::NoCable`].
     pub fn remove(&mut self, world: &mut PhysicsWorld, cable: CableHandle) -> Result<Cable, Error> {
         self.get(cable)?;
+        self.let_go(world, cable)?;
+        let slot = self.cables.get_mut(cable.0 as usize).and_then(Option::take);
+        slot.map(|s| s.cable).ok_or(Error::NoCable(cable))
+    }
+
+    /// Ends the attachments of a cable and its part in junctions.
+    fn let_go(&mut self, world: &mut PhysicsWorld, cable: CableHandle) -> Result<(), Error> {
         for i in 0..self.attachments.len() {
             if self.attachments[i].as_ref().is_some_and(|a| a.cable == cable) {
                 self.detach(world, AttachmentHandle(i as u32))?;
@@ -112,24 +125,24 @@ impl CableSet {
             }
         }
         self.stale = true;
-        let slot = self.cables.get_mut(cable.0 as usize).and_then(Option::take);
-        slot.map(|s| s.cable).ok_or(Error::NoCable(cable))
+        Ok(())
     }
 
     /// A cable.
     ///
     /// # Errors
-    /// [`Error::NoCable`].
+    /// [`Error::NoCable`], [`Error::Lent`].
     pub fn get(&self, cable: CableHandle) -> Result<&Cable, Error> {
-        self.cables.get(cable.0 as usize).and_then(Option::as_ref).map(|s| &s.cable).ok_or(Error::NoCable(cable))
+        self.cables.get(cable.0 as usize).and_then(Option::as_ref).map(|s| &s.cable).ok_or_else(|| self.missing(cable))
     }
 
     /// A cable, to change it; a sleeping one wakes.
     ///
     /// # Errors
-    /// [`Error::NoCable`].
+    /// [`Error::NoCable`], [`Error::Lent`].
     pub fn get_mut(&mut self, cable: CableHandle) -> Result<&mut Cable, Error> {
-        let slot = self.cables.get_mut(cable.0 as usize).and_then(Option::as_mut).ok_or(Error::NoCable(cable))?;
+        self.get(cable)?;
+        let slot = self.cables[cable.0 as usize].as_mut().expect("it is here");
         slot.stirred = true;
         Ok(&mut slot.cable)
     }
@@ -172,6 +185,11 @@ impl CableSet {
     /// What happened during the last host step.
     pub fn events(&self) -> &[Event] {
         &self.events
+    }
+
+    /// The cables of the island whose step was refused; none if the last step was done.
+    pub fn refused(&self) -> &[CableHandle] {
+        &self.refused
     }
 
     /// What is remembered of a body.

@@ -10,8 +10,28 @@ use rapier::dynamics::{RigidBodyHandle, RigidBodyType};
 use rapier::math::{Pose, Real};
 use rapier::pipeline::{EventHandler, PhysicsHooks, PhysicsWorld};
 
-/// Where position-based kinematic bodies are to be at the end of a host step.
-type Targets = Vec<(RigidBodyHandle, Pose, Pose)>;
+/// A host step that is taken apart; see [`CableSet::begin`].
+#[derive(Clone, Debug)]
+pub struct HostStep {
+    dt: Real,
+    steps: u32,
+    done: u32,
+    failed: bool,
+    /// Where position-based kinematic bodies come from and are to be at the end.
+    targets: Vec<(RigidBodyHandle, Pose, Pose)>,
+}
+
+impl HostStep {
+    /// Whether Rapier steps are left.
+    pub fn is_unfinished(&self) -> bool {
+        !self.failed && self.done < self.steps
+    }
+
+    /// Whether a prediction was refused: there is nothing for Rapier to step.
+    pub fn is_refused(&self) -> bool {
+        self.failed
+    }
+}
 
 impl CableSet {
     /// One host step of `world.integration_parameters.dt`, split into [`Settings::rapier_steps`](crate::Settings).
@@ -33,33 +53,10 @@ impl CableSet {
         hooks: &dyn PhysicsHooks,
         events: &dyn EventHandler,
     ) -> Result<(), Error> {
-        let dt = world.integration_parameters.dt;
-        if !self.moves_on(dt)? {
-            world.step_with_events(hooks, events);
-            return Ok(());
-        }
-        let steps = self.settings.rapier_steps.max(1);
-        let targets: Targets = world
-            .bodies
-            .iter()
-            .filter(|(_, b)| {
-                b.body_type() == RigidBodyType::KinematicPositionBased && b.next_position() != b.position()
-            })
-            .map(|(h, b)| (h, *b.position(), *b.next_position()))
-            .collect();
-        world.integration_parameters.dt = dt / steps as Real;
-        self.events.clear();
+        let mut host = self.begin(world)?;
         let mut outcome = Ok(());
-        for k in 1..=steps {
-            for (handle, from, to) in &targets {
-                let share = f64::from(k) / f64::from(steps);
-                let turn = rotation(to.rotation) * rotation(from.rotation).inverse();
-                let attitude = UnitQuaternion::from_scaled_axis(turn.scaled_axis() * share) * rotation(from.rotation);
-                let place = vector(from.translation).lerp(&vector(to.translation), share);
-                let pose = if k == steps { *to } else { crate::convert::to_pose(&place, &attitude) };
-                world.bodies[*handle].set_next_kinematic_position(pose);
-            }
-            outcome = self.predict_part(world, steps);
+        while host.is_unfinished() {
+            outcome = self.predict_next(world, &mut host);
             if outcome.is_err() {
                 break;
             }
@@ -69,13 +66,69 @@ impl CableSet {
                 break;
             }
         }
-        world.integration_parameters.dt = dt;
-        if outcome.is_err() {
-            for (handle, _, to) in targets {
-                world.bodies[handle].set_next_kinematic_position(to);
+        self.finish(world, host);
+        outcome
+    }
+
+    /// Begins a host step that is taken apart, for those who step Rapier themselves: as long as
+    /// [`is_unfinished`](HostStep::is_unfinished), [`predict_next`](Self::predict_next), Rapier's step, and
+    /// [`reconcile`](Self::reconcile); in the end, whatever happened, [`finish`](Self::finish). Meanwhile
+    /// `world.integration_parameters.dt` is that of a Rapier step.
+    ///
+    /// # Errors
+    /// [`Error::TimeStep`].
+    pub fn begin(&mut self, world: &mut PhysicsWorld) -> Result<HostStep, Error> {
+        let dt = world.integration_parameters.dt;
+        let moves = self.moves_on(dt)?;
+        let steps = if moves { self.settings.rapier_steps.max(1) } else { 1 };
+        let mut targets = Vec::new();
+        if moves {
+            self.events.clear();
+            targets.extend(world.bodies.iter().filter_map(|(h, b)| {
+                let moved = b.body_type() == RigidBodyType::KinematicPositionBased && b.next_position() != b.position();
+                moved.then(|| (h, *b.position(), *b.next_position()))
+            }));
+            world.integration_parameters.dt = dt / steps as Real;
+        }
+        Ok(HostStep { dt, steps, done: 0, failed: false, targets })
+    }
+
+    /// Predicts the next Rapier step of a host step.
+    ///
+    /// # Errors
+    /// As [`step`](Self::step).
+    pub fn predict_next(&mut self, world: &mut PhysicsWorld, host: &mut HostStep) -> Result<(), Error> {
+        if !host.is_unfinished() {
+            return Ok(());
+        }
+        host.done += 1;
+        if !self.moves_on(host.dt)? {
+            return Ok(());
+        }
+        for (handle, from, to) in &host.targets {
+            let Some(body) = world.bodies.get_mut(*handle) else { continue };
+            let share = f64::from(host.done) / f64::from(host.steps);
+            let turn = rotation(to.rotation) * rotation(from.rotation).inverse();
+            let attitude = UnitQuaternion::from_scaled_axis(turn.scaled_axis() * share) * rotation(from.rotation);
+            let place = vector(from.translation).lerp(&vector(to.translation), share);
+            let pose = if host.done == host.steps { *to } else { crate::convert::to_pose(&place, &attitude) };
+            body.set_next_kinematic_position(pose);
+        }
+        let outcome = self.predict_part(world, host.steps);
+        host.failed |= outcome.is_err();
+        outcome
+    }
+
+    /// Ends a host step: `world.integration_parameters.dt` is the host's again.
+    pub fn finish(&mut self, world: &mut PhysicsWorld, host: HostStep) {
+        world.integration_parameters.dt = host.dt;
+        if host.is_unfinished() || host.failed {
+            for (handle, _, to) in host.targets {
+                if let Some(body) = world.bodies.get_mut(handle) {
+                    body.set_next_kinematic_position(to);
+                }
             }
         }
-        outcome
     }
 
     /// Whether time passes in a step of `dt` (s).

@@ -19,6 +19,7 @@ mod rest;
 pub mod sample;
 mod saved;
 mod simd;
+mod strategy;
 mod system;
 
 pub use model::{Element, Model};

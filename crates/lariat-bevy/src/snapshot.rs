@@ -1,0 +1,248 @@
+//! State taken out and put back: for rollback networking, and for trying things out.
+//!
+//! A snapshot holds Rapier's world, the set of cables, and the components of this crate on every cable, attachment and body. From a
+//! restored snapshot a run goes on bitwise as it did from the moment when the snapshot was taken.
+
+use crate::attachment::{Attachment, AttachmentReading, BreakForce, Holds, OnCable, ToBody, Unable};
+use crate::body::{Body, BodyHandle, BodyPose, KinematicTarget};
+use crate::cable::Cable;
+use crate::clock::FixedClock;
+use crate::effects::{Bending, Buoyancy, Damping, Drag, GravityScale, LineLoads, PointLoads, RestShape, Rule};
+use crate::error::Error;
+use crate::interpolate::Interpolate;
+use crate::world::{Cables, Links, Physics, bring_home, lend_out};
+use bevy_ecs::entity::Entity;
+use bevy_ecs::name::Name;
+use bevy_ecs::prelude::{Or, Query, With};
+use bevy_ecs::world::{EntityRef, EntityWorldMut, World};
+use lariat_rapier::CableSet;
+use lariat_rapier::rapier::pipeline::{CollisionPipeline, PhysicsPipeline, PhysicsWorld};
+use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
+
+/// State of all cables, attachments and bodies.
+#[derive(Clone)]
+pub struct Snapshot {
+    physics: Arc<PhysicsWorld>,
+    set: CableSet,
+    links: Links,
+    clock: FixedClock,
+    entities: Vec<Saved>,
+}
+
+/// Rapier's world but for its work space.
+fn copy(world: &PhysicsWorld) -> PhysicsWorld {
+    PhysicsWorld {
+        gravity: world.gravity,
+        integration_parameters: world.integration_parameters,
+        physics_pipeline: PhysicsPipeline::new(),
+        collision_pipeline: CollisionPipeline::new(),
+        islands: world.islands.clone(),
+        broad_phase: world.broad_phase.clone(),
+        narrow_phase: world.narrow_phase.clone(),
+        bodies: world.bodies.clone(),
+        colliders: world.colliders.clone(),
+        impulse_joints: world.impulse_joints.clone(),
+        multibody_joints: world.multibody_joints.clone(),
+        soft_bodies: world.soft_bodies.clone(),
+        ccd_solver: world.ccd_solver.clone(),
+    }
+}
+
+/// An entity with its components.
+#[derive(Clone)]
+struct Saved {
+    entity: Entity,
+    cable: Option<Cable>,
+    body: Option<Body>,
+    interpolate: Option<Interpolate>,
+    on: Option<OnCable>,
+    to: Option<ToBody>,
+    plain: Plain,
+}
+
+/// Components that are plain data; `put` touches only what differs, so that nothing seems changed that is not.
+macro_rules! plain {
+    ($($field:ident: $type:ty),* $(,)?) => {
+        #[derive(Clone)]
+        struct Plain { $($field: Option<$type>),* }
+
+        impl Plain {
+            fn of(entity: EntityRef) -> Self {
+                Plain { $($field: entity.get::<$type>().cloned()),* }
+            }
+
+            fn put(self, entity: &mut EntityWorldMut) {
+                $(if entity.get::<$type>() != self.$field.as_ref() {
+                    match self.$field {
+                        Some(component) => { entity.insert(component); }
+                        None => { entity.remove::<$type>(); }
+                    }
+                })*
+            }
+        }
+    };
+}
+
+plain! {
+    name: Name, rule: Rule, bending: Bending, damping: Damping, drag: Drag, buoyancy: Buoyancy, rest_shape: RestShape,
+    line_loads: LineLoads, point_loads: PointLoads, gravity_scale: GravityScale, break_force: BreakForce,
+    attachment: Attachment, reading: AttachmentReading, unable: Unable, target: KinematicTarget, pose: BodyPose,
+    handle: BodyHandle, holds: Holds,
+}
+
+type Ours = Or<(With<Cable>, With<Attachment>, With<Body>, With<BodyHandle>)>;
+
+impl Snapshot {
+    /// Copies the state out.
+    ///
+    /// # Errors
+    /// [`Error::NotInstalled`].
+    pub fn take(world: &mut World) -> Result<Snapshot, Error> {
+        if !world.contains_resource::<Cables>() {
+            return Err(Error::NotInstalled);
+        }
+        with_cables(world, bring_home);
+        let entities: Vec<Entity> = world.query_filtered::<Entity, Ours>().iter(world).collect();
+        let entities = entities.into_iter().map(|entity| Saved::of(world.entity(entity))).collect();
+        let cables = world.resource::<Cables>();
+        let snapshot = Snapshot {
+            physics: Arc::new(copy(&world.resource::<Physics>().0)),
+            set: cables.set.clone(),
+            links: cables.links.clone(),
+            clock: *world.resource::<FixedClock>(),
+            entities,
+        };
+        with_cables(world, lend_out);
+        Ok(snapshot)
+    }
+
+    /// Puts the state back. Cables, attachments and bodies that are new since are despawned; those that went away are spawned anew, with this
+    /// crate's components only, and other numbers: the result tells which, old to new.
+    ///
+    /// # Errors
+    /// [`Error::NotInstalled`].
+    pub fn restore(&self, world: &mut World) -> Result<BTreeMap<Entity, Entity>, Error> {
+        if !world.contains_resource::<Cables>() {
+            return Err(Error::NotInstalled);
+        }
+        with_cables(world, bring_home);
+        let known: BTreeSet<Entity> = self.entities.iter().map(|saved| saved.entity).collect();
+        let now: Vec<Entity> =
+            world.query_filtered::<Entity, Or<(With<Cable>, With<Attachment>, With<Body>)>>().iter(world).collect();
+        for entity in now.into_iter().filter(|entity| !known.contains(entity)) {
+            world.despawn(entity);
+        }
+        let mut renamed = BTreeMap::new();
+        for saved in &self.entities {
+            if world.get_entity(saved.entity).is_err() {
+                renamed.insert(saved.entity, world.spawn_empty().id());
+            }
+        }
+        let name = |entity: Entity| renamed.get(&entity).copied().unwrap_or(entity);
+        for saved in &self.entities {
+            saved.clone().put(world, &name);
+        }
+        let mut cables = world.resource_mut::<Cables>();
+        cables.set = self.set.clone();
+        cables.links = self.links.renamed(&name);
+        cables.host = None;
+        cables.handed_in.clear();
+        cables.retired_attachments.clear();
+        cables.retired_bodies.clear();
+        cables.notices.clear();
+        world.resource_mut::<Physics>().0 = copy(&self.physics);
+        *world.resource_mut::<FixedClock>() = self.clock;
+        with_cables(world, lend_out);
+        Ok(renamed)
+    }
+}
+
+impl Saved {
+    fn of(entity: EntityRef) -> Self {
+        Saved {
+            entity: entity.id(),
+            cable: entity.get::<Cable>().cloned(),
+            body: entity.get::<Body>().cloned(),
+            interpolate: entity.get::<Interpolate>().cloned(),
+            on: entity.get::<OnCable>().copied(),
+            to: entity.get::<ToBody>().copied(),
+            plain: Plain::of(entity),
+        }
+    }
+
+    fn put(self, world: &mut World, name: &impl Fn(Entity) -> Entity) {
+        let alive = |world: &World, entity: Entity| world.get_entity(entity).is_ok();
+        let on = self.on.map(|on| OnCable(name(on.0))).filter(|on| alive(world, on.0));
+        let to = self.to.map(|to| ToBody(name(to.0))).filter(|to| alive(world, to.0));
+        let Ok(mut entity) = world.get_entity_mut(name(self.entity)) else { return };
+        match self.cable {
+            Some(cable) => {
+                entity.insert(cable);
+            }
+            None => {
+                entity.remove::<Cable>();
+            }
+        }
+        // a body's description only matters where it is made; to put it back over itself would make the body anew
+        match self.body {
+            Some(body) if !entity.contains::<Body>() => {
+                entity.insert(body);
+            }
+            None if entity.contains::<Body>() => {
+                entity.remove::<Body>();
+            }
+            _ => {}
+        }
+        match self.interpolate {
+            Some(interpolate) => {
+                entity.insert(interpolate);
+            }
+            None => {
+                entity.remove::<Interpolate>();
+            }
+        }
+        if entity.get::<OnCable>() != on.as_ref() {
+            match on {
+                Some(on) => {
+                    entity.insert(on);
+                }
+                None => {
+                    entity.remove::<OnCable>();
+                }
+            }
+        }
+        if entity.get::<ToBody>() != to.as_ref() {
+            match to {
+                Some(to) => {
+                    entity.insert(to);
+                }
+                None => {
+                    entity.remove::<ToBody>();
+                }
+            }
+        }
+        self.plain.put(&mut entity);
+    }
+}
+
+impl Links {
+    fn renamed(&self, name: &impl Fn(Entity) -> Entity) -> Links {
+        let mut links = self.clone();
+        links.cables.values_mut().for_each(|entity| *entity = name(*entity));
+        links.bodies.values_mut().for_each(|entity| *entity = name(*entity));
+        for bound in links.attachments.values_mut() {
+            (bound.entity, bound.cable) = (name(bound.entity), name(bound.cable));
+            bound.body = bound.body.map(name);
+        }
+        links
+    }
+}
+
+/// Runs `action` on the cables of a world and their components.
+fn with_cables(world: &mut World, action: fn(&mut Cables, &mut Query<&mut Cable>)) {
+    let mut query = world.query::<&mut Cable>();
+    world.resource_scope(|world, mut cables: bevy_ecs::change_detection::Mut<Cables>| {
+        action(&mut cables, &mut query.query_mut(world));
+    });
+}

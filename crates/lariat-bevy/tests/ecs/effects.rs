@@ -1,0 +1,121 @@
+//! Effects are components: on while they are there.
+
+use super::bench::{bits, pin, soft, steps, world};
+use bevy_ecs::prelude::*;
+use lariat_bevy::event::CableFailed;
+use lariat_bevy::lariat_ancf::{LineLoad, PointLoad, RestPiece, Vector3};
+use lariat_bevy::{
+    Bending, Buoyancy, Cable, Damping, Diagnostics, Drag, GravityScale, LineLoads, PointLoads, RestShape, Rule,
+};
+
+fn counted(world: &mut World, count: usize) -> lariat_bevy::lariat_ancf::Diagnostics {
+    world.resource_mut::<Diagnostics>().reset();
+    steps(world, count);
+    world.resource::<Diagnostics>().cables
+}
+
+#[test]
+fn what_is_absent_is_never_evaluated() {
+    let mut world = world();
+    let cable = world.spawn(soft([0.0; 3], [2.0, 0.0, 0.0])).id();
+    world.spawn(pin(cable));
+    let done = counted(&mut world, 10);
+    assert!(done.element_evaluations() > 0);
+    let effects = [
+        done.bending_evaluations,
+        done.damping_evaluations,
+        done.drag_evaluations,
+        done.rest_shape_evaluations,
+        done.load_evaluations,
+    ];
+    assert_eq!(effects, [0; 5]);
+}
+
+#[test]
+fn an_effect_works_from_the_step_after_it_comes_to_the_step_after_it_goes() {
+    let mut world = world();
+    let cable = world.spawn(soft([0.0; 3], [2.0, 0.0, 0.0])).id();
+    world.spawn(pin(cable));
+    steps(&mut world, 3);
+    world.entity_mut(cable).insert((Bending, Damping::time(1e-3), Drag::air()));
+    let rest = vec![RestPiece { from: 0.0, stretch: 1.0001, curvature: 0.1 }];
+    world.entity_mut(cable).insert((RestShape::from(rest), PointLoads(vec![PointLoad::force(2.0, Vector3::x())])));
+    let on = counted(&mut world, 5);
+    assert!(on.bending_evaluations > 0 && on.damping_evaluations > 0 && on.drag_evaluations > 0);
+    assert!(on.rest_shape_evaluations > 0 && on.load_evaluations > 0);
+    world.entity_mut(cable).remove::<(Bending, Damping, Drag, RestShape, PointLoads)>();
+    let off = counted(&mut world, 5);
+    assert_eq!((off.bending_evaluations, off.damping_evaluations, off.drag_evaluations), (0, 0, 0));
+    assert_eq!((off.rest_shape_evaluations, off.load_evaluations), (0, 0));
+    assert!(off.element_evaluations() > 0);
+}
+
+/// Gravity scale, buoyancy and line loads: a free cable falls with what is left of its weight.
+///
+/// *Source.* a = g, g/2, 0, and (rho_c - rho_w) g/(rho_c + C_a rho_w) with added mass (motion across a straight cable).
+#[test]
+fn a_free_cable_falls_with_what_is_left_of_its_weight() {
+    let fall = |bundle: fn(&mut EntityWorldMut)| {
+        let mut world = world();
+        let mut cable = world.spawn(soft([0.0; 3], [2.0, 0.0, 0.0]));
+        bundle(&mut cable);
+        let cable = cable.id();
+        steps(&mut world, 30);
+        -world.get::<Cable>(cable).unwrap().sample(1.0).unwrap().velocity.y / 0.5
+    };
+    let near = |a: f64, b: f64| assert!((a - b).abs() < 1e-5 * 9.81, "{a} {b}");
+    near(fall(|_| {}), 9.81);
+    near(
+        fall(|e| {
+            e.insert(GravityScale(0.5));
+        }),
+        4.905,
+    );
+    near(
+        fall(|e| {
+            e.insert(Buoyancy::water());
+        }),
+        9.81 * 3000.0 / 5000.0,
+    );
+    let weight = std::f64::consts::FRAC_PI_4 * 1e-4 * 4000.0 * 9.81;
+    let carried = LineLoads(vec![LineLoad::uniform(Vector3::y() * weight)]);
+    let mut world = world();
+    let cable = world.spawn((soft([0.0; 3], [2.0, 0.0, 0.0]), carried)).id();
+    steps(&mut world, 30);
+    assert!(world.get::<Cable>(cable).unwrap().sample(1.0).unwrap().velocity.norm() < 1e-8);
+}
+
+#[test]
+fn an_effect_that_cannot_be_is_refused_by_name_and_the_cable_goes_on() {
+    let mut world = world();
+    let cable = world.spawn(soft([0.0; 3], [2.0, 0.0, 0.0])).id();
+    world.spawn(pin(cable));
+    steps(&mut world, 2);
+    world.entity_mut(cable).insert(Damping::time(f64::NAN));
+    steps(&mut world, 1);
+    let mut told = world.resource_mut::<Messages<CableFailed>>();
+    let told: Vec<CableFailed> = told.drain().collect();
+    assert_eq!(told.len(), 1);
+    assert!(told[0].entity == cable && told[0].error.to_string().contains("damping"), "{}", told[0].error);
+    let time = world.get::<Cable>(cable).unwrap().core().unwrap().time();
+    assert!((time - 3.0 / 60.0).abs() < 1e-6, "{time}");
+}
+
+#[test]
+fn what_did_not_change_does_not_wake_a_cable_or_move_a_bit() {
+    let run = |touch: bool| {
+        let mut world = world();
+        let cable = soft([0.0; 3], [2.0, 0.0, 0.0]);
+        let cable = world.spawn((cable, Rule::ST2, Bending, Damping::critical_fraction(0.1), Drag::air())).id();
+        world.spawn(pin(cable));
+        for _ in 0..20 {
+            steps(&mut world, 1);
+            if touch {
+                world.get_mut::<Drag>(cable).unwrap().set_changed();
+                world.get_mut::<Damping>(cable).unwrap().set_changed();
+            }
+        }
+        bits(&world, cable)
+    };
+    assert!(run(false) == run(true));
+}

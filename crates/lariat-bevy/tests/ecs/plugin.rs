@@ -1,0 +1,57 @@
+//! The plugin in an app.
+
+use super::bench::soft;
+use bevy_app::{App, Update};
+use bevy_ecs::prelude::*;
+use bevy_ecs::reflect::AppTypeRegistry;
+use bevy_reflect::TypeRegistry;
+use lariat_bevy::event::CableFailed;
+use lariat_bevy::{Bending, Cable, CableStep, CableSystems, Damping, LariatPlugin, RapierStep};
+
+#[derive(Resource, Default)]
+struct Order(Vec<&'static str>);
+
+fn note(name: &'static str) -> impl Fn(ResMut<Order>) {
+    move |mut order: ResMut<Order>| order.0.push(name)
+}
+
+/// Systems between the stages run where the documentation says.
+#[test]
+fn systems_can_be_put_between_the_stages() {
+    let mut app = App::new();
+    app.add_plugins(LariatPlugin::in_schedule(Update)).init_resource::<Order>();
+    app.add_systems(CableStep, note("before").before(CableSystems::Prepare));
+    app.add_systems(CableStep, note("after").after(CableSystems::Publish));
+    app.add_systems(RapierStep, note("predicted").after(CableSystems::Predict).before(CableSystems::Engine));
+    app.add_systems(RapierStep, note("stepped").after(CableSystems::Engine).before(CableSystems::Reconcile));
+    let cable = app.world_mut().spawn((soft([0.0; 3], [1.0, 0.0, 0.0]), Bending)).id();
+    app.update();
+    let four = ["predicted", "stepped"].repeat(4);
+    let expected: Vec<&str> = ["before"].into_iter().chain(four).chain(["after"]).collect();
+    assert_eq!(app.world().resource::<Order>().0, expected);
+    let time = app.world().get::<Cable>(cable).unwrap().core().unwrap().time();
+    assert!((time - 1.0 / 60.0).abs() < 1e-7);
+}
+
+#[test]
+fn messages_of_an_app_are_dropped_after_two_frames() {
+    let mut app = App::new();
+    app.add_plugins(LariatPlugin::in_schedule(Update));
+    app.world_mut().spawn(Cable::steel_rope(-1.0));
+    assert_eq!(app.world().resource::<Messages<CableFailed>>().len(), 1);
+    for _ in 0..3 {
+        app.update();
+    }
+    assert_eq!(app.world().resource::<Messages<CableFailed>>().len(), 0);
+}
+
+#[test]
+fn effects_are_in_the_type_registry() {
+    let mut app = App::new();
+    app.init_resource::<AppTypeRegistry>();
+    app.add_plugins(LariatPlugin::default());
+    let registry = app.world().resource::<AppTypeRegistry>().read();
+    let registry: &TypeRegistry = &registry;
+    assert!(registry.get(core::any::TypeId::of::<Damping>()).is_some());
+    assert!(registry.get_type_data::<ReflectComponent>(core::any::TypeId::of::<Bending>()).is_some());
+}
