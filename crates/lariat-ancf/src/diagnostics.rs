@@ -30,10 +30,10 @@ pub struct Diagnostics {
     pub bending_evaluations: u64,
     /// Point loads evaluated.
     pub load_evaluations: u64,
-    /// Elements for which damping was evaluated; zero for a cable without.
+    /// Elements whose damping force was evaluated; zero for a cable without. The account of a step takes two powers more, not counted.
     #[serde(default)]
     pub damping_evaluations: u64,
-    /// Elements for which drag was evaluated; zero for a cable without.
+    /// Elements whose drag was evaluated; zero for a cable without. The account of a step takes two powers more, not counted.
     #[serde(default)]
     pub drag_evaluations: u64,
     /// Elements for which a rest shape was evaluated; zero for a cable that is straight and unstretched at rest.

@@ -35,6 +35,7 @@ pub mod axial;
 pub mod bending;
 pub mod cable;
 mod diagnostics;
+mod dual;
 pub mod effect;
 pub mod element;
 mod error;
@@ -49,8 +50,9 @@ mod section;
 pub mod statics;
 mod support;
 
-pub use cable::builder::CableBuilder;
+pub use cable::builder::{CableBuilder, STANDARD_GRAVITY};
 pub use cable::energy::{Energy, Momentum};
+pub use cable::exact::Jacobians;
 pub use cable::sample::{Reaction, Sample};
 pub use cable::{At, Cable, State};
 pub use diagnostics::Diagnostics;

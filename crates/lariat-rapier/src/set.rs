@@ -93,7 +93,7 @@ impl CableSet {
         }
         let (start, end) = (cable.node_position(0), cable.node_position(cable.nodes() - 1));
         let first = [start.x, start.y, start.z, end.x, end.y, end.z, cable.length()];
-        let falls = cable.gravity() == ::nalgebra::Vector3::new(0.0, -9.81, 0.0);
+        let falls = cable.gravity() == lariat_ancf::STANDARD_GRAVITY;
         let gravity = cable.gravity();
         self.cables.push(Some(Box::new(Slot { asleep: false, stirred: true, falls, gravity, first, cable })));
         self.stale = true;

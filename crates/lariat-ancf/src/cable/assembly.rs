@@ -102,6 +102,11 @@ impl Elements {
         !with_bending!(&self.bending, b => absent(b))
     }
 
+    /// 3/l of element `e`.
+    pub fn slope_scale(&self, e: usize) -> f64 {
+        self.scale[e]
+    }
+
     /// Control vectors of element `e`.
     pub fn control(&self, e: usize, q: &[f64]) -> Control<f64> {
         let n = &q[6 * e..6 * e + 12];

@@ -11,6 +11,10 @@ use crate::section::Section;
 use crate::support::{Motion, SlopeSupport, Support};
 use nalgebra::Vector3;
 
+/// Gravity that a cable has unless told otherwise, in m/s^2: (0, -9.81, 0). Not the standard 9.80665: the value that games and
+/// engines use.
+pub const STANDARD_GRAVITY: Vector3<f64> = Vector3::new(0.0, -9.81, 0.0);
+
 /// Largest number of elements of a cable.
 const MOST_ELEMENTS: usize = 1_000_000;
 
@@ -53,7 +57,7 @@ impl Default for CableBuilder {
             rule: Rule::default(),
             allow_rank_deficient: false,
             integrator: Err(Preset::Engineering),
-            gravity: Vector3::new(0.0, -9.81, 0.0),
+            gravity: STANDARD_GRAVITY,
             velocity: Vector3::zeros(),
             angular_velocity: Vector3::zeros(),
             holds: Vec::new(),
@@ -130,7 +134,7 @@ impl CableBuilder {
         self
     }
 
-    /// Gravity in m/s^2. Default (0, -9.81, 0).
+    /// Gravity in m/s^2. Default [`STANDARD_GRAVITY`].
     pub fn gravity(mut self, gravity: Vector3<f64>) -> Self {
         self.gravity = gravity;
         self

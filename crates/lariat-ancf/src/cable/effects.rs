@@ -112,6 +112,70 @@ impl Cable {
         self.change_effects(|effects| effects.line_loads.clear())
     }
 
+    /// Samples a flow of your own at the nodes, from now until the next call: for wind zones, gusts, currents from elsewhere. Call it
+    /// before every step, or as often as the flow changes; `field` gives the velocity in m/s at a place (m), for the middle of the time
+    /// until the next call if it changes in time. On top of what the drag's [`Flow`](crate::Flow) gives; linear between nodes. Allocates at
+    /// the first call only, and samples that are those there are cost nothing.
+    ///
+    /// ```
+    /// # use lariat_ancf::{Cable, Drag, Flow, Section, Vector3};
+    /// # let points = [Vector3::zeros(), Vector3::new(2.0, 0.0, 0.0)];
+    /// let mut cable = Cable::builder().points(points).section(Section::round(0.01, 1e8, 4000.0)?).build()?;
+    /// cable.set_drag(Drag::new(1.2, 1.2, 0.01, Flow::default()))?;
+    /// for _ in 0..10 {
+    ///     let time = cable.time() + 0.5 / 60.0;
+    ///     cable.sample_flow(|place| if place.x > 1.0 { Vector3::new(0.0, 0.0, 8.0 * time) } else { Vector3::zeros() })?;
+    ///     cable.step(1.0 / 60.0)?;
+    /// }
+    /// # Ok::<(), lariat_ancf::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::InvalidShape`] for a cable without drag, [`Error::InvalidValue`] for a velocity that is not finite; the samples are then as
+    /// before.
+    pub fn sample_flow(&mut self, mut field: impl FnMut(Vector3<f64>) -> Vector3<f64>) -> Result<(), Error> {
+        let (Some(drag), Some(fluid)) = (&mut self.model.effects.drag, &mut self.system.fluid) else {
+            let reason = "a flow acts by drag, and this cable has none".to_string();
+            return Err(Error::InvalidShape { cable: self.model.name.clone(), reason });
+        };
+        let places = self.state.phase.q.chunks_exact(6).map(|q| Vector3::new(q[0], q[1], q[2]));
+        if fluid.sample(&mut drag.flow.samples, places.map(&mut field))? {
+            // accelerations change, the length of the next step does not
+            self.revision += 1;
+            self.state.phase.memory.valid = false;
+            self.state.phase.memory.revision = self.revision;
+        }
+        Ok(())
+    }
+
+    /// Kelvin-Voigt times that damp the `mode`-th lowest natural frequency, counted from 1, by this damping ratio (share of critical):
+    /// [`natural_frequencies`](Self::natural_frequencies) at the present state, motions without stiffness left out, and
+    /// [`Damping::from_ratio`]. In space a bending mode comes twice, once per plane. The curvature's time is 0 for a cable without bending.
+    ///
+    /// ```
+    /// # use lariat_ancf::{At, Cable, Section, Vector3};
+    /// # let points = [Vector3::zeros(), Vector3::new(2.0, 0.0, 0.0)];
+    /// # let mut cable = Cable::builder().points(points).section(Section::round(0.01, 1e8, 4000.0)?).clamp(At::Start).build()?;
+    /// let damping = cable.damping_at_mode(0.05, 1)?;
+    /// cable.set_damping(damping)?;
+    /// # Ok::<(), lariat_ancf::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] for a mode that the cable does not have, [`Error::InvalidValue`] for a ratio below 0 or not finite.
+    pub fn damping_at_mode(&mut self, ratio: f64, mode: usize) -> Result<Damping, Error> {
+        let frequencies = self.natural_frequencies();
+        let still = 1e-7 * frequencies.last().copied().unwrap_or(0.0);
+        let elastic: Vec<f64> = frequencies.into_iter().filter(|omega| *omega > still).collect();
+        let Some(&omega) = mode.checked_sub(1).and_then(|i| elastic.get(i)) else {
+            let (cable, what) = (self.name().to_string(), "mode, counted from 1");
+            return Err(Error::OutOfRange { cable, what, value: mode as f64, limit: elastic.len() as f64 });
+        };
+        let damping = Damping::from_ratio(ratio, omega)?;
+        let limp = self.rule().bending == BendingRule::None;
+        Ok(if limp { Damping { bending: 0.0, ..damping } } else { damping })
+    }
+
     /// Takes over the account of a host step that succeeded, `before` being the positions when it began.
     pub(crate) fn settle(&mut self, before: &[f64]) {
         let Cable { system, state, .. } = self;
@@ -150,12 +214,17 @@ impl Model {
         }
         if let Some(rest) = rest_shape {
             rest.check()?;
+            self.check_pieces(rest)?;
             if limp && rest.pieces.iter().any(|piece| piece.curvature > 0.0) {
                 return invalid("a natural curvature needs a bending rule, this cable has none");
             }
         }
         if let Some(drag) = drag {
             drag.check()?;
+            let samples = drag.flow.samples.len();
+            if samples != 0 && samples != self.nodes() {
+                return invalid(&format!("{samples} samples of the flow, the cable has {} nodes", self.nodes()));
+            }
             if drag.diameter.is_none() && self.elements.iter().any(|e| e.section.diameter.is_none()) {
                 return invalid("drag needs a diameter: of the section, or of the drag");
             }
@@ -178,6 +247,19 @@ impl Model {
             )?;
             require("end of a line load (m)", load.to, load.to > load.from, "> its begin")?;
             require_finite("line load (N/m)", &load.force)?;
+        }
+        Ok(())
+    }
+
+    /// Refuses pieces of a rest shape that no element has.
+    fn check_pieces(&self, rest: &RestShape) -> Result<(), Error> {
+        let s = self.node_arc_lengths();
+        for (i, piece) in rest.pieces.iter().enumerate() {
+            let end = rest.pieces.get(i + 1).map_or(f64::INFINITY, |next| next.from);
+            if !s.windows(2).any(|s| (piece.from..end).contains(&(0.5 * (s[0] + s[1])))) {
+                let reason = format!("no element has its middle in the rest shape's piece from {} m on", piece.from);
+                return Err(Error::InvalidShape { cable: self.name.clone(), reason });
+            }
         }
         Ok(())
     }

@@ -3,6 +3,8 @@
 //! A stage `M z = c2 F(base + z, velocity_base + rate z)` is solved with `(M + c2 (K + rate C)) dz = c2 F - M z` by
 //! [`newton`](crate::integrate::newton); K = -dF/dq, C = -dF/dq'.
 
+#[cfg(test)]
+use super::exact::trial;
 use super::kernel_effects::Rates;
 use super::model::Model;
 use super::projection::{project_matrix, project_vector};
@@ -171,6 +173,12 @@ impl Linearised for CableStage<'_, '_> {
             equations.factor_to_solve()?;
             equations.system.factored = self.stage.c2;
         }
+        #[cfg(test)]
+        if trial::on() {
+            trial::increment(equations, self.stage, self.y, self.v, self.rhs, fresh);
+            let (displacement, slope) = equations.system.extent(self.rhs);
+            return Ok(Increment { displacement, rotation: slope });
+        }
         equations.solve(self.rhs);
         let (displacement, slope) = equations.system.extent(self.rhs);
         Ok(Increment { displacement, rotation: slope })
@@ -184,6 +192,10 @@ impl Linearised for CableStage<'_, '_> {
     }
 
     fn exact(&self) -> bool {
+        #[cfg(test)]
+        if trial::on() {
+            return true;
+        }
         self.equations.model.effects.exact_tangent()
     }
 

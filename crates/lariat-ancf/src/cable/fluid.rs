@@ -12,9 +12,11 @@
 use super::assembly::{LANES, load};
 use super::kernel_effects::Rates;
 use super::model::Model;
+use crate::dual::{Dual, constant};
 use crate::effect::Flow;
 use crate::effect::drag::{POINTS, Split};
 use crate::element::shape;
+use crate::error::{Error, require_finite};
 use crate::linalg::BlockTridiagonal;
 use crate::quadrature::gauss_legendre;
 use fearless_simd::{Level, Simd, SimdBase, SimdFrom, dispatch, f64x8};
@@ -26,6 +28,7 @@ const PAIRS: [(usize, usize); 10] = [(0, 0), (1, 0), (1, 1), (2, 0), (2, 1), (2,
 /// A Gauss point: weight, and weights of position and slope on a unit element.
 #[derive(Clone, Copy, Debug)]
 struct Point {
+    xi: f64,
     weight: f64,
     position: [f64; 4],
     slope: [f64; 4],
@@ -58,6 +61,7 @@ impl Fluid {
         };
         let diameter = |e: &super::Element| drag.diameter.or(e.section.diameter).unwrap_or(0.0);
         let points = gauss_legendre(POINTS).into_iter().map(|(xi, weight)| Point {
+            xi,
             weight,
             position: shape::position(xi, 1.0),
             slope: shape::slope(xi, 1.0),
@@ -75,7 +79,28 @@ impl Fluid {
 
     /// Whether the fluid moves, somewhere and at some time.
     pub fn flows(&self) -> bool {
-        self.flow.velocity != Vector3::zeros()
+        self.flow.velocity != Vector3::zeros() || self.flow.samples.iter().any(|u| *u != Vector3::zeros())
+    }
+
+    /// Takes samples of the flow at the nodes. False, and nothing changed, if they are those there are.
+    ///
+    /// # Errors
+    /// [`Error::InvalidValue`](crate::Error::InvalidValue) for a sample that is not finite; the samples are then as before.
+    pub fn sample(
+        &mut self,
+        old: &mut Vec<Vector3<f64>>,
+        new: impl Iterator<Item = Vector3<f64>>,
+    ) -> Result<bool, Error> {
+        let samples = &mut self.flow.samples;
+        samples.clear();
+        samples.extend(new);
+        if let Err(error) = samples.iter().try_for_each(|sample| require_finite("sampled flow (m/s)", sample)) {
+            samples.clone_from(old);
+            return Err(error);
+        }
+        let changed = samples != old;
+        old.clone_from(samples);
+        Ok(changed)
     }
 
     /// Makes the flow that of a time, for ever.
@@ -101,6 +126,43 @@ impl Fluid {
         a: &mut BlockTridiagonal,
     ) {
         dispatch!(level, simd => self.run(simd, time, q, rates, scale, out, Some(a)));
+    }
+
+    /// Adds the drag of element `e` to its generalised force, for its exact derivative.
+    pub fn add_dual(&self, e: usize, time: f64, q: &[Dual; 12], v: &[Dual; 12], out: &mut [Dual; 12]) {
+        let length = self.length[e];
+        let arm = |k: usize| if k % 2 == 1 { length } else { 1.0 };
+        let mix = |x: &[Dual; 12], weights: &[f64; 4]| -> [Dual; 3] {
+            core::array::from_fn(|c| (0..4).fold(constant(0.0), |sum, k| sum + x[3 * k + c] * (weights[k] * arm(k))))
+        };
+        let base = self.flow.in_time(time);
+        for point in &self.points {
+            let place = mix(q, &point.position);
+            let at = Vector3::from_fn(|c, _| place[c].value);
+            let (factor, along) = match &self.flow.profile {
+                None => (1.0, Vector3::zeros()),
+                Some(profile) => (profile.factor(&at), profile.gradient(&at)),
+            };
+            let slope = (0..3).map(|c| along[c] * place[c].slope).sum::<f64>();
+            let flow = base * factor + self.sampled(e, point.xi);
+            let velocity = mix(v, &point.position);
+            let relative: [Dual; 3] =
+                core::array::from_fn(|c| velocity[c] - Dual { value: flow[c], slope: base[c] * slope });
+            let direction = mix(q, &point.slope).map(|c| c * (1.0 / length));
+            let [kn, kt] = [self.normal[e], self.tangential[e]].map(|k| constant(k * point.weight));
+            let force = Split::new(&relative, &direction).force(kn, kt);
+            for i in 0..12 {
+                out[i] = out[i] + force[i % 3] * (point.position[i / 3] * arm(i / 3));
+            }
+        }
+    }
+
+    /// The sampled flow at a place of element `e`.
+    fn sampled(&self, e: usize, xi: f64) -> Vector3<f64> {
+        match self.flow.samples.get(e..e + 2) {
+            None => Vector3::zeros(),
+            Some(ends) => ends[0] * (1.0 - xi) + ends[1] * xi,
+        }
     }
 
     /// Power in W that the cable gives to the fluid.
@@ -132,9 +194,35 @@ impl Fluid {
         out
     }
 
-    /// Velocity of the fluid at eight places.
+    /// Velocity of the fluid at a point of eight elements.
     #[inline(always)]
-    fn flow<S: Simd>(&self, simd: S, base: &Vector3<f64>, place: &[Lanes<S>; 3]) -> [Lanes<S>; 3] {
+    fn flow<S: Simd>(
+        &self,
+        simd: S,
+        base: &Vector3<f64>,
+        first: usize,
+        xi: f64,
+        place: &[Lanes<S>; 3],
+    ) -> [Lanes<S>; 3] {
+        let mut flow = self.profiled(simd, base, place);
+        if !self.flow.samples.is_empty() {
+            let mut raw = [[0.0; LANES]; 3];
+            for lane in 0..LANES {
+                let sample = self.sampled((first + lane).min(self.count - 1), xi);
+                for c in 0..3 {
+                    raw[c][lane] = sample[c];
+                }
+            }
+            for c in 0..3 {
+                flow[c] += Lanes::simd_from(simd, raw[c]);
+            }
+        }
+        flow
+    }
+
+    /// Its part by the tables.
+    #[inline(always)]
+    fn profiled<S: Simd>(&self, simd: S, base: &Vector3<f64>, place: &[Lanes<S>; 3]) -> [Lanes<S>; 3] {
         let splat = [Lanes::splat(simd, base.x), Lanes::splat(simd, base.y), Lanes::splat(simd, base.z)];
         let Some(profile) = &self.flow.profile else { return splat };
         let mut raw = [[0.0; LANES]; 3];
@@ -171,7 +259,7 @@ impl Fluid {
                 let place = combine(&x, &point.position);
                 let slope = combine(&x, &point.slope).map(|c| c * inverse);
                 let velocity = combine(&w, &point.position);
-                let flow = self.flow(simd, &base, &place);
+                let flow = self.flow(simd, &base, first, point.xi, &place);
                 let relative = [velocity[0] - flow[0], velocity[1] - flow[1], velocity[2] - flow[2]];
                 let split = Split::new(&relative, &slope);
                 let (kn, kt) = (kn * point.weight, kt * point.weight);

@@ -6,6 +6,7 @@
 use super::assembly::{BendingKernel, Elements, LANES, load, with_bending};
 use super::model::Model;
 use crate::bending::Bending;
+use crate::dual::{Dual, constant};
 use crate::effect::Damping;
 use crate::effect::curvature::{self, Point};
 use crate::effect::damping::gram_rates;
@@ -85,6 +86,21 @@ impl KernelEffects {
             rest_points: if curved { points } else { Vec::new() },
             natural: [padded(&|(_, n)| n.target, curved), padded(&|(_, n)| n.rounding, curved)],
         })
+    }
+
+    /// Adds to the weighted gradient `n` of element `e`, for its exact derivative.
+    pub fn add_dual(&self, e: usize, elements: &Elements, g: &Six<Dual>, rates: &Six<Dual>, n: &mut Six<Dual>) {
+        let stiffness = Stiffness { axial: constant(elements.axial[e]), bending: constant(elements.flexural[e]) };
+        if let Some(excess) = self.excess.get(e) {
+            elements.table.add_mean(-(stiffness.axial * *excess), n);
+        }
+        if !self.rest_points.is_empty() {
+            let [target, rounding] = [0, 1].map(|i| constant(self.natural[i][e]));
+            NaturalCurvature { target, rounding }.add_gradient(&self.rest_points, stiffness.bending, g, n);
+        }
+        if let Some(damping) = &self.damping {
+            damping.add_gradient(&elements.table, &self.damping_points, stiffness, g, rates, n);
+        }
     }
 
     /// Whether an element is damped.

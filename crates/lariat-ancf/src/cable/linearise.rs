@@ -16,7 +16,8 @@ impl Cable {
     }
 
     /// Tangent stiffness -dF/dq at the present state over all coordinates (N/m, N, N m); supports are not applied. Of damping and
-    /// drag the part that the step matrix takes, see [`damping`](crate::effect::damping) and [`drag`](crate::effect::drag).
+    /// drag the part that the step matrix takes, see [`damping`](crate::effect::damping) and [`drag`](crate::effect::drag); all of it:
+    /// [`jacobians`](Self::jacobians).
     pub fn stiffness_matrix(&mut self) -> BlockTridiagonal {
         let mut force = vec![0.0; self.positions().len()];
         self.evaluate_with_stiffness(&mut force).clone()
@@ -68,7 +69,7 @@ impl Cable {
 
     /// Angular frequencies in rad/s of small motions about the present state, supports in place, ascending: `det(K - omega^2 M) = 0`. 0
     /// for a motion that meets no stiffness, or a negative one (buckling). A dense eigenproblem: for tens or hundreds of nodes.
-    /// With [`Damping::from_ratio`](crate::Damping::from_ratio), damps a given mode by a given ratio.
+    /// [`damping_at_mode`](Self::damping_at_mode) damps one of them by a given ratio.
     ///
     /// *Source.* Golub & Van Loan 2013, section 8.7 (Cholesky reduction of a symmetric pencil).
     pub fn natural_frequencies(&mut self) -> Vec<f64> {

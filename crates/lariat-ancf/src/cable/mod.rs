@@ -6,6 +6,7 @@ mod cut;
 mod effects;
 pub mod energy;
 mod equations;
+pub mod exact;
 mod fluid;
 mod frequency;
 mod hold;
@@ -293,8 +294,8 @@ impl Cable {
         &self.state
     }
 
-    /// Puts a state back; the run then continues bitwise as it did from there (if supports, loads and integrator are as they
-    /// were, else from its positions and velocities).
+    /// Puts a state back; the run then continues bitwise as it did from there (if supports, loads, effects and integrator are
+    /// as they were, else from its positions and velocities).
     ///
     /// # Errors
     /// [`Error::InvalidShape`] if the state is of a cable with another number of nodes, or is not finite.

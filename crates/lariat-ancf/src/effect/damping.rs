@@ -21,9 +21,13 @@
 //! *No choice.* A dissipation that is continuous, vanishes in every rigid motion and knows positions alone must vanish at the straight
 //! cable, because any transverse velocity of a straight cable is the limit of a fast spin of a slightly curved one about its axis.
 //! *Rejected.* The rate of the curvature vector: smooth at the straight cable, and a spinning bent cable heats up. Rayleigh damping by the
-//! mass matrix: it damps falling. *Tangent.* By velocity exact. By position the part that keeps the step matrix symmetric: geometric
-//! stiffness of the viscous stress (of bending: where it stiffens). What is left out, C (dg'/dq), lies in the range of C, so Newton loses
-//! one iteration and no stability; its symmetric half, taken in, makes stiff matrices indefinite. Times far beyond the step on a stiff, nearly
+//! mass matrix: it damps falling.
+//!
+//! *Tangent.* By velocity exact. By position the step takes the part that keeps its matrix symmetric: geometric
+//! stiffness of the viscous stress (of bending: where it stiffens). Left out is C (dg'/dq), unsymmetric; its symmetric half, taken in, makes
+//! stiff matrices indefinite. The exact derivative is [`Cable::jacobians`](crate::Cable::jacobians)'s. *Rejected* for the step: with it Newton
+//! saves 2 to 8 % of its iterations on a rod damped by 1 to 10 ms, 19 to 28 % at an axial time of 1 s, and takes 10 to 23 % more on damped
+//! steel (table and command: [`exact`](crate::cable::exact)). Times far beyond the step on a stiff, nearly
 //! straight cable cost rejected steps: there the direction of the curvature, and with it C, turns within a step.
 
 use super::curvature::Point;
@@ -48,7 +52,8 @@ pub struct Damping {
 }
 
 impl Damping {
-    /// The time in s that damps a mode of this angular frequency (rad/s) with this damping ratio: 2 ratio/omega, for both kinds.
+    /// The time in s that damps a mode of this angular frequency (rad/s) with this damping ratio: 2 ratio/omega, for both kinds. By the
+    /// number of a mode: [`Cable::damping_at_mode`](crate::Cable::damping_at_mode).
     ///
     /// *Validity.* A mode whose restoring force is elastic; where gravity or tension restores, less of the energy is strain.
     ///

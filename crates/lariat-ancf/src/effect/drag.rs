@@ -10,9 +10,13 @@
 //! (here r' is the velocity, t the slope dr/ds) f is a force per length of the unstretched cable, integrated at three Gauss points. Both
 //! coefficients count on the diameter, as in SCENE.md. *Source.* Morison, O'Brien, Johnson & Schaaf 1950; Faltinsen 1990, ch. 7 (the
 //! cross-flow principle). *Validity.* A slender cable, stretch near 1; steady coefficients; no lift, no shedding of vortices; added mass
-//! is [`buoyancy`](super::buoyancy)'s. *Tangent.* By velocity exact and symmetric; by the slope exact, of which the step matrix takes the
-//! symmetric half (it is stored by one triangle); the gradient of the flow in space is left out. Newton's iteration is then linear with
-//! a small factor, which its stopping test knows. *Rejected.* Drag on nodes: the force on a coarse cable is off, and slopes get none.
+//! is [`buoyancy`](super::buoyancy)'s. *Rejected.* Drag on nodes: the force on a coarse cable is off, and slopes get none.
+//!
+//! *Tangent.* By velocity exact and symmetric. By the slope the formula above is exact, of which the step takes the symmetric half (its
+//! matrix is stored by one triangle); the gradient of the flow in space is left out. Newton's iteration is then linear with a small factor,
+//! which its stopping test knows. The exact derivative is [`Cable::jacobians`](crate::Cable::jacobians)'s. *Rejected* for the step: with it
+//! Newton saves 0 to 10 % of its iterations up to 5 m/s of water, 47 % at 20 m/s on a 2 mm line at the game preset, 2 % of the same under
+//! error control (table and command: [`exact`](crate::cable::exact)), and an unsymmetric matrix costs every iteration.
 
 use super::flow::Flow;
 use crate::Real;

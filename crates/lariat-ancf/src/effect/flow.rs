@@ -1,13 +1,19 @@
 //! The velocity of a fluid as a function of place and time.
 //!
 //! ```text
-//! u(r, t) = U profile(up . r) history(t)
+//! u(r, t) = U profile(up . r) history(t) + samples at the nodes, linear between them
 //! ```
 //!
 //! profile and history are piecewise linear, constant beyond their first and last row. *Source.* The power law of wind
-//! (Hellmann 1916) and other profiles by tables. *Validity.* One direction; for a field that no product describes, set another flow
-//! between steps. *Rejected.* A function of the user's: it cannot be serialised, and a snapshot would not replay; powers and sines
+//! (Hellmann 1916) and other profiles by tables. *Validity.* One direction by the tables; any field by samples, which the caller takes anew
+//! as often as it changes ([`Cable::sample_flow`]), held in between: of order 2 in the time between them if taken for its middle. Times are
+//! those of the cable's clock, which `set_time` turns without turning the weather. *Snapshots.* Tables and samples are data of the cable:
+//! serialised with it, and a copy read back goes on bitwise until samples are taken again. A [`State`] holds none, as it holds no loads.
+//! *Rejected.* A function of the user's inside the cable: it cannot be serialised, and a snapshot would not replay; powers and sines
 //! evaluated in the step: their last bits differ between machines.
+//!
+//! [`Cable::sample_flow`]: crate::Cable::sample_flow
+//! [`State`]: crate::State
 
 use crate::error::{Error, require, require_finite};
 use nalgebra::Vector3;
@@ -37,6 +43,9 @@ pub struct Flow {
     /// Time in s and factor, times ascending; empty = constant in time.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub history: Vec<[f64; 2]>,
+    /// Velocity in m/s at the nodes, on top of the rest; empty = none. Set by [`Cable::sample_flow`](crate::Cable::sample_flow).
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub samples: Vec<Vector3<f64>>,
 }
 
 impl Flow {
@@ -52,7 +61,7 @@ impl Flow {
             let height = top * (i as f64 / (ROWS - 1) as f64).powi(3);
             [height, (height / reference).powf(exponent)]
         };
-        Flow { velocity, profile: Some(Profile { up, rows: (0..ROWS).map(row).collect() }), history: Vec::new() }
+        Flow { velocity, profile: Some(Profile { up, rows: (0..ROWS).map(row).collect() }), ..Flow::default() }
     }
 
     /// The same flow with a factor in time: rows of time (s) and factor.
@@ -61,7 +70,7 @@ impl Flow {
         self
     }
 
-    /// Velocity in m/s at a place and a time.
+    /// Velocity in m/s at a place and a time, samples aside.
     pub fn at(&self, time: f64, place: &Vector3<f64>) -> Vector3<f64> {
         let velocity = self.in_time(time);
         match &self.profile {
@@ -83,6 +92,7 @@ impl Flow {
             check_rows("a flow's profile", rows)?;
             require("rows of a flow's profile", rows.len() as f64, !rows.is_empty(), ">= 1")?;
         }
+        self.samples.iter().try_for_each(|sample| require_finite("sampled flow (m/s)", sample))?;
         check_rows("a flow's history", &self.history)
     }
 }
@@ -90,6 +100,14 @@ impl Flow {
 impl Profile {
     pub(crate) fn factor(&self, place: &Vector3<f64>) -> f64 {
         interpolate(&self.rows, place.dot(&self.up) / self.up.norm())
+    }
+
+    /// The factor's gradient in 1/m; 0 on a row.
+    pub(crate) fn gradient(&self, place: &Vector3<f64>) -> Vector3<f64> {
+        let up = self.up / self.up.norm();
+        let height = place.dot(&up);
+        let piece = self.rows.windows(2).find(|r| r[0][0] < height && height < r[1][0]);
+        up * piece.map_or(0.0, |r| (r[1][1] - r[0][1]) / (r[1][0] - r[0][0]))
     }
 }
 

@@ -9,7 +9,7 @@
 //! | [`bending`](crate::bending) | bending stiffness; rule `none` has none | the element kernel |
 //! | [`rest_shape`] | stress-free stretch and curvature | the element kernel |
 //! | [`damping`] | Kelvin-Voigt damping | the element kernel |
-//! | [`drag`], [`flow`] | drag of a fluid or wind, steady or changing in place and time | Gauss points of the element |
+//! | [`drag`], [`flow`] | drag of a fluid or wind, steady, by tables in place and time, or sampled from a function of yours | Gauss points of the element |
 //! | [`buoyancy`] | buoyancy and added mass | the weight and the mass matrix, once |
 //! | [`line_load`] | force per length | a constant vector, once |
 //! | [`gravity`] | scale of gravity | the weight, once |

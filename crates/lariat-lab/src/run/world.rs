@@ -3,7 +3,7 @@
 use crate::error::Error;
 use crate::physics::{BodyState, Physics};
 use crate::scene::{AttachmentScene, Engine, Purpose, Scene};
-use lariat_ancf::{At, Cable, Energy, Momentum, Reaction, Support, Vector3};
+use lariat_ancf::{At, Cable, Energy, GravityScale, Momentum, Reaction, Support, Vector3};
 use std::collections::BTreeMap;
 
 /// The cables and bodies of a scene in their present state.
@@ -176,7 +176,8 @@ impl World {
         self.chosen(cable).into_iter().map(|cable| cable.account().dissipated()).sum()
     }
 
-    /// Evaluations by effect, summed over the cables that have it; of buoyancy none, it is in weight and mass.
+    /// Evaluations by effect, summed over the cables that have it; of buoyancy, line loads and gravity's scale none, they
+    /// are in constant vectors and the mass matrix.
     pub fn effect_evaluations(&self) -> BTreeMap<String, u64> {
         let mut counts = BTreeMap::new();
         for cable in self.cables() {
@@ -185,6 +186,9 @@ impl World {
                 ("damping", effects.damping.is_some(), diagnostics.damping_evaluations),
                 ("drag", effects.drag.is_some(), diagnostics.drag_evaluations),
                 ("buoyancy", effects.buoyancy.is_some(), 0),
+                ("rest_shape", effects.rest_shape.is_some(), diagnostics.rest_shape_evaluations),
+                ("line_load", !effects.line_loads.is_empty(), 0),
+                ("gravity_scale", effects.gravity_scale != GravityScale::default(), 0),
             ] {
                 if on {
                     *counts.entry(name.to_string()).or_insert(0) += count;

@@ -6,7 +6,7 @@ use super::table::{ProbeTable, SceneTable};
 use super::value::At;
 use super::{CableScene, Engine, ProbeScene, Purpose, Scene, Target, arc_length, check_body, check_cable, check_hold};
 use crate::error::Error;
-use lariat_ancf::Vector3;
+use lariat_ancf::{STANDARD_GRAVITY, Vector3};
 use std::path::Path;
 
 /// Steps and samples of a run beyond which a scene is taken for a slip of the pen.
@@ -38,7 +38,7 @@ pub(super) fn scene(
     let gravity = match table.gravity {
         Some(gravity) if engine == Engine::Rapier => check_body::reals(doc, &KeyPath::root("gravity"), gravity)?,
         Some(gravity) => vector(doc, &KeyPath::root("gravity"), gravity)?,
-        None => Vector3::new(0.0, -9.81, 0.0),
+        None => STANDARD_GRAVITY,
     };
     if table.cable.is_empty() {
         return Err(doc.error(&KeyPath::root("cable"), "no cable"));

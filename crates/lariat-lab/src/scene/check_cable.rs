@@ -30,7 +30,7 @@ pub(super) fn cable(doc: &Document<'_>, at: &KeyPath, table: CableTable) -> Resu
     }
     let rule = rule(doc, &at.key("rule"), table.rule.as_ref(), table.allow_rank_deficient.unwrap_or(false))?;
     let section = section(doc, at, &table)?;
-    let effects = check_effects::effects(doc, at, &table, &section, rule)?;
+    let effects = check_effects::effects(doc, at, &table, &section, rule, length)?;
     let motion = |key: &str, value: Option<[f64; 3]>| vector(doc, &at.key(key), value.unwrap_or_default());
     Ok(CableScene {
         points,

@@ -1,13 +1,16 @@
-//! Ranges of the effect tables of a `[[cable]]`: damping, drag, buoyancy.
+//! Ranges of the effect tables of a `[[cable]]`: damping, drag, buoyancy, rest shape, line loads, gravity scale.
 //!
 //! What SCENE.md shows is the default of a key that is missing, but for the density of a fluid, which must be there. A cable that is
 //! described by EA, EI and mass per length has no diameter and no area: `diameter` and `area` give them, beyond SCENE.md.
 
 use super::check::{number, vector};
+use super::check_flow;
 use super::document::{Document, KeyPath};
-use super::table::{BuoyancyTable, CableTable, DampingTable, DragTable};
+use super::table::{BuoyancyTable, CableTable, DampingTable, DragTable, LineLoadTable, RestPieceTable, RestShapeTable};
 use crate::error::Error;
-use lariat_ancf::{BendingRule, Buoyancy, Damping, Drag, Effects, Flow, Rule, Section};
+use lariat_ancf::{
+    BendingRule, Buoyancy, Damping, Drag, Effects, GravityScale, LineLoad, RestPiece, RestShape, Rule, Section,
+};
 
 /// Coefficients where a table has none.
 const NORMAL: f64 = 1.2;
@@ -20,12 +23,24 @@ pub(super) fn effects(
     table: &CableTable,
     section: &Section,
     rule: Rule,
+    length: f64,
 ) -> Result<Effects, Error> {
+    let loads = table.line_load.iter().enumerate();
     Ok(Effects {
         damping: table.damping.as_ref().map(|t| damping(doc, &at.key("damping"), t, rule)).transpose()?,
         drag: table.drag.as_ref().map(|t| drag(doc, &at.key("drag"), t, section)).transpose()?,
         buoyancy: table.buoyancy.as_ref().map(|t| buoyancy(doc, &at.key("buoyancy"), t, section)).transpose()?,
-        ..Effects::default()
+        rest_shape: table
+            .rest_shape
+            .as_ref()
+            .map(|t| rest_shape(doc, &at.key("rest_shape"), t, rule, length))
+            .transpose()?,
+        line_loads: loads
+            .map(|(i, t)| line_load(doc, &at.key("line_load").item(i), t, length))
+            .collect::<Result<_, _>>()?,
+        gravity_scale: GravityScale(number(doc, &at.key("gravity_scale"), table.gravity_scale.unwrap_or(1.0), |_| {
+            true
+        })?),
     })
 }
 
@@ -53,7 +68,7 @@ fn drag(doc: &Document<'_>, at: &KeyPath, table: &DragTable, section: &Section) 
         normal: coefficient("normal", table.normal, NORMAL)?,
         tangential: coefficient("tangential", table.tangential, TANGENTIAL)?,
         diameter,
-        flow: Flow::uniform(vector(doc, &at.key("flow"), table.flow.unwrap_or_default())?),
+        flow: check_flow::flow(doc, &at.key("flow"), table.flow.as_ref())?,
     })
 }
 
@@ -67,4 +82,51 @@ fn buoyancy(doc: &Document<'_>, at: &KeyPath, table: &BuoyancyTable, section: &S
         added_mass: number(doc, &at.key("added_mass"), table.added_mass.unwrap_or(ADDED_MASS), |x| x >= 0.0)?,
         area,
     })
+}
+
+fn rest_shape(
+    doc: &Document<'_>,
+    at: &KeyPath,
+    table: &RestShapeTable,
+    rule: Rule,
+    length: f64,
+) -> Result<RestShape, Error> {
+    let whole = table.stretch.is_some() || table.curvature.is_some();
+    if whole && !table.piece.is_empty() {
+        return Err(doc.error(&at.key("piece"), "both pieces and numbers of the whole cable"));
+    }
+    if !whole && table.piece.is_empty() {
+        return Err(doc.error(at, "neither stretch nor curvature"));
+    }
+    if whole {
+        let piece = RestPieceTable { from: 0.0, stretch: table.stretch, curvature: table.curvature };
+        return Ok(RestShape { pieces: vec![rest_piece(doc, at, &piece, rule)?] });
+    }
+    let mut pieces: Vec<RestPiece> = Vec::new();
+    for (i, piece) in table.piece.iter().enumerate() {
+        let at = at.key("piece").item(i);
+        if piece.stretch.is_none() && piece.curvature.is_none() {
+            return Err(doc.error(&at, "neither stretch nor curvature"));
+        }
+        let before = pieces.last().map(|p| p.from);
+        let follows = |from: f64| from >= 0.0 && from < length && before.is_none_or(|before| from > before);
+        number(doc, &at.key("from"), piece.from, follows)?;
+        pieces.push(rest_piece(doc, &at, piece, rule)?);
+    }
+    Ok(RestShape { pieces })
+}
+
+fn rest_piece(doc: &Document<'_>, at: &KeyPath, table: &RestPieceTable, rule: Rule) -> Result<RestPiece, Error> {
+    let stretch = number(doc, &at.key("stretch"), table.stretch.unwrap_or(1.0), |x| x > 0.0)?;
+    let curvature = number(doc, &at.key("curvature"), table.curvature.unwrap_or(0.0), |x| x >= 0.0)?;
+    if curvature > 0.0 && rule.bending == BendingRule::None {
+        return Err(doc.error(&at.key("curvature"), format!("rule {rule} has no bending to curve")));
+    }
+    Ok(RestPiece { from: table.from, stretch, curvature })
+}
+
+fn line_load(doc: &Document<'_>, at: &KeyPath, table: &LineLoadTable, length: f64) -> Result<LineLoad, Error> {
+    let from = number(doc, &at.key("from"), table.from.unwrap_or(0.0), |x| x >= 0.0 && x < length)?;
+    let to = number(doc, &at.key("to"), table.to.unwrap_or(length), |x| x > from && x <= length * (1.0 + 1e-12))?;
+    Ok(LineLoad { from, to, force: vector(doc, &at.key("force"), table.force)? })
 }

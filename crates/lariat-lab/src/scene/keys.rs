@@ -7,6 +7,10 @@ pub fn accepted(key: &str) -> Option<&'static str> {
 
 const VECTOR: &str = "three finite numbers [x, y, z]";
 const NAME: &str = "a text that no other has, not empty";
+const UP: &str = "three finite numbers [x, y, z], not all zero";
+const STRETCH: &str = "a finite number > 0; 1 = unstretched, below 1 = under tension at the unstretched length";
+const CURVATURE: &str =
+    "a finite number >= 0, in 1/m; 0 without a bending rule. It has no direction: an element without twist knows none";
 const POSITIVE: &str = "a finite number > 0";
 const AT: &str = "\"start\" | \"end\" | an arc length in m from 0 to the unstretched length";
 
@@ -98,11 +102,39 @@ const ACCEPTED: &[(&str, &str)] = &[
     ("cable.drag.fluid_density", "a finite number > 0, in kg/m^3"),
     ("cable.drag.normal", "a finite number >= 0"),
     ("cable.drag.tangential", "a finite number >= 0"),
-    ("cable.drag.flow", VECTOR),
+    (
+        "cable.drag.flow",
+        "three finite numbers [x, y, z] in m/s | { velocity, profile or power_law, history }, the last three as needed",
+    ),
+    ("cable.drag.flow.velocity", VECTOR),
+    ("cable.drag.flow.profile", "{ up, rows }, not beside power_law"),
+    ("cable.drag.flow.profile.up", UP),
+    ("cable.drag.flow.profile.rows", "rows [height, factor] of finite numbers, at least one, heights in m ascending"),
+    ("cable.drag.flow.power_law", "{ up, reference, exponent, top }"),
+    ("cable.drag.flow.power_law.up", UP),
+    ("cable.drag.flow.power_law.reference", "a finite number > 0, in m: the height where the factor is 1"),
+    ("cable.drag.flow.power_law.exponent", "a finite number >= 0"),
+    ("cable.drag.flow.power_law.top", "a finite number > 0, in m: the height above which the factor is constant"),
+    ("cable.drag.flow.history", "rows [t, factor] of finite numbers, at least one, t in s ascending"),
     ("cable.drag.diameter", "a finite number > 0, in m; needed where the cable has no section"),
     ("cable.buoyancy.fluid_density", "a finite number > 0, in kg/m^3"),
     ("cable.buoyancy.added_mass", "a finite number >= 0"),
     ("cable.buoyancy.area", "a finite number > 0, in m^2; needed where the cable has no section"),
+    ("cable.rest_shape", "stretch or curvature or both, of the whole cable, or tables [[cable.rest_shape.piece]]"),
+    ("cable.rest_shape.stretch", STRETCH),
+    ("cable.rest_shape.curvature", CURVATURE),
+    ("cable.rest_shape.piece", "from, with stretch or curvature or both"),
+    (
+        "cable.rest_shape.piece.from",
+        "an arc length in m, >= 0, on the unstretched cable, ascending from piece to piece",
+    ),
+    ("cable.rest_shape.piece.stretch", STRETCH),
+    ("cable.rest_shape.piece.curvature", CURVATURE),
+    ("cable.line_load", "force, with from or to or both for a part of the cable"),
+    ("cable.line_load.from", "an arc length in m, >= 0 and below the unstretched length"),
+    ("cable.line_load.to", "an arc length in m, above from, at most the unstretched length"),
+    ("cable.line_load.force", "three finite numbers [x, y, z], in N per m of unstretched cable"),
+    ("cable.gravity_scale", "a finite number"),
     ("attachment.name", NAME),
     ("attachment.cable", "the name of a cable"),
     ("attachment.at", AT),

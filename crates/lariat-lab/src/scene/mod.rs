@@ -40,6 +40,7 @@ mod check;
 mod check_body;
 mod check_cable;
 mod check_effects;
+mod check_flow;
 mod check_hold;
 pub mod document;
 pub mod keys;

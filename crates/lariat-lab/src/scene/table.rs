@@ -1,7 +1,7 @@
 //! The tables of a scene file as they are written: SCENE.md in full, key by key. What is missing is `None`; an unknown key is
 //! an error. Ranges and references are checked later (`check`).
 
-use super::value::{At, RuleValue, ShapeValue};
+use super::value::{At, FlowValue, RuleValue, ShapeValue};
 use serde::Deserialize;
 
 /// The root of a scene file.
@@ -109,6 +109,13 @@ pub struct CableTable {
     pub drag: Option<DragTable>,
     /// Buoyancy.
     pub buoyancy: Option<BuoyancyTable>,
+    /// Extension: stress-free stretch and curvature.
+    pub rest_shape: Option<RestShapeTable>,
+    /// Extension: forces per length.
+    #[serde(default)]
+    pub line_load: Vec<LineLoadTable>,
+    /// Extension: what gravity is multiplied by.
+    pub gravity_scale: Option<f64>,
     /// Contact with bodies.
     pub contact: Option<ContactTable>,
     /// Breaking.
@@ -169,9 +176,84 @@ pub struct DragTable {
     /// Tangential coefficient on the diameter.
     pub tangential: Option<f64>,
     /// Velocity of the fluid in m/s.
-    pub flow: Option<[f64; 3]>,
+    pub flow: Option<FlowValue>,
     /// Extension: diameter in m, for a cable without section shape.
     pub diameter: Option<f64>,
+}
+
+/// `flow = { .. }`.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct FlowTable {
+    /// Velocity in m/s where the factors are 1.
+    pub velocity: [f64; 3],
+    /// Factor by height.
+    pub profile: Option<ProfileTable>,
+    /// Factor by height after the power law of wind.
+    pub power_law: Option<PowerLawTable>,
+    /// Rows of t (s) and factor.
+    pub history: Option<Vec<[f64; 2]>>,
+}
+
+/// `profile = { .. }`.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ProfileTable {
+    /// Direction of height.
+    pub up: Option<[f64; 3]>,
+    /// Rows of height (m) and factor.
+    pub rows: Vec<[f64; 2]>,
+}
+
+/// `power_law = { .. }`.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct PowerLawTable {
+    /// Direction of height.
+    pub up: Option<[f64; 3]>,
+    /// Height in m where the factor is 1.
+    pub reference: f64,
+    /// Exponent.
+    pub exponent: f64,
+    /// Height in m above which the factor is constant.
+    pub top: f64,
+}
+
+/// `[cable.rest_shape]`.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct RestShapeTable {
+    /// Stress-free stretch of the whole cable.
+    pub stretch: Option<f64>,
+    /// Stress-free curvature of the whole cable in 1/m.
+    pub curvature: Option<f64>,
+    /// Or pieces along the arc.
+    #[serde(default)]
+    pub piece: Vec<RestPieceTable>,
+}
+
+/// `[[cable.rest_shape.piece]]`.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct RestPieceTable {
+    /// Arc length in m where it begins.
+    pub from: f64,
+    /// Stress-free stretch.
+    pub stretch: Option<f64>,
+    /// Stress-free curvature in 1/m.
+    pub curvature: Option<f64>,
+}
+
+/// `[[cable.line_load]]`.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct LineLoadTable {
+    /// Arc length in m where it begins.
+    pub from: Option<f64>,
+    /// Arc length in m where it ends.
+    pub to: Option<f64>,
+    /// Force in N per m of unstretched cable.
+    pub force: [f64; 3],
 }
 
 /// `[cable.buoyancy]`.

@@ -1,8 +1,9 @@
 //! Values that may be written in more than one way: a text or a number, a text or a table.
 
+use super::table::FlowTable;
 use serde::Deserialize;
-use serde::de::value::MapAccessDeserializer;
-use serde::de::{Deserializer, Error as _, MapAccess, Visitor};
+use serde::de::value::{MapAccessDeserializer, SeqAccessDeserializer};
+use serde::de::{Deserializer, Error as _, MapAccess, SeqAccess, Visitor};
 use std::fmt;
 
 /// `at = "start" | "end" | arc length in m`.
@@ -139,6 +140,34 @@ impl<'de> Deserialize<'de> for ShapeValue {
                     (Some(shape), 0) => Ok(shape),
                     _ => Err(A::Error::custom("not exactly one shape")),
                 }
+            }
+        }
+        deserializer.deserialize_any(Reader)
+    }
+}
+
+/// `flow = [x, y, z]` or `{ velocity, profile | power_law, history }`.
+#[derive(Clone, Debug, PartialEq)]
+pub enum FlowValue {
+    /// The same everywhere and always, in m/s.
+    Uniform([f64; 3]),
+    /// Changing in place or time.
+    Table(FlowTable),
+}
+
+impl<'de> Deserialize<'de> for FlowValue {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct Reader;
+        impl<'de> Visitor<'de> for Reader {
+            type Value = FlowValue;
+            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                f.write_str("three numbers or a table")
+            }
+            fn visit_seq<A: SeqAccess<'de>>(self, seq: A) -> Result<FlowValue, A::Error> {
+                Deserialize::deserialize(SeqAccessDeserializer::new(seq)).map(FlowValue::Uniform)
+            }
+            fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<FlowValue, A::Error> {
+                Deserialize::deserialize(MapAccessDeserializer::new(map)).map(FlowValue::Table)
             }
         }
         deserializer.deserialize_any(Reader)
