@@ -218,7 +218,7 @@ pub(crate) fn build(plan: &Plan, wanted: &Wanted) -> Result<lariat_ancf::Cable, 
         _ => wanted.effects.clone(),
     };
     let mut cable = plan.build(wanted.name.as_deref().unwrap_or("cable"), wanted.rule, &effects)?;
-    wanted.loads.iter().try_for_each(|load| cable.add_load(load.clone()))?;
+    wanted.loads.iter().try_for_each(|load| cable.add_load(*load))?;
     Ok(cable)
 }
 
@@ -247,14 +247,14 @@ pub(crate) fn update(cable: &mut crate::Cable, wanted: &Wanted) -> Result<(), la
     }
     if !same_loads {
         core.clear_loads();
-        wanted.loads.iter().try_for_each(|load| core.add_load(load.clone()))?;
+        wanted.loads.iter().try_for_each(|load| core.add_load(*load))?;
     }
     Ok(())
 }
 
 /// Whether loads are the same but for the time at which their ramps began.
 fn same_loads(a: &[PointLoad], b: &[PointLoad]) -> bool {
-    let plain = |load: &PointLoad| PointLoad { start: 0.0, ..load.clone() };
+    let plain = |load: &PointLoad| PointLoad { start: 0.0, ..*load };
     a.len() == b.len() && a.iter().zip(b).all(|(a, b)| plain(a) == plain(b))
 }
 

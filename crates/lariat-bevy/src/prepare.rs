@@ -206,19 +206,22 @@ pub(crate) fn take_cables(mut cables: ResMut<Cables>, mut of: Query<(Entity, &mu
     }
 }
 
+/// What an attachment's entity asks, and what it has.
+type Asked = (
+    Entity,
+    Ref<'static, Attachment>,
+    Option<Ref<'static, OnCable>>,
+    Option<Ref<'static, ToBody>>,
+    Option<&'static Holds>,
+    Has<Unable>,
+);
+
 /// Makes attachments hold what their entities ask, and ends those that ask no more.
 pub(crate) fn bind(
     mut cables: ResMut<Cables>,
     mut physics: ResMut<Physics>,
     mut of: Query<&mut Cable>,
-    attachments: Query<(
-        Entity,
-        Ref<Attachment>,
-        Option<Ref<OnCable>>,
-        Option<Ref<ToBody>>,
-        Option<&Holds>,
-        Has<Unable>,
-    )>,
+    attachments: Query<Asked>,
     handles: Query<&BodyHandle>,
     mut commands: Commands,
 ) {

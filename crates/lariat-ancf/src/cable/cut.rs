@@ -45,7 +45,7 @@ impl Cable {
         let part =
             |q: &[f64], v: &[f64]| Phase { time: phase.time, q: q.to_vec(), v: v.to_vec(), memory: Memory::default() };
         let (end, begin) = (6 * node + 6, 6 * node);
-        let head_state = State { phase: part(&phase.q[..end], &phase.v[..end]), account: self.state.account.clone() };
+        let head_state = State { phase: part(&phase.q[..end], &phase.v[..end]), account: self.state.account };
         let tail_state = State { phase: part(&phase.q[begin..], &phase.v[begin..]), ..State::default() };
         let tail = Cable::from_parts(tail, tail_state, self.integrator)?;
         let mut head = Cable::from_parts(head, head_state, self.integrator)?;
@@ -77,7 +77,7 @@ impl Cable {
 /// A line load as the rest of a cable beyond `s` has it.
 fn shifted_load(load: &LineLoad, s: f64) -> Option<LineLoad> {
     let to = load.to - s;
-    (to > 0.0).then(|| LineLoad { from: (load.from - s).max(0.0), to, ..load.clone() })
+    (to > 0.0).then(|| LineLoad { from: (load.from - s).max(0.0), to, ..*load })
 }
 
 /// A rest shape as the rest of a cable beyond `s` has it.
