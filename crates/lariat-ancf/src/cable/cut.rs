@@ -57,7 +57,7 @@ impl Cable {
     }
 
     /// Where the tension is largest, as arc length in m, and how large it is there in N: read at both ends of every element, between which it
-    /// is linear but for the stretch.
+    /// is linear but for the stretch. A point load inside an element makes the reading overshoot at its ends: place a node there.
     pub fn peak_tension(&self) -> (f64, f64) {
         let mut peak = (0.0, f64::NEG_INFINITY);
         let mut from = 0.0;

@@ -26,7 +26,7 @@ fn a_cable_parts_where_it_is_pulled_most_and_the_rest_falls_with_its_load() {
     steps(&mut world, 300);
     assert_eq!(world.resource::<Messages<CableBroken>>().len(), 0);
     world.entity_mut(cable).insert(BreakTension(80.0));
-    let pull = PointLoad { ramp: 2.0, ..PointLoad::force(1.9, Vector3::new(0.0, -50.0, 0.0)) };
+    let pull = PointLoad { ramp: 2.0, ..PointLoad::force(1.8, Vector3::new(0.0, -50.0, 0.0)) };
     world.entity_mut(cable).insert(PointLoads(vec![pull]));
     let mut broken = Vec::new();
     let mut before = 0.0;
@@ -47,7 +47,7 @@ fn a_cable_parts_where_it_is_pulled_most_and_the_rest_falls_with_its_load() {
     assert_eq!(world.get::<CableAttachments>(cable).unwrap().iter().collect::<Vec<_>>(), [top]);
     assert_eq!(world.get::<CableAttachments>(rest).unwrap().iter().collect::<Vec<_>>(), [hook]);
     assert!(world.get::<PointLoads>(cable).unwrap().0.is_empty());
-    assert_relative_eq!(world.get::<PointLoads>(rest).unwrap().0[0].arc_length, 1.7, epsilon = 1e-9);
+    assert_relative_eq!(world.get::<PointLoads>(rest).unwrap().0[0].arc_length, 1.6, epsilon = 1e-9);
     world.entity_mut(rest).remove::<PointLoads>();
     steps(&mut world, 30);
     let fallen = before - height(&world, load);
