@@ -1,19 +1,25 @@
-//! The folder of a run: `probes/NAME.csv` and `summary.json`.
+//! The folder of a run: `probes/NAME.csv`, `view.html` and `summary.json`.
 //!
 //! Numbers are the shortest text that reads back to the same f64. Every row is written through to the file.
 
 use super::{Summary, World, probe};
 use crate::error::Error;
 use crate::scene::Scene;
+use crate::view::Recorder;
 use std::fmt::Write as _;
 use std::fs::{self, File};
 use std::io::{self, Write as _};
 use std::path::{Path, PathBuf};
+use std::time::Duration;
+
+const SUMMARY: &str = "summary.json";
+const PAGE: &str = "view.html";
 
 /// The open files of a run.
 pub(super) struct Output {
     folder: PathBuf,
     files: Vec<(PathBuf, File)>,
+    view: Recorder,
     row: Vec<f64>,
     text: String,
 }
@@ -37,7 +43,13 @@ impl Output {
             file.write_all((probe::columns(p.target).join(",") + "\n").as_bytes()).map_err(fail(&path))?;
             files.push((path, file));
         }
-        Ok(Output { folder: folder.to_path_buf(), files, row: Vec::new(), text: String::new() })
+        Ok(Output {
+            folder: folder.to_path_buf(),
+            files,
+            view: Recorder::new(scene),
+            row: Vec::new(),
+            text: String::new(),
+        })
     }
 
     /// Writes one row of a probe.
@@ -52,14 +64,30 @@ impl Output {
         }
         self.text.push('\n');
         let (path, file) = &mut self.files[index];
-        file.write_all(self.text.as_bytes()).map_err(|source| Error::Write { path: path.clone(), time, source })
+        file.write_all(self.text.as_bytes()).map_err(|source| Error::Write { path: path.clone(), time, source })?;
+        self.view.row(index, &self.row);
+        Ok(())
     }
 
-    /// Writes the summary.
-    pub fn finish(self, summary: &Summary, time: f64) -> Result<(), Error> {
-        let path = self.folder.join("summary.json");
-        let text = summary.to_json() + "\n";
-        fs::write(&path, text).map_err(|source| Error::Write { path, time, source })
+    /// Takes the state at a host time for the page.
+    pub fn frame(&mut self, world: &World) -> Result<(), Error> {
+        self.view.frame(world)
+    }
+
+    /// CPU and wall time that the page took so far.
+    pub fn spent(&self) -> (Duration, Duration) {
+        self.view.spent()
+    }
+
+    /// Writes the summary and the page; each even if the other cannot be written.
+    pub fn finish(self, summary: &Summary, world: &World) -> Result<(), Error> {
+        let Output { folder, view, .. } = self;
+        let write = |name: &str, text: String| {
+            let (path, time) = (folder.join(name), world.time());
+            fs::write(&path, text).map_err(|source| Error::Write { path, time, source })
+        };
+        let written = write(SUMMARY, summary.to_json() + "\n");
+        write(PAGE, view.page(world, summary)).and(written)
     }
 }
 
@@ -72,9 +100,6 @@ fn old_results(folder: &Path, probes: &Path) -> io::Result<Vec<PathBuf>> {
             found.push(path);
         }
     }
-    let summary = folder.join("summary.json");
-    if summary.is_file() {
-        found.push(summary);
-    }
+    found.extend([SUMMARY, PAGE].map(|name| folder.join(name)).into_iter().filter(|path| path.is_file()));
     Ok(found)
 }

@@ -13,9 +13,9 @@ pub struct Summary {
     pub name: String,
     /// Time simulated in s.
     pub simulated_s: f64,
-    /// CPU time of the process during the run in s.
+    /// CPU time of the process during the run in s, without what [`view.html`](crate::view) took.
     pub cpu_s: f64,
-    /// Wall time of the run in s.
+    /// Wall time of the run in s, without that too.
     pub wall_s: f64,
     /// Simulated time over wall time: above 1 is faster than the clock.
     pub real_time_factor: f64,

@@ -129,6 +129,11 @@ impl World {
         Ok(())
     }
 
+    /// The scene.
+    pub fn scene(&self) -> &Scene {
+        &self.scene
+    }
+
     /// Cables of the scene, in its order.
     pub fn cables(&self) -> Vec<&Cable> {
         match &self.physics {
