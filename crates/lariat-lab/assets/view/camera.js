@@ -81,7 +81,7 @@ const ground = (() => {
     }
   }
   const below = upSide > 0 ? extent.low[upAxis] : extent.high[upAxis];
-  return cell * (upSide > 0 ? Math.floor(below / cell - 1e-6) : Math.ceil(below / cell + 1e-6));
+  return cell * (upSide > 0 ? Math.floor(below / cell + 1e-3) : Math.ceil(below / cell - 1e-3));
 })();
 
 // First and last line of the grid across a level axis.
@@ -107,7 +107,7 @@ function resetCamera(width, height) {
     const p = add([0, 1, 2].map((k) => ((i >> k) & 1 ? high[k] : low[k])), camera.target, -1);
     const x = Math.abs(dot(p, camera.right)) * camera.focal, y = Math.abs(dot(p, camera.above)) * camera.focal;
     const back = dot(p, camera.back);
-    far = Math.max(far, back + x / (0.45 * width), back + y / (0.45 * height));
+    far = Math.max(far, back + x / (0.42 * width), back + y / (0.42 * height));
   }
   camera.distance = Math.max(far, 1e-3 * size);
   aim(width, height);

@@ -184,6 +184,14 @@ function drawMarks(g, frame, names) {
     g.fill();
     g.stroke();
   }
+  for (const tie of data.junctions) {
+    const p = project(onCable(frame.cables[tie.cable], tie.at));
+    if (!p) continue;
+    g.beginPath();
+    g.arc(p[0], p[1], 2.5, 0, 7);
+    g.fillStyle = style.ink;
+    g.fill();
+  }
   data.bodies.forEach((body, i) => {
     const p = project(poseOf(frame, i).place);
     if (!p || body.shape.plane) return;

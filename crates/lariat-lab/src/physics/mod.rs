@@ -16,7 +16,7 @@ use crate::error::Error;
 use crate::scene::Scene;
 use crate::scene::body::BodyKind;
 use convert::{to_pose, to_vector};
-use lariat_ancf::{Cable, Momentum, Vector3};
+use lariat_ancf::{At, Cable, Momentum, Vector3};
 use lariat_rapier::rapier::dynamics::RigidBodyHandle;
 use lariat_rapier::rapier::math::Real;
 use lariat_rapier::rapier::prelude::PhysicsWorld;
@@ -76,7 +76,7 @@ impl Physics {
         })
     }
 
-    /// Takes the cables of the scene and holds them to the bodies, where they are; `held_by` are force (N) and moment (N m) by which
+    /// Takes the cables of the scene and holds them to the bodies, where they are, and to each other; `held_by` are force (N) and moment (N m) by which
     /// each attachment was held until now.
     ///
     /// # Errors
@@ -98,6 +98,10 @@ impl Physics {
             let place = (self.bodies[body], attachment.anchor);
             let pin = pins::attach(&mut self.cables, &self.world, cable, place, attachment.clamp);
             self.pins.push(Some(pin.map_err(|error| self.explain(scene, 0.0, error))?));
+        }
+        for junction in &scene.junctions {
+            let [a, b] = junction.points.map(|(cable, s)| (self.handles[cable], At::ArcLength(s)));
+            self.cables.join(a, b).map_err(|error| self.explain(scene, 0.0, error))?;
         }
         Ok(())
     }

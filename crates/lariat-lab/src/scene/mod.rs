@@ -18,6 +18,13 @@
 //! them, so put corners on multiples of `dt`. A load on a body keeps its direction in world axes; `point` without value is the
 //! origin. Rapier's caps on velocities are lifted, and nothing sleeps. With `initial = "equilibrium"` and in `lariat static` bodies are held where they are drawn while the cables settle.
 //!
+//! # Junctions
+//!
+//! A `[[junction]]` ties the point `at` of a `cable` to the point `other_at` of an `other` (or of the same): they share one position, and
+//! slopes are free. Both points start at the same place, within 1e-6 m. Several junctions at one point make one knot. Junctions
+//! need `engine = "rapier"`, which they call for as bodies do. While cables settle (`initial = "equilibrium"`, `lariat static`)
+//! junctions stay where they are drawn, as bodies do.
+//!
 //! # Anchors
 //!
 //! An `anchor` to the world or a body must be where the cable point starts (within 1e-6 m), because a straight start has no way to get
@@ -30,7 +37,7 @@
 //! | [`table`], [`value`] | the tables as written |
 //! | [`document`], `overrides` | the file as a tree with places; `--set` |
 //! | [`keys`] | what is accepted, in words |
-//! | `check`, `check_cable`, `check_body`, `check_hold` | ranges and references |
+//! | `check`, `check_cable`, `check_body`, `check_hold`, `check_junction` | ranges and references |
 //! | [`body`], `mesh` | bodies, and the files of their shapes |
 //! | `build` | from a scene to cables |
 
@@ -41,6 +48,7 @@ mod check_body;
 mod check_cable;
 mod check_effects;
 mod check_hold;
+mod check_junction;
 pub mod document;
 pub mod keys;
 mod mesh;
@@ -95,6 +103,8 @@ pub struct Scene {
     pub cables: Vec<CableScene>,
     /// Attachments to bodies and to the world.
     pub attachments: Vec<AttachmentScene>,
+    /// Cables tied to each other.
+    pub junctions: Vec<JunctionScene>,
     /// Point loads on cables.
     pub loads: Vec<LoadScene>,
     /// Loads on bodies.
@@ -145,6 +155,15 @@ pub struct AttachmentScene {
     pub anchor: Option<Vector3<f64>>,
     /// True to hold the direction of the tangent too.
     pub clamp: bool,
+}
+
+/// A checked junction: two points of cables that share one position, like a shackle without mass.
+#[derive(Clone, Debug, PartialEq)]
+pub struct JunctionScene {
+    /// Name.
+    pub name: String,
+    /// Positions of the cables in [`Scene::cables`], and arc lengths in m.
+    pub points: [(usize, f64); 2],
 }
 
 /// A checked point load.

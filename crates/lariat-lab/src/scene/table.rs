@@ -29,6 +29,9 @@ pub struct SceneTable {
     /// Attachments.
     #[serde(default)]
     pub attachment: Vec<AttachmentTable>,
+    /// Extension: cables tied to each other.
+    #[serde(default)]
+    pub junction: Vec<JunctionTable>,
     /// Point loads.
     #[serde(default)]
     pub load: Vec<LoadTable>,
@@ -230,6 +233,22 @@ pub struct AttachmentTable {
     pub anchor: Option<[f64; 3]>,
     /// `"ball"` or `"clamp"`.
     pub kind: Option<String>,
+}
+
+/// Extension: a `[[junction]]`.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct JunctionTable {
+    /// Name; default `junction-N` by position from 0.
+    pub name: Option<String>,
+    /// A cable.
+    pub cable: String,
+    /// Where on it.
+    pub at: At,
+    /// The cable that it is tied to.
+    pub other: String,
+    /// Where on that.
+    pub other_at: At,
 }
 
 /// A `[[load]]`.

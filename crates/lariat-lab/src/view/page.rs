@@ -47,6 +47,7 @@ pub fn write(scene: &Scene, summary: &Summary, frames: &[Frame], probes: &[Thin<
         "attachments": scene.attachments.iter().map(|a| json!({
             "cable": a.cable, "at": a.arc_length, "world": a.body.is_none(), "clamp": a.clamp,
         })).collect::<Vec<_>>(),
+        "junctions": scene.junctions.iter().map(|j| json!({ "cable": j.points[0].0, "at": j.points[0].1 })).collect::<Vec<_>>(),
         "times": base64(frames.iter().flat_map(|f| f.time.to_le_bytes())),
         "frames": base64(frames.iter().flat_map(|f| &f.numbers).flat_map(|x| x.to_le_bytes())),
         "probes": scene.probes.iter().zip(probes).map(|(p, thin)| json!({
