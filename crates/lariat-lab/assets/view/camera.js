@@ -107,7 +107,7 @@ function resetCamera(width, height) {
     const p = add([0, 1, 2].map((k) => ((i >> k) & 1 ? high[k] : low[k])), camera.target, -1);
     const x = Math.abs(dot(p, camera.right)) * camera.focal, y = Math.abs(dot(p, camera.above)) * camera.focal;
     const back = dot(p, camera.back);
-    far = Math.max(far, back + x / (0.42 * width), back + y / (0.42 * height));
+    far = Math.max(far, back + x / (0.45 * width), back + y / (0.43 * height));
   }
   camera.distance = Math.max(far, 1e-3 * size);
   aim(width, height);

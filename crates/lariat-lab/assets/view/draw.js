@@ -62,11 +62,12 @@ function drawGround(g) {
   };
   const every = Math.max(1, Math.ceil((a1 - a0) / 12));
   for (let i = a0; i <= a1; i += every) text((i * cell).toFixed(digits), at(i, j + out));
-  text("xyz"[a] + ", m", at(a1 + 0.9, j + out));
+  text("xyz"[a] + ", m", at(0.5 * (a0 + a1), j + 2.4 * out));
   const i = near(a1, b0) > near(a0, b0) ? a1 : a0, side = i === a1 ? 0.5 : -0.5;
   for (let k = b0; k <= b1; k += Math.max(1, Math.ceil((b1 - b0) / 12))) {
     if (k !== j) text((k * cell).toFixed(digits), at(i + side, k));
   }
+  text("xyz"[b] + ", m", at(i + 2.6 * side, 0.5 * (b0 + b1)));
 }
 
 // A half space that is not level: a square of lines in its surface.
