@@ -6,6 +6,7 @@
 
 mod build;
 mod convert;
+mod joints;
 pub mod pins;
 mod reading;
 
@@ -61,6 +62,11 @@ impl Physics {
             let refuse = |problem| Error::Body { time: 0.0, body: body.name.clone(), problem };
             bodies.push(build::insert(&mut world, body).map_err(refuse)?);
         }
+        joints::insert(&mut world, scene, &bodies).map_err(|(body, problem)| Error::Body {
+            time: 0.0,
+            body,
+            problem,
+        })?;
         let cables = CableSet::new();
         let rapier_steps = cables.settings.rapier_steps.max(1);
         Ok(Physics {

@@ -15,10 +15,18 @@ use std::time::Duration;
 const SUMMARY: &str = "summary.json";
 const PAGE: &str = "view.html";
 
+/// The file of a probe.
+struct ProbeFile {
+    path: PathBuf,
+    file: File,
+    /// Bytes of whole rows.
+    length: u64,
+}
+
 /// The open files of a run.
 pub(super) struct Output {
     folder: PathBuf,
-    files: Vec<(PathBuf, File)>,
+    files: Vec<ProbeFile>,
     view: Recorder,
     row: Vec<f64>,
     text: String,
@@ -40,8 +48,9 @@ impl Output {
         for p in &scene.probes {
             let path = probes.join(format!("{}.csv", p.name));
             let mut file = File::create(&path).map_err(fail(&path))?;
-            file.write_all((probe::columns(p.target).join(",") + "\n").as_bytes()).map_err(fail(&path))?;
-            files.push((path, file));
+            let header = probe::columns(p.target).join(",") + "\n";
+            file.write_all(header.as_bytes()).map_err(fail(&path))?;
+            files.push(ProbeFile { path, file, length: header.len() as u64 });
         }
         Ok(Output {
             folder: folder.to_path_buf(),
@@ -63,8 +72,7 @@ impl Output {
             let _ = write!(self.text, "{}{x:?}", if i > 0 { "," } else { "" });
         }
         self.text.push('\n');
-        let (path, file) = &mut self.files[index];
-        file.write_all(self.text.as_bytes()).map_err(|source| Error::Write { path: path.clone(), time, source })?;
+        self.files[index].append(&self.text, time)?;
         self.view.row(index, &self.row);
         Ok(())
     }
@@ -84,10 +92,26 @@ impl Output {
         let Output { folder, view, .. } = self;
         let write = |name: &str, text: String| {
             let (path, time) = (folder.join(name), world.time());
-            fs::write(&path, text).map_err(|source| Error::Write { path, time, source })
+            fs::write(&path, text).map_err(|source| {
+                // half of it is worse than none
+                let _ = fs::remove_file(&path);
+                Error::Write { path, time, source }
+            })
         };
         let written = write(SUMMARY, summary.to_json() + "\n");
         write(PAGE, view.page(world, summary)).and(written)
+    }
+}
+
+impl ProbeFile {
+    /// Appends a row; of one that does not fit on the disk nothing stays.
+    fn append(&mut self, row: &str, time: f64) -> Result<(), Error> {
+        let written = self.file.write_all(row.as_bytes());
+        if written.is_err() {
+            let _ = self.file.set_len(self.length);
+        }
+        self.length += row.len() as u64;
+        written.map_err(|source| Error::Write { path: self.path.clone(), time, source })
     }
 }
 

@@ -6,7 +6,7 @@ use super::table::{ProbeTable, SceneTable};
 use super::value::At;
 use super::{
     CableScene, Engine, ProbeScene, Purpose, Scene, Target, arc_length, check_body, check_cable, check_hold,
-    check_junction,
+    check_joint, check_junction,
 };
 use crate::error::Error;
 use lariat_ancf::Vector3;
@@ -71,10 +71,15 @@ pub(super) fn scene(
         gravity,
         cables,
         attachments: Vec::new(),
+        joints: Vec::new(),
         junctions: Vec::new(),
         loads: Vec::new(),
         probes: Vec::new(),
     };
+    for (i, row) in table.joint.into_iter().enumerate() {
+        let row = check_joint::joint(doc, &scene, i, row)?;
+        scene.joints.push(row);
+    }
     for (i, row) in table.attachment.into_iter().enumerate() {
         let row = check_hold::attachment(doc, &scene, i, row)?;
         scene.attachments.push(row);

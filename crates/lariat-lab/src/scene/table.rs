@@ -23,6 +23,9 @@ pub struct SceneTable {
     /// Rigid bodies.
     #[serde(default)]
     pub body: Vec<BodyTable>,
+    /// Extension: bodies that hold to each other.
+    #[serde(default)]
+    pub joint: Vec<JointTable>,
     /// Cables.
     #[serde(default)]
     pub cable: Vec<CableTable>,
@@ -68,6 +71,26 @@ pub struct BodyTable {
     pub friction: Option<f64>,
     /// Rows of t, x, y, z (s, m).
     pub path: Option<Vec<[f64; 4]>>,
+}
+
+/// Extension: a `[[joint]]`.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct JointTable {
+    /// Name; default `joint-N` by position from 0.
+    pub name: Option<String>,
+    /// `"hinge"`, `"slider"`, `"ball"` or `"fixed"`.
+    pub kind: String,
+    /// A dynamic body.
+    pub body: String,
+    /// What it holds to: a body or `"world"`.
+    pub to: String,
+    /// Where the joint is at t = 0, in m, world axes.
+    pub at: [f64; 3],
+    /// Direction of a hinge or slider at t = 0, world axes.
+    pub axis: Option<[f64; 3]>,
+    /// True for a link of a multibody.
+    pub multibody: Option<bool>,
 }
 
 /// A `[[cable]]`.

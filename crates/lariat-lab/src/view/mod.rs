@@ -10,7 +10,9 @@
 //! at that many places. Probes are thinned in the same way to at most [`ROWS`] rows; their files have them all.
 //!
 //! *Cost.* [`Summary::cpu_s`](crate::run::Summary::cpu_s) and its wall time leave the sampling of frames out; a row of a probe is copied
-//! once more, some 20 ns. Frames are kept in memory and written when the run ends, however it ends.
+//! once more, some 20 ns. Frames are kept in memory and written when the run ends, however it ends. The command takes 4.4 ms of CPU more
+//! for the page of the falling pendulum, whose run takes 13 ms (201 frames of 20 elements, 0.4 MB), and 4 ms beside the 1.0 s of
+//! the payload pendulum.
 //!
 //! *Drawing* is on a 2D canvas of our own, painted from far to near. WebGL, and three.js on it, was rejected: it is missing on
 //! many remote desktops and virtual machines, and three.js 0.187 is 2.1 MB beside our 40 kB. Where large surfaces cross, painting

@@ -3,4 +3,5 @@
 mod bench;
 mod bodies;
 mod cables;
+mod joints;
 mod junctions;

@@ -80,3 +80,59 @@ fn a_slung_load_swings_once_and_hangs_still() {
     // 3 m/s within half a host step of the moment: g v/L dt/2 = 0.02 m/s of the 3 m/s would be left
     assert!(most(6.91, 10.0) < 0.1, "{} degrees are left", most(6.91, 10.0));
 }
+
+/// A tether holds the tip of a multibody arm whose elbow is pulled down; the tip stays level.
+///
+/// *Source.* Moments about the shoulder: `T x 1.5 m = 3 kg g x 0.75 m + 20 N x 0.5 m`.
+#[test]
+fn a_tether_holds_the_tip_of_a_multibody_arm() {
+    let results = Results::of("run", &asset("tether_multibody"), &[]).done();
+    let late: Vec<f64> = results.rows("tip").iter().filter(|row| row[0] > 4.0).map(|row| row[2]).collect();
+    let pull = late.iter().sum::<f64>() / late.len() as f64;
+    let expected = (3.0 * 9.81 * 0.75 + 20.0 * 0.5) / 1.5;
+    assert!((pull / expected - 1.0).abs() < 2e-3, "{pull} N of {expected}");
+    let hand = results.last("hand");
+    assert!((hand[1] - 1.25).abs() < 1e-4 && hand[2].abs() < 1e-3, "{hand:?}");
+    assert!(results.summary().max_gap_m < 1e-4, "{}", results.summary().max_gap_m);
+}
+
+/// A hinge turns about its axis and keeps its point, a slider moves along its axis and does not turn, a ball keeps its point, a fixed
+/// joint moves with what it holds to: by impulse joints and in a multibody, from bodies that are turned at the start.
+///
+/// *Source.* A physical pendulum let go from level: `v = sqrt(2 g h)` of the centre for a slider, `w = sqrt(2 m g h/I)` for a hinge,
+/// from the energy at the place where it is.
+#[test]
+fn joints_leave_free_what_they_say() {
+    for multibody in [false, true] {
+        let scene = |joint: &str| {
+            format!(
+                "duration = 0.3\ndt = 0.005\n[[body]]\nname = \"b\"\nshape = {{ ball = 0.1 }}\nmass = 2.0\nposition = [1.0, 0.0, 0.0]\n\
+                 rotation = [0.0, 0.7, 0.2]\n[[joint]]\nbody = \"b\"\nto = \"world\"\nat = [0.0, 0.0, 0.0]\nmultibody = {multibody}\n{joint}\n\
+                 [[cable]]\nname = \"c\"\npoints = [[50.0, 0.0, 0.0], [51.0, 0.0, 0.0]]\nsection = {{ round = 0.001 }}\ndensity = 1000.0\n\
+                 youngs_modulus = 1e6\n[[probe]]\nname = \"b\"\nbody = \"b\"\n"
+            )
+        };
+        let inertia = 2.0 + 0.4 * 2.0 * 0.01;
+        for (joint, falls) in [
+            ("kind = \"hinge\"\naxis = [0.0, 0.0, 2.0]", true),
+            ("kind = \"ball\"", true),
+            ("kind = \"slider\"\naxis = [0.0, -1.0, 0.0]", true),
+            ("kind = \"hinge\"\naxis = [0.0, 1.0, 0.0]", false),
+            ("kind = \"slider\"\naxis = [-1.0, 0.0, 0.0]", false),
+            ("kind = \"fixed\"", false),
+        ] {
+            let results = Results::of_text("run", &scene(joint)).done();
+            let (first, row) = (&results.rows("b")[0], results.last("b"));
+            let case = format!("{joint}, multibody {multibody}: {row:?}");
+            if !falls {
+                assert!((1..8).all(|i| (row[i] - first[i]).abs() < 2e-3), "{case}");
+            } else if joint.contains("slider") {
+                assert!((row[1] - 1.0).abs() < 1e-3 && (row[9] / -(9.81 * 0.3) - 1.0).abs() < 1e-2, "{case}");
+            } else {
+                assert!((row[1].hypot(row[2]) - 1.0).abs() < 2e-3 && row[3].abs() < 1e-3, "{case}");
+                let spin = (2.0 * 2.0 * 9.81 * -row[2] / inertia).sqrt();
+                assert!((row[13] / -spin - 1.0).abs() < 2e-2, "{case}, {spin} rad/s");
+            }
+        }
+    }
+}
