@@ -91,7 +91,11 @@ pub(super) fn start(doc: &Document<'_>, scene: &Scene, purpose: Purpose) -> Resu
         let built = match scene.build_cable(i) {
             Ok(built) => built,
             Err(error) => {
-                return Err(doc.error_accepting(&KeyPath::root("cable").item(i), error.to_string(), "see SCENE.md"));
+                return Err(doc.error_accepting(
+                    &KeyPath::root("cable").item(i),
+                    error.to_string(),
+                    "see docs/scene.md",
+                ));
             }
         };
         let anywhere = cable.equilibrium || purpose == Purpose::Static;

@@ -1,4 +1,4 @@
-//! Scene files: TOML in, a checked [`Scene`] out. The format is the contract of SCENE.md.
+//! Scene files: TOML in, a checked [`Scene`] out. The format, key by key: docs/scene.md in the repository.
 //!
 //! Everything is checked before anything is written: an unknown key, a missing key, a value out of range or a reference to
 //! nothing is an error that names file, line, key and what is accepted. Parts of the format that this version does not compute

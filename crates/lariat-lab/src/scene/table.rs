@@ -1,4 +1,4 @@
-//! The tables of a scene file as they are written: SCENE.md in full, key by key. What is missing is `None`; an unknown key is
+//! The tables of a scene file as they are written: docs/scene.md in full, key by key. What is missing is `None`; an unknown key is
 //! an error. Ranges and references are checked later (`check`).
 
 use super::value::{At, RuleValue, ShapeValue};
