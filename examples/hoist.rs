@@ -36,7 +36,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         let speed = match step {
             60..240 => 0.01,
             240..420 => 0.14,
-            420..525 => 0.02857142857142857,
+            420..525 => 0.028571429,
             _ => 0.0,
         };
         world.bodies[winch].set_linvel(Vector::new(0.0, speed, 0.0), true);
