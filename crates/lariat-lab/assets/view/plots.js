@@ -30,7 +30,7 @@ function plot(place, probe, group, jump) {
       width: Math.max(240, place.clientWidth),
       height: 150,
       scales: { x: { time: false }, y: { range: (u, low, high) => widen(low, high) } },
-      axes: [{ ...axis, size: 28 }, { ...axis, size: 58, values: brief }],
+      axes: [{ ...axis, size: 28 }, { ...axis, size: 66, values: brief }],
       series: [
         { label: "t, s" },
         ...group.columns.map((c, k) => ({
