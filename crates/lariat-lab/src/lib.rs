@@ -4,6 +4,7 @@
 //! |---|---|
 //! | [`scene`] | scene files: TOML in, a checked scene out |
 //! | [`run`] | headless runs: probes to CSV, a summary as JSON |
+//! | [`view`] | the run as a page that moves |
 //! | [`pendulum`] | the falling pendulum and its reference |
 //! | [`table1`] | the paper's Table 1, measured |
 //! | [`figures`] | SVG plots |
@@ -17,6 +18,7 @@ mod physics;
 pub mod run;
 pub mod scene;
 pub mod table1;
+pub mod view;
 
 pub use error::{Error, Place};
 pub use scene::{Purpose, Scene};

@@ -151,6 +151,30 @@ fn a_full_disk_is_an_error_that_says_so() {
     assert!(stderr(&output).contains("summary.json"), "{}", stderr(&output));
 }
 
+/// No file may grow past 8 kB: rows until then stay, none is cut, and the summary says why the run ended.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_disk_that_fills_up_in_mid_run_leaves_whole_rows() {
+    let folder = tempfile::tempdir().unwrap();
+    let run = format!(
+        "trap '' XFSZ; ulimit -f 8; exec {} run {} --out {}",
+        env!("CARGO_BIN_EXE_lariat"),
+        scene("falling_pendulum"),
+        folder.path().display()
+    );
+    let output = Command::new("bash").args(["-c", &run]).output().unwrap();
+    assert_eq!(output.status.code(), Some(3), "{}", stderr(&output));
+    let message = stderr(&output);
+    assert!(message.contains(".csv") && message.contains("t = "), "{message}");
+    assert_eq!(summary(folder.path()).failed.as_deref(), Some(message.trim().trim_start_matches("error: ")));
+    let text = fs::read_to_string(folder.path().join("probes/tip.csv")).unwrap();
+    assert!(text.ends_with('\n') && text.len() <= 8192);
+    let (_, rows) = rows(folder.path().join("probes/tip.csv"));
+    assert!(rows.len() > 20 && rows.iter().all(|row| row.len() == 13 && row.iter().all(|x| x.is_finite())));
+    // the page does not fit either: none rather than half of one
+    assert!(!folder.path().join("view.html").exists());
+}
+
 #[cfg(unix)]
 #[test]
 fn ctrl_c_leaves_every_sample_and_a_summary() {
@@ -175,6 +199,8 @@ fn ctrl_c_leaves_every_sample_and_a_summary() {
     assert!(summary.failed.unwrap().contains("interrupted"));
     let (_, rows) = rows(probe);
     assert!((rows.last().unwrap()[0] - summary.simulated_s).abs() < 1e-9);
+    let page = fs::read_to_string(folder.path().join("view.html")).unwrap();
+    assert!(page.contains("interrupted at t = ") && page.trim_end().ends_with("</html>"));
 }
 
 #[test]

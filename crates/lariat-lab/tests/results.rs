@@ -131,6 +131,25 @@ fn the_cantilever_scene_bends_as_the_elastica() {
     assert_relative_eq!(wall[6], -2.0 * tip[1], max_relative = 1e-3);
 }
 
+/// Under a force the elastica with P L^2/EI = 10 (Mattiasson 1981, table 1: w/L = 0.81061, u/L = 0.55500), under an end moment of
+/// pi/2 EI/L a quarter of a circle.
+#[test]
+fn the_elastica_scene_bends_as_the_elastica_and_the_circle() {
+    let folder = tempfile::tempdir().unwrap();
+    run::statics(&read("elastica", &[], Purpose::Static), folder.path()).unwrap();
+    let last = |probe: &str| rows(&folder.path().join(format!("probes/{probe}.csv"))).pop().unwrap();
+    let two_over_pi = std::f64::consts::FRAC_2_PI;
+    for (probe, x, y, within) in [("force", 1.0 - 0.55500, -0.81061, 2e-5), ("moment", two_over_pi, -two_over_pi, 1e-5)]
+    {
+        let tip = last(probe);
+        assert!((tip[1] - x).hypot(tip[2] - y) < within, "{probe}: {tip:?}");
+    }
+    // forces and moments on the walls: what was put on at the tips, with the arm of the force
+    let (force, moment) = (last("wall_force"), last("wall_moment"));
+    assert!((force[2] + 10.0).abs() < 1e-6 && (force[6] + 10.0 * 0.44500).abs() < 1e-3, "{force:?}");
+    assert!((moment[6] + std::f64::consts::FRAC_PI_2).abs() < 1e-3, "{moment:?}");
+}
+
 #[test]
 fn a_ramped_load_is_zero_at_the_start_and_in_full_in_statics() {
     let scene = read("cantilever", &["cable.beam.initial=equilibrium"], Purpose::Run);

@@ -8,7 +8,7 @@
 //! ```
 //!
 //! (here r' is the velocity, t the slope dr/ds) f is a force per length of the unstretched cable, integrated at three Gauss points. Both
-//! coefficients count on the diameter, as in SCENE.md. *Source.* Morison, O'Brien, Johnson & Schaaf 1950; Faltinsen 1990, ch. 7 (the
+//! coefficients count on the diameter, as in docs/scene.md. *Source.* Morison, O'Brien, Johnson & Schaaf 1950; Faltinsen 1990, ch. 7 (the
 //! cross-flow principle). *Validity.* A slender cable, stretch near 1; steady coefficients; no lift, no shedding of vortices; added mass
 //! is [`buoyancy`](super::buoyancy)'s. *Rejected.* Drag on nodes: the force on a coarse cable is off, and slopes get none.
 //!

@@ -6,6 +6,7 @@
 
 mod build;
 mod convert;
+mod joints;
 pub mod pins;
 mod reading;
 
@@ -16,7 +17,7 @@ use crate::error::Error;
 use crate::scene::Scene;
 use crate::scene::body::BodyKind;
 use convert::{to_pose, to_vector};
-use lariat_ancf::{Cable, Momentum, Vector3};
+use lariat_ancf::{At, Cable, Momentum, Vector3};
 use lariat_rapier::rapier::dynamics::RigidBodyHandle;
 use lariat_rapier::rapier::math::Real;
 use lariat_rapier::rapier::prelude::PhysicsWorld;
@@ -61,6 +62,11 @@ impl Physics {
             let refuse = |problem| Error::Body { time: 0.0, body: body.name.clone(), problem };
             bodies.push(build::insert(&mut world, body).map_err(refuse)?);
         }
+        joints::insert(&mut world, scene, &bodies).map_err(|(body, problem)| Error::Body {
+            time: 0.0,
+            body,
+            problem,
+        })?;
         let cables = CableSet::new();
         let rapier_steps = cables.settings.rapier_steps.max(1);
         Ok(Physics {
@@ -76,7 +82,7 @@ impl Physics {
         })
     }
 
-    /// Takes the cables of the scene and holds them to the bodies, where they are; `held_by` are force (N) and moment (N m) by which
+    /// Takes the cables of the scene and holds them to the bodies, where they are, and to each other; `held_by` are force (N) and moment (N m) by which
     /// each attachment was held until now.
     ///
     /// # Errors
@@ -98,6 +104,10 @@ impl Physics {
             let place = (self.bodies[body], attachment.anchor);
             let pin = pins::attach(&mut self.cables, &self.world, cable, place, attachment.clamp);
             self.pins.push(Some(pin.map_err(|error| self.explain(scene, 0.0, error))?));
+        }
+        for junction in &scene.junctions {
+            let [a, b] = junction.points.map(|(cable, s)| (self.handles[cable], At::ArcLength(s)));
+            self.cables.join(a, b).map_err(|error| self.explain(scene, 0.0, error))?;
         }
         Ok(())
     }

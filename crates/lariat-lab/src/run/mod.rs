@@ -2,7 +2,7 @@
 //!
 //! The host step is split where a probe falls between two host times, so that a sample is a state that was computed, not one
 //! that was interpolated. Each sample is written through to its file at once: a run that fails, is interrupted or fills the
-//! disk leaves every sample so far, and a `summary.json` that says what happened.
+//! disk leaves every sample so far, a `summary.json` that says what happened, and a [`view.html`](crate::view) of it.
 //!
 //! ```
 //! use lariat_lab::{Purpose, Scene, run};
@@ -39,6 +39,7 @@ pub mod schedule;
 mod summary;
 mod world;
 
+pub(crate) use probe::columns;
 pub use summary::Summary;
 pub use world::World;
 
@@ -61,11 +62,11 @@ pub struct Options<'a> {
     pub progress: Option<&'a mut dyn FnMut(f64)>,
 }
 
-/// Runs a scene for its duration and writes `summary.json` and `probes/*.csv` to the folder `out`.
+/// Runs a scene for its duration and writes `summary.json`, `probes/*.csv` and [`view.html`](crate::view) to the folder `out`.
 ///
 /// # Errors
 /// [`Error::Output`] if the folder cannot be written (before anything runs); [`Error::Mechanics`], [`Error::Write`] or
-/// [`Error::Interrupted`] later: samples and summary are then on disk.
+/// [`Error::Interrupted`] later: samples, page and summary are then on disk.
 pub fn run(scene: &Scene, out: &Path, options: &mut Options<'_>) -> Result<Summary, Error> {
     record(scene, out, Purpose::Run, |world, output| {
         let mut schedule = Schedule::new(scene);
@@ -74,6 +75,9 @@ pub fn run(scene: &Scene, out: &Path, options: &mut Options<'_>) -> Result<Summa
             for (probe, sample) in event.probes {
                 let every = scene.probes[probe].every.unwrap_or(scene.dt);
                 output.sample(probe, nominal(sample, every).min(scene.duration), world)?;
+            }
+            if event.host {
+                output.frame(world)?;
             }
             if let Some(progress) = options.progress.as_mut().filter(|_| event.host) {
                 progress(event.time);
@@ -92,7 +96,8 @@ pub fn run(scene: &Scene, out: &Path, options: &mut Options<'_>) -> Result<Summa
 /// As [`run`]; [`Error::Mechanics`] if there is no equilibrium.
 pub fn statics(scene: &Scene, out: &Path) -> Result<Summary, Error> {
     record(scene, out, Purpose::Static, |world, output| {
-        (0..scene.probes.len()).try_for_each(|probe| output.sample(probe, 0.0, world))
+        (0..scene.probes.len()).try_for_each(|probe| output.sample(probe, 0.0, world))?;
+        output.frame(world)
     })
 }
 
@@ -109,7 +114,9 @@ fn record(
         world.note_start();
         body(&mut world, &mut output)
     });
-    let summary = Summary::of(&world, cpu.elapsed(), wall.elapsed(), outcome.as_ref().err());
-    let written = output.finish(&summary, world.time());
+    let (cpu, wall, spent) = (cpu.elapsed(), wall.elapsed(), output.spent());
+    let own = (cpu.saturating_sub(spent.0), wall.saturating_sub(spent.1));
+    let summary = Summary::of(&world, own.0, own.1, outcome.as_ref().err());
+    let written = output.finish(&summary, &world);
     outcome.and(written).map(|()| summary)
 }

@@ -1,19 +1,33 @@
-//! The folder of a run: `probes/NAME.csv` and `summary.json`.
+//! The folder of a run: `probes/NAME.csv`, `view.html` and `summary.json`.
 //!
 //! Numbers are the shortest text that reads back to the same f64. Every row is written through to the file.
 
 use super::{Summary, World, probe};
 use crate::error::Error;
 use crate::scene::Scene;
+use crate::view::Recorder;
 use std::fmt::Write as _;
 use std::fs::{self, File};
 use std::io::{self, Write as _};
 use std::path::{Path, PathBuf};
+use std::time::Duration;
+
+const SUMMARY: &str = "summary.json";
+const PAGE: &str = "view.html";
+
+/// The file of a probe.
+struct ProbeFile {
+    path: PathBuf,
+    file: File,
+    /// Bytes of whole rows.
+    length: u64,
+}
 
 /// The open files of a run.
 pub(super) struct Output {
     folder: PathBuf,
-    files: Vec<(PathBuf, File)>,
+    files: Vec<ProbeFile>,
+    view: Recorder,
     row: Vec<f64>,
     text: String,
 }
@@ -34,10 +48,17 @@ impl Output {
         for p in &scene.probes {
             let path = probes.join(format!("{}.csv", p.name));
             let mut file = File::create(&path).map_err(fail(&path))?;
-            file.write_all((probe::columns(p.target).join(",") + "\n").as_bytes()).map_err(fail(&path))?;
-            files.push((path, file));
+            let header = probe::columns(p.target).join(",") + "\n";
+            file.write_all(header.as_bytes()).map_err(fail(&path))?;
+            files.push(ProbeFile { path, file, length: header.len() as u64 });
         }
-        Ok(Output { folder: folder.to_path_buf(), files, row: Vec::new(), text: String::new() })
+        Ok(Output {
+            folder: folder.to_path_buf(),
+            files,
+            view: Recorder::new(scene),
+            row: Vec::new(),
+            text: String::new(),
+        })
     }
 
     /// Writes one row of a probe.
@@ -51,15 +72,46 @@ impl Output {
             let _ = write!(self.text, "{}{x:?}", if i > 0 { "," } else { "" });
         }
         self.text.push('\n');
-        let (path, file) = &mut self.files[index];
-        file.write_all(self.text.as_bytes()).map_err(|source| Error::Write { path: path.clone(), time, source })
+        self.files[index].append(&self.text, time)?;
+        self.view.row(index, &self.row);
+        Ok(())
     }
 
-    /// Writes the summary.
-    pub fn finish(self, summary: &Summary, time: f64) -> Result<(), Error> {
-        let path = self.folder.join("summary.json");
-        let text = summary.to_json() + "\n";
-        fs::write(&path, text).map_err(|source| Error::Write { path, time, source })
+    /// Takes the state at a host time for the page.
+    pub fn frame(&mut self, world: &World) -> Result<(), Error> {
+        self.view.frame(world)
+    }
+
+    /// CPU and wall time that the page took so far.
+    pub fn spent(&self) -> (Duration, Duration) {
+        self.view.spent()
+    }
+
+    /// Writes the summary and the page; each even if the other cannot be written.
+    pub fn finish(self, summary: &Summary, world: &World) -> Result<(), Error> {
+        let Output { folder, view, .. } = self;
+        let write = |name: &str, text: String| {
+            let (path, time) = (folder.join(name), world.time());
+            fs::write(&path, text).map_err(|source| {
+                // half of it is worse than none
+                let _ = fs::remove_file(&path);
+                Error::Write { path, time, source }
+            })
+        };
+        let written = write(SUMMARY, summary.to_json() + "\n");
+        write(PAGE, view.page(world, summary)).and(written)
+    }
+}
+
+impl ProbeFile {
+    /// Appends a row; of one that does not fit on the disk nothing stays.
+    fn append(&mut self, row: &str, time: f64) -> Result<(), Error> {
+        let written = self.file.write_all(row.as_bytes());
+        if written.is_err() {
+            let _ = self.file.set_len(self.length);
+        }
+        self.length += row.len() as u64;
+        written.map_err(|source| Error::Write { path: self.path.clone(), time, source })
     }
 }
 
@@ -72,9 +124,6 @@ fn old_results(folder: &Path, probes: &Path) -> io::Result<Vec<PathBuf>> {
             found.push(path);
         }
     }
-    let summary = folder.join("summary.json");
-    if summary.is_file() {
-        found.push(summary);
-    }
+    found.extend([SUMMARY, PAGE].map(|name| folder.join(name)).into_iter().filter(|path| path.is_file()));
     Ok(found)
 }

@@ -10,7 +10,7 @@ use crate::error::Error;
 use crate::scene::Target;
 
 /// The columns of a probe.
-pub(super) fn columns(target: Target) -> &'static [&'static str] {
+pub(crate) fn columns(target: Target) -> &'static [&'static str] {
     match target {
         Target::Point { .. } => {
             &["t", "x", "y", "z", "vx", "vy", "vz", "sx", "sy", "sz", "tension", "curvature", "moment"]

@@ -6,16 +6,16 @@ use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::time::Duration;
 
-/// The summary of a run; keys as SCENE.md lists them.
+/// The summary of a run; keys as docs/scene.md lists them.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Summary {
     /// Name of the scene.
     pub name: String,
     /// Time simulated in s.
     pub simulated_s: f64,
-    /// CPU time of the process during the run in s.
+    /// CPU time of the process during the run in s, without what [`view.html`](crate::view) took.
     pub cpu_s: f64,
-    /// Wall time of the run in s.
+    /// Wall time of the run in s, without that too.
     pub wall_s: f64,
     /// Simulated time over wall time: above 1 is faster than the clock.
     pub real_time_factor: f64,

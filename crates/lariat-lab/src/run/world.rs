@@ -88,12 +88,19 @@ impl World {
                     let at = At::ArcLength(scene.attachments[k].arc_length);
                     cable.set_support(at, Support::default())?;
                 }
+                for &(_, arc_length) in scene.tied(i) {
+                    cable.set_support(At::ArcLength(arc_length), Support::default())?;
+                }
                 scene.add_loads(cable, i, true, false)?;
                 scene.set_in_motion(cable, i)?;
             }
         }
         if purpose == Purpose::Static && !self.scene.body_loads.is_empty() {
             self.warnings.push("loads on bodies take no part: statics hold bodies where they are drawn".to_string());
+        }
+        if purpose == Purpose::Static && !self.scene.junctions.is_empty() {
+            self.warnings
+                .push("junctions are held where they are drawn while each cable settles by itself".to_string());
         }
         match &mut self.physics {
             Some(physics) if purpose == Purpose::Run => {
@@ -127,6 +134,11 @@ impl World {
             }
         }
         Ok(())
+    }
+
+    /// The scene.
+    pub fn scene(&self) -> &Scene {
+        &self.scene
     }
 
     /// Cables of the scene, in its order.

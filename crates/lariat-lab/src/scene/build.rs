@@ -4,7 +4,7 @@ use super::{AttachmentScene, Scene};
 use lariat_ancf::{At, Cable, Error, Motion, PointLoad, Vector3};
 
 impl Scene {
-    /// A cable at its drawn start, held by its attachments where it is drawn, without loads.
+    /// A cable at its drawn start, held by its attachments and junctions where it is drawn, without loads.
     ///
     /// # Errors
     /// As [`CableBuilder::build`](lariat_ancf::CableBuilder::build).
@@ -30,7 +30,15 @@ impl Scene {
             let at = At::ArcLength(attachment.arc_length);
             builder = if attachment.clamp { builder.clamp(at) } else { builder.fix(at) };
         }
+        for &(_, arc_length) in self.tied(index) {
+            builder = builder.fix(At::ArcLength(arc_length));
+        }
         builder.build()
+    }
+
+    /// The points of a cable that junctions tie to others.
+    pub fn tied(&self, index: usize) -> impl Iterator<Item = &(usize, f64)> {
+        self.junctions.iter().flat_map(|j| &j.points).filter(move |(cable, _)| *cable == index)
     }
 
     /// Adds the point loads of a cable: those with a ramp, or those without. `at_once` drops the ramps.

@@ -4,7 +4,10 @@ use super::body::BodyScene;
 use super::document::{Document, KeyPath};
 use super::table::{ProbeTable, SceneTable};
 use super::value::At;
-use super::{CableScene, Engine, ProbeScene, Purpose, Scene, Target, arc_length, check_body, check_cable, check_hold};
+use super::{
+    CableScene, Engine, ProbeScene, Purpose, Scene, Target, arc_length, check_body, check_cable, check_hold,
+    check_joint, check_junction,
+};
 use crate::error::Error;
 use lariat_ancf::{STANDARD_GRAVITY, Vector3};
 use std::path::Path;
@@ -68,12 +71,22 @@ pub(super) fn scene(
         gravity,
         cables,
         attachments: Vec::new(),
+        joints: Vec::new(),
+        junctions: Vec::new(),
         loads: Vec::new(),
         probes: Vec::new(),
     };
+    for (i, row) in table.joint.into_iter().enumerate() {
+        let row = check_joint::joint(doc, &scene, i, row)?;
+        scene.joints.push(row);
+    }
     for (i, row) in table.attachment.into_iter().enumerate() {
         let row = check_hold::attachment(doc, &scene, i, row)?;
         scene.attachments.push(row);
+    }
+    for (i, row) in table.junction.into_iter().enumerate() {
+        let row = check_junction::junction(doc, &scene, i, row)?;
+        scene.junctions.push(row);
     }
     for (i, row) in table.load.into_iter().enumerate() {
         check_hold::load(doc, &mut scene, i, row)?;
@@ -90,7 +103,7 @@ pub(super) fn scene(
 fn engine(doc: &Document<'_>, table: &SceneTable) -> Result<Engine, Error> {
     let at = KeyPath::root("engine");
     let engine = match table.engine.as_deref() {
-        None if table.body.is_empty() => Engine::None,
+        None if table.body.is_empty() && table.junction.is_empty() => Engine::None,
         None | Some("rapier") => Engine::Rapier,
         Some("none") => Engine::None,
         Some(other) => return Err(doc.error(&at, format!("unknown engine {other:?}"))),
@@ -98,6 +111,9 @@ fn engine(doc: &Document<'_>, table: &SceneTable) -> Result<Engine, Error> {
     if engine == Engine::None {
         if !table.body.is_empty() {
             return Err(doc.error(&KeyPath::root("body").item(0), "engine = \"none\" has no bodies"));
+        }
+        if !table.junction.is_empty() {
+            return Err(doc.error(&KeyPath::root("junction").item(0), "engine = \"none\" has no junctions"));
         }
         if table.solver_iterations.is_some() {
             return Err(doc.error(&KeyPath::root("solver_iterations"), "a setting of engine = \"rapier\""));

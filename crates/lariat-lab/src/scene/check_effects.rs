@@ -1,7 +1,7 @@
 //! Ranges of the effect tables of a `[[cable]]`: damping, drag, buoyancy, rest shape, line loads, gravity scale.
 //!
-//! What SCENE.md shows is the default of a key that is missing, but for the density of a fluid, which must be there. A cable that is
-//! described by EA, EI and mass per length has no diameter and no area: `diameter` and `area` give them, beyond SCENE.md.
+//! What docs/scene.md shows is the default of a key that is missing, but for the density of a fluid, which must be there. A cable that is
+//! described by EA, EI and mass per length has no diameter and no area: `diameter` and `area` give them.
 
 use super::check::{number, vector};
 use super::check_flow;

@@ -5,7 +5,7 @@ use super::check::{find_body, find_cable, missing, number, place, unique, vector
 use super::check_body::reals;
 use super::document::{Document, KeyPath};
 use super::table::{AttachmentTable, LoadTable};
-use super::{AttachmentScene, BodyLoadScene, LoadScene, Purpose, Scene};
+use super::{AttachmentScene, BodyLoadScene, LoadScene, Purpose, Scene, check_junction};
 use crate::error::Error;
 use crate::scene::body::BodyKind;
 
@@ -86,17 +86,21 @@ pub(super) fn load(doc: &Document<'_>, scene: &mut Scene, i: usize, row: LoadTab
 
 /// Builds every cable once, and compares anchors with the points they hold.
 pub(super) fn start(doc: &Document<'_>, scene: &Scene, purpose: Purpose) -> Result<(), Error> {
+    let mut cables = Vec::new();
     for (i, cable) in scene.cables.iter().enumerate() {
         let built = match scene.build_cable(i) {
             Ok(built) => built,
             Err(error) => {
-                return Err(doc.error_accepting(&KeyPath::root("cable").item(i), error.to_string(), "see SCENE.md"));
+                return Err(doc.error_accepting(
+                    &KeyPath::root("cable").item(i),
+                    error.to_string(),
+                    "see docs/scene.md",
+                ));
             }
         };
-        if cable.equilibrium || purpose == Purpose::Static {
-            continue;
-        }
-        for (k, attachment) in scene.attachments.iter().enumerate().filter(|(_, a)| a.cable == i) {
+        let anywhere = cable.equilibrium || purpose == Purpose::Static;
+        let checked = |a: &AttachmentScene| a.cable == i && !anywhere;
+        for (k, attachment) in scene.attachments.iter().enumerate().filter(|(_, a)| checked(a)) {
             let Some(anchor) = scene.anchor(attachment) else { continue };
             let at = KeyPath::root("attachment").item(k).key("anchor");
             let point = match built.sample(attachment.arc_length) {
@@ -110,6 +114,7 @@ pub(super) fn start(doc: &Document<'_>, scene: &Scene, purpose: Purpose) -> Resu
                     .error(&at, format!("{anchor:?} is {gap:.3e} m from the cable point, which starts at {point:?}")));
             }
         }
+        cables.push(built);
     }
-    Ok(())
+    check_junction::start(doc, scene, &cables)
 }

@@ -137,7 +137,7 @@ impl<'t> Document<'t> {
 
     /// An error about the value at a path.
     pub fn error(&self, path: &KeyPath, problem: impl Into<String>) -> Error {
-        let accepted = keys::accepted(&path.generic()).unwrap_or("see SCENE.md").to_string();
+        let accepted = keys::accepted(&path.generic()).unwrap_or("see docs/scene.md").to_string();
         self.error_accepting(path, problem, accepted)
     }
 
@@ -183,7 +183,7 @@ impl<'t> Document<'t> {
         let accepted = accepted
             .or_else(|| keys::accepted(&path.generic()).map(str::to_string))
             .or_else(|| listed(message))
-            .unwrap_or_else(|| "see SCENE.md".to_string());
+            .unwrap_or_else(|| "see docs/scene.md".to_string());
         Error::Scene { place: self.place(&span), key: self.display(&path), problem, accepted }
     }
 

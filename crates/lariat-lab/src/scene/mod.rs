@@ -1,4 +1,4 @@
-//! Scene files: TOML in, a checked [`Scene`] out. The format is the contract of SCENE.md.
+//! Scene files: TOML in, a checked [`Scene`] out. The format, key by key: docs/scene.md in the repository.
 //!
 //! Everything is checked before anything is written: an unknown key, a missing key, a value out of range or a reference to
 //! nothing is an error that names file, line, key and what is accepted. Parts of the format that this version does not compute
@@ -18,6 +18,19 @@
 //! them, so put corners on multiples of `dt`. A load on a body keeps its direction in world axes; `point` without value is the
 //! origin. Rapier's caps on velocities are lifted, and nothing sleeps. With `initial = "equilibrium"` and in `lariat static` bodies are held where they are drawn while the cables settle.
 //!
+//! # Joints
+//!
+//! A `[[joint]]` holds a dynamic `body` `to` another or the world, at a point and along an axis that are given in the world at t = 0, so
+//! that it starts closed. With `multibody = true` the body is a link of a multibody, computed in reduced coordinates: exact where
+//! Rapier's other joints give way under a pull (see the page of `lariat-rapier`). Bodies on a joint do not meet each other.
+//!
+//! # Junctions
+//!
+//! A `[[junction]]` ties the point `at` of a `cable` to the point `other_at` of an `other` (or of the same): they share one position, and
+//! slopes are free. Both points start at the same place, within 1e-6 m. Several junctions at one point make one knot. Junctions
+//! need `engine = "rapier"`, which they call for as bodies do. While cables settle (`initial = "equilibrium"`, `lariat static`)
+//! junctions stay where they are drawn, as bodies do.
+//!
 //! # Anchors
 //!
 //! An `anchor` to the world or a body must be where the cable point starts (within 1e-6 m), because a straight start has no way to get
@@ -30,7 +43,7 @@
 //! | [`table`], [`value`] | the tables as written |
 //! | [`document`], `overrides` | the file as a tree with places; `--set` |
 //! | [`keys`] | what is accepted, in words |
-//! | `check`, `check_cable`, `check_body`, `check_hold` | ranges and references |
+//! | `check`, `check_cable`, `check_body`, `check_hold`, `check_joint`, `check_junction` | ranges and references |
 //! | [`body`], `mesh` | bodies, and the files of their shapes |
 //! | `build` | from a scene to cables |
 
@@ -42,6 +55,8 @@ mod check_cable;
 mod check_effects;
 mod check_flow;
 mod check_hold;
+mod check_joint;
+mod check_junction;
 pub mod document;
 pub mod keys;
 mod mesh;
@@ -96,6 +111,10 @@ pub struct Scene {
     pub cables: Vec<CableScene>,
     /// Attachments to bodies and to the world.
     pub attachments: Vec<AttachmentScene>,
+    /// Joints between bodies.
+    pub joints: Vec<JointScene>,
+    /// Cables tied to each other.
+    pub junctions: Vec<JunctionScene>,
     /// Point loads on cables.
     pub loads: Vec<LoadScene>,
     /// Loads on bodies.
@@ -146,6 +165,45 @@ pub struct AttachmentScene {
     pub anchor: Option<Vector3<f64>>,
     /// True to hold the direction of the tangent too.
     pub clamp: bool,
+}
+
+/// What a joint leaves free; directions are unit vectors in world axes at t = 0.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum JointKind {
+    /// Turns about an axis.
+    Hinge(Vector3<f64>),
+    /// Moves along an axis.
+    Slider(Vector3<f64>),
+    /// Turns about a point.
+    Ball,
+    /// Nothing.
+    Fixed,
+}
+
+/// A checked joint between bodies.
+#[derive(Clone, Debug, PartialEq)]
+pub struct JointScene {
+    /// Name.
+    pub name: String,
+    /// Position in [`Scene::bodies`] of the body that it holds.
+    pub body: usize,
+    /// Position of what it holds to; `None` = the world.
+    pub to: Option<usize>,
+    /// Where it is at t = 0, in m.
+    pub point: Vector3<f64>,
+    /// What it leaves free.
+    pub kind: JointKind,
+    /// True for a link of a multibody.
+    pub multibody: bool,
+}
+
+/// A checked junction: two points of cables that share one position, like a shackle without mass.
+#[derive(Clone, Debug, PartialEq)]
+pub struct JunctionScene {
+    /// Name.
+    pub name: String,
+    /// Positions of the cables in [`Scene::cables`], and arc lengths in m.
+    pub points: [(usize, f64); 2],
 }
 
 /// A checked point load.

@@ -1,4 +1,4 @@
-//! The tables of a scene file as they are written: SCENE.md in full, key by key. What is missing is `None`; an unknown key is
+//! The tables of a scene file as they are written: docs/scene.md in full, key by key. What is missing is `None`; an unknown key is
 //! an error. Ranges and references are checked later (`check`).
 
 use super::value::{At, FlowValue, RuleValue, ShapeValue};
@@ -23,12 +23,18 @@ pub struct SceneTable {
     /// Rigid bodies.
     #[serde(default)]
     pub body: Vec<BodyTable>,
+    /// Extension: bodies that hold to each other.
+    #[serde(default)]
+    pub joint: Vec<JointTable>,
     /// Cables.
     #[serde(default)]
     pub cable: Vec<CableTable>,
     /// Attachments.
     #[serde(default)]
     pub attachment: Vec<AttachmentTable>,
+    /// Extension: cables tied to each other.
+    #[serde(default)]
+    pub junction: Vec<JunctionTable>,
     /// Point loads.
     #[serde(default)]
     pub load: Vec<LoadTable>,
@@ -65,6 +71,26 @@ pub struct BodyTable {
     pub friction: Option<f64>,
     /// Rows of t, x, y, z (s, m).
     pub path: Option<Vec<[f64; 4]>>,
+}
+
+/// Extension: a `[[joint]]`.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct JointTable {
+    /// Name; default `joint-N` by position from 0.
+    pub name: Option<String>,
+    /// `"hinge"`, `"slider"`, `"ball"` or `"fixed"`.
+    pub kind: String,
+    /// A dynamic body.
+    pub body: String,
+    /// What it holds to: a body or `"world"`.
+    pub to: String,
+    /// Where the joint is at t = 0, in m, world axes.
+    pub at: [f64; 3],
+    /// Direction of a hinge or slider at t = 0, world axes.
+    pub axis: Option<[f64; 3]>,
+    /// True for a link of a multibody.
+    pub multibody: Option<bool>,
 }
 
 /// A `[[cable]]`.
@@ -312,6 +338,22 @@ pub struct AttachmentTable {
     pub anchor: Option<[f64; 3]>,
     /// `"ball"` or `"clamp"`.
     pub kind: Option<String>,
+}
+
+/// Extension: a `[[junction]]`.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct JunctionTable {
+    /// Name; default `junction-N` by position from 0.
+    pub name: Option<String>,
+    /// A cable.
+    pub cable: String,
+    /// Where on it.
+    pub at: At,
+    /// The cable that it is tied to.
+    pub other: String,
+    /// Where on that.
+    pub other_at: At,
 }
 
 /// A `[[load]]`.

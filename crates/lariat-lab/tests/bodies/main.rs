@@ -5,3 +5,4 @@ mod holds;
 mod motion;
 mod runs;
 mod scenes;
+mod structures;

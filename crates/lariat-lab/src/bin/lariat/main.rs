@@ -24,7 +24,7 @@ struct Cli {
 
 #[derive(Subcommand)]
 enum Command {
-    /// Run a scene: writes DIR/summary.json and DIR/probes/*.csv, in place of all that are there
+    /// Run a scene: writes DIR/summary.json, DIR/probes/*.csv and DIR/view.html, in place of all that are there
     Run(SceneArguments),
     /// Find the static equilibrium of a scene: the same files, at t = 0
     Static(SceneArguments),

@@ -1,5 +1,6 @@
-//! Bad bodies, and bad references to them: each is refused with the line, the key and what is accepted, before anything is written.
+//! Bad bodies, and bad references to them.
 
+use super::bench::{Case, all_are_accepted, all_are_refused, changed, message};
 use lariat_lab::{Purpose, Scene};
 use std::fs;
 
@@ -54,9 +55,6 @@ point = [0.1, 0.0, 0.0]
 force = [1.0, 0.0, 0.0]
 ramp = 0.5
 "#;
-
-/// What is replaced in [`GOOD`] (or appended, if the first text is empty), by what, the line of the error, and fragments of it.
-type Case = (&'static str, &'static str, usize, &'static [&'static str]);
 
 const BOX: &str = "shape = { cuboid = [0.1, 0.1, 0.1] }";
 const PATH: &str = "path = [[0.0, 0.0, 0.0, 0.0], [1.0, 0.0, 0.5, 0.0]]";
@@ -156,34 +154,13 @@ const CASES: &[Case] = &[
 ];
 
 #[test]
-fn the_scene_that_is_broken_below_is_fine_itself() {
-    Scene::parse("scene.toml", GOOD, &[], Purpose::Run).unwrap();
-}
-
-#[test]
-fn every_slip_is_named_with_its_line_its_key_and_what_is_accepted() {
-    let mut wrong = Vec::new();
-    for (from, to, line, fragments) in CASES {
-        assert!(GOOD.contains(from), "{from}");
-        let text = if from.is_empty() { format!("{GOOD}{to}\n") } else { GOOD.replacen(from, to, 1) };
-        let message = match Scene::parse("scene.toml", &text, &[], Purpose::Run) {
-            Ok(_) => "accepted".to_string(),
-            Err(error) => {
-                assert_eq!(error.exit_code(), 2, "{error}");
-                error.to_string()
-            }
-        };
-        let missing: Vec<_> = fragments.iter().filter(|fragment| !message.contains(**fragment)).collect();
-        if !message.starts_with(&format!("scene.toml:{line}: ")) || !missing.is_empty() {
-            wrong.push(format!("{to:?} (line {line}, lacks {missing:?}):\n    {message}"));
-        }
-    }
-    assert!(wrong.is_empty(), "{} of {}:\n{}", wrong.len(), CASES.len(), wrong.join("\n"));
+fn every_slip_in_a_body_is_named_with_its_line_its_key_and_what_is_accepted() {
+    all_are_refused(GOOD, CASES);
 }
 
 #[test]
 fn what_the_format_offers_is_accepted() {
-    for (from, to) in [
+    let changes = [
         ("engine = \"rapier\"\nsolver_iterations = 4\n", ""),
         ("kind = \"dynamic\"\n", ""),
         ("mass = 50.0\ninertia = [0.33, 0.33, 0.33]", "density = 6000.0"),
@@ -196,18 +173,12 @@ fn what_the_format_offers_is_accepted() {
         ("kind = \"ball\"", "kind = \"clamp\""),
         ("at = \"end\"\nbody = \"crate\"\nanchor = [0.0, 0.1, 0.0]", "at = 1.23\nbody = \"crate\""),
         ("body = \"crate\"\npoint = [0.1, 0.0, 0.0]", "body = \"crate\""),
-    ] {
-        assert!(GOOD.contains(from), "{from}");
-        if let Err(error) = Scene::parse("scene.toml", &GOOD.replacen(from, to, 1), &[], Purpose::Run) {
-            panic!("{to}: {error}");
-        }
-    }
+    ];
+    all_are_accepted(GOOD, &changes);
     // no shape, and no friction then
     let point = |text: &str| text.replacen(BOX, "shape = \"none\"", 1).replacen("friction = 0.5\n", "", 1);
     Scene::parse("scene.toml", &point(GOOD), &[], Purpose::Run).unwrap();
-    let message =
-        Scene::parse("scene.toml", &point(GOOD).replacen("mass = 50.0", "density = 3.0", 1), &[], Purpose::Run);
-    let message = message.unwrap_err().to_string();
+    let message = message(&changed(&point(GOOD), "mass = 50.0", "density = 3.0"));
     assert!(message.contains("scene.toml:10: body.crate.density: a body without shape has no volume"), "{message}");
     // Rapier without bodies
     let bare = GOOD.find("[[body]]").zip(GOOD.find("[[cable]]")).zip(GOOD.find("[[attachment]]"));

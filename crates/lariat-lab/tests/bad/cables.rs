@@ -1,5 +1,6 @@
-//! Bad scenes: each is refused with the line, the key and what is accepted, before anything is written.
+//! Bad cables, and bad keys of the scene itself.
 
+use super::bench::{Case, all_are_accepted, all_are_refused, message};
 use lariat_lab::{Purpose, Scene};
 
 /// A scene that is fine, with its lines numbered from 1: [`GOOD`] plus the tail of each case, which starts on line 19.
@@ -22,9 +23,6 @@ velocity = [0.0, 0.0, 0.0]
 initial = "straight"
 angular_velocity = [0.0, 0.0, 0.0]
 "#;
-
-/// What is replaced in [`GOOD`] (or appended, if the first text is empty), by what, the line of the error, and fragments of it.
-type Case = (&'static str, &'static str, usize, &'static [&'static str]);
 
 const CASES: &[Case] = &[
     ("duration = 1.0", "duration = -1.0", 2, &["duration: -1 ", "> 0, in s"]),
@@ -272,35 +270,9 @@ const CASES: &[Case] = &[
     ("", "[[probe]]\nname = \"e\"\nbody = \"crate\"", 21, &["probe.e.body", "no body is named \"crate\"", "none is"]),
 ];
 
-fn message(text: &str) -> String {
-    match Scene::parse("scene.toml", text, &[], Purpose::Run) {
-        Ok(_) => format!("accepted:\n{text}"),
-        Err(error) => {
-            assert_eq!(error.exit_code(), 2, "{error}");
-            error.to_string()
-        }
-    }
-}
-
 #[test]
-fn the_scene_that_is_broken_below_is_fine_itself() {
-    Scene::parse("scene.toml", GOOD, &[], Purpose::Run).unwrap();
-}
-
-#[test]
-fn every_slip_is_named_with_its_line_its_key_and_what_is_accepted() {
-    let mut wrong = Vec::new();
-    for (from, to, line, fragments) in CASES {
-        assert!(GOOD.contains(from), "{from}");
-        let text = if from.is_empty() { format!("{GOOD}{to}\n") } else { GOOD.replacen(from, to, 1) };
-        let message = message(&text);
-        let place = format!("scene.toml:{line}: ");
-        let missing: Vec<_> = fragments.iter().filter(|fragment| !message.contains(**fragment)).collect();
-        if !message.starts_with(&place) || !missing.is_empty() {
-            wrong.push(format!("{to:?} (line {line}, lacks {missing:?}):\n    {message}"));
-        }
-    }
-    assert!(wrong.is_empty(), "{} of {}:\n{}", wrong.len(), CASES.len(), wrong.join("\n"));
+fn every_slip_in_a_cable_is_named_with_its_line_its_key_and_what_is_accepted() {
+    all_are_refused(GOOD, CASES);
 }
 
 #[test]
@@ -344,7 +316,7 @@ fn overrides_come_before_the_checks_and_errors_point_at_them() {
 
 #[test]
 fn what_the_format_offers_is_accepted() {
-    for (from, to) in [
+    let changes = [
         ("rule = \"G5-3\"", "rule = { axial = \"gauss-5\", bending = \"t2\" }"),
         ("rule = \"G5-3\"", "rule = \"G2-2\"\nallow_rank_deficient = true"),
         ("rule = \"G5-3\"", ""),
@@ -358,8 +330,6 @@ fn what_the_format_offers_is_accepted() {
             "section = { square = 0.01 }\ndensity = 4000.0\nyoungs_modulus = 1.0e8",
             "axial_stiffness = 1.0e4\nbending_stiffness = 0\nmass_per_length = 0.4",
         ),
-    ] {
-        assert!(GOOD.contains(from));
-        Scene::parse("scene.toml", &GOOD.replacen(from, to, 1), &[], Purpose::Run).unwrap();
-    }
+    ];
+    all_are_accepted(GOOD, &changes);
 }

@@ -1,0 +1,137 @@
+//! `view.html`: the run as a page that opens from disk, without network, and moves.
+//!
+//! The page holds its data and all that draws them. Cables are the cubics of their elements: a frame has position, slope and tension at
+//! each node and the tension in the middle of each element, so curves are as smooth as computed. Bodies have position and attitude.
+//! Probes are plotted from the rows of their files. Nothing is interpolated in time: every picture is a state of the run.
+//!
+//! *Limits.* A frame for each host step, at most [`FRAMES`] of them: when they are full every other one is dropped and from then on
+//! every other step is taken, and so on. So there are 300 to 600 of a long run, evenly spaced, and the last state beside. Fewer
+//! where frames are so large that the page would have more than [`NUMBERS`] numbers. A cable of more than [`NODES`] nodes is sampled
+//! at that many places. Probes are thinned in the same way to at most [`ROWS`] rows; their files have them all.
+//!
+//! *Cost.* [`Summary::cpu_s`](crate::run::Summary::cpu_s) and its wall time leave the sampling of frames out; a row of a probe is copied
+//! once more, some 20 ns. Frames are kept in memory and written when the run ends, however it ends. The command takes 4.4 ms of CPU more
+//! for the page of the falling pendulum, whose run takes 13 ms (201 frames of 20 elements, 0.4 MB), and 4 ms beside the 1.0 s of
+//! the payload pendulum.
+//!
+//! *Drawing* is on a 2D canvas of our own, painted from far to near. WebGL, and three.js on it, was rejected: it is missing on
+//! many remote desktops and virtual machines, and three.js 0.187 is 2.1 MB beside our 40 kB. Where large surfaces cross, painting
+//! by depth shows a wrong one in front for a few pixels. The plots are uPlot's (MIT, `assets/uplot`).
+
+mod page;
+mod thin;
+
+use crate::error::Error;
+use crate::run::{Summary, World};
+use crate::scene::{Engine, Scene};
+use cpu_time::ProcessTime;
+use std::time::{Duration, Instant};
+use thin::Thin;
+
+/// Most frames of a page.
+pub const FRAMES: usize = 600;
+/// Most numbers in the frames of a page, 4 bytes each: 11 MB of text.
+pub const NUMBERS: usize = 2_000_000;
+/// Most nodes of a cable in a frame.
+pub const NODES: usize = 201;
+/// Most rows of a probe in a page.
+pub const ROWS: usize = 2000;
+
+/// What a run leaves for its page.
+pub struct Recorder {
+    frames: Thin<Frame>,
+    probes: Vec<Thin<Vec<f64>>>,
+    cpu: Duration,
+    wall: Duration,
+}
+
+/// The cables and bodies at a time in s; numbers in the order that `data.js` reads.
+#[derive(Default)]
+struct Frame {
+    time: f64,
+    numbers: Vec<f32>,
+}
+
+impl Recorder {
+    /// A recorder that has nothing yet.
+    pub fn new(scene: &Scene) -> Self {
+        let nodes: usize = scene.cables.iter().map(|cable| 1 + 9 * (cable.elements + 1).min(NODES)).sum();
+        let most = (NUMBERS / (nodes + 7 * scene.bodies.len()).max(1)).clamp(2, FRAMES);
+        Recorder {
+            frames: Thin::new(most),
+            probes: scene.probes.iter().map(|_| Thin::new(ROWS)).collect(),
+            cpu: Duration::ZERO,
+            wall: Duration::ZERO,
+        }
+    }
+
+    /// Takes the present state as a frame, if it is its turn.
+    ///
+    /// # Errors
+    /// [`Error::Mechanics`] if a cable cannot be read; not for a state that a step has reached.
+    pub fn frame(&mut self, world: &World) -> Result<(), Error> {
+        if self.frames.is_due() {
+            let (cpu, wall) = (ProcessTime::now(), Instant::now());
+            let frame = Frame::of(world)?;
+            self.frames.push(frame);
+            self.cpu += cpu.elapsed();
+            self.wall += wall.elapsed();
+        } else {
+            self.frames.skip();
+        }
+        Ok(())
+    }
+
+    /// Takes a row of a probe.
+    pub fn row(&mut self, probe: usize, row: &[f64]) {
+        self.probes[probe].offer(row);
+    }
+
+    /// CPU and wall time that frames took.
+    pub fn spent(&self) -> (Duration, Duration) {
+        (self.cpu, self.wall)
+    }
+
+    /// The page, with the present state as last frame if all cables have reached one time.
+    pub fn page(mut self, world: &World, summary: &Summary) -> String {
+        let time = world.time();
+        let together =
+            world.cables().iter().all(|cable| cable.time() == time || world.scene().engine == Engine::Rapier);
+        let new = self.frames.kept().last().is_none_or(|last| last.time < time);
+        if together
+            && new
+            && let Ok(frame) = Frame::of(world)
+        {
+            self.frames.append(frame);
+        }
+        page::write(world.scene(), summary, self.frames.kept(), &self.probes)
+    }
+}
+
+impl Frame {
+    fn of(world: &World) -> Result<Self, Error> {
+        let mut numbers = Vec::new();
+        for cable in world.cables() {
+            let mut places = cable.node_arc_lengths();
+            if places.len() > NODES {
+                let step = cable.length() / (NODES - 1) as f64;
+                places = (0..NODES).map(|k| (k as f64 * step).min(cable.length())).collect();
+            }
+            numbers.push(places.len() as f32);
+            for (i, &s) in places.iter().enumerate() {
+                let here = cable.sample(s)?;
+                let next = places.get(i + 1).map(|next| cable.sample(0.5 * (s + next))).transpose()?;
+                numbers.push(s as f32);
+                numbers.extend(here.position.iter().chain(here.slope.iter()).map(|&x| x as f32));
+                numbers.extend([here.tension as f32, next.unwrap_or(here).tension as f32]);
+            }
+        }
+        for i in 0..world.scene().bodies.len() {
+            if let Some(body) = world.body(i) {
+                let q = body.rotation;
+                numbers.extend(body.position.iter().chain(&[q.i, q.j, q.k, q.w]).map(|&x| x as f32));
+            }
+        }
+        Ok(Frame { time: world.time(), numbers })
+    }
+}

@@ -1,0 +1,105 @@
+//! The page as text: the template of `assets/view` with its data.
+//!
+//! Frames are one run of little-endian `f32` in base64: for each frame, for each cable the number of nodes and for each node arc
+//! length, position, slope, tension here and half-way to the next node; then for each body position and quaternion. Times and rows of
+//! probes are `f64`.
+
+use super::{Frame, thin::Thin};
+use crate::run::{Summary, columns};
+use crate::scene::body::{BodyKind, BodyShape};
+use crate::scene::{Scene, Target};
+use base64::Engine as _;
+use base64::engine::general_purpose::STANDARD;
+use serde_json::{Value, json};
+
+const PAGE: &str = include_str!("../../assets/view/page.html");
+const STYLE: &str =
+    concat!(include_str!("../../assets/uplot/uPlot.min.css"), include_str!("../../assets/view/style.css"));
+/// With the licence of its author, which asks to be kept.
+const UPLOT: &str = concat!(
+    "/*\n",
+    include_str!("../../assets/uplot/LICENSE"),
+    "*/\n",
+    include_str!("../../assets/uplot/uPlot.iife.min.js")
+);
+const SCRIPT: &str = concat!(
+    include_str!("../../assets/view/data.js"),
+    include_str!("../../assets/view/shapes.js"),
+    include_str!("../../assets/view/camera.js"),
+    include_str!("../../assets/view/draw.js"),
+    include_str!("../../assets/view/plots.js"),
+    include_str!("../../assets/view/page.js"),
+);
+
+/// The whole page.
+pub fn write(scene: &Scene, summary: &Summary, frames: &[Frame], probes: &[Thin<Vec<f64>>]) -> String {
+    let rows = |thin: &Thin<Vec<f64>>| base64(thin.rows().flatten().flat_map(|x| x.to_le_bytes()));
+    let data = json!({
+        "name": scene.name,
+        "summary": summary,
+        "gravity": scene.gravity.as_slice(),
+        "cables": scene.cables.iter().map(|c| json!({ "name": c.name, "diameter": c.section.diameter })).collect::<Vec<_>>(),
+        "bodies": scene.bodies.iter().map(|b| json!({
+            "name": b.name,
+            "kind": match b.kind { BodyKind::Dynamic => "dynamic", BodyKind::Fixed => "fixed", BodyKind::Kinematic => "kinematic" },
+            "shape": shape(&b.shape),
+        })).collect::<Vec<_>>(),
+        "attachments": scene.attachments.iter().map(|a| json!({
+            "cable": a.cable, "at": a.arc_length, "world": a.body.is_none(), "clamp": a.clamp,
+        })).collect::<Vec<_>>(),
+        "junctions": scene.junctions.iter().map(|j| json!({ "cable": j.points[0].0, "at": j.points[0].1 })).collect::<Vec<_>>(),
+        "times": base64(frames.iter().flat_map(|f| f.time.to_le_bytes())),
+        "frames": base64(frames.iter().flat_map(|f| &f.numbers).flat_map(|x| x.to_le_bytes())),
+        "probes": scene.probes.iter().zip(probes).map(|(p, thin)| json!({
+            "name": p.name, "about": about(scene, p.target), "columns": columns(p.target), "rows": rows(thin),
+        })).collect::<Vec<_>>(),
+    });
+    // no text of the scene can end the script that holds it
+    let data = data.to_string().replace('<', "\\u003c");
+    // text and marks of the template take turns
+    let part = |(i, text): (usize, &str)| match text {
+        "TITLE" if i % 2 == 1 => escaped(&scene.name),
+        "STYLE" if i % 2 == 1 => STYLE.to_string(),
+        "DATA" if i % 2 == 1 => data.clone(),
+        "UPLOT" if i % 2 == 1 => UPLOT.to_string(),
+        "SCRIPT" if i % 2 == 1 => SCRIPT.to_string(),
+        text => text.to_string(),
+    };
+    PAGE.split('@').enumerate().map(part).collect()
+}
+
+fn base64(bytes: impl Iterator<Item = u8>) -> String {
+    STANDARD.encode(bytes.collect::<Vec<_>>())
+}
+
+fn escaped(text: &str) -> String {
+    text.replace('&', "&amp;").replace('<', "&lt;")
+}
+
+fn shape(shape: &BodyShape) -> Value {
+    match shape {
+        BodyShape::None => json!({}),
+        BodyShape::Cuboid(half) => json!({ "cuboid": half.as_slice() }),
+        BodyShape::Ball(radius) => json!({ "ball": radius }),
+        BodyShape::Cylinder(size) => json!({ "cylinder": size }),
+        BodyShape::Capsule(size) => json!({ "capsule": size }),
+        BodyShape::Plane(normal) => json!({ "plane": normal.as_slice() }),
+        BodyShape::Mesh { vertices, triangles } => {
+            let corners = vertices.iter().flatten().flat_map(|&x| (x as f32).to_le_bytes());
+            let faces = triangles.iter().flatten().flat_map(|i| i.to_le_bytes());
+            json!({ "mesh": [base64(corners), base64(faces)] })
+        }
+    }
+}
+
+/// What a probe reads, in words.
+fn about(scene: &Scene, target: Target) -> String {
+    let whose = |cable: Option<usize>| cable.map_or("all".to_string(), |c| format!("cable {}", scene.cables[c].name));
+    match target {
+        Target::Point { cable, arc_length } => format!("cable {} at {arc_length} m", scene.cables[cable].name),
+        Target::Body(i) => format!("body {}", scene.bodies[i].name),
+        Target::Attachment(k) => format!("attachment {}", scene.attachments[k].name),
+        Target::Energy(cable) => format!("energy of {}", whose(cable)),
+        Target::Momentum(cable) => format!("momentum of {}", whose(cable)),
+    }
+}

@@ -1,0 +1,55 @@
+//! An arm of three links, a multibody of Rapier, held level by a tether at its tip, and then by a motor that bears half of it.
+//! `cargo run --release --example tether_multibody`
+//!
+//! *Source.* Moments about the shoulder: the arm, 3 kg and 1.5 m, weighs m g L/2 = 22.07 N m on it; the tether pulls T L, the motor
+//! turns with M, so `T = (m g L/2 - M)/L`: 14.715 N without the motor, 7.358 N with half of the moment.
+
+use lariat_rapier::lariat_ancf::{At, Cable, Integrator, Section, StepControl, Vector3};
+use lariat_rapier::rapier::prelude::*;
+use lariat_rapier::{CableSet, Pin};
+
+fn main() -> Result<(), Box<dyn std::error::Error>> {
+    let weighs = 3.0 * 9.81 * 0.75; // N m about the shoulder
+    for motor in [0.0, 0.5 * weighs] {
+        let mut world = PhysicsWorld::new();
+        let mut before = world.insert_body(RigidBodyBuilder::fixed());
+        for k in 0..3 {
+            let body = RigidBodyBuilder::dynamic().translation(Vector::new(0.25 + 0.5 * k as Real, 0.0, 0.0));
+            let body = body.can_sleep(false).angular_damping(1.0);
+            let (link, _) = world.insert(body, ColliderBuilder::cuboid(0.2, 0.05, 0.05).mass(1.0));
+            let end = Vector::new(-0.25, 0.0, 0.0);
+            let joint: GenericJoint = match k {
+                0 => RevoluteJointBuilder::new(Vector::Z).local_anchor2(end).into(),
+                _ => FixedJointBuilder::new().local_anchor1(-end).local_anchor2(end).into(),
+            };
+            world.multibody_joints.insert(before, link, joint, true).ok_or("no joint")?;
+            if k == 0 {
+                world.bodies[link].add_torque(Vector::new(0.0, 0.0, motor as Real), true); // the motor at the shoulder
+            }
+            before = link;
+        }
+        let mut cables = CableSet::new();
+        let tether = cables.insert(
+            Cable::builder()
+                .points([Vector3::new(1.5, 1.0, 0.0), Vector3::new(1.5, 0.0, 0.0)])
+                .section(Section::square(0.01, 1.0e9, 1.0)?) // m, Pa, kg/m^3: all but weightless
+                .integrator(Integrator {
+                    method: "generalised-alpha-0".parse()?,
+                    control: StepControl::MaxStep(1.0 / 480.0),
+                })
+                .fix(At::Start)
+                .build()?,
+        );
+        let tip = cables.attach(&world, tether, At::End, before, Vector::new(0.25, 0.0, 0.0), Pin::Ball)?;
+        for _ in 0..600 {
+            cables.step(&mut world)?; // 10 s
+        }
+        let (pull, gap) = (cables.attachment(tip)?.force().y, cables.attachment(tip)?.gap());
+        let expected = (weighs - motor) / 1.5;
+        println!("motor {motor:6.3} N m: the tether pulls {pull:.3} N, by moments {expected:.3} N, gap {gap:.0e} m");
+        if (pull / expected - 1.0).abs() > 2e-3 || gap > 1e-3 {
+            return Err("the moments do not balance".into());
+        }
+    }
+    Ok(())
+}
