@@ -44,6 +44,14 @@ impl Snapshot {
 /// # Errors
 /// [`Error::Output`] if the file cannot be written, [`Error::Figure`] if it cannot be drawn.
 pub fn snapshots(path: &Path, title: &str, shots: &[Snapshot]) -> Result<(), Error> {
+    save(path, &snapshots_svg(title, shots).map_err(|reason| failed(path)(&reason))?)
+}
+
+/// The same as text.
+///
+/// # Errors
+/// What the plotting library says.
+pub fn snapshots_svg(title: &str, shots: &[Snapshot]) -> Result<String, String> {
     let points = || shots.iter().flat_map(|shot| &shot.curve);
     let (left, right) = range(points().map(|p| p.0), 0.1);
     let (low, high) = range(points().map(|p| p.1), 0.1);
@@ -53,8 +61,8 @@ pub fn snapshots(path: &Path, title: &str, shots: &[Snapshot]) -> Result<(), Err
     let (axis, head, legend) = (62, 46, 110);
     let size = (WIDTH as u32 + axis + legend + EDGE, height as u32 + axis + head);
     let mut svg = String::new();
-    draw(&mut svg, size, title, shots, (x, y), (axis, head, legend)).map_err(|reason| failed(path)(&reason))?;
-    save(path, &svg)
+    draw(&mut svg, size, title, shots, (x, y), (axis, head, legend))?;
+    Ok(svg)
 }
 
 type Span = std::ops::Range<f64>;

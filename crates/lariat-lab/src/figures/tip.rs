@@ -1,8 +1,9 @@
 //! The tip against time: x and y above, distance from references on a logarithmic axis below.
 
+use super::log_axis::{LogAxis, superscript};
 use super::{FONT, GRID, INK, PALETTE, failed, range, save};
 use crate::error::Error;
-use plotters::coord::ranged1d::{KeyPointHint, Ranged, ValueFormatter};
+use plotters::coord::ranged1d::{Ranged, ValueFormatter};
 use plotters::coord::types::RangedCoordf64;
 use plotters::prelude::*;
 use std::path::Path;
@@ -35,9 +36,17 @@ const FLOOR: f64 = 1e-10;
 /// # Errors
 /// [`Error::Output`] if the file cannot be written, [`Error::Figure`] if it cannot be drawn.
 pub fn tip(path: &Path, figure: &TipFigure) -> Result<(), Error> {
+    save(path, &tip_svg(figure).map_err(|reason| failed(path)(&reason))?)
+}
+
+/// The same as text.
+///
+/// # Errors
+/// What the plotting library says.
+pub fn tip_svg(figure: &TipFigure) -> Result<String, String> {
     let mut svg = String::new();
-    draw(&mut svg, figure).map_err(|reason| failed(path)(&reason))?;
-    save(path, &svg)
+    draw(&mut svg, figure)?;
+    Ok(svg)
 }
 
 fn draw(svg: &mut String, figure: &TipFigure) -> Result<(), String> {
@@ -65,7 +74,7 @@ fn draw(svg: &mut String, figure: &TipFigure) -> Result<(), String> {
     panel(
         &lower,
         from..to,
-        Decades(low.floor() as i32, high.ceil() as i32),
+        LogAxis::decades(low.floor(), high.ceil()),
         "distance [m]",
         Some("t [s]"),
         &|y| format!("10{}", superscript(y.round() as i32)),
@@ -131,36 +140,4 @@ where
         .border_style(GRID)
         .draw()
         .map_err(|e| text(&e))
-}
-
-/// An axis of logarithms with one tick at each power of ten.
-#[derive(Clone, Copy)]
-struct Decades(i32, i32);
-
-impl Ranged for Decades {
-    type FormatOption = plotters::coord::ranged1d::NoDefaultFormatting;
-    type ValueType = f64;
-    fn map(&self, value: &f64, limit: (i32, i32)) -> i32 {
-        let share = (value - f64::from(self.0)) / f64::from(self.1 - self.0);
-        limit.0 + (f64::from(limit.1 - limit.0) * share).round() as i32
-    }
-    fn key_points<Hint: KeyPointHint>(&self, hint: Hint) -> Vec<f64> {
-        let step = ((self.1 - self.0) as usize / hint.max_num_points().max(1) + 1).max(1);
-        (self.0..=self.1).step_by(step).map(f64::from).collect()
-    }
-    fn range(&self) -> std::ops::Range<f64> {
-        f64::from(self.0)..f64::from(self.1)
-    }
-}
-
-impl ValueFormatter<f64> for Decades {
-    fn format(value: &f64) -> String {
-        format!("{value}")
-    }
-}
-
-fn superscript(power: i32) -> String {
-    const DIGITS: [char; 10] = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
-    let digit = |c: char| c.to_digit(10).map_or('⁻', |d| DIGITS[d as usize]);
-    power.to_string().chars().map(digit).collect()
 }

@@ -1,7 +1,11 @@
-//! A method with its step control, and the three choices that most users need.
+//! A method with its step control, and the three choices that most users need: [`Fidelity`].
+//!
+//! The figures at each choice are those of `docs/accuracy/fidelity.csv`, which `lariat report` measures; a test of `lariat-lab` holds
+//! them to that file.
 
 use super::method::{Method, NewtonMode, Stepper};
 use crate::error::{Error, require};
+use crate::rule::Rule;
 use serde::{Deserialize, Serialize};
 
 /// How the length of the integration steps inside a host step is chosen. Each lands exactly on the host's step.
@@ -35,7 +39,7 @@ pub struct Integrator {
 }
 
 impl Default for Integrator {
-    /// [`Preset::Engineering`]: error-controlled ESDIRK4, 1e-6 m per host step.
+    /// That of [`Fidelity::Engineering`]: error-controlled ESDIRK4, 1e-6 m per host step.
     fn default() -> Self {
         Integrator { method: Method::Esdirk4, control: StepControl::Tolerance(1e-6) }
     }
@@ -44,7 +48,7 @@ impl Default for Integrator {
 /// Three choices of accuracy against time.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
-pub enum Preset {
+pub enum Fidelity {
     /// One-iteration generalised-alpha 0.5 at h <= 1/240 s, with full Newton where a step does not contract.
     Game,
     /// Error-controlled ESDIRK4, 1e-6 m per host step: the default.
@@ -53,22 +57,49 @@ pub enum Preset {
     Reference,
 }
 
-/// Above this frequency in rad/s the reference preset is implicit.
+/// Above this frequency in rad/s the reference fidelity is implicit.
 const EXPLICIT_FREQUENCY: f64 = 1e5;
 
-impl Preset {
+impl Fidelity {
+    /// All, from the cheapest.
+    pub const ALL: [Fidelity; 3] = [Fidelity::Game, Fidelity::Engineering, Fidelity::Reference];
+
+    /// Name: `game`, `engineering` or `reference`.
+    pub fn name(self) -> &'static str {
+        match self {
+            Fidelity::Game => "game",
+            Fidelity::Engineering => "engineering",
+            Fidelity::Reference => "reference",
+        }
+    }
+
+    /// The force strategy: the default one for all three. It has the least error for its time in `docs/accuracy`.
+    pub fn rule(self) -> Rule {
+        Rule::default()
+    }
+
+    /// Advice: a number of elements whose error of mesh is about that of time, for a cable that swings and bends as the pendulum
+    /// of `docs/accuracy` does. A taut cable needs fewer, one with sharper bends more.
+    pub fn elements(self) -> usize {
+        match self {
+            Fidelity::Game => 10,
+            Fidelity::Engineering => 20,
+            Fidelity::Reference => 80,
+        }
+    }
+
     /// The integrator, for a cable whose frequencies stay below `frequency_bound` (rad/s).
     pub fn integrator(self, frequency_bound: f64) -> Integrator {
         match self {
-            Preset::Game => Integrator {
+            Fidelity::Game => Integrator {
                 method: Method::GeneralisedAlpha { rho: 0.5, newton: NewtonMode::Once },
                 control: StepControl::MaxStep(1.0 / 240.0),
             },
-            Preset::Engineering => Integrator::default(),
-            Preset::Reference if frequency_bound < EXPLICIT_FREQUENCY => {
+            Fidelity::Engineering => Integrator::default(),
+            Fidelity::Reference if frequency_bound < EXPLICIT_FREQUENCY => {
                 Integrator { method: Method::Rkn6, control: StepControl::Stable(0.5) }
             }
-            Preset::Reference => Integrator { method: Method::Esdirk4, control: StepControl::Tolerance(1e-9) },
+            Fidelity::Reference => Integrator { method: Method::Esdirk4, control: StepControl::Tolerance(1e-9) },
         }
     }
 }
