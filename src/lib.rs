@@ -42,7 +42,7 @@
 //! | find its static shape | [`Cable::equilibrium`] |
 //! | take and restore snapshots | [`Cable::state`], [`Cable::restore`], serde |
 //!
-//! What accuracy costs, by integrator: `docs/cost.md` in the repository.
+//! What accuracy costs, by rule, integrator and mesh: `docs/accuracy` in the repository.
 
 #[doc(no_inline)]
 pub use lariat_ancf as ancf;

@@ -150,8 +150,8 @@ impl Method {
             Method::Esdirk3 => implicit(3, 3, Some(3), "L-stable", "any stiffness, coarse steps"),
             Method::Esdirk4 => implicit(4, 5, Some(4), "L-stable", "any stiffness (fidelity engineering, the default)"),
             Method::Verlet => explicit(2, 1, "soft cables, many small steps"),
-            Method::Rkn4 => explicit(4, 6, "soft cables, fine accuracy"),
-            Method::Rkn6 => explicit(6, 11, "soft cables, reference runs (fidelity reference)"),
+            Method::Rkn4 => explicit(4, 6, "soft cables, fine accuracy (fidelity reference)"),
+            Method::Rkn6 => explicit(6, 11, "soft cables, errors in time near rounding"),
         }
     }
 }

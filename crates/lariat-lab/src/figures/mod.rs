@@ -32,6 +32,20 @@ const PALETTE: [RGBColor; 7] = [
     INK,
 ];
 
+/// The plotting library rounds to whole pixels: drawings are made so many times larger, and shown at their size by their `viewBox`.
+const SCALE: i32 = 8;
+
+/// A length shown in px, in those of the drawing.
+fn large(px: u32) -> u32 {
+    px * SCALE as u32
+}
+
+/// Shows a drawing at its size.
+fn shrink(svg: &str, (width, height): (u32, u32)) -> String {
+    let head = |w: u32, h: u32| format!("width=\"{w}\" height=\"{h}\"");
+    svg.replacen(&head(large(width), large(height)), &head(width, height), 1)
+}
+
 /// Writes a finished drawing to a file.
 fn save(path: &Path, svg: &str) -> Result<(), Error> {
     std::fs::write(path, svg).map_err(|source| Error::Output { path: path.to_path_buf(), source })

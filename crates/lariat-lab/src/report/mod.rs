@@ -61,9 +61,9 @@ impl Options {
         Options { rungs: usize::MAX, least_runs: 5, most_runs: 15, budget: 0.1, patience: 2.0, readings: 300 }
     }
 
-    /// The coarse half of the ladders, few runs: below a minute.
+    /// The coarse part of the ladders, few runs: below a minute.
     pub fn quick() -> Self {
-        Options { rungs: 4, least_runs: 2, most_runs: 3, budget: 0.02, patience: 0.2, readings: 50 }
+        Options { rungs: 3, least_runs: 2, most_runs: 3, budget: 0.02, patience: 0.1, readings: 50 }
     }
 }
 

@@ -76,7 +76,10 @@ fn line(bench: &mut Bench<'_>, name: &str, rule: Rule, method: Method) -> Vec<Po
 }
 
 /// Every integrator in time alone.
-fn in_time(bench: &mut Bench<'_>) -> Result<Vec<Point>, Error> {
+///
+/// # Errors
+/// [`Error::Mechanics`]; not for a run that fails, which is a point.
+pub fn in_time(bench: &mut Bench<'_>) -> Result<Vec<Point>, Error> {
     let exact = independent();
     let rule = Rule::gauss(10, 10)?;
     let mut points = Vec::new();
