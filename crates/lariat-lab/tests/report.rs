@@ -9,7 +9,7 @@ use std::path::Path;
 
 /// The two coarsest rungs, each point run once.
 fn tiny() -> Options {
-    Options { rungs: 2, least_runs: 1, most_runs: 1, budget: 0.0, patience: 0.0, readings: 2 }
+    Options { command: "", rungs: 2, least_runs: 1, most_runs: 1, budget: 0.0, patience: 0.0, readings: 2 }
 }
 
 fn csv(path: &Path) -> Vec<BTreeMap<String, String>> {
@@ -152,7 +152,7 @@ fn a_report_says_which_readme_it_cannot_mark() {
     let folder = tempfile::tempdir().unwrap();
     let readme = folder.path().join("README.md");
     fs::write(&readme, "no marks").unwrap();
-    let report = Report { sections: Vec::new(), machine: String::new(), seconds: 0.0 };
+    let report = Report { command: "", sections: Vec::new(), machine: String::new(), seconds: 0.0 };
     let error = report::update_readme(&report, &readme).unwrap_err();
     assert!(error.to_string().contains("<!-- fidelity -->"), "{error}");
     assert_eq!(fs::read_to_string(&readme).unwrap(), "no marks");

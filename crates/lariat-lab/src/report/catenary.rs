@@ -100,7 +100,7 @@ pub fn section(points: &[Point]) -> Result<Section, Error> {
          energy is refused, and shown as failed with the reason.",
         SPAN.0,
         SPAN.1,
-        x.hypot(y).max(1e-13),
+        x.hypot(y),
     ));
     let chart = point::chart("Static catenary: axial rules, no bending", points, None, |_| true);
     section.figure(

@@ -152,8 +152,9 @@ fn fidelity_table(measured: &[(Fidelity, &'static str, Point)], scenes: &[Scene<
 pub fn section(bench: &mut Bench<'_>, scenes: &[Scene<'_>]) -> Result<Section, Error> {
     let mut section = Section::new("For an error below x, the cheapest choice");
     section.text(
-        "Of all points of the diagrams below, the one of least median CPU time whose error is below x. A choice that wins on one scene by an \
-         explicit method does so because that cable is soft, or its step is short already.",
+        "Of all points of the diagrams below, the one of least median CPU time whose error is below x. Chosen so, \
+         after the fact and scene by scene, a setting need not be good on another: explicit methods need steps as short as the stiffest \
+         mode asks.",
     );
     section.table(cheapest_table(scenes));
     section.text(

@@ -41,6 +41,8 @@ use std::time::Instant;
 /// How much is measured.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Options {
+    /// The command that asks for this, printed in the report.
+    pub command: &'static str,
     /// The first so many rungs of every ladder, the coarsest.
     pub rungs: usize,
     /// Runs for the clock of each point, at least and at most.
@@ -58,12 +60,14 @@ pub struct Options {
 impl Options {
     /// Everything: some minutes.
     pub fn full() -> Self {
-        Options { rungs: usize::MAX, least_runs: 5, most_runs: 15, budget: 0.1, patience: 2.0, readings: 300 }
+        let command = "cargo run --release -p lariat-lab -- report --out docs/accuracy --readme README.md";
+        Options { command, rungs: usize::MAX, least_runs: 5, most_runs: 15, budget: 0.1, patience: 2.0, readings: 300 }
     }
 
     /// The coarse part of the ladders, few runs: below a minute.
     pub fn quick() -> Self {
-        Options { rungs: 3, least_runs: 2, most_runs: 3, budget: 0.02, patience: 0.1, readings: 50 }
+        let command = "cargo run --release -p lariat-lab -- report --out out/report --quick";
+        Options { command, rungs: 3, least_runs: 2, most_runs: 3, budget: 0.02, patience: 0.1, readings: 50 }
     }
 }
 
@@ -88,6 +92,8 @@ impl Bench<'_> {
 /// What was measured.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Report {
+    /// The command that makes one like it.
+    pub command: &'static str,
     /// The sections in their order.
     pub sections: Vec<Section>,
     /// Machine, compiler, commit.
@@ -125,7 +131,8 @@ pub fn measure(bench: &mut Bench<'_>) -> Result<Report, Error> {
         effects::section(bench)?,
         coupling::section(bench)?,
     ];
-    Ok(Report { sections, machine, seconds: begun.elapsed().as_secs_f64() })
+    let command = bench.options.command;
+    Ok(Report { command, sections, machine, seconds: begun.elapsed().as_secs_f64() })
 }
 
 /// Measures everything and writes it to a folder, which is made if it is not there.

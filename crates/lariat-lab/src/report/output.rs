@@ -7,9 +7,6 @@ use pulldown_cmark::{Event, Options, Parser, Tag, TagEnd, html};
 use std::io;
 use std::path::Path;
 
-/// The command that makes a report, printed in it.
-const COMMAND: &str = "cargo run --release -p lariat-lab -- report --out docs/accuracy";
-
 fn output(path: &Path) -> impl Fn(io::Error) -> Error + '_ {
     move |source| Error::Output { path: path.to_path_buf(), source }
 }
@@ -43,11 +40,11 @@ pub fn write(report: &Report, out: &Path) -> Result<(), Error> {
 
 fn markdown(report: &Report) -> String {
     let mut out = format!(
-        "# Accuracy against cost\n\nMade by `{COMMAND}` in {:.0} s; do not edit. {}\n\nTimes are CPU time on one thread: the median of \
+        "# Accuracy against cost\n\nMade by `{}` in {:.0} s; do not edit. {}\n\nTimes are CPU time on one thread: the median of \
          repeated runs, with the least and the most of them beside it or in the CSV files. Counts are the same on every machine. Every \
          table and every point of a figure is in a CSV file beside this page; `index.html` is the same page for a browser. What is \
          measured and what it is compared with is told section by section, and in `crates/lariat-lab/src/report/mod.rs`.\n\n",
-        report.seconds, report.machine
+        report.command, report.seconds, report.machine
     );
     report.sections.iter().for_each(|section| out += &section.markdown());
     out.trim_end().to_string() + "\n"
