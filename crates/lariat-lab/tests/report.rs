@@ -115,7 +115,7 @@ fn errors_in_time_fall_down_every_ladder_as_the_order_says() {
     let lines = ladders(&points);
     assert_eq!(lines.len(), 11);
     for (name, errors) in &lines {
-        println!("{name}: {errors:.1e?}");
+        println!("{name}: {errors:?}");
         for pair in errors.windows(2) {
             let ratio = pair[0] / pair[1];
             match *name {
@@ -138,7 +138,7 @@ fn a_plucked_steel_cable_converges_to_the_analytic_modes() {
     let mut bench = Bench { options: Options { rungs: 4, ..tiny() }, progress: &mut |_| () };
     let points = taut::measure_all(&mut bench).unwrap();
     for (name, errors) in ladders(&points) {
-        println!("{name}: {errors:.1e?}");
+        println!("{name}: {errors:?}");
         assert!(errors.windows(2).all(|pair| pair[1] < pair[0]), "{name}: {errors:?}");
         assert!(errors[3] < 3e-7, "{name}: {errors:?}");
     }

@@ -11,6 +11,7 @@
 #[path = "../../../lariat-lab/src/report/catenary_reference.rs"]
 mod catenary_reference;
 
+#[allow(unused_imports)] // each test binary uses a part
 pub use catenary_reference::{Catenary, stretch};
 
 /// A rod clamped at the origin along x under a dead force (`fx`, `fy`) at its tip, no distributed load.

@@ -142,13 +142,13 @@ pub fn measure_all(bench: &mut Bench<'_>) -> Result<Measured, Error> {
 pub fn section(measured: &Measured) -> Result<Section, Error> {
     let mut section = Section::new("Pendulum: work and precision");
     let (default, rule) = (Integrator::default().method, Rule::default());
-    section.text(format!(
+    section.text(
         "The paper's pendulum (2 m, square of 0.01 m, E = 1e8 Pa, 4000 kg/m^3, released from horizontal), 2 s in 200 host steps of \
          0.01 s. *Error* is the largest distance of the tip from the real beam (`assets/reference/pendulum_converged_tip.csv`, an \
          independent solver, extrapolated from 80 and 160 elements, good to about 1e-6 m). Down a curve mesh and steps are refined \
          together: 5 to 80 elements, tolerances of 1e-4 to 1e-8 m per host step or 2 to 128 substeps, explicit methods at 0.95 of \
          their stable step."
-    ));
+    );
     let is_rule = |line: &str| RULES.contains(&line);
     let rules =
         point::chart(&format!("Pendulum against the real beam: rules, {default}"), &measured.beam, None, is_rule);
