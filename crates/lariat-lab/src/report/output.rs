@@ -92,10 +92,15 @@ fn find<'a>(report: &'a Report, name: &str) -> Option<&'a Table> {
     report.sections.iter().flat_map(|s| s.tables()).find(|t| t.name == name)
 }
 
-/// Some columns of some rows as Markdown; the first column's words of every row that `shown` takes.
+/// Some columns, with the head and the decimals of each, of the rows that `shown` takes, as Markdown.
 fn excerpt(table: &Table, columns: &[(&str, &str, usize)], shown: impl Fn(&[Cell]) -> bool) -> String {
     let heads: Vec<&str> = columns.iter().map(|c| c.1).collect();
-    let mut out = format!("| {} |\n|---|{}|\n", heads.join(" | "), vec!["---:"; heads.len() - 1].join("|"));
+    let words = |name: &str| {
+        let at = table.columns.iter().position(|c| c.name == name);
+        at.is_some_and(|i| table.rows.iter().any(|row| matches!(row[i], Cell::Text(_))))
+    };
+    let align: Vec<&str> = columns.iter().map(|c| if words(c.0) { "---" } else { "---:" }).collect();
+    let mut out = format!("| {} |\n|{}|\n", heads.join(" | "), align.join("|"));
     for row in table.rows.iter().filter(|row| shown(row)) {
         let cells = columns.iter().map(|(name, _, digits)| {
             match table.columns.iter().position(|c| c.name == *name).map(|i| &row[i]) {
