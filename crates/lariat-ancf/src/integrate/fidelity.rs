@@ -49,8 +49,8 @@ impl Default for Integrator {
 ///
 /// Each measured on three scenes, with its own integrator, the default rule, and so many elements (`docs/accuracy`, CPU time of one
 /// thread): *pendulum*, the paper's, 2 s, against the real beam; *payload*, a crate of 50 kg in Rapier on a cable, 1 s, against an
-/// independent code; *taut steel*, a plucked cable of 10 mm, 0.1 s, against its analytic modes (amplitude 1e-4 m). On the payload and on
-/// steel a cable of other stiffness takes other times: what is left undamped costs steps.
+/// independent code; *taut steel*, a plucked cable of 10 mm, 0.1 s, against its analytic modes (amplitude 1e-4 m). The payload's
+/// cable rings undamped, which a tolerance follows; damping makes it cheaper.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Fidelity {
@@ -58,26 +58,26 @@ pub enum Fidelity {
     ///
     /// | scene | elements | error m | CPU ms |
     /// |---|---:|---:|---:|
-    /// | pendulum | 10 | 4.7e-3 | 2.37 |
-    /// | payload | 10 | 7.2e-3 | 4.50 |
+    /// | pendulum | 10 | 4.7e-3 | 2.18 |
+    /// | payload | 10 | 7.2e-3 | 4.27 |
     /// | taut steel | 10 | 2.0e-4 | 0.11 |
     Game,
     /// Error-controlled ESDIRK4, 1e-6 m per host step: the default.
     ///
     /// | scene | elements | error m | CPU ms |
     /// |---|---:|---:|---:|
-    /// | pendulum | 20 | 3.7e-4 | 10.9 |
-    /// | payload | 10 | 8.7e-4 | 154 |
-    /// | taut steel | 20 | 5.6e-5 | 0.92 |
+    /// | pendulum | 20 | 3.7e-4 | 10.6 |
+    /// | payload | 10 | 8.7e-4 | 137 |
+    /// | taut steel | 20 | 5.6e-5 | 0.91 |
     Engineering,
     /// Symplectic explicit of order 4 at half its stable step where the cable is soft enough (omega_max below 5e4 rad/s), else ESDIRK4 at
     /// 1e-9 m per host step.
     ///
     /// | scene | elements | error m | CPU ms |
     /// |---|---:|---:|---:|
-    /// | pendulum | 80 | 4.0e-6 | 1787 |
-    /// | payload | 10 | 1.3e-4 | 263 |
-    /// | taut steel | 80 | 2.0e-8 | 214 |
+    /// | pendulum | 80 | 4.0e-6 | 1210 |
+    /// | payload | 10 | 1.3e-4 | 256 |
+    /// | taut steel | 80 | 2.0e-8 | 201 |
     Reference,
 }
 
