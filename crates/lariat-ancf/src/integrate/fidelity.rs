@@ -50,7 +50,7 @@ impl Default for Integrator {
 /// Each measured on three scenes, with its own integrator, the default rule, and so many elements (`docs/accuracy`, CPU time of one
 /// thread): *pendulum*, the paper's, 2 s, against the real beam; *payload*, a crate of 50 kg in Rapier on a cable, 1 s, against an
 /// independent code; *taut steel*, a plucked cable of 10 mm, 0.1 s, against its analytic modes (amplitude 1e-4 m). The payload's
-/// cable rings undamped, which a tolerance follows; damping makes it cheaper.
+/// cable rings undamped, and a tolerance follows that.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Fidelity {
