@@ -2,12 +2,12 @@
 //!
 //! It checks itself against a fine run of an independent monolithic code (good to 2e-5 m): the crate's centre after 0.5 s and 1 s.
 
-use lariat_rapier::lariat_ancf::{At, Cable, Preset, Section, Vector3};
+use lariat_rapier::lariat_ancf::{At, Cable, Fidelity, Section, Vector3};
 use lariat_rapier::rapier::prelude::*;
 use lariat_rapier::{CableSet, Pin};
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
-    for preset in [Preset::Game, Preset::Engineering] {
+    for fidelity in [Fidelity::Game, Fidelity::Engineering] {
         let mut world = PhysicsWorld::new();
         let (crate_, _) = world.insert(
             RigidBodyBuilder::dynamic().translation(Vector::new(2.0, -0.1, 0.0)),
@@ -18,13 +18,13 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             .points([Vector3::zeros(), Vector3::new(2.0, 0.0, 0.0)]) // m
             .section(Section::square(0.01, 1.0e9, 4000.0)?) // m, Pa, kg/m^3
             .rule("G5-3".parse()?)
-            .preset(preset)
+            .fidelity(fidelity)
             .fix(At::Start)
             .build()?;
         let mut cables = CableSet::new();
         let sling = cables.insert(sling);
         let hook = cables.attach(&world, sling, At::End, crate_, Vector::new(0.0, 0.1, 0.0), Pin::Ball)?;
-        println!("{preset:?}");
+        println!("{fidelity:?}");
         let start = std::time::Instant::now();
         for step in 1..=60 {
             cables.step(&mut world)?; // one host step of 1/60 s
@@ -40,7 +40,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
                     cables.attachment(hook)?.force().norm(),
                     cables.attachment(hook)?.gap()
                 );
-                let most = if preset == Preset::Game { 2e-2 } else { 6e-3 };
+                let most = if fidelity == Fidelity::Game { 2e-2 } else { 6e-3 };
                 if off > most {
                     return Err(format!("more than {most} m").into());
                 }

@@ -37,12 +37,12 @@
 //! |---|---|
 //! | make a cable | [`CableBuilder`], [`Section`], [`Support`], [`PointLoad`] |
 //! | choose the force model | [`Rule`]: `projected-3` (default), the paper's `G5-3`, `ST2`, `L2T2` ... |
-//! | choose the integrator | [`Integrator`], [`Preset`], [`Method`] |
+//! | choose the integrator | [`Integrator`], [`Fidelity`], [`Method`] |
 //! | read it | [`Cable::sample`], [`Cable::reactions`], [`Cable::energy`], [`Cable::diagnostics`] |
 //! | find its static shape | [`Cable::equilibrium`] |
 //! | take and restore snapshots | [`Cable::state`], [`Cable::restore`], serde |
 //!
-//! What accuracy costs, by integrator: `docs/cost.md` in the repository.
+//! What accuracy costs, by rule, integrator and mesh: `docs/accuracy` in the repository.
 
 #[doc(no_inline)]
 pub use lariat_ancf as ancf;

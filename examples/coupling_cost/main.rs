@@ -5,15 +5,14 @@
 //! Times are CPU time on one thread, the mean over a run of 2 s, the least of several runs; what is timed is the step of the
 //! world with its cables and nothing else.
 
-#[path = "../common/machine.rs"]
-mod machine;
 mod measure;
 mod peers;
 mod report;
 mod rig;
 mod scene;
 
-use lariat::{Integrator, Method, Preset, Vector3};
+use lariat::{Fidelity, Integrator, Method, Vector3};
+use lariat_lab::machine;
 use measure::Row;
 use peers::Chain;
 use rig::{Make, Rig, Split, host_steps};
@@ -38,7 +37,7 @@ const SPLITS: [Split; 4] = [
 ];
 
 fn makes() -> Vec<(Make, Vec<Split>)> {
-    let presets = [Preset::Game, Preset::Engineering, Preset::Reference].map(Make::Lariat);
+    let presets = [Fidelity::Game, Fidelity::Engineering, Fidelity::Reference].map(Make::Lariat);
     let peers =
         [Make::SoftRope(30.0), Make::SoftRope(1e6), Make::Capsules(Chain::Impulse), Make::Capsules(Chain::Multibody)];
     let ours = presets.map(|make| (make, vec![SPLITS[0], SPLITS[2]]));
@@ -77,7 +76,7 @@ fn rows(scene: &Scene, ways: &[(Make, Vec<Split>)]) -> Outcome<(Vec<Row>, Vec<Ro
 
 /// The ways whose runs with many boxes take less than some seconds.
 fn quick(ways: &[(Make, Vec<Split>)]) -> Vec<(Make, Vec<Split>)> {
-    let slow = [Make::Lariat(Preset::Engineering), Make::Lariat(Preset::Reference)];
+    let slow = [Make::Lariat(Fidelity::Engineering), Make::Lariat(Fidelity::Reference)];
     let mut quick: Vec<_> = ways.iter().filter(|(make, _)| !slow.contains(make)).cloned().collect();
     for (_, splits) in quick.iter_mut().filter(|(make, _)| *make == Make::Capsules(Chain::Multibody)) {
         splits.truncate(1);

@@ -5,21 +5,21 @@ use crate::peers::Chain;
 use crate::rig::{Make, Split};
 use crate::scene::Scene;
 use crate::{Outcome, SPLITS};
-use lariat::{Preset, Vector3};
+use lariat::{Fidelity, Vector3};
 use std::fmt::Write as _;
 
-fn preset(preset: Preset) -> &'static str {
-    match preset {
-        Preset::Game => "game",
-        Preset::Engineering => "engineering",
-        Preset::Reference => "reference",
+fn fidelity(fidelity: Fidelity) -> &'static str {
+    match fidelity {
+        Fidelity::Game => "game",
+        Fidelity::Engineering => "engineering",
+        Fidelity::Reference => "reference",
     }
 }
 
 fn name(make: Make) -> String {
     match make {
         Make::Nothing => "nothing".to_string(),
-        Make::Lariat(p) => format!("**Lariat, {}**", preset(p)),
+        Make::Lariat(p) => format!("**Lariat, {}**", fidelity(p)),
         Make::Exact(integrator) => integrator.method.to_string(),
         Make::SoftRope(30.0) => "soft rope, 30 Hz (default)".to_string(),
         Make::SoftRope(frequency) => format!("soft rope, {frequency:.0e} Hz"),
@@ -77,16 +77,16 @@ pub fn head(command: &str, machine: &str) -> String {
     )
 }
 
-/// Time in us that the game preset may take, Rapier's four steps included.
+/// Time in us that the game fidelity may take, Rapier's four steps included.
 const TARGET: f64 = 30.0;
 
-/// Whether the game preset in the default split keeps within [`TARGET`].
+/// Whether the game fidelity in the default split keeps within [`TARGET`].
 pub fn target(rows: &[Row]) -> String {
-    let game = rows.iter().find(|r| r.make == Make::Lariat(Preset::Game) && r.split == SPLITS[2]);
+    let game = rows.iter().find(|r| r.make == Make::Lariat(Fidelity::Game) && r.split == SPLITS[2]);
     let time = game.map_or(f64::NAN, |r| r.micros);
     let verdict = if time <= TARGET { "met" } else { "missed" };
     format!(
-        "\nTarget for the game preset in the default split: {TARGET:.0} us, Rapier included. Measured {time:.1} us: {verdict}.\n"
+        "\nTarget for the game fidelity in the default split: {TARGET:.0} us, Rapier included. Measured {time:.1} us: {verdict}.\n"
     )
 }
 
@@ -178,7 +178,7 @@ pub fn shares(scene: &Scene) -> Outcome<String> {
          step, so *engineering* in four takes less than above:\n\n\
          | cable | split | predict | Rapier | reconcile | the cable alone |\n|---|---|---:|---:|---:|---:|\n",
     );
-    for p in [Preset::Game, Preset::Engineering] {
+    for p in [Fidelity::Game, Fidelity::Engineering] {
         let make = Make::Lariat(p);
         let alone = measure::alone(scene, make)?;
         for s in [SPLITS[0], SPLITS[2]] {

@@ -3,7 +3,7 @@
 use crate::Outcome;
 use crate::peers::{self, Chain};
 use crate::scene::{HALF, LENGTH, PARTS, RATE, Scene};
-use lariat::{At, Cable, Integrator, Preset, Section, Vector3};
+use lariat::{At, Cable, Fidelity, Integrator, Section, Vector3};
 use lariat_rapier::rapier::prelude::*;
 use lariat_rapier::{CableHandle, CableSet, Pin};
 
@@ -13,7 +13,7 @@ pub enum Make {
     /// Boxes alone.
     Nothing,
     /// Lariat with one of its presets.
-    Lariat(Preset),
+    Lariat(Fidelity),
     /// Lariat with an integrator.
     Exact(Integrator),
     /// Rapier's soft rope, with the natural frequency of its edges in Hz.
@@ -59,7 +59,7 @@ pub fn cable(scene: &Scene, make: Make, i: usize) -> Outcome<Cable> {
         .elements(PARTS)
         .fix(At::Start);
     Ok(match make {
-        Make::Lariat(preset) => builder.preset(preset),
+        Make::Lariat(fidelity) => builder.fidelity(fidelity),
         Make::Exact(integrator) => builder.integrator(integrator),
         _ => return Err("not one of Lariat's".into()),
     }

@@ -58,7 +58,7 @@ pub use cable::{At, Cable, State};
 pub use diagnostics::Diagnostics;
 pub use effect::{Account, Buoyancy, Damping, Drag, Effects, Flow, GravityScale, LineLoad, RestPiece, RestShape};
 pub use error::{Error, StepFailure};
-pub use integrate::{Integrator, Method, Preset, StepControl};
+pub use integrate::{Fidelity, Integrator, Method, StepControl};
 pub use load::PointLoad;
 /// The vector type of the public interface (nalgebra's).
 pub use nalgebra::Vector3;

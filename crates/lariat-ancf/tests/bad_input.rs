@@ -5,7 +5,7 @@ mod common;
 use common::pendulum;
 use lariat_ancf::integrate::NewtonMode;
 use lariat_ancf::{
-    At, Cable, CableBuilder, Error, Integrator, Method, Motion, PointLoad, Preset, Rule, Section, SlopeSupport,
+    At, Cable, CableBuilder, Error, Fidelity, Integrator, Method, Motion, PointLoad, Rule, Section, SlopeSupport,
     StepControl, Support, Vector3,
 };
 
@@ -180,9 +180,9 @@ fn bad_numbers_given_to_a_cable_leave_it_as_it_was() {
 /// *Source.* Their own checks, for any frequency.
 #[test]
 fn presets_give_valid_integrators() {
-    for preset in [Preset::Game, Preset::Engineering, Preset::Reference] {
+    for fidelity in [Fidelity::Game, Fidelity::Engineering, Fidelity::Reference] {
         for frequency in [0.0, 1.0, 1e5, 1e9, f64::INFINITY] {
-            assert!(preset.integrator(frequency).checked().is_ok(), "{preset:?}, {frequency}");
+            assert!(fidelity.integrator(frequency).checked().is_ok(), "{fidelity:?}, {frequency}");
         }
     }
 }

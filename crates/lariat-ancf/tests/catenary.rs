@@ -22,11 +22,14 @@ fn limp(points: [Vector3<f64>; 2], length: f64, axial: f64, elements: usize) -> 
 
 /// A cable of `length` between pins (0, 0) and (`dx`, `dy`).
 fn hanging(axial: f64, length: f64, dx: f64, dy: f64, elements: usize) -> Model<CableBuilder, Catenary> {
+    let reference = Catenary::between(axial, GRAVITY, length, dx, dy);
+    let [x, y] = reference.miss(dx, dy);
+    assert!(x.hypot(y) < 1e-11 * length, "the reference itself did not converge: {reference:?}");
     Model {
         problem: limp([Vector3::zeros(), Vector3::new(dx, dy, 0.0)], length, axial, elements)
             .fix(At::Start)
             .fix(At::End),
-        reference: Catenary::between(axial, GRAVITY, length, dx, dy),
+        reference,
         tolerance: 1e-4 * length,
         source: "catenary of the Green law: EA f (f^2 - 1)/2 = T, shooting on (H, V0) with adaptive quadrature",
     }

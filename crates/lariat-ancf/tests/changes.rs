@@ -2,7 +2,7 @@
 
 use approx::assert_relative_eq;
 use lariat_ancf::{
-    At, AxialRule, BendingRule, Cable, CableBuilder, Error, Integrator, Method, PointLoad, Preset, Rule, Section,
+    At, AxialRule, BendingRule, Cable, CableBuilder, Error, Fidelity, Integrator, Method, PointLoad, Rule, Section,
     SlopeSupport, StepControl, Support, Vector3,
 };
 
@@ -49,17 +49,17 @@ fn a_direction_is_stored_as_a_unit_vector() {
 /// A snapshot from before a change has the accelerations of another cable: they are computed anew.
 #[test]
 fn a_snapshot_from_before_a_change_continues_as_a_fresh_cable_would() {
-    for preset in [Preset::Engineering, Preset::Game] {
-        let mut cable = horizontal().fix(At::Start).fix(At::End).preset(preset).build().unwrap();
+    for fidelity in [Fidelity::Engineering, Fidelity::Game] {
+        let mut cable = horizontal().fix(At::Start).fix(At::End).fidelity(fidelity).build().unwrap();
         (0..5).for_each(|_| cable.step(1.0 / 60.0).unwrap());
         let snapshot = cable.state().clone();
-        let mut fresh = horizontal().fix(At::Start).preset(preset).build().unwrap();
+        let mut fresh = horizontal().fix(At::Start).fidelity(fidelity).build().unwrap();
         fresh.set_coordinates(cable.positions(), cable.velocities()).unwrap();
         cable.release(At::End).unwrap();
         cable.restore(snapshot).unwrap();
         cable.step(1e-3).unwrap();
         fresh.step(1e-3).unwrap();
-        assert_eq!(cable.positions(), fresh.positions(), "{preset:?}");
+        assert_eq!(cable.positions(), fresh.positions(), "{fidelity:?}");
     }
 }
 

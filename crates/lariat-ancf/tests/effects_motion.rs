@@ -5,8 +5,8 @@ mod common;
 use common::{largest_difference, pendulum, rule};
 use lariat_ancf::island::{Island, Pin, RigidBody};
 use lariat_ancf::{
-    At, Buoyancy, Cable, CableBuilder, Damping, Drag, Effects, Flow, GravityScale, Integrator, LineLoad, Method,
-    Preset, RestPiece, RestShape, Section, StepControl, Vector3,
+    At, Buoyancy, Cable, CableBuilder, Damping, Drag, Effects, Fidelity, Flow, GravityScale, Integrator, LineLoad,
+    Method, RestPiece, RestShape, Section, StepControl, Vector3,
 };
 use nalgebra::Matrix3;
 
@@ -242,9 +242,9 @@ fn hard_cases_pass_with_every_effect_on() {
         ("pendulum", pendulum(10), all()),
         ("heavily damped", pendulum(10), Effects { damping: Some(Damping { axial: 1.0, bending: 1.0 }), ..all() }),
     ] {
-        for preset in [Preset::Game, Preset::Engineering] {
-            let mut bare = builder.clone().preset(preset).build().unwrap();
-            let mut cable = builder.clone().effects(effects.clone()).preset(preset).build().unwrap();
+        for fidelity in [Fidelity::Game, Fidelity::Engineering] {
+            let mut bare = builder.clone().fidelity(fidelity).build().unwrap();
+            let mut cable = builder.clone().effects(effects.clone()).fidelity(fidelity).build().unwrap();
             // drawn unstretched: shrunk to its rest shape about the point that holds it
             let rest = cable.effects().rest_shape.as_ref().map_or(1.0, |rest| rest.at(0.0).0);
             let q: Vec<f64> = cable.positions().iter().map(|x| rest * x).collect();
@@ -256,16 +256,16 @@ fn hard_cases_pass_with_every_effect_on() {
                 let given = account.line_load + (-account.drag).max(0.0);
                 let now = cable.energy().total();
                 let scale = cable.energy().kinetic + start.abs() + given.abs() + 1.0;
-                assert!(now <= start + given + 0.02 * scale, "{name} {preset:?}: {now} {start} {account:?}");
+                assert!(now <= start + given + 0.02 * scale, "{name} {fidelity:?}: {now} {start} {account:?}");
             }
             (0..120).for_each(|_| bare.step(1.0 / 60.0).unwrap());
             let (a, b) = (bare.diagnostics(), cable.diagnostics());
             println!(
-                "{name} {preset:?}: steps, rejected, Newton: bare {} {} {}, all effects {} {} {}",
+                "{name} {fidelity:?}: steps, rejected, Newton: bare {} {} {}, all effects {} {} {}",
                 a.steps, a.rejected_steps, a.newton_iterations, b.steps, b.rejected_steps, b.newton_iterations
             );
             // effects may cost steps that are rejected and retried shorter, but not many
-            assert!(b.steps <= 2 * a.steps.max(480), "{name} {preset:?}: {b:?}");
+            assert!(b.steps <= 2 * a.steps.max(480), "{name} {fidelity:?}: {b:?}");
         }
     }
 }

@@ -9,7 +9,7 @@ use crate::world::Cables;
 use bevy_ecs::component::Component;
 use bevy_ecs::lifecycle::HookContext;
 use bevy_ecs::world::DeferredWorld;
-use lariat_ancf::{Energy, Integrator, Preset, Sample, Section};
+use lariat_ancf::{Energy, Integrator, Fidelity, Sample, Section};
 use lariat_rapier::Lent;
 
 /// A cable. Spawn it with its force strategy and effects as components beside it:
@@ -108,12 +108,12 @@ impl Cable {
     }
 
     /// Accuracy against time. Default: engineering.
-    pub fn preset(mut self, preset: Preset) -> Self {
-        self.plan.integrator = Err(preset);
+    pub fn fidelity(mut self, fidelity: Fidelity) -> Self {
+        self.plan.integrator = Err(fidelity);
         self
     }
 
-    /// Time integrator. Default: the one of the preset.
+    /// Time integrator. Default: that of the fidelity.
     pub fn integrator(mut self, integrator: Integrator) -> Self {
         self.plan.integrator = Ok(integrator);
         self

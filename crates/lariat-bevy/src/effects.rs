@@ -233,10 +233,10 @@ pub(crate) fn update(cable: &mut crate::Cable, wanted: &Wanted) -> Result<(), la
         return Ok(());
     }
     let Ok(core) = cable.core_mut() else { return Ok(()) };
-    if !same_effects && let Err(preset) = plan.integrator {
+    if !same_effects && let Err(fidelity) = plan.integrator {
         // damping needs an implicit method, however soft the cable
         let bound = if effects.damping.is_some() { f64::INFINITY } else { core.frequency_bound() };
-        core.set_integrator(preset.integrator(bound))?;
+        core.set_integrator(fidelity.integrator(bound))?;
     }
     // a rest shape may need the new rule, and an old one the old rule
     if core.set_rule(wanted.rule).is_ok() {

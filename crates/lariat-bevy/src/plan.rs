@@ -1,6 +1,6 @@
 //! What a cable entity is spawned with: the description from which its mechanics are built.
 
-use lariat_ancf::{Effects, Error, Integrator, Preset, Rule, Section, Vector3};
+use lariat_ancf::{Effects, Error, Integrator, Fidelity, Rule, Section, Vector3};
 
 /// Description of a cable that is to be built.
 #[derive(Clone, Debug)]
@@ -10,7 +10,7 @@ pub(crate) struct Plan {
     pub length: Option<f64>,
     pub elements: usize,
     pub hanging: bool,
-    pub integrator: Result<Integrator, Preset>,
+    pub integrator: Result<Integrator, Fidelity>,
     pub gravity: Option<Vector3<f64>>,
     pub velocity: Vector3<f64>,
 }
@@ -23,7 +23,7 @@ impl Plan {
             length: None,
             elements: 10,
             hanging: false,
-            integrator: Err(Preset::Engineering),
+            integrator: Err(Fidelity::Engineering),
             gravity: None,
             velocity: Vector3::zeros(),
         }
@@ -47,7 +47,7 @@ impl Plan {
         }
         builder = match self.integrator {
             Ok(integrator) => builder.integrator(integrator),
-            Err(preset) => builder.preset(preset),
+            Err(fidelity) => builder.fidelity(fidelity),
         };
         if !self.hanging {
             return builder.build();

@@ -8,13 +8,16 @@
 //! | [`pendulum`] | the falling pendulum and its reference |
 //! | [`table1`] | the paper's Table 1, measured |
 //! | [`figures`] | SVG plots |
+//! | [`report`] | accuracy against cost: `lariat report` |
 //!
 //! The library prints nothing; the `lariat` command does.
 
 mod error;
 pub mod figures;
+pub mod machine;
 pub mod pendulum;
 mod physics;
+pub mod report;
 pub mod run;
 pub mod scene;
 pub mod table1;

@@ -8,6 +8,7 @@
 
 use crate::error::Error;
 use crate::pendulum::{self, Trace};
+use crate::report::clock::Timing;
 use cpu_time::ProcessTime;
 use lariat_ancf::{BendingRule, Cable, Integrator, Method, Rule, StepControl};
 use serde::Serialize;
@@ -20,14 +21,20 @@ pub struct Row {
     pub rule: String,
     /// Number of elements.
     pub elements: usize,
-    /// CPU time of the run in ms.
+    /// CPU time of the run in ms, the median of all runs.
     pub cpu_ms: f64,
+    /// The least of them in ms.
+    pub cpu_least_ms: f64,
+    /// The most of them in ms.
+    pub cpu_most_ms: f64,
     /// Of it, longitudinal forces in ms.
     pub longitudinal_ms: f64,
     /// Of it, transverse forces in ms.
     pub transverse_ms: f64,
     /// Integration steps.
     pub steps: u64,
+    /// Elements evaluated.
+    pub element_evaluations: u64,
     /// Largest vertical tip difference from the 10-element G10-10 run in m.
     pub difference_m: f64,
     /// The same as the paper prints it, in m.
@@ -70,27 +77,32 @@ const ROWS: [(&str, usize, Option<f64>); 9] = [
 /// Share of the stability limit at which the rows run.
 const SHARE: f64 = 0.5;
 
-/// Runs all rows.
+/// Runs all rows, each `runs` times for the clock and at least once.
 ///
 /// # Errors
 /// [`Error::Mechanics`] if a run fails.
-pub fn measure() -> Result<Table1, Error> {
+pub fn measure(runs: usize) -> Result<Table1, Error> {
     let reference = run(Rule::gauss(10, 10)?, 10, SHARE)?.0.tip;
     let time_error = TimeError { halved_m: run(Rule::gauss(10, 10)?, 10, 0.5 * SHARE)?.0.distance(&reference) };
     let beam = pendulum::beam();
     let rows = ROWS.iter().map(|&(name, elements, paper_m)| {
         let rule: Rule = name.parse()?;
-        let (trace, cpu_ms) = run(rule, elements, SHARE)?;
+        let (trace, first) = run(rule, elements, SHARE)?;
+        let more = (1..runs).map(|_| Ok(run(rule, elements, SHARE)?.1)).collect::<Result<Vec<f64>, Error>>()?;
+        let cpu_ms = Timing::of([vec![first], more].concat());
         let diagnostics = *trace.cable.diagnostics();
         let evaluations = diagnostics.element_evaluations() as f64 / elements as f64;
         let [without, with] = kernel_times(&trace.cable)?.map(|seconds| 1e3 * seconds * evaluations);
         Ok(Row {
             rule: rule.to_string(),
             elements,
-            cpu_ms,
+            cpu_ms: cpu_ms.map_or(first, |t| t.median),
+            cpu_least_ms: cpu_ms.map_or(first, |t| t.least),
+            cpu_most_ms: cpu_ms.map_or(first, |t| t.most),
             longitudinal_ms: without,
             transverse_ms: (with - without).max(0.0),
             steps: diagnostics.steps,
+            element_evaluations: diagnostics.element_evaluations(),
             difference_m: trace.vertical_distance(&reference),
             paper_m,
             beam_m: trace.distance(&beam),
@@ -171,7 +183,7 @@ impl Table1 {
         }
         text + &format!(
             "\n\
-            CPU ms       one run of 2 s with rkn6 at {SHARE} of its stability limit; tip read every 0.01 s\n\
+            CPU ms       2 s with rkn6 at {SHARE} of its stability limit, the median of some runs; tip read every 0.01 s\n\
             longit. ms   its force evaluations times the time of one without bending\n\
             transv. ms   its force evaluations times what bending adds to one; loads and scatter count as longitudinal\n\
             difference   largest vertical tip difference from the 10-element G10-10 run, 0 to 2 s\n\

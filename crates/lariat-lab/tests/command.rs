@@ -109,6 +109,10 @@ fn a_folder_that_cannot_be_made_is_named() {
     assert_eq!(output.status.code(), Some(2));
     assert!(stderr(&output).contains("cannot write to"), "{}", stderr(&output));
     assert_eq!(fs::read_to_string(&file).unwrap(), "in the way");
+    // a report finds out before it measures for minutes
+    let output = lariat(&["report", "--out", file.to_str().unwrap()]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(stderr(&output).contains("cannot write to"), "{}", stderr(&output));
 }
 
 #[test]

@@ -199,7 +199,7 @@ fn numbers_read_back_to_the_same_f64() {
 
 #[test]
 fn table_1_is_the_papers() {
-    let table = table1::measure().unwrap();
+    let table = table1::measure(1).unwrap();
     let row =
         |rule: &str, elements: usize| table.rows.iter().find(|r| r.rule == rule && r.elements == elements).unwrap();
     for (rule, difference, tolerance) in

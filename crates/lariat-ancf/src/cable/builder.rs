@@ -4,7 +4,7 @@ use super::model::{Element, Model};
 use super::{At, Cable, State, layout};
 use crate::effect::{Damping, Effects};
 use crate::error::{Error, require, require_finite};
-use crate::integrate::{Integrator, Preset};
+use crate::integrate::{Fidelity, Integrator};
 use crate::load::PointLoad;
 use crate::rule::Rule;
 use crate::section::Section;
@@ -36,7 +36,7 @@ pub struct CableBuilder {
     nodes_at: Vec<f64>,
     rule: Rule,
     allow_rank_deficient: bool,
-    integrator: Result<Integrator, Preset>,
+    integrator: Result<Integrator, Fidelity>,
     gravity: Vector3<f64>,
     velocity: Vector3<f64>,
     angular_velocity: Vector3<f64>,
@@ -56,7 +56,7 @@ impl Default for CableBuilder {
             nodes_at: Vec::new(),
             rule: Rule::default(),
             allow_rank_deficient: false,
-            integrator: Err(Preset::Engineering),
+            integrator: Err(Fidelity::Engineering),
             gravity: STANDARD_GRAVITY,
             velocity: Vector3::zeros(),
             angular_velocity: Vector3::zeros(),
@@ -122,15 +122,16 @@ impl CableBuilder {
         self
     }
 
-    /// Time integrator. Default: preset engineering.
+    /// Time integrator. Default: fidelity engineering.
     pub fn integrator(mut self, integrator: Integrator) -> Self {
         self.integrator = Ok(integrator);
         self
     }
 
-    /// Time integrator by preset. Default: engineering.
-    pub fn preset(mut self, preset: Preset) -> Self {
-        self.integrator = Err(preset);
+    /// Time integrator of a fidelity. Default: engineering. Its rule is the builder's default; its number of elements is advice:
+    /// [`Fidelity::elements`].
+    pub fn fidelity(mut self, fidelity: Fidelity) -> Self {
+        self.integrator = Err(fidelity);
         self
     }
 
@@ -278,7 +279,7 @@ impl CableBuilder {
         let integrator = match self.integrator {
             Ok(integrator) => integrator,
             // damping needs an implicit method, however soft the cable
-            Err(preset) => preset.integrator(if implicit { f64::INFINITY } else { cable.frequency_bound() }),
+            Err(fidelity) => fidelity.integrator(if implicit { f64::INFINITY } else { cable.frequency_bound() }),
         };
         cable.set_integrator(integrator)?;
         Ok(cable)

@@ -8,8 +8,8 @@
 //! A step that fails (Newton, a pivot, a number that is not finite) is retried at 1/4 of its length down to H/2^20; then the drive
 //! stops, and the phase is the last good one, restored to the beginning of the host step by the caller.
 
+use super::fidelity::StepControl;
 use super::method::{Method, Stepper};
-use super::preset::StepControl;
 use super::{Dynamics, Phase, Scratch};
 use crate::error::StepFailure;
 

@@ -138,7 +138,7 @@ impl Method {
                 implicit(2, 1, Some(3), "A-stable", "soft cables; rings on stiff ones at coarse steps")
             }
             Method::GeneralisedAlpha { newton: NewtonMode::Once, .. } => {
-                implicit(2, 1, Some(3), "A-stable; linearly implicit, checked", "games, h <= 1/240 s (preset game)")
+                implicit(2, 1, Some(3), "A-stable; linearly implicit, checked", "games, h <= 1/240 s (fidelity game)")
             }
             Method::GeneralisedAlpha { rho: 0.0, .. } => {
                 implicit(2, 1, Some(3), "L-stable", "stiff cables at coarse fixed steps; loses energy")
@@ -148,10 +148,10 @@ impl Method {
             }
             Method::TrBdf2 => implicit(2, 2, Some(3), "L-stable", "any stiffness, coarse tolerance"),
             Method::Esdirk3 => implicit(3, 3, Some(3), "L-stable", "any stiffness, coarse steps"),
-            Method::Esdirk4 => implicit(4, 5, Some(4), "L-stable", "any stiffness (preset engineering, the default)"),
+            Method::Esdirk4 => implicit(4, 5, Some(4), "L-stable", "any stiffness (fidelity engineering, the default)"),
             Method::Verlet => explicit(2, 1, "soft cables, many small steps"),
-            Method::Rkn4 => explicit(4, 6, "soft cables, fine accuracy"),
-            Method::Rkn6 => explicit(6, 11, "soft cables, reference runs (preset reference)"),
+            Method::Rkn4 => explicit(4, 6, "soft cables, fine accuracy (fidelity reference)"),
+            Method::Rkn6 => explicit(6, 11, "soft cables, errors in time near rounding"),
         }
     }
 }

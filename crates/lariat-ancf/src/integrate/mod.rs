@@ -19,11 +19,11 @@ pub mod dynamics;
 pub mod esdirk3;
 pub mod esdirk4;
 pub mod explicit;
+mod fidelity;
 pub mod generalised_alpha;
 mod method;
 pub mod midpoint;
 pub mod newton;
-mod preset;
 pub mod rkn;
 pub mod tr_bdf2;
 pub mod trapezoid;
@@ -31,8 +31,8 @@ pub mod verlet;
 
 pub use drive::{Counts, Refusal};
 pub use dynamics::{Dynamics, Newton, Stage};
+pub use fidelity::{Fidelity, Integrator, StepControl};
 pub use method::{Method, NewtonMode, Properties};
-pub use preset::{Integrator, Preset, StepControl};
 
 use crate::error::StepFailure;
 use serde::{Deserialize, Serialize};

@@ -22,7 +22,7 @@ fn churn(seed: u64) {
     for k in 0..100 {
         let (x, z) = (f64::from(k % 10), f64::from(k / 10));
         let load = world.spawn(cube(0.1, 2.0, [x, -1.1, z])).id();
-        let cable = soft([x, 0.0, z], [x, -1.0, z]).elements(2).preset(lariat_bevy::lariat_ancf::Preset::Game);
+        let cable = soft([x, 0.0, z], [x, -1.0, z]).elements(2).fidelity(lariat_bevy::lariat_ancf::Fidelity::Game);
         let cable = world.spawn((cable, Bending)).id();
         world.spawn(Attachment::ball(cable, At::Start).to_world());
         world.spawn(Attachment::ball(cable, At::End).to(load).at([0.0, 0.1, 0.0]));

@@ -3,7 +3,7 @@
 use super::bench::{bits, cube, soft, steps, world};
 use bevy_ecs::prelude::*;
 use bevy_ecs::schedule::{Schedules, SingleThreadedExecutor};
-use lariat_bevy::lariat_ancf::Preset;
+use lariat_bevy::lariat_ancf::Fidelity;
 use lariat_bevy::rapier::prelude::ColliderBuilder;
 use lariat_bevy::{At, Attachment, Bending, Body, BodyPose, CableStep, RapierStep};
 
@@ -21,7 +21,7 @@ fn run(order: [usize; 3], one_thread: bool) -> Vec<u64> {
     for k in order {
         let x = k as f64 - 1.0;
         let load = world.spawn(cube(0.1, 1.0 + k as f32, [x, -1.2, 0.0])).id();
-        let cable = world.spawn((soft([x, -0.1, 0.0], [x, -1.1, 0.0]).preset(Preset::Game), Bending)).id();
+        let cable = world.spawn((soft([x, -0.1, 0.0], [x, -1.1, 0.0]).fidelity(Fidelity::Game), Bending)).id();
         world.spawn(Attachment::ball(cable, At::End).to(load).at([0.0, 0.1, 0.0]));
         world.spawn(Attachment::ball(cable, At::Start).to(beam).at([x, -0.1, 0.0]));
         ends[k] = (cable, load);

@@ -1,6 +1,6 @@
 //! The shape of a cable at several times, x against y with equal axes, drawn smoothly through samples inside the elements.
 
-use super::{FONT, GRID, INK, failed, range, save};
+use super::{FONT, GRID, INK, SCALE, failed, large, range, save, shrink};
 use crate::error::Error;
 use lariat_ancf::Cable;
 use plotters::prelude::*;
@@ -44,6 +44,14 @@ impl Snapshot {
 /// # Errors
 /// [`Error::Output`] if the file cannot be written, [`Error::Figure`] if it cannot be drawn.
 pub fn snapshots(path: &Path, title: &str, shots: &[Snapshot]) -> Result<(), Error> {
+    save(path, &snapshots_svg(title, shots).map_err(|reason| failed(path)(&reason))?)
+}
+
+/// The same as text.
+///
+/// # Errors
+/// What the plotting library says.
+pub fn snapshots_svg(title: &str, shots: &[Snapshot]) -> Result<String, String> {
     let points = || shots.iter().flat_map(|shot| &shot.curve);
     let (left, right) = range(points().map(|p| p.0), 0.1);
     let (low, high) = range(points().map(|p| p.1), 0.1);
@@ -53,8 +61,8 @@ pub fn snapshots(path: &Path, title: &str, shots: &[Snapshot]) -> Result<(), Err
     let (axis, head, legend) = (62, 46, 110);
     let size = (WIDTH as u32 + axis + legend + EDGE, height as u32 + axis + head);
     let mut svg = String::new();
-    draw(&mut svg, size, title, shots, (x, y), (axis, head, legend)).map_err(|reason| failed(path)(&reason))?;
-    save(path, &svg)
+    draw(&mut svg, size, title, shots, (x, y), (axis, head, legend))?;
+    Ok(shrink(&svg, size))
 }
 
 type Span = std::ops::Range<f64>;
@@ -68,24 +76,25 @@ fn draw(
     (axis, head, legend): (u32, u32, u32),
 ) -> Result<(), String> {
     let text = |e: &dyn std::fmt::Display| e.to_string();
-    let root = SVGBackend::with_string(svg, size).into_drawing_area();
+    let root = SVGBackend::with_string(svg, (large(size.0), large(size.1))).into_drawing_area();
+    let font = |size: i32| (FONT, size * SCALE).into_font().color(&INK);
     root.fill(&WHITE).map_err(|e| text(&e))?;
-    root.draw(&Text::new(title.to_string(), (axis as i32, 14), (FONT, 21).into_font().color(&INK)))
-        .map_err(|e| text(&e))?;
-    let plot = root.margin(head, 0, EDGE, legend);
+    root.draw(&Text::new(title.to_string(), (axis as i32 * SCALE, 14 * SCALE), font(21))).map_err(|e| text(&e))?;
+    let plot = root.margin(large(head), 0, large(EDGE), large(legend));
     let mut chart = ChartBuilder::on(&plot)
-        .x_label_area_size(axis)
-        .y_label_area_size(axis)
+        .x_label_area_size(large(axis))
+        .y_label_area_size(large(axis))
         .build_cartesian_2d(x, y.clone())
         .map_err(|e| text(&e))?;
     chart
         .configure_mesh()
         .x_desc("x [m]")
         .y_desc("y [m]")
-        .axis_desc_style((FONT, 19).into_font().color(&INK))
-        .label_style((FONT, 16).into_font().color(&INK))
-        .axis_style(INK)
-        .bold_line_style(GRID)
+        .axis_desc_style(font(19))
+        .label_style(font(16))
+        .axis_style(INK.stroke_width(large(1)))
+        .bold_line_style(GRID.stroke_width(large(1)))
+        .set_all_tick_mark_size(large(4))
         .light_line_style(TRANSPARENT)
         .x_label_formatter(&|x| format!("{:.1}", x + 0.0))
         .y_label_formatter(&|y| format!("{:.1}", y + 0.0))
@@ -94,14 +103,16 @@ fn draw(
     let last = shots.iter().map(|s| s.time).fold(0.0, f64::max).max(f64::MIN_POSITIVE);
     for (i, shot) in shots.iter().enumerate() {
         let colour = ramp(shot.time / last);
-        chart.draw_series(LineSeries::new(shot.curve.iter().copied(), colour.stroke_width(3))).map_err(|e| text(&e))?;
-        let dots = shot.nodes.iter().map(|&p| Circle::new(p, 3, colour.filled()));
+        chart
+            .draw_series(LineSeries::new(shot.curve.iter().copied(), colour.stroke_width(large(3))))
+            .map_err(|e| text(&e))?;
+        let dots = shot.nodes.iter().map(|&p| Circle::new(p, 3 * SCALE, colour.filled()));
         chart.draw_series(dots).map_err(|e| text(&e))?;
-        let (left, top) = (size.0 as i32 - legend as i32 + 14, head as i32 + 12 + 24 * i as i32);
-        let line = PathElement::new(vec![(left, top), (left + 24, top)], colour.stroke_width(3));
+        let (left, top) = ((size.0 as i32 - legend as i32 + 14) * SCALE, (head as i32 + 12 + 24 * i as i32) * SCALE);
+        let line = PathElement::new(vec![(left, top), (left + 24 * SCALE, top)], colour.stroke_width(large(3)));
         root.draw(&line).map_err(|e| text(&e))?;
         let label = format!("{:.2} s", shot.time);
-        root.draw(&Text::new(label, (left + 32, top - 8), (FONT, 16).into_font().color(&INK))).map_err(|e| text(&e))?;
+        root.draw(&Text::new(label, (left + 32 * SCALE, top - 8 * SCALE), font(16))).map_err(|e| text(&e))?;
     }
     root.present().map_err(|e| text(&e))
 }

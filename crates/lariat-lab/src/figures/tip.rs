@@ -1,8 +1,9 @@
 //! The tip against time: x and y above, distance from references on a logarithmic axis below.
 
-use super::{FONT, GRID, INK, PALETTE, failed, range, save};
+use super::log_axis::{LogAxis, superscript};
+use super::{FONT, GRID, INK, PALETTE, SCALE, failed, large, range, save, shrink};
 use crate::error::Error;
-use plotters::coord::ranged1d::{KeyPointHint, Ranged, ValueFormatter};
+use plotters::coord::ranged1d::{Ranged, ValueFormatter};
 use plotters::coord::types::RangedCoordf64;
 use plotters::prelude::*;
 use std::path::Path;
@@ -27,6 +28,13 @@ pub struct TipFigure {
     pub distances: Vec<Curve>,
 }
 
+/// Size as shown in px.
+const SIZE: (u32, u32) = (900, 780);
+
+fn font(size: i32) -> TextStyle<'static> {
+    (FONT, size * SCALE).into_font().color(&INK)
+}
+
 /// Distances below this are drawn at the lower edge, in m.
 const FLOOR: f64 = 1e-10;
 
@@ -35,17 +43,25 @@ const FLOOR: f64 = 1e-10;
 /// # Errors
 /// [`Error::Output`] if the file cannot be written, [`Error::Figure`] if it cannot be drawn.
 pub fn tip(path: &Path, figure: &TipFigure) -> Result<(), Error> {
+    save(path, &tip_svg(figure).map_err(|reason| failed(path)(&reason))?)
+}
+
+/// The same as text.
+///
+/// # Errors
+/// What the plotting library says.
+pub fn tip_svg(figure: &TipFigure) -> Result<String, String> {
     let mut svg = String::new();
-    draw(&mut svg, figure).map_err(|reason| failed(path)(&reason))?;
-    save(path, &svg)
+    draw(&mut svg, figure)?;
+    Ok(shrink(&svg, SIZE))
 }
 
 fn draw(svg: &mut String, figure: &TipFigure) -> Result<(), String> {
     let text = |e: &dyn std::fmt::Display| e.to_string();
-    let root = SVGBackend::with_string(svg, (900, 780)).into_drawing_area();
+    let root = SVGBackend::with_string(svg, (large(SIZE.0), large(SIZE.1))).into_drawing_area();
     root.fill(&WHITE).map_err(|e| text(&e))?;
-    root.draw(&Text::new(figure.title.clone(), (74, 14), (FONT, 21).into_font().color(&INK))).map_err(|e| text(&e))?;
-    let (upper, lower) = root.margin(46, 4, 4, 24).split_vertically(370);
+    root.draw(&Text::new(figure.title.clone(), (74 * SCALE, 14 * SCALE), font(21))).map_err(|e| text(&e))?;
+    let (upper, lower) = root.margin(large(46), large(4), large(4), large(24)).split_vertically(large(370));
     let times = figure.positions.iter().chain(&figure.distances).flat_map(|c| c.points.iter().map(|p| p.0));
     let (from, to) = range(times, 1e-3);
     let (low, high) = range(figure.positions.iter().flat_map(|c| c.points.iter().map(|p| p.1)), 0.1);
@@ -65,7 +81,7 @@ fn draw(svg: &mut String, figure: &TipFigure) -> Result<(), String> {
     panel(
         &lower,
         from..to,
-        Decades(low.floor() as i32, high.ceil() as i32),
+        LogAxis::decades(low.floor(), high.ceil()),
         "distance [m]",
         Some("t [s]"),
         &|y| format!("10{}", superscript(y.round() as i32)),
@@ -95,17 +111,18 @@ where
 {
     let text = |e: &dyn std::fmt::Display| e.to_string();
     let mut chart = ChartBuilder::on(area)
-        .margin_top(10)
-        .x_label_area_size(if x_name.is_some() { 58 } else { 34 })
-        .y_label_area_size(74)
+        .margin_top(large(10))
+        .x_label_area_size(large(if x_name.is_some() { 58 } else { 34 }))
+        .y_label_area_size(large(74))
         .build_cartesian_2d(x, y)
         .map_err(|e| text(&e))?;
     let mut mesh = chart.configure_mesh();
     mesh.y_desc(y_name)
-        .axis_desc_style((FONT, 19).into_font().color(&INK))
-        .label_style((FONT, 16).into_font().color(&INK))
-        .axis_style(INK)
-        .bold_line_style(GRID)
+        .axis_desc_style(font(19))
+        .label_style(font(16))
+        .axis_style(INK.stroke_width(large(1)))
+        .bold_line_style(GRID.stroke_width(large(1)))
+        .set_all_tick_mark_size(large(4))
         .light_line_style(TRANSPARENT)
         .x_label_formatter(&|t| format!("{t:.1}"))
         .y_label_formatter(y_text);
@@ -114,53 +131,21 @@ where
     }
     mesh.draw().map_err(|e| text(&e))?;
     for (i, curve) in curves.iter().enumerate() {
-        let style = PALETTE[i % PALETTE.len()].stroke_width(2);
+        let style = PALETTE[i % PALETTE.len()].stroke_width(large(2));
         chart
             .draw_series(LineSeries::new(curve.points.iter().copied(), style))
             .map_err(|e| text(&e))?
             .label(curve.name.clone())
-            .legend(move |(x, y)| PathElement::new(vec![(x, y), (x + 24, y)], style));
+            .legend(move |(x, y)| PathElement::new(vec![(x, y), (x + 24 * SCALE, y)], style));
     }
     chart
         .configure_series_labels()
         .position(legend)
-        .margin(14)
-        .legend_area_size(34)
-        .label_font((FONT, 16).into_font().color(&INK))
+        .margin(large(14))
+        .legend_area_size(large(34))
+        .label_font(font(16))
         .background_style(WHITE.mix(0.85))
-        .border_style(GRID)
+        .border_style(GRID.stroke_width(large(1)))
         .draw()
         .map_err(|e| text(&e))
-}
-
-/// An axis of logarithms with one tick at each power of ten.
-#[derive(Clone, Copy)]
-struct Decades(i32, i32);
-
-impl Ranged for Decades {
-    type FormatOption = plotters::coord::ranged1d::NoDefaultFormatting;
-    type ValueType = f64;
-    fn map(&self, value: &f64, limit: (i32, i32)) -> i32 {
-        let share = (value - f64::from(self.0)) / f64::from(self.1 - self.0);
-        limit.0 + (f64::from(limit.1 - limit.0) * share).round() as i32
-    }
-    fn key_points<Hint: KeyPointHint>(&self, hint: Hint) -> Vec<f64> {
-        let step = ((self.1 - self.0) as usize / hint.max_num_points().max(1) + 1).max(1);
-        (self.0..=self.1).step_by(step).map(f64::from).collect()
-    }
-    fn range(&self) -> std::ops::Range<f64> {
-        f64::from(self.0)..f64::from(self.1)
-    }
-}
-
-impl ValueFormatter<f64> for Decades {
-    fn format(value: &f64) -> String {
-        format!("{value}")
-    }
-}
-
-fn superscript(power: i32) -> String {
-    const DIGITS: [char; 10] = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
-    let digit = |c: char| c.to_digit(10).map_or('⁻', |d| DIGITS[d as usize]);
-    power.to_string().chars().map(digit).collect()
 }

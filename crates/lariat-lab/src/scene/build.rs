@@ -24,7 +24,7 @@ impl Scene {
             .angular_velocity(scene.angular_velocity);
         builder = match scene.integrator {
             Ok(integrator) => builder.integrator(integrator),
-            Err(preset) => builder.preset(preset),
+            Err(fidelity) => builder.fidelity(fidelity),
         };
         for attachment in self.attachments.iter().filter(|a| a.cable == index) {
             let at = At::ArcLength(attachment.arc_length);

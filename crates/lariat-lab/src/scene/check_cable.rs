@@ -6,7 +6,7 @@ use super::table::{CableTable, IntegratorTable, SectionTable};
 use super::value::RuleValue;
 use super::{CableScene, check_effects};
 use crate::error::Error;
-use lariat_ancf::{Integrator, Method, Preset, Rule, Section, Shape, StepControl, Vector3};
+use lariat_ancf::{Fidelity, Integrator, Method, Rule, Section, Shape, StepControl, Vector3};
 
 /// Largest number of elements of a cable.
 const MOST_ELEMENTS: usize = 1_000_000;
@@ -139,8 +139,8 @@ fn integrator(
     doc: &Document<'_>,
     at: &KeyPath,
     table: Option<&IntegratorTable>,
-) -> Result<Result<Integrator, Preset>, Error> {
-    let Some(table) = table else { return Ok(Err(Preset::Engineering)) };
+) -> Result<Result<Integrator, Fidelity>, Error> {
+    let Some(table) = table else { return Ok(Err(Fidelity::Engineering)) };
     let controls = [
         ("tolerance", table.tolerance.map(StepControl::Tolerance)),
         ("substeps", table.substeps.map(StepControl::Substeps)),
@@ -148,15 +148,15 @@ fn integrator(
         ("stable", table.stable.map(StepControl::Stable)),
     ];
     let given: Vec<_> = controls.iter().filter_map(|(key, control)| control.map(|c| (*key, c))).collect();
-    if let Some(preset) = &table.preset {
+    if let Some(fidelity) = &table.fidelity {
         if table.method.is_some() || !given.is_empty() {
-            return Err(doc.error(at, "preset stands alone"));
+            return Err(doc.error(at, "fidelity stands alone"));
         }
-        return match preset.as_str() {
-            "game" => Ok(Err(Preset::Game)),
-            "engineering" => Ok(Err(Preset::Engineering)),
-            "reference" => Ok(Err(Preset::Reference)),
-            _ => Err(doc.error(&at.key("preset"), format!("unknown preset {preset:?}"))),
+        return match fidelity.as_str() {
+            "game" => Ok(Err(Fidelity::Game)),
+            "engineering" => Ok(Err(Fidelity::Engineering)),
+            "reference" => Ok(Err(Fidelity::Reference)),
+            _ => Err(doc.error(&at.key("fidelity"), format!("unknown fidelity {fidelity:?}"))),
         };
     }
     let method = match &table.method {

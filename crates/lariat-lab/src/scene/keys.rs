@@ -80,10 +80,10 @@ const ACCEPTED: &[(&str, &str)] = &[
     ("cable.allow_rank_deficient", "true | false"),
     (
         "cable.integrator",
-        "{ tolerance } | { method, tolerance } | { method, substeps } | { method, max_step } | { method, stable } | { preset }",
+        "{ tolerance } | { method, tolerance } | { method, substeps } | { method, max_step } | { method, stable } | { fidelity }",
     ),
     ("cable.integrator.method", "a name from `lariat integrators`"),
-    ("cable.integrator.preset", "\"game\" | \"engineering\" | \"reference\""),
+    ("cable.integrator.fidelity", "\"game\" | \"engineering\" | \"reference\""),
     (
         "cable.integrator.tolerance",
         "a finite number > 0, in m per host step, for a method with an error estimate (`lariat integrators`)",

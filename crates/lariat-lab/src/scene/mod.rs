@@ -5,7 +5,7 @@
 //! (contact, breaking, reeling) are read and then refused by name, never ignored.
 //!
 //! Extensions of the format: `section = { tube = [outer, inner] }`; `allow_rank_deficient = true` runs a rule that leaves modes
-//! without energy (Table 1 needs G2-2); `integrator = { preset = ".." }`, `{ method, max_step }`, `{ method, stable }`; energy
+//! without energy (Table 1 needs G2-2); `integrator = { fidelity = ".." }`, `{ method, max_step }`, `{ method, stable }`; energy
 //! and momentum probes of one cable; `axial = "projected"` and rules such as `projected-3`.
 //!
 //! # Bodies
@@ -68,7 +68,7 @@ use crate::error::Error;
 use crate::physics::collider as physics_of;
 use body::BodyScene;
 use document::Document;
-use lariat_ancf::{Effects, Integrator, Preset, Rule, Section, Vector3};
+use lariat_ancf::{Effects, Fidelity, Integrator, Rule, Section, Vector3};
 use std::path::Path;
 use value::At;
 
@@ -142,8 +142,8 @@ pub struct CableScene {
     pub rule: Rule,
     /// Effects.
     pub effects: Effects,
-    /// Integrator, or a preset.
-    pub integrator: Result<Integrator, Preset>,
+    /// Integrator, or a fidelity.
+    pub integrator: Result<Integrator, Fidelity>,
     /// Initial velocity in m/s.
     pub velocity: Vector3<f64>,
     /// Initial angular velocity about the start point in rad/s.

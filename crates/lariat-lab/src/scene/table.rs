@@ -178,7 +178,7 @@ pub struct IntegratorTable {
     /// Extension: share of the stability limit.
     pub stable: Option<f64>,
     /// Extension: `"game"`, `"engineering"` or `"reference"`.
-    pub preset: Option<String>,
+    pub fidelity: Option<String>,
 }
 
 /// `[cable.damping]`.

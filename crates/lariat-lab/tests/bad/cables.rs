@@ -106,9 +106,9 @@ const CASES: &[Case] = &[
     ),
     (
         "integrator = { tolerance = 1e-6 }",
-        "integrator = { preset = \"fast\" }",
+        "integrator = { fidelity = \"fast\" }",
         15,
-        &["integrator.preset", "fast", "game"],
+        &["integrator.fidelity", "fast", "game"],
     ),
     ("velocity = [0.0, 0.0, 0.0]\ninitial", "velocity = [nan, 0.0, 0.0]\ninitial", 16, &["cable.sling.velocity"]),
     (
@@ -324,7 +324,7 @@ fn what_the_format_offers_is_accepted() {
         ("integrator = { tolerance = 1e-6 }", "integrator = { method = \"midpoint\", substeps = 4 }"),
         ("integrator = { tolerance = 1e-6 }", "integrator = { method = \"rkn6\", stable = 0.5 }"),
         ("integrator = { tolerance = 1e-6 }", "integrator = { method = \"generalised-alpha-0.8\", max_step = 1e-3 }"),
-        ("integrator = { tolerance = 1e-6 }", "integrator = { preset = \"game\" }"),
+        ("integrator = { tolerance = 1e-6 }", "integrator = { fidelity = \"game\" }"),
         ("engine = \"none\"", ""),
         (
             "section = { square = 0.01 }\ndensity = 4000.0\nyoungs_modulus = 1.0e8",

@@ -113,10 +113,10 @@ fn scenes() -> Vec<Scene> {
 #[test]
 fn exact_tangents_save_few_iterations_of_common_scenes() {
     for scene in scenes() {
-        for (preset, bounds) in [(Preset::Game, scene.game), (Preset::Engineering, scene.engineering)] {
+        for (fidelity, bounds) in [(Fidelity::Game, scene.game), (Fidelity::Engineering, scene.engineering)] {
             let run = |exact: bool| {
                 ON.set(exact);
-                let mut cable = scene.builder.clone().preset(preset).build().unwrap();
+                let mut cable = scene.builder.clone().fidelity(fidelity).build().unwrap();
                 (0..60).for_each(|_| cable.step(1.0 / 60.0).unwrap());
                 ON.set(false);
                 *cable.diagnostics()
@@ -126,13 +126,13 @@ fn exact_tangents_save_few_iterations_of_common_scenes() {
                 |d: &Diagnostics| [d.steps, d.rejected_steps, d.newton_iterations, d.factorisations].map(|x| x as u32);
             let saved = 1.0 - exact.newton_iterations as f64 / as_is.newton_iterations as f64;
             println!(
-                "{:32} {preset:?}: {:?}, exact {:?}, saved {:.0} %",
+                "{:32} {fidelity:?}: {:?}, exact {:?}, saved {:.0} %",
                 scene.name,
                 show(&as_is),
                 show(&exact),
                 100.0 * saved
             );
-            assert!(saved >= bounds[0] && saved <= bounds[1], "{} {preset:?}: {saved}", scene.name);
+            assert!(saved >= bounds[0] && saved <= bounds[1], "{} {fidelity:?}: {saved}", scene.name);
         }
     }
 }

@@ -1,13 +1,14 @@
-//! The `lariat` command: run scenes, find equilibria, print what can be chosen, measure the paper's Table 1.
+//! The `lariat` command: run scenes, find equilibria, print what can be chosen, measure the paper's Table 1
+//! and accuracy against cost.
 
 mod progress;
 mod tables;
 
 use clap::{Args, Parser, Subcommand};
 use lariat_lab::run::{self, Options, Summary};
-use lariat_lab::{Error, Purpose, Scene, table1};
+use lariat_lab::{Error, Purpose, Scene, report, table1};
 use std::io::{self, Write};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -38,6 +39,18 @@ enum Command {
         #[arg(long, value_name = "FILE")]
         csv: Option<PathBuf>,
     },
+    /// Measure accuracy against cost: README.md, index.html, *.csv and *.svg in DIR; some minutes
+    Report {
+        /// Folder for the report; made if it is not there
+        #[arg(long, value_name = "DIR")]
+        out: PathBuf,
+        /// Coarse settings and few runs: below a minute
+        #[arg(long)]
+        quick: bool,
+        /// Put the tables that a README shows between their marks in this file too
+        #[arg(long, value_name = "FILE")]
+        readme: Option<PathBuf>,
+    },
 }
 
 #[derive(Args)]
@@ -60,6 +73,7 @@ fn main() -> ExitCode {
         Command::Rules => Ok(tables::rules()),
         Command::Integrators => Ok(tables::integrators()),
         Command::Table1 { csv } => measure_table1(csv),
+        Command::Report { out, quick, readme } => make_report(&out, quick, readme),
     };
     match outcome {
         Ok(text) => {
@@ -119,12 +133,24 @@ fn describe(summary: &Summary, arguments: &SceneArguments) -> String {
     )
 }
 
+fn make_report(out: &Path, quick: bool, readme: Option<PathBuf>) -> Result<String, Error> {
+    let options = if quick { report::Options::quick() } else { report::Options::full() };
+    let spinner = progress::Spinner::new();
+    let outcome = report::run(out, options, &mut |what| spinner.tell(what));
+    spinner.finish();
+    let report = outcome?;
+    if let Some(readme) = readme {
+        report::update_readme(&report, &readme)?;
+    }
+    Ok(format!("{:.0} s; open {}\n", report.seconds, out.join("index.html").display()))
+}
+
 fn measure_table1(csv: Option<PathBuf>) -> Result<String, Error> {
     // a file that cannot be written is known before the measurement, not after
     let failed = |path: &PathBuf, source| Error::Output { path: path.clone(), source };
     let file =
         csv.as_ref().map(|path| std::fs::File::create(path).map_err(|source| failed(path, source))).transpose()?;
-    let table = table1::measure()?;
+    let table = table1::measure(3)?;
     if let (Some(path), Some(mut file)) = (&csv, file) {
         file.write_all(table.to_csv().as_bytes()).map_err(|source| failed(path, source))?;
     }

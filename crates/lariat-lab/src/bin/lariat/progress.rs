@@ -1,4 +1,4 @@
-//! A progress bar on stderr, if that is a terminal and the run is longer than a second.
+//! Progress on stderr, if that is a terminal: a bar for a run longer than a second, words for a report.
 
 use indicatif::{ProgressBar, ProgressStyle};
 use std::io::{IsTerminal, stderr};
@@ -36,6 +36,34 @@ impl Bar {
 
     pub fn finish(&self) {
         if let Some(bar) = &self.bar {
+            bar.finish_and_clear();
+        }
+    }
+}
+
+/// What is being measured, and for how long all of it has taken.
+pub struct Spinner(Option<ProgressBar>);
+
+impl Spinner {
+    pub fn new() -> Self {
+        Spinner(stderr().is_terminal().then(|| {
+            let bar = ProgressBar::new_spinner();
+            bar.enable_steady_tick(Duration::from_millis(200));
+            match ProgressStyle::with_template("{spinner} {elapsed} {msg}") {
+                Ok(style) => bar.with_style(style),
+                Err(_) => bar,
+            }
+        }))
+    }
+
+    pub fn tell(&self, what: &str) {
+        if let Some(bar) = &self.0 {
+            bar.set_message(what.to_string());
+        }
+    }
+
+    pub fn finish(&self) {
+        if let Some(bar) = &self.0 {
             bar.finish_and_clear();
         }
     }

@@ -1,4 +1,4 @@
-//! The machine on which figures were measured.
+//! The machine on which figures were measured: one line for reports.
 
 use std::process::Command;
 
@@ -22,8 +22,7 @@ pub fn line() -> String {
     let load = load.split(' ').next().unwrap_or("unknown").to_string();
     let commit = first_line("git", &["rev-parse", "--short", "HEAD"]);
     format!(
-        "Machine: {} ({} MHz), {cores} cores, {}; {}; commit {commit}; shared machine, load {load} at the start, so times are \
-         the least of several runs, and may still be some 10 % too long.",
+        "Machine: {} ({} MHz), {cores} cores, {}; {}; commit {commit}; load {load} at the start.",
         field("model name"),
         field("cpu MHz"),
         simd.unwrap_or("SIMD unknown"),
