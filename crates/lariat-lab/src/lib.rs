@@ -7,6 +7,7 @@
 //! | [`pendulum`] | the falling pendulum and its reference |
 //! | [`table1`] | the paper's Table 1, measured |
 //! | [`figures`] | SVG plots |
+//! | [`stability`] | hard cases |
 //!
 //! The library prints nothing; the `lariat` command does.
 
@@ -16,6 +17,7 @@ pub mod pendulum;
 mod physics;
 pub mod run;
 pub mod scene;
+pub mod stability;
 pub mod table1;
 
 pub use error::{Error, Place};
