@@ -23,6 +23,8 @@ use host::{Host, Make, Precision};
 use outcome::Row;
 use rayon::prelude::*;
 use recipe::Recipe;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::time::{Duration, Instant};
 
 /// Families of hard cases.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -189,14 +191,30 @@ pub fn run(job: Job) -> Row {
     }
 }
 
-/// Does runs side by side, in the order given; `done` hears of each.
-pub fn run_all(jobs: &[Job], done: &(dyn Fn(&Row) + Sync)) -> Vec<Row> {
-    let one = |job: &Job| {
-        let row = run(*job);
-        done(&row);
-        row
+/// Does runs side by side, those of `first` first, the others scattered, so that what is not begun within `limit` is missing evenly;
+/// `done` hears of each. What was run comes back in the order of `jobs`.
+pub fn run_all(jobs: &[Job], first: &[Job], limit: Duration, done: &(dyn Fn(&Row) + Sync)) -> Vec<Row> {
+    let begun = Instant::now();
+    // Knuth's multiplicative hash scatters them
+    let rank = |i: usize| (!first.contains(&jobs[i]), (i as u32).wrapping_mul(2_654_435_761));
+    let mut order: Vec<usize> = (0..jobs.len()).collect();
+    order.sort_by_cached_key(|i| rank(*i));
+    let next = AtomicUsize::new(0);
+    let worker = |_| {
+        let mut rows = Vec::new();
+        while begun.elapsed() < limit
+            && let Some(&i) = order.get(next.fetch_add(1, Ordering::Relaxed))
+        {
+            let row = run(jobs[i]);
+            done(&row);
+            rows.push((i, row));
+        }
+        rows
     };
-    jobs.par_iter().map(one).collect()
+    let workers = rayon::current_num_threads();
+    let mut rows: Vec<(usize, Row)> = (0..workers).into_par_iter().with_max_len(1).flat_map_iter(worker).collect();
+    rows.sort_by_key(|(i, _)| *i);
+    rows.into_iter().map(|(_, row)| row).collect()
 }
 
 /// Does runs one after another: tests run side by side themselves.

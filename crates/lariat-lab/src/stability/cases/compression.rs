@@ -51,7 +51,7 @@ pub fn cases() -> Vec<Case> {
     }
     for share in [0.9, 1.5] {
         // Greenhill's height: (7.837 EI/mu g)^(1/3)
-        let standing = case(Compression, format!("standing rod, {share} of its critical height"), 3.0, move |s| {
+        let standing = case(Compression, format!("standing rod, {share} of its critical height"), 8.0, move |s| {
             let section = Section::round(0.004, 2e9, 1200.0)?;
             let critical = (7.837 * section.bending_stiffness / (section.mass_per_length * G)).cbrt();
             let height = share * critical;
