@@ -40,10 +40,13 @@ pub fn measure(arguments: &Arguments) -> Result<String, Error> {
         }
         bar.inc(1);
     };
+    // a panic is an outcome, and is printed as one
+    std::panic::set_hook(Box::new(|_| {}));
     let begun = std::time::Instant::now();
     let limit = Duration::from_secs_f64(60.0 * arguments.minutes.clamp(0.0, 1e6));
     let rows = run_all(&jobs, &first, limit, &done);
     bar.finish_and_clear();
+    let _ = std::panic::take_hook();
     let mut command = "cargo run --release -p lariat-lab -- stability --out DIR".to_string();
     if arguments.quick {
         command += " --quick";

@@ -140,7 +140,7 @@ impl Stage {
         let gained = energy - self.trace.start - self.trace.put_in;
         self.trace.change = gained + self.dissipated() - self.trace.dissipated;
         // f64::max would pass over one that is not a number
-        if !self.trace.paused && !self.trace.moved && !(gained <= self.trace.created) {
+        if !self.trace.paused && !self.trace.moved && (gained > self.trace.created || gained.is_nan()) {
             self.trace.created = gained;
         }
         self.trace.scale = self.trace.scale.max(lively).max(self.least_scale());
