@@ -9,6 +9,7 @@
 //! | [`table1`] | the paper's Table 1, measured |
 //! | [`figures`] | SVG plots |
 //! | [`report`] | accuracy against cost: `lariat report` |
+//! | [`stability`] | hard cases |
 //!
 //! The library prints nothing; the `lariat` command does.
 
@@ -20,6 +21,7 @@ mod physics;
 pub mod report;
 pub mod run;
 pub mod scene;
+pub mod stability;
 pub mod table1;
 pub mod view;
 

@@ -1,7 +1,10 @@
 //! The `lariat` command: run scenes, find equilibria, print what can be chosen, measure the paper's Table 1
 //! and accuracy against cost.
 
+#[path = "../../../../../examples/common/machine.rs"]
+mod machine;
 mod progress;
+mod stability;
 mod tables;
 
 use clap::{Args, Parser, Subcommand};
@@ -33,6 +36,8 @@ enum Command {
     Rules,
     /// What can be chosen as `integrator`
     Integrators,
+    /// Run the hard cases on all hosts, beside what Rapier offers: DIR/stability.md and DIR/stability.csv
+    Stability(stability::Arguments),
     /// Measure Table 1 of the paper: accuracy and cost of the force strategies
     Table1 {
         /// Write the table as CSV too
@@ -72,6 +77,7 @@ fn main() -> ExitCode {
         Command::Static(arguments) => find_static(&arguments).map(|summary| describe(&summary, &arguments)),
         Command::Rules => Ok(tables::rules()),
         Command::Integrators => Ok(tables::integrators()),
+        Command::Stability(arguments) => stability::measure(&arguments),
         Command::Table1 { csv } => measure_table1(csv),
         Command::Report { out, quick, readme } => make_report(&out, quick, readme),
     };
