@@ -9,7 +9,7 @@ use crate::world::Cables;
 use bevy_ecs::component::Component;
 use bevy_ecs::lifecycle::HookContext;
 use bevy_ecs::world::DeferredWorld;
-use lariat_ancf::{Energy, Integrator, Fidelity, Sample, Section};
+use lariat_ancf::{Energy, Fidelity, Integrator, Sample, Section};
 use lariat_rapier::Lent;
 
 /// A cable. Spawn it with its force strategy and effects as components beside it:

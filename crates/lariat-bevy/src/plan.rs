@@ -1,6 +1,6 @@
 //! What a cable entity is spawned with: the description from which its mechanics are built.
 
-use lariat_ancf::{Effects, Error, Integrator, Fidelity, Rule, Section, Vector3};
+use lariat_ancf::{Effects, Error, Fidelity, Integrator, Rule, Section, Vector3};
 
 /// Description of a cable that is to be built.
 #[derive(Clone, Debug)]

@@ -1,8 +1,6 @@
 //! The `lariat` command: run scenes, find equilibria, print what can be chosen, measure the paper's Table 1
 //! and accuracy against cost.
 
-#[path = "../../../../../examples/common/machine.rs"]
-mod machine;
 mod progress;
 mod stability;
 mod tables;

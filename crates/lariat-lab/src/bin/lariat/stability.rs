@@ -60,7 +60,7 @@ pub fn measure(arguments: &Arguments) -> Result<String, Error> {
     let cpu: f64 = rows.iter().map(|r| r.seconds).sum();
     let machine = format!(
         "{} {} of {} runs were begun in time, and took {:.0} s, {cpu:.0} s of CPU time.",
-        super::machine::line(),
+        lariat_lab::machine::line(),
         rows.len(),
         jobs.len(),
         begun.elapsed().as_secs_f64()

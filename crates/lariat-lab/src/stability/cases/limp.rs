@@ -27,7 +27,8 @@ pub fn cases() -> Vec<Case> {
         let at_once = case(Limp, format!("{name}, then gravity and a load"), 1.0, move |s| {
             s.weightless();
             let load = s.ball(5.0, 0.05, [1.0, 0.0, 0.0]);
-            let rope = Cable::builder().points(zigzag()).length(1.3).section(section).elements(12).fidelity(Fidelity::Game);
+            let rope =
+                Cable::builder().points(zigzag()).length(1.3).section(section).elements(12).fidelity(Fidelity::Game);
             s.rope(rope, End::Fixed, End::On(load, [0.0; 3]))?;
             Ok(Play::idle()
                 .acting(|s| {

@@ -4,7 +4,7 @@ use super::G;
 use super::stage::{Case, End, Play, Stage, case, line, soft, to};
 use crate::stability::Family::Many;
 use crate::stability::outcome::Reading;
-use lariat_ancf::{At, Damping, Integrator, Fidelity, Section, Vector3};
+use lariat_ancf::{At, Damping, Fidelity, Integrator, Section, Vector3};
 
 fn cord() -> Section {
     Section::from_stiffness(1e5, 0.0, 0.02).expect("a section")
