@@ -22,7 +22,7 @@
 //!     lariat_bevy::advance(&mut world, 1.0 / 60.0); // s
 //! }
 //! let pull = world.get::<AttachmentReading>(hook).unwrap().force.y;
-//! assert!((pull + 50.0 * 9.81).abs() < 5.0, "{pull} N"); // the crate hangs
+//! assert!((pull - 50.0 * 9.81).abs() < 5.0, "{pull} N"); // the crate hangs
 //! assert!((world.get::<BodyPose>(crate_).unwrap().position.y + 2.1).abs() < 1e-3);
 //! ```
 //!

@@ -117,7 +117,8 @@ pub(crate) fn bring_home(cables: &mut Cables, of: &mut Query<&mut Cable>) {
 pub(crate) fn lend_out(cables: &mut Cables, of: &mut Query<&mut Cable>) {
     let Cables { set, links, .. } = cables;
     for (handle, entity) in &links.cables {
-        if let (Ok(mut cable), Ok(lent)) = (of.get_mut(*entity), set.lend(*handle)) {
+        let Ok(mut cable) = of.get_mut(*entity) else { continue };
+        if let Ok(lent) = set.lend(*handle) {
             cable.bypass_change_detection().state = State::Lent(lent);
         }
     }

@@ -321,6 +321,15 @@ impl Dynamics for Equations<'_> {
         self.account_step(before, after, h, 0..after.q.len());
     }
 
+    fn energy_made(&mut self, before: &Phase, after: &Phase, h: f64) -> Option<(f64, f64)> {
+        let made = self.energy_between(before, after, h, 0..after.q.len())?;
+        Some((made.made, made.before.max(made.after)))
+    }
+
+    fn iterations(&self) -> u64 {
+        self.diagnostics.newton_iterations
+    }
+
     fn frequency_bound(&self) -> f64 {
         self.system.frequency_bound
     }

@@ -13,6 +13,7 @@ mod hold;
 mod kernel_effects;
 mod layout;
 pub mod linearise;
+mod made;
 mod model;
 mod projection;
 mod refine;

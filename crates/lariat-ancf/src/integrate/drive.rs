@@ -5,6 +5,11 @@
 //! tolerance. The next h follows from the estimate's order p, `h (0.5 allowed/error)^(1/(p-1))`, within 1/5 and 3. What is left of the host step is split evenly once fewer than two steps
 //! remain, and the last step ends on the host's time to the bit. *Source.* Hairer & Wanner 1996, IV.8.
 //!
+//! Generalised-alpha without a tolerance does not see that a step is too long for a slack cable that is thrown about, and makes energy. Where
+//! Newton needed more than its iteration and the check of it, and the step made more than 1e-3 of the kinetic and strain energy beyond
+//! the work from outside, it is retried at 1/4, down to H/1024. Calm steps are not asked. *Measured.* `lariat stability --family random
+//! --quick`: 7 of 100 scenes miss their bound of energy, 12 without; a share of 1e-2 or 1e-4, 9; asking every step, 7.
+//!
 //! A step that fails (Newton, a pivot, a number that is not finite) is retried at 1/4 of its length down to H/2^20; then the drive
 //! stops, and the phase is the last good one, restored to the beginning of the host step by the caller.
 
@@ -26,6 +31,13 @@ const FIXED_STEP_NEWTON: f64 = 1e-10;
 
 /// A host's step may be off by this share: 1/60 s in single precision is longer than four steps of 1/240 s.
 const SINGLE: f64 = 1e-7;
+
+/// A linearly implicit step takes this many Newton iterations, with the check.
+const CALM_ITERATIONS: u64 = 2;
+/// Share of the kinetic and strain energy that a laboured step of a method without error control may make.
+const ENERGY_MADE: f64 = 1e-3;
+/// Steps below H times this are not asked for their energy.
+const LEAST_CHECKED: f64 = 1.0 / 1024.0;
 
 /// What a drive did.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -78,10 +90,12 @@ pub fn advance(
         return Err(Refusal { time: phase.time, step: regular, failure });
     }
     let mut proposal = regular;
+    let checked = tolerance.is_none() && matches!(stepper, Stepper::Alpha(_));
     let mut done = 0.0;
     while done < horizon {
         let (h, last) = fit(proposal, horizon - done, tolerance.is_some());
         let newton = tolerance.map_or(FIXED_STEP_NEWTON, |t| NEWTON_SHARE * t * (h / horizon).clamp(LEAST_SHARE, 1.0));
+        let iterations = system.iterations();
         let outcome = one_step.step(system, phase, h, newton, tolerance.is_some(), scratch).and_then(|estimate| {
             finite(&scratch.next.q, "position")?;
             finite(&scratch.next.v, "velocity")?;
@@ -91,6 +105,17 @@ pub fn advance(
                 _ => Ok(estimate),
             }
         });
+        let laboured = system.iterations() - iterations > CALM_ITERATIONS;
+        if checked && laboured && outcome.is_ok() && h > LEAST_CHECKED * horizon {
+            scratch.next.time = phase.time + h;
+            if let Some((made, scale)) = system.energy_made(phase, &scratch.next, h)
+                && made > ENERGY_MADE * scale
+            {
+                counts.rejected += 1;
+                proposal = 0.25 * h;
+                continue;
+            }
+        }
         let refuse = |failure, time| Err(Refusal { time, step: h, failure });
         match (outcome, tolerance) {
             (Err(failure), _) => {

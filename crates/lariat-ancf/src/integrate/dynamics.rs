@@ -85,6 +85,17 @@ pub trait Dynamics {
     /// Told the phase at the beginning of a host step and after every step that is accepted; accelerations are valid then.
     fn reached(&mut self, _phase: &Phase) {}
 
+    /// Energy in J that a step of length `h` (s) made beyond the work of what acts from outside, and the kinetic and strain energy to measure it
+    /// by; none where that work is not known.
+    fn energy_made(&mut self, _before: &Phase, _after: &Phase, _h: f64) -> Option<(f64, f64)> {
+        None
+    }
+
+    /// Newton iterations so far.
+    fn iterations(&self) -> u64 {
+        0
+    }
+
     /// Whether accelerations depend on velocities.
     fn follows_velocity(&self) -> bool {
         false

@@ -25,6 +25,7 @@ mod condense;
 mod dense;
 mod impedance;
 mod kinematics;
+mod made;
 mod memory;
 mod rotation;
 mod stage;

@@ -261,6 +261,14 @@ impl Dynamics for Work<'_, '_> {
         }
     }
 
+    fn energy_made(&mut self, before: &Phase, after: &Phase, h: f64) -> Option<(f64, f64)> {
+        self.energy_between(before, after, h)
+    }
+
+    fn iterations(&self) -> u64 {
+        self.cables.first().map_or(0, |cable| cable.diagnostics().newton_iterations)
+    }
+
     fn reached(&mut self, phase: &Phase) {
         self.account(phase);
     }

@@ -3,7 +3,7 @@
 use super::bench::{cube, height, pin, soft, steps, world};
 use approx::assert_relative_eq;
 use bevy_ecs::prelude::*;
-use lariat_bevy::event::{AttachmentEnded, CableBroken};
+use lariat_bevy::event::{AttachmentEnded, CableBroken, StepRefused};
 use lariat_bevy::lariat_ancf::{PointLoad, Vector3};
 use lariat_bevy::{
     At, Attachment, AttachmentReading, Bending, BreakTension, Cable, CableAttachments, Cables, Damping, PointLoads,
@@ -50,6 +50,8 @@ fn a_cable_parts_where_it_is_pulled_most_and_the_rest_falls_with_its_load() {
     assert_relative_eq!(world.get::<PointLoads>(rest).unwrap().0[0].arc_length, 1.6, epsilon = 1e-9);
     world.entity_mut(rest).remove::<PointLoads>();
     steps(&mut world, 30);
+    let refused: Vec<StepRefused> = world.resource_mut::<Messages<StepRefused>>().drain().collect();
+    assert!(refused.is_empty(), "{refused:?}");
     let fallen = before - height(&world, load);
     assert!((fallen - 0.5 * 9.81 * 0.25).abs() < 0.1, "{fallen}");
     assert!(world.get::<AttachmentReading>(hook).unwrap().gap < 1e-6);
