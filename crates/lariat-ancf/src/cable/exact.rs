@@ -25,7 +25,7 @@
 //! | 5 mm line, damping 10 ms, water at 3 m/s | 51 % | -8 % |
 //!
 //! No scene failed with either. An unsymmetric matrix costs nine blocks for six per element and L U for L D L^T in the factors of every
-//! iteration with a fresh tangent, so it would pay where drag or damping rule the motion at the game preset, and cost steps on nearly
+//! iteration with a fresh tangent, so it would pay where drag or damping rule the motion at fidelity game, and cost steps on nearly
 //! straight steel, where the direction of the damped curvature turns within a step.
 
 use super::Cable;
