@@ -13,7 +13,7 @@ use bevy_ecs::world::EntityRef;
 #[cfg(feature = "reflect")]
 use bevy_reflect::prelude::*;
 use core::f64::consts::PI;
-use lariat_ancf::{BendingRule, Effects, Flow, LineLoad, PointLoad, RestPiece};
+use lariat_ancf::{BendingRule, Effects, Fidelity, Flow, LineLoad, PointLoad, RestPiece};
 use serde::{Deserialize, Serialize};
 
 /// Force strategy; see [`lariat_ancf::Rule`]. Absent: `projected-3`.
@@ -233,17 +233,17 @@ pub(crate) fn update(cable: &mut crate::Cable, wanted: &Wanted) -> Result<(), la
         return Ok(());
     }
     let Ok(core) = cable.core_mut() else { return Ok(()) };
-    if !same_effects && let Err(fidelity) = plan.integrator {
-        // damping needs an implicit method, however soft the cable
-        let bound = if effects.damping.is_some() { f64::INFINITY } else { core.frequency_bound() };
-        core.set_integrator(fidelity.integrator(bound))?;
-    }
-    // a rest shape may need the new rule, and an old one the old rule
-    if core.set_rule(wanted.rule).is_ok() {
-        core.set_effects(effects)?;
-    } else {
-        core.set_effects(effects)?;
-        core.set_rule(wanted.rule)?;
+    if rule != wanted.rule || !same_effects {
+        // damping needs an implicit method, however soft the cable; what the user has set stays
+        let soft = core.frequency_bound();
+        let choice = |f: Fidelity, damped: bool| f.integrator(if damped { f64::INFINITY } else { soft });
+        let (damped, damps) = (core.effects().damping.is_some(), effects.damping.is_some());
+        let integrator = match plan.integrator {
+            Err(fidelity) if core.integrator() == choice(fidelity, damped) => choice(fidelity, damps),
+            _ => core.integrator(),
+        };
+        wanted.rule.check()?;
+        core.redefine(wanted.rule, effects, integrator)?;
     }
     if !same_loads {
         core.clear_loads();

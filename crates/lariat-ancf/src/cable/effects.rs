@@ -1,7 +1,6 @@
 //! Effects of a cable: read, switched on and off between steps, accounted.
 
 use super::model::Model;
-use super::system::System;
 use super::{Cable, Equations};
 use crate::effect::account::hermite;
 use crate::effect::{Account, Buoyancy, Damping, Drag, Effects, GravityScale, LineLoad, RestShape};
@@ -31,23 +30,7 @@ impl Cable {
     /// number for (a diameter, an area, a bending rule), [`Error::UnsupportedControl`] for damping with an explicit integrator.
     /// The cable is then as before.
     pub fn set_effects(&mut self, effects: Effects) -> Result<(), Error> {
-        let before = core::mem::replace(&mut self.model.effects, effects);
-        let outcome = self.model.check_effects().and_then(|()| check_integrator(&self.model, self.integrator()));
-        let system = outcome.and_then(|()| {
-            System::with_level(&self.model, self.system.level)
-                .map_err(|failure| self.refused(self.time(), 0.0, failure))
-        });
-        match system {
-            Ok(system) => {
-                self.system = system;
-                self.revise();
-                Ok(())
-            }
-            Err(error) => {
-                self.model.effects = before;
-                Err(error)
-            }
-        }
+        self.redefine(self.rule(), effects, self.integrator())
     }
 
     fn change_effects(&mut self, change: impl FnOnce(&mut Effects)) -> Result<(), Error> {

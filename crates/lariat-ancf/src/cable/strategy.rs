@@ -1,8 +1,10 @@
 //! Changing the force strategy of a cable between steps.
 
-use super::Cable;
 use super::system::System;
+use super::{Cable, check_integrator};
+use crate::effect::Effects;
 use crate::error::Error;
+use crate::integrate::Integrator;
 use crate::rule::Rule;
 
 impl Cable {
@@ -15,19 +17,34 @@ impl Cable {
     /// effect that needs a bending rule. The cable is then as before.
     pub fn set_rule(&mut self, rule: Rule) -> Result<(), Error> {
         rule.check()?;
-        let before = core::mem::replace(&mut self.model.rule, rule);
-        let system = self.model.check_effects().and_then(|()| {
+        self.redefine(rule, self.effects().clone(), self.integrator())
+    }
+
+    /// Replaces force strategy, effects and integrator together from the next step on, where one does not go without the other: damping wants an
+    /// implicit integrator, a natural curvature a bending rule.
+    ///
+    /// # Errors
+    /// As [`set_rule`](Self::set_rule) (but spare modes, which a cable may be built with), [`set_effects`](Self::set_effects) and
+    /// [`set_integrator`](Self::set_integrator). The cable is then as before.
+    pub fn redefine(&mut self, rule: Rule, effects: Effects, integrator: Integrator) -> Result<(), Error> {
+        let integrator = integrator.checked()?;
+        let rule = core::mem::replace(&mut self.model.rule, rule);
+        let effects = core::mem::replace(&mut self.model.effects, effects);
+        let checked = self.model.check_effects().and_then(|()| check_integrator(&self.model, integrator));
+        let system = checked.and_then(|()| {
             System::with_level(&self.model, self.system.level)
                 .map_err(|failure| self.refused(self.time(), 0.0, failure))
         });
         match system {
             Ok(system) => {
                 self.system = system;
+                self.integrator = integrator;
                 self.revise();
                 Ok(())
             }
             Err(error) => {
-                self.model.rule = before;
+                self.model.rule = rule;
+                self.model.effects = effects;
                 Err(error)
             }
         }

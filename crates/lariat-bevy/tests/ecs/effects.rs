@@ -119,3 +119,23 @@ fn what_did_not_change_does_not_wake_a_cable_or_move_a_bit() {
     };
     assert!(run(false) == run(true));
 }
+
+/// Fidelity reference is explicit on a soft cable, which damping does not go with: both change together, and back.
+#[test]
+fn damping_comes_and_goes_on_a_cable_that_is_explicit_without_it() {
+    let mut world = world();
+    let cable = soft([0.0; 3], [2.0, 0.0, 0.0]).elements(4).fidelity(lariat_bevy::lariat_ancf::Fidelity::Reference);
+    let cable = world.spawn((cable, Bending)).id();
+    world.spawn(pin(cable));
+    let integrator = |world: &World| world.get::<Cable>(cable).unwrap().core().unwrap().integrator();
+    steps(&mut world, 2);
+    let explicit = integrator(&world);
+    world.entity_mut(cable).insert(Damping::time(1e-4));
+    steps(&mut world, 2);
+    assert_ne!(integrator(&world), explicit);
+    world.entity_mut(cable).remove::<Damping>();
+    steps(&mut world, 2);
+    assert_eq!(integrator(&world), explicit);
+    assert_eq!(world.resource::<Messages<CableFailed>>().len(), 0);
+    assert_eq!(world.resource::<Diagnostics>().refused_steps, 0);
+}
