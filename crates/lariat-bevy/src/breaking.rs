@@ -5,16 +5,18 @@ use crate::cable::{Cable, State};
 use crate::effects::{Bending, Buoyancy, Damping, Drag, GravityScale, LineLoads, PointLoads, RestShape, Rule};
 use crate::event::{CableBroken, Notice};
 use crate::interpolate::Interpolate;
-use crate::world::{Cables, bring_home, lend_out};
+use crate::world::{AllCables, Cables, bring_home, lend_out};
 use bevy_ecs::component::Component;
 use bevy_ecs::entity::Entity;
+use bevy_ecs::entity_disabling::Disabled;
 use bevy_ecs::name::Name;
-use bevy_ecs::prelude::{Query, World};
+use bevy_ecs::prelude::World;
+use bevy_ecs::query::Allow;
 use lariat_ancf::At;
 use lariat_rapier::CableHandle;
 
 /// The tension in N at which a cable parts, read after each host step; absent, nothing is read. The cable parts at the node that is nearest to
-/// the largest tension, but not at an end: the rest is a new entity with the same components, and takes the attachments beyond.
+/// the largest tension, but not at an end, so a single element does not part: the rest is a new entity with the same components, and takes the attachments beyond.
 #[derive(Component, Clone, Copy, Debug, PartialEq)]
 pub struct BreakTension(pub f64);
 
@@ -36,18 +38,18 @@ pub(crate) fn part(world: &mut World) {
     }
 }
 
-/// Where a cable parts: at the inner node that is nearest to `s`, or in the middle of its only element.
-fn place(cable: &lariat_ancf::Cable, s: f64) -> At {
+/// Where a cable parts: at the inner node that is nearest to `s`; one element does not part.
+fn place(cable: &lariat_ancf::Cable, s: f64) -> Option<At> {
     let nodes = cable.node_arc_lengths();
     let inner = &nodes[1..nodes.len() - 1];
     let nearest = inner.iter().copied().min_by(|a, b| (a - s).abs().total_cmp(&(b - s).abs()));
-    At::ArcLength(nearest.unwrap_or(0.5 * cable.length()))
+    nearest.map(At::ArcLength)
 }
 
 fn part_one(world: &mut World, entity: Entity, s: f64) -> Option<(Entity, f64)> {
     let cable = world.get::<Cable>(entity)?;
     let State::Lent(lent) = &cable.state else { return None };
-    let (handle, at, plan) = (lent.handle(), place(lent, s), cable.plan.clone());
+    let (handle, at, plan) = (lent.handle(), place(lent, s)?, cable.plan.clone());
     let drawn = world.get::<Interpolate>(entity).is_some();
     let rest = world.entity_mut(entity).clone_and_spawn_with_opt_in(|clone| {
         clone.allow::<(Rule, Bending, Damping, Drag, Buoyancy, GravityScale, BreakTension, Name)>();
@@ -117,9 +119,9 @@ fn move_attachments(cables: &mut Cables, tail: CableHandle, length: f64, rest: E
 
 /// Runs `action` while the set has all its cables.
 fn with_set<T>(world: &mut World, action: impl FnOnce(&mut Cables) -> Option<T>) -> Option<T> {
-    let mut query = world.query::<&mut Cable>();
+    let mut query = world.query_filtered::<&mut Cable, Allow<Disabled>>();
     world.resource_scope(|world, mut cables: bevy_ecs::change_detection::Mut<Cables>| {
-        let mut query: Query<&mut Cable> = query.query_mut(world);
+        let mut query: AllCables = query.query_mut(world);
         bring_home(&mut cables, &mut query);
         let outcome = action(&mut cables);
         lend_out(&mut cables, &mut query);

@@ -7,6 +7,7 @@ use crate::plan::Plan;
 use crate::point::Point;
 use crate::world::Cables;
 use bevy_ecs::component::Component;
+use bevy_ecs::entity::Entity;
 use bevy_ecs::lifecycle::HookContext;
 use bevy_ecs::world::DeferredWorld;
 use lariat_ancf::{Energy, Fidelity, Integrator, Sample, Section};
@@ -199,6 +200,23 @@ pub type CableSample = Sample;
 /// Builds a cable from its description and the components beside it.
 fn build(mut world: DeferredWorld, context: HookContext) {
     let entity = context.entity;
+    let Some(cable) = world.get::<Cable>(entity) else { return };
+    if let State::Lent(lent) = &cable.state {
+        // the copy of another entity's cable is a cable of its own
+        let of_this = |cables: &Cables| cables.links.cables.get(&lent.handle()) == Some(&entity);
+        if !world.get_resource::<Cables>().is_some_and(of_this) {
+            let copy = Box::new((**lent).clone());
+            if let Some(mut cable) = world.get_mut::<Cable>(entity) {
+                cable.state = State::Built(copy);
+            }
+        }
+        return;
+    }
+    build_one(world, entity);
+}
+
+/// Builds the cable of an entity, if it is not built.
+pub(crate) fn build_one(mut world: DeferredWorld, entity: Entity) {
     let Some(cable) = world.get::<Cable>(entity) else { return };
     if !matches!(cable.state, State::Planned) {
         return;

@@ -5,11 +5,13 @@
 
 use crate::plan::Plan;
 use crate::point::Point;
+use crate::prepare::ChangedEffects;
 use bevy_ecs::component::Component;
+use bevy_ecs::lifecycle::HookContext;
 use bevy_ecs::name::Name;
 #[cfg(feature = "reflect")]
 use bevy_ecs::reflect::ReflectComponent;
-use bevy_ecs::world::EntityRef;
+use bevy_ecs::world::{DeferredWorld, EntityRef};
 #[cfg(feature = "reflect")]
 use bevy_reflect::prelude::*;
 use core::f64::consts::PI;
@@ -18,6 +20,7 @@ use serde::{Deserialize, Serialize};
 
 /// Force strategy; see [`lariat_ancf::Rule`]. Absent: `projected-3`.
 #[derive(Component, Clone, Copy, Debug, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[component(on_remove = removed)]
 #[cfg_attr(
     feature = "reflect",
     derive(bevy_reflect::Reflect),
@@ -39,6 +42,7 @@ impl Rule {
 
 /// Bending stiffness, by the bending half of the [`Rule`]. Absent: the cable is limp, and no bending code runs.
 #[derive(Component, Clone, Copy, Debug, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[component(on_remove = removed)]
 #[cfg_attr(
     feature = "reflect",
     derive(bevy_reflect::Reflect),
@@ -48,6 +52,7 @@ pub struct Bending;
 
 /// Internal damping after Kelvin and Voigt; see [`lariat_ancf::Damping`].
 #[derive(Component, Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[component(on_remove = removed)]
 #[cfg_attr(
     feature = "reflect",
     derive(bevy_reflect::Reflect),
@@ -86,6 +91,7 @@ impl Damping {
 
 /// Drag of a fluid or wind; see [`lariat_ancf::Drag`].
 #[derive(Component, Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[component(on_remove = removed)]
 #[cfg_attr(
     feature = "reflect",
     derive(bevy_reflect::Reflect),
@@ -113,6 +119,7 @@ impl Drag {
 
 /// Buoyancy and added mass; see [`lariat_ancf::Buoyancy`].
 #[derive(Component, Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[component(on_remove = removed)]
 #[cfg_attr(
     feature = "reflect",
     derive(bevy_reflect::Reflect),
@@ -129,6 +136,7 @@ impl Buoyancy {
 
 /// Stress-free stretch and curvature; see [`lariat_ancf::RestShape`]. Absent: straight and unstretched.
 #[derive(Component, Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[component(on_remove = removed)]
 #[cfg_attr(
     feature = "reflect",
     derive(bevy_reflect::Reflect),
@@ -144,6 +152,7 @@ impl From<Vec<RestPiece>> for RestShape {
 
 /// Forces per length; see [`LineLoad`].
 #[derive(Component, Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[component(on_remove = removed)]
 #[cfg_attr(
     feature = "reflect",
     derive(bevy_reflect::Reflect),
@@ -153,6 +162,7 @@ pub struct LineLoads(pub Vec<LineLoad>);
 
 /// Forces and moments at points; see [`PointLoad`]. A ramp begins when the load is new to the cable.
 #[derive(Component, Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[component(on_remove = removed)]
 #[cfg_attr(
     feature = "reflect",
     derive(bevy_reflect::Reflect),
@@ -162,6 +172,7 @@ pub struct PointLoads(pub Vec<PointLoad>);
 
 /// What gravity is multiplied by for this cable.
 #[derive(Component, Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[component(on_remove = removed)]
 #[cfg_attr(
     feature = "reflect",
     derive(bevy_reflect::Reflect),
@@ -233,6 +244,8 @@ pub(crate) fn update(cable: &mut crate::Cable, wanted: &Wanted) -> Result<(), la
         return Ok(());
     }
     let Ok(core) = cable.core_mut() else { return Ok(()) };
+    // all of it or nothing
+    let mut changed = core.clone();
     if rule != wanted.rule || !same_effects {
         // damping needs an implicit method, however soft the cable; what the user has set stays
         let soft = core.frequency_bound();
@@ -243,12 +256,12 @@ pub(crate) fn update(cable: &mut crate::Cable, wanted: &Wanted) -> Result<(), la
             _ => core.integrator(),
         };
         wanted.rule.check()?;
-        core.redefine(wanted.rule, effects, integrator)?;
+        changed.redefine(wanted.rule, effects, integrator)?;
     }
     if !same_loads {
-        core.clear_loads();
-        wanted.loads.iter().try_for_each(|load| core.add_load(*load))?;
+        changed.set_loads(&wanted.loads)?;
     }
+    *core = changed;
     Ok(())
 }
 
@@ -270,4 +283,11 @@ pub(crate) fn register(app: &mut bevy_app::App) {
         .register_type::<LineLoads>()
         .register_type::<PointLoads>()
         .register_type::<GravityScale>();
+}
+
+/// Lets a cable be looked at that lost an effect.
+fn removed(mut world: DeferredWorld, context: HookContext) {
+    if let Some(mut changed) = world.get_resource_mut::<ChangedEffects>() {
+        changed.0.insert(context.entity);
+    }
 }

@@ -9,15 +9,16 @@ use crate::error::Error;
 use crate::event::{AttachmentEnded, AttachmentFailed, CableFailed, End, Notice};
 use crate::interpolate::Interpolate;
 use crate::point::to_vector;
-use crate::world::{Bound, Cables, Physics, bring_home, lend_out};
+use crate::world::{AllCables, Bound, Cables, Physics, bring_home, lend_out};
 use bevy_ecs::change_detection::DetectChanges;
 use bevy_ecs::entity::Entity;
-use bevy_ecs::lifecycle::RemovedComponents;
+use bevy_ecs::entity_disabling::Disabled;
 use bevy_ecs::name::Name;
 use bevy_ecs::prelude::{Added, Changed, Commands, Has, Or, Query, Ref, Res, ResMut, With, Without};
+use bevy_ecs::query::Allow;
 use bevy_ecs::resource::Resource;
-use bevy_ecs::system::SystemParam;
 use bevy_ecs::world::World;
+use lariat_rapier::CableHandle;
 use lariat_rapier::rapier::dynamics::{RigidBodyBuilder, RigidBodyHandle};
 use lariat_rapier::rapier::math::Vector;
 use std::collections::BTreeSet;
@@ -41,15 +42,13 @@ pub(crate) fn end(begun: Res<Begun>, mut diagnostics: ResMut<Diagnostics>) {
 pub(crate) fn retire(
     mut cables: ResMut<Cables>,
     mut physics: ResMut<Physics>,
-    mut of: Query<&mut Cable>,
+    mut of: AllCables,
     attachments: Query<(), With<Attachment>>,
     mut commands: Commands,
 ) {
     let cables = &mut *cables;
-    if cables.handed_in.is_empty() && cables.retired_attachments.is_empty() && cables.retired_bodies.is_empty() {
-        return;
-    }
     bring_home(cables, &mut of);
+    write_off(cables, &mut physics, &mut commands);
     for (entity, lent) in core::mem::take(&mut cables.handed_in) {
         let handle = lent.handle();
         // one whose component was overwritten by a copy of itself goes on as the copy
@@ -58,15 +57,7 @@ pub(crate) fn retire(
         }
         cables.links.cables.remove(&handle);
         let _ = cables.set.remove(&mut physics, handle);
-        let Cables { set, links, .. } = cables;
-        links.attachments.retain(|attachment, bound| {
-            let holds = set.attachment(*attachment).is_ok();
-            if !holds && let Ok(mut entity) = commands.get_entity(bound.entity) {
-                // it holds to the cable that takes the place, if one does
-                entity.try_remove::<Holds>();
-            }
-            holds
-        });
+        unlink(cables, &mut commands);
     }
     for (entity, handle) in core::mem::take(&mut cables.retired_attachments) {
         let Some(bound) = cables.links.attachments.remove(&handle) else { continue };
@@ -83,6 +74,42 @@ pub(crate) fn retire(
         physics.remove_body(handle);
     }
     lend_out(cables, &mut of);
+}
+
+/// Gives up cables that were lent and are nowhere: their components were overwritten in place.
+fn write_off(cables: &mut Cables, physics: &mut Physics, commands: &mut Commands) {
+    let Cables { set, links, handed_in, .. } = &mut *cables;
+    let lost: Vec<CableHandle> = set.lent().filter(|h| !handed_in.iter().any(|(_, l)| l.handle() == *h)).collect();
+    for handle in &lost {
+        let _ = set.forget(physics, *handle);
+        links.cables.remove(handle);
+    }
+    if !lost.is_empty() {
+        unlink(cables, commands);
+    }
+}
+
+/// Forgets attachments that the set has no more; they hold to the cable that takes the place, if one does.
+fn unlink(cables: &mut Cables, commands: &mut Commands) {
+    let Cables { set, links, .. } = cables;
+    links.attachments.retain(|attachment, bound| {
+        let holds = set.attachment(*attachment).is_ok();
+        if !holds && let Ok(mut entity) = commands.get_entity(bound.entity) {
+            entity.try_remove::<Holds>();
+        }
+        holds
+    });
+}
+
+/// Builds cables that were written over others in place.
+pub(crate) fn build_planned(world: &mut World) {
+    let mut of = world.query_filtered::<(Entity, &Cable), Allow<Disabled>>();
+    let planned: Vec<Entity> =
+        of.iter(world).filter(|(_, cable)| matches!(cable.state, State::Planned)).map(|(entity, _)| entity).collect();
+    for entity in planned {
+        crate::cable::build_one(world.into(), entity);
+        world.flush();
+    }
 }
 
 /// What tells new bodies apart, whatever the order in which they were spawned.
@@ -124,34 +151,6 @@ pub(crate) fn make_bodies(
     }
 }
 
-/// Effects that were removed since the last step.
-#[derive(SystemParam)]
-pub(crate) struct RemovedEffects<'w, 's> {
-    rule: RemovedComponents<'w, 's, Rule>,
-    bending: RemovedComponents<'w, 's, Bending>,
-    damping: RemovedComponents<'w, 's, Damping>,
-    drag: RemovedComponents<'w, 's, Drag>,
-    buoyancy: RemovedComponents<'w, 's, Buoyancy>,
-    rest_shape: RemovedComponents<'w, 's, RestShape>,
-    line_loads: RemovedComponents<'w, 's, LineLoads>,
-    point_loads: RemovedComponents<'w, 's, PointLoads>,
-    gravity_scale: RemovedComponents<'w, 's, GravityScale>,
-}
-
-impl RemovedEffects<'_, '_> {
-    fn drain(&mut self, into: &mut BTreeSet<Entity>) {
-        into.extend(self.rule.read());
-        into.extend(self.bending.read());
-        into.extend(self.damping.read());
-        into.extend(self.drag.read());
-        into.extend(self.buoyancy.read());
-        into.extend(self.rest_shape.read());
-        into.extend(self.line_loads.read());
-        into.extend(self.point_loads.read());
-        into.extend(self.gravity_scale.read());
-    }
-}
-
 type AnyEffectChanged = Or<(
     Changed<Rule>,
     Changed<Bending>,
@@ -166,16 +165,14 @@ type AnyEffectChanged = Or<(
 
 /// Entities whose effects may differ from what their cables do.
 #[derive(Resource, Default)]
-pub(crate) struct ChangedEffects(BTreeSet<Entity>);
+pub(crate) struct ChangedEffects(pub BTreeSet<Entity>);
 
 /// Collects them.
 pub(crate) fn watch_effects(
     mut changed: ResMut<ChangedEffects>,
-    of: Query<Entity, (With<Cable>, AnyEffectChanged)>,
-    mut removed: RemovedEffects,
+    of: Query<Entity, (With<Cable>, AnyEffectChanged, Allow<Disabled>)>,
 ) {
     changed.0.extend(&of);
-    removed.drain(&mut changed.0);
 }
 
 /// Makes cables do what their entities' components ask.
@@ -192,11 +189,20 @@ pub(crate) fn change_effects(world: &mut World) {
 }
 
 /// Takes new cables into the set.
-pub(crate) fn take_cables(mut cables: ResMut<Cables>, mut of: Query<(Entity, &mut Cable)>) {
+pub(crate) fn take_cables(mut cables: ResMut<Cables>, mut of: Query<(Entity, &mut Cable), Allow<Disabled>>) {
+    let clock = of.iter().find_map(|(_, cable)| match &cable.state {
+        State::Lent(lent) => Some(lent.time()),
+        _ => None,
+    });
     for (entity, mut cable) in &mut of {
         let State::Built(_) = cable.state else { continue };
         let state = &mut cable.state;
-        if let State::Built(core) = core::mem::replace(state, State::Away) {
+        if let State::Built(mut core) = core::mem::replace(state, State::Away) {
+            // those in the set are lent, and do not tell it the time
+            if let Some(time) = clock {
+                let _ = core.set_time(time);
+            }
+            cables.fresh = true;
             let handle = cables.set.insert(*core);
             cables.links.cables.insert(handle, entity);
             if let Ok(lent) = cables.set.lend(handle) {
@@ -220,17 +226,20 @@ type Asked = (
 pub(crate) fn bind(
     mut cables: ResMut<Cables>,
     mut physics: ResMut<Physics>,
-    mut of: Query<&mut Cable>,
+    mut of: AllCables,
     attachments: Query<Asked>,
-    handles: Query<&BodyHandle>,
+    handles: Query<Ref<BodyHandle>>,
     mut commands: Commands,
 ) {
     let cables = &mut *cables;
     bring_home(cables, &mut of);
+    let fresh = core::mem::take(&mut cables.fresh);
     for (entity, attachment, on, to, holds, unable) in &attachments {
         let changed = attachment.is_changed()
             || on.as_ref().is_some_and(|on| on.is_changed())
-            || to.as_ref().is_some_and(|to| to.is_changed());
+            || to.as_ref().is_some_and(|to| to.is_changed())
+            || fresh
+            || to.as_ref().is_some_and(|to| handles.get(to.0).is_ok_and(|body| body.is_changed()));
         let body = to.as_ref().map(|to| to.0).filter(|_| !attachment.world);
         if let Some(&Holds(handle)) = holds {
             let Some(bound) = cables.links.attachments.get(&handle).copied() else {
@@ -247,8 +256,9 @@ pub(crate) fn bind(
             cables.links.attachments.remove(&handle);
             let _ = cables.set.detach(&mut physics, handle);
             commands.entity(entity).remove::<Holds>();
-            if on.is_none() || (body.is_none() && !attachment.world) {
-                let gone = !physics.bodies.contains(bound.handle);
+            let no_body = body.is_some_and(|body| handles.get(body).is_err());
+            if on.is_none() || no_body || (body.is_none() && !attachment.world) {
+                let gone = no_body || !physics.bodies.contains(bound.handle);
                 let end = if gone { End::BodyGone } else { End::Released };
                 let (cable, body) = (bound.cable, bound.body);
                 cables.notices.push(Notice::Ended(AttachmentEnded { entity, cable, body, end }));
@@ -275,8 +285,8 @@ pub(crate) fn bind(
 fn hold(
     cables: &mut Cables,
     physics: &mut Physics,
-    of: &Query<&mut Cable>,
-    handles: &Query<&BodyHandle>,
+    of: &AllCables,
+    handles: &Query<Ref<BodyHandle>>,
     attachment: &Attachment,
     entity: Entity,
     cable: Entity,
@@ -293,7 +303,7 @@ fn hold(
         Some(anchor) => cables.set.attach(physics, known, attachment.at, rigid, to_vector(&anchor), attachment.pin)?,
         None => cables.set.attach_here(physics, known, attachment.at, rigid, attachment.pin)?,
     };
-    let bound = Bound { entity, cable, body, handle: rigid, made: *attachment };
+    let bound = Bound { entity, cable, body, handle: rigid, made: *attachment, counted: 0.0 };
     cables.links.attachments.insert(held, bound);
     Ok(Holds(held))
 }

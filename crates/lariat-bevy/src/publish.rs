@@ -2,10 +2,9 @@
 
 use crate::attachment::{AttachmentReading, BreakForce, Holds};
 use crate::body::{BodyHandle, BodyPose};
-use crate::cable::Cable;
 use crate::diagnostics::{Diagnostics, Stage};
 use crate::event::{AttachmentEnded, CableAsleep, CableAwake, End, Notice};
-use crate::world::{Cables, Physics, bring_home, lend_out};
+use crate::world::{AllCables, Cables, Physics, bring_home, lend_out};
 use bevy_ecs::prelude::{DetectChangesMut, Query, Res, ResMut};
 use bevy_ecs::world::World;
 use lariat_rapier::Event;
@@ -15,14 +14,14 @@ use std::time::Instant;
 pub(crate) fn read_attachments(
     mut cables: ResMut<Cables>,
     mut physics: ResMut<Physics>,
-    mut of: Query<&mut Cable>,
+    mut of: AllCables,
     mut readings: Query<(&mut AttachmentReading, Option<&BreakForce>)>,
     mut diagnostics: ResMut<Diagnostics>,
 ) {
     let start = Instant::now();
     let cables = &mut *cables;
-    for event in cables.set.events() {
-        let notice = match event {
+    for event in cables.set.take_events() {
+        let notice = match &event {
             Event::Asleep(cable) => {
                 cables.links.cables.get(cable).map(|&entity| Notice::Asleep(CableAsleep { entity }))
             }
@@ -36,13 +35,14 @@ pub(crate) fn read_attachments(
         cables.notices.extend(notice);
     }
     let mut broken = Vec::new();
-    for (handle, bound) in &cables.links.attachments {
-        let (Ok(attachment), Ok((mut reading, limit))) =
-            (cables.set.attachment(*handle), readings.get_mut(bound.entity))
+    let Cables { set, links, .. } = &mut *cables;
+    for (handle, bound) in &mut links.attachments {
+        let (Ok(attachment), Ok((mut reading, limit))) = (set.attachment(*handle), readings.get_mut(bound.entity))
         else {
             continue;
         };
-        diagnostics.interface_work += attachment.work() - reading.work;
+        diagnostics.interface_work += attachment.work() - bound.counted;
+        bound.counted = attachment.work();
         let force = attachment.force();
         let now =
             AttachmentReading { force, moment: attachment.moment(), gap: attachment.gap(), work: attachment.work() };
@@ -65,7 +65,7 @@ pub(crate) fn read_attachments(
 }
 
 /// What cables did, and that they moved.
-pub(crate) fn count(mut of: Query<&mut Cable>, mut diagnostics: ResMut<Diagnostics>) {
+pub(crate) fn count(mut of: AllCables, mut diagnostics: ResMut<Diagnostics>) {
     for mut cable in &mut of {
         let Ok(core) = cable.core() else { continue };
         let (rule, now) = (core.rule(), *core.diagnostics());

@@ -98,6 +98,7 @@ fn add_prepare(schedule: &mut Schedule) {
         (
             prepare::begin,
             prepare::retire,
+            prepare::build_planned,
             prepare::make_bodies,
             prepare::watch_effects,
             prepare::change_effects,

@@ -11,13 +11,17 @@ use crate::clock::FixedClock;
 use crate::effects::{Bending, Buoyancy, Damping, Drag, GravityScale, LineLoads, PointLoads, RestShape, Rule};
 use crate::error::Error;
 use crate::interpolate::Interpolate;
-use crate::world::{Cables, Links, Physics, bring_home, lend_out};
+use crate::prepare::ChangedEffects;
+use crate::world::{AllCables, Cables, Links, Physics, bring_home, lend_out};
 use bevy_ecs::entity::Entity;
+use bevy_ecs::entity_disabling::Disabled;
 use bevy_ecs::name::Name;
-use bevy_ecs::prelude::{Or, Query, With};
+use bevy_ecs::prelude::{DetectChangesMut, Or, With};
+use bevy_ecs::query::Allow;
 use bevy_ecs::world::{EntityRef, EntityWorldMut, World};
-use lariat_rapier::CableSet;
+use lariat_rapier::rapier::dynamics::RigidBodyHandle;
 use lariat_rapier::rapier::pipeline::{CollisionPipeline, PhysicsPipeline, PhysicsWorld};
+use lariat_rapier::{AttachmentHandle, CableSet, Lent};
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
@@ -28,6 +32,7 @@ pub struct Snapshot {
     set: CableSet,
     links: Links,
     clock: FixedClock,
+    pending: Pending,
     entities: Vec<Saved>,
 }
 
@@ -92,7 +97,16 @@ plain! {
     handle: BodyHandle, holds: Holds,
 }
 
-type Ours = Or<(With<Cable>, With<Attachment>, With<Body>, With<BodyHandle>)>;
+type Ours = (Or<(With<Cable>, With<Attachment>, With<Body>, With<BodyHandle>)>, Allow<Disabled>);
+type Made = (Or<(With<Cable>, With<Attachment>, With<Body>)>, Allow<Disabled>);
+
+/// What went away and was not taken in when the snapshot was taken.
+#[derive(Clone)]
+struct Pending {
+    cables: Vec<(Entity, Lent)>,
+    bodies: Vec<RigidBodyHandle>,
+    attachments: Vec<(Entity, AttachmentHandle)>,
+}
 
 impl Snapshot {
     /// Copies the state out.
@@ -112,6 +126,11 @@ impl Snapshot {
             set: cables.set.clone(),
             links: cables.links.clone(),
             clock: *world.resource::<FixedClock>(),
+            pending: Pending {
+                cables: cables.handed_in.clone(),
+                bodies: cables.retired_bodies.clone(),
+                attachments: cables.retired_attachments.clone(),
+            },
             entities,
         };
         with_cables(world, lend_out);
@@ -128,9 +147,16 @@ impl Snapshot {
             return Err(Error::NotInstalled);
         }
         with_cables(world, bring_home);
+        // attachments of a cable that goes must not go with it, if they are known
+        for saved in &self.entities {
+            if let Some(on) = saved.on.filter(|on| world.get_entity(on.0).is_ok())
+                && let Ok(mut entity) = world.get_entity_mut(saved.entity)
+            {
+                entity.insert(on);
+            }
+        }
         let known: BTreeSet<Entity> = self.entities.iter().map(|saved| saved.entity).collect();
-        let now: Vec<Entity> =
-            world.query_filtered::<Entity, Or<(With<Cable>, With<Attachment>, With<Body>)>>().iter(world).collect();
+        let now: Vec<Entity> = world.query_filtered::<Entity, Made>().iter(world).collect();
         for entity in now.into_iter().filter(|entity| !known.contains(entity)) {
             world.despawn(entity);
         }
@@ -148,12 +174,18 @@ impl Snapshot {
         cables.set = self.set.clone();
         cables.links = self.links.renamed(&name);
         cables.host = None;
-        cables.handed_in.clear();
-        cables.retired_attachments.clear();
-        cables.retired_bodies.clear();
+        let Pending { cables: gone, bodies, attachments } = self.pending.clone();
+        cables.handed_in = gone.into_iter().map(|(entity, lent)| (name(entity), lent)).collect();
+        cables.retired_attachments = attachments.into_iter().map(|(entity, held)| (name(entity), held)).collect();
+        cables.retired_bodies = bodies;
         cables.notices.clear();
         world.resource_mut::<Physics>().0 = copy(&self.physics);
         *world.resource_mut::<FixedClock>() = self.clock;
+        // what was changed and not taken in yet is so again
+        let cables: Vec<Entity> = self.entities.iter().filter(|s| s.cable.is_some()).map(|s| name(s.entity)).collect();
+        world.resource_mut::<ChangedEffects>().0.extend(cables);
+        let mut targets = world.query::<&mut KinematicTarget>();
+        targets.iter_mut(world).for_each(|mut target| target.set_changed());
         with_cables(world, lend_out);
         Ok(renamed)
     }
@@ -241,8 +273,8 @@ impl Links {
 }
 
 /// Runs `action` on the cables of a world and their components.
-fn with_cables(world: &mut World, action: fn(&mut Cables, &mut Query<&mut Cable>)) {
-    let mut query = world.query::<&mut Cable>();
+fn with_cables(world: &mut World, action: fn(&mut Cables, &mut AllCables)) {
+    let mut query = world.query_filtered::<&mut Cable, Allow<Disabled>>();
     world.resource_scope(|world, mut cables: bevy_ecs::change_detection::Mut<Cables>| {
         action(&mut cables, &mut query.query_mut(world));
     });

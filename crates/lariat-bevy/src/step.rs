@@ -1,13 +1,12 @@
 //! One host step, taken apart into systems.
 
-use crate::cable::Cable;
 use crate::diagnostics::{Diagnostics, Stage};
 use crate::error::Error;
 use crate::event::{Notice, StepRefused};
 use crate::schedule::RapierStep;
-use crate::world::{Cables, Physics, bring_home, lend_out};
+use crate::world::{AllCables, Cables, Physics, bring_home, lend_out};
 use bevy_ecs::entity::Entity;
-use bevy_ecs::prelude::{Query, ResMut};
+use bevy_ecs::prelude::ResMut;
 use bevy_ecs::world::World;
 use std::time::Instant;
 
@@ -65,7 +64,7 @@ fn refuse(cables: &mut Cables, error: lariat_rapier::Error) {
 pub(crate) fn predict(
     mut cables: ResMut<Cables>,
     mut physics: ResMut<Physics>,
-    mut of: Query<&mut Cable>,
+    mut of: AllCables,
     mut diagnostics: ResMut<Diagnostics>,
 ) {
     let start = Instant::now();
@@ -97,7 +96,7 @@ pub(crate) fn engine(cables: ResMut<Cables>, mut physics: ResMut<Physics>, mut d
 pub(crate) fn reconcile(
     mut cables: ResMut<Cables>,
     mut physics: ResMut<Physics>,
-    mut of: Query<&mut Cable>,
+    mut of: AllCables,
     mut diagnostics: ResMut<Diagnostics>,
 ) {
     let start = Instant::now();

@@ -7,6 +7,8 @@ use crate::error::Error;
 use crate::event::{Notice, StepRefused};
 use bevy_ecs::change_detection::DetectChangesMut;
 use bevy_ecs::entity::Entity;
+use bevy_ecs::entity_disabling::Disabled;
+use bevy_ecs::query::Allow;
 use bevy_ecs::resource::Resource;
 use bevy_ecs::system::Query;
 use core::ops::{Deref, DerefMut};
@@ -45,6 +47,8 @@ pub(crate) struct Bound {
     pub handle: RigidBodyHandle,
     /// As it was when it was made.
     pub made: Attachment,
+    /// Its work when it was counted last, in J.
+    pub counted: f64,
 }
 
 /// The cables of a world and what they hold to.
@@ -58,6 +62,8 @@ pub struct Cables {
     pub(crate) retired_attachments: Vec<(Entity, AttachmentHandle)>,
     pub(crate) notices: Vec<Notice>,
     pub(crate) host: Option<HostStep>,
+    /// Whether cables came since attachments were tried.
+    pub(crate) fresh: bool,
 }
 
 /// Which entity is what.
@@ -98,8 +104,11 @@ impl Cables {
     }
 }
 
+/// All cables, those of disabled entities too: they go on.
+pub(crate) type AllCables<'w, 's> = Query<'w, 's, &'static mut Cable, Allow<Disabled>>;
+
 /// Takes all cables from their components for a step, or for a change of the set.
-pub(crate) fn bring_home(cables: &mut Cables, of: &mut Query<&mut Cable>) {
+pub(crate) fn bring_home(cables: &mut Cables, of: &mut AllCables) {
     for mut cable in of.iter_mut() {
         let state = &mut cable.bypass_change_detection().state;
         if let State::Lent(_) = state
@@ -114,7 +123,7 @@ pub(crate) fn bring_home(cables: &mut Cables, of: &mut Query<&mut Cable>) {
 }
 
 /// Gives all cables of the set to their components.
-pub(crate) fn lend_out(cables: &mut Cables, of: &mut Query<&mut Cable>) {
+pub(crate) fn lend_out(cables: &mut Cables, of: &mut AllCables) {
     let Cables { set, links, .. } = cables;
     for (handle, entity) in &links.cables {
         let Ok(mut cable) = of.get_mut(*entity) else { continue };

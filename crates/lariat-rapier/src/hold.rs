@@ -93,8 +93,15 @@ impl CableSet {
     /// # Errors
     /// [`Error::NoAttachment`]; [`Error::Lent`] if its cable is.
     pub fn detach(&mut self, world: &mut PhysicsWorld, attachment: AttachmentHandle) -> Result<(), Error> {
-        let cable = self.attachment(attachment)?.cable;
+        let Attachment { cable, node, .. } = *self.attachment(attachment)?;
         self.get(cable)?;
+        self.end(world, attachment)?;
+        self.get_mut(cable)?.detach(At::Node(node))?;
+        Ok(())
+    }
+
+    /// Ends an attachment on the side of its body.
+    pub(crate) fn end(&mut self, world: &mut PhysicsWorld, attachment: AttachmentHandle) -> Result<(), Error> {
         let slot = self.attachments.get_mut(attachment.0 as usize);
         let ended = slot.and_then(Option::take).ok_or(Error::NoAttachment(attachment))?;
         self.stale = true;
@@ -107,8 +114,6 @@ impl CableSet {
         if world.bodies.contains(ended.body) {
             world.islands.wake_up(&mut world.bodies, ended.body, true);
         }
-        let cable = self.get_mut(ended.cable)?;
-        cable.detach(At::Node(ended.node))?;
         Ok(())
     }
 

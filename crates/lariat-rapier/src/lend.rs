@@ -1,9 +1,10 @@
 //! Cables that live outside their set between steps, in the components of an ECS.
 
 use crate::set::{CableSet, Slot};
-use crate::{CableHandle, Error};
+use crate::{AttachmentHandle, CableHandle, Error};
 use core::ops::{Deref, DerefMut};
-use lariat_ancf::Cable;
+use lariat_ancf::{At, Cable};
+use rapier::pipeline::PhysicsWorld;
 use serde::{Deserialize, Serialize};
 
 /// A cable that its set has lent, with what the set knows of it. Reads as the cable; to change it wakes it.
@@ -62,6 +63,47 @@ impl CableSet {
         self.lent.remove(place);
         self.cables[cable.handle.0 as usize] = Some(cable.slot);
         Ok(())
+    }
+
+    /// Gives a lent cable up that does not come back: its attachments end, and its part in junctions.
+    ///
+    /// # Errors
+    /// [`Error::NoCable`] for one that is not lent.
+    pub fn forget(&mut self, world: &mut PhysicsWorld, cable: CableHandle) -> Result<(), Error> {
+        let place = self.lent.binary_search(&cable.0).map_err(|_| Error::NoCable(cable))?;
+        self.lent.remove(place);
+        self.stale = true;
+        for i in 0..self.attachments.len() {
+            if self.attachments[i].as_ref().is_some_and(|a| a.cable == cable) {
+                self.end(world, AttachmentHandle(i as u32))?;
+            }
+        }
+        let mut freed = Vec::new();
+        for slot in &mut self.junctions {
+            let Some(junction) = slot else { continue };
+            let own: Vec<bool> = junction.nodes.iter().map(|(c, _)| *c == cable).collect();
+            if !own.contains(&true) {
+                continue;
+            }
+            let mut keep = own.iter().map(|own| !own);
+            junction.nodes.retain(|_| keep.next().unwrap_or(true));
+            let mut keep = own.iter().map(|own| !own);
+            junction.arc_lengths.retain(|_| keep.next().unwrap_or(true));
+            junction.memory = None;
+            if junction.nodes.len() < 2 {
+                freed.append(&mut junction.nodes);
+                *slot = None;
+            }
+        }
+        for (other, node) in freed {
+            self.get_mut(other)?.detach(At::Node(node))?;
+        }
+        Ok(())
+    }
+
+    /// Cables that are lent, in the order of their handles.
+    pub fn lent(&self) -> impl Iterator<Item = CableHandle> {
+        self.lent.iter().map(|&h| CableHandle(h))
     }
 
     /// Whether a cable is lent.

@@ -187,6 +187,11 @@ impl CableSet {
         &self.events
     }
 
+    /// Takes what happened during the last host step out, so that nobody reads it twice.
+    pub fn take_events(&mut self) -> Vec<Event> {
+        core::mem::take(&mut self.events)
+    }
+
     /// The cables of the island whose step was refused; none if the last step was done.
     pub fn refused(&self) -> &[CableHandle] {
         &self.refused

@@ -132,6 +132,31 @@ impl Cable {
         Ok(())
     }
 
+    /// Replaces all point loads. One that is there already keeps the time at which its ramp began, others begin now.
+    ///
+    /// # Errors
+    /// As [`add_load`](Self::add_load); the cable is then as before.
+    pub fn set_loads(&mut self, loads: &[PointLoad]) -> Result<(), Error> {
+        let before = core::mem::take(&mut self.model.loads);
+        let plain = |load: &PointLoad| PointLoad { start: 0.0, ..*load };
+        for load in loads {
+            if let Err(error) = self.add_load(*load) {
+                self.model.loads = before;
+                self.system.locate_loads(&self.model);
+                self.revise();
+                return Err(error);
+            }
+            if let (Some(old), Some(new)) =
+                (before.iter().find(|old| plain(old) == plain(load)), self.model.loads.last_mut())
+            {
+                new.start = old.start;
+            }
+        }
+        self.system.locate_loads(&self.model);
+        self.revise();
+        Ok(())
+    }
+
     /// Removes all point loads.
     pub fn clear_loads(&mut self) {
         self.model.loads.clear();

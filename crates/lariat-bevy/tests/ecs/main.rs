@@ -6,6 +6,7 @@ mod breaking;
 mod cables;
 mod changes;
 mod clock;
+mod comings;
 mod effects;
 mod events;
 mod order;
