@@ -5,7 +5,7 @@
 //! ```
 //!
 //! K is not symmetric with damping, drag or moments: they are no gradients. Each element is evaluated by the scalar form of its kernels
-//! with [dual numbers](crate::dual), once per coordinate. *Validity.* Exact to rounding, but at kinks: a curvature where damping of
+//! with dual numbers, once per coordinate. *Validity.* Exact to rounding, but at kinks: a curvature where damping of
 //! bending begins, the rows of a flow's profile, drag at no speed. *Use.* Linear stability, control, checks of the step matrix. *Rejected*
 //! for the step: it takes the symmetric parts that [`damping`](crate::effect::damping) and [`drag`](crate::effect::drag) name. Newton's
 //! iteration with K itself was measured, by a dense L U in place of the step's factors (`cargo test --release -p lariat-ancf --lib
