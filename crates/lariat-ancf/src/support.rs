@@ -50,6 +50,11 @@ impl Motion {
         [c0 + s * (c1 + s * (c2 + s * c3)), c1 + s * (2.0 * c2 + 3.0 * s * c3), 2.0 * c2 + 6.0 * s * c3]
     }
 
+    /// Whether nothing moves.
+    pub(crate) fn is_still(&self) -> bool {
+        self.coefficients[1..].iter().all(|c| *c == Vector3::zeros())
+    }
+
     pub(crate) fn is_finite(&self) -> bool {
         self.start.is_finite() && self.coefficients.iter().flatten().all(|x| x.is_finite())
     }
@@ -90,6 +95,12 @@ pub struct Support {
 }
 
 impl Support {
+    /// Whether what it prescribes stands still.
+    pub(crate) fn is_still(&self) -> bool {
+        self.position.as_ref().is_none_or(Motion::is_still)
+            && !matches!(&self.slope, SlopeSupport::Prescribed(motion) if !motion.is_still())
+    }
+
     /// Refuses motions that are not finite and directions that are not unit vectors.
     pub(crate) fn check(&self) -> Result<(), Error> {
         let slope = match &self.slope {

@@ -3,7 +3,7 @@
 
 use super::equations::Equations;
 use crate::integrate::Phase;
-use crate::support::{Motion, SlopeSupport};
+use crate::load::PointLoad;
 use core::ops::Range;
 use nalgebra::Vector3;
 
@@ -18,11 +18,8 @@ impl Equations<'_> {
     /// Whether what acts on the cable from outside is known by its energy: supports stand still, loads are forces at their
     /// full value. Nodes that are pinned to bodies are those bodies' to judge.
     pub(crate) fn is_isolated(&self, time: f64) -> bool {
-        let still = |motion: &Motion| motion.coefficients[1..].iter().all(|c| *c == Vector3::zeros());
-        self.model.supports.iter().all(|(_, support)| {
-            support.position.as_ref().is_none_or(still)
-                && !matches!(&support.slope, SlopeSupport::Prescribed(motion) if !still(motion))
-        }) && self.model.loads.iter().all(|load| load.moment == Vector3::zeros() && load.factor(time) == 1.0)
+        let steady = |load: &PointLoad| load.moment == Vector3::zeros() && load.factor(time) == 1.0;
+        self.model.supports.iter().all(|(_, support)| support.is_still()) && self.model.loads.iter().all(steady)
     }
 
     /// Kinetic and strain energy, and their sum with the energy of gravity and loads, in J.

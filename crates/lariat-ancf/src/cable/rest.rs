@@ -2,7 +2,7 @@
 
 use super::Cable;
 use crate::error::{Error, require};
-use crate::support::{Motion, SlopeSupport};
+use crate::support::SlopeSupport;
 use nalgebra::Vector3;
 
 impl Cable {
@@ -19,11 +19,7 @@ impl Cable {
 
     /// Whether no prescribed motion of a support moves.
     pub fn is_held_still(&self) -> bool {
-        let still = |motion: &Motion| motion.coefficients[1..].iter().all(|c| *c == Vector3::zeros());
-        self.model.supports.iter().all(|(_, support)| {
-            support.position.as_ref().is_none_or(still)
-                && !matches!(&support.slope, SlopeSupport::Prescribed(motion) if !still(motion))
-        })
+        self.model.supports.iter().all(|(_, support)| support.is_still())
     }
 
     /// Lets `dt` (s) pass at rest: positions stay, velocities become zero. For a caller who knows that the cable is at rest, or
