@@ -29,7 +29,8 @@
 //!
 //! *Validity.* [`TimestepMode::Fixed`] and [`TimestepMode::Variable`] with one substep: others step more than once between the two stages,
 //! and are refused ([`StepRefused`](lariat_bevy::event::StepRefused)). A refused step stops bevy_rapier's pipeline for the frame. Only bodies of
-//! the default context can be held. A length unit other than 1 is not supported.
+//! the default context can be held. A length unit other than 1 is not supported. [`Snapshot`](lariat_bevy::Snapshot)
+//! holds cables alone: bodies are bevy_rapier's.
 
 use bevy::ecs::intern::Interned;
 use bevy::ecs::schedule::ScheduleLabel;

@@ -43,7 +43,7 @@
 //! *Determinism.* Systems that step run one after the other, cables in an order that does not depend on that of spawning, so neither the
 //! number of threads nor the order of spawning within a frame changes a bit.
 //!
-//! *Limits.* `Entity` numbers do not survive a [`Snapshot`] that brings despawned entities back. A refused step stops the whole world,
+//! *Limits.* The cable of a disabled entity goes on. `Entity` numbers do not survive a [`Snapshot`] that brings despawned entities back. A refused step stops the whole world,
 //! not only the cables that it concerns.
 
 mod attachment;
