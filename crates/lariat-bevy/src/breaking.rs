@@ -5,13 +5,11 @@ use crate::cable::{Cable, State};
 use crate::effects::{Bending, Buoyancy, Damping, Drag, GravityScale, LineLoads, PointLoads, RestShape, Rule};
 use crate::event::{CableBroken, Notice};
 use crate::interpolate::Interpolate;
-use crate::world::{AllCables, Cables, bring_home, lend_out};
+use crate::world::{Cables, bring_home, lend_out, with_cables};
 use bevy_ecs::component::Component;
 use bevy_ecs::entity::Entity;
-use bevy_ecs::entity_disabling::Disabled;
 use bevy_ecs::name::Name;
 use bevy_ecs::prelude::World;
-use bevy_ecs::query::Allow;
 use lariat_ancf::At;
 use lariat_rapier::CableHandle;
 
@@ -119,12 +117,10 @@ fn move_attachments(cables: &mut Cables, tail: CableHandle, length: f64, rest: E
 
 /// Runs `action` while the set has all its cables.
 fn with_set<T>(world: &mut World, action: impl FnOnce(&mut Cables) -> Option<T>) -> Option<T> {
-    let mut query = world.query_filtered::<&mut Cable, Allow<Disabled>>();
-    world.resource_scope(|world, mut cables: bevy_ecs::change_detection::Mut<Cables>| {
-        let mut query: AllCables = query.query_mut(world);
-        bring_home(&mut cables, &mut query);
-        let outcome = action(&mut cables);
-        lend_out(&mut cables, &mut query);
+    with_cables(world, |cables, of| {
+        bring_home(cables, of);
+        let outcome = action(cables);
+        lend_out(cables, of);
         outcome
     })
 }

@@ -12,7 +12,7 @@ use crate::effects::{Bending, Buoyancy, Damping, Drag, GravityScale, LineLoads, 
 use crate::error::Error;
 use crate::interpolate::Interpolate;
 use crate::prepare::ChangedEffects;
-use crate::world::{AllCables, Cables, Links, Physics, bring_home, lend_out};
+use crate::world::{Cables, Links, Physics, bring_home, lend_out, with_cables};
 use bevy_ecs::entity::Entity;
 use bevy_ecs::entity_disabling::Disabled;
 use bevy_ecs::name::Name;
@@ -270,12 +270,4 @@ impl Links {
         }
         links
     }
-}
-
-/// Runs `action` on the cables of a world and their components.
-fn with_cables(world: &mut World, action: fn(&mut Cables, &mut AllCables)) {
-    let mut query = world.query_filtered::<&mut Cable, Allow<Disabled>>();
-    world.resource_scope(|world, mut cables: bevy_ecs::change_detection::Mut<Cables>| {
-        action(&mut cables, &mut query.query_mut(world));
-    });
 }

@@ -5,12 +5,13 @@ use crate::cable::Cable;
 use crate::cable::State;
 use crate::error::Error;
 use crate::event::{Notice, StepRefused};
-use bevy_ecs::change_detection::DetectChangesMut;
+use bevy_ecs::change_detection::{DetectChangesMut, Mut};
 use bevy_ecs::entity::Entity;
 use bevy_ecs::entity_disabling::Disabled;
 use bevy_ecs::query::Allow;
 use bevy_ecs::resource::Resource;
 use bevy_ecs::system::Query;
+use bevy_ecs::world::World;
 use core::ops::{Deref, DerefMut};
 use lariat_rapier::rapier::dynamics::RigidBodyHandle;
 use lariat_rapier::rapier::pipeline::PhysicsWorld;
@@ -131,4 +132,10 @@ pub(crate) fn lend_out(cables: &mut Cables, of: &mut AllCables) {
             cable.bypass_change_detection().state = State::Lent(lent);
         }
     }
+}
+
+/// Runs `action` on the cables of a world and their components.
+pub(crate) fn with_cables<T>(world: &mut World, action: impl FnOnce(&mut Cables, &mut AllCables) -> T) -> T {
+    let mut query = world.query_filtered::<&mut Cable, Allow<Disabled>>();
+    world.resource_scope(|world, mut cables: Mut<Cables>| action(&mut cables, &mut query.query_mut(world)))
 }
