@@ -36,6 +36,11 @@ impl PointLoad {
         PointLoad { arc_length, force: Vector3::zeros(), moment, ramp: 0.0, start: 0.0 }
     }
 
+    /// Whether it is the same load but for the time at which its ramp began.
+    pub fn is_same(&self, other: &Self) -> bool {
+        PointLoad { start: other.start, ..*self } == *other
+    }
+
     /// Share of the full load at `time`.
     pub fn factor(&self, time: f64) -> f64 {
         if self.ramp > 0.0 { ((time - self.start) / self.ramp).clamp(0.0, 1.0) } else { 1.0 }

@@ -239,7 +239,8 @@ pub(crate) fn update(cable: &mut crate::Cable, wanted: &Wanted) -> Result<(), la
     let Ok(core) = cable.core() else { return Ok(()) };
     let (rule, effects) = (core.rule(), wanted.effects(&plan, core.length())?);
     let same_effects = *core.effects() == effects;
-    let same_loads = same_loads(core.loads(), &wanted.loads);
+    let same_loads =
+        core.loads().len() == wanted.loads.len() && core.loads().iter().zip(&wanted.loads).all(|(a, b)| a.is_same(b));
     if rule == wanted.rule && same_effects && same_loads {
         return Ok(());
     }
@@ -263,12 +264,6 @@ pub(crate) fn update(cable: &mut crate::Cable, wanted: &Wanted) -> Result<(), la
     }
     *core = changed;
     Ok(())
-}
-
-/// Whether loads are the same but for the time at which their ramps began.
-fn same_loads(a: &[PointLoad], b: &[PointLoad]) -> bool {
-    let plain = |load: &PointLoad| PointLoad { start: 0.0, ..*load };
-    a.len() == b.len() && a.iter().zip(b).all(|(a, b)| plain(a) == plain(b))
 }
 
 /// Registers the effects with the app's types.

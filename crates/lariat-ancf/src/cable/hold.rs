@@ -138,7 +138,6 @@ impl Cable {
     /// As [`add_load`](Self::add_load); the cable is then as before.
     pub fn set_loads(&mut self, loads: &[PointLoad]) -> Result<(), Error> {
         let before = core::mem::take(&mut self.model.loads);
-        let plain = |load: &PointLoad| PointLoad { start: 0.0, ..*load };
         for load in loads {
             if let Err(error) = self.add_load(*load) {
                 self.model.loads = before;
@@ -146,9 +145,7 @@ impl Cable {
                 self.revise();
                 return Err(error);
             }
-            if let (Some(old), Some(new)) =
-                (before.iter().find(|old| plain(old) == plain(load)), self.model.loads.last_mut())
-            {
+            if let (Some(old), Some(new)) = (before.iter().find(|old| old.is_same(load)), self.model.loads.last_mut()) {
                 new.start = old.start;
             }
         }
