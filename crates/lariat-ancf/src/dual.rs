@@ -90,4 +90,7 @@ impl Real for Dual {
         let slope = if self.value == 0.0 { 0.0 } else { self.slope * self.value.signum() };
         Dual { value: self.value.abs(), slope }
     }
+    fn at_least(self, least: f64) -> Self {
+        if self.value < least { constant(least) } else { self }
+    }
 }

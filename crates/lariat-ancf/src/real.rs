@@ -29,6 +29,8 @@ pub trait Real:
     fn sqrt(self) -> Self;
     /// Absolute value.
     fn abs(self) -> Self;
+    /// The larger of the number and a constant; of a number that is none, either.
+    fn at_least(self, least: f64) -> Self;
 }
 
 impl Real for f64 {
@@ -44,6 +46,10 @@ impl Real for f64 {
     fn abs(self) -> Self {
         f64::abs(self)
     }
+    #[inline(always)]
+    fn at_least(self, least: f64) -> Self {
+        f64::max(self, least)
+    }
 }
 
 impl<S: Simd> Real for f64x8<S> {
@@ -58,5 +64,9 @@ impl<S: Simd> Real for f64x8<S> {
     #[inline(always)]
     fn abs(self) -> Self {
         <f64x8<S> as SimdBase<S>>::abs(self)
+    }
+    #[inline(always)]
+    fn at_least(self, least: f64) -> Self {
+        <f64x8<S> as SimdBase<S>>::max(self, self.splat(least))
     }
 }

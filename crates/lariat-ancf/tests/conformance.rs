@@ -5,7 +5,8 @@ mod common;
 
 use common::{Random, dense, largest_difference, map3};
 use lariat_ancf::axial::AxialTable;
-use lariat_ancf::bending::{Bending, NoBending, gauss::Gauss, t1::T1, t2::T2};
+use lariat_ancf::bending::{Bending, NoBending, gauss::Gauss, t1::RHO, t1::T1, t2::T2};
+use lariat_ancf::element::gram::{form, gram};
 use lariat_ancf::element::kernel::{Stiffness, energy, force, force_and_tangent};
 use lariat_ancf::{AxialRule, BendingRule, Cable, Rule, Section, Vector3};
 use nalgebra::{DMatrix, Matrix3};
@@ -102,8 +103,9 @@ fn force_is_the_gradient_of_the_energy_and_the_tangent_that_of_the_force() {
     fn check<B: Bending>(rule: Rule, table: &AxialTable, bending: &B) {
         let mut random = Random::new(7);
         let mut worst = [0.0f64; 2];
-        for _ in 0..3 {
-            let d = bent(&mut random);
+        // regular, and crumpled to a fifth, where powers of 1/|r'| are continued
+        for scale in [1.0, 1.0, 1.0, 0.2, 0.2] {
+            let d = bent(&mut random).map(|x| scale * x);
             let at = |i: usize, h: f64| {
                 let mut d = d;
                 d[i] += h;
@@ -130,6 +132,28 @@ fn force_is_the_gradient_of_the_energy_and_the_tangent_that_of_the_force() {
             }
         }
         assert!(worst[0] < 1e-10 && worst[1] < 1e-9, "{rule}: force {:e}, tangent {:e}", worst[0], worst[1]);
+    }
+    for_every_rule!(check);
+}
+
+/// An element whose slope passes through zero has a finite force, tangent and energy.
+///
+/// *Source.* The bounds of the continued powers (bending/crumple.rs) in terms of the mean of |r''|^2, rho.g: Q f <= 2/Q_c^2 at a point,
+/// and for T2 f <= 6/Q_c^2.
+#[test]
+fn an_element_turned_inside_out_is_regular() {
+    fn check<B: Bending>(rule: Rule, table: &AxialTable, bending: &B) {
+        let bound = if rule.bending == BendingRule::T2 { 96.0 } else { 32.0 };
+        for size in [0.0, 1e-12, 1e-3, 0.1, 0.3] {
+            // r' from (size, 0, 0) to (-size, 0, 0), half as much across
+            let d: Flat = [size, 0.0, 0.0, 0.0, 1.5 * size, 0.0, -size, 0.0, 0.0];
+            let (f, blocks) = force_and_tangent(table, bending, STIFFNESS, &control(&d));
+            assert!(flat(f).iter().all(|x| x.is_finite()), "{rule}");
+            assert!(blocks.iter().flatten().flatten().all(|x| x.is_finite()), "{rule}");
+            let (_, bent) = energy(table, bending, STIFFNESS, &control(&d));
+            let most = STIFFNESS.bending * bound * form(&RHO, &gram(&control(&d)));
+            assert!(bent.is_finite() && bent <= most * (1.0 + 1e-12), "{rule}: {bent:e}, at most {most:e}");
+        }
     }
     for_every_rule!(check);
 }

@@ -10,8 +10,11 @@
 //! | [`t2`] | rho.g/(a.g)^2: mean stretch divided out | T2 |
 //! | [`NoBending`] | 0: a chain, a limp rope | - |
 //!
+//! Where |r'| falls below one half, the powers of 1/Q are continued smoothly (`crumple`): a crumpled element stays regular.
+//!
 //! A new rule implements [`Bending`]: a scalar function with its weighted gradient and Hessian; nothing else changes.
 
+pub(crate) mod crumple;
 pub mod gauss;
 pub mod t1;
 pub mod t2;

@@ -5,31 +5,30 @@
 //! ```
 //!
 //! K is not symmetric with damping, drag or moments: they are no gradients. Each element is evaluated by the scalar form of its kernels
-//! with dual numbers, once per coordinate. *Validity.* Exact to rounding, but at kinks: a curvature where damping of
-//! bending begins, the rows of a flow's profile, drag at no speed. *Use.* Linear stability, control, checks of the step matrix. *Rejected*
-//! for the step: it takes the symmetric parts that [`damping`](crate::effect::damping) and [`drag`](crate::effect::drag) name. Newton's
+//! with dual numbers, once per coordinate. *Validity.* Exact to rounding, but at kinks: the rows of a flow's profile, drag at no speed. *Use.*
+//! Linear stability, control, checks of the step matrix. *Rejected* for the step: it takes the symmetric parts that [`damping`](crate::effect::damping) and [`drag`](crate::effect::drag) name. Newton's
 //! iteration with K itself was measured, by a dense L U in place of the step's factors (`cargo test --release -p lariat-ancf --lib
 //! exact_tangents -- --nocapture`; 1 s of each scene, steps of 1/60 s, iterations saved):
 //!
 //! | scene | game | engineering |
 //! |---|---:|---:|
 //! | rubber rod in water, 1 m/s | 0 % | 0 % |
-//! | 2 mm line in water, 5 m/s | 4 % | 2 % |
-//! | 2 mm line in water, 20 m/s | 34 % | 2 % |
-//! | steel rope in water, 5 m/s | 0 % | 0 % |
-//! | rubber rod, damping 1 ms | 2 % | 2 % |
-//! | rubber rod, damping 10 ms | 8 % | 8 % |
+//! | 2 mm line in water, 5 m/s | 6 % | 2 % |
+//! | 2 mm line in water, 20 m/s | 49 % | 2 % |
+//! | steel rope in water, 5 m/s | 1 % | 0 % |
+//! | rubber rod, damping 1 ms | 0 % | 1 % |
+//! | rubber rod, damping 10 ms | 0 % | 3 % |
 //! | rubber rod, axial damping 1 s | 19 % | 28 % |
-//! | steel rope, damping 1 ms | -6 % | -23 % |
-//! | steel rope, axial damping 1 ms | 0 % | 3 % |
-//! | 5 mm line, damping 10 ms, water at 3 m/s | 51 % | -8 % |
+//! | steel rope, damping 1 ms | 0 % | 10 % |
+//! | steel rope, axial damping 1 ms | -1 % | 3 % |
+//! | 5 mm line, damping 10 ms, water at 3 m/s | 49 % | 1 % |
 //!
 //! No scene failed with either. An unsymmetric matrix costs nine blocks for six per element and L U for L D L^T in the factors of every
-//! iteration with a fresh tangent, so it would pay where drag or damping rule the motion at fidelity game, and cost steps on nearly
-//! straight steel, where the direction of the damped curvature turns within a step.
+//! iteration with a fresh tangent, so it would pay where drag or axial damping rule the motion, and nowhere else.
 
 use super::Cable;
 use super::assembly::with_bending;
+use super::kernel_effects::sum;
 use super::model::Model;
 use super::system::System;
 use crate::bending::Bending;
@@ -99,10 +98,12 @@ fn element_force(system: &System, e: usize, time: f64, q: &[Dual; 12], v: &[Dual
     let (axial, flexural) = (constant(elements.axial[e]), constant(elements.flexural[e]));
     let mut n: Six<Dual> = elements.table.gradient(&g, axial);
     with_bending!(&elements.bending, bending => bending.add_gradient(&g, flexural, &mut n));
+    let velocities = control(v);
+    let mut viscous = [constant(0.0); 6];
     if let Some(kernel) = &system.kernel {
-        kernel.add_dual(e, elements, &g, &gram_rates(&d, &control(v)), &mut n);
+        kernel.add_dual(e, elements, &g, &gram_rates(&d, &velocities), [&mut n, &mut viscous]);
     }
-    let f = gradient(&n, &d);
+    let f = sum(&gradient(&n, &d), &gradient(&viscous, &velocities));
     let mut out = [constant(0.0); 12];
     for x in 0..3 {
         out[x] = f[1][x] * s;

@@ -5,6 +5,7 @@
 
 use super::assembly::{BendingKernel, Elements, LANES, load, with_bending};
 use super::model::Model;
+use crate::Real;
 use crate::bending::Bending;
 use crate::dual::{Dual, constant};
 use crate::effect::Damping;
@@ -88,8 +89,15 @@ impl KernelEffects {
         })
     }
 
-    /// Adds to the weighted gradient `n` of element `e`, for its exact derivative.
-    pub fn add_dual(&self, e: usize, elements: &Elements, g: &Six<Dual>, rates: &Six<Dual>, n: &mut Six<Dual>) {
+    /// Adds to the weighted gradient `n` of element `e` and to the pairs that act on its velocities, for its exact derivative.
+    pub fn add_dual(
+        &self,
+        e: usize,
+        elements: &Elements,
+        g: &Six<Dual>,
+        rates: &Six<Dual>,
+        [n, viscous]: [&mut Six<Dual>; 2],
+    ) {
         let stiffness = Stiffness { axial: constant(elements.axial[e]), bending: constant(elements.flexural[e]) };
         if let Some(excess) = self.excess.get(e) {
             elements.table.add_mean(-(stiffness.axial * *excess), n);
@@ -99,7 +107,7 @@ impl KernelEffects {
             NaturalCurvature { target, rounding }.add_gradient(&self.rest_points, stiffness.bending, g, n);
         }
         if let Some(damping) = &self.damping {
-            damping.add_gradient(&elements.table, &self.damping_points, stiffness, g, rates, n);
+            damping.add_gradient(&elements.table, &self.damping_points, stiffness, g, rates, [n, viscous]);
         }
     }
 
@@ -118,6 +126,18 @@ impl KernelEffects {
         let lanes = |i: usize| load(simd, &self.natural[i], first);
         (!self.rest_points.is_empty()).then(|| NaturalCurvature { target: lanes(0), rounding: lanes(1) })
     }
+}
+
+/// The sum of two forces on control vectors.
+#[inline(always)]
+pub(super) fn sum<T: Real>(a: &Control<T>, b: &Control<T>) -> Control<T> {
+    let mut out = *a;
+    for (out, b) in out.iter_mut().zip(b) {
+        for x in 0..3 {
+            out[x] = out[x] + b[x];
+        }
+    }
+    out
 }
 
 impl Elements {
@@ -175,10 +195,14 @@ impl Elements {
                 natural.add_gradient(&effects.rest_points, stiffness.bending, &g, &mut n);
             }
             if let Some(damping) = &damping {
-                let rates = gram_rates(&d, &self.gather(simd, first, v, scale).0);
-                damping.add_gradient(&self.table, &effects.damping_points, stiffness, &g, &rates, &mut n);
+                let v = self.gather(simd, first, v, scale).0;
+                let mut viscous = [g[0] * 0.0; 6];
+                let both = [&mut n, &mut viscous];
+                damping.add_gradient(&self.table, &effects.damping_points, stiffness, &g, &gram_rates(&d, &v), both);
+                self.scatter_force(simd, first, &sum(&gradient(&n, &d), &gradient(&viscous, &v)), out);
+            } else {
+                self.scatter_force(simd, first, &gradient(&n, &d), out);
             }
-            self.scatter_force(simd, first, &gradient(&n, &d), out);
         }
     }
 
@@ -212,11 +236,17 @@ impl Elements {
                 natural.add_hessian(&effects.rest_points, stiffness.bending, &g, both, &mut h);
             }
             if let Some(damping) = &damping {
-                let rates = gram_rates(&d, &self.gather(simd, first, v, scale).0);
-                let both = [&mut n, &mut geometric];
-                damping.add_hessian(&self.table, &effects.damping_points, stiffness, &g, &rates, rate, both, &mut h);
+                let v = self.gather(simd, first, v, scale).0;
+                let (rates, mut viscous) = (gram_rates(&d, &v), [g[0] * 0.0; 6]);
+                let all = [&mut n, &mut geometric, &mut viscous];
+                damping.add_hessian(&self.table, &effects.damping_points, stiffness, &g, &rates, rate, all, &mut h);
+                for i in 0..6 {
+                    geometric[i] += viscous[i] * rate;
+                }
+                self.scatter_force(simd, first, &sum(&gradient(&n, &d), &gradient(&viscous, &v)), out);
+            } else {
+                self.scatter_force(simd, first, &gradient(&n, &d), out);
             }
-            self.scatter_force(simd, first, &gradient(&n, &d), out);
             let blocks = [
                 hessian_block(0, 0, &geometric, &h, &d),
                 hessian_block(0, 1, &geometric, &h, &d),
@@ -253,7 +283,7 @@ impl Elements {
             .map(|e| {
                 let (d, w): (Control<f64>, Control<f64>) = (self.control(e, q), self.control(e, v));
                 let stiffness = Stiffness { axial: self.axial[e], bending: self.flexural[e] };
-                damping.power(&self.table, &effects.damping_points, stiffness, &gram(&d), &gram_rates(&d, &w))
+                damping.power(&self.table, &effects.damping_points, stiffness, &d, &w)
             })
             .sum()
     }

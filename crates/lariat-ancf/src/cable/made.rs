@@ -1,5 +1,5 @@
-//! Energy that a step of one cable makes: what kinetic, strain, gravity and load energy grow by, beyond what a fluid did (by the
-//! trapezoidal rule). What internal damping takes is not added: it hides a little.
+//! Energy that a step of one cable makes: what kinetic, strain, gravity and load energy grow by, beyond what a fluid did. What
+//! internal damping takes is not added: it hides a little.
 
 use super::equations::Equations;
 use crate::integrate::Phase;
@@ -35,11 +35,13 @@ impl Equations<'_> {
         (own, own - work)
     }
 
-    /// Work that the cable does on a fluid while `h` (s) pass between two states, in J.
-    pub(crate) fn work_on_fluid(&mut self, h: f64, before: (f64, &[f64], &[f64]), after: (f64, &[f64], &[f64])) -> f64 {
+    /// Work that the cable does on a fluid while `h` (s) pass between two states, in J, by the smaller of the powers at its ends: what a
+    /// quadrature is off by is not taken for made.
+    fn work_on_fluid(&mut self, h: f64, before: (f64, &[f64], &[f64]), after: (f64, &[f64], &[f64])) -> f64 {
         let level = self.system.level;
         let Some(fluid) = &mut self.system.fluid else { return 0.0 };
-        0.5 * h * (fluid.power(level, before.0, before.1, before.2) + fluid.power(level, after.0, after.1, after.2))
+        let [first, last] = [before, after].map(|(t, q, v)| fluid.power(level, t, q, v));
+        h * first.min(last)
     }
 
     /// Energy made between two phases; `range` is the cable's part of them.

@@ -8,6 +8,7 @@
 
 use super::Cable;
 use crate::axial::moment;
+use crate::bending::crumple::Inverse;
 use crate::effect::damping::gram_rates;
 use crate::effect::rest_shape::NaturalCurvature;
 use crate::element::gram::{Control, Six, gram};
@@ -33,7 +34,7 @@ pub struct Sample {
     pub tension: f64,
     /// Curvature vector (r' x r'')/|r'|^3 in 1/m: along the binormal.
     pub curvature: Vector3<f64>,
-    /// Bending moment EI kappa in N m: along the binormal.
+    /// Bending moment EI kappa in N m: along the binormal. Where |r'| < 1/2, the continued power of the bending rule.
     pub moment: Vector3<f64>,
 }
 
@@ -46,6 +47,12 @@ pub struct Reaction {
     pub force: Vector3<f64>,
     /// Moment on the cable in N m.
     pub moment: Vector3<f64>,
+}
+
+/// A nodal quantity inside element `e`, by the weights of its four node vectors.
+fn combine(x: &[f64], e: usize, weights: [f64; 4]) -> Vector3<f64> {
+    let n = &x[6 * e..6 * e + 12];
+    (0..4).map(|k| weights[k] * Vector3::new(n[3 * k], n[3 * k + 1], n[3 * k + 2])).sum()
 }
 
 impl Cable {
@@ -62,29 +69,27 @@ impl Cable {
     /// State at a local coordinate of an element.
     pub(crate) fn sample_in(&self, e: usize, xi: f64) -> Sample {
         let element = &self.model.elements[e];
-        let combine = |x: &[f64], weights: [f64; 4]| {
-            let n = &x[6 * e..6 * e + 12];
-            (0..4).map(|k| weights[k] * Vector3::new(n[3 * k], n[3 * k + 1], n[3 * k + 2])).sum::<Vector3<f64>>()
-        };
         let (q, v) = (self.positions(), self.velocities());
         let position = shape::position(xi, element.length);
-        let slope = combine(q, shape::slope(xi, element.length));
-        let second = combine(q, shape::second_derivative(xi, element.length));
+        let slope = combine(q, e, shape::slope(xi, element.length));
+        let second = combine(q, e, shape::second_derivative(xi, element.length));
         let stretch = slope.norm();
         let d = self.system.elements.control(e, q);
         let green_strain = projected_strain(&gram(&d), xi);
         // a collapsed element has no curvature to speak of
         let curvature = if stretch > 0.0 { slope.cross(&second) / stretch.powi(3) } else { Vector3::zeros() };
+        // 1/|r'|^3 as the energy has it: finite in a crumpled element
+        let regular = slope.cross(&second) * Inverse::of(stretch * stretch).cube().sqrt();
         Sample {
-            position: combine(q, position),
-            velocity: combine(v, position),
+            position: combine(q, e, position),
+            velocity: combine(v, e, position),
             slope,
             green_strain,
             tension: element.section.axial_stiffness
                 * (green_strain + self.strain_shift(e, xi, &d))
                 * (1.0 + 2.0 * green_strain).max(0.0).sqrt(),
             curvature,
-            moment: curvature * (element.section.bending_stiffness * self.moment_factor(e, xi, curvature.norm())),
+            moment: (regular + self.moment_shift(e, xi, &regular, &slope)) * element.section.bending_stiffness,
         }
     }
 
@@ -104,19 +109,23 @@ impl Cable {
         shift
     }
 
-    /// The factor of EI kappa that is the moment.
-    fn moment_factor(&self, e: usize, xi: f64, curvature: f64) -> f64 {
+    /// What of the bending moment over EI a rest shape takes and damping adds, for the curvature (1/m) of the bending rule.
+    fn moment_shift(&self, e: usize, xi: f64, curvature: &Vector3<f64>, slope: &Vector3<f64>) -> Vector3<f64> {
         let (effects, length) = (self.effects(), self.model.elements[e].length);
-        let mut factor = 1.0;
+        let mut shift = Vector3::zeros();
         if effects.rest_shape.is_some() {
-            factor = NaturalCurvature::new(self.model.rest(e).1, length).moment_factor(curvature, length);
+            let natural = NaturalCurvature::new(self.model.rest(e).1, length);
+            shift += curvature * (natural.moment_factor(curvature.norm(), length) - 1.0);
         }
         if let Some(damping) = effects.damping.filter(|damping| damping.bending > 0.0) {
             let elements = &self.system.elements;
             let (d, v) = (elements.control(e, self.positions()), elements.control(e, self.velocities()));
-            factor += damping.moment_share(xi, &gram(&d), &gram_rates(&d, &v));
+            let (scalar, vector) = damping.moment_shares(xi, &gram(&d), &gram_rates(&d, &v));
+            let rate = combine(self.velocities(), e, shape::second_derivative(xi, length));
+            shift +=
+                curvature * scalar + slope.cross(&rate) * (vector * Inverse::of(slope.norm_squared()).cube().sqrt());
         }
-        factor
+        shift
     }
 
     /// Reactions of all supports, by ascending node: what the supports do to the cable now.

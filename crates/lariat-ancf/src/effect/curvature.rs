@@ -7,12 +7,18 @@
 //! w_gg = P_gg/Q^3 - 3 (P_g b^T + b P_g^T)/Q^4 + 12 P b b^T/Q^5
 //! ```
 //!
-//! *Source.* As the bending rule. *Validity.* |r'| > 0 at the points.
+//! with Q^-3 and its derivatives continued where an element is crumpled ([`crumple`](crate::bending::crumple)).
+//!
+//! *Source.* As the bending rule. *Validity.* Any.
 
 use crate::Real;
+use crate::bending::crumple::Inverse;
 use crate::bending::gauss::{add_weighted_minor_hessian, minor_coefficients, minors, weighted_minor_gradient};
 use crate::element::gram::{PAIR_WEIGHT, Six, Upper, form, slope_square, upper, weighted};
 use crate::quadrature::gauss_legendre;
+
+/// A square of half the turn per element well above the rounding of the minors, whose difference w is.
+pub(crate) const NOISE: f64 = 2.5e-12;
 
 /// Constants of one Gauss point.
 #[derive(Clone, Debug)]
@@ -21,6 +27,8 @@ pub(crate) struct Point {
     b: Six<f64>,
     weighted_b: Six<f64>,
     m: Six<f64>,
+    /// |l r''/2|^2 in Gram numbers.
+    second: Six<f64>,
 }
 
 /// The squared curvature at a point of an element.
@@ -30,8 +38,13 @@ pub(crate) struct Squared<T> {
     pub w: T,
     /// Weighted gradient.
     pub gradient: Six<T>,
-    /// 1/Q.
-    inverse: T,
+    p: T,
+    /// P_g, weighted.
+    minor: Six<T>,
+    /// Q^-3, its first derivative and half of its second.
+    powers: [T; 3],
+    /// 1/Q, at most 4.
+    pub inverse: T,
 }
 
 /// Gauss points of the rule, ascending.
@@ -43,41 +56,55 @@ impl Point {
     /// The point at xi in `[0, 1]`.
     pub fn at(xi: f64, weight: f64) -> Self {
         let b = slope_square(xi);
-        Point { weight, b, weighted_b: weighted(&b), m: minor_coefficients(xi) }
+        // l r''/2 in control vectors
+        let [s0, s1, s2] = [3.0 * xi - 2.0, 1.0 - 2.0 * xi, 3.0 * xi - 1.0];
+        let second = [s0 * s0, s0 * s1, s0 * s2, s1 * s1, s1 * s2, s2 * s2];
+        Point { weight, b, weighted_b: weighted(&b), m: minor_coefficients(xi), second }
     }
 
     /// w and its gradient.
     #[inline(always)]
     pub fn squared<T: Real>(&self, g: &Six<T>) -> Squared<T> {
-        let one = g[0].splat(1.0);
-        let inverse = one / form(&self.b, g);
-        let cube = inverse * inverse * inverse;
+        let at = Inverse::of(form(&self.b, g));
+        let cube = at.inverse * at.inverse * at.inverse;
+        let fourth = cube * at.inverse;
+        let powers = [cube * at.value(3.0), fourth * at.slope(3.0) * -3.0, fourth * at.inverse * 6.0];
         let p = form(&self.m, &minors(g));
         // P >= 0; rounding of the minors of a straight element may leave it at -1e-16
         let p = (p + p.abs()) * 0.5;
-        let slope = cube * inverse * p * -3.0;
-        let mut gradient = weighted_minor_gradient(&self.m, g);
+        let minor = weighted_minor_gradient(&self.m, g);
+        let slope = powers[1] * p;
+        let mut gradient = minor;
         for i in 0..6 {
-            gradient[i] = cube * gradient[i] + slope * self.weighted_b[i];
+            gradient[i] = powers[0] * minor[i] + slope * self.weighted_b[i];
         }
-        Squared { w: cube * p, gradient, inverse }
+        Squared { w: powers[0] * p, gradient, p, minor, powers, inverse: at.inverse }
+    }
+
+    /// Adds the pairs of `scale |l r''/2|^2`: with them, [`gradient`](crate::element::gram::gradient) of any three vectors makes the gradient of
+    /// half of it.
+    #[inline(always)]
+    pub fn add_second_derivative<T: Real>(&self, scale: T, n: &mut Six<T>) {
+        for i in 0..6 {
+            n[i] = n[i] + scale * self.second[i];
+        }
     }
 
     /// Adds `scale w_gg` to a weighted Hessian.
     #[inline(always)]
     pub fn add_second<T: Real>(&self, g: &Six<T>, at: &Squared<T>, scale: T, h: &mut Upper<T>) {
-        let cube = scale * at.inverse * at.inverse * at.inverse;
+        let value = scale * at.powers[0];
         let mut m = *g;
         for i in 0..6 {
-            m[i] = cube * self.m[i];
+            m[i] = value * self.m[i];
         }
         add_weighted_minor_hessian(&m, h);
-        // -3 (P_g b^T + b P_g^T)/Q^4 + 12 P b b^T/Q^5 = b u^T + u b^T, u = -3 w_g/Q - 3 w b/Q^2
-        let first = scale * at.inverse * -3.0;
-        let second = first * at.inverse * at.w;
+        // -3 (P_g b^T + b P_g^T)/Q^4 + 12 P b b^T/Q^5 = b u^T + u b^T, u = -3 P_g/Q^4 + 6 P b/Q^5
+        let first = scale * at.powers[1];
+        let second = scale * at.powers[2] * at.p;
         let mut u = *g;
         for i in 0..6 {
-            u[i] = first * at.gradient[i] + second * self.weighted_b[i];
+            u[i] = first * at.minor[i] + second * self.weighted_b[i];
         }
         for i in 0..6 {
             for j in i..6 {

@@ -15,11 +15,11 @@
 //! near one plane or beyond kappa_0. k_r rounds the cusp there: between kappa_0/2 and 2 kappa_0 moments are off by less than 0.5 % of EI
 //! kappa_0. The straight cable is an unstable equilibrium. f_0 within a few percent of 1: EA counts per length of the reference.
 //!
-//! *Tangent.* Exact beyond kappa_0; below, the compressive bending moment's geometric stiffness is left out, which keeps the step matrix
-//! definite and costs Newton iterations; all of it is in [`Cable::jacobians`](crate::Cable::jacobians). *Rejected.* A natural curvature with
+//! *Tangent.* Exact beyond kappa_0; below, the compressive bending moment's geometric stiffness across the curvature is left out, which keeps the step
+//! matrix definite and costs Newton iterations; all of it is in [`Cable::jacobians`](crate::Cable::jacobians). *Rejected.* A natural curvature with
 //! a direction: it needs the twist that this element does not have. Points of zero k_r: the tangent is infinite at the straight cable.
 
-use super::curvature::Point;
+use super::curvature::{NOISE, Point};
 use crate::Real;
 use crate::element::gram::{Six, Upper};
 use crate::error::{Error, require};
@@ -135,12 +135,13 @@ impl<T: Real> NaturalCurvature<T> {
             let square = at.w + self.rounding;
             let first = -(flexural * self.target * point.weight / square.sqrt());
             at.add_gradient(first, n);
-            at.add_square(first / square * -0.5, h);
-            // with the bending rule's own share: not below zero
+            // with the bending rule's own share not below zero: across the curvature, and along it
             let own = flexural * point.weight;
-            let kept = (first - own + (first + own).abs()) * 0.5;
-            at.add_gradient(kept, geometric);
-            point.add_second(g, &at, kept, h);
+            let positive = |x: T| (x + x.abs()) * 0.5 - own;
+            let (across, along) = (positive(first + own), positive(first * self.rounding / square + own));
+            at.add_gradient(across, geometric);
+            point.add_second(g, &at, across, h);
+            at.add_square((along - across) * 0.5 / (at.w + NOISE), h);
         }
     }
 }

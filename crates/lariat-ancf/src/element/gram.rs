@@ -22,7 +22,7 @@
 //!
 //! *Source.* Element: Bulin & Hajzman, "Various Strategies of Elastic Forces Evaluation in the ANCF"; Gerstmayr &
 //! Shabana 2006. That frame indifference reduces U to the Gram matrix is the first fundamental theorem of
-//! invariant theory for O(3) (Weyl 1946). *Validity.* Any element state; |r'| > 0 where a bending rule divides by it.
+//! invariant theory for O(3) (Weyl 1946). *Validity.* Any element state.
 //! *Rejected.* Shape-function matrices with 12x12 products (ten times the work), and tangents by finite differences
 //! (Chrono's choice; they fail where the element is straight, which is where these are exact).
 

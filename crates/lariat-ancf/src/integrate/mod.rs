@@ -13,6 +13,7 @@
 //! | [`esdirk3`], [`esdirk4`] | L-stable singly diagonally implicit Runge-Kutta | 3, 4 |
 //! | [`verlet`], [`rkn`] | symplectic explicit | 2, 4, 6 |
 
+mod backward_euler;
 pub mod dirk;
 pub mod drive;
 pub mod dynamics;

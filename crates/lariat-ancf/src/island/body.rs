@@ -1,10 +1,12 @@
 //! A rigid body as an island sees it.
 //!
 //! `m x'' = f`, `I omega' + omega x I omega = tau` about the centre of mass, f and tau constant over a step, in world axes.
+//! With a carried inertia C (6x6, symmetric, constant over a step) `(diag(m, I) + C) (x'', omega')` stands on the left: what a link of a
+//! mechanism feels of the links that it moves with. *Source.* Khatib 1987, the operational space inertia.
 
 use super::memory::BodyMemory;
 use crate::error::{Error, require, require_finite};
-use nalgebra::{Matrix3, UnitQuaternion, Vector3};
+use nalgebra::{Matrix3, Matrix6, UnitQuaternion, Vector3, Vector6};
 
 /// A rigid body. All vectors in world axes, SI units.
 #[derive(Clone, Debug, PartialEq)]
@@ -28,6 +30,9 @@ pub struct RigidBody {
     /// World axes along which forces move the body (x, y, z) and about which they turn it (x, y, z); along others it keeps its
     /// velocity. All false: a driven body.
     pub free: [bool; 6],
+    /// Inertia of what it moves with, beyond its own, about its centre of mass in world axes: velocity before angular velocity
+    /// (kg, kg m, kg m^2). Default: none.
+    pub carried: Option<Matrix6<f64>>,
     /// Whether the gyroscopic torque -omega x I omega acts (an engine may leave it out).
     pub gyroscopic: bool,
     /// What integrators carry from step to step; `None` if the state was not the result of a step.
@@ -55,6 +60,7 @@ impl RigidBody {
             force: Vector3::zeros(),
             torque: Vector3::zeros(),
             free: [true; 6],
+            carried: None,
             gyroscopic: true,
             memory: None,
         })
@@ -77,7 +83,18 @@ impl RigidBody {
         r * self.inertia * r.transpose()
     }
 
-    /// Kinetic energy in J.
+    /// Momentum and angular momentum about the centre of mass of what it carries, at velocity `v` and angular velocity `spin`.
+    pub(super) fn carried_momentum(
+        &self,
+        v: &Vector3<f64>,
+        spin: &Vector3<f64>,
+    ) -> Option<(Vector3<f64>, Vector3<f64>)> {
+        let carried = self.carried?;
+        let p = carried * Vector6::new(v.x, v.y, v.z, spin.x, spin.y, spin.z);
+        Some((p.fixed_rows::<3>(0).into_owned(), p.fixed_rows::<3>(3).into_owned()))
+    }
+
+    /// Kinetic energy in J, without that of what it carries.
     pub fn kinetic_energy(&self) -> f64 {
         let spin = self.world_inertia(&self.rotation) * self.angular_velocity;
         0.5 * (self.mass * self.velocity.norm_squared() + self.angular_velocity.dot(&spin))

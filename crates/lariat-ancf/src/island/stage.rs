@@ -239,6 +239,12 @@ impl Dynamics for Work<'_, '_> {
                 rhs[at + x] = body.mass * error[at + x];
                 rhs[at + 3 + x] = spin[x];
             }
+            if let Some((momentum, spin)) = body.carried_momentum(&vector(&error[at..]), &vector(&error[at + 3..])) {
+                for x in 0..3 {
+                    rhs[at + x] += momentum[x];
+                    rhs[at + 3 + x] += spin[x];
+                }
+            }
         }
         // attitudes at the start of the step are near enough for a filter
         let zero = core::mem::take(&mut self.workspace.zero);

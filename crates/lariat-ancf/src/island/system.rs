@@ -39,10 +39,14 @@ impl Work<'_, '_> {
             let inertia = body.world_inertia(&motion.rotation);
             let (theta, rate) = (vector(&q[at + 3..]), vector(&v[at + 3..]));
             let alpha = angular_acceleration(scale, &theta, &rate, &vector(&k[at + 3..]));
-            let force = body.force * scale - body.mass * vector(&k[at..]);
+            let mut force = body.force * scale - body.mass * vector(&k[at..]);
             let gyroscopic =
                 if body.gyroscopic { motion.spin.cross(&(inertia * motion.spin)) } else { Vector3::zeros() };
-            let torque = (body.torque - gyroscopic) * scale - inertia * alpha;
+            let mut torque = (body.torque - gyroscopic) * scale - inertia * alpha;
+            if let Some((momentum, spin)) = body.carried_momentum(&vector(&k[at..]), &alpha) {
+                force -= momentum;
+                torque -= spin;
+            }
             rhs[at..at + 3].copy_from_slice(force.as_slice());
             rhs[at + 3..at + 6].copy_from_slice(torque.as_slice());
         }
@@ -158,6 +162,11 @@ impl Work<'_, '_> {
                 add(6 * i + r, 6 * i + r, self.workspace.bodies[i].mass);
                 for c in 0..3 {
                     add(6 * i + 3 + r, 6 * i + 3 + c, inertia[(r, c)]);
+                }
+            }
+            if let Some(carried) = &self.workspace.bodies[i].carried {
+                for (r, c) in pairs(6) {
+                    add(6 * i + r, 6 * i + c, carried[(r, c)]);
                 }
             }
         }

@@ -27,6 +27,10 @@ pub const CLOSING_SPEED: f64 = 10.0;
 /// A slope shorter than this has no direction.
 const LEAST_SLOPE: f64 = 1e-9;
 
+/// Where the cosine between a slope and its clamp is below minus this, the slope is along the clamp and its stretch negative: limp cables
+/// are thrown inside out. Taken for a turn instead, half of one in a step, it made energy without bound.
+const INSIDE_OUT: f64 = 0.9;
+
 /// Buffers of one cable in an island.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct CableWork {
@@ -84,9 +88,10 @@ pub(crate) struct Workspace {
     pub velocity: Vec<f64>,
 }
 
-/// The direction of a slope; `otherwise` if it has none.
+/// The direction of a slope, on the side of `otherwise`, which it is if it has none: a stretch that passes through zero does not turn it.
 pub(super) fn direction(slope: &[f64], otherwise: &Vector3<f64>) -> Vector3<f64> {
-    vector(slope).try_normalize(LEAST_SLOPE).unwrap_or(*otherwise)
+    let d = vector(slope).try_normalize(LEAST_SLOPE).unwrap_or(*otherwise);
+    if d.dot(otherwise) < 0.0 { -d } else { d }
 }
 
 /// The vector that begins a slice.
@@ -133,7 +138,10 @@ impl Workspace {
             self.levers[pin.body] = self.levers[pin.body].max(pin.anchor.norm());
             self.clamps.push(pin.direction.map(|wanted| {
                 let slope = body.rotation.inverse() * vector(&cable.positions()[6 * pin.node + 3..]);
-                Clamp::new(slope.try_normalize(LEAST_SLOPE).unwrap_or(wanted), wanted, dt)
+                let has = slope.try_normalize(LEAST_SLOPE).unwrap_or(wanted);
+                // a stretch below zero is the slope's, not a turn to be undone
+                let has = if has.dot(&wanted) < -INSIDE_OUT { -has } else { has };
+                Clamp::new(has, wanted, dt)
             }));
         }
         self.start = cables[0].time();

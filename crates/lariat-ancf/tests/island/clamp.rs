@@ -194,3 +194,40 @@ fn a_clamp_turns_a_slope_into_its_direction() {
     scene.run(1.0 / 60.0, 10);
     assert!(turned(&scene, 0) < 1e-12);
 }
+
+/// Two bodies, clamped to the ends of a rope without bending stiffness, run at each other and past: the ends of the rope are thrown
+/// inside out, their tangents against their clamps. Energy and angular momentum stay.
+///
+/// *Source.* Conservation laws: a stretch that passes through zero is no turn.
+#[test]
+fn a_stretch_that_passes_through_zero_at_a_clamp_makes_no_energy() {
+    let limp = Section::from_stiffness(100.0, 0.0, 0.1).unwrap();
+    let ends = [0.0, 1.0].map(|x| {
+        let mut body = RigidBody::new(1.0, Matrix3::from_diagonal_element(0.01), Vector3::new(x, 0.0, 0.0)).unwrap();
+        body.velocity = Vector3::new(3.0 - 6.0 * x, 0.2 * x, 0.0);
+        body.angular_velocity = Vector3::new(0.0, 0.0, 1.0 - 3.0 * x);
+        body
+    });
+    let mut scene = Scene::new(vec![bar(limp)], ends.to_vec(), fine()).clamp(0, At::Start, 0, Vector3::zeros()).clamp(
+        0,
+        At::End,
+        1,
+        Vector3::zeros(),
+    );
+    let turning = scene.momentum().1;
+    // the ends of the rope, at rest, meet their bodies as in an inelastic impact
+    scene.run(1.0 / 240.0, 1);
+    let start = scene.energy();
+    let mut inside_out = 0;
+    for _ in 0..120 {
+        scene.run(1.0 / 240.0, 1);
+        for p in &scene.pins {
+            let q = &scene.cables[0].positions()[6 * p.node + 3..6 * p.node + 6];
+            let along = scene.bodies[p.body].rotation * p.direction.unwrap();
+            inside_out += usize::from(Vector3::from_column_slice(q).dot(&along) < 0.0);
+        }
+        assert!((scene.energy() - start).abs() < 1e-5 * start, "{} J of {start} J", scene.energy() - start);
+    }
+    assert!(inside_out > 5, "the ends were never inside out");
+    assert!((scene.momentum().1 - turning).norm() < 1e-6, "{:?} {turning:?}", scene.momentum().1);
+}

@@ -12,3 +12,4 @@ mod pins;
 mod reference;
 mod shapes;
 mod spin;
+mod thrown;
