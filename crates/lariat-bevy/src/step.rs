@@ -35,7 +35,8 @@ fn begin(world: &mut World) -> Result<(), lariat_rapier::Error> {
 
 /// Begins a host step that is one Rapier step.
 pub(crate) fn begin_one(world: &mut World) {
-    world.resource_mut::<Cables>().set.settings.rapier_steps = 1;
+    let mut cables = world.resource_mut::<Cables>();
+    (cables.set.settings.rapier_steps, cables.set.settings.most_rapier_steps) = (1, 1);
     if let Err(error) = begin(world) {
         refuse(&mut world.resource_mut::<Cables>(), error);
     }

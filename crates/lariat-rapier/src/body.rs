@@ -98,6 +98,7 @@ pub(crate) fn read(
             turns[1] && turnable,
             turns[2] && turnable,
         ],
+        carried: None,
         gyroscopic: body.gyroscopic_forces_enabled(),
         memory: None,
     };

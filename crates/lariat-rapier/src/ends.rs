@@ -7,11 +7,13 @@ use ::nalgebra::{Matrix3, UnitQuaternion, Vector3};
 use lariat_ancf::island::{CLOSING_SPEED, RigidBody};
 use lariat_ancf::{At, Motion};
 use rapier::dynamics::{RigidBodyHandle, RigidBodyType};
-use rapier::math::Real;
 use rapier::pipeline::PhysicsWorld;
 
 /// An anchor nearer than this to where it was, in m, has not moved.
 const STILL: f64 = 1e-12;
+
+/// Greatest turn of a body in a Rapier step, in rad, unless it is allowed to turn faster.
+const MOST_TURN: f64 = core::f64::consts::FRAC_PI_4;
 
 /// Place and attitude of a body now.
 fn pose(world: &PhysicsWorld, body: RigidBodyHandle) -> (Vector3<f64>, UnitQuaternion<f64>) {
@@ -27,12 +29,33 @@ fn pose_after(world: &PhysicsWorld, handle: RigidBodyHandle, h: f64) -> (Vector3
         RigidBodyType::KinematicPositionBased => {
             (vector(body.next_position().translation), rotation(body.next_position().rotation))
         }
-        RigidBodyType::KinematicVelocityBased => {
-            let next = body.predict_position_using_velocity(h as Real);
-            (vector(next.translation), rotation(next.rotation))
-        }
+        RigidBodyType::KinematicVelocityBased => moved(world, handle, h),
         _ => pose(world, handle),
     }
+}
+
+/// Place and attitude of a kinematic body after Rapier moved it by its velocity for `h` (s): Rapier turns it by a linearised rotation in
+/// each substep, by at most [`MOST_TURN`] in a step, and no faster than its greatest velocity.
+fn moved(world: &PhysicsWorld, handle: RigidBodyHandle, h: f64) -> (Vector3<f64>, UnitQuaternion<f64>) {
+    let body = &world.bodies[handle];
+    let parameters = &world.integration_parameters;
+    let substeps = parameters.num_solver_iterations.max(1);
+    let (mut velocity, mut spin) = (vector(body.linvel()), vector(body.angvel()));
+    let (most, fastest) = (f64::from(parameters.max_linear_velocity()), velocity.norm());
+    if fastest > most {
+        velocity *= most / fastest;
+    }
+    if !body.is_fast_rotation_allowed() && spin.norm() * h > MOST_TURN {
+        spin *= MOST_TURN / (h * spin.norm());
+    }
+    // (1 + t/2) normalised is a turn by 2 atan(|t|/2)
+    let half = 0.5 * spin.norm() * h / substeps as f64;
+    let turn = spin.try_normalize(0.0).map_or_else(Vector3::zeros, |axis| axis * (2.0 * half.atan() * substeps as f64));
+    let attitude = UnitQuaternion::from_scaled_axis(turn) * rotation(*body.rotation());
+    // Rapier's place of the centre may be that of the last step
+    let local = vector(body.local_center_of_mass());
+    let centre = vector(body.translation()) + rotation(*body.rotation()) * local + velocity * h;
+    (centre - attitude * local, attitude)
 }
 
 /// A body that feels nothing as an island sees it: its origin and attitude, with the uniform motion of the coming step.
@@ -41,7 +64,10 @@ pub(crate) fn driven(world: &PhysicsWorld, handle: RigidBodyHandle, h: f64) -> R
     let mut body = RigidBody::new(1.0, Matrix3::identity(), place)?;
     body.rotation = attitude;
     body.velocity = (to - place) / h;
-    body.angular_velocity = (turned * attitude.inverse()).scaled_axis() / h;
+    // of one that stands still rounding makes no spin
+    if turned != attitude {
+        body.angular_velocity = (turned * attitude.inverse()).scaled_axis() / h;
+    }
     body.free = [false; 6];
     Ok(body)
 }

@@ -2,8 +2,9 @@
 
 use crate::body::{Exact, Remembered};
 use crate::convert::{rotation, to_vector, vector};
-use crate::impedance;
 use crate::islands::Given;
+use crate::linkage::Linkage;
+use crate::{impedance, linkage};
 use ::nalgebra::Vector3;
 use lariat_ancf::island::RigidBody;
 use rapier::dynamics::RigidBodyHandle;
@@ -19,11 +20,13 @@ const SUBSTEPS: usize = 4;
 /// ... and its velocities within this many times more: Rapier adds up forces that balance.
 const VELOCITY_ROUNDING: f64 = 8.0;
 
-/// Makes Rapier move the body uniformly from where it is to where `end` is, in `h` (s).
+/// Makes Rapier move the body uniformly from where it is to where `end` is, in `h` (s). One that moves with others is struck instead of
+/// being given a velocity.
 pub(crate) fn give(
     world: &mut PhysicsWorld,
     handle: RigidBodyHandle,
-    end: &RigidBody,
+    (start, end): (&RigidBody, &RigidBody),
+    linkage: Option<&Linkage>,
     memory: &Remembered,
     h: f64,
 ) -> Given {
@@ -50,16 +53,26 @@ pub(crate) fn give(
         linear_damping: body.linear_damping(),
         angular_damping: body.angular_damping(),
     };
-    let balance = -to_vector(&memory.force) - gravity * (mass * body.gravity_scale());
+    // joints bear what the body does not move by
+    let learnt = linkage::both(&memory.force, &memory.torque);
+    let learnt = if linkage.is_some() { linkage::moving(end, &learnt) } else { learnt };
+    let (force, torque) = linkage::halves(&learnt);
+    let balance = -to_vector(&force) - gravity * (mass * body.gravity_scale());
     body.reset_forces(false);
     body.reset_torques(false);
     body.add_force(balance, false);
-    body.add_torque(-to_vector(&memory.torque), false);
+    body.add_torque(-to_vector(&torque), false);
     body.enable_gyroscopic_forces(false);
     body.set_linear_damping(0.0);
     body.set_angular_damping(0.0);
-    body.set_linvel(linvel, false);
-    body.set_angvel(angvel, false);
+    if let Some(linkage) = linkage {
+        let wanted = linkage::both(&vector(linvel), &vector(angvel));
+        let change = wanted - linkage::both(&start.velocity, &start.angular_velocity);
+        linkage::strike(world, handle, linkage, &(linkage::inertia(start) * change));
+    } else {
+        body.set_linvel(linvel, false);
+        body.set_angvel(angvel, false);
+    }
     given
 }
 
@@ -75,7 +88,10 @@ fn restore(body: &mut rapier::dynamics::RigidBody, given: &Given) {
 }
 
 /// Undoes [`give`]: the body is as it was.
-pub(crate) fn take_back(world: &mut PhysicsWorld, handle: RigidBodyHandle, given: &Given) {
+pub(crate) fn take_back(world: &mut PhysicsWorld, handle: RigidBodyHandle, linkage: Option<&Linkage>, given: &Given) {
+    if let Some(linkage) = linkage {
+        linkage::take_back(world, handle, linkage);
+    }
     let body = &mut world.bodies[handle];
     restore(body, given);
     body.set_linvel(given.own_linvel, false);
@@ -99,11 +115,14 @@ pub(crate) fn settle(
     world: &mut PhysicsWorld,
     handle: RigidBodyHandle,
     end: &RigidBody,
-    given: &Given,
+    (given, linkage): (&Given, Option<&Linkage>),
     memory: &mut Remembered,
     (impulse, couple): (Vector3<f64>, Vector3<f64>),
     h: f64,
 ) -> bool {
+    if linkage.is_some() {
+        linkage::refresh(world, handle);
+    }
     let body = &mut world.bodies[handle];
     restore(body, given);
     if body.local_center_of_mass() != given.centre {
@@ -137,14 +156,32 @@ pub(crate) fn settle(
         let t = share(turn.norm(), (end.angular_velocity - spin_before).norm(), spin_before.norm());
         (after + (end.velocity - before) * s, spin_after + (end.angular_velocity - spin_before) * t)
     };
-    let (velocity, spin) = (velocity * still.0, spin * still.1);
-    let inertia = end.world_inertia(&end.rotation);
     let moved = (vector(body.center_of_mass()) - end.position) / h;
     let turned = (rotation(*body.rotation()) * end.rotation.inverse()).scaled_axis() / h;
     // what motors did is not a reaction; but in a chain of joints they work against each other, and settle on a wrong force without
     let (impulse, couple) = if given.linked { (Vector3::zeros(), Vector3::zeros()) } else { (impulse, couple) };
-    memory.force += LEARNING * (end.mass * (deviation + moved) - impulse) / h;
-    memory.torque += LEARNING * (inertia * (turn + turned) - couple) / h;
+    let reaction = linkage::inertia(end) * linkage::both(&(deviation + moved), &(turn + turned));
+    // a solver that has not converged moves a chain along held axes too: nothing to be learnt
+    let reaction = match linkage {
+        Some(Linkage::Chain(_)) => linkage::moving(end, &reaction),
+        _ => reaction,
+    };
+    let (force, torque) = linkage::halves(&reaction);
+    memory.force += LEARNING * (force - impulse) / h;
+    memory.torque += LEARNING * (torque - couple) / h;
+    if let Some(linkage) = linkage {
+        let change = linkage::both(&(velocity - after), &(spin - spin_after));
+        linkage::strike(world, handle, linkage, &(linkage::inertia(end) * change));
+        let body = &mut world.bodies[handle];
+        if let Linkage::Chain(_) = linkage {
+            // Rapier damps no links
+            body.set_linvel(to_vector(&(vector(body.linvel()) * still.0)), false);
+            body.set_angvel(to_vector(&(vector(body.angvel()) * still.1)), false);
+        }
+        memory.exact = None;
+        return true;
+    }
+    let (velocity, spin) = (velocity * still.0, spin * still.1);
     body.set_linvel(to_vector(&velocity), false);
     body.set_angvel(to_vector(&spin), false);
     memory.exact = landed.then(|| Exact {

@@ -8,6 +8,7 @@
 use crate::attachment::{Attachment, Ledger};
 use crate::convert::{to_pose, to_vector, vector};
 use crate::islands::IslandStep;
+use crate::linkage;
 use ::nalgebra::{DMatrix, Matrix3, UnitQuaternion, Vector3};
 use lariat_ancf::island::RigidBody;
 use rapier::dynamics::{GenericJointBuilder, JointAxesMask, JointAxis, MotorModel, RigidBodyBuilder, RigidBodyHandle};
@@ -26,23 +27,33 @@ const AXES: [JointAxis; 3] = [JointAxis::LinX, JointAxis::LinY, JointAxis::LinZ]
 /// has to feel the cable meanwhile. One that is joined to a fixed body does better without: Rapier's joint yields to the motors, and
 /// leaves a gap of 1e-2 m at 5 kN where it leaves 4e-6 m without.
 pub(crate) fn may_meet_something(world: &PhysicsWorld, handle: RigidBodyHandle) -> bool {
-    let touches =
-        world.bodies[handle].colliders().iter().any(|&c| world.narrow_phase.contact_pairs_with(c).next().is_some());
-    touches || is_linked(world, handle)
+    touches(world, handle) || is_linked(world, handle)
+}
+
+/// Whether a body is near another. Rapier keeps the pairs of a collider that was removed until its next step.
+pub(crate) fn touches(world: &PhysicsWorld, handle: RigidBodyHandle) -> bool {
+    world.bodies[handle].colliders().iter().any(|&c| {
+        let mut pairs = world.narrow_phase.contact_pairs_with(c);
+        pairs.any(|pair| [pair.collider1, pair.collider2].iter().all(|c| world.colliders.contains(*c)))
+    })
+}
+
+/// Whether a body is the heavy end of an attachment's motors, and none of the user's.
+pub(crate) fn is_ledger(body: &rapier::dynamics::RigidBody) -> bool {
+    f64::from(body.mass()) >= 0.5 * LEDGER_MASS
 }
 
 /// Whether a body is a link of a multibody, or joined to a dynamic body.
 pub(crate) fn is_linked(world: &PhysicsWorld, handle: RigidBodyHandle) -> bool {
-    let dynamic = |b: RigidBodyHandle| {
-        b != handle && world.bodies.get(b).is_some_and(|b| b.is_dynamic() && f64::from(b.mass()) < 0.5 * LEDGER_MASS)
-    };
+    let dynamic =
+        |b: RigidBodyHandle| b != handle && world.bodies.get(b).is_some_and(|b| b.is_dynamic() && !is_ledger(b));
     world.multibody_joints.rigid_body_link(handle).is_some()
         || world.impulse_joints.attached_enabled_joints(handle).any(|(a, b, _, _)| dynamic(a) || dynamic(b))
 }
 
 /// Whether a body is near no other, and no joint holds it but to a ledger.
 pub(crate) fn is_alone(world: &PhysicsWorld, handle: RigidBodyHandle) -> bool {
-    let ledger = |b: RigidBodyHandle| world.bodies.get(b).is_some_and(|b| f64::from(b.mass()) >= 0.5 * LEDGER_MASS);
+    let ledger = |b: RigidBodyHandle| world.bodies.get(b).is_some_and(is_ledger);
     let held = world.impulse_joints.attached_joints(handle).any(|(a, b, _, _)| !ledger(a) && !ledger(b));
     !held && !may_meet_something(world, handle)
 }
@@ -83,6 +94,15 @@ pub(crate) fn driving_point(island: &IslandStep, body: usize) -> Vec<(usize, Mat
 /// Velocity at one point of a body per impulse at another, in 1/kg.
 fn mobility(body: &RigidBody, a: &Vector3<f64>, b: &Vector3<f64>) -> Matrix3<f64> {
     let (ra, rb) = (body.rotation * a, body.rotation * b);
+    if body.carried.is_some()
+        && let Some(mobility) = linkage::inertia(body).try_inverse()
+    {
+        let mut out = Matrix3::zeros();
+        let at = |r: usize, c: usize| mobility.fixed_view::<3, 3>(3 * r, 3 * c).into_owned();
+        out += at(0, 0) + at(0, 1) * rb.cross_matrix();
+        out -= ra.cross_matrix() * (at(1, 0) + at(1, 1) * rb.cross_matrix());
+        return out;
+    }
     let mass = if body.mass > 0.0 { body.mass } else { JUNCTION_MASS };
     let masked = Matrix3::from_diagonal(&Vector3::from_fn(|i, _| f64::from(u8::from(body.free[i])) / mass));
     let mut inverse = body.world_inertia(&body.rotation).try_inverse().unwrap_or_else(Matrix3::zeros);

@@ -6,6 +6,7 @@
 use crate::attachment::Attachment;
 use crate::body::is_integrated;
 use crate::convert::vector;
+use crate::linkage::Linkage;
 use crate::set::{CableSet, Slot};
 use crate::{CableHandle, Error};
 use ::nalgebra::Vector3;
@@ -65,6 +66,8 @@ pub(crate) struct IslandStep {
     /// Members before the step, and as predicted at its end.
     pub start: Vec<RigidBody>,
     pub bodies: Vec<RigidBody>,
+    /// By member, what it moves with.
+    pub linkages: Vec<Option<Linkage>>,
     /// The cables before the step.
     pub before: Vec<State>,
     /// By member, what Rapier was given.

@@ -38,10 +38,11 @@
 //!    whatever Rapier's settings. A body near others also gets an impedance: a motor per pin to a heavy *ledger* body, of
 //!    damping D/h in the axes of D, the pin's block of (C + B')^-1, with C the cable's compliance over the step and B' the mobility
 //!    of the bodies (the body's own scaled by 0.1). If the prediction was right the motors do nothing; if a contact or a joint
-//!    makes the body deviate, it feels the cable within the same step.
+//!    makes the body deviate, it feels the cable within the same step. A body that joints hold is predicted with the inertia of all that it
+//!    moves with, and struck together with it instead of being given a velocity (`linkage`).
 //! 3. **Reconcile.** A body that landed where predicted keeps its predicted state in `f64`: Rapier's single precision never shakes a
 //!    stiff cable. For one that deviated, p, the motors' impulse, is read from the ledger; the cable gets it back,
-//!    `dv = -A^-1 J^T p`, `dx = h dv`; the reaction learns from what velocity and place deviate by,
+//!    `dv = -A^-1 J^T p`, `dx = h dv`, less where that would make energy; the reaction learns from what velocity and place deviate by,
 //!    `r += 0.3 (m (v_after - v0) + m (x_after - x1)/h - p)/h` (without p for links of a chain); the gap that is left closes
 //!    during the next prediction.
 //!
@@ -54,8 +55,8 @@
 //!
 //! *Tried and failed* (measured before): explicit staggering (blows up for light bodies and steel), impulses of cable and free
 //! body (contacts break it), prescribing the body's motion with full debt (blows up), motors alone (gaps in jams), rolling Rapier
-//! back (four times the cost, still fails in jams). Here: learning from velocity alone, as the scheme had it (an arm of three joints hangs
-//! on its rope by 12.0 N instead of 14.7); learning without taking p away, for bodies
+//! back (four times the cost, still fails in jams). Here: links and bodies on joints as free ones that learn the inertia of their
+//! mechanism as a force (an arm rings and gains energy); learning without taking p away, for bodies
 //! in contact (1 to 5 kg on a steel wire leave a jam when the host step is not split); motors on a body that a joint holds to the
 //! world (a gap of 1e-2 m at 5 kN; 4e-6 m without).
 //!
@@ -65,9 +66,9 @@
 //!   tension when it is taut, with any integrator. Give it damping ([`lariat_ancf::Damping`]), or an integrator that damps.
 //! - Jams want a cable that damps: generalised-alpha-0 at 1/480 s holds 5 kN on a 1 kg box to 0.02 %. The default, ESDIRK4, hardly
 //!   damps, and lets a steel wire of 3 mm ring by 70 N on it.
-//! - Rapier's impulse joints correct places without velocities, which no prediction knows of: the pull on the tip of an arm of three
-//!   joints is off by up to 12 % with 4 solver iterations, 3 % with 16. A multibody is exact, but where its joints are at their limits: they
-//!   chatter, 12 to 18 N where 14.7 hang.
+//! - Limits of multibody joints chatter: 9 to 18 N where 14.7 hang on the tip of an arm, and with one solver iteration worse. Rapier does
+//!   not say what such a limit pushes with. Impulse joints do, and hold; but not an arm of them at its limits at host steps of 1/30 s with few
+//!   solver iterations, whose steps may be refused (docs/stability.md).
 //! - A cable is smooth at a node: bent sharply over a hook, its tension wavers near it; tie two cables with [`CableSet::join`].
 //! - Where a user sets the velocity of a kinematic body anew at every host step, the work of a clamp on it is some per cent short of the
 //!   energy that the cable gains: what passes in the jumps is only approximately known.
@@ -89,10 +90,12 @@ mod impedance;
 mod islands;
 mod junction;
 mod lend;
+mod linkage;
 mod predict;
 mod reconcile;
 mod rest;
 mod set;
+mod split;
 mod step;
 mod totals;
 

@@ -3,7 +3,9 @@
 use crate::body;
 use crate::islands::{IslandStep, Member};
 use crate::set::{CableSet, Slot};
-use crate::{CableHandle, Error, ends, hand_over, impedance};
+use crate::{CableHandle, Error, ends, hand_over, impedance, linkage};
+use ::nalgebra::{Vector3, Vector6};
+use lariat_ancf::island::RigidBody;
 use lariat_ancf::{Cable, Integrator, StepControl};
 use rapier::pipeline::PhysicsWorld;
 
@@ -79,7 +81,9 @@ impl CableSet {
             match member {
                 Member::Body(handle) if !world.bodies[*handle].is_sleeping() => {
                     let remembered = self.remember(*handle);
-                    given = Some(hand_over::give(world, *handle, &island.bodies[i], remembered, h));
+                    let (start, end) = (&island.start[i], &island.bodies[i]);
+                    let linkage = island.linkages[i].as_ref();
+                    given = Some(hand_over::give(world, *handle, (start, end), linkage, remembered, h));
                 }
                 Member::Junction(j) => {
                     if let Some(junction) = &mut self.junctions[*j] {
@@ -93,13 +97,41 @@ impl CableSet {
         self.set_motors(world, island, h)
     }
 
+    /// Force and torque on a member as its cables pulled at the end of the last step, with its own.
+    fn load(&self, island: &IslandStep, member: usize, body: &RigidBody) -> Vector6<f64> {
+        let mut load = linkage::both(&body.force, &body.torque);
+        for (pin, index) in island.pins.iter().zip(&island.attachments).filter(|(pin, _)| pin.body == member) {
+            if let Some(a) = index.and_then(|i| self.attachments[i].as_ref()) {
+                let torque = (body.rotation * pin.anchor).cross(&a.account.force) + a.account.moment;
+                load += linkage::both(&a.account.force, &torque);
+            }
+        }
+        load
+    }
+
     /// Members as they are when the step begins.
     fn read_members(&mut self, world: &PhysicsWorld, island: &mut IslandStep, h: f64) -> Result<(), Error> {
         let time = self.cables[island.cables[0]].as_ref().map_or(0.0, |s| s.cable.time());
+        let substep = h / world.integration_parameters.num_solver_iterations.max(1) as f64;
         island.start.clear();
-        for member in &island.members {
+        island.linkages.clear();
+        for (m, member) in island.members.iter().enumerate() {
+            let mut linkage = None;
             let body = match member {
-                Member::Body(handle) => body::read(world, *handle, self.remember(*handle), time)?,
+                Member::Body(handle) => {
+                    let remembered = self.remember(*handle);
+                    let learnt = remembered.force != Vector3::zeros() || remembered.torque != Vector3::zeros();
+                    if learnt && impedance::is_alone(world, *handle) {
+                        // what it met is gone
+                        (remembered.force, remembered.torque) = Default::default();
+                    }
+                    let mut body = body::read(world, *handle, remembered, time)?;
+                    let load = self.load(island, m, &body);
+                    let found = linkage::find(world, *handle, &body, &load, substep);
+                    body.carried = found.as_ref().map(|(_, carried)| *carried);
+                    linkage = found.map(|(linkage, _)| linkage);
+                    body
+                }
                 Member::Driven(handle) => ends::driven(world, *handle, h)?,
                 Member::Junction(j) => {
                     let junction = self.junctions[*j].as_ref().expect("islands are found anew when one ends");
@@ -107,6 +139,7 @@ impl CableSet {
                 }
             };
             island.start.push(body);
+            island.linkages.push(linkage);
         }
         island.bodies.clear();
         island.bodies.extend_from_slice(&island.start);
@@ -188,11 +221,13 @@ impl CableSet {
 
 /// Gives the bodies of an island back what they were given in place of.
 fn take_back(world: &mut PhysicsWorld, island: &IslandStep) {
-    for (member, given) in island.members.iter().zip(&island.given) {
+    let given = island.members.iter().zip(&island.given).zip(&island.linkages);
+    // the last that was given first: of a mechanism, the first knows how it was
+    for ((member, given), linkage) in given.rev() {
         if let (Member::Body(handle), Some(given)) = (member, given)
             && world.bodies.contains(*handle)
         {
-            hand_over::take_back(world, *handle, given);
+            hand_over::take_back(world, *handle, linkage.as_ref(), given);
         }
     }
 }

@@ -70,7 +70,8 @@ impl CableSet {
                 total.0 += p;
                 total.1 += (end.rotation * pin.anchor).cross(p);
             }
-            let deviated = hand_over::settle(world, *handle, end, given, self.remember(*handle), total, h);
+            let linkage = island.linkages[b].as_ref();
+            let deviated = hand_over::settle(world, *handle, end, (given, linkage), self.remember(*handle), total, h);
             if !deviated {
                 for (_, p) in island.pins.iter().zip(&mut island.impulses).filter(|(p, _)| p.body == b) {
                     *p = Vector3::zeros();

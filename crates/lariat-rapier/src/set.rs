@@ -20,15 +20,23 @@ pub struct CableHandle(pub(crate) u32);
 /// How a set steps.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Settings {
-    /// Rapier steps per host step. Default 4: as accurate in free flight as one, and far better in contact.
+    /// Rapier steps per host step, at least. Default 4: as accurate in free flight as one, and far better in contact.
     pub rapier_steps: u32,
+    /// Rapier steps per host step at most: where a light body near others hangs on a stiff, taut cable, `rapier_steps` are too few, and
+    /// as many are taken as the body's vibration on its cables needs. Default 32; `rapier_steps` or less: never more than those.
+    #[serde(default = "most_rapier_steps")]
+    pub most_rapier_steps: u32,
     /// Cables and bodies on them that are slower than this, in m/s, may sleep, if their forces are steady. Default 2e-3; 0: never.
     pub sleep_speed: f64,
 }
 
+fn most_rapier_steps() -> u32 {
+    32
+}
+
 impl Default for Settings {
     fn default() -> Self {
-        Settings { rapier_steps: 4, sleep_speed: 2e-3 }
+        Settings { rapier_steps: 4, most_rapier_steps: most_rapier_steps(), sleep_speed: 2e-3 }
     }
 }
 

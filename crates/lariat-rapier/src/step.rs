@@ -80,7 +80,7 @@ impl CableSet {
     pub fn begin(&mut self, world: &mut PhysicsWorld) -> Result<HostStep, Error> {
         let dt = world.integration_parameters.dt;
         let moves = self.moves_on(dt)?;
-        let steps = if moves { self.settings.rapier_steps.max(1) } else { 1 };
+        let steps = if moves { self.parts(world, f64::from(dt)) } else { 1 };
         let mut targets = Vec::new();
         if moves {
             self.events.clear();
