@@ -8,7 +8,7 @@ use lariat_lab::stability::run_recipe;
 use proptest::prelude::*;
 use proptest::test_runner::{FileFailurePersistence, RngSeed};
 
-/// The first hundred of the scenes of `lariat stability`: no energy made beyond the work put in, momentum kept where nothing external
+/// The first three hundred of the scenes of `lariat stability`: no energy made beyond the work put in, momentum kept where nothing external
 /// acts, gaps closed; but for those that docs/stability.md lists.
 ///
 /// *Source.* Conservation laws; the contract.

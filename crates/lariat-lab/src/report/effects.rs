@@ -2,7 +2,7 @@
 //!
 //! One cable of 64 elements, bent and moving, one thread; the trapezoidal rule at a step so short that Newton ends after one iteration
 //! with a fresh tangent, or a second with the same factors. Times are of bursts of calls from the same state; counts are exact and the
-//! same on every machine.
+//! same on every machine. A flow of a program is sampled before each step, within its time.
 
 use super::section::{Cell, Format, Section, Table, both, raw};
 use super::{Bench, clock::Timing};
@@ -20,6 +20,9 @@ const STEP: f64 = 1e-7;
 const ELEMENTS: usize = 64;
 /// Calls from one reading of the clock to the next.
 const CALLS: usize = 64;
+
+/// The case whose flow is read from a program at every node before the step.
+const SAMPLED: &str = "drag, flow of a program";
 
 /// Name, rule and effects of the cases.
 fn cases() -> Vec<(&'static str, &'static str, Effects)> {
@@ -51,6 +54,7 @@ fn cases() -> Vec<(&'static str, &'static str, Effects)> {
         ("damping, axial and bending", "projected-3", damping(1e-3, 1e-3)),
         ("drag", "projected-3", drag(flow)),
         ("drag, power-law wind", "projected-3", drag(wind)),
+        (SAMPLED, "projected-3", drag(Flow::default())),
         ("buoyancy", "projected-3", buoyancy),
         ("rest shape: stretch", "projected-3", rest(RestShape::stretched(0.999))),
         ("rest shape: curvature", "projected-3", rest(RestShape::curved(0.1))),
@@ -102,7 +106,13 @@ fn row(bench: &Bench<'_>, name: &str, cable: &mut Cable) -> Result<Vec<Cell>, Er
         Ok(())
     })?;
     cable.diagnostics_mut().reset();
-    let step = time(bench, cable, |cable| Ok(cable.step(black_box(STEP))?))?;
+    let sampled = name == SAMPLED;
+    let step = time(bench, cable, |cable| {
+        if sampled {
+            cable.sample_flow(|place| Vector3::new(1.0, 0.1 * place.x, 0.2))?;
+        }
+        Ok(cable.step(black_box(STEP))?)
+    })?;
     let d = *cable.diagnostics();
     let per_step = |n: u64| Cell::from(n as f64 / d.steps.max(1) as f64);
     let mut row = vec![Cell::from(name), cable.rule().to_string().into()];

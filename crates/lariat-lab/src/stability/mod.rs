@@ -121,7 +121,12 @@ pub struct Job {
 }
 
 /// Random scenes that every change must pass.
-const QUICK_SCENES: usize = 100;
+const QUICK_SCENES: usize = 300;
+
+/// Names of the cases of a family, by their place.
+pub fn names(family: Family) -> Vec<String> {
+    single::cases::of(family).into_iter().map(|case| case.name).collect()
+}
 
 /// Every run of a family: all hosts, those with effects, and the rivals (single precision, 4 iterations).
 pub fn jobs(family: Family) -> Vec<Job> {

@@ -3,7 +3,8 @@
 use indicatif::ProgressBar;
 use lariat_lab::Error;
 use lariat_lab::stability::outcome::Row;
-use lariat_lab::stability::{Family, jobs, quick_jobs, report, run_all};
+use lariat_lab::stability::{Family, Job, jobs, names, quick_jobs, report, run_all};
+use std::collections::BTreeMap;
 use std::path::PathBuf;
 use std::time::Duration;
 
@@ -22,6 +23,17 @@ pub struct Arguments {
     /// Only this family; may be given many times
     #[arg(long, value_name = "NAME")]
     family: Vec<Family>,
+    /// Only cases whose name contains this text; may be given many times
+    #[arg(long, value_name = "TEXT")]
+    case: Vec<String>,
+}
+
+impl Arguments {
+    /// Whether a run is asked for.
+    fn wants(&self, names: &BTreeMap<Family, Vec<String>>, job: &Job) -> bool {
+        let name = names.get(&job.family).and_then(|names| names.get(job.case));
+        self.case.is_empty() || name.is_some_and(|name| self.case.iter().any(|text| name.contains(text)))
+    }
 }
 
 /// Runs them and writes the tables.
@@ -31,7 +43,9 @@ pub fn measure(arguments: &Arguments) -> Result<String, Error> {
     std::fs::create_dir_all(out).map_err(failed)?;
     let families = if arguments.family.is_empty() { Family::ALL.to_vec() } else { arguments.family.clone() };
     let pick = if arguments.quick { quick_jobs } else { jobs };
-    let jobs: Vec<_> = families.iter().flat_map(|family| pick(*family)).collect();
+    let names: BTreeMap<_, _> = families.iter().map(|family| (*family, names(*family))).collect();
+    let jobs: Vec<_> =
+        families.iter().flat_map(|family| pick(*family)).filter(|job| arguments.wants(&names, job)).collect();
     let first: Vec<_> = families.iter().flat_map(|family| quick_jobs(*family)).collect();
     let bar = ProgressBar::new(jobs.len() as u64);
     let done = |row: &Row| {
@@ -56,6 +70,9 @@ pub fn measure(arguments: &Arguments) -> Result<String, Error> {
     }
     for family in &arguments.family {
         command += &format!(" --family {}", family.name());
+    }
+    for case in &arguments.case {
+        command += &format!(" --case {case:?}");
     }
     let cpu: f64 = rows.iter().map(|r| r.seconds).sum();
     let machine = format!(

@@ -102,15 +102,20 @@ impl Stage {
         self.set.iter().map(|(_, c)| c.account().damping + c.account().drag.max(0.0)).sum()
     }
 
-    /// What the weight of all that moves does over 1 mm, in J.
-    fn least_scale(&self) -> f64 {
+    /// Mass of all that moves, bodies and cables, in kg.
+    pub fn mass(&self) -> f64 {
         let bodies = self.world.bodies.iter().filter(|(_, b)| b.is_dynamic()).map(|(_, b)| f64::from(b.mass()));
         // ledgers are no bodies of the scene
         let bodies: f64 = bodies.filter(|mass| *mass < 1e8).sum();
         let of =
             |c: &lariat_ancf::Cable| c.elements().iter().map(|e| e.length * e.section.mass_per_length).sum::<f64>();
         let cables: f64 = self.set.iter().map(|(_, c)| of(c)).sum();
-        9.81e-3 * (bodies + cables)
+        bodies + cables
+    }
+
+    /// What the weight of all that moves does over 1 mm, in J.
+    fn least_scale(&self) -> f64 {
+        9.81e-3 * self.mass()
     }
 
     /// Whether everything is a number.
