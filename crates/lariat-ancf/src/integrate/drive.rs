@@ -13,7 +13,9 @@
 //! only steps with more iterations were asked, and none was backward Euler's.
 //!
 //! A step that fails (Newton, a pivot, a number that is not finite) is retried at 1/4 of its length down to H/2^20; then the drive
-//! stops, and the phase is the last good one, restored to the beginning of the host step by the caller.
+//! stops, and the phase is the last good one, restored to the beginning of the host step by the caller. The steps after one that failed are at
+//! most half as long, and 1.2 times that with every step: error control knows nothing of Newton and would try the same length at once.
+//! *Measured.* `lariat stability --case "hanging 1e4"`, 1/30 s with effects: 988 of 5466 steps rejected; 3889 of 9227 without this bound.
 
 use super::fidelity::StepControl;
 use super::method::{Method, Stepper};
@@ -47,6 +49,11 @@ const BRISK: f64 = 1e-3;
 const BRISK_SHARE: f64 = 0.25;
 /// After a step that made energy, steps below the regular one times this are backward Euler's.
 const EULER_BELOW: f64 = 1.0 / 8.0;
+
+/// Of a step that Newton failed at, the share that the steps after it may have.
+const BELOW_FAILED: f64 = 0.5;
+/// ... and by which it grows with every step.
+const RECOVERY: f64 = 1.2;
 
 /// What a drive did.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -102,6 +109,8 @@ pub fn advance(
     let checked = tolerance.is_none() && matches!(stepper, Stepper::Alpha(_));
     // energy made since the host step began, and whether a step was rejected for it
     let (mut made_so_far, mut troubled) = (0.0, false);
+    // after Newton has failed, steps come near the length that it failed at only slowly
+    let mut most = f64::INFINITY;
     let mut done = 0.0;
     while done < horizon {
         let (h, last) = fit(proposal, horizon - done, tolerance.is_some());
@@ -141,6 +150,7 @@ pub fn advance(
             (Err(failure), _) => {
                 counts.rejected += 1;
                 proposal = 0.25 * h;
+                most = BELOW_FAILED * h;
                 if proposal < SHORTEST * horizon {
                     return refuse(failure, phase.time);
                 }
@@ -162,6 +172,8 @@ pub fn advance(
             }
             _ => proposal = (2.0 * proposal).min(regular),
         }
+        proposal = proposal.min(most);
+        most *= RECOVERY;
         accept(phase, scratch, matches!(stepper, Stepper::Alpha(_)));
         scratch.next.time = phase.time;
         system.accepted(&scratch.next, phase, h);
