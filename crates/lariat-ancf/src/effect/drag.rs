@@ -15,7 +15,7 @@
 //! *Tangent.* By velocity exact and symmetric. By the slope the formula above is exact, of which the step takes the symmetric half (its
 //! matrix is stored by one triangle); the gradient of the flow in space is left out. Newton's iteration is then linear with a small factor,
 //! which its stopping test knows. The exact derivative is [`Cable::jacobians`](crate::Cable::jacobians)'s. *Rejected* for the step: with it
-//! Newton saves 0 to 6 % of its iterations up to 5 m/s of water, 49 % at 20 m/s on a 2 mm line at fidelity game, 2 % of the same under
+//! Newton saves 0 to 2 % of its iterations up to 5 m/s of water, 36 % at 20 m/s on a 2 mm line at fidelity game, 2 % of the same under
 //! error control (table and command: [`exact`](crate::cable::exact)), and an unsymmetric matrix costs every iteration.
 
 use super::flow::Flow;

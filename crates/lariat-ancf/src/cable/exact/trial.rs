@@ -99,7 +99,7 @@ fn scenes() -> Vec<Scene> {
         scene("steel rope in water, 5 m/s", steel(water(5.0)), [0.0, 0.05], [0.0, 0.05]),
         scene("rubber rod, damping 1 ms", pendulum(damped(1e-3, 1e-3)), [0.0, 0.05], [0.0, 0.05]),
         scene("rubber rod, damping 10 ms", pendulum(damped(1e-2, 1e-2)), [-0.05, 0.05], [0.0, 0.1]),
-        scene("rubber rod, axial damping 1 s", pendulum(damped(1.0, 0.0)), [0.1, 0.3], [0.2, 0.4]),
+        scene("rubber rod, axial damping 1 s", pendulum(damped(1.0, 0.0)), [0.1, 0.3], [0.1, 0.25]),
         scene("steel rope, damping 1 ms", steel(damped(1e-3, 1e-3)), [-0.05, 0.05], [0.0, 0.2]),
         scene("steel rope, axial damping 1 ms", steel(damped(1e-3, 0.0)), [-0.05, 0.05], [0.0, 0.1]),
         scene("5 mm line, damping 10 ms, 3 m/s", line(0.005, 1e9, 1500.0, 20, rough), [0.2, 0.6], [-0.05, 0.05]),
