@@ -4,7 +4,7 @@ use crate::body::{Exact, Remembered};
 use crate::convert::{rotation, to_vector, vector};
 use crate::islands::Given;
 use crate::linkage::Linkage;
-use crate::{impedance, linkage};
+use crate::{bear, impedance, linkage};
 use ::nalgebra::Vector3;
 use lariat_ancf::island::RigidBody;
 use rapier::dynamics::RigidBodyHandle;
@@ -68,6 +68,10 @@ pub(crate) fn give(
     if let Some(linkage) = linkage {
         let wanted = linkage::both(&vector(linvel), &vector(angvel));
         let change = wanted - linkage::both(&start.velocity, &start.angular_velocity);
+        // loads on the others do half of their work before the uniform motion, and half after it
+        let change = change - linkage.borne().of_body * (0.5 * h);
+        bear::balance(world, linkage.borne());
+        linkage::load_others(world, handle, linkage, 0.5 * h);
         linkage::strike(world, handle, linkage, &(linkage::inertia(start) * change));
     } else {
         body.set_linvel(linvel, false);
@@ -90,6 +94,7 @@ fn restore(body: &mut rapier::dynamics::RigidBody, given: &Given) {
 /// Undoes [`give`]: the body is as it was.
 pub(crate) fn take_back(world: &mut PhysicsWorld, handle: RigidBodyHandle, linkage: Option<&Linkage>, given: &Given) {
     if let Some(linkage) = linkage {
+        bear::restore(world, linkage.borne());
         linkage::take_back(world, handle, linkage);
     }
     let body = &mut world.bodies[handle];
@@ -99,7 +104,15 @@ pub(crate) fn take_back(world: &mut PhysicsWorld, handle: RigidBodyHandle, linka
 }
 
 /// Settles a body that Rapier put to sleep instead of stepping it: it is where it was, at rest.
-pub(crate) fn fall_asleep(world: &mut PhysicsWorld, handle: RigidBodyHandle, given: &Given, memory: &mut Remembered) {
+pub(crate) fn fall_asleep(
+    world: &mut PhysicsWorld,
+    handle: RigidBodyHandle,
+    (given, linkage): (&Given, Option<&Linkage>),
+    memory: &mut Remembered,
+) {
+    if let Some(linkage) = linkage {
+        bear::restore(world, linkage.borne());
+    }
     let body = &mut world.bodies[handle];
     restore(body, given);
     if let Some(exact) = &mut memory.exact {
@@ -120,7 +133,8 @@ pub(crate) fn settle(
     (impulse, couple): (Vector3<f64>, Vector3<f64>),
     h: f64,
 ) -> bool {
-    if linkage.is_some() {
+    if let Some(linkage) = linkage {
+        bear::restore(world, linkage.borne());
         linkage::refresh(world, handle);
     }
     let body = &mut world.bodies[handle];
@@ -160,18 +174,21 @@ pub(crate) fn settle(
     let turned = (rotation(*body.rotation()) * end.rotation.inverse()).scaled_axis() / h;
     // what motors did is not a reaction; but in a chain of joints they work against each other, and settle on a wrong force without
     let (impulse, couple) = if given.linked { (Vector3::zeros(), Vector3::zeros()) } else { (impulse, couple) };
-    let reaction = linkage::inertia(end) * linkage::both(&(deviation + moved), &(turn + turned));
-    // a solver that has not converged moves a chain along held axes too: nothing to be learnt
-    let reaction = match linkage {
-        Some(Linkage::Chain(_)) => linkage::moving(end, &reaction),
-        _ => reaction,
-    };
+    // where no other body is near a mechanism, its place tells of joints that Rapier corrects
+    let quiet = linkage.is_some_and(|l| l.borne().quiet);
+    let place = if quiet { 0.0 } else { 1.0 };
+    let change = linkage::both(&(deviation + moved * place), &(turn + turned * place));
+    let reaction = if linkage.is_some() { linkage::told(end, &change, quiet) } else { linkage::inertia(end) * change };
     let (force, torque) = linkage::halves(&reaction);
     memory.force += LEARNING * (force - impulse) / h;
     memory.torque += LEARNING * (torque - couple) / h;
     if let Some(linkage) = linkage {
-        let change = linkage::both(&(velocity - after), &(spin - spin_after));
+        let change = linkage::both(&(velocity - after), &(spin - spin_after)) - linkage.borne().of_body * (0.5 * h);
+        linkage::load_others(world, handle, linkage, 0.5 * h);
         linkage::strike(world, handle, linkage, &(linkage::inertia(end) * change));
+        if let Linkage::Chain(_) = linkage {
+            bear::damp(world, linkage.borne(), h);
+        }
         let body = &mut world.bodies[handle];
         if let Linkage::Chain(_) = linkage {
             // Rapier damps no links

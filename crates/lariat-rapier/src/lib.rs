@@ -38,8 +38,8 @@
 //!    whatever Rapier's settings. A body near others also gets an impedance: a motor per pin to a heavy *ledger* body, of
 //!    damping D/h in the axes of D, the pin's block of (C + B')^-1, with C the cable's compliance over the step and B' the mobility
 //!    of the bodies (the body's own scaled by 0.1). If the prediction was right the motors do nothing; if a contact or a joint
-//!    makes the body deviate, it feels the cable within the same step. A body that joints hold is predicted with the inertia of all that it
-//!    moves with, and struck together with it instead of being given a velocity (`linkage`).
+//!    makes the body deviate, it feels the cable within the same step. A body that joints hold is predicted with the inertia and the loads of all that it
+//!    moves with, and struck together with it instead of being given a velocity (`linkage`, `mechanism`, `bear`).
 //! 3. **Reconcile.** A body that landed where predicted keeps its predicted state in `f64`: Rapier's single precision never shakes a
 //!    stiff cable. For one that deviated, p, the motors' impulse, is read from the ledger; the cable gets it back,
 //!    `dv = -A^-1 J^T p`, `dx = h dv`, less where that would make energy; the reaction learns from what velocity and place deviate by,
@@ -66,9 +66,9 @@
 //!   tension when it is taut, with any integrator. Give it damping ([`lariat_ancf::Damping`]), or an integrator that damps.
 //! - Jams want a cable that damps: generalised-alpha-0 at 1/480 s holds 5 kN on a 1 kg box to 0.02 %. The default, ESDIRK4, hardly
 //!   damps, and lets a steel wire of 3 mm ring by 70 N on it.
-//! - Limits of multibody joints chatter: 9 to 18 N where 14.7 hang on the tip of an arm, and with one solver iteration worse. Rapier does
-//!   not say what such a limit pushes with. Impulse joints do, and hold; but not an arm of them at its limits at host steps of 1/30 s with few
-//!   solver iterations, whose steps may be refused (docs/stability.md).
+//! - A mechanism near another body from outside, or held by two cables, learns what its other bodies do to the one that is held; limits of multibody
+//!   joints chatter there: Rapier does not say what such a limit pushes with.
+//! - A joint counts as at its limit within 1e-3 m or rad of it (`limits`): it may come to rest so far before it.
 //! - A cable is smooth at a node: bent sharply over a hook, its tension wavers near it; tie two cables with [`CableSet::join`].
 //! - Where a user sets the velocity of a kinematic body anew at every host step, the work of a clamp on it is some per cent short of the
 //!   energy that the cable gains: what passes in the jumps is only approximately known.
@@ -77,6 +77,7 @@
 //!   steel bar. The package `lariat-rapier-f64`, of the same source, has none of this.
 
 mod attachment;
+mod bear;
 mod body;
 mod convert;
 #[cfg(feature = "debug-render")]
@@ -90,7 +91,9 @@ mod impedance;
 mod islands;
 mod junction;
 mod lend;
+mod limits;
 mod linkage;
+mod mechanism;
 mod predict;
 mod reconcile;
 mod rest;

@@ -3,7 +3,7 @@
 use crate::body;
 use crate::islands::{IslandStep, Member};
 use crate::set::{CableSet, Slot};
-use crate::{CableHandle, Error, ends, hand_over, impedance, linkage};
+use crate::{CableHandle, Error, bear, ends, hand_over, impedance, linkage, mechanism};
 use ::nalgebra::{Vector3, Vector6};
 use lariat_ancf::island::RigidBody;
 use lariat_ancf::{Cable, Integrator, StepControl};
@@ -110,7 +110,7 @@ impl CableSet {
     }
 
     /// Members as they are when the step begins.
-    fn read_members(&mut self, world: &PhysicsWorld, island: &mut IslandStep, h: f64) -> Result<(), Error> {
+    fn read_members(&mut self, world: &mut PhysicsWorld, island: &mut IslandStep, h: f64) -> Result<(), Error> {
         let time = self.cables[island.cables[0]].as_ref().map_or(0.0, |s| s.cable.time());
         let substep = h / world.integration_parameters.num_solver_iterations.max(1) as f64;
         island.start.clear();
@@ -119,6 +119,7 @@ impl CableSet {
             let mut linkage = None;
             let body = match member {
                 Member::Body(handle) => {
+                    mechanism::prepare(world, *handle);
                     let remembered = self.remember(*handle);
                     let learnt = remembered.force != Vector3::zeros() || remembered.torque != Vector3::zeros();
                     if learnt && impedance::is_alone(world, *handle) {
@@ -127,9 +128,15 @@ impl CableSet {
                     }
                     let mut body = body::read(world, *handle, remembered, time)?;
                     let load = self.load(island, m, &body);
-                    let found = linkage::find(world, *handle, &body, &load, substep);
-                    body.carried = found.as_ref().map(|(_, carried)| *carried);
-                    linkage = found.map(|(linkage, _)| linkage);
+                    let held = |b| self.attachments.iter().flatten().any(|a| a.body == b);
+                    if let Some((found, carried, others)) = linkage::find(world, *handle, &body, &load, substep, &held)
+                    {
+                        let (force, torque) = linkage::halves(&others);
+                        body.force += force;
+                        body.torque += torque;
+                        body.carried = Some(carried);
+                        linkage = Some(found);
+                    }
                     body
                 }
                 Member::Driven(handle) => ends::driven(world, *handle, h)?,
@@ -224,10 +231,11 @@ fn take_back(world: &mut PhysicsWorld, island: &IslandStep) {
     let given = island.members.iter().zip(&island.given).zip(&island.linkages);
     // the last that was given first: of a mechanism, the first knows how it was
     for ((member, given), linkage) in given.rev() {
-        if let (Member::Body(handle), Some(given)) = (member, given)
-            && world.bodies.contains(*handle)
-        {
+        let (Member::Body(handle), Some(given)) = (member, given) else { continue };
+        if world.bodies.contains(*handle) {
             hand_over::take_back(world, *handle, linkage.as_ref(), given);
+        } else if let Some(linkage) = linkage {
+            bear::restore(world, linkage.borne());
         }
     }
 }

@@ -4,7 +4,7 @@ use crate::convert::{rotation, vector};
 use crate::islands::{IslandStep, Member};
 use crate::predict::pick;
 use crate::set::CableSet;
-use crate::{hand_over, impedance};
+use crate::{bear, hand_over, impedance};
 use ::nalgebra::Vector3;
 use rapier::pipeline::PhysicsWorld;
 
@@ -40,9 +40,9 @@ impl CableSet {
     fn undo_for_sleep(&mut self, world: &mut PhysicsWorld, island: &IslandStep, h: f64) {
         self.restore_cables(island);
         pick(&mut self.cables, &island.cables).into_iter().for_each(|cable| cable.rest(h));
-        for (member, given) in island.members.iter().zip(&island.given) {
+        for ((member, given), linkage) in island.members.iter().zip(&island.given).zip(&island.linkages) {
             if let (Member::Body(handle), Some(given)) = (member, given) {
-                hand_over::fall_asleep(world, *handle, given, self.remember(*handle));
+                hand_over::fall_asleep(world, *handle, (given, linkage.as_ref()), self.remember(*handle));
             }
         }
     }
@@ -57,11 +57,15 @@ impl CableSet {
         }
         for (b, member) in island.members.iter().enumerate() {
             let (Member::Body(handle), Some(given)) = (member, &island.given[b]) else { continue };
+            let linkage = island.linkages[b].as_ref();
             if !world.bodies.contains(*handle) {
+                if let Some(linkage) = linkage {
+                    bear::restore(world, linkage.borne());
+                }
                 continue;
             }
             if world.bodies[*handle].is_sleeping() {
-                hand_over::fall_asleep(world, *handle, given, self.remember(*handle));
+                hand_over::fall_asleep(world, *handle, (given, linkage), self.remember(*handle));
                 continue;
             }
             let end = &island.bodies[b];
@@ -70,7 +74,6 @@ impl CableSet {
                 total.0 += p;
                 total.1 += (end.rotation * pin.anchor).cross(p);
             }
-            let linkage = island.linkages[b].as_ref();
             let deviated = hand_over::settle(world, *handle, end, (given, linkage), self.remember(*handle), total, h);
             if !deviated {
                 for (_, p) in island.pins.iter().zip(&mut island.impulses).filter(|(p, _)| p.body == b) {

@@ -4,6 +4,7 @@
 mod common;
 
 mod bench;
+mod carried;
 mod clamp;
 mod momentum;
 mod order;

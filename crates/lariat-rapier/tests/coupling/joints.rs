@@ -103,11 +103,13 @@ fn two_bodies_of_which_one_is_jammed_carry_the_pull() {
 }
 
 /// An arm of three links of 1 kg and 0.5 m, hinged to the world at its shoulder, its tip held up by a rope from above. The links are
-/// welded to each other, or hinged with a limit that keeps them straight; by impulse joints or as a multibody. Mean, lowest and
-/// highest pull of the rope over two seconds, and the gap.
-fn arm(multibody: bool, limits: bool, iterations: usize) -> (f64, f64, f64, f64) {
+/// welded to each other, or hinged with a limit that keeps them straight; by impulse joints or as a multibody. After 1 s the middle link is
+/// struck with `strike` (N s). Mean, lowest and highest pull of the rope over two seconds after another 4, and the gap.
+fn arm(multibody: bool, limits: bool, iterations: usize, rate: usize, strike: f64) -> (f64, f64, f64, f64) {
     let mut world = PhysicsWorld::new();
     world.integration_parameters.num_solver_iterations = iterations;
+    world.integration_parameters.dt = 1.0 / rate as Real;
+    let mut links = Vec::new();
     let base = world.insert_body(RigidBodyBuilder::fixed());
     let mut before = base;
     for k in 0..3 {
@@ -127,42 +129,53 @@ fn arm(multibody: bool, limits: bool, iterations: usize) -> (f64, f64, f64, f64)
             world.insert_impulse_joint(before, link, joint);
         }
         before = link;
+        links.push(link);
     }
     let mut set = CableSet::new();
     let rope = cable([1.5, 1.0, 0.0], [1.5, 0.0, 0.0], soft()).fix(At::Start).integrator(damping()).build().unwrap();
     let rope = set.insert(rope);
     let held = set.attach_here(&world, rope, At::End, before, Pin::Ball).unwrap();
-    run(&mut world, &mut set, 600);
+    run(&mut world, &mut set, rate);
+    world.bodies[links[1]].apply_impulse(Vector::new(0.0, strike as Real, 0.3 * strike as Real), true);
+    run(&mut world, &mut set, 4 * rate);
     let (mut mean, mut low, mut high) = (0.0, f64::MAX, f64::MIN);
-    for _ in 0..120 {
+    for _ in 0..2 * rate {
         set.step(&mut world).unwrap();
         let pull = set.attachment(held).unwrap().force().y;
-        (mean, low, high) = (mean + pull / 120.0, pull.min(low), pull.max(high));
+        (mean, low, high) = (mean + pull / (2 * rate) as f64, pull.min(low), pull.max(high));
     }
     (mean, low, high, gap(&set))
 }
 
-/// A rope holds the tip of an arm, whatever holds its links together; with one solver iteration, impulse joints lose 3 %. Limits of multibody joints
-/// chatter about a mean within 12 %.
+/// A rope holds the tip of an arm, whatever holds its links together, however long the host's step, with one solver iteration as with many:
+/// what loads the links is predicted with the rope, and leaves Rapier's joints nothing to do. A limit bears as a weld does.
 ///
 /// *Source.* Moments about the shoulder: the rope carries half of the arm's weight, 14.715 N.
 #[test]
 fn a_rope_holds_the_tip_of_an_arm() {
-    for (multibody, limits, iterations, most) in [
-        (true, false, 1, 1e-3),
-        (true, false, 4, 1e-3),
-        (true, true, 4, 0.12),
-        (false, false, 1, 0.04),
-        (false, false, 4, 0.02),
-        (false, true, 4, 0.02),
-        (false, true, 16, 0.005),
-    ] {
-        let (mean, low, high, gap) = arm(multibody, limits, iterations);
-        let case = format!(
-            "multibody {multibody}, limits {limits}, {iterations} iterations: mean {mean:.3}, {low:.3} to {high:.3} N, gap {gap:.1e} m"
-        );
+    for (multibody, limits) in [(true, false), (true, true), (false, false), (false, true)] {
+        for (iterations, rate) in [(1, 30), (4, 30), (1, 60), (4, 60), (1, 240)] {
+            let (mean, low, high, gap) = arm(multibody, limits, iterations, rate, 0.0);
+            let case = format!(
+                "multibody {multibody}, limits {limits}, {iterations} iterations, 1/{rate} s: mean {mean:.3}, {low:.3} to {high:.3} N, gap {gap:.1e} m"
+            );
+            println!("{case}");
+            assert!(low > 0.998 * 14.715 && high < 1.002 * 14.715 && gap < 1e-5, "{case}");
+        }
+    }
+}
+
+/// The same arm struck at its middle link: its elbows open and fall shut again. Straight, it moves along itself only by its bends, and what
+/// Rapier's joints do there must not be learnt as a force of the arm: it blew up within ten steps.
+///
+/// *Source.* As above; no step is refused.
+#[test]
+fn an_arm_whose_elbows_open_falls_shut_again() {
+    for strike in [0.5, -0.3] {
+        let (mean, low, high, gap) = arm(false, true, 4, 240, strike);
+        let case = format!("{strike} N s: mean {mean:.3}, {low:.3} to {high:.3} N, gap {gap:.1e} m");
         println!("{case}");
-        assert!((mean / 14.715 - 1.0).abs() < most && gap < 1e-3, "{case}");
+        assert!((mean / 14.715 - 1.0).abs() < 0.02 && gap < 1e-3, "{case}");
     }
 }
 
