@@ -103,7 +103,8 @@ impl CableSet {
     }
 }
 
-/// Whether a part of a cable between a node and an end that something holds may become straight within `dt` (s), if the node's velocity changes by `change` (m/s).
+/// Whether a part of a cable between a node and an end that something holds may become straight within `dt` (s), if the node's velocity
+/// changes by `change` (m/s).
 fn tightens(cable: &Cable, node: usize, dt: f64, change: f64) -> bool {
     let velocity = |n: usize| Vector3::from_column_slice(&cable.velocities()[6 * n..6 * n + 3]);
     let last = cable.elements().len();
