@@ -13,7 +13,7 @@ use rapier::pipeline::PhysicsWorld;
 const STILL: f64 = 1e-12;
 
 /// Greatest turn of a body in a Rapier step, in rad, unless it is allowed to turn faster.
-const MOST_TURN: f64 = core::f64::consts::FRAC_PI_4;
+pub(crate) const MOST_TURN: f64 = core::f64::consts::FRAC_PI_4;
 
 /// Place and attitude of a body now.
 fn pose(world: &PhysicsWorld, body: RigidBodyHandle) -> (Vector3<f64>, UnitQuaternion<f64>) {

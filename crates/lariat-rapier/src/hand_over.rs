@@ -2,6 +2,7 @@
 
 use crate::body::{Exact, Remembered};
 use crate::convert::{rotation, to_vector, vector};
+use crate::ends::MOST_TURN;
 use crate::islands::Given;
 use crate::linkage::Linkage;
 use crate::{bear, impedance, linkage};
@@ -15,10 +16,19 @@ use rapier::pipeline::PhysicsWorld;
 const LEARNING: f64 = 0.3;
 /// A body landed where predicted if it is within this many units of `Real`'s rounding.
 const ROUNDING: f64 = 32.0;
+/// Half of a turn in a substep, in rad, beyond which a tangent says little.
+const MOST_HALF_TURN: f64 = 1.2;
 /// Rapier's default number of substeps, for which [`ROUNDING`] is meant.
 const SUBSTEPS: usize = 4;
 /// ... and its velocities within this many times more: Rapier adds up forces that balance.
 const VELOCITY_ROUNDING: f64 = 8.0;
+
+/// The angular velocity with which Rapier turns a body as `spin` (rad/s) would: in each substep of `h` (s) it multiplies the attitude by
+/// the normalised quaternion (1, w h/2), which is a turn by 2 atan(|w| h/2).
+fn linearised(spin: &Vector3<f64>, h: f64) -> Vector3<f64> {
+    let half = (0.5 * spin.norm() * h).min(MOST_HALF_TURN);
+    if half > 0.0 { spin * (half.tan() / half) } else { *spin }
+}
 
 /// Makes Rapier move the body uniformly from where it is to where `end` is, in `h` (s). One that moves with others is struck instead of
 /// being given a velocity.
@@ -36,7 +46,13 @@ pub(crate) fn give(
     let mass = end.mass as Real;
     let linvel = to_vector(&((end.position - vector(body.center_of_mass())) / h));
     let turn = (end.rotation * rotation(*body.rotation()).inverse()).scaled_axis() / h;
-    let angvel = to_vector(&turn);
+    let substeps = world.integration_parameters.num_solver_iterations.max(1) as f64;
+    // links of a multibody are turned exactly
+    let angvel = match linkage {
+        Some(Linkage::Link { .. }) => to_vector(&turn),
+        _ => to_vector(&linearised(&turn, h / substeps)),
+    };
+    let fast = turn.norm() * h > 0.9 * MOST_TURN;
     let weight = vector(gravity).norm() * f64::from(body.gravity_scale()).abs();
     let given = Given {
         linvel,
@@ -50,6 +66,7 @@ pub(crate) fn give(
         user_force: body.user_force(),
         user_torque: body.user_torque(),
         gyroscopic: body.gyroscopic_forces_enabled(),
+        fast_rotation: body.is_fast_rotation_allowed(),
         linear_damping: body.linear_damping(),
         angular_damping: body.angular_damping(),
     };
@@ -63,6 +80,9 @@ pub(crate) fn give(
     body.add_force(balance, false);
     body.add_torque(-to_vector(&torque), false);
     body.enable_gyroscopic_forces(false);
+    if fast {
+        body.set_allow_fast_rotation(true);
+    }
     body.set_linear_damping(0.0);
     body.set_angular_damping(0.0);
     if let Some(linkage) = linkage {
@@ -87,6 +107,7 @@ fn restore(body: &mut rapier::dynamics::RigidBody, given: &Given) {
     body.add_force(given.user_force, false);
     body.add_torque(given.user_torque, false);
     body.enable_gyroscopic_forces(given.gyroscopic);
+    body.set_allow_fast_rotation(given.fast_rotation);
     body.set_linear_damping(given.linear_damping);
     body.set_angular_damping(given.angular_damping);
 }
@@ -165,10 +186,8 @@ pub(crate) fn settle(
     let (velocity, spin) = if landed {
         (end.velocity, end.angular_velocity)
     } else {
-        let share = |deviation: f64, change: f64, size: f64| (1.0 - deviation / (change + size).max(1e-12)).max(0.0);
-        let s = share(deviation.norm(), (end.velocity - before).norm(), before.norm());
-        let t = share(turn.norm(), (end.angular_velocity - spin_before).norm(), spin_before.norm());
-        (after + (end.velocity - before) * s, spin_after + (end.angular_velocity - spin_before) * t)
+        // the whole of what cables and loads changed: less of it, and the cables' momentum is no longer what they gave
+        (end.velocity + deviation, end.angular_velocity + turn)
     };
     let moved = (vector(body.center_of_mass()) - end.position) / h;
     let turned = (rotation(*body.rotation()) * end.rotation.inverse()).scaled_axis() / h;

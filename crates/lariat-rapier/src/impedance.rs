@@ -9,6 +9,7 @@ use crate::attachment::{Attachment, Ledger};
 use crate::convert::{to_pose, to_vector, vector};
 use crate::islands::IslandStep;
 use crate::linkage;
+use crate::near::touches;
 use ::nalgebra::{DMatrix, Matrix3, UnitQuaternion, Vector3};
 use lariat_ancf::island::RigidBody;
 use rapier::dynamics::{GenericJointBuilder, JointAxesMask, JointAxis, MotorModel, RigidBodyBuilder, RigidBodyHandle};
@@ -28,14 +29,6 @@ const AXES: [JointAxis; 3] = [JointAxis::LinX, JointAxis::LinY, JointAxis::LinZ]
 /// leaves a gap of 1e-2 m at 5 kN where it leaves 4e-6 m without.
 pub(crate) fn may_meet_something(world: &PhysicsWorld, handle: RigidBodyHandle) -> bool {
     touches(world, handle) || is_linked(world, handle)
-}
-
-/// Whether a body is near another. Rapier keeps the pairs of a collider that was removed until its next step.
-pub(crate) fn touches(world: &PhysicsWorld, handle: RigidBodyHandle) -> bool {
-    world.bodies[handle].colliders().iter().any(|&c| {
-        let mut pairs = world.narrow_phase.contact_pairs_with(c);
-        pairs.any(|pair| [pair.collider1, pair.collider2].iter().all(|c| world.colliders.contains(*c)))
-    })
 }
 
 /// Whether a body is the heavy end of an attachment's motors, and none of the user's.

@@ -108,6 +108,7 @@ pub(crate) struct Given {
     pub user_force: Vector,
     pub user_torque: AngVector,
     pub gyroscopic: bool,
+    pub fast_rotation: bool,
     pub linear_damping: rapier::math::Real,
     pub angular_damping: rapier::math::Real,
 }

@@ -33,16 +33,18 @@
 //! 1. **Predict.** Cables and the dynamic bodies they hold are integrated together as one system
 //!    ([`lariat_ancf::island`]), with the cables' own integrator and tolerance, bodies free but for gravity, the user's forces and
 //!    a learnt reaction r of whatever contacts and joints did to them before.
-//! 2. **Hand over.** Rapier is given the predicted motion as a uniform one, `linvel = dx/h`, `angvel = log(R1 R0^-1)/h`, and a force
-//!    `-r` in place of gravity and user forces (restored afterwards). A body that meets nothing lands where it was predicted,
-//!    whatever Rapier's settings. A body near others also gets an impedance: a motor per pin to a heavy *ledger* body, of
+//! 2. **Hand over.** Rapier is given the predicted motion as a uniform one, `linvel = dx/h`, `angvel = log(R1 R0^-1)/h` (so corrected
+//!    that Rapier's linearised rotation ends there), and a force `-r` in place of gravity and user forces (restored afterwards). A body
+//!    that meets nothing lands where it was predicted, whatever Rapier's settings. A body near others, or that flies into one (`near`),
+//!    also gets an impedance: a motor per pin to a heavy *ledger* body, of
 //!    damping D/h in the axes of D, the pin's block of (C + B')^-1, with C the cable's compliance over the step and B' the mobility
 //!    of the bodies (the body's own scaled by 0.1). If the prediction was right the motors do nothing; if a contact or a joint
 //!    makes the body deviate, it feels the cable within the same step. A body that joints hold is predicted with the inertia and the loads of all that it
 //!    moves with, and struck together with it instead of being given a velocity (`linkage`, `mechanism`, `bear`).
 //! 3. **Reconcile.** A body that landed where predicted keeps its predicted state in `f64`: Rapier's single precision never shakes a
 //!    stiff cable. For one that deviated, p, the motors' impulse, is read from the ledger; the cable gets it back,
-//!    `dv = -A^-1 J^T p`, `dx = h dv`, less where that would make energy; the reaction learns from what velocity and place deviate by,
+//!    `dv = -A^-1 J^T p`, `dx = h dv`, less where that would make energy; the body has the whole of the predicted velocity and of what it
+//!    deviated by, `v1 + v_after - v0`, so that momentum stays; the reaction learns from what velocity and place deviate by,
 //!    `r += 0.3 (m (v_after - v0) + m (x_after - x1)/h - p)/h` (without p for links of a chain); the gap that is left closes
 //!    during the next prediction.
 //!
@@ -58,7 +60,8 @@
 //! back (four times the cost, still fails in jams). Here: links and bodies on joints as free ones that learn the inertia of their
 //! mechanism as a force (an arm rings and gains energy); learning without taking p away, for bodies
 //! in contact (1 to 5 kg on a steel wire leave a jam when the host step is not split); motors on a body that a joint holds to the
-//! world (a gap of 1e-2 m at 5 kN; 4e-6 m without).
+//! world (a gap of 1e-2 m at 5 kN; 4e-6 m without); of a body that deviates only a share of what the prediction changed its velocity by,
+//! `v_after + s (v1 - v0)`, s = 1 where it landed, 0 where it was stopped (8e-3 m/s per mass gained by a random scene in free flight).
 //!
 //! *Limits*
 //!
@@ -94,6 +97,7 @@ mod lend;
 mod limits;
 mod linkage;
 mod mechanism;
+mod near;
 mod predict;
 mod reconcile;
 mod rest;

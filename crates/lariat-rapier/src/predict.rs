@@ -3,7 +3,7 @@
 use crate::body;
 use crate::islands::{IslandStep, Member};
 use crate::set::{CableSet, Slot};
-use crate::{CableHandle, Error, bear, ends, hand_over, impedance, linkage, mechanism};
+use crate::{CableHandle, Error, bear, ends, hand_over, impedance, linkage, mechanism, near};
 use ::nalgebra::{Vector3, Vector6};
 use lariat_ancf::island::RigidBody;
 use lariat_ancf::{Cable, Integrator, StepControl};
@@ -26,9 +26,10 @@ impl CableSet {
         let mut islands = core::mem::take(&mut self.islands);
         islands.iter_mut().for_each(|island| island.given.clear());
         self.refused.clear();
+        let others = h * near::fastest(world);
         let mut outcome = Ok(());
         for k in 0..islands.len() {
-            outcome = self.predict_island(world, &mut islands[k], h, parts);
+            outcome = self.predict_island(world, &mut islands[k], h, parts, others);
             if outcome.is_err() {
                 islands[..=k].iter().for_each(|island| self.undo(world, island));
                 self.refused.extend(islands[k].cables.iter().map(|&c| CableHandle(c as u32)));
@@ -46,6 +47,7 @@ impl CableSet {
         island: &mut IslandStep,
         h: f64,
         parts: u32,
+        others: f64,
     ) -> Result<(), Error> {
         island.given.clear();
         island.before.clear();
@@ -94,7 +96,7 @@ impl CableSet {
             }
             island.given.push(given);
         }
-        self.set_motors(world, island, h)
+        self.set_motors(world, island, h, others)
     }
 
     /// Force and torque on a member as its cables pulled at the end of the last step, with its own.
@@ -153,10 +155,20 @@ impl CableSet {
         Ok(())
     }
 
-    /// Lets a body that may deviate from its prediction feel the cables within Rapier's step.
-    fn set_motors(&mut self, world: &mut PhysicsWorld, island: &mut IslandStep, h: f64) -> Result<(), Error> {
+    /// Lets a body that may deviate from its prediction feel the cables within Rapier's step, in which other bodies come no farther than
+    /// `others` (m).
+    fn set_motors(
+        &mut self,
+        world: &mut PhysicsWorld,
+        island: &mut IslandStep,
+        h: f64,
+        others: f64,
+    ) -> Result<(), Error> {
+        let way = |i: usize| island.bodies[i].position - island.start[i].position;
         let near = |world: &PhysicsWorld, i: usize| match (&island.members[i], &island.given[i]) {
-            (Member::Body(handle), Some(_)) => impedance::may_meet_something(world, *handle),
+            (Member::Body(handle), Some(_)) => {
+                impedance::may_meet_something(world, *handle) || near::runs_into(world, *handle, &way(i), others)
+            }
             _ => false,
         };
         island.motors.clear();

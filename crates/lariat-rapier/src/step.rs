@@ -101,6 +101,9 @@ impl CableSet {
         if !host.is_unfinished() {
             return Ok(());
         }
+        if host.done > 0 {
+            self.split_finer(world, host);
+        }
         host.done += 1;
         if !self.moves_on(host.dt)? {
             return Ok(());
@@ -117,6 +120,16 @@ impl CableSet {
         let outcome = self.predict_part(world, host.steps);
         host.failed |= outcome.is_err();
         outcome
+    }
+
+    /// Splits what is left of a host step finer, if a body met another since it began.
+    fn split_finer(&self, world: &mut PhysicsWorld, host: &mut HostStep) {
+        let most = self.settings.most_rapier_steps / host.steps;
+        let finer = self.parts(world, f64::from(host.dt)).div_ceil(host.steps).min(most);
+        if finer > 1 {
+            (host.steps, host.done) = (host.steps * finer, host.done * finer);
+            world.integration_parameters.dt = host.dt / host.steps as Real;
+        }
     }
 
     /// Ends a host step: `world.integration_parameters.dt` is the host's again.

@@ -7,8 +7,9 @@
 //! D is the damping of effects. J reads the pinned positions, *free* here. C (1/kg) is the velocity that a unit impulse makes at a pin over the step: the
 //! inverse of the mass that a body feels there. *Source.* One implicit Euler step of the cable, linearised. *Validity.* Short steps;
 //! it damps, so it decides only how a deviation from the prediction is shared, never the prediction itself. Under compression
-//! A may be indefinite, or nearly singular, and answer a small impulse with any velocity; then M counts twice, four times ...
-//! until half of it suffices.
+//! A may be indefinite, or nearly singular, and answer a small impulse with any velocity; then D and K count half, a quarter ...
+//! until half of M suffices: the impulse stays the momentum of the cable. *Rejected.* M counted twice, four times ...: so much of the
+//! momentum is lost.
 
 use crate::cable::{Cable, Rates, project_matrix, project_vector};
 use crate::error::{Error, StepFailure};
@@ -16,7 +17,7 @@ use crate::integrate::dirk::add;
 use crate::linalg::{Definiteness, Factorisation};
 use nalgebra::{DMatrix, Vector3};
 
-/// Inertia is raised at most this much against compression that makes A indefinite.
+/// D and K are divided by this at most against compression that makes A indefinite.
 const MOST_INERTIA: f64 = 1e6;
 
 /// A displacement is left out where this share of it still makes energy.
@@ -76,10 +77,12 @@ impl Impedance {
         if !self.nodes.is_empty() {
             self.factorisation.solve_many(system.level, &mut self.columns, 3 * self.nodes.len());
         }
+        // what was solved is inertia M + h^2 K, what is meant M + h^2 K/inertia
+        self.columns.iter_mut().for_each(|x| *x *= inertia);
         Ok(())
     }
 
-    /// Factors `inertia M + h^2 K`; whether it is positive definite.
+    /// Factors `inertia M + h D + h^2 K`; whether it is positive definite.
     fn factor(&mut self, cable: &mut Cable, h: f64, inertia: f64) -> Result<bool, StepFailure> {
         let mut force = core::mem::take(&mut cable.system.product);
         let (mut equations, phase) = cable.equations();

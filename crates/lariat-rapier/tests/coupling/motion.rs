@@ -70,6 +70,38 @@ fn an_end_is_where_rapier_turns_a_fast_body_to() {
     }
 }
 
+/// A cube with a rope at 0.1 m from its centre spins at 20 to 200 rad/s, two turns in a host step, with one solver iteration and with four:
+/// Rapier's linearised rotation, and its limit of pi/4 in a step, leave no gap.
+///
+/// *Source.* The contract of an attachment.
+#[test]
+fn a_spinning_body_lands_where_it_was_predicted() {
+    for iterations in [1, 4] {
+        for speed in [20.0, 200.0] {
+            let mut world = weightless();
+            world.integration_parameters.num_solver_iterations = iterations;
+            let load = add_cube(&mut world, 5.0, 0.1, [0.0; 3]);
+            world.bodies[load].set_angvel(Vector::new(0.0, 0.0, speed), true);
+            let mut set = CableSet::new();
+            let lash = cable([0.1, 0.0, 0.0], [0.3, 0.0, 0.0], soft()).gravity(Vector3::zeros()).integrator(damping());
+            let lash = set.insert(lash.elements(2).build().unwrap());
+            set.attach(&world, lash, At::Start, load, Vector::new(0.1, 0.0, 0.0), Pin::Ball).unwrap();
+            let (mut worst, mut turned) = (0.0f64, 0.0f64);
+            for _ in 0..10 {
+                let before = *world.bodies[load].rotation();
+                set.step(&mut world).unwrap();
+                worst = worst.max(gap(&set));
+                turned =
+                    turned.max(f64::from((before.inverse() * *world.bodies[load].rotation()).to_scaled_axis().z.abs()));
+            }
+            println!("{iterations} iterations, {speed} rad/s: turned {turned:.2}, gap {worst:.1e} m");
+            assert!(turned > 0.2, "{turned}");
+            assert!(worst < 1e-6, "{iterations} iterations, {speed} rad/s: {worst:.1e} m");
+            assert!(!world.bodies[load].is_fast_rotation_allowed());
+        }
+    }
+}
+
 /// Forces, damping, the gyroscopic flag, gravity's scale and the time step are after half a second what the user set.
 ///
 /// *Source.* The contract.
