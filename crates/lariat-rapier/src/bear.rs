@@ -9,8 +9,7 @@
 //! holds another body of it, and none of the others is near a body from outside: else the body learns what the others do.
 //! *Measured* (arm of three links of 1 kg, its tip on a soft rope; host steps of 1/30 s, one iteration): the rope carries 14.715 N for 14.715, where
 //! with learning alone it carried 14.28 N on welded impulse joints, 10.9 N on a multibody at its limits, and was refused on impulse joints
-//! at theirs; gap 4e-7 m (5e-3 m), energy made 0 (1.8 of the largest). Rapier's own spring of the rope's stiffness (1e5 N/m) in its place opens the
-//! joints of the arm by 5.9e-3 m there, here they open by 2e-7 m. *Rejected.* Learning the loads of the others as a reaction: ten steps go by until it is
+//! at theirs; gap 4e-7 m (5e-3 m), energy made 0 (1.8 of the largest): `lariat stability --case arm`. *Rejected.* Learning the loads of the others as a reaction: ten steps go by until it is
 //! learnt, meanwhile joints that have not converged yield, and what Rapier takes back of it is learnt as force.
 
 use crate::convert::vector;

@@ -34,21 +34,38 @@ fn swept(aabb: Aabb, way: &Vector3<f64>, by: f64) -> Aabb {
     Aabb::new(aabb.mins.min(there.mins), aabb.maxs.max(there.maxs)).loosened(by as Real)
 }
 
-/// Whether a body that moves along `way` (m) may run into one that Rapier lists no pair with yet, if others come no farther than
-/// `others` (m) meanwhile. A slow body meets none but listed ones, and nothing is looked up.
-pub(crate) fn runs_into(world: &PhysicsWorld, handle: RigidBodyHandle, way: &Vector3<f64>, others: f64) -> bool {
+/// A bound of the speed in m/s at which a body that moves along `way` (m) within `dt` (s) may run into one that Rapier lists no pair with
+/// yet; none if it meets none. No other is faster than `fastest` (m/s): a slow body among slow ones meets none but listed ones, and nothing
+/// is looked up.
+pub(crate) fn runs_into(
+    world: &PhysicsWorld,
+    handle: RigidBodyHandle,
+    way: &Vector3<f64>,
+    dt: f64,
+    fastest: f64,
+) -> Option<f64> {
     let listed = f64::from(world.integration_parameters.prediction_distance());
+    let others = dt * fastest;
     // pairs are as old as a step
     if 2.0 * (way.norm() + others) <= listed {
-        return false;
+        return None;
     }
     let colliders = world.bodies[handle].colliders().iter().filter_map(|c| world.colliders.get(*c));
-    colliders.filter(|c| c.is_enabled() && !c.is_sensor()).any(|collider| {
+    let meets = colliders.filter(|c| c.is_enabled() && !c.is_sensor()).any(|collider| {
         let filter =
             QueryFilter::default().exclude_rigid_body(handle).exclude_sensors().groups(collider.collision_groups());
-        let aabb = swept(collider.compute_aabb(), way, others + listed);
-        world.intersect_aabb_conservative(aabb, filter).next().is_some()
-    })
+        let own = swept(collider.compute_aabb(), way, listed);
+        let reached = own.loosened(others as Real);
+        world
+            .intersect_aabb_conservative(reached, filter)
+            .any(|(_, other)| swept(other.compute_aabb(), &(velocity_of(world, other) * dt), 0.0).intersects(&own))
+    });
+    meets.then(|| way.norm() / dt + fastest)
+}
+
+/// Velocity in m/s of the body of a collider.
+fn velocity_of(world: &PhysicsWorld, collider: &Collider) -> Vector3<f64> {
+    collider.parent().and_then(|b| world.bodies.get(b)).map_or_else(Vector3::zeros, |b| vector(b.linvel()))
 }
 
 /// The speed in m/s at which a body may strike another within `dt` (s), if no other is faster than `fastest` (m/s); none if it meets none.
@@ -57,15 +74,14 @@ pub(crate) fn closing(world: &PhysicsWorld, handle: RigidBodyHandle, dt: f64, fa
     let velocity = vector(world.bodies[handle].linvel());
     let margin = f64::from(world.integration_parameters.prediction_distance());
     let met = pairs(world, handle).filter_map(|(own, other, pair)| {
-        let of = other.parent().and_then(|b| world.bodies.get(b)).map_or_else(Vector3::zeros, |b| vector(b.linvel()));
-        let relative = velocity - of;
+        let relative = velocity - velocity_of(world, other);
         let normals = pair.manifolds().iter().filter(|m| !m.points.is_empty()).map(|m| vector(m.data.normal));
         let along = normals.map(|n| relative.dot(&n).abs()).reduce(f64::max);
         let reach = || swept(own.compute_aabb(), &(relative * dt), margin).intersects(&other.compute_aabb());
         along.or_else(|| reach().then(|| relative.norm()))
     });
     let listed = met.reduce(f64::max);
-    let beyond = runs_into(world, handle, &(velocity * dt), fastest * dt).then(|| velocity.norm() + fastest);
+    let beyond = runs_into(world, handle, &(velocity * dt), dt, fastest);
     listed.into_iter().chain(beyond).reduce(f64::max)
 }
 

@@ -26,10 +26,10 @@ impl CableSet {
         let mut islands = core::mem::take(&mut self.islands);
         islands.iter_mut().for_each(|island| island.given.clear());
         self.refused.clear();
-        let others = h * near::fastest(world);
+        let fastest = near::fastest(world);
         let mut outcome = Ok(());
         for k in 0..islands.len() {
-            outcome = self.predict_island(world, &mut islands[k], h, parts, others);
+            outcome = self.predict_island(world, &mut islands[k], h, parts, fastest);
             if outcome.is_err() {
                 islands[..=k].iter().for_each(|island| self.undo(world, island));
                 self.refused.extend(islands[k].cables.iter().map(|&c| CableHandle(c as u32)));
@@ -47,7 +47,7 @@ impl CableSet {
         island: &mut IslandStep,
         h: f64,
         parts: u32,
-        others: f64,
+        fastest: f64,
     ) -> Result<(), Error> {
         island.given.clear();
         island.before.clear();
@@ -96,7 +96,7 @@ impl CableSet {
             }
             island.given.push(given);
         }
-        self.set_motors(world, island, h, others)
+        self.set_motors(world, island, h, fastest)
     }
 
     /// Force and torque on a member as its cables pulled at the end of the last step, with its own.
@@ -155,19 +155,20 @@ impl CableSet {
         Ok(())
     }
 
-    /// Lets a body that may deviate from its prediction feel the cables within Rapier's step, in which other bodies come no farther than
-    /// `others` (m).
+    /// Lets a body that may deviate from its prediction feel the cables within Rapier's step, in which no other body is faster than `fastest`
+    /// (m/s).
     fn set_motors(
         &mut self,
         world: &mut PhysicsWorld,
         island: &mut IslandStep,
         h: f64,
-        others: f64,
+        fastest: f64,
     ) -> Result<(), Error> {
         let way = |i: usize| island.bodies[i].position - island.start[i].position;
         let near = |world: &PhysicsWorld, i: usize| match (&island.members[i], &island.given[i]) {
             (Member::Body(handle), Some(_)) => {
-                impedance::may_meet_something(world, *handle) || near::runs_into(world, *handle, &way(i), others)
+                impedance::may_meet_something(world, *handle)
+                    || near::runs_into(world, *handle, &way(i), h, fastest).is_some()
             }
             _ => false,
         };
