@@ -317,6 +317,10 @@ impl Dynamics for Equations<'_> {
         self.model.effects.depend_on_velocity()
     }
 
+    fn exact_tangent(&self) -> bool {
+        self.model.effects.exact_tangent()
+    }
+
     fn accepted(&mut self, before: &Phase, after: &Phase, h: f64) {
         self.account_step(before, after, h, 0..after.q.len());
     }

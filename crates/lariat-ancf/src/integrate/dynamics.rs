@@ -101,6 +101,11 @@ pub trait Dynamics {
         false
     }
 
+    /// Whether the matrix that Newton factors is the exact derivative.
+    fn exact_tangent(&self) -> bool {
+        true
+    }
+
     /// An upper bound of the angular frequencies of the system in rad/s, near its present state.
     fn frequency_bound(&self) -> f64;
 }

@@ -77,7 +77,7 @@ impl Linearised for IslandStage<'_, '_, '_> {
     }
 
     fn exact(&self) -> bool {
-        self.work.cables.iter().all(|cable| cable.effects().exact_tangent())
+        self.work.exact_tangent()
     }
 
     fn not_finite(&self) -> StepFailure {
@@ -281,6 +281,10 @@ impl Dynamics for Work<'_, '_> {
 
     fn follows_velocity(&self) -> bool {
         true
+    }
+
+    fn exact_tangent(&self) -> bool {
+        self.cables.iter().all(|cable| cable.effects().exact_tangent())
     }
 
     fn frequency_bound(&self) -> f64 {
