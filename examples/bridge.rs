@@ -5,8 +5,8 @@
 //! *Source.* Equal loads P at equal distances d make a parabola, `H f = w L^2/8` with `w = P/d`: here 4.5 P d, and the main cable's own
 //! 0.08 kg/m x 12.47 m adds its weight times L/8. Elements cannot have the kinks of a light cable at its clips: 0.35 % are missing.
 
-use lariat_lab::run::{Options, World, run};
-use lariat_lab::{Purpose, Scene};
+use lariat_scene::run::{Options, World, run};
+use lariat_scene::{Purpose, Scene};
 use std::path::Path;
 
 const G: f64 = 9.81; // m/s^2

@@ -5,7 +5,7 @@
 
 use lariat_rapier::lariat_ancf::{At, Cable, Damping, Integrator, Section, StepControl, Vector3};
 use lariat_rapier::rapier::prelude::*;
-use lariat_rapier::{CableSet, Pin};
+use lariat_rapier::{AttachmentKind, CableSet};
 
 const STIFFNESS: f64 = 1.5e6; // EA, N
 
@@ -31,7 +31,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             .fix(At::Start)
             .build()?;
         let stay = cables.insert(stay);
-        let end = cables.attach(&world, stay, At::End, deck, Vector::new(x as Real, 0.1, 0.0), Pin::Ball)?;
+        let end = cables.attach(&world, stay, At::End, deck, Vector::new(x as Real, 0.1, 0.0), AttachmentKind::Ball)?;
         stays.push((x, end));
     }
     for _ in 0..300 {

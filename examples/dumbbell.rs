@@ -5,7 +5,7 @@
 
 use lariat_rapier::lariat_ancf::{At, Cable, Section, Vector3};
 use lariat_rapier::rapier::prelude::*;
-use lariat_rapier::{CableSet, Pin};
+use lariat_rapier::{AttachmentKind, CableSet};
 
 const SPIN: f64 = 5.0; // rad/s
 const CENTRE: f64 = -0.36 / 8.72; // m: of 2 kg at -1.5 m, 6 kg at 0.5 m and 0.72 kg of cable at -0.5 m
@@ -30,8 +30,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             .angular_velocity(Vector3::new(0.0, 0.0, SPIN))
             .build()?,
     );
-    cables.attach(&world, line, At::Start, balls[0], Vector::new(0.1, 0.0, 0.0), Pin::Ball)?;
-    cables.attach(&world, line, At::End, balls[1], Vector::new(-0.1, 0.0, 0.0), Pin::Ball)?;
+    cables.attach(&world, line, At::Start, balls[0], Vector::new(0.1, 0.0, 0.0), AttachmentKind::Ball)?;
+    cables.attach(&world, line, At::End, balls[1], Vector::new(-0.1, 0.0, 0.0), AttachmentKind::Ball)?;
     let (before, energy) = (cables.momentum(&world)?, cables.energy(&world)?.total());
     for second in 1..=3 {
         for _ in 0..60 {

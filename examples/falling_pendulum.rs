@@ -4,8 +4,8 @@
 
 use cpu_time::ProcessTime;
 use lariat::ancf::{At, Cable, Section, Vector3};
-use lariat_lab::figures::{self, Snapshot};
-use lariat_lab::pendulum;
+use lariat_figures::reference_pendulum as pendulum;
+use lariat_figures::{self as figures, Snapshot};
 
 const TOLERANCE: f64 = 1e-3; // m, largest distance of the tip from the real beam
 

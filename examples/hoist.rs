@@ -5,7 +5,7 @@
 
 use lariat_rapier::lariat_ancf::{At, Cable, Integrator, Section, StepControl, Vector3};
 use lariat_rapier::rapier::prelude::*;
-use lariat_rapier::{CableSet, Pin};
+use lariat_rapier::{AttachmentKind, CableSet};
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let mut world = PhysicsWorld::new();
@@ -28,8 +28,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             })
             .build()?,
     );
-    cables.attach(&world, rope, At::Start, winch, Vector::ZERO, Pin::Ball)?;
-    let hook = cables.attach(&world, rope, At::End, load, Vector::new(0.0, 0.1, 0.0), Pin::Ball)?;
+    cables.attach(&world, rope, At::Start, winch, Vector::ZERO, AttachmentKind::Ball)?;
+    let hook = cables.attach(&world, rope, At::End, load, Vector::new(0.0, 0.1, 0.0), AttachmentKind::Ball)?;
     let (mut pull, mut lifted) = (0.0, 0.0);
     for step in 0..720 {
         // 0.5 m in all: slowly while the rope gets taut, faster, slowly to the stop

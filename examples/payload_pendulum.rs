@@ -4,7 +4,7 @@
 
 use lariat_rapier::lariat_ancf::{At, Cable, Fidelity, Section, Vector3};
 use lariat_rapier::rapier::prelude::*;
-use lariat_rapier::{CableSet, Pin};
+use lariat_rapier::{AttachmentKind, CableSet};
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     for fidelity in [Fidelity::Game, Fidelity::Engineering] {
@@ -23,7 +23,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             .build()?;
         let mut cables = CableSet::new();
         let sling = cables.insert(sling);
-        let hook = cables.attach(&world, sling, At::End, crate_, Vector::new(0.0, 0.1, 0.0), Pin::Ball)?;
+        let hook = cables.attach(&world, sling, At::End, crate_, Vector::new(0.0, 0.1, 0.0), AttachmentKind::Ball)?;
         println!("{fidelity:?}");
         let start = std::time::Instant::now();
         for step in 1..=60 {

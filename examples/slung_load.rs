@@ -6,7 +6,7 @@
 
 use lariat_rapier::lariat_ancf::{At, Cable, Damping, Integrator, Section, StepControl, Vector3};
 use lariat_rapier::rapier::prelude::*;
-use lariat_rapier::{CableSet, Pin};
+use lariat_rapier::{AttachmentKind, CableSet};
 
 const LENGTH: f64 = 10.06165; // m, with 200 kg on it
 const SPEED: f64 = 3.0; // m/s
@@ -31,8 +31,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             })
             .build()?,
     );
-    cables.attach(&world, line, At::Start, helicopter, Vector::ZERO, Pin::Ball)?;
-    cables.attach(&world, line, At::End, load, Vector::ZERO, Pin::Ball)?;
+    cables.attach(&world, line, At::Start, helicopter, Vector::ZERO, AttachmentKind::Ball)?;
+    cables.attach(&world, line, At::End, load, Vector::ZERO, AttachmentKind::Ball)?;
     let (mut out, mut left) = (0.0f64, 0.0f64);
     for step in 0..600 {
         let speed = if step < 384 { SPEED as Real } else { 0.0 };

@@ -6,7 +6,7 @@
 
 use lariat_rapier::lariat_ancf::{At, Cable, Integrator, Section, StepControl, Vector3};
 use lariat_rapier::rapier::prelude::*;
-use lariat_rapier::{CableSet, Pin};
+use lariat_rapier::{AttachmentKind, CableSet};
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let weighs = 3.0 * 9.81 * 0.75; // N m about the shoulder
@@ -40,7 +40,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
                 .fix(At::Start)
                 .build()?,
         );
-        let tip = cables.attach(&world, tether, At::End, before, Vector::new(0.25, 0.0, 0.0), Pin::Ball)?;
+        let tip = cables.attach(&world, tether, At::End, before, Vector::new(0.25, 0.0, 0.0), AttachmentKind::Ball)?;
         for _ in 0..600 {
             cables.step(&mut world)?; // 10 s
         }

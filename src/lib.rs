@@ -40,7 +40,7 @@
 //! | choose the integrator | [`Integrator`], [`Fidelity`], [`Method`] |
 //! | read it | [`Cable::sample`], [`Cable::reactions`], [`Cable::energy`], [`Cable::diagnostics`] |
 //! | find its static shape | [`Cable::equilibrium`] |
-//! | take and restore snapshots | [`Cable::state`], [`Cable::restore`], serde |
+//! | take and restore snapshots | [`Cable::snapshot`], [`Cable::restore`], serde |
 //!
 //! What accuracy costs, by rule, integrator and mesh: `docs/accuracy` in the repository.
 

@@ -12,7 +12,7 @@ mod rig;
 mod scene;
 
 use lariat::{Fidelity, Integrator, Method, Vector3};
-use lariat_lab::machine;
+use lariat_bench::machine;
 use measure::Row;
 use peers::Chain;
 use rig::{Make, Rig, Split, host_steps};

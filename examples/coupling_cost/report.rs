@@ -67,7 +67,7 @@ pub fn head(command: &str, machine: &str) -> String {
          cables, *cable* the difference. *Split* is the number of Rapier steps per host step and of solver iterations in each: \
          `1 x 4` is Rapier's default, `4 x 4` Lariat's. *Stretch* is the largest of the polyline from the fixed point through nodes, \
          particles or joints to the point of the box, at the host's steps.\n\n\
-         - **Lariat**: 10 elements, `CableSet`, one `Pin::Ball`.\n\
+         - **Lariat**: 10 elements, `CableSet`, one `AttachmentKind::Ball`.\n\
          - **soft rope**: `SoftBodyBuilder::rope`, 11 particles of the cable's mass, the first pinned, the last attached with \
          `attach_particle`, no collider; once with the default material, once with edges of 1e6 Hz, what Rapier's joints have.\n\
          - **capsules**: 10 rigid links as thick and heavy as the cable, without contacts, with spherical joints: impulse joints or \

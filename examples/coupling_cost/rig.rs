@@ -5,7 +5,7 @@ use crate::peers::{self, Chain};
 use crate::scene::{HALF, LENGTH, PARTS, RATE, Scene};
 use lariat::{At, Cable, Fidelity, Integrator, Section, Vector3};
 use lariat_rapier::rapier::prelude::*;
-use lariat_rapier::{CableHandle, CableSet, Pin};
+use lariat_rapier::{AttachmentKind, CableHandle, CableSet};
 
 /// How cables are made.
 #[derive(Clone, Copy, PartialEq)]
@@ -80,7 +80,7 @@ impl Rig {
                 set.settings.rapier_steps = steps;
                 let handles = every.map(|i| {
                     let handle = set.insert(cable(scene, make, i)?);
-                    set.attach(&world, handle, At::End, boxes[i], Vector::Y * HALF, Pin::Ball)?;
+                    set.attach(&world, handle, At::End, boxes[i], Vector::Y * HALF, AttachmentKind::Ball)?;
                     Ok(handle)
                 });
                 let handles = handles.collect::<Outcome<_>>()?;

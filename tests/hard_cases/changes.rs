@@ -1,7 +1,7 @@
-//! What users do to a running world. The cases: `crates/lariat-lab/src/stability/cases/changes.rs`.
+//! What users do to a running world. The cases: `crates/lariat-bench/src/stability/cases/changes.rs`.
 
 use super::suite::check;
-use lariat_lab::stability::Family;
+use lariat_bench::stability::Family;
 
 /// Each case on one of its hosts, the first with all effects too.
 ///

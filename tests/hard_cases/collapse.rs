@@ -1,7 +1,7 @@
-//! Nodes that coincide, slopes of zero, elements inside out. The cases: `crates/lariat-lab/src/stability/cases/collapse.rs`.
+//! Nodes that coincide, slopes of zero, elements inside out. The cases: `crates/lariat-bench/src/stability/cases/collapse.rs`.
 
 use super::suite::check;
-use lariat_lab::stability::Family;
+use lariat_bench::stability::Family;
 
 /// Each case on one of its hosts, the first with all effects too.
 ///

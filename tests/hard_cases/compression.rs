@@ -1,7 +1,7 @@
-//! Ends pushed together, rods that buckle, a fold. The cases: `crates/lariat-lab/src/stability/cases/compression.rs`.
+//! Ends pushed together, rods that buckle, a fold. The cases: `crates/lariat-bench/src/stability/cases/compression.rs`.
 
 use super::suite::check;
-use lariat_lab::stability::Family;
+use lariat_bench::stability::Family;
 
 /// Each case on one of its hosts, the first with all effects too.
 ///

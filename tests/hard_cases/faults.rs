@@ -2,7 +2,7 @@
 
 use lariat_ancf::{At, PointLoad, Section, Vector3};
 use lariat_rapier::rapier::prelude::*;
-use lariat_rapier::{CableHandle, CableSet, Error, Pin, lariat_ancf};
+use lariat_rapier::{AttachmentKind, CableHandle, CableSet, Error, lariat_ancf};
 
 struct Hung {
     world: PhysicsWorld,
@@ -25,7 +25,7 @@ fn hung() -> Hung {
         .build()
         .unwrap();
     let rope = set.insert(rope);
-    set.attach(&world, rope, At::End, load, Vector::ZERO, Pin::Ball).unwrap();
+    set.attach(&world, rope, At::End, load, Vector::ZERO, AttachmentKind::Ball).unwrap();
     let mut h = Hung { world, set, load, rope };
     h.run(30);
     h

@@ -1,7 +1,7 @@
-//! Wedged bodies, 5 kN, sudden release. The cases: `crates/lariat-lab/src/stability/cases/jam.rs`.
+//! Wedged bodies, 5 kN, sudden release. The cases: `crates/lariat-bench/src/stability/cases/jam.rs`.
 
 use super::suite::check;
-use lariat_lab::stability::Family;
+use lariat_bench::stability::Family;
 
 /// Each case on one of its hosts, the first with all effects too.
 ///

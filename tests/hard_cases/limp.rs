@@ -1,7 +1,7 @@
-//! No bending, no tension, no gravity; then all at once. The cases: `crates/lariat-lab/src/stability/cases/limp.rs`.
+//! No bending, no tension, no gravity; then all at once. The cases: `crates/lariat-bench/src/stability/cases/limp.rs`.
 
 use super::suite::check;
-use lariat_lab::stability::Family;
+use lariat_bench::stability::Family;
 
 /// Each case on one of its hosts, the first with all effects too.
 ///

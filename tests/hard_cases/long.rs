@@ -1,7 +1,7 @@
-//! An hour, ten minutes, sleep. The cases: `crates/lariat-lab/src/stability/cases/long.rs`.
+//! An hour, ten minutes, sleep. The cases: `crates/lariat-bench/src/stability/cases/long.rs`.
 
 use super::suite::check;
-use lariat_lab::stability::Family;
+use lariat_bench::stability::Family;
 
 /// Each case on one of its hosts, the first with all effects too.
 ///

@@ -1,7 +1,7 @@
-//! Many cables, many bodies, nets, loops. The cases: `crates/lariat-lab/src/stability/cases/many.rs`.
+//! Many cables, many bodies, nets, loops. The cases: `crates/lariat-bench/src/stability/cases/many.rs`.
 
 use super::suite::check;
-use lariat_lab::stability::Family;
+use lariat_bench::stability::Family;
 
 /// Each case on one of its hosts, the first with all effects too.
 ///

@@ -1,7 +1,7 @@
-//! Loads from a hundredth to a hundred thousand times the mass of their cable, hanging and swinging. The cases: `crates/lariat-lab/src/stability/cases/mass_ratio.rs`.
+//! Loads from a hundredth to a hundred thousand times the mass of their cable, hanging and swinging. The cases: `crates/lariat-bench/src/stability/cases/mass_ratio.rs`.
 
 use super::suite::check;
-use lariat_lab::stability::Family;
+use lariat_bench::stability::Family;
 
 /// Each case on one of its hosts, the first with all effects too.
 ///

@@ -1,7 +1,7 @@
-//! Joints, motors, limits, CCD, locked axes, kinematic bodies. The cases: `crates/lariat-lab/src/stability/cases/mechanisms.rs`.
+//! Joints, motors, limits, CCD, locked axes, kinematic bodies. The cases: `crates/lariat-bench/src/stability/cases/mechanisms.rs`.
 
 use super::suite::check;
-use lariat_lab::stability::Family;
+use lariat_bench::stability::Family;
 
 /// Each case on one of its hosts, the first with all effects too.
 ///

@@ -1,10 +1,10 @@
 //! Scenes drawn by chance from all families. A failing one is kept in `random.proptest-regressions` and run first.
 
 use super::suite::check;
-use lariat_lab::stability::Family;
-use lariat_lab::stability::outcome::Outcome;
-use lariat_lab::stability::recipe::{NUMBERS, Recipe};
-use lariat_lab::stability::run_recipe;
+use lariat_bench::stability::Family;
+use lariat_bench::stability::outcome::Outcome;
+use lariat_bench::stability::recipe::{NUMBERS, Recipe};
+use lariat_bench::stability::run_recipe;
 use proptest::prelude::*;
 use proptest::test_runner::{FileFailurePersistence, RngSeed};
 

@@ -1,7 +1,7 @@
-//! Far from the origin, tiny and huge. The cases: `crates/lariat-lab/src/stability/cases/scale.rs`.
+//! Far from the origin, tiny and huge. The cases: `crates/lariat-bench/src/stability/cases/scale.rs`.
 
 use super::suite::check;
-use lariat_lab::stability::Family;
+use lariat_bench::stability::Family;
 
 /// Each case on one of its hosts, the first with all effects too.
 ///

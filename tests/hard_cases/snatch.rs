@@ -1,7 +1,7 @@
-//! A load falls 1 m on a slack rope. The cases: `crates/lariat-lab/src/stability/cases/snatch.rs`.
+//! A load falls 1 m on a slack rope. The cases: `crates/lariat-bench/src/stability/cases/snatch.rs`.
 
 use super::suite::check;
-use lariat_lab::stability::Family;
+use lariat_bench::stability::Family;
 
 /// Each case on one of its hosts, the first with all effects too.
 ///

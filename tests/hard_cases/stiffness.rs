@@ -1,7 +1,7 @@
-//! Young's modulus from 1e5 to 2.1e11 Pa, diameters from 1 to 50 mm, 2 to 200 elements. The cases: `crates/lariat-lab/src/stability/cases/stiffness.rs`.
+//! Young's modulus from 1e5 to 2.1e11 Pa, diameters from 1 to 50 mm, 2 to 200 elements. The cases: `crates/lariat-bench/src/stability/cases/stiffness.rs`.
 
 use super::suite::check;
-use lariat_lab::stability::Family;
+use lariat_bench::stability::Family;
 
 /// Each case on one of its hosts, the first with all effects too.
 ///

@@ -1,7 +1,7 @@
 //! Runs the part of the hard cases that every change must pass, and compares with docs/stability.md.
 
-use lariat_lab::stability::outcome::Outcome;
-use lariat_lab::stability::{Family, quick_jobs, report, run_in_turn};
+use lariat_bench::stability::outcome::Outcome;
+use lariat_bench::stability::{Family, quick_jobs, report, run_in_turn};
 use std::collections::BTreeSet;
 
 /// Runs a family, each case on one of its hosts: what does not hold must be exactly what docs/stability.md lists, so that improvements

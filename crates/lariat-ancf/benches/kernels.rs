@@ -41,7 +41,7 @@ fn levels() -> Vec<(&'static str, Level)> {
 
 /// Time of `count` steps; putting the state back is not part of it.
 fn implicit_steps(cable: &mut Cable, count: u64) -> Duration {
-    let state = cable.state().clone();
+    let state = cable.snapshot().clone();
     cable.diagnostics_mut().reset();
     let (mut time, mut left) = (Duration::ZERO, count);
     while left > 0 {

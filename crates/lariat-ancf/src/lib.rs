@@ -54,7 +54,7 @@ pub use cable::builder::{CableBuilder, STANDARD_GRAVITY};
 pub use cable::energy::{Energy, Momentum};
 pub use cable::exact::Jacobians;
 pub use cable::sample::{Reaction, Sample};
-pub use cable::{At, Cable, State};
+pub use cable::{At, Cable, Snapshot};
 pub use diagnostics::Diagnostics;
 pub use effect::{Account, Buoyancy, Damping, Drag, Effects, Flow, GravityScale, LineLoad, RestPiece, RestShape};
 pub use error::{Error, StepFailure};

@@ -5,7 +5,7 @@
 mod common;
 
 use common::pendulum;
-use lariat_ancf::island::{Island, Pin, RigidBody};
+use lariat_ancf::island::{Island, PinConstraint, RigidBody};
 use lariat_ancf::{
     At, Damping, Drag, Effects, Flow, Integrator, LineLoad, Method, PointLoad, RestShape, StepControl, Vector3,
 };
@@ -102,7 +102,7 @@ fn a_warm_cable_with_effects_steps_without_allocating() {
         let mut cable = pendulum(10).effects(effects()).build().unwrap();
         let node = cable.attach(At::End).unwrap();
         let body = RigidBody::new(1.0, nalgebra::Matrix3::identity(), Vector3::new(2.0, -0.1, 0.0)).unwrap();
-        let pins = [Pin { cable: 0, node, body: 0, anchor: Vector3::new(0.0, 0.1, 0.0), direction: None }];
+        let pins = [PinConstraint { cable: 0, node, body: 0, anchor: Vector3::new(0.0, 0.1, 0.0), direction: None }];
         let (mut bodies, mut island) = ([body], Island::default());
         let mut run = |steps: usize| {
             (0..steps)
@@ -127,7 +127,8 @@ fn a_warm_island_steps_without_allocating() {
             let mut cable = pendulum(10).build().unwrap();
             let node = cable.attach(At::End).unwrap();
             let body = RigidBody::new(1.0, nalgebra::Matrix3::identity(), Vector3::new(2.0, -0.1, 0.0)).unwrap();
-            let pins = [Pin { cable: 0, node, body: 0, anchor: Vector3::new(0.0, 0.1, 0.0), direction: None }];
+            let pins =
+                [PinConstraint { cable: 0, node, body: 0, anchor: Vector3::new(0.0, 0.1, 0.0), direction: None }];
             let (mut bodies, mut island) = ([body], Island::default());
             let mut run = |steps: usize| {
                 (0..steps)

@@ -233,8 +233,8 @@ fn straight_string_under_a_point_load_becomes_a_triangle() {
 #[test]
 fn a_cable_that_nothing_holds_has_no_equilibrium_and_stays_as_it_was() {
     let mut cable = limp([Vector3::zeros(), Vector3::x()], 1.0, 1e4, 4).build().unwrap();
-    let before = cable.state().clone();
+    let before = cable.snapshot().clone();
     let error = cable.equilibrium().unwrap_err();
     assert!(matches!(&error, Error::NoEquilibrium { reason, .. } if reason.contains("holds")), "{error}");
-    assert_eq!(*cable.state(), before);
+    assert_eq!(*cable.snapshot(), before);
 }

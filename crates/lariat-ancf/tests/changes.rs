@@ -52,7 +52,7 @@ fn a_snapshot_from_before_a_change_continues_as_a_fresh_cable_would() {
     for fidelity in [Fidelity::Engineering, Fidelity::Game] {
         let mut cable = horizontal().fix(At::Start).fix(At::End).fidelity(fidelity).build().unwrap();
         (0..5).for_each(|_| cable.step(1.0 / 60.0).unwrap());
-        let snapshot = cable.state().clone();
+        let snapshot = cable.snapshot().clone();
         let mut fresh = horizontal().fix(At::Start).fidelity(fidelity).build().unwrap();
         fresh.set_coordinates(cable.positions(), cable.velocities()).unwrap();
         cable.release(At::End).unwrap();
@@ -74,7 +74,7 @@ fn the_whole_state_of_a_cable_read_from_a_file_stays_equal() {
         for _ in 0..3 {
             cable.step(1.0 / 60.0).unwrap();
             copy.step(1.0 / 60.0).unwrap();
-            assert_eq!(cable.state(), copy.state(), "{method}");
+            assert_eq!(cable.snapshot(), copy.snapshot(), "{method}");
         }
     }
 }
@@ -159,7 +159,7 @@ fn steps_that_would_never_end_are_refused() {
         (Method::Verlet, StepControl::Stable(1e-320)),
     ] {
         let mut cable = horizontal().fix(At::Start).integrator(Integrator { method, control }).build().unwrap();
-        let before = cable.state().clone();
+        let before = cable.snapshot().clone();
         let error = cable.step(1.0 / 60.0).unwrap_err();
         assert!(matches!(error, Error::StepRefused { time: 0.0, .. }), "{error}");
         assert_eq!(

@@ -80,15 +80,15 @@ fn a_cable_read_back_keeps_its_samples() {
         cable.sample_flow(gust(9.0)).unwrap();
         cable.step(0.05).unwrap();
         // the same samples at the same places: nothing happens
-        let state = cable.state().clone();
+        let state = cable.snapshot().clone();
         cable.sample_flow(|_| Vector3::x()).unwrap();
-        assert!(*cable.state() != state, "accelerations are to be computed anew");
+        assert!(*cable.snapshot() != state, "accelerations are to be computed anew");
         cable.step(0.05).unwrap();
-        let state = cable.state().clone();
+        let state = cable.snapshot().clone();
         cable.sample_flow(|_| Vector3::x()).unwrap();
-        assert_eq!(*cable.state(), state);
+        assert_eq!(*cable.snapshot(), state);
     }
-    assert_eq!(cable.state(), copy.state());
+    assert_eq!(cable.snapshot(), copy.snapshot());
     assert_eq!(cable.diagnostics(), copy.diagnostics());
 }
 

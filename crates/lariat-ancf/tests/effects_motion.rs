@@ -3,7 +3,7 @@
 mod common;
 
 use common::{largest_difference, pendulum, rule};
-use lariat_ancf::island::{Island, Pin, RigidBody};
+use lariat_ancf::island::{Island, PinConstraint, RigidBody};
 use lariat_ancf::{
     At, Buoyancy, Cable, CableBuilder, Damping, Drag, Effects, Fidelity, Flow, GravityScale, Integrator, LineLoad,
     Method, RestPiece, RestShape, Section, StepControl, Vector3,
@@ -101,7 +101,7 @@ fn a_snapshot_carries_the_effects() {
             cable.set_drag(all().drag).unwrap();
             run(cable, 5);
         }
-        assert_eq!(cable.state(), copy.state(), "{method}");
+        assert_eq!(cable.snapshot(), copy.snapshot(), "{method}");
         assert_eq!(cable.diagnostics(), copy.diagnostics(), "{method}");
         assert_eq!(cable.effects(), copy.effects());
         assert!(cable.account().drag != 0.0);
@@ -130,7 +130,7 @@ fn effects_switched_off_leave_nothing() {
 fn a_refused_step_accounts_for_nothing() {
     let mut cable = wet(all()).build().unwrap();
     run(&mut cable, 3);
-    let before = cable.state().clone();
+    let before = cable.snapshot().clone();
     cable.set_integrator(Integrator::tolerance(Method::Trapezoid, 1e-300).unwrap()).unwrap();
     assert!(cable.step(0.1).is_err());
     assert_eq!(cable.account().drag, {
@@ -157,7 +157,7 @@ fn an_island_carries_the_effects_as_a_cable_alone_does() {
         let mut cable = alone.clone();
         let node = cable.attach(At::Start).unwrap();
         let (mut bodies, mut island) = ([fixed_body()], Island::default());
-        let pins = [Pin { cable: 0, node, body: 0, anchor: Vector3::zeros(), direction: None }];
+        let pins = [PinConstraint { cable: 0, node, body: 0, anchor: Vector3::zeros(), direction: None }];
         for _ in 0..12 {
             alone.step(1.0 / 60.0).unwrap();
             island.step(&mut [&mut cable], &mut bodies, &pins, integrator, 1.0 / 60.0).unwrap();
@@ -174,7 +174,7 @@ fn an_island_carries_the_effects_as_a_cable_alone_does() {
     }
     let mut cable = wet(all()).build().unwrap();
     let node = cable.attach(At::Start).unwrap();
-    let pins = [Pin { cable: 0, node, body: 0, anchor: Vector3::zeros(), direction: None }];
+    let pins = [PinConstraint { cable: 0, node, body: 0, anchor: Vector3::zeros(), direction: None }];
     let explicit = Integrator::substeps(Method::Verlet, 1000).unwrap();
     assert!(Island::default().step(&mut [&mut cable], &mut [fixed_body()], &pins, explicit, 0.01).is_err());
 }
@@ -191,7 +191,7 @@ fn an_island_balances_its_energy_with_effects() {
     let mut body = RigidBody::new(2.0, Matrix3::identity() * 0.02, tip - Vector3::new(0.0, 0.1, 0.0)).unwrap();
     body.force = Vector3::new(0.0, -2.0 * 9.81, 0.0);
     let (mut bodies, mut island) = ([body], Island::default());
-    let pins = [Pin { cable: 0, node, body: 0, anchor: Vector3::new(0.0, 0.1, 0.0), direction: None }];
+    let pins = [PinConstraint { cable: 0, node, body: 0, anchor: Vector3::new(0.0, 0.1, 0.0), direction: None }];
     let balance = |cable: &Cable, body: &RigidBody| {
         cable.energy().total() + cable.account().dissipated() - cable.account().line_load + body.kinetic_energy()
             - body.force.dot(&body.position)

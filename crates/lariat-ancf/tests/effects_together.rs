@@ -290,7 +290,7 @@ fn a_crushed_cable_with_effects_is_refused_not_a_nan() {
             let mut cable = soft_cable().rule(rule(name)).effects(allowed(name, effects)).build().unwrap();
             let still = vec![0.0; cable.positions().len()];
             cable.set_coordinates(&still, &still).unwrap();
-            let before = cable.state().clone();
+            let before = cable.snapshot().clone();
             match cable.step(0.01) {
                 Ok(()) => assert!(cable.positions().iter().all(|x| x.is_finite()), "{name} {effect}"),
                 Err(error) => {
@@ -303,7 +303,7 @@ fn a_crushed_cable_with_effects_is_refused_not_a_nan() {
     }
 }
 
-fn before_positions(before: &lariat_ancf::State, cable: &Cable) -> Vec<f64> {
+fn before_positions(before: &lariat_ancf::Snapshot, cable: &Cable) -> Vec<f64> {
     let mut other = cable.clone();
     other.restore(before.clone()).unwrap();
     other.positions().to_vec()

@@ -216,7 +216,7 @@ fn what_nothing_holds_is_refused_at_once() {
         ("spun", spun.build().unwrap(), 1.0),
         ("pushed", pushed.build().unwrap(), 1.0),
     ] {
-        let before = cable.state().clone();
+        let before = cable.snapshot().clone();
         match cable.equilibrium().unwrap_err() {
             Error::NoEquilibrium { reason, residual, iterations, .. } => {
                 assert!(reason.contains("nothing holds"), "{what}: {reason}");
@@ -224,7 +224,7 @@ fn what_nothing_holds_is_refused_at_once() {
             }
             error => panic!("{what}: {error}"),
         }
-        assert_eq!(*cable.state(), before, "{what}");
+        assert_eq!(*cable.snapshot(), before, "{what}");
     }
     let mut at_rest = free().gravity(Vector3::zeros()).build().unwrap();
     let before = at_rest.positions().to_vec();
@@ -241,7 +241,7 @@ fn what_nothing_holds_is_refused_at_once() {
 fn a_failing_search_is_bounded_and_says_why() {
     for iterations in [0, 1, 3, 7] {
         let mut cable = pinned(&kinds()[3], 10.0, [0.0, -8.0, 0.0], 41).build().unwrap();
-        let before = cable.state().clone();
+        let before = cable.snapshot().clone();
         let options = EquilibriumOptions { iterations, ..EquilibriumOptions::default() };
         match cable.equilibrium_with(options).unwrap_err() {
             Error::NoEquilibrium { cable, reason, residual, iterations: done } => {
@@ -252,6 +252,6 @@ fn a_failing_search_is_bounded_and_says_why() {
             }
             error => panic!("{error}"),
         }
-        assert_eq!(*cable.state(), before);
+        assert_eq!(*cable.snapshot(), before);
     }
 }

@@ -46,12 +46,12 @@ fn an_explicit_step_beyond_stability_is_refused_and_a_stable_one_works() {
             .integrator(coarse)
             .build()
             .unwrap();
-        let before = cable.state().clone();
+        let before = cable.snapshot().clone();
         let mut refused = None;
         for _ in 0..50 {
-            let last = cable.state().clone();
+            let last = cable.snapshot().clone();
             if let Err(error) = cable.step(1.0 / 60.0) {
-                assert_eq!(*cable.state(), last, "{method}: the last good state");
+                assert_eq!(*cable.snapshot(), last, "{method}: the last good state");
                 refused = Some(error);
                 break;
             }

@@ -50,7 +50,7 @@ fn a_restored_state_continues_bitwise_the_same_run() {
     for (method, control) in cases() {
         let Some(mut cable) = busy(method, control) else { continue };
         run(&mut cable, 10);
-        let snapshot = cable.state().clone();
+        let snapshot = cable.snapshot().clone();
         run(&mut cable, 10);
         let expected = bits(&cable);
         run(&mut cable, 7);
@@ -129,9 +129,9 @@ fn reading_reactions_and_energies_does_not_change_the_run() {
 fn a_state_of_another_mesh_is_refused() {
     let mut cable = soft_cable().build().unwrap();
     let other = soft_cable().elements(7).build().unwrap();
-    let error = cable.restore(other.state().clone()).unwrap_err();
+    let error = cable.restore(other.snapshot().clone()).unwrap_err();
     assert!(matches!(&error, Error::InvalidShape { reason, .. } if reason.contains('8')), "{error}");
     let mut json = serde_json::to_value(&cable).unwrap();
-    json["state"] = serde_json::to_value(other.state()).unwrap();
+    json["state"] = serde_json::to_value(other.snapshot()).unwrap();
     assert!(serde_json::from_value::<Cable>(json).is_err());
 }

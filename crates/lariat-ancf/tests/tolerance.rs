@@ -46,7 +46,7 @@ impl std::fmt::Display for Ratios {
 fn ratios(mut cable: Cable, mut exact: Cable, tolerance: f64, count: usize) -> Ratios {
     let errors: Vec<(f64, u64)> = (0..count)
         .map(|_| {
-            exact.restore(cable.state().clone()).unwrap();
+            exact.restore(cable.snapshot().clone()).unwrap();
             exact.step(HOST_STEP).unwrap();
             let steps = cable.diagnostics().steps;
             cable.step(HOST_STEP).unwrap();

@@ -8,7 +8,7 @@ use bevy_ecs::entity::Entity;
 use bevy_ecs::lifecycle::HookContext;
 use bevy_ecs::world::DeferredWorld;
 use lariat_ancf::{At, Vector3};
-use lariat_rapier::{AttachmentHandle, Pin};
+use lariat_rapier::{AttachmentHandle, AttachmentKind};
 
 /// How a point of a cable is held. Spawn it with its relationships:
 ///
@@ -29,7 +29,7 @@ pub struct Attachment {
     /// The point of the cable.
     pub at: At,
     /// Ball or clamp.
-    pub pin: Pin,
+    pub pin: AttachmentKind,
     /// The point of the body in m, in body axes from its origin (in world axes for the world). Default: where the cable's point is.
     pub anchor: Option<Vector3<f64>>,
     /// Holds to the world, not to a body.
@@ -39,12 +39,12 @@ pub struct Attachment {
 impl Attachment {
     /// Holds the position of a point of `cable`.
     pub fn ball(cable: Entity, at: impl Into<At>) -> AttachmentDraft {
-        AttachmentDraft { cable, at: at.into(), pin: Pin::Ball }
+        AttachmentDraft { cable, at: at.into(), pin: AttachmentKind::Ball }
     }
 
     /// Holds the position and the direction of the tangent of a point of `cable`.
     pub fn clamp(cable: Entity, at: impl Into<At>) -> AttachmentDraft {
-        AttachmentDraft { cable, at: at.into(), pin: Pin::Clamp }
+        AttachmentDraft { cable, at: at.into(), pin: AttachmentKind::Clamp }
     }
 }
 
@@ -53,7 +53,7 @@ impl Attachment {
 pub struct AttachmentDraft {
     cable: Entity,
     at: At,
-    pin: Pin,
+    pin: AttachmentKind,
 }
 
 impl AttachmentDraft {

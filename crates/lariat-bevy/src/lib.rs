@@ -80,7 +80,7 @@ pub use effects::{Bending, Buoyancy, Damping, Drag, GravityScale, LineLoads, Poi
 pub use error::Error;
 pub use interpolate::Interpolate;
 pub use lariat_ancf::{self, At};
-pub use lariat_rapier::{self, Pin, Settings, rapier};
+pub use lariat_rapier::{self, AttachmentKind, Settings, rapier};
 #[cfg(feature = "bevy_app")]
 pub use plugin::{LariatPlugin, install_in};
 pub use point::Point;

@@ -13,7 +13,7 @@ pub struct AttachmentHandle(pub(crate) u32);
 /// How a node is held.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
-pub enum Pin {
+pub enum AttachmentKind {
     /// Its position: a ball joint.
     #[default]
     Ball,
@@ -85,8 +85,8 @@ impl Attachment {
     }
 
     /// How the node is held.
-    pub fn pin(&self) -> Pin {
-        if self.direction.is_some() { Pin::Clamp } else { Pin::Ball }
+    pub fn kind(&self) -> AttachmentKind {
+        if self.direction.is_some() { AttachmentKind::Clamp } else { AttachmentKind::Ball }
     }
 
     /// The point of the body, in body axes from its origin, in m.

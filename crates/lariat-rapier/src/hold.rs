@@ -1,6 +1,6 @@
 //! Attaching cables to bodies and to each other, and letting go.
 
-use crate::attachment::{Account, Attachment, AttachmentHandle, Pin};
+use crate::attachment::{Account, Attachment, AttachmentHandle, AttachmentKind};
 use crate::convert::{rotation, vector};
 use crate::junction::{Junction, JunctionHandle};
 use crate::set::CableSet;
@@ -26,7 +26,7 @@ impl CableSet {
         at: impl Into<At>,
         body: RigidBodyHandle,
         anchor: Vector,
-        pin: Pin,
+        pin: AttachmentKind,
     ) -> Result<AttachmentHandle, Error> {
         let rigid = world.bodies.get(body).ok_or(Error::NoBody(body))?;
         let anchor = vector(anchor);
@@ -37,11 +37,11 @@ impl CableSet {
         let held = self.get_mut(cable)?;
         let arc_length = held.node_arc_lengths()[node];
         let direction = match pin {
-            Pin::Ball => {
+            AttachmentKind::Ball => {
                 held.attach(At::Node(node))?;
                 None
             }
-            Pin::Clamp => {
+            AttachmentKind::Clamp => {
                 held.attach_clamped(At::Node(node))?;
                 let slope = Vector3::from_column_slice(&held.positions()[6 * node + 3..6 * node + 6]);
                 Some(rotation(*rigid.rotation()).inverse() * slope.normalize())
@@ -74,7 +74,7 @@ impl CableSet {
         cable: CableHandle,
         at: impl Into<At>,
         body: RigidBodyHandle,
-        pin: Pin,
+        pin: AttachmentKind,
     ) -> Result<AttachmentHandle, Error> {
         let at = at.into();
         let rigid = world.bodies.get(body).ok_or(Error::NoBody(body))?;

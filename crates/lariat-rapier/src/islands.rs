@@ -10,8 +10,8 @@ use crate::linkage::Linkage;
 use crate::set::{CableSet, Slot};
 use crate::{CableHandle, Error};
 use ::nalgebra::Vector3;
-use lariat_ancf::island::{Impedance, Pin, RigidBody};
-use lariat_ancf::{At, SlopeSupport, State};
+use lariat_ancf::island::{Impedance, PinConstraint, RigidBody};
+use lariat_ancf::{At, SlopeSupport, Snapshot};
 use rapier::dynamics::RigidBodyHandle;
 use rapier::math::{AngVector, Vector};
 use rapier::pipeline::PhysicsWorld;
@@ -58,7 +58,7 @@ pub(crate) struct IslandStep {
     pub cables: Vec<usize>,
     pub members: Vec<Member>,
     /// Pins, with indices into the two lists above.
-    pub pins: Vec<Pin>,
+    pub pins: Vec<PinConstraint>,
     /// The attachment of each pin; none at a junction.
     pub attachments: Vec<Option<usize>>,
     /// Attachments whose ends are prescribed.
@@ -69,7 +69,7 @@ pub(crate) struct IslandStep {
     /// By member, what it moves with.
     pub linkages: Vec<Option<Linkage>>,
     /// The cables before the step.
-    pub before: Vec<State>,
+    pub before: Vec<Snapshot>,
     /// By member, what Rapier was given.
     pub given: Vec<Option<Given>>,
     /// By cable, its answer to impulses, where a body of the island is near others.
@@ -239,7 +239,7 @@ impl CableSet {
                 island.members.len() - 1
             });
             let anchor = held.map_or_else(Vector3::zeros, |h| h.anchor);
-            island.pins.push(Pin { cable, node, body, anchor, direction: held.and_then(|h| h.direction) });
+            island.pins.push(PinConstraint { cable, node, body, anchor, direction: held.and_then(|h| h.direction) });
             island.attachments.push(held.map(|h| h.attachment));
         };
         for (c, &cable) in island.cables.iter().enumerate() {

@@ -2,7 +2,7 @@
 //!
 //! ```
 //! use lariat_ancf::{At, Cable, Section, Vector3};
-//! use lariat_rapier::{CableSet, Pin};
+//! use lariat_rapier::{CableSet, AttachmentKind};
 //! use rapier::prelude::*;
 //!
 //! let mut world = PhysicsWorld::new();
@@ -18,7 +18,7 @@
 //!         .fix(At::Start)
 //!         .build()?,
 //! );
-//! cables.attach(&world, sling, At::End, crate_, Vector::new(0.0, 0.1, 0.0), Pin::Ball)?;
+//! cables.attach(&world, sling, At::End, crate_, Vector::new(0.0, 0.1, 0.0), AttachmentKind::Ball)?;
 //! for _ in 0..30 {
 //!     cables.step(&mut world)?; // one host step: predict, Rapier's step, reconcile, four times
 //! }
@@ -106,7 +106,7 @@ mod split;
 mod step;
 mod totals;
 
-pub use attachment::{Attachment, AttachmentHandle, Pin};
+pub use attachment::{Attachment, AttachmentHandle, AttachmentKind};
 #[cfg(feature = "debug-render")]
 pub use draw::DrawStyle;
 pub use error::Error;

@@ -53,7 +53,7 @@ impl CableSet {
         island.before.clear();
         island
             .before
-            .extend(island.cables.iter().filter_map(|&c| self.cables[c].as_ref()).map(|s| s.cable.state().clone()));
+            .extend(island.cables.iter().filter_map(|&c| self.cables[c].as_ref()).map(|s| s.cable.snapshot().clone()));
         island.idle = self.sleeps(world, island, h);
         if island.idle {
             pick(&mut self.cables, &island.cables).into_iter().for_each(|cable| cable.rest(h));

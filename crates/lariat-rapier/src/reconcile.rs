@@ -83,7 +83,7 @@ impl CableSet {
         }
         if !self.stale && island.impulses.iter().any(|p| *p != Vector3::zeros()) {
             for (c, cable) in pick(&mut self.cables, &island.cables).into_iter().enumerate() {
-                let of = |(p, _): &(&lariat_ancf::island::Pin, &Vector3<f64>)| p.cable == c;
+                let of = |(p, _): &(&lariat_ancf::island::PinConstraint, &Vector3<f64>)| p.cable == c;
                 let own: Vec<Vector3<f64>> =
                     island.pins.iter().zip(&island.impulses).filter(of).map(|(_, p)| *p).collect();
                 island.impedances[c].kick(cable, &own);

@@ -1,7 +1,7 @@
 //! Building a cable.
 
 use super::model::{Element, Model};
-use super::{At, Cable, State, layout};
+use super::{At, Cable, Snapshot, layout};
 use crate::effect::{Damping, Effects};
 use crate::error::{Error, require, require_finite};
 use crate::integrate::{Fidelity, Integrator};
@@ -245,7 +245,7 @@ impl CableBuilder {
             })
             .collect();
         let (positions, slopes) = layout::along_polyline(&self.points, &s, self.gravity);
-        let mut state = State::default();
+        let mut state = Snapshot::default();
         for (r, t) in positions.iter().zip(&slopes) {
             state.phase.q.extend(r.iter().chain(t.iter()));
         }

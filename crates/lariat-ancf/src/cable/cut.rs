@@ -4,10 +4,10 @@
 //! energy of the parts sum to those of the whole to rounding. *Validity.* Any node between the ends. The tension at the cut
 //! has nothing to act against from then on: a taut cable whips, and wants an integrator with error control or damping.
 
-use super::{At, Cable, State};
+use super::{At, Cable, Snapshot};
 use crate::effect::{LineLoad, RestPiece, RestShape};
 use crate::error::Error;
-use crate::integrate::{Memory, Phase};
+use crate::integrate::{Memory, State};
 
 impl Cable {
     /// Cuts the cable at a point: this one keeps what is before it, the rest is returned. What holds or loads the point itself stays with
@@ -43,10 +43,10 @@ impl Cable {
         tail.effects.rest_shape = tail.effects.rest_shape.take().map(|rest| shifted_shape(rest, s));
         let phase = &self.state.phase;
         let part =
-            |q: &[f64], v: &[f64]| Phase { time: phase.time, q: q.to_vec(), v: v.to_vec(), memory: Memory::default() };
+            |q: &[f64], v: &[f64]| State { time: phase.time, q: q.to_vec(), v: v.to_vec(), memory: Memory::default() };
         let (end, begin) = (6 * node + 6, 6 * node);
-        let head_state = State { phase: part(&phase.q[..end], &phase.v[..end]), account: self.state.account };
-        let tail_state = State { phase: part(&phase.q[begin..], &phase.v[begin..]), ..State::default() };
+        let head_state = Snapshot { phase: part(&phase.q[..end], &phase.v[..end]), account: self.state.account };
+        let tail_state = Snapshot { phase: part(&phase.q[begin..], &phase.v[begin..]), ..Snapshot::default() };
         let tail = Cable::from_parts(tail, tail_state, self.integrator)?;
         let mut head = Cable::from_parts(head, head_state, self.integrator)?;
         head.diagnostics = self.diagnostics;

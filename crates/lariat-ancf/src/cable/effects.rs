@@ -6,7 +6,7 @@ use crate::effect::account::hermite;
 use crate::effect::{Account, Buoyancy, Damping, Drag, Effects, GravityScale, LineLoad, RestShape};
 use crate::element::{mass, shape};
 use crate::error::{Error, require, require_finite};
-use crate::integrate::{Integrator, Phase};
+use crate::integrate::{Integrator, State};
 use crate::quadrature::gauss_legendre;
 use crate::rule::BendingRule;
 use nalgebra::Vector3;
@@ -333,7 +333,7 @@ fn partial_weights(length: f64, a: f64, b: f64) -> [f64; 4] {
 
 impl Equations<'_> {
     /// Adds to the account what effects took in a step from `before` to `after`.
-    pub(crate) fn account_step(&mut self, before: &Phase, after: &Phase, h: f64, range: core::ops::Range<usize>) {
+    pub(crate) fn account_step(&mut self, before: &State, after: &State, h: f64, range: core::ops::Range<usize>) {
         let system = &mut *self.system;
         let damps = system.kernel.as_ref().is_some_and(|kernel| kernel.damps());
         if !damps && system.fluid.is_none() {

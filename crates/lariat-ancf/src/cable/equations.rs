@@ -12,7 +12,7 @@ use super::system::{MassSolver, System};
 use crate::diagnostics::Diagnostics;
 use crate::error::StepFailure;
 use crate::integrate::newton::{self, Increment, Linearised};
-use crate::integrate::{Dynamics, Phase, Stage};
+use crate::integrate::{Dynamics, Stage, State};
 use crate::linalg::Definiteness;
 
 /// Newton's tolerance is at most this share of the displacement that the acceleration makes in the stage, and of the strain
@@ -321,11 +321,11 @@ impl Dynamics for Equations<'_> {
         self.model.effects.exact_tangent()
     }
 
-    fn accepted(&mut self, before: &Phase, after: &Phase, h: f64) {
+    fn accepted(&mut self, before: &State, after: &State, h: f64) {
         self.account_step(before, after, h, 0..after.q.len());
     }
 
-    fn energy_made(&mut self, before: &Phase, after: &Phase, h: f64) -> Option<(f64, f64)> {
+    fn energy_made(&mut self, before: &State, after: &State, h: f64) -> Option<(f64, f64)> {
         let made = self.energy_between(before, after, h, 0..after.q.len())?;
         Some((made.made, made.before.max(made.after)))
     }

@@ -2,7 +2,7 @@
 //! internal damping takes is not added: it hides a little.
 
 use super::equations::Equations;
-use crate::integrate::Phase;
+use crate::integrate::State;
 use crate::load::PointLoad;
 use core::ops::Range;
 use nalgebra::Vector3;
@@ -47,8 +47,8 @@ impl Equations<'_> {
     /// Energy made between two phases; `range` is the cable's part of them.
     pub(crate) fn energy_between(
         &mut self,
-        before: &Phase,
-        after: &Phase,
+        before: &State,
+        after: &State,
         h: f64,
         range: Range<usize>,
     ) -> Option<Made> {

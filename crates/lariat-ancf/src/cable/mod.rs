@@ -30,7 +30,7 @@ use crate::diagnostics::Diagnostics;
 use crate::effect::Account;
 use crate::error::{Error, StepFailure, require};
 use crate::integrate::drive::{self, Counts};
-use crate::integrate::{Integrator, Phase, Scratch};
+use crate::integrate::{Integrator, Scratch, State};
 use crate::rule::Rule;
 use builder::CableBuilder;
 pub(crate) use effects::check_integrator;
@@ -68,8 +68,8 @@ impl From<f64> for At {
 
 /// All that changes while a cable moves. Plain data: clone it, serialise it, put it back, and the run goes on bitwise the same.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct State {
-    pub(crate) phase: Phase,
+pub struct Snapshot {
+    pub(crate) phase: State,
     /// Work of effects so far.
     #[serde(default)]
     pub(crate) account: Account,
@@ -82,13 +82,13 @@ pub struct State {
 #[serde(try_from = "saved::Saved", into = "saved::Saved")]
 pub struct Cable {
     pub(crate) model: Model,
-    pub(crate) state: State,
+    pub(crate) state: Snapshot,
     integrator: Integrator,
     diagnostics: Diagnostics,
     pub(crate) system: System,
     scratch: Scratch,
     /// State at the beginning of the host step, to go back to.
-    saved: Phase,
+    saved: State,
     /// Counts changes of supports, loads and integrator.
     pub(crate) revision: u64,
 }
@@ -99,7 +99,7 @@ impl Cable {
         CableBuilder::default()
     }
 
-    pub(crate) fn from_parts(model: Model, state: State, integrator: Integrator) -> Result<Self, Error> {
+    pub(crate) fn from_parts(model: Model, state: Snapshot, integrator: Integrator) -> Result<Self, Error> {
         model.check()?;
         state
             .phase
@@ -120,7 +120,7 @@ impl Cable {
             diagnostics: Diagnostics::default(),
             system,
             scratch: Scratch::default(),
-            saved: Phase::default(),
+            saved: State::default(),
             revision: 0,
         })
     }
@@ -196,7 +196,7 @@ impl Cable {
         }
     }
 
-    pub(crate) fn equations(&mut self) -> (Equations<'_>, &Phase) {
+    pub(crate) fn equations(&mut self) -> (Equations<'_>, &State) {
         let equations = Equations { model: &self.model, system: &mut self.system, diagnostics: &mut self.diagnostics };
         (equations, &self.state.phase)
     }
@@ -291,7 +291,7 @@ impl Cable {
     }
 
     /// The state: clone it to take a snapshot.
-    pub fn state(&self) -> &State {
+    pub fn snapshot(&self) -> &Snapshot {
         &self.state
     }
 
@@ -300,7 +300,7 @@ impl Cable {
     ///
     /// # Errors
     /// [`Error::InvalidShape`] if the state is of a cable with another number of nodes, or is not finite.
-    pub fn restore(&mut self, state: State) -> Result<(), Error> {
+    pub fn restore(&mut self, state: Snapshot) -> Result<(), Error> {
         state
             .phase
             .check(self.positions().len())

@@ -8,7 +8,7 @@
 use super::{At, Cable, Element};
 use crate::element::shape;
 use crate::error::Error;
-use crate::integrate::Phase;
+use crate::integrate::State;
 use nalgebra::Vector3;
 
 impl Cable {
@@ -41,7 +41,7 @@ impl Cable {
             let (r, t) = (point(shape::position(xi, whole.length)), point(shape::slope(xi, whole.length)));
             x.splice(6 * node..6 * node, r.iter().chain(t.iter()).copied());
         };
-        let Phase { q, v, memory, .. } = &mut state.phase;
+        let State { q, v, memory, .. } = &mut state.phase;
         cut(q);
         cut(v);
         memory.acceleration.clear();

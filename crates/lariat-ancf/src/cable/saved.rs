@@ -1,7 +1,7 @@
 //! A cable as it is serialised: its description and state; the rest is derived.
 
 use super::model::Model;
-use super::{Cable, State};
+use super::{Cable, Snapshot};
 use crate::diagnostics::Diagnostics;
 use crate::error::Error;
 use crate::integrate::Integrator;
@@ -12,7 +12,7 @@ use serde::{Deserialize, Serialize};
 #[serde(rename = "Cable")]
 pub(super) struct Saved {
     model: Model,
-    state: State,
+    state: Snapshot,
     integrator: Integrator,
     diagnostics: Diagnostics,
     #[serde(default)]

@@ -8,12 +8,12 @@
 //! (Hellmann 1916) and other profiles by tables. *Validity.* One direction by the tables; any field by samples, which the caller takes anew
 //! as often as it changes ([`Cable::sample_flow`]), held in between: of order 2 in the time between them if taken for its middle. Times are
 //! those of the cable's clock, which `set_time` turns without turning the weather. *Snapshots.* Tables and samples are data of the cable:
-//! serialised with it, and a copy read back goes on bitwise until samples are taken again. A [`State`] holds none, as it holds no loads.
+//! serialised with it, and a copy read back goes on bitwise until samples are taken again. A [`Snapshot`] holds none, as it holds no loads.
 //! *Rejected.* A function of the user's inside the cable: it cannot be serialised, and a snapshot would not replay; powers and sines
 //! evaluated in the step: their last bits differ between machines.
 //!
 //! [`Cable::sample_flow`]: crate::Cable::sample_flow
-//! [`State`]: crate::State
+//! [`Snapshot`]: crate::Snapshot
 
 use crate::error::{Error, require, require_finite};
 use nalgebra::Vector3;

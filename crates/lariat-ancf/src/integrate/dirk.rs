@@ -13,7 +13,7 @@
 //! *Rejected.* Tangents kept blindly over the stages: Newton fails on thin cables and steps shrink.
 
 use super::dynamics::{Dynamics, Newton, Stage};
-use super::{OneStep, Phase, Scratch};
+use super::{OneStep, Scratch, State};
 use crate::error::StepFailure;
 
 /// A tableau with one diagonal value; row `i` holds a_i0 .. a_ii.
@@ -72,7 +72,7 @@ impl OneStep for Tableau {
     fn step(
         &self,
         system: &mut dyn Dynamics,
-        now: &Phase,
+        now: &State,
         h: f64,
         newton_tolerance: f64,
         wanted: bool,

@@ -20,7 +20,7 @@
 
 use super::fidelity::StepControl;
 use super::method::{Method, Stepper};
-use super::{Dynamics, Memory, OneStep, Phase, Scratch, backward_euler};
+use super::{Dynamics, Memory, OneStep, Scratch, State, backward_euler};
 use crate::error::StepFailure;
 
 /// Steps are not shortened below H times this.
@@ -84,7 +84,7 @@ pub fn advance(
     system: &mut dyn Dynamics,
     method: Method,
     control: StepControl,
-    phase: &mut Phase,
+    phase: &mut State,
     horizon: f64,
     scratch: &mut Scratch,
     counts: &mut Counts,
@@ -196,7 +196,7 @@ pub fn advance(
 }
 
 /// Makes the phase consistent: prescribed coordinates in place, acceleration known.
-fn prepare(system: &mut dyn Dynamics, phase: &mut Phase, algorithmic: bool) -> Result<(), Refusal> {
+fn prepare(system: &mut dyn Dynamics, phase: &mut State, algorithmic: bool) -> Result<(), Refusal> {
     let n = system.size();
     if phase.memory.valid && (!algorithmic || phase.memory.algorithmic.len() == n) {
         return Ok(());
@@ -257,7 +257,7 @@ fn fit(proposal: f64, left: f64, even: bool) -> (f64, bool) {
 
 /// Whether slopes change their rates by so much that the step may have made energy: by a strain of [`BRISK`] within it, and by
 /// [`BRISK_SHARE`] of the largest rate, as those of a rope that swings do not.
-fn is_brisk(before: &Phase, after: &Phase, h: f64) -> bool {
+fn is_brisk(before: &State, after: &State, h: f64) -> bool {
     let (mut change, mut rate) = (0.0f64, 0.0f64);
     for (v, w) in before.v.chunks_exact(6).zip(after.v.chunks_exact(6)) {
         let d = [w[3] - v[3], w[4] - v[4], w[5] - v[5]];
@@ -268,7 +268,7 @@ fn is_brisk(before: &Phase, after: &Phase, h: f64) -> bool {
 }
 
 /// Takes over the step in `scratch`; only generalised-alpha has algorithmic accelerations.
-fn accept(phase: &mut Phase, scratch: &mut Scratch, algorithmic: bool) {
+fn accept(phase: &mut State, scratch: &mut Scratch, algorithmic: bool) {
     core::mem::swap(&mut phase.q, &mut scratch.next.q);
     core::mem::swap(&mut phase.v, &mut scratch.next.v);
     core::mem::swap(&mut phase.memory.acceleration, &mut scratch.next.memory.acceleration);

@@ -1,6 +1,6 @@
 //! What an integrator needs to know of a mechanical system, and nothing else.
 
-use super::Phase;
+use super::State;
 use crate::error::StepFailure;
 
 /// How Newton's iteration of an implicit stage ends.
@@ -81,13 +81,13 @@ pub trait Dynamics {
     fn norm(&self, error: &[f64]) -> f64;
 
     /// Called once for every step of length `h` (s) that was accepted, with the phases at both ends; accelerations are known in both.
-    fn accepted(&mut self, _before: &Phase, _after: &Phase, _h: f64) {}
+    fn accepted(&mut self, _before: &State, _after: &State, _h: f64) {}
     /// Told the phase at the beginning of a host step and after every step that is accepted; accelerations are valid then.
-    fn reached(&mut self, _phase: &Phase) {}
+    fn reached(&mut self, _phase: &State) {}
 
     /// Energy in J that a step of length `h` (s) made beyond the work of what acts from outside, and the kinetic and strain energy to measure it
     /// by; none where that work is not known.
-    fn energy_made(&mut self, _before: &Phase, _after: &Phase, _h: f64) -> Option<(f64, f64)> {
+    fn energy_made(&mut self, _before: &State, _after: &State, _h: f64) -> Option<(f64, f64)> {
         None
     }
 

@@ -14,7 +14,7 @@
 
 use super::dirk::add;
 use super::dynamics::Dynamics;
-use super::{OneStep, Phase, Scratch};
+use super::{OneStep, Scratch, State};
 use crate::error::StepFailure;
 
 /// Weights of the first half of a symmetric composition b1 a1 b2 a2 ...; the rest follows by symmetry.
@@ -48,7 +48,7 @@ impl OneStep for Composition {
     fn step(
         &self,
         system: &mut dyn Dynamics,
-        now: &Phase,
+        now: &State,
         h: f64,
         _: f64,
         _: bool,

@@ -1,6 +1,6 @@
 //! A method with its step control, and the three choices that most users need: [`Fidelity`].
 //!
-//! The figures at each choice are those of `docs/accuracy/fidelity.csv`, which `lariat report` measures; a test of `lariat-lab` holds
+//! The figures at each choice are those of `docs/accuracy/fidelity.csv`, which `lariat report` measures; a test of `lariat-bench` holds
 //! them to that file.
 
 use super::method::{Method, NewtonMode, Stepper};

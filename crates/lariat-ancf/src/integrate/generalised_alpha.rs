@@ -16,7 +16,7 @@
 use super::dirk::add;
 use super::dynamics::{Dynamics, Newton, Stage};
 use super::method::NewtonMode;
-use super::{OneStep, Phase, Scratch};
+use super::{OneStep, Scratch, State};
 use crate::error::StepFailure;
 
 /// Generalised-alpha.
@@ -36,7 +36,7 @@ impl OneStep for GeneralisedAlpha {
     fn step(
         &self,
         system: &mut dyn Dynamics,
-        now: &Phase,
+        now: &State,
         h: f64,
         newton_tolerance: f64,
         wanted: bool,

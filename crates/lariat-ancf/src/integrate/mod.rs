@@ -56,7 +56,7 @@ pub struct Memory {
 
 /// Positions, velocities and method memory at a time.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Phase {
+pub struct State {
     /// Time in s.
     pub time: f64,
     /// Positions: flat (r, t) by node, m and 1.
@@ -67,10 +67,10 @@ pub struct Phase {
     pub memory: Memory,
 }
 
-impl Phase {
+impl State {
     /// Copies `other` into the buffers that are there; the derived `clone_from` would allocate new ones.
-    pub(crate) fn copy_from(&mut self, other: &Phase) {
-        let Phase { time, q, v, memory: Memory { acceleration, algorithmic, valid, step, revision } } = other;
+    pub(crate) fn copy_from(&mut self, other: &State) {
+        let State { time, q, v, memory: Memory { acceleration, algorithmic, valid, step, revision } } = other;
         self.time = *time;
         self.q.clone_from(q);
         self.v.clone_from(v);
@@ -82,7 +82,7 @@ impl Phase {
     }
 }
 
-impl Phase {
+impl State {
     /// Refuses a phase that is not one of `size` coordinates, or not finite; says why.
     pub(crate) fn check(&self, size: usize) -> Result<(), String> {
         let memory = &self.memory;
@@ -108,7 +108,7 @@ impl Phase {
 /// Scratch vectors of a method; allocated once.
 #[derive(Clone, Debug, Default)]
 pub struct Scratch {
-    pub(crate) next: Phase,
+    pub(crate) next: State,
     pub(crate) base: Vec<f64>,
     pub(crate) velocity_base: Vec<f64>,
     pub(crate) error: Vec<f64>,
@@ -153,7 +153,7 @@ pub trait OneStep {
     fn step(
         &self,
         system: &mut dyn Dynamics,
-        now: &Phase,
+        now: &State,
         h: f64,
         newton_tolerance: f64,
         wanted: bool,

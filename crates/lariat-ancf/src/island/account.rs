@@ -11,7 +11,7 @@
 use super::system::Work;
 use super::workspace::vector;
 use crate::cable::Rates;
-use crate::integrate::Phase;
+use crate::integrate::State;
 use nalgebra::Vector3;
 
 /// What the cable did to the body at one pin during the last step. World axes.
@@ -61,7 +61,7 @@ impl Work<'_, '_> {
     }
 
     /// Brings the accounts to a phase whose accelerations are known.
-    pub(super) fn account(&mut self, phase: &Phase) {
+    pub(super) fn account(&mut self, phase: &State) {
         if self.pins.is_empty() {
             return;
         }

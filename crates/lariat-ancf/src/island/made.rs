@@ -9,7 +9,7 @@ use super::body::RigidBody;
 use super::system::Work;
 use super::workspace::{Motion, vector};
 use crate::cable::Rates;
-use crate::integrate::Phase;
+use crate::integrate::State;
 use nalgebra::Vector3;
 
 /// Speed in m/s with which a gap may close without its work being asked for.
@@ -19,7 +19,7 @@ const FAST_CLOSING: f64 = 1e-2;
 
 impl Work<'_, '_> {
     /// Energy made between two phases in J, and the energy to measure it by; none where bodies are driven or gaps close.
-    pub(super) fn energy_between(&mut self, before: &Phase, after: &Phase, h: f64) -> Option<(f64, f64)> {
+    pub(super) fn energy_between(&mut self, before: &State, after: &State, h: f64) -> Option<(f64, f64)> {
         let moves = |body: &RigidBody| body.velocity != Vector3::zeros() || body.angular_velocity != Vector3::zeros();
         let driven = |body: &RigidBody| body.free == [false; 6] && moves(body);
         if self.workspace.bodies.iter().any(driven) {
@@ -69,7 +69,7 @@ impl Work<'_, '_> {
 
     /// Work of the cables on their pins against what is left of gaps, by the trapezoidal rule, in J: energy that is not made, but lost where
     /// a cable pulls its gap shut.
-    fn work_on_gaps(&mut self, before: &Phase, after: &Phase, h: f64) -> f64 {
+    fn work_on_gaps(&mut self, before: &State, after: &State, h: f64) -> f64 {
         let mut rhs = core::mem::take(&mut self.workspace.rhs);
         let mut work = 0.0;
         for phase in [before, after] {

@@ -6,9 +6,9 @@
 
 use super::rotation::angular_acceleration;
 use super::workspace::{Workspace, vector};
-use super::{Pin, RigidBody};
+use super::{PinConstraint, RigidBody};
 use crate::cable::Cable;
-use crate::integrate::Phase;
+use crate::integrate::State;
 use nalgebra::{Matrix3, Vector3};
 use serde::{Deserialize, Serialize};
 
@@ -25,7 +25,7 @@ pub struct BodyMemory {
     pins: usize,
 }
 
-fn pins_of(pins: &[Pin], body: usize) -> usize {
+fn pins_of(pins: &[PinConstraint], body: usize) -> usize {
     pins.iter().filter(|p| p.body == body).count()
 }
 
@@ -33,8 +33,8 @@ fn pins_of(pins: &[Pin], body: usize) -> usize {
 pub(super) fn recall(
     cables: &mut [&mut Cable],
     bodies: &[RigidBody],
-    pins: &[Pin],
-    phase: &mut Phase,
+    pins: &[PinConstraint],
+    phase: &mut State,
     workspace: &Workspace,
 ) {
     let memory = &mut phase.memory;
@@ -75,7 +75,7 @@ pub(super) fn recall(
 }
 
 /// Keeps the accelerations of `phase` with the cables and bodies they belong to.
-pub(super) fn keep(cables: &mut [&mut Cable], bodies: &mut [RigidBody], pins: &[Pin], phase: &Phase) {
+pub(super) fn keep(cables: &mut [&mut Cable], bodies: &mut [RigidBody], pins: &[PinConstraint], phase: &State) {
     let memory = &phase.memory;
     let both = memory.algorithmic.len() == memory.acceleration.len();
     let mut at = 0;

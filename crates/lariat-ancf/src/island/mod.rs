@@ -42,7 +42,7 @@ use crate::cable::{At, Cable, SHORTEST_STEP, check_integrator};
 use crate::effect::Account;
 use crate::error::{Error, require, require_finite};
 use crate::integrate::drive::{self, Counts};
-use crate::integrate::{Integrator, Phase, Scratch};
+use crate::integrate::{Integrator, Scratch, State};
 use crate::support::{SlopeSupport, Support};
 use nalgebra::Vector3;
 use system::Work;
@@ -50,7 +50,7 @@ use workspace::Workspace;
 
 /// A node of a cable held to a point of a body.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Pin {
+pub struct PinConstraint {
     /// Index of the cable in the island.
     pub cable: usize,
     /// Node of the cable; it must be [attached](Cable::attach).
@@ -69,7 +69,7 @@ pub struct Pin {
 pub struct Island {
     workspace: Workspace,
     scratch: Scratch,
-    phase: Phase,
+    phase: State,
 }
 
 impl Island {
@@ -82,7 +82,7 @@ impl Island {
         &mut self,
         cables: &mut [&mut Cable],
         bodies: &mut [RigidBody],
-        pins: &[Pin],
+        pins: &[PinConstraint],
         integrator: Integrator,
         dt: f64,
     ) -> Result<(), Error> {
@@ -125,7 +125,7 @@ impl Island {
 }
 
 impl Cable {
-    /// Gives the position of a node to an island: it will follow the body that a [`Pin`] names.
+    /// Gives the position of a node to an island: it will follow the body that a [`PinConstraint`] names.
     ///
     /// # Errors
     /// As [`node`](Self::node).
@@ -153,7 +153,7 @@ impl Cable {
         self.set_support(At::Node(node), support)
     }
 
-    /// Gives the position of a node and the direction of its tangent to an island, for a [`Pin`] with a direction.
+    /// Gives the position of a node and the direction of its tangent to an island, for a [`PinConstraint`] with a direction.
     ///
     /// # Errors
     /// As [`node`](Self::node); [`Error::InvalidShape`] if the tangent has no length.
@@ -169,7 +169,7 @@ impl Cable {
     }
 }
 
-fn check(cables: &[&mut Cable], bodies: &[RigidBody], pins: &[Pin]) -> Result<(), Error> {
+fn check(cables: &[&mut Cable], bodies: &[RigidBody], pins: &[PinConstraint]) -> Result<(), Error> {
     let out_of_range = |what, value: usize, limit: usize| {
         Err(Error::OutOfRange { cable: String::new(), what, value: value as f64, limit: limit as f64 })
     };
@@ -219,7 +219,7 @@ fn check(cables: &[&mut Cable], bodies: &[RigidBody], pins: &[Pin]) -> Result<()
 }
 
 /// Coordinates of cables, then of bodies (position, rotation vector from the present attitude).
-fn gather(cables: &[&mut Cable], bodies: &[RigidBody], phase: &mut Phase) {
+fn gather(cables: &[&mut Cable], bodies: &[RigidBody], phase: &mut State) {
     phase.q.clear();
     phase.v.clear();
     for cable in cables {
@@ -234,7 +234,7 @@ fn gather(cables: &[&mut Cable], bodies: &[RigidBody], phase: &mut Phase) {
     phase.memory.step = cables.iter().map(|c| c.state.phase.memory.step).fold(f64::INFINITY, f64::min);
 }
 
-fn scatter(cables: &mut [&mut Cable], bodies: &mut [RigidBody], phase: &Phase, workspace: &Workspace) {
+fn scatter(cables: &mut [&mut Cable], bodies: &mut [RigidBody], phase: &State, workspace: &Workspace) {
     let mut at = 0;
     for cable in cables.iter_mut() {
         let n = cable.positions().len();

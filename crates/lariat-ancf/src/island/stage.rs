@@ -6,7 +6,7 @@ use super::workspace::vector;
 use crate::cable::Rates;
 use crate::error::StepFailure;
 use crate::integrate::newton::{self, Increment, Linearised};
-use crate::integrate::{Dynamics, Phase, Stage};
+use crate::integrate::{Dynamics, Stage, State};
 
 /// One stage of an island, as Newton sees it.
 struct IslandStage<'a, 'b, 'c> {
@@ -259,7 +259,7 @@ impl Dynamics for Work<'_, '_> {
         self.norm_of(error)
     }
 
-    fn accepted(&mut self, before: &Phase, after: &Phase, h: f64) {
+    fn accepted(&mut self, before: &State, after: &State, h: f64) {
         for c in 0..self.cables.len() {
             let (mut equations, part) = self.equations(c);
             let range = part.at..part.at + part.size;
@@ -267,7 +267,7 @@ impl Dynamics for Work<'_, '_> {
         }
     }
 
-    fn energy_made(&mut self, before: &Phase, after: &Phase, h: f64) -> Option<(f64, f64)> {
+    fn energy_made(&mut self, before: &State, after: &State, h: f64) -> Option<(f64, f64)> {
         self.energy_between(before, after, h)
     }
 
@@ -275,7 +275,7 @@ impl Dynamics for Work<'_, '_> {
         self.cables.first().map_or(0, |cable| cable.diagnostics().newton_iterations)
     }
 
-    fn reached(&mut self, phase: &Phase) {
+    fn reached(&mut self, phase: &State) {
         self.account(phase);
     }
 

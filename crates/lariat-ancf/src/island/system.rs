@@ -2,10 +2,10 @@
 
 use super::rotation::{angular_acceleration, skew};
 use super::workspace::{CableWork, Hold, Workspace, direction, vector};
-use super::{Pin, RigidBody};
+use super::{PinConstraint, RigidBody};
 use crate::cable::{Cable, Equations, Rates, project_matrix, project_vector};
 use crate::error::StepFailure;
-use crate::integrate::{Dynamics, Phase};
+use crate::integrate::{Dynamics, State};
 use crate::support::SlopeSupport;
 use nalgebra::{Matrix3, Vector3};
 
@@ -16,7 +16,7 @@ const LEAST_JUMP: f64 = 1e-10;
 pub(crate) struct Work<'a, 'b> {
     pub cables: &'a mut [&'b mut Cable],
     pub bodies: &'a [RigidBody],
-    pub pins: &'a [Pin],
+    pub pins: &'a [PinConstraint],
     pub workspace: &'a mut Workspace,
 }
 
@@ -94,8 +94,8 @@ impl Work<'_, '_> {
 
     /// Brings pinned nodes to the velocity of their bodies as an inelastic impact does: with the impulse that it takes on both
     /// sides, so that momentum is kept when an engine, a user or a collision has changed a body's velocity.
-    pub(super) fn meet(&mut self, phase: &mut Phase) -> Result<(), StepFailure> {
-        let Phase { time, q, v, memory } = phase;
+    pub(super) fn meet(&mut self, phase: &mut State) -> Result<(), StepFailure> {
+        let State { time, q, v, memory } = phase;
         let mut jump = core::mem::take(&mut self.workspace.product);
         jump.copy_from_slice(v);
         self.prescribe(*time, q, v);

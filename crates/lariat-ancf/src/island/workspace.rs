@@ -5,7 +5,7 @@ use super::clamp::Clamp;
 use super::condense::Condensed;
 use super::dense::Dense;
 use super::rotation::{exponential, spin};
-use super::{Pin, RigidBody};
+use super::{PinConstraint, RigidBody};
 use crate::cable::Cable;
 use crate::linalg::Factorisation;
 use nalgebra::{UnitQuaternion, Vector3};
@@ -101,7 +101,7 @@ pub(super) fn vector(x: &[f64]) -> Vector3<f64> {
 
 impl Workspace {
     /// Prepares for a step of `dt` from the present state.
-    pub fn begin(&mut self, cables: &[&mut Cable], bodies: &[RigidBody], pins: &[Pin], dt: f64) {
+    pub fn begin(&mut self, cables: &[&mut Cable], bodies: &[RigidBody], pins: &[PinConstraint], dt: f64) {
         self.cables.resize_with(cables.len(), CableWork::default);
         let mut at = 0;
         for (c, (work, cable)) in self.cables.iter_mut().zip(cables).enumerate() {

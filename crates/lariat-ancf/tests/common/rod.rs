@@ -8,7 +8,7 @@
 //! ```
 
 /// The hanging cable without bending stiffness; the accuracy report uses it too.
-#[path = "../../../lariat-lab/src/report/catenary_reference.rs"]
+#[path = "../../../lariat-bench/src/report/catenary_reference.rs"]
 mod catenary_reference;
 
 #[allow(unused_imports)] // each test binary uses a part

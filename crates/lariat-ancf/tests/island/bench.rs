@@ -1,6 +1,6 @@
 //! Scenes and tools that several files share.
 
-use lariat_ancf::island::{Island, Pin, PinAccount, RigidBody};
+use lariat_ancf::island::{Island, PinAccount, PinConstraint, RigidBody};
 use lariat_ancf::{At, Cable, Integrator, Section, Vector3};
 use nalgebra::Matrix3;
 
@@ -23,7 +23,7 @@ pub fn cube(mass: f64, side: f64) -> Matrix3<f64> {
 pub struct Scene {
     pub cables: Vec<Cable>,
     pub bodies: Vec<RigidBody>,
-    pub pins: Vec<Pin>,
+    pub pins: Vec<PinConstraint>,
     pub integrator: Integrator,
     island: Island,
 }
@@ -36,7 +36,7 @@ impl Scene {
     /// Holds a node of a cable to a point of a body.
     pub fn pin(mut self, cable: usize, at: impl Into<At>, body: usize, anchor: Vector3<f64>) -> Self {
         let node = self.cables[cable].attach(at).unwrap();
-        self.pins.push(Pin { cable, node, body, anchor, direction: None });
+        self.pins.push(PinConstraint { cable, node, body, anchor, direction: None });
         self
     }
 
@@ -45,7 +45,7 @@ impl Scene {
         let node = self.cables[cable].attach_clamped(at).unwrap();
         let slope = Vector3::from_column_slice(&self.cables[cable].positions()[6 * node + 3..6 * node + 6]);
         let direction = Some(self.bodies[body].rotation.inverse() * slope.normalize());
-        self.pins.push(Pin { cable, node, body, anchor, direction });
+        self.pins.push(PinConstraint { cable, node, body, anchor, direction });
         self
     }
 
@@ -86,7 +86,9 @@ impl Scene {
 
     /// Largest distance of a node from the anchor it is pinned to, in m.
     pub fn gap(&self) -> f64 {
-        let gap = |p: &Pin| (self.cables[p.cable].node_position(p.node) - self.bodies[p.body].point(&p.anchor)).norm();
+        let gap = |p: &PinConstraint| {
+            (self.cables[p.cable].node_position(p.node) - self.bodies[p.body].point(&p.anchor)).norm()
+        };
         self.pins.iter().map(gap).fold(0.0, f64::max)
     }
 }

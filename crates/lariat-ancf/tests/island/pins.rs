@@ -1,7 +1,7 @@
 //! Pins that cannot be, and steps that cannot be done: typed errors, and everything as before.
 
 use super::bench::{Scene, cube, payload, soft, steel};
-use lariat_ancf::island::{Pin, RigidBody};
+use lariat_ancf::island::{PinConstraint, RigidBody};
 use lariat_ancf::{Error, Integrator, Method, Vector3};
 use nalgebra::Matrix3;
 
@@ -9,9 +9,10 @@ fn refused(change: impl FnOnce(&mut Scene)) -> Error {
     let mut scene = payload(soft(), 50.0, Integrator::default());
     scene.run(1.0 / 60.0, 3);
     change(&mut scene);
-    let (cables, bodies) = (scene.cables.iter().map(|c| c.state().clone()).collect::<Vec<_>>(), scene.bodies.clone());
+    let (cables, bodies) =
+        (scene.cables.iter().map(|c| c.snapshot().clone()).collect::<Vec<_>>(), scene.bodies.clone());
     let error = scene.try_step(1.0 / 60.0).expect_err("a step that cannot be");
-    assert!(scene.cables.iter().zip(&cables).all(|(c, state)| c.state() == state), "cables untouched");
+    assert!(scene.cables.iter().zip(&cables).all(|(c, state)| c.snapshot() == state), "cables untouched");
     assert_eq!(scene.bodies, bodies, "bodies untouched");
     error
 }
@@ -33,7 +34,7 @@ fn pins_that_cannot_be_are_refused() {
     assert!(two.to_string().contains("two pins"), "{two}");
     let none = refused(|s| s.pins.clear());
     assert!(none.to_string().contains("no pin"), "{none}");
-    let free = refused(|s| s.pins.push(Pin { node: 3, ..s.pins[0] }));
+    let free = refused(|s| s.pins.push(PinConstraint { node: 3, ..s.pins[0] }));
     assert!(free.to_string().contains("not attached"), "{free}");
     let mut empty = Scene::new(Vec::new(), Vec::new(), Integrator::default());
     out_of_range(empty.try_step(0.1).unwrap_err(), "number of cables in an island");
@@ -52,9 +53,9 @@ fn a_step_that_cannot_be_done_leaves_cables_and_bodies_as_they_were() {
     assert!(matches!(error, Error::StepRefused { .. }), "{error}");
     let mut scene = payload(steel(), 50.0, Integrator::substeps(Method::Verlet, 4).unwrap());
     let refusal = (0..60).find_map(|_| {
-        let before = (scene.cables[0].state().clone(), scene.bodies.clone());
+        let before = (scene.cables[0].snapshot().clone(), scene.bodies.clone());
         let error = scene.try_step(1.0 / 60.0).err()?;
-        assert_eq!(*scene.cables[0].state(), before.0);
+        assert_eq!(*scene.cables[0].snapshot(), before.0);
         assert_eq!(scene.bodies, before.1);
         Some(error)
     });

@@ -3,7 +3,7 @@
 use super::bench::{add_cube, cable, gap, run, soft, v};
 use lariat_rapier::lariat_ancf::At;
 use lariat_rapier::rapier::prelude::*;
-use lariat_rapier::{AttachmentHandle, CableHandle, CableSet, Event, Pin};
+use lariat_rapier::{AttachmentHandle, AttachmentKind, CableHandle, CableSet, Event};
 
 struct Hung {
     world: PhysicsWorld,
@@ -19,7 +19,7 @@ fn hung() -> Hung {
     let load = add_cube(&mut world, 5.0, 0.1, [2.0, -0.1, 0.0]);
     let mut set = CableSet::new();
     let rope = set.insert(cable([0.0; 3], [2.0, 0.0, 0.0], soft()).fix(At::Start).build().unwrap());
-    let held = set.attach(&world, rope, At::End, load, Vector::new(0.0, 0.1, 0.0), Pin::Ball).unwrap();
+    let held = set.attach(&world, rope, At::End, load, Vector::new(0.0, 0.1, 0.0), AttachmentKind::Ball).unwrap();
     run(&mut world, &mut set, 30);
     Hung { world, set, load, rope, held }
 }
@@ -139,12 +139,13 @@ fn a_teleported_body_takes_its_end_along() {
 fn wrong_handles_are_refused() {
     let mut h = hung();
     let other = add_cube(&mut h.world, 1.0, 0.1, [9.0; 3]);
-    let twice = h.set.attach(&h.world, h.rope, At::End, other, Vector::ZERO, Pin::Ball).unwrap_err();
+    let twice = h.set.attach(&h.world, h.rope, At::End, other, Vector::ZERO, AttachmentKind::Ball).unwrap_err();
     assert!(matches!(twice, lariat_rapier::Error::AlreadyAttached { node: 10, .. }), "{twice}");
-    let nowhere = h.set.attach(&h.world, h.rope, At::ArcLength(2.123), other, Vector::ZERO, Pin::Ball).unwrap_err();
+    let nowhere =
+        h.set.attach(&h.world, h.rope, At::ArcLength(2.123), other, Vector::ZERO, AttachmentKind::Ball).unwrap_err();
     assert!(matches!(nowhere, lariat_rapier::Error::Cable(_)), "{nowhere}");
     h.world.remove_body(other);
-    let gone = h.set.attach(&h.world, h.rope, At::Start, other, Vector::ZERO, Pin::Ball).unwrap_err();
+    let gone = h.set.attach(&h.world, h.rope, At::Start, other, Vector::ZERO, AttachmentKind::Ball).unwrap_err();
     assert_eq!(gone, lariat_rapier::Error::NoBody(other));
     h.run(5);
     h.set.remove(&mut h.world, h.rope).unwrap();

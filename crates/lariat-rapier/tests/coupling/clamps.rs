@@ -3,7 +3,7 @@
 use super::bench::{add_cube, cable, gap, run, soft, v, weightless};
 use lariat_rapier::lariat_ancf::{At, Cable, Integrator, Method, Section, Vector3};
 use lariat_rapier::rapier::prelude::*;
-use lariat_rapier::{CableSet, Pin};
+use lariat_rapier::{AttachmentKind, CableSet};
 
 /// EA, EI and next to no mass: a beam.
 fn beam(ei: f64) -> Section {
@@ -42,8 +42,8 @@ fn a_body_on_the_tip_of_a_beam_has_its_frequency() {
         let mut set = CableSet::new();
         let rod = cable([0.0; 3], [1.0, 0.0, 0.0], beam(ei)).gravity(Vector3::zeros()).integrator(stiff());
         let rod = set.insert(rod.elements(6).build().unwrap());
-        set.attach(&world, rod, At::Start, base, Vector::ZERO, Pin::Clamp).unwrap();
-        let end = set.attach(&world, rod, At::End, tip, Vector::ZERO, Pin::Clamp).unwrap();
+        set.attach(&world, rod, At::Start, base, Vector::ZERO, AttachmentKind::Clamp).unwrap();
+        let end = set.attach(&world, rod, At::End, tip, Vector::ZERO, AttachmentKind::Clamp).unwrap();
         run(&mut world, &mut set, 15);
         // at a quarter of the period it is farthest out, and the clamp holds it with the most moment
         let out = v(world.bodies[tip].translation()).y;
@@ -71,7 +71,7 @@ fn a_turning_arm_turns_the_tangent_and_works() {
     let mut set = CableSet::new();
     let whip = cable([0.5, 0.0, 0.0], [0.5, 1.0, 0.0], soft()).gravity(Vector3::zeros()).build().unwrap();
     let whip = set.insert(whip);
-    let held = set.attach_here(&world, whip, At::Start, arm, Pin::Clamp).unwrap();
+    let held = set.attach_here(&world, whip, At::Start, arm, AttachmentKind::Clamp).unwrap();
     // the first step strikes the cable: that is no work along a path
     world.bodies[arm].set_angvel(Vector::new(0.0, 0.0, 1.0), true);
     set.step(&mut world).unwrap();
@@ -104,10 +104,10 @@ fn a_crate_clamped_in_line_hangs_without_moment() {
     rope.equilibrium().unwrap();
     rope.release(At::End).unwrap();
     let rope = set.insert(rope);
-    let held = set.attach(&world, rope, At::End, load, Vector::new(0.0, 0.1, 0.0), Pin::Clamp).unwrap();
+    let held = set.attach(&world, rope, At::End, load, Vector::new(0.0, 0.1, 0.0), AttachmentKind::Clamp).unwrap();
     run(&mut world, &mut set, 60);
     let a = set.attachment(held).unwrap();
-    assert_eq!(a.pin(), Pin::Clamp);
+    assert_eq!(a.kind(), AttachmentKind::Clamp);
     assert!(a.moment().norm() < 1e-6, "{:?}", a.moment());
     assert!(v(world.bodies[load].rotation().to_scaled_axis()).norm() < 1e-6);
 }

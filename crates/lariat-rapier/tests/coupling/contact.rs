@@ -3,7 +3,7 @@
 use super::bench::{add_cube, cable, damping, gap, run, soft, steel, tension, v, weightless, wire};
 use lariat_rapier::lariat_ancf::{At, Section, Vector3};
 use lariat_rapier::rapier::prelude::*;
-use lariat_rapier::{CableSet, Pin};
+use lariat_rapier::{AttachmentKind, CableSet};
 
 /// A cube behind two posts, 5 cm away; a winch pulls until the cable carries 5 kN, and stops.
 fn jam(section: Section, mass: Real) {
@@ -19,8 +19,8 @@ fn jam(section: Section, mass: Real) {
     let mut set = CableSet::new();
     let rope = cable([0.0; 3], [-2.0, 0.0, 0.0], section).integrator(damping()).gravity(Vector3::zeros());
     let rope = set.insert(rope.build().unwrap());
-    set.attach(&world, rope, At::Start, winch, Vector::ZERO, Pin::Ball).unwrap();
-    set.attach(&world, rope, At::End, load, Vector::new(0.1, 0.0, 0.0), Pin::Ball).unwrap();
+    set.attach(&world, rope, At::Start, winch, Vector::ZERO, AttachmentKind::Ball).unwrap();
+    set.attach(&world, rope, At::End, load, Vector::new(0.1, 0.0, 0.0), AttachmentKind::Ball).unwrap();
     // the rope's, and that of Rapier's contacts, 15 mm for 5 kN on 1 kg
     let compliance = 2.0 / section.axial_stiffness + 3e-6 / f64::from(mass);
     let (mut widest, mut held) = (0.0f64, Vec::new());
@@ -75,8 +75,8 @@ fn a_cube_starts_to_slide_when_the_pull_is_friction_times_weight() {
         let mut set = CableSet::new();
         let rope = cable([0.0, 0.1, 0.0], [-2.0, 0.1, 0.0], section).integrator(damping()).gravity(Vector3::zeros());
         let rope = set.insert(rope.build().unwrap());
-        set.attach(&world, rope, At::Start, winch, Vector::ZERO, Pin::Ball).unwrap();
-        set.attach(&world, rope, At::End, load, Vector::new(0.1, 0.0, 0.0), Pin::Ball).unwrap();
+        set.attach(&world, rope, At::Start, winch, Vector::ZERO, AttachmentKind::Ball).unwrap();
+        set.attach(&world, rope, At::End, load, Vector::new(0.1, 0.0, 0.0), AttachmentKind::Ball).unwrap();
         run(&mut world, &mut set, 60);
         let from = world.bodies[load].translation().x;
         let speed = 60.0 * 2.0 / section.axial_stiffness;
@@ -121,8 +121,8 @@ fn a_pin_stays_closed_when_its_body_first_meets_another() {
         let mut set = CableSet::new();
         let rope = cable([0.0; 3], [-2.0, 0.0, 0.0], wire()).integrator(damping()).gravity(Vector3::zeros());
         let rope = set.insert(rope.build().unwrap());
-        set.attach(&world, rope, At::Start, winch, Vector::ZERO, Pin::Ball).unwrap();
-        set.attach(&world, rope, At::End, load, Vector::new(0.1, 0.0, 0.0), Pin::Ball).unwrap();
+        set.attach(&world, rope, At::Start, winch, Vector::ZERO, AttachmentKind::Ball).unwrap();
+        set.attach(&world, rope, At::End, load, Vector::new(0.1, 0.0, 0.0), AttachmentKind::Ball).unwrap();
         let (mut widest, mut pulled) = (0.0f64, 0.0f64);
         for _ in 0..36 {
             world.bodies[winch].set_linvel(Vector::new(0.05, 0.0, 0.0), true);
@@ -152,7 +152,7 @@ fn a_pin_holds_when_its_body_flies_into_another() {
     let mut set = CableSet::new();
     let rope = cable([0.0; 3], [1.0, 0.0, 0.0], soft()).integrator(damping()).gravity(Vector3::zeros()).fix(At::Start);
     let rope = set.insert(rope.build().unwrap());
-    set.attach(&world, rope, At::End, ball, Vector::ZERO, Pin::Ball).unwrap();
+    set.attach(&world, rope, At::End, ball, Vector::ZERO, AttachmentKind::Ball).unwrap();
     let mut widest = 0.0f64;
     for _ in 0..12 {
         set.step(&mut world).unwrap();
@@ -180,8 +180,8 @@ fn a_blow_to_whirling_bodies_keeps_the_momentum() {
     let mut set = CableSet::new();
     let rope = cable([-0.5, 0.0, 0.0], [0.5, 0.0, 0.0], wire()).integrator(damping()).gravity(Vector3::zeros());
     let rope = set.insert(rope.build().unwrap());
-    set.attach(&world, rope, At::End, ends[0], Vector::ZERO, Pin::Ball).unwrap();
-    set.attach(&world, rope, At::Start, ends[1], Vector::ZERO, Pin::Ball).unwrap();
+    set.attach(&world, rope, At::End, ends[0], Vector::ZERO, AttachmentKind::Ball).unwrap();
+    set.attach(&world, rope, At::Start, ends[1], Vector::ZERO, AttachmentKind::Ball).unwrap();
     run(&mut world, &mut set, 1);
     let before = set.momentum(&world).unwrap().linear;
     let spin = v(world.bodies[ends[0]].linvel());

@@ -4,7 +4,7 @@ use super::bench::{add_cube, cable, soft, v};
 use lariat_rapier::lariat_ancf::At;
 use lariat_rapier::rapier::pipeline::{DebugColor, DebugRenderBackend, DebugRenderObject};
 use lariat_rapier::rapier::prelude::*;
-use lariat_rapier::{CableSet, DrawStyle, Pin};
+use lariat_rapier::{AttachmentKind, CableSet, DrawStyle};
 
 #[derive(Default)]
 struct Lines(Vec<(Vector, Vector, DebugColor)>);
@@ -25,7 +25,7 @@ fn a_cable_is_drawn_along_its_length_and_coloured_by_tension() {
     let mut set = CableSet::new();
     let taut = set.insert(cable([0.0; 3], [0.0, -2.0, 0.0], soft()).fix(At::Start).build().unwrap());
     set.insert(cable([1.0, 0.0, 0.0], [2.0, 0.0, 0.0], soft()).fix(At::Start).build().unwrap());
-    set.attach(&world, taut, At::End, load, Vector::new(0.0, 0.1, 0.0), Pin::Ball).unwrap();
+    set.attach(&world, taut, At::End, load, Vector::new(0.0, 0.1, 0.0), AttachmentKind::Ball).unwrap();
     for _ in 0..30 {
         set.step(&mut world).unwrap();
     }

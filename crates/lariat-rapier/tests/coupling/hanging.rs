@@ -3,7 +3,7 @@
 use super::bench::{add_cube, cable, damping, gap, run, soft, steel, tension, v, wire};
 use lariat_rapier::lariat_ancf::{At, Section, Vector3};
 use lariat_rapier::rapier::prelude::*;
-use lariat_rapier::{CableSet, Pin};
+use lariat_rapier::{AttachmentKind, CableSet};
 
 /// Place and tilt of the box, and the tensions at mid cable, by statics: taut cables as springs of Green's law along straight lines,
 /// half of their weight at the lower end; two forces and a moment made zero by Newton's method with differences.
@@ -66,7 +66,7 @@ fn a_tilted_box_hangs_as_statics_says() {
                 .unwrap();
             lengths[k] = rope.length();
             let rope = set.insert(rope);
-            set.attach(&world, rope, At::End, load, Vector::new(side as Real, 0.1, 0.0), Pin::Ball).unwrap();
+            set.attach(&world, rope, At::End, load, Vector::new(side as Real, 0.1, 0.0), AttachmentKind::Ball).unwrap();
             rope
         });
         run(&mut world, &mut set, 1500);
@@ -97,7 +97,7 @@ fn a_hanging_load_stretches_its_cable_by_its_stiffness_for_any_mass() {
             let mut set = CableSet::new();
             let rope = cable([0.0; 3], [0.0, -2.0, 0.0], section).integrator(damping()).fix(At::Start);
             let rope = set.insert(rope.build().unwrap());
-            set.attach(&world, rope, At::End, load, Vector::new(0.0, 0.1, 0.0), Pin::Ball).unwrap();
+            set.attach(&world, rope, At::End, load, Vector::new(0.0, 0.1, 0.0), AttachmentKind::Ball).unwrap();
             let (mut lowest, mut rests) = (0.0f64, 0.0);
             for _ in 0..600 {
                 set.step(&mut world).unwrap();

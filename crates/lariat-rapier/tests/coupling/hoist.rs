@@ -3,7 +3,7 @@
 use super::bench::{add_cube, cable, gap, soft, tension, wire};
 use lariat_rapier::lariat_ancf::{At, Damping, Section};
 use lariat_rapier::rapier::prelude::*;
-use lariat_rapier::{CableSet, Pin};
+use lariat_rapier::{AttachmentKind, CableSet};
 
 fn hoist(section: Section) {
     let mut world = PhysicsWorld::new();
@@ -17,8 +17,8 @@ fn hoist(section: Section) {
     let losses = Damping { axial: 0.2 / bounce, bending: 0.5 };
     let builder = cable([0.0, 2.1, 0.0], [0.0, 0.2, 0.0], section).length(1.92).damping(losses);
     let rope = set.insert(builder.build().unwrap());
-    set.attach(&world, rope, At::Start, winch, Vector::ZERO, Pin::Ball).unwrap();
-    set.attach(&world, rope, At::End, load, Vector::new(0.0, 0.1, 0.0), Pin::Ball).unwrap();
+    set.attach(&world, rope, At::Start, winch, Vector::ZERO, AttachmentKind::Ball).unwrap();
+    set.attach(&world, rope, At::End, load, Vector::new(0.0, 0.1, 0.0), AttachmentKind::Ball).unwrap();
     let smooth = |t: Real| t.clamp(0.0, 1.0).powi(2) * (3.0 - 2.0 * t.clamp(0.0, 1.0));
     let (mut jitter, mut widest, mut held): (Real, f64, Vec<f64>) = (0.0, 0.0, Vec::new());
     for k in 0..1440 {

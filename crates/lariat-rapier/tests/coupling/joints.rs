@@ -3,7 +3,7 @@
 use super::bench::{add_cube, cable, damping, gap, run, soft, tension, v, weightless, wire};
 use lariat_rapier::lariat_ancf::{At, Section, Vector3};
 use lariat_rapier::rapier::prelude::*;
-use lariat_rapier::{CableSet, Pin};
+use lariat_rapier::{AttachmentKind, CableSet};
 
 /// A winch on a soft or a steel rope pulls at `load` along x until the rope carries `pull` (N), and stops: tension, largest gap, and the
 /// largest speed of the load afterwards.
@@ -19,8 +19,8 @@ fn wind(
     (set.settings.rapier_steps, set.settings.most_rapier_steps) = (rapier_steps, rapier_steps);
     let rope = cable([0.0; 3], [-2.0, 0.0, 0.0], section).integrator(damping()).gravity(Vector3::zeros());
     let rope = set.insert(rope.build().unwrap());
-    set.attach(world, rope, At::Start, winch, Vector::ZERO, Pin::Ball).unwrap();
-    set.attach_here(world, rope, At::End, load, Pin::Ball).unwrap();
+    set.attach(world, rope, At::Start, winch, Vector::ZERO, AttachmentKind::Ball).unwrap();
+    set.attach_here(world, rope, At::End, load, AttachmentKind::Ball).unwrap();
     let compliance = 2.0 / section.axial_stiffness + 1e-8;
     let (mut low, mut high, mut widest, mut fastest) = (f64::MAX, 0.0f64, 0.0f64, 0.0f64);
     for k in 0..720 {
@@ -78,10 +78,10 @@ fn two_bodies_of_which_one_is_jammed_carry_the_pull() {
         let ropes = [([0.0; 3], [-2.0, 0.0, 0.0]), ([-2.2, 0.0, 0.0], [-4.2, 0.0, 0.0])].map(|(a, b)| {
             set.insert(cable(a, b, section).integrator(damping()).gravity(Vector3::zeros()).build().unwrap())
         });
-        set.attach(&world, ropes[0], At::Start, winch, Vector::ZERO, Pin::Ball).unwrap();
-        set.attach_here(&world, ropes[0], At::End, near, Pin::Ball).unwrap();
-        set.attach_here(&world, ropes[1], At::Start, near, Pin::Ball).unwrap();
-        set.attach_here(&world, ropes[1], At::End, far, Pin::Ball).unwrap();
+        set.attach(&world, ropes[0], At::Start, winch, Vector::ZERO, AttachmentKind::Ball).unwrap();
+        set.attach_here(&world, ropes[0], At::End, near, AttachmentKind::Ball).unwrap();
+        set.attach_here(&world, ropes[1], At::Start, near, AttachmentKind::Ball).unwrap();
+        set.attach_here(&world, ropes[1], At::End, far, AttachmentKind::Ball).unwrap();
         let compliance = 4.0 / section.axial_stiffness + 3e-6;
         let (mut held, mut widest) = (Vec::new(), 0.0f64);
         for k in 0..900 {
@@ -134,7 +134,7 @@ fn arm(multibody: bool, limits: bool, iterations: usize, rate: usize, strike: f6
     let mut set = CableSet::new();
     let rope = cable([1.5, 1.0, 0.0], [1.5, 0.0, 0.0], soft()).fix(At::Start).integrator(damping()).build().unwrap();
     let rope = set.insert(rope);
-    let held = set.attach_here(&world, rope, At::End, before, Pin::Ball).unwrap();
+    let held = set.attach_here(&world, rope, At::End, before, AttachmentKind::Ball).unwrap();
     run(&mut world, &mut set, rate);
     world.bodies[links[1]].apply_impulse(Vector::new(0.0, strike as Real, 0.3 * strike as Real), true);
     run(&mut world, &mut set, 4 * rate);
@@ -215,8 +215,8 @@ fn a_rope_lifts_an_arm_off_its_limit() {
         let mut set = CableSet::new();
         let rope = cable([1.0, 1.0, 0.0], [1.0, 0.0, 0.0], soft()).integrator(damping()).build().unwrap();
         let rope = set.insert(rope);
-        set.attach(&world, rope, At::Start, winch, Vector::ZERO, Pin::Ball).unwrap();
-        set.attach_here(&world, rope, At::End, before, Pin::Ball).unwrap();
+        set.attach(&world, rope, At::Start, winch, Vector::ZERO, AttachmentKind::Ball).unwrap();
+        set.attach_here(&world, rope, At::End, before, AttachmentKind::Ball).unwrap();
         // at rest the forearm lies on its limit, then the winch lifts by 0.2 m
         run(&mut world, &mut set, 60);
         world.bodies[winch].set_linvel(Vector::new(0.0, 0.2, 0.0), true);
@@ -244,7 +244,7 @@ fn a_motor_pulls_the_rope_with_its_force() {
     let mut set = CableSet::new();
     let rope = cable([0.0; 3], [-2.0, 0.0, 0.0], soft()).gravity(Vector3::zeros()).fix(At::End).integrator(damping());
     let rope = set.insert(rope.build().unwrap());
-    let held = set.attach(&world, rope, At::Start, slider, Vector::ZERO, Pin::Ball).unwrap();
+    let held = set.attach(&world, rope, At::Start, slider, Vector::ZERO, AttachmentKind::Ball).unwrap();
     run(&mut world, &mut set, 600);
     let force = set.attachment(held).unwrap().force();
     assert!((force.x / -50.0 - 1.0).abs() < 0.02, "{force:?}");
@@ -265,7 +265,7 @@ fn a_ccd_body_stops_at_a_thin_wall() {
     let tail = cable([0.0; 3], [0.0, -0.5, 0.0], Section::from_stiffness(1e4, 0.1, 0.01).unwrap());
     let tail = tail.gravity(Vector3::zeros()).velocity(Vector3::new(30.0, 0.0, 0.0)).elements(4).build().unwrap();
     let tail = set.insert(tail);
-    set.attach(&world, tail, At::Start, bullet, Vector::ZERO, Pin::Ball).unwrap();
+    set.attach(&world, tail, At::Start, bullet, Vector::ZERO, AttachmentKind::Ball).unwrap();
     let mut farthest = 0.0;
     for _ in 0..30 {
         set.step(&mut world).unwrap();
@@ -291,7 +291,7 @@ fn locked_axes_stay_locked() {
     let mut set = CableSet::new();
     let rope = cable([0.0, 1.0, 0.0], [0.0; 3], soft()).fix(At::Start).gravity(Vector3::zeros()).build().unwrap();
     let rope = set.insert(rope);
-    set.attach(&world, rope, At::End, bead, Vector::ZERO, Pin::Ball).unwrap();
+    set.attach(&world, rope, At::End, bead, Vector::ZERO, AttachmentKind::Ball).unwrap();
     let (mut farthest, energy) = (0.0, set.energy(&world).unwrap().total());
     for _ in 0..120 {
         set.step(&mut world).unwrap();

@@ -3,7 +3,7 @@
 use super::bench::{cable, gap, run, soft, v, weightless};
 use lariat_rapier::lariat_ancf::{At, Damping, Section, Vector3};
 use lariat_rapier::rapier::prelude::*;
-use lariat_rapier::{CableSet, Pin};
+use lariat_rapier::{AttachmentKind, CableSet};
 
 /// A deck of 100 kg on six vertical hangers, a 50 kg crate on one end of it: hangers and their forces as statics says, at rest.
 ///
@@ -26,7 +26,8 @@ fn a_deck_hangs_on_six_cables() {
             let hanger = set.insert(hanger);
             held.push((
                 x,
-                set.attach(&world, hanger, At::End, deck, Vector::new(x as Real, 0.1, z as Real), Pin::Ball).unwrap(),
+                set.attach(&world, hanger, At::End, deck, Vector::new(x as Real, 0.1, z as Real), AttachmentKind::Ball)
+                    .unwrap(),
             ));
         }
     }
@@ -63,8 +64,8 @@ fn a_closed_ring_spins_through_rapier() {
         let side = cable(a.into(), b.into(), soft()).elements(4).gravity(Vector3::zeros());
         let side = side.velocity(Vector3::z().cross(&a) * 3.0).angular_velocity(Vector3::z() * 3.0).build().unwrap();
         let side = set.insert(side);
-        set.attach(&world, side, At::Start, balls[k], Vector::ZERO, Pin::Ball).unwrap();
-        set.attach(&world, side, At::End, balls[(k + 1) % 3], Vector::ZERO, Pin::Ball).unwrap();
+        set.attach(&world, side, At::Start, balls[k], Vector::ZERO, AttachmentKind::Ball).unwrap();
+        set.attach(&world, side, At::End, balls[(k + 1) % 3], Vector::ZERO, AttachmentKind::Ball).unwrap();
     }
     run(&mut world, &mut set, 1);
     let (before, energy) = (set.momentum(&world).unwrap(), set.energy(&world).unwrap().total());
@@ -97,9 +98,9 @@ fn a_chain_of_twenty_bodies_hangs() {
         let link = link.damping(Damping::from_ratio(0.2, 100.0).unwrap());
         let link = set.insert(if k == 0 { link.fix(At::Start).build().unwrap() } else { link.build().unwrap() });
         if let Some(before) = before {
-            set.attach(&world, link, At::Start, before, Vector::ZERO, Pin::Ball).unwrap();
+            set.attach(&world, link, At::Start, before, Vector::ZERO, AttachmentKind::Ball).unwrap();
         }
-        let held = set.attach(&world, link, At::End, ball, Vector::ZERO, Pin::Ball).unwrap();
+        let held = set.attach(&world, link, At::End, ball, Vector::ZERO, AttachmentKind::Ball).unwrap();
         top.get_or_insert(held);
         before = Some(ball);
     }

@@ -3,7 +3,7 @@
 use super::bench::{add_cube, cable, damping, gap, run, soft, v, weightless};
 use lariat_rapier::lariat_ancf::{At, Vector3};
 use lariat_rapier::rapier::prelude::*;
-use lariat_rapier::{CableSet, Pin};
+use lariat_rapier::{AttachmentKind, CableSet};
 
 /// Both kinds of kinematic body, moving and turning for 2 s, the anchor off their axis: the cable's end is on it to single precision.
 ///
@@ -20,7 +20,7 @@ fn kinematic_bodies_carry_the_end_exactly() {
         let arm = world.insert_body(builder);
         let mut set = CableSet::new();
         let rope = set.insert(cable([0.3, 0.0, 0.0], [1.3, 0.0, 0.0], soft()).build().unwrap());
-        set.attach(&world, rope, At::Start, arm, Vector::new(0.3, 0.0, 0.0), Pin::Ball).unwrap();
+        set.attach(&world, rope, At::Start, arm, Vector::new(0.3, 0.0, 0.0), AttachmentKind::Ball).unwrap();
         let mut worst = 0.0f64;
         for k in 1..=120 {
             if position_based {
@@ -54,7 +54,7 @@ fn an_end_is_where_rapier_turns_a_fast_body_to() {
             let mut set = CableSet::new();
             let lash = cable([0.1, 0.0, 0.0], [0.6, 0.0, 0.0], soft()).gravity(Vector3::zeros()).integrator(damping());
             let lash = set.insert(lash.build().unwrap());
-            set.attach(&world, lash, At::Start, drum, Vector::new(0.1, 0.0, 0.0), Pin::Ball).unwrap();
+            set.attach(&world, lash, At::Start, drum, Vector::new(0.1, 0.0, 0.0), AttachmentKind::Ball).unwrap();
             let (mut worst, mut turned) = (0.0f64, 0.0f64);
             for k in 0..30 {
                 let before = *world.bodies[drum].rotation();
@@ -85,7 +85,7 @@ fn a_spinning_body_lands_where_it_was_predicted() {
             let mut set = CableSet::new();
             let lash = cable([0.1, 0.0, 0.0], [0.3, 0.0, 0.0], soft()).gravity(Vector3::zeros()).integrator(damping());
             let lash = set.insert(lash.elements(2).build().unwrap());
-            set.attach(&world, lash, At::Start, load, Vector::new(0.1, 0.0, 0.0), Pin::Ball).unwrap();
+            set.attach(&world, lash, At::Start, load, Vector::new(0.1, 0.0, 0.0), AttachmentKind::Ball).unwrap();
             let (mut worst, mut turned) = (0.0f64, 0.0f64);
             for _ in 0..10 {
                 let before = *world.bodies[load].rotation();
@@ -118,7 +118,7 @@ fn what_a_user_set_is_untouched_by_a_step() {
     body.set_gravity_scale(0.5, true);
     let mut set = CableSet::new();
     let rope = set.insert(cable([0.0; 3], [2.0, 0.0, 0.0], soft()).fix(At::Start).build().unwrap());
-    set.attach(&world, rope, At::End, load, Vector::new(0.0, 0.1, 0.0), Pin::Ball).unwrap();
+    set.attach(&world, rope, At::End, load, Vector::new(0.0, 0.1, 0.0), AttachmentKind::Ball).unwrap();
     let dt = world.integration_parameters.dt;
     run(&mut world, &mut set, 30);
     let body = &world.bodies[load];
@@ -141,7 +141,7 @@ fn impulses_and_velocities_between_steps_act() {
         let mut set = CableSet::new();
         let rope = cable([0.1, 0.0, 0.0], [1.1, 0.0, 0.0], soft()).gravity(Vector3::zeros());
         let rope = set.insert(rope.build().unwrap());
-        set.attach(&world, rope, At::Start, load, Vector::new(0.1, 0.0, 0.0), Pin::Ball).unwrap();
+        set.attach(&world, rope, At::Start, load, Vector::new(0.1, 0.0, 0.0), AttachmentKind::Ball).unwrap();
         run(&mut world, &mut set, 10);
         change(&mut world.bodies[load]);
         let momentum = |world: &PhysicsWorld, set: &CableSet| {

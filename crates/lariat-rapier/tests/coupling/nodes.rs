@@ -3,7 +3,7 @@
 use super::bench::{add_cube, bits, cable, damping, gap, run, soft, tension, v, weightless};
 use lariat_rapier::lariat_ancf::{At, Section, Vector3};
 use lariat_rapier::rapier::prelude::*;
-use lariat_rapier::{CableSet, Error, Pin};
+use lariat_rapier::{AttachmentKind, CableSet, Error};
 
 /// A load on the middle of a taut rope, at an arc length where there was no node: it hangs in a triangle.
 ///
@@ -19,7 +19,8 @@ fn a_load_hangs_where_it_is_put() {
     let rope = cable([0.0; 3], [2.0, 0.0, 0.0], Section::from_stiffness(1e5, 0.0, 1e-3).unwrap());
     let rope = rope.length(2.1).elements(25).fix(At::Start).fix(At::End).integrator(damping()).build().unwrap();
     let rope = set.insert(rope);
-    let first = set.attach(&world, rope, At::ArcLength(1.05), load, Vector::new(0.0, 0.1, 0.0), Pin::Ball).unwrap();
+    let first =
+        set.attach(&world, rope, At::ArcLength(1.05), load, Vector::new(0.0, 0.1, 0.0), AttachmentKind::Ball).unwrap();
     assert_eq!((set.get(rope).unwrap().nodes(), set.attachment(first).unwrap().node()), (27, 13));
     run(&mut world, &mut set, 900);
     let hook = set.get(rope).unwrap().sample(1.05).unwrap().position;
@@ -41,9 +42,9 @@ fn attachments_keep_their_arc_length_when_nodes_are_placed() {
     let bodies = [0.2, 1.0, 1.7].map(|x| add_cube(&mut world, 1.0, 0.05, [x as Real, 0.0, 0.0]));
     let mut set = CableSet::new();
     let rope = set.insert(cable([0.0; 3], [2.0, 0.0, 0.0], soft()).elements(4).build().unwrap());
-    let end = set.attach_here(&world, rope, 1.7, bodies[2], Pin::Ball).unwrap();
-    let start = set.attach_here(&world, rope, 0.2, bodies[0], Pin::Clamp).unwrap();
-    let middle = set.attach_here(&world, rope, 1.0, bodies[1], Pin::Ball).unwrap();
+    let end = set.attach_here(&world, rope, 1.7, bodies[2], AttachmentKind::Ball).unwrap();
+    let start = set.attach_here(&world, rope, 0.2, bodies[0], AttachmentKind::Clamp).unwrap();
+    let middle = set.attach_here(&world, rope, 1.0, bodies[1], AttachmentKind::Ball).unwrap();
     let at = |a| set.get(rope).unwrap().node_arc_lengths()[set.attachment(a).unwrap().node()];
     let places = [start, middle, end].map(at);
     assert!((places[0] - 0.2).abs() < 1e-12 && (places[1] - 1.0).abs() < 1e-12 && (places[2] - 1.7).abs() < 1e-12);
@@ -67,7 +68,7 @@ fn a_sling_with_both_ends_on_one_body_carries_it() {
     let length: f64 = 2.0 * 0.52f64.sqrt();
     let sling = set.insert(sling.fix(0.5 * length).integrator(damping()).build().unwrap());
     for (at, x) in [(At::Start, -0.4), (At::End, 0.4)] {
-        set.attach(&world, sling, at, load, Vector::new(x, 0.1, 0.0), Pin::Ball).unwrap();
+        set.attach(&world, sling, at, load, Vector::new(x, 0.1, 0.0), AttachmentKind::Ball).unwrap();
     }
     run(&mut world, &mut set, 900);
     let lift: f64 = set.attachments().map(|(_, a)| a.force().y).sum();
@@ -100,7 +101,7 @@ fn three_cables_tied_in_a_point_balance() {
     let knot = set.join((left, At::End), (right, At::End)).unwrap();
     assert_eq!(set.join((left, At::End), (hanger, At::Start)).unwrap(), knot);
     assert_eq!(set.junction(knot).unwrap().nodes().len(), 3);
-    set.attach(&world, hanger, At::End, load, Vector::new(0.0, 0.1, 0.0), Pin::Ball).unwrap();
+    set.attach(&world, hanger, At::End, load, Vector::new(0.0, 0.1, 0.0), AttachmentKind::Ball).unwrap();
     run(&mut world, &mut set, 900);
     let end = |c| set.get(c).unwrap().sample(set.get(c).unwrap().length()).unwrap();
     let sum = end(left).slope.normalize() * end(left).tension + end(right).slope.normalize() * end(right).tension;
@@ -143,7 +144,7 @@ fn a_tied_chain_keeps_its_momenta() {
         let half = cable([0.0; 3], [x, 0.0, 0.0], soft()).gravity(Vector3::zeros()).elements(5);
         let half = half.velocity(Vector3::new(0.0, 0.0, 0.3)).angular_velocity(Vector3::new(0.0, 0.0, 3.0));
         let half = set.insert(half.build().unwrap());
-        set.attach(&world, half, At::End, body, Vector::ZERO, Pin::Ball).unwrap();
+        set.attach(&world, half, At::End, body, Vector::ZERO, AttachmentKind::Ball).unwrap();
         half
     });
     set.join((halves[0], At::Start), (halves[1], At::Start)).unwrap();
@@ -177,7 +178,7 @@ fn the_order_of_insertion_does_not_change_a_bit() {
         for k in order.into_iter().rev() {
             let (x, z) = corners[k];
             let anchor = Vector::new(x as Real, 0.1, z as Real);
-            set.attach(&world, ropes[k].unwrap(), At::End, deck, anchor, Pin::Ball).unwrap();
+            set.attach(&world, ropes[k].unwrap(), At::End, deck, anchor, AttachmentKind::Ball).unwrap();
         }
         run(&mut world, &mut set, 60);
         assert!(v(world.bodies[deck].translation()).y < -1.12, "it has come down on the ground");

@@ -3,7 +3,7 @@
 use super::bench::{add_cube, cable, gap, soft, steel, v};
 use lariat_rapier::lariat_ancf::{At, Section};
 use lariat_rapier::rapier::prelude::*;
-use lariat_rapier::{CableSet, Pin};
+use lariat_rapier::{AttachmentKind, CableSet};
 
 /// Centre of the cube at 0.5 s and 1 s in m: a fine run of an independent monolithic code, good to 2e-5.
 const CENTRES: [(f64, f64); 2] = [(1.70292, -1.21801), (-0.82138, -1.91419)];
@@ -23,7 +23,7 @@ fn swing(section: Section, mass: Real, hz: usize) -> Swing {
     let mut set = CableSet::new();
     let builder = cable([0.0; 3], [2.0, 0.0, 0.0], section).rule("G5-3".parse().unwrap()).fix(At::Start);
     let sling = set.insert(builder.build().unwrap());
-    set.attach(&world, sling, At::End, cube, Vector::new(0.0, 0.1, 0.0), Pin::Ball).unwrap();
+    set.attach(&world, sling, At::End, cube, Vector::new(0.0, 0.1, 0.0), AttachmentKind::Ball).unwrap();
     let mut out = Swing { off: [0.0; 2], gap: 0.0, energy: f64::MIN, last: 0.0 };
     for k in 1..=hz {
         set.step(&mut world).unwrap();

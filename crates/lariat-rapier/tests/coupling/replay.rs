@@ -3,7 +3,7 @@
 use super::bench::{add_cube, bits, cable, run, soft};
 use lariat_rapier::lariat_ancf::At;
 use lariat_rapier::rapier::prelude::*;
-use lariat_rapier::{CableSet, Pin};
+use lariat_rapier::{AttachmentKind, CableSet};
 
 /// A payload that swings into a wall, and two bodies on a cable lying on the ground.
 fn scene() -> (PhysicsWorld, CableSet) {
@@ -16,10 +16,10 @@ fn scene() -> (PhysicsWorld, CableSet) {
     let pair = [add_cube(&mut world, 1.0, 0.1, [3.0, -1.9, 0.0]), add_cube(&mut world, 4.0, 0.1, [4.2, -1.5, 0.3])];
     let mut set = CableSet::new();
     let sling = set.insert(cable([0.0; 3], [1.6, 0.0, 0.0], soft()).fix(At::Start).build().unwrap());
-    set.attach(&world, sling, At::End, load, Vector::new(0.0, 0.1, 0.0), Pin::Ball).unwrap();
+    set.attach(&world, sling, At::End, load, Vector::new(0.0, 0.1, 0.0), AttachmentKind::Ball).unwrap();
     let tie = set.insert(cable([3.1, -1.9, 0.0], [4.1, -1.5, 0.3], soft()).length(1.2).build().unwrap());
-    set.attach(&world, tie, At::Start, pair[0], Vector::new(0.1, 0.0, 0.0), Pin::Ball).unwrap();
-    set.attach(&world, tie, At::End, pair[1], Vector::new(-0.1, 0.0, 0.0), Pin::Ball).unwrap();
+    set.attach(&world, tie, At::Start, pair[0], Vector::new(0.1, 0.0, 0.0), AttachmentKind::Ball).unwrap();
+    set.attach(&world, tie, At::End, pair[1], Vector::new(-0.1, 0.0, 0.0), AttachmentKind::Ball).unwrap();
     (world, set)
 }
 

@@ -3,7 +3,7 @@
 use super::bench::{add_cube, cable, gap, run, soft, tension, v};
 use lariat_rapier::lariat_ancf::{At, Damping, PointLoad, Vector3};
 use lariat_rapier::rapier::prelude::*;
-use lariat_rapier::{CableHandle, CableSet, Event, Pin};
+use lariat_rapier::{AttachmentKind, CableHandle, CableSet, Event};
 
 struct Hoist {
     world: PhysicsWorld,
@@ -21,8 +21,8 @@ fn hoist() -> Hoist {
     let mut set = CableSet::new();
     let rope = cable([0.0; 3], [0.0, -2.0, 0.0], soft()).damping(Damping::from_ratio(0.1, 70.0).unwrap());
     let rope = set.insert(rope.build().unwrap());
-    set.attach(&world, rope, At::Start, winch, Vector::ZERO, Pin::Ball).unwrap();
-    set.attach(&world, rope, At::End, load, Vector::new(0.0, 0.1, 0.0), Pin::Ball).unwrap();
+    set.attach(&world, rope, At::Start, winch, Vector::ZERO, AttachmentKind::Ball).unwrap();
+    set.attach(&world, rope, At::End, load, Vector::new(0.0, 0.1, 0.0), AttachmentKind::Ball).unwrap();
     Hoist { world, set, load, winch, rope }
 }
 
@@ -91,7 +91,7 @@ fn whatever_stirs_it_wakes_it() {
         ("teleported winch", |h| h.world.bodies[h.winch].set_translation(Vector::new(0.1, 0.0, 0.0), true)),
         ("another cable", |h| {
             let line = h.set.insert(cable([1.0, -2.0, 0.0], [0.1, -2.1, 0.0], soft()).fix(At::Start).build().unwrap());
-            h.set.attach(&h.world, line, At::End, h.load, Vector::new(0.1, 0.0, 0.0), Pin::Ball).unwrap();
+            h.set.attach(&h.world, line, At::End, h.load, Vector::new(0.1, 0.0, 0.0), AttachmentKind::Ball).unwrap();
             h.world.bodies[h.load].wake_up(true);
             h.set.get_mut(line).unwrap().add_load(PointLoad::force(0.4, Vector3::new(0.0, -20.0, 0.0))).unwrap();
         }),
@@ -118,7 +118,7 @@ fn a_slow_pendulum_swings_on() {
     let load = add_cube(&mut world, 10.0, 0.1, [0.05, -10.1, 0.0]);
     let mut set = CableSet::new();
     let rope = set.insert(cable([0.0; 3], [0.05, -10.0, 0.0], soft()).fix(At::Start).build().unwrap());
-    set.attach(&world, rope, At::End, load, Vector::new(0.0, 0.1, 0.0), Pin::Ball).unwrap();
+    set.attach(&world, rope, At::End, load, Vector::new(0.0, 0.1, 0.0), AttachmentKind::Ball).unwrap();
     let mut least = 1.0f64;
     for k in 0..1200 {
         set.step(&mut world).unwrap();

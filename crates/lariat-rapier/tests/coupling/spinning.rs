@@ -3,7 +3,7 @@
 use super::bench::{cable, gap, soft, tension, v, weightless, wire};
 use lariat_rapier::lariat_ancf::{At, Cable, Section, Vector3};
 use lariat_rapier::rapier::prelude::*;
-use lariat_rapier::{CableSet, Pin};
+use lariat_rapier::{AttachmentKind, CableSet};
 
 const SPIN: f64 = 5.0;
 /// Distance of the anchors from the centres of the balls in m.
@@ -90,8 +90,8 @@ fn a_spinning_dumbbell_keeps_its_momenta_and_its_tension() {
         sling.set_coordinates(&q.concat(), &rates.concat()).unwrap();
         let mut set = CableSet::new();
         let sling = set.insert(sling);
-        set.attach(&world, sling, At::Start, balls[0], Vector::new(0.1, 0.0, 0.0), Pin::Ball).unwrap();
-        set.attach(&world, sling, At::End, balls[1], Vector::new(-0.1, 0.0, 0.0), Pin::Ball).unwrap();
+        set.attach(&world, sling, At::Start, balls[0], Vector::new(0.1, 0.0, 0.0), AttachmentKind::Ball).unwrap();
+        set.attach(&world, sling, At::End, balls[1], Vector::new(-0.1, 0.0, 0.0), AttachmentKind::Ball).unwrap();
         let momenta = |world: &PhysicsWorld, set: &CableSet| {
             let m = set.get(sling).unwrap().momentum();
             let (mut p, mut l) = (m.linear, m.angular);

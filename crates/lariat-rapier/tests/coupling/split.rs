@@ -3,7 +3,7 @@
 use super::bench::{add_cube, cable, damping, gap, soft, tension, weightless, wire};
 use lariat_rapier::lariat_ancf::{At, Section, Vector3};
 use lariat_rapier::rapier::prelude::*;
-use lariat_rapier::{CableSet, Pin};
+use lariat_rapier::{AttachmentKind, CableSet};
 
 /// A cube of `mass` wedged between posts, pulled to 5 kN and held: lowest and highest tension, widest gap.
 fn jam(section: Section, mass: Real, steps: (u32, u32), iterations: usize, dt: Real) -> (f64, f64, f64) {
@@ -20,8 +20,8 @@ fn jam(section: Section, mass: Real, steps: (u32, u32), iterations: usize, dt: R
     (set.settings.rapier_steps, set.settings.most_rapier_steps) = steps;
     let rope = cable([0.0; 3], [-2.0, 0.0, 0.0], section).integrator(damping()).gravity(Vector3::zeros());
     let rope = set.insert(rope.build().unwrap());
-    set.attach(&world, rope, At::Start, winch, Vector::ZERO, Pin::Ball).unwrap();
-    set.attach(&world, rope, At::End, load, Vector::new(0.1, 0.0, 0.0), Pin::Ball).unwrap();
+    set.attach(&world, rope, At::Start, winch, Vector::ZERO, AttachmentKind::Ball).unwrap();
+    set.attach(&world, rope, At::End, load, Vector::new(0.1, 0.0, 0.0), AttachmentKind::Ball).unwrap();
     let compliance = 2.0 / section.axial_stiffness + 3e-6 / f64::from(mass);
     let (mut low, mut high, mut widest) = (f64::MAX, f64::MIN, 0.0f64);
     for k in 0..720 {

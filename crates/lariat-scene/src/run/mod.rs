@@ -1,0 +1,122 @@
+//! Headless runs: host steps of `dt`, probes at their own times, results in a folder.
+//!
+//! The host step is split where a probe falls between two host times, so that a sample is a state that was computed, not one
+//! that was interpolated. Each sample is written through to its file at once: a run that fails, is interrupted or fills the
+//! disk leaves every sample so far, a `summary.json` that says what happened, and a [`view.html`](crate::view) of it.
+//!
+//! ```
+//! use lariat_scene::{Purpose, Scene, run};
+//!
+//! let text = r#"
+//! duration = 0.1
+//! [[cable]]
+//! name = "rope"
+//! points = [[0.0, 0.0, 0.0], [2.0, 0.0, 0.0]]
+//! section = { square = 0.01 }
+//! density = 4000.0
+//! youngs_modulus = 1.0e8
+//! [[attachment]]
+//! cable = "rope"
+//! at = "start"
+//! body = "world"
+//! [[probe]]
+//! name = "tip"
+//! every = 0.01
+//! cable = "rope"
+//! at = "end"
+//! "#;
+//! let scene = Scene::parse("rope.toml", text, &[], Purpose::Run)?;
+//! let out = std::env::temp_dir().join("lariat-run-doc");
+//! let summary = run::run(&scene, &out, &mut run::Options::default())?;
+//! assert!(summary.failed.is_none() && summary.simulated_s == 0.1);
+//! assert_eq!(std::fs::read_to_string(out.join("probes/tip.csv")).unwrap().lines().count(), 12);
+//! # Ok::<(), lariat_scene::Error>(())
+//! ```
+
+mod output;
+mod probe;
+pub mod schedule;
+mod summary;
+mod world;
+
+pub(crate) use probe::columns;
+pub use summary::Summary;
+pub use world::World;
+
+use crate::error::Error;
+use crate::scene::{Purpose, Scene};
+use cpu_time::ProcessTime;
+use output::Output;
+use schedule::{Schedule, nominal};
+use std::path::Path;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::Instant;
+
+/// What a run does beside running.
+#[derive(Default)]
+pub struct Options<'a> {
+    /// Set to true from another thread (or a signal handler) to stop after the present host step.
+    pub stop: Arc<AtomicBool>,
+    /// Called after each host step with the simulated time in s.
+    pub progress: Option<&'a mut dyn FnMut(f64)>,
+}
+
+/// Runs a scene for its duration and writes `summary.json`, `probes/*.csv` and [`view.html`](crate::view) to the folder `out`.
+///
+/// # Errors
+/// [`Error::Output`] if the folder cannot be written (before anything runs); [`Error::Mechanics`], [`Error::Write`] or
+/// [`Error::Interrupted`] later: samples, page and summary are then on disk.
+pub fn run(scene: &Scene, out: &Path, options: &mut Options<'_>) -> Result<Summary, Error> {
+    record(scene, out, Purpose::Run, |world, output| {
+        let mut schedule = Schedule::new(scene);
+        while let Some(event) = schedule.next_event() {
+            world.advance(event.time)?;
+            for (probe, sample) in event.probes {
+                let every = scene.probes[probe].every.unwrap_or(scene.dt);
+                output.sample(probe, nominal(sample, every).min(scene.duration), world)?;
+            }
+            if event.host {
+                output.frame(world)?;
+            }
+            if let Some(progress) = options.progress.as_mut().filter(|_| event.host) {
+                progress(event.time);
+            }
+            if options.stop.load(Ordering::Relaxed) && event.time < scene.duration {
+                return Err(Error::Interrupted { time: event.time });
+            }
+        }
+        Ok(())
+    })
+}
+
+/// Finds the static equilibrium of a scene and writes the same files as [`run`], at t = 0.
+///
+/// # Errors
+/// As [`run`]; [`Error::Mechanics`] if there is no equilibrium.
+pub fn statics(scene: &Scene, out: &Path) -> Result<Summary, Error> {
+    record(scene, out, Purpose::Static, |world, output| {
+        (0..scene.probes.len()).try_for_each(|probe| output.sample(probe, 0.0, world))?;
+        output.frame(world)
+    })
+}
+
+fn record(
+    scene: &Scene,
+    out: &Path,
+    purpose: Purpose,
+    body: impl FnOnce(&mut World, &mut Output) -> Result<(), Error>,
+) -> Result<Summary, Error> {
+    let mut output = Output::create(scene, out)?;
+    let (cpu, wall) = (ProcessTime::now(), Instant::now());
+    let mut world = World::build(scene)?;
+    let outcome = world.start(purpose).and_then(|()| {
+        world.note_start();
+        body(&mut world, &mut output)
+    });
+    let (cpu, wall, spent) = (cpu.elapsed(), wall.elapsed(), output.spent());
+    let own = (cpu.saturating_sub(spent.0), wall.saturating_sub(spent.1));
+    let summary = Summary::of(&world, own.0, own.1, outcome.as_ref().err());
+    let written = output.finish(&summary, &world);
+    outcome.and(written).map(|()| summary)
+}

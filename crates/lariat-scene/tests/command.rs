@@ -1,0 +1,221 @@
+//! The `lariat` command as a user meets it: files, exit codes, messages.
+
+use lariat_scene::run::Summary;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+fn lariat(arguments: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_lariat")).args(arguments).output().unwrap()
+}
+
+fn scene(name: &str) -> String {
+    format!("{}/../../assets/scenes/{name}.toml", env!("CARGO_MANIFEST_DIR"))
+}
+
+fn stderr(output: &Output) -> String {
+    String::from_utf8_lossy(&output.stderr).into_owned()
+}
+
+fn summary(folder: &Path) -> Summary {
+    serde_json::from_str(&fs::read_to_string(folder.join("summary.json")).unwrap()).unwrap()
+}
+
+fn rows(file: PathBuf) -> (String, Vec<Vec<f64>>) {
+    let text = fs::read_to_string(file).unwrap();
+    let mut lines = text.lines();
+    let header = lines.next().unwrap().to_string();
+    (header, lines.map(|line| line.split(',').map(|x| x.parse().unwrap()).collect()).collect())
+}
+
+/// An explicit method within its stability limit, as the cable is at the start.
+const EXPLICIT: &[&str] = &["--set", "cable.pendulum.integrator={ method = \"verlet\", stable = 0.9 }"];
+
+/// A load that stretches the cable fourfold: its frequencies rise past the explicit step, which blows up in mid-run.
+const STRETCH: &str = "\n[[load]]\ncable = \"pendulum\"\nat = \"end\"\nforce = [3.0e5, 0.0, 0.0]\nramp = 1.0\n";
+
+#[test]
+fn a_run_writes_its_probes_and_a_summary_with_every_key() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("new/folder");
+    let output = lariat(&["run", &scene("falling_pendulum"), "--out", out.to_str().unwrap(), "--set", "duration=0.1"]);
+    assert!(output.status.success(), "{}", stderr(&output));
+    assert!(stderr(&output).is_empty(), "no progress bar without a terminal");
+    let json: serde_json::Value = serde_json::from_str(&fs::read_to_string(out.join("summary.json")).unwrap()).unwrap();
+    let mut keys: Vec<&str> = json.as_object().unwrap().keys().map(String::as_str).collect();
+    let mut expected = [
+        "name",
+        "simulated_s",
+        "cpu_s",
+        "wall_s",
+        "real_time_factor",
+        "steps",
+        "rejected_steps",
+        "newton_iterations",
+        "factorisations",
+        "element_evaluations",
+        "effect_evaluations",
+        "max_gap_m",
+        "energy_start_j",
+        "energy_end_j",
+        "warnings",
+        "failed",
+    ];
+    keys.sort_unstable();
+    expected.sort_unstable();
+    assert_eq!(keys, expected);
+    assert_eq!((json["simulated_s"].as_f64(), json["failed"].is_null()), (Some(0.1), true));
+    assert!(json["effect_evaluations"].as_object().unwrap().is_empty());
+    for (name, header, columns) in [
+        ("tip", "t,x,y,z,vx,vy,vz,sx,sy,sz,tension,curvature,moment", 13),
+        ("pin", "t,fx,fy,fz,mx,my,mz,gap", 8),
+        ("energy", "t,kinetic,axial,bending,gravity,dissipated,interface_work,total", 8),
+        ("momentum", "t,px,py,pz,lx,ly,lz", 7),
+    ] {
+        let (found, rows) = rows(out.join(format!("probes/{name}.csv")));
+        assert_eq!(found, header);
+        assert_eq!(rows.len(), 11);
+        for (k, row) in rows.iter().enumerate() {
+            assert_eq!((row.len(), row[0]), (columns, k as f64 / 100.0));
+        }
+    }
+}
+
+#[test]
+fn bad_input_exits_with_2_and_writes_nothing() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("out");
+    let to = out.to_str().unwrap();
+    let file = scene("falling_pendulum");
+    for (arguments, fragment) in [
+        (vec!["run", &file, "--out", to, "--set", "cable.pendulum.elements=0"], "elements"),
+        (vec!["run", "no/such/scene.toml", "--out", to], "no/such/scene.toml"),
+        (vec!["run", &file], "--out"),
+        (vec!["fly"], "fly"),
+    ] {
+        let output = lariat(&arguments);
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}: {}", stderr(&output));
+        assert!(stderr(&output).contains(fragment), "{}", stderr(&output));
+        assert!(!out.exists());
+    }
+}
+
+#[test]
+fn a_folder_that_cannot_be_made_is_named() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("file");
+    fs::write(&file, "in the way").unwrap();
+    let output = lariat(&["run", &scene("falling_pendulum"), "--out", file.to_str().unwrap()]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(stderr(&output).contains("cannot write to"), "{}", stderr(&output));
+    assert_eq!(fs::read_to_string(&file).unwrap(), "in the way");
+    // a report finds out before it measures for minutes
+    let output = lariat(&["report", "--out", file.to_str().unwrap()]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(stderr(&output).contains("cannot write to"), "{}", stderr(&output));
+}
+
+#[test]
+fn a_run_that_fails_exits_with_3_names_cable_and_time_and_keeps_its_samples() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path();
+    let file = out.join("stretched.toml");
+    fs::write(&file, fs::read_to_string(scene("falling_pendulum")).unwrap() + STRETCH).unwrap();
+    let file = file.to_str().unwrap();
+    let output = lariat(&[&["run", file, "--out", out.to_str().unwrap()], EXPLICIT].concat());
+    assert_eq!(output.status.code(), Some(3), "{}", stderr(&output));
+    let message = stderr(&output);
+    assert!(message.contains("pendulum") && message.contains("t = "), "{message}");
+    let summary = summary(out);
+    assert_eq!(summary.failed.as_deref(), Some(message.trim().trim_start_matches("error: ")));
+    let (_, rows) = rows(out.join("probes/tip.csv"));
+    assert!(summary.simulated_s > 0.0 && summary.simulated_s < 2.0);
+    assert!((rows.last().unwrap()[0] - summary.simulated_s).abs() < 1e-9, "{} rows", rows.len());
+    assert!(rows.iter().flatten().all(|x| x.is_finite()));
+}
+
+#[test]
+fn results_of_an_earlier_run_do_not_stay_behind() {
+    let folder = tempfile::tempdir().unwrap();
+    let to = folder.path().to_str().unwrap();
+    assert!(lariat(&["static", &scene("cantilever"), "--out", to]).status.success());
+    assert!(folder.path().join("probes/wall.csv").exists());
+    assert!(lariat(&["static", &scene("catenary"), "--out", to]).status.success());
+    assert!(!folder.path().join("probes/wall.csv").exists());
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_full_disk_is_an_error_that_says_so() {
+    let folder = tempfile::tempdir().unwrap();
+    // a summary that cannot be written: the device is always full
+    std::os::unix::fs::symlink("/dev/full", folder.path().join("summary.json")).unwrap();
+    let output = lariat(&["static", &scene("cantilever"), "--out", folder.path().to_str().unwrap()]);
+    assert_eq!(output.status.code(), Some(3), "{}", stderr(&output));
+    assert!(stderr(&output).contains("summary.json"), "{}", stderr(&output));
+}
+
+/// No file may grow past 8 kB: rows until then stay, none is cut, and the summary says why the run ended.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_disk_that_fills_up_in_mid_run_leaves_whole_rows() {
+    let folder = tempfile::tempdir().unwrap();
+    let run = format!(
+        "trap '' XFSZ; ulimit -f 8; exec {} run {} --out {}",
+        env!("CARGO_BIN_EXE_lariat"),
+        scene("falling_pendulum"),
+        folder.path().display()
+    );
+    let output = Command::new("bash").args(["-c", &run]).output().unwrap();
+    assert_eq!(output.status.code(), Some(3), "{}", stderr(&output));
+    let message = stderr(&output);
+    assert!(message.contains(".csv") && message.contains("t = "), "{message}");
+    assert_eq!(summary(folder.path()).failed.as_deref(), Some(message.trim().trim_start_matches("error: ")));
+    let text = fs::read_to_string(folder.path().join("probes/tip.csv")).unwrap();
+    assert!(text.ends_with('\n') && text.len() <= 8192);
+    let (_, rows) = rows(folder.path().join("probes/tip.csv"));
+    assert!(rows.len() > 20 && rows.iter().all(|row| row.len() == 13 && row.iter().all(|x| x.is_finite())));
+    // the page does not fit either: none rather than half of one
+    assert!(!folder.path().join("view.html").exists());
+}
+
+#[cfg(unix)]
+#[test]
+fn ctrl_c_leaves_every_sample_and_a_summary() {
+    let folder = tempfile::tempdir().unwrap();
+    let to = folder.path().to_str().unwrap();
+    let mut child = Command::new(env!("CARGO_BIN_EXE_lariat"))
+        .args(["run", &scene("falling_pendulum"), "--out", to, "--set", "duration=1e5"])
+        .stderr(std::process::Stdio::piped())
+        .spawn()
+        .unwrap();
+    let probe = folder.path().join("probes/tip.csv");
+    let begun = || fs::metadata(&probe).is_ok_and(|m| m.len() > 1000);
+    for _ in 0..500 {
+        if begun() {
+            break;
+        }
+        std::thread::sleep(std::time::Duration::from_millis(10));
+    }
+    assert!(Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap().success());
+    assert_eq!(child.wait().unwrap().code(), Some(130));
+    let summary = summary(folder.path());
+    assert!(summary.failed.unwrap().contains("interrupted"));
+    let (_, rows) = rows(probe);
+    assert!((rows.last().unwrap()[0] - summary.simulated_s).abs() < 1e-9);
+    let page = fs::read_to_string(folder.path().join("view.html")).unwrap();
+    assert!(page.contains("interrupted at t = ") && page.trim_end().ends_with("</html>"));
+}
+
+#[test]
+fn the_tables_list_every_integrator_and_every_refused_rule() {
+    let output = lariat(&["integrators"]);
+    let text = String::from_utf8(output.stdout).unwrap();
+    for method in lariat_ancf::Method::ALL {
+        assert!(text.contains(&method.to_string()), "{method}");
+    }
+    let text = String::from_utf8(lariat(&["rules"]).stdout).unwrap();
+    for name in ["projected-3", "ST2", "L2T2", "G2-2", "mean-3", "G5-1"] {
+        assert!(text.contains(name), "{name}");
+    }
+}

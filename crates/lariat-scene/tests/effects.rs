@@ -1,0 +1,237 @@
+//! The effect tables of a scene, run and read back against outside values.
+
+use lariat_scene::{Purpose, Scene, run};
+use std::path::PathBuf;
+
+/// Runs a scene and returns its summary and the rows of one probe.
+fn results(name: &str, text: &str, purpose: Purpose) -> (run::Summary, Vec<Vec<f64>>) {
+    let out: PathBuf = std::env::temp_dir().join(format!("lariat-effects-{name}-{}", std::process::id()));
+    let scene = Scene::parse("effects.toml", text, &[], purpose).unwrap();
+    let summary = match purpose {
+        Purpose::Run => run::run(&scene, &out, &mut run::Options::default()).unwrap(),
+        Purpose::Static => run::statics(&scene, &out).unwrap(),
+    };
+    let csv = std::fs::read_to_string(out.join("probes/p.csv")).unwrap();
+    std::fs::remove_dir_all(&out).unwrap();
+    let rows = csv.lines().skip(1).map(|row| row.split(',').map(|x| x.parse().unwrap()).collect()).collect();
+    (summary, rows)
+}
+
+const CABLE: &str = r#"
+duration = 2.0
+[[cable]]
+name = "line"
+points = [[0.0, 0.0, 0.0], [2.0, 0.0, 0.0]]
+section = { round = 0.01 }
+density = 4000.0
+youngs_modulus = 1.0e8
+elements = 4
+"#;
+
+/// A free horizontal cable reaches the speed that drag allows: v = v_T tanh(g t/v_T), v_T^2 = 2 w/(rho d C_n); what it lost is in
+/// `dissipated`.
+///
+/// *Source.* Free fall with quadratic drag; conservation of energy.
+#[test]
+fn drag_of_a_scene_slows_a_falling_cable_and_is_accounted() {
+    let text = format!(
+        "{CABLE}integrator = {{ tolerance = 1e-8 }}\n[cable.drag]\nfluid_density = 1.2\nnormal = 1.1\ntangential = 0.02\n\
+         [[probe]]\nname = \"p\"\nenergy = \"line\"\n"
+    );
+    let (summary, rows) = results("drag", &text, Purpose::Run);
+    let mass = 4000.0 * std::f64::consts::FRAC_PI_4 * 1e-4;
+    let terminal = (2.0 * mass * 9.81 / (1.2 * 0.01 * 1.1)).sqrt();
+    let end = rows.last().unwrap();
+    let speed = (2.0 * end[1] / (2.0 * mass)).sqrt();
+    let expected = terminal * (9.81 * 2.0 / terminal).tanh();
+    assert!((speed - expected).abs() < 1e-5 * expected, "{speed} {expected}");
+    let (dissipated, total) = (end[5], end[7]);
+    assert!(dissipated > 1.0 && (total + dissipated - rows[0][7]).abs() < 1e-5 * dissipated, "{dissipated} {total}");
+    assert_eq!(summary.effect_evaluations.keys().collect::<Vec<_>>(), ["drag"]);
+    assert_eq!(summary.effect_evaluations["drag"], summary.element_evaluations);
+}
+
+/// A neutrally buoyant cable floats, damping does nothing to it, and every effect that is on has its entry.
+///
+/// *Source.* Archimedes.
+#[test]
+fn buoyancy_of_a_scene_carries_the_cable() {
+    let text = format!(
+        "{CABLE}[cable.buoyancy]\nfluid_density = 4000.0\n[cable.damping]\naxial = 1e-3\nbending = 1e-2\n\
+         [[probe]]\nname = \"p\"\ncable = \"line\"\nat = \"end\"\n"
+    );
+    let (summary, rows) = results("buoyancy", &text, Purpose::Run);
+    let end = rows.last().unwrap();
+    assert!(end[2].abs() < 1e-9 && end[3].abs() < 1e-9, "{end:?}");
+    assert_eq!(summary.effect_evaluations.keys().collect::<Vec<_>>(), ["buoyancy", "damping"]);
+    assert!(summary.effect_evaluations["damping"] > 0);
+}
+
+/// `lariat static` finds the critical angle of a cable in a cross flow; without section shape the table names the diameter.
+///
+/// *Source.* f cos^2 a = w sin a, a from the vertical, tangential drag zero (Pode 1951; Berteaux 1976).
+#[test]
+fn statics_of_a_scene_see_the_flow() {
+    let text = r#"
+[[cable]]
+name = "line"
+points = [[0.0, 0.0, 0.0], [0.0, -10.0, 0.0]]
+axial_stiffness = 1.0e5
+bending_stiffness = 0.0
+mass_per_length = 0.2
+rule = "G5-none"
+[cable.drag]
+fluid_density = 1000.0
+normal = 1.2
+tangential = 0.0
+diameter = 0.01
+flow = [0.5, 0.0, 0.0]
+[[attachment]]
+cable = "line"
+at = "start"
+body = "world"
+[[probe]]
+name = "p"
+cable = "line"
+at = 5.0
+"#;
+    let (_, rows) = results("static", text, Purpose::Static);
+    let (w, f): (f64, f64) = (0.2 * 9.81, 0.5 * 1000.0 * 0.01 * 1.2 * 0.25);
+    let sine = (-w + (w * w + 4.0 * f * f).sqrt()) / (2.0 * f);
+    let (sx, sy) = (rows[0][7], rows[0][8]);
+    assert!((sx / (sx * sx + sy * sy).sqrt() - sine).abs() < 1e-4, "{sx} {sy} {sine}");
+}
+
+/// Runs a scene and returns the last row of its probe, and the effects that it counts.
+fn last(name: &str, text: &str) -> (Vec<f64>, Vec<String>) {
+    let (summary, mut rows) = results(name, text, Purpose::Run);
+    (rows.pop().unwrap(), summary.effect_evaluations.into_keys().collect())
+}
+
+/// A free cable falls by half of gravity where the scene says so, and is pushed by its line load.
+///
+/// *Source.* Uniform acceleration, 1/2 (scale g + f/m) t^2.
+#[test]
+fn gravity_scale_and_line_load_of_a_scene_accelerate_a_free_cable() {
+    let text = format!(
+        "{CABLE}gravity_scale = 0.5\n[[cable.line_load]]\nforce = [0.0, 0.0, 0.3]\n\
+         [[probe]]\nname = \"p\"\ncable = \"line\"\nat = 1.0\n"
+    );
+    let (end, effects) = last("accelerated", &text);
+    let mass = 4000.0 * std::f64::consts::FRAC_PI_4 * 1e-4;
+    assert!((end[2] + 0.5 * 0.5 * 9.81 * 4.0).abs() < 1e-6, "{end:?}");
+    assert!((end[3] - 0.5 * 0.3 / mass * 4.0).abs() < 1e-6, "{end:?}");
+    assert_eq!(effects, ["gravity_scale", "line_load"]);
+}
+
+/// A cantilever under a force per length on its outer half, by `lariat static`.
+///
+/// *Source.* 41 q L^4/(384 EI) (superposition of Timoshenko 1930).
+#[test]
+fn a_line_load_of_a_scene_bends_a_cantilever() {
+    let text = r#"
+gravity = [0.0, 0.0, 0.0]
+[[cable]]
+name = "rod"
+points = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0]]
+axial_stiffness = 1.0e4
+bending_stiffness = 1.0
+mass_per_length = 1.0
+[[cable.line_load]]
+from = 0.5
+force = [0.0, 0.0, 1e-3]
+[[attachment]]
+cable = "rod"
+at = "start"
+body = "world"
+kind = "clamp"
+[[probe]]
+name = "p"
+cable = "rod"
+at = "end"
+"#;
+    let (_, rows) = results("cantilever", text, Purpose::Static);
+    let expected = 41e-3 / 384.0;
+    assert!((rows[0][3] / expected - 1.0).abs() < 1e-4, "{:?}", rows[0]);
+}
+
+/// A cable between two points of its unstretched length, stress-free at 0.98 of it, pulls; one that is stress-free at a curvature takes it.
+///
+/// *Source.* N = EA (1 - f_0^2)/2 at stretch 1 (the Green law); an elastic rod without load has its natural curvature.
+#[test]
+fn the_rest_shape_of_a_scene_is_taken_or_pulls() {
+    let text = r#"
+duration = 0.1
+gravity = [0.0, 0.0, 0.0]
+[[cable]]
+name = "string"
+points = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0]]
+axial_stiffness = 1.0e4
+bending_stiffness = 1e-4
+mass_per_length = 0.1
+[cable.rest_shape]
+stretch = 0.98
+[[attachment]]
+cable = "string"
+at = "start"
+body = "world"
+[[attachment]]
+cable = "string"
+at = "end"
+body = "world"
+[[probe]]
+name = "p"
+cable = "string"
+at = 0.37
+"#;
+    let (end, effects) = last("string", text);
+    let expected = 1e4 * 0.5 * (1.0 - 0.98 * 0.98);
+    assert!((end[10] / expected - 1.0).abs() < 1e-9, "{end:?}");
+    assert_eq!(effects, ["rest_shape"]);
+    // drawn finely: corners of a coarse polyline may stay as wrinkles, which no curvature without direction resists
+    let k = 1.6f64;
+    let arc = |s: f64| [(k * s).sin() / k, (1.0 - (k * s).cos()) / k, 0.0];
+    let points: Vec<_> = (0..=200).map(|i| arc(f64::from(i) / 200.0)).collect();
+    let rod = |rest: &str| {
+        format!(
+            "duration = 3.0\ngravity = [0.0, 0.0, 0.0]\n[[cable]]\nname = \"rod\"\npoints = {points:?}\nlength = 1.0\n\
+             axial_stiffness = 1e5\nbending_stiffness = 1.0\nmass_per_length = 1.0\nelements = 20\n[cable.damping]\nbending = 0.05\n\
+             {rest}[[probe]]\nname = \"p\"\ncable = \"rod\"\nat = 0.775\n"
+        )
+    };
+    let pieces = "[[cable.rest_shape.piece]]\nfrom = 0.0\ncurvature = 1.5\n\
+                  [[cable.rest_shape.piece]]\nfrom = 0.5\ncurvature = 1.2\n";
+    for rest in ["[cable.rest_shape]\ncurvature = 1.2\n", pieces] {
+        let (end, _) = last("rod", &rod(rest));
+        assert!((end[11] / 1.2 - 1.0).abs() < 5e-4 && end[12].abs() < 5e-4, "{rest}: {end:?}");
+    }
+}
+
+/// A cable at a height in a wind by the power law, and one in a wind that freshens, are carried along.
+///
+/// *Source.* v' = k (u - v)^2 with k = rho d C_n/(2 m): v = u - u/(1 + k u t) for a steady wind; for u = a t,
+/// v = a t - sqrt(a/k) tanh(sqrt(a k) t).
+#[test]
+fn the_wind_of_a_scene_changes_with_height_and_time() {
+    let run = |name: &str, flow: &str| {
+        let text = format!(
+            "duration = 2.0\ngravity = [0.0, 0.0, 0.0]\n[[cable]]\nname = \"line\"\npoints = [[0.0, 40.0, 0.0], [2.0, 40.0, 0.0]]\n\
+             section = {{ round = 0.01 }}\ndensity = 1000.0\nyoungs_modulus = 1.0e8\nelements = 4\n\
+             [cable.drag]\nfluid_density = 1.2\nnormal = 1.1\nflow = {flow}\n\
+             [[probe]]\nname = \"p\"\ncable = \"line\"\nat = 1.0\n"
+        );
+        last(name, &text).0[6]
+    };
+    let k = 1.2 * 0.01 * 1.1 / (2.0 * 1000.0 * std::f64::consts::FRAC_PI_4 * 1e-4);
+    let law = "{ velocity = [0, 0, 10], power_law = { reference = 10, exponent = 0.14, top = 100 } }";
+    let u = 10.0 * 4.0f64.powf(0.14);
+    let expected = u - u / (1.0 + k * u * 2.0);
+    let found = run("law", law);
+    assert!((found / expected - 1.0).abs() < 1e-3, "{found} {expected}");
+    let table =
+        "{ velocity = [0, 0, 2], profile = { up = [0, 2, 0], rows = [[0, 1], [80, 3]] }, history = [[0, 0], [2, 5]] }";
+    let a = 2.0 * 2.0 * 2.5;
+    let expected = a * 2.0 - (a / k).sqrt() * ((a * k).sqrt() * 2.0).tanh();
+    let found = run("table", table);
+    assert!((found / expected - 1.0).abs() < 1e-5, "{found} {expected}");
+}

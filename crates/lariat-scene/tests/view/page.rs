@@ -1,0 +1,160 @@
+//! The page as a file: it is there however the run ends, holds what the run computed, and asks for nothing from outside.
+
+use base64::Engine as _;
+use lariat_scene::run::{self, Options};
+use lariat_scene::{Error, Purpose, Scene, view};
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::sync::atomic::Ordering;
+
+pub fn scene(name: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("../../assets/scenes/{name}.toml"))
+}
+
+/// Runs a scene into a folder that goes when it is dropped.
+pub fn page_of(name: &str, sets: &[&str]) -> tempfile::TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    let sets: Vec<String> = sets.iter().map(ToString::to_string).collect();
+    let scene = Scene::read(&scene(name), &sets, Purpose::Run).unwrap();
+    run::run(&scene, folder.path(), &mut Options::default()).unwrap();
+    folder
+}
+
+/// The data of a page.
+struct Data(serde_json::Value);
+
+impl Data {
+    fn read(folder: &Path) -> Data {
+        let text = fs::read_to_string(folder.join("view.html")).unwrap();
+        let (_, rest) = text.split_once("<script type=\"application/json\" id=\"data\">").unwrap();
+        Data(serde_json::from_str(rest.split_once("</script>").unwrap().0).unwrap())
+    }
+
+    fn bytes(text: &serde_json::Value) -> Vec<u8> {
+        base64::engine::general_purpose::STANDARD.decode(text.as_str().unwrap()).unwrap()
+    }
+
+    fn doubles(text: &serde_json::Value) -> Vec<f64> {
+        Self::bytes(text).chunks_exact(8).map(|x| f64::from_le_bytes(x.try_into().unwrap())).collect()
+    }
+
+    fn times(&self) -> Vec<f64> {
+        Self::doubles(&self.0["times"])
+    }
+
+    fn frames(&self) -> Vec<f32> {
+        Self::bytes(&self.0["frames"]).chunks_exact(4).map(|x| f32::from_le_bytes(x.try_into().unwrap())).collect()
+    }
+}
+
+fn last_row(file: &Path) -> Vec<f64> {
+    fs::read_to_string(file).unwrap().lines().last().unwrap().split(',').map(|x| x.parse().unwrap()).collect()
+}
+
+/// The tip in the last frame is the tip of the last row, to single precision; the rows in the page are those of the files, to the bit.
+#[test]
+fn the_page_holds_what_the_run_wrote() {
+    let folder = page_of("payload_pendulum", &["duration=0.5"]);
+    let (data, probes) = (Data::read(folder.path()), folder.path().join("probes"));
+    assert_eq!(data.times().len(), 31);
+    assert_eq!((data.times()[0], data.times()[30]), (0.0, 0.5));
+    let numbers = data.frames();
+    // one cable of 11 nodes with 9 numbers each, one body with 7
+    let frame = 1 + 11 * 9 + 7;
+    assert_eq!(numbers.len(), 31 * frame);
+    assert!(numbers.iter().all(|x| x.is_finite()));
+    let last = &numbers[30 * frame..];
+    let body: Vec<f32> = last_row(&probes.join("crate.csv"))[1..8].iter().map(|&x| x as f32).collect();
+    assert_eq!((last[0], &last[100..]), (11.0, &body[..]));
+    let pull = last_row(&probes.join("hook.csv"));
+    let pull = pull[1].hypot(pull[2]) as f32;
+    let tension = last[1 + 10 * 9 + 7];
+    assert!((tension / pull - 1.0).abs() < 0.1, "{tension} N at the end, {pull} N at the hook");
+    for probe in data.0["probes"].as_array().unwrap() {
+        let rows = Data::doubles(&probe["rows"]);
+        let text = fs::read_to_string(probes.join(format!("{}.csv", probe["name"].as_str().unwrap()))).unwrap();
+        let file: Vec<f64> = text.lines().skip(1).flat_map(|l| l.split(',')).map(|x| x.parse().unwrap()).collect();
+        assert!(rows.iter().map(|x| x.to_bits()).eq(file.iter().map(|x| x.to_bits())), "{}", probe["name"]);
+    }
+}
+
+#[test]
+fn a_long_run_has_no_more_frames_and_rows_than_the_limits_say_and_ends_at_its_end() {
+    let light = "cable.pendulum.integrator={ method = \"generalised-alpha-0\", substeps = 1 }";
+    let folder = page_of("falling_pendulum", &["duration=25.0", "cable.pendulum.elements=2", light]);
+    let data = Data::read(folder.path());
+    let times = data.times();
+    assert!(times.len() > view::FRAMES / 2 && times.len() <= view::FRAMES + 1, "{}", times.len());
+    assert_eq!((times[0], times.last()), (0.0, Some(&25.0)));
+    let rows = Data::doubles(&data.0["probes"][0]["rows"]).len() / 13;
+    assert!(rows > view::ROWS / 2 && rows <= view::ROWS + 1, "{rows}");
+}
+
+#[test]
+fn statics_have_one_frame() {
+    let folder = tempfile::tempdir().unwrap();
+    let catenary = Scene::read(&scene("catenary"), &[], Purpose::Static).unwrap();
+    run::statics(&catenary, folder.path()).unwrap();
+    assert_eq!(Data::read(folder.path()).times(), [0.0]);
+}
+
+/// A run that blows up, and one that is stopped: the page has every state until then, and says what happened.
+#[test]
+fn a_run_that_ends_early_leaves_its_page() {
+    let folder = tempfile::tempdir().unwrap();
+    let text = fs::read_to_string(scene("falling_pendulum")).unwrap()
+        + "\n[[load]]\ncable = \"pendulum\"\nat = \"end\"\nforce = [3.0e5, 0.0, 0.0]\nramp = 1.0\n";
+    let sets = ["cable.pendulum.integrator={ method = \"verlet\", stable = 0.9 }".to_string()];
+    let scene = Scene::parse("stretched.toml", &text, &sets, Purpose::Run).unwrap();
+    let error = run::run(&scene, folder.path(), &mut Options::default()).unwrap_err();
+    let data = Data::read(folder.path());
+    assert_eq!(data.0["summary"]["failed"].as_str(), Some(error.to_string().as_str()));
+    assert!(data.times().len() > 2 && data.frames().iter().all(|x| x.is_finite()));
+    let tip = last_row(&folder.path().join("probes/tip.csv"));
+    assert!((data.times().last().unwrap() - tip[0]).abs() < 1e-9);
+
+    let mut options = Options::default();
+    let stop = options.stop.clone();
+    let mut at_half = |time: f64| stop.store(time > 0.5, Ordering::Relaxed);
+    options.progress = Some(&mut at_half);
+    let scene = Scene::parse("stopped.toml", &text, &[], Purpose::Run).unwrap();
+    let error = run::run(&scene, folder.path(), &mut options).unwrap_err();
+    assert!(matches!(error, Error::Interrupted { .. }), "{error}");
+    assert_eq!(Data::read(folder.path()).times().last(), Some(&0.51));
+}
+
+/// A scene may be called anything: the page stays a page. It never goes to the network, and says so to the browser.
+#[test]
+fn no_name_breaks_the_page_and_nothing_is_loaded() {
+    let folder = page_of("falling_pendulum", &["duration=0.02", r#"name="</script><!-- @DATA@ @SCRIPT@ &""#]);
+    let text = fs::read_to_string(folder.path().join("view.html")).unwrap();
+    assert!(text.contains("<title>&lt;/script>&lt;!-- @DATA@ @SCRIPT@ &amp;</title>"));
+    assert_eq!(Data::read(folder.path()).0["name"], "</script><!-- @DATA@ @SCRIPT@ &");
+    assert_eq!((text.matches("<script").count(), text.matches("</script>").count()), (3, 3));
+    assert!(text.contains("default-src 'none'") && !text.contains("src=\"") && !text.contains("@import"));
+}
+
+/// Plots are made by the names of columns: every name has its quantity or follows one that has.
+#[test]
+fn the_page_knows_the_columns_of_every_probe() {
+    let script = fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("assets/view/plots.js")).unwrap();
+    let folder = page_of("payload_pendulum", &["duration=0.02"]);
+    let tip = page_of("falling_pendulum", &["duration=0.02"]);
+    for folder in [folder, tip] {
+        for probe in Data::read(folder.path()).0["probes"].as_array().unwrap() {
+            let first = probe["columns"][1].as_str().unwrap();
+            assert!(script.contains(&format!("  {first}: [")) || script.contains(&format!(" {first}: [")), "{first}");
+        }
+    }
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_full_disk_that_spoils_the_page_spares_the_summary() {
+    let folder = tempfile::tempdir().unwrap();
+    std::os::unix::fs::symlink("/dev/full", folder.path().join("view.html")).unwrap();
+    let catenary = Scene::read(&scene("catenary"), &[], Purpose::Static).unwrap();
+    let error = run::statics(&catenary, folder.path()).unwrap_err();
+    assert!(matches!(error, Error::Write { .. }) && error.to_string().contains("view.html"), "{error}");
+    assert!(fs::read_to_string(folder.path().join("summary.json")).unwrap().contains("\"failed\": null"));
+}

@@ -1,0 +1,132 @@
+//! The page in a browser without network. Ignored unless asked for, because it needs Chromium: `.ci/view` installs it and runs these.
+
+use super::browser::Browser;
+use super::page::{page_of, scene};
+use lariat_scene::run::{self, Options};
+use lariat_scene::{Purpose, Scene};
+
+const DRAWN: &str = "document.documentElement.dataset.drawn";
+const FRAME: &str = "document.documentElement.dataset.frame";
+/// Pixels of the scene that are not those of the paper.
+const INK: &str = "(() => { const d = pen.getImageData(0, 0, canvas.width, canvas.height).data; let n = 0; \
+                   for (let i = 4; i < d.length; i += 4) n += d[i] !== d[0] || d[i + 1] !== d[1] || d[i + 2] !== d[2]; return n; })()";
+
+/// The pendulum: as many frames as host times, the slider to its end shows another picture, the mouse turns and zooms, play runs to
+/// the end and stops, a click in a plot goes there, and nothing complains.
+#[test]
+#[ignore = "needs Chromium: .ci/view"]
+fn the_page_shows_the_run_and_obeys_its_controls() {
+    let folder = page_of("falling_pendulum", &["duration=0.6"]);
+    let mut page = Browser::start(1200, 800);
+    page.open(&folder.path().join("view.html"));
+    assert_eq!(page.ask("document.documentElement.dataset.frames"), "61");
+    assert_eq!(page.ask("document.title"), "falling pendulum");
+    assert!(page.ask(INK).parse::<u32>().unwrap() > 2000, "an empty picture");
+    let (first, ink) = (page.ask(DRAWN), page.ask("canvas.toDataURL()"));
+    page.ask("slider.focus()");
+    page.call(
+        "Input.dispatchKeyEvent",
+        serde_json::json!({ "type": "keyDown", "key": "End", "code": "End", "windowsVirtualKeyCode": 35 }),
+    );
+    assert_eq!((page.ask(FRAME), page.ask("times[current]")), ("60".to_string(), "0.6".to_string()));
+    assert_ne!(page.ask(DRAWN), first);
+    assert_ne!(page.ask("canvas.toDataURL()"), ink);
+    // the tip that is drawn is the last row of its probe
+    let tip = "(() => { const [at, n] = frames[60].cables[0], p = data.probes[0].table; \
+               return Math.hypot(numbers[at + 9 * (n - 1) + 1] - p[1][60], numbers[at + 9 * (n - 1) + 2] - p[2][60]); })()";
+    assert!(page.ask(tip).parse::<f64>().unwrap() < 1e-6);
+
+    let (x, y) = page.middle_of("scene");
+    for (kind, dx) in [("mousePressed", 0.0), ("mouseMoved", 40.0), ("mouseMoved", 90.0), ("mouseReleased", 90.0)] {
+        page.mouse(kind, x + dx, y + 0.3 * dx);
+    }
+    let turned = page.ask(DRAWN);
+    assert!(page.ask("Math.abs(camera.yaw - 0.3)").parse::<f64>().unwrap() > 0.1);
+    page.mouse("mouseWheel", x, y);
+    assert_ne!(page.ask(DRAWN), turned);
+    page.click("reset");
+    assert_eq!(page.ask("camera.yaw"), "0.3");
+
+    page.ask("document.getElementById('speed').value = '5'");
+    page.click("play");
+    assert_eq!(page.ask("document.documentElement.dataset.playing"), "true");
+    let end = std::time::Instant::now() + std::time::Duration::from_secs(20);
+    while page.ask("document.documentElement.dataset.playing") == "true" {
+        assert!(std::time::Instant::now() < end, "it never ends");
+    }
+    assert_eq!(page.ask(FRAME), "60");
+    // two folds are open: 6 plots of the tip and of the middle
+    assert_eq!(page.ask("document.querySelectorAll('.uplot').length"), "12");
+    page.ask("document.querySelector('.u-over').id = 'over'");
+    page.click("over");
+    let there = page.ask("times[current]").parse::<f64>().unwrap();
+    assert!((there - 0.3).abs() < 0.02, "{there}");
+    page.click("theme");
+    assert!(page.complaints.is_empty(), "{:?}", page.complaints);
+}
+
+/// All shapes, statics, a run that failed at once: drawn without complaint.
+#[test]
+#[ignore = "needs Chromium: .ci/view"]
+fn every_shape_and_every_kind_of_end_is_shown() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(
+        folder.path().join("corner.obj"),
+        "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n",
+    )
+    .unwrap();
+    let mut text = std::fs::read_to_string(scene("falling_pendulum")).unwrap().replace("engine = \"none\"", "");
+    for (i, shape) in [
+        "{ cuboid = [0.2, 0.1, 0.3] }",
+        "{ ball = 0.2 }",
+        "{ cylinder = [0.3, 0.1] }",
+        "{ capsule = [0.3, 0.1] }",
+        "{ mesh = \"corner.obj\" }",
+        "{ plane = [0.0, 1.0, 0.0] }",
+        "{ plane = [1.0, 1.0, 0.0] }",
+        "\"none\"",
+    ]
+    .iter()
+    .enumerate()
+    {
+        let kind = ["kinematic", "fixed"][i % 2];
+        text += &format!(
+            "\n[[body]]\nname = \"b{i}\"\nkind = \"{kind}\"\nshape = {shape}\nposition = [{i}.0, -3.0, 3.0]\n"
+        );
+    }
+    let file = folder.path().join("shapes.toml");
+    std::fs::write(&file, text).unwrap();
+    let sets = ["duration=0.05".to_string()];
+    run::run(&Scene::read(&file, &sets, Purpose::Run).unwrap(), folder.path(), &mut Options::default()).unwrap();
+    let mut page = Browser::start(1200, 800);
+    page.open(&folder.path().join("view.html"));
+    assert!(page.ask(INK).parse::<u32>().unwrap() > 5000);
+    page.click("names");
+
+    let catenary = |sets: &[String], purpose| Scene::read(&scene("catenary"), sets, purpose).unwrap();
+    run::statics(&catenary(&[], Purpose::Static), folder.path()).unwrap();
+    page.open(&folder.path().join("view.html"));
+    assert_eq!(page.ask("document.documentElement.dataset.frames"), "1");
+    assert_eq!(page.ask("document.querySelectorAll('.uplot').length"), "0");
+    // it stretches without end, and no equilibrium is found
+    let limp = ["cable.line.axial_stiffness=1e-9".to_string()];
+    run::run(&catenary(&limp, Purpose::Run), folder.path(), &mut Options::default()).unwrap_err();
+    page.open(&folder.path().join("view.html"));
+    assert!(page.ask("document.querySelector('.failed').textContent").contains("failed"));
+    assert!(page.complaints.is_empty(), "{:?}", page.complaints);
+}
+
+/// Draws docs/view.png anew: `LARIAT_PICTURE=docs/view.png .ci/view`.
+#[test]
+#[ignore = "needs Chromium: .ci/view"]
+fn the_picture_of_the_readme() {
+    let folder = page_of("bridge", &[]);
+    let mut page = Browser::start(1200, 720);
+    page.open(&folder.path().join("view.html"));
+    page.ask("goTo(Math.round(0.3 * frames.length))");
+    let picture = page.picture();
+    assert!(picture.len() < 200_000, "{} bytes", picture.len());
+    if let Ok(file) = std::env::var("LARIAT_PICTURE") {
+        std::fs::write(file, picture).unwrap();
+    }
+}

@@ -1,0 +1,1 @@
+//! The examples of Lariat that need more than the mechanics are the example targets of this package.
