@@ -57,8 +57,8 @@ pub use cable::sample::{Reaction, Sample};
 pub use cable::{At, Cable, Snapshot};
 pub use diagnostics::Diagnostics;
 pub use effect::{Account, Buoyancy, Damping, Drag, Effects, Flow, GravityScale, LineLoad, RestPiece, RestShape};
-pub use error::{Error, StepFailure};
-pub use integrate::{Fidelity, Integrator, Method, StepControl};
+pub use error::{EquilibriumFailure, Error, PinProblem, Requirement, StepFailure};
+pub use integrate::{Fidelity, Integrator, IntegratorChoice, IntegratorRef, Method, StepControl};
 pub use load::PointLoad;
 /// The vector type of the public interface (nalgebra's).
 pub use nalgebra::Vector3;

@@ -5,8 +5,8 @@ use super::{Cable, Equations};
 use crate::effect::account::hermite;
 use crate::effect::{Account, Buoyancy, Damping, Drag, Effects, GravityScale, LineLoad, RestShape};
 use crate::element::{mass, shape};
-use crate::error::{Error, require, require_finite};
-use crate::integrate::{Integrator, State};
+use crate::error::{Error, Requirement, require, require_finite};
+use crate::integrate::{OneStep, State};
 use crate::quadrature::gauss_legendre;
 use crate::rule::BendingRule;
 use nalgebra::Vector3;
@@ -26,8 +26,10 @@ impl Cable {
     /// and velocity stay as they are.
     ///
     /// # Errors
-    /// [`Error::InvalidValue`] for a number out of range, [`Error::InvalidShape`] for an effect that the cable's section or rule has no
-    /// number for (a diameter, an area, a bending rule), [`Error::UnsupportedControl`] for damping with an explicit integrator.
+    /// [`Error::InvalidValue`] for a number out of range, [`Error::MissingForEffect`] for an effect that needs a diameter, an area or
+    /// a bending rule that the cable does not have, [`Error::EmptyRestPiece`] for a piece of a rest shape that covers no element,
+    /// [`Error::WrongCount`] for samples of a flow that are not one per node, [`Error::ExplicitDamping`] for damping with an explicit
+    /// integrator.
     /// The cable is then as before.
     pub fn set_effects(&mut self, effects: Effects) -> Result<(), Error> {
         self.redefine(self.rule(), effects, self.integrator())
@@ -114,15 +116,16 @@ impl Cable {
     /// ```
     ///
     /// # Errors
-    /// [`Error::InvalidShape`] for a cable without drag, [`Error::InvalidValue`] for a velocity that is not finite; the samples are then as
+    /// [`Error::MissingForEffect`] for a cable without drag, [`Error::InvalidValue`] for a velocity that is not finite; the samples are then as
     /// before.
     pub fn sample_flow(&mut self, mut field: impl FnMut(Vector3<f64>) -> Vector3<f64>) -> Result<(), Error> {
         let (Some(drag), Some(fluid)) = (&mut self.model.effects.drag, &mut self.system.fluid) else {
-            let reason = "a flow acts by drag, and this cable has none".to_string();
-            return Err(Error::InvalidShape { cable: self.model.name.clone(), reason });
+            let (cable, effect) = (self.model.name.clone(), "a sampled flow");
+            return Err(Error::MissingForEffect { cable, effect, requirement: Requirement::Drag });
         };
         let places = self.state.phase.q.chunks_exact(6).map(|q| Vector3::new(q[0], q[1], q[2]));
-        if fluid.sample(&mut drag.flow.samples, places.map(&mut field))? {
+        let changed = fluid.sample(&mut drag.flow.samples, places.map(&mut field));
+        if changed.map_err(|e| e.of_cable(&self.model.name))? {
             // accelerations change, the length of the next step does not
             self.revision += 1;
             self.state.phase.memory.valid = false;
@@ -171,13 +174,10 @@ impl Cable {
     }
 }
 
-/// Refuses damping under an explicit integrator.
-pub(crate) fn check_integrator(model: &Model, integrator: Integrator) -> Result<(), Error> {
-    if model.effects.damping.is_some() && !integrator.method.properties().implicit {
-        return Err(Error::UnsupportedControl {
-            method: integrator.method.to_string(),
-            reason: "internal damping lowers the stability limit of explicit methods far below any step; use an implicit one",
-        });
+/// Checks that a cable with internal damping has an implicit method.
+pub(crate) fn check_integrator(model: &Model, method: &dyn OneStep) -> Result<(), Error> {
+    if model.effects.damping.is_some() && method.stability_limit().is_some() {
+        return Err(Error::ExplicitDamping { cable: model.name.clone(), method: method.name() });
     }
     Ok(())
 }
@@ -186,30 +186,33 @@ impl Model {
     /// Refuses effects that are out of range or that the cable has no numbers for.
     pub(crate) fn check_effects(&self) -> Result<(), Error> {
         let Effects { damping, drag, buoyancy, rest_shape, line_loads, gravity_scale } = &self.effects;
-        let invalid = |reason: &str| Err(Error::InvalidShape { cable: self.name.clone(), reason: reason.to_string() });
+        let missing = |effect: &'static str, requirement: Requirement| {
+            Err(Error::MissingForEffect { cable: self.name.clone(), effect, requirement })
+        };
         require("gravity scale", gravity_scale.0, true, "a number")?;
         let limp = self.rule.bending == BendingRule::None;
         if let Some(damping) = damping {
             damping.check()?;
             if limp && damping.bending > 0.0 {
-                return invalid("damping of bending needs a bending rule, this cable has none");
+                return missing("damping of bending", Requirement::BendingRule);
             }
         }
         if let Some(rest) = rest_shape {
             rest.check()?;
             self.check_pieces(rest)?;
             if limp && rest.pieces.iter().any(|piece| piece.curvature > 0.0) {
-                return invalid("a natural curvature needs a bending rule, this cable has none");
+                return missing("a natural curvature", Requirement::BendingRule);
             }
         }
         if let Some(drag) = drag {
             drag.check()?;
             let samples = drag.flow.samples.len();
             if samples != 0 && samples != self.nodes() {
-                return invalid(&format!("{samples} samples of the flow, the cable has {} nodes", self.nodes()));
+                let (cable, expected) = (self.name.clone(), self.nodes());
+                return Err(Error::WrongCount { cable, what: "samples of the flow", count: samples, expected });
             }
             if drag.diameter.is_none() && self.elements.iter().any(|e| e.section.diameter.is_none()) {
-                return invalid("drag needs a diameter: of the section, or of the drag");
+                return missing("drag", Requirement::Diameter);
             }
         }
         if let Some(buoyancy) = buoyancy {
@@ -218,7 +221,7 @@ impl Model {
             require("coefficient of added mass", added_mass, added_mass >= 0.0, ">= 0")?;
             require("displaced area (m^2)", area.unwrap_or(1.0), area.is_none_or(|a| a > 0.0), "> 0")?;
             if area.is_none() && self.elements.iter().any(|e| e.section.outer_area.is_none()) {
-                return invalid("buoyancy needs a displaced area: of the section, or of the buoyancy");
+                return missing("buoyancy", Requirement::DisplacedArea);
             }
         }
         for load in line_loads {
@@ -240,8 +243,7 @@ impl Model {
         for (i, piece) in rest.pieces.iter().enumerate() {
             let end = rest.pieces.get(i + 1).map_or(f64::INFINITY, |next| next.from);
             if !s.windows(2).any(|s| (piece.from..end).contains(&(0.5 * (s[0] + s[1])))) {
-                let reason = format!("no element has its middle in the rest shape's piece from {} m on", piece.from);
-                return Err(Error::InvalidShape { cable: self.name.clone(), reason });
+                return Err(Error::EmptyRestPiece { cable: self.name.clone(), from: piece.from });
             }
         }
         Ok(())
