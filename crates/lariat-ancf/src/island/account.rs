@@ -10,7 +10,7 @@
 
 use super::system::Work;
 use super::workspace::vector;
-use crate::cable::Rates;
+use crate::effect::acts::VelocityInput;
 use crate::integrate::State;
 use nalgebra::Vector3;
 
@@ -41,7 +41,7 @@ impl Work<'_, '_> {
             for i in range.clone() {
                 gained[i] = change[i] - jump[i];
             }
-            cable.system.multiply_mass(&gained[range.clone()], &mut momentum[range]);
+            cable.system.mass.multiply(cable.system.level, &gained[range.clone()], &mut momentum[range]);
         }
         for pin in 0..self.pins.len() {
             let (at, body) = (self.pin_at(pin), self.body_at(self.pins[pin].body));
@@ -68,8 +68,15 @@ impl Work<'_, '_> {
         let mut rhs = core::mem::take(&mut self.workspace.rhs);
         let (q, v) = (&phase.q, &phase.v);
         // without a matrix nothing is factored, and nothing can fail
-        let rows =
-            self.cable_rows(phase.time, 1.0, q, Rates { v, rate: 0.0 }, &phase.memory.acceleration, &mut rhs, false);
+        let rows = self.cable_rows(
+            phase.time,
+            1.0,
+            q,
+            VelocityInput { v, dv_dq: 0.0 },
+            &phase.memory.acceleration,
+            &mut rhs,
+            false,
+        );
         let half = match self.workspace.accounted {
             Some(before) => 0.5 * (phase.time - before),
             None => 0.0,

@@ -8,7 +8,7 @@
 use super::body::RigidBody;
 use super::system::Work;
 use super::workspace::{Motion, vector};
-use crate::cable::Rates;
+use crate::effect::acts::VelocityInput;
 use crate::integrate::State;
 use nalgebra::Vector3;
 
@@ -37,7 +37,7 @@ impl Work<'_, '_> {
         for c in 0..self.cables.len() {
             let (mut equations, part) = self.equations(c);
             let of_cable = equations.energy_between(before, after, h, part.at..part.at + part.size)?;
-            made += of_cable.made;
+            made += of_cable.spurious;
             scale[0] += of_cable.before;
             scale[1] += of_cable.after;
         }
@@ -73,7 +73,7 @@ impl Work<'_, '_> {
         let mut rhs = core::mem::take(&mut self.workspace.rhs);
         let mut work = 0.0;
         for phase in [before, after] {
-            let rates = Rates { v: &phase.v, rate: 0.0 };
+            let rates = VelocityInput { v: &phase.v, dv_dq: 0.0 };
             let (time, k) = (phase.time, &phase.memory.acceleration);
             // without a matrix nothing is factored, and nothing can fail
             let rows = self.cable_rows(time, 1.0, &phase.q, rates, k, &mut rhs, false);

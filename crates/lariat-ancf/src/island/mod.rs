@@ -93,7 +93,7 @@ impl Island {
         if dt == 0.0 {
             return Ok(());
         }
-        cables.iter_mut().for_each(|cable| cable.system.work = EffectWork::default());
+        cables.iter_mut().for_each(|cable| cable.system.meter.work = EffectWork::default());
         let Island { workspace, scratch, phase } = self;
         workspace.begin(cables, bodies, pins, dt);
         gather(cables, bodies, phase);
@@ -200,6 +200,7 @@ fn check(cables: &[&mut Cable], bodies: &[RigidBody], pins: &[PinConstraint]) ->
             return problem(cable, pin.node, PinProblem::Duplicate);
         }
     }
+    cables.iter().try_for_each(|cable| cable.check_forces())?;
     for (c, cable) in cables.iter().enumerate() {
         for (node, support) in &cable.model.supports {
             if support.attached && !pins.iter().any(|p| p.cable == c && p.node == *node) {
@@ -223,21 +224,20 @@ fn gather(cables: &[&mut Cable], bodies: &[RigidBody], phase: &mut State) {
         phase.v.extend(body.velocity.iter().chain(body.angular_velocity.iter()));
     }
     phase.time = cables[0].time();
-    phase.memory.step = cables.iter().map(|c| c.state.phase.memory.step).fold(f64::INFINITY, f64::min);
+    phase.memory.step = cables.iter().map(|c| c.snapshot.state.memory.step).fold(f64::INFINITY, f64::min);
 }
 
 fn scatter(cables: &mut [&mut Cable], bodies: &mut [RigidBody], phase: &State, workspace: &Workspace) {
     let mut at = 0;
     for cable in cables.iter_mut() {
         let n = cable.positions().len();
-        let own = &mut cable.state.phase;
-        let mut before = core::mem::take(&mut cable.system.rhs);
-        core::mem::swap(&mut before, &mut own.q);
-        own.q.copy_from_slice(&phase.q[at..at + n]);
-        own.v.copy_from_slice(&phase.v[at..at + n]);
-        own.time = phase.time;
-        cable.settle(&before);
-        cable.system.rhs = before;
+        let Cable { snapshot, system, buffers, .. } = &mut **cable;
+        // the positions when the host step began
+        core::mem::swap(&mut buffers.rhs, &mut snapshot.state.q);
+        snapshot.state.q.copy_from_slice(&phase.q[at..at + n]);
+        snapshot.state.v.copy_from_slice(&phase.v[at..at + n]);
+        snapshot.state.time = phase.time;
+        snapshot.add_work_of_step(system, &buffers.rhs);
         cable.diagnostics_mut().host_steps += 1;
         at += n;
     }

@@ -3,7 +3,7 @@
 use super::rotation::{jacobian_inverse, jacobian_rate};
 use super::system::Work;
 use super::workspace::vector;
-use crate::cable::Rates;
+use crate::effect::acts::VelocityInput;
 use crate::error::StepFailure;
 use crate::integrate::newton::{self, Increment, Linearised};
 use crate::integrate::{Dynamics, Stage, State};
@@ -41,7 +41,7 @@ impl Linearised for IslandStage<'_, '_, '_> {
         if fresh {
             work.workspace.factored = 0.0;
         }
-        let rates = Rates { v, rate: stage.dv_dq };
+        let rates = VelocityInput { v, dv_dq: stage.dv_dq };
         work.cable_rows(stage.time, stage.c2, y, rates, z, rhs, fresh)?;
         if fresh {
             work.factor_bodies(false, y, v, rhs)?;
@@ -51,7 +51,7 @@ impl Linearised for IslandStage<'_, '_, '_> {
         work.solve_rows(false, y, rhs);
         let mut size = Increment { displacement: work.norm_of(rhs), rotation: 0.0 };
         for (cable, part) in work.cables.iter().zip(&work.workspace.cables) {
-            let (_, slope) = cable.system.extent(&rhs[part.at..part.at + part.size]);
+            let (_, slope) = cable.system.scales.extent(&rhs[part.at..part.at + part.size]);
             size.rotation = size.rotation.max(slope);
         }
         for i in 0..work.bodies.len() {
@@ -92,7 +92,7 @@ impl Work<'_, '_> {
         let mut worst = 0.0f64;
         let mut take = |size: f64| worst = if size > worst || size.is_nan() { size } else { worst };
         for (cable, part) in self.cables.iter().zip(&self.workspace.cables) {
-            take(cable.system.extent(&x[part.at..part.at + part.size]).0);
+            take(cable.system.scales.extent(&x[part.at..part.at + part.size]).0);
         }
         for (i, lever) in self.workspace.levers.iter().enumerate() {
             let at = self.body_at(i);
@@ -143,7 +143,7 @@ impl Dynamics for Work<'_, '_> {
         self.follow_acceleration(time, 1.0, q, v, k);
         self.factor_mass(q, v)?;
         let mut rhs = core::mem::take(&mut self.workspace.rhs);
-        let rows = self.cable_rows(time, 1.0, q, Rates { v, rate: 0.0 }, k, &mut rhs, false);
+        let rows = self.cable_rows(time, 1.0, q, VelocityInput { v, dv_dq: 0.0 }, k, &mut rhs, false);
         if rows.is_ok() {
             self.body_rows(1.0, q, v, k, &mut rhs);
             self.solve_rows(true, q, &mut rhs);
@@ -230,7 +230,7 @@ impl Dynamics for Work<'_, '_> {
         rhs.fill(0.0);
         for (cable, part) in self.cables.iter().zip(&self.workspace.cables) {
             let range = part.at..part.at + part.size;
-            cable.system.multiply_mass(&error[range.clone()], &mut rhs[range]);
+            cable.system.mass.multiply(cable.system.level, &error[range.clone()], &mut rhs[range]);
         }
         for (i, body) in self.bodies.iter().enumerate() {
             let at = self.body_at(i);
@@ -284,7 +284,7 @@ impl Dynamics for Work<'_, '_> {
     }
 
     fn has_exact_tangent(&self) -> bool {
-        self.cables.iter().all(|cable| cable.effects().has_exact_tangent())
+        self.cables.iter().all(|cable| cable.model.has_exact_tangent())
     }
 
     fn frequency_bound(&self) -> f64 {

@@ -3,10 +3,12 @@
 use super::rotation::{angular_acceleration, skew};
 use super::workspace::{CableWork, Hold, Workspace, direction, vector};
 use super::{PinConstraint, RigidBody};
-use crate::cable::{Cable, Equations, Rates, project_matrix, project_vector};
+use crate::cable::Cable;
+use crate::effect::acts::{ForceInput, VelocityInput};
 use crate::error::StepFailure;
 use crate::integrate::{Dynamics, State};
 use crate::support::SlopeSupport;
+use crate::system::{Equations, project_matrix, project_vector};
 use nalgebra::{Matrix3, Vector3};
 
 /// Jumps of velocity at pins below this in m/s are rounding.
@@ -134,7 +136,7 @@ impl Work<'_, '_> {
         rhs.fill(0.0);
         for (cable, part) in self.cables.iter().zip(&self.workspace.cables) {
             let range = part.at..part.at + part.size;
-            cable.system.multiply_mass(&jump[range.clone()], &mut rhs[range]);
+            cable.system.mass.multiply(cable.system.level, &jump[range.clone()], &mut rhs[range]);
         }
         self.pass_pinned_rows(q, &mut rhs);
         self.solve_rows(true, q, &mut rhs);
@@ -234,7 +236,7 @@ impl Work<'_, '_> {
             }
             let rows = &mut rhs[work.at..work.at + work.size];
             project_vector(&cable.model, rows);
-            let factorisation = if mass { &work.mass_factorisation } else { &cable.system.factorisation };
+            let factorisation = if mass { &work.mass_factorisation } else { &cable.system.step.factorisation };
             factorisation.solve(cable.system.level, rows);
             cable.diagnostics_mut().solves += 1;
         }
@@ -293,11 +295,12 @@ impl Work<'_, '_> {
                 let cable = &mut *self.cables[c];
                 let work = &mut self.workspace.cables[c];
                 let system = &mut cable.system;
-                system.matrix.clear();
-                system.add_mass(1.0);
-                work.mass.read(&system.matrix, &work.holds);
-                project_matrix(&cable.model, &mut system.matrix);
-                work.mass_factorisation.factor(system.level, &system.matrix)?;
+                let matrix = &mut system.step.matrix;
+                matrix.clear();
+                system.mass.add_to(matrix, 1.0);
+                work.mass.read(matrix, &work.holds);
+                project_matrix(&cable.model, matrix);
+                work.mass_factorisation.factor(system.level, matrix)?;
                 work.mass
                     .complete(system.level, &work.mass_factorisation, &work.holds, |x| project_vector(&cable.model, x));
             }
@@ -312,7 +315,7 @@ impl Work<'_, '_> {
         time: f64,
         scale: f64,
         q: &[f64],
-        rates: Rates<'_>,
+        velocity: VelocityInput<'_>,
         z: &[f64],
         rhs: &mut [f64],
         matrix: bool,
@@ -326,20 +329,22 @@ impl Work<'_, '_> {
             let (mut equations, work) = self.equations(c);
             let range = work.at..work.at + work.size;
             let rows = &mut rhs[range.clone()];
+            let velocity = VelocityInput { v: &velocity.v[range.clone()], ..velocity };
+            let input = ForceInput { time, q: &q[range.clone()], velocity, scale };
             if matrix {
-                let rates = Rates { v: &rates.v[range.clone()], ..rates };
-                equations.moving_force_and_matrix(time, &q[range.clone()], rates, scale, 1.0, rows);
-                work.step.read(&equations.system.matrix, &work.holds);
+                equations.force_and_matrix(input, 1.0, rows);
+                work.step.read(&equations.system.step.matrix, &work.holds);
                 outcome = equations.factor_to_solve();
                 if outcome.is_err() {
                     break;
                 }
                 let (level, model) = (equations.system.level, equations.model);
-                work.step.complete(level, &equations.system.factorisation, &work.holds, |x| project_vector(model, x));
+                work.step
+                    .complete(level, &equations.system.step.factorisation, &work.holds, |x| project_vector(model, x));
             } else {
-                equations.moving_force(time, &q[range.clone()], &rates.v[range.clone()], scale, rows);
+                equations.force(input, rows);
             }
-            equations.system.multiply_mass(&z[range.clone()], &mut product[range.clone()]);
+            equations.system.mass.multiply(equations.system.level, &z[range.clone()], &mut product[range.clone()]);
             for (r, m) in rows.iter_mut().zip(&product[range]) {
                 *r -= m;
             }

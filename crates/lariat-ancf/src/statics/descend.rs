@@ -15,10 +15,10 @@
 use super::potential::{moment_work, potential};
 use super::scale::{LoadScale, largest_force};
 use super::{Budget, EquilibriumReport, Failure, SLOPE_CAP, largest_change};
-use crate::cable::{Cable, project_vector};
+use crate::cable::Cable;
 use crate::error::StepFailure;
-use crate::integrate::Dynamics;
 use crate::linalg::Definiteness;
+use crate::system::project_vector;
 
 /// Newton iterations by which a step that raised the energy is made an implicit one.
 const INNER: usize = 6;
@@ -32,7 +32,7 @@ impl Cable {
         let tolerance = budget.tolerance * scale.force + scale.rounding;
         let time = self.time();
         let n = self.positions().len();
-        let mut phase = core::mem::take(&mut self.state.phase);
+        let mut phase = core::mem::take(&mut self.snapshot.state);
         let (mut equations, _) = self.equations();
         equations.prescribe(time, &mut phase.q, &mut phase.v);
         let [mut rhs, mut trial, mut good, mut step, mut inertia] = core::array::from_fn(|_| vec![0.0; n]);
@@ -45,7 +45,7 @@ impl Cable {
             if !budget.take() {
                 break;
             }
-            equations.force_and_matrix(load, &phase.q, 1.0, mu, &mut rhs);
+            equations.static_force_and_matrix(load, &phase.q, 1.0, mu, &mut rhs);
             project_vector(equations.model, &mut rhs);
             residual = largest_force(&rhs, scale.element);
             if !residual.is_finite() {
@@ -66,7 +66,7 @@ impl Cable {
                 // converged in force: the last step is Newton's, to settle the shape and to judge stability
                 mu = if definite { 0.0 } else { mu };
                 if mu == 0.0 {
-                    equations.force_and_matrix(load, &phase.q, 1.0, 0.0, &mut rhs);
+                    equations.static_force_and_matrix(load, &phase.q, 1.0, 0.0, &mut rhs);
                     let stable = matches!(equations.factor(), Ok(Definiteness::PositiveDefinite));
                     if !stable {
                         report = Some(EquilibriumReport { iterations: budget.done, residual, stable });
@@ -99,8 +99,8 @@ impl Cable {
                     for i in 0..n {
                         step[i] = trial[i] - phase.q[i];
                     }
-                    equations.force_and_matrix(load, &trial, 1.0, mu, &mut rhs);
-                    equations.system.multiply_mass(&step, &mut inertia);
+                    equations.static_force_and_matrix(load, &trial, 1.0, mu, &mut rhs);
+                    equations.system.mass.multiply(equations.system.level, &step, &mut inertia);
                     rhs.iter_mut().zip(&inertia).for_each(|(f, m)| *f -= mu * m);
                     if !matches!(equations.factor(), Ok(Definiteness::PositiveDefinite)) {
                         break;
@@ -114,7 +114,7 @@ impl Cable {
                     change_before = now;
                     trial.iter_mut().zip(&rhs).for_each(|(q, dq)| *q += damp * dq);
                 }
-                equations.force(load, &trial, 1.0, &mut rhs);
+                equations.static_force(load, &trial, 1.0, &mut rhs);
                 project_vector(equations.model, &mut rhs);
                 let after = largest_force(&rhs, scale.element);
                 let energy = potential(&equations, load, &trial);
@@ -154,7 +154,7 @@ impl Cable {
                 }
             }
         }
-        self.state.phase = phase;
+        self.snapshot.state = phase;
         report.ok_or(Failure { cause, residual })
     }
 }

@@ -8,8 +8,9 @@
 
 use super::scale::{LoadScale, largest_force};
 use super::{Budget, EquilibriumReport, Failure};
-use crate::cable::{Cable, project_vector};
+use crate::cable::Cable;
 use crate::integrate::{Integrator, Method, NewtonMode, StepControl};
+use crate::system::project_vector;
 
 /// Growth of a step that succeeded, and shrinkage of one that failed.
 const GROWTH: f64 = 1.3;
@@ -29,12 +30,12 @@ impl Cable {
         // the ramp of the point loads is in "time": hold it at full load
         let loads = self.model.loads.clone();
         self.model.loads.iter_mut().for_each(|load| load.ramp = 0.0);
-        self.system.hold_flow(time);
+        self.system.forces.hold(time);
         self.still();
         let outcome = self.drift_on(budget);
-        self.system.release_flow(&self.model);
+        self.system.forces.release(&self.model);
         self.model.loads = loads;
-        self.state.phase.time = time;
+        self.snapshot.state.time = time;
         self.still();
         // it was the cable's own a moment ago
         let _ = self.set_integrator(integrator);
@@ -65,7 +66,7 @@ impl Cable {
                 }
             }
             let (mut equations, phase) = self.equations();
-            equations.force(1.0, &phase.q, 1.0, &mut rhs);
+            equations.static_force(1.0, &phase.q, 1.0, &mut rhs);
             project_vector(equations.model, &mut rhs);
             residual = largest_force(&rhs, scale.element);
             if residual <= budget.tolerance * scale.force + scale.rounding {

@@ -7,9 +7,9 @@
 
 use super::scale::{LoadScale, largest_force};
 use super::{Budget, EquilibriumReport, Failure, SLOPE_CAP, largest_change};
-use crate::cable::{Cable, project_vector};
-use crate::integrate::Dynamics;
+use crate::cable::Cable;
 use crate::linalg::Definiteness;
+use crate::system::project_vector;
 
 /// First step of the ramp, as a share of the loads.
 const FIRST_STEP: f64 = 0.125;
@@ -34,19 +34,19 @@ impl Cable {
         }
         let mut share = share.unwrap_or(0.0);
         let mut step = FIRST_STEP;
-        let mut good = self.state.phase.q.clone();
+        let mut good = self.snapshot.state.q.clone();
         let mut before: Option<(f64, Vec<f64>)> = None;
         loop {
             let next = if share + 1.01 * step >= 1.0 { 1.0 } else { share + step };
             if let Some((from, q)) = &before {
                 let ratio = (next - share) / (share - from);
-                self.state.phase.q.iter_mut().zip(q).for_each(|(q, q0)| *q += ratio * (*q - q0));
+                self.snapshot.state.q.iter_mut().zip(q).for_each(|(q, q0)| *q += ratio * (*q - q0));
             }
             let done = budget.done;
             match self.newton(next, budget) {
                 Ok(report) if next == 1.0 => return Ok(EquilibriumReport { iterations: budget.done, ..report }),
                 Ok(_) => {
-                    let q = core::mem::replace(&mut good, self.state.phase.q.clone());
+                    let q = core::mem::replace(&mut good, self.snapshot.state.q.clone());
                     before = (next > share).then_some((share, q));
                     share = next;
                     if budget.done - done <= QUICK {
@@ -54,7 +54,7 @@ impl Cable {
                     }
                 }
                 Err(failure) => {
-                    self.state.phase.q.copy_from_slice(&good);
+                    self.snapshot.state.q.copy_from_slice(&good);
                     step = 0.5 * (next - share);
                     if step < SHORTEST_STEP || budget.spent() {
                         return Err(failure);
@@ -68,16 +68,16 @@ impl Cable {
     fn carried_share(&mut self) -> Option<f64> {
         let n = self.positions().len();
         let arm = LoadScale::of(&self.model, self.positions()).element;
-        let mut phase = core::mem::take(&mut self.state.phase);
+        let mut phase = core::mem::take(&mut self.snapshot.state);
         let (mut equations, _) = self.equations();
         equations.prescribe(phase.time, &mut phase.q, &mut phase.v);
         let (mut none, mut load) = (vec![0.0; n], vec![0.0; n]);
-        equations.force(0.0, &phase.q, 1.0, &mut none);
-        equations.force(1.0, &phase.q, 1.0, &mut load);
+        equations.static_force(0.0, &phase.q, 1.0, &mut none);
+        equations.static_force(1.0, &phase.q, 1.0, &mut load);
         project_vector(equations.model, &mut none);
         project_vector(equations.model, &mut load);
         load.iter_mut().zip(&none).for_each(|(load, none)| *load -= none);
-        self.state.phase = phase;
+        self.snapshot.state = phase;
         let square: f64 = load.iter().map(|x| x * x).sum();
         let share = -none.iter().zip(&load).map(|(a, b)| a * b).sum::<f64>() / square;
         let share = if share.is_finite() { share.clamp(0.0, 1.0) } else { return None };
@@ -91,7 +91,7 @@ impl Cable {
     fn newton(&mut self, load: f64, budget: &mut Budget) -> Result<EquilibriumReport, Failure> {
         let scale = LoadScale::of(&self.model, self.positions());
         let tolerance = budget.tolerance * scale.force + scale.rounding;
-        let mut phase = core::mem::take(&mut self.state.phase);
+        let mut phase = core::mem::take(&mut self.snapshot.state);
         let mut rhs = vec![0.0; phase.q.len()];
         let (mut equations, _) = self.equations();
         equations.prescribe(phase.time, &mut phase.q, &mut phase.v);
@@ -101,7 +101,7 @@ impl Cable {
             if !budget.take() {
                 break;
             }
-            equations.force_and_matrix(load, &phase.q, 1.0, 0.0, &mut rhs);
+            equations.static_force_and_matrix(load, &phase.q, 1.0, 0.0, &mut rhs);
             project_vector(equations.model, &mut rhs);
             residual = largest_force(&rhs, scale.element);
             let kind = match equations.factor() {
@@ -130,7 +130,7 @@ impl Cable {
             // rounding on a thin cable: nothing moves any more
             close = slope < 1e-13;
         }
-        self.state.phase = phase;
+        self.snapshot.state = phase;
         report.ok_or(Failure { cause, residual })
     }
 }

@@ -4,7 +4,8 @@
 //! last one straight along gravity. A support that moved by a small share of the span takes the cable along evenly
 //! instead.
 
-use crate::cable::{Model, along_polyline};
+use crate::cable::along_polyline;
+use crate::model::Model;
 use crate::support::SlopeSupport;
 use nalgebra::Vector3;
 use std::ops::Range;

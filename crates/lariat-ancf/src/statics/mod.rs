@@ -27,9 +27,9 @@ mod potential;
 mod relax;
 mod scale;
 
-use crate::cable::{Cable, Fluid, Model};
+use crate::cable::Cable;
 use crate::error::{EquilibriumFailure, Error, StepFailure, require};
-use crate::integrate::Dynamics;
+use crate::model::Model;
 use crate::support::SlopeSupport;
 use nalgebra::Vector3;
 
@@ -117,13 +117,13 @@ impl Cable {
         let no_equilibrium = |cable: &Cable, failure: EquilibriumFailure, residual: f64, iterations: usize| {
             Error::NoEquilibrium { cable: cable.name().to_string(), time: cable.time(), failure, residual, iterations }
         };
-        self.check_not_attached()?;
+        self.check_complete()?;
         require("equilibrium tolerance", options.tolerance, options.tolerance > 0.0, "> 0")?;
         if let Some(resultant) = unheld(&self.model) {
             return Err(no_equilibrium(self, EquilibriumFailure::NotHeld, resultant, 0));
         }
         self.system.static_time = self.time();
-        let (before, revision, work) = (self.state.clone(), self.revision, self.state.work);
+        let (before, revision, work) = (self.snapshot.clone(), self.revision, self.snapshot.work);
         let loads = self.model.loads.clone();
         // "time" runs from no load (0) to full load (1) while statics are solved
         self.model.loads.iter_mut().for_each(|load| (load.ramp, load.start) = (1.0, 0.0));
@@ -133,13 +133,13 @@ impl Cable {
         match outcome {
             Ok(report) => {
                 // what drag takes on the way to rest is no part of the cable's history
-                self.state.work = work;
+                self.snapshot.work = work;
                 self.still();
                 Ok(report)
             }
             Err(failure) => {
                 let fold = folded::folded(&self.model, self.positions());
-                self.state = before;
+                self.snapshot = before;
                 self.revision = revision;
                 let reason = match (failure.cause, fold) {
                     (Some(cause), _) => cause.into(),
@@ -153,10 +153,10 @@ impl Cable {
 
     fn attempts(&mut self, budget: &mut Budget) -> Result<EquilibriumReport, Failure> {
         self.place_supports();
-        if self.system.fluid.as_ref().is_some_and(Fluid::flows) {
+        if self.system.forces.drive() {
             return self.drift(budget);
         }
-        let start = self.state.clone();
+        let start = self.snapshot.clone();
         let moments = self.model.loads.iter().any(|load| load.moment != Vector3::zeros());
         let pure = moments
             && self.model.gravity == Vector3::zeros()
@@ -170,7 +170,7 @@ impl Cable {
                 1 => self.descend(1.0, budget),
                 2 if loads && !moments => self.follow(budget),
                 3 => {
-                    lay::lay(&self.model, &mut self.state.phase.q);
+                    lay::lay(&self.model, &mut self.snapshot.state.q);
                     self.descend(1.0, budget)
                 }
                 4 => {
@@ -182,7 +182,7 @@ impl Cable {
             match outcome.and_then(|report| self.unfolded(report, budget)) {
                 // a first shape that nothing pushes away is taken as it is, and so is what a moment alone makes
                 Ok(report) if report.stable || way == 1 || pure => return Ok(report),
-                Ok(report) => unstable = unstable.or(Some((report, self.state.clone()))),
+                Ok(report) => unstable = unstable.or(Some((report, self.snapshot.clone()))),
                 Err(failure) => {
                     // an attempt that ran out at once knows no residual of its own
                     let residual = if failure.residual.is_nan() { last.residual } else { failure.residual };
@@ -193,12 +193,12 @@ impl Cable {
                 break;
             }
             if way < 4 {
-                self.state = start.clone();
+                self.snapshot = start.clone();
             }
         }
         match unstable {
             Some((report, state)) => {
-                self.state = state;
+                self.snapshot = state;
                 Ok(EquilibriumReport { iterations: budget.done, ..report })
             }
             None => Err(last),
@@ -207,12 +207,12 @@ impl Cable {
 
     /// Puts the supports at their places and takes the cable along.
     fn place_supports(&mut self) {
-        let mut phase = core::mem::take(&mut self.state.phase);
+        let mut phase = core::mem::take(&mut self.snapshot.state);
         let before = phase.q.clone();
         let (equations, _) = self.equations();
         equations.prescribe(phase.time, &mut phase.q, &mut phase.v);
         lay::take_along(equations.model, &before, &mut phase.q);
-        self.state.phase = phase;
+        self.snapshot.state = phase;
     }
 
     /// The same, if no element is folded; else what comes of straightening them.
@@ -220,7 +220,7 @@ impl Cable {
         if folded::folded(&self.model, self.positions()).is_none() {
             return Ok(report);
         }
-        folded::unfold(&self.model, &mut self.state.phase.q);
+        folded::unfold(&self.model, &mut self.snapshot.state.q);
         let report = self.descend(1.0, budget)?;
         match folded::folded(&self.model, self.positions()) {
             None => Ok(report),

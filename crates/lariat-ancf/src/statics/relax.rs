@@ -57,7 +57,7 @@ impl Cable {
             }
         }
         self.model.loads = loads;
-        self.state.phase.time = time;
+        self.snapshot.state.time = time;
         // it was the cable's own a moment ago
         let _ = self.set_integrator(integrator);
         if fits { Ok(()) } else { Err(Failure::default()) }
@@ -65,7 +65,7 @@ impl Cable {
 
     /// Velocities become zero.
     pub(super) fn still(&mut self) {
-        self.state.phase.v.fill(0.0);
+        self.snapshot.state.v.fill(0.0);
         self.disturb();
     }
 }

@@ -1,6 +1,6 @@
 //! Sizes by which "small" is judged.
 
-use crate::cable::Model;
+use crate::model::Model;
 
 /// Sizes by which "small" is judged.
 pub(super) struct LoadScale {

@@ -1,5 +1,6 @@
 //! What a cable is made of: plain data from which everything else is rebuilt.
 
+use crate::effect::force_density::ForceDensities;
 use crate::effect::{Effects, Target};
 use crate::error::{Error, require, require_finite};
 use crate::load::PointLoad;
@@ -24,6 +25,8 @@ pub struct Model {
     pub(crate) loads: Vec<PointLoad>,
     #[serde(default)]
     pub(crate) effects: Effects,
+    #[serde(default)]
+    pub(crate) force_densities: ForceDensities,
 }
 
 impl Model {
@@ -102,8 +105,45 @@ impl Model {
         }
     }
 
+    /// The cable as effects see it.
+    pub(crate) fn target(&self) -> Target<'_> {
+        Target { name: &self.name, rule: self.rule, elements: &self.elements }
+    }
+
     /// Rejects effects that are out of range or that the cable has no numbers for.
     pub(crate) fn check_effects(&self) -> Result<(), Error> {
-        self.effects.check(&Target { name: &self.name, rule: self.rule, elements: &self.elements })
+        self.effects.check(&self.target())
+    }
+
+    /// Returns whether a force depends on velocity.
+    pub(crate) fn depends_on_velocity(&self) -> bool {
+        self.effects.depends_on_velocity() || self.force_densities.depend_on_velocity()
+    }
+
+    /// Returns whether the step matrix holds the exact tangent of the force.
+    pub(crate) fn has_exact_tangent(&self) -> bool {
+        self.effects.has_exact_tangent() && self.force_densities.is_empty()
+    }
+
+    /// Returns the mass per length in kg/m that resists acceleration, added mass included.
+    pub(crate) fn inertia(&self, element: &Element) -> f64 {
+        element.section.mass_per_length + self.effects.added_mass(&element.section)
+    }
+
+    /// Returns the weight per length in N/m: scaled gravity less buoyancy.
+    pub(crate) fn weight(&self, element: &Element) -> Vector3<f64> {
+        self.effects.weight(&element.section, self.gravity)
+    }
+
+    /// Returns the sum of weights and constant forces in N, and the sum of their sizes.
+    pub(crate) fn dead_resultant(&self) -> (Vector3<f64>, f64) {
+        let mut sum = (Vector3::zeros(), 0.0);
+        for element in &self.elements {
+            // a neutrally buoyant cable is measured by its weight in air
+            let size = element.length * element.section.mass_per_length * self.gravity.norm();
+            sum = (sum.0 + element.length * self.weight(element), sum.1 + size * self.effects.gravity_factor().abs());
+        }
+        self.effects.add_resultant(&self.target(), &mut sum.0, &mut sum.1);
+        sum
     }
 }

@@ -1,5 +1,7 @@
 //! Drag of a fluid or wind on the moving cable: Morison's formula, normal and tangential.
 //!
+//! # Equation
+//!
 //! ```text
 //! f = -1/2 rho_f d (C_n |v_n| v_n + C_t |v_t| v_t)        F = int S^T f ds
 //! v = r' - u(r, t)      v_t = (v.e) e      v_n = v - v_t      e = t/|t|
@@ -7,17 +9,33 @@
 //! df/dt = (1/|t|) [k_n (|v_n| (e v_n^T + c P) + c v_n v_n^T/|v_n|) - k_t (2 |c| e v_n^T + |c| c P)]         c = v.e, P = I - e e^T
 //! ```
 //!
-//! (here r' is the velocity, t the slope dr/ds) f is a force per length of the unstretched cable, integrated at three Gauss points. Both
-//! coefficients count on the diameter, as in docs/scene.md. *Source.* Morison, O'Brien, Johnson & Schaaf 1950; Faltinsen 1990, ch. 7 (the
-//! cross-flow principle). *Validity.* A slender cable, stretch near 1; steady coefficients; no lift, no shedding of vortices; added mass
-//! is [`buoyancy`](super::buoyancy)'s. *Rejected.* Drag on nodes: the force on a coarse cable is off, and slopes get none.
+//! (here r' is the velocity, t the slope dr/ds.) f is a force per length of the unstretched cable, integrated at three Gauss points.
+//! Both coefficients refer to the diameter.
 //!
-//! *Tangent.* By velocity exact and symmetric. By the slope the formula above is exact, of which the step takes the symmetric half (its
-//! matrix is stored by one triangle); the gradient of the flow in space is left out. Newton's iteration is then linear with a small factor,
-//! which its stopping test knows. The exact derivative is [`Cable::jacobians`](crate::Cable::jacobians)'s. *Rejected* for the step: with it
-//! Newton saves 0 to 2 % of its iterations up to 5 m/s of water, 36 % at 20 m/s on a 2 mm line at fidelity game, 2 % of the same under
-//! error control (table and command: [`exact`](crate::cable::exact)), and an unsymmetric matrix costs every iteration.
+//! The derivative by velocity is exact and symmetric. By the slope the formula above is exact, of which the step takes the symmetric
+//! half (its matrix is stored by one triangle); the gradient of the flow in space is left out. Newton's iteration is then linear with
+//! a small factor, which its stopping test knows. The exact derivative is [`Cable::jacobians`](crate::Cable::jacobians)'s.
+//!
+//! # Validity
+//!
+//! A slender cable, stretch near 1; steady coefficients; no lift, no shedding of vortices; added mass is
+//! [`buoyancy`](super::buoyancy)'s.
+//!
+//! # References
+//!
+//! Morison, O'Brien, Johnson & Schaaf 1950; Faltinsen 1990, ch. 7 (the cross-flow principle).
+//!
+//! # Alternatives considered
+//!
+//! - Drag on nodes: the force on a coarse cable is wrong, and slopes get none.
+//! - The exact, unsymmetric tangent in Newton's iteration: it saves 0 to 2 % of the iterations up to 5 m/s of water, 36 % at 20 m/s on a
+//!   2 mm line at fidelity game, 2 % of the same under error control, and an unsymmetric matrix costs every iteration.
 
+mod lanes;
+
+pub(crate) use lanes::DragTable;
+
+use super::acts::{Acts, Nothing};
 use super::flow::Flow;
 use super::{Cut, Effect, Target};
 use crate::Real;
@@ -27,7 +45,7 @@ use serde::{Deserialize, Serialize};
 
 /// Gauss points of an element.
 pub(crate) const POINTS: usize = 3;
-/// Keeps 0/0 at rest away; far below any speed that matters.
+/// Avoids 0/0 at zero relative velocity; far below any speed that matters.
 const LEAST_SPEED: f64 = 1e-100;
 
 /// Drag of a fluid.
@@ -49,7 +67,7 @@ pub struct Drag {
 }
 
 impl Drag {
-    /// Drag in a fluid of this density (kg/m^3) that moves by `flow`.
+    /// Creates drag in a fluid of this density (kg/m^3) that moves by `flow`.
     pub fn new(fluid_density: f64, normal: f64, tangential: f64, flow: Flow) -> Self {
         Drag { fluid_density, normal, tangential, diameter: None, flow }
     }
@@ -107,6 +125,15 @@ impl Effect for Drag {
     }
 }
 
+impl Acts for Drag {
+    type InElement = Nothing;
+    type AtPoints = DragTable;
+
+    fn at_points(&self, cable: &Target<'_>) -> Option<DragTable> {
+        Some(DragTable::new(self, cable))
+    }
+}
+
 /// Velocity relative to the fluid, split by the cable's direction.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Split<T> {
@@ -132,7 +159,7 @@ impl<T: Real> Split<T> {
         Split { along, inverse, speed, normal, size: dot(&normal, &normal).sqrt() }
     }
 
-    /// The force for k_n and k_t.
+    /// Returns the force for k_n and k_t.
     #[inline(always)]
     pub fn force(&self, kn: T, kt: T) -> [T; 3] {
         let (n, t) = (kn * self.size, kt * self.speed.abs() * self.speed);
@@ -140,7 +167,7 @@ impl<T: Real> Split<T> {
         [x(0), x(1), x(2)]
     }
 
-    /// `-df/dv` and `df/dt`, `[row][column]`.
+    /// Returns `-df/dv` and `df/dt`, `[row][column]`.
     #[inline(always)]
     pub fn tangents(&self, kn: T, kt: T) -> [[[T; 3]; 3]; 2] {
         let Split { along: e, inverse, speed: c, normal: v, size } = *self;

@@ -2,8 +2,8 @@
 //!
 //! `x -> P x`, `A -> P A P + (I - P)`: see [`support`](crate::Support).
 
-use super::model::Model;
 use crate::linalg::BlockTridiagonal;
+use crate::model::Model;
 
 /// Removes held components from a vector.
 pub(crate) fn project_vector(model: &Model, x: &mut [f64]) {
@@ -12,7 +12,7 @@ pub(crate) fn project_vector(model: &Model, x: &mut [f64]) {
     }
 }
 
-/// `A -> P A P + (I - P)`.
+/// Replaces `A` by `P A P + (I - P)`.
 pub(crate) fn project_matrix(model: &Model, a: &mut BlockTridiagonal) {
     for (node, support) in &model.supports {
         let p = support.projector();

@@ -1,25 +1,27 @@
 //! Drag, from Gauss points to nodes, eight elements at a time.
 //!
+//! # Equation
+//!
 //! In coordinates (r_i, l t_i, r_j, l t_j) the weights of position and slope are constants H_k and S_k/l of a unit element, so
 //!
 //! ```text
 //! F_k = sum_q w_q l H_k f_q        -dF_k/dx_m = sum_q w_q l (H_k H_m rate D_q - 1/2 (H_k S_m A_q + S_k H_m A_q^T)/l)
 //! ```
 //!
-//! D = -df/dv and A = df/dt ([`drag`](crate::effect::drag)); rows and columns of slopes are multiplied by l at the end. Elements are
-//! added in ascending order whatever the width of the lanes.
+//! D = -df/dv and A = df/dt ([`drag`](super)); rows and columns of slopes are multiplied by l at the end. Elements are added in
+//! ascending order whatever the width of the lanes.
 
-use super::assembly::{LANES, load};
-use super::kernel_effects::Rates;
-use super::model::Model;
+use super::{Drag, POINTS, Split};
 use crate::dual::{Dual, constant};
-use crate::effect::Flow;
-use crate::effect::drag::{POINTS, Split};
+use crate::effect::acts::{ForceInput, PointForce, VelocityInput};
+use crate::effect::{Flow, Target};
 use crate::element::shape;
 use crate::error::{Error, require_finite};
 use crate::linalg::BlockTridiagonal;
 use crate::quadrature::gauss_legendre;
-use fearless_simd::{Level, Simd, SimdBase, SimdFrom, dispatch, f64x8};
+use crate::section::Element;
+use crate::simd::{LANES, dispatch, load, padded};
+use fearless_simd::{Level, Simd, SimdBase, SimdFrom, f64x8};
 use nalgebra::Vector3;
 
 /// Pairs (k, m), k >= m, of the coordinates (r_i, t_i, r_j, t_j).
@@ -34,9 +36,9 @@ struct Point {
     slope: [f64; 4],
 }
 
-/// The drag of a cable, ready to be evaluated.
+/// Drag of all elements, as the evaluation needs it.
 #[derive(Clone, Debug)]
-pub(crate) struct Fluid {
+pub(crate) struct DragTable {
     points: Vec<Point>,
     count: usize,
     flow: Flow,
@@ -44,45 +46,32 @@ pub(crate) struct Fluid {
     length: Vec<f64>,
     normal: Vec<f64>,
     tangential: Vec<f64>,
-    /// For the account: a force on all coordinates.
-    force: Vec<f64>,
 }
 
 type Lanes<S> = f64x8<S>;
 
-impl Fluid {
-    /// The drag of a model, if it has any.
-    pub fn new(model: &Model) -> Option<Self> {
-        let drag = model.effects.drag.as_ref()?;
-        let padded = |f: &dyn Fn(&super::Element) -> f64| {
-            let mut values: Vec<f64> = model.elements.iter().map(f).collect();
-            values.resize(values.len().next_multiple_of(LANES), values[values.len() - 1]);
-            values
-        };
-        let diameter = |e: &super::Element| drag.diameter.or(e.section.diameter).unwrap_or(0.0);
+impl DragTable {
+    pub fn new(drag: &Drag, cable: &Target<'_>) -> Self {
+        let diameter = |e: &Element| drag.diameter.or(e.section.diameter).unwrap_or(0.0);
+        let factor =
+            |coefficient: f64| move |e: &Element| 0.5 * drag.fluid_density * diameter(e) * coefficient * e.length;
         let points = gauss_legendre(POINTS).into_iter().map(|(xi, weight)| Point {
             xi,
             weight,
             position: shape::position(xi, 1.0),
             slope: shape::slope(xi, 1.0),
         });
-        Some(Fluid {
+        DragTable {
             points: points.collect(),
-            count: model.elements.len(),
+            count: cable.elements.len(),
             flow: drag.flow.clone(),
-            length: padded(&|e| e.length),
-            normal: padded(&|e| 0.5 * drag.fluid_density * diameter(e) * drag.normal * e.length),
-            tangential: padded(&|e| 0.5 * drag.fluid_density * diameter(e) * drag.tangential * e.length),
-            force: vec![0.0; 6 * model.nodes()],
-        })
+            length: padded(cable.elements.iter().map(|e| e.length)),
+            normal: padded(cable.elements.iter().map(factor(drag.normal))),
+            tangential: padded(cable.elements.iter().map(factor(drag.tangential))),
+        }
     }
 
-    /// Whether the fluid moves, somewhere and at some time.
-    pub fn flows(&self) -> bool {
-        self.flow.velocity != Vector3::zeros() || self.flow.samples.iter().any(|u| *u != Vector3::zeros())
-    }
-
-    /// Takes samples of the flow at the nodes. False, and nothing changed, if they are those there are.
+    /// Takes samples of the flow at the nodes, and returns whether they differ from the `old` ones.
     ///
     /// # Errors
     /// [`Error::InvalidValue`](crate::Error::InvalidValue) for a sample that is not finite; the samples are then as before.
@@ -103,76 +92,12 @@ impl Fluid {
         Ok(changed)
     }
 
-    /// Makes the flow that of a time, for ever.
-    pub fn hold(&mut self, time: f64) {
-        self.flow.velocity = self.flow.in_time(time);
-        self.flow.history.clear();
-    }
-
-    /// Adds `scale` times the drag to `out`.
-    pub fn add_force(&self, level: Level, time: f64, q: &[f64], v: &[f64], scale: f64, out: &mut [f64]) {
-        dispatch!(level, simd => self.run(simd, time, q, Rates { v, rate: 0.0 }, scale, out, None));
-    }
-
-    /// Adds `scale` times the drag to `out` and `scale` times its negative tangent to `a`.
-    pub fn add_force_and_matrix(
-        &self,
-        level: Level,
-        time: f64,
-        q: &[f64],
-        rates: Rates<'_>,
-        scale: f64,
-        out: &mut [f64],
-        a: &mut BlockTridiagonal,
-    ) {
-        dispatch!(level, simd => self.run(simd, time, q, rates, scale, out, Some(a)));
-    }
-
-    /// Adds the drag of element `e` to its generalised force, for its exact derivative.
-    pub fn add_dual(&self, e: usize, time: f64, q: &[Dual; 12], v: &[Dual; 12], out: &mut [Dual; 12]) {
-        let length = self.length[e];
-        let arm = |k: usize| if k % 2 == 1 { length } else { 1.0 };
-        let mix = |x: &[Dual; 12], weights: &[f64; 4]| -> [Dual; 3] {
-            core::array::from_fn(|c| (0..4).fold(constant(0.0), |sum, k| sum + x[3 * k + c] * (weights[k] * arm(k))))
-        };
-        let base = self.flow.in_time(time);
-        for point in &self.points {
-            let place = mix(q, &point.position);
-            let at = Vector3::from_fn(|c, _| place[c].value);
-            let (factor, along) = match &self.flow.profile {
-                None => (1.0, Vector3::zeros()),
-                Some(profile) => (profile.factor(&at), profile.gradient(&at)),
-            };
-            let slope = (0..3).map(|c| along[c] * place[c].slope).sum::<f64>();
-            let flow = base * factor + self.sampled(e, point.xi);
-            let velocity = mix(v, &point.position);
-            let relative: [Dual; 3] =
-                core::array::from_fn(|c| velocity[c] - Dual { value: flow[c], slope: base[c] * slope });
-            let direction = mix(q, &point.slope).map(|c| c * (1.0 / length));
-            let [kn, kt] = [self.normal[e], self.tangential[e]].map(|k| constant(k * point.weight));
-            let force = Split::new(&relative, &direction).force(kn, kt);
-            for i in 0..12 {
-                out[i] = out[i] + force[i % 3] * (point.position[i / 3] * arm(i / 3));
-            }
-        }
-    }
-
-    /// The sampled flow at a place of element `e`.
+    /// Returns the sampled flow at a point of element `e`.
     fn sampled(&self, e: usize, xi: f64) -> Vector3<f64> {
         match self.flow.samples.get(e..e + 2) {
             None => Vector3::zeros(),
             Some(ends) => ends[0] * (1.0 - xi) + ends[1] * xi,
         }
-    }
-
-    /// Power in W that the cable gives to the fluid.
-    pub fn power(&mut self, level: Level, time: f64, q: &[f64], v: &[f64]) -> f64 {
-        let mut force = core::mem::take(&mut self.force);
-        force.fill(0.0);
-        self.add_force(level, time, q, v, -1.0, &mut force);
-        let power = force.iter().zip(v).map(|(f, v)| f * v).sum();
-        self.force = force;
-        power
     }
 
     #[inline(always)]
@@ -194,7 +119,7 @@ impl Fluid {
         out
     }
 
-    /// Velocity of the fluid at a point of eight elements.
+    /// Returns the velocity of the fluid at a point of eight elements.
     #[inline(always)]
     fn flow<S: Simd>(
         &self,
@@ -220,7 +145,7 @@ impl Fluid {
         flow
     }
 
-    /// Its part by the tables.
+    /// Returns the part of it that the tables give.
     #[inline(always)]
     fn profiled<S: Simd>(&self, simd: S, base: &Vector3<f64>, place: &[Lanes<S>; 3]) -> [Lanes<S>; 3] {
         let splat = [Lanes::splat(simd, base.x), Lanes::splat(simd, base.y), Lanes::splat(simd, base.z)];
@@ -236,16 +161,8 @@ impl Fluid {
     }
 
     #[inline(always)]
-    fn run<S: Simd>(
-        &self,
-        simd: S,
-        time: f64,
-        q: &[f64],
-        Rates { v, rate }: Rates<'_>,
-        scale: f64,
-        out: &mut [f64],
-        mut a: Option<&mut BlockTridiagonal>,
-    ) {
+    fn run<S: Simd>(&self, simd: S, input: ForceInput<'_>, out: &mut [f64], mut matrix: Option<&mut BlockTridiagonal>) {
+        let ForceInput { time, q, velocity: VelocityInput { v, dv_dq }, scale } = input;
         let base = self.flow.in_time(time);
         let zero = Lanes::splat(simd, 0.0);
         for first in (0..self.count).step_by(LANES) {
@@ -269,10 +186,10 @@ impl Fluid {
                         force[k][c] += f[c] * point.position[k];
                     }
                 }
-                if a.is_some() {
+                if matrix.is_some() {
                     let [d, t] = split.tangents(kn, kt);
                     for (block, (k, m)) in blocks.iter_mut().zip(PAIRS) {
-                        let hh = rate * point.position[k] * point.position[m];
+                        let hh = dv_dq * point.position[k] * point.position[m];
                         let (hs, sh) = (
                             inverse * (-0.5 * point.position[k] * point.slope[m]),
                             inverse * (-0.5 * point.slope[k] * point.position[m]),
@@ -289,7 +206,7 @@ impl Fluid {
                 force[k] = force[k].map(|f| f * length);
             }
             self.scatter_force(first, &force, out);
-            if let Some(a) = &mut a {
+            if let Some(a) = &mut matrix {
                 for (block, (k, m)) in blocks.iter_mut().zip(PAIRS) {
                     for _ in 0..k % 2 + m % 2 {
                         *block = block.map(|row| row.map(|x| x * length));
@@ -338,6 +255,53 @@ impl Fluid {
                 }
             }
         }
+    }
+}
+
+impl PointForce for DragTable {
+    fn add(&mut self, level: Level, input: ForceInput<'_>, out: &mut [f64], matrix: Option<&mut BlockTridiagonal>) {
+        match matrix {
+            None => dispatch!(level, simd => self.run(simd, input, out, None)),
+            Some(matrix) => dispatch!(level, simd => self.run(simd, input, out, Some(matrix))),
+        }
+    }
+
+    fn add_dual(&self, e: usize, time: f64, q: &[Dual; 12], v: &[Dual; 12], out: &mut [Dual; 12]) {
+        let length = self.length[e];
+        let arm = |k: usize| if k % 2 == 1 { length } else { 1.0 };
+        let mix = |x: &[Dual; 12], weights: &[f64; 4]| -> [Dual; 3] {
+            core::array::from_fn(|c| (0..4).fold(constant(0.0), |sum, k| sum + x[3 * k + c] * (weights[k] * arm(k))))
+        };
+        let base = self.flow.in_time(time);
+        for point in &self.points {
+            let place = mix(q, &point.position);
+            let at = Vector3::from_fn(|c, _| place[c].value);
+            let (factor, along) = match &self.flow.profile {
+                None => (1.0, Vector3::zeros()),
+                Some(profile) => (profile.factor(&at), profile.gradient(&at)),
+            };
+            let slope = (0..3).map(|c| along[c] * place[c].slope).sum::<f64>();
+            let flow = base * factor + self.sampled(e, point.xi);
+            let velocity = mix(v, &point.position);
+            let relative: [Dual; 3] =
+                core::array::from_fn(|c| velocity[c] - Dual { value: flow[c], slope: base[c] * slope });
+            let direction = mix(q, &point.slope).map(|c| c * (1.0 / length));
+            let [kn, kt] = [self.normal[e], self.tangential[e]].map(|k| constant(k * point.weight));
+            let force = Split::new(&relative, &direction).force(kn, kt);
+            for i in 0..12 {
+                out[i] = out[i] + force[i % 3] * (point.position[i / 3] * arm(i / 3));
+            }
+        }
+    }
+
+    /// Returns whether the fluid moves, somewhere and at some time.
+    fn drives(&self) -> bool {
+        self.flow.velocity != Vector3::zeros() || self.flow.samples.iter().any(|u| *u != Vector3::zeros())
+    }
+
+    fn hold(&mut self, time: f64) {
+        self.flow.velocity = self.flow.in_time(time);
+        self.flow.history.clear();
     }
 }
 
