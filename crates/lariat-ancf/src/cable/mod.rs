@@ -25,11 +25,13 @@ mod supports;
 use crate::diagnostics::Diagnostics;
 use crate::effect::EffectWork;
 use crate::error::{Error, StepFailure, require};
-use crate::integrate::{Integrator, IntegratorRef, OneStep, Scratch, State, step_control};
+use crate::integrate::{
+    EnergyLaw, Integrator, IntegratorRef, OneStep, Scratch, State, discrete_gradient, step_control,
+};
 use crate::model::Model;
 use crate::rule::Rule;
 use crate::section::Element;
-use crate::system::{Buffers, CableDynamics, Equations, System};
+use crate::system::{Buffers, CableDynamics, Equations, SecantCable, System};
 use builder::CableBuilder;
 use fearless_simd::Level;
 pub(crate) use layout::along_polyline;
@@ -81,6 +83,7 @@ pub struct Cable {
     diagnostics: Diagnostics,
     pub(crate) system: System,
     pub(crate) buffers: Buffers,
+    pub(crate) secant_buffers: discrete_gradient::Buffers,
     scratch: Scratch,
     /// State at the beginning of the host step, restored if it fails.
     before: State,
@@ -110,6 +113,7 @@ impl Cable {
             diagnostics: Diagnostics::default(),
             system,
             buffers: Buffers::new(&model),
+            secant_buffers: discrete_gradient::Buffers::default(),
             scratch: Scratch::default(),
             before: State::default(),
             revision: 0,
@@ -157,10 +161,17 @@ impl Cable {
         self.before.copy_from(&self.snapshot.state);
         self.refresh_memory();
         self.system.meter.work = EffectWork::default();
+        self.system.meter.law = EnergyLaw::default();
         let equations = Equations { model: &self.model, system: &mut self.system, diagnostics: &mut self.diagnostics };
-        let mut dynamics = CableDynamics { equations, buffers: &mut self.buffers };
         let state = &mut self.snapshot.state;
-        let (counts, outcome) = step_control::advance(&mut dynamics, integrator, state, dt, &mut self.scratch);
+        let (counts, outcome) = if integrator.method.uses_discrete_gradients() {
+            let mut cable = SecantCable { equations, state, buffers: &mut self.secant_buffers };
+            discrete_gradient::advance(&mut cable, integrator.control, dt)
+        } else {
+            state.memory.differences.clear();
+            let mut dynamics = CableDynamics { equations, buffers: &mut self.buffers };
+            step_control::advance(&mut dynamics, integrator, state, dt, &mut self.scratch)
+        };
         self.diagnostics.steps += counts.steps;
         self.diagnostics.rejected_steps += counts.rejected;
         match outcome {

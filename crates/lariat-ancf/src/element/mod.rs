@@ -8,4 +8,5 @@
 pub mod gram;
 pub mod kernel;
 pub mod mass;
+pub mod secant;
 pub mod shape;

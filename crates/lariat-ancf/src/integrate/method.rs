@@ -1,5 +1,6 @@
 //! The methods by name, with their properties.
 
+use super::discrete_gradient::DiscreteGradient;
 use super::dynamics::Dynamics;
 use super::generalised_alpha::{GeneralisedAlpha, NewtonMode};
 use super::one_step::{OneStep, Scratch, StepRequest};
@@ -31,6 +32,8 @@ pub enum Method {
     Esdirk3,
     /// ESDIRK of order 4.
     Esdirk4,
+    /// Guarded discrete gradient.
+    DiscreteGradient,
     /// Velocity Verlet.
     Verlet,
     /// Symplectic Runge-Kutta-Nystrom of order 4.
@@ -58,7 +61,7 @@ pub struct Properties {
 
 impl Method {
     /// One of every method, for tables and tests.
-    pub const ALL: [Method; 11] = [
+    pub const ALL: [Method; 12] = [
         Method::Midpoint,
         Method::Trapezoid,
         Method::GeneralisedAlpha { rho: 0.0, newton: NewtonMode::Converged },
@@ -67,6 +70,7 @@ impl Method {
         Method::TrBdf2,
         Method::Esdirk3,
         Method::Esdirk4,
+        Method::DiscreteGradient,
         Method::Verlet,
         Method::Rkn4,
         Method::Rkn6,
@@ -81,6 +85,7 @@ impl Method {
             Method::TrBdf2 => f(&tr_bdf2::TABLEAU),
             Method::Esdirk3 => f(&esdirk3::TABLEAU),
             Method::Esdirk4 => f(&esdirk4::TABLEAU),
+            Method::DiscreteGradient => f(&DiscreteGradient),
             Method::Verlet => f(&verlet::METHOD),
             Method::Rkn4 => f(&rkn::ORDER_4),
             Method::Rkn6 => f(&rkn::ORDER_6),
@@ -113,6 +118,9 @@ impl Method {
             Method::TrBdf2 => of(2, 2, "L-stable", "any stiffness, coarse tolerance"),
             Method::Esdirk3 => of(3, 3, "L-stable", "any stiffness, coarse steps"),
             Method::Esdirk4 => of(4, 5, "L-stable", "any stiffness (fidelity engineering, the default)"),
+            Method::DiscreteGradient => {
+                of(2, 1, "the energy law holds at any step", "games, h <= 1/240 s; any stiffness, fixed steps")
+            }
             Method::Verlet => of(2, 1, SYMPLECTIC, "soft cables, many small steps"),
             Method::Rkn4 => of(4, 6, SYMPLECTIC, "soft cables, fine accuracy (fidelity reference)"),
             Method::Rkn6 => of(6, 11, SYMPLECTIC, "soft cables, errors in time near rounding"),
@@ -147,6 +155,10 @@ impl OneStep for Method {
 
     fn needs_energy_guard(&self) -> bool {
         self.with_implementation(|method| method.needs_energy_guard())
+    }
+
+    fn uses_discrete_gradients(&self) -> bool {
+        self.with_implementation(|method| method.uses_discrete_gradients())
     }
 
     fn check(&self) -> Result<(), Error> {

@@ -12,6 +12,7 @@
 //! | [`tr_bdf2`] | TR-BDF2 | 2 |
 //! | [`esdirk3`], [`esdirk4`] | L-stable singly diagonally implicit Runge-Kutta | 3, 4 |
 //! | [`dirk`] | the steps of all diagonally implicit Runge-Kutta methods: a method is a [`Tableau`](dirk::Tableau) | |
+//! | [`discrete_gradient`] | guarded discrete gradient: the energy law holds at any step | 2 |
 //! | [`verlet`], [`rkn`] | symplectic explicit methods | 2, 4, 6 |
 //! | [`explicit`] | their steps: a method is a [`Composition`](explicit::Composition) | |
 //! | [`Method`], [`Integrator`], [`Fidelity`] | methods by name, with a step control, and as presets | |
@@ -28,6 +29,7 @@
 
 mod backward_euler;
 pub mod dirk;
+pub mod discrete_gradient;
 mod dynamics;
 pub mod energy_guard;
 pub mod esdirk3;
@@ -47,6 +49,7 @@ pub mod tr_bdf2;
 pub mod trapezoid;
 pub mod verlet;
 
+pub use discrete_gradient::{Differences, EnergyLaw};
 pub use dynamics::{Dynamics, Newton, Stage};
 pub use fidelity::{Fidelity, IntegratorChoice};
 pub use generalised_alpha::NewtonMode;

@@ -138,6 +138,12 @@ pub trait OneStep: fmt::Debug {
         false
     }
 
+    /// Returns whether the method steps by discrete gradients of the energy instead of [`step`](Self::step). Default false; only
+    /// [`DiscreteGradient`](super::discrete_gradient::DiscreteGradient) does.
+    fn uses_discrete_gradients(&self) -> bool {
+        false
+    }
+
     /// Checks the parameters of the method. Default: nothing to check.
     ///
     /// # Errors

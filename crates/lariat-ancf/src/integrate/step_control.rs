@@ -29,7 +29,7 @@ use super::state::State;
 use crate::error::StepFailure;
 
 /// Shortest step, as a share of the host step.
-const MIN_STEP_SHARE: f64 = 1.0 / (1u64 << 20) as f64;
+pub(super) const MIN_STEP_SHARE: f64 = 1.0 / (1u64 << 20) as f64;
 /// Smallest error allowed to a step, as a share of the tolerance: after a jump of velocity errors fall only in proportion to h.
 const MIN_ERROR_SHARE: f64 = 1.0 / 1024.0;
 /// Newton's tolerance, as a share of the error allowed to a step.
@@ -39,7 +39,7 @@ const TARGET_ERROR_SHARE: f64 = 0.5;
 /// Newton's tolerance in m where no error is controlled.
 const FIXED_STEP_NEWTON_TOLERANCE: f64 = 1e-10;
 /// Relative rounding error of a host step given in single precision: 1/60 s is then longer than four steps of 1/240 s.
-const SINGLE_PRECISION_ROUNDING: f64 = 1e-7;
+pub(super) const SINGLE_PRECISION_ROUNDING: f64 = 1e-7;
 /// Length of the retry of a failed step, as a share of the step.
 const RETRY_SHARE: f64 = 0.25;
 /// Longest step after one at which Newton's iteration failed with an inexact tangent, as a share of it.

@@ -53,6 +53,10 @@ impl Cable {
         memory.acceleration.clear();
         memory.algorithmic.clear();
         memory.valid = false;
+        if !memory.differences.is_empty() {
+            cut(&mut memory.differences.velocity);
+            cut(&mut memory.differences.displacement);
+        }
         let mut cable = Cable::from_parts(model, snapshot, self.integrator)?;
         cable.diagnostics = self.diagnostics;
         cable.revision = self.revision;
