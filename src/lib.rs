@@ -31,7 +31,7 @@
 //! ```
 //!
 //! The crate re-exports [`lariat_ancf`], the mechanics, which knows no engine; with feature `rapier` also the coupling to rapier3d, as
-//! `lariat::coupling`; with feature `bevy` cables as components of bevy_ecs, as `lariat::ecs`. Units are SI throughout, numbers are `f64`.
+//! `lariat::rapier`; with feature `bevy` cables as components of bevy_ecs, as `lariat::bevy`. Units are SI throughout, numbers are `f64`.
 //!
 //! | to | look at |
 //! |---|---|
@@ -52,10 +52,10 @@ pub use lariat_ancf::integrate::NewtonMode;
 pub use lariat_ancf::*;
 #[cfg(feature = "bevy")]
 #[doc(no_inline)]
-pub use lariat_bevy as ecs;
+pub use lariat_bevy as bevy;
 #[cfg(feature = "rapier")]
 #[doc(no_inline)]
-pub use lariat_rapier as coupling;
+pub use lariat_rapier as rapier;
 
 /// The README's example compiles and runs.
 #[cfg(doctest)]

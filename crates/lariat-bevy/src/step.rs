@@ -36,7 +36,7 @@ fn begin(world: &mut World) -> Result<(), lariat_rapier::Error> {
 /// Begins a host step that is one Rapier step.
 pub(crate) fn begin_one(world: &mut World) {
     let mut cables = world.resource_mut::<Cables>();
-    (cables.set.settings.rapier_steps, cables.set.settings.most_rapier_steps) = (1, 1);
+    (cables.set.settings.rapier_steps, cables.set.settings.max_rapier_steps) = (1, 1);
     if let Err(error) = begin(world) {
         refuse(&mut world.resource_mut::<Cables>(), error);
     }
@@ -54,7 +54,7 @@ pub(crate) fn finish(world: &mut World) {
 /// Tells the cables that a refused step concerns.
 fn refuse(cables: &mut Cables, error: lariat_rapier::Error) {
     let culprits: Vec<Entity> =
-        cables.set.refused().iter().filter_map(|handle| cables.links.cables.get(handle)).copied().collect();
+        cables.set.failed_cables().iter().filter_map(|handle| cables.links.cables.get(handle)).copied().collect();
     let culprits = if culprits.is_empty() { vec![Entity::PLACEHOLDER] } else { culprits };
     for entity in culprits {
         cables.notices.push(Notice::Refused(StepRefused { entity, error: Error::Coupling(error.clone()) }));
@@ -85,7 +85,7 @@ pub(crate) fn predict(
 
 /// Rapier's own step; not run where the prediction was refused.
 pub(crate) fn engine(cables: ResMut<Cables>, mut physics: ResMut<Physics>, mut diagnostics: ResMut<Diagnostics>) {
-    if cables.host.as_ref().is_some_and(lariat_rapier::HostStep::is_refused) {
+    if cables.host.as_ref().is_some_and(lariat_rapier::HostStep::has_failed) {
         return;
     }
     let start = Instant::now();
@@ -102,13 +102,11 @@ pub(crate) fn reconcile(
 ) {
     let start = Instant::now();
     let cables = &mut *cables;
-    if cables.host.as_ref().is_some_and(lariat_rapier::HostStep::is_refused) {
+    if cables.host.as_ref().is_some_and(lariat_rapier::HostStep::has_failed) {
         return;
     }
     bring_home(cables, &mut of);
-    if let Err(error) = cables.set.reconcile(&mut physics) {
-        refuse(cables, error);
-    }
+    cables.set.reconcile(&mut physics);
     lend_out(cables, &mut of);
     diagnostics.spent(Stage::Reconcile, start);
 }

@@ -90,7 +90,7 @@ impl Cables {
 
     /// Whether the step that began was refused: there is nothing for the engine to step.
     pub fn is_refused(&self) -> bool {
-        self.host.as_ref().is_none_or(HostStep::is_refused)
+        self.host.as_ref().is_none_or(HostStep::has_failed)
     }
 
     /// Refuses a step from outside, with the reason.

@@ -1,7 +1,11 @@
 //! Cables that live outside their set between steps, in the components of an ECS.
 
-use crate::set::{CableSet, Slot};
-use crate::{AttachmentHandle, CableHandle, Error};
+use crate::attach::release_body;
+use crate::contents::Slot;
+use crate::error::Error;
+use crate::handle::{AttachmentHandle, CableHandle, JunctionHandle};
+use crate::join::remove_cable;
+use crate::set::CableSet;
 use core::ops::{Deref, DerefMut};
 use lariat_ancf::{At, Cable};
 use rapier::pipeline::PhysicsWorld;
@@ -36,7 +40,7 @@ impl Deref for Lent {
 
 impl DerefMut for Lent {
     fn deref_mut(&mut self) -> &mut Cable {
-        self.slot.stirred = true;
+        self.slot.modified = true;
         &mut self.slot.cable
     }
 }
@@ -47,10 +51,11 @@ impl CableSet {
     /// # Errors
     /// [`Error::NoCable`]; [`Error::Lent`] if it is out already.
     pub fn lend(&mut self, cable: CableHandle) -> Result<Lent, Error> {
-        let slot = self.cables.get_mut(cable.0 as usize).and_then(Option::take);
-        let slot = slot.ok_or_else(|| self.missing(cable))?;
-        let place = self.lent.partition_point(|&h| h < cable.0);
-        self.lent.insert(place, cable.0);
+        let contents = &mut self.contents;
+        let slot = contents.cables.remove(cable.0 as usize);
+        let slot = slot.ok_or_else(|| contents.missing(cable))?;
+        let place = contents.lent.partition_point(|&h| h < cable.0);
+        contents.lent.insert(place, cable.0);
         Ok(Lent { handle: cable, slot })
     }
 
@@ -59,9 +64,10 @@ impl CableSet {
     /// # Errors
     /// [`Error::NoCable`] for one that this set has not lent; it is dropped.
     pub fn give_back(&mut self, cable: Lent) -> Result<(), Error> {
-        let place = self.lent.binary_search(&cable.handle.0).map_err(|_| Error::NoCable(cable.handle))?;
-        self.lent.remove(place);
-        self.cables[cable.handle.0 as usize] = Some(cable.slot);
+        let contents = &mut self.contents;
+        let place = contents.lent.binary_search(&cable.handle.0).map_err(|_| Error::NoCable(cable.handle))?;
+        contents.lent.remove(place);
+        contents.cables.put_back(cable.handle.0 as usize, cable.slot);
         Ok(())
     }
 
@@ -70,54 +76,35 @@ impl CableSet {
     /// # Errors
     /// [`Error::NoCable`] for one that is not lent.
     pub fn forget(&mut self, world: &mut PhysicsWorld, cable: CableHandle) -> Result<(), Error> {
-        let place = self.lent.binary_search(&cable.0).map_err(|_| Error::NoCable(cable))?;
-        self.lent.remove(place);
-        self.stale = true;
-        for i in 0..self.attachments.len() {
-            if self.attachments[i].as_ref().is_some_and(|a| a.cable == cable) {
-                self.end(world, AttachmentHandle(i as u32))?;
+        let contents = &mut self.contents;
+        let place = contents.lent.binary_search(&cable.0).map_err(|_| Error::NoCable(cable))?;
+        contents.lent.remove(place);
+        contents.changed = true;
+        for i in 0..contents.attachments.len() {
+            if contents.attachments.get(i).is_some_and(|a| a.cable == cable) {
+                release_body(contents, world, AttachmentHandle(i as u32))?;
             }
         }
-        let mut freed = Vec::new();
-        for slot in &mut self.junctions {
-            let Some(junction) = slot else { continue };
-            let own: Vec<bool> = junction.nodes.iter().map(|(c, _)| *c == cable).collect();
-            if !own.contains(&true) {
+        for i in 0..contents.junctions.len() {
+            if !contents.junctions.get(i).is_some_and(|j| j.nodes.iter().any(|(c, _)| *c == cable)) {
                 continue;
             }
-            let mut keep = own.iter().map(|own| !own);
-            junction.nodes.retain(|_| keep.next().unwrap_or(true));
-            let mut keep = own.iter().map(|own| !own);
-            junction.arc_lengths.retain(|_| keep.next().unwrap_or(true));
-            junction.memory = None;
-            if junction.nodes.len() < 2 {
-                freed.append(&mut junction.nodes);
-                *slot = None;
+            for (other, node) in remove_cable(contents, JunctionHandle(i as u32), cable) {
+                if other != cable {
+                    contents.cable_mut(other)?.detach(At::Node(node))?;
+                }
             }
-        }
-        for (other, node) in freed {
-            self.get_mut(other)?.detach(At::Node(node))?;
         }
         Ok(())
     }
 
     /// Cables that are lent, in the order of their handles.
     pub fn lent(&self) -> impl Iterator<Item = CableHandle> {
-        self.lent.iter().map(|&h| CableHandle(h))
+        self.contents.lent.iter().map(|&h| CableHandle(h))
     }
 
     /// Whether a cable is lent.
     pub fn is_lent(&self, cable: CableHandle) -> bool {
-        self.lent.binary_search(&cable.0).is_ok()
-    }
-
-    /// Why a cable is not here.
-    pub(crate) fn missing(&self, cable: CableHandle) -> Error {
-        if self.is_lent(cable) { Error::Lent(cable) } else { Error::NoCable(cable) }
-    }
-
-    /// That all cables are here.
-    pub(crate) fn complete(&self) -> Result<(), Error> {
-        self.lent.first().map_or(Ok(()), |&h| Err(Error::Lent(CableHandle(h))))
+        self.contents.lent.binary_search(&cable.0).is_ok()
     }
 }
