@@ -107,8 +107,8 @@ impl Contents {
         found.into_iter().map(|(_, cable)| cable).collect()
     }
 
-    /// Copies the world's gravity to the cables that follow it when it changed, unless theirs is equal
-    /// to it within Rapier's rounding.
+    /// Copies the world's gravity to the cables that follow it when it changed, unless theirs is
+    /// equal to it within Rapier's rounding.
     pub fn follow_gravity(&mut self, world: &PhysicsWorld) -> Result<(), Error> {
         if self.gravity == Some(world.gravity) {
             return Ok(());

@@ -136,8 +136,8 @@ fn attached_node(world: &PhysicsWorld, attachment: usize, a: &Attachment) -> Att
     AttachedNode { attachment, cable, node, body, role, anchor: a.anchor - centre, direction: a.direction }
 }
 
-/// Finds the nodes of attachments and junctions by their arc lengths, since the user may have inserted
-/// others.
+/// Finds the nodes of attachments and junctions by their arc lengths, since the user may have
+/// inserted others.
 fn renumber(contents: &mut Contents) -> Result<(), Error> {
     let node = |cables: &Table<Box<Slot>>, cable: CableHandle, s: f64| {
         cables.get(cable.0 as usize).map_or(Ok(0), |slot| slot.cable.node(s))

@@ -81,8 +81,8 @@ pub(crate) fn leave(contents: &mut Contents, handle: JunctionHandle, cable: Cabl
     Ok(())
 }
 
-/// Takes a cable out of a junction, and returns the nodes that are free now: those of the cable, and
-/// the last one of a junction that ends.
+/// Takes a cable out of a junction, and returns the nodes that are free now: those of the cable,
+/// and the last one of a junction that ends.
 pub(crate) fn remove_cable(
     contents: &mut Contents,
     handle: JunctionHandle,

@@ -11,7 +11,8 @@ use lariat_ancf::{At, Cable};
 use rapier::pipeline::PhysicsWorld;
 use serde::{Deserialize, Serialize};
 
-/// A cable that its set has lent, with what the set knows of it. Reads as the cable; to change it wakes it.
+/// A cable that its set has lent, with what the set knows of it. Reads as the cable; to change it
+/// wakes it.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Lent {
     handle: CableHandle,
@@ -46,7 +47,8 @@ impl DerefMut for Lent {
 }
 
 impl CableSet {
-    /// Takes a cable out, without copying it. Until it is given back the set cannot step; attachments stay.
+    /// Takes a cable out, without copying it. Until it is given back the set cannot step;
+    /// attachments stay.
     ///
     /// # Errors
     /// [`Error::NoCable`]; [`Error::Lent`] if it is out already.
@@ -71,7 +73,8 @@ impl CableSet {
         Ok(())
     }
 
-    /// Gives a lent cable up that does not come back: its attachments end, and its part in junctions.
+    /// Gives a lent cable up that does not come back: its attachments end, and its part in
+    /// junctions.
     ///
     /// # Errors
     /// [`Error::NoCable`] for one that is not lent.

@@ -1,23 +1,25 @@
-//! Where cables are held: at any arc length, several times on one body, to each other.
+//! Where cables are attached: at any arc length, several times to one body, to each other.
 
-use super::bench::{add_cube, bits, cable, damping, gap, run, soft, tension, v, weightless};
+use super::common::{add_cube, bits, cable, gap, l_stable_integrator, run, soft, tension, weightless};
+use lariat_rapier::convert::vector;
 use lariat_rapier::lariat_ancf::{At, Section, Vector3};
 use lariat_rapier::rapier::prelude::*;
 use lariat_rapier::{AttachmentKind, CableSet, Error};
 
-/// A load on the middle of a taut rope, at an arc length where there was no node: it hangs in a triangle.
+/// A load is attached to a taut rope at its middle, where there was no node.
 ///
-/// *Source.* The triangle of forces: m g = 2 T sin a.
+/// Reference: the triangle of forces, m g = 2 T sin a.
 #[test]
-fn a_load_hangs_where_it_is_put() {
+fn a_load_in_the_middle_of_a_rope_hangs_in_a_triangle_of_forces() {
     let mut world = PhysicsWorld::new();
     let body = RigidBodyBuilder::dynamic().translation(Vector::new(1.0, -0.1, 0.0)).linear_damping(2.0);
     let body = body.angular_damping(2.0).can_sleep(false);
     let (load, _) = world.insert(body, ColliderBuilder::cuboid(0.1, 0.1, 0.1).mass(20.0));
     let mut set = CableSet::new();
-    // an odd number of elements: no node in the middle; enough of them for the kink at the load
+    // an odd number of elements, so no node in the middle; enough of them for the kink at the load
     let rope = cable([0.0; 3], [2.0, 0.0, 0.0], Section::from_stiffness(1e5, 0.0, 1e-3).unwrap());
-    let rope = rope.length(2.1).elements(25).fix(At::Start).fix(At::End).integrator(damping()).build().unwrap();
+    let rope =
+        rope.length(2.1).elements(25).fix(At::Start).fix(At::End).integrator(l_stable_integrator()).build().unwrap();
     let rope = set.insert(rope);
     let first =
         set.attach(&world, rope, At::ArcLength(1.05), load, Vector::new(0.0, 0.1, 0.0), AttachmentKind::Ball).unwrap();
@@ -33,11 +35,11 @@ fn a_load_hangs_where_it_is_put() {
     assert!((force.y / (20.0 * 9.81) - 1.0).abs() < 2e-3, "{force:?}");
 }
 
-/// Nodes that are placed later move those behind them: attachments follow.
+/// Inserting nodes changes the index of those behind them; attachments stay at their arc length.
 ///
-/// *Source.* The contract: an attachment stays at its arc length.
+/// Reference: the contract.
 #[test]
-fn attachments_keep_their_arc_length_when_nodes_are_placed() {
+fn attachments_keep_their_arc_length_when_nodes_are_inserted() {
     let mut world = weightless();
     let bodies = [0.2, 1.0, 1.7].map(|x| add_cube(&mut world, 1.0, 0.05, [x as Real, 0.0, 0.0]));
     let mut set = CableSet::new();
@@ -49,12 +51,13 @@ fn attachments_keep_their_arc_length_when_nodes_are_placed() {
     let places = [start, middle, end].map(at);
     assert!((places[0] - 0.2).abs() < 1e-12 && (places[1] - 1.0).abs() < 1e-12 && (places[2] - 1.7).abs() < 1e-12);
     run(&mut world, &mut set, 30);
-    assert!(gap(&set) < 1e-6 && v(world.bodies[bodies[1]].translation()).metric_distance(&Vector3::x()) < 1e-5);
+    assert!(gap(&set) < 1e-6 && vector(world.bodies[bodies[1]].translation()).metric_distance(&Vector3::x()) < 1e-5);
 }
 
-/// A rope from one corner of a crate to the other, hung in the middle from a hook: both of its ends on one body.
+/// A rope from one corner of a crate to the other hangs by its middle from a hook.
 ///
-/// *Source.* The triangle of forces; read at the crate, for a cable is smooth, and its tension wavers about a sharp bend.
+/// Reference: the triangle of forces; read at the crate, since a cable is smooth and its tension
+/// oscillates near a sharp bend.
 #[test]
 fn a_sling_with_both_ends_on_one_body_carries_it() {
     let mut world = PhysicsWorld::new();
@@ -66,7 +69,7 @@ fn a_sling_with_both_ends_on_one_body_carries_it() {
     let section = Section::from_stiffness(1e5, 0.0, 1e-3).unwrap();
     let sling = lariat_rapier::lariat_ancf::Cable::builder().points(points).section(section).elements(24);
     let length: f64 = 2.0 * 0.52f64.sqrt();
-    let sling = set.insert(sling.fix(0.5 * length).integrator(damping()).build().unwrap());
+    let sling = set.insert(sling.fix(0.5 * length).integrator(l_stable_integrator()).build().unwrap());
     for (at, x) in [(At::Start, -0.4), (At::End, 0.4)] {
         set.attach(&world, sling, at, load, Vector::new(x, 0.1, 0.0), AttachmentKind::Ball).unwrap();
     }
@@ -82,9 +85,9 @@ fn a_sling_with_both_ends_on_one_body_carries_it() {
     assert!(gap(&set) < 1e-6);
 }
 
-/// Two stays and a hanger tied in a point, a load on the hanger: the point is where three forces balance.
+/// Two stays and a hanger with a load, tied in a point.
 ///
-/// *Source.* The stays' forces by the load's weight and their directions as they hang.
+/// Reference: three forces in balance, by the weight and the directions of the stays.
 #[test]
 fn three_cables_tied_in_a_point_balance() {
     let mut world = PhysicsWorld::new();
@@ -95,9 +98,17 @@ fn three_cables_tied_in_a_point_balance() {
     let hub = [0.2, -1.0, 0.0];
     let mut set = CableSet::new();
     let [left, right] = [-1.0, 0.6].map(|x| {
-        set.insert(cable([x, 0.0, 0.0], hub, section).elements(4).fix(At::Start).integrator(damping()).build().unwrap())
+        set.insert(
+            cable([x, 0.0, 0.0], hub, section)
+                .elements(4)
+                .fix(At::Start)
+                .integrator(l_stable_integrator())
+                .build()
+                .unwrap(),
+        )
     });
-    let hanger = set.insert(cable(hub, [0.2, -2.0, 0.0], section).elements(4).integrator(damping()).build().unwrap());
+    let hanger = set
+        .insert(cable(hub, [0.2, -2.0, 0.0], section).elements(4).integrator(l_stable_integrator()).build().unwrap());
     let knot = set.join((left, At::End), (right, At::End)).unwrap();
     assert_eq!(set.join((left, At::End), (hanger, At::Start)).unwrap(), knot);
     assert_eq!(set.junction(knot).unwrap().nodes().len(), 3);
@@ -112,7 +123,7 @@ fn three_cables_tied_in_a_point_balance() {
     // untied, the hanger falls with its load
     set.leave(knot, hanger).unwrap();
     run(&mut world, &mut set, 30);
-    assert!(v(world.bodies[load].translation()).y < -2.5);
+    assert!(vector(world.bodies[load].translation()).y < -2.5);
     assert!(end_of(&set, left).metric_distance(&end_of(&set, right)) < 1e-9);
     assert_eq!(set.leave(knot, hanger), Err(Error::NoCable(hanger)));
     set.leave(knot, left).unwrap();
@@ -124,11 +135,11 @@ fn end_of(set: &CableSet, cable: lariat_rapier::CableHandle) -> Vector3<f64> {
     cable.node_position(cable.nodes() - 1)
 }
 
-/// A free chain of two cables and two bodies, tied in the middle, spins: momenta and energy stay.
+/// A free chain of two cables and two bodies, tied in the middle, rotates.
 ///
-/// *Source.* Conservation laws.
+/// Reference: conservation laws.
 #[test]
-fn a_tied_chain_keeps_its_momenta() {
+fn a_rotating_chain_with_a_junction_keeps_its_momenta_and_energy() {
     let mut world = weightless();
     let ends = [-1.0, 1.0].map(|x: f64| {
         let body = RigidBodyBuilder::dynamic().translation(Vector::new(x as Real, 0.0, 0.0)).linvel(Vector::new(
@@ -156,11 +167,11 @@ fn a_tied_chain_keeps_its_momenta() {
     assert!((after.1 - before.1).abs() < 1e-3 * before.1, "{} J, {} J", after.1, before.1);
 }
 
-/// Cables put into the set in another order, and attached in another: the same bits.
+/// Cables are inserted and attached in different orders: the states are equal to the bit.
 ///
-/// *Source.* The contract.
+/// Reference: the contract.
 #[test]
-fn the_order_of_insertion_does_not_change_a_bit() {
+fn the_result_does_not_depend_on_the_order_of_insertion() {
     let runs = [[0, 1, 2, 3], [3, 1, 0, 2], [2, 3, 1, 0]].map(|order: [usize; 4]| {
         let mut world = PhysicsWorld::new();
         let ground = RigidBodyBuilder::fixed().translation(Vector::new(0.0, -1.75, 0.0));
@@ -181,7 +192,7 @@ fn the_order_of_insertion_does_not_change_a_bit() {
             set.attach(&world, ropes[k].unwrap(), At::End, deck, anchor, AttachmentKind::Ball).unwrap();
         }
         run(&mut world, &mut set, 60);
-        assert!(v(world.bodies[deck].translation()).y < -1.12, "it has come down on the ground");
+        assert!(vector(world.bodies[deck].translation()).y < -1.12, "it has come down on the ground");
         let mut all = bits(&world, &CableSet::new());
         for rope in ropes {
             all.extend(set.get(rope.unwrap()).unwrap().positions().iter().map(|x| x.to_bits()));

@@ -1,6 +1,7 @@
-//! What users do to bodies in the middle of a run: the cable goes on.
+//! Bodies that the user removes, disables, moves or changes during a run.
 
-use super::bench::{add_cube, cable, gap, run, soft, v};
+use super::common::{add_cube, cable, gap, run, soft};
+use lariat_rapier::convert::vector;
 use lariat_rapier::lariat_ancf::At;
 use lariat_rapier::rapier::prelude::*;
 use lariat_rapier::{AttachmentHandle, AttachmentKind, CableHandle, CableSet, Event};
@@ -13,8 +14,8 @@ struct Hung {
     held: AttachmentHandle,
 }
 
-/// 5 kg swinging on a cable, after half a second.
-fn hung() -> Hung {
+/// Returns a load of 5 kg swinging on a cable, after half a second.
+fn hanging_load() -> Hung {
     let mut world = PhysicsWorld::new();
     let load = add_cube(&mut world, 5.0, 0.1, [2.0, -0.1, 0.0]);
     let mut set = CableSet::new();
@@ -30,7 +31,7 @@ impl Hung {
             self.set.step(&mut self.world).unwrap();
             assert!(self.set.get(self.rope).unwrap().positions().iter().all(|x| x.is_finite()));
             if let Some(b) = self.world.bodies.get(self.load) {
-                assert!(v(b.translation()).iter().chain(v(b.linvel()).iter()).all(|x| x.is_finite()));
+                assert!(vector(b.translation()).iter().chain(vector(b.linvel()).iter()).all(|x| x.is_finite()));
             }
         }
     }
@@ -40,16 +41,17 @@ impl Hung {
     }
 
     fn anchor(&self) -> ::nalgebra::Vector3<f64> {
-        v(*self.world.bodies[self.load].position() * Vector::new(0.0, 0.1, 0.0))
+        vector(*self.world.bodies[self.load].position() * Vector::new(0.0, 0.1, 0.0))
     }
 }
 
-/// A body that is removed: one event, the attachment gone, no ledger left, the end free.
+/// A body is removed from the world: one event, no attachment and no ledger left, and the end of
+/// the cable is free.
 ///
-/// *Source.* The contract; the cable alone conserves its energy.
+/// Reference: the contract; the energy of the cable alone is conserved.
 #[test]
-fn a_removed_body_lets_the_cable_go() {
-    let mut h = hung();
+fn removing_a_body_ends_its_attachment_and_frees_the_cable() {
+    let mut h = hanging_load();
     h.world.remove_body(h.load);
     h.run(1);
     assert_eq!(h.set.events(), [Event::AttachmentEnded { attachment: h.held, body: h.load }]);
@@ -64,12 +66,12 @@ fn a_removed_body_lets_the_cable_go() {
     assert!(h.end().norm() < 2.05, "{:?}", h.end());
 }
 
-/// A body that is removed while it swings against a wall: its ledger goes with it.
+/// A body is removed from the world while it is in contact with a wall.
 ///
-/// *Source.* The contract: one body, the wall, is left.
+/// Reference: the contract: one body, the wall, is left.
 #[test]
-fn a_body_removed_in_contact_takes_its_ledger_along() {
-    let mut h = hung();
+fn removing_a_body_in_contact_removes_its_ledger() {
+    let mut h = hanging_load();
     let at = h.world.bodies[h.load].translation();
     let wall = RigidBodyBuilder::fixed().translation(at - Vector::new(0.32, 0.0, 0.0));
     h.world.insert(wall, ColliderBuilder::cuboid(0.1, 2.0, 1.0));
@@ -80,12 +82,12 @@ fn a_body_removed_in_contact_takes_its_ledger_along() {
     assert_eq!(h.world.bodies.len(), 1);
 }
 
-/// A disabled body holds the cable's end where it is; enabled, it swings on.
+/// A body is disabled, and enabled again: its cable holds still with it, and swings on.
 ///
-/// *Source.* A disabled body does not move; the end is on its anchor.
+/// Reference: a disabled body does not move; the end of the cable is on its anchor.
 #[test]
-fn a_disabled_body_holds_the_end_where_it_is() {
-    let mut h = hung();
+fn a_disabled_body_holds_the_end_of_its_cable_fixed() {
+    let mut h = hanging_load();
     h.world.bodies[h.load].set_enabled(false);
     h.run(1);
     let at = h.world.bodies[h.load].translation();
@@ -98,12 +100,12 @@ fn a_disabled_body_holds_the_end_where_it_is() {
     assert!((h.world.bodies[h.load].translation() - at).length() > 0.1, "it swings on");
 }
 
-/// A swinging body becomes fixed or kinematic, and dynamic again: the end stays on it, and the run goes on.
+/// A swinging body becomes fixed or kinematic, and dynamic again: the end of the cable stays on it.
 ///
-/// *Source.* The contract.
+/// Reference: the contract.
 #[test]
-fn a_body_may_change_its_type() {
-    let mut h = hung();
+fn a_body_may_change_between_dynamic_fixed_and_kinematic() {
+    let mut h = hanging_load();
     for kind in [RigidBodyType::Fixed, RigidBodyType::KinematicVelocityBased, RigidBodyType::KinematicPositionBased] {
         h.world.bodies[h.load].set_body_type(kind, true);
         h.world.bodies[h.load].set_linvel(Vector::ZERO, true);
@@ -116,13 +118,14 @@ fn a_body_may_change_its_type() {
     }
 }
 
-/// A body that is put elsewhere takes its end along at 10 m/s at most: 0.1 m of slack, or half a metre of stretch.
+/// A body is set to another position: the gap of 0.1 m, or of 0.5 m that stretches the cable,
+/// closes at 10 m/s at most.
 ///
-/// *Source.* The contract.
+/// Reference: the contract.
 #[test]
-fn a_teleported_body_takes_its_end_along() {
+fn the_gap_to_a_teleported_body_closes() {
     for jump in [0.1, 0.5] {
-        let mut h = hung();
+        let mut h = hanging_load();
         let to = h.world.bodies[h.load].translation() - Vector::new(jump, 0.0, 0.0);
         h.world.bodies[h.load].set_translation(to, true);
         h.run((60.0 * f64::from(jump) / 6.6).ceil() as usize);
@@ -132,12 +135,12 @@ fn a_teleported_body_takes_its_end_along() {
     }
 }
 
-/// Wrong handles.
+/// Wrong handles and points give errors, and change nothing.
 ///
-/// *Source.* The contract: typed errors, nothing changed.
+/// Reference: the contract.
 #[test]
-fn wrong_handles_are_refused() {
-    let mut h = hung();
+fn wrong_handles_give_typed_errors() {
+    let mut h = hanging_load();
     let other = add_cube(&mut h.world, 1.0, 0.1, [9.0; 3]);
     let twice = h.set.attach(&h.world, h.rope, At::End, other, Vector::ZERO, AttachmentKind::Ball).unwrap_err();
     assert!(matches!(twice, lariat_rapier::Error::AlreadyAttached { node: 10, .. }), "{twice}");

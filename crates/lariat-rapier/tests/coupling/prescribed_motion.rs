@@ -1,15 +1,17 @@
-//! Kinematic and fixed bodies carry a cable's end; users push bodies between steps.
+//! Prescribed motion of bodies, fast rotation, and what users set between steps.
 
-use super::bench::{add_cube, cable, damping, gap, run, soft, v, weightless};
+use super::common::{add_cube, cable, gap, l_stable_integrator, run, soft, weightless};
+use lariat_rapier::convert::vector;
 use lariat_rapier::lariat_ancf::{At, Vector3};
 use lariat_rapier::rapier::prelude::*;
 use lariat_rapier::{AttachmentKind, CableSet};
 
-/// Both kinds of kinematic body, moving and turning for 2 s, the anchor off their axis: the cable's end is on it to single precision.
+/// Both types of kinematic body, moving and rotating for 2 s, the anchor off their axis: the end of
+/// the cable is on it within single precision.
 ///
-/// *Source.* The motion that was prescribed: 0.2 m/s, 2 rad/s.
+/// Reference: the prescribed motion, 0.2 m/s and 2 rad/s.
 #[test]
-fn kinematic_bodies_carry_the_end_exactly() {
+fn the_end_of_a_cable_follows_a_kinematic_body() {
     for position_based in [false, true] {
         let mut world = PhysicsWorld::new();
         let builder = if position_based {
@@ -33,26 +35,29 @@ fn kinematic_bodies_carry_the_end_exactly() {
             }
             set.step(&mut world).unwrap();
             let anchor = *world.bodies[arm].position() * Vector::new(0.3, 0.0, 0.0);
-            worst = worst.max((set.get(rope).unwrap().node_position(0) - v(anchor)).norm());
+            worst = worst.max((set.get(rope).unwrap().node_position(0) - vector(anchor)).norm());
         }
         assert!(worst < 5e-7, "position based {position_based}: {worst:.1e} m");
         assert!((world.bodies[arm].translation() - Vector::new(0.4, 0.0, 0.2)).length() < 1e-4);
     }
 }
 
-/// A drum whose velocity is set to 150 and 300 rad/s: Rapier turns it by a linearised rotation in each substep, by pi/4 in a step at
-/// most, and the cable's end, 0.1 m off its axis, is where it turned to.
+/// The velocity of a drum is set to 150 and 300 rad/s. Rapier rotates it by a linearised rotation
+/// in each substep, and by pi/4 in a step at most; the end of the cable, 0.1 m off its axis,
+/// follows.
 ///
-/// *Source.* The pose of the body.
+/// Reference: the pose of the body.
 #[test]
-fn an_end_is_where_rapier_turns_a_fast_body_to() {
+fn the_end_of_a_cable_follows_a_fast_drum() {
     for iterations in [1, 4] {
         for speed in [150.0, 300.0] {
             let mut world = weightless();
             world.integration_parameters.num_solver_iterations = iterations;
             let drum = world.insert_body(RigidBodyBuilder::kinematic_velocity_based());
             let mut set = CableSet::new();
-            let lash = cable([0.1, 0.0, 0.0], [0.6, 0.0, 0.0], soft()).gravity(Vector3::zeros()).integrator(damping());
+            let lash = cable([0.1, 0.0, 0.0], [0.6, 0.0, 0.0], soft())
+                .gravity(Vector3::zeros())
+                .integrator(l_stable_integrator());
             let lash = set.insert(lash.build().unwrap());
             set.attach(&world, lash, At::Start, drum, Vector::new(0.1, 0.0, 0.0), AttachmentKind::Ball).unwrap();
             let (mut worst, mut turned) = (0.0f64, 0.0f64);
@@ -70,12 +75,13 @@ fn an_end_is_where_rapier_turns_a_fast_body_to() {
     }
 }
 
-/// A cube with a rope at 0.1 m from its centre spins at 20 to 200 rad/s, two turns in a host step, with one solver iteration and with four:
-/// Rapier's linearised rotation, and its limit of pi/4 in a step, leave no gap.
+/// A cube with a rope 0.1 m off its centre rotates at 20 to 200 rad/s, half a revolution in a host
+/// step, with one solver iteration and with four: the linearised rotation, and the limit of pi/4 in
+/// a step, leave no gap.
 ///
-/// *Source.* The contract of an attachment.
+/// Reference: the contract of an attachment.
 #[test]
-fn a_spinning_body_lands_where_it_was_predicted() {
+fn a_fast_rotating_body_lands_where_it_was_predicted() {
     for iterations in [1, 4] {
         for speed in [20.0, 200.0] {
             let mut world = weightless();
@@ -83,7 +89,9 @@ fn a_spinning_body_lands_where_it_was_predicted() {
             let load = add_cube(&mut world, 5.0, 0.1, [0.0; 3]);
             world.bodies[load].set_angvel(Vector::new(0.0, 0.0, speed), true);
             let mut set = CableSet::new();
-            let lash = cable([0.1, 0.0, 0.0], [0.3, 0.0, 0.0], soft()).gravity(Vector3::zeros()).integrator(damping());
+            let lash = cable([0.1, 0.0, 0.0], [0.3, 0.0, 0.0], soft())
+                .gravity(Vector3::zeros())
+                .integrator(l_stable_integrator());
             let lash = set.insert(lash.elements(2).build().unwrap());
             set.attach(&world, lash, At::Start, load, Vector::new(0.1, 0.0, 0.0), AttachmentKind::Ball).unwrap();
             let (mut worst, mut turned) = (0.0f64, 0.0f64);
@@ -102,11 +110,12 @@ fn a_spinning_body_lands_where_it_was_predicted() {
     }
 }
 
-/// Forces, damping, the gyroscopic flag, gravity's scale and the time step are after half a second what the user set.
+/// Forces, damping, the gyroscopic flag, the scale of gravity and the time step are after half a
+/// second as the user set them.
 ///
-/// *Source.* The contract.
+/// Reference: the contract.
 #[test]
-fn what_a_user_set_is_untouched_by_a_step() {
+fn a_step_changes_none_of_the_settings_of_a_body() {
     let mut world = PhysicsWorld::new();
     let load = add_cube(&mut world, 5.0, 0.1, [2.0, -0.1, 0.0]);
     let body = &mut world.bodies[load];
@@ -129,12 +138,13 @@ fn what_a_user_set_is_untouched_by_a_step() {
     assert_eq!(world.integration_parameters.dt, dt);
 }
 
-/// Between steps a user sets the velocity or the spin of a body, or strikes it: the system goes on with it. The body holds to a free
-/// cable, whose end follows at once, so momentum grows by the 0.02 kg of cable at the pin.
+/// Between steps a user sets the velocity or the angular velocity of a body, or applies an impulse.
+/// The body holds a free cable, whose end follows at once, so the momentum grows by the 0.02 kg of
+/// cable at the attachment.
 ///
-/// *Source.* m v and p of the user; conservation afterwards.
+/// Reference: m v and the impulse of the user; conservation afterwards.
 #[test]
-fn impulses_and_velocities_between_steps_act() {
+fn velocities_and_impulses_set_between_steps_act() {
     let fly = |change: &dyn Fn(&mut RigidBody)| {
         let mut world = weightless();
         let load = add_cube(&mut world, 5.0, 0.1, [0.0; 3]);
@@ -145,18 +155,18 @@ fn impulses_and_velocities_between_steps_act() {
         run(&mut world, &mut set, 10);
         change(&mut world.bodies[load]);
         let momentum = |world: &PhysicsWorld, set: &CableSet| {
-            v(world.bodies[load].linvel()) * 5.0 + set.get(rope).unwrap().momentum().linear
+            vector(world.bodies[load].linvel()) * 5.0 + set.get(rope).unwrap().momentum().linear
         };
         run(&mut world, &mut set, 1);
         let first = momentum(&world, &set);
         run(&mut world, &mut set, 30);
         assert!((momentum(&world, &set) - first).norm() < 1e-5, "{first:?}, {:?}", momentum(&world, &set));
         assert!(gap(&set) < 1e-6);
-        (first, v(world.bodies[load].angvel()))
+        (first, vector(world.bodies[load].angvel()))
     };
     let push = Vector::new(1.0, 2.0, 0.5);
     for (moved, _) in [fly(&|b| b.set_linvel(push, true)), fly(&|b| b.apply_impulse(push * 5.0, true))] {
-        assert!((moved - v(push) * 5.0).norm() < 0.01 * 5.0 * v(push).norm(), "{moved:?}");
+        assert!((moved - vector(push) * 5.0).norm() < 0.01 * 5.0 * vector(push).norm(), "{moved:?}");
     }
     let (_, spin) = fly(&|b| b.set_angvel(Vector::new(0.0, 0.0, 1.0), true));
     assert!(spin.z > 0.5 && spin.z < 1.0, "{spin:?}");

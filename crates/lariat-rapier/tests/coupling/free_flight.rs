@@ -1,6 +1,7 @@
-//! Free flight: momenta that Rapier's steps must not touch.
+//! Free flight: momenta and tension of a rotating dumbbell.
 
-use super::bench::{cable, gap, soft, tension, v, weightless, wire};
+use super::common::{cable, gap, soft, tension, weightless, wire};
+use lariat_rapier::convert::vector;
 use lariat_rapier::lariat_ancf::{At, Cable, Section, Vector3};
 use lariat_rapier::rapier::prelude::*;
 use lariat_rapier::{AttachmentKind, CableSet};
@@ -9,16 +10,16 @@ const SPIN: f64 = 5.0;
 /// Distance of the anchors from the centres of the balls in m.
 const ARM: f64 = 0.1;
 
-/// Stretch as a function of arc length of a cable of Green-strain material spinning in equilibrium between two balls: places
-/// from the centre of rotation, tension, by shooting on the place of its start.
+/// A cable of Green-strain material that rotates in equilibrium between two balls, by shooting on
+/// the position of its start.
 struct Steady {
     start: f64,
-    places: Vec<(f64, f64)>,
+    positions: Vec<(f64, f64)>,
     /// By node, tension.
     tension: Vec<f64>,
 }
 
-/// `N = EA (f^2 - 1)/2 f`: the stretch f at a tension.
+/// Returns the stretch f at a tension, `N = EA (f^2 - 1)/2 f`.
 fn stretch(n: f64, ea: f64) -> f64 {
     let mut f = 1.0 + n / ea;
     for _ in 0..50 {
@@ -28,18 +29,19 @@ fn stretch(n: f64, ea: f64) -> f64 {
 }
 
 impl Steady {
-    /// The cable of `length` (m) between balls of masses `m` (kg); x' = f(N), N' = -mu w^2 x with Runge-Kutta steps.
+    /// Solves x' = f(N), N' = -mu w^2 x with Runge-Kutta steps for a cable of `length` (m) between
+    /// balls of masses `m` (kg).
     fn solve(section: Section, length: f64, m: [f64; 2], nodes: usize) -> Steady {
         let (ea, mu) = (section.axial_stiffness, section.mass_per_length);
         let shoot = |start: f64| {
             // the first ball, at start - ARM < 0, is pulled inwards
             let (mut x, mut n) = (start, -m[0] * SPIN * SPIN * (start - ARM));
-            let (fine, mut places, mut tensions) = (200, vec![], vec![]);
+            let (fine, mut positions, mut tensions) = (200, vec![], vec![]);
             let h = length / ((nodes - 1) * fine) as f64;
             let rate = |x: f64, n: f64| (stretch(n, ea), -mu * SPIN * SPIN * x);
             for k in 0..=(nodes - 1) * fine {
                 if k % fine == 0 {
-                    places.push((x, stretch(n, ea)));
+                    positions.push((x, stretch(n, ea)));
                     tensions.push(n);
                 }
                 if k < (nodes - 1) * fine {
@@ -50,28 +52,29 @@ impl Steady {
                 }
             }
             let missing = n - m[1] * SPIN * SPIN * (x + ARM);
-            (missing, places, tensions)
+            (missing, positions, tensions)
         };
         let (mut low, mut high) = (-length, 0.0);
         for _ in 0..100 {
             let middle = 0.5 * (low + high);
             if shoot(middle).0 > 0.0 { low = middle } else { high = middle }
         }
-        let (_, places, tension) = shoot(low);
-        Steady { start: low, places, tension }
+        let (_, positions, tension) = shoot(low);
+        Steady { start: low, positions, tension }
     }
 }
 
-/// Balls of 1 kg and 10 kg on a cable of 1.8 m (soft; steel wire), spinning at 5 rad/s in space for 10 s, started in their steady state: linear
-/// and angular momentum stay, and at every node at every frame the tension is the analytic one.
+/// Balls of 1 kg and 10 kg on a cable of 1.8 m (soft; steel wire) rotate at 5 rad/s in space for 10
+/// s, from their steady state: momenta are conserved, and the tension at every node in every frame
+/// is the analytic one.
 ///
-/// *Source.* Conservation laws; [`Steady`], the rotating cable's own equilibrium.
+/// Reference: conservation laws; [`Steady`].
 #[test]
-fn a_spinning_dumbbell_keeps_its_momenta_and_its_tension() {
+fn a_rotating_dumbbell_keeps_its_momenta_and_its_tension() {
     for section in [soft(), wire()] {
         let steady = Steady::solve(section, 1.8, [1.0, 10.0], 11);
         let mut world = weightless();
-        let ends = [steady.start - ARM, steady.places[10].0 + ARM];
+        let ends = [steady.start - ARM, steady.positions[10].0 + ARM];
         let balls = [(1.0, ends[0]), (10.0, ends[1])].map(|(mass, x)| {
             let body = RigidBodyBuilder::dynamic()
                 .translation(Vector::new(x as Real, 0.0, 0.0))
@@ -83,7 +86,7 @@ fn a_spinning_dumbbell_keeps_its_momenta_and_its_tension() {
             cable([steady.start, 0.0, 0.0], [steady.start + 1.8, 0.0, 0.0], section).gravity(Vector3::zeros());
         let mut sling: Cable = builder.build().unwrap();
         let (q, rates): (Vec<_>, Vec<_>) = steady
-            .places
+            .positions
             .iter()
             .map(|(x, f)| ([*x, 0.0, 0.0, *f, 0.0, 0.0], [0.0, SPIN * x, 0.0, 0.0, SPIN * f, 0.0]))
             .unzip();
@@ -98,9 +101,9 @@ fn a_spinning_dumbbell_keeps_its_momenta_and_its_tension() {
             for ball in balls {
                 let b = &world.bodies[ball];
                 let mass = f64::from(b.mass());
-                let push = v(b.linvel()) * mass;
+                let push = vector(b.linvel()) * mass;
                 p += push;
-                l += v(b.center_of_mass()).cross(&push) + v(b.angvel()) * (0.4 * mass * 0.01);
+                l += vector(b.center_of_mass()).cross(&push) + vector(b.angvel()) * (0.4 * mass * 0.01);
             }
             (p, l)
         };

@@ -4,67 +4,63 @@ use lariat_rapier::lariat_ancf::{Cable, CableBuilder, Integrator, Section, StepC
 use lariat_rapier::rapier::prelude::*;
 use lariat_rapier::{CableHandle, CableSet};
 
-/// E = 1e9 Pa, 4000 kg/m^3, square of 1 cm: EA = 1e5 N, 0.4 kg/m.
+/// Returns E = 1e9 Pa, 4000 kg/m^3, a square of 1 cm: EA = 1e5 N, 0.4 kg/m.
 pub fn soft() -> Section {
     Section::square(0.01, 1e9, 4000.0).unwrap()
 }
 
-/// Steel bar, square of 1 cm: EA = 2e7 N.
+/// Returns a steel bar, a square of 1 cm: EA = 2e7 N.
 pub fn steel() -> Section {
     Section::square(0.01, 2e11, 7850.0).unwrap()
 }
 
-/// Steel wire, 3 mm round: EA = 1.41e6 N, 0.055 kg/m.
+/// Returns a steel wire of 3 mm: EA = 1.41e6 N, 0.055 kg/m.
 pub fn wire() -> Section {
     Section::round(0.003, 2e11, 7850.0).unwrap()
 }
 
-/// Generalised-alpha of spectral radius 0 at 1/480 s: damps what the step does not resolve.
-pub fn damping() -> Integrator {
+/// Returns generalised-alpha of spectral radius 0 at 1/480 s, which damps what the step does not
+/// resolve.
+pub fn l_stable_integrator() -> Integrator {
     Integrator { method: "generalised-alpha-0".parse().unwrap(), control: StepControl::MaxStep(1.0 / 480.0) }
 }
 
-/// To an `f64` vector.
-pub fn v(x: Vector) -> Vector3<f64> {
-    Vector3::new(f64::from(x.x), f64::from(x.y), f64::from(x.z))
-}
-
-/// A cable along a straight line.
+/// Returns a cable along a straight line.
 pub fn cable(from: [f64; 3], to: [f64; 3], section: Section) -> CableBuilder {
     Cable::builder().points([Vector3::from(from), Vector3::from(to)]).section(section)
 }
 
-/// A world without gravity.
+/// Returns a world without gravity.
 pub fn weightless() -> PhysicsWorld {
     let mut world = PhysicsWorld::new();
     world.gravity = Vector::ZERO;
     world
 }
 
-/// A dynamic cube of half side `half` (m).
+/// Adds a dynamic cube of half side `half` (m).
 pub fn add_cube(world: &mut PhysicsWorld, mass: Real, half: Real, at: [Real; 3]) -> RigidBodyHandle {
     let body = RigidBodyBuilder::dynamic().translation(Vector::from(at));
     world.insert(body, ColliderBuilder::cuboid(half, half, half).mass(mass)).0
 }
 
-/// Steps of 1/60 s.
+/// Runs a number of host steps.
 pub fn run(world: &mut PhysicsWorld, set: &mut CableSet, steps: usize) {
     for _ in 0..steps {
         set.step(world).unwrap();
     }
 }
 
-/// Largest gap of all attachments in m.
+/// Returns the largest gap of all attachments in m.
 pub fn gap(set: &CableSet) -> f64 {
     set.attachments().map(|(_, a)| a.gap()).fold(0.0, f64::max)
 }
 
-/// Tension in N at an arc length.
+/// Returns the tension in N at an arc length.
 pub fn tension(set: &CableSet, cable: CableHandle, s: f64) -> f64 {
     set.get(cable).unwrap().sample(s).unwrap().tension
 }
 
-/// Everything that moves, to the bit.
+/// Returns the state of all bodies and cables, to the bit.
 pub fn bits(world: &PhysicsWorld, set: &CableSet) -> Vec<u64> {
     let bodies = world.bodies.iter().flat_map(|(_, b)| {
         let (x, q) = (b.translation(), b.rotation());

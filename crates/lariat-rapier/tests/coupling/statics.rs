@@ -1,12 +1,14 @@
-//! Loads at rest: stretch, tensions and tilt as statics says.
+//! Loads at rest: stretch, tensions and tilt.
 
-use super::bench::{add_cube, cable, damping, gap, run, soft, steel, tension, v, wire};
+use super::common::{add_cube, cable, gap, l_stable_integrator, run, soft, steel, tension, wire};
+use lariat_rapier::convert::vector;
 use lariat_rapier::lariat_ancf::{At, Section, Vector3};
 use lariat_rapier::rapier::prelude::*;
 use lariat_rapier::{AttachmentKind, CableSet};
 
-/// Place and tilt of the box, and the tensions at mid cable, by statics: taut cables as springs of Green's law along straight lines,
-/// half of their weight at the lower end; two forces and a moment made zero by Newton's method with differences.
+/// Returns position and rotation of the box, and the tensions at mid cable. Taut cables are springs
+/// of Green's law along straight lines, with half of their weight at the lower end; Newton's method
+/// with differences makes two forces and a moment zero.
 fn tilted_box(section: Section, tops: [f64; 2], lengths: [f64; 2], mass: f64) -> (Vector3<f64>, [f64; 2]) {
     use ::nalgebra::{Matrix3, Vector2};
     let (ea, half) = (section.axial_stiffness, section.mass_per_length * 0.5);
@@ -40,12 +42,12 @@ fn tilted_box(section: Section, tops: [f64; 2], lengths: [f64; 2], mass: f64) ->
     (u, forces(&u).1)
 }
 
-/// A box of 50 kg hung by the ends of its top face from two points of one height, on cables of different length: it hangs askew,
-/// place, tilt and tensions as statics says, for a soft cable and a steel wire.
+/// A box of 50 kg hangs by the ends of its top face from two points of equal height, on cables of
+/// different length; a soft cable and a steel wire.
 ///
-/// *Source.* [`tilted_box`].
+/// Reference: [`tilted_box`].
 #[test]
-fn a_tilted_box_hangs_as_statics_says() {
+fn a_box_on_unequal_cables_hangs_at_its_static_tilt() {
     for section in [soft(), wire()] {
         let mut world = PhysicsWorld::new();
         let body = RigidBodyBuilder::dynamic()
@@ -60,7 +62,7 @@ fn a_tilted_box_hangs_as_statics_says() {
         let ropes = [0, 1].map(|k| {
             let side = [-0.3, 0.3][k];
             let rope = cable([tops[k], 0.0, 0.0], [side, -0.9, 0.0], section)
-                .integrator(damping())
+                .integrator(l_stable_integrator())
                 .fix(At::Start)
                 .build()
                 .unwrap();
@@ -72,8 +74,8 @@ fn a_tilted_box_hangs_as_statics_says() {
         run(&mut world, &mut set, 1500);
         let (u, pulls) = tilted_box(section, tops, lengths, 50.0);
         let b = &world.bodies[load];
-        let angle = v(b.rotation().to_scaled_axis()).z;
-        let off = (v(b.translation()).xy() - u.xy()).norm();
+        let angle = vector(b.rotation().to_scaled_axis()).z;
+        let off = (vector(b.translation()).xy() - u.xy()).norm();
         assert!(off < 1e-4 && (angle - u.z).abs() < 1e-4, "{off:.1e} m, tilt {angle} of {}", u.z);
         for k in 0..2 {
             let pull = tension(&set, ropes[k], 0.5 * lengths[k]);
@@ -83,10 +85,10 @@ fn a_tilted_box_hangs_as_statics_says() {
     }
 }
 
-/// Loads from 10 g to 100 t, put on a vertical cable at once: after 10 s the cable has stretched by what Green's law says of the load
-/// and its own weight, and it never stretched more than twice that (a load put on at once; 5 % for the waves of the cable).
+/// Loads from 10 g to 100 t on a vertical cable, released suddenly: after 10 s the stretch is
+/// static, and it never exceeded twice that (5 % more for the waves of the cable).
 ///
-/// *Source.* `m g + mu g (L - s) = EA (f^2 - 1)/2 f` at mid cable; the overshoot of a sudden load.
+/// Reference: `m g + mu g (L - s) = EA (f^2 - 1)/2 f` at mid cable; the overshoot of a sudden load.
 #[test]
 fn a_hanging_load_stretches_its_cable_by_its_stiffness_for_any_mass() {
     for section in [soft(), steel()] {
@@ -95,7 +97,7 @@ fn a_hanging_load_stretches_its_cable_by_its_stiffness_for_any_mass() {
             let load = add_cube(&mut world, mass as Real, 0.1, [0.0, -2.1, 0.0]);
             world.bodies[load].set_linear_damping(5.0);
             let mut set = CableSet::new();
-            let rope = cable([0.0; 3], [0.0, -2.0, 0.0], section).integrator(damping()).fix(At::Start);
+            let rope = cable([0.0; 3], [0.0, -2.0, 0.0], section).integrator(l_stable_integrator()).fix(At::Start);
             let rope = set.insert(rope.build().unwrap());
             set.attach(&world, rope, At::End, load, Vector::new(0.0, 0.1, 0.0), AttachmentKind::Ball).unwrap();
             let (mut lowest, mut rests) = (0.0f64, 0.0);

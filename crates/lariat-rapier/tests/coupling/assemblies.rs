@@ -1,15 +1,17 @@
 //! Many cables on a body, many bodies on cables, closed loops.
 
-use super::bench::{cable, gap, run, soft, v, weightless};
+use super::common::{cable, gap, run, soft, weightless};
+use lariat_rapier::convert::vector;
 use lariat_rapier::lariat_ancf::{At, Damping, Section, Vector3};
 use lariat_rapier::rapier::prelude::*;
 use lariat_rapier::{AttachmentKind, CableSet};
 
-/// A deck of 100 kg on six vertical hangers, a 50 kg crate on one end of it: hangers and their forces as statics says, at rest.
+/// A deck of 100 kg on six vertical hangers, with a crate of 50 kg on one side, at rest.
 ///
-/// *Source.* A rigid deck on six equal springs: by symmetry the force of a hanger is (W + w)/6 + w e x/(sum of x^2), x along the deck.
+/// Reference: a rigid deck on six equal springs: by symmetry the force of a hanger is (W + w)/6 + w
+/// e x/(sum of x^2), x along the deck.
 #[test]
-fn a_deck_hangs_on_six_cables() {
+fn six_hangers_share_the_load_of_a_deck() {
     let mut world = PhysicsWorld::new();
     let body = RigidBodyBuilder::dynamic().translation(Vector::new(0.0, -2.1, 0.0)).can_sleep(false);
     let (deck, _) =
@@ -32,20 +34,20 @@ fn a_deck_hangs_on_six_cables() {
         }
     }
     run(&mut world, &mut set, 900);
-    let e = v(world.bodies[crate_].translation()).x;
+    let e = vector(world.bodies[crate_].translation()).x;
     for (x, a) in held {
         let force = set.attachment(a).unwrap().force();
         let expected = 9.81 * (150.0 / 6.0 + 50.0 * e * x / (4.0 * 1.8 * 1.8));
         assert!((force.y / expected - 1.0).abs() < 0.01, "x = {x}: {} N of {expected}", force.y);
     }
-    assert!(v(world.bodies[deck].linvel()).norm() < 1e-3 && gap(&set) < 1e-4, "{:.1e} m", gap(&set));
+    assert!(vector(world.bodies[deck].linvel()).norm() < 1e-3 && gap(&set) < 1e-4, "{:.1e} m", gap(&set));
 }
 
-/// Three balls and three cables in a ring that spins in space for 2 s: momenta and energy stay, the ring stays equilateral.
+/// Three balls and three cables in a ring that rotates in space for 2 s.
 ///
-/// *Source.* Conservation laws; the threefold symmetry of the start.
+/// Reference: conservation laws; the threefold symmetry of the initial state.
 #[test]
-fn a_closed_ring_spins_through_rapier() {
+fn a_rotating_ring_of_balls_and_cables_keeps_its_momenta_energy_and_shape() {
     let mut world = weightless();
     let at = |k: usize| {
         let a = std::f64::consts::TAU / 3.0 * k as f64;
@@ -74,17 +76,18 @@ fn a_closed_ring_spins_through_rapier() {
     assert!((after.linear - before.linear).norm() < 1e-4, "{:?}", after.linear - before.linear);
     assert!((after.angular - before.angular).norm() < 1e-4 * before.angular.norm());
     assert!((left / energy - 1.0).abs() < 1e-3, "{left} J of {energy}");
-    let sides = [0, 1, 2]
-        .map(|k| (v(world.bodies[balls[k]].translation()) - v(world.bodies[balls[(k + 1) % 3]].translation())).norm());
+    let sides = [0, 1, 2].map(|k| {
+        (vector(world.bodies[balls[k]].translation()) - vector(world.bodies[balls[(k + 1) % 3]].translation())).norm()
+    });
     assert!(sides.iter().all(|s| (s - sides[0]).abs() < 1e-4), "{sides:?}");
 }
 
-/// Twenty balls strung on twenty cables hang in a row, let go a little aside: no gap, no energy made, and the pull on the
-/// topmost ball's cable is what hangs below it.
+/// Twenty balls on twenty cables hang in a row, released a little off equilibrium: no gap, and no
+/// spurious energy.
 ///
-/// *Source.* Statics, on average over the swing; conservation of energy.
+/// Reference: statics, on average over the oscillation; conservation of energy.
 #[test]
-fn a_chain_of_twenty_bodies_hangs() {
+fn the_top_cable_of_a_chain_of_twenty_bodies_carries_all_below_it() {
     let mut world = PhysicsWorld::new();
     let mut set = CableSet::new();
     let mut before: Option<RigidBodyHandle> = None;

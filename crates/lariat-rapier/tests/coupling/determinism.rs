@@ -1,11 +1,11 @@
-//! The same start gives the same bits; so does a snapshot.
+//! Runs and snapshots repeat to the bit.
 
-use super::bench::{add_cube, bits, cable, run, soft};
+use super::common::{add_cube, bits, cable, run, soft};
 use lariat_rapier::lariat_ancf::At;
 use lariat_rapier::rapier::prelude::*;
 use lariat_rapier::{AttachmentKind, CableSet};
 
-/// A payload that swings into a wall, and two bodies on a cable lying on the ground.
+/// Returns a payload that swings into a wall, and two bodies on a cable lying on the ground.
 fn scene() -> (PhysicsWorld, CableSet) {
     let mut world = PhysicsWorld::new();
     let ground = RigidBodyBuilder::fixed().translation(Vector::new(0.0, -2.5, 0.0));
@@ -25,9 +25,9 @@ fn scene() -> (PhysicsWorld, CableSet) {
 
 /// 1.5 s with impacts, twice.
 ///
-/// *Source.* The contract: one start, one run.
+/// Reference: the contract.
 #[test]
-fn two_runs_give_the_same_bits() {
+fn two_runs_are_equal_to_the_bit() {
     let [a, b] = [0, 1].map(|_| {
         let (mut world, mut set) = scene();
         run(&mut world, &mut set, 90);
@@ -36,11 +36,12 @@ fn two_runs_give_the_same_bits() {
     assert!(a == b);
 }
 
-/// World and set through bincode every quarter of a second, impacts and friction included: the run goes on bitwise as one that was left alone.
+/// World and set go through bincode every quarter of a second, with impacts and friction: the run
+/// continues like one that was left alone.
 ///
-/// *Source.* The contract.
+/// Reference: the contract.
 #[test]
-fn a_snapshot_replays_bitwise() {
+fn a_snapshot_replays_to_the_bit() {
     let (mut world, mut set) = scene();
     let (mut other_world, mut other_set) = scene();
     for k in 0..6 {
