@@ -1,7 +1,7 @@
-//! The examples of Lariat that need more than the mechanics are the example targets of this package, and the code on the pages of
-//! the repository is tested here, where all crates are at hand.
+//! The examples of Lariat that need more than the mechanics are the example targets of this package. The code on the pages of the
+//! repository is compiled and run as its documentation tests, because all crates are at hand here.
 
-/// Tests the code of a page.
+/// Runs the code of a page.
 #[cfg(doctest)]
 macro_rules! page {
     ($name:ident, $path:literal) => {
@@ -12,6 +12,7 @@ macro_rules! page {
 
 #[cfg(doctest)]
 mod pages {
+    page!(Readme, "../README.md");
     page!(Theory, "../docs/theory.md");
     page!(Ancf, "../crates/lariat-ancf/README.md");
     page!(Rapier, "../crates/lariat-rapier/README.md");

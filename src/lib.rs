@@ -56,8 +56,3 @@ pub use lariat_bevy as ecs;
 #[cfg(feature = "rapier")]
 #[doc(no_inline)]
 pub use lariat_rapier as coupling;
-
-/// The README's example compiles and runs.
-#[cfg(doctest)]
-#[doc = include_str!("../README.md")]
-struct Readme;
