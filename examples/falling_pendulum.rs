@@ -3,7 +3,7 @@
 //! `cargo run --release --example falling_pendulum` prints the tip and writes out/falling_pendulum/{tip.csv, snapshots.svg, tip.svg}.
 
 use cpu_time::ProcessTime;
-use lariat::ancf::{At, Cable, Section, Vector3};
+use lariat::{At, Cable, Section, Vector3};
 use lariat_figures::reference_pendulum as pendulum;
 use lariat_figures::{self as figures, Snapshot};
 
