@@ -20,6 +20,7 @@ impl Bridge {
     pub fn new() -> Outcome<Self> {
         let (length, g) = (12.4, 9.81);
         let at = |plank: u32| length * f64::from(plank + 1) / f64::from(PLANKS + 1);
+        let mass = |plank: u32| if plank == PLANKS / 2 { PLANK + WALKER } else { PLANK };
         let (mut world, mut cables, mut ends) = (PhysicsWorld::new(), CableSet::new(), Vec::new());
         let bank = world.insert_body(RigidBodyBuilder::fixed());
         let mut planks = Vec::new();
@@ -38,9 +39,9 @@ impl Bridge {
                 .fix(At::Start)
                 .fix(At::End)
                 .build()?;
-            // the shape that the ropes have with the planks on them, then the planks where it is
+            // the shape of the ropes under all loads first, then the planks where it is
             for plank in 0..PLANKS {
-                rope.add_load(PointLoad::force(at(plank), -0.5 * PLANK * g * Vector3::y()))?;
+                rope.add_load(PointLoad::force(at(plank), -0.5 * mass(plank) * g * Vector3::y()))?;
             }
             rope.equilibrium()?;
             rope.clear_loads();
@@ -75,7 +76,8 @@ impl Stage for Bridge {
         for &end in &self.ends {
             lift -= self.cables.attachment(end)?.force().y;
         }
-        let ropes: f64 = self.cables.iter().map(|(_, rope)| rope.length() * rope.elements()[0].section.mass_per_length).sum();
+        let ropes: f64 =
+            self.cables.iter().map(|(_, rope)| rope.length() * rope.elements()[0].section.mass_per_length).sum();
         let weight = (f64::from(PLANKS) * PLANK + WALKER + ropes) * 9.81;
         let line = format!("the four ends carry {lift:.1} N, all of it weighs {weight:.1} N");
         if (lift / weight - 1.0).abs() < 0.01 { Ok(line) } else { Err(line.into()) }

@@ -55,7 +55,7 @@ macro_rules! recipe {
 
 /// All recipes, in the order of the page.
 pub const ALL: [Recipe; 7] = [
-    recipe!(tow_rope, TowRope, "1 x 10", 2, "game", 300),
+    recipe!(tow_rope, TowRope, "1 x 10", 2, "generalised-alpha-0, 1/240 s", 300),
     recipe!(grapple, Grapple, "1 x 10", 1, "game", 120),
     recipe!(bridge, Bridge, "2 x 16", 7, "generalised-alpha-0, 1/240 s", 300),
     recipe!(lamp, Lamp, "1 x 8", 1, "game", 1200),

@@ -49,7 +49,8 @@ impl Mooring {
     /// Lets the upper end follow the ship for the coming host step.
     fn heave(&mut self, dt: f64) -> Outcome<()> {
         let (t, w) = (self.line.time(), TAU / PERIOD);
-        let ship = |t: f64| (SHIP + Vector3::y() * HEAVE * (1.0 - (w * t).cos()), Vector3::y() * HEAVE * w * (w * t).sin());
+        let ship =
+            |t: f64| (SHIP + Vector3::y() * HEAVE * (1.0 - (w * t).cos()), Vector3::y() * HEAVE * w * (w * t).sin());
         let position = Some(Motion::hermite(t, dt, ship(t), ship(t + dt)));
         self.line.set_support(At::End, Support { position, slope: SlopeSupport::Free, attached: false })?;
         Ok(())
@@ -80,6 +81,10 @@ impl Stage for Mooring {
             "still water: {:.0} N at the ship, catenary {expected:.0} N; heaving: at most {:.0} N",
             self.still, self.largest
         );
-        if (self.still / expected - 1.0).abs() < 0.01 && self.largest > self.still { Ok(line) } else { Err(line.into()) }
+        if (self.still / expected - 1.0).abs() < 0.01 && self.largest > self.still {
+            Ok(line)
+        } else {
+            Err(line.into())
+        }
     }
 }
