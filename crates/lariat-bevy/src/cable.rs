@@ -11,7 +11,7 @@ use bevy_ecs::entity::Entity;
 use bevy_ecs::lifecycle::HookContext;
 use bevy_ecs::name::Name;
 use bevy_ecs::world::DeferredWorld;
-use lariat_ancf::{Fidelity, Integrator, Section};
+use lariat_ancf::{Fidelity, IntegratorChoice, Section};
 
 /// The description of a cable. Spawn it with its rule and effects as components beside it; [`Cables`] then holds the cable:
 ///
@@ -95,14 +95,13 @@ impl Cable {
     }
 
     /// Sets the trade-off between accuracy and cost. Default: engineering.
-    pub fn fidelity(mut self, fidelity: Fidelity) -> Self {
-        self.0.integrator = Err(fidelity);
-        self
+    pub fn fidelity(self, fidelity: Fidelity) -> Self {
+        self.integrator(fidelity)
     }
 
     /// Sets the time integrator. Default: that of the fidelity.
-    pub fn integrator(mut self, integrator: Integrator) -> Self {
-        self.0.integrator = Ok(integrator);
+    pub fn integrator(mut self, integrator: impl Into<IntegratorChoice>) -> Self {
+        self.0.integrator = integrator.into();
         self
     }
 

@@ -1,6 +1,6 @@
 //! The description that a cable is built from.
 
-use lariat_ancf::{At, Effects, Error, Fidelity, Integrator, PointLoad, Rule, Section, Vector3};
+use lariat_ancf::{At, Effects, Error, Integrator, IntegratorChoice, PointLoad, Rule, Section, Vector3};
 
 /// The geometry, section and integrator of a cable; rule, effects and loads are components beside it.
 #[derive(Clone, Debug, PartialEq)]
@@ -13,7 +13,7 @@ pub(crate) struct Description {
     pub elements: usize,
     /// Whether it starts in static equilibrium between its ends.
     pub hanging: bool,
-    pub integrator: Result<Integrator, Fidelity>,
+    pub integrator: IntegratorChoice,
     /// In m/s^2; `None`: that of the world.
     pub gravity: Option<Vector3<f64>>,
     /// Initial velocity in m/s.
@@ -28,7 +28,7 @@ impl Description {
             length: None,
             elements: 10,
             hanging: false,
-            integrator: Err(Fidelity::Engineering),
+            integrator: IntegratorChoice::default(),
             gravity: None,
             velocity: Vector3::zeros(),
         }
@@ -54,17 +54,14 @@ impl Description {
             .elements(self.elements)
             .rule(rule)
             .effects(effects)
-            .velocity(self.velocity);
+            .velocity(self.velocity)
+            .integrator(self.integrator);
         if let Some(length) = self.length {
             builder = builder.length(length);
         }
         if let Some(gravity) = self.gravity {
             builder = builder.gravity(gravity);
         }
-        builder = match self.integrator {
-            Ok(integrator) => builder.integrator(integrator),
-            Err(fidelity) => builder.fidelity(fidelity),
-        };
         let mut cable = if self.hanging {
             let mut cable = builder.fix(At::Start).fix(At::End).build()?;
             cable.equilibrium()?;
@@ -78,14 +75,13 @@ impl Description {
         Ok(cable)
     }
 
-    /// Returns the integrator of a cable that is given other effects: that of the fidelity for the new effects, unless the user
-    /// has set another one since the cable was built.
+    /// Returns the integrator of a cable that is given other effects: the described one, unless the user has set another since the
+    /// cable was built.
     pub fn integrator_for(&self, cable: &lariat_ancf::Cable, effects: &Effects) -> Integrator {
-        let Err(fidelity) = self.integrator else { return cable.integrator() };
         // internal damping needs an implicit method, however low the frequencies of the cable
         let choice = |effects: &Effects| {
             let implicit = effects.needs_implicit_integrator();
-            fidelity.integrator(if implicit { f64::INFINITY } else { cable.frequency_bound() })
+            self.integrator.integrator(if implicit { f64::INFINITY } else { cable.frequency_bound() })
         };
         let untouched = cable.integrator() == choice(cable.effects());
         if untouched { choice(effects) } else { cable.integrator() }

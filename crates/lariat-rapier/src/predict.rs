@@ -19,7 +19,6 @@ impl CableSet {
             islands.iter().for_each(|island| take_back(world, island));
             self.islands = islands;
         }
-        self.complete()?;
         self.end_lost_attachments(world)?;
         self.follow_gravity(world)?;
         self.find_islands(world)?;
@@ -66,7 +65,7 @@ impl CableSet {
         let integrator = part_of(self.island_integrator(&island.cables), parts);
         if island.members.is_empty() {
             for cable in pick(&mut self.cables, &island.cables) {
-                cable.step_with(h, integrator)?;
+                cable.step_with(h, &integrator)?;
             }
             return Ok(());
         }

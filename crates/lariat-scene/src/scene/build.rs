@@ -21,11 +21,8 @@ impl Scene {
             .allow_rank_deficient()
             .gravity(self.gravity)
             .velocity(scene.velocity)
-            .angular_velocity(scene.angular_velocity);
-        builder = match scene.integrator {
-            Ok(integrator) => builder.integrator(integrator),
-            Err(fidelity) => builder.fidelity(fidelity),
-        };
+            .angular_velocity(scene.angular_velocity)
+            .integrator(scene.integrator);
         for attachment in self.attachments.iter().filter(|a| a.cable == index) {
             let at = At::ArcLength(attachment.arc_length);
             builder = if attachment.clamp { builder.clamp(at) } else { builder.fix(at) };

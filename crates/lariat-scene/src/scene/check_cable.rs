@@ -6,7 +6,7 @@ use super::table::{CableTable, IntegratorTable, SectionTable};
 use super::value::RuleValue;
 use super::{CableScene, check_effects};
 use crate::error::Error;
-use lariat_ancf::{Fidelity, Integrator, Method, Rule, Section, Shape, StepControl, Vector3};
+use lariat_ancf::{Fidelity, Integrator, IntegratorChoice, Method, Rule, Section, Shape, StepControl, Vector3};
 
 /// Largest number of elements of a cable.
 const MOST_ELEMENTS: usize = 1_000_000;
@@ -116,12 +116,12 @@ fn shape_of(doc: &Document<'_>, at: &KeyPath, table: &SectionTable) -> Result<Sh
 fn rule(doc: &Document<'_>, at: &KeyPath, value: Option<&RuleValue>, deficient: bool) -> Result<Rule, Error> {
     let rule = match value {
         None => Rule::default(),
-        Some(RuleValue::Name(name)) => name.parse().map_err(|_| doc.error(at, format!("unknown rule {name:?}")))?,
+        Some(RuleValue::Name(name)) => name.parse().map_err(|e| doc.error(at, unknown(&e, "rule", name)))?,
         Some(RuleValue::Pair { axial, bending }) => {
-            let part = |key: &str, text: &str| doc.error(&at.key(key), format!("unknown {key} rule {text:?}"));
+            let part = |e, key: &str, text: &str| doc.error(&at.key(key), unknown(&e, &format!("{key} rule"), text));
             Rule::new(
-                axial.parse().map_err(|_| part("axial", axial))?,
-                bending.parse().map_err(|_| part("bending", bending))?,
+                axial.parse().map_err(|e| part(e, "axial", axial))?,
+                bending.parse().map_err(|e| part(e, "bending", bending))?,
             )
         }
     };
@@ -135,12 +135,22 @@ fn rule(doc: &Document<'_>, at: &KeyPath, value: Option<&RuleValue>, deficient: 
     }
 }
 
+/// The problem with a rule's name, with the nearest name if one is near.
+fn unknown(error: &lariat_ancf::Error, what: &str, name: &str) -> String {
+    match error {
+        lariat_ancf::Error::UnknownRule { suggestion: Some(nearest), .. } => {
+            format!("unknown {what} {name:?}: did you mean {nearest:?}?")
+        }
+        _ => format!("unknown {what} {name:?}"),
+    }
+}
+
 fn integrator(
     doc: &Document<'_>,
     at: &KeyPath,
     table: Option<&IntegratorTable>,
-) -> Result<Result<Integrator, Fidelity>, Error> {
-    let Some(table) = table else { return Ok(Err(Fidelity::Engineering)) };
+) -> Result<IntegratorChoice, Error> {
+    let Some(table) = table else { return Ok(IntegratorChoice::default()) };
     let controls = [
         ("tolerance", table.tolerance.map(StepControl::Tolerance)),
         ("substeps", table.substeps.map(StepControl::Substeps)),
@@ -152,17 +162,13 @@ fn integrator(
         if table.method.is_some() || !given.is_empty() {
             return Err(doc.error(at, "fidelity stands alone"));
         }
-        return match fidelity.as_str() {
-            "game" => Ok(Err(Fidelity::Game)),
-            "engineering" => Ok(Err(Fidelity::Engineering)),
-            "reference" => Ok(Err(Fidelity::Reference)),
-            _ => Err(doc.error(&at.key("fidelity"), format!("unknown fidelity {fidelity:?}"))),
-        };
+        let preset: Result<Fidelity, _> = fidelity.parse();
+        return preset.map(IntegratorChoice::from).map_err(|error| doc.error(&at.key("fidelity"), error.to_string()));
     }
     let method = match &table.method {
         None => Integrator::default().method,
         Some(name) => name.parse::<Method>().map_err(|error| {
-            doc.error_accepting(&at.key("method"), format!("{name:?}: {error}"), "see `lariat integrators`")
+            doc.error_accepting(&at.key("method"), error.to_string(), "see `lariat integrators`")
         })?,
     };
     let [(key, control)] = given[..] else {
@@ -171,5 +177,6 @@ fn integrator(
     if table.method.is_none() && key != "tolerance" {
         return Err(doc.error(&at.key("method"), format!("missing key: {key} needs a method")));
     }
-    Integrator { method, control }.checked().map(Ok).map_err(|error| doc.error(&at.key(key), error.to_string()))
+    let integrator = Integrator { method, control }.checked();
+    integrator.map(IntegratorChoice::from).map_err(|error| doc.error(&at.key(key), error.to_string()))
 }

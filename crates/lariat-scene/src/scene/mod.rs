@@ -68,7 +68,7 @@ use crate::error::Error;
 use crate::physics::collider as physics_of;
 use body::BodyScene;
 use document::Document;
-use lariat_ancf::{Effects, Fidelity, Integrator, Rule, Section, Vector3};
+use lariat_ancf::{Effects, IntegratorChoice, Rule, Section, Vector3};
 use std::path::Path;
 use value::At;
 
@@ -143,7 +143,7 @@ pub struct CableScene {
     /// Effects.
     pub effects: Effects,
     /// Integrator, or a fidelity.
-    pub integrator: Result<Integrator, Fidelity>,
+    pub integrator: IntegratorChoice,
     /// Initial velocity in m/s.
     pub velocity: Vector3<f64>,
     /// Initial angular velocity about the start point in rad/s.

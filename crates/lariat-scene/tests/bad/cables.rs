@@ -297,7 +297,7 @@ fn overrides_come_before_the_checks_and_errors_point_at_them() {
     .unwrap();
     let cable = &scene.cables[0];
     assert_eq!((cable.elements, cable.rule.to_string().as_str(), scene.dt), (20, "ST2", 0.02));
-    assert_eq!(cable.integrator.unwrap().method.to_string(), "esdirk4");
+    assert_eq!(cable.integrator.integrator(f64::INFINITY).method.to_string(), "esdirk4");
     assert_eq!(cable.section.diameter, Some(0.02));
     for (set, fragments) in [
         ("cable.sling.elements=0", &["--set cable.sling.elements=0: cable.sling.elements: 0 elements"][..]),
