@@ -31,12 +31,12 @@ pub fn collider(body: &BodyScene) -> Result<Option<ColliderBuilder>, String> {
         BodyShape::Plane(normal) => {
             ColliderBuilder::new(lariat_rapier::rapier::geometry::SharedShape::halfspace(to_vector(normal)))
         }
-        BodyShape::Mesh { vertices, triangles } => {
-            let corners: Vec<Vector> = vertices.iter().map(|x| to_vector(&(*x).into())).collect();
+        BodyShape::Mesh(mesh) => {
+            let corners: Vec<Vector> = mesh.vertices.iter().map(|x| to_vector(&(*x).into())).collect();
             if body.kind == BodyKind::Dynamic {
                 ColliderBuilder::convex_hull(&corners).ok_or("the mesh has no convex hull")?
             } else {
-                ColliderBuilder::trimesh(corners, triangles.clone()).map_err(|error| error.to_string())?
+                ColliderBuilder::trimesh(corners, mesh.triangles.clone()).map_err(|error| error.to_string())?
             }
         }
     };

@@ -6,7 +6,7 @@
 
 use super::{Frame, thin::Thin};
 use crate::run::{Summary, columns};
-use crate::scene::body::{BodyKind, BodyShape};
+use crate::scene::body::BodyShape;
 use crate::scene::{Scene, Target};
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
@@ -41,7 +41,7 @@ pub fn write(scene: &Scene, summary: &Summary, frames: &[Frame], probes: &[Thin<
         "cables": scene.cables.iter().map(|c| json!({ "name": c.name, "diameter": c.section.diameter })).collect::<Vec<_>>(),
         "bodies": scene.bodies.iter().map(|b| json!({
             "name": b.name,
-            "kind": match b.kind { BodyKind::Dynamic => "dynamic", BodyKind::Fixed => "fixed", BodyKind::Kinematic => "kinematic" },
+            "kind": b.kind.name(),
             "shape": shape(&b.shape),
         })).collect::<Vec<_>>(),
         "attachments": scene.attachments.iter().map(|a| json!({
@@ -84,9 +84,9 @@ fn shape(shape: &BodyShape) -> Value {
         BodyShape::Cylinder(size) => json!({ "cylinder": size }),
         BodyShape::Capsule(size) => json!({ "capsule": size }),
         BodyShape::Plane(normal) => json!({ "plane": normal.as_slice() }),
-        BodyShape::Mesh { vertices, triangles } => {
-            let corners = vertices.iter().flatten().flat_map(|&x| (x as f32).to_le_bytes());
-            let faces = triangles.iter().flatten().flat_map(|i| i.to_le_bytes());
+        BodyShape::Mesh(mesh) => {
+            let corners = mesh.vertices.iter().flatten().flat_map(|&x| (x as f32).to_le_bytes());
+            let faces = mesh.triangles.iter().flatten().flat_map(|i| i.to_le_bytes());
             json!({ "mesh": [base64(corners), base64(faces)] })
         }
     }
