@@ -93,7 +93,7 @@ fn parts(cables: &Cables, handle: CableHandle) -> Option<(PointLoads, LineLoads,
     let cable = cables.set.get(handle).ok()?;
     let effects = cable.effects();
     let shape = effects.rest_shape.clone().map(RestShape);
-    Some((PointLoads(cable.loads().to_vec()), LineLoads(effects.line_loads.clone()), shape))
+    Some((PointLoads(cable.loads().to_vec()), LineLoads(effects.line_loads.clone().unwrap_or_default().0), shape))
 }
 
 /// Attachments beyond the cut, at `length` (m), are the rest's from now on; where they hold it.

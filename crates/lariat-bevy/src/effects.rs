@@ -201,8 +201,8 @@ impl Wanted {
             drag: entity.get::<Drag>().map(|e| e.0.clone()),
             buoyancy: entity.get::<Buoyancy>().map(|e| e.0),
             rest_shape: entity.get::<RestShape>().map(|e| e.0.clone()),
-            line_loads: entity.get::<LineLoads>().map(|e| e.0.clone()).unwrap_or_default(),
-            gravity_scale: lariat_ancf::GravityScale(entity.get::<GravityScale>().map_or(1.0, |e| e.0)),
+            line_loads: entity.get::<LineLoads>().map(|e| lariat_ancf::LineLoads(e.0.clone())),
+            gravity_scale: entity.get::<GravityScale>().map(|e| lariat_ancf::GravityScale(e.0)),
         };
         Wanted {
             name: entity.get::<Name>().map(|name| name.as_str().to_string()),

@@ -24,10 +24,11 @@ mod simd;
 mod strategy;
 mod system;
 
-pub use model::{Element, Model};
+pub use crate::section::Element;
+pub use model::Model;
 
 use crate::diagnostics::Diagnostics;
-use crate::effect::Account;
+use crate::effect::EffectWork;
 use crate::error::{Error, StepFailure, require};
 use crate::integrate::drive::{self, Counts};
 use crate::integrate::{Integrator, Scratch, State};
@@ -72,7 +73,7 @@ pub struct Snapshot {
     pub(crate) phase: State,
     /// Work of effects so far.
     #[serde(default)]
-    pub(crate) account: Account,
+    pub(crate) work: EffectWork,
 }
 
 /// A cable of ANCF elements with its force strategy, integrator and state.
@@ -148,7 +149,7 @@ impl Cable {
         self.check_not_attached()?;
         self.saved.copy_from(&self.state.phase);
         self.refresh_memory();
-        self.system.account = Account::default();
+        self.system.work = EffectWork::default();
         let mut counts = Counts::default();
         let mut equations =
             Equations { model: &self.model, system: &mut self.system, diagnostics: &mut self.diagnostics };
@@ -305,8 +306,7 @@ impl Cable {
             .phase
             .check(self.positions().len())
             .map_err(|reason| Error::InvalidShape { cable: self.name().to_string(), reason })?;
-        let Account { damping, drag, line_load } = state.account;
-        [damping, drag, line_load].into_iter().try_for_each(|x| require("work of effects (J)", x, true, "a number"))?;
+        state.work.by_key().try_for_each(|(_, x)| require("work of effects (J)", x, true, "a number"))?;
         self.state = state;
         Ok(())
     }

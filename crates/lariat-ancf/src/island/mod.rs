@@ -39,7 +39,7 @@ pub use memory::BodyMemory;
 pub use workspace::CLOSING_SPEED;
 
 use crate::cable::{At, Cable, SHORTEST_STEP, check_integrator};
-use crate::effect::Account;
+use crate::effect::EffectWork;
 use crate::error::{Error, require, require_finite};
 use crate::integrate::drive::{self, Counts};
 use crate::integrate::{Integrator, Scratch, State};
@@ -93,7 +93,7 @@ impl Island {
         if dt == 0.0 {
             return Ok(());
         }
-        cables.iter_mut().for_each(|cable| cable.system.account = Account::default());
+        cables.iter_mut().for_each(|cable| cable.system.work = EffectWork::default());
         let Island { workspace, scratch, phase } = self;
         workspace.begin(cables, bodies, pins, dt);
         gather(cables, bodies, phase);

@@ -263,7 +263,7 @@ impl Dynamics for Work<'_, '_> {
         for c in 0..self.cables.len() {
             let (mut equations, part) = self.equations(c);
             let range = part.at..part.at + part.size;
-            equations.account_step(before, after, h, range);
+            equations.add_effect_work(before, after, h, range);
         }
     }
 
@@ -284,7 +284,7 @@ impl Dynamics for Work<'_, '_> {
     }
 
     fn exact_tangent(&self) -> bool {
-        self.cables.iter().all(|cable| cable.effects().exact_tangent())
+        self.cables.iter().all(|cable| cable.effects().has_exact_tangent())
     }
 
     fn frequency_bound(&self) -> f64 {

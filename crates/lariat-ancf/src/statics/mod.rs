@@ -124,7 +124,7 @@ impl Cable {
             return Err(no_equilibrium(self, "nothing holds the cable in place".to_string(), resultant, 0));
         }
         self.system.static_time = self.time();
-        let (before, revision, account) = (self.state.clone(), self.revision, self.state.account);
+        let (before, revision, work) = (self.state.clone(), self.revision, self.state.work);
         let loads = self.model.loads.clone();
         // "time" runs from no load (0) to full load (1) while statics are solved
         self.model.loads.iter_mut().for_each(|load| (load.ramp, load.start) = (1.0, 0.0));
@@ -134,7 +134,7 @@ impl Cable {
         match outcome {
             Ok(report) => {
                 // what drag takes on the way to rest is no part of the cable's history
-                self.state.account = account;
+                self.state.work = work;
                 self.still();
                 Ok(report)
             }

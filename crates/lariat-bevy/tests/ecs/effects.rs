@@ -23,9 +23,9 @@ fn what_is_absent_is_never_evaluated() {
     assert!(done.element_evaluations() > 0);
     let effects = [
         done.bending_evaluations,
-        done.damping_evaluations,
-        done.drag_evaluations,
-        done.rest_shape_evaluations,
+        done.effects.damping,
+        done.effects.drag,
+        done.effects.rest_shape,
         done.load_evaluations,
     ];
     assert_eq!(effects, [0; 5]);
@@ -41,12 +41,12 @@ fn an_effect_works_from_the_step_after_it_comes_to_the_step_after_it_goes() {
     let rest = vec![RestPiece { from: 0.0, stretch: 1.0001, curvature: 0.1 }];
     world.entity_mut(cable).insert((RestShape::from(rest), PointLoads(vec![PointLoad::force(2.0, Vector3::x())])));
     let on = counted(&mut world, 5);
-    assert!(on.bending_evaluations > 0 && on.damping_evaluations > 0 && on.drag_evaluations > 0);
-    assert!(on.rest_shape_evaluations > 0 && on.load_evaluations > 0);
+    assert!(on.bending_evaluations > 0 && on.effects.damping > 0 && on.effects.drag > 0);
+    assert!(on.effects.rest_shape > 0 && on.load_evaluations > 0);
     world.entity_mut(cable).remove::<(Bending, Damping, Drag, RestShape, PointLoads)>();
     let off = counted(&mut world, 5);
-    assert_eq!((off.bending_evaluations, off.damping_evaluations, off.drag_evaluations), (0, 0, 0));
-    assert_eq!((off.rest_shape_evaluations, off.load_evaluations), (0, 0));
+    assert_eq!((off.bending_evaluations, off.effects.damping, off.effects.drag), (0, 0, 0));
+    assert_eq!((off.effects.rest_shape, off.load_evaluations), (0, 0));
     assert!(off.element_evaluations() > 0);
 }
 

@@ -7,8 +7,10 @@ use super::flow::{self, FLOW};
 use crate::document::{Document, KeyPath};
 use crate::error::{Error, Problem};
 use crate::schema::{ANY, Choose, Default, Key, Kind, NOT_NEGATIVE, POSITIVE, VECTOR, table};
+use lariat_ancf::effect::Effect;
 use lariat_ancf::{
-    BendingRule, Buoyancy, Damping, Drag, Effects, GravityScale, LineLoad, RestPiece, RestShape, Rule, Section,
+    BendingRule, Buoyancy, Damping, Drag, Effects, GravityScale, LineLoad, LineLoads, RestPiece, RestShape, Rule, Section,
+    for_each_effect,
 };
 use serde::de::DeserializeOwned;
 use toml::Value;
@@ -23,48 +25,65 @@ pub(super) struct Context<'c> {
     pub length: f64,
 }
 
-/// An effect that a scene can switch on.
-trait SceneEffect: Sized {
-    /// Its key of `[[cable]]`.
-    const KEY: Key;
+/// An effect as a scene writes it. Every effect of the list of the mechanics is one.
+trait SceneEffect: Effect {
+    /// The values of its key.
+    const KIND: Kind;
+    /// What holds without it.
+    const WITHOUT: &'static str;
 
-    /// Reads its value, which the schema has accepted.
-    fn read(doc: &Document<'_>, at: &KeyPath, value: Value, cable: &Context<'_>) -> Result<Self, Error>;
+    /// Writes a shorter form of its value out as the mechanics reads it.
+    fn write_out(_doc: &Document<'_>, _at: &KeyPath, _value: &mut Value, _cable: &Context<'_>) -> Result<(), Error> {
+        Ok(())
+    }
+
+    /// Checks what single values do not show.
+    fn check(&self, doc: &Document<'_>, at: &KeyPath, cable: &Context<'_>) -> Result<(), Error>;
 }
 
-/// The keys of all effects.
-pub(super) const EFFECTS: &[Key] =
-    &[Damping::KEY, Drag::KEY, Buoyancy::KEY, RestShape::KEY, <Vec<LineLoad>>::KEY, GravityScale::KEY];
+macro_rules! generate {
+    ($({ field: $field:ident, type: $type:ident, set: $set:ident, key: $key:literal, summary: $summary:literal })*) => {
+        /// The keys of all effects.
+        pub(super) const EFFECTS: &[Key] = &[$(Key {
+            name: $key,
+            kind: <$type as SceneEffect>::KIND,
+            unit: "",
+            default: Default::Absent(<$type as SceneEffect>::WITHOUT),
+            meaning: $summary,
+        }),*];
 
-/// Reads the effects of the cable at a path from its remaining keys.
-pub(super) fn read(doc: &Document<'_>, at: &KeyPath, mut rows: toml::Table, cable: &Context<'_>) -> Result<Effects, Error> {
-    Ok(Effects {
-        damping: one(doc, at, &mut rows, cable)?,
-        drag: one(doc, at, &mut rows, cable)?,
-        buoyancy: one(doc, at, &mut rows, cable)?,
-        rest_shape: one(doc, at, &mut rows, cable)?,
-        line_loads: one(doc, at, &mut rows, cable)?.unwrap_or_default(),
-        gravity_scale: one(doc, at, &mut rows, cable)?.unwrap_or_default(),
-    })
+        /// Reads the effects of the cable at a path from its remaining keys.
+        pub(super) fn read(
+            doc: &Document<'_>,
+            at: &KeyPath,
+            mut rows: toml::Table,
+            cable: &Context<'_>,
+        ) -> Result<Effects, Error> {
+            Ok(Effects { $($field: one(doc, &at.key($key), rows.remove($key), cable)?),* })
+        }
+    };
 }
+
+for_each_effect!(generate);
 
 fn one<T: SceneEffect>(
     doc: &Document<'_>,
     at: &KeyPath,
-    rows: &mut toml::Table,
+    value: Option<Value>,
     cable: &Context<'_>,
 ) -> Result<Option<T>, Error> {
-    let value = rows.remove(T::KEY.name);
-    value.map(|value| T::read(doc, &at.key(T::KEY.name), value, cable)).transpose()
+    let Some(mut value) = value.filter(|value| value.as_array().is_none_or(|rows| !rows.is_empty())) else {
+        return Ok(None);
+    };
+    T::write_out(doc, at, &mut value, cable)?;
+    let effect: T = typed(doc, at, value)?;
+    SceneEffect::check(&effect, doc, at, cable)?;
+    Ok(Some(effect))
 }
 
 /// Reads a value into a type.
 pub(super) fn typed<T: DeserializeOwned>(doc: &Document<'_>, at: &KeyPath, value: Value) -> Result<T, Error> {
     value.try_into().map_err(|error: toml::de::Error| doc.conflict(at, error.message()))
-}
-
-const fn key(name: &'static str, kind: Kind, default: Default, meaning: &'static str) -> Key {
-    Key { name, kind, unit: "", default, meaning }
 }
 
 table! {
@@ -79,14 +98,14 @@ table! {
 }
 
 impl SceneEffect for Damping {
-    const KEY: Key = key("damping", Kind::Table(&DAMPING), Default::Absent("off"), "Internal damping.");
+    const KIND: Kind = Kind::Table(&DAMPING);
+    const WITHOUT: &'static str = "off";
 
-    fn read(doc: &Document<'_>, at: &KeyPath, value: Value, cable: &Context<'_>) -> Result<Self, Error> {
-        let damping: Damping = typed(doc, at, value)?;
-        if damping.bending > 0.0 && cable.rule.bending == BendingRule::None {
+    fn check(&self, doc: &Document<'_>, at: &KeyPath, cable: &Context<'_>) -> Result<(), Error> {
+        if self.bending > 0.0 && cable.rule.bending == BendingRule::None {
             return Err(doc.conflict(&at.key("bending"), format!("rule {} has no bending to damp", cable.rule)));
         }
-        Ok(damping)
+        Ok(())
     }
 }
 
@@ -107,17 +126,18 @@ table! {
 }
 
 impl SceneEffect for Drag {
-    const KEY: Key = key("drag", Kind::Table(&DRAG), Default::Absent("off"), "Drag of a fluid or wind.");
+    const KIND: Kind = Kind::Table(&DRAG);
+    const WITHOUT: &'static str = "off";
 
-    fn read(doc: &Document<'_>, at: &KeyPath, mut value: Value, cable: &Context<'_>) -> Result<Self, Error> {
-        if let Some(flow) = value.get_mut("flow") {
-            flow::write_out(doc, &at.key("flow"), flow)?;
+    fn write_out(doc: &Document<'_>, at: &KeyPath, value: &mut Value, _: &Context<'_>) -> Result<(), Error> {
+        value.get_mut("flow").map_or(Ok(()), |flow| flow::write_out(doc, &at.key("flow"), flow))
+    }
+
+    fn check(&self, doc: &Document<'_>, at: &KeyPath, cable: &Context<'_>) -> Result<(), Error> {
+        match self.diameter.or(cable.section.diameter) {
+            Some(_) => Ok(()),
+            None => Err(doc.missing(&at.key("diameter"))),
         }
-        let drag: Drag = typed(doc, at, value)?;
-        if drag.diameter.or(cable.section.diameter).is_none() {
-            return Err(doc.missing(&at.key("diameter")));
-        }
-        Ok(drag)
     }
 }
 
@@ -134,14 +154,14 @@ table! {
 }
 
 impl SceneEffect for Buoyancy {
-    const KEY: Key = key("buoyancy", Kind::Table(&BUOYANCY), Default::Absent("off"), "Buoyancy and added mass.");
+    const KIND: Kind = Kind::Table(&BUOYANCY);
+    const WITHOUT: &'static str = "off";
 
-    fn read(doc: &Document<'_>, at: &KeyPath, value: Value, cable: &Context<'_>) -> Result<Self, Error> {
-        let buoyancy: Buoyancy = typed(doc, at, value)?;
-        if buoyancy.area.or(cable.section.outer_area).is_none() {
-            return Err(doc.missing(&at.key("area")));
+    fn check(&self, doc: &Document<'_>, at: &KeyPath, cable: &Context<'_>) -> Result<(), Error> {
+        match self.area.or(cable.section.outer_area) {
+            Some(_) => Ok(()),
+            None => Err(doc.missing(&at.key("area"))),
         }
-        Ok(buoyancy)
     }
 }
 
@@ -174,24 +194,26 @@ table! {
 }
 
 impl SceneEffect for RestShape {
-    const KEY: Key = key(
-        "rest_shape",
-        Kind::Table(&RestShapeTable::TABLE),
-        Default::Absent("straight and unstretched"),
-        "Stress-free stretch and curvature.",
-    );
+    const KIND: Kind = Kind::Table(&RestShapeTable::TABLE);
+    const WITHOUT: &'static str = "straight and unstretched";
 
-    fn read(doc: &Document<'_>, at: &KeyPath, value: Value, cable: &Context<'_>) -> Result<Self, Error> {
-        let RestShapeTable { stretch, curvature, piece } = typed(doc, at, value)?;
-        let whole = stretch.is_some() || curvature.is_some();
-        if whole && !piece.is_empty() {
-            return Err(doc.conflict(&at.key("piece"), "both pieces and numbers of the whole cable are given"));
+    fn write_out(doc: &Document<'_>, at: &KeyPath, value: &mut Value, _: &Context<'_>) -> Result<(), Error> {
+        let RestShapeTable { stretch, curvature, mut piece } = typed(doc, at, value.clone())?;
+        if stretch.is_some() || curvature.is_some() {
+            if !piece.is_empty() {
+                return Err(doc.conflict(&at.key("piece"), "both pieces and numbers of the whole cable are given"));
+            }
+            let (stretch, curvature) = (stretch.unwrap_or(1.0), curvature.unwrap_or(0.0));
+            piece.push(RestPiece { from: 0.0, stretch, curvature });
         }
-        let uniform = RestPiece { from: 0.0, stretch: stretch.unwrap_or(1.0), curvature: curvature.unwrap_or(0.0) };
-        let pieces = if whole { vec![uniform] } else { piece };
+        *value = Value::try_from(piece).map_err(|error| doc.conflict(at, error.to_string()))?;
+        Ok(())
+    }
+
+    fn check(&self, doc: &Document<'_>, at: &KeyPath, cable: &Context<'_>) -> Result<(), Error> {
         let mut before = f64::NEG_INFINITY;
-        for (i, piece) in pieces.iter().enumerate() {
-            let at = if whole { at.clone() } else { at.key("piece").item(i) };
+        for (i, piece) in self.pieces.iter().enumerate() {
+            let at = at.key("piece").item(i);
             if piece.from <= before || piece.from >= cable.length {
                 return Err(doc.error(&at.key("from"), Problem::OutOfRange(piece.from)));
             }
@@ -201,7 +223,7 @@ impl SceneEffect for RestShape {
             }
             before = piece.from;
         }
-        Ok(RestShape { pieces })
+        Ok(())
     }
 }
 
@@ -217,15 +239,19 @@ table! {
     }
 }
 
-impl SceneEffect for Vec<LineLoad> {
-    const KEY: Key = key("line_load", Kind::Tables(&LINE_LOAD), Default::Absent("none"), "Forces per length.");
+impl SceneEffect for LineLoads {
+    const KIND: Kind = Kind::Tables(&LINE_LOAD);
+    const WITHOUT: &'static str = "none";
 
-    fn read(doc: &Document<'_>, at: &KeyPath, mut value: Value, cable: &Context<'_>) -> Result<Self, Error> {
+    fn write_out(_: &Document<'_>, _: &KeyPath, value: &mut Value, cable: &Context<'_>) -> Result<(), Error> {
         for load in value.as_array_mut().into_iter().flatten().filter_map(Value::as_table_mut) {
             load.entry("to").or_insert(Value::Float(cable.length));
         }
-        let loads: Vec<LineLoad> = typed(doc, at, value)?;
-        for (i, load) in loads.iter().enumerate() {
+        Ok(())
+    }
+
+    fn check(&self, doc: &Document<'_>, at: &KeyPath, cable: &Context<'_>) -> Result<(), Error> {
+        for (i, load) in self.0.iter().enumerate() {
             let at = at.item(i);
             if load.from >= cable.length {
                 return Err(doc.error(&at.key("from"), Problem::OutOfRange(load.from)));
@@ -234,19 +260,15 @@ impl SceneEffect for Vec<LineLoad> {
                 return Err(doc.error(&at.key("to"), Problem::OutOfRange(load.to)));
             }
         }
-        Ok(loads)
+        Ok(())
     }
 }
 
 impl SceneEffect for GravityScale {
-    const KEY: Key = key(
-        "gravity_scale",
-        Kind::Number(ANY),
-        Default::Value("1.0"),
-        "Factor of gravity, less buoyancy, for this cable.",
-    );
+    const KIND: Kind = Kind::Number(ANY);
+    const WITHOUT: &'static str = "1";
 
-    fn read(doc: &Document<'_>, at: &KeyPath, value: Value, _: &Context<'_>) -> Result<Self, Error> {
-        typed(doc, at, value)
+    fn check(&self, _: &Document<'_>, _: &KeyPath, _: &Context<'_>) -> Result<(), Error> {
+        Ok(())
     }
 }
