@@ -49,11 +49,14 @@ pub enum Problem {
     /// A number outside its range.
     #[error("{} is out of range", number(*.0))]
     OutOfRange(f64),
+    /// A number that is too large or too small for the single precision of Rapier.
+    #[error("{} is beyond the single precision of Rapier", number(*.0))]
+    BeyondSingle(f64),
     /// Numbers that are infinite or not a number.
     #[error("{} not finite", not_finite(.0))]
     NotFinite(Vec<f64>),
     /// Too few rows.
-    #[error("the number of rows is {0}")]
+    #[error("too few rows: {0}")]
     TooFewRows(usize),
     /// Rows whose first number does not ascend.
     #[error("{name} = {after} follows {name} = {before}")]
@@ -66,13 +69,8 @@ pub enum Problem {
         after: f64,
     },
     /// A text that is not one of those accepted.
-    #[error("unknown {key} {value:?}")]
-    UnknownValue {
-        /// The key.
-        key: String,
-        /// The text.
-        value: String,
-    },
+    #[error("unknown value {0:?}")]
+    UnknownValue(String),
     /// A text that a parser does not understand; why not.
     #[error("{0}")]
     NotUnderstood(String),

@@ -60,48 +60,44 @@ impl<'t> Document<'t> {
         Place::Line { file: self.file.clone(), line: line_of(self.text, span.start) }
     }
 
+    /// Returns the values along a path, from the root on, as far as they are written.
+    fn follow<'d>(&'d self, path: &'d KeyPath) -> impl Iterator<Item = &'d Spanned<DeValue<'t>>> {
+        let mut here: Option<&Spanned<DeValue<'_>>> = None;
+        path.0.iter().map_while(move |step| {
+            let value = here.map(Spanned::get_ref);
+            here = match (step, value) {
+                (Step::Key(key), None) => self.root.get_ref().get(key.as_str()),
+                (Step::Key(key), Some(value)) => value.as_table().and_then(|table| table.get(key.as_str())),
+                (Step::Item(i), value) => value.and_then(DeValue::as_array).and_then(|array| array.get(*i)),
+            };
+            here
+        })
+    }
+
+    /// Returns whether a path is written in the scene.
+    pub fn contains(&self, path: &KeyPath) -> bool {
+        self.follow(path).count() == path.0.len()
+    }
+
     /// Returns where the value at a path was written, or the nearest table around it.
     fn place_of(&self, path: &KeyPath) -> Place {
-        let mut span = self.root.span();
-        let mut here: Option<&DeValue<'_>> = None;
-        for step in &path.0 {
-            let next = match (step, here) {
-                (Step::Key(key), None) => self.root.get_ref().get(key.as_str()),
-                (Step::Key(key), Some(value)) => value.as_table().and_then(|t| t.get(key.as_str())),
-                (Step::Item(i), Some(value)) => value.as_array().and_then(|a| a.get(*i)),
-                (Step::Item(_), None) => None,
-            };
-            let Some(value) = next else { break };
-            span = value.span();
-            here = Some(value.get_ref());
-        }
-        self.place(&span)
+        self.place(&self.follow(path).last().map_or(self.root.span(), Spanned::span))
     }
 
     /// Returns the path as a user writes it: tables of an array by their name, or their position from 0.
-    fn display(&self, path: &KeyPath) -> String {
+    pub fn display(&self, path: &KeyPath) -> String {
         let mut text = String::new();
-        let mut here: Option<&DeValue<'_>> = None;
+        let mut values = self.follow(path);
         for step in &path.0 {
+            let name = values.next().and_then(|value| name_of(value.get_ref()));
             if !text.is_empty() {
                 text.push('.');
             }
-            match step {
-                Step::Key(key) => {
-                    text.push_str(key);
-                    here = match here {
-                        None => self.root.get_ref().get(key.as_str()),
-                        Some(value) => value.as_table().and_then(|t| t.get(key.as_str())),
-                    }
-                    .map(Spanned::get_ref);
-                }
-                Step::Item(i) => {
-                    here = here.and_then(DeValue::as_array).and_then(|a| a.get(*i)).map(Spanned::get_ref);
-                    match here.and_then(name_of) {
-                        Some(name) => text.push_str(name),
-                        None => _ = write!(text, "{i}"),
-                    }
-                }
+            match (step, name) {
+                (Step::Key(key), _) => text.push_str(key),
+                (Step::Item(_), Some(name)) => text.push_str(name),
+                // writing to a String cannot fail
+                (Step::Item(i), None) => _ = write!(text, "{i}"),
             }
         }
         if text.is_empty() { "scene".to_string() } else { text }
@@ -132,7 +128,7 @@ impl<'t> Document<'t> {
         known: impl IntoIterator<Item = &'n str>,
     ) -> Error {
         let known: Vec<&str> = known.into_iter().collect();
-        let accepted = if known.is_empty() { format!("none: the scene has no {what}") } else { known.join(" | ") };
+        let accepted = if known.is_empty() { format!("no name, the scene has no {what}") } else { known.join(" | ") };
         self.suggesting(path, Problem::UnknownName { what, name: name.to_string() }, accepted, nearest(name, known))
     }
 

@@ -88,8 +88,7 @@ impl Document<'_> {
                 if names().contains(&text.as_ref()) {
                     return Ok(Value::String(text.to_string()));
                 }
-                let problem = Problem::UnknownValue { key: path.last_key().to_string(), value: text.to_string() };
-                Err(self.error_near(path, problem, text, &names()))
+                Err(self.error_near(path, Problem::UnknownValue(text.to_string()), text, &names()))
             }
             (Kind::Parsed { parse, known, .. }, DeValue::String(text)) => match parse(text) {
                 Ok(()) => Ok(Value::String(text.to_string())),
@@ -139,7 +138,7 @@ impl Document<'_> {
         if range.contains(x) {
             return Ok(Value::Float(x));
         }
-        Err(self.error(path, if x.is_finite() { Problem::OutOfRange(x) } else { Problem::NotFinite(vec![x]) }))
+        Err(self.error(path, if x.is_finite() { out_of_range(range, x) } else { Problem::NotFinite(vec![x]) }))
     }
 
     fn numbers(
@@ -158,7 +157,7 @@ impl Document<'_> {
             return Err(self.error(path, Problem::NotFinite(numbers)));
         }
         match numbers.iter().find(|x| !range.contains(**x)) {
-            Some(x) => Err(self.error(path, Problem::OutOfRange(*x))),
+            Some(x) => Err(self.error(path, out_of_range(range, *x))),
             None => Ok(Value::Array(numbers.into_iter().map(Value::Float).collect())),
         }
     }
@@ -189,7 +188,7 @@ impl Document<'_> {
             DeValue::Integer(_) | DeValue::Float(_) => format!("the number {}", number_of(value)),
             DeValue::Boolean(flag) => format!("{flag}"),
             DeValue::Datetime(date) => format!("the date {date}"),
-            DeValue::Array(items) => format!("an array of {}", items.len()),
+            DeValue::Array(items) => format!("an array of {} values", items.len()),
             DeValue::Table(_) => "a table".to_string(),
         };
         self.error(path, Problem::WrongType(found))
@@ -223,6 +222,11 @@ fn form(value: &DeValue<'_>) -> Form {
         DeValue::Array(_) => Form::Array,
         DeValue::Table(_) => Form::Table,
     }
+}
+
+/// Returns why a finite number is not in a range.
+fn out_of_range(range: &Range, x: f64) -> Problem {
+    if range.contains_in_double(x) { Problem::BeyondSingle(x) } else { Problem::OutOfRange(x) }
 }
 
 /// Returns a number of a scene; NaN for what is no number.

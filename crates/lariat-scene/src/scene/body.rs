@@ -36,7 +36,7 @@ table! {
         kind: BodyKind = "dynamic", Kind::Choice(BodyKind::names);
         /// Shape about the origin of the body.
         shape: BodyShape = required, Kind::Either(&[Kind::Choice(|| vec!["none"]), Kind::Table(&SHAPE)]), "m";
-        /// Mass of a dynamic body; other bodies have none.
+        /// Mass of a dynamic body, or `density`; other bodies have neither.
         mass: Option<f64> = ("a dynamic body needs `mass` or `density`"), Kind::Number(POSITIVE.single()), "kg";
         /// Density of a dynamic body with a shape, instead of `mass`.
         density: Option<f64> = (), Kind::Number(POSITIVE.single()), "kg/m^3";
@@ -72,7 +72,7 @@ table! {
         /// Normal of a half space whose surface goes through the origin, for a fixed or kinematic body.
         plane = (), SINGLE;
         /// OBJ file with triangles, named from the folder of the scene. A dynamic body takes their convex hull, which must enclose a volume.
-        mesh = (), Kind::Text, "m";
+        mesh = (), Kind::Text;
     }
     choose Choose::ExactlyOne(&["cuboid", "ball", "cylinder", "capsule", "plane", "mesh"]);
 }

@@ -186,8 +186,8 @@ fn section(doc: &Document<'_>, at: &KeyPath, row: &CableTable) -> Result<Section
     let material = [("density", row.density), ("youngs_modulus", row.youngs_modulus)];
     let given = |keys: &[(&'static str, Option<f64>)]| keys.iter().find(|(_, x)| x.is_some()).map(|(key, _)| *key);
     let required = |(key, value): (&str, Option<f64>)| value.ok_or_else(|| doc.missing(&at.key(key)));
-    let invalid = |key: &str| {
-        let at = at.key(key);
+    let invalid = |path: &str| {
+        let at = path.split('.').fold(at.clone(), |at, key| at.key(key));
         move |error: lariat_ancf::Error| doc.conflict(&at, error.to_string())
     };
     match (row.section, given(&stiffness), given(&material)) {
@@ -201,7 +201,8 @@ fn section(doc: &Document<'_>, at: &KeyPath, row: &CableTable) -> Result<Section
         (Some(shape), None, _) => {
             let [density, modulus] = material.map(required);
             let density = density?;
-            Section::new(shape, modulus?, density).map_err(invalid("section"))
+            let key = if matches!(shape, Shape::Tube(..)) { "section.tube" } else { "section" };
+            Section::new(shape, modulus?, density).map_err(invalid(key))
         }
     }
 }

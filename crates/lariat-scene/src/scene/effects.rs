@@ -213,7 +213,8 @@ impl SceneEffect for RestShape {
     fn check(&self, doc: &Document<'_>, at: &KeyPath, cable: &Context<'_>) -> Result<(), Error> {
         let mut before = f64::NEG_INFINITY;
         for (i, piece) in self.pieces.iter().enumerate() {
-            let at = at.key("piece").item(i);
+            let written = at.key("piece").item(i);
+            let at = if doc.contains(&written) { &written } else { at };
             if piece.from <= before || piece.from >= cable.length {
                 return Err(doc.error(&at.key("from"), Problem::OutOfRange(piece.from)));
             }

@@ -2,7 +2,7 @@
 
 use crate::document::{Document, KeyPath};
 use crate::error::{Error, Problem};
-use crate::schema::{Choose, Kind, POSITIVE, SHARE, parse_as, table};
+use crate::schema::{Choose, Kind, MANY, POSITIVE, SHARE, parse_as, table};
 use lariat_ancf::{Fidelity, Integrator, Method, StepControl};
 
 table! {
@@ -13,7 +13,7 @@ table! {
         /// Error of position per host step, for a method with an error estimate.
         tolerance: Option<f64> = (), Kind::Number(POSITIVE), "m";
         /// Equal steps in each host step; a probe between two host times splits the host step.
-        substeps: Option<u32> = (), Kind::Whole(1, 1_000_000);
+        substeps: Option<u32> = (), Kind::Whole(1, MANY);
         /// Longest step.
         max_step: Option<f64> = (), Kind::Number(POSITIVE), "s";
         /// Share of the stability limit, for an explicit method.

@@ -38,7 +38,7 @@ pub use probe::{ProbeScene, Target};
 
 use crate::document::{Document, KeyPath};
 use crate::error::{Error, Problem};
-use crate::schema::{Default, Key, Kind, POSITIVE, VECTOR, choice, table};
+use crate::schema::{Default, Key, Kind, MANY, POSITIVE, VECTOR, choice, table};
 use body::BodyScene;
 use lariat_ancf::Vector3;
 use std::path::Path;
@@ -79,7 +79,7 @@ table! {
         /// Computes the bodies, and the junctions of cables.
         engine: Option<Engine> = ("`\"rapier\"` with bodies or junctions, else `\"none\"`"), Kind::Choice(Engine::names);
         /// Rapier's `num_solver_iterations`, with `engine = "rapier"`.
-        solver_iterations: Option<u32> = ("Rapier's"), Kind::Whole(1, 1_000_000);
+        solver_iterations: Option<u32> = ("Rapier's"), Kind::Whole(1, MANY);
         /// Rigid bodies.
         body: Vec<body::BodyTable> = ("none"), Kind::Tables(&body::BodyTable::TABLE);
         /// Joints between bodies.

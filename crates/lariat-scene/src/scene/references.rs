@@ -83,7 +83,7 @@ pub(super) fn unique<'n>(
 /// Checks that a vector stays finite in the single precision of Rapier.
 pub(super) fn single(doc: &Document<'_>, at: &KeyPath, vector: &Vector3<f64>) -> Result<(), Error> {
     match vector.iter().find(|x| !ANY.single().contains(**x)) {
-        Some(x) => Err(doc.error(at, Problem::OutOfRange(*x))),
+        Some(x) => Err(doc.error(at, Problem::BeyondSingle(*x))),
         None => Ok(()),
     }
 }

@@ -88,7 +88,7 @@ pub enum Kind {
     },
     /// `true` or `false`.
     Flag,
-    /// A whole number from the first to the second, both included.
+    /// A whole number from the first to the second, both included; [`MANY`] stands for no limit.
     Whole(u64, u64),
     /// A finite number.
     Number(Range),
@@ -107,6 +107,9 @@ pub enum Kind {
     /// A part of the format that this version does not compute: every value is an error that says so.
     NotBuilt,
 }
+
+/// No limit of a whole number.
+pub const MANY: u64 = u32::MAX as u64;
 
 /// Three numbers in the axes of the world or a body.
 pub const VECTOR: Kind = Kind::Numbers(&["x", "y", "z"], ANY);

@@ -1,6 +1,6 @@
 //! What a key accepts, in words: the end of every message about a value that is not accepted.
 
-use super::{Choose, Key, Kind, Range, Table};
+use super::{Choose, Key, Kind, MANY, Range, Table};
 
 impl Key {
     /// Returns what the key accepts, with its unit and the first sentence of its meaning.
@@ -43,7 +43,7 @@ impl Kind {
             Kind::Choice(names) => names().iter().map(|name| format!("{name:?}")).collect::<Vec<_>>().join(" | "),
             Kind::Parsed { accepted, .. } => (*accepted).to_string(),
             Kind::Flag => "true | false".to_string(),
-            Kind::Whole(low, u64::MAX) => format!("a whole number >= {low}"),
+            Kind::Whole(low, MANY) => format!("a whole number >= {low}"),
             Kind::Whole(low, high) => format!("a whole number from {low} to {high}"),
             Kind::Number(range) => format!("a finite number{}", after_space(range)),
             Kind::Numbers(names, range) => {
@@ -54,9 +54,9 @@ impl Kind {
                 };
                 format!("[{}], {count} finite numbers{}", names.join(", "), after_space(range))
             }
-            Kind::Rows(names, least) => format!("{least} or more rows [{}] of finite numbers", names.join(", ")),
+            Kind::Rows(names, least) => format!("rows [{}] of finite numbers, at least {least}", names.join(", ")),
             Kind::Ascending(names) => {
-                format!("one or more rows [{}] of finite numbers, {} ascending", names.join(", "), names[0])
+                format!("rows [{}] of finite numbers, at least 1, {} ascending", names.join(", "), names[0])
             }
             Kind::Table(table) => match table.choose {
                 Choose::ExactlyOne(names) if names.len() == table.keys().count() => {

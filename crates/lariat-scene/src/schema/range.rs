@@ -28,7 +28,12 @@ impl Range {
     /// Returns whether a number is in the range.
     pub fn contains(&self, x: f64) -> bool {
         let rounded = f64::from(x as f32);
-        x.is_finite() && (self.inside)(x) && (!self.single || rounded.is_finite() && (self.inside)(rounded))
+        self.contains_in_double(x) && (!self.single || rounded.is_finite() && (self.inside)(rounded))
+    }
+
+    /// Returns whether a number is in the range before it is rounded to single precision.
+    pub fn contains_in_double(&self, x: f64) -> bool {
+        x.is_finite() && (self.inside)(x)
     }
 }
 

@@ -1,7 +1,7 @@
-//! Bad scenes: each is refused with the line, the key and what is accepted, before anything is written.
+//! Invalid scenes: each is an error with the line, the key and what is accepted, before anything is written.
 
-mod bench;
 mod bodies;
 mod cables;
+mod cases;
 mod joints;
 mod junctions;
