@@ -60,8 +60,8 @@ pub use effect::{
     Buoyancy, Damping, Drag, EffectCounts, EffectWork, Effects, Flow, GravityScale, LineLoad, LineLoads, RestPiece,
     RestShape,
 };
-pub use error::{Error, StepFailure};
-pub use integrate::{Fidelity, Integrator, Method, StepControl};
+pub use error::{EquilibriumFailure, Error, PinProblem, Requirement, StepFailure};
+pub use integrate::{Fidelity, Integrator, IntegratorChoice, IntegratorRef, Method, StepControl};
 pub use load::PointLoad;
 /// The vector type of the public interface (nalgebra's).
 pub use nalgebra::Vector3;

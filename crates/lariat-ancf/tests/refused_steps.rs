@@ -19,7 +19,7 @@ fn an_impossible_load_is_refused_and_the_next_step_works_without_it() {
         alone.step(0.01).unwrap();
         cable.add_load(PointLoad::force(2.0, Vector3::new(0.0, 1e300, 0.0))).unwrap();
         let error = cable.step(0.01).expect_err("an impossible step");
-        let Error::StepRefused { cable: name, time, step, .. } = &error else { panic!("{method}: {error}") };
+        let Error::StepFailed { cable: name, time, step, .. } = &error else { panic!("{method}: {error}") };
         assert!(name == "pendulum" && *step >= 0.0 && (0.01..0.02).contains(time), "{method}: {error}");
         assert_eq!(cable.positions(), alone.positions(), "{method}");
         assert_eq!(cable.velocities(), alone.velocities(), "{method}");
@@ -57,7 +57,7 @@ fn an_explicit_step_beyond_stability_is_refused_and_a_stable_one_works() {
             }
         }
         let error = refused.unwrap_or_else(|| panic!("{method}: never refused"));
-        assert!(matches!(error, Error::StepRefused { .. }), "{method}: {error}");
+        assert!(matches!(error, Error::StepFailed { .. }), "{method}: {error}");
         cable.restore(before).unwrap();
         cable.set_integrator(Integrator { method, control: StepControl::Stable(0.8) }).unwrap();
         cable.step(1e-3).unwrap_or_else(|e| panic!("{method}: {e}"));
@@ -77,7 +77,7 @@ fn a_cable_in_a_point_steps_or_is_refused_and_no_nan_leaves_the_step() {
         let before = (cable.positions().to_vec(), cable.velocities().to_vec());
         match cable.step(0.01) {
             Ok(()) => assert!(cable.positions().iter().chain(cable.velocities()).all(|x| x.is_finite()), "{method}"),
-            Err(Error::StepRefused { .. }) => {
+            Err(Error::StepFailed { .. }) => {
                 assert_eq!((cable.positions(), cable.velocities()), (&before.0[..], &before.1[..]), "{method}");
             }
             Err(error) => panic!("{method}: {error}"),

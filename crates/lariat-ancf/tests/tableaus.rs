@@ -46,7 +46,8 @@ fn tableaus_satisfy_the_order_conditions_they_claim() {
         };
         check("result", tableau.b, order);
         if let Some(embedded) = embedded {
-            let hat: Vec<f64> = tableau.b.iter().zip(tableau.error).map(|(b, e)| b - e).collect();
+            let weights = tableau.estimate.unwrap().weights;
+            let hat: Vec<f64> = tableau.b.iter().zip(weights).map(|(b, e)| b - e).collect();
             check("embedded", &hat, embedded);
         }
     }

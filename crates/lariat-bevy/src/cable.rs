@@ -110,13 +110,13 @@ impl Cable {
 
     /// Accuracy against time. Default: engineering.
     pub fn fidelity(mut self, fidelity: Fidelity) -> Self {
-        self.plan.integrator = Err(fidelity);
+        self.plan.integrator = fidelity.into();
         self
     }
 
     /// Time integrator. Default: that of the fidelity.
     pub fn integrator(mut self, integrator: Integrator) -> Self {
-        self.plan.integrator = Ok(integrator);
+        self.plan.integrator = integrator.into();
         self
     }
 

@@ -15,7 +15,7 @@ use bevy_ecs::world::{DeferredWorld, EntityRef};
 #[cfg(feature = "reflect")]
 use bevy_reflect::prelude::*;
 use core::f64::consts::PI;
-use lariat_ancf::{BendingRule, Effects, Fidelity, Flow, LineLoad, PointLoad, RestPiece};
+use lariat_ancf::{BendingRule, Effects, Fidelity, Flow, IntegratorChoice, LineLoad, PointLoad, RestPiece};
 use serde::{Deserialize, Serialize};
 
 /// Force strategy; see [`lariat_ancf::Rule`]. Absent: `projected-3`.
@@ -253,7 +253,7 @@ pub(crate) fn update(cable: &mut crate::Cable, wanted: &Wanted) -> Result<(), la
         let choice = |f: Fidelity, damped: bool| f.integrator(if damped { f64::INFINITY } else { soft });
         let (damped, damps) = (core.effects().damping.is_some(), effects.damping.is_some());
         let integrator = match plan.integrator {
-            Err(fidelity) if core.integrator() == choice(fidelity, damped) => choice(fidelity, damps),
+            IntegratorChoice::Fidelity(fidelity) if core.integrator() == choice(fidelity, damped) => choice(fidelity, damps),
             _ => core.integrator(),
         };
         wanted.rule.check()?;

@@ -1,6 +1,6 @@
 //! What a cable entity is spawned with: the description from which its mechanics are built.
 
-use lariat_ancf::{Effects, Error, Fidelity, Integrator, Rule, Section, Vector3};
+use lariat_ancf::{Effects, Error, IntegratorChoice, Rule, Section, Vector3};
 
 /// Description of a cable that is to be built.
 #[derive(Clone, Debug)]
@@ -10,7 +10,7 @@ pub(crate) struct Plan {
     pub length: Option<f64>,
     pub elements: usize,
     pub hanging: bool,
-    pub integrator: Result<Integrator, Fidelity>,
+    pub integrator: IntegratorChoice,
     pub gravity: Option<Vector3<f64>>,
     pub velocity: Vector3<f64>,
 }
@@ -23,7 +23,7 @@ impl Plan {
             length: None,
             elements: 10,
             hanging: false,
-            integrator: Err(Fidelity::Engineering),
+            integrator: IntegratorChoice::default(),
             gravity: None,
             velocity: Vector3::zeros(),
         }
@@ -38,17 +38,14 @@ impl Plan {
             .elements(self.elements)
             .rule(rule)
             .effects(effects.clone())
-            .velocity(self.velocity);
+            .velocity(self.velocity)
+            .integrator(self.integrator);
         if let Some(length) = self.length {
             builder = builder.length(length);
         }
         if let Some(gravity) = self.gravity {
             builder = builder.gravity(gravity);
         }
-        builder = match self.integrator {
-            Ok(integrator) => builder.integrator(integrator),
-            Err(fidelity) => builder.fidelity(fidelity),
-        };
         if !self.hanging {
             return builder.build();
         }

@@ -66,7 +66,7 @@ impl CableSet {
         let integrator = part_of(self.island_integrator(&island.cables), parts);
         if island.members.is_empty() {
             for cable in pick(&mut self.cables, &island.cables) {
-                cable.step_with(h, integrator)?;
+                cable.step_with(h, &integrator)?;
             }
             return Ok(());
         }

@@ -221,7 +221,7 @@ impl Error {
     /// Returns an error of the mechanics at a time in s, unless it names its own.
     pub(crate) fn mechanics(time: f64, source: lariat_ancf::Error) -> Self {
         let time = match &source {
-            lariat_ancf::Error::StepRefused { time, .. } => *time,
+            lariat_ancf::Error::StepFailed { time, .. } => *time,
             _ => time,
         };
         Error::Mechanics { time, source }
@@ -237,7 +237,7 @@ impl From<lariat_ancf::Error> for Error {
 /// Returns the time, where the mechanics does not name it itself.
 fn moment(source: &lariat_ancf::Error, time: f64) -> String {
     match source {
-        lariat_ancf::Error::StepRefused { .. } => String::new(),
+        lariat_ancf::Error::StepFailed { .. } => String::new(),
         _ => format!("at t = {time} s: "),
     }
 }

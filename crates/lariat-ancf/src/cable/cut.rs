@@ -22,7 +22,7 @@ impl Cable {
             let cable = self.name().to_string();
             return Err(Error::OutOfRange {
                 cable,
-                what: "arc length of a cut, between the ends,",
+                what: "arc length of a cut must lie between the ends:",
                 value: s,
                 limit: length,
             });

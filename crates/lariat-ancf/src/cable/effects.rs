@@ -5,8 +5,8 @@ use super::{Cable, Equations};
 use crate::effect::work::{POINTS, hermite};
 use crate::effect::*;
 use crate::element::{mass, shape};
-use crate::error::Error;
-use crate::integrate::{Integrator, State};
+use crate::error::{Error, Requirement};
+use crate::integrate::{OneStep, State};
 use crate::quadrature::gauss_legendre;
 use crate::rule::BendingRule;
 use nalgebra::Vector3;
@@ -26,8 +26,10 @@ impl Cable {
     /// and velocity stay as they are.
     ///
     /// # Errors
-    /// [`Error::InvalidValue`] for a number out of range, [`Error::InvalidShape`] for an effect that the cable's section or rule has no
-    /// number for (a diameter, an area, a bending rule), [`Error::UnsupportedControl`] for damping with an explicit integrator.
+    /// [`Error::InvalidValue`] for a number out of range, [`Error::MissingForEffect`] for an effect that needs a diameter, an area or
+    /// a bending rule that the cable does not have, [`Error::EmptyRestPiece`] for a piece of a rest shape that covers no element,
+    /// [`Error::WrongCount`] for samples of a flow that are not one per node, [`Error::ExplicitDamping`] for damping with an explicit
+    /// integrator.
     /// The cable is then as before.
     pub fn set_effects(&mut self, effects: Effects) -> Result<(), Error> {
         self.redefine(self.rule(), effects, self.integrator())
@@ -66,15 +68,16 @@ impl Cable {
     /// ```
     ///
     /// # Errors
-    /// [`Error::InvalidShape`] for a cable without drag, [`Error::InvalidValue`] for a velocity that is not finite; the samples are then as
+    /// [`Error::MissingForEffect`] for a cable without drag, [`Error::InvalidValue`] for a velocity that is not finite; the samples are then as
     /// before.
     pub fn sample_flow(&mut self, mut field: impl FnMut(Vector3<f64>) -> Vector3<f64>) -> Result<(), Error> {
         let (Some(drag), Some(fluid)) = (&mut self.model.effects.drag, &mut self.system.fluid) else {
-            let reason = "a flow acts by drag, and this cable has none".to_string();
-            return Err(Error::InvalidShape { cable: self.model.name.clone(), reason });
+            let (cable, effect) = (self.model.name.clone(), "a sampled flow");
+            return Err(Error::MissingForEffect { cable, effect, requirement: Requirement::Drag });
         };
         let places = self.state.phase.q.chunks_exact(6).map(|q| Vector3::new(q[0], q[1], q[2]));
-        if fluid.sample(&mut drag.flow.samples, places.map(&mut field))? {
+        let changed = fluid.sample(&mut drag.flow.samples, places.map(&mut field));
+        if changed.map_err(|e| e.of_cable(&self.model.name))? {
             // accelerations change, the length of the next step does not
             self.revision += 1;
             self.state.phase.memory.valid = false;
@@ -140,13 +143,10 @@ macro_rules! setters {
 
 crate::for_each_effect!(setters);
 
-/// Rejects an explicit integrator where an effect needs an implicit one.
-pub(crate) fn check_integrator(model: &Model, integrator: Integrator) -> Result<(), Error> {
-    if model.effects.needs_implicit_integrator() && !integrator.method.properties().implicit {
-        return Err(Error::UnsupportedControl {
-            method: integrator.method.to_string(),
-            reason: "internal damping lowers the stability limit of explicit methods far below any step; use an implicit one",
-        });
+/// Checks that a cable has an implicit method where an effect needs one.
+pub(crate) fn check_integrator(model: &Model, method: &dyn OneStep) -> Result<(), Error> {
+    if model.effects.needs_implicit_integrator() && method.stability_limit().is_some() {
+        return Err(Error::ExplicitDamping { cable: model.name.clone(), method: method.name() });
     }
     Ok(())
 }

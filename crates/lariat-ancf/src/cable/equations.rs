@@ -124,7 +124,7 @@ impl Equations<'_> {
         matrix: bool,
     ) {
         if matrix {
-            self.moving_force_and_matrix(stage.time, y, Rates { v, rate: stage.rate }, stage.c2, 1.0, rhs);
+            self.moving_force_and_matrix(stage.time, y, Rates { v, rate: stage.dv_dq }, stage.c2, 1.0, rhs);
         } else {
             self.moving_force(stage.time, y, v, stage.c2, rhs);
         }
@@ -165,7 +165,7 @@ impl Linearised for CableStage<'_, '_> {
         let equations = &mut *self.equations;
         equations.diagnostics.newton_iterations += 1;
         for (i, v) in self.v.iter_mut().enumerate() {
-            *v = self.velocity_base[i] + self.stage.rate * self.z[i];
+            *v = self.velocity_base[i] + self.stage.dv_dq * self.z[i];
         }
         equations.residual(self.stage, self.y, self.v, self.z, self.rhs, self.product, fresh);
         if fresh {
@@ -313,24 +313,24 @@ impl Dynamics for Equations<'_> {
         self.system.extent(error).0
     }
 
-    fn follows_velocity(&self) -> bool {
+    fn depends_on_velocity(&self) -> bool {
         self.model.effects.depends_on_velocity()
     }
 
-    fn exact_tangent(&self) -> bool {
+    fn has_exact_tangent(&self) -> bool {
         self.model.effects.has_exact_tangent()
     }
 
-    fn accepted(&mut self, before: &State, after: &State, h: f64) {
+    fn step_accepted(&mut self, before: &State, after: &State, h: f64) {
         self.add_effect_work(before, after, h, 0..after.q.len());
     }
 
-    fn energy_made(&mut self, before: &State, after: &State, h: f64) -> Option<(f64, f64)> {
+    fn spurious_energy(&mut self, before: &State, after: &State, h: f64) -> Option<(f64, f64)> {
         let made = self.energy_between(before, after, h, 0..after.q.len())?;
         Some((made.made, made.before.max(made.after)))
     }
 
-    fn iterations(&self) -> u64 {
+    fn newton_iterations(&self) -> u64 {
         self.diagnostics.newton_iterations
     }
 

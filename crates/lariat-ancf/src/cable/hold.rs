@@ -22,7 +22,7 @@ impl Cable {
     /// As [`node`](Self::node); [`Error::InvalidValue`] for numbers that are not finite or a direction that is not a unit vector.
     pub fn set_support(&mut self, at: impl Into<At>, support: Support) -> Result<(), Error> {
         let node = self.node(at)?;
-        support.check()?;
+        support.check().map_err(|e| e.of_cable(self.name()))?;
         let mut support = support;
         if let SlopeSupport::Direction(d) = &mut support.slope {
             d.normalize_mut();
@@ -32,7 +32,7 @@ impl Cable {
         if let Err(failure) = self.system.factor_mass(&self.model) {
             self.model.set_support(node, before);
             let _ = self.system.factor_mass(&self.model);
-            return Err(self.refused(self.time(), 0.0, failure));
+            return Err(self.step_failed(self.time(), 0.0, failure));
         }
         if before.slope != support.slope {
             support.turn(&mut self.state.phase.q[6 * node + 3..6 * node + 6]);
@@ -105,7 +105,7 @@ impl Cable {
     /// # Errors
     /// [`Error::InvalidValue`] for numbers that are not finite.
     pub fn set_gravity(&mut self, gravity: Vector3<f64>) -> Result<(), Error> {
-        require_finite("gravity (m/s^2)", &gravity)?;
+        require_finite("gravity (m/s^2)", &gravity).map_err(|e| e.of_cable(self.name()))?;
         self.model.gravity = gravity;
         self.system.weigh(&self.model);
         self.revise();
@@ -123,9 +123,10 @@ impl Cable {
     /// [`Error::OutOfRange`] for an arc length off the cable, [`Error::InvalidValue`] for numbers that are not finite.
     pub fn add_load(&mut self, load: PointLoad) -> Result<(), Error> {
         self.check_arc_length(load.arc_length)?;
-        require_finite("force (N)", &load.force)?;
-        require_finite("moment (N m)", &load.moment)?;
-        require("ramp (s)", load.ramp, load.ramp >= 0.0, ">= 0")?;
+        require_finite("force (N)", &load.force)
+            .and_then(|()| require_finite("moment (N m)", &load.moment))
+            .and_then(|()| require("ramp (s)", load.ramp, load.ramp >= 0.0, ">= 0"))
+            .map_err(|e| e.of_cable(self.name()))?;
         self.model.loads.push(PointLoad { start: self.time(), ..load });
         self.system.locate_loads(&self.model);
         self.revise();

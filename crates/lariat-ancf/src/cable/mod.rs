@@ -30,8 +30,7 @@ pub use model::Model;
 use crate::diagnostics::Diagnostics;
 use crate::effect::EffectWork;
 use crate::error::{Error, StepFailure, require};
-use crate::integrate::drive::{self, Counts};
-use crate::integrate::{Integrator, Scratch, State};
+use crate::integrate::{Integrator, IntegratorRef, Scratch, State, step_control};
 use crate::rule::Rule;
 use builder::CableBuilder;
 pub(crate) use effects::check_integrator;
@@ -101,19 +100,16 @@ impl Cable {
     }
 
     pub(crate) fn from_parts(model: Model, state: Snapshot, integrator: Integrator) -> Result<Self, Error> {
-        model.check()?;
-        state
-            .phase
-            .check(6 * model.nodes())
-            .map_err(|reason| Error::InvalidShape { cable: model.name.clone(), reason })?;
-        let system = System::new(&model).map_err(|failure| Error::StepRefused {
+        model.check().map_err(|e| e.of_cable(&model.name))?;
+        state.phase.check(&model.name, 6 * model.nodes())?;
+        let system = System::new(&model).map_err(|failure| Error::StepFailed {
             cable: model.name.clone(),
             time: state.phase.time,
             at: state.phase.time,
             step: 0.0,
             failure,
         })?;
-        check_integrator(&model, integrator)?;
+        check_integrator(&model, &integrator.method)?;
         Ok(Cable {
             model,
             state,
@@ -129,20 +125,24 @@ impl Cable {
     /// Advances the cable by `dt` (s), the host's step, with its integrator. `dt` = 0 does nothing.
     ///
     /// # Errors
-    /// [`Error::InvalidValue`] for a `dt` that is negative, not finite, or below 1e-100 and not zero; [`Error::StepRefused`] if
-    /// the step cannot be done: the cable is then exactly as before. [`Error::InvalidShape`] for a cable with
+    /// [`Error::InvalidValue`] for a `dt` that is negative, not finite, or below 1e-100 and not zero; [`Error::StepFailed`] if
+    /// the step failed: the cable is then exactly as before. [`Error::Attached`] for a cable with
     /// [attached](Self::attach) nodes, which only an [`island`](crate::island) can step.
     pub fn step(&mut self, dt: f64) -> Result<(), Error> {
-        self.step_with(dt, self.integrator)
+        let integrator = self.integrator;
+        self.step_with(dt, &integrator)
     }
 
-    /// [`step`](Self::step) with this integrator instead of the cable's own: for callers who split a host step, and its tolerance.
+    /// Advances the cable as [`step`](Self::step) does, with this integrator instead of the cable's own: `&Integrator`, or an
+    /// [`IntegratorRef`] with a method of another crate.
     ///
     /// # Errors
-    /// As [`step`](Self::step).
-    pub fn step_with(&mut self, dt: f64, integrator: Integrator) -> Result<(), Error> {
-        let Integrator { method, control } = integrator.checked()?;
-        require("dt (s)", dt, dt == 0.0 || dt >= SHORTEST_STEP, "0, or >= 1e-100")?;
+    /// As [`step`](Self::step), [`Integrator::checked`] and [`set_integrator`](Self::set_integrator).
+    pub fn step_with<'a>(&mut self, dt: f64, integrator: impl Into<IntegratorRef<'a>>) -> Result<(), Error> {
+        let integrator = integrator.into();
+        integrator.check()?;
+        check_integrator(&self.model, integrator.method)?;
+        require("dt (s)", dt, dt == 0.0 || dt >= SHORTEST_STEP, "0, or >= 1e-100").map_err(|e| e.of_cable(self.name()))?;
         if dt == 0.0 {
             return Ok(());
         }
@@ -150,11 +150,10 @@ impl Cable {
         self.saved.copy_from(&self.state.phase);
         self.refresh_memory();
         self.system.work = EffectWork::default();
-        let mut counts = Counts::default();
         let mut equations =
             Equations { model: &self.model, system: &mut self.system, diagnostics: &mut self.diagnostics };
         let phase = &mut self.state.phase;
-        let outcome = drive::advance(&mut equations, method, control, phase, dt, &mut self.scratch, &mut counts);
+        let (counts, outcome) = step_control::advance(&mut equations, integrator, phase, dt, &mut self.scratch);
         self.diagnostics.steps += counts.steps;
         self.diagnostics.rejected_steps += counts.rejected;
         match outcome {
@@ -165,16 +164,16 @@ impl Cable {
                 self.saved = saved;
                 Ok(())
             }
-            Err(refusal) => {
+            Err(failed) => {
                 core::mem::swap(&mut self.state.phase, &mut self.saved);
-                Err(self.refused(refusal.time, refusal.step, refusal.failure))
+                Err(self.step_failed(failed.time, failed.step, failed.failure))
             }
         }
     }
 
-    pub(crate) fn refused(&self, at: f64, step: f64, failure: StepFailure) -> Error {
-        log::warn!("cable {:?}: step refused at t = {at} s: {failure}", self.model.name);
-        Error::StepRefused { cable: self.model.name.clone(), time: self.time(), at, step, failure }
+    pub(crate) fn step_failed(&self, at: f64, step: f64, failure: StepFailure) -> Error {
+        log::warn!("cable {:?}: step failed at t = {at} s: {failure}", self.model.name);
+        Error::StepFailed { cable: self.model.name.clone(), time: self.time(), at, step, failure }
     }
 
     /// Accelerations of another description of the cable (a snapshot from before a change) are not used.
@@ -190,10 +189,7 @@ impl Cable {
     pub(crate) fn check_not_attached(&self) -> Result<(), Error> {
         match self.model.supports.iter().find(|(_, s)| s.attached) {
             None => Ok(()),
-            Some((node, _)) => Err(Error::InvalidShape {
-                cable: self.name().to_string(),
-                reason: format!("node {node} is attached to a body: only an island can move it"),
-            }),
+            Some((node, _)) => Err(Error::Attached { cable: self.name().to_string(), node: *node }),
         }
     }
 
@@ -278,9 +274,9 @@ impl Cable {
     /// Changes the time integrator from the next step on.
     ///
     /// # Errors
-    /// As [`Integrator::checked`].
+    /// As [`Integrator::checked`]; [`Error::ExplicitDamping`] for an explicit method on a cable with internal damping.
     pub fn set_integrator(&mut self, integrator: Integrator) -> Result<(), Error> {
-        check_integrator(&self.model, integrator)?;
+        check_integrator(&self.model, &integrator.method)?;
         self.integrator = integrator.checked()?;
         self.revise();
         Ok(())
@@ -300,13 +296,15 @@ impl Cable {
     /// as they were, else from its positions and velocities).
     ///
     /// # Errors
-    /// [`Error::InvalidShape`] if the state is of a cable with another number of nodes, or is not finite.
+    /// [`Error::WrongCount`] if the state is of a cable with another number of nodes, [`Error::InvalidValue`] if it is not
+    /// finite.
     pub fn restore(&mut self, state: Snapshot) -> Result<(), Error> {
-        state
-            .phase
-            .check(self.positions().len())
-            .map_err(|reason| Error::InvalidShape { cable: self.name().to_string(), reason })?;
-        state.work.by_key().try_for_each(|(_, x)| require("work of effects (J)", x, true, "a number"))?;
+        state.phase.check(self.name(), self.positions().len())?;
+        let works = state.work.by_key();
+        works
+            .map(|(_, x)| require("work of effects (J)", x, true, "a number"))
+            .collect::<Result<(), Error>>()
+            .map_err(|e| e.of_cable(self.name()))?;
         self.state = state;
         Ok(())
     }
@@ -314,17 +312,21 @@ impl Cable {
     /// Sets nodal coordinates and velocities, flat as [`positions`](Self::positions) and [`velocities`](Self::velocities).
     ///
     /// # Errors
-    /// [`Error::InvalidShape`] for the wrong number, [`Error::InvalidValue`] for numbers that are not finite.
+    /// [`Error::WrongCount`] for the wrong number, [`Error::InvalidValue`] for numbers that are not finite.
     pub fn set_coordinates(&mut self, positions: &[f64], velocities: &[f64]) -> Result<(), Error> {
         let n = self.positions().len();
-        if positions.len() != n || velocities.len() != n {
-            return Err(Error::InvalidShape {
-                cable: self.name().to_string(),
-                reason: format!("needs {n} coordinates, got {} and {}", positions.len(), velocities.len()),
-            });
+        for (what, each, given) in
+            [("coordinates", "coordinate", positions), ("velocities", "velocity", velocities)]
+        {
+            if given.len() != n {
+                let (cable, count) = (self.name().to_string(), given.len());
+                return Err(Error::WrongCount { cable, what, count, expected: n });
+            }
+            given
+                .iter()
+                .try_for_each(|&x| require(each, x, true, "a number"))
+                .map_err(|e| e.of_cable(self.name()))?;
         }
-        positions.iter().try_for_each(|&x| require("coordinate", x, true, "a number"))?;
-        velocities.iter().try_for_each(|&x| require("velocity", x, true, "a number"))?;
         self.state.phase.q.copy_from_slice(positions);
         self.state.phase.v.copy_from_slice(velocities);
         self.disturb();
@@ -373,13 +375,13 @@ impl Cable {
     /// Number of the node at a point.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] if it is not on the cable, [`Error::InvalidShape`] if no node is within 1e-9 of the length.
+    /// [`Error::OutOfRange`] if it is not on the cable, [`Error::NoNode`] if no node is within 1e-9 of the length.
     pub fn node(&self, at: impl Into<At>) -> Result<usize, Error> {
         let s = self.arc_length(at)?;
-        let near = |x: &f64| (x - s).abs() <= 1e-9 * self.length();
-        self.node_arc_lengths().iter().position(near).ok_or_else(|| Error::InvalidShape {
-            cable: self.name().to_string(),
-            reason: format!("no node at arc length {s} m: ask for one with node_at when building"),
+        let nodes = self.node_arc_lengths();
+        nodes.iter().position(|x| (x - s).abs() <= 1e-9 * self.length()).ok_or_else(|| {
+            let nearest = nodes.iter().copied().min_by(|a, b| (a - s).abs().total_cmp(&(b - s).abs())).unwrap_or(0.0);
+            Error::NoNode { cable: self.name().to_string(), arc_length: s, nearest }
         })
     }
 }

@@ -9,6 +9,9 @@ use crate::support::Support;
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
+/// Largest number of elements of a cable.
+pub(crate) const MAX_ELEMENTS: usize = 1_000_000;
+
 /// The description of a cable; see [`CableBuilder`](crate::CableBuilder) for units and defaults.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Model {
@@ -26,9 +29,9 @@ pub struct Model {
 impl Model {
     /// Refuses numbers that make no cable: for descriptions that come from a file.
     pub(crate) fn check(&self) -> Result<(), Error> {
-        let invalid = |reason: &str| Error::InvalidShape { cable: self.name.clone(), reason: reason.to_string() };
+        let cable = || self.name.clone();
         if self.elements.is_empty() {
-            return Err(invalid("needs at least 1 element, got 0"));
+            return Err(Error::ElementCount { cable: cable(), count: 0, most: MAX_ELEMENTS });
         }
         self.rule.check_points()?;
         for element in &self.elements {
@@ -44,8 +47,11 @@ impl Model {
             require_finite("moment (N m)", &load.moment)?;
             require("ramp (s)", load.ramp, load.ramp >= 0.0, ">= 0")?;
         }
-        if self.supports.windows(2).any(|s| s[0].0 >= s[1].0) || self.supports.iter().any(|(n, _)| *n >= self.nodes()) {
-            return Err(invalid("supports must be at ascending nodes of the cable"));
+        let nodes = self.nodes();
+        let unordered = self.supports.windows(2).find(|s| s[0].0 >= s[1].0).map(|s| s[1].0);
+        let outside = self.supports.iter().map(|(node, _)| *node).find(|node| *node >= nodes);
+        if let Some(node) = unordered.or(outside) {
+            return Err(Error::SupportOrder { cable: cable(), node, nodes });
         }
         self.supports.iter().try_for_each(|(_, support)| support.check())?;
         self.check_effects()

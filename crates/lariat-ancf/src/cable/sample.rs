@@ -133,7 +133,7 @@ impl Cable {
     /// The force is `M q'' - F` on the position; the moment is `t x (M q'' - F)` of the slope.
     ///
     /// # Errors
-    /// [`Error::StepRefused`] if the present state has no finite acceleration.
+    /// [`Error::StepFailed`] if the present state has no finite acceleration.
     pub fn reactions(&mut self) -> Result<Vec<Reaction>, Error> {
         let n = self.positions().len();
         let mut residual = vec![0.0; n];
@@ -144,7 +144,7 @@ impl Cable {
         if !known {
             acceleration.resize(n, 0.0);
             let outcome = equations.acceleration(phase.time, &phase.q, &phase.v, &mut acceleration);
-            outcome.map_err(|failure| self.refused(self.time(), 0.0, failure))?;
+            outcome.map_err(|failure| self.step_failed(self.time(), 0.0, failure))?;
         }
         let (mut equations, phase) = self.equations();
         equations.moving_force(phase.time, &phase.q, &phase.v, -1.0, &mut residual);

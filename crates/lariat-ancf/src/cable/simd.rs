@@ -11,12 +11,12 @@ impl Cable {
     /// Forces a SIMD level, for benchmarks and for the test that all levels agree. Not part of the state.
     ///
     /// # Errors
-    /// [`Error::StepRefused`] if the mass matrix cannot be factored.
+    /// [`Error::StepFailed`] if the mass matrix cannot be factored.
     #[doc(hidden)]
     pub fn set_simd_level(&mut self, level: Level) -> Result<(), Error> {
         self.system.level = level;
         let failure = self.system.factor_mass(&self.model).err();
-        failure.map_or(Ok(()), |failure| Err(self.refused(self.time(), 0.0, failure)))
+        failure.map_or(Ok(()), |failure| Err(self.step_failed(self.time(), 0.0, failure)))
     }
 }
 

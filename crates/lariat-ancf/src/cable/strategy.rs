@@ -13,8 +13,8 @@ impl Cable {
     /// elastic energy changes where the rules differ.
     ///
     /// # Errors
-    /// [`Error::UnknownRule`] for points out of range, [`Error::RankDeficient`] for a rule with spare modes, [`Error::InvalidShape`] for an
-    /// effect that needs a bending rule. The cable is then as before.
+    /// [`Error::UnknownRule`] for points out of range, [`Error::RankDeficient`] for a rule with spare modes, [`Error::MissingForEffect`] for
+    /// an effect that needs a bending rule. The cable is then as before.
     pub fn set_rule(&mut self, rule: Rule) -> Result<(), Error> {
         rule.check()?;
         self.redefine(rule, self.effects().clone(), self.integrator())
@@ -30,10 +30,10 @@ impl Cable {
         let integrator = integrator.checked()?;
         let rule = core::mem::replace(&mut self.model.rule, rule);
         let effects = core::mem::replace(&mut self.model.effects, effects);
-        let checked = self.model.check_effects().and_then(|()| check_integrator(&self.model, integrator));
+        let checked = self.model.check_effects().and_then(|()| check_integrator(&self.model, &integrator.method));
         let system = checked.and_then(|()| {
             System::with_level(&self.model, self.system.level)
-                .map_err(|failure| self.refused(self.time(), 0.0, failure))
+                .map_err(|failure| self.step_failed(self.time(), 0.0, failure))
         });
         match system {
             Ok(system) => {
@@ -45,7 +45,7 @@ impl Cable {
             Err(error) => {
                 self.model.rule = rule;
                 self.model.effects = effects;
-                Err(error)
+                Err(error.of_cable(self.name()))
             }
         }
     }

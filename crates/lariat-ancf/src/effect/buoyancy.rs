@@ -13,7 +13,7 @@
 //! mass across the cable alone: a mass matrix that depends on the configuration, with its quadratic velocity terms, in every step.
 
 use super::{Cut, Effect, Target};
-use crate::error::{Error, require};
+use crate::error::{Error, Requirement, require};
 use crate::section::Section;
 use serde::{Deserialize, Serialize};
 
@@ -53,7 +53,7 @@ impl Effect for Buoyancy {
         require("coefficient of added mass", added_mass, added_mass >= 0.0, ">= 0")?;
         require("displaced area (m^2)", area.unwrap_or(1.0), area.is_none_or(|a| a > 0.0), "> 0")?;
         if area.is_none() && cable.elements.iter().any(|e| e.section.outer_area.is_none()) {
-            return Err(cable.lacks("buoyancy needs a displaced area: of the section, or of the buoyancy"));
+            return Err(cable.missing("buoyancy", Requirement::DisplacedArea));
         }
         Ok(())
     }

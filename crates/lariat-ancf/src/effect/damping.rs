@@ -37,7 +37,7 @@ use crate::Real;
 use crate::axial::AxialTable;
 use crate::element::gram::{Control, PAIR_WEIGHT, Six, Upper, dot, gradient, gram, quadratic_form};
 use crate::element::kernel::Stiffness;
-use crate::error::{Error, require};
+use crate::error::{Error, Requirement, require};
 use serde::{Deserialize, Serialize};
 
 /// e: square of half the turn per element, in rad, below which the curvature is damped as a vector.
@@ -164,7 +164,7 @@ impl Effect for Damping {
         require("axial damping time (s)", self.axial, self.axial >= 0.0, ">= 0")?;
         require("bending damping time (s)", self.bending, self.bending >= 0.0, ">= 0")?;
         if cable.has_no_bending() && self.bending > 0.0 {
-            return Err(cable.lacks("damping of bending needs a bending rule, this cable has none"));
+            return Err(cable.missing("damping of bending", Requirement::BendingRule));
         }
         Ok(())
     }

@@ -22,7 +22,7 @@ use super::flow::Flow;
 use super::{Cut, Effect, Target};
 use crate::Real;
 use crate::element::gram::dot;
-use crate::error::{Error, require};
+use crate::error::{Error, Requirement, require};
 use serde::{Deserialize, Serialize};
 
 /// Gauss points of an element.
@@ -68,10 +68,11 @@ impl Effect for Drag {
         self.flow.check()?;
         let samples = self.flow.samples.len();
         if samples != 0 && samples != cable.nodes() {
-            return Err(cable.lacks(format!("{samples} samples of the flow, the cable has {} nodes", cable.nodes())));
+            let (cable, expected) = (cable.name.to_string(), cable.nodes());
+            return Err(Error::WrongCount { cable, what: "samples of the flow", count: samples, expected });
         }
         if self.diameter.is_none() && cable.elements.iter().any(|e| e.section.diameter.is_none()) {
-            return Err(cable.lacks("drag needs a diameter: of the section, or of the drag"));
+            return Err(cable.missing("drag", Requirement::Diameter));
         }
         Ok(())
     }

@@ -50,7 +50,7 @@ pub use line_load::{LineLoad, LineLoads};
 pub use list::{EffectCounts, EffectWork, Effects};
 pub use rest_shape::{RestPiece, RestShape};
 
-use crate::error::Error;
+use crate::error::{Error, Requirement};
 use crate::rule::{BendingRule, Rule};
 use crate::section::Element;
 use core::fmt::Debug;
@@ -66,7 +66,7 @@ pub trait Effect: Clone + Debug + PartialEq + Serialize + DeserializeOwned {
     /// Checks the parameters, and that the cable has the numbers that the effect needs.
     ///
     /// # Errors
-    /// [`Error::InvalidValue`] for a number out of range, [`Error::InvalidShape`] for a cable that lacks a number.
+    /// [`Error::InvalidValue`] for a number out of range, [`Error::MissingForEffect`] for a cable that lacks one.
     fn check(&self, cable: &Target<'_>) -> Result<(), Error>;
 
     /// Whether its force depends on velocity.
@@ -134,8 +134,8 @@ impl Target<'_> {
         self.rule.bending == BendingRule::None
     }
 
-    /// The error of an effect that the cable has no number for.
-    pub(crate) fn lacks(&self, reason: impl Into<String>) -> Error {
-        Error::InvalidShape { cable: self.name.to_string(), reason: reason.into() }
+    /// The error of an effect that needs what the cable does not have.
+    pub(crate) fn missing(&self, effect: &'static str, requirement: Requirement) -> Error {
+        Error::MissingForEffect { cable: self.name.to_string(), effect, requirement }
     }
 }

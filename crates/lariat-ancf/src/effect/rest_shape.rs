@@ -24,7 +24,7 @@ use super::curvature::{NOISE, Point};
 use super::{Cut, Effect, Target};
 use crate::Real;
 use crate::element::gram::{Six, Upper};
-use crate::error::{Error, require};
+use crate::error::{Error, Requirement, require};
 use crate::section::Element;
 use serde::{Deserialize, Serialize};
 
@@ -101,10 +101,10 @@ impl Effect for RestShape {
         }
         if let Some(i) = self.unused(cable.elements) {
             let from = self.pieces[i].from;
-            return Err(cable.lacks(format!("no element has its middle in the rest shape's piece from {from} m on")));
+            return Err(Error::EmptyRestPiece { cable: cable.name.to_string(), from });
         }
         if cable.has_no_bending() && self.is_curved() {
-            return Err(cable.lacks("a natural curvature needs a bending rule, this cable has none"));
+            return Err(cable.missing("a natural curvature", Requirement::BendingRule));
         }
         Ok(())
     }

@@ -13,7 +13,7 @@
 
 use crate::cable::{Cable, Rates, project_matrix, project_vector};
 use crate::error::{Error, StepFailure};
-use crate::integrate::dirk::add;
+use crate::integrate::add_scaled;
 use crate::linalg::{Definiteness, Factorisation};
 use nalgebra::{DMatrix, Vector3};
 
@@ -37,7 +37,7 @@ impl Impedance {
     /// Linearises `cable` at its present state for a step of `h` (s), with the attached ones of its nodes free.
     ///
     /// # Errors
-    /// [`Error::StepRefused`] if the matrix is singular or not finite.
+    /// [`Error::StepFailed`] if the matrix is singular or not finite.
     pub fn update(&mut self, cable: &mut Cable, nodes: &[usize], h: f64) -> Result<(), Error> {
         let size = cable.positions().len();
         self.step = h;
@@ -50,7 +50,7 @@ impl Impedance {
         cable.model.supports.iter_mut().for_each(|(_, s)| s.attached = false);
         let outcome = self.linearise(cable, h);
         cable.model.supports = supports;
-        outcome.map_err(|failure| cable.refused(cable.time(), h, failure))
+        outcome.map_err(|failure| cable.step_failed(cable.time(), h, failure))
     }
 
     fn linearise(&mut self, cable: &mut Cable, h: f64) -> Result<(), StepFailure> {
@@ -124,13 +124,13 @@ impl Impedance {
         };
         let before = strain(cable);
         let mut share = 1.0;
-        add(&mut cable.state.phase.v, 1.0, &dv);
-        add(&mut cable.state.phase.q, self.step, &dv);
+        add_scaled(&mut cable.state.phase.v, 1.0, &dv);
+        add_scaled(&mut cable.state.phase.q, self.step, &dv);
         // what is not a number is not bearable
         let bearable = |cable: &Cable| strain(cable) - before <= before + given.abs();
         while !bearable(cable) {
             let less = if share > LEAST_SHARE { 0.5 * share } else { 0.0 };
-            add(&mut cable.state.phase.q, self.step * (less - share), &dv);
+            add_scaled(&mut cable.state.phase.q, self.step * (less - share), &dv);
             share = less;
             if share == 0.0 {
                 break;

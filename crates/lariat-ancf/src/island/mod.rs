@@ -40,9 +40,8 @@ pub use workspace::CLOSING_SPEED;
 
 use crate::cable::{At, Cable, SHORTEST_STEP, check_integrator};
 use crate::effect::EffectWork;
-use crate::error::{Error, require, require_finite};
-use crate::integrate::drive::{self, Counts};
-use crate::integrate::{Integrator, Scratch, State};
+use crate::error::{Error, PinProblem, require, require_finite};
+use crate::integrate::{Integrator, IntegratorRef, Scratch, State, step_control};
 use crate::support::{SlopeSupport, Support};
 use nalgebra::Vector3;
 use system::Work;
@@ -76,7 +75,7 @@ impl Island {
     /// Advances `cables` and `bodies`, held together by `pins`, by `dt` (s) with `integrator`.
     ///
     /// # Errors
-    /// [`Error::StepRefused`] if the step cannot be done, [`Error::OutOfRange`] or [`Error::InvalidShape`] for a pin that fits
+    /// [`Error::StepFailed`] if the step cannot be done, [`Error::OutOfRange`] or [`Error::InvalidShape`] for a pin that fits
     /// no cable, body or attached node. Cables and bodies are then exactly as before.
     pub fn step(
         &mut self,
@@ -87,9 +86,10 @@ impl Island {
         dt: f64,
     ) -> Result<(), Error> {
         require("dt (s)", dt, dt == 0.0 || dt >= SHORTEST_STEP, "0, or >= 1e-100")?;
-        let integrator = integrator.checked()?;
+        let integrator = IntegratorRef::from(&integrator);
+        integrator.check()?;
         check(cables, bodies, pins)?;
-        cables.iter().try_for_each(|cable| check_integrator(&cable.model, integrator))?;
+        cables.iter().try_for_each(|cable| check_integrator(&cable.model, integrator.method))?;
         if dt == 0.0 {
             return Ok(());
         }
@@ -98,20 +98,18 @@ impl Island {
         workspace.begin(cables, bodies, pins, dt);
         gather(cables, bodies, phase);
         memory::recall(cables, bodies, pins, phase, workspace);
-        let mut counts = Counts::default();
         let mut system = Work { cables: &mut *cables, bodies: &*bodies, pins, workspace: &mut *workspace };
         if let Err(failure) = system.meet(phase) {
-            return Err(cables[0].refused(phase.time, 0.0, failure));
+            return Err(cables[0].step_failed(phase.time, 0.0, failure));
         }
-        let Integrator { method, control } = integrator;
-        let outcome = drive::advance(&mut system, method, control, phase, dt, scratch, &mut counts);
+        let (counts, outcome) = step_control::advance(&mut system, integrator, phase, dt, scratch);
         for cable in cables.iter_mut() {
             let diagnostics = cable.diagnostics_mut();
             diagnostics.steps += counts.steps;
             diagnostics.rejected_steps += counts.rejected;
         }
         if let Err(refusal) = outcome {
-            return Err(cables[0].refused(refusal.time, refusal.step, refusal.failure));
+            return Err(cables[0].step_failed(refusal.time, refusal.step, refusal.failure));
         }
         memory::keep(cables, bodies, pins, phase);
         scatter(cables, bodies, phase, workspace);
@@ -160,8 +158,7 @@ impl Cable {
     pub fn attach_clamped(&mut self, at: impl Into<At>) -> Result<usize, Error> {
         let node = self.node(at)?;
         let Some(tangent) = workspace::vector(&self.positions()[6 * node + 3..]).try_normalize(1e-9) else {
-            let reason = format!("node {node} has no tangent to clamp");
-            return Err(Error::InvalidShape { cable: self.name().to_string(), reason });
+            return Err(Error::NoTangent { cable: self.name().to_string(), node });
         };
         let support = Support { position: None, slope: SlopeSupport::Attached(tangent), attached: true };
         self.set_support(At::Node(node), support)?;
@@ -170,48 +167,43 @@ impl Cable {
 }
 
 fn check(cables: &[&mut Cable], bodies: &[RigidBody], pins: &[PinConstraint]) -> Result<(), Error> {
-    let out_of_range = |what, value: usize, limit: usize| {
-        Err(Error::OutOfRange { cable: String::new(), what, value: value as f64, limit: limit as f64 })
-    };
-    if cables.is_empty() {
-        return out_of_range("number of cables in an island", 0, 0);
-    }
-    let time = cables[0].time();
+    let Some(time) = cables.first().map(|cable| cable.time()) else { return Err(Error::EmptyIsland) };
     if let Some(other) = cables.iter().find(|c| c.time() != time) {
-        let reason = format!("is at t = {} s, another cable of its island at {time} s", other.time());
-        return Err(Error::InvalidShape { cable: other.name().to_string(), reason });
+        let cable = other.name().to_string();
+        return Err(Error::TimeMismatch { cable, time: other.time(), expected: time });
     }
+    let problem = |cable: &Cable, node: usize, problem: PinProblem| {
+        Err(Error::Pin { cable: cable.name().to_string(), node, problem })
+    };
     for (i, pin) in pins.iter().enumerate() {
-        if pin.cable >= cables.len() {
-            return out_of_range("cable of a pin", pin.cable, cables.len());
+        for (what, index, count) in [("cables", pin.cable, cables.len()), ("bodies", pin.body, bodies.len())] {
+            if index >= count {
+                return Err(Error::NotInIsland { pin: i, what, index, count });
+            }
         }
-        if pin.body >= bodies.len() {
-            return out_of_range("body of a pin", pin.body, bodies.len());
-        }
-        require_finite("anchor of a pin (m)", &pin.anchor)?;
         let cable = &cables[pin.cable];
-        let invalid = |reason: String| Err(Error::InvalidShape { cable: cable.name().to_string(), reason });
+        require_finite("anchor of a pin (m)", &pin.anchor).map_err(|e| e.of_cable(cable.name()))?;
         if pin.node >= cable.nodes() {
-            return out_of_range("node", pin.node, cable.nodes() - 1);
+            let (cable, limit) = (cable.name().to_string(), (cable.nodes() - 1) as f64);
+            return Err(Error::OutOfRange { cable, what: "node", value: pin.node as f64, limit });
         }
         let Some(support) = cable.model.support(pin.node).filter(|s| s.attached) else {
-            return invalid(format!("node {} is pinned but not attached", pin.node));
+            return problem(cable, pin.node, PinProblem::NotAttached);
         };
         if matches!(support.slope, SlopeSupport::Attached(_)) != pin.direction.is_some() {
-            return invalid(format!("node {} and its pin do not agree on whether the tangent is clamped", pin.node));
+            return problem(cable, pin.node, PinProblem::ClampMismatch);
         }
         if let Some(d) = &pin.direction {
             require("length of a clamp's direction", d.norm(), (d.norm() - 1.0).abs() < 1e-6, "1")?;
         }
         if pins[..i].iter().any(|p| p.cable == pin.cable && p.node == pin.node) {
-            return invalid(format!("node {} has two pins", pin.node));
+            return problem(cable, pin.node, PinProblem::Duplicate);
         }
     }
     for (c, cable) in cables.iter().enumerate() {
         for (node, support) in &cable.model.supports {
             if support.attached && !pins.iter().any(|p| p.cable == c && p.node == *node) {
-                let reason = format!("node {node} is attached but has no pin");
-                return Err(Error::InvalidShape { cable: cable.name().to_string(), reason });
+                return problem(cable, *node, PinProblem::Missing);
             }
         }
     }

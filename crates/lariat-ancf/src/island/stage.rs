@@ -25,7 +25,7 @@ impl IslandStage<'_, '_, '_> {
     fn update(&mut self) {
         for i in 0..self.z.len() {
             self.y[i] = self.base[i] + self.z[i];
-            self.v[i] = self.velocity_base[i] + self.stage.rate * self.z[i];
+            self.v[i] = self.velocity_base[i] + self.stage.dv_dq * self.z[i];
         }
         self.work.follow(self.stage.time, self.y, self.v);
         self.work.follow_acceleration(self.stage.time, self.stage.c2, self.y, self.v, self.z);
@@ -41,7 +41,7 @@ impl Linearised for IslandStage<'_, '_, '_> {
         if fresh {
             work.workspace.factored = 0.0;
         }
-        let rates = Rates { v, rate: stage.rate };
+        let rates = Rates { v, rate: stage.dv_dq };
         work.cable_rows(stage.time, stage.c2, y, rates, z, rhs, fresh)?;
         if fresh {
             work.factor_bodies(false, y, v, rhs)?;
@@ -77,7 +77,7 @@ impl Linearised for IslandStage<'_, '_, '_> {
     }
 
     fn exact(&self) -> bool {
-        self.work.exact_tangent()
+        self.work.has_exact_tangent()
     }
 
     fn not_finite(&self) -> StepFailure {
@@ -216,7 +216,7 @@ impl Dynamics for Work<'_, '_> {
         // the velocities of held coordinates are those of their bodies, not of the integrator's base
         for hold in self.workspace.cables.iter().flat_map(|work| &work.holds) {
             for i in hold.at..hold.at + 3 {
-                velocity_base[i] = velocity[i] - stage.rate * z[i];
+                velocity_base[i] = velocity[i] - stage.dv_dq * z[i];
             }
         }
         self.workspace.z = z;
@@ -259,7 +259,7 @@ impl Dynamics for Work<'_, '_> {
         self.norm_of(error)
     }
 
-    fn accepted(&mut self, before: &State, after: &State, h: f64) {
+    fn step_accepted(&mut self, before: &State, after: &State, h: f64) {
         for c in 0..self.cables.len() {
             let (mut equations, part) = self.equations(c);
             let range = part.at..part.at + part.size;
@@ -267,23 +267,23 @@ impl Dynamics for Work<'_, '_> {
         }
     }
 
-    fn energy_made(&mut self, before: &State, after: &State, h: f64) -> Option<(f64, f64)> {
+    fn spurious_energy(&mut self, before: &State, after: &State, h: f64) -> Option<(f64, f64)> {
         self.energy_between(before, after, h)
     }
 
-    fn iterations(&self) -> u64 {
+    fn newton_iterations(&self) -> u64 {
         self.cables.first().map_or(0, |cable| cable.diagnostics().newton_iterations)
     }
 
-    fn reached(&mut self, phase: &State) {
+    fn state_reached(&mut self, phase: &State) {
         self.account(phase);
     }
 
-    fn follows_velocity(&self) -> bool {
+    fn depends_on_velocity(&self) -> bool {
         true
     }
 
-    fn exact_tangent(&self) -> bool {
+    fn has_exact_tangent(&self) -> bool {
         self.cables.iter().all(|cable| cable.effects().has_exact_tangent())
     }
 

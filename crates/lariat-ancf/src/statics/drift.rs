@@ -56,7 +56,7 @@ impl Cable {
                     failures += 1;
                     step *= SHRINK;
                     if failures == FAILURES {
-                        if let crate::error::Error::StepRefused { failure, .. } = error {
+                        if let crate::error::Error::StepFailed { failure, .. } = error {
                             cause = Some(failure);
                         }
                         break;

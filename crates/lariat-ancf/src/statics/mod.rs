@@ -28,7 +28,7 @@ mod relax;
 mod scale;
 
 use crate::cable::{Cable, Fluid, Model};
-use crate::error::{Error, StepFailure, require};
+use crate::error::{EquilibriumFailure, Error, StepFailure, require};
 use crate::integrate::Dynamics;
 use crate::support::SlopeSupport;
 use nalgebra::Vector3;
@@ -103,7 +103,7 @@ impl Cable {
     /// zero. A flow is that of the cable's time.
     ///
     /// # Errors
-    /// [`Error::NoEquilibrium`] if none is found; the cable is then as before. [`Error::InvalidShape`] for a cable with
+    /// [`Error::NoEquilibrium`] if none is found; the cable is then as before. [`Error::Attached`] for a cable with
     /// [attached](Self::attach) nodes.
     pub fn equilibrium(&mut self) -> Result<EquilibriumReport, Error> {
         self.equilibrium_with(EquilibriumOptions::default())
@@ -114,14 +114,13 @@ impl Cable {
     /// # Errors
     /// As [`equilibrium`](Self::equilibrium).
     pub fn equilibrium_with(&mut self, options: EquilibriumOptions) -> Result<EquilibriumReport, Error> {
-        let no_equilibrium = |cable: &Cable, reason: String, residual: f64, iterations: usize| {
-            let reason = format!("at t = {} s {reason}", cable.time());
-            Error::NoEquilibrium { cable: cable.name().to_string(), reason, residual, iterations }
+        let no_equilibrium = |cable: &Cable, failure: EquilibriumFailure, residual: f64, iterations: usize| {
+            Error::NoEquilibrium { cable: cable.name().to_string(), time: cable.time(), failure, residual, iterations }
         };
         self.check_not_attached()?;
         require("equilibrium tolerance", options.tolerance, options.tolerance > 0.0, "> 0")?;
         if let Some(resultant) = unheld(&self.model) {
-            return Err(no_equilibrium(self, "nothing holds the cable in place".to_string(), resultant, 0));
+            return Err(no_equilibrium(self, EquilibriumFailure::NotHeld, resultant, 0));
         }
         self.system.static_time = self.time();
         let (before, revision, work) = (self.state.clone(), self.revision, self.state.work);
@@ -143,9 +142,9 @@ impl Cable {
                 self.state = before;
                 self.revision = revision;
                 let reason = match (failure.cause, fold) {
-                    (Some(cause), _) => cause.to_string(),
-                    (None, Some(e)) => format!("no shape was found without folds: element {e} is folded on itself"),
-                    (None, None) => "the iteration did not converge".to_string(),
+                    (Some(cause), _) => cause.into(),
+                    (None, Some(element)) => EquilibriumFailure::Folded { element },
+                    (None, None) => EquilibriumFailure::NotConverged,
                 };
                 Err(no_equilibrium(self, reason, failure.residual, budget.done))
             }

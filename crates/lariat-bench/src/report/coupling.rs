@@ -12,7 +12,7 @@ use cpu_time::ProcessTime;
 use lariat_ancf::{Fidelity, Rule, Vector3};
 use lariat_figures::{LogLog, Series};
 use lariat_scene::run::World;
-use lariat_scene::scene::{IntegratorChoice, Purpose, Scene};
+use lariat_scene::scene::{Purpose, Scene};
 
 /// Host steps per second at Rapier's own number of iterations, and iterations at 60 host steps per second.
 const RATES: [u32; 5] = [30, 60, 120, 240, 480];
@@ -170,7 +170,7 @@ pub fn section(bench: &mut Bench<'_>) -> Result<Section, Error> {
             for (name, mut scene, free) in scenes {
                 scene.dt = 1.0 / f64::from(hz);
                 scene.solver_iterations = Some(iterations);
-                scene.cables[0].integrator = IntegratorChoice::Fidelity(fidelity);
+                scene.cables[0].integrator = fidelity.into();
                 rows.push(row(bench, name, &scene, fidelity, hz, free));
             }
         }

@@ -14,7 +14,7 @@ use crate::error::Error;
 use cpu_time::ProcessTime;
 use lariat_ancf::{Diagnostics, Integrator, Method, Rule, StepControl};
 use lariat_scene::run::World;
-use lariat_scene::scene::{IntegratorChoice, Purpose, Scene};
+use lariat_scene::scene::{Purpose, Scene};
 
 /// Centre of the crate at 0.5 s and 1 s in m.
 const CENTRES: [(f64, f64); 2] = [(1.70292, -1.21801), (-0.82138, -1.91419)];
@@ -140,7 +140,7 @@ pub fn measure_all(bench: &mut Bench<'_>) -> Result<Vec<Point>, Error> {
     let mut points = Vec::new();
     let mut one = |bench: &Bench<'_>, name: &str, rule, integrator: Integrator, elements, hz| {
         let mut scene = scene(rule, elements, hz)?;
-        scene.cables[0].integrator = IntegratorChoice::Integrator(integrator);
+        scene.cables[0].integrator = integrator.into();
         let setting = Setting::new(name, rule, integrator, elements, scene.dt);
         points.push(against_monolithic(bench, setting, &scene, hz));
         Ok::<(), Error>(())

@@ -88,15 +88,12 @@ impl Document<'_> {
                 if names().contains(&text.as_ref()) {
                     return Ok(Value::String(text.to_string()));
                 }
-                Err(self.error_near(path, Problem::UnknownValue(text.to_string()), text, &names()))
+                let accepted = self.schema.find(path.keys()).map_or_else(|| kind.phrase(), Key::accepted);
+                Err(self.suggesting(path, Problem::UnknownValue(text.to_string()), accepted, nearest(text, names())))
             }
-            (Kind::Parsed { parse, known, .. }, DeValue::String(text)) => match parse(text) {
+            (Kind::Parsed { parse, .. }, DeValue::String(text)) => match parse(text) {
                 Ok(()) => Ok(Value::String(text.to_string())),
-                Err(reason) => {
-                    let names = known();
-                    let names: Vec<&str> = names.iter().map(String::as_str).collect();
-                    Err(self.error_near(path, Problem::NotUnderstood(reason), text, &names))
-                }
+                Err(reason) => Err(self.error(path, Problem::NotUnderstood(reason))),
             },
             (Kind::Flag, DeValue::Boolean(flag)) => Ok(Value::Boolean(*flag)),
             (Kind::Whole(low, high), DeValue::Integer(_)) => self.whole(*low, *high, value, path),
@@ -192,12 +189,6 @@ impl Document<'_> {
             DeValue::Table(_) => "a table".to_string(),
         };
         self.error(path, Problem::WrongType(found))
-    }
-
-    /// Returns the error that a text is not accepted, with the nearest of those that are.
-    fn error_near(&self, path: &KeyPath, problem: Problem, text: &str, known: &[&str]) -> Error {
-        let accepted = self.schema.find(path.keys()).map_or_else(|| known.join(" | "), Key::accepted);
-        self.suggesting(path, problem, accepted, nearest(text, known.iter().copied()))
     }
 }
 

@@ -1,6 +1,6 @@
 //! From a checked scene to cables: elements, supports, loads and motion at the start.
 
-use super::{AttachmentScene, IntegratorChoice, LoadScene, Scene};
+use super::{AttachmentScene, LoadScene, Scene};
 use lariat_ancf::{At, Cable, Error, Motion, PointLoad, Vector3};
 
 impl Scene {
@@ -21,11 +21,8 @@ impl Scene {
             .allow_rank_deficient()
             .gravity(self.gravity)
             .velocity(scene.velocity)
-            .angular_velocity(scene.angular_velocity);
-        builder = match scene.integrator {
-            IntegratorChoice::Integrator(integrator) => builder.integrator(integrator),
-            IntegratorChoice::Fidelity(fidelity) => builder.fidelity(fidelity),
-        };
+            .angular_velocity(scene.angular_velocity)
+            .integrator(scene.integrator);
         for attachment in self.attachments.iter().filter(|a| a.cable == index) {
             let at = At::ArcLength(attachment.arc_length);
             builder = if attachment.clamp { builder.clamp(at) } else { builder.fix(at) };

@@ -1,13 +1,13 @@
 //! `[[cable]]`: shape, section, rule and motion of a cable.
 
 use super::effects::{self, EFFECTS};
-use super::integrator::{self, IntegratorChoice, IntegratorTable};
+use super::integrator::{self, IntegratorTable};
 use crate::document::{Document, KeyPath};
 use crate::error::{Error, Problem};
 use crate::schema::{
     Choose, Default, Key, Kind, NOT_NEGATIVE, POSITIVE, VECTOR, choice, parse_as, table,
 };
-use lariat_ancf::{AxialRule, BendingRule, Effects, Rule, Section, Shape, Vector3};
+use lariat_ancf::{AxialRule, BendingRule, Effects, IntegratorChoice, Rule, Section, Shape, Vector3};
 use serde::Deserialize;
 
 choice! {
@@ -91,25 +91,17 @@ table! {
     /// A rule by its two parts.
     struct RulePair("rule") {
         /// Axial energy.
-        axial: AxialRule = required, Kind::Parsed { accepted: "an axial rule of `lariat rules`", parse: parse_as::<AxialRule>, known: || names(&["projected", "exact", "mean", "gauss-5"]) };
+        axial: AxialRule = required, Kind::Parsed { accepted: "an axial rule of `lariat rules`", parse: parse_as::<AxialRule> };
         /// Bending energy.
-        bending: BendingRule = required, Kind::Parsed { accepted: "a bending rule of `lariat rules`", parse: parse_as::<BendingRule>, known: || names(&["none", "t1", "t2", "gauss-3"]) };
+        bending: BendingRule = required, Kind::Parsed { accepted: "a bending rule of `lariat rules`", parse: parse_as::<BendingRule> };
     }
 }
 
 /// A rule by its name or by its two parts.
 const RULE: Kind = Kind::Either(&[
-    Kind::Parsed {
-        accepted: "a name of `lariat rules`",
-        parse: parse_as::<Rule>,
-        known: || names(&["projected-3", "G3-3", "G5-3", "G10-10", "ST1", "ST2", "L2T1", "L2T2", "exact-none"]),
-    },
+    Kind::Parsed { accepted: "a name of `lariat rules`", parse: parse_as::<Rule> },
     Kind::Table(&RulePair::TABLE),
 ]);
-
-fn names(names: &[&str]) -> Vec<String> {
-    names.iter().map(ToString::to_string).collect()
-}
 
 /// A rule as a scene writes it.
 #[derive(Clone, Debug, Deserialize)]

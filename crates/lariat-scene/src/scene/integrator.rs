@@ -3,13 +3,13 @@
 use crate::document::{Document, KeyPath};
 use crate::error::{Error, Problem};
 use crate::schema::{Choose, Kind, MANY, POSITIVE, SHARE, parse_as, table};
-use lariat_ancf::{Fidelity, Integrator, Method, StepControl};
+use lariat_ancf::{Fidelity, Integrator, IntegratorChoice, Method, StepControl};
 
 table! {
     /// A method with a step control; or `fidelity`, which chooses both.
     struct IntegratorTable("integrator") {
         /// Name of a method, required by all but `tolerance` and `fidelity`.
-        method: Option<Method> = ("`\"esdirk4\"`"), Kind::Parsed { accepted: "a name of `lariat integrators`", parse: parse_as::<Method>, known: || Method::ALL.map(|method| method.to_string()).to_vec() };
+        method: Option<Method> = ("`\"esdirk4\"`"), Kind::Parsed { accepted: "a name of `lariat integrators`", parse: parse_as::<Method> };
         /// Error of position per host step, for a method with an error estimate.
         tolerance: Option<f64> = (), Kind::Number(POSITIVE), "m";
         /// Equal steps in each host step; a probe between two host times splits the host step.
@@ -24,20 +24,11 @@ table! {
     choose Choose::ExactlyOne(&["tolerance", "substeps", "max_step", "stable", "fidelity"]);
 }
 
-/// The time integrator of a cable.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum IntegratorChoice {
-    /// A method with its step control.
-    Integrator(Integrator),
-    /// A choice of accuracy against time.
-    Fidelity(Fidelity),
-}
-
 /// Reads the integrator at a path.
 pub(super) fn read(doc: &Document<'_>, at: &KeyPath, row: &IntegratorTable) -> Result<IntegratorChoice, Error> {
     if let Some(fidelity) = row.fidelity {
         return match row.method {
-            None => Ok(IntegratorChoice::Fidelity(fidelity)),
+            None => Ok(fidelity.into()),
             Some(_) => Err(doc.error(at, Problem::TooManyGiven(vec!["method", "fidelity"]))),
         };
     }
@@ -56,5 +47,5 @@ pub(super) fn read(doc: &Document<'_>, at: &KeyPath, row: &IntegratorTable) -> R
         None => return Err(doc.missing(&at.key("method"))),
     };
     let checked = Integrator { method, control }.checked();
-    checked.map(IntegratorChoice::Integrator).map_err(|error| doc.conflict(&at.key(key), error.to_string()))
+    checked.map(IntegratorChoice::from).map_err(|error| doc.conflict(&at.key(key), error.to_string()))
 }

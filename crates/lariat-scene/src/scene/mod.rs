@@ -29,7 +29,6 @@ mod references;
 
 pub use attachment::AttachmentScene;
 pub use cable::CableScene;
-pub use integrator::IntegratorChoice;
 pub use joint::{JointKind, JointScene};
 pub use junction::JunctionScene;
 pub use load::{BodyLoadScene, LoadScene};

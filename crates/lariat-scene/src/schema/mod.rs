@@ -83,8 +83,6 @@ pub enum Kind {
         accepted: &'static str,
         /// The parser: an error in words if the text is not understood.
         parse: fn(&str) -> Result<(), String>,
-        /// Texts to suggest instead of one that is not understood.
-        known: fn() -> Vec<String>,
     },
     /// `true` or `false`.
     Flag,

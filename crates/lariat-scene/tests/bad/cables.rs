@@ -1,7 +1,6 @@
 //! Invalid cables, and invalid keys of the scene itself.
 
 use super::cases::{Case, all_are_accepted, all_are_errors, message};
-use lariat_scene::scene::IntegratorChoice;
 use lariat_scene::{Purpose, Scene};
 
 /// A valid scene, with its lines numbered from 1: [`GOOD`] plus the tail of each case, which starts on line 19.
@@ -298,8 +297,7 @@ fn overrides_are_applied_before_the_checks_and_named_in_errors() {
     .unwrap();
     let cable = &scene.cables[0];
     assert_eq!((cable.elements, cable.rule.to_string().as_str(), scene.dt), (20, "ST2", 0.02));
-    let IntegratorChoice::Integrator(integrator) = cable.integrator else { panic!("{:?}", cable.integrator) };
-    assert_eq!(integrator.method.to_string(), "esdirk4");
+    assert_eq!(cable.integrator.integrator(f64::INFINITY).method.to_string(), "esdirk4");
     assert_eq!(cable.section.diameter, Some(0.02));
     for (set, fragments) in [
         ("cable.sling.elements=0", &["--set cable.sling.elements=0: cable.sling.elements: 0 is out of range"][..]),

@@ -43,7 +43,7 @@ pub(in super::super) fn increment(
 fn step_matrix(equations: &Equations<'_>, stage: &Stage, q: &[f64], v: &[f64]) -> DMatrix<f64> {
     let n = q.len();
     let still = vec![0.0; n];
-    let Rates { v, rate } = Rates { v: if v.is_empty() { &still } else { v }, rate: stage.rate };
+    let Rates { v, rate } = Rates { v: if v.is_empty() { &still } else { v }, rate: stage.dv_dq };
     let mut a = DMatrix::zeros(n, n);
     add_elements(equations.system, equations.model, stage.time, q, v, [1.0, rate], &mut a);
     a *= stage.c2;
