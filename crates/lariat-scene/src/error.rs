@@ -140,6 +140,16 @@ pub enum Error {
         /// What is wrong, and what is accepted.
         problem: String,
     },
+    /// A key that the format does not have, asked for by name.
+    #[error("no key is named {key:?}; accepted: {accepted}{}", did_you_mean(.suggestion.as_deref()))]
+    NoSuchKey {
+        /// The key.
+        key: String,
+        /// The keys of the table.
+        accepted: String,
+        /// The nearest of them.
+        suggestion: Option<String>,
+    },
     /// A file that cannot be read.
     #[error("cannot read {}: {source}", path.display())]
     Read {
@@ -211,6 +221,7 @@ impl Error {
             | Error::NotBuilt { .. }
             | Error::Syntax { .. }
             | Error::Override { .. }
+            | Error::NoSuchKey { .. }
             | Error::Read { .. }
             | Error::Output { .. } => 2,
             Error::Write { .. } | Error::Mechanics { .. } | Error::Body { .. } | Error::Coupling { .. } => 3,

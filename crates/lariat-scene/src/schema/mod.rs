@@ -148,6 +148,13 @@ impl Table {
     }
 }
 
+impl Key {
+    /// Returns the table that a value of the key is or may be.
+    pub fn table(&self) -> Option<&'static Table> {
+        self.kind.table()
+    }
+}
+
 impl Kind {
     /// Returns the table that a value of this kind is or may be.
     pub fn table(&self) -> Option<&'static Table> {

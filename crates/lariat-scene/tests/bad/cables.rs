@@ -304,6 +304,7 @@ fn overrides_are_applied_before_the_checks_and_named_in_errors() {
         ("cable.sling.elements=many", &["--set cable.sling.elements=many: cable.sling.elements", "\"many\""]),
         ("cable.sling.colour=red", &["--set cable.sling.colour=red: cable.sling.colour: unknown key `colour`"]),
         ("cable.rope.elements=3", &["no cable is named \"rope\"", "sling"]),
+        ("cable.slng.elements=3", &["no cable is named \"slng\"", "Did you mean \"sling\"?"]),
         ("cable.elements=3", &["cable is an array", "cable.NAME.KEY", "sling"]),
         ("cable.sling", &["no value", "KEY=VALUE"]),
         ("dt.x=1", &["dt is a single value"]),
