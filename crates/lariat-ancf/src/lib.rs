@@ -56,7 +56,10 @@ pub use cable::exact::Jacobians;
 pub use cable::sample::{Reaction, Sample};
 pub use cable::{At, Cable, Snapshot};
 pub use diagnostics::Diagnostics;
-pub use effect::{Account, Buoyancy, Damping, Drag, Effects, Flow, GravityScale, LineLoad, RestPiece, RestShape};
+pub use effect::{
+    Buoyancy, Damping, Drag, EffectCounts, EffectWork, Effects, Flow, GravityScale, LineLoad, LineLoads, RestPiece,
+    RestShape,
+};
 pub use error::{EquilibriumFailure, Error, PinProblem, Requirement, StepFailure};
 pub use integrate::{Fidelity, Integrator, IntegratorChoice, IntegratorRef, Method, StepControl};
 pub use load::PointLoad;

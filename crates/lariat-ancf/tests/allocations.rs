@@ -83,7 +83,7 @@ fn effects() -> Effects {
         damping: Some(Damping { axial: 1e-3, bending: 1e-3 }),
         drag: Some(Drag::new(1.2, 1.2, 0.01, flow)),
         rest_shape: Some(RestShape::curved(0.01)),
-        line_loads: vec![LineLoad::uniform(Vector3::x())],
+        line_loads: Some(LineLoad::uniform(Vector3::x()).into()),
         ..Effects::default()
     }
 }

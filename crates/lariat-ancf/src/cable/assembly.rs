@@ -75,7 +75,7 @@ impl Elements {
             BendingRule::T2 => BendingKernel::T2(T2::default()),
             BendingRule::Gauss(points) => BendingKernel::Gauss(Gauss::new(points as usize)),
         };
-        let padded = |f: &dyn Fn(&super::model::Element) -> f64| {
+        let padded = |f: &dyn Fn(&crate::section::Element) -> f64| {
             let mut values: Vec<f64> = model.elements.iter().map(f).collect();
             values.resize(values.len().next_multiple_of(LANES), values[values.len() - 1]);
             values
@@ -88,8 +88,9 @@ impl Elements {
             axial: padded(&|e| 0.25 * e.section.axial_stiffness * e.length),
             flexural: padded(&|e| 2.0 * e.section.bending_stiffness / e.length),
             mass: MASS_ENTRIES.map(|(row, column)| {
-                let entry =
-                    |(i, e): (usize, &super::model::Element)| mass::consistent(model.inertia(i), e.length)[row][column];
+                let entry = |(i, e): (usize, &crate::section::Element)| {
+                    mass::consistent(model.inertia(i), e.length)[row][column]
+                };
                 let mut values: Vec<f64> = model.elements.iter().enumerate().map(entry).collect();
                 values.resize(values.len().next_multiple_of(LANES), values[values.len() - 1]);
                 values

@@ -1,12 +1,13 @@
 //! Building a cable.
 
-use super::model::{Element, MAX_ELEMENTS, Model};
+use super::model::{MAX_ELEMENTS, Model};
 use super::{At, Cable, Snapshot, layout};
 use crate::effect::{Damping, Effects};
 use crate::error::{Error, require, require_finite};
 use crate::integrate::{Fidelity, Integrator, IntegratorChoice};
 use crate::load::PointLoad;
 use crate::rule::Rule;
+use crate::section::Element;
 use crate::section::Section;
 use crate::support::{Motion, SlopeSupport, Support};
 use nalgebra::Vector3;
@@ -259,7 +260,7 @@ impl CableBuilder {
             loads: Vec::new(),
             effects: self.effects,
         };
-        let implicit = model.effects.damping.is_some();
+        let implicit = model.effects.needs_implicit_integrator();
         let mut cable = Cable::from_parts(model, state, Integrator::default())?;
         for (at, hold) in self.holds {
             let node = cable.node(At::ArcLength(arc_length(at)?.min(length)))?;

@@ -5,13 +5,13 @@
 //! has nothing to act against from then on: a taut cable whips, and wants an integrator with error control or damping.
 
 use super::{At, Cable, Snapshot};
-use crate::effect::{LineLoad, RestPiece, RestShape};
+use crate::effect::Cut;
 use crate::error::Error;
 use crate::integrate::{Memory, State};
 
 impl Cable {
     /// Cuts the cable at a point: this one keeps what is before it, the rest is returned. What holds or loads the point itself stays with
-    /// this one. Effects go on in both; the account of their work, and the counts, stay with this one.
+    /// this one. Effects go on in both; their work so far, and the counts, stay with this one.
     ///
     /// # Errors
     /// [`Error::OutOfRange`] if the point is not on the cable, or at one of its ends.
@@ -38,14 +38,12 @@ impl Cable {
         head.loads.retain(|load| load.arc_length <= s);
         tail.loads.retain(|load| load.arc_length > s);
         tail.loads.iter_mut().for_each(|load| load.arc_length = (load.arc_length - s).min(length - s));
-        head.effects.line_loads.retain(|load| load.from < s);
-        tail.effects.line_loads = tail.effects.line_loads.iter().filter_map(|load| shifted_load(load, s)).collect();
-        tail.effects.rest_shape = tail.effects.rest_shape.take().map(|rest| shifted_shape(rest, s));
+        [head.effects, tail.effects] = self.model.effects.cut(Cut { node, elements: &self.model.elements });
         let phase = &self.state.phase;
         let part =
             |q: &[f64], v: &[f64]| State { time: phase.time, q: q.to_vec(), v: v.to_vec(), memory: Memory::default() };
         let (end, begin) = (6 * node + 6, 6 * node);
-        let head_state = Snapshot { phase: part(&phase.q[..end], &phase.v[..end]), account: self.state.account };
+        let head_state = Snapshot { phase: part(&phase.q[..end], &phase.v[..end]), work: self.state.work };
         let tail_state = Snapshot { phase: part(&phase.q[begin..], &phase.v[begin..]), ..Snapshot::default() };
         let tail = Cable::from_parts(tail, tail_state, self.integrator)?;
         let mut head = Cable::from_parts(head, head_state, self.integrator)?;
@@ -72,17 +70,4 @@ impl Cable {
         }
         peak
     }
-}
-
-/// A line load as the rest of a cable beyond `s` has it.
-fn shifted_load(load: &LineLoad, s: f64) -> Option<LineLoad> {
-    let to = load.to - s;
-    (to > 0.0).then(|| LineLoad { from: (load.from - s).max(0.0), to, ..*load })
-}
-
-/// A rest shape as the rest of a cable beyond `s` has it.
-fn shifted_shape(rest: RestShape, s: f64) -> RestShape {
-    let before = rest.pieces.partition_point(|piece| piece.from <= s).saturating_sub(1);
-    let shift = |piece: RestPiece| RestPiece { from: (piece.from - s).max(0.0), ..piece };
-    RestShape { pieces: rest.pieces.into_iter().skip(before).map(shift).collect() }
 }

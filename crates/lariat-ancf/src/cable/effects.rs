@@ -2,10 +2,10 @@
 
 use super::model::Model;
 use super::{Cable, Equations};
-use crate::effect::account::hermite;
-use crate::effect::{Account, Buoyancy, Damping, Drag, Effects, GravityScale, LineLoad, RestShape};
+use crate::effect::work::{POINTS, hermite};
+use crate::effect::*;
 use crate::element::{mass, shape};
-use crate::error::{Error, Requirement, require, require_finite};
+use crate::error::{Error, Requirement};
 use crate::integrate::{OneStep, State};
 use crate::quadrature::gauss_legendre;
 use crate::rule::BendingRule;
@@ -18,8 +18,8 @@ impl Cable {
     }
 
     /// Work of effects since the cable was built.
-    pub fn account(&self) -> &Account {
-        &self.state.account
+    pub fn effect_work(&self) -> &EffectWork {
+        &self.state.work
     }
 
     /// Replaces all effects from the next step on. Not for every step: tables are built anew and the mass matrix is factored. Position
@@ -41,60 +41,12 @@ impl Cable {
         self.set_effects(effects)
     }
 
-    /// Switches internal damping on, or off with `None`.
-    ///
-    /// # Errors
-    /// As [`set_effects`](Self::set_effects).
-    pub fn set_damping(&mut self, damping: impl Into<Option<Damping>>) -> Result<(), Error> {
-        self.change_effects(|effects| effects.damping = damping.into())
-    }
-
-    /// Switches drag on, or off with `None`.
-    ///
-    /// # Errors
-    /// As [`set_effects`](Self::set_effects).
-    pub fn set_drag(&mut self, drag: impl Into<Option<Drag>>) -> Result<(), Error> {
-        self.change_effects(|effects| effects.drag = drag.into())
-    }
-
-    /// Switches buoyancy and added mass on, or off with `None`.
-    ///
-    /// # Errors
-    /// As [`set_effects`](Self::set_effects).
-    pub fn set_buoyancy(&mut self, buoyancy: impl Into<Option<Buoyancy>>) -> Result<(), Error> {
-        self.change_effects(|effects| effects.buoyancy = buoyancy.into())
-    }
-
-    /// Sets the stress-free shape, or straight and unstretched with `None`.
-    ///
-    /// # Errors
-    /// As [`set_effects`](Self::set_effects).
-    pub fn set_rest_shape(&mut self, rest_shape: impl Into<Option<RestShape>>) -> Result<(), Error> {
-        self.change_effects(|effects| effects.rest_shape = rest_shape.into())
-    }
-
-    /// Multiplies gravity for this cable; 1 = as it is.
-    ///
-    /// # Errors
-    /// As [`set_effects`](Self::set_effects).
-    pub fn set_gravity_scale(&mut self, scale: f64) -> Result<(), Error> {
-        self.change_effects(|effects| effects.gravity_scale = GravityScale(scale))
-    }
-
     /// Adds a force per length.
     ///
     /// # Errors
     /// As [`set_effects`](Self::set_effects).
     pub fn add_line_load(&mut self, load: LineLoad) -> Result<(), Error> {
-        self.change_effects(|effects| effects.line_loads.push(load))
-    }
-
-    /// Removes all forces per length.
-    ///
-    /// # Errors
-    /// As [`set_effects`](Self::set_effects).
-    pub fn clear_line_loads(&mut self) -> Result<(), Error> {
-        self.change_effects(|effects| effects.line_loads.clear())
+        self.change_effects(|effects| effects.line_loads.get_or_insert_default().0.push(load))
     }
 
     /// Samples a flow of your own at the nodes, from now until the next call: for wind zones, gusts, currents from elsewhere. Call it
@@ -162,99 +114,52 @@ impl Cable {
         Ok(if limp { Damping { bending: 0.0, ..damping } } else { damping })
     }
 
-    /// Takes over the account of a host step that succeeded, `before` being the positions when it began.
+    /// Takes over the work of effects in a host step that succeeded, `before` being the positions when it began.
     pub(crate) fn settle(&mut self, before: &[f64]) {
         let Cable { system, state, .. } = self;
-        state.account.add(&core::mem::take(&mut system.account));
+        state.work += core::mem::take(&mut system.work);
         if !system.line_force.is_empty() {
             let moved = state.phase.q.iter().zip(before);
-            state.account.line_load +=
-                system.line_force.iter().zip(moved).map(|(f, (q, q0))| f * (q - q0)).sum::<f64>();
+            state.work.line_loads += system.line_force.iter().zip(moved).map(|(f, (q, q0))| f * (q - q0)).sum::<f64>();
         }
     }
 }
 
-/// Checks that a cable with internal damping has an implicit method.
+macro_rules! setters {
+    ($({ field: $field:ident, type: $type:ident, set: $set:ident, key: $key:literal, summary: $summary:literal })*) => {
+        impl Cable {
+            $(
+                #[doc = concat!("Sets one effect, or removes it with `None`: ", $summary)]
+                ///
+                /// # Errors
+                /// As [`set_effects`](Self::set_effects).
+                pub fn $set(&mut self, effect: impl Into<Option<$type>>) -> Result<(), Error> {
+                    self.change_effects(|effects| effects.$field = effect.into())
+                }
+            )*
+        }
+    };
+}
+
+crate::for_each_effect!(setters);
+
+/// Checks that a cable has an implicit method where an effect needs one.
 pub(crate) fn check_integrator(model: &Model, method: &dyn OneStep) -> Result<(), Error> {
-    if model.effects.damping.is_some() && method.stability_limit().is_some() {
+    if model.effects.needs_implicit_integrator() && method.stability_limit().is_some() {
         return Err(Error::ExplicitDamping { cable: model.name.clone(), method: method.name() });
     }
     Ok(())
 }
 
 impl Model {
-    /// Refuses effects that are out of range or that the cable has no numbers for.
-    pub(crate) fn check_effects(&self) -> Result<(), Error> {
-        let Effects { damping, drag, buoyancy, rest_shape, line_loads, gravity_scale } = &self.effects;
-        let missing = |effect: &'static str, requirement: Requirement| {
-            Err(Error::MissingForEffect { cable: self.name.clone(), effect, requirement })
-        };
-        require("gravity scale", gravity_scale.0, true, "a number")?;
-        let limp = self.rule.bending == BendingRule::None;
-        if let Some(damping) = damping {
-            damping.check()?;
-            if limp && damping.bending > 0.0 {
-                return missing("damping of bending", Requirement::BendingRule);
-            }
-        }
-        if let Some(rest) = rest_shape {
-            rest.check()?;
-            self.check_pieces(rest)?;
-            if limp && rest.pieces.iter().any(|piece| piece.curvature > 0.0) {
-                return missing("a natural curvature", Requirement::BendingRule);
-            }
-        }
-        if let Some(drag) = drag {
-            drag.check()?;
-            let samples = drag.flow.samples.len();
-            if samples != 0 && samples != self.nodes() {
-                let (cable, expected) = (self.name.clone(), self.nodes());
-                return Err(Error::WrongCount { cable, what: "samples of the flow", count: samples, expected });
-            }
-            if drag.diameter.is_none() && self.elements.iter().any(|e| e.section.diameter.is_none()) {
-                return missing("drag", Requirement::Diameter);
-            }
-        }
-        if let Some(buoyancy) = buoyancy {
-            let Buoyancy { fluid_density, added_mass, area } = *buoyancy;
-            require("fluid density (kg/m^3)", fluid_density, fluid_density > 0.0, "> 0")?;
-            require("coefficient of added mass", added_mass, added_mass >= 0.0, ">= 0")?;
-            require("displaced area (m^2)", area.unwrap_or(1.0), area.is_none_or(|a| a > 0.0), "> 0")?;
-            if area.is_none() && self.elements.iter().any(|e| e.section.outer_area.is_none()) {
-                return missing("buoyancy", Requirement::DisplacedArea);
-            }
-        }
-        for load in line_loads {
-            require(
-                "begin of a line load (m)",
-                load.from,
-                load.from >= 0.0 && load.from < self.length(),
-                "on the cable",
-            )?;
-            require("end of a line load (m)", load.to, load.to > load.from, "> its begin")?;
-            require_finite("line load (N/m)", &load.force)?;
-        }
-        Ok(())
-    }
-
-    /// Refuses pieces of a rest shape that no element has.
-    fn check_pieces(&self, rest: &RestShape) -> Result<(), Error> {
-        let s = self.node_arc_lengths();
-        for (i, piece) in rest.pieces.iter().enumerate() {
-            let end = rest.pieces.get(i + 1).map_or(f64::INFINITY, |next| next.from);
-            if !s.windows(2).any(|s| (piece.from..end).contains(&(0.5 * (s[0] + s[1])))) {
-                return Err(Error::EmptyRestPiece { cable: self.name.clone(), from: piece.from });
-            }
-        }
-        Ok(())
-    }
-
     /// Displaced fluid in kg/m.
     fn displaced(&self, element: usize) -> f64 {
-        self.effects
-            .buoyancy
-            .as_ref()
-            .map_or(0.0, |b| b.fluid_density * b.area.or(self.elements[element].section.outer_area).unwrap_or(0.0))
+        self.effects.buoyancy.map_or(0.0, |buoyancy| buoyancy.displaced(&self.elements[element].section))
+    }
+
+    /// Factor on gravity.
+    fn gravity_scale(&self) -> f64 {
+        self.effects.gravity_scale.map_or(1.0, |scale| scale.0)
     }
 
     /// Mass per length in kg/m that resists acceleration, added mass included.
@@ -269,10 +174,10 @@ impl Model {
     /// Weight per length in N/m: scaled gravity less buoyancy.
     pub(crate) fn weight(&self, element: usize) -> Vector3<f64> {
         let own = self.elements[element].section.mass_per_length;
-        if self.effects.buoyancy.is_none() && self.effects.gravity_scale.0 == 1.0 {
+        if self.effects.buoyancy.is_none() && self.gravity_scale() == 1.0 {
             return own * self.gravity;
         }
-        (self.effects.gravity_scale.0 * (own - self.displaced(element))) * self.gravity
+        (self.gravity_scale() * (own - self.displaced(element))) * self.gravity
     }
 
     /// Stress-free stretch and curvature (1/m) of an element.
@@ -282,10 +187,14 @@ impl Model {
         rest.at(begin + 0.5 * self.elements[element].length)
     }
 
+    fn line_loads(&self) -> &[LineLoad] {
+        self.effects.line_loads.as_ref().map_or(&[], |loads| &loads.0)
+    }
+
     /// Generalised force of the line loads; empty without.
     pub(crate) fn line_force(&self) -> Vec<f64> {
         let mut force = Vec::new();
-        for load in &self.effects.line_loads {
+        for load in self.line_loads() {
             force.resize(6 * self.nodes(), 0.0);
             let mut begin = 0.0;
             for (e, element) in self.elements.iter().enumerate() {
@@ -311,9 +220,9 @@ impl Model {
             let weight = element.length * self.weight(e);
             // a neutrally buoyant cable is measured by what it weighs in air
             let size = element.length * element.section.mass_per_length * self.gravity.norm();
-            sum = (sum.0 + weight, sum.1 + size * self.effects.gravity_scale.0.abs());
+            sum = (sum.0 + weight, sum.1 + size * self.gravity_scale().abs());
         }
-        for load in &self.effects.line_loads {
+        for load in self.line_loads() {
             let force = (load.to.min(self.length()) - load.from) * load.force;
             sum = (sum.0 + force, sum.1 + force.norm());
         }
@@ -334,15 +243,15 @@ fn partial_weights(length: f64, a: f64, b: f64) -> [f64; 4] {
 }
 
 impl Equations<'_> {
-    /// Adds to the account what effects took in a step from `before` to `after`.
-    pub(crate) fn account_step(&mut self, before: &State, after: &State, h: f64, range: core::ops::Range<usize>) {
+    /// Adds the work of effects in a step from `before` to `after`.
+    pub(crate) fn add_effect_work(&mut self, before: &State, after: &State, h: f64, range: core::ops::Range<usize>) {
         let system = &mut *self.system;
         let damps = system.kernel.as_ref().is_some_and(|kernel| kernel.damps());
         if !damps && system.fluid.is_none() {
             return;
         }
         let (mut q, mut v) = (core::mem::take(&mut system.rhs), core::mem::take(&mut system.z));
-        for (weights, share) in hermite().into_iter().zip([0.211_324_865_405_187_1, 0.788_675_134_594_812_9]) {
+        for (weights, share) in hermite().into_iter().zip(POINTS) {
             for (i, k) in range.clone().enumerate() {
                 let mix = |x0: f64, d0: f64, x1: f64, d1: f64| {
                     weights[0] * x0 + weights[1] * h * d0 + weights[2] * x1 + weights[3] * h * d1
@@ -351,10 +260,10 @@ impl Equations<'_> {
                 v[i] = mix(before.v[k], before.memory.acceleration[k], after.v[k], after.memory.acceleration[k]);
             }
             if let Some(kernel) = system.kernel.as_ref().filter(|_| damps) {
-                system.account.damping += 0.5 * h * system.elements.damping_power(kernel, &q, &v);
+                system.work.damping -= 0.5 * h * system.elements.damping_power(kernel, &q, &v);
             }
             if let Some(fluid) = &mut system.fluid {
-                system.account.drag += 0.5 * h * fluid.power(system.level, before.time + share * h, &q, &v);
+                system.work.drag -= 0.5 * h * fluid.power(system.level, before.time + share * h, &q, &v);
             }
         }
         system.rhs = q;

@@ -196,7 +196,7 @@ impl Linearised for CableStage<'_, '_> {
         if trial::on() {
             return true;
         }
-        self.equations.model.effects.exact_tangent()
+        self.equations.model.effects.has_exact_tangent()
     }
 
     fn not_finite(&self) -> StepFailure {
@@ -314,15 +314,15 @@ impl Dynamics for Equations<'_> {
     }
 
     fn depends_on_velocity(&self) -> bool {
-        self.model.effects.depend_on_velocity()
+        self.model.effects.depends_on_velocity()
     }
 
     fn has_exact_tangent(&self) -> bool {
-        self.model.effects.exact_tangent()
+        self.model.effects.has_exact_tangent()
     }
 
     fn step_accepted(&mut self, before: &State, after: &State, h: f64) {
-        self.account_step(before, after, h, 0..after.q.len());
+        self.add_effect_work(before, after, h, 0..after.q.len());
     }
 
     fn spurious_energy(&mut self, before: &State, after: &State, h: f64) -> Option<(f64, f64)> {

@@ -24,10 +24,11 @@ mod simd;
 mod strategy;
 mod system;
 
-pub use model::{Element, Model};
+pub use crate::section::Element;
+pub use model::Model;
 
 use crate::diagnostics::Diagnostics;
-use crate::effect::Account;
+use crate::effect::EffectWork;
 use crate::error::{Error, StepFailure, require};
 use crate::integrate::{Integrator, IntegratorRef, Scratch, State, step_control};
 use crate::rule::Rule;
@@ -71,7 +72,7 @@ pub struct Snapshot {
     pub(crate) phase: State,
     /// Work of effects so far.
     #[serde(default)]
-    pub(crate) account: Account,
+    pub(crate) work: EffectWork,
 }
 
 /// A cable of ANCF elements with its force strategy, integrator and state.
@@ -149,7 +150,7 @@ impl Cable {
         self.check_not_attached()?;
         self.saved.copy_from(&self.state.phase);
         self.refresh_memory();
-        self.system.account = Account::default();
+        self.system.work = EffectWork::default();
         let mut equations =
             Equations { model: &self.model, system: &mut self.system, diagnostics: &mut self.diagnostics };
         let phase = &mut self.state.phase;
@@ -300,10 +301,10 @@ impl Cable {
     /// finite.
     pub fn restore(&mut self, state: Snapshot) -> Result<(), Error> {
         state.phase.check(self.name(), self.positions().len())?;
-        let Account { damping, drag, line_load } = state.account;
-        [damping, drag, line_load]
-            .into_iter()
-            .try_for_each(|x| require("work of effects (J)", x, true, "a number"))
+        let works = state.work.by_key();
+        works
+            .map(|(_, x)| require("work of effects (J)", x, true, "a number"))
+            .collect::<Result<(), Error>>()
             .map_err(|e| e.of_cable(self.name()))?;
         self.state = state;
         Ok(())

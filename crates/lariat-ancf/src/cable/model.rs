@@ -1,25 +1,16 @@
 //! What a cable is made of: plain data from which everything else is rebuilt.
 
-use crate::effect::Effects;
+use crate::effect::{Effects, Target};
 use crate::error::{Error, require, require_finite};
 use crate::load::PointLoad;
 use crate::rule::Rule;
-use crate::section::Section;
+use crate::section::Element;
 use crate::support::Support;
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
 /// Largest number of elements of a cable.
 pub(crate) const MAX_ELEMENTS: usize = 1_000_000;
-
-/// One element: unstretched length in m and section.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Element {
-    /// Unstretched length in m.
-    pub length: f64,
-    /// Section of the whole element.
-    pub section: Section,
-}
 
 /// The description of a cable; see [`CableBuilder`](crate::CableBuilder) for units and defaults.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -109,5 +100,10 @@ impl Model {
             let at = self.supports.partition_point(|(n, _)| *n < node);
             self.supports.insert(at, (node, support));
         }
+    }
+
+    /// Rejects effects that are out of range or that the cable has no numbers for.
+    pub(crate) fn check_effects(&self) -> Result<(), Error> {
+        self.effects.check(&Target { name: &self.name, rule: self.rule, elements: &self.elements })
     }
 }

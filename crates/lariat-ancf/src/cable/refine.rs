@@ -28,11 +28,7 @@ impl Cable {
         model.elements[e] = Element { length: xi * whole.length, ..whole };
         model.elements.insert(node, Element { length: (1.0 - xi) * whole.length, ..whole });
         model.supports.iter_mut().filter(|(n, _)| *n >= node).for_each(|(n, _)| *n += 1);
-        if let Some(samples) = model.effects.drag.as_mut().map(|drag| &mut drag.flow.samples).filter(|s| !s.is_empty())
-        {
-            let between = samples[e] * (1.0 - xi) + samples[node] * xi;
-            samples.insert(node, between);
-        }
+        model.effects.refine(e, xi);
         let mut state = self.state.clone();
         let cut = |x: &mut Vec<f64>| {
             let point = |weights: [f64; 4]| -> Vector3<f64> {

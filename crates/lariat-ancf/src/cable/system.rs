@@ -8,7 +8,7 @@ use super::kernel_effects::{KernelEffects, Rates};
 use super::model::Model;
 use super::projection::project_matrix;
 use crate::diagnostics::Diagnostics;
-use crate::effect::Account;
+use crate::effect::EffectWork;
 use crate::element::{mass, shape};
 use crate::error::StepFailure;
 use crate::linalg::{BlockTridiagonal, Factorisation, MassFactorisation, MassMatrix};
@@ -45,7 +45,7 @@ pub(crate) struct System {
     /// Drag, if on.
     pub fluid: Option<Fluid>,
     /// Work of effects in the present host step.
-    pub account: Account,
+    pub work: EffectWork,
     /// Time in s at which statics see a flow.
     pub static_time: f64,
     /// By point load of the model.
@@ -96,11 +96,11 @@ impl System {
         let mut system = System {
             kernel: KernelEffects::new(model),
             fluid: Fluid::new(model),
-            account: Account::default(),
+            work: EffectWork::default(),
             static_time: 0.0,
             line_force: model.line_force(),
             dead_force: vec![0.0; 6 * nodes],
-            velocity: vec![0.0; if model.effects.depend_on_velocity() { 6 * nodes } else { 0 }],
+            velocity: vec![0.0; if model.effects.depends_on_velocity() { 6 * nodes } else { 0 }],
             located: Vec::new(),
             level,
             elements: Elements::new(model),
@@ -243,11 +243,11 @@ impl System {
         }
         let count = elements.count as u64;
         if let Some(kernel) = kernel {
-            diagnostics.damping_evaluations += if kernel.damps() && !rates.v.is_empty() { count } else { 0 };
-            diagnostics.rest_shape_evaluations += if kernel.rests() { count } else { 0 };
+            diagnostics.effects.damping += if kernel.damps() && !rates.v.is_empty() { count } else { 0 };
+            diagnostics.effects.rest_shape += if kernel.rests() { count } else { 0 };
         }
         if let Some(fluid) = fluid {
-            diagnostics.drag_evaluations += count;
+            diagnostics.effects.drag += count;
             match mass_scale {
                 None => fluid.add_force(level, time, q, rates.v, scale, out),
                 Some(_) => fluid.add_force_and_matrix(level, time, q, rates, scale, out, matrix),

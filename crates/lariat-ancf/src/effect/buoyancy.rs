@@ -12,6 +12,9 @@
 //! alike: the true one acts across the cable only, so waves along it come out slower, by sqrt(1 + C_a rho_f A_d/rhoA). *Rejected.* Added
 //! mass across the cable alone: a mass matrix that depends on the configuration, with its quadratic velocity terms, in every step.
 
+use super::{Cut, Effect, Target};
+use crate::error::{Error, Requirement, require};
+use crate::section::Section;
 use serde::{Deserialize, Serialize};
 
 /// Buoyancy and added mass.
@@ -32,4 +35,44 @@ impl Buoyancy {
     pub fn new(fluid_density: f64, added_mass: f64) -> Self {
         Buoyancy { fluid_density, added_mass, area: None }
     }
+}
+
+impl Buoyancy {
+    /// Displaced fluid in kg/m.
+    pub(crate) fn displaced(&self, section: &Section) -> f64 {
+        self.fluid_density * self.area.or(section.outer_area).unwrap_or(0.0)
+    }
+}
+
+impl Effect for Buoyancy {
+    const DISSIPATIVE: bool = false;
+
+    fn check(&self, cable: &Target<'_>) -> Result<(), Error> {
+        let Buoyancy { fluid_density, added_mass, area } = *self;
+        require("fluid density (kg/m^3)", fluid_density, fluid_density > 0.0, "> 0")?;
+        require("coefficient of added mass", added_mass, added_mass >= 0.0, ">= 0")?;
+        require("displaced area (m^2)", area.unwrap_or(1.0), area.is_none_or(|a| a > 0.0), "> 0")?;
+        if area.is_none() && cable.elements.iter().any(|e| e.section.outer_area.is_none()) {
+            return Err(cable.missing("buoyancy", Requirement::DisplacedArea));
+        }
+        Ok(())
+    }
+
+    fn depends_on_velocity(&self) -> bool {
+        false
+    }
+
+    fn has_exact_tangent(&self) -> bool {
+        true
+    }
+
+    fn needs_implicit_integrator(&self) -> bool {
+        false
+    }
+
+    fn cut(&self, _: Cut<'_>) -> [Option<Self>; 2] {
+        [Some(*self); 2]
+    }
+
+    fn refine(&mut self, _: usize, _: f64) {}
 }

@@ -32,11 +32,12 @@
 //! [`Cable::jacobians`](crate::Cable::jacobians)'s; what Newton's iteration would save with it is in the table of [`exact`](crate::cable::exact).
 
 use super::curvature::{NOISE, Point};
+use super::{Cut, Effect, Target};
 use crate::Real;
 use crate::axial::AxialTable;
 use crate::element::gram::{Control, PAIR_WEIGHT, Six, Upper, dot, gradient, gram, quadratic_form};
 use crate::element::kernel::Stiffness;
-use crate::error::{Error, require};
+use crate::error::{Error, Requirement, require};
 use serde::{Deserialize, Serialize};
 
 /// e: square of half the turn per element, in rad, below which the curvature is damped as a vector.
@@ -70,11 +71,6 @@ impl Damping {
     /// Damping ratio of an elastic mode of this angular frequency (rad/s) by the bending time: tau omega/2.
     pub fn bending_ratio(&self, angular_frequency: f64) -> f64 {
         0.5 * self.bending * angular_frequency
-    }
-
-    pub(crate) fn check(&self) -> Result<(), Error> {
-        require("axial damping time (s)", self.axial, self.axial >= 0.0, ">= 0")?;
-        require("bending damping time (s)", self.bending, self.bending >= 0.0, ">= 0")
     }
 
     /// Adds the viscous part to the weighted gradient `n`, and the pairs that act on the velocities to `viscous`.
@@ -159,6 +155,38 @@ impl Damping {
         });
         axial + stiffness.bending * bending.sum::<f64>()
     }
+}
+
+impl Effect for Damping {
+    const DISSIPATIVE: bool = true;
+
+    fn check(&self, cable: &Target<'_>) -> Result<(), Error> {
+        require("axial damping time (s)", self.axial, self.axial >= 0.0, ">= 0")?;
+        require("bending damping time (s)", self.bending, self.bending >= 0.0, ">= 0")?;
+        if cable.has_no_bending() && self.bending > 0.0 {
+            return Err(cable.missing("damping of bending", Requirement::BendingRule));
+        }
+        Ok(())
+    }
+
+    fn depends_on_velocity(&self) -> bool {
+        true
+    }
+
+    fn has_exact_tangent(&self) -> bool {
+        false
+    }
+
+    /// Internal damping lowers the stability limit of explicit methods far below any step.
+    fn needs_implicit_integrator(&self) -> bool {
+        true
+    }
+
+    fn cut(&self, _: Cut<'_>) -> [Option<Self>; 2] {
+        [Some(*self); 2]
+    }
+
+    fn refine(&mut self, _: usize, _: f64) {}
 }
 
 /// How the rate of bending is shared between the scalar and the vector of curvature.

@@ -19,9 +19,10 @@
 //! error control (table and command: [`exact`](crate::cable::exact)), and an unsymmetric matrix costs every iteration.
 
 use super::flow::Flow;
+use super::{Cut, Effect, Target};
 use crate::Real;
 use crate::element::gram::dot;
-use crate::error::{Error, require};
+use crate::error::{Error, Requirement, require};
 use serde::{Deserialize, Serialize};
 
 /// Gauss points of an element.
@@ -52,15 +53,57 @@ impl Drag {
     pub fn new(fluid_density: f64, normal: f64, tangential: f64, flow: Flow) -> Self {
         Drag { fluid_density, normal, tangential, diameter: None, flow }
     }
+}
 
-    pub(crate) fn check(&self) -> Result<(), Error> {
+impl Effect for Drag {
+    const DISSIPATIVE: bool = true;
+
+    fn check(&self, cable: &Target<'_>) -> Result<(), Error> {
         require("fluid density (kg/m^3)", self.fluid_density, self.fluid_density > 0.0, "> 0")?;
         require("normal drag coefficient", self.normal, self.normal >= 0.0, ">= 0")?;
         require("tangential drag coefficient", self.tangential, self.tangential >= 0.0, ">= 0")?;
         if let Some(diameter) = self.diameter {
             require("drag diameter (m)", diameter, diameter > 0.0, "> 0")?;
         }
-        self.flow.check()
+        self.flow.check()?;
+        let samples = self.flow.samples.len();
+        if samples != 0 && samples != cable.nodes() {
+            let (cable, expected) = (cable.name.to_string(), cable.nodes());
+            return Err(Error::WrongCount { cable, what: "samples of the flow", count: samples, expected });
+        }
+        if self.diameter.is_none() && cable.elements.iter().any(|e| e.section.diameter.is_none()) {
+            return Err(cable.missing("drag", Requirement::Diameter));
+        }
+        Ok(())
+    }
+
+    fn depends_on_velocity(&self) -> bool {
+        true
+    }
+
+    fn has_exact_tangent(&self) -> bool {
+        false
+    }
+
+    fn needs_implicit_integrator(&self) -> bool {
+        false
+    }
+
+    fn cut(&self, Cut { node, .. }: Cut<'_>) -> [Option<Self>; 2] {
+        let [mut head, mut tail] = [self.clone(), self.clone()];
+        if !self.flow.samples.is_empty() {
+            head.flow.samples.truncate(node + 1);
+            tail.flow.samples.drain(..node);
+        }
+        [Some(head), Some(tail)]
+    }
+
+    fn refine(&mut self, element: usize, xi: f64) {
+        let samples = &mut self.flow.samples;
+        if !samples.is_empty() {
+            let between = samples[element] * (1.0 - xi) + samples[element + 1] * xi;
+            samples.insert(element + 1, between);
+        }
     }
 }
 

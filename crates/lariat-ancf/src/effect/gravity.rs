@@ -9,6 +9,8 @@
 //! with Hermite's functions ([`load_weights`](crate::element::mass::load_weights)). *Validity.* Uniform gravity. It enters a constant
 //! vector: no work in a step.
 
+use super::{Cut, Effect, Target};
+use crate::error::{Error, require};
 use serde::{Deserialize, Serialize};
 
 /// What gravity is multiplied by for one cable; default 1.
@@ -20,4 +22,30 @@ impl Default for GravityScale {
     fn default() -> Self {
         GravityScale(1.0)
     }
+}
+
+impl Effect for GravityScale {
+    const DISSIPATIVE: bool = false;
+
+    fn check(&self, _: &Target<'_>) -> Result<(), Error> {
+        require("gravity scale", self.0, true, "a number")
+    }
+
+    fn depends_on_velocity(&self) -> bool {
+        false
+    }
+
+    fn has_exact_tangent(&self) -> bool {
+        true
+    }
+
+    fn needs_implicit_integrator(&self) -> bool {
+        false
+    }
+
+    fn cut(&self, _: Cut<'_>) -> [Option<Self>; 2] {
+        [Some(*self); 2]
+    }
+
+    fn refine(&mut self, _: usize, _: f64) {}
 }

@@ -21,9 +21,11 @@
 //! a direction: it needs the twist that this element does not have. Points of zero k_r: the tangent is infinite at the straight cable.
 
 use super::curvature::{NOISE, Point};
+use super::{Cut, Effect, Target};
 use crate::Real;
 use crate::element::gram::{Six, Upper};
-use crate::error::{Error, require};
+use crate::error::{Error, Requirement, require};
+use crate::section::Element;
 use serde::{Deserialize, Serialize};
 
 /// k_r over kappa_0.
@@ -66,7 +68,30 @@ impl RestShape {
         piece.map_or((1.0, 0.0), |piece| (piece.stretch, piece.curvature))
     }
 
-    pub(crate) fn check(&self) -> Result<(), Error> {
+    /// Whether any piece is curved.
+    pub(crate) fn is_curved(&self) -> bool {
+        self.pieces.iter().any(|piece| piece.curvature > 0.0)
+    }
+
+    /// The first piece that no element of a cable has.
+    fn unused(&self, elements: &[Element]) -> Option<usize> {
+        let mut begin = 0.0;
+        let middle = |e: &Element| {
+            let end = begin + e.length;
+            0.5 * (core::mem::replace(&mut begin, end) + end)
+        };
+        let middles: Vec<f64> = elements.iter().map(middle).collect();
+        (0..self.pieces.len()).find(|&i| {
+            let end = self.pieces.get(i + 1).map_or(f64::INFINITY, |next| next.from);
+            !middles.iter().any(|s| (self.pieces[i].from..end).contains(s))
+        })
+    }
+}
+
+impl Effect for RestShape {
+    const DISSIPATIVE: bool = false;
+
+    fn check(&self, cable: &Target<'_>) -> Result<(), Error> {
         let mut before = f64::NEG_INFINITY;
         for piece in &self.pieces {
             require("arc length of a rest shape (m)", piece.from, piece.from > before, "ascending")?;
@@ -74,8 +99,44 @@ impl RestShape {
             require("rest curvature (1/m)", piece.curvature, piece.curvature >= 0.0, ">= 0")?;
             before = piece.from;
         }
+        if let Some(i) = self.unused(cable.elements) {
+            let from = self.pieces[i].from;
+            return Err(Error::EmptyRestPiece { cable: cable.name.to_string(), from });
+        }
+        if cable.has_no_bending() && self.is_curved() {
+            return Err(cable.missing("a natural curvature", Requirement::BendingRule));
+        }
         Ok(())
     }
+
+    fn depends_on_velocity(&self) -> bool {
+        false
+    }
+
+    fn has_exact_tangent(&self) -> bool {
+        !self.is_curved()
+    }
+
+    fn needs_implicit_integrator(&self) -> bool {
+        false
+    }
+
+    fn cut(&self, cut: Cut<'_>) -> [Option<Self>; 2] {
+        let s = cut.arc_length();
+        let before = self.pieces.partition_point(|piece| piece.from <= s).saturating_sub(1);
+        let shift = |piece: &RestPiece| RestPiece { from: (piece.from - s).max(0.0), ..*piece };
+        let head = RestShape { pieces: self.pieces.clone() };
+        let tail = RestShape { pieces: self.pieces[before..].iter().map(shift).collect() };
+        let [of_head, of_tail] = cut.parts();
+        [(head, of_head), (tail, of_tail)].map(|(mut shape, elements)| {
+            while let Some(i) = shape.unused(elements) {
+                shape.pieces.remove(i);
+            }
+            (!shape.pieces.is_empty()).then_some(shape)
+        })
+    }
+
+    fn refine(&mut self, _: usize, _: f64) {}
 }
 
 /// The natural curvature of elements as the kernel needs it: half angles per element, `S_0 l/2` and `(k_r l/2)^2`.

@@ -118,7 +118,7 @@ impl Linearised for IslandStage<'_, '_, '_> {
 }
 
 fn has_exact_tangent(equations: &IslandEquations<'_, '_>) -> bool {
-    equations.cables.iter().all(|cable| cable.effects().exact_tangent())
+    equations.cables.iter().all(|cable| cable.effects().has_exact_tangent())
 }
 
 impl Dynamics for IslandDynamics<'_, '_> {
@@ -270,7 +270,7 @@ impl Dynamics for IslandDynamics<'_, '_> {
 
     fn step_accepted(&mut self, before: &State, after: &State, h: f64) {
         for (cable, part) in self.equations.cables.iter_mut().zip(&self.equations.layout.parts) {
-            cable.equations().0.account_step(before, after, h, part.range());
+            cable.equations().0.add_effect_work(before, after, h, part.range());
         }
     }
 

@@ -8,7 +8,7 @@ use super::memory;
 use super::pin::{PinConstraint, check};
 use super::pin_accounts::{PinAccount, PinAccounts};
 use crate::cable::{Cable, SHORTEST_STEP, check_integrator};
-use crate::effect::Account;
+use crate::effect::EffectWork;
 use crate::error::{Error, require};
 use crate::integrate::{Integrator, IntegratorRef, Scratch, State, step_control};
 
@@ -61,7 +61,7 @@ impl Island {
         if dt == 0.0 {
             return Ok(());
         }
-        cables.iter_mut().for_each(|cable| cable.system.account = Account::default());
+        cables.iter_mut().for_each(|cable| cable.system.work = EffectWork::default());
         let Island { layout, matrices, accounts, vectors, scratch, state } = self;
         layout.begin(cables, bodies, pins, dt);
         matrices.begin(layout);

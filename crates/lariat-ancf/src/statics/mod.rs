@@ -133,7 +133,7 @@ impl Cable {
             return Err(no_equilibrium(self, EquilibriumFailure::NotHeld, resultant, 0));
         }
         self.system.static_time = self.time();
-        let (before, revision, account) = (self.state.clone(), self.revision, self.state.account);
+        let (before, revision, work) = (self.state.clone(), self.revision, self.state.work);
         let loads = self.model.loads.clone();
         // the point loads ramp with a time from 0 to 1 while statics are solved
         self.model.loads.iter_mut().for_each(|load| (load.ramp, load.start) = (1.0, 0.0));
@@ -143,7 +143,7 @@ impl Cable {
         match outcome {
             Ok(report) => {
                 // the work of drag during the search is not part of the cable's history
-                self.state.account = account;
+                self.state.work = work;
                 self.set_at_rest();
                 Ok(report)
             }

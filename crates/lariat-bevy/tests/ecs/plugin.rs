@@ -1,6 +1,6 @@
 //! The plugin in an app.
 
-use super::bench::soft;
+use super::common::{cable_of, soft};
 use bevy_app::{App, Update};
 use bevy_ecs::prelude::*;
 use bevy_ecs::reflect::AppTypeRegistry;
@@ -17,7 +17,7 @@ fn note(name: &'static str) -> impl Fn(ResMut<Order>) {
 
 /// Systems between the stages run where the documentation says.
 #[test]
-fn systems_can_be_put_between_the_stages() {
+fn user_systems_run_between_the_stages() {
     let mut app = App::new();
     app.add_plugins(LariatPlugin::in_schedule(Update)).init_resource::<Order>();
     app.add_systems(CableStep, note("before").before(CableSystems::Prepare));
@@ -29,7 +29,7 @@ fn systems_can_be_put_between_the_stages() {
     let four = ["predicted", "stepped"].repeat(4);
     let expected: Vec<&str> = ["before"].into_iter().chain(four).chain(["after"]).collect();
     assert_eq!(app.world().resource::<Order>().0, expected);
-    let time = app.world().get::<Cable>(cable).unwrap().core().unwrap().time();
+    let time = cable_of(app.world(), cable).time();
     assert!((time - 1.0 / 60.0).abs() < 1e-7);
 }
 

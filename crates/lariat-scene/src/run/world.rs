@@ -3,7 +3,7 @@
 use crate::error::Error;
 use crate::physics::{BodyState, Physics};
 use crate::scene::{AttachmentScene, Engine, Purpose, Scene};
-use lariat_ancf::{At, Cable, Energy, GravityScale, Momentum, Reaction, Support, Vector3};
+use lariat_ancf::{At, Cable, Energy, Momentum, Reaction, Support, Vector3};
 use std::collections::BTreeMap;
 
 /// The cables and bodies of a scene in their present state.
@@ -185,26 +185,16 @@ impl World {
 
     /// Energy in J that damping and drag took so far from a cable, or from all.
     pub fn dissipated(&self, cable: Option<usize>) -> f64 {
-        self.chosen(cable).into_iter().map(|cable| cable.account().dissipated()).sum()
+        self.chosen(cable).into_iter().map(|cable| cable.effect_work().dissipated()).sum()
     }
 
-    /// Evaluations by effect, summed over the cables that have it; of buoyancy, line loads and gravity's scale none, they
-    /// are in constant vectors and the mass matrix.
+    /// Evaluations by effect, summed over the cables that have it; zero for effects that act by constant vectors or the mass matrix.
     pub fn effect_evaluations(&self) -> BTreeMap<String, u64> {
         let mut counts = BTreeMap::new();
         for cable in self.cables() {
-            let (effects, diagnostics) = (cable.effects(), cable.diagnostics());
-            for (name, on, count) in [
-                ("damping", effects.damping.is_some(), diagnostics.damping_evaluations),
-                ("drag", effects.drag.is_some(), diagnostics.drag_evaluations),
-                ("buoyancy", effects.buoyancy.is_some(), 0),
-                ("rest_shape", effects.rest_shape.is_some(), diagnostics.rest_shape_evaluations),
-                ("line_load", !effects.line_loads.is_empty(), 0),
-                ("gravity_scale", effects.gravity_scale != GravityScale::default(), 0),
-            ] {
-                if on {
-                    *counts.entry(name.to_string()).or_insert(0) += count;
-                }
+            for key in cable.effects().present() {
+                let count = cable.diagnostics().effects.by_key().find(|(k, _)| *k == key).map_or(0, |(_, count)| count);
+                *counts.entry(key.to_string()).or_insert(0) += count;
             }
         }
         counts

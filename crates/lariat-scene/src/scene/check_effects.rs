@@ -9,7 +9,8 @@ use super::document::{Document, KeyPath};
 use super::table::{BuoyancyTable, CableTable, DampingTable, DragTable, LineLoadTable, RestPieceTable, RestShapeTable};
 use crate::error::Error;
 use lariat_ancf::{
-    BendingRule, Buoyancy, Damping, Drag, Effects, GravityScale, LineLoad, RestPiece, RestShape, Rule, Section,
+    BendingRule, Buoyancy, Damping, Drag, Effects, GravityScale, LineLoad, LineLoads, RestPiece, RestShape, Rule,
+    Section,
 };
 
 /// Coefficients where a table has none.
@@ -26,6 +27,9 @@ pub(super) fn effects(
     length: f64,
 ) -> Result<Effects, Error> {
     let loads = table.line_load.iter().enumerate();
+    let loads: Vec<LineLoad> =
+        loads.map(|(i, t)| line_load(doc, &at.key("line_load").item(i), t, length)).collect::<Result<_, _>>()?;
+    let scale = |scale| number(doc, &at.key("gravity_scale"), scale, |_| true).map(GravityScale);
     Ok(Effects {
         damping: table.damping.as_ref().map(|t| damping(doc, &at.key("damping"), t, rule)).transpose()?,
         drag: table.drag.as_ref().map(|t| drag(doc, &at.key("drag"), t, section)).transpose()?,
@@ -35,12 +39,8 @@ pub(super) fn effects(
             .as_ref()
             .map(|t| rest_shape(doc, &at.key("rest_shape"), t, rule, length))
             .transpose()?,
-        line_loads: loads
-            .map(|(i, t)| line_load(doc, &at.key("line_load").item(i), t, length))
-            .collect::<Result<_, _>>()?,
-        gravity_scale: GravityScale(number(doc, &at.key("gravity_scale"), table.gravity_scale.unwrap_or(1.0), |_| {
-            true
-        })?),
+        line_loads: (!loads.is_empty()).then_some(LineLoads(loads)),
+        gravity_scale: table.gravity_scale.map(scale).transpose()?,
     })
 }
 
