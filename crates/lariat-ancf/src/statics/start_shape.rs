@@ -1,18 +1,19 @@
-//! Start shapes where the one at hand is of no use: a support that jumped, a shape from which no way leads downhill.
+//! Start shapes that replace the present one after a support has jumped, or if the iteration failed
+//! from the present one.
 //!
-//! Between two held positions a cable is laid as when it is built (straight if taut, an arc if slack), beyond the
-//! last one straight along gravity. A support that moved by a small share of the span takes the cable along evenly
-//! instead.
+//! Between two held positions a cable is laid out as when it is built (straight if taut, an arc if
+//! slack), beyond the last one straight along gravity. If a support has moved by a small share of
+//! the span, the cable is displaced linearly along the span instead.
 
 use crate::cable::{Model, along_polyline};
 use crate::support::SlopeSupport;
 use nalgebra::Vector3;
 use std::ops::Range;
 
-/// Change of a span, as a share of its unstretched length, beyond which it is laid anew.
-const FAR: f64 = 0.1;
-/// Smallest distance of the ends of a span, as a share of its length, between which an arc is laid.
-const OPEN: f64 = 0.05;
+/// Change of a span, as a share of its unstretched length, above which it is laid out anew.
+const MAX_SPAN_CHANGE: f64 = 0.1;
+/// Smallest distance of the ends of a span, as a share of its length, for an arc.
+const MIN_OPENING: f64 = 0.05;
 
 fn position(q: &[f64], node: usize) -> Vector3<f64> {
     Vector3::from_column_slice(&q[6 * node..6 * node + 3])
@@ -22,20 +23,21 @@ fn set_position(q: &mut [f64], node: usize, r: Vector3<f64>) {
     q[6 * node..6 * node + 3].copy_from_slice(r.as_slice());
 }
 
-/// Sets a slope that no support holds.
+/// Sets the slope of a node, unless a support holds it.
 fn set_slope(model: &Model, q: &mut [f64], node: usize, t: Vector3<f64>) {
     if model.support(node).is_none_or(|s| s.slope == SlopeSupport::Free) {
         q[6 * node + 3..6 * node + 6].copy_from_slice(t.as_slice());
     }
 }
 
-/// Nodes whose position is held, ascending.
+/// Returns the nodes whose position is held, ascending.
 fn held(model: &Model) -> Vec<usize> {
     model.supports.iter().filter(|(_, s)| s.holds_position()).map(|(node, _)| *node).collect()
 }
 
-/// Takes the cable along with supports that jumped: they are at their places in `q`, and were at those in `before`.
-pub(super) fn take_along(model: &Model, before: &[f64], q: &mut [f64]) {
+/// Moves the cable with supports that have jumped: in `q` they are at their positions, in `before`
+/// at the previous ones.
+pub(super) fn move_with_supports(model: &Model, before: &[f64], q: &mut [f64]) {
     let held = held(model);
     let (Some(&first), Some(&last)) = (held.first(), held.last()) else { return };
     let jump = |q: &[f64], node: usize| position(q, node) - position(before, node);
@@ -51,8 +53,8 @@ pub(super) fn take_along(model: &Model, before: &[f64], q: &mut [f64]) {
         let (a, b) = (ends[0], ends[1]);
         let (from, to, length) = (jump(q, a), jump(q, b), s[b] - s[a]);
         let rate = (to - from) / length;
-        if rate.norm() > FAR {
-            lay_span(model, &s, q, a..b);
+        if rate.norm() > MAX_SPAN_CHANGE {
+            lay_out_span(model, &s, q, a..b);
             continue;
         }
         for node in a + 1..b {
@@ -63,8 +65,8 @@ pub(super) fn take_along(model: &Model, before: &[f64], q: &mut [f64]) {
     }
 }
 
-/// Lays the whole cable anew.
-pub(super) fn lay(model: &Model, q: &mut [f64]) {
+/// Lays out the whole cable.
+pub(super) fn lay_out(model: &Model, q: &mut [f64]) {
     let held = held(model);
     let (Some(&first), Some(&last)) = (held.first(), held.last()) else { return };
     let s = model.node_arc_lengths();
@@ -77,16 +79,17 @@ pub(super) fn lay(model: &Model, q: &mut [f64]) {
             set_slope(model, q, node, sign * down);
         }
     }
-    held.windows(2).for_each(|ends| lay_span(model, &s, q, ends[0]..ends[1]));
+    held.windows(2).for_each(|ends| lay_out_span(model, &s, q, ends[0]..ends[1]));
 }
 
-/// Lays the cable between two nodes at their places.
-fn lay_span(model: &Model, s: &[f64], q: &mut [f64], ends: Range<usize>) {
+/// Lays out the cable between two nodes at their positions.
+fn lay_out_span(model: &Model, s: &[f64], q: &mut [f64], ends: Range<usize>) {
     let (a, b) = (position(q, ends.start), position(q, ends.end));
     let along: Vec<f64> = s[ends.start..=ends.end].iter().map(|x| x - s[ends.start]).collect();
     let length = along[along.len() - 1];
-    // an arc needs two ends: a loop is laid open, and closed evenly
-    let open = if (b - a).norm() > OPEN * length { b } else { b + OPEN * length * across(&model.gravity) };
+    // an arc needs two separate ends: a loop is laid out open, and closed linearly
+    let open =
+        if (b - a).norm() > MIN_OPENING * length { b } else { b + MIN_OPENING * length * normal(&model.gravity) };
     let (positions, slopes) = along_polyline(&[a, open], &along, model.gravity);
     for (i, node) in (ends.start..=ends.end).enumerate() {
         set_position(q, node, positions[i] + (b - open) * (along[i] / length));
@@ -95,8 +98,8 @@ fn lay_span(model: &Model, s: &[f64], q: &mut [f64], ends: Range<usize>) {
     set_position(q, ends.end, b);
 }
 
-/// A unit vector normal to `v`.
-fn across(v: &Vector3<f64>) -> Vector3<f64> {
+/// Returns a unit vector normal to `v`.
+fn normal(v: &Vector3<f64>) -> Vector3<f64> {
     let axis = if v.x.abs() <= v.y.abs() { Vector3::x() } else { Vector3::y() };
     let v = v.try_normalize(0.0).unwrap_or(Vector3::z());
     (axis - v * v.dot(&axis)).normalize()

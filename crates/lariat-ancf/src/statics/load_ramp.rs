@@ -1,39 +1,42 @@
-//! Along the ramp of the loads by plain Newton steps: finds unstable shapes too, which is what a moment calls for.
+//! Load incrementation by Newton's method: finds unstable shapes too, which moments require.
 //!
-//! The ramp starts at the share of the loads that the shape at hand carries already, else at no load, downhill. A
-//! step of the ramp that converges quickly is doubled, one that fails is halved.
+//! The ramp starts at the share of the loads that the present shape already carries, else at the
+//! equilibrium without point loads. The increment of load is doubled if it converges quickly and
+//! halved if it fails.
 //!
-//! *Source.* Load incrementation with automatic steps (Crisfield 1991, section 9.4).
+//! # References
+//!
+//! Crisfield 1991, section 9.4 (load incrementation with automatic steps).
 
 use super::scale::{LoadScale, largest_force};
-use super::{Budget, EquilibriumReport, Failure, SLOPE_CAP, largest_change};
+use super::{Budget, EquilibriumReport, Failure, MAX_SLOPE_CHANGE, largest_change};
 use crate::cable::{Cable, project_vector};
 use crate::integrate::Dynamics;
 use crate::linalg::Definiteness;
 
-/// First step of the ramp, as a share of the loads.
-const FIRST_STEP: f64 = 0.125;
-/// Shortest step of the ramp.
-const SHORTEST_STEP: f64 = 1.0 / 1024.0;
-/// Newton iterations of one step of the ramp.
-const ITERATIONS: usize = 16;
-/// A step that takes at most so many iterations is doubled.
-const QUICK: usize = 9;
-/// Change of slopes by which a step within the ramp has converged.
-const INTERMEDIATE: f64 = 1e-4;
-/// Residual, as a share of the loads, below which a shape counts as carrying a part of them.
-const CARRIED: f64 = 1e-4;
+/// First increment, as a share of the loads.
+const FIRST_INCREMENT: f64 = 0.125;
+/// Smallest increment.
+const MIN_INCREMENT: f64 = 1.0 / 1024.0;
+/// Largest number of Newton iterations of one increment.
+const MAX_ITERATIONS: usize = 16;
+/// Number of iterations up to which an increment is doubled.
+const FEW_ITERATIONS: usize = 9;
+/// Change of slopes below which an increment within the ramp has converged.
+const INTERMEDIATE_CHANGE: f64 = 1e-4;
+/// Residual, as a share of the loads, below which a shape carries a part of them.
+const CARRIED_RESIDUAL: f64 = 1e-4;
 
 impl Cable {
     /// Ramps the loads up to their full size.
-    pub(super) fn follow(&mut self, budget: &mut Budget) -> Result<EquilibriumReport, Failure> {
+    pub(super) fn ramp_loads(&mut self, budget: &mut Budget) -> Result<EquilibriumReport, Failure> {
         let mut share = self.carried_share();
         if share.is_none() {
-            self.descend(0.0, budget)?;
+            self.minimise_energy(0.0, budget)?;
             share = Some(0.0);
         }
         let mut share = share.unwrap_or(0.0);
-        let mut step = FIRST_STEP;
+        let mut step = FIRST_INCREMENT;
         let mut good = self.state.phase.q.clone();
         let mut before: Option<(f64, Vec<f64>)> = None;
         loop {
@@ -49,14 +52,14 @@ impl Cable {
                     let q = core::mem::replace(&mut good, self.state.phase.q.clone());
                     before = (next > share).then_some((share, q));
                     share = next;
-                    if budget.done - done <= QUICK {
+                    if budget.done - done <= FEW_ITERATIONS {
                         step *= 2.0;
                     }
                 }
                 Err(failure) => {
                     self.state.phase.q.copy_from_slice(&good);
                     step = 0.5 * (next - share);
-                    if step < SHORTEST_STEP || budget.spent() {
+                    if step < MIN_INCREMENT || budget.spent() {
                         return Err(failure);
                     }
                 }
@@ -64,44 +67,42 @@ impl Cable {
         }
     }
 
-    /// The share of the point loads that balances the present shape, if any does.
+    /// Returns the share of the point loads that balances the present shape, if any does.
     fn carried_share(&mut self) -> Option<f64> {
         let n = self.positions().len();
-        let arm = LoadScale::of(&self.model, self.positions()).element;
-        let mut phase = core::mem::take(&mut self.state.phase);
-        let (mut equations, _) = self.equations();
-        equations.prescribe(phase.time, &mut phase.q, &mut phase.v);
+        let lever = LoadScale::new(&self.model, self.positions()).element;
+        let (mut equations, state) = self.equations();
+        equations.prescribe(state.time, &mut state.q, &mut state.v);
         let (mut none, mut load) = (vec![0.0; n], vec![0.0; n]);
-        equations.force(0.0, &phase.q, 1.0, &mut none);
-        equations.force(1.0, &phase.q, 1.0, &mut load);
+        equations.force(0.0, &state.q, 1.0, &mut none);
+        equations.force(1.0, &state.q, 1.0, &mut load);
         project_vector(equations.model, &mut none);
         project_vector(equations.model, &mut load);
         load.iter_mut().zip(&none).for_each(|(load, none)| *load -= none);
-        self.state.phase = phase;
         let square: f64 = load.iter().map(|x| x * x).sum();
         let share = -none.iter().zip(&load).map(|(a, b)| a * b).sum::<f64>() / square;
         let share = if share.is_finite() { share.clamp(0.0, 1.0) } else { return None };
-        let size = largest_force(&load, arm);
+        let size = largest_force(&load, lever);
         load.iter_mut().zip(&none).for_each(|(load, none)| *load = none + share * *load);
-        (largest_force(&load, arm) <= CARRIED * size).then_some(share)
+        (largest_force(&load, lever) <= CARRIED_RESIDUAL * size).then_some(share)
     }
 
-    /// Newton's method with capped increments at a share `load` of the point loads; to the full tolerance at the full
-    /// load.
+    /// Solves by Newton's method with capped increments at a share `load` of the point loads; to
+    /// the full tolerance at the full load.
     fn newton(&mut self, load: f64, budget: &mut Budget) -> Result<EquilibriumReport, Failure> {
-        let scale = LoadScale::of(&self.model, self.positions());
+        let scale = LoadScale::new(&self.model, self.positions());
         let tolerance = budget.tolerance * scale.force + scale.rounding;
-        let mut phase = core::mem::take(&mut self.state.phase);
-        let mut rhs = vec![0.0; phase.q.len()];
-        let (mut equations, _) = self.equations();
-        equations.prescribe(phase.time, &mut phase.q, &mut phase.v);
-        let (mut report, mut cause, mut residual) = (None, None, f64::NAN);
+        let (mut equations, state) = self.equations();
+        equations.prescribe(state.time, &mut state.q, &mut state.v);
+        let q = &mut state.q;
+        let mut rhs = vec![0.0; q.len()];
+        let (mut cause, mut residual) = (None, f64::NAN);
         let mut close = false;
-        for _ in 0..ITERATIONS {
+        for _ in 0..MAX_ITERATIONS {
             if !budget.take() {
                 break;
             }
-            equations.force_and_matrix(load, &phase.q, 1.0, 0.0, &mut rhs);
+            equations.force_and_matrix(load, q, 1.0, 0.0, &mut rhs);
             project_vector(equations.model, &mut rhs);
             residual = largest_force(&rhs, scale.element);
             let kind = match equations.factor() {
@@ -113,24 +114,21 @@ impl Cable {
             };
             if residual <= tolerance || close {
                 let stable = matches!(kind, Definiteness::PositiveDefinite);
-                report = Some(EquilibriumReport { iterations: budget.done, residual, stable });
-                break;
+                return Ok(EquilibriumReport { iterations: budget.done, residual, stable });
             }
             equations.solve(&mut rhs);
             let (_, slope) = largest_change(&rhs);
-            let damp = SLOPE_CAP / slope.max(SLOPE_CAP);
+            let damp = MAX_SLOPE_CHANGE / slope.max(MAX_SLOPE_CHANGE);
             if !damp.is_finite() || !slope.is_finite() {
                 break;
             }
-            phase.q.iter_mut().zip(&rhs).for_each(|(q, dq)| *q += damp * dq);
-            if load < 1.0 && slope < INTERMEDIATE {
-                report = Some(EquilibriumReport { iterations: budget.done, residual, stable: false });
-                break;
+            q.iter_mut().zip(&rhs).for_each(|(q, dq)| *q += damp * dq);
+            if load < 1.0 && slope < INTERMEDIATE_CHANGE {
+                return Ok(EquilibriumReport { iterations: budget.done, residual, stable: false });
             }
-            // rounding on a thin cable: nothing moves any more
+            // at rounding on a thin cable no slope changes any more
             close = slope < 1e-13;
         }
-        self.state.phase = phase;
-        report.ok_or(Failure { cause, residual })
+        Err(Failure { cause, residual })
     }
 }
