@@ -145,11 +145,7 @@ fn unknown(error: &lariat_ancf::Error, what: &str, name: &str) -> String {
     }
 }
 
-fn integrator(
-    doc: &Document<'_>,
-    at: &KeyPath,
-    table: Option<&IntegratorTable>,
-) -> Result<IntegratorChoice, Error> {
+fn integrator(doc: &Document<'_>, at: &KeyPath, table: Option<&IntegratorTable>) -> Result<IntegratorChoice, Error> {
     let Some(table) = table else { return Ok(IntegratorChoice::default()) };
     let controls = [
         ("tolerance", table.tolerance.map(StepControl::Tolerance)),
@@ -167,9 +163,9 @@ fn integrator(
     }
     let method = match &table.method {
         None => Integrator::default().method,
-        Some(name) => name.parse::<Method>().map_err(|error| {
-            doc.error_accepting(&at.key("method"), error.to_string(), "see `lariat integrators`")
-        })?,
+        Some(name) => name
+            .parse::<Method>()
+            .map_err(|error| doc.error_accepting(&at.key("method"), error.to_string(), "see `lariat integrators`"))?,
     };
     let [(key, control)] = given[..] else {
         return Err(doc.error(at, if given.is_empty() { "no step control" } else { "more than one step control" }));
