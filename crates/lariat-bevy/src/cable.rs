@@ -23,7 +23,7 @@ use lariat_ancf::{Fidelity, IntegratorChoice, Section};
 /// let mut world = World::new();
 /// lariat_bevy::install(&mut world);
 /// let rope = world.spawn((
-///     Cable::steel_rope(0.012).length(40.0).elements(24).between([0.0, 30.0, 0.0], [20.0, 0.0, 0.0]),
+///     Cable::steel_rope(0.012).between([0.0, 30.0, 0.0], [20.0, 0.0, 0.0]).length(40.0).elements(24),
 ///     Rule::G5_3,
 ///     Bending,
 ///     Damping::critical_fraction(0.05),

@@ -6,11 +6,13 @@
 //! ```
 //! use bevy_ecs::prelude::*;
 //! use lariat_bevy::rapier::prelude::ColliderBuilder;
-//! use lariat_bevy::{At, Attachment, AttachmentReading, Bending, Body, BodyPose, Cable, Cables, Damping};
+//! use lariat_bevy::{At, Attachment, AttachmentReading, Bending, Body, BodyPose, Cable};
+//! use lariat_bevy::{Cables, Damping};
 //!
 //! let mut world = World::new();
 //! lariat_bevy::install(&mut world);
-//! let crate_ = world.spawn(Body::dynamic().at([0.0, -2.1, 0.0]).with(ColliderBuilder::cuboid(0.1, 0.1, 0.1).mass(50.0))).id();
+//! let cube = ColliderBuilder::cuboid(0.1, 0.1, 0.1).mass(50.0);
+//! let crate_ = world.spawn(Body::dynamic().at([0.0, -2.1, 0.0]).with(cube)).id();
 //! let rope = world.spawn((
 //!     Cable::steel_rope(0.006).between([0.0, 0.0, 0.0], [0.0, -2.0, 0.0]),
 //!     Bending,

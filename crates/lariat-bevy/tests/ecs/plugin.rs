@@ -5,8 +5,8 @@ use bevy_app::{App, Update};
 use bevy_ecs::prelude::*;
 use bevy_ecs::reflect::AppTypeRegistry;
 use bevy_reflect::TypeRegistry;
-use lariat_bevy::event::CableFailed;
 use core::any::TypeId;
+use lariat_bevy::event::CableFailed;
 use lariat_bevy::{Bending, Cable, CableStep, CableSystems, LariatPlugin, PointLoads, RapierStep, Rule};
 
 #[derive(Resource, Default)]
