@@ -27,7 +27,7 @@
 //! | [`effect`] | one file per effect: damping, drag, buoyancy, rest shape ... |
 //! | [`cable`] | mesh, state, builder, sampling, energies |
 //! | [`integrate`] | one file per time integrator, over one trait |
-//! | [`statics`] | static equilibrium |
+//! | `statics` | static equilibrium: [`Cable::equilibrium`] |
 //! | [`island`] | cables and rigid bodies pinned together, as one system |
 //! | [`linalg`] | the block-tridiagonal solver |
 
@@ -49,7 +49,7 @@ mod real;
 mod rule;
 mod section;
 mod simd;
-pub mod statics;
+mod statics;
 mod support;
 mod system;
 

@@ -91,7 +91,7 @@ impl CableSet {
     /// Ends an attachment; the node is free.
     ///
     /// # Errors
-    /// [`Error::NoAttachment`]; [`Error::Lent`] if its cable is.
+    /// [`Error::NoAttachment`].
     pub fn detach(&mut self, world: &mut PhysicsWorld, attachment: AttachmentHandle) -> Result<(), Error> {
         let Attachment { cable, node, .. } = *self.attachment(attachment)?;
         self.get(cable)?;

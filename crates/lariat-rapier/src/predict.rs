@@ -19,7 +19,6 @@ impl CableSet {
             islands.iter().for_each(|island| take_back(world, island));
             self.islands = islands;
         }
-        self.complete()?;
         self.end_lost_attachments(world)?;
         self.follow_gravity(world)?;
         self.find_islands(world)?;

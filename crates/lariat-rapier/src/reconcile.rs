@@ -86,7 +86,7 @@ impl CableSet {
                 let of = |(p, _): &(&lariat_ancf::island::PinConstraint, &Vector3<f64>)| p.cable == c;
                 let own: Vec<Vector3<f64>> =
                     island.pins.iter().zip(&island.impulses).filter(of).map(|(_, p)| *p).collect();
-                island.impedances[c].kick(cable, &own);
+                island.impedances[c].apply_impulses(cable, &own);
             }
         }
     }

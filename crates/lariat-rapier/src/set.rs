@@ -60,9 +60,6 @@ pub struct CableSet {
     /// How the set steps.
     pub settings: Settings,
     pub(crate) cables: Vec<Option<Box<Slot>>>,
-    /// Handles of cables that are lent, ascending.
-    #[serde(default)]
-    pub(crate) lent: Vec<u32>,
     pub(crate) attachments: Vec<Option<Attachment>>,
     pub(crate) junctions: Vec<Option<Junction>>,
     /// Ascending by handle.
@@ -139,15 +136,15 @@ impl CableSet {
     /// A cable.
     ///
     /// # Errors
-    /// [`Error::NoCable`], [`Error::Lent`].
+    /// [`Error::NoCable`].
     pub fn get(&self, cable: CableHandle) -> Result<&Cable, Error> {
-        self.cables.get(cable.0 as usize).and_then(Option::as_ref).map(|s| &s.cable).ok_or_else(|| self.missing(cable))
+        self.cables.get(cable.0 as usize).and_then(Option::as_ref).map(|s| &s.cable).ok_or(Error::NoCable(cable))
     }
 
     /// A cable, to change it; a sleeping one wakes.
     ///
     /// # Errors
-    /// [`Error::NoCable`], [`Error::Lent`].
+    /// [`Error::NoCable`].
     pub fn get_mut(&mut self, cable: CableHandle) -> Result<&mut Cable, Error> {
         self.get(cable)?;
         let slot = self.cables[cable.0 as usize].as_mut().expect("it is here");

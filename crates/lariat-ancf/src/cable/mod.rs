@@ -190,9 +190,9 @@ impl Cable {
         }
     }
 
-    pub(crate) fn equations(&mut self) -> (Equations<'_>, &State) {
+    pub(crate) fn equations(&mut self) -> (Equations<'_>, &mut State) {
         let equations = Equations { model: &self.model, system: &mut self.system, diagnostics: &mut self.diagnostics };
-        (equations, &self.snapshot.state)
+        (equations, &mut self.snapshot.state)
     }
 
     pub(crate) fn dynamics(&mut self) -> (CableDynamics<'_>, &State) {

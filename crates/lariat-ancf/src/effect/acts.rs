@@ -59,23 +59,12 @@ pub(crate) struct ForceInput<'a> {
     pub time: f64,
     /// Nodal coordinates.
     pub q: &'a [f64],
-    pub velocity: VelocityInput<'a>,
-    /// Factor on the force and its derivatives.
-    pub scale: f64,
-}
-
-/// Velocities at which forces are evaluated.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct VelocityInput<'a> {
     /// Nodal velocities; empty for a cable at rest.
     pub v: &'a [f64],
-    /// Derivative of velocity by position in a stage, in 1/s.
+    /// Derivative of the velocities by the coordinates in 1/s, for the step matrix.
     pub dv_dq: f64,
-}
-
-impl VelocityInput<'_> {
-    /// At rest.
-    pub const REST: VelocityInput<'static> = VelocityInput { v: &[], dv_dq: 0.0 };
+    /// Factor on the force and its derivatives.
+    pub scale: f64,
 }
 
 /// Loads the numbers of a single element.
