@@ -23,18 +23,23 @@
 //! }
 //! ```
 //!
-//! Cables, effects, attachments and events are those of [`lariat_bevy`]; bodies are bevy_rapier's entities. Between
-//! [`PhysicsSet::SyncBackend`] and [`PhysicsSet::StepSimulation`] cables are integrated together with the bodies attached to them;
-//! between that and [`PhysicsSet::Writeback`] both are reconciled.
+//! Cables, effects, attachments and events are those of [`lariat_bevy`]; bodies are bevy_rapier's
+//! entities. Between [`PhysicsSet::SyncBackend`] and [`PhysicsSet::StepSimulation`] cables are
+//! integrated together with the bodies attached to them; between that and [`PhysicsSet::Writeback`]
+//! both are reconciled.
 //!
 //! # Limits
 //!
-//! - [`TimestepMode::Fixed`] and [`TimestepMode::Variable`] with one substep. Other modes step more than once between the two stages;
-//!   with them every step fails ([`StepFailed`](lariat_bevy::event::StepFailed)), and bevy_rapier's pipeline is stopped for the frame.
-//! - One Rapier step is one host step: with stiff cables on light bodies in contact choose a short one.
+//! - [`TimestepMode::Fixed`] and [`TimestepMode::Variable`] with one substep. Other modes step more
+//!   than once between the two stages; with them every step fails
+//!   ([`StepFailed`](lariat_bevy::event::StepFailed)), and bevy_rapier's pipeline is stopped for
+//!   the frame.
+//! - One Rapier step is one host step: with stiff cables on light bodies in contact choose a short
+//!   one.
 //! - Only bodies of the default context can be attached to.
 //! - A length unit other than 1 is not supported.
-//! - A [`Snapshot`](lariat_bevy::Snapshot) holds cables alone, because the bodies are bevy_rapier's.
+//! - A [`Snapshot`](lariat_bevy::Snapshot) holds cables alone, because the bodies are
+//!   bevy_rapier's.
 //! - The limits of [`lariat_bevy`](lariat_bevy#limits): no contact of cables, no reel.
 
 use bevy::ecs::intern::Interned;

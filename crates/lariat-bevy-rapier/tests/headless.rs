@@ -28,7 +28,8 @@ fn crate_at(app: &mut App, position: Vec3, mass: f32) -> Entity {
     app.world_mut().spawn((RigidBody::Dynamic, collider, Transform::from_translation(position))).id()
 }
 
-/// 50 kg on a 0.8 kg cable, let go from horizontal, host step 1/240 s: the crate's centre after 0.5 s.
+/// 50 kg on a 0.8 kg cable, let go from horizontal, host step 1/240 s: the crate's centre after 0.5
+/// s.
 ///
 /// *Source.* A fine run of an independent monolithic code, good to 2e-5 m.
 #[test]

@@ -25,7 +25,8 @@ use lariat_rapier::{AttachmentHandle, AttachmentKind};
 ///
 /// # Limits
 ///
-/// A ball transmits no moment. A clamp holds the direction of the tangent; the cable has no torsion.
+/// A ball transmits no moment. A clamp holds the direction of the tangent; the cable has no
+/// torsion.
 #[derive(Component, Clone, Copy, Debug, PartialEq)]
 #[require(AttachmentReading)]
 #[component(on_discard = discarded)]
@@ -34,7 +35,8 @@ pub struct Attachment {
     pub at: At,
     /// Ball or clamp.
     pub kind: AttachmentKind,
-    /// The point of the body in m, in body axes from its origin; in world axes for the world. Default: where the cable's point is.
+    /// The point of the body in m, in body axes from its origin; in world axes for the world.
+    /// Default: where the cable's point is.
     pub anchor: Option<Vector3<f64>>,
     /// Whether it is attached to the world instead of a body.
     pub world: bool,
@@ -61,13 +63,15 @@ pub struct AttachmentDraft {
 }
 
 impl AttachmentDraft {
-    /// Attaches to a body, at the present position of the cable's point unless [`at`](ToBodyBundle::at) sets another anchor.
+    /// Attaches to a body, at the present position of the cable's point unless
+    /// [`at`](ToBodyBundle::at) sets another anchor.
     pub fn to(self, body: Entity) -> ToBodyBundle {
         let attachment = Attachment { at: self.at, kind: self.kind, anchor: None, world: false };
         ToBodyBundle { attachment, cable: OnCable(self.cable), body: ToBody(body) }
     }
 
-    /// Attaches to the world, at the present position of the cable's point unless [`at`](ToWorldBundle::at) sets another.
+    /// Attaches to the world, at the present position of the cable's point unless
+    /// [`at`](ToWorldBundle::at) sets another.
     pub fn to_world(self) -> ToWorldBundle {
         let attachment = Attachment { at: self.at, kind: self.kind, anchor: None, world: true };
         ToWorldBundle { attachment, cable: OnCable(self.cable) }
@@ -115,7 +119,8 @@ pub struct OnCable(pub Entity);
 #[relationship_target(relationship = OnCable, linked_spawn)]
 pub struct CableAttachments(Vec<Entity>);
 
-/// The body of an attachment. Insert another one to attach to another body: the gap closes with at most 10 m/s.
+/// The body of an attachment. Insert another one to attach to another body: the gap closes with at
+/// most 10 m/s.
 #[derive(Component, Clone, Copy, Debug, PartialEq, Eq)]
 #[relationship(relationship_target = BodyAttachments)]
 pub struct ToBody(pub Entity);
@@ -150,7 +155,8 @@ pub(crate) struct Attached(pub AttachmentHandle);
 #[derive(Component, Clone, Copy, Debug, PartialEq)]
 pub(crate) struct NotAttachable;
 
-/// Notes that the attachment of a component that is removed or replaced is to be removed from the set.
+/// Notes that the attachment of a component that is removed or replaced is to be removed from the
+/// set.
 fn discarded(mut world: DeferredWorld, context: HookContext) {
     let Some(handle) = world.get::<Attached>(context.entity).map(|attached| attached.0) else { return };
     if let Some(mut pending) = world.get_resource_mut::<Pending>() {

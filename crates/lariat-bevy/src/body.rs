@@ -15,8 +15,8 @@ use lariat_rapier::rapier::geometry::ColliderBuilder;
 use lariat_rapier::rapier::math::Pose;
 use nalgebra::{Quaternion, UnitQuaternion};
 
-/// A rigid body with its colliders. It is added to Rapier's world in the next host step, and removed with this component or its
-/// entity.
+/// A rigid body with its colliders. It is added to Rapier's world in the next host step, and
+/// removed with this component or its entity.
 #[derive(Component, Clone, Debug)]
 #[require(BodyPose)]
 #[component(on_discard = discarded)]
@@ -65,8 +65,8 @@ impl Body {
     }
 }
 
-/// The handle of an entity's body in Rapier's world. Inserted with a [`Body`]; for bodies of another plugin insert it yourself
-/// ([`BodyHandle::external`]).
+/// The handle of an entity's body in Rapier's world. Inserted with a [`Body`]; for bodies of
+/// another plugin insert it yourself ([`BodyHandle::external`]).
 #[derive(Component, Clone, Copy, Debug, PartialEq, Eq)]
 pub struct BodyHandle {
     pub(crate) handle: RigidBodyHandle,
@@ -93,7 +93,8 @@ pub struct BodyPose {
 }
 
 impl BodyPose {
-    /// Returns position and rotation at a fraction of the last host step: 0 = before it, 1 = after it.
+    /// Returns position and rotation at a fraction of the last host step: 0 = before it, 1 = after
+    /// it.
     pub fn between(&self, fraction: f64) -> (Vector3<f64>, UnitQuaternion<f64>) {
         let (position, rotation) = &self.before;
         let change = (self.rotation * rotation.inverse()).scaled_axis() * fraction;
@@ -162,7 +163,8 @@ impl Bodies<'_, '_> {
     }
 }
 
-/// Notes that the body of a component that is removed or replaced is to be removed from Rapier's world.
+/// Notes that the body of a component that is removed or replaced is to be removed from Rapier's
+/// world.
 fn discarded(mut world: DeferredWorld, context: HookContext) {
     let Some(handle) = world.get::<BodyHandle>(context.entity).map(|b| b.handle) else { return };
     if let Some(mut pending) = world.get_resource_mut::<Pending>() {

@@ -13,10 +13,12 @@ use bevy_ecs::prelude::World;
 use lariat_ancf::At;
 use lariat_rapier::CableHandle;
 
-/// The tension in N above which a cable breaks, compared after each host step; without it nothing is compared.
+/// The tension in N above which a cable breaks, compared after each host step; without it nothing
+/// is compared.
 ///
-/// The cable breaks at the inner node nearest to the largest tension, so that a cable of one element does not break. The part behind
-/// the break is a new entity with the same components, and takes the attachments behind the break.
+/// The cable breaks at the inner node nearest to the largest tension, so that a cable of one
+/// element does not break. The part behind the break is a new entity with the same components, and
+/// takes the attachments behind the break.
 #[derive(Component, Clone, Copy, Debug, PartialEq)]
 pub struct BreakTension(pub f64);
 
@@ -38,7 +40,8 @@ pub(crate) fn break_cables(world: &mut World) {
     }
 }
 
-/// Breaks a cable near an arc length; returns the entity of the part behind the break, and the arc length of the break (m).
+/// Breaks a cable near an arc length; returns the entity of the part behind the break, and the arc
+/// length of the break (m).
 fn break_cable(world: &mut World, entity: Entity, arc_length: f64) -> Option<(Entity, f64)> {
     let description = world.get::<Cable>(entity)?.clone();
     let components = CableComponents::of(world.entity(entity));
@@ -80,7 +83,8 @@ fn inner_node(cable: &lariat_ancf::Cable, arc_length: f64) -> Option<At> {
     inner.iter().copied().min_by(|a, b| distance(a).total_cmp(&distance(b))).map(At::ArcLength)
 }
 
-/// Links the attachments behind a break at `length` (m) to the entity `rest`; returns them with their points on its cable.
+/// Links the attachments behind a break at `length` (m) to the entity `rest`; returns them with
+/// their points on its cable.
 fn move_attachments(cables: &mut Cables, tail: CableHandle, length: f64, rest: Entity) -> Vec<(Entity, At)> {
     let Cables { set, links, .. } = cables;
     let mut moved = Vec::new();

@@ -13,7 +13,8 @@ use bevy_ecs::name::Name;
 use bevy_ecs::world::DeferredWorld;
 use lariat_ancf::{Fidelity, IntegratorChoice, Section};
 
-/// The description of a cable. Spawn it with its rule and effects as components beside it; [`Cables`] then holds the cable:
+/// The description of a cable. Spawn it with its rule and effects as components beside it;
+/// [`Cables`] then holds the cable:
 ///
 /// ```
 /// use bevy_ecs::prelude::*;
@@ -22,7 +23,7 @@ use lariat_ancf::{Fidelity, IntegratorChoice, Section};
 /// let mut world = World::new();
 /// lariat_bevy::install(&mut world);
 /// let rope = world.spawn((
-///     Cable::steel_rope(0.012).length(40.0).elements(24).between([0.0, 30.0, 0.0], [20.0, 0.0, 0.0]),
+///     Cable::steel_rope(0.012).between([0.0, 30.0, 0.0], [20.0, 0.0, 0.0]).length(40.0).elements(24),
 ///     Rule::G5_3,
 ///     Bending,
 ///     Damping::critical_fraction(0.05),
@@ -34,17 +35,19 @@ use lariat_ancf::{Fidelity, IntegratorChoice, Section};
 /// # Ok::<(), lariat_bevy::Error>(())
 /// ```
 ///
-/// Without [`Bending`](crate::Bending) it has no bending stiffness; without [`Rule`](crate::Rule) the rule is `projected-3`; every
-/// other effect is absent unless its component is there. An entity's [`Name`] is the name of the cable in error messages. If a
-/// description cannot be built, [`Cables::get`] returns the reason, and [`CableFailed`] is triggered.
+/// Without [`Bending`](crate::Bending) it has no bending stiffness; without [`Rule`](crate::Rule)
+/// the rule is `projected-3`; every other effect is absent unless its component is there. An
+/// entity's [`Name`] is the name of the cable in error messages. If a description cannot be built,
+/// [`Cables::get`] returns the reason, and [`CableFailed`] is triggered.
 ///
-/// The component cannot be changed in place. Inserting another description replaces the cable, and attachments pass to the new one.
-/// A clone of the component, like that of a prefab, makes a new cable in its initial state.
+/// The component cannot be changed in place. Inserting another description replaces the cable, and
+/// attachments pass to the new one. A clone of the component, like that of a prefab, makes a new
+/// cable in its initial state.
 ///
 /// # Limits
 ///
-/// The constitutive law is linear elastic, with constant EA and EI: see [`lariat_ancf::element`]. No contact, no joining of cables,
-/// no reeling: see the [crate page](crate#limits).
+/// The constitutive law is linear elastic, with constant EA and EI: see [`lariat_ancf::element`].
+/// No contact, no joining of cables, no reeling: see the [crate page](crate#limits).
 #[derive(Component, Clone, Debug, PartialEq)]
 #[component(immutable, on_insert = built, on_discard = discarded)]
 pub struct Cable(pub(crate) Description);
@@ -65,7 +68,8 @@ impl Cable {
         Cable(Description::new(Section::round(diameter, youngs_modulus, density)))
     }
 
-    /// Sets the unstretched length in m. Default: the length of the initial shape. A longer cable starts slack.
+    /// Sets the unstretched length in m. Default: the length of the initial shape. A longer cable
+    /// starts slack.
     pub fn length(mut self, length: f64) -> Self {
         self.0.length = Some(length);
         self
@@ -123,7 +127,8 @@ fn built(world: DeferredWorld, context: HookContext) {
     build(world, context.entity);
 }
 
-/// Builds the cable of an entity, unless it has one already or its description was found impossible.
+/// Builds the cable of an entity, unless it has one already or its description was found
+/// impossible.
 pub(crate) fn build(mut world: DeferredWorld, entity: Entity) {
     let skip = |cables: &Cables| cables.restoring || cables.links.built.contains_key(&entity);
     if world.get_resource::<Cables>().is_none_or(skip) {

@@ -1,13 +1,15 @@
 //! The cables of a world, by entity.
 //!
-//! The resource [`Cables`] owns the state of all cables, in a [`CableSet`]. An entity's [`Cable`](crate::Cable) is the description
-//! that its cable was built from; state is read with [`Cables::get`] and changed with [`Cables::get_mut`].
+//! The resource [`Cables`] owns the state of all cables, in a [`CableSet`]. An entity's
+//! [`Cable`](crate::Cable) is the description that its cable was built from; state is read with
+//! [`Cables::get`] and changed with [`Cables::get_mut`].
 //!
 //! # Alternatives considered
 //!
-//! Components that own the state of their cables. The set needs all cables at once to step them, so every stage has to move them
-//! out of the components and back; a copied, overwritten or despawned component then takes state with it that the set still
-//! counts on. A user's code has the same length either way:
+//! Components that own the state of their cables. The set needs all cables at once to step them, so
+//! every stage has to move them out of the components and back; a copied, overwritten or despawned
+//! component then takes state with it that the set still counts on. A user's code has the same
+//! length either way:
 //!
 //! | to | with components | with the resource |
 //! |---|---|---|
@@ -19,8 +21,9 @@
 //! | skip those at rest | `Changed<Cable>` | `cables.is_asleep(entity)` |
 //! | know why it was not built | `ropes.get(e)?.failure()` | the error of `cables.get(e)` |
 //!
-//! Spawning, effects, breaking, despawning and [`Snapshot`](crate::Snapshot) are the same with both. Systems that read cables run
-//! in parallel with both; two systems that change different cables do so only with components, which nothing here needs.
+//! Spawning, effects, breaking, despawning and [`Snapshot`](crate::Snapshot) are the same with
+//! both. Systems that read cables run in parallel with both; two systems that change different
+//! cables do so only with components, which nothing here needs.
 
 use crate::attachment::Attachment;
 use crate::error::Error;
@@ -31,7 +34,8 @@ use lariat_rapier::rapier::dynamics::RigidBodyHandle;
 use lariat_rapier::{AttachmentHandle, CableHandle, CableSet, HostStep, Settings};
 use std::collections::{BTreeMap, HashMap};
 
-/// The cables of a world: a resource to read with `Res<Cables>` and to change with `ResMut<Cables>`.
+/// The cables of a world: a resource to read with `Res<Cables>` and to change with
+/// `ResMut<Cables>`.
 ///
 /// ```
 /// use bevy_ecs::prelude::*;
@@ -49,8 +53,8 @@ use std::collections::{BTreeMap, HashMap};
 ///
 /// # Limits
 ///
-/// No contact of cables with bodies or with each other, no cables joined to each other, and no change of length: see the
-/// [crate page](crate#limits).
+/// No contact of cables with bodies or with each other, no cables joined to each other, and no
+/// change of length: see the [crate page](crate#limits).
 #[derive(Resource, Default)]
 pub struct Cables {
     pub(crate) set: CableSet,
@@ -58,7 +62,8 @@ pub struct Cables {
     pub(crate) events: Vec<QueuedEvent>,
     /// The host step that is under way.
     pub(crate) host: Option<HostStep>,
-    /// Whether a snapshot is being restored, with the cables of all components: those that are inserted need not be built.
+    /// Whether a snapshot is being restored, with the cables of all components: those that are
+    /// inserted need not be built.
     pub(crate) restoring: bool,
 }
 
@@ -71,8 +76,9 @@ impl Cables {
         Ok(self.set.get(self.handle(entity)?)?)
     }
 
-    /// Returns the cable of an entity, to change its state, integrator or gravity, and wakes it. The rule, the effects and the point
-    /// loads are the entity's components, which overwrite what is set here.
+    /// Returns the cable of an entity, to change its state, integrator or gravity, and wakes it.
+    /// The rule, the effects and the point loads are the entity's components, which overwrite what
+    /// is set here.
     ///
     /// # Errors
     /// [`Error::NotACable`]; [`Error::NotBuilt`] with the reason.
@@ -103,12 +109,14 @@ impl Cables {
         }
     }
 
-    /// Returns the set that owns the cables, to read energy and momentum of the world, and attachments by their handles.
+    /// Returns the set that owns the cables, to read energy and momentum of the world, and
+    /// attachments by their handles.
     pub fn set(&self) -> &CableSet {
         &self.set
     }
 
-    /// Returns the step settings: Rapier steps per host step, and the speed below which cables may sleep.
+    /// Returns the step settings: Rapier steps per host step, and the speed below which cables may
+    /// sleep.
     pub fn settings(&self) -> Settings {
         self.set.settings
     }

@@ -24,14 +24,16 @@ impl Default for FixedClock {
 }
 
 impl FixedClock {
-    /// Returns the share of a host step that has elapsed since the last one, 0 to 1, for [`Interpolate`](crate::Interpolate).
+    /// Returns the share of a host step that has elapsed since the last one, 0 to 1, for
+    /// [`Interpolate`](crate::Interpolate).
     pub fn fraction(&self) -> f64 {
         if self.step > 0.0 { (self.overstep / self.step).clamp(0.0, 1.0) } else { 0.0 }
     }
 }
 
-/// Advances by `elapsed` seconds: runs [`CableStep`] as often as host steps are due, and keeps the remaining time for the next call.
-/// Returns the number of host steps. Messages are kept for two calls. A time that is negative or not finite counts as zero.
+/// Advances by `elapsed` seconds: runs [`CableStep`] as often as host steps are due, and keeps the
+/// remaining time for the next call. Returns the number of host steps. Messages are kept for two
+/// calls. A time that is negative or not finite counts as zero.
 pub fn advance(world: &mut World, elapsed: f64) -> u32 {
     event::update(world);
     let step = f64::from(world.resource::<Physics>().integration_parameters.dt);

@@ -1,8 +1,8 @@
 //! The components that together say what a cable does, in one list.
 //!
-//! The list is that of [`for_each_effect`](lariat_ancf::for_each_effect), and before it [`Rule`], [`Bending`] and [`PointLoads`].
-//! Building, updating, breaking, snapshots, change detection and reflection all use [`CableComponents`], so a new effect needs no
-//! further line in this crate.
+//! The list is that of [`for_each_effect`](lariat_ancf::for_each_effect), and before it [`Rule`],
+//! [`Bending`] and [`PointLoads`]. Building, updating, breaking, snapshots, change detection and
+//! reflection all use [`CableComponents`], so a new effect needs no further line in this crate.
 
 use crate::description::Description;
 use crate::effects::*;
@@ -88,7 +88,8 @@ impl CableComponents {
     /// Builds a cable from its description and these components.
     pub fn build(&self, name: &str, description: &Description) -> Result<lariat_ancf::Cable, Error> {
         let length = description.unstretched_length();
-        // the builder rejects any other length, with a better message than an effect on such a cable could give
+        // the builder rejects any other length, with a better message than an effect on such a
+        // cable could give
         let effects = match &description.section {
             Ok(section) if length > 0.0 => self.effects(section, length)?,
             _ => Effects::default(),
@@ -123,7 +124,8 @@ impl CableComponents {
     }
 }
 
-/// Writes or removes a component if that changes anything, so that nothing is marked as changed that is not.
+/// Writes or removes a component if that changes anything, so that nothing is marked as changed
+/// that is not.
 pub(crate) fn put<C: Component + PartialEq>(entity: &mut EntityWorldMut, component: Option<C>) {
     if entity.get::<C>() == component.as_ref() {
         return;

@@ -2,7 +2,8 @@
 
 use lariat_ancf::{At, Effects, Error, Integrator, IntegratorChoice, PointLoad, Rule, Section, Vector3};
 
-/// The geometry, section and integrator of a cable; rule, effects and loads are components beside it.
+/// The geometry, section and integrator of a cable; rule, effects and loads are components beside
+/// it.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Description {
     pub section: Result<Section, Error>,
@@ -75,8 +76,8 @@ impl Description {
         Ok(cable)
     }
 
-    /// Returns the integrator of a cable that is given other effects: the described one, unless the user has set another since the
-    /// cable was built.
+    /// Returns the integrator of a cable that is given other effects: the described one, unless the
+    /// user has set another since the cable was built.
     pub fn integrator_for(&self, cable: &lariat_ancf::Cable, effects: &Effects) -> Integrator {
         // internal damping needs an implicit method, however low the frequencies of the cable
         let choice = |effects: &Effects| {

@@ -3,7 +3,8 @@
 use bevy_ecs::resource::Resource;
 use std::time::{Duration, Instant};
 
-/// Counters and times since [`install`](crate::install) or [`reset`](Self::reset). Cables that were removed stay counted.
+/// Counters and times since [`install`](crate::install) or [`reset`](Self::reset). Cables that were
+/// removed stay counted.
 #[derive(Resource, Clone, Debug, Default)]
 pub struct Diagnostics {
     /// Host steps.

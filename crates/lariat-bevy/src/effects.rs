@@ -1,9 +1,11 @@
-//! Effects as components: an effect acts on a cable while its component is there, and costs nothing while it is not.
+//! Effects as components: an effect acts on a cable while its component is there, and costs nothing
+//! while it is not.
 //!
-//! A change of these components takes effect in the next host step. The components of the effects in
-//! [`for_each_effect`](lariat_ancf::for_each_effect) are generated from that list, each a newtype of the mechanics' parameters;
-//! [`Damping`] alone is written by hand, because a share of critical damping depends on the cable. [`Rule`], [`Bending`] and
-//! [`PointLoads`] are no effects of the list.
+//! A change of these components takes effect in the next host step. The components of the effects
+//! in [`for_each_effect`](lariat_ancf::for_each_effect) are generated from that list, each a
+//! newtype of the mechanics' parameters; [`Damping`] alone is written by hand, because a share of
+//! critical damping depends on the cable. [`Rule`], [`Bending`] and [`PointLoads`] are no effects
+//! of the list.
 
 use crate::pending::Pending;
 use crate::point::Point;
@@ -26,7 +28,8 @@ pub(crate) trait EffectComponent: Component + Clone + PartialEq {
     /// Returns the effect on a cable of this section and unstretched length (m).
     fn resolve(&self, section: &Section, length: f64) -> Result<Self::Effect, lariat_ancf::Error>;
 
-    /// Returns the component of a part of a cable that broke, on which the effect has become `effect`.
+    /// Returns the component of a part of a cable that broke, on which the effect has become
+    /// `effect`.
     fn of_part(&self, effect: &Self::Effect) -> Self;
 }
 
@@ -52,7 +55,8 @@ impl Rule {
     pub const L2T2: Rule = Rule(lariat_ancf::Rule::L2T2);
 }
 
-/// Bending stiffness, by the bending half of the [`Rule`]. Without it the cable has none, and no bending code runs.
+/// Bending stiffness, by the bending half of the [`Rule`]. Without it the cable has none, and no
+/// bending code runs.
 #[derive(Component, Clone, Copy, Debug, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[component(on_remove = note_removal)]
 #[cfg_attr(
@@ -93,9 +97,10 @@ impl Damping {
         Damping::Times(lariat_ancf::Damping { axial: time, bending: time })
     }
 
-    /// Share of critical damping for the first axial mode of the cable with one end fixed, omega = pi/(2 L) sqrt(EA/(rho A)). The
-    /// damping ratio of other modes is proportional to their frequency: higher for vibrations within the cable, lower for a heavy
-    /// load that bounces on it.
+    /// Share of critical damping for the first axial mode of the cable with one end fixed, omega =
+    /// pi/(2 L) sqrt(EA/(rho A)). The damping ratio of other modes is proportional to their
+    /// frequency: higher for vibrations within the cable, lower for a heavy load that bounces on
+    /// it.
     pub fn critical_fraction(fraction: f64) -> Self {
         Damping::CriticalFraction(fraction)
     }

@@ -7,8 +7,8 @@ use thiserror::Error as ThisError;
 #[derive(Clone, Debug, PartialEq, ThisError)]
 #[non_exhaustive]
 pub enum Error {
-    /// An entity without a [`Cable`](crate::Cable), or one that was spawned before [`install`](crate::install) and waits for the
-    /// first host step.
+    /// An entity without a [`Cable`](crate::Cable), or one that was spawned before
+    /// [`install`](crate::install) and waits for the first host step.
     #[error("entity {0} has no cable")]
     NotACable(Entity),
     /// A cable whose description cannot be built.
@@ -28,15 +28,15 @@ pub enum Error {
     /// From the coupling to bodies.
     #[error(transparent)]
     Coupling(#[from] lariat_rapier::Error),
-    /// A host engine that takes several Rapier steps between [`BeforeEngine`](crate::BeforeEngine) and
-    /// [`AfterEngine`](crate::AfterEngine).
+    /// A host engine that takes several Rapier steps between [`BeforeEngine`](crate::BeforeEngine)
+    /// and [`AfterEngine`](crate::AfterEngine).
     #[error("the host engine is set to {substeps} substeps, cables need 1: shorten the time step instead")]
     Substeps {
         /// Rapier steps per host step.
         substeps: usize,
     },
-    /// A host engine that takes a varying number of Rapier steps between [`BeforeEngine`](crate::BeforeEngine) and
-    /// [`AfterEngine`](crate::AfterEngine).
+    /// A host engine that takes a varying number of Rapier steps between
+    /// [`BeforeEngine`](crate::BeforeEngine) and [`AfterEngine`](crate::AfterEngine).
     #[error(
         "the host engine takes a varying number of steps per frame, cables need one: use a fixed time step without substeps \
          in a fixed schedule"

@@ -1,4 +1,5 @@
-//! Events of cables and attachments. Each is sent twice: as a message to read, and as an entity event to observe.
+//! Events of cables and attachments. Each is sent twice: as a message to read, and as an entity
+//! event to observe.
 
 use crate::error::Error;
 use bevy_ecs::entity::Entity;
@@ -6,7 +7,8 @@ use bevy_ecs::event::EntityEvent;
 use bevy_ecs::message::{Message, Messages};
 use bevy_ecs::world::World;
 
-/// The description of a cable, or a change of its effects, is not possible. A cable that was built keeps its previous effects.
+/// The description of a cable, or a change of its effects, is not possible. A cable that was built
+/// keeps its previous effects.
 #[derive(EntityEvent, Message, Clone, Debug, PartialEq)]
 pub struct CableFailed {
     /// The cable.
@@ -15,8 +17,9 @@ pub struct CableFailed {
     pub error: lariat_ancf::Error,
 }
 
-/// A host step failed: no body and no cable advances, and all keep the state after the last successful Rapier step. Sent again
-/// at each host step until the cause is removed, for every cable that is connected to it.
+/// A host step failed: no body and no cable advances, and all keep the state after the last
+/// successful Rapier step. Sent again at each host step until the cause is removed, for every cable
+/// that is connected to it.
 #[derive(EntityEvent, Message, Clone, Debug, PartialEq)]
 pub struct StepFailed {
     /// The cable; [`Entity::PLACEHOLDER`] if the cause does not lie in a cable.
@@ -63,8 +66,8 @@ pub enum EndReason {
     Broken,
 }
 
-/// An attachment ended, and the cable is free there. Its entity is despawned after this event, except for
-/// [`EndReason::Released`]. Not sent when the cable itself is removed.
+/// An attachment ended, and the cable is free there. Its entity is despawned after this event,
+/// except for [`EndReason::Released`]. Not sent when the cable itself is removed.
 #[derive(EntityEvent, Message, Clone, Debug, PartialEq)]
 pub struct AttachmentEnded {
     /// The attachment.
@@ -77,7 +80,8 @@ pub struct AttachmentEnded {
     pub reason: EndReason,
 }
 
-/// An attachment cannot be made. It is tried again when one of its components changes, or when a cable is spawned.
+/// An attachment cannot be made. It is tried again when one of its components changes, or when a
+/// cable is spawned.
 #[derive(EntityEvent, Message, Clone, Debug, PartialEq)]
 pub struct AttachmentFailed {
     /// The attachment.

@@ -14,7 +14,8 @@ use crate::step;
 use bevy_ecs::schedule::{IntoScheduleConfigs, Schedule, Schedules};
 use bevy_ecs::world::World;
 
-/// Adds resources, messages and schedules to a world. A [`Physics`] that is there is kept. A second call does nothing.
+/// Adds resources, messages and schedules to a world. A [`Physics`] that is there is kept. A second
+/// call does nothing.
 pub fn install(world: &mut World) {
     if world.contains_resource::<Cables>() {
         return;

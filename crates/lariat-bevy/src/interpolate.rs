@@ -2,8 +2,8 @@
 //!
 //! # Equation
 //!
-//! `q(f) = (1 - f) q_before + f q_after` of the nodal coordinates, with f the share of a host step that has passed since the last
-//! one; between nodes the curve is the cubic of the element.
+//! `q(f) = (1 - f) q_before + f q_after` of the nodal coordinates, with f the share of a host step
+//! that has passed since the last one; between nodes the curve is the cubic of the element.
 //!
 //! # Validity
 //!
@@ -12,7 +12,8 @@
 use bevy_ecs::component::Component;
 use lariat_ancf::{Cable, Vector3};
 
-/// Keeps the previous nodal coordinates of a cable, so that it can be drawn between host steps. Without it nothing is kept.
+/// Keeps the previous nodal coordinates of a cable, so that it can be drawn between host steps.
+/// Without it nothing is kept.
 #[derive(Component, Clone, Debug, Default, PartialEq)]
 pub struct Interpolate {
     before: Vec<f64>,
@@ -25,7 +26,8 @@ impl Interpolate {
         self.before.extend_from_slice(cable.positions());
     }
 
-    /// Returns the nodal coordinates at a fraction of the last host step: 0 = before it, 1 = after it.
+    /// Returns the nodal coordinates at a fraction of the last host step: 0 = before it, 1 = after
+    /// it.
     pub fn positions(&self, cable: &Cable, fraction: f64) -> Vec<f64> {
         let now = cable.positions();
         // nodes were added, or it has not stepped yet
@@ -33,13 +35,15 @@ impl Interpolate {
         before.iter().zip(now).map(|(a, b)| a + (b - a) * fraction).collect()
     }
 
-    /// Returns points of the curve in m at a fraction of the last host step: `per_element` for each element, and the last node.
+    /// Returns points of the curve in m at a fraction of the last host step: `per_element` for each
+    /// element, and the last node.
     pub fn curve(&self, cable: &Cable, fraction: f64, per_element: usize) -> Vec<Vector3<f64>> {
         polyline(cable, &self.positions(cable, fraction), per_element)
     }
 }
 
-/// Returns points of a cable's curve in m after the last host step: `per_element` for each element, and the last node.
+/// Returns points of a cable's curve in m after the last host step: `per_element` for each element,
+/// and the last node.
 pub fn curve(cable: &Cable, per_element: usize) -> Vec<Vector3<f64>> {
     polyline(cable, cable.positions(), per_element)
 }

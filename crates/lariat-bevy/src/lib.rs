@@ -1,16 +1,18 @@
 //! ANCF cables on rapier3d's bodies, as components of bevy_ecs.
 //!
-//! A cable is an entity, an effect is a component, and an attachment is an entity with relationships to its cable and its body.
-//! The resource [`Cables`] holds the state of all cables.
+//! A cable is an entity, an effect is a component, and an attachment is an entity with
+//! relationships to its cable and its body. The resource [`Cables`] holds the state of all cables.
 //!
 //! ```
 //! use bevy_ecs::prelude::*;
 //! use lariat_bevy::rapier::prelude::ColliderBuilder;
-//! use lariat_bevy::{At, Attachment, AttachmentReading, Bending, Body, BodyPose, Cable, Cables, Damping};
+//! use lariat_bevy::{At, Attachment, AttachmentReading, Bending, Body, BodyPose, Cable};
+//! use lariat_bevy::{Cables, Damping};
 //!
 //! let mut world = World::new();
 //! lariat_bevy::install(&mut world);
-//! let crate_ = world.spawn(Body::dynamic().at([0.0, -2.1, 0.0]).with(ColliderBuilder::cuboid(0.1, 0.1, 0.1).mass(50.0))).id();
+//! let cube = ColliderBuilder::cuboid(0.1, 0.1, 0.1).mass(50.0);
+//! let crate_ = world.spawn(Body::dynamic().at([0.0, -2.1, 0.0]).with(cube)).id();
 //! let rope = world.spawn((
 //!     Cable::steel_rope(0.006).between([0.0, 0.0, 0.0], [0.0, -2.0, 0.0]),
 //!     Bending,
@@ -49,16 +51,19 @@
 //!
 //! # Determinism
 //!
-//! The systems of a step run one after the other, and the order of cables in it does not depend on the order of spawning. Neither the
-//! number of threads nor the order of spawning within a frame changes a bit of the result.
+//! The systems of a step run one after the other, and the order of cables in it does not depend on
+//! the order of spawning. Neither the number of threads nor the order of spawning within a frame
+//! changes a bit of the result.
 //!
 //! # Limits
 //!
-//! - No contact of cables with bodies or with each other, no cables joined to each other, and no reel: the unstretched length of a cable is
-//!   constant.
-//! - If one step fails, no body and no cable of the world advances until the cause is removed: see [`StepFailed`](event::StepFailed).
-//! - On the bodies of another plugin ([`BeforeEngine`], [`AfterEngine`]; crate `lariat-bevy-rapier`) a host step is one Rapier step, so
-//!   that taut cables on light bodies in contact need a short one.
+//! - No contact of cables with bodies or with each other, no cables joined to each other, and no
+//!   reel: the unstretched length of a cable is constant.
+//! - If one step fails, no body and no cable of the world advances until the cause is removed: see
+//!   [`StepFailed`](event::StepFailed).
+//! - On the bodies of another plugin ([`BeforeEngine`], [`AfterEngine`]; crate
+//!   `lariat-bevy-rapier`) a host step is one Rapier step, so that taut cables on light bodies in
+//!   contact need a short one.
 //! - The cable of a disabled entity is stepped like any other.
 //! - Restoring a [`Snapshot`] spawns despawned entities again under new numbers.
 

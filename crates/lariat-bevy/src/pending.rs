@@ -1,7 +1,7 @@
 //! Changes to entities that take effect in the next host step.
 //!
-//! A component hook sees one entity and must not step the physics, so it notes here what the systems of [`prepare`](crate::prepare)
-//! then carry out.
+//! A component hook sees one entity and must not step the physics, so it notes here what the
+//! systems of [`prepare`](crate::prepare) then carry out.
 
 use bevy_ecs::entity::Entity;
 use bevy_ecs::resource::Resource;

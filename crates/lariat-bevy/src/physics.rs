@@ -4,7 +4,8 @@ use bevy_ecs::resource::Resource;
 use core::ops::{Deref, DerefMut};
 use lariat_rapier::rapier::pipeline::PhysicsWorld;
 
-/// Rapier's world. Gravity, the time step of the host (`integration_parameters.dt`, in s) and the solver settings are its own.
+/// Rapier's world. Gravity, the time step of the host (`integration_parameters.dt`, in s) and the
+/// solver settings are its own.
 #[derive(Resource, Default)]
 pub struct Physics(pub PhysicsWorld);
 

@@ -27,7 +27,8 @@ impl LariatPlugin {
     }
 }
 
-/// Adds resources, messages, schedules and registered types, but no system: for plugins that step with an engine of their own.
+/// Adds resources, messages, schedules and registered types, but no system: for plugins that step
+/// with an engine of their own.
 pub fn install_in(app: &mut App) {
     macro_rules! add {
         ($($event:ident),*) => { $( app.add_message::<$event>(); )* };

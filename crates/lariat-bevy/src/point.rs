@@ -3,7 +3,8 @@
 use lariat_ancf::Vector3;
 use lariat_rapier::rapier::math::Vector;
 
-/// A point or vector: from arrays of `f32` or `f64`, nalgebra's vectors, or Rapier's (which are those of glam, and so of Bevy).
+/// A point or vector: from arrays of `f32` or `f64`, nalgebra's vectors, or Rapier's (which are
+/// those of glam, and so of Bevy).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Point(pub Vector3<f64>);
 

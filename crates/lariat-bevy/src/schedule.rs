@@ -1,22 +1,27 @@
-//! Labels of schedules and system sets, so that users can order their systems against the stages of a host step.
+//! Labels of schedules and system sets, so that users can order their systems against the stages of
+//! a host step.
 
 use bevy_ecs::schedule::{ScheduleLabel, SystemSet};
 
-/// One host step of `Physics.integration_parameters.dt`: [`CableSystems::Prepare`], then [`RapierStep`] as often as
-/// [`Settings::rapier_steps`](lariat_rapier::Settings) says, then [`CableSystems::Publish`].
+/// One host step of `Physics.integration_parameters.dt`: [`CableSystems::Prepare`], then
+/// [`RapierStep`] as often as [`Settings::rapier_steps`](lariat_rapier::Settings) says, then
+/// [`CableSystems::Publish`].
 #[derive(ScheduleLabel, Clone, Debug, PartialEq, Eq, Hash, Default)]
 pub struct CableStep;
 
-/// One Rapier step: [`CableSystems::Predict`], [`CableSystems::Engine`], [`CableSystems::Reconcile`].
+/// One Rapier step: [`CableSystems::Predict`], [`CableSystems::Engine`],
+/// [`CableSystems::Reconcile`].
 #[derive(ScheduleLabel, Clone, Debug, PartialEq, Eq, Hash, Default)]
 pub struct RapierStep;
 
-/// For hosts that step Rapier themselves: [`CableSystems::Prepare`] and [`CableSystems::Predict`] of a host step that is one Rapier
-/// step. [`Physics`](crate::Physics) must hold Rapier's world, with its `integration_parameters.dt`.
+/// For hosts that step Rapier themselves: [`CableSystems::Prepare`] and [`CableSystems::Predict`]
+/// of a host step that is one Rapier step. [`Physics`](crate::Physics) must hold Rapier's world,
+/// with its `integration_parameters.dt`.
 #[derive(ScheduleLabel, Clone, Debug, PartialEq, Eq, Hash, Default)]
 pub struct BeforeEngine;
 
-/// For hosts that step Rapier themselves: [`CableSystems::Reconcile`] and [`CableSystems::Publish`].
+/// For hosts that step Rapier themselves: [`CableSystems::Reconcile`] and
+/// [`CableSystems::Publish`].
 #[derive(ScheduleLabel, Clone, Debug, PartialEq, Eq, Hash, Default)]
 pub struct AfterEngine;
 

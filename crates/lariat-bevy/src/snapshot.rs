@@ -1,7 +1,9 @@
-//! Saving and restoring the state of all cables, attachments and bodies, for rollback networking and for trials.
+//! Saving and restoring the state of all cables, attachments and bodies, for rollback networking
+//! and for trials.
 //!
-//! A snapshot holds Rapier's world, the set of cables, and the components of this crate on every cable, attachment and body. A run
-//! that goes on from a restored snapshot is bitwise the run that went on from the moment when the snapshot was taken.
+//! A snapshot holds Rapier's world, the set of cables, and the components of this crate on every
+//! cable, attachment and body. A run that goes on from a restored snapshot is bitwise the run that
+//! went on from the moment when the snapshot was taken.
 
 use crate::attachment::{Attached, Attachment, AttachmentReading, BreakForce, NotAttachable, OnCable, ToBody};
 use crate::body::{Body, BodyHandle, BodyPose, KinematicTarget};
@@ -61,8 +63,9 @@ impl Snapshot {
         })
     }
 
-    /// Restores the state. Cables, attachments and bodies that were spawned since are despawned. Those that were despawned since are
-    /// spawned again, with this crate's components only and new entity numbers: returns them, from old to new.
+    /// Restores the state. Cables, attachments and bodies that were spawned since are despawned.
+    /// Those that were despawned since are spawned again, with this crate's components only and new
+    /// entity numbers: returns them, from old to new.
     ///
     /// # Errors
     /// [`Error::NotInstalled`].
@@ -88,7 +91,8 @@ impl Snapshot {
 
     /// Restores the components; returns the entities that were spawned again, from old to new.
     fn restore_entities(&self, world: &mut World) -> BTreeMap<Entity, Entity> {
-        // an attachment that the snapshot holds must not be despawned with the cable it was moved to since
+        // an attachment that the snapshot holds must not be despawned with the cable it was moved
+        // to since
         for saved in &self.entities {
             if let Some(on) = saved.on.filter(|on| world.get_entity(on.0).is_ok())
                 && let Ok(mut entity) = world.get_entity_mut(saved.entity)

@@ -53,7 +53,8 @@ fn report(cables: &mut Cables, error: lariat_rapier::Error) {
     }
 }
 
-/// Integrates cables with their bodies over the next Rapier step, and applies the motion to Rapier's bodies.
+/// Integrates cables with their bodies over the next Rapier step, and applies the motion to
+/// Rapier's bodies.
 pub(crate) fn predict(mut cables: ResMut<Cables>, mut physics: ResMut<Physics>, mut diagnostics: ResMut<Diagnostics>) {
     diagnostics.start();
     let cables = &mut *cables;

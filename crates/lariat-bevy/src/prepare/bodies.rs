@@ -7,7 +7,8 @@ use bevy_ecs::entity::Entity;
 use bevy_ecs::name::Name;
 use bevy_ecs::prelude::{Added, Changed, Commands, Query, ResMut, Without};
 
-/// Returns a key that orders new bodies independently of the order of spawning: name, position, velocity and rotation.
+/// Returns a key that orders new bodies independently of the order of spawning: name, position,
+/// velocity and rotation.
 fn order(name: Option<&Name>, body: &Body) -> (String, [u32; 7]) {
     let rigid = body.rigid.clone().build();
     let (x, v) = (rigid.translation(), rigid.linvel());

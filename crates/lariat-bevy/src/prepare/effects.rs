@@ -16,7 +16,8 @@ pub(crate) fn watch(mut pending: ResMut<Pending>, changed: Query<Entity, (With<C
     pending.changed_effects.extend(&changed);
 }
 
-/// Updates these cables where they differ from their components. One whose change is not possible stays as it is.
+/// Updates these cables where they differ from their components. One whose change is not possible
+/// stays as it is.
 pub(crate) fn update(world: &mut World) {
     let changed = core::mem::take(&mut world.resource_mut::<Pending>().changed_effects);
     for entity in changed {

@@ -1,4 +1,5 @@
-//! The stage before a host step: applies to the set and to Rapier's world what was spawned, changed or removed since the last one.
+//! The stage before a host step: applies to the set and to Rapier's world what was spawned, changed
+//! or removed since the last one.
 
 pub(crate) mod attachments;
 pub(crate) mod bodies;

@@ -9,8 +9,9 @@ use lariat_bevy::{
     At, Attachment, AttachmentReading, Bending, BreakTension, CableAttachments, Cables, Damping, PointLoads,
 };
 
-/// A crate of 5 kg hangs on a cable that breaks at 80 N; then a force on the cable grows to 50 N downwards. The cable breaks at the
-/// top, where its own weight adds to the tension, and the crate falls freely with the rest of the cable.
+/// A crate of 5 kg hangs on a cable that breaks at 80 N; then a force on the cable grows to 50 N
+/// downwards. The cable breaks at the top, where its own weight adds to the tension, and the crate
+/// falls freely with the rest of the cable.
 ///
 /// *Source.* N = (M + rho A L) g + F; free fall.
 #[test]

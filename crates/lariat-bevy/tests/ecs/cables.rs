@@ -55,7 +55,8 @@ fn a_wire_rope_has_the_mass_of_the_standard() {
     assert_relative_eq!(rope.axial_stiffness, 66.24e-6 * 1.0e11, max_relative = 1e-3);
 }
 
-/// A crate of 50 kg on a steel rope hangs by its weight, and the rope is as much longer as Hooke says.
+/// A crate of 50 kg on a steel rope hangs by its weight, and the rope is as much longer as Hooke
+/// says.
 ///
 /// *Source.* N = m g; N L/EA.
 #[test]

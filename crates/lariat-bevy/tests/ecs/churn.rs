@@ -6,7 +6,8 @@ use lariat_bevy::event::StepFailed;
 use lariat_bevy::{At, Attachment, Bending, CableAttachments, Cables, Damping, Diagnostics, Drag, Physics};
 use proptest::prelude::*;
 
-/// 100 cables with loads; in 1000 steps 50 of them are despawned, bodies are despawned under others, and effects change.
+/// 100 cables with loads; in 1000 steps 50 of them are despawned, bodies are despawned under
+/// others, and effects change.
 fn churn(seed: u64) {
     let mut random = seed;
     let mut next = |most: u64| {

@@ -53,7 +53,8 @@ fn effects_act_from_the_step_after_insertion_to_the_step_after_removal() {
 
 /// A free cable falls with the acceleration of its remaining weight.
 ///
-/// *Source.* a = g, g/2, 0, and (rho_c - rho_w) g/(rho_c + C_a rho_w) with added mass (motion across a straight cable).
+/// *Source.* a = g, g/2, 0, and (rho_c - rho_w) g/(rho_c + C_a rho_w) with added mass (motion
+/// across a straight cable).
 #[test]
 fn gravity_scale_buoyancy_and_line_loads_change_the_weight_of_a_free_cable() {
     let fall = |bundle: fn(&mut EntityWorldMut)| {

@@ -30,8 +30,8 @@ fn sleeping_and_waking_send_events() {
     assert_eq!(world.resource::<Log>().0, [("asleep", cable), ("awake", cable)]);
 }
 
-/// A body whose velocity is not a number: the step fails with the name of the cable, time stands still, and goes on when the velocity
-/// is finite again.
+/// A body whose velocity is not a number: the step fails with the name of the cable, time stands
+/// still, and goes on when the velocity is finite again.
 #[test]
 fn a_failed_step_names_the_cable_and_keeps_the_last_good_state() {
     let mut world = world();

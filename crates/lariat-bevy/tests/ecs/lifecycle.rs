@@ -9,7 +9,8 @@ fn time(world: &World, cable: Entity) -> f64 {
     cable_of(world, cable).time()
 }
 
-/// A regression: a cable that was spawned later had a clock of its own, and an island with two times cannot be stepped.
+/// A regression: a cable that was spawned later had a clock of its own, and an island with two
+/// times cannot be stepped.
 #[test]
 fn a_cable_that_is_spawned_later_can_be_attached_to_the_same_body() {
     let mut world = world();
@@ -80,7 +81,8 @@ fn the_cable_of_a_disabled_entity_is_stepped() {
     assert_eq!(time(&world, cable), time(&world, other));
 }
 
-/// A regression: removals that no step had carried out yet were missing from a snapshot, and every step after it failed.
+/// A regression: removals that no step had carried out yet were missing from a snapshot, and every
+/// step after it failed.
 #[test]
 fn a_snapshot_taken_between_despawning_and_a_step_replays_bitwise() {
     let mut world = world();

@@ -43,7 +43,8 @@ fn the_pendulum_is_bitwise_that_of_the_mechanics_alone() {
 
 /// The tip after 0.5 s, with four Rapier steps in a host step and the default rule.
 ///
-/// *Source.* A converged solution of the beam, assets/reference/pendulum_converged_tip.csv: (1.3108, -1.2034) m, 10 elements of the default rule are within 2.4e-3 m.
+/// *Source.* A converged solution of the beam, assets/reference/pendulum_converged_tip.csv:
+/// (1.3108, -1.2034) m, 10 elements of the default rule are within 2.4e-3 m.
 #[test]
 fn the_pendulum_follows_the_reference_beam() {
     let mut world = world();

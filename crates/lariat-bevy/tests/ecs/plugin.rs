@@ -5,8 +5,9 @@ use bevy_app::{App, Update};
 use bevy_ecs::prelude::*;
 use bevy_ecs::reflect::AppTypeRegistry;
 use bevy_reflect::TypeRegistry;
+use core::any::TypeId;
 use lariat_bevy::event::CableFailed;
-use lariat_bevy::{Bending, Cable, CableStep, CableSystems, Damping, LariatPlugin, RapierStep};
+use lariat_bevy::{Bending, Cable, CableStep, CableSystems, LariatPlugin, PointLoads, RapierStep, Rule};
 
 #[derive(Resource, Default)]
 struct Order(Vec<&'static str>);
@@ -46,12 +47,18 @@ fn messages_of_an_app_are_dropped_after_two_frames() {
 }
 
 #[test]
-fn effects_are_in_the_type_registry() {
+fn all_effects_are_in_the_type_registry() {
     let mut app = App::new();
     app.init_resource::<AppTypeRegistry>();
     app.add_plugins(LariatPlugin::default());
     let registry = app.world().resource::<AppTypeRegistry>().read();
     let registry: &TypeRegistry = &registry;
-    assert!(registry.get(core::any::TypeId::of::<Damping>()).is_some());
-    assert!(registry.get_type_data::<ReflectComponent>(core::any::TypeId::of::<Bending>()).is_some());
+    let is_component = |id: TypeId| registry.get_type_data::<ReflectComponent>(id).is_some();
+    assert!([TypeId::of::<Rule>(), TypeId::of::<Bending>(), TypeId::of::<PointLoads>()].into_iter().all(is_component));
+    macro_rules! check {
+        ($({ field: $field:ident, type: $type:ident, $($entry:tt)* })*) => {
+            $(assert!(is_component(TypeId::of::<lariat_bevy::$type>()), stringify!($type));)*
+        };
+    }
+    lariat_bevy::lariat_ancf::for_each_effect!(check);
 }

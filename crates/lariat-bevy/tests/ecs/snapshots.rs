@@ -41,7 +41,8 @@ fn a_run_from_a_snapshot_replays_bitwise() {
     }
 }
 
-/// After the snapshot a load is despawned, an effect is removed, and a cable, a body and an attachment are spawned.
+/// After the snapshot a load is despawned, an effect is removed, and a cable, a body and an
+/// attachment are spawned.
 #[test]
 fn a_snapshot_respawns_what_was_despawned_and_despawns_what_was_spawned() {
     let mut world = world();

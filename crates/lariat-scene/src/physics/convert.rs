@@ -1,4 +1,4 @@
-//! Rapier's numbers (glam, single precision) as ours (nalgebra, `f64`), and back.
+//! Conversion between the vectors of Rapier (glam, single precision) and nalgebra (`f64`).
 
 use lariat_ancf::Vector3;
 use lariat_rapier::rapier::math::{Matrix, Pose, Real, Rotation, Vector};
@@ -17,9 +17,8 @@ pub fn rotation(r: Rotation) -> UnitQuaternion<f64> {
     UnitQuaternion::from_quaternion(q)
 }
 
-pub fn to_pose((place, attitude): &(Vector3<f64>, UnitQuaternion<f64>)) -> Pose {
-    let q = attitude;
-    Pose::from_parts(to_vector(place), Rotation::from_xyzw(q.i as Real, q.j as Real, q.k as Real, q.w as Real))
+pub fn to_pose((position, q): &(Vector3<f64>, UnitQuaternion<f64>)) -> Pose {
+    Pose::from_parts(to_vector(position), Rotation::from_xyzw(q.i as Real, q.j as Real, q.k as Real, q.w as Real))
 }
 
 pub fn matrix(m: &Matrix) -> Matrix3<f64> {

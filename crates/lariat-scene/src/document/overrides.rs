@@ -1,10 +1,11 @@
 //! `--set cable.sling.elements=20`: overrides of a scene from the command line, put in before anything is checked.
 //!
 //! The path is dotted, as TOML writes it (a name with a dot or a space in quotes). Tables of an array are addressed by their
-//! name, or by their position from 0 if they have none. The value is read as TOML; what is not TOML is a string.
+//! name or by their position from 0. The value is read as TOML; a value that is not TOML is taken as a text.
 
-use super::document::{Document, name_of, respanned};
-use crate::error::Error;
+use super::{Document, name_of, respanned};
+use crate::error::{Error, did_you_mean};
+use crate::suggest::nearest;
 use std::borrow::Cow;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
@@ -13,7 +14,7 @@ impl<'t> Document<'t> {
     /// Puts an override `KEY=VALUE` into the tree.
     ///
     /// # Errors
-    /// [`Error::Override`] if the key is no path into the scene.
+    /// [`Error::Override`] if the key is not a path into the scene.
     pub fn set(&mut self, argument: &'t str) -> Result<(), Error> {
         let fail = |problem: String| Err(Error::Override { argument: argument.to_string(), problem });
         let Some((path, text)) = argument.split_once('=') else {
@@ -56,7 +57,9 @@ impl<'t> Document<'t> {
                 };
                 let by_position = || wanted.parse::<usize>().ok().filter(|i| *i < names.len());
                 let Some(i) = names.iter().position(|name| name == wanted).or_else(by_position) else {
-                    return fail(format!("no {step} is named {wanted:?}; accepted: {}", names.join(", ")));
+                    let near = nearest(wanted, names.iter().map(String::as_str));
+                    let near = did_you_mean(near.as_deref());
+                    return fail(format!("no {step} is named {wanted:?}; accepted: {}{near}", names.join(", ")));
                 };
                 let Some(item) = items.get_mut(i) else { return fail(format!("no {step} {i}")) };
                 here = item.get_mut();
@@ -71,7 +74,7 @@ impl<'t> Document<'t> {
     }
 }
 
-/// The steps of a dotted path.
+/// Returns the steps of a dotted path.
 fn steps_of(path: &str) -> Option<Vec<String>> {
     let text = format!("{path} = 0");
     let mut table = DeTable::parse(&text).ok()?.into_inner();

@@ -1,17 +1,17 @@
-//! Breaking a scene in one place, and reading what is said about it.
+//! A valid scene with one invalid change, and the message about it.
 
 use lariat_scene::{Purpose, Scene};
 
-/// What is replaced in a good scene (or appended, if the first text is empty), by what, the line of the error, and fragments of it.
+/// A text of the valid scene to replace (empty: append), its replacement, the line of the error, and fragments of its message.
 pub type Case = (&'static str, &'static str, usize, &'static [&'static str]);
 
-/// A scene with one change.
+/// Returns a scene with one change.
 pub fn changed(good: &str, from: &str, to: &str) -> String {
     assert!(good.contains(from), "{from}");
     if from.is_empty() { format!("{good}{to}\n") } else { good.replacen(from, to, 1) }
 }
 
-/// What is said about a scene: the error, which must be one of bad input, or that it is accepted.
+/// Returns the error message of a scene, which must be one of invalid input, or that it is accepted.
 pub fn message(text: &str) -> String {
     match Scene::parse("scene.toml", text, &[], Purpose::Run) {
         Ok(_) => format!("accepted:\n{text}"),
@@ -22,8 +22,8 @@ pub fn message(text: &str) -> String {
     }
 }
 
-/// The good scene is accepted; every case is refused at its line, in its words.
-pub fn all_are_refused(good: &str, cases: &[Case]) {
+/// Checks that the valid scene is accepted, and that every case is an error at its line with its fragments.
+pub fn all_are_errors(good: &str, cases: &[Case]) {
     Scene::parse("scene.toml", good, &[], Purpose::Run).unwrap();
     let mut wrong = Vec::new();
     for (from, to, line, fragments) in cases {
@@ -36,7 +36,7 @@ pub fn all_are_refused(good: &str, cases: &[Case]) {
     assert!(wrong.is_empty(), "{} of {}:\n{}", wrong.len(), cases.len(), wrong.join("\n"));
 }
 
-/// Every change is accepted.
+/// Checks that every change is accepted.
 pub fn all_are_accepted(good: &str, changes: &[(&str, &str)]) {
     for (from, to) in changes {
         if let Err(error) = Scene::parse("scene.toml", &changed(good, from, to), &[], Purpose::Run) {

@@ -1,34 +1,35 @@
-//! Samples in even distances, never more than a limit, of a run whose length nobody knows: when they are full every other one goes.
+//! Evenly spaced samples of a run of unknown length, never more than a limit.
 
-/// At most `most` samples, and the last beside.
-pub struct Thin<T> {
-    most: usize,
-    /// One of so many samples is kept.
+/// Keeps at most `limit` samples at even distances, and the last one: when it is full, every other sample is dropped and the
+/// distance doubles.
+pub struct Decimator<T> {
+    limit: usize,
+    /// One of this many samples is kept.
     every: u64,
-    /// Samples seen.
+    /// Number of samples so far.
     seen: u64,
     kept: Vec<T>,
     last: T,
 }
 
-impl<T: Default> Thin<T> {
-    pub fn new(most: usize) -> Self {
-        Thin { most: most.max(2), every: 1, seen: 0, kept: Vec::new(), last: T::default() }
+impl<T: Default> Decimator<T> {
+    pub fn new(limit: usize) -> Self {
+        Decimator { limit: limit.max(2), every: 1, seen: 0, kept: Vec::new(), last: T::default() }
     }
 
-    /// True if the next sample is one to keep.
+    /// Returns whether the next sample is to be kept.
     pub fn is_due(&self) -> bool {
         self.seen.is_multiple_of(self.every)
     }
 
-    /// Passes over a sample that is not due.
+    /// Skips a sample that is not due.
     pub fn skip(&mut self) {
         self.seen += 1;
     }
 
     /// Keeps a sample that is due.
     pub fn push(&mut self, sample: T) {
-        if self.kept.len() == self.most {
+        if self.kept.len() == self.limit {
             let mut number = 0;
             self.kept.retain(|_| {
                 number += 1;
@@ -43,19 +44,19 @@ impl<T: Default> Thin<T> {
         self.seen += 1;
     }
 
-    /// Adds a sample after all others, whether due or not.
+    /// Appends a last sample, whether it is due or not.
     pub fn append(&mut self, sample: T) {
         self.kept.push(sample);
     }
 
-    /// What was kept, in order.
+    /// Returns the samples that were kept, in order.
     pub fn kept(&self) -> &[T] {
         &self.kept
     }
 }
 
-impl Thin<Vec<f64>> {
-    /// Takes a row, and remembers it as the last.
+impl Decimator<Vec<f64>> {
+    /// Keeps a row if it is due, and stores it as the last one.
     pub fn offer(&mut self, row: &[f64]) {
         if self.is_due() {
             self.push(row.to_vec());
@@ -66,7 +67,7 @@ impl Thin<Vec<f64>> {
         self.last.extend_from_slice(row);
     }
 
-    /// The rows that were kept, and the last if it is not among them.
+    /// Returns the rows that were kept, and the last one.
     pub fn rows(&self) -> impl Iterator<Item = &Vec<f64>> {
         let missing = self.kept.last() != Some(&self.last) && !self.last.is_empty();
         self.kept.iter().chain(missing.then_some(&self.last))
@@ -77,13 +78,14 @@ impl Thin<Vec<f64>> {
 mod tests {
     use super::*;
 
-    /// However long the run: the first and last row are there, distances are even, and there are neither too many nor too few.
+    /// For any number of rows: the first and the last are kept, distances are even, and the number is between half the limit and
+    /// the limit.
     #[test]
     fn rows_of_any_run_are_even_and_limited() {
         for n in [1, 2, 9, 10, 11, 20, 21, 22, 999, 1000, 1024, 12_345] {
-            let mut thin = Thin::new(10);
-            (0..n).for_each(|k| thin.offer(&[f64::from(k)]));
-            let rows: Vec<f64> = thin.rows().map(|row| row[0]).collect();
+            let mut decimator = Decimator::new(10);
+            (0..n).for_each(|k| decimator.offer(&[f64::from(k)]));
+            let rows: Vec<f64> = decimator.rows().map(|row| row[0]).collect();
             assert_eq!((rows[0], rows.last()), (0.0, Some(&f64::from(n - 1))), "{n}: {rows:?}");
             assert!(rows.len() <= 11 && rows.len() >= n.min(6) as usize, "{n}: {rows:?}");
             let steps: Vec<f64> = rows.windows(2).map(|w| w[1] - w[0]).collect();
