@@ -5,9 +5,7 @@
 //! their value at the middle of the step, at the point of the body where it is when the step begins.
 
 mod build;
-mod convert;
 mod joints;
-pub mod pins;
 mod reading;
 
 pub use build::collider;
@@ -16,12 +14,13 @@ pub use reading::BodyState;
 use crate::error::Error;
 use crate::scene::Scene;
 use crate::scene::body::BodyKind;
-use convert::{to_pose, to_vector};
+use lariat_ancf::island::RigidBody;
 use lariat_ancf::{At, Cable, Momentum, Vector3};
+use lariat_rapier::convert::{to_pose, to_vector};
 use lariat_rapier::rapier::dynamics::RigidBodyHandle;
 use lariat_rapier::rapier::math::Real;
 use lariat_rapier::rapier::prelude::PhysicsWorld;
-use lariat_rapier::{AttachmentHandle, CableHandle, CableSet};
+use lariat_rapier::{AttachmentHandle, AttachmentKind, AttachmentReading, CableHandle, CableSet};
 
 /// Difference of velocities at the start that goes without a word, in m/s.
 const JOLT: f64 = 1e-5;
@@ -100,9 +99,13 @@ impl Physics {
                 self.pins.push(None);
                 continue;
             };
-            let cable = (self.handles[attachment.cable], attachment.arc_length);
-            let place = (self.bodies[body], attachment.anchor);
-            let pin = pins::attach(&mut self.cables, &self.world, cable, place, attachment.clamp);
+            let (cable, body) = (self.handles[attachment.cable], self.bodies[body]);
+            let at = At::ArcLength(attachment.arc_length);
+            let kind = if attachment.clamp { AttachmentKind::Clamp } else { AttachmentKind::Ball };
+            let pin = match attachment.anchor {
+                None => self.cables.attach_here(&self.world, cable, at, body, kind),
+                Some(anchor) => self.cables.attach(&self.world, cable, at, body, to_vector(&anchor), kind),
+            };
             self.pins.push(Some(pin.map_err(|error| self.explain(scene, 0.0, error))?));
         }
         for junction in &scene.junctions {
@@ -169,7 +172,8 @@ impl Physics {
     fn drive(&mut self, scene: &Scene, time: f64) {
         for (body, &handle) in scene.bodies.iter().zip(&self.bodies) {
             if body.kind == BodyKind::Kinematic {
-                self.world.bodies[handle].set_next_kinematic_position(to_pose(&body.pose(time)));
+                let (position, rotation) = body.pose(time);
+                self.world.bodies[handle].set_next_kinematic_position(to_pose(&position, &rotation));
             }
         }
     }
@@ -194,9 +198,9 @@ impl Physics {
     fn explain(&self, scene: &Scene, time: f64, error: lariat_rapier::Error) -> Error {
         match error {
             lariat_rapier::Error::Cable(source) => Error::mechanics(time, source),
-            lariat_rapier::Error::BodyNotFinite { body, what, time } => {
+            lariat_rapier::Error::BodyNotFinite { body, quantity, time } => {
                 let name = self.bodies.iter().position(|b| *b == body).map(|i| scene.bodies[i].name.clone());
-                Error::Body { time, body: name.unwrap_or_default(), problem: format!("its {what} is not finite") }
+                Error::Body { time, body: name.unwrap_or_default(), problem: format!("its {quantity} is not finite") }
             }
             source => Error::Coupling { time, source },
         }
@@ -207,18 +211,20 @@ impl Physics {
         self.cables.iter().map(|(_, cable)| cable).collect()
     }
 
-    /// What passes at an attachment; `None` for one to the world. At t = 0 that which holds the cable at a body that does not move yet.
+    /// Returns force, moment, gap and work at an attachment; `None` for one to the world. At t = 0, force and moment are those that
+    /// hold the cable at a body that does not move yet.
     ///
     /// # Errors
     /// [`Error::Coupling`]; not for an attachment of the scene.
-    pub fn passing(&self, index: usize, time: f64) -> Result<Option<pins::Passing>, Error> {
+    pub fn reading(&self, index: usize, time: f64) -> Result<Option<AttachmentReading>, Error> {
         let Some(pin) = self.pins.get(index).copied().flatten() else { return Ok(None) };
-        let mut passing = pins::passing(&self.cables, pin).map_err(|source| Error::Coupling { time, source })?;
+        let attachment = self.cables.attachment(pin).map_err(|source| Error::Coupling { time, source })?;
+        let mut reading = *attachment.reading();
         if time == 0.0 {
-            // before the first step nothing has passed yet
-            (passing.force, passing.moment) = self.held_by[index];
+            // before the first step there is no force yet
+            (reading.force, reading.moment) = self.held_by[index];
         }
-        Ok(Some(passing))
+        Ok(Some(reading))
     }
 
     /// Largest gap of all attachments at the ends of all steps so far, in m.
@@ -237,23 +243,23 @@ impl Physics {
         state
     }
 
-    /// Kinetic energy of the dynamic bodies and their potential in gravity, in J.
+    /// Returns the kinetic energy of the dynamic bodies and their potential in gravity, in J.
     pub fn energy(&self, scene: &Scene) -> (f64, f64) {
-        self.dynamic(scene)
-            .map(|handle| reading::energy(&self.world.bodies[handle], &scene.gravity))
-            .fold((0.0, 0.0), |sum, e| (sum.0 + e.0, sum.1 + e.1))
+        let potential = |body: &RigidBody| -body.mass * scene.gravity.dot(&body.position);
+        self.dynamic(scene).fold((0.0, 0.0), |sum, body| (sum.0 + body.kinetic_energy(), sum.1 + potential(&body)))
     }
 
-    /// Momentum of the dynamic bodies.
+    /// Returns the momentum of the dynamic bodies.
     pub fn momentum(&self, scene: &Scene) -> Momentum {
         let zero = Momentum { linear: Vector3::zeros(), angular: Vector3::zeros() };
-        self.dynamic(scene)
-            .map(|handle| reading::momentum(&self.world.bodies[handle]))
-            .fold(zero, |sum, p| Momentum { linear: sum.linear + p.linear, angular: sum.angular + p.angular })
+        self.dynamic(scene).map(|body| body.momentum()).fold(zero, |sum, (linear, angular)| Momentum {
+            linear: sum.linear + linear,
+            angular: sum.angular + angular,
+        })
     }
 
-    fn dynamic(&self, scene: &Scene) -> impl Iterator<Item = RigidBodyHandle> {
-        let bodies = scene.bodies.iter().zip(&self.bodies);
-        bodies.filter(|(body, _)| body.kind == BodyKind::Dynamic).map(|(_, &handle)| handle)
+    fn dynamic(&self, scene: &Scene) -> impl Iterator<Item = RigidBody> {
+        let bodies = scene.bodies.iter().zip(&self.bodies).filter(|(body, _)| body.kind == BodyKind::Dynamic);
+        bodies.filter_map(|(_, &handle)| lariat_rapier::rigid_body(&self.world, handle))
     }
 }
