@@ -27,7 +27,7 @@
 //! | [`effect`] | one file per effect: damping, drag, buoyancy, rest shape ... |
 //! | [`cable`] | mesh, state, builder, sampling, energies |
 //! | [`integrate`] | one file per time integrator, over one trait |
-//! | [`statics`] | static equilibrium |
+//! | `statics` | static equilibrium: [`Cable::equilibrium`] |
 //! | [`island`] | cables and rigid bodies pinned together, as one system |
 //! | [`linalg`] | the block-tridiagonal solver |
 
@@ -47,7 +47,7 @@ mod quadrature;
 mod real;
 mod rule;
 mod section;
-pub mod statics;
+mod statics;
 mod support;
 
 pub use cable::builder::{CableBuilder, STANDARD_GRAVITY};

@@ -194,9 +194,9 @@ impl Cable {
         }
     }
 
-    pub(crate) fn equations(&mut self) -> (Equations<'_>, &State) {
+    pub(crate) fn equations(&mut self) -> (Equations<'_>, &mut State) {
         let equations = Equations { model: &self.model, system: &mut self.system, diagnostics: &mut self.diagnostics };
-        (equations, &self.state.phase)
+        (equations, &mut self.state.phase)
     }
 
     /// Name.

@@ -52,7 +52,7 @@ fn a_struck_rope_has_the_momentum_and_not_more_energy_than_the_impulse_gave() {
     let mut impedance = Impedance::default();
     impedance.update(&mut rope, &[node], 1.0 / 120.0).unwrap();
     let given = impulse.dot(&(impedance.compliance() * impulse));
-    impedance.kick(&mut rope, &[impulse]);
+    impedance.apply_impulses(&mut rope, &[impulse]);
     let energy = rope.energy();
     assert!((rope.momentum().linear + impulse).norm() < 1e-9, "{:?}", rope.momentum().linear);
     assert!(energy.axial <= given, "{} J of {given} J", energy.axial);
@@ -79,6 +79,6 @@ fn a_struck_rope_under_compression_has_the_momentum() {
     let (node, impulse) = (rope.attach(At::End).unwrap(), Vector3::new(-0.1, 0.2, 0.0));
     let mut impedance = Impedance::default();
     impedance.update(&mut rope, &[node], 1.0 / 120.0).unwrap();
-    impedance.kick(&mut rope, &[impulse]);
+    impedance.apply_impulses(&mut rope, &[impulse]);
     assert!((rope.momentum().linear + impulse).norm() < 1e-9, "{:?}", rope.momentum().linear);
 }
