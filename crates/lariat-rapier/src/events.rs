@@ -1,21 +1,22 @@
-//! What happens to cables during a step.
+//! Events of a host step.
 
-use crate::{AttachmentHandle, CableHandle};
+use crate::handle::{AttachmentHandle, CableHandle};
 use rapier::dynamics::RigidBodyHandle;
 
 /// Something that happened during a host step.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Event {
-    /// A body went away; its attachment with it, and the cable's node is free.
+    /// The body of an attachment was removed from the world; the attachment ended and the node of
+    /// the cable is free.
     AttachmentEnded {
         /// The attachment.
         attachment: AttachmentHandle,
-        /// The body it held to.
+        /// The removed body.
         body: RigidBodyHandle,
     },
-    /// A cable and the bodies that it holds came to rest and sleep.
+    /// A cable and the bodies attached to it came to rest and fell asleep.
     Asleep(CableHandle),
-    /// A cable was woken.
+    /// A cable woke up.
     Awake(CableHandle),
 }
