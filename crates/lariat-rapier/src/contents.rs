@@ -39,9 +39,6 @@ impl Slot {
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub(crate) struct Contents {
     pub cables: Table<Box<Slot>>,
-    /// Handles of cables that are lent, ascending.
-    #[serde(default)]
-    pub lent: Vec<u32>,
     pub attachments: Table<Attachment>,
     pub junctions: Table<Junction>,
     pub records: Records,
@@ -77,13 +74,12 @@ impl Contents {
 
     /// Returns a cable.
     pub fn cable(&self, cable: CableHandle) -> Result<&Cable, Error> {
-        self.slot(cable).map(|s| &s.cable).ok_or_else(|| self.missing(cable))
+        self.slot(cable).map(|s| &s.cable).ok_or(Error::NoCable(cable))
     }
 
     /// Returns a cable, to change it, and marks it as modified.
     pub fn cable_mut(&mut self, cable: CableHandle) -> Result<&mut Cable, Error> {
-        let missing = self.missing(cable);
-        let slot = self.cables.get_mut(cable.0 as usize).ok_or(missing)?;
+        let slot = self.cables.get_mut(cable.0 as usize).ok_or(Error::NoCable(cable))?;
         slot.modified = true;
         Ok(&mut slot.cable)
     }
@@ -124,15 +120,5 @@ impl Contents {
         }
         self.gravity = Some(world.gravity);
         Ok(())
-    }
-
-    /// Returns the error for a cable that is not in the set.
-    pub fn missing(&self, cable: CableHandle) -> Error {
-        if self.lent.binary_search(&cable.0).is_ok() { Error::Lent(cable) } else { Error::NoCable(cable) }
-    }
-
-    /// Checks that no cable is lent.
-    pub fn check_complete(&self) -> Result<(), Error> {
-        self.lent.first().map_or(Ok(()), |&h| Err(Error::Lent(CableHandle(h))))
     }
 }

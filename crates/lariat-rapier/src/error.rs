@@ -14,9 +14,6 @@ pub enum Error {
     /// The handle of a cable that is not, or no longer, in the set.
     #[error("no cable {0:?} in this set")]
     NoCable(CableHandle),
-    /// A cable that was lent and not given back.
-    #[error("cable {0:?} is lent")]
-    Lent(CableHandle),
     /// The handle of an attachment that is not, or no longer, in the set.
     #[error("no attachment {0:?} in this set")]
     NoAttachment(AttachmentHandle),

@@ -81,7 +81,7 @@ impl CableSet {
     /// Returns a cable.
     ///
     /// # Errors
-    /// [`Error::NoCable`], [`Error::Lent`].
+    /// [`Error::NoCable`].
     pub fn get(&self, cable: CableHandle) -> Result<&Cable, Error> {
         self.contents.cable(cable)
     }
@@ -89,7 +89,7 @@ impl CableSet {
     /// Returns a cable, to change it; a sleeping one wakes up.
     ///
     /// # Errors
-    /// [`Error::NoCable`], [`Error::Lent`].
+    /// [`Error::NoCable`].
     pub fn get_mut(&mut self, cable: CableHandle) -> Result<&mut Cable, Error> {
         self.contents.cable_mut(cable)
     }
@@ -104,7 +104,7 @@ impl CableSet {
     /// # Errors
     /// [`Error::NoCable`].
     pub fn is_asleep(&self, cable: CableHandle) -> Result<bool, Error> {
-        self.contents.slot(cable).map(|slot| slot.asleep).ok_or_else(|| self.contents.missing(cable))
+        self.contents.slot(cable).map(|slot| slot.asleep).ok_or(Error::NoCable(cable))
     }
 
     /// Attaches a point of a cable to a point of a body (body axes from its origin, in m). A node
@@ -146,7 +146,7 @@ impl CableSet {
     /// Ends an attachment and frees its node.
     ///
     /// # Errors
-    /// [`Error::NoAttachment`]; [`Error::Lent`] if its cable is.
+    /// [`Error::NoAttachment`].
     pub fn detach(&mut self, world: &mut PhysicsWorld, attachment: AttachmentHandle) -> Result<(), Error> {
         attach::detach(&mut self.contents, world, attachment)
     }

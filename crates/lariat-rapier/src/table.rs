@@ -44,11 +44,6 @@ impl<T> Table<T> {
         self.0.get_mut(index)?.take()
     }
 
-    /// Puts an item back at the index that it was removed from.
-    pub fn put_back(&mut self, index: usize, item: T) {
-        self.0[index] = Some(item);
-    }
-
     /// Returns all items with their indices.
     pub fn iter(&self) -> impl Iterator<Item = (usize, &T)> {
         self.0.iter().enumerate().filter_map(|(i, item)| Some((i, item.as_ref()?)))

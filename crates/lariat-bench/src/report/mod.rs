@@ -146,10 +146,10 @@ pub fn run(out: &Path, options: Options, progress: &mut dyn FnMut(&str)) -> Resu
     Ok(report)
 }
 
-/// Puts the tables that the README shows between their marks `<!-- name -->` and `<!-- /name -->`.
+/// Puts the table that the README shows between its marks `<!-- fidelity -->` and `<!-- /fidelity -->`.
 ///
 /// # Errors
-/// [`Error::Read`] or [`Error::Output`], also where a mark is missing.
+/// [`Error::Read`] or [`Error::Output`], also where the marks are missing.
 pub fn update_readme(report: &Report, readme: &Path) -> Result<(), Error> {
     output::update_readme(report, readme)
 }

@@ -124,11 +124,11 @@ fn replace(text: &str, name: &str, new: &str) -> Option<String> {
     Some(format!("{before}{open}{new}{close}{after}"))
 }
 
-/// The tables of the README.
+/// The README's table, with the line that names the machine.
 pub fn update_readme(report: &Report, readme: &Path) -> Result<(), Error> {
     let read = |source| Error::Read { path: readme.to_path_buf(), source };
-    let mut text = std::fs::read_to_string(readme).map_err(read)?;
-    let word = |row: &[Cell], i: usize, words: &[&str]| matches!(&row[i], Cell::Text(t) if words.contains(&t.as_str()));
+    let text = std::fs::read_to_string(readme).map_err(read)?;
+    let word = |row: &[Cell], i: usize, word: &str| matches!(&row[i], Cell::Text(t) if t == word);
     let fidelity = find(report, "fidelity").map(|table| {
         let columns = [
             ("fidelity", "fidelity", 0),
@@ -139,35 +139,11 @@ pub fn update_readme(report: &Report, readme: &Path) -> Result<(), Error> {
             ("error_m", "error m", 3),
             ("cpu_median_ms", "CPU ms", 2),
         ];
-        excerpt(table, &columns, |row| !word(row, 1, &["catenary"]))
+        excerpt(table, &columns, |row| !word(row, 1, "catenary"))
     });
-    let time = find(report, "pendulum_time").map(|table| {
-        let columns = [
-            ("integrator", "integrator", 0),
-            ("control", "control", 0),
-            ("cpu_median_ms", "CPU ms", 2),
-            ("error_m", "error in time m", 3),
-            ("steps", "steps", 0),
-            ("newton_iterations", "Newton", 0),
-        ];
-        let controls = ["tolerance 1e-6 m", "16 substeps", "0.95 of the stable step"];
-        let default = ["tolerance 1e-5 m", "tolerance 1e-6 m", "tolerance 1e-7 m", "tolerance 1e-8 m"];
-        excerpt(table, &columns, |row| word(row, 3, &controls) || word(row, 2, &["esdirk4"]) && word(row, 3, &default))
-    });
-    let kernels = find(report, "kernels").map(|table| {
-        let columns = [
-            ("case", "instructions", 0),
-            ("force_ns", "force", 0),
-            ("tangent_ns", "force + tangent", 0),
-            ("step_ns", "whole implicit step", 0),
-        ];
-        excerpt(table, &columns, |_| true)
-    });
-    let machine = format!("\n{}\n", report.machine);
-    for (name, table) in [("fidelity", fidelity), ("cost", time.map(|t| t + &machine)), ("kernels", kernels)] {
-        let missing = || io::Error::other(format!("no <!-- {name} --> ... <!-- /{name} --> in it"));
-        text = replace(&text, name, &table.unwrap_or_default())
-            .ok_or_else(|| Error::Output { path: readme.to_path_buf(), source: missing() })?;
-    }
+    let new = format!("{}\n{}\n", fidelity.unwrap_or_default(), report.machine);
+    let missing = || io::Error::other("no <!-- fidelity --> ... <!-- /fidelity --> in it");
+    let text = replace(&text, "fidelity", &new)
+        .ok_or_else(|| Error::Output { path: readme.to_path_buf(), source: missing() })?;
     std::fs::write(readme, text).map_err(output(readme))
 }

@@ -152,7 +152,6 @@ fn predict_islands(
             apply::revert_bodies(world, island, prediction);
         }
     }
-    contents.check_complete()?;
     attach::end_lost(contents, world, &mut stepper.events)?;
     contents.follow_gravity(world)?;
     stepper.islands.update(contents, world)?;

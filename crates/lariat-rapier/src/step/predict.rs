@@ -31,7 +31,7 @@ pub(crate) fn integrate(
     let integrator = share_of(integrator(contents, island), step.rapier_steps);
     if island.members.is_empty() {
         for cable in contents.cables_at(&island.cables) {
-            cable.step_with(step.h, integrator)?;
+            cable.step_with(step.h, &integrator)?;
         }
         return Ok(());
     }

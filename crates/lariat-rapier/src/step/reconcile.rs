@@ -257,7 +257,7 @@ fn apply_motor_impulses(contents: &mut Contents, island: &Island, prediction: &P
     for (c, cable) in contents.cables_at(&island.cables).into_iter().enumerate() {
         let of_cable = island.pins.iter().zip(&prediction.impulses).filter(|(pin, _)| pin.cable == c);
         let impulses: Vec<Vector3<f64>> = of_cable.map(|(_, p)| *p).collect();
-        prediction.impedances[c].kick(cable, &impulses);
+        prediction.impedances[c].apply_impulses(cable, &impulses);
     }
 }
 

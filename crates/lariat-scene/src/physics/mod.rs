@@ -1,8 +1,8 @@
-//! The Rapier side of a scene: its bodies, and its cables once they hold to them.
+//! The Rapier side of a scene: its bodies, and its cables once they are attached to them.
 //!
-//! Nothing sleeps: a run is there for its numbers. One step goes to a time that the run stops at. A step shorter than the host's is split into proportionally fewer Rapier steps,
-//! so that probes between host times do not make Rapier's steps shorter than its usual ones by much. Loads on bodies act with
-//! their value at the middle of the step, at the point of the body where it is when the step begins.
+//! Bodies never sleep. One step goes to the next time at which the run stops. A step shorter than the host step is split into
+//! proportionally fewer Rapier steps, so that probes between host times do not shorten the Rapier steps much. Loads on bodies have
+//! their value at the middle of the step, and act at the point of the body where it is at the beginning of the step.
 
 mod build;
 mod joints;
@@ -22,17 +22,17 @@ use lariat_rapier::rapier::math::Real;
 use lariat_rapier::rapier::prelude::PhysicsWorld;
 use lariat_rapier::{AttachmentHandle, AttachmentKind, AttachmentReading, CableHandle, CableSet};
 
-/// Difference of velocities at the start that goes without a word, in m/s.
+/// Largest difference of velocities at the start without a warning, in m/s.
 const JOLT: f64 = 1e-5;
 
-/// Bodies of a scene, and its cables while they run.
+/// The bodies of a scene, and its cables during a run.
 pub struct Physics {
     world: PhysicsWorld,
     bodies: Vec<RigidBodyHandle>,
     cables: CableSet,
     handles: Vec<CableHandle>,
-    /// By attachment of the scene; `None` for the world, which is a support of the cable.
-    pins: Vec<Option<AttachmentHandle>>,
+    /// By attachment of the scene; `None` for one to the world, which is a support of the cable.
+    attachments: Vec<Option<AttachmentHandle>>,
     /// By attachment, force and moment of the cable at t = 0, with the body still held.
     held_by: Vec<(Vector3<f64>, Vector3<f64>)>,
     /// Rapier steps per host step.
@@ -44,14 +44,14 @@ pub struct Physics {
 }
 
 impl Physics {
-    /// Bodies as drawn, no cables yet.
+    /// Builds the bodies as drawn, without cables.
     ///
     /// # Errors
     /// [`Error::Body`]; not for a checked scene.
     pub fn build(scene: &Scene) -> Result<Self, Error> {
         let mut world = PhysicsWorld::new();
         world.gravity = to_vector(&scene.gravity);
-        // a cap of 400 m/s would change the motion without a word
+        // a limit of 400 m/s would change the motion silently
         world.integration_parameters.normalized_max_linear_velocity = Real::MAX;
         if let Some(n) = scene.solver_iterations {
             world.integration_parameters.num_solver_iterations = n;
@@ -73,7 +73,7 @@ impl Physics {
             bodies,
             cables,
             handles: Vec::new(),
-            pins: Vec::new(),
+            attachments: Vec::new(),
             held_by: Vec::new(),
             rapier_steps,
             reached: 0.0,
@@ -81,8 +81,8 @@ impl Physics {
         })
     }
 
-    /// Takes the cables of the scene and holds them to the bodies, where they are, and to each other; `held_by` are force (N) and moment (N m) by which
-    /// each attachment was held until now.
+    /// Takes the cables of the scene, attaches them to the bodies and joins them to each other; `held_by` are force (N) and moment
+    /// (N m) of the cable on the support at each attachment until now.
     ///
     /// # Errors
     /// [`Error::Mechanics`] or [`Error::Coupling`]; not for a checked scene.
@@ -96,17 +96,17 @@ impl Physics {
         self.held_by = held_by.to_vec();
         for attachment in &scene.attachments {
             let Some(body) = attachment.body else {
-                self.pins.push(None);
+                self.attachments.push(None);
                 continue;
             };
             let (cable, body) = (self.handles[attachment.cable], self.bodies[body]);
             let at = At::ArcLength(attachment.arc_length);
             let kind = if attachment.clamp { AttachmentKind::Clamp } else { AttachmentKind::Ball };
-            let pin = match attachment.anchor {
+            let attached = match attachment.anchor {
                 None => self.cables.attach_here(&self.world, cable, at, body, kind),
                 Some(anchor) => self.cables.attach(&self.world, cable, at, body, to_vector(&anchor), kind),
             };
-            self.pins.push(Some(pin.map_err(|error| self.explain(scene, 0.0, error))?));
+            self.attachments.push(Some(attached.map_err(|error| self.explain(scene, 0.0, error))?));
         }
         for junction in &scene.junctions {
             let [a, b] = junction.points.map(|(cable, s)| (self.handles[cable], At::ArcLength(s)));
@@ -115,7 +115,7 @@ impl Physics {
         Ok(())
     }
 
-    /// Attachments whose two sides start at different velocities, in words.
+    /// Returns a warning for each attachment whose two sides start at different velocities.
     ///
     /// # Errors
     /// [`Error::Mechanics`]; not for a checked scene.
@@ -129,7 +129,7 @@ impl Physics {
             let difference = (point.velocity - there).norm();
             if difference > JOLT {
                 jolts.push(format!(
-                    "attachment {:?}: cable and body start {difference:.3e} m/s apart in velocity, and meet with a jolt",
+                    "attachment {:?}: cable and body start with velocities {difference:.3e} m/s apart, which gives a shock",
                     attachment.name
                 ));
             }
@@ -137,14 +137,14 @@ impl Physics {
         Ok(jolts)
     }
 
-    /// Moves everything from one time to another, in s.
+    /// Advances cables and bodies from one time to another, in s.
     ///
     /// # Errors
     /// [`Error::Mechanics`] names the cable and the time, [`Error::Body`] the body.
     pub fn advance(&mut self, scene: &Scene, from: f64, to: f64) -> Result<(), Error> {
         self.drive(scene, to);
         self.load(scene, from, to);
-        // the steps that single precision makes of the time add up to another time: the next step makes up for the last
+        // steps rounded to single precision add up to another time: the next step compensates for the last
         let dt = (to - self.reached) as Real;
         if dt <= 0.0 {
             return Ok(());
@@ -158,7 +158,7 @@ impl Physics {
         for (_, attachment) in self.cables.attachments() {
             self.max_gap = self.max_gap.max(attachment.gap());
         }
-        // Rapier disables what is not finite any more
+        // Rapier disables bodies whose state is not finite
         match self.bodies.iter().position(|&body| !self.world.bodies[body].is_enabled()) {
             None => Ok(()),
             Some(i) => {
@@ -168,7 +168,7 @@ impl Physics {
         }
     }
 
-    /// Tells kinematic bodies where to be at a time.
+    /// Sets the positions of kinematic bodies at a time.
     fn drive(&mut self, scene: &Scene, time: f64) {
         for (body, &handle) in scene.bodies.iter().zip(&self.bodies) {
             if body.kind == BodyKind::Kinematic {
@@ -194,7 +194,7 @@ impl Physics {
         }
     }
 
-    /// An error of the coupling, in the words of the scene.
+    /// Converts an error of the coupling, with the names of the scene.
     fn explain(&self, scene: &Scene, time: f64, error: lariat_rapier::Error) -> Error {
         match error {
             lariat_rapier::Error::Cable(source) => Error::mechanics(time, source),
@@ -206,44 +206,44 @@ impl Physics {
         }
     }
 
-    /// The cables, in the order of the scene.
+    /// Returns the cables, in the order of the scene.
     pub fn cables(&self) -> Vec<&Cable> {
         self.cables.iter().map(|(_, cable)| cable).collect()
     }
 
-    /// Returns force, moment, gap and work at an attachment; `None` for one to the world. At t = 0, force and moment are those that
-    /// hold the cable at a body that does not move yet.
+    /// Returns force, moment, gap and work at an attachment; `None` for one to the world. At t = 0 force and moment are those on a
+    /// body that is still held.
     ///
     /// # Errors
     /// [`Error::Coupling`]; not for an attachment of the scene.
     pub fn reading(&self, index: usize, time: f64) -> Result<Option<AttachmentReading>, Error> {
-        let Some(pin) = self.pins.get(index).copied().flatten() else { return Ok(None) };
-        let attachment = self.cables.attachment(pin).map_err(|source| Error::Coupling { time, source })?;
+        let Some(handle) = self.attachments.get(index).copied().flatten() else { return Ok(None) };
+        let attachment = self.cables.attachment(handle).map_err(|source| Error::Coupling { time, source })?;
         let mut reading = *attachment.reading();
         if time == 0.0 {
-            // before the first step there is no force yet
+            // before the first step there is no force of the coupling yet
             (reading.force, reading.moment) = self.held_by[index];
         }
         Ok(Some(reading))
     }
 
-    /// Largest gap of all attachments at the ends of all steps so far, in m.
+    /// Returns the largest gap of all attachments at the ends of all steps so far, in m.
     pub fn max_gap(&self) -> f64 {
         self.max_gap
     }
 
-    /// State of a body at a time.
+    /// Returns the state of a body at a time.
     pub fn body(&self, scene: &Scene, index: usize, time: f64) -> BodyState {
         let state = reading::state(&self.world.bodies[self.bodies[index]]);
         let body = &scene.bodies[index];
         if body.kind == BodyKind::Kinematic {
-            // Rapier's is the mean over its last step
+            // that of Rapier is the mean over its last step
             return BodyState { velocity: body.velocity(time), angular_velocity: body.angular_velocity, ..state };
         }
         state
     }
 
-    /// Returns the kinetic energy of the dynamic bodies and their potential in gravity, in J.
+    /// Returns kinetic energy and potential energy in gravity of the dynamic bodies, in J.
     pub fn energy(&self, scene: &Scene) -> (f64, f64) {
         let potential = |body: &RigidBody| -body.mass * scene.gravity.dot(&body.position);
         self.dynamic(scene).fold((0.0, 0.0), |sum, body| (sum.0 + body.kinetic_energy(), sum.1 + potential(&body)))

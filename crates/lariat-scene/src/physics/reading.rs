@@ -1,16 +1,16 @@
-//! The state of a body, in `f64` from Rapier's single precision.
+//! State of bodies, in `f64` from the single precision of Rapier.
 
 use lariat_ancf::Vector3;
 use lariat_rapier::convert::{rotation, vector};
 use lariat_rapier::rapier::prelude::RigidBody;
 use nalgebra::UnitQuaternion;
 
-/// Where a body is and how it moves.
+/// Position and velocity of a body.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BodyState {
     /// Origin in m.
     pub position: Vector3<f64>,
-    /// Attitude.
+    /// Rotation.
     pub rotation: UnitQuaternion<f64>,
     /// Velocity of the origin in m/s.
     pub velocity: Vector3<f64>,

@@ -94,12 +94,12 @@ impl Stage {
 
     /// Work of line loads and of a flow that drives, so far, in J.
     fn effect_work(&self) -> f64 {
-        self.set.iter().map(|(_, c)| c.account().line_load + (-c.account().drag).max(0.0)).sum()
+        self.set.iter().map(|(_, c)| c.effect_work().line_loads + c.effect_work().drag.max(0.0)).sum()
     }
 
     /// What damping and drag took so far, in J.
     fn dissipated(&self) -> f64 {
-        self.set.iter().map(|(_, c)| c.account().damping + c.account().drag.max(0.0)).sum()
+        self.set.iter().map(|(_, c)| (-c.effect_work().drag).max(0.0) - c.effect_work().damping).sum()
     }
 
     /// Mass of all that moves, bodies and cables, in kg.
