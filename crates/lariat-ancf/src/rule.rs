@@ -238,12 +238,10 @@ impl FromStr for BendingRule {
             "none" => Ok(BendingRule::None),
             "t1" => Ok(BendingRule::T1),
             "t2" => Ok(BendingRule::T2),
-            _ => points(lower.strip_prefix("gauss-").unwrap_or(&lower))
-                .map(BendingRule::Gauss)
-                .ok_or_else(|| {
-                    let expected = "none | t1 | t2 | gauss-N, N from 1 to 10";
-                    unknown(text, expected, bending_rules().map(String::from))
-                }),
+            _ => points(lower.strip_prefix("gauss-").unwrap_or(&lower)).map(BendingRule::Gauss).ok_or_else(|| {
+                let expected = "none | t1 | t2 | gauss-N, N from 1 to 10";
+                unknown(text, expected, bending_rules().map(String::from))
+            }),
         }
     }
 }

@@ -141,7 +141,10 @@ fn unknown_and_unsuitable_rules_and_integrators_are_refused() {
     assert_names(Integrator::substeps(alpha, 1), -0.1, "rho");
     // a builder checks its integrator too
     let verlet = Integrator { method: Method::Verlet, control: StepControl::Tolerance(1e-3) };
-    assert_eq!(pendulum(4).integrator(verlet).build().err(), Some(Error::NoErrorEstimate { method: "verlet".to_string() }));
+    assert_eq!(
+        pendulum(4).integrator(verlet).build().err(),
+        Some(Error::NoErrorEstimate { method: "verlet".to_string() })
+    );
 }
 
 /// Numbers given to a living cable: the error names them, and nothing changes.

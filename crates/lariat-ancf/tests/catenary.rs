@@ -4,7 +4,9 @@ mod common;
 
 use common::rod::{Catenary, stretch};
 use common::{Model, Random};
-use lariat_ancf::{At, AxialRule, BendingRule, Cable, CableBuilder, EquilibriumFailure, Error, PointLoad, Rule, Section, Vector3};
+use lariat_ancf::{
+    At, AxialRule, BendingRule, Cable, CableBuilder, EquilibriumFailure, Error, PointLoad, Rule, Section, Vector3,
+};
 
 const GRAVITY: f64 = 9.81;
 /// Axial rule with no bending at all.

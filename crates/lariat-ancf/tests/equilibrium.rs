@@ -8,8 +8,8 @@ mod common;
 
 use common::{Random, largest_difference};
 use lariat_ancf::{
-    At, AxialRule, BendingRule, Cable, CableBuilder, EquilibriumFailure, EquilibriumOptions, Error, Motion, PointLoad, Rule, Section,
-    SlopeSupport, Support, Vector3,
+    At, AxialRule, BendingRule, Cable, CableBuilder, EquilibriumFailure, EquilibriumOptions, Error, Motion, PointLoad,
+    Rule, Section, SlopeSupport, Support, Vector3,
 };
 
 const GRAVITY: f64 = 9.81;

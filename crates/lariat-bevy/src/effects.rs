@@ -253,7 +253,9 @@ pub(crate) fn update(cable: &mut crate::Cable, wanted: &Wanted) -> Result<(), la
         let choice = |f: Fidelity, damped: bool| f.integrator(if damped { f64::INFINITY } else { soft });
         let (damped, damps) = (core.effects().damping.is_some(), effects.damping.is_some());
         let integrator = match plan.integrator {
-            IntegratorChoice::Fidelity(fidelity) if core.integrator() == choice(fidelity, damped) => choice(fidelity, damps),
+            IntegratorChoice::Fidelity(fidelity) if core.integrator() == choice(fidelity, damped) => {
+                choice(fidelity, damps)
+            }
             _ => core.integrator(),
         };
         wanted.rule.check()?;

@@ -142,7 +142,8 @@ impl Cable {
         let integrator = integrator.into();
         integrator.check()?;
         check_integrator(&self.model, integrator.method)?;
-        require("dt (s)", dt, dt == 0.0 || dt >= SHORTEST_STEP, "0, or >= 1e-100").map_err(|e| e.of_cable(self.name()))?;
+        require("dt (s)", dt, dt == 0.0 || dt >= SHORTEST_STEP, "0, or >= 1e-100")
+            .map_err(|e| e.of_cable(self.name()))?;
         if dt == 0.0 {
             return Ok(());
         }
@@ -315,17 +316,12 @@ impl Cable {
     /// [`Error::WrongCount`] for the wrong number, [`Error::InvalidValue`] for numbers that are not finite.
     pub fn set_coordinates(&mut self, positions: &[f64], velocities: &[f64]) -> Result<(), Error> {
         let n = self.positions().len();
-        for (what, each, given) in
-            [("coordinates", "coordinate", positions), ("velocities", "velocity", velocities)]
-        {
+        for (what, each, given) in [("coordinates", "coordinate", positions), ("velocities", "velocity", velocities)] {
             if given.len() != n {
                 let (cable, count) = (self.name().to_string(), given.len());
                 return Err(Error::WrongCount { cable, what, count, expected: n });
             }
-            given
-                .iter()
-                .try_for_each(|&x| require(each, x, true, "a number"))
-                .map_err(|e| e.of_cable(self.name()))?;
+            given.iter().try_for_each(|&x| require(each, x, true, "a number")).map_err(|e| e.of_cable(self.name()))?;
         }
         self.state.phase.q.copy_from_slice(positions);
         self.state.phase.v.copy_from_slice(velocities);

@@ -141,7 +141,8 @@ fn run(
             (Ok(None), Some(_)) => proposal = (2.0 * proposal).min(regular),
             (Ok(Some(estimate)), Some(tolerance)) => {
                 let allowed = tolerance * (h / horizon).max(MIN_ERROR_SHARE);
-                let growth = root(TARGET_ERROR_SHARE * allowed / estimate.max(1e-300), estimate_order - 1).clamp(0.2, 3.0);
+                let growth =
+                    root(TARGET_ERROR_SHARE * allowed / estimate.max(1e-300), estimate_order - 1).clamp(0.2, 3.0);
                 if estimate > allowed {
                     counts.rejected += 1;
                     proposal = h * growth.min(0.9);
@@ -182,11 +183,9 @@ fn prepare(system: &mut dyn Dynamics, state: &mut State, algorithmic: bool) -> R
     }
     state.memory.acceleration.resize(n, 0.0);
     system.prescribe(state.time, &mut state.q, &mut state.v);
-    system.acceleration(state.time, &state.q, &state.v, &mut state.memory.acceleration).map_err(|failure| FailedStep {
-        time: state.time,
-        step: 0.0,
-        failure,
-    })?;
+    system
+        .acceleration(state.time, &state.q, &state.v, &mut state.memory.acceleration)
+        .map_err(|failure| FailedStep { time: state.time, step: 0.0, failure })?;
     state.memory.algorithmic.clear();
     if algorithmic {
         state.memory.algorithmic.extend_from_slice(&state.memory.acceleration);

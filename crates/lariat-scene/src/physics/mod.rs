@@ -60,8 +60,8 @@ impl Physics {
         }
         let mut bodies = Vec::new();
         for body in &scene.bodies {
-            let refuse = |problem| Error::Body { time: 0.0, body: body.name.clone(), problem };
-            bodies.push(build::insert(&mut world, body).map_err(refuse)?);
+            let failed = |problem| Error::Body { time: 0.0, body: body.name.clone(), problem };
+            bodies.push(build::insert(&mut world, body).map_err(failed)?);
         }
         joints::insert(&mut world, scene, &bodies).map_err(|(body, problem)| Error::Body {
             time: 0.0,
@@ -102,8 +102,8 @@ impl Physics {
                 continue;
             };
             let cable = (self.handles[attachment.cable], attachment.arc_length);
-            let place = (self.bodies[body], attachment.anchor);
-            let attached = attachment::attach(&mut self.cables, &self.world, cable, place, attachment.clamp);
+            let anchor = (self.bodies[body], attachment.anchor);
+            let attached = attachment::attach(&mut self.cables, &self.world, cable, anchor, attachment.clamp);
             self.attachments.push(Some(attached.map_err(|error| self.explain(scene, 0.0, error))?));
         }
         for junction in &scene.junctions {
@@ -215,7 +215,8 @@ impl Physics {
     /// [`Error::Coupling`]; not for an attachment of the scene.
     pub fn transfer(&self, index: usize, time: f64) -> Result<Option<Transfer>, Error> {
         let Some(handle) = self.attachments.get(index).copied().flatten() else { return Ok(None) };
-        let mut transfer = attachment::transfer(&self.cables, handle).map_err(|source| Error::Coupling { time, source })?;
+        let mut transfer =
+            attachment::transfer(&self.cables, handle).map_err(|source| Error::Coupling { time, source })?;
         if time == 0.0 {
             // before the first step there is no force of the coupling yet
             (transfer.force, transfer.moment) = self.held_by[index];

@@ -60,7 +60,7 @@ table! {
 
 table! {
     /// Or `"none"`: a body that touches nothing.
-    keys SHAPE("shape") {
+    keys SHAPE("[body.shape]") {
         /// Half extents.
         cuboid = (), Kind::Numbers(&["x", "y", "z"], POSITIVE.single()), "m";
         /// Radius.
@@ -235,7 +235,8 @@ impl BodyScene {
         if self.kind != BodyKind::Kinematic {
             return (self.position, self.rotation);
         }
-        let position = if self.path.is_empty() { self.position + self.velocity * time } else { along(&self.path, time).0 };
+        let position =
+            if self.path.is_empty() { self.position + self.velocity * time } else { along(&self.path, time).0 };
         (position, UnitQuaternion::from_scaled_axis(self.angular_velocity * time) * self.rotation)
     }
 
