@@ -1,6 +1,6 @@
 //! Attachments to bodies: clamps, points between nodes, forces at rest.
 
-use super::bench::Results;
+use super::results::Results;
 
 /// A beam that sticks out along x from `wall`, with more tables after it.
 fn beam(wall: &str, rest: &str) -> String {

@@ -1,6 +1,6 @@
 //! Bodies by themselves: mass, motion, loads, paths.
 
-use super::bench::{Results, free};
+use super::results::{Results, free};
 use std::fs;
 
 /// *Source.* Newton: `x = F t^2/2m`, with a ramp `x = F (t^2/2 - r t/2 + r^2/6)/m`, `I w = M t`.
@@ -47,7 +47,7 @@ fn a_body_has_the_mass_of_its_shape_and_the_velocity_that_it_was_given() {
     assert!((row[4] - 0.8).abs() < 1e-6 && row[5].abs() < 1e-6 && (results.rows("energy")[0][1] - 0.8).abs() < 1e-6);
 }
 
-/// Rapier caps velocities unless it is told not to.
+/// Rapier limits velocities by default.
 ///
 /// *Source.* Newton's first law.
 #[test]

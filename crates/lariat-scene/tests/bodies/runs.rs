@@ -1,6 +1,6 @@
 //! Runs with bodies as runs: contact, statics, equilibrium at the start, probes between host times, failures.
 
-use super::bench::{Results, asset, free};
+use super::results::{Results, asset, free};
 use std::fs;
 
 /// A box on a slope of slope angle 0.5 rad (gravity is tilted instead), friction as given on both.
@@ -67,7 +67,7 @@ fn shapes_rest_at_their_height() {
 }
 
 #[test]
-fn statics_tell_that_loads_on_bodies_take_no_part() {
+fn statics_warn_that_loads_on_bodies_are_not_applied() {
     let text = CATENARY.to_string() + "\n[[load]]\nbody = \"ball\"\nforce = [0.0, 1.0, 0.0]\n";
     let warnings = Results::of_text("static", &text).done().summary().warnings;
     assert!(warnings.len() == 1 && warnings[0].contains("loads on bodies"), "{warnings:?}");
@@ -176,7 +176,7 @@ fn probes_between_host_times_see_the_same_motion() {
 }
 
 #[test]
-fn an_end_that_starts_at_another_velocity_than_its_body_is_told() {
+fn an_end_that_starts_at_another_velocity_than_its_body_is_a_warning() {
     let moving =
         Results::of("run", &asset("payload_pendulum"), &["body.crate.velocity=[0,0,1]", "duration=0.1"]).done();
     let warnings = moving.summary().warnings;

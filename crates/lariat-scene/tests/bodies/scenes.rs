@@ -1,6 +1,6 @@
 //! The scenes of assets/scenes with bodies.
 
-use super::bench::{Results, asset};
+use super::results::{Results, asset};
 
 /// The box is where it should be after 0.5 s and 1 s, the pin closed, energy and momentum as they must be.
 ///

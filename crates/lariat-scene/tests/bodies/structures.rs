@@ -1,6 +1,6 @@
 //! Structures of assets/scenes: a deck on stays, a suspension bridge, a load under a helicopter.
 
-use super::bench::{Results, asset};
+use super::results::{Results, asset};
 
 const WEIGHT: f64 = 600.0 * 9.81;
 
