@@ -1,11 +1,11 @@
 //! The falling pendulum of Bulin & Hajzman: released from horizontal, followed for 2 s, checked against the real beam.
 //!
-//! `cargo run --release --example falling_pendulum` prints the tip and writes out/falling_pendulum/{tip.csv, snapshots.svg, tip.svg}.
+//! `cargo run --release --example falling_pendulum` prints the tip and writes out/falling_pendulum/{tip.csv, snapshapes.svg, tip.svg}.
 
 use cpu_time::ProcessTime;
 use lariat::ancf::{At, Cable, Section, Vector3};
 use lariat_figures::reference_pendulum as pendulum;
-use lariat_figures::{self as figures, Snapshot};
+use lariat_figures::{self as figures, Shape, ShapeFigure};
 
 const TOLERANCE: f64 = 1e-3; // m, largest distance of the tip from the real beam
 
@@ -16,7 +16,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         .elements(16)
         .fix(At::Start)
         .build()?;
-    let (mut tip, mut shots, mut csv, mut cpu_ms) = (Vec::new(), Vec::new(), "t,x,y,z\n".to_string(), 0.0);
+    let (mut tip, mut shapes, mut csv, mut cpu_ms) = (Vec::new(), Vec::new(), "t,x,y,z\n".to_string(), 0.0);
     for k in 0..=200 {
         let (t, clock) = (f64::from(k) / 100.0, ProcessTime::now());
         cable.step(t - cable.time())?;
@@ -25,7 +25,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         tip.push(p);
         csv += &format!("{t:?},{:?},{:?},{:?}\n", p.x, p.y, p.z);
         if k % 20 == 0 {
-            shots.push(Snapshot::of(&cable));
+            shapes.push(Shape::of(&cable));
         }
     }
 
@@ -46,7 +46,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let out = std::path::Path::new("out/falling_pendulum");
     std::fs::create_dir_all(out)?;
     std::fs::write(out.join("tip.csv"), csv)?;
-    figures::snapshots(&out.join("snapshots.svg"), "Falling pendulum, 2 m", &shots)?;
+    figures::snapshapes(&out.join("snapshapes.svg"), "Falling pendulum, 2 m", &shapes)?;
     figures::tip(&out.join("tip.svg"), &figures::pendulum_tip("16 elements, default rule", &tip)?)?;
 
     let error = tip.iter().zip(&beam).map(|(p, real)| (p - real).norm()).fold(0.0, f64::max);

@@ -1,15 +1,19 @@
-//! The accuracy report: what Markdown says is what the files hold, errors fall as they should, and the library's own figures are those
-//! that were measured.
+//! The accuracy report: its page says what its files hold, errors fall as they should, a section
+//! that fails loses no other, and the library's documented figures are those that were measured.
 
-use lariat_bench::report::section::Format;
-use lariat_bench::report::{self, Bench, Options, Report, pendulum, taut};
+use lariat_bench::Error;
+use lariat_bench::clock::Repeats;
+use lariat_bench::page::Block;
+use lariat_bench::report::{self, Options, Progress, Report, pendulum, taut};
+use lariat_bench::table::{Format, Table};
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
 
-/// The two coarsest rungs, each point run once.
+/// The two coarsest settings of each curve, each run once.
 fn tiny() -> Options {
-    Options { command: "", rungs: 2, least_runs: 1, most_runs: 1, budget: 0.0, patience: 0.0, readings: 2 }
+    let repeats = Repeats { least: 1, most: 1, enough: 0.0, limit: 0.0 };
+    Options { command: "", rungs: 2, repeats, readings: 2 }
 }
 
 fn csv(path: &Path) -> Vec<BTreeMap<String, String>> {
@@ -42,63 +46,108 @@ fn markdown_tables(text: &str) -> Vec<Vec<Vec<String>>> {
     tables
 }
 
-/// Every cell of every table in the Markdown is that of the CSV file, to the digits that are printed.
+/// The tables that the page shows, in their order.
+fn shown(report: &Report) -> Vec<&Table> {
+    let blocks = report.sections.iter().flat_map(|section| &section.blocks);
+    let table = |block| match block {
+        &Block::Table(ref table) | &Block::Excerpt(ref table) => Some(table),
+        _ => None,
+    };
+    blocks.filter_map(table).collect()
+}
+
+/// Compares every cell of every table on the page with the rows of the CSV file, to the digits that
+/// are printed, and returns the number of numbers that were compared.
 fn compare(folder: &Path, report: &Report) -> usize {
     let tables = markdown_tables(&fs::read_to_string(folder.join("README.md")).unwrap());
-    let written: Vec<_> = report.sections.iter().flat_map(|section| section.tables()).collect();
-    assert_eq!(tables.len(), written.len());
+    let shown = shown(report);
+    assert_eq!(tables.len(), shown.len());
     let mut numbers = 0;
-    for (table, shown) in written.into_iter().zip(&tables) {
+    for (table, lines) in shown.into_iter().zip(&tables) {
         let rows = csv(&folder.join(table.file()));
-        assert_eq!(rows.len(), shown.len(), "{}", table.name);
-        for (row, cells) in rows.iter().zip(shown) {
-            for ((i, _, format), cell) in table.shown().zip(cells) {
-                let raw = &row[table.columns[i].name];
-                match (raw.parse::<f64>(), cell.parse::<f64>()) {
-                    (Ok(raw), Ok(shown)) if format != Format::Plain => {
-                        let off = (raw - shown).abs();
-                        assert!(off <= 1.001 * rounding(cell), "{}: {cell} for {raw:?}", table.file());
-                        numbers += 1;
-                    }
-                    _ if raw.is_empty() => assert!(cell.is_empty() || cell == "-", "{}: {cell}", table.file()),
-                    _ => assert_eq!(raw, cell, "{}", table.file()),
-                }
-            }
+        // an excerpt may leave rows out, and keeps their order
+        let mut rows = rows.iter();
+        assert_eq!(table.rows.len(), lines.len(), "{}", table.name);
+        for line in lines {
+            let cells = || table.visible().zip(line);
+            let fits = |row: &&BTreeMap<String, String>| {
+                cells().all(|((i, _, format), cell)| same(&row[table.columns[i].name], cell, format))
+            };
+            assert!(rows.by_ref().any(|row| fits(&row)), "{}: no row for {line:?}", table.file());
+            numbers += cells().filter(|((.., format), cell)| *format != Format::Plain && *cell != "-").count();
         }
     }
     numbers
 }
 
-#[test]
-fn a_report_says_in_markdown_what_its_files_hold_and_its_page_needs_nothing_else() {
-    let folder = tempfile::tempdir().unwrap();
-    let out = folder.path().join("new/report");
-    let mut told = Vec::new();
-    let report = report::run(&out, tiny(), &mut |what| told.push(what.to_string())).unwrap();
-    assert!(compare(&out, &report) > 500);
-    assert!(told.iter().any(|what| what.contains("payload")));
-
-    let page = fs::read_to_string(out.join("index.html")).unwrap();
-    let figures: Vec<_> = report.sections.iter().flat_map(|section| section.figures()).collect();
-    assert_eq!(page.matches("<svg").count(), figures.len());
-    for figure in figures {
-        assert!(out.join(format!("{}.svg", figure.name)).exists());
-        assert!(page.contains(&figure.caption));
+/// Whether a printed cell is that of the CSV file.
+fn same(raw: &str, cell: &str, format: Format) -> bool {
+    match (raw.parse::<f64>(), cell.parse::<f64>()) {
+        (Ok(raw), Ok(shown)) if format != Format::Plain => (raw - shown).abs() <= 1.001 * rounding(cell),
+        _ if raw.is_empty() => cell.is_empty() || cell == "-",
+        _ => raw == cell,
     }
-    for outside in ["<img", "<script", "<link", "src=", "url("] {
-        assert!(!page.contains(outside), "{outside}");
-    }
-    // a choice that is refused is a row with its reason, not a gap
-    let refused: Vec<_> = csv(&out.join("catenary.csv")).into_iter().filter(|row| row["rule"] == "G2-none").collect();
-    assert_eq!(refused.len(), 2);
-    for row in refused {
-        assert!(row["failed"].contains("rank deficient") && row["error_m"].is_empty(), "{row:?}");
-    }
-    assert!(fs::read_to_string(out.join("README.md")).unwrap().contains("rank deficient"));
 }
 
-/// Errors by line of a ladder, from the coarsest.
-fn ladders(points: &[report::point::Point]) -> BTreeMap<&str, Vec<f64>> {
+/// Every number on the page is that of its CSV file, every figure is a file, and each section is
+/// told when it begins and ends.
+#[test]
+fn the_page_of_a_report_says_what_its_files_hold() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("new/report");
+    let (mut begun, mut done) = (Vec::new(), 0);
+    let report = report::run(&out, &tiny(), &mut |progress| match progress {
+        Progress::Begun(title) => begun.push(title.to_string()),
+        Progress::Done(_) => done += 1,
+        Progress::Failed(error) => panic!("{error}"),
+    });
+    let report = report.unwrap();
+    assert_eq!((begun.len(), done, report.sections.len()), (9, 9, 9));
+    assert!(compare(&out, &report) > 150);
+    let page = fs::read_to_string(out.join("README.md")).unwrap();
+    for block in report.sections.iter().flat_map(|section| &section.blocks) {
+        match block {
+            Block::Figure(figure) => {
+                assert!(out.join(format!("{}.svg", figure.name)).exists());
+                assert!(page.contains(&format!("![{}]({}.svg)", figure.caption, figure.name)));
+            }
+            Block::Data(table) => assert!(page.contains(&format!("[{}]({0})", table.file())), "{}", table.name),
+            _ => {}
+        }
+    }
+    assert!(page.len() < 30_000 && !out.join("index.html").exists(), "{} characters", page.len());
+    // a setting that is rejected is a row with its reason, on the page too
+    let rejected: Vec<_> = csv(&out.join("catenary.csv")).into_iter().filter(|row| row["rule"] == "G2-none").collect();
+    assert_eq!(rejected.len(), 2);
+    for row in rejected {
+        assert!(row["failed"].contains("rank deficient") && row["error_m"].is_empty(), "{row:?}");
+        assert!(page.contains(&row["failed"]));
+    }
+}
+
+/// No curve has a point, so no figure of curves can be drawn: those sections fail, the others are
+/// measured and written.
+#[test]
+fn a_section_that_fails_loses_no_other() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut failed = 0;
+    let options = Options { rungs: 0, ..tiny() };
+    let report = report::run(folder.path(), &options, &mut |progress| {
+        failed += usize::from(matches!(progress, Progress::Failed(_)));
+    });
+    let report = report.unwrap();
+    assert_eq!((report.failures.len(), failed, report.sections.len()), (6, 6, 9));
+    for file in ["table1.csv", "fidelity.csv", "effects.csv", "kernels.csv", "figure_1.svg"] {
+        assert!(folder.path().join(file).exists(), "{file}");
+    }
+    let page = fs::read_to_string(folder.path().join("README.md")).unwrap();
+    assert_eq!(page.matches("This section failed: ").count(), 6);
+    let error = report.check().unwrap_err();
+    assert!(matches!(&error, Error::Sections { titles } if titles.len() == 6) && error.exit_code() == 3, "{error}");
+}
+
+/// Errors by curve, from the coarsest setting.
+fn curves(points: &[report::point::Point]) -> BTreeMap<&str, Vec<f64>> {
     let mut lines: BTreeMap<&str, Vec<f64>> = BTreeMap::new();
     for point in points {
         let error = point.error.unwrap_or_else(|| panic!("{:?}", point.failed));
@@ -107,12 +156,13 @@ fn ladders(points: &[report::point::Point]) -> BTreeMap<&str, Vec<f64>> {
     lines
 }
 
-/// Against the independent solver's run. Substeps are halved: order 2 divides the error by 4; tolerances fall tenfold.
+/// The error in time from an independent solver's run: halving the substeps of a method of order 2
+/// divides it by 4; tolerances fall tenfold.
 #[test]
-fn errors_in_time_fall_down_every_ladder_as_the_order_says() {
-    let mut bench = Bench { options: Options { rungs: 4, ..tiny() }, progress: &mut |_| () };
-    let points = pendulum::in_time(&mut bench).unwrap();
-    let lines = ladders(&points);
+fn errors_in_time_fall_with_the_order_of_the_method() {
+    let options = Options { rungs: 4, ..tiny() };
+    let points = pendulum::in_time(&options).unwrap();
+    let lines = curves(&points);
     assert_eq!(lines.len(), 11);
     for (name, errors) in &lines {
         println!("{name}: {errors:?}");
@@ -122,7 +172,7 @@ fn errors_in_time_fall_down_every_ladder_as_the_order_says() {
                 // from 0.95 of the stable step to 0.5 and 0.25
                 "verlet" => assert!((2.5..6.0).contains(&ratio), "{ratio}"),
                 "rkn4" => assert!(ratio > 5.0, "{ratio}"),
-                // what rounding leaves
+                // limited by rounding
                 "rkn6" => assert!(ratio > 1.0 || pair[1] < 1e-12, "{ratio}"),
                 "midpoint" | "generalised-alpha-0.5-once" => assert!((2.5..6.0).contains(&ratio), "{name}: {ratio}"),
                 _ => assert!((3.0..40.0).contains(&ratio), "{name}: {ratio}"),
@@ -132,36 +182,41 @@ fn errors_in_time_fall_down_every_ladder_as_the_order_says() {
     assert!(lines["rkn4"][0] < 1e-9, "{:?}", lines["rkn4"]);
 }
 
-/// Against the analytic motion; cubic elements: order 4 or more in their length with an exact integrator.
+/// The error from the analytic motion: cubic elements have order 4 or more in their length.
 #[test]
 fn a_plucked_steel_cable_converges_to_the_analytic_modes() {
-    let mut bench = Bench { options: Options { rungs: 4, ..tiny() }, progress: &mut |_| () };
-    let points = taut::measure_all(&mut bench).unwrap();
-    for (name, errors) in ladders(&points) {
+    let options = Options { rungs: 4, ..tiny() };
+    let points = taut::measure_all(&options).unwrap();
+    for (name, errors) in curves(&points) {
         println!("{name}: {errors:?}");
         assert!(errors.windows(2).all(|pair| pair[1] < pair[0]), "{name}: {errors:?}");
         assert!(errors[3] < 3e-7, "{name}: {errors:?}");
     }
-    let errors = &ladders(&points)["rkn4"];
-    // 4 to 8 elements; the finest come near what the linear formula leaves out
+    let errors = &curves(&points)["rkn4"];
+    // 4 to 8 elements; errors of finer meshes are near those of the linear formula
     assert!(errors[0] / errors[2] > 0.8 * 16.0, "{errors:?}");
 }
 
+/// A README without marks is an error that names them, and is left as it is; of those that it has,
+/// the tables are replaced.
 #[test]
-fn a_report_says_which_readme_it_cannot_mark() {
+fn a_readme_needs_a_mark_for_a_table() {
     let folder = tempfile::tempdir().unwrap();
     let readme = folder.path().join("README.md");
     fs::write(&readme, "no marks").unwrap();
-    let report = Report { command: "", sections: Vec::new(), machine: String::new(), seconds: 0.0 };
-    let error = report::update_readme(&report, &readme).unwrap_err();
+    let error = report::readme::update(&Report::default(), &readme).unwrap_err();
+    assert!(matches!(&error, Error::NoMark { path, .. } if *path == readme) && error.exit_code() == 2, "{error}");
     assert!(error.to_string().contains("<!-- fidelity -->"), "{error}");
     assert_eq!(fs::read_to_string(&readme).unwrap(), "no marks");
+    fs::write(&readme, "a\n<!-- cost -->\nold\n<!-- /cost -->\nb\n").unwrap();
+    report::readme::update(&Report::default(), &readme).unwrap();
+    assert_eq!(fs::read_to_string(&readme).unwrap(), "a\n<!-- cost -->\n<!-- /cost -->\nb\n");
 }
 
-/// The tables in the documentation of `Fidelity` against the checked-in report: errors as printed, times within a factor of 2 (the
-/// report may have been made again on another machine).
+/// The tables in the documentation of `Fidelity` agree with the checked-in report: errors as
+/// printed, times within a factor of 2, since the report may have been made on another machine.
 #[test]
-fn the_fidelities_document_what_the_checked_in_report_measured() {
+fn the_documented_errors_of_the_fidelities_are_those_of_the_report() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
     let source = fs::read_to_string(root.join("crates/lariat-ancf/src/integrate/fidelity.rs")).unwrap();
     let measured = csv(&root.join("docs/accuracy/fidelity.csv"));

@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, ExitCode};
 
 /// The subcommands of `lariat-bench`.
-const NAMES: [&str; 3] = ["report", "stability", "table1"];
+const NAMES: [&str; 4] = ["coupling", "report", "stability", "table1"];
 
 /// Runs a subcommand of `lariat-bench` with its arguments; anything else is a usage error.
 pub fn run(arguments: &[OsString]) -> ExitCode {

@@ -1,6 +1,6 @@
 //! The `lariat` command: run scenes, find equilibria, print what can be chosen.
 //!
-//! `lariat report`, `lariat stability` and `lariat table1` are of the unpublished package `lariat-bench`: see [`bench`].
+//! `lariat coupling`, `lariat report`, `lariat stability` and `lariat table1` are of the unpublished package `lariat-bench`: see [`bench`].
 
 mod bench;
 mod progress;
@@ -36,7 +36,7 @@ enum Command {
     Rules,
     /// What can be chosen as `integrator`
     Integrators,
-    /// Measurements of the workspace: `report`, `stability`, `table1`
+    /// Measurements of the workspace: `coupling`, `report`, `stability`, `table1`
     #[command(external_subcommand)]
     Bench(Vec<OsString>),
 }
