@@ -9,7 +9,7 @@ use proptest::prelude::*;
 use proptest::test_runner::{FileFailurePersistence, RngSeed, TestRunner};
 
 /// Scenes of the quick and of the long test.
-const SCENES: [u32; 2] = [100, 500];
+const SCENES: [u32; 2] = [60, 500];
 
 /// Never a panic, never a number that is not finite, never an error without a culprit or with a
 /// changed state.

@@ -30,7 +30,7 @@ pub enum Selection {
     /// Every case on one of its hosts, a different one for each; the first case of a family with
     /// effects too; 300 random scenes.
     Long,
-    /// As `Long`, without the cases that take longest, and 100 random scenes.
+    /// As `Long`, without the cases that take longest, and 60 random scenes.
     Quick,
 }
 
@@ -39,7 +39,7 @@ impl Selection {
         match self {
             Selection::Full => usize::MAX,
             Selection::Long => 300,
-            Selection::Quick => 100,
+            Selection::Quick => 60,
         }
     }
 }

@@ -96,7 +96,7 @@ pub fn cases() -> Vec<Case> {
                 vec![Check::between("tip speed, m/s", fastest.get(), (100.0, 1e3), source)]
             }))
     });
-    cases.push(fold.budget(40).lariat_only());
+    cases.push(fold.budget(60).lariat_only());
     // spinning freely about its start, which is held: the tip at 0.2 m moves at 20 and 200 m/s
     for spin in [100.0, 1000.0] {
         let free = case(Family::Whip, format!("spinning at {spin} rad/s"), 0.1, move |w| {
@@ -142,7 +142,8 @@ pub fn cases() -> Vec<Case> {
         // the drum rotates by up to 33 rad in a host step: an error is an answer if it is more than
         // half a revolution in a Rapier step
         let spun = spun.energy_not_checked("the work of a drum on a clamp is known only approximately");
-        cases.push(spun.may_fail());
+        let spun = spun.may_fail();
+        cases.push(if top > 100.0 { spun.long() } else { spun });
     }
     cases
 }

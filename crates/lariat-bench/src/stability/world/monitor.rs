@@ -9,7 +9,8 @@
 //! lost = -(E - E0 - W + D)
 //! ```
 //!
-//! neither of which may exceed a share of the largest kinetic and strain energy of the run.
+//! neither of which may exceed a share of the largest kinetic and strain energy of the run: after
+//! the steps for `made`, that at the start included for `lost`.
 
 use crate::numbers::largest;
 use lariat_ancf::Vector3;
@@ -64,10 +65,12 @@ pub struct Monitor {
     dissipated: f64,
     /// Energy balance at the last step, and its extremes while energy was checked, in J.
     pub balance: f64,
-    pub made: f64,
-    pub lost: f64,
+    made: f64,
+    lost: f64,
     /// Largest kinetic and strain energy, and at least what the weight of all does over 1 mm, in J.
     pub scale: f64,
+    /// Largest kinetic and strain energy when a balance was begun, in J.
+    start_scale: f64,
     pub gap: f64,
     pub constraint: f64,
     pub stretch: f64,
@@ -83,9 +86,23 @@ impl Monitor {
         self.checks = Checks::All;
         (self.external_work, self.balance) = (0.0, 0.0);
         self.start = now.energy;
+        if now.kinetic_and_strain.is_finite() {
+            self.start_scale = self.start_scale.max(now.kinetic_and_strain);
+        }
+
         self.attachment_work = now.attachment_work.iter().map(|(work, _)| *work).collect();
         (self.known_work, self.effect_work) = (now.known_work, now.effect_work);
         self.dissipated = now.dissipated;
+    }
+
+    /// Returns the largest energy made beyond the work from outside, as a share.
+    pub fn made_share(&self) -> f64 {
+        self.made / self.scale.max(1e-9)
+    }
+
+    /// Returns the largest energy lost beyond what damping and drag dissipated, as a share.
+    pub fn lost_share(&self) -> f64 {
+        self.lost / self.scale.max(self.start_scale).max(1e-9)
     }
 
     /// Returns the mean force of an attachment in N.

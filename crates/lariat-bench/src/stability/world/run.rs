@@ -29,7 +29,6 @@ pub fn run(case: &Case, host: Host, model: CableModel) -> Row {
     let seconds = clock.elapsed().as_secs_f64();
     let counts = world.set.iter().map(|(_, c)| c.diagnostics()).max_by_key(|d| d.steps).copied().unwrap_or_default();
     let monitor = &world.monitor;
-    let scale = monitor.scale.max(1e-9);
     Row {
         family: case.family,
         case: case.name.clone(),
@@ -41,9 +40,9 @@ pub fn run(case: &Case, host: Host, model: CableModel) -> Row {
             EnergyBounds::Within { .. } => None,
             EnergyBounds::NotChecked(reason) => Some(reason),
         },
-        energy: monitor.balance / scale,
-        energy_made: monitor.made / scale,
-        energy_lost: monitor.lost / scale,
+        energy: monitor.balance / monitor.scale.max(1e-9),
+        energy_made: monitor.made_share(),
+        energy_lost: monitor.lost_share(),
         gap: monitor.gap,
         constraint: monitor.constraint,
         stretch: monitor.stretch,
@@ -104,11 +103,10 @@ fn bounds(case: &Case, world: &TestWorld) -> Vec<Check> {
         return Vec::new();
     }
     let monitor = &world.monitor;
-    let scale = monitor.scale.max(1e-9);
     let mut all = vec![Check::at_most("gap, m", monitor.gap, case.bounds.gap, "the contract of an attachment")];
     if let EnergyBounds::Within { made, lost } = case.bounds.energy {
-        all.push(Check::at_most("energy made", monitor.made / scale, made, "conservation of energy"));
-        all.push(Check::at_most("energy lost", monitor.lost / scale, lost, "conservation of energy"));
+        all.push(Check::at_most("energy made", monitor.made_share(), made, "conservation of energy"));
+        all.push(Check::at_most("energy lost", monitor.lost_share(), lost, "conservation of energy"));
     }
     all
 }
