@@ -98,9 +98,9 @@ impl Impedance {
     /// Factors `inertia M + h D + h^2 K`, and returns whether it is positive definite.
     fn factor(&mut self, cable: &mut Cable, h: f64, inertia: f64) -> Result<bool, StepFailure> {
         let mut force = core::mem::take(&mut cable.system.product);
-        let (mut equations, phase) = cable.equations();
-        let rates = Rates { v: &phase.v, rate: 1.0 / h };
-        equations.moving_force_and_matrix(phase.time, &phase.q, rates, h * h, inertia, &mut force);
+        let (mut equations, state) = cable.equations();
+        let rates = Rates { v: &state.v, rate: 1.0 / h };
+        equations.moving_force_and_matrix(state.time, &state.q, rates, h * h, inertia, &mut force);
         cable.system.product = force;
         let (model, system) = (&cable.model, &mut cable.system);
         project_matrix(model, &mut system.matrix);
