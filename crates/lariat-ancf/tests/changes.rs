@@ -138,8 +138,8 @@ fn a_broken_file_is_refused_when_it_is_read() {
         ("/model/elements/0/length", serde_json::json!(-0.2)),
         ("/model/elements/3/section/axial_stiffness", serde_json::json!(0.0)),
         ("/model/supports/0/0", serde_json::json!(99)),
-        ("/state/phase/q", serde_json::json!([1.0, 2.0])),
-        ("/state/phase/memory/acceleration", serde_json::json!([1.0])),
+        ("/snapshot/state/q", serde_json::json!([1.0, 2.0])),
+        ("/snapshot/state/memory/acceleration", serde_json::json!([1.0])),
         ("/model/rule", serde_json::json!("G0-3")),
     ];
     for (path, value) in broken {

@@ -140,9 +140,14 @@ fn an_unknown_subcommand_suggests_the_nearest() {
 fn keys_are_listed_in_all_or_by_table_and_misspelt_ones_are_errors() {
     let text = |arguments: &[&str]| String::from_utf8(lariat(arguments).stdout).unwrap();
     let all = text(&["keys"]);
-    assert!(all.contains("### `[[cable]]`") && all.contains("### `[cable.drag]`") && all.contains("| `fluid_density` |"));
+    assert!(
+        all.contains("### `[[cable]]`") && all.contains("### `[cable.drag]`") && all.contains("| `fluid_density` |")
+    );
     let drag = text(&["keys", "cable.drag"]);
-    assert!(drag.starts_with("### `[cable.drag]`") && drag.contains("power_law") && !drag.contains("[[cable]]"), "{drag}");
+    assert!(
+        drag.starts_with("### `[cable.drag]`") && drag.contains("power_law") && !drag.contains("[[cable]]"),
+        "{drag}"
+    );
     assert!(text(&["keys", "cable.length"]).contains("| `length` | a finite number > 0 | m |"));
     let output = lariat(&["keys", "cable.dragg"]);
     assert_eq!(output.status.code(), Some(2));
@@ -205,7 +210,13 @@ fn static_prints_the_equilibrium_of_each_cable() {
     let folder = tempfile::tempdir().unwrap();
     let output = lariat(&["static", &scene("catenary"), "--out", folder.path().to_str().unwrap()]);
     let text = String::from_utf8(output.stdout).unwrap();
-    for fragment in ["cable \"line\": stable, residual", "peak tension", "sag", "on \"left\" at 0 m: force [", "on \"right\" at 3 m"] {
+    for fragment in [
+        "cable \"line\": stable, residual",
+        "peak tension",
+        "sag",
+        "on \"left\" at 0 m: force [",
+        "on \"right\" at 3 m",
+    ] {
         assert!(text.contains(fragment), "{fragment}: {text}");
     }
     let statics = summary(folder.path()).statics.unwrap();

@@ -128,7 +128,8 @@ fn defaults_are_what_the_schema_says() {
     let mut tried = 0;
     for (path, value) in defaults(&SceneTable::TABLE, &without(values), "") {
         let given = path.ends_with("0.damping.axial") || path.ends_with("1.damping.bending");
-        let given = given || path.ends_with("0.rest_shape.piece.0.curvature") || path.ends_with("1.rest_shape.piece.0.stretch");
+        let given =
+            given || path.ends_with("0.rest_shape.piece.0.curvature") || path.ends_with("1.rest_shape.piece.0.stretch");
         if !given {
             assert_eq!(scene(&[format!("{path}={value}")]), plain, "{path} = {value}");
             tried += 1;
@@ -140,7 +141,8 @@ fn defaults_are_what_the_schema_says() {
 /// Removes the keys of rest shapes that have a default.
 fn without(mut values: toml::Table) -> toml::Table {
     for cable in values.get_mut("cable").and_then(toml::Value::as_array_mut).into_iter().flatten() {
-        let pieces = cable.get_mut("rest_shape").and_then(|rest| rest.get_mut("piece")).and_then(toml::Value::as_array_mut);
+        let pieces =
+            cable.get_mut("rest_shape").and_then(|rest| rest.get_mut("piece")).and_then(toml::Value::as_array_mut);
         for piece in pieces.into_iter().flatten().filter_map(toml::Value::as_table_mut) {
             piece.retain(|key, _| key == "from");
         }

@@ -102,6 +102,14 @@ pub enum Error {
         /// What it needs.
         requirement: Requirement,
     },
+    /// A cable that was read back without its forces per length of the user's own: functions are not serialised.
+    #[error("cable {cable:?}: {count} force densities must be attached again: functions are not serialised")]
+    MissingForceDensities {
+        /// Name of the cable.
+        cable: String,
+        /// The number that is missing.
+        count: usize,
+    },
     /// A piece of a rest shape that covers no element.
     #[error("cable {cable:?}: no element has its middle in the piece of the rest shape that begins at {from} m")]
     EmptyRestPiece {

@@ -1,10 +1,11 @@
 //! The interface of an island to the integrators: accelerations, implicit stages, error filter.
 
 use super::energy_balance;
-use super::equations::{IslandEquations, MatrixKind, Point};
+use super::equations::{IslandEquations, MatrixKind};
 use super::hold::vector;
 use super::pin_accounts::PinAccounts;
 use super::rotation::{jacobian_inverse, jacobian_rate};
+use crate::effect::acts::ForceInput;
 use crate::error::StepFailure;
 use crate::integrate::newton::{self, Increment, Linearised};
 use crate::integrate::{Dynamics, Stage, State};
@@ -68,7 +69,7 @@ impl Linearised for IslandStage<'_, '_, '_> {
         for cable in equations.cables.iter_mut() {
             cable.diagnostics_mut().newton_iterations += 1;
         }
-        let at = Point { time: stage.time, scale: stage.c2, q: y, v, dv_dq: stage.dv_dq };
+        let at = ForceInput { time: stage.time, scale: stage.c2, q: y, v, dv_dq: stage.dv_dq };
         if fresh {
             equations.matrices.factored = 0.0;
             equations.cable_rows_and_matrices(&at, z, rhs)?;
@@ -81,7 +82,7 @@ impl Linearised for IslandStage<'_, '_, '_> {
         equations.solve(MatrixKind::Step, y, rhs);
         let mut size = Increment { displacement: equations.norm(rhs), rotation: 0.0 };
         for (cable, part) in equations.parts() {
-            let (_, slope) = cable.system.extent(&rhs[part.range()]);
+            let (_, slope) = cable.system.scales.extent(&rhs[part.range()]);
             size.rotation = size.rotation.max(slope);
         }
         for i in 0..equations.layout.bodies.len() {
@@ -118,7 +119,7 @@ impl Linearised for IslandStage<'_, '_, '_> {
 }
 
 fn has_exact_tangent(equations: &IslandEquations<'_, '_>) -> bool {
-    equations.cables.iter().all(|cable| cable.effects().has_exact_tangent())
+    equations.cables.iter().all(|cable| cable.model.has_exact_tangent())
 }
 
 impl Dynamics for IslandDynamics<'_, '_> {
@@ -164,7 +165,7 @@ impl Dynamics for IslandDynamics<'_, '_> {
         }
         layout.follow_acceleration(time, 1.0, q, v, k);
         equations.factor_mass(q, v)?;
-        equations.cable_rows(&Point { time, scale: 1.0, q, v, dv_dq: 0.0 }, k, rhs);
+        equations.cable_rows(&ForceInput { time, scale: 1.0, q, v, dv_dq: 0.0 }, k, rhs);
         layout.body_rows(1.0, q, v, k, rhs);
         equations.solve(MatrixKind::Mass, q, rhs);
         for i in 0..layout.bodies_at {

@@ -16,9 +16,10 @@
 //! loads.
 
 use super::body::RigidBody;
-use super::equations::{IslandEquations, Point};
+use super::equations::IslandEquations;
 use super::hold::vector;
 use super::layout::Motion;
+use crate::effect::acts::ForceInput;
 use crate::integrate::State;
 use nalgebra::Vector3;
 
@@ -52,7 +53,7 @@ pub(super) fn spurious_energy(
     let mut scale = [0.0; 2];
     for (cable, part) in equations.cables.iter_mut().zip(&layout.parts) {
         let of_cable = cable.equations().0.energy_between(before, after, h, part.range())?;
-        energy += of_cable.made;
+        energy += of_cable.spurious;
         scale[0] += of_cable.before;
         scale[1] += of_cable.after;
     }
@@ -93,7 +94,7 @@ fn work_on_gaps(
     let layout = equations.layout;
     let mut work = 0.0;
     for state in [before, after] {
-        let at = Point { time: state.time, scale: 1.0, q: &state.q, v: &state.v, dv_dq: 0.0 };
+        let at = ForceInput { time: state.time, scale: 1.0, q: &state.q, v: &state.v, dv_dq: 0.0 };
         equations.cable_rows(&at, &state.memory.acceleration, rhs);
         for pin in 0..layout.pins.len() {
             work += 0.5 * h * vector(&rhs[layout.pin_at(pin)..]).dot(&layout.gap(pin, state.time).1);

@@ -5,10 +5,12 @@ use super::dense::Dense;
 use super::hold::{Hold, direction_near, vector};
 use super::layout::{Layout, Part};
 use super::rotation::skew;
-use crate::cable::{Cable, Rates, project_matrix, project_vector};
+use crate::cable::Cable;
+use crate::effect::acts::ForceInput;
 use crate::error::StepFailure;
 use crate::linalg::Factorisation;
 use crate::support::SlopeSupport;
+use crate::system::{project_matrix, project_vector};
 use nalgebra::{Matrix3, Vector3};
 
 /// Which matrix of an island.
@@ -70,21 +72,6 @@ impl Matrices {
     }
 }
 
-/// Time, coordinates and velocities at which the rows of the cables are evaluated, and their scale.
-#[derive(Clone, Copy)]
-pub(super) struct Point<'a> {
-    /// Time in s.
-    pub time: f64,
-    /// Factor on forces.
-    pub scale: f64,
-    /// Coordinates.
-    pub q: &'a [f64],
-    /// Velocities.
-    pub v: &'a [f64],
-    /// Derivative of the velocities with respect to the coordinates in 1/s, for the step matrix.
-    pub dv_dq: f64,
-}
-
 /// The equations of an island during one host step.
 pub(super) struct IslandEquations<'a, 'b> {
     pub cables: &'a mut [&'b mut Cable],
@@ -101,26 +88,31 @@ impl IslandEquations<'_, '_> {
     /// Computes `out = M x` of the cables; entries of bodies are left as they are.
     pub fn multiply_mass(&self, x: &[f64], out: &mut [f64]) {
         for (cable, part) in self.parts() {
-            cable.system.multiply_mass(&x[part.range()], &mut out[part.range()]);
+            cable.system.mass.multiply(cable.system.level, &x[part.range()], &mut out[part.range()]);
         }
     }
 
     /// Computes the rows `scale F - M z` of all cables; `z` holds accelerations times the scale.
-    pub fn cable_rows(&mut self, at: &Point<'_>, z: &[f64], rhs: &mut [f64]) {
+    pub fn cable_rows(&mut self, at: &ForceInput<'_>, z: &[f64], rhs: &mut [f64]) {
         let layout = self.layout;
         for ((cable, part), buffers) in self.cables.iter_mut().zip(&layout.parts).zip(&mut self.matrices.cables) {
             let range = part.range();
             let rows = &mut rhs[range.clone()];
             let (mut equations, _) = cable.equations();
-            equations.moving_force(at.time, &at.q[range.clone()], &at.v[range.clone()], at.scale, rows);
-            equations.system.multiply_mass(&z[range], &mut buffers.product);
+            equations.force(ForceInput { q: &at.q[range.clone()], v: &at.v[range.clone()], ..*at }, rows);
+            equations.system.mass.multiply(equations.system.level, &z[range], &mut buffers.product);
             subtract(rows, &buffers.product);
         }
     }
 
     /// Computes the rows as [`cable_rows`](Self::cable_rows), and factors and condenses the step
     /// matrices of all cables.
-    pub fn cable_rows_and_matrices(&mut self, at: &Point<'_>, z: &[f64], rhs: &mut [f64]) -> Result<(), StepFailure> {
+    pub fn cable_rows_and_matrices(
+        &mut self,
+        at: &ForceInput<'_>,
+        z: &[f64],
+        rhs: &mut [f64],
+    ) -> Result<(), StepFailure> {
         let layout = self.layout;
         for ((cable, part), buffers) in self.cables.iter_mut().zip(&layout.parts).zip(&mut self.matrices.cables) {
             let range = part.range();
@@ -128,14 +120,14 @@ impl IslandEquations<'_, '_> {
             let CableBuffers { step, product, .. } = buffers;
             update_clamp_directions(cable, &part.holds, at.q, &mut step.directions);
             let (mut equations, _) = cable.equations();
-            let rates = Rates { v: &at.v[range.clone()], rate: at.dv_dq };
-            equations.moving_force_and_matrix(at.time, &at.q[range.clone()], rates, at.scale, 1.0, rows);
-            step.condensed.read(&equations.system.matrix, &part.holds);
+            let input = ForceInput { q: &at.q[range.clone()], v: &at.v[range.clone()], ..*at };
+            equations.force_and_matrix(input, 1.0, rows);
+            step.condensed.read(&equations.system.step.matrix, &part.holds);
             equations.factor_to_solve()?;
             let (level, model) = (equations.system.level, equations.model);
-            let factorisation = &equations.system.factorisation;
+            let factorisation = &equations.system.step.factorisation;
             step.condensed.complete(level, factorisation, &part.holds, |x| project_vector(model, x));
-            equations.system.multiply_mass(&z[range], product);
+            equations.system.mass.multiply(equations.system.level, &z[range], product);
             subtract(rows, product);
         }
         Ok(())
@@ -151,11 +143,12 @@ impl IslandEquations<'_, '_> {
                 let CableBuffers { mass, mass_factorisation, .. } = buffers;
                 update_clamp_directions(cable, &part.holds, q, &mut mass.directions);
                 let Cable { model, system, .. } = &mut **cable;
-                system.matrix.clear();
-                system.add_mass(1.0);
-                mass.condensed.read(&system.matrix, &part.holds);
-                project_matrix(model, &mut system.matrix);
-                mass_factorisation.factor(system.level, &system.matrix)?;
+                let matrix = &mut system.step.matrix;
+                matrix.clear();
+                system.mass.add_to(matrix, 1.0);
+                mass.condensed.read(matrix, &part.holds);
+                project_matrix(model, matrix);
+                mass_factorisation.factor(system.level, matrix)?;
                 mass.condensed.complete(system.level, mass_factorisation, &part.holds, |x| project_vector(model, x));
             }
             self.matrices.mass_is_factored = true;
@@ -254,7 +247,7 @@ impl IslandEquations<'_, '_> {
             project_vector(&cable.model, rows);
             let factorisation = match kind {
                 MatrixKind::Mass => &buffers.mass_factorisation,
-                MatrixKind::Step => &cable.system.factorisation,
+                MatrixKind::Step => &cable.system.step.factorisation,
             };
             factorisation.solve(cable.system.level, rows);
             cable.diagnostics_mut().solves += 1;
@@ -305,7 +298,7 @@ impl IslandEquations<'_, '_> {
         let mut worst = 0.0f64;
         let mut take = |size: f64| worst = if size > worst || size.is_nan() { size } else { worst };
         for (cable, part) in self.parts() {
-            take(cable.system.extent(&x[part.range()]).0);
+            take(cable.system.scales.extent(&x[part.range()]).0);
         }
         for (i, lever) in self.layout.levers.iter().enumerate() {
             let at = self.layout.body_at(i);

@@ -23,10 +23,12 @@
 //! Multiplying M by 2, 4 ... instead: the cable's momentum is then smaller than the impulse by that
 //! factor.
 
-use crate::cable::{Cable, Rates, project_matrix, project_vector};
+use crate::cable::Cable;
+use crate::effect::acts::ForceInput;
 use crate::error::{Error, StepFailure};
 use crate::integrate::add_scaled;
 use crate::linalg::{Definiteness, Factorisation};
+use crate::system::{project_matrix, project_vector};
 use nalgebra::{DMatrix, Vector3};
 
 /// Largest divisor of D and K against compression that makes A indefinite.
@@ -97,14 +99,13 @@ impl Impedance {
 
     /// Factors `inertia M + h D + h^2 K`, and returns whether it is positive definite.
     fn factor(&mut self, cable: &mut Cable, h: f64, inertia: f64) -> Result<bool, StepFailure> {
-        let mut force = core::mem::take(&mut cable.system.product);
-        let (mut equations, state) = cable.equations();
-        let rates = Rates { v: &state.v, rate: 1.0 / h };
-        equations.moving_force_and_matrix(state.time, &state.q, rates, h * h, inertia, &mut force);
-        cable.system.product = force;
+        let (dynamics, state) = cable.dynamics();
+        let mut equations = dynamics.equations;
+        let input = ForceInput { time: state.time, q: &state.q, v: &state.v, dv_dq: 1.0 / h, scale: h * h };
+        equations.force_and_matrix(input, inertia, &mut dynamics.buffers.product);
         let (model, system) = (&cable.model, &mut cable.system);
-        project_matrix(model, &mut system.matrix);
-        let kind = self.factorisation.factor(system.level, &system.matrix)?;
+        project_matrix(model, &mut system.step.matrix);
+        let kind = self.factorisation.factor(system.level, &system.step.matrix)?;
         Ok(matches!(kind, Definiteness::PositiveDefinite))
     }
 
@@ -125,7 +126,7 @@ impl Impedance {
     /// omitted displacement is a gap, which the next step closes.
     pub fn apply_impulses(&self, cable: &mut Cable, impulses: &[Vector3<f64>]) {
         let size = cable.positions().len();
-        let mut dv = core::mem::take(&mut cable.system.product);
+        let mut dv = core::mem::take(&mut cable.buffers.product);
         dv.clear();
         dv.resize(size, 0.0);
         for (i, column) in self.columns.chunks_exact(size).enumerate() {
@@ -135,24 +136,24 @@ impl Impedance {
         let at_nodes = self.nodes.iter().zip(impulses);
         let given: f64 = at_nodes.map(|(n, p)| (0..3).map(|x| -p[x] * dv[6 * n + x]).sum::<f64>()).sum();
         let strain = |cable: &Cable| {
-            let (axial, bending) = cable.system.strain_energy(&cable.state.phase.q);
+            let (axial, bending) = cable.system.forces.strain_energy(&cable.snapshot.state.q);
             axial + bending
         };
         let before = strain(cable);
         let mut share = 1.0;
-        add_scaled(&mut cable.state.phase.v, 1.0, &dv);
-        add_scaled(&mut cable.state.phase.q, self.step, &dv);
+        add_scaled(&mut cable.snapshot.state.v, 1.0, &dv);
+        add_scaled(&mut cable.snapshot.state.q, self.step, &dv);
         // false for NaN
         let is_bounded = |cable: &Cable| strain(cable) - before <= before + given.abs();
         while !is_bounded(cable) {
             let less = if share > MIN_SHARE { 0.5 * share } else { 0.0 };
-            add_scaled(&mut cable.state.phase.q, self.step * (less - share), &dv);
+            add_scaled(&mut cable.snapshot.state.q, self.step * (less - share), &dv);
             share = less;
             if share == 0.0 {
                 break;
             }
         }
-        cable.system.product = dv;
-        cable.state.phase.memory.valid = false;
+        cable.buffers.product = dv;
+        cable.snapshot.state.memory.valid = false;
     }
 }

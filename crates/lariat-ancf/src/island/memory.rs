@@ -34,16 +34,17 @@ pub(super) fn recall(cables: &mut [&mut Cable], bodies: &[RigidBody], layout: &L
         };
         b.is_driven() || b.memory.as_ref().is_some_and(kept)
     };
-    memory.valid =
-        layout.is_closed() && cables.iter().all(|c| c.state.phase.memory.valid) && bodies.iter().enumerate().all(same);
+    memory.valid = layout.is_closed()
+        && cables.iter().all(|c| c.snapshot.state.memory.valid)
+        && bodies.iter().enumerate().all(same);
     if !memory.valid {
         return;
     }
     let algorithmic = |b: &RigidBody| b.is_driven() || b.memory.is_some_and(|m| m.algorithmic.is_some());
     let both = bodies.iter().all(algorithmic)
-        && cables.iter().all(|c| c.state.phase.memory.algorithmic.len() == c.positions().len());
+        && cables.iter().all(|c| c.snapshot.state.memory.algorithmic.len() == c.positions().len());
     for cable in cables.iter() {
-        let own = &cable.state.phase.memory;
+        let own = &cable.snapshot.state.memory;
         memory.acceleration.extend_from_slice(&own.acceleration);
         if both {
             memory.algorithmic.extend_from_slice(&own.algorithmic);
@@ -66,7 +67,7 @@ pub(super) fn keep(cables: &mut [&mut Cable], bodies: &mut [RigidBody], pins: &[
     let mut at = 0;
     for cable in cables.iter_mut() {
         let n = cable.positions().len();
-        let own = &mut cable.state.phase.memory;
+        let own = &mut cable.snapshot.state.memory;
         own.acceleration.clear();
         own.acceleration.extend_from_slice(&memory.acceleration[at..at + n]);
         own.algorithmic.clear();

@@ -59,6 +59,7 @@ pub(super) fn check(cables: &[&mut Cable], bodies: &[RigidBody], pins: &[PinCons
             return problem(cable, pin.node, PinProblem::Duplicate);
         }
     }
+    cables.iter().try_for_each(|cable| cable.check_forces())?;
     for (c, cable) in cables.iter().enumerate() {
         for (node, support) in &cable.model.supports {
             if support.attached && !pins.iter().any(|p| p.cable == c && p.node == *node) {

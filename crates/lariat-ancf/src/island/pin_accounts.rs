@@ -15,9 +15,10 @@
 //!
 //! Virtual work; the residual of a held row is its reaction.
 
-use super::equations::{IslandEquations, Point};
+use super::equations::IslandEquations;
 use super::hold::vector;
 use super::layout::Layout;
+use crate::effect::acts::ForceInput;
 use crate::integrate::State;
 use nalgebra::Vector3;
 
@@ -78,7 +79,7 @@ impl PinAccounts {
             return;
         }
         let (q, v) = (&state.q, &state.v);
-        let at = Point { time: state.time, scale: 1.0, q, v, dv_dq: 0.0 };
+        let at = ForceInput { time: state.time, scale: 1.0, q, v, dv_dq: 0.0 };
         equations.cable_rows(&at, &state.memory.acceleration, rhs);
         let half = match self.until {
             Some(before) => 0.5 * (state.time - before),

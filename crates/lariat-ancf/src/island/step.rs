@@ -61,7 +61,7 @@ impl Island {
         if dt == 0.0 {
             return Ok(());
         }
-        cables.iter_mut().for_each(|cable| cable.system.work = EffectWork::default());
+        cables.iter_mut().for_each(|cable| cable.system.meter.work = EffectWork::default());
         let Island { layout, matrices, accounts, vectors, scratch, state } = self;
         layout.begin(cables, bodies, pins, dt);
         matrices.begin(layout);
@@ -108,20 +108,19 @@ fn gather(cables: &[&mut Cable], bodies: &[RigidBody], state: &mut State) {
         state.v.extend(body.velocity.iter().chain(body.angular_velocity.iter()));
     }
     state.time = cables[0].time();
-    state.memory.step = cables.iter().map(|c| c.state.phase.memory.step).fold(f64::INFINITY, f64::min);
+    state.memory.step = cables.iter().map(|c| c.snapshot.state.memory.step).fold(f64::INFINITY, f64::min);
 }
 
 /// Returns the coordinates to cables and bodies.
 fn scatter(cables: &mut [&mut Cable], bodies: &mut [RigidBody], state: &State, layout: &Layout) {
     for (cable, part) in cables.iter_mut().zip(&layout.parts) {
-        let own = &mut cable.state.phase;
-        let mut before = core::mem::take(&mut cable.system.rhs);
-        core::mem::swap(&mut before, &mut own.q);
-        own.q.copy_from_slice(&state.q[part.range()]);
-        own.v.copy_from_slice(&state.v[part.range()]);
-        own.time = state.time;
-        cable.settle(&before);
-        cable.system.rhs = before;
+        let Cable { snapshot, system, buffers, .. } = &mut **cable;
+        // the positions when the host step began
+        core::mem::swap(&mut buffers.rhs, &mut snapshot.state.q);
+        snapshot.state.q.copy_from_slice(&state.q[part.range()]);
+        snapshot.state.v.copy_from_slice(&state.v[part.range()]);
+        snapshot.state.time = state.time;
+        snapshot.add_work_of_step(system, &buffers.rhs);
         cable.diagnostics_mut().host_steps += 1;
     }
     for (i, body) in bodies.iter_mut().enumerate() {

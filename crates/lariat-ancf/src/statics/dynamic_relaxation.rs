@@ -59,7 +59,7 @@ impl Cable {
             }
         }
         self.model.loads = loads;
-        self.state.phase.time = time;
+        self.snapshot.state.time = time;
         // valid, because it was the cable's own
         let _ = self.set_integrator(integrator);
         if fits { Ok(()) } else { Err(Failure::default()) }
@@ -67,7 +67,7 @@ impl Cable {
 
     /// Sets all velocities to zero.
     pub(super) fn set_at_rest(&mut self) {
-        self.state.phase.v.fill(0.0);
+        self.snapshot.state.v.fill(0.0);
         self.disturb();
     }
 }

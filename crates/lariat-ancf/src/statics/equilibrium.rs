@@ -2,9 +2,9 @@
 
 use super::attempt::{Budget, EquilibriumReport, Failure};
 use super::{folds, start_shape};
-use crate::cable::{Cable, Fluid, Model};
+use crate::cable::Cable;
 use crate::error::{EquilibriumFailure, Error, require};
-use crate::integrate::Dynamics;
+use crate::model::Model;
 use crate::support::SlopeSupport;
 use nalgebra::Vector3;
 
@@ -44,13 +44,13 @@ impl Cable {
         let no_equilibrium = |cable: &Cable, failure: EquilibriumFailure, residual: f64, iterations: usize| {
             Error::NoEquilibrium { cable: cable.name().to_string(), time: cable.time(), failure, residual, iterations }
         };
-        self.check_not_attached()?;
+        self.check_complete()?;
         require("equilibrium tolerance", options.tolerance, options.tolerance > 0.0, "> 0")?;
         if let Some(resultant) = unheld(&self.model) {
             return Err(no_equilibrium(self, EquilibriumFailure::NotHeld, resultant, 0));
         }
         self.system.static_time = self.time();
-        let (before, revision, work) = (self.state.clone(), self.revision, self.state.work);
+        let (before, revision, work) = (self.snapshot.clone(), self.revision, self.snapshot.work);
         let loads = self.model.loads.clone();
         // the point loads ramp with a time from 0 to 1 while statics are solved
         self.model.loads.iter_mut().for_each(|load| (load.ramp, load.start) = (1.0, 0.0));
@@ -60,13 +60,13 @@ impl Cable {
         match outcome {
             Ok(report) => {
                 // the work of drag during the search is not part of the cable's history
-                self.state.work = work;
+                self.snapshot.work = work;
                 self.set_at_rest();
                 Ok(report)
             }
             Err(failure) => {
                 let fold = folds::first_fold(&self.model, self.positions());
-                self.state = before;
+                self.snapshot = before;
                 self.revision = revision;
                 let reason = match (failure.cause, fold) {
                     (Some(cause), _) => cause.into(),
@@ -80,10 +80,10 @@ impl Cable {
 
     fn attempts(&mut self, budget: &mut Budget) -> Result<EquilibriumReport, Failure> {
         self.place_supports();
-        if self.system.fluid.as_ref().is_some_and(Fluid::flows) {
+        if self.system.forces.drive() {
             return self.come_to_rest_in_flow(budget);
         }
-        let start = self.state.clone();
+        let start = self.snapshot.clone();
         let moments = self.model.loads.iter().any(|load| load.moment != Vector3::zeros());
         let pure = moments
             && self.model.gravity == Vector3::zeros()
@@ -97,7 +97,7 @@ impl Cable {
                 1 => self.minimise_energy(1.0, budget),
                 2 if loads && !moments => self.ramp_loads(budget),
                 3 => {
-                    start_shape::lay_out(&self.model, &mut self.state.phase.q);
+                    start_shape::lay_out(&self.model, &mut self.snapshot.state.q);
                     self.minimise_energy(1.0, budget)
                 }
                 4 => {
@@ -110,7 +110,7 @@ impl Cable {
                 // the first minimum is accepted even if it is indifferent, and so is any shape
                 // under moments alone
                 Ok(report) if report.stable || attempt == 1 || pure => return Ok(report),
-                Ok(report) => unstable = unstable.or(Some((report, self.state.clone()))),
+                Ok(report) => unstable = unstable.or(Some((report, self.snapshot.clone()))),
                 Err(failure) => {
                     // an attempt without an iteration has no residual
                     let residual = if failure.residual.is_nan() { last.residual } else { failure.residual };
@@ -121,12 +121,12 @@ impl Cable {
                 break;
             }
             if attempt < 4 {
-                self.state = start.clone();
+                self.snapshot = start.clone();
             }
         }
         match unstable {
             Some((report, state)) => {
-                self.state = state;
+                self.snapshot = state;
                 Ok(EquilibriumReport { iterations: budget.done, ..report })
             }
             None => Err(last),
@@ -147,7 +147,7 @@ impl Cable {
         if folds::first_fold(&self.model, self.positions()).is_none() {
             return Ok(report);
         }
-        folds::straighten(&self.model, &mut self.state.phase.q);
+        folds::straighten(&self.model, &mut self.snapshot.state.q);
         let report = self.minimise_energy(1.0, budget)?;
         match folds::first_fold(&self.model, self.positions()) {
             None => Ok(report),

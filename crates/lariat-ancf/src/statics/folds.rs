@@ -17,8 +17,8 @@
 //! element) is not folded: there the slope is across the chords. Slopes that a support holds are
 //! not judged.
 
-use crate::cable::Model;
 use crate::element::shape;
+use crate::model::Model;
 use crate::support::SlopeSupport;
 use nalgebra::Vector3;
 
@@ -102,15 +102,15 @@ mod tests {
     #[test]
     fn folds_are_found_and_straightened() {
         let mut flipped = cable();
-        flipped.state.phase.q[18] = 2.0 + 1.0 / 3.0;
-        flipped.state.phase.q[21] = -2.0;
+        flipped.snapshot.state.q[18] = 2.0 + 1.0 / 3.0;
+        flipped.snapshot.state.q[21] = -2.0;
         let mut buckled = cable();
         for (at, x) in [(12, 1.3), (18, 2.3), (9, 2.43), (15, 2.43)] {
-            buckled.state.phase.q[at] = x;
+            buckled.snapshot.state.q[at] = x;
         }
         for (mut cable, element) in [(flipped, 2), (buckled, 1)] {
             assert_eq!(first_fold(&cable.model, cable.positions()), Some(element));
-            straighten(&cable.model, &mut cable.state.phase.q);
+            straighten(&cable.model, &mut cable.snapshot.state.q);
             assert_eq!(first_fold(&cable.model, cable.positions()), None);
         }
     }
@@ -125,19 +125,19 @@ mod tests {
         // down, round, and up
         let nodes = [[0.0, 0.0, 0.0, -1.0], [0.0, -1.0, 0.0, -1.0], [0.3, -1.0, 0.0, 1.0], [0.3, 0.0, 0.0, 1.0]];
         for (i, [x, y, dx, dy]) in nodes.into_iter().enumerate() {
-            hairpin.state.phase.q[6 * i..6 * i + 6].copy_from_slice(&[x, y, 0.0, dx, dy, 0.0]);
+            hairpin.snapshot.state.q[6 * i..6 * i + 6].copy_from_slice(&[x, y, 0.0, dx, dy, 0.0]);
         }
         assert_eq!(first_fold(&hairpin.model, hairpin.positions()), None);
         let mut corner = cable();
         let nodes = [[0.0, 0.0, 0.0, -1.0], [0.0, -1.0, 1.2, 0.0], [0.1, 0.0, 0.0, 1.0], [0.1, 1.0, 0.0, 1.0]];
         for (i, [x, y, dx, dy]) in nodes.into_iter().enumerate() {
-            corner.state.phase.q[6 * i..6 * i + 6].copy_from_slice(&[x, y, 0.0, dx, dy, 0.0]);
+            corner.snapshot.state.q[6 * i..6 * i + 6].copy_from_slice(&[x, y, 0.0, dx, dy, 0.0]);
         }
         assert_eq!(first_fold(&corner.model, corner.positions()), None);
         let mut clamped = cable();
         let support = crate::Support { slope: SlopeSupport::Direction(-Vector3::x()), ..crate::Support::default() };
         clamped.set_support(At::Start, support).unwrap();
-        clamped.state.phase.q[3] = -1.0;
+        clamped.snapshot.state.q[3] = -1.0;
         assert_eq!(first_fold(&clamped.model, clamped.positions()), None);
     }
 }

@@ -10,9 +10,9 @@
 
 use super::attempt::{Budget, EquilibriumReport, Failure, MAX_SLOPE_CHANGE, largest_change};
 use super::scale::{LoadScale, largest_force};
-use crate::cable::{Cable, project_vector};
-use crate::integrate::Dynamics;
+use crate::cable::Cable;
 use crate::linalg::Definiteness;
+use crate::system::project_vector;
 
 /// First increment, as a share of the loads.
 const FIRST_INCREMENT: f64 = 0.125;
@@ -37,19 +37,19 @@ impl Cable {
         }
         let mut share = share.unwrap_or(0.0);
         let mut step = FIRST_INCREMENT;
-        let mut good = self.state.phase.q.clone();
+        let mut good = self.snapshot.state.q.clone();
         let mut before: Option<(f64, Vec<f64>)> = None;
         loop {
             let next = if share + 1.01 * step >= 1.0 { 1.0 } else { share + step };
             if let Some((from, q)) = &before {
                 let ratio = (next - share) / (share - from);
-                self.state.phase.q.iter_mut().zip(q).for_each(|(q, q0)| *q += ratio * (*q - q0));
+                self.snapshot.state.q.iter_mut().zip(q).for_each(|(q, q0)| *q += ratio * (*q - q0));
             }
             let done = budget.done;
             match self.newton(next, budget) {
                 Ok(report) if next == 1.0 => return Ok(EquilibriumReport { iterations: budget.done, ..report }),
                 Ok(_) => {
-                    let q = core::mem::replace(&mut good, self.state.phase.q.clone());
+                    let q = core::mem::replace(&mut good, self.snapshot.state.q.clone());
                     before = (next > share).then_some((share, q));
                     share = next;
                     if budget.done - done <= FEW_ITERATIONS {
@@ -57,7 +57,7 @@ impl Cable {
                     }
                 }
                 Err(failure) => {
-                    self.state.phase.q.copy_from_slice(&good);
+                    self.snapshot.state.q.copy_from_slice(&good);
                     step = 0.5 * (next - share);
                     if step < MIN_INCREMENT || budget.spent() {
                         return Err(failure);
@@ -74,8 +74,8 @@ impl Cable {
         let (mut equations, state) = self.equations();
         equations.prescribe(state.time, &mut state.q, &mut state.v);
         let (mut none, mut load) = (vec![0.0; n], vec![0.0; n]);
-        equations.force(0.0, &state.q, 1.0, &mut none);
-        equations.force(1.0, &state.q, 1.0, &mut load);
+        equations.static_force(0.0, &state.q, 1.0, &mut none);
+        equations.static_force(1.0, &state.q, 1.0, &mut load);
         project_vector(equations.model, &mut none);
         project_vector(equations.model, &mut load);
         load.iter_mut().zip(&none).for_each(|(load, none)| *load -= none);
@@ -102,7 +102,7 @@ impl Cable {
             if !budget.take() {
                 break;
             }
-            equations.force_and_matrix(load, q, 1.0, 0.0, &mut rhs);
+            equations.static_force_and_matrix(load, q, 1.0, 0.0, &mut rhs);
             project_vector(equations.model, &mut rhs);
             residual = largest_force(&rhs, scale.element);
             let kind = match equations.factor() {

@@ -1,8 +1,9 @@
 //! The potential energy, and the work of moments over a step.
 
-use crate::cable::{Equations, Model};
 use crate::element::shape;
 use crate::load::PointLoad;
+use crate::model::Model;
+use crate::system::Equations;
 use nalgebra::Vector3;
 
 /// Returns the work in J of the full moments while the tangents at their points rotate from those
@@ -29,9 +30,9 @@ pub(super) fn moment_work(model: &Model, from: &[f64], to: &[f64]) -> f64 {
 
 /// Returns the potential energy in J, with point forces at a share `load`.
 pub(super) fn potential(equations: &Equations<'_>, load: f64, q: &[f64]) -> f64 {
-    let (axial, bending) = equations.system.strain_energy(q);
+    let (axial, bending) = equations.system.forces.strain_energy(q);
     axial + bending
-        - equations.system.gravity_work(q)
-        - equations.system.line_work(q)
-        - equations.system.load_work(equations.model, load, q)
+        - equations.system.loads.gravity_work(q)
+        - equations.system.loads.effect_work(q)
+        - equations.system.loads.point_work(equations.model, load, q)
 }

@@ -20,10 +20,10 @@
 use super::attempt::{Budget, EquilibriumReport, Failure, MAX_SLOPE_CHANGE, largest_change};
 use super::potential::{moment_work, potential};
 use super::scale::{LoadScale, largest_force};
-use crate::cable::{Cable, Equations, project_vector};
+use crate::cable::Cable;
 use crate::error::StepFailure;
-use crate::integrate::Dynamics;
 use crate::linalg::Definiteness;
+use crate::system::{Equations, project_vector};
 
 /// Newton iterations that make a step that raised the energy an implicit one.
 const IMPLICIT_ITERATIONS: usize = 6;
@@ -94,7 +94,7 @@ impl Cable {
                 // the force is converged: the last step is Newton's, to converge the shape and to
                 // judge stability
                 this.mu = 0.0;
-                this.equations.force_and_matrix(load, q, 1.0, 0.0, &mut this.rhs);
+                this.equations.static_force_and_matrix(load, q, 1.0, 0.0, &mut this.rhs);
                 let stable = matches!(this.equations.factor(), Ok(Definiteness::PositiveDefinite));
                 if !stable {
                     return Ok(EquilibriumReport { iterations: budget.done, residual, stable });
@@ -126,7 +126,7 @@ impl Cable {
 impl Minimisation<'_> {
     /// Evaluates force and matrix at `q`, and returns the residual in N.
     fn evaluate(&mut self, q: &[f64]) -> f64 {
-        self.equations.force_and_matrix(self.load, q, 1.0, self.mu, &mut self.rhs);
+        self.equations.static_force_and_matrix(self.load, q, 1.0, self.mu, &mut self.rhs);
         project_vector(self.equations.model, &mut self.rhs);
         largest_force(&self.rhs, self.scale.element)
     }
@@ -159,7 +159,7 @@ impl Minimisation<'_> {
                     None => break,
                 }
             }
-            self.equations.force(self.load, &self.trial, 1.0, &mut self.rhs);
+            self.equations.static_force(self.load, &self.trial, 1.0, &mut self.rhs);
             project_vector(self.equations.model, &mut self.rhs);
             let after = largest_force(&self.rhs, self.scale.element);
             let trial_energy = potential(&self.equations, self.load, &self.trial);
@@ -196,8 +196,8 @@ impl Minimisation<'_> {
         for i in 0..q.len() {
             step[i] = trial[i] - q[i];
         }
-        equations.force_and_matrix(self.load, trial, 1.0, self.mu, rhs);
-        equations.system.multiply_mass(step, inertia);
+        equations.static_force_and_matrix(self.load, trial, 1.0, self.mu, rhs);
+        equations.system.mass.multiply(equations.system.level, step, inertia);
         rhs.iter_mut().zip(inertia.iter()).for_each(|(f, m)| *f -= self.mu * m);
         if !matches!(equations.factor(), Ok(Definiteness::PositiveDefinite)) {
             return None;

@@ -21,8 +21,9 @@
 
 use super::attempt::{Budget, EquilibriumReport, Failure};
 use super::scale::{LoadScale, largest_force};
-use crate::cable::{Cable, project_vector};
+use crate::cable::Cable;
 use crate::integrate::{Integrator, Method, NewtonMode, StepControl};
+use crate::system::project_vector;
 
 /// Factor on the step after a success, and after a failure.
 const GROWTH: f64 = 1.3;
@@ -42,12 +43,12 @@ impl Cable {
         // the ramp of the point loads depends on time: hold it at full load
         let loads = self.model.loads.clone();
         self.model.loads.iter_mut().for_each(|load| load.ramp = 0.0);
-        self.system.hold_flow(time);
+        self.system.forces.hold(time);
         self.set_at_rest();
         let outcome = self.step_to_rest(budget);
-        self.system.release_flow(&self.model);
+        self.system.forces.release(&self.model);
         self.model.loads = loads;
-        self.state.phase.time = time;
+        self.snapshot.state.time = time;
         self.set_at_rest();
         // valid, because it was the cable's own
         let _ = self.set_integrator(integrator);
@@ -78,7 +79,7 @@ impl Cable {
                 }
             }
             let (mut equations, state) = self.equations();
-            equations.force(1.0, &state.q, 1.0, &mut rhs);
+            equations.static_force(1.0, &state.q, 1.0, &mut rhs);
             project_vector(equations.model, &mut rhs);
             residual = largest_force(&rhs, scale.element);
             if residual <= budget.tolerance * scale.force + scale.rounding {

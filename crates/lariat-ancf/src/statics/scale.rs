@@ -1,6 +1,6 @@
 //! Reference magnitudes of force and energy for the tolerances of the iterations.
 
-use crate::cable::Model;
+use crate::model::Model;
 
 /// Reference magnitudes of a cable under its loads.
 pub(super) struct LoadScale {

@@ -5,7 +5,8 @@
 //! slack), beyond the last one straight along gravity. If a support has moved by a small share of
 //! the span, the cable is displaced linearly along the span instead.
 
-use crate::cable::{Model, along_polyline};
+use crate::cable::along_polyline;
+use crate::model::Model;
 use crate::support::SlopeSupport;
 use nalgebra::Vector3;
 use std::ops::Range;

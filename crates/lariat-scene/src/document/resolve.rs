@@ -98,7 +98,9 @@ impl Document<'_> {
             (Kind::Flag, DeValue::Boolean(flag)) => Ok(Value::Boolean(*flag)),
             (Kind::Whole(low, high), DeValue::Integer(_)) => self.whole(*low, *high, value, path),
             (Kind::Number(range), DeValue::Integer(_) | DeValue::Float(_)) => self.number(range, value, path),
-            (Kind::Numbers(names, range), DeValue::Array(items)) => self.numbers(names.len(), range, items, value, path),
+            (Kind::Numbers(names, range), DeValue::Array(items)) => {
+                self.numbers(names.len(), range, items, value, path)
+            }
             (Kind::Rows(names, least), DeValue::Array(rows)) => self.rows(names.len(), *least, rows, path),
             (Kind::Ascending(names), DeValue::Array(rows)) => {
                 let value = self.rows(names.len(), 1, rows, path)?;

@@ -130,7 +130,8 @@ fn files_of_last_run(folder: &Path) -> io::Result<Vec<PathBuf>> {
     };
     // nothing outside the folder, whatever the list says
     let ours = |name: &&str| {
-        let probe = name.strip_prefix("probes/").is_some_and(|file| file.ends_with(".csv") && !file.contains(['/', '\\']));
+        let probe =
+            name.strip_prefix("probes/").is_some_and(|file| file.ends_with(".csv") && !file.contains(['/', '\\']));
         probe || [SUMMARY, PAGE].contains(name)
     };
     Ok(list.lines().filter(ours).map(|name| folder.join(name)).filter(|path| path.is_file()).collect())

@@ -95,7 +95,8 @@ fn sag(cable: &Cable, supports: &[f64], gravity: &Vector3<f64>) -> Result<Option
         if across.norm() <= 1e-9 * cable.length() {
             continue;
         }
-        let points = nodes.windows(2).flat_map(|s| (0..POINTS).map(move |k| s[0] + (s[1] - s[0]) * k as f64 / POINTS as f64));
+        let points =
+            nodes.windows(2).flat_map(|s| (0..POINTS).map(move |k| s[0] + (s[1] - s[0]) * k as f64 / POINTS as f64));
         for s in points.filter(|s| (span[0]..=span[1]).contains(s)).chain([span[1]]) {
             let place = cable.sample(s)?.position - from;
             let share = level(place).dot(&across) / across.norm_squared();

@@ -57,7 +57,12 @@ pub struct AttachmentScene {
 }
 
 /// Reads the attachment in row `i`.
-pub(super) fn read(doc: &Document<'_>, scene: &Scene, i: usize, row: AttachmentTable) -> Result<AttachmentScene, Error> {
+pub(super) fn read(
+    doc: &Document<'_>,
+    scene: &Scene,
+    i: usize,
+    row: AttachmentTable,
+) -> Result<AttachmentScene, Error> {
     let at = KeyPath::root("attachment").item(i);
     let cable = cable(doc, &at.key("cable"), scene, &row.cable)?;
     let length = scene.cables[cable].length;

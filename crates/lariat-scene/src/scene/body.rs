@@ -235,7 +235,8 @@ impl BodyScene {
         if self.kind != BodyKind::Kinematic {
             return (self.position, self.rotation);
         }
-        let position = if self.path.is_empty() { self.position + self.velocity * time } else { along(&self.path, time).0 };
+        let position =
+            if self.path.is_empty() { self.position + self.velocity * time } else { along(&self.path, time).0 };
         (position, UnitQuaternion::from_scaled_axis(self.angular_velocity * time) * self.rotation)
     }
 

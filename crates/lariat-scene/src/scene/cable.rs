@@ -4,9 +4,7 @@ use super::effects::{self, EFFECTS};
 use super::integrator::{self, IntegratorTable};
 use crate::document::{Document, KeyPath};
 use crate::error::{Error, Problem};
-use crate::schema::{
-    Choose, Default, Key, Kind, NOT_NEGATIVE, POSITIVE, VECTOR, choice, parse_as, table,
-};
+use crate::schema::{Choose, Default, Key, Kind, NOT_NEGATIVE, POSITIVE, VECTOR, choice, parse_as, table};
 use lariat_ancf::{AxialRule, BendingRule, Effects, IntegratorChoice, Rule, Section, Shape, Vector3};
 use serde::Deserialize;
 

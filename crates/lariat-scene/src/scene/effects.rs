@@ -9,8 +9,8 @@ use crate::error::{Error, Problem};
 use crate::schema::{ANY, Choose, Default, Key, Kind, NOT_NEGATIVE, POSITIVE, VECTOR, table};
 use lariat_ancf::effect::Effect;
 use lariat_ancf::{
-    BendingRule, Buoyancy, Damping, Drag, Effects, GravityScale, LineLoad, LineLoads, RestPiece, RestShape, Rule, Section,
-    for_each_effect,
+    BendingRule, Buoyancy, Damping, Drag, Effects, GravityScale, LineLoad, LineLoads, RestPiece, RestShape, Rule,
+    Section, for_each_effect,
 };
 use serde::de::DeserializeOwned;
 use toml::Value;

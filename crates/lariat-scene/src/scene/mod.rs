@@ -236,7 +236,11 @@ fn check_start(doc: &Document<'_>, scene: &Scene, purpose: Purpose) -> Result<()
     for i in 0..scene.cables.len() {
         let failed = |error: lariat_ancf::Error| {
             let problem = Problem::Conflict(error.to_string());
-            doc.error_accepting(&KeyPath::root("cable").item(i), problem, "a cable that can be built, see docs/scene.md")
+            doc.error_accepting(
+                &KeyPath::root("cable").item(i),
+                problem,
+                "a cable that can be built, see docs/scene.md",
+            )
         };
         cables.push(scene.build_cable(i).map_err(failed)?);
     }

@@ -60,9 +60,19 @@ const BOX: &str = "shape = { cuboid = [0.1, 0.1, 0.1] }";
 const PATH: &str = "path = [[0.0, 0.0, 0.0, 0.0], [1.0, 0.0, 0.5, 0.0]]";
 
 const CASES: &[Case] = &[
-    ("engine = \"rapier\"", "engine = \"none\"", 6, &["body.crate", "engine = \"none\" computes no body", "engine = \"rapier\""]),
+    (
+        "engine = \"rapier\"",
+        "engine = \"none\"",
+        6,
+        &["body.crate", "engine = \"none\" computes no body", "engine = \"rapier\""],
+    ),
     ("engine = \"rapier\"", "engine = \"bullet\"", 4, &["engine: unknown value \"bullet\"", "\"rapier\""]),
-    ("solver_iterations = 4", "solver_iterations = 0", 5, &["solver_iterations: 0 is out of range", "whole number >= 1"]),
+    (
+        "solver_iterations = 4",
+        "solver_iterations = 0",
+        5,
+        &["solver_iterations: 0 is out of range", "whole number >= 1"],
+    ),
     ("solver_iterations = 4", "solver_iterations = -1", 5, &["solver_iterations", "-1", "whole number >= 1"]),
     ("solver_iterations = 4", "solver_iterations = 1.5", 5, &["solver_iterations", "1.5", "whole number >= 1"]),
     ("dt = 0.01", "dt = 0.01\ngravity = [0.0, -1e60, 0.0]", 4, &["gravity: -1e60 is beyond the single precision"]),
@@ -75,14 +85,24 @@ const CASES: &[Case] = &[
     (BOX, "", 6, &["body.crate.shape: missing key", "\"none\""]),
     (BOX, "shape = \"cube\"", 9, &["body.crate.shape: unknown value \"cube\"", "cuboid"]),
     (BOX, "shape = { cone = [0.1, 0.1] }", 9, &["unknown key `cone`", "capsule"]),
-    (BOX, "shape = { ball = 0.1, cuboid = [0.1, 0.1, 0.1] }", 9, &["body.crate.shape: `cuboid`, `ball` are given together", "exactly one of"]),
+    (
+        BOX,
+        "shape = { ball = 0.1, cuboid = [0.1, 0.1, 0.1] }",
+        9,
+        &["body.crate.shape: `cuboid`, `ball` are given together", "exactly one of"],
+    ),
     (BOX, "shape = {}", 9, &["body.crate.shape: none of `cuboid`", "exactly one of"]),
     (BOX, "shape = { cuboid = [0.1, 0.0, 0.1] }", 9, &["body.crate.shape.cuboid: 0 ", "Half extents"]),
     (BOX, "shape = { cuboid = [0.1, 0.1] }", 9, &["body.crate.shape", "Half extents"]),
     (BOX, "shape = { ball = -0.1 }", 9, &["body.crate.shape.ball: -0.1 ", "Radius"]),
     (BOX, "shape = { ball = 1e-60 }", 9, &["body.crate.shape.ball: 1e-60 is beyond the single precision"]),
     (BOX, "shape = { ball = 1e-15 }\n", 9, &["body.crate.shape", "beyond single precision"]),
-    (BOX, "shape = { cylinder = [0.1, nan] }", 9, &["body.crate.shape.cylinder: [0.1, NaN] is not finite", "[half height, radius]"]),
+    (
+        BOX,
+        "shape = { cylinder = [0.1, nan] }",
+        9,
+        &["body.crate.shape.cylinder: [0.1, NaN] is not finite", "[half height, radius]"],
+    ),
     (BOX, "shape = { capsule = [inf, 0.1] }", 9, &["body.crate.shape.capsule: [inf, 0.1] is not finite"]),
     (BOX, "shape = { plane = [0.0, 1.0, 0.0] }", 9, &["shape.plane: a half space has no mass", "fixed or kinematic"]),
     ("plane = [0.0, 1.0, 0.0]", "plane = [0.0, 0.0, 0.0]", 20, &["body.floor.shape.plane", "no direction"]),

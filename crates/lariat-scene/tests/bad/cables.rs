@@ -61,8 +61,18 @@ const CASES: &[Case] = &[
         11,
         &["unknown key `hexagon`", "square", "round", "tube"],
     ),
-    ("section = { square = 0.01 }", "section = { square = 0.01, round = 0.01 }", 11, &["`square`, `round` are given together", "exactly one of square, round, tube"]),
-    ("section = { square = 0.01 }", "section = { tube = [0.01, 0.02] }", 11, &["section.tube: ", "0.02", "outer > inner"]),
+    (
+        "section = { square = 0.01 }",
+        "section = { square = 0.01, round = 0.01 }",
+        11,
+        &["`square`, `round` are given together", "exactly one of square, round, tube"],
+    ),
+    (
+        "section = { square = 0.01 }",
+        "section = { tube = [0.01, 0.02] }",
+        11,
+        &["section.tube: ", "0.02", "outer > inner"],
+    ),
     ("section = { square = 0.01 }", "axial_stiffness = 1.0e4", 12, &["density has no meaning without section"]),
     ("density = 4000.0", "density = -4000.0", 12, &["cable.sling.density: -4000 ", "kg/m^3"]),
     ("density = 4000.0", "", 6, &["cable.sling.density: missing key"]),
@@ -193,7 +203,12 @@ const CASES: &[Case] = &[
     ("", "[[cable.line_load]]\nforce = [0, 1, 0]\nfrom = 2.0", 21, &["cable.sling.line_load.0.from: 2 ", "below"]),
     ("", "[[cable.line_load]]\nforce = [0, 1, 0]\nto = 2.1", 21, &["cable.sling.line_load.0.to: 2.1 ", "at most"]),
     ("initial = \"straight\"", "gravity_scale = nan", 17, &["cable.sling.gravity_scale: NaN ", "a finite number"]),
-    ("", "[cable.drag]\nfluid_densty = 1.2", 20, &["cable.sling.drag.fluid_densty", "unknown key", "Did you mean \"fluid_density\"?"]),
+    (
+        "",
+        "[cable.drag]\nfluid_densty = 1.2",
+        20,
+        &["cable.sling.drag.fluid_densty", "unknown key", "Did you mean \"fluid_density\"?"],
+    ),
     (
         "",
         "[[cable]]\nname = \"sling\"\npoints = [[0,0,0],[1,0,0]]\nsection = { round = 0.01 }\ndensity = 1.0\nyoungs_modulus = 1.0",
@@ -256,7 +271,12 @@ const CASES: &[Case] = &[
     ("", "[[probe]]\nname = \"tip\"\ncable = \"sling\"\nat = 3", 22, &["probe.tip.at: 3 m"]),
     ("", "[[probe]]\nname = \"tip\"\ncable = \"sling\"", 19, &["probe.tip.at: missing key"]),
     ("", "[[probe]]\nname = \"tip\"", 19, &["probe.tip: none of `cable`, `body`", "exactly one"]),
-    ("", "[[probe]]\nname = \"tip\"\nenergy = \"all\"\nmomentum = \"all\"", 19, &["probe.tip: `energy`, `momentum` are given together"]),
+    (
+        "",
+        "[[probe]]\nname = \"tip\"\nenergy = \"all\"\nmomentum = \"all\"",
+        19,
+        &["probe.tip: `energy`, `momentum` are given together"],
+    ),
     ("", "[[probe]]\nname = \"../tip\"\nenergy = \"all\"", 20, &["cannot name a file"]),
     ("", "[[probe]]\nname = \"e\"\nenergy = \"all\"\nevery = 0.0", 22, &["probe.e.every: 0 "]),
     ("", "[[probe]]\nname = \"e\"\nattachment = \"hook\"", 21, &["no attachment is named \"hook\""]),
@@ -267,7 +287,12 @@ const CASES: &[Case] = &[
         &["\"E\" is taken"],
     ),
     ("", "[[probe]\nname = 3", 19, &["not TOML"]),
-    ("", "[[probe]]\nname = \"e\"\nbody = \"crate\"", 21, &["probe.e.body", "no body is named \"crate\"", "the scene has no body"]),
+    (
+        "",
+        "[[probe]]\nname = \"e\"\nbody = \"crate\"",
+        21,
+        &["probe.e.body", "no body is named \"crate\"", "the scene has no body"],
+    ),
 ];
 
 #[test]

@@ -66,7 +66,12 @@ const CASES: &[Case] = &[
         28,
         &["attachment \"top\" already holds the cable there"],
     ),
-    ("other = \"right\"\nother_at = \"end\"", "other = \"left\"\nother_at = \"end\"", 30, &["the point would be tied to itself"]),
+    (
+        "other = \"right\"\nother_at = \"end\"",
+        "other = \"left\"\nother_at = \"end\"",
+        30,
+        &["the point would be tied to itself"],
+    ),
     ("name = \"knot\"", "name = \"junction-1\"", 31, &["name: \"junction-1\" is taken"]),
     ("name = \"knot\"", "kind = \"ball\"", 26, &["unknown key `kind`", "other_at"]),
     (

@@ -30,7 +30,11 @@ fn problems_can_be_told_apart_by_type() {
     ] {
         assert!(GOOD.contains(from));
         let error = error(&GOOD.replacen(from, to, 1));
-        assert_eq!((error.place, error.problem), (Place::Line { file: "scene.toml".to_string(), line }, problem), "{to}");
+        assert_eq!(
+            (error.place, error.problem),
+            (Place::Line { file: "scene.toml".to_string(), line }, problem),
+            "{to}"
+        );
     }
 }
 
@@ -50,7 +54,10 @@ fn the_nearest_key_value_or_name_is_suggested() {
         assert_eq!(error.to_string().contains("Did you mean"), suggestion.is_some(), "{error}");
     }
     // the parsers of the mechanics suggest themselves
-    for (extra, name) in [("rule = \"projectd-3\"", "projected-3"), ("integrator = { method = \"esdirk5\", tolerance = 1e-6 }", "esdirk")] {
+    for (extra, name) in [
+        ("rule = \"projectd-3\"", "projected-3"),
+        ("integrator = { method = \"esdirk5\", tolerance = 1e-6 }", "esdirk"),
+    ] {
         let message = error(&format!("{GOOD}{extra}\n")).to_string();
         assert!(message.contains("did you mean") && message.contains(name), "{message}");
     }

@@ -26,7 +26,13 @@ pub fn run(summary: &Summary, folder: &Path) -> String {
 /// Describes the static equilibrium of each cable.
 pub fn statics(summary: &Summary, folder: &Path) -> String {
     let cables: String = summary.statics.iter().flatten().map(cable).collect();
-    format!("{}{}: static equilibrium in {:.3} s\n{cables}{}", warnings(summary), summary.name, summary.wall_s, results(folder))
+    format!(
+        "{}{}: static equilibrium in {:.3} s\n{cables}{}",
+        warnings(summary),
+        summary.name,
+        summary.wall_s,
+        results(folder)
+    )
 }
 
 fn cable(statics: &CableStatics) -> String {

@@ -18,7 +18,8 @@ pub fn print(path: Option<&str>) -> Result<String, Error> {
 pub fn update(file: &Path) -> Result<String, Error> {
     let read = |source| Error::Read { path: file.to_path_buf(), source };
     let page = fs::read_to_string(file).map_err(read)?;
-    let invalid = || read(std::io::Error::other(format!("it has no lines {:?} and {:?}", markdown::BEGIN, markdown::END)));
+    let invalid =
+        || read(std::io::Error::other(format!("it has no lines {:?} and {:?}", markdown::BEGIN, markdown::END)));
     let page = markdown::replace(&page, &markdown::tables(&SceneTable::TABLE)).ok_or_else(invalid)?;
     fs::write(file, page).map_err(|source| Error::Output { path: file.to_path_buf(), source })?;
     Ok(format!("keys written to {}\n", file.display()))

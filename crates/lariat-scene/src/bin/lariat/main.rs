@@ -64,7 +64,9 @@ fn main() -> ExitCode {
     let cli = Cli::parse();
     let outcome = match cli.command {
         Command::Run(arguments) => run_scene(&arguments).map(|summary| describe::run(&summary, &arguments.out)),
-        Command::Static(arguments) => find_static(&arguments).map(|summary| describe::statics(&summary, &arguments.out)),
+        Command::Static(arguments) => {
+            find_static(&arguments).map(|summary| describe::statics(&summary, &arguments.out))
+        }
         Command::Keys { into: Some(file), .. } => keys::update(&file),
         Command::Keys { key, into: None } => keys::print(key.as_deref()),
         Command::Rules => Ok(tables::rules()),
