@@ -5,7 +5,7 @@
 //! end, and that the force on it is its weight.
 
 use bevy_ecs::prelude::*;
-use lariat_bevy::event::StepRefused;
+use lariat_bevy::event::StepFailed;
 use lariat_bevy::rapier::prelude::ColliderBuilder;
 use lariat_bevy::{
     At, Attachment, AttachmentReading, Bending, Body, BodyPose, Cable, CableStep, Damping, Diagnostics, Drag,
@@ -42,7 +42,7 @@ fn spawn(mut commands: Commands) {
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let mut world = World::new();
     lariat_bevy::install(&mut world);
-    world.add_observer(|event: On<StepRefused>| panic!("{}", event.error));
+    world.add_observer(|event: On<StepFailed>| panic!("{}", event.error));
     let system = world.register_system(spawn);
     world.run_system(system)?;
     let Crane(boom_, crate_, hook) = *world.resource::<Crane>();

@@ -56,8 +56,7 @@ fn main() -> Outcome<()> {
     for recipe in &ALL {
         let (mean, slow, result) = cost(recipe)?;
         println!("{:<9} {mean:8.1} us, slowest 1 % {slow:8.1} us; {result}", recipe.name);
-        let Recipe { name, cables, bodies, preset, .. } = recipe;
-        writeln!(table, "| {} | {cables} | {bodies} | {preset} | {mean:.0} | {slow:.0} |", name.replace('_', " "))?;
+        writeln!(table, "{} {mean:.0} | {slow:.0} |", recipe.row())?;
     }
     let Some(file) = file else { return Ok(()) };
     let mut page = replace(&std::fs::read_to_string(&file)?, "cost", &format!("{table}\n{machine}\n"))?;

@@ -124,14 +124,17 @@ pub fn shares(scene: &Scene, make: Make, split: Split) -> Outcome<Shares> {
         let mut rig = Rig::new(scene, make, Split { steps: 1, ..split })?;
         rig.world.integration_parameters.dt /= split.steps as f32;
         let (world, set) = rig.parts().ok_or("not one of Lariat's")?;
+        set.settings.max_rapier_steps = 1;
         let mut spent = [0.0; 3];
         for _ in 0..STEPS * split.steps as usize {
             let clock = Instant::now();
-            set.predict(world)?;
+            let mut host = set.begin(world)?;
+            set.predict_next(world, &mut host)?;
             let predicted = clock.elapsed();
             world.step();
             let stepped = clock.elapsed();
-            set.reconcile(world)?;
+            set.reconcile(world);
+            set.finish(world, host);
             let times = [predicted, stepped - predicted, clock.elapsed() - stepped];
             for (spent, time) in spent.iter_mut().zip(times) {
                 *spent += time.as_secs_f64() * 1e6 / STEPS as f64;

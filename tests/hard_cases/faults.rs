@@ -2,7 +2,7 @@
 
 use lariat_ancf::{At, PointLoad, Section, Vector3};
 use lariat_rapier::rapier::prelude::*;
-use lariat_rapier::{AttachmentKind, CableHandle, CableSet, Error, lariat_ancf};
+use lariat_rapier::{AttachmentKind, BodyQuantity, CableHandle, CableSet, Error, lariat_ancf};
 
 struct Hung {
     world: PhysicsWorld,
@@ -80,7 +80,10 @@ fn a_velocity_that_is_not_a_number_is_refused_by_name() {
             h.world.bodies[h.load].set_linvel(wrong, true);
         }
         let error = h.refused();
-        assert!(matches!(error, Error::BodyNotFinite { body, what: "velocity", .. } if body == h.load), "{error}");
+        assert!(
+            matches!(error, Error::BodyNotFinite { body, quantity: BodyQuantity::Velocity, .. } if body == h.load),
+            "{error}"
+        );
         h.world.bodies[h.load].set_linvel(v, true);
         h.world.bodies[h.load].set_angvel(w, true);
         h.goes_on();
@@ -101,7 +104,10 @@ fn an_infinite_force_is_refused_by_name() {
             h.world.bodies[h.load].add_force(wrong, true);
         }
         let error = h.refused();
-        assert!(matches!(error, Error::BodyNotFinite { body, what: "force", .. } if body == h.load), "{error}");
+        assert!(
+            matches!(error, Error::BodyNotFinite { body, quantity: BodyQuantity::Force, .. } if body == h.load),
+            "{error}"
+        );
         h.world.bodies[h.load].reset_forces(true);
         h.world.bodies[h.load].reset_torques(true);
         h.goes_on();
@@ -145,7 +151,7 @@ fn places_and_time_steps_that_are_not_numbers_are_refused() {
     let at = h.world.bodies[h.load].translation();
     h.world.bodies[h.load].set_translation(Vector::new(f32::NAN, 0.0, 0.0), true);
     let error = h.refused();
-    assert!(matches!(error, Error::BodyNotFinite { what: "position", .. }), "{error}");
+    assert!(matches!(error, Error::BodyNotFinite { quantity: BodyQuantity::Position, .. }), "{error}");
     h.world.bodies[h.load].set_translation(at, true);
     h.goes_on();
     let dt = h.world.integration_parameters.dt;

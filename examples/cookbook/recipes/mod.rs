@@ -65,6 +65,12 @@ pub const ALL: [Recipe; 7] = [
 ];
 
 impl Recipe {
+    /// The beginning of its row in the table of costs.
+    pub fn row(&self) -> String {
+        let Recipe { name, cables, bodies, preset, .. } = self;
+        format!("| {} | {cables} | {bodies} | {preset} |", name.replace('_', " "))
+    }
+
     /// What the page shows of the file: all but its first comment and its `impl Stage`.
     pub fn shown(&self) -> &'static str {
         let end = self.source.find("impl Stage for").unwrap_or(self.source.len());

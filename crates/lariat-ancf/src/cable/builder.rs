@@ -1,16 +1,18 @@
 //! Building a cable.
 
-use super::model::{MAX_ELEMENTS, Model};
 use super::{At, Cable, Snapshot, layout};
-use crate::effect::{Damping, Effects};
+use crate::effect::force_density::ForceDensities;
+use crate::effect::{Damping, Effects, ForceDensity};
 use crate::error::{Error, require, require_finite};
 use crate::integrate::{Fidelity, Integrator, IntegratorChoice};
 use crate::load::PointLoad;
+use crate::model::{MAX_ELEMENTS, Model};
 use crate::rule::Rule;
 use crate::section::Element;
 use crate::section::Section;
 use crate::support::{Motion, SlopeSupport, Support};
 use nalgebra::Vector3;
+use std::sync::Arc;
 
 /// Gravity that a cable has unless told otherwise, in m/s^2: (0, -9.81, 0). Not the standard 9.80665: the value that games and
 /// engines use.
@@ -41,6 +43,7 @@ pub struct CableBuilder {
     holds: Vec<(At, Hold)>,
     loads: Vec<PointLoad>,
     effects: Effects,
+    force_densities: ForceDensities,
 }
 
 impl Default for CableBuilder {
@@ -61,6 +64,7 @@ impl Default for CableBuilder {
             holds: Vec::new(),
             loads: Vec::new(),
             effects: Effects::default(),
+            force_densities: ForceDensities::default(),
         }
     }
 }
@@ -181,6 +185,12 @@ impl CableBuilder {
         self
     }
 
+    /// Adds a force per length of your own.
+    pub fn force_density(mut self, force: Arc<dyn ForceDensity>) -> Self {
+        self.force_densities.attach(force);
+        self
+    }
+
     /// Builds the cable.
     ///
     /// # Errors
@@ -246,11 +256,11 @@ impl CableBuilder {
             })
             .collect();
         let (positions, slopes) = layout::along_polyline(&self.points, &s, self.gravity);
-        let mut state = Snapshot::default();
+        let mut snapshot = Snapshot::default();
         for (r, t) in positions.iter().zip(&slopes) {
-            state.phase.q.extend(r.iter().chain(t.iter()));
+            snapshot.state.q.extend(r.iter().chain(t.iter()));
         }
-        state.phase.v.resize(state.phase.q.len(), 0.0);
+        snapshot.state.v.resize(snapshot.state.q.len(), 0.0);
         let model = Model {
             name: self.name.clone(),
             elements,
@@ -259,9 +269,10 @@ impl CableBuilder {
             supports: Vec::new(),
             loads: Vec::new(),
             effects: self.effects,
+            force_densities: self.force_densities,
         };
         let implicit = model.effects.needs_implicit_integrator();
-        let mut cable = Cable::from_parts(model, state, Integrator::default())?;
+        let mut cable = Cable::from_parts(model, snapshot, Integrator::default())?;
         for (at, hold) in self.holds {
             let node = cable.node(At::ArcLength(arc_length(at)?.min(length)))?;
             let slope = match hold {

@@ -1,47 +1,41 @@
-//! A cable: its mesh, its state, and its step.
+//! A cable: its description, its state, and its step.
+//!
+//! | file | what it holds |
+//! |---|---|
+//! | [`builder`], `layout` | building a cable |
+//! | `state` | reading and changing the state; snapshots |
+//! | `supports`, `loads`, `effects` | what acts on it, changed between steps |
+//! | `edit` | cutting, refining, changing the rule |
+//! | [`sample`], [`reactions`], [`energy`] | reading results |
+//! | [`linearise`] | matrices at the present state |
 
-mod assembly;
 pub mod builder;
-mod cut;
+mod edit;
 mod effects;
 pub mod energy;
-mod equations;
-pub mod exact;
-mod fluid;
-mod frequency;
-mod hold;
-mod kernel_effects;
 mod layout;
 pub mod linearise;
-mod made;
-mod model;
-mod projection;
-mod refine;
-mod rest;
+mod loads;
+pub mod reactions;
 pub mod sample;
 mod saved;
-mod simd;
-mod strategy;
-mod system;
-
-pub use crate::section::Element;
-pub use model::Model;
+mod state;
+mod supports;
 
 use crate::diagnostics::Diagnostics;
 use crate::effect::EffectWork;
 use crate::error::{Error, StepFailure, require};
-use crate::integrate::{Integrator, IntegratorRef, Scratch, State, step_control};
+use crate::integrate::{Integrator, IntegratorRef, OneStep, Scratch, State, step_control};
+use crate::model::Model;
 use crate::rule::Rule;
+use crate::section::Element;
+use crate::system::{Buffers, CableDynamics, Equations, System};
 use builder::CableBuilder;
-pub(crate) use effects::check_integrator;
-pub(crate) use equations::Equations;
-pub(crate) use fluid::Fluid;
-pub(crate) use kernel_effects::Rates;
+use fearless_simd::Level;
 pub(crate) use layout::along_polyline;
 use nalgebra::Vector3;
-pub(crate) use projection::{project_matrix, project_vector};
 use serde::{Deserialize, Serialize};
-use system::System;
+pub use state::Snapshot;
 
 /// Shortest step in s: squares of its smallest part must not vanish.
 pub(crate) const SHORTEST_STEP: f64 = 1e-100;
@@ -66,30 +60,31 @@ impl From<f64> for At {
     }
 }
 
-/// All that changes while a cable moves. Plain data: clone it, serialise it, put it back, and the run goes on bitwise the same.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Snapshot {
-    pub(crate) phase: State,
-    /// Work of effects so far.
-    #[serde(default)]
-    pub(crate) work: EffectWork,
-}
-
-/// A cable of ANCF elements with its force strategy, integrator and state.
+/// A cable of ANCF elements with its rule, integrator and state.
 ///
-/// Serialises as its description and state; a deserialised cable continues bitwise the same run.
+/// Serialises as its description and state; a deserialised cable continues bitwise the same run. JSON needs `serde_json` with its
+/// feature `float_roundtrip`: without it, numbers are read back changed in the last bit.
+///
+/// # Validity
+///
+/// - "Linear elastic" is the St Venant-Kirchhoff law on the Green strain, N = EA (f^2 - 1)/2 f per unstretched length: a good law within a
+///   few percent of stretch f = 1, too stiff in large extension, too soft in large compression (its stiffness vanishes at f = 0.577).
+/// - No torsion: the section rotates freely about the axis, and no moment about it is transmitted.
+/// - No contact, of cables with bodies, with each other or with themselves; no friction over pulleys.
+/// - No reel: the unstretched length is constant, but for [`cut`](Self::cut).
 #[derive(Clone, Debug, Serialize, Deserialize)]
 #[serde(try_from = "saved::Saved", into = "saved::Saved")]
 pub struct Cable {
     pub(crate) model: Model,
-    pub(crate) state: Snapshot,
+    pub(crate) snapshot: Snapshot,
     integrator: Integrator,
     diagnostics: Diagnostics,
     pub(crate) system: System,
+    pub(crate) buffers: Buffers,
     scratch: Scratch,
-    /// State at the beginning of the host step, to go back to.
-    saved: State,
-    /// Counts changes of supports, loads and integrator.
+    /// State at the beginning of the host step, restored if it fails.
+    before: State,
+    /// Counts changes of supports, loads, effects and integrator.
     pub(crate) revision: u64,
 }
 
@@ -99,27 +94,38 @@ impl Cable {
         CableBuilder::default()
     }
 
-    pub(crate) fn from_parts(model: Model, state: Snapshot, integrator: Integrator) -> Result<Self, Error> {
+    pub(crate) fn from_parts(model: Model, snapshot: Snapshot, integrator: Integrator) -> Result<Self, Error> {
         model.check().map_err(|e| e.of_cable(&model.name))?;
-        state.phase.check(&model.name, 6 * model.nodes())?;
+        snapshot.state.check(&model.name, 6 * model.nodes())?;
         let system = System::new(&model).map_err(|failure| Error::StepFailed {
             cable: model.name.clone(),
-            time: state.phase.time,
-            at: state.phase.time,
+            time: snapshot.state.time,
+            at: snapshot.state.time,
             step: 0.0,
             failure,
         })?;
         check_integrator(&model, &integrator.method)?;
         Ok(Cable {
-            model,
-            state,
             integrator: integrator.checked()?,
             diagnostics: Diagnostics::default(),
             system,
+            buffers: Buffers::new(&model),
             scratch: Scratch::default(),
-            saved: State::default(),
+            before: State::default(),
             revision: 0,
+            model,
+            snapshot,
         })
+    }
+
+    /// Replaces the description: everything derived from it is built anew.
+    fn rebuild(&mut self, model: Model) -> Result<(), Error> {
+        let system = System::with_level(&model, self.system.level);
+        self.system = system.map_err(|failure| self.step_failed(self.time(), 0.0, failure))?;
+        self.buffers = Buffers::new(&model);
+        self.model = model;
+        self.revise();
+        Ok(())
     }
 
     /// Advances the cable by `dt` (s), the host's step, with its integrator. `dt` = 0 does nothing.
@@ -147,26 +153,24 @@ impl Cable {
         if dt == 0.0 {
             return Ok(());
         }
-        self.check_not_attached()?;
-        self.saved.copy_from(&self.state.phase);
+        self.check_complete()?;
+        self.before.copy_from(&self.snapshot.state);
         self.refresh_memory();
-        self.system.work = EffectWork::default();
-        let mut equations =
-            Equations { model: &self.model, system: &mut self.system, diagnostics: &mut self.diagnostics };
-        let phase = &mut self.state.phase;
-        let (counts, outcome) = step_control::advance(&mut equations, integrator, phase, dt, &mut self.scratch);
+        self.system.meter.work = EffectWork::default();
+        let equations = Equations { model: &self.model, system: &mut self.system, diagnostics: &mut self.diagnostics };
+        let mut dynamics = CableDynamics { equations, buffers: &mut self.buffers };
+        let state = &mut self.snapshot.state;
+        let (counts, outcome) = step_control::advance(&mut dynamics, integrator, state, dt, &mut self.scratch);
         self.diagnostics.steps += counts.steps;
         self.diagnostics.rejected_steps += counts.rejected;
         match outcome {
             Ok(()) => {
                 self.diagnostics.host_steps += 1;
-                let saved = core::mem::take(&mut self.saved);
-                self.settle(&saved.q);
-                self.saved = saved;
+                self.snapshot.add_work_of_step(&mut self.system, &self.before.q);
                 Ok(())
             }
             Err(failed) => {
-                core::mem::swap(&mut self.state.phase, &mut self.saved);
+                core::mem::swap(&mut self.snapshot.state, &mut self.before);
                 Err(self.step_failed(failed.time, failed.step, failed.failure))
             }
         }
@@ -177,79 +181,77 @@ impl Cable {
         Error::StepFailed { cable: self.model.name.clone(), time: self.time(), at, step, failure }
     }
 
-    /// Accelerations of another description of the cable (a snapshot from before a change) are not used.
-    pub(crate) fn refresh_memory(&mut self) {
-        let memory = &mut self.state.phase.memory;
-        if memory.revision != self.revision {
-            memory.valid = false;
-            memory.step = 0.0;
-            memory.revision = self.revision;
-        }
-    }
-
-    pub(crate) fn check_not_attached(&self) -> Result<(), Error> {
+    /// Rejects a cable that cannot be stepped by itself.
+    pub(crate) fn check_complete(&self) -> Result<(), Error> {
+        self.check_forces()?;
         match self.model.supports.iter().find(|(_, s)| s.attached) {
             None => Ok(()),
             Some((node, _)) => Err(Error::Attached { cable: self.name().to_string(), node: *node }),
         }
     }
 
-    pub(crate) fn equations(&mut self) -> (Equations<'_>, &State) {
+    pub(crate) fn equations(&mut self) -> (Equations<'_>, &mut State) {
         let equations = Equations { model: &self.model, system: &mut self.system, diagnostics: &mut self.diagnostics };
-        (equations, &self.state.phase)
+        (equations, &mut self.snapshot.state)
     }
 
-    /// Name.
+    pub(crate) fn dynamics(&mut self) -> (CableDynamics<'_>, &State) {
+        let equations = Equations { model: &self.model, system: &mut self.system, diagnostics: &mut self.diagnostics };
+        (CableDynamics { equations, buffers: &mut self.buffers }, &self.snapshot.state)
+    }
+
+    /// Forces a SIMD level, for benchmarks and for the test that all levels agree. Not part of the state.
+    ///
+    /// # Errors
+    /// [`Error::StepFailed`] if the mass matrix cannot be factored.
+    #[doc(hidden)]
+    pub fn set_simd_level(&mut self, level: Level) -> Result<(), Error> {
+        self.system.level = level;
+        let failure = self.system.factor_mass(&self.model).err();
+        failure.map_or(Ok(()), |failure| Err(self.step_failed(self.time(), 0.0, failure)))
+    }
+
+    /// Returns the name.
     pub fn name(&self) -> &str {
         &self.model.name
     }
 
-    /// Time of the state in s.
+    /// Returns the time of the state in s.
     pub fn time(&self) -> f64 {
-        self.state.phase.time
+        self.snapshot.state.time
     }
 
-    /// Unstretched length in m.
+    /// Returns the unstretched length in m.
     pub fn length(&self) -> f64 {
         self.model.length()
     }
 
-    /// Elements: lengths and sections.
+    /// Returns the elements: lengths and sections.
     pub fn elements(&self) -> &[Element] {
         &self.model.elements
     }
 
-    /// Number of nodes: one more than elements.
+    /// Returns the number of nodes: one more than elements.
     pub fn nodes(&self) -> usize {
         self.model.nodes()
     }
 
-    /// Arc lengths of the nodes in m, ascending from 0.
+    /// Returns the arc lengths of the nodes in m, ascending from 0.
     pub fn node_arc_lengths(&self) -> Vec<f64> {
         self.model.node_arc_lengths()
     }
 
-    /// Force strategy.
+    /// Returns the rule of the elastic forces.
     pub fn rule(&self) -> Rule {
         self.model.rule
     }
 
-    /// Gravity in m/s^2.
+    /// Returns gravity in m/s^2.
     pub fn gravity(&self) -> Vector3<f64> {
         self.model.gravity
     }
 
-    /// Nodal coordinates, flat: by node the position (m) and the slope dr/ds.
-    pub fn positions(&self) -> &[f64] {
-        &self.state.phase.q
-    }
-
-    /// Nodal velocities, flat: by node m/s and 1/s.
-    pub fn velocities(&self) -> &[f64] {
-        &self.state.phase.v
-    }
-
-    /// Position of a node in m.
+    /// Returns the position of a node in m.
     ///
     /// # Panics
     /// If there is no such node.
@@ -257,17 +259,17 @@ impl Cable {
         Vector3::from_column_slice(&self.positions()[6 * node..6 * node + 3])
     }
 
-    /// Counts of what was done.
+    /// Returns the counters.
     pub fn diagnostics(&self) -> &Diagnostics {
         &self.diagnostics
     }
 
-    /// Counts, to reset them.
+    /// Returns the counters, to reset them.
     pub fn diagnostics_mut(&mut self) -> &mut Diagnostics {
         &mut self.diagnostics
     }
 
-    /// Time integrator.
+    /// Returns the time integrator.
     pub fn integrator(&self) -> Integrator {
         self.integrator
     }
@@ -283,62 +285,10 @@ impl Cable {
         Ok(())
     }
 
-    /// An upper bound of the cable's angular frequencies in rad/s.
+    /// Returns an upper bound of the cable's angular frequencies in rad/s; effects and forces of your own are not in it, but added mass and
+    /// the rest stretch.
     pub fn frequency_bound(&self) -> f64 {
-        self.system.frequency_bound
-    }
-
-    /// The state: clone it to take a snapshot.
-    pub fn snapshot(&self) -> &Snapshot {
-        &self.state
-    }
-
-    /// Puts a state back; the run then continues bitwise as it did from there (if supports, loads, effects and integrator are
-    /// as they were, else from its positions and velocities).
-    ///
-    /// # Errors
-    /// [`Error::WrongCount`] if the state is of a cable with another number of nodes, [`Error::InvalidValue`] if it is not
-    /// finite.
-    pub fn restore(&mut self, state: Snapshot) -> Result<(), Error> {
-        state.phase.check(self.name(), self.positions().len())?;
-        let works = state.work.by_key();
-        works
-            .map(|(_, x)| require("work of effects (J)", x, true, "a number"))
-            .collect::<Result<(), Error>>()
-            .map_err(|e| e.of_cable(self.name()))?;
-        self.state = state;
-        Ok(())
-    }
-
-    /// Sets nodal coordinates and velocities, flat as [`positions`](Self::positions) and [`velocities`](Self::velocities).
-    ///
-    /// # Errors
-    /// [`Error::WrongCount`] for the wrong number, [`Error::InvalidValue`] for numbers that are not finite.
-    pub fn set_coordinates(&mut self, positions: &[f64], velocities: &[f64]) -> Result<(), Error> {
-        let n = self.positions().len();
-        for (what, each, given) in [("coordinates", "coordinate", positions), ("velocities", "velocity", velocities)] {
-            if given.len() != n {
-                let (cable, count) = (self.name().to_string(), given.len());
-                return Err(Error::WrongCount { cable, what, count, expected: n });
-            }
-            given.iter().try_for_each(|&x| require(each, x, true, "a number")).map_err(|e| e.of_cable(self.name()))?;
-        }
-        self.state.phase.q.copy_from_slice(positions);
-        self.state.phase.v.copy_from_slice(velocities);
-        self.disturb();
-        Ok(())
-    }
-
-    /// The state changed under the integrator: accelerations must be computed anew.
-    pub(crate) fn disturb(&mut self) {
-        self.state.phase.memory.valid = false;
-        self.state.phase.memory.step = 0.0;
-    }
-
-    /// Supports, loads or integrator changed: states from before keep their positions and velocities only.
-    pub(crate) fn revise(&mut self) {
-        self.revision += 1;
-        self.refresh_memory();
+        self.system.scales.frequency_bound
     }
 
     pub(crate) fn check_arc_length(&self, s: f64) -> Result<(), Error> {
@@ -350,7 +300,7 @@ impl Cable {
         }
     }
 
-    /// Arc length of a point in m.
+    /// Returns the arc length of a point in m.
     ///
     /// # Errors
     /// [`Error::OutOfRange`] if it is not on the cable.
@@ -368,7 +318,7 @@ impl Cable {
         Error::OutOfRange { cable: self.name().to_string(), what: "node", value, limit }
     }
 
-    /// Number of the node at a point.
+    /// Returns the number of the node at a point.
     ///
     /// # Errors
     /// [`Error::OutOfRange`] if it is not on the cable, [`Error::NoNode`] if no node is within 1e-9 of the length.
@@ -380,4 +330,12 @@ impl Cable {
             Error::NoNode { cable: self.name().to_string(), arc_length: s, nearest }
         })
     }
+}
+
+/// Checks that a cable has an implicit method where an effect needs one.
+pub(crate) fn check_integrator(model: &Model, method: &dyn OneStep) -> Result<(), Error> {
+    if model.effects.needs_implicit_integrator() && method.stability_limit().is_some() {
+        return Err(Error::ExplicitDamping { cable: model.name.clone(), method: method.name() });
+    }
+    Ok(())
 }

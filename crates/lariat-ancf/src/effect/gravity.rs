@@ -1,19 +1,25 @@
 //! Gravity, scaled for one cable.
 //!
+//! # Equation
+//!
 //! ```text
 //! w = scale (rhoA - rho_f A_d) g        force per unstretched length, N/m
 //! ```
 //!
-//! rho_f A_d is the displaced mass, zero without [`buoyancy`](super::buoyancy): the scale acts on what hydrostatics makes of
-//! gravity too, so that a scale of zero leaves neither weight nor lift. *Source.* Work of a constant force per length, integrated
-//! with Hermite's functions ([`load_weights`](crate::element::mass::load_weights)). *Validity.* Uniform gravity. It enters a constant
-//! vector: no work in a step.
+//! rho_f A_d is the displaced mass, zero without [`buoyancy`](super::buoyancy): the scale also acts on the hydrostatic pressure that
+//! gravity makes, so a scale of zero leaves neither weight nor lift. The weight is integrated with Hermite's functions
+//! ([`load_weights`](crate::element::mass::load_weights)) into a constant vector: no work in a step.
+//!
+//! # Validity
+//!
+//! Uniform gravity.
 
+use super::acts::{Acts, Nothing};
 use super::{Cut, Effect, Target};
 use crate::error::{Error, require};
 use serde::{Deserialize, Serialize};
 
-/// What gravity is multiplied by for one cable; default 1.
+/// Factor on gravity for one cable; default 1.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(transparent)]
 pub struct GravityScale(pub f64);
@@ -48,4 +54,13 @@ impl Effect for GravityScale {
     }
 
     fn refine(&mut self, _: usize, _: f64) {}
+}
+
+impl Acts for GravityScale {
+    type InElement = Nothing;
+    type AtPoints = Nothing;
+
+    fn gravity_factor(&self) -> f64 {
+        self.0
+    }
 }

@@ -43,6 +43,9 @@ macro_rules! for_each_effect {
     };
 }
 
+/// Key of forces per length of the user's own in counts and work.
+const FORCE_DENSITIES: &str = "force_density";
+
 macro_rules! generate {
     ($({ field: $field:ident, type: $type:ident, set: $set:ident, key: $key:literal, summary: $summary:literal })*) => {
         /// The effects of a cable; the default has none.
@@ -104,23 +107,27 @@ macro_rules! generate {
         #[serde(default)]
         pub struct EffectCounts {
             $(#[doc = $summary] pub $field: u64,)*
+            /// Forces per length [of your own](crate::ForceDensity).
+            pub force_densities: u64,
         }
 
         impl EffectCounts {
             /// Key and count of every effect.
             pub fn by_key(&self) -> impl Iterator<Item = (&'static str, u64)> + use<> {
-                [$(($key, self.$field)),*].into_iter()
+                [$(($key, self.$field),)* (FORCE_DENSITIES, self.force_densities)].into_iter()
             }
 
             /// Counts since `earlier`; zero where they were reset since.
             pub fn since(&self, earlier: &Self) -> Self {
-                EffectCounts { $($field: self.$field.saturating_sub(earlier.$field)),* }
+                let force_densities = self.force_densities.saturating_sub(earlier.force_densities);
+                EffectCounts { $($field: self.$field.saturating_sub(earlier.$field),)* force_densities }
             }
         }
 
         impl AddAssign for EffectCounts {
             fn add_assign(&mut self, other: Self) {
                 $(self.$field += other.$field;)*
+                self.force_densities += other.force_densities;
             }
         }
 
@@ -130,17 +137,25 @@ macro_rules! generate {
         #[serde(default)]
         pub struct EffectWork {
             $(#[doc = $summary] pub $field: f64,)*
+            /// Forces per length [of your own](crate::ForceDensity).
+            pub force_densities: f64,
         }
 
         impl EffectWork {
             /// Key and work of every effect.
             pub fn by_key(&self) -> impl Iterator<Item = (&'static str, f64)> + use<> {
-                [$(($key, self.$field)),*].into_iter()
+                [$(($key, self.$field),)* (FORCE_DENSITIES, self.force_densities)].into_iter()
             }
 
             /// Sum over all effects in J.
             pub fn total(&self) -> f64 {
-                0.0 $(+ self.$field)*
+                0.0 $(+ self.$field)* + self.force_densities
+            }
+
+            /// Adds `factor` times the work, or power, of another.
+            pub(crate) fn add_scaled(&mut self, factor: f64, other: &Self) {
+                $(self.$field += factor * other.$field;)*
+                self.force_densities += factor * other.force_densities;
             }
 
             /// Energy in J that dissipative effects (damping and drag) took from the cable; negative where a flow drives it.
@@ -152,6 +167,7 @@ macro_rules! generate {
         impl AddAssign for EffectWork {
             fn add_assign(&mut self, other: Self) {
                 $(self.$field += other.$field;)*
+                self.force_densities += other.force_densities;
             }
         }
     };

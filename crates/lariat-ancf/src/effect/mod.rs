@@ -30,21 +30,25 @@
 //! [`Cable::set_effects`]: crate::Cable::set_effects
 //! [`explicit`]: crate::integrate::explicit
 
+pub(crate) mod acts;
 pub mod buoyancy;
 pub(crate) mod curvature;
 pub mod damping;
 pub mod drag;
 pub mod flow;
+pub mod force_density;
 pub mod gravity;
 pub mod line_load;
 mod list;
 pub mod rest_shape;
+pub(crate) mod tables;
 pub mod work;
 
 pub use buoyancy::Buoyancy;
 pub use damping::Damping;
 pub use drag::Drag;
 pub use flow::{Flow, Profile};
+pub use force_density::{CablePoint, ForceDensity, ForceDerivatives};
 pub use gravity::GravityScale;
 pub use line_load::{LineLoad, LineLoads};
 pub use list::{EffectCounts, EffectWork, Effects};

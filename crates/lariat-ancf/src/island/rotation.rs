@@ -1,17 +1,20 @@
-//! Large rotations in a chart: the rotation vector theta from the attitude at the beginning of a step.
+//! Large rotations in a chart: the rotation vector theta from the attitude at the beginning of a
+//! step.
 //!
 //! ```text
 //! R = exp([theta]) R0        omega = J theta'        omega' = J theta'' + J' theta'
 //! J = I + a [theta] + b [theta]^2,   a = (1 - cos p)/p^2,  b = (p - sin p)/p^3,  p = |theta|
 //! ```
 //!
-//! omega in world axes; J is the left Jacobian of SO(3). *Source.* Chirikjian 2012, section 10.8; the rates by differentiation,
-//! checked below by finite differences. *Validity.* p < 2 pi; a step of a game turns a body by less than pi/4.
-//! *Rejected.* Unit quaternions as coordinates (a constraint to project in every stage), one chart for all times (singular).
+//! omega in world axes; J is the left Jacobian of SO(3). *Source.* Chirikjian 2012, section 10.8;
+//! the rates by differentiation, checked below by finite differences. *Validity.* p < 2 pi; a step
+//! of a game turns a body by less than pi/4. *Rejected.* Unit quaternions as coordinates (a
+//! constraint to project in every stage), one chart for all times (singular).
 
 use nalgebra::{Matrix3, Quaternion, UnitQuaternion, Vector3};
 
-/// Below this angle in rad series replace the quotients: they cost less than sines, and lose no digits.
+/// Below this angle in rad series replace the quotients: they cost less than sines, and lose no
+/// digits.
 const SMALL: f64 = 0.5;
 /// Terms of a series: what follows is below 1e-18 of it at [`SMALL`].
 const TERMS: usize = 7;
@@ -33,7 +36,8 @@ const fn coefficients(n: usize) -> [f64; TERMS] {
     out
 }
 
-/// s_n = 1/n! - p^2/(n + 2)! + p^4/(n + 4)! ... for n = 1 to 5: `s1 = sin p / p`, `s2 = (1 - cos p)/p^2`, `s3 = (p - sin p)/p^3`.
+/// s_n = 1/n! - p^2/(n + 2)! + p^4/(n + 4)! ... for n = 1 to 5: `s1 = sin p / p`, `s2 = (1 - cos
+/// p)/p^2`, `s3 = (p - sin p)/p^3`.
 struct Series {
     s1: f64,
     s2: f64,
@@ -100,7 +104,8 @@ pub fn spin_rate(theta: &Vector3<f64>, rate: &Vector3<f64>) -> Vector3<f64> {
     across * ((2.0 * s4 - s3) * along) + theta.cross(&across) * ((3.0 * s5 - s4) * along) + rate.cross(&across) * s3
 }
 
-/// `scale` times the angular acceleration, of `scale` times the acceleration `k` of the rotation vector.
+/// `scale` times the angular acceleration, of `scale` times the acceleration `k` of the rotation
+/// vector.
 pub fn angular_acceleration(scale: f64, theta: &Vector3<f64>, rate: &Vector3<f64>, k: &Vector3<f64>) -> Vector3<f64> {
     spin(theta, k) + spin_rate(theta, rate) * scale
 }

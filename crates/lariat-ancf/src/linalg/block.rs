@@ -1,13 +1,22 @@
 //! Symmetric block-tridiagonal matrix of 6x6 blocks, and y = A x.
 //!
-//! Equation: y_i = D_i x_i + B_{i-1} x_{i-1} + B_i^T x_{i+1}
-//! (Golub & Van Loan, Matrix Computations, 4th ed., section 4.5.1).
+//! # Equation
 //!
-//! Validity: any finite entries; the caller keeps each diagonal block symmetric.
+//! y_i = D_i x_i + B_{i-1} x_{i-1} + B_i^T x_{i+1}
 //!
-//! Rejected: packed 6x6 storage (36 numbers, a column then straddles registers and cache lines) and
-//! storing only one triangle of the diagonal blocks (saves a quarter of the memory, costs a
-//! transposition at every use).
+//! # Validity
+//!
+//! Any finite entries; the caller keeps each diagonal block symmetric.
+//!
+//! # References
+//!
+//! Golub & Van Loan, Matrix Computations, 4th ed., section 4.5.1.
+//!
+//! # Alternatives considered
+//!
+//! - Packed 6x6 storage: of 36 numbers, a column straddles registers and cache lines.
+//! - Storing one triangle of the diagonal blocks: it saves a quarter of the memory and costs a
+//!   transposition at every use.
 
 use super::lanes::{columns_times, load_block, load_six, store_six, transpose_dots};
 use fearless_simd::{Level, Simd, dispatch};
@@ -39,14 +48,14 @@ pub struct BlockTridiagonal {
 }
 
 impl BlockTridiagonal {
-    /// The zero matrix of that many nodes.
+    /// Returns the zero matrix of a number of nodes.
     pub fn zeros(nodes: usize) -> Self {
         let mut matrix = Self::default();
         matrix.resize(nodes);
         matrix
     }
 
-    /// Changes the number of nodes; blocks that stay keep their entries, new ones are zero.
+    /// Changes the number of nodes; remaining blocks keep their entries, new ones are zero.
     pub fn resize(&mut self, nodes: usize) {
         self.diag.resize(nodes, Block::ZERO);
         self.lower.resize(nodes.saturating_sub(1), Block::ZERO);
@@ -58,12 +67,12 @@ impl BlockTridiagonal {
         self.lower.fill(Block::ZERO);
     }
 
-    /// Number of nodes.
+    /// Returns the number of nodes.
     pub fn nodes(&self) -> usize {
         self.diag.len()
     }
 
-    /// y = A x; both have length 6 * nodes.
+    /// Computes y = A x; both have length 6 * nodes.
     ///
     /// # Panics
     /// If a length does not match.

@@ -1,44 +1,52 @@
 //! Static equilibrium from any start, slack or taut: F(q) = 0.
 //!
-//! The ways to it, each a file, tried in this order until one ends in a shape that is a cable's:
-//! - loads with a moment: `follow` along the ramp of the loads by Newton steps, for beyond 90 degrees a moment holds
-//!   a cable, which has no torsional stiffness, in unstable shapes only;
-//! - `descend`: downhill by a regularised Newton iteration, to a stable shape;
-//! - with other loads, `follow`;
-//! - `lay`: downhill from the shape that a new cable would have between the supports;
-//! - `relax`: dynamic relaxation, then downhill from there.
+//! The attempts, one file each, are made in this order until one ends in a shape without folds:
+//! - `load_ramp`, if there are moments: load incrementation by Newton's method, because beyond 90
+//!   degrees a moment holds a cable, which has no torsional stiffness, in unstable shapes only;
+//! - `pseudo_transient`: minimisation of the potential energy from the present shape, to a stable
+//!   one;
+//! - `load_ramp`, with other point loads;
+//! - `start_shape`: minimisation from the shape that a new cable would have between the supports;
+//! - `dynamic_relaxation`, then minimisation from there.
 //!
-//! In a flow there is nothing to go down: `drift` alone.
+//! In a flow there is no potential energy to minimise: `rest_in_flow` is the only attempt.
 //!
-//! A shape with folded elements is straightened once and goes downhill again; if it folds again it is not an answer.
-//! A stable shape is preferred, an unstable one is returned if no stable one is found. Iterations are bounded, each
-//! way and all together.
+//! A shape with [folded elements](folds) is straightened once and minimised again; if it folds
+//! again the attempt has failed. A stable shape is preferred, an unstable one is returned if no
+//! stable one is found. The iterations of each attempt and of all together are bounded.
 //!
-//! *Validity.* Any cable that is held against its loads; without bending, slack parts without load are indeterminate
-//! and any shape of zero force is returned. *Rejected.* Plain Newton (a slack cable is singular), arc length methods
-//! (no branch is followed).
+//! # Validity
+//!
+//! Any cable that is held against its loads. Without bending stiffness, slack parts without load
+//! are indeterminate, and any shape of zero force is returned.
+//!
+//! # Alternatives considered
+//!
+//! - Newton's method without regularisation: the matrix of a slack cable is singular.
+//! - Arc length methods: no branch has to be followed.
 
-mod descend;
-mod drift;
-mod folded;
-mod follow;
-mod lay;
+mod dynamic_relaxation;
+mod folds;
+mod load_ramp;
 mod potential;
-mod relax;
+mod pseudo_transient;
+mod rest_in_flow;
 mod scale;
+mod start_shape;
 
-use crate::cable::{Cable, Fluid, Model};
+use crate::cable::Cable;
 use crate::error::{EquilibriumFailure, Error, StepFailure, require};
-use crate::integrate::Dynamics;
+use crate::model::Model;
 use crate::support::SlopeSupport;
 use nalgebra::Vector3;
 
-/// When a shape counts as an equilibrium, and when to give up.
+/// Tolerance and number of iterations of an equilibrium.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct EquilibriumOptions {
     /// Largest residual force over the sum of the loads. Default 1e-9.
     pub tolerance: f64,
-    /// Iterations of each attempt; all attempts together take at most five times as many. Default 400.
+    /// Largest number of iterations of each attempt; all attempts together take at most five times
+    /// as many. Default 400.
     pub iterations: usize,
 }
 
@@ -48,32 +56,33 @@ impl Default for EquilibriumOptions {
     }
 }
 
-/// What [`Cable::equilibrium`] found.
+/// The result of [`Cable::equilibrium`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct EquilibriumReport {
-    /// Iterations done, all attempts together.
+    /// Iterations of all attempts together.
     pub iterations: usize,
     /// Largest residual force in N.
     pub residual: f64,
-    /// True if the tangent stiffness is positive definite there; false for an unstable or indifferent shape.
+    /// True if the tangent stiffness is positive definite; false for an unstable or indifferent
+    /// shape.
     pub stable: bool,
 }
 
 /// Largest change of a slope vector in one iteration.
-const SLOPE_CAP: f64 = 0.3;
-/// Iterations of all attempts together, over those of one.
-const ATTEMPTS: usize = 5;
+const MAX_SLOPE_CHANGE: f64 = 0.3;
+/// Largest number of iterations of all attempts together, as a multiple of that of one.
+const MAX_ATTEMPTS: usize = 5;
 
-/// Iterations done and left.
+/// Iterations done and remaining.
 struct Budget {
     tolerance: f64,
-    /// Iterations of one attempt.
+    /// Largest number of iterations of one attempt.
     attempt: usize,
     done: usize,
 }
 
 impl Budget {
-    /// One more, if any is left.
+    /// Takes one iteration, and returns whether one remained.
     fn take(&mut self) -> bool {
         let more = !self.spent();
         self.done += usize::from(more);
@@ -81,14 +90,14 @@ impl Budget {
     }
 
     fn spent(&self) -> bool {
-        self.done >= ATTEMPTS.saturating_mul(self.attempt)
+        self.done >= MAX_ATTEMPTS.saturating_mul(self.attempt)
     }
 }
 
 /// Why an attempt failed.
 struct Failure {
     cause: Option<StepFailure>,
-    /// Largest residual force in N where it stopped.
+    /// Largest residual force in N where it ended.
     residual: f64,
 }
 
@@ -99,17 +108,18 @@ impl Default for Failure {
 }
 
 impl Cable {
-    /// Moves the cable to static equilibrium under gravity, its full point loads, its effects and its supports; velocities become
-    /// zero. A flow is that of the cable's time.
+    /// Moves the cable to static equilibrium under gravity, its full point loads, its effects and
+    /// its supports, and sets its velocities to zero. A flow is that of the cable's time.
     ///
     /// # Errors
-    /// [`Error::NoEquilibrium`] if none is found; the cable is then as before. [`Error::Attached`] for a cable with
-    /// [attached](Self::attach) nodes.
+    /// [`Error::NoEquilibrium`] if none is found; the cable is then as before. [`Error::Attached`]
+    /// for a cable with [attached](Self::attach) nodes.
     pub fn equilibrium(&mut self) -> Result<EquilibriumReport, Error> {
         self.equilibrium_with(EquilibriumOptions::default())
     }
 
-    /// [`equilibrium`](Self::equilibrium) with options.
+    /// Moves the cable to static equilibrium as [`equilibrium`](Self::equilibrium) does, with
+    /// options.
     ///
     /// # Errors
     /// As [`equilibrium`](Self::equilibrium).
@@ -117,29 +127,29 @@ impl Cable {
         let no_equilibrium = |cable: &Cable, failure: EquilibriumFailure, residual: f64, iterations: usize| {
             Error::NoEquilibrium { cable: cable.name().to_string(), time: cable.time(), failure, residual, iterations }
         };
-        self.check_not_attached()?;
+        self.check_complete()?;
         require("equilibrium tolerance", options.tolerance, options.tolerance > 0.0, "> 0")?;
         if let Some(resultant) = unheld(&self.model) {
             return Err(no_equilibrium(self, EquilibriumFailure::NotHeld, resultant, 0));
         }
         self.system.static_time = self.time();
-        let (before, revision, work) = (self.state.clone(), self.revision, self.state.work);
+        let (before, revision, work) = (self.snapshot.clone(), self.revision, self.snapshot.work);
         let loads = self.model.loads.clone();
-        // "time" runs from no load (0) to full load (1) while statics are solved
+        // the point loads ramp with a time from 0 to 1 while statics are solved
         self.model.loads.iter_mut().for_each(|load| (load.ramp, load.start) = (1.0, 0.0));
         let mut budget = Budget { tolerance: options.tolerance, attempt: options.iterations, done: 0 };
         let outcome = self.attempts(&mut budget);
         self.model.loads = loads;
         match outcome {
             Ok(report) => {
-                // what drag takes on the way to rest is no part of the cable's history
-                self.state.work = work;
-                self.still();
+                // the work of drag during the search is not part of the cable's history
+                self.snapshot.work = work;
+                self.set_at_rest();
                 Ok(report)
             }
             Err(failure) => {
-                let fold = folded::folded(&self.model, self.positions());
-                self.state = before;
+                let fold = folds::first_fold(&self.model, self.positions());
+                self.snapshot = before;
                 self.revision = revision;
                 let reason = match (failure.cause, fold) {
                     (Some(cause), _) => cause.into(),
@@ -153,10 +163,10 @@ impl Cable {
 
     fn attempts(&mut self, budget: &mut Budget) -> Result<EquilibriumReport, Failure> {
         self.place_supports();
-        if self.system.fluid.as_ref().is_some_and(Fluid::flows) {
-            return self.drift(budget);
+        if self.system.forces.drive() {
+            return self.come_to_rest_in_flow(budget);
         }
-        let start = self.state.clone();
+        let start = self.snapshot.clone();
         let moments = self.model.loads.iter().any(|load| load.moment != Vector3::zeros());
         let pure = moments
             && self.model.gravity == Vector3::zeros()
@@ -164,27 +174,28 @@ impl Cable {
         let loads = !self.model.loads.is_empty();
         let mut unstable = None;
         let mut last = Failure::default();
-        for way in 0..5 {
-            let outcome = match way {
-                0 if moments => self.follow(budget),
-                1 => self.descend(1.0, budget),
-                2 if loads && !moments => self.follow(budget),
+        for attempt in 0..5 {
+            let outcome = match attempt {
+                0 if moments => self.ramp_loads(budget),
+                1 => self.minimise_energy(1.0, budget),
+                2 if loads && !moments => self.ramp_loads(budget),
                 3 => {
-                    lay::lay(&self.model, &mut self.state.phase.q);
-                    self.descend(1.0, budget)
+                    start_shape::lay_out(&self.model, &mut self.snapshot.state.q);
+                    self.minimise_energy(1.0, budget)
                 }
                 4 => {
                     let relaxed = self.relax(budget);
-                    relaxed.and_then(|()| self.descend(1.0, budget))
+                    relaxed.and_then(|()| self.minimise_energy(1.0, budget))
                 }
                 _ => continue,
             };
-            match outcome.and_then(|report| self.unfolded(report, budget)) {
-                // a first shape that nothing pushes away is taken as it is, and so is what a moment alone makes
-                Ok(report) if report.stable || way == 1 || pure => return Ok(report),
-                Ok(report) => unstable = unstable.or(Some((report, self.state.clone()))),
+            match outcome.and_then(|report| self.without_folds(report, budget)) {
+                // the first minimum is accepted even if it is indifferent, and so is any shape
+                // under moments alone
+                Ok(report) if report.stable || attempt == 1 || pure => return Ok(report),
+                Ok(report) => unstable = unstable.or(Some((report, self.snapshot.clone()))),
                 Err(failure) => {
-                    // an attempt that ran out at once knows no residual of its own
+                    // an attempt without an iteration has no residual
                     let residual = if failure.residual.is_nan() { last.residual } else { failure.residual };
                     last = Failure { residual, ..failure };
                 }
@@ -192,60 +203,60 @@ impl Cable {
             if budget.spent() {
                 break;
             }
-            if way < 4 {
-                self.state = start.clone();
+            if attempt < 4 {
+                self.snapshot = start.clone();
             }
         }
         match unstable {
             Some((report, state)) => {
-                self.state = state;
+                self.snapshot = state;
                 Ok(EquilibriumReport { iterations: budget.done, ..report })
             }
             None => Err(last),
         }
     }
 
-    /// Puts the supports at their places and takes the cable along.
+    /// Moves the supports to their prescribed positions, and the cable with them.
     fn place_supports(&mut self) {
-        let mut phase = core::mem::take(&mut self.state.phase);
-        let before = phase.q.clone();
-        let (equations, _) = self.equations();
-        equations.prescribe(phase.time, &mut phase.q, &mut phase.v);
-        lay::take_along(equations.model, &before, &mut phase.q);
-        self.state.phase = phase;
+        let (equations, state) = self.equations();
+        let before = state.q.clone();
+        equations.prescribe(state.time, &mut state.q, &mut state.v);
+        start_shape::move_with_supports(equations.model, &before, &mut state.q);
     }
 
-    /// The same, if no element is folded; else what comes of straightening them.
-    fn unfolded(&mut self, report: EquilibriumReport, budget: &mut Budget) -> Result<EquilibriumReport, Failure> {
-        if folded::folded(&self.model, self.positions()).is_none() {
+    /// Returns the report if no element is folded; else straightens the folds and minimises the
+    /// energy again.
+    fn without_folds(&mut self, report: EquilibriumReport, budget: &mut Budget) -> Result<EquilibriumReport, Failure> {
+        if folds::first_fold(&self.model, self.positions()).is_none() {
             return Ok(report);
         }
-        folded::unfold(&self.model, &mut self.state.phase.q);
-        let report = self.descend(1.0, budget)?;
-        match folded::folded(&self.model, self.positions()) {
+        folds::straighten(&self.model, &mut self.snapshot.state.q);
+        let report = self.minimise_energy(1.0, budget)?;
+        match folds::first_fold(&self.model, self.positions()) {
             None => Ok(report),
             Some(_) => Err(Failure { cause: None, residual: report.residual }),
         }
     }
 }
 
-/// The resultant of the loads in N that no support can take, if there is one: a force on a cable whose position
-/// nothing holds, or nothing but moments (over the length) on one that may turn about the one point that is held.
+/// Returns the resultant of the loads in N that no support can take, if there is one: a force on a
+/// cable without a held position, or moments alone (divided by the length) on one that is free to
+/// rotate about its only held point.
 fn unheld(model: &Model) -> Option<f64> {
     let (weight, size) = model.dead_resultant();
     let size = model.loads.iter().fold(size, |sum, load| sum + load.force.norm());
     let held = model.supports.iter().filter(|(_, support)| support.holds_position()).count();
-    let turns = model.supports.iter().all(|(_, support)| support.slope == SlopeSupport::Free);
+    let rotates = model.supports.iter().all(|(_, support)| support.slope == SlopeSupport::Free);
     let force = model.loads.iter().fold(weight, |sum, load| sum + load.force).norm();
     let moment = model.loads.iter().map(|load| load.moment).sum::<Vector3<f64>>().norm();
     match held {
         0 => (force > 1e-12 * size).then_some(force),
-        1 => (turns && size == 0.0 && moment > 0.0).then_some(moment / model.length()),
+        1 => (rotates && size == 0.0 && moment > 0.0).then_some(moment / model.length()),
         _ => None,
     }
 }
 
-/// Largest change of a position (m) and of a slope component.
+/// Returns the largest change of a position component in m and of a slope component.
 fn largest_change(dq: &[f64]) -> (f64, f64) {
     let largest = |from: usize| {
         dq.chunks_exact(6).flat_map(|x| &x[from..from + 3]).fold(0.0f64, |m, x| {

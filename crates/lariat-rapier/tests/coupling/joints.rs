@@ -16,7 +16,7 @@ fn wind(
 ) -> (f64, f64, f64, f64) {
     let winch = world.insert_body(RigidBodyBuilder::kinematic_velocity_based());
     let mut set = CableSet::new();
-    (set.settings.rapier_steps, set.settings.most_rapier_steps) = (rapier_steps, rapier_steps);
+    (set.settings.rapier_steps, set.settings.max_rapier_steps) = (rapier_steps, rapier_steps);
     let rope = cable([0.0; 3], [-2.0, 0.0, 0.0], section).integrator(damping()).gravity(Vector3::zeros());
     let rope = set.insert(rope.build().unwrap());
     set.attach(world, rope, At::Start, winch, Vector::ZERO, AttachmentKind::Ball).unwrap();

@@ -17,7 +17,7 @@ fn jam(section: Section, mass: Real, steps: (u32, u32), iterations: usize, dt: R
     let load = add_cube(&mut world, mass, 0.1, [-2.1, 0.0, 0.0]);
     let winch = world.insert_body(RigidBodyBuilder::kinematic_velocity_based());
     let mut set = CableSet::new();
-    (set.settings.rapier_steps, set.settings.most_rapier_steps) = steps;
+    (set.settings.rapier_steps, set.settings.max_rapier_steps) = steps;
     let rope = cable([0.0; 3], [-2.0, 0.0, 0.0], section).integrator(damping()).gravity(Vector3::zeros());
     let rope = set.insert(rope.build().unwrap());
     set.attach(&world, rope, At::Start, winch, Vector::ZERO, AttachmentKind::Ball).unwrap();
