@@ -1,4 +1,4 @@
-//! Scenes with rigid bodies through the command, against values from outside.
+//! Scenes with rigid bodies, run by the command, against independent values.
 
 mod holds;
 mod motion;

@@ -1,4 +1,4 @@
-//! Running a scene through the command, and reading what it left.
+//! Runs a scene by the command and reads its results.
 
 use lariat_scene::run::Summary;
 use std::fs;
@@ -57,7 +57,7 @@ impl Results {
     }
 }
 
-/// A scene with one body and a light cable far away that it does not hold, without gravity, 1 s.
+/// Returns a scene of 1 s without gravity, with one body and a light cable far away that is not attached to it.
 pub fn free(body: &str, rest: &str) -> String {
     format!(
         "duration = 1.0\ngravity = [0.0, 0.0, 0.0]\n[[body]]\nname = \"b\"\n{body}\n[[cable]]\nname = \"c\"\n\
