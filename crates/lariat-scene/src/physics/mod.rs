@@ -58,8 +58,8 @@ impl Physics {
         }
         let mut bodies = Vec::new();
         for body in &scene.bodies {
-            let refuse = |problem| Error::Body { time: 0.0, body: body.name.clone(), problem };
-            bodies.push(build::insert(&mut world, body).map_err(refuse)?);
+            let failed = |problem| Error::Body { time: 0.0, body: body.name.clone(), problem };
+            bodies.push(build::insert(&mut world, body).map_err(failed)?);
         }
         joints::insert(&mut world, scene, &bodies).map_err(|(body, problem)| Error::Body {
             time: 0.0,
