@@ -83,7 +83,12 @@ impl Cable {
     pub fn attach_force_density(&mut self, force: Arc<dyn ForceDensity>) -> Result<(), Error> {
         let mut model = self.model.clone();
         model.force_densities.attach(force);
-        self.rebuild(model)
+        let as_before = self.model.force_densities.missing() > 0;
+        self.rebuild(model)?;
+        if !as_before {
+            self.revise();
+        }
+        Ok(())
     }
 
     /// Removes all forces per length of your own, missing ones included.
@@ -93,7 +98,9 @@ impl Cable {
     pub fn clear_force_densities(&mut self) -> Result<(), Error> {
         let mut model = self.model.clone();
         model.force_densities.clear();
-        self.rebuild(model)
+        self.rebuild(model)?;
+        self.revise();
+        Ok(())
     }
 
     /// Rejects a cable that was read back without its functions.
