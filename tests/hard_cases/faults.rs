@@ -1,8 +1,9 @@
-//! Faults put in on purpose: the last good state stays, the error names the culprit, and the next step works when the cause is gone.
+//! Faults put in on purpose: the last good state stays, the error names the culprit, and the next
+//! step works when the cause is gone.
 
 use lariat_ancf::{At, PointLoad, Section, Vector3};
 use lariat_rapier::rapier::prelude::*;
-use lariat_rapier::{AttachmentKind, CableHandle, CableSet, Error, lariat_ancf};
+use lariat_rapier::{AttachmentKind, BodyQuantity, CableHandle, CableSet, Error, lariat_ancf};
 
 struct Hung {
     world: PhysicsWorld,
@@ -65,7 +66,8 @@ impl Hung {
     }
 }
 
-/// A velocity or a spin that is not a number: the error names the body and what is wrong; set right, the run goes on.
+/// A velocity or a spin that is not a number: the error names the body and what is wrong; set
+/// right, the run goes on.
 ///
 /// *Source.* The contract.
 #[test]
@@ -80,7 +82,10 @@ fn a_velocity_that_is_not_a_number_is_refused_by_name() {
             h.world.bodies[h.load].set_linvel(wrong, true);
         }
         let error = h.refused();
-        assert!(matches!(error, Error::BodyNotFinite { body, what: "velocity", .. } if body == h.load), "{error}");
+        assert!(
+            matches!(error, Error::BodyNotFinite { body, quantity: BodyQuantity::Velocity, .. } if body == h.load),
+            "{error}"
+        );
         h.world.bodies[h.load].set_linvel(v, true);
         h.world.bodies[h.load].set_angvel(w, true);
         h.goes_on();
@@ -101,14 +106,18 @@ fn an_infinite_force_is_refused_by_name() {
             h.world.bodies[h.load].add_force(wrong, true);
         }
         let error = h.refused();
-        assert!(matches!(error, Error::BodyNotFinite { body, what: "force", .. } if body == h.load), "{error}");
+        assert!(
+            matches!(error, Error::BodyNotFinite { body, quantity: BodyQuantity::Force, .. } if body == h.load),
+            "{error}"
+        );
         h.world.bodies[h.load].reset_forces(true);
         h.world.bodies[h.load].reset_torques(true);
         h.goes_on();
     }
 }
 
-/// A body without mass cannot be integrated: it holds its end, as a fixed one does, and takes the load again with its mass.
+/// A body without mass cannot be integrated: it holds its end, as a fixed one does, and takes the
+/// load again with its mass.
 ///
 /// *Source.* Rapier does not move a dynamic body without mass by forces.
 #[test]
@@ -122,7 +131,8 @@ fn a_body_that_loses_its_mass_holds_its_end() {
     h.goes_on();
 }
 
-/// A load on the cable that no step can carry, in the middle of the run: the error names the cable and the time.
+/// A load on the cable that no step can carry, in the middle of the run: the error names the cable
+/// and the time.
 ///
 /// *Source.* The contract. 1e300 N overflows.
 #[test]
@@ -136,7 +146,8 @@ fn an_impossible_load_is_refused_and_the_next_step_works_without_it() {
     h.goes_on();
 }
 
-/// A place that is not a number, and a step of the world that is not: refused; set right, the run goes on.
+/// A place that is not a number, and a step of the world that is not: refused; set right, the run
+/// goes on.
 ///
 /// *Source.* The contract.
 #[test]
@@ -145,7 +156,7 @@ fn places_and_time_steps_that_are_not_numbers_are_refused() {
     let at = h.world.bodies[h.load].translation();
     h.world.bodies[h.load].set_translation(Vector::new(f32::NAN, 0.0, 0.0), true);
     let error = h.refused();
-    assert!(matches!(error, Error::BodyNotFinite { what: "position", .. }), "{error}");
+    assert!(matches!(error, Error::BodyNotFinite { quantity: BodyQuantity::Position, .. }), "{error}");
     h.world.bodies[h.load].set_translation(at, true);
     h.goes_on();
     let dt = h.world.integration_parameters.dt;

@@ -1,8 +1,8 @@
-//! Integration methods from outside the crate: written with its public items alone, they step cables and islands with every step
-//! control, to their order.
+//! Integration methods from outside the crate: written with its public items alone, they step
+//! cables and islands with every step control, to their order.
 //!
-//! *Physics.* The methods are Newmark's with beta = 1/4 and gamma = 1/2, which is the built-in trapezoidal rule, and Alexander's
-//! SDIRK2, of order 2 and L-stable.
+//! *Physics.* The methods are Newmark's with beta = 1/4 and gamma = 1/2, which is the built-in
+//! trapezoidal rule, and Alexander's SDIRK2, of order 2 and L-stable.
 
 mod common;
 
@@ -75,9 +75,11 @@ fn end(method: &dyn OneStep, steps: u32) -> Vec<f64> {
     cable.positions().iter().chain(cable.velocities()).copied().collect()
 }
 
-/// Halving the step divides the error by four, for a method that solves its own stage and for one that is a tableau.
+/// Halving the step divides the error by four, for a method that solves its own stage and for one
+/// that is a tableau.
 ///
-/// *Source.* Order 2 of both methods; the reference is the symplectic method of order 6, error below 1e-12.
+/// *Source.* Order 2 of both methods; the reference is the symplectic method of order 6, error
+/// below 1e-12.
 #[test]
 fn a_method_of_another_crate_converges_with_its_order() {
     let reference = end(&Method::Rkn6, 6400);
@@ -91,15 +93,17 @@ fn a_method_of_another_crate_converges_with_its_order() {
 
 /// The same method from outside and from inside the crate gives the same motion.
 ///
-/// *Source.* The built-in trapezoidal rule; 1e-8 is what Newton's iteration leaves, at 1e-10 m per step.
+/// *Source.* The built-in trapezoidal rule; 1e-8 is what Newton's iteration leaves, at 1e-10 m per
+/// step.
 #[test]
 fn newmark_from_outside_is_the_built_in_trapezoidal_rule() {
     let difference = largest_difference(&end(&Newmark, 400), &end(&Method::Trapezoid, 400));
     assert!(difference < 1e-8, "{difference:e}");
 }
 
-/// Error control works with a method that has an estimate: the error is below the sum of the tolerances of the host steps, a smaller
-/// tolerance takes more steps, and the time is the host's to the bit.
+/// Error control works with a method that has an estimate: the error is below the sum of the
+/// tolerances of the host steps, a smaller tolerance takes more steps, and the time is the host's
+/// to the bit.
 ///
 /// *Source.* The exact-in-time run; 30 host steps.
 #[test]
@@ -122,7 +126,8 @@ fn error_control_works_with_an_estimate_from_outside() {
     assert!(counts[0] > 30 && counts[1] > 2 * counts[0], "{counts:?}");
 }
 
-/// A step control that the method does not support is the error that a built-in method gives, with the method's name.
+/// A step control that the method does not support is the error that a built-in method gives, with
+/// the method's name.
 ///
 /// *Source.* The contract.
 #[test]
@@ -154,10 +159,11 @@ fn a_run_with_a_method_of_another_crate_replays_bitwise() {
     assert_eq!(*cable.snapshot(), after);
 }
 
-/// A cable that changes from a method with algorithmic accelerations to one without and back begins with true ones.
+/// A cable that changes from a method with algorithmic accelerations to one without and back begins
+/// with true ones.
 ///
-/// *Source.* Bitwise equality with a cable whose accelerations are computed anew: those that generalised-alpha left behind belong to an
-/// earlier state.
+/// *Source.* Bitwise equality with a cable whose accelerations are computed anew: those that
+/// generalised-alpha left behind belong to an earlier state.
 #[test]
 fn algorithmic_accelerations_are_not_taken_from_an_earlier_state() {
     let alpha = Integrator::substeps("generalised-alpha-0.5".parse().unwrap(), 4).unwrap();

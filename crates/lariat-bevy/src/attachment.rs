@@ -7,6 +7,7 @@ use bevy_ecs::component::Component;
 use bevy_ecs::entity::Entity;
 use bevy_ecs::lifecycle::HookContext;
 use bevy_ecs::world::DeferredWorld;
+use core::ops::Deref;
 use lariat_ancf::{At, Vector3};
 use lariat_rapier::{AttachmentHandle, AttachmentKind};
 
@@ -136,15 +137,13 @@ pub struct BreakForce(pub f64);
 
 /// Force, moment, gap and work of an attachment after the last host step.
 #[derive(Component, Clone, Copy, Debug, Default, PartialEq)]
-pub struct AttachmentReading {
-    /// Force of the cable on the body in N, world axes.
-    pub force: Vector3<f64>,
-    /// Moment of the cable on the body about the anchor in N m, world axes; zero for a ball.
-    pub moment: Vector3<f64>,
-    /// Distance of node and anchor in m.
-    pub gap: f64,
-    /// Work of the cable on the body since the attachment was made, in J.
-    pub work: f64,
+pub struct AttachmentReading(pub lariat_rapier::AttachmentReading);
+
+impl Deref for AttachmentReading {
+    type Target = lariat_rapier::AttachmentReading;
+    fn deref(&self) -> &lariat_rapier::AttachmentReading {
+        &self.0
+    }
 }
 
 /// The handle of an attachment in the set, while it exists there.

@@ -3,17 +3,18 @@
 use crate::cables::Cables;
 use crate::pending::Pending;
 use crate::physics::Physics;
-use crate::point::{Point, from_vector, to_vector};
+use crate::point::Point;
 use bevy_ecs::component::Component;
 use bevy_ecs::entity::Entity;
 use bevy_ecs::lifecycle::HookContext;
 use bevy_ecs::system::{Query, Res, ResMut, SystemParam};
 use bevy_ecs::world::DeferredWorld;
 use lariat_ancf::Vector3;
+use lariat_rapier::convert::{rotation, to_pose, to_vector, vector};
 use lariat_rapier::rapier::dynamics::{RigidBody, RigidBodyBuilder, RigidBodyHandle};
 use lariat_rapier::rapier::geometry::ColliderBuilder;
 use lariat_rapier::rapier::math::Pose;
-use nalgebra::{Quaternion, UnitQuaternion};
+use nalgebra::UnitQuaternion;
 
 /// A rigid body with its colliders. It is added to Rapier's world in the next host step, and
 /// removed with this component or its entity.
@@ -103,14 +104,10 @@ impl BodyPose {
 
     /// Reads the state of a body; for a new one it is the state before the step too.
     pub(crate) fn read(&mut self, body: &RigidBody, new: bool) {
-        let q = body.rotation();
-        let now = (
-            from_vector(body.translation()),
-            UnitQuaternion::from_quaternion(Quaternion::new(q.w.into(), q.x.into(), q.y.into(), q.z.into())),
-        );
+        let now = (vector(body.translation()), rotation(*body.rotation()));
         self.before = if new { now } else { (self.position, self.rotation) };
         (self.position, self.rotation) = now;
-        self.velocity = from_vector(body.linvel());
+        self.velocity = vector(body.linvel());
     }
 }
 
@@ -130,11 +127,7 @@ impl KinematicTarget {
     }
 
     pub(crate) fn pose(&self) -> Pose {
-        let q = self.rotation.coords.map(|x| x as f32);
-        Pose::from_parts(
-            to_vector(&self.position),
-            lariat_rapier::rapier::math::Rotation::from_xyzw(q.x, q.y, q.z, q.w),
-        )
+        to_pose(&self.position, &self.rotation)
     }
 }
 

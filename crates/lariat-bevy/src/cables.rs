@@ -128,7 +128,7 @@ impl Cables {
 
     /// Whether the host step that began has failed, so that the engine must not step.
     pub fn has_failed(&self) -> bool {
-        self.host.as_ref().is_none_or(HostStep::is_refused)
+        self.host.as_ref().is_none_or(HostStep::has_failed)
     }
 
     /// Reports that a host engine cannot step: sends [`StepFailed`] with this error.

@@ -1,6 +1,7 @@
 //! Conversion of points and vectors from the types that users have.
 
 use lariat_ancf::Vector3;
+use lariat_rapier::convert::vector;
 use lariat_rapier::rapier::math::Vector;
 
 /// A point or vector: from arrays of `f32` or `f64`, nalgebra's vectors, or Rapier's (which are
@@ -28,16 +29,6 @@ impl From<Vector3<f64>> for Point {
 
 impl From<Vector> for Point {
     fn from(p: Vector) -> Self {
-        [p.x, p.y, p.z].into()
+        Point(vector(p))
     }
-}
-
-/// Converts to Rapier's vector type, in single precision.
-pub(crate) fn to_vector(v: &Vector3<f64>) -> Vector {
-    Vector::new(v.x as f32, v.y as f32, v.z as f32)
-}
-
-/// Converts from Rapier's vector type.
-pub(crate) fn from_vector(v: Vector) -> Vector3<f64> {
-    Point::from(v).0
 }

@@ -42,13 +42,11 @@ pub(crate) fn read_attachments(
         else {
             continue;
         };
-        diagnostics.interface_work += attachment.work() - link.counted;
-        link.counted = attachment.work();
-        let force = attachment.force();
-        let now =
-            AttachmentReading { force, moment: attachment.moment(), gap: attachment.gap(), work: attachment.work() };
-        reading.set_if_neq(now);
-        if limit.is_some_and(|limit| force.norm() > limit.0) {
+        let now = *attachment.reading();
+        diagnostics.interface_work += now.work - link.counted;
+        link.counted = now.work;
+        reading.set_if_neq(AttachmentReading(now));
+        if limit.is_some_and(|limit| now.force.norm() > limit.0) {
             broken.push(*handle);
         }
     }

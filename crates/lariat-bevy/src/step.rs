@@ -22,7 +22,7 @@ pub(crate) fn begin(mut cables: ResMut<Cables>, mut physics: ResMut<Physics>, mu
 
 /// Begins a host step that is one Rapier step.
 pub(crate) fn begin_single(mut cables: ResMut<Cables>, physics: ResMut<Physics>, diagnostics: ResMut<Diagnostics>) {
-    (cables.set.settings.rapier_steps, cables.set.settings.most_rapier_steps) = (1, 1);
+    (cables.set.settings.rapier_steps, cables.set.settings.max_rapier_steps) = (1, 1);
     begin(cables, physics, diagnostics);
 }
 
@@ -43,7 +43,7 @@ pub(crate) fn finish(mut cables: ResMut<Cables>, mut physics: ResMut<Physics>) {
 /// Queues [`StepFailed`] for every cable of the island that failed.
 fn report(cables: &mut Cables, error: lariat_rapier::Error) {
     let Cables { set, links, events, .. } = cables;
-    let failed = set.refused().iter().filter_map(|handle| links.cables.get(handle)).map(|link| link.entity);
+    let failed = set.failed_cables().iter().filter_map(|handle| links.cables.get(handle)).map(|link| link.entity);
     let mut failed: Vec<Entity> = failed.collect();
     if failed.is_empty() {
         failed.push(Entity::PLACEHOLDER);
@@ -69,7 +69,7 @@ pub(crate) fn predict(mut cables: ResMut<Cables>, mut physics: ResMut<Physics>, 
 
 /// Steps Rapier, unless the prediction failed.
 pub(crate) fn engine(cables: ResMut<Cables>, mut physics: ResMut<Physics>, mut diagnostics: ResMut<Diagnostics>) {
-    if cables.host.as_ref().is_some_and(HostStep::is_refused) {
+    if cables.host.as_ref().is_some_and(HostStep::has_failed) {
         return;
     }
     diagnostics.start();
@@ -83,12 +83,10 @@ pub(crate) fn reconcile(
     mut physics: ResMut<Physics>,
     mut diagnostics: ResMut<Diagnostics>,
 ) {
-    if cables.host.as_ref().is_some_and(HostStep::is_refused) {
+    if cables.host.as_ref().is_some_and(HostStep::has_failed) {
         return;
     }
     diagnostics.start();
-    if let Err(error) = cables.set.reconcile(&mut physics) {
-        report(&mut cables, error);
-    }
+    cables.set.reconcile(&mut physics);
     diagnostics.stop(Stage::Reconcile);
 }

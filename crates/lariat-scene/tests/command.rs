@@ -111,22 +111,34 @@ fn a_folder_that_cannot_be_created_is_named() {
     assert_eq!(fs::read_to_string(&file).unwrap(), "in the way");
 }
 
-/// The program `lariat-bench` runs `lariat report`, which checks its folder before it measures.
 #[test]
-fn measurements_of_the_workspace_are_listed_and_run_by_their_program() {
+fn help_lists_the_measurements_of_the_workspace() {
     let help = String::from_utf8(lariat(&["--help"]).stdout).unwrap();
     for name in ["report", "stability", "table1", "lariat-bench", "keys"] {
         assert!(help.contains(name), "{name}: {help}");
     }
-    let output = lariat(&["report", "--help"]);
-    let text = String::from_utf8(output.stdout).unwrap();
-    assert!(text.contains("--quick") && text.contains("--out"), "{text}");
+}
+
+/// A copy of the command finds `lariat-bench` beside it, hands all arguments over, `--help` too, and returns its exit code. Without
+/// the program the message says how to build it.
+#[cfg(unix)]
+#[test]
+fn measurements_are_run_by_the_program_beside_the_command() {
+    use std::os::unix::fs::PermissionsExt;
     let folder = tempfile::tempdir().unwrap();
-    let file = folder.path().join("file");
-    fs::write(&file, "in the way").unwrap();
-    let output = lariat(&["report", "--out", file.to_str().unwrap()]);
+    let (command, program) = (folder.path().join("lariat"), folder.path().join("lariat-bench"));
+    fs::copy(env!("CARGO_BIN_EXE_lariat"), &command).unwrap();
+    let run = |arguments: &[&str]| Command::new(&command).args(arguments).env_remove("CARGO").output().unwrap();
+    let output = run(&["table1"]);
     assert_eq!(output.status.code(), Some(2));
-    assert!(stderr(&output).contains("cannot write to"), "{}", stderr(&output));
+    assert!(stderr(&output).contains("cargo build --release -p lariat-bench"), "{}", stderr(&output));
+    fs::write(&program, "#!/bin/sh\necho \"$@\"\nexit 3\n").unwrap();
+    fs::set_permissions(&program, fs::Permissions::from_mode(0o755)).unwrap();
+    for arguments in [&["report", "--out", "a folder", "--quick"][..], &["stability", "--help"], &["table1", "-h"]] {
+        let output = run(arguments);
+        assert_eq!(String::from_utf8_lossy(&output.stdout).trim(), arguments.join(" "));
+        assert_eq!(output.status.code(), Some(3));
+    }
 }
 
 #[test]
@@ -145,7 +157,9 @@ fn keys_are_listed_in_all_or_by_table_and_misspelt_ones_are_errors() {
     );
     let drag = text(&["keys", "cable.drag"]);
     assert!(
-        drag.starts_with("### `[cable.drag]`") && drag.contains("power_law") && !drag.contains("[[cable]]"),
+        drag.starts_with("### `[cable.drag]`")
+            && drag.contains("[cable.drag.flow.power_law]")
+            && !drag.contains("[[cable]]"),
         "{drag}"
     );
     assert!(text(&["keys", "cable.length"]).contains("| `length` | a finite number > 0 | m |"));

@@ -1,4 +1,4 @@
-//! Runs and tables against values from outside: the real beam, the independent solver, the catenary, the elastica.
+//! Runs and statics against independent values: the converged beam, the independent solver, the catenary, the elastica.
 
 use approx::assert_relative_eq;
 use lariat_scene::run::{self, Options, World};
@@ -21,7 +21,7 @@ fn rows(file: &Path) -> Vec<Vec<f64>> {
 }
 
 #[test]
-fn the_falling_pendulum_scene_follows_the_real_beam() {
+fn the_falling_pendulum_scene_follows_the_converged_beam() {
     let scene = read("falling_pendulum", &[], Purpose::Run);
     let folder = tempfile::tempdir().unwrap();
     let summary = run::run(&scene, folder.path(), &mut Options::default()).unwrap();
@@ -79,11 +79,11 @@ fn the_same_scene_with_the_papers_reference_rule_matches_the_independent_solver_
 }
 
 #[test]
-fn the_catenary_scene_hangs_as_a_catenary() {
+fn the_catenary_scene_has_the_tensions_of_the_catenary() {
     let scene = read("catenary", &[], Purpose::Static);
     let mut world = World::build(&scene).unwrap();
     world.start(Purpose::Static).unwrap();
-    // inextensible and limp: sqrt(L^2 - v^2) = 2 a sinh(w/(2 a)), horizontal tension m g a
+    // inextensible, without bending stiffness: sqrt(L^2 - v^2) = 2 a sinh(w/(2 a)), horizontal tension m g a
     let (w, v, length, weight) = (2.0f64, 0.5f64, 3.0f64, 0.5 * 9.81);
     let horizontal = weight * scale_of_catenary(w, v, length);
     let (left, ..) = world.attachment(0).unwrap();
@@ -144,7 +144,7 @@ fn statics_of_a_cable_with_one_support_have_no_sag() {
 }
 
 #[test]
-fn a_run_from_equilibrium_stays_there() {
+fn a_run_from_equilibrium_stays_at_rest() {
     let scene = read("catenary", &[], Purpose::Run);
     let folder = tempfile::tempdir().unwrap();
     run::run(&scene, folder.path(), &mut Options::default()).unwrap();
@@ -189,7 +189,7 @@ fn the_elastica_scene_bends_as_the_elastica_and_the_circle() {
 }
 
 #[test]
-fn a_ramped_load_is_zero_at_the_start_and_in_full_in_statics() {
+fn a_load_with_a_ramp_is_zero_at_the_start_and_full_in_statics() {
     let scene = read("cantilever", &["cable.beam.initial=equilibrium"], Purpose::Run);
     let mut world = World::build(&scene).unwrap();
     world.start(Purpose::Run).unwrap();
@@ -212,7 +212,7 @@ fn a_rigid_start_has_the_energy_and_momentum_of_a_rigid_body() {
     let scene = read("falling_pendulum", &overrides, Purpose::Run);
     let mut world = World::build(&scene).unwrap();
     world.start(Purpose::Run).unwrap();
-    // a rod of 0.8 kg and 2 m about its end, and the rotation of its sections is not in the model
+    // a rod of 0.8 kg and 2 m about its end; the model has no rotational inertia of sections
     let inertia = 0.8 * 4.0 / 3.0;
     assert_relative_eq!(world.energy(None).kinetic, 0.5 * inertia * 9.0, max_relative = 1e-9);
     assert_relative_eq!(world.momentum(None).angular.z, inertia * 3.0, max_relative = 1e-9);

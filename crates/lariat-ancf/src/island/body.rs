@@ -124,15 +124,19 @@ impl RigidBody {
 
     /// Returns the kinetic energy in J, without that of the carried inertia.
     pub fn kinetic_energy(&self) -> f64 {
-        let spin = self.world_inertia(&self.rotation) * self.angular_velocity;
-        0.5 * (self.mass * self.velocity.norm_squared() + self.angular_velocity.dot(&spin))
+        0.5 * (self.mass * self.velocity.norm_squared() + self.angular_velocity.dot(&self.spin()))
     }
 
-    /// Returns the linear momentum in kg m/s and the angular momentum about the origin in kg m^2/s.
+    /// Returns the linear momentum in kg m/s and the angular momentum about the origin in kg m^2/s,
+    /// without those of the carried inertia.
     pub fn momentum(&self) -> (Vector3<f64>, Vector3<f64>) {
         let linear = self.mass * self.velocity;
-        let spin = self.world_inertia(&self.rotation) * self.angular_velocity;
-        (linear, self.position.cross(&linear) + spin)
+        (linear, self.position.cross(&linear) + self.spin())
+    }
+
+    /// Returns the angular momentum about the centre of mass in kg m^2/s.
+    fn spin(&self) -> Vector3<f64> {
+        self.rotation * (self.inertia * (self.rotation.inverse() * self.angular_velocity))
     }
 
     /// Returns the world position of a point given in body axes from the centre of mass.

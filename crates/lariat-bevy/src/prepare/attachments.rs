@@ -7,11 +7,11 @@ use crate::error::Error;
 use crate::event::{AttachmentEnded, AttachmentFailed, EndReason};
 use crate::pending::Pending;
 use crate::physics::Physics;
-use crate::point::to_vector;
 use bevy_ecs::change_detection::DetectChanges;
 use bevy_ecs::entity::Entity;
 use bevy_ecs::prelude::{Commands, Has, Query, Ref, ResMut};
 use lariat_rapier::AttachmentHandle;
+use lariat_rapier::convert::to_vector;
 use lariat_rapier::rapier::dynamics::{RigidBodyBuilder, RigidBodyHandle};
 use lariat_rapier::rapier::math::Vector;
 

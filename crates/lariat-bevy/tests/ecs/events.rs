@@ -3,6 +3,7 @@
 use super::common::{bits, cable_of, cube, pin, soft, steps, world};
 use bevy_ecs::prelude::*;
 use lariat_bevy::event::{AttachmentEnded, CableAsleep, CableAwake, StepFailed};
+use lariat_bevy::lariat_rapier::BodyQuantity;
 use lariat_bevy::{At, Attachment, Bending, Cables, Damping, Diagnostics, Error, Physics, lariat_rapier};
 
 #[derive(Resource, Default)]
@@ -54,7 +55,9 @@ fn a_failed_step_names_the_cable_and_keeps_the_last_good_state() {
     assert!(bits(&world, cable) == before);
     assert_eq!(world.resource::<Diagnostics>().failed_steps, 3);
     let failures: Vec<StepFailed> = world.resource_mut::<Messages<StepFailed>>().drain().collect();
-    let Error::Coupling(lariat_rapier::Error::BodyNotFinite { body, what: "velocity", .. }) = failures[0].error else {
+    let Error::Coupling(lariat_rapier::Error::BodyNotFinite { body, quantity: BodyQuantity::Velocity, .. }) =
+        failures[0].error
+    else {
         panic!("{}", failures[0].error);
     };
     assert_eq!(body, handle);

@@ -1,7 +1,7 @@
 //! From bodies of a scene to bodies of Rapier.
 
-use super::convert::{to_pose, to_vector, vector};
 use crate::scene::body::{BodyKind, BodyMass, BodyScene, BodyShape};
+use lariat_rapier::convert::{to_pose, to_vector, vector};
 use lariat_rapier::rapier::dynamics::{MassProperties, RigidBodyHandle};
 use lariat_rapier::rapier::math::{Real, Vector};
 use lariat_rapier::rapier::prelude::{ColliderBuilder, PhysicsWorld, RigidBodyBuilder};
@@ -86,7 +86,8 @@ pub fn insert(world: &mut PhysicsWorld, body: &BodyScene) -> Result<RigidBodyHan
         BodyKind::Kinematic => RigidBodyBuilder::kinematic_position_based(),
     };
     // a limit of 45 degrees in each step would change the motion silently
-    let mut builder = builder.pose(to_pose(&body.pose(0.0))).allow_fast_rotation(true).can_sleep(false);
+    let (position, rotation) = body.pose(0.0);
+    let mut builder = builder.pose(to_pose(&position, &rotation)).allow_fast_rotation(true).can_sleep(false);
     let collider = collider(body)?;
     if let (None, Some(BodyMass::Mass(mass))) = (&collider, body.mass) {
         let moments = body.inertia.map_or(Vector::ZERO, |moments| to_vector(&moments));

@@ -1,8 +1,8 @@
 //! From joints of a scene to joints of Rapier.
 
-use super::convert::to_pose;
 use crate::scene::{JointKind, Scene};
 use lariat_ancf::Vector3;
+use lariat_rapier::convert::to_pose;
 use lariat_rapier::rapier::dynamics::{GenericJoint, GenericJointBuilder, JointAxesMask, RigidBodyHandle};
 use lariat_rapier::rapier::prelude::{PhysicsWorld, RigidBodyBuilder};
 use nalgebra::UnitQuaternion;
@@ -32,7 +32,7 @@ pub fn insert(world: &mut PhysicsWorld, scene: &Scene, bodies: &[RigidBodyHandle
             .unwrap_or_else(|| UnitQuaternion::from_axis_angle(&Vector3::y_axis(), std::f64::consts::PI));
         let local = |(position, rotation): (Vector3<f64>, UnitQuaternion<f64>)| {
             let back = rotation.inverse();
-            to_pose(&(back * (joint.point - position), back * to_axis))
+            to_pose(&(back * (joint.point - position)), &(back * to_axis))
         };
         let built: GenericJoint = GenericJointBuilder::new(axes)
             .local_frame1(local(pose))

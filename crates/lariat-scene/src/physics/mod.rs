@@ -4,9 +4,7 @@
 //! proportionally fewer Rapier steps, so that probes between host times do not shorten the Rapier steps much. Loads on bodies have
 //! their value at the middle of the step, and act at the point of the body where it is at the beginning of the step.
 
-mod attachment;
 mod build;
-mod convert;
 mod joints;
 mod reading;
 
@@ -16,13 +14,13 @@ pub use reading::BodyState;
 use crate::error::Error;
 use crate::scene::Scene;
 use crate::scene::body::BodyKind;
-use attachment::Transfer;
-use convert::{to_pose, to_vector};
+use lariat_ancf::island::RigidBody;
 use lariat_ancf::{At, Cable, Momentum, Vector3};
+use lariat_rapier::convert::{to_pose, to_vector};
 use lariat_rapier::rapier::dynamics::RigidBodyHandle;
 use lariat_rapier::rapier::math::Real;
 use lariat_rapier::rapier::prelude::PhysicsWorld;
-use lariat_rapier::{AttachmentHandle, CableHandle, CableSet};
+use lariat_rapier::{AttachmentHandle, AttachmentKind, AttachmentReading, CableHandle, CableSet};
 
 /// Largest difference of velocities at the start without a warning, in m/s.
 const JOLT: f64 = 1e-5;
@@ -60,8 +58,8 @@ impl Physics {
         }
         let mut bodies = Vec::new();
         for body in &scene.bodies {
-            let refuse = |problem| Error::Body { time: 0.0, body: body.name.clone(), problem };
-            bodies.push(build::insert(&mut world, body).map_err(refuse)?);
+            let failed = |problem| Error::Body { time: 0.0, body: body.name.clone(), problem };
+            bodies.push(build::insert(&mut world, body).map_err(failed)?);
         }
         joints::insert(&mut world, scene, &bodies).map_err(|(body, problem)| Error::Body {
             time: 0.0,
@@ -101,9 +99,13 @@ impl Physics {
                 self.attachments.push(None);
                 continue;
             };
-            let cable = (self.handles[attachment.cable], attachment.arc_length);
-            let place = (self.bodies[body], attachment.anchor);
-            let attached = attachment::attach(&mut self.cables, &self.world, cable, place, attachment.clamp);
+            let (cable, body) = (self.handles[attachment.cable], self.bodies[body]);
+            let at = At::ArcLength(attachment.arc_length);
+            let kind = if attachment.clamp { AttachmentKind::Clamp } else { AttachmentKind::Ball };
+            let attached = match attachment.anchor {
+                None => self.cables.attach_here(&self.world, cable, at, body, kind),
+                Some(anchor) => self.cables.attach(&self.world, cable, at, body, to_vector(&anchor), kind),
+            };
             self.attachments.push(Some(attached.map_err(|error| self.explain(scene, 0.0, error))?));
         }
         for junction in &scene.junctions {
@@ -170,7 +172,8 @@ impl Physics {
     fn drive(&mut self, scene: &Scene, time: f64) {
         for (body, &handle) in scene.bodies.iter().zip(&self.bodies) {
             if body.kind == BodyKind::Kinematic {
-                self.world.bodies[handle].set_next_kinematic_position(to_pose(&body.pose(time)));
+                let (position, rotation) = body.pose(time);
+                self.world.bodies[handle].set_next_kinematic_position(to_pose(&position, &rotation));
             }
         }
     }
@@ -195,9 +198,9 @@ impl Physics {
     fn explain(&self, scene: &Scene, time: f64, error: lariat_rapier::Error) -> Error {
         match error {
             lariat_rapier::Error::Cable(source) => Error::mechanics(time, source),
-            lariat_rapier::Error::BodyNotFinite { body, what, time } => {
+            lariat_rapier::Error::BodyNotFinite { body, quantity, time } => {
                 let name = self.bodies.iter().position(|b| *b == body).map(|i| scene.bodies[i].name.clone());
-                Error::Body { time, body: name.unwrap_or_default(), problem: format!("its {what} is not finite") }
+                Error::Body { time, body: name.unwrap_or_default(), problem: format!("its {quantity} is not finite") }
             }
             source => Error::Coupling { time, source },
         }
@@ -213,15 +216,15 @@ impl Physics {
     ///
     /// # Errors
     /// [`Error::Coupling`]; not for an attachment of the scene.
-    pub fn transfer(&self, index: usize, time: f64) -> Result<Option<Transfer>, Error> {
+    pub fn reading(&self, index: usize, time: f64) -> Result<Option<AttachmentReading>, Error> {
         let Some(handle) = self.attachments.get(index).copied().flatten() else { return Ok(None) };
-        let mut transfer =
-            attachment::transfer(&self.cables, handle).map_err(|source| Error::Coupling { time, source })?;
+        let attachment = self.cables.attachment(handle).map_err(|source| Error::Coupling { time, source })?;
+        let mut reading = *attachment.reading();
         if time == 0.0 {
             // before the first step there is no force of the coupling yet
-            (transfer.force, transfer.moment) = self.held_by[index];
+            (reading.force, reading.moment) = self.held_by[index];
         }
-        Ok(Some(transfer))
+        Ok(Some(reading))
     }
 
     /// Returns the largest gap of all attachments at the ends of all steps so far, in m.
@@ -242,21 +245,21 @@ impl Physics {
 
     /// Returns kinetic energy and potential energy in gravity of the dynamic bodies, in J.
     pub fn energy(&self, scene: &Scene) -> (f64, f64) {
-        self.dynamic(scene)
-            .map(|handle| reading::energy(&self.world.bodies[handle], &scene.gravity))
-            .fold((0.0, 0.0), |sum, e| (sum.0 + e.0, sum.1 + e.1))
+        let potential = |body: &RigidBody| -body.mass * scene.gravity.dot(&body.position);
+        self.dynamic(scene).fold((0.0, 0.0), |sum, body| (sum.0 + body.kinetic_energy(), sum.1 + potential(&body)))
     }
 
     /// Returns the momentum of the dynamic bodies.
     pub fn momentum(&self, scene: &Scene) -> Momentum {
         let zero = Momentum { linear: Vector3::zeros(), angular: Vector3::zeros() };
-        self.dynamic(scene)
-            .map(|handle| reading::momentum(&self.world.bodies[handle]))
-            .fold(zero, |sum, p| Momentum { linear: sum.linear + p.linear, angular: sum.angular + p.angular })
+        self.dynamic(scene).map(|body| body.momentum()).fold(zero, |sum, (linear, angular)| Momentum {
+            linear: sum.linear + linear,
+            angular: sum.angular + angular,
+        })
     }
 
-    fn dynamic(&self, scene: &Scene) -> impl Iterator<Item = RigidBodyHandle> {
-        let bodies = scene.bodies.iter().zip(&self.bodies);
-        bodies.filter(|(body, _)| body.kind == BodyKind::Dynamic).map(|(_, &handle)| handle)
+    fn dynamic(&self, scene: &Scene) -> impl Iterator<Item = RigidBody> {
+        let bodies = scene.bodies.iter().zip(&self.bodies).filter(|(body, _)| body.kind == BodyKind::Dynamic);
+        bodies.filter_map(|(_, &handle)| lariat_rapier::rigid_body(&self.world, handle))
     }
 }

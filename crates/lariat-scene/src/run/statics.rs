@@ -98,9 +98,9 @@ fn sag(cable: &Cable, supports: &[f64], gravity: &Vector3<f64>) -> Result<Option
         let points =
             nodes.windows(2).flat_map(|s| (0..POINTS).map(move |k| s[0] + (s[1] - s[0]) * k as f64 / POINTS as f64));
         for s in points.filter(|s| (span[0]..=span[1]).contains(s)).chain([span[1]]) {
-            let place = cable.sample(s)?.position - from;
-            let share = level(place).dot(&across) / across.norm_squared();
-            let below = (place - (to - from) * share).dot(&down);
+            let offset = cable.sample(s)?.position - from;
+            let share = level(offset).dot(&across) / across.norm_squared();
+            let below = (offset - (to - from) * share).dot(&down);
             largest = Some(largest.map_or(below, |sag| sag.max(below)));
         }
     }

@@ -178,10 +178,7 @@ impl World {
     pub fn energy(&self, cable: Option<usize>) -> Energy {
         let mut sum = Energy::default();
         for e in self.chosen(cable).into_iter().map(Cable::energy) {
-            sum.kinetic += e.kinetic;
-            sum.axial += e.axial;
-            sum.bending += e.bending;
-            sum.gravity += e.gravity;
+            sum += e;
         }
         if let (None, Some(physics)) = (cable, &self.physics) {
             let (kinetic, gravity) = physics.energy(&self.scene);
@@ -217,7 +214,7 @@ impl World {
         let Some(physics) = &self.physics else { return Ok(0.0) };
         let mut sum = 0.0;
         for (k, _) in self.scene.attachments.iter().enumerate().filter(|(_, a)| cable.is_none_or(|c| c == a.cable)) {
-            sum += physics.transfer(k, self.time)?.map_or(0.0, |transfer| transfer.work);
+            sum += physics.reading(k, self.time)?.map_or(0.0, |reading| reading.work);
         }
         Ok(sum)
     }
@@ -250,9 +247,9 @@ impl World {
     /// [`Error::Mechanics`] if the present state has no finite acceleration.
     pub fn attachment(&mut self, index: usize) -> Result<(Vector3<f64>, Vector3<f64>, f64), Error> {
         if let Some(physics) = &self.physics
-            && let Some(transfer) = physics.transfer(index, self.time)?
+            && let Some(reading) = physics.reading(index, self.time)?
         {
-            return Ok((transfer.force, transfer.moment, transfer.gap));
+            return Ok((reading.force, reading.moment, reading.gap.norm()));
         }
         let AttachmentScene { cable, arc_length, .. } = self.scene.attachments[index];
         // a copy, because reading reactions modifies a cable, which wakes it

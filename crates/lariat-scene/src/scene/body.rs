@@ -60,7 +60,7 @@ table! {
 
 table! {
     /// Or `"none"`: a body that touches nothing.
-    keys SHAPE("shape") {
+    keys SHAPE("[body.shape]") {
         /// Half extents.
         cuboid = (), Kind::Numbers(&["x", "y", "z"], POSITIVE.single()), "m";
         /// Radius.

@@ -74,7 +74,7 @@ const fn not_built(name: &'static str, meaning: &'static str) -> Key {
 
 table! {
     /// A solid section of one material.
-    keys SECTION("section") {
+    keys SECTION("[cable.section]") {
         /// Side of a square.
         square = (), Kind::Number(POSITIVE), "m";
         /// Diameter.
@@ -87,7 +87,7 @@ table! {
 
 table! {
     /// A rule by its two parts.
-    struct RulePair("rule") {
+    struct RulePair("[cable.rule]") {
         /// Axial energy.
         axial: AxialRule = required, Kind::Parsed { accepted: "an axial rule of `lariat rules`", parse: parse_as::<AxialRule> };
         /// Bending energy.

@@ -11,7 +11,7 @@ use toml::Value;
 table! {
     /// A flow that changes with height and time: velocity x factor of height x factor of time. Height is measured from the origin
     /// along `up`. A flow that is a function of a program is given in Rust, by `Cable::sample_flow`.
-    keys FLOW for Flow("flow") {
+    keys FLOW for Flow("[cable.drag.flow]") {
         /// Velocity where the factors are 1.
         velocity = required, VECTOR, "m/s";
         /// Factor by height, by rows.
@@ -31,7 +31,7 @@ table! {
 
 table! {
     /// A factor by height.
-    keys PROFILE for Profile("profile") {
+    keys PROFILE for Profile("[cable.drag.flow.profile]") {
         /// Direction of height, not zero.
         up = [0.0, 1.0, 0.0], VECTOR;
         /// Factor by height, linear between rows, constant outside.
@@ -41,7 +41,7 @@ table! {
 
 table! {
     /// The factor (height/reference)^exponent from height 0 to `top`, constant above, 0 below.
-    struct PowerLawTable("power_law") {
+    struct PowerLawTable("[cable.drag.flow.power_law]") {
         /// Direction of height, not zero.
         up: Vector3<f64> = [0.0, 1.0, 0.0], VECTOR;
         /// Height where the factor is 1.

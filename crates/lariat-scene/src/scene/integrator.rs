@@ -7,7 +7,7 @@ use lariat_ancf::{Fidelity, Integrator, IntegratorChoice, Method, StepControl};
 
 table! {
     /// A method with a step control; or `fidelity`, which chooses both.
-    struct IntegratorTable("integrator") {
+    struct IntegratorTable("[cable.integrator]") {
         /// Name of a method, required by all but `tolerance` and `fidelity`.
         method: Option<Method> = ("`\"esdirk4\"`"), Kind::Parsed { accepted: "a name of `lariat integrators`", parse: parse_as::<Method> };
         /// Error of position per host step, for a method with an error estimate.

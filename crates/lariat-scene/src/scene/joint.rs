@@ -113,24 +113,28 @@ pub(super) fn read(doc: &Document<'_>, scene: &Scene, i: usize, row: JointTable)
 /// Checks that a link of a multibody has one joint before it, closes no ring and starts at rest.
 fn check_link(doc: &Document<'_>, scene: &Scene, at: &KeyPath, joint: &JointScene) -> Result<(), Error> {
     let before = |body: usize| scene.joints.iter().find(|j| j.multibody && j.body == body);
-    let refuse = |key: &str, problem: String, accepted: &str| {
+    let invalid = |key: &str, problem: String, accepted: &str| {
         Err(doc.error_accepting(&at.key(key), Problem::Conflict(problem), accepted))
     };
     if let Some(first) = before(joint.body) {
         let problem = format!("it is already a link after joint {:?}", first.name);
-        return refuse("body", problem, "one multibody joint before each link");
+        return invalid("body", problem, "one multibody joint before each link");
     }
     let mut here = joint.to;
     while let Some(body) = here {
         if body == joint.body {
-            return refuse("to", "the links close a ring".to_string(), "a tree; close the ring with multibody = false");
+            return invalid(
+                "to",
+                "the links close a ring".to_string(),
+                "a tree; close the ring with multibody = false",
+            );
         }
         here = before(body).and_then(|j| j.to);
     }
     let link = &scene.bodies[joint.body];
     if link.velocity.norm() + link.angular_velocity.norm() > 0.0 {
         let problem = format!("body {:?} has a velocity, and links of a multibody start at rest", link.name);
-        return refuse("body", problem, "a body without velocity and angular_velocity");
+        return invalid("body", problem, "a body without velocity and angular_velocity");
     }
     Ok(())
 }

@@ -73,10 +73,10 @@ pub(super) fn read(doc: &Document<'_>, scene: &Scene, i: usize, row: JunctionTab
 pub(super) fn check_start(doc: &Document<'_>, scene: &Scene, cables: &[Cable]) -> Result<(), Error> {
     for (i, junction) in scene.junctions.iter().enumerate() {
         let at = KeyPath::root("junction").item(i);
-        let place = |(cable, s): (usize, f64)| {
+        let position = |(cable, s): (usize, f64)| {
             cables[cable].sample(s).map(|x| x.position).map_err(|error| doc.conflict(&at, error.to_string()))
         };
-        let [a, b] = [place(junction.points[0])?, place(junction.points[1])?];
+        let [a, b] = [position(junction.points[0])?, position(junction.points[1])?];
         let gap = (b - a).norm();
         if gap > JUNCTION_GAP {
             let (a, b) = (a.as_slice(), b.as_slice());

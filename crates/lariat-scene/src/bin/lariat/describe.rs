@@ -46,6 +46,8 @@ fn cable(statics: &CableStatics) -> String {
         short(statics.peak_tension_n),
         short(statics.peak_tension_at_m)
     );
+    let length = statics.reactions.last().map_or(0.0, |reaction| reaction.at_m);
+    let moment = statics.peak_tension_n.abs() * length;
     for reaction in &statics.reactions {
         // writing to a String cannot fail
         let _ = writeln!(
@@ -53,16 +55,17 @@ fn cable(statics: &CableStatics) -> String {
             "  on {:?} at {} m: force {} N, moment {} N m",
             reaction.name,
             short(reaction.at_m),
-            vector(&reaction.force_n),
-            vector(&reaction.moment_nm)
+            vector(&reaction.force_n, 0.0),
+            vector(&reaction.moment_nm, moment)
         );
     }
     text
 }
 
-/// Returns three numbers, with zero for those below the rounding of the largest.
-fn vector(x: &[f64; 3]) -> String {
-    let least = 1e-9 * x.iter().fold(0.0, |largest: f64, x| largest.max(x.abs()));
+/// Returns three numbers, with zero for those that are rounding errors of the largest, or of a quantity of size `scale`.
+fn vector(x: &[f64; 3], scale: f64) -> String {
+    let largest = x.iter().fold(0.0, |largest: f64, x| largest.max(x.abs()));
+    let least = (1e-9 * largest).max(1e-12 * scale);
     let numbers = x.map(|x| if x.abs() <= least { "0".to_string() } else { short(x) });
     format!("[{}]", numbers.join(", "))
 }
