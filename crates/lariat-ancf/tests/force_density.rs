@@ -114,7 +114,7 @@ fn derivatives_of_a_force_are_its_differences() {
         let v: Vec<f64> = q.iter().map(|_| random.next()).collect();
         bare.set_coordinates(&q, &v).unwrap();
         let mut cable = bare.clone();
-        cable.attach_force_density(Arc::new(Everything { derivatives })).unwrap();
+        cable.add_force_density(Arc::new(Everything { derivatives })).unwrap();
         let exact = cable.jacobians();
         for (by_velocity, matrix) in [(false, &exact.stiffness), (true, &exact.damping)] {
             let mut expected = DMatrix::zeros(q.len(), q.len());
@@ -293,7 +293,7 @@ fn evaluations_are_counted() {
     let mut cable = soft_cable().build().unwrap();
     cable.step(0.01).unwrap();
     assert_eq!(cable.diagnostics().effects, Default::default());
-    cable.attach_force_density(Well::new()).unwrap();
+    cable.add_force_density(Well::new()).unwrap();
     let before = *cable.diagnostics();
     cable.step(0.01).unwrap();
     let counted = cable.diagnostics().since(&before);
@@ -338,7 +338,7 @@ fn a_run_goes_on_bitwise_after_functions_are_attached_again() {
     assert!(missing(read.step(1.0 / 60.0).unwrap_err()));
     assert!(missing(read.equilibrium().unwrap_err()));
     assert_eq!(serde_json::to_string(&read).unwrap(), text);
-    read.attach_force_density(well).unwrap();
+    read.add_force_density(well).unwrap();
     (0..5).for_each(|_| read.step(1.0 / 60.0).unwrap());
     assert_eq!(read.positions(), cable.positions());
     assert_eq!(read.effect_work(), cable.effect_work());
