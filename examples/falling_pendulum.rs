@@ -5,7 +5,7 @@
 use cpu_time::ProcessTime;
 use lariat::{At, Cable, Section, Vector3};
 use lariat_figures::reference_pendulum as pendulum;
-use lariat_figures::{self as figures, Snapshot};
+use lariat_figures::{self as figures, Shape, ShapeFigure};
 
 const TOLERANCE: f64 = 1e-3; // m, largest allowed distance of the tip from the converged solution
 
@@ -16,7 +16,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         .elements(16)
         .fix(At::Start)
         .build()?;
-    let (mut tip, mut shots, mut csv, mut cpu_ms) = (Vec::new(), Vec::new(), "t,x,y,z\n".to_string(), 0.0);
+    let (mut tip, mut shapes, mut csv, mut cpu_ms) = (Vec::new(), Vec::new(), "t,x,y,z\n".to_string(), 0.0);
     for k in 0..=200 {
         let (t, clock) = (f64::from(k) / 100.0, ProcessTime::now());
         cable.step(t - cable.time())?;
@@ -25,7 +25,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         tip.push(p);
         csv += &format!("{t:?},{:?},{:?},{:?}\n", p.x, p.y, p.z);
         if k % 20 == 0 {
-            shots.push(Snapshot::of(&cable));
+            shapes.push(Shape::of(&cable));
         }
     }
 
@@ -46,8 +46,9 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let out = std::path::Path::new("out/falling_pendulum");
     std::fs::create_dir_all(out)?;
     std::fs::write(out.join("tip.csv"), csv)?;
-    figures::snapshots(&out.join("snapshots.svg"), "Falling pendulum, 2 m", &shots)?;
-    figures::tip(&out.join("tip.svg"), &figures::pendulum_tip("16 elements, default rule", &tip)?)?;
+    let snapshots = ShapeFigure { title: "Falling pendulum, 2 m".into(), shapes };
+    std::fs::write(out.join("snapshots.svg"), snapshots.svg()?)?;
+    std::fs::write(out.join("tip.svg"), figures::pendulum_tip("16 elements, default rule", &tip)?.svg()?)?;
 
     let error = tip.iter().zip(&beam).map(|(p, real)| (p - real).norm()).fold(0.0, f64::max);
     println!(

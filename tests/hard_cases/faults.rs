@@ -1,4 +1,5 @@
-//! Faults put in on purpose: the last good state stays, the error names the culprit, and the next step works when the cause is gone.
+//! Faults put in on purpose: the last good state stays, the error names the culprit, and the next
+//! step works when the cause is gone.
 
 use lariat_ancf::{At, PointLoad, Section, Vector3};
 use lariat_rapier::rapier::prelude::*;
@@ -65,7 +66,8 @@ impl Hung {
     }
 }
 
-/// A velocity or a spin that is not a number: the error names the body and what is wrong; set right, the run goes on.
+/// A velocity or a spin that is not a number: the error names the body and what is wrong; set
+/// right, the run goes on.
 ///
 /// *Source.* The contract.
 #[test]
@@ -114,7 +116,8 @@ fn an_infinite_force_is_refused_by_name() {
     }
 }
 
-/// A body without mass cannot be integrated: it holds its end, as a fixed one does, and takes the load again with its mass.
+/// A body without mass cannot be integrated: it holds its end, as a fixed one does, and takes the
+/// load again with its mass.
 ///
 /// *Source.* Rapier does not move a dynamic body without mass by forces.
 #[test]
@@ -128,7 +131,8 @@ fn a_body_that_loses_its_mass_holds_its_end() {
     h.goes_on();
 }
 
-/// A load on the cable that no step can carry, in the middle of the run: the error names the cable and the time.
+/// A load on the cable that no step can carry, in the middle of the run: the error names the cable
+/// and the time.
 ///
 /// *Source.* The contract. 1e300 N overflows.
 #[test]
@@ -142,7 +146,8 @@ fn an_impossible_load_is_refused_and_the_next_step_works_without_it() {
     h.goes_on();
 }
 
-/// A place that is not a number, and a step of the world that is not: refused; set right, the run goes on.
+/// A place that is not a number, and a step of the world that is not: refused; set right, the run
+/// goes on.
 ///
 /// *Source.* The contract.
 #[test]

@@ -215,7 +215,10 @@ fn errors_about_numbers_of_a_cable_carry_its_name() {
     let support = Support { position: Some(Motion::fixed(nan)), ..Support::default() };
     for error in [
         pendulum(4).length(-1.0).build().err(),
-        pendulum(4).effects(Effects { gravity_scale: Some(GravityScale(f64::NAN)), ..Effects::default() }).build().err(),
+        pendulum(4)
+            .effects(Effects { gravity_scale: Some(GravityScale(f64::NAN)), ..Effects::default() })
+            .build()
+            .err(),
         cable.step(-1.0).err(),
         cable.set_gravity(nan).err(),
         cable.set_drag(drag).err(),

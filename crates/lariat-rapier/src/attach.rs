@@ -74,30 +74,18 @@ pub(crate) fn detach(
     world: &mut PhysicsWorld,
     attachment: AttachmentHandle,
 ) -> Result<(), Error> {
-    let Attachment { cable, node, .. } = *contents.attachment(attachment)?;
-    contents.cable(cable)?;
-    release_body(contents, world, attachment)?;
-    contents.cable_mut(cable)?.detach(At::Node(node))?;
-    Ok(())
-}
-
-/// Ends an attachment on the side of its body.
-pub(crate) fn release_body(
-    contents: &mut Contents,
-    world: &mut PhysicsWorld,
-    attachment: AttachmentHandle,
-) -> Result<(), Error> {
     let removed = contents.attachments.remove(attachment.0 as usize);
-    let ended = removed.ok_or(Error::NoAttachment(attachment))?;
+    let Attachment { cable, node, body, ledger, .. } = removed.ok_or(Error::NoAttachment(attachment))?;
     contents.changed = true;
-    if let Some(ledger) = ended.ledger {
+    if let Some(ledger) = ledger {
         world.remove_body(ledger.body);
     }
     // the reaction estimate is invalid without this cable
-    contents.records.record_mut(ended.body).reaction = Vector6::zeros();
-    if world.bodies.contains(ended.body) {
-        world.islands.wake_up(&mut world.bodies, ended.body, true);
+    contents.records.record_mut(body).reaction = Vector6::zeros();
+    if world.bodies.contains(body) {
+        world.islands.wake_up(&mut world.bodies, body, true);
     }
+    contents.cable_mut(cable)?.detach(At::Node(node))?;
     Ok(())
 }
 

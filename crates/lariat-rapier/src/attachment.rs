@@ -14,8 +14,9 @@ pub enum AttachmentKind {
     /// A ball joint: the position of the node. It transmits no moment.
     #[default]
     Ball,
-    /// The position of the node and the direction of its tangent: moments reach the body. The length
-    /// of the tangent (the stretch) stays free, and so does twist, which these cables do not have.
+    /// The position of the node and the direction of its tangent: moments reach the body. The
+    /// length of the tangent (the stretch) stays free, and so does twist, which these cables do not
+    /// have.
     Clamp,
 }
 
@@ -116,8 +117,8 @@ impl Attachment {
         self.reading.work
     }
 
-    /// Returns the part of this work that the cable did not lose, in J: force times the growth of the
-    /// gap, summed over Rapier's steps.
+    /// Returns the part of this work that the cable did not lose, in J: force times the growth of
+    /// the gap, summed over Rapier's steps.
     pub fn residual(&self) -> f64 {
         self.reading.residual
     }

@@ -19,8 +19,8 @@ pub(crate) fn is_integrated(world: &PhysicsWorld, handle: RigidBodyHandle) -> bo
         .is_some_and(|b| b.is_dynamic() && b.is_enabled() && b.mass_properties().local_mprops.inv_mass > 0.0)
 }
 
-/// Returns a body as Rapier holds it: mass, inertia, state in `f64`, and the forces of gravity and the
-/// user. A body without inertia does not rotate. `None` if it is not in the world.
+/// Returns a body as Rapier holds it: mass, inertia, state in `f64`, and the forces of gravity and
+/// the user. A body without inertia does not rotate. `None` if it is not in the world.
 pub fn rigid_body(world: &PhysicsWorld, handle: RigidBodyHandle) -> Option<RigidBody> {
     let body = world.bodies.get(handle)?;
     let properties = body.mass_properties();
@@ -52,8 +52,8 @@ pub fn rigid_body(world: &PhysicsWorld, handle: RigidBodyHandle) -> Option<Rigid
     })
 }
 
-/// Reads a body of the world: as [`rigid_body`], with the state in `f64` that its record keeps and the
-/// reaction estimate as a further force. A sleeping body stands still.
+/// Reads a body of the world: as [`rigid_body`], with the state in `f64` that its record keeps and
+/// the reaction estimate as a further force. A sleeping body stands still.
 pub(crate) fn read(
     world: &PhysicsWorld,
     handle: RigidBodyHandle,
@@ -126,7 +126,8 @@ impl SavedBody {
         body.set_angular_damping(self.angular_damping);
     }
 
-    /// Returns the factors by which Rapier's damping multiplies velocity and angular velocity in `h` (s).
+    /// Returns the factors by which Rapier's damping multiplies velocity and angular velocity in
+    /// `h` (s).
     pub fn damping_factors(&self, h: f64) -> (f64, f64) {
         let factor = |damping: Real| 1.0 / (1.0 + h * f64::from(damping));
         (factor(self.linear_damping), factor(self.angular_damping))

@@ -38,7 +38,7 @@ impl Slot {
 /// The contents of a set: all of its state.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub(crate) struct Contents {
-    pub cables: Table<Box<Slot>>,
+    pub cables: Table<Slot>,
     pub attachments: Table<Attachment>,
     pub junctions: Table<Junction>,
     pub records: Records,
@@ -61,7 +61,7 @@ impl Contents {
         let gravity = cable.gravity();
         let follows_gravity = gravity == lariat_ancf::STANDARD_GRAVITY;
         let slot = Slot { asleep: false, modified: true, follows_gravity, gravity, sort_key, cable };
-        let index = self.cables.push(Box::new(slot));
+        let index = self.cables.push(slot);
         self.changed = true;
         self.gravity = None;
         CableHandle(index as u32)
@@ -69,7 +69,7 @@ impl Contents {
 
     /// Returns the slot of a cable.
     pub fn slot(&self, cable: CableHandle) -> Option<&Slot> {
-        self.cables.get(cable.0 as usize).map(Box::as_ref)
+        self.cables.get(cable.0 as usize)
     }
 
     /// Returns a cable.
@@ -103,8 +103,8 @@ impl Contents {
         found.into_iter().map(|(_, cable)| cable).collect()
     }
 
-    /// Copies the world's gravity to the cables that follow it when it changed, unless theirs is equal
-    /// to it within Rapier's rounding.
+    /// Copies the world's gravity to the cables that follow it when it changed, unless theirs is
+    /// equal to it within Rapier's rounding.
     pub fn follow_gravity(&mut self, world: &PhysicsWorld) -> Result<(), Error> {
         if self.gravity == Some(world.gravity) {
             return Ok(());

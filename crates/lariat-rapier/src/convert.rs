@@ -1,4 +1,5 @@
-//! Conversion between Rapier's numbers (glam, [`Real`]) and those of the mechanics (nalgebra, `f64`).
+//! Conversion between Rapier's numbers (glam, [`Real`]) and those of the mechanics (nalgebra,
+//! `f64`).
 //!
 //! A function named after a type returns that of the mechanics; one with `to_` returns Rapier's.
 

@@ -21,7 +21,8 @@ impl Default for DrawStyle {
     }
 }
 
-/// Draws cables as lines of a body with an invalid handle, which a filter of the renderer may reject.
+/// Draws cables as lines of a body with an invalid handle, which a filter of the renderer may
+/// reject.
 pub(crate) fn draw<'a>(
     cables: impl Iterator<Item = &'a Cable>,
     backend: &mut impl DebugRenderBackend,

@@ -25,7 +25,8 @@ pub(crate) fn remove(contents: &mut Contents, world: &mut PhysicsWorld, cable: C
     contents.cables.remove(cable.0 as usize).map(|slot| slot.cable).ok_or(Error::NoCable(cable))
 }
 
-/// Cuts a cable in two; `cable` keeps the part before the cut. Returns the handle of the other part.
+/// Cuts a cable in two; `cable` keeps the part before the cut. Returns the handle of the other
+/// part.
 pub(crate) fn cut(contents: &mut Contents, cable: CableHandle, at: At) -> Result<CableHandle, Error> {
     let kept = contents.cable_mut(cable)?;
     let rest = kept.cut(at)?;

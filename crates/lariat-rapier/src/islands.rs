@@ -99,7 +99,7 @@ impl Islands {
         renumber(contents)?;
         self.nodes.clear();
         self.nodes.extend(attached_nodes(contents, world));
-        let mut order: Vec<(usize, &Slot)> = contents.cables.iter().map(|(c, slot)| (c, slot.as_ref())).collect();
+        let mut order: Vec<(usize, &Slot)> = contents.cables.iter().collect();
         order.sort_by(|(a, one), (b, two)| one.order(two).then(a.cmp(b)));
         let order: Vec<usize> = order.into_iter().map(|(c, _)| c).collect();
         let rank = |cable: usize| order.iter().position(|&c| c == cable);
@@ -136,10 +136,10 @@ fn attached_node(world: &PhysicsWorld, attachment: usize, a: &Attachment) -> Att
     AttachedNode { attachment, cable, node, body, role, anchor: a.anchor - centre, direction: a.direction }
 }
 
-/// Finds the nodes of attachments and junctions by their arc lengths, since the user may have inserted
-/// others.
+/// Finds the nodes of attachments and junctions by their arc lengths, since the user may have
+/// inserted others.
 fn renumber(contents: &mut Contents) -> Result<(), Error> {
-    let node = |cables: &Table<Box<Slot>>, cable: CableHandle, s: f64| {
+    let node = |cables: &Table<Slot>, cable: CableHandle, s: f64| {
         cables.get(cable.0 as usize).map_or(Ok(0), |slot| slot.cable.node(s))
     };
     for a in contents.attachments.values_mut() {

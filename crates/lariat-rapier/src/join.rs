@@ -75,30 +75,19 @@ pub(crate) fn leave(contents: &mut Contents, handle: JunctionHandle, cable: Cabl
     for (other, _) in &before.nodes {
         contents.cable_mut(*other)?;
     }
-    for (cable, node) in remove_cable(contents, handle, cable) {
+    let nodes = before.nodes.into_iter().zip(before.arc_lengths);
+    let (removed, kept): (Vec<_>, Vec<_>) = nodes.partition(|((c, _), _)| *c == cable);
+    let mut freed: Vec<(CableHandle, usize)> = removed.into_iter().map(|(node, _)| node).collect();
+    let (mut nodes, arc_lengths): (Vec<_>, Vec<_>) = kept.into_iter().unzip();
+    if nodes.len() < 2 {
+        freed.append(&mut nodes);
+        contents.junctions.remove(handle.0 as usize);
+    } else if let Some(junction) = contents.junctions.get_mut(handle.0 as usize) {
+        *junction = Junction { nodes, arc_lengths, memory: None };
+    }
+    contents.changed = true;
+    for (cable, node) in freed {
         contents.cable_mut(cable)?.detach(At::Node(node))?;
     }
     Ok(())
-}
-
-/// Takes a cable out of a junction, and returns the nodes that are free now: those of the cable, and
-/// the last one of a junction that ends.
-pub(crate) fn remove_cable(
-    contents: &mut Contents,
-    handle: JunctionHandle,
-    cable: CableHandle,
-) -> Vec<(CableHandle, usize)> {
-    let index = handle.0 as usize;
-    let Some(junction) = contents.junctions.get_mut(index) else { return Vec::new() };
-    let old = junction.nodes.iter().copied().zip(junction.arc_lengths.iter().copied());
-    let (removed, kept): (Vec<_>, Vec<_>) = old.partition(|((c, _), _)| *c == cable);
-    let mut freed: Vec<(CableHandle, usize)> = removed.into_iter().map(|(node, _)| node).collect();
-    (junction.nodes, junction.arc_lengths) = kept.into_iter().unzip();
-    junction.memory = None;
-    if junction.nodes.len() < 2 {
-        freed.append(&mut junction.nodes);
-        contents.junctions.remove(index);
-    }
-    contents.changed = true;
-    freed
 }

@@ -6,8 +6,8 @@
 //! motor over a step h:  p = D (v_target - mean velocity of the anchor)      D = damping h
 //! ledger of mass M:     p = -M v_ledger
 //! ```
-//! A `ForceBased` motor of stiffness 0 and damping d acts over Rapier's substeps as the impulse
-//! `d h (target - mean velocity)`. The ledger takes the opposite impulse, so that its velocity after
+//! A `ForceBased` motor of stiffness 0 and damping d acts over Rapier's substeps as the impulse `d
+//! h (target - mean velocity)`. The ledger takes the opposite impulse, so that its velocity after
 //! the step tells the total impulse p; the impulse that Rapier reports is that of its last substep.
 //!
 //! # Validity
@@ -53,8 +53,8 @@ impl Ledger {
         Ledger { body, joint: world.insert_impulse_joint(body, attached, joint) }
     }
 
-    /// Sets the motors for a step of `h` (s): impedance `d` (kg) about the velocity `target` (m/s) of
-    /// the point `anchor` (m) of the body.
+    /// Sets the motors for a step of `h` (s): impedance `d` (kg) about the velocity `target` (m/s)
+    /// of the point `anchor` (m) of the body.
     pub fn set_motors(
         &self,
         world: &mut PhysicsWorld,

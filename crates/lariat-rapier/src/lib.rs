@@ -38,61 +38,67 @@
 //! Rapier's solver accepts no constraints from outside, so the coupling acts between its steps. Per
 //! Rapier step h:
 //!
-//! 1. **Predict.** Cables and the dynamic bodies attached to them are integrated together as one system
-//!    ([`lariat_ancf::island`]), with the cables' own integrator and tolerance. Bodies are free, under
-//!    gravity, applied forces and an estimate r of the contact and joint forces. A body that joints hold
-//!    is predicted with the inertia and the loads of all that it moves with.
-//! 2. **Apply.** Rapier is given the predicted motion as a uniform one, `linvel = dx/h`,
-//!    `angvel = log(R1 R0^-1)/h`, and a force `-r` in place of gravity and applied forces. A body in
-//!    contact with nothing lands where it was predicted, for any settings of Rapier. A body near others
-//!    also gets an impedance: motors between each attachment and a heavy *ledger* body. If the prediction
-//!    was right they do nothing; if a contact or a joint makes the body deviate, it feels the cable within
-//!    the same step.
+//! 1. **Predict.** Cables and the dynamic bodies attached to them are integrated together as one
+//!    system ([`lariat_ancf::island`]), with the cables' own integrator and tolerance. Bodies are
+//!    free, under gravity, applied forces and an estimate r of the contact and joint forces. A body
+//!    that joints hold is predicted with the inertia and the loads of all that it moves with.
+//! 2. **Apply.** Rapier is given the predicted motion as a uniform one, `linvel = dx/h`, `angvel =
+//!    log(R1 R0^-1)/h`, and a force `-r` in place of gravity and applied forces. A body in contact
+//!    with nothing lands where it was predicted, for any settings of Rapier. A body near others
+//!    also gets an impedance: motors between each attachment and a heavy *ledger* body. If the
+//!    prediction was right they do nothing; if a contact or a joint makes the body deviate, it
+//!    feels the cable within the same step.
 //! 3. **Reconcile.** A body that landed keeps its predicted state in `f64`, so that Rapier's single
-//!    precision does not excite a stiff cable. For one that deviated, the impulse of the motors acts on
-//!    the cable, the body keeps its whole predicted change of velocity, and r is updated from the
-//!    velocity and position residuals. The gap that is left closes during the next prediction.
+//!    precision does not excite a stiff cable. For one that deviated, the impulse of the motors
+//!    acts on the cable, the body keeps its whole predicted change of velocity, and r is updated
+//!    from the velocity and position residuals. The gap that is left closes during the next
+//!    prediction.
 //!
-//! Fixed, kinematic and disabled bodies prescribe the motion of their cable's end, and rotate a clamp.
-//! Cables and bodies that come to rest fall asleep and wake up together.
+//! Fixed, kinematic and disabled bodies prescribe the motion of their cable's end, and rotate a
+//! clamp. Cables and bodies that come to rest fall asleep and wake up together.
 //!
-//! *Order.* Integrators keep their accelerations from step to step, so generalised-alpha and Verlet keep
-//! order 2; an implicit method keeps the order that it has on a cable alone.
+//! *Order.* Integrators keep their accelerations from step to step, so generalised-alpha and Verlet
+//! keep order 2; an implicit method keeps the order that it has on a cable alone.
 //!
-//! *Energy balance.* At every attachment, force and moment are the cable's residual after each step of
-//! its integrator; impulse and work are their integrals by the trapezoidal rule ([`Attachment`]).
+//! *Energy balance.* At every attachment, force and moment are the cable's residual after each step
+//! of its integrator; impulse and work are their integrals by the trapezoidal rule
+//! ([`Attachment`]).
 //!
 //! # Validity
-//! - See the limits of [`CableSet`]: no contact of cables, no reel, one number of Rapier steps for the
-//!   whole world, and what is predicted of mechanisms.
-//! - An undamped cable oscillates for ever, and so does the force at its end: a rope that was slack and
-//!   bowed has a tension ripple of 1 % when it is taut, with any integrator. Give it damping
+//! - See the limits of [`CableSet`]: no contact of cables, no reel, one number of Rapier steps for
+//!   the whole world, and what is predicted of mechanisms.
+//! - An undamped cable oscillates for ever, and so does the force at its end: a rope that was slack
+//!   and bowed has a tension ripple of 1 % when it is taut, with any integrator. Give it damping
 //!   ([`lariat_ancf::Damping`]), or an integrator that damps.
-//! - Jams need a cable that damps: generalised-alpha-0 at 1/480 s holds 5 kN on a box of 1 kg to 0.02 %.
-//!   With the default, ESDIRK4, which hardly damps, a steel wire of 3 mm oscillates by 70 N on it.
-//! - A joint counts as at its limit within 1e-3 m or rad of it, and may come to rest that far before it.
-//! - A cable is smooth at a node: bent sharply over a hook, its tension oscillates along the cable near
-//!   it. Tie two cables with [`CableSet::join`] instead.
-//! - If the velocity of a kinematic body is set anew at every host step, the work of a clamp on it is some
-//!   per cent short of the energy that the cable gains: the work in the jumps is known approximately.
-//! - Damping of Rapier's bodies acts at the end of a step; with it, a body's accelerations are not kept.
-//! - Kinematic bodies move with Rapier's precision: in single precision a slow winch moves in jumps of
-//!   2e-7 m at 2 m, 2 N of a steel bar of 1 cm^2. The package `lariat-rapier-f64`, of the same source, has
-//!   none of this.
+//! - Jams need a cable that damps: generalised-alpha-0 at 1/480 s holds 5 kN on a box of 1 kg to
+//!   0.02 %. With the default, ESDIRK4, which hardly damps, a steel wire of 3 mm oscillates by 70 N
+//!   on it.
+//! - A joint counts as at its limit within 1e-3 m or rad of it, and may come to rest that far
+//!   before it.
+//! - A cable is smooth at a node: bent sharply over a hook, its tension oscillates along the cable
+//!   near it. Tie two cables with [`CableSet::join`] instead.
+//! - If the velocity of a kinematic body is set anew at every host step, the work of a clamp on it
+//!   is some per cent short of the energy that the cable gains: the work in the jumps is known
+//!   approximately.
+//! - Damping of Rapier's bodies acts at the end of a step; with it, a body's accelerations are not
+//!   kept.
+//! - Kinematic bodies move with Rapier's precision: in single precision a slow winch moves in jumps
+//!   of 2e-7 m at 2 m, 2 N of a steel bar of 1 cm^2. The package `lariat-rapier-f64`, of the same
+//!   source, has none of this.
 //!
 //! # References
 //! - Each file of the source names the equations it solves, their sources and their limits.
-//! - Khatib, A unified approach for motion and force control of robot manipulators: the operational space
-//!   formulation, 1987. Featherstone, Rigid Body Dynamics Algorithms, 2008. Udwadia and Kalaba, A new
-//!   perspective on constrained motion, 1992.
+//! - Khatib, A unified approach for motion and force control of robot manipulators: the operational
+//!   space formulation, 1987. Featherstone, Rigid Body Dynamics Algorithms, 2008. Udwadia and
+//!   Kalaba, A new perspective on constrained motion, 1992.
 //!
 //! # Alternatives considered
-//! Measured and rejected: the force of the last step applied to the body (explicit staggering), which is
-//! unstable for light bodies and steel; the impulses of cable and free body, which contacts undo;
-//! prescribing the motion of the body to the cable and returning the whole difference, which is unstable;
-//! motors alone, which leave gaps in jams; rolling Rapier back and iterating, at four times the cost and
-//! still failing in jams. Motors on a body that a joint holds to the world: a gap of 1e-2 m at 5 kN,
-//! 4e-6 m without.
+//! Measured and rejected: the force of the last step applied to the body (explicit staggering),
+//! which is unstable for light bodies and steel; the impulses of cable and free body, which
+//! contacts undo; prescribing the motion of the body to the cable and returning the whole
+//! difference, which is unstable; motors alone, which leave gaps in jams; rolling Rapier back and
+//! iterating, at four times the cost and still failing in jams. Motors on a body that a joint holds
+//! to the world: a gap of 1e-2 m at 5 kN, 4e-6 m without.
 
 mod attach;
 mod attachment;

@@ -63,7 +63,8 @@ impl ExactState {
         }
     }
 
-    /// Replaces what `out` reads of `body` by this state, as far as `body` is still as it was written.
+    /// Replaces what `out` reads of `body` by this state, as far as `body` is still as it was
+    /// written.
     pub fn apply_to(&self, body: &RapierBody, out: &mut RigidBody) {
         if self.pose != *body.position()
             || self.centre != body.local_center_of_mass()

@@ -27,17 +27,18 @@ use serde::{Deserialize, Serialize};
 /// - Cables do not collide: neither with colliders nor with each other.
 /// - A cable has a fixed natural length: there is no reel. [`cut`](Self::cut) and
 ///   [`get_mut`](Self::get_mut) change it between steps.
-/// - All cables of a set share one number of Rapier steps per host step ([`Settings`]), which is also
-///   that of the whole world: a pile of bodies costs as many Rapier steps as the cables need.
-/// - The bodies of a mechanism (a multibody, or bodies joined by impulse joints) are predicted together
-///   only if the cables are attached to one of them and none of the others touches a body from outside.
-///   Otherwise their effect is estimated from step to step, and limits of multibody joints chatter.
-///   Chains of impulse joints count up to 24 bodies.
+/// - All cables of a set share one number of Rapier steps per host step ([`Settings`]), which is
+///   also that of the whole world: a pile of bodies costs as many Rapier steps as the cables need.
+/// - The bodies of a mechanism (a multibody, or bodies joined by impulse joints) are predicted
+///   together only if the cables are attached to one of them and none of the others touches a body
+///   from outside. Otherwise their effect is estimated from step to step, and limits of multibody
+///   joints chatter. Chains of impulse joints count up to 24 bodies.
 /// - If one cable cannot step, no cable and no body advances.
 ///
 /// # Snapshots
-/// A set serialises with all of its state; a snapshot of (world, set) replays to the bit. JSON needs
-/// `serde_json` with its feature `float_roundtrip`, without which numbers change in their last digit.
+/// A set serialises with all of its state; a snapshot of (world, set) replays to the bit. JSON
+/// needs `serde_json` with its feature `float_roundtrip`, without which numbers change in their
+/// last digit.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub struct CableSet {
     /// How the set steps.
@@ -53,8 +54,8 @@ impl CableSet {
         Self::default()
     }
 
-    /// Adds a cable; its clock is set to that of the others. If its gravity is the builder's default,
-    /// it follows the world's until the user sets it; else it keeps its own.
+    /// Adds a cable; its clock is set to that of the others. If its gravity is the builder's
+    /// default, it follows the world's until the user sets it; else it keeps its own.
     pub fn insert(&mut self, cable: Cable) -> CableHandle {
         self.contents.insert(cable)
     }
@@ -67,8 +68,9 @@ impl CableSet {
         edit::remove(&mut self.contents, world, cable)
     }
 
-    /// Cuts a cable at a point between its ends; `cable` keeps the part before it. Returns the handle of
-    /// the other part. Attachments and junctions go with their part; those at the cut stay with `cable`.
+    /// Cuts a cable at a point between its ends; `cable` keeps the part before it. Returns the
+    /// handle of the other part. Attachments and junctions go with their part; those at the cut
+    /// stay with `cable`.
     ///
     /// # Errors
     /// [`Error::NoCable`], or [`Error::Cable`] for a point that is not between the ends.
@@ -105,13 +107,13 @@ impl CableSet {
         self.contents.slot(cable).map(|slot| slot.asleep).ok_or(Error::NoCable(cable))
     }
 
-    /// Attaches a point of a cable to a point of a body (body axes from its origin, in m). A node is
-    /// inserted there if there is none. A gap closes in the next step, at 10 m/s at most; a clamp keeps
-    /// the angle that tangent and body have now.
+    /// Attaches a point of a cable to a point of a body (body axes from its origin, in m). A node
+    /// is inserted there if there is none. A gap closes in the next step, at 10 m/s at most; a
+    /// clamp keeps the angle that tangent and body have now.
     ///
     /// # Errors
-    /// [`Error::NoCable`], [`Error::NoBody`], [`Error::AlreadyAttached`], [`Error::AnchorNotFinite`],
-    /// or [`Error::Cable`] for a point that is not on the cable.
+    /// [`Error::NoCable`], [`Error::NoBody`], [`Error::AlreadyAttached`],
+    /// [`Error::AnchorNotFinite`], or [`Error::Cable`] for a point that is not on the cable.
     pub fn attach(
         &mut self,
         world: &PhysicsWorld,
@@ -163,12 +165,12 @@ impl CableSet {
     }
 
     /// Ties a point of a cable to a point of another, or of itself: they share one position, like a
-    /// massless shackle. Nodes are inserted there if there are none; a gap closes in the next step. If
-    /// one of the points is part of a junction, the other joins that junction.
+    /// massless shackle. Nodes are inserted there if there are none; a gap closes in the next step.
+    /// If one of the points is part of a junction, the other joins that junction.
     ///
     /// # Errors
-    /// [`Error::NoCable`]; [`Error::AlreadyAttached`] for a node that is attached to a body, or if both
-    /// are part of junctions; [`Error::Cable`] for a point that is not on its cable.
+    /// [`Error::NoCable`]; [`Error::AlreadyAttached`] for a node that is attached to a body, or if
+    /// both are part of junctions; [`Error::Cable`] for a point that is not on its cable.
     pub fn join(&mut self, first: (CableHandle, At), second: (CableHandle, At)) -> Result<JunctionHandle, Error> {
         join::join(&mut self.contents, first, second)
     }
@@ -189,12 +191,12 @@ impl CableSet {
         self.contents.junction(junction)
     }
 
-    /// Advances cables and world by a host step of `world.integration_parameters.dt`, split into Rapier
-    /// steps as the [`Settings`] say.
+    /// Advances cables and world by a host step of `world.integration_parameters.dt`, split into
+    /// Rapier steps as the [`Settings`] say.
     ///
     /// # Errors
-    /// [`Error::Cable`] if a cable cannot step, [`Error::BodyNotFinite`]. Cables and bodies are then as
-    /// after the last Rapier step that succeeded.
+    /// [`Error::Cable`] if a cable cannot step, [`Error::BodyNotFinite`]. Cables and bodies are
+    /// then as after the last Rapier step that succeeded.
     pub fn step(&mut self, world: &mut PhysicsWorld) -> Result<(), Error> {
         self.step_with_events(world, &(), &())
     }
@@ -225,7 +227,8 @@ impl CableSet {
     /// Begins a host step, for those who step Rapier themselves: as long as
     /// [`is_unfinished`](HostStep::is_unfinished), call [`predict_next`](Self::predict_next), step
     /// Rapier, and call [`reconcile`](Self::reconcile); in the end, or after an error, call
-    /// [`finish`](Self::finish). Meanwhile `world.integration_parameters.dt` is that of a Rapier step.
+    /// [`finish`](Self::finish). Meanwhile `world.integration_parameters.dt` is that of a Rapier
+    /// step.
     ///
     /// # Errors
     /// [`Error::TimeStep`].
@@ -267,8 +270,8 @@ impl CableSet {
         &self.stepper.failed
     }
 
-    /// Returns the linear momentum (kg m/s) and the angular momentum about the origin (kg m^2/s) of all
-    /// cables and enabled dynamic bodies.
+    /// Returns the linear momentum (kg m/s) and the angular momentum about the origin (kg m^2/s) of
+    /// all cables and enabled dynamic bodies.
     ///
     /// # Errors
     /// [`Error::BodyNotFinite`].

@@ -1,14 +1,15 @@
 //! Sleep: a cable falls asleep with the bodies attached to it, and wakes up with them.
 //!
 //! # Scheme
-//! Rapier puts a body to sleep that was slower than 0.05 m/s for half a second. On a cable that is too
-//! soon: a steel wire that bounces so slowly is far from the tension at which it will rest. Therefore
-//! the time until sleep starts anew as long as a cable or a body of the island is faster than
+//! Rapier puts a body to sleep that was slower than 0.05 m/s for half a second. On a cable that is
+//! too soon: a steel wire that bounces so slowly is far from the tension at which it will rest.
+//! Therefore the time until sleep starts anew as long as a cable or a body of the island is faster
+//! than
 //! [`Settings::sleep_speed`](crate::Settings), the force at an attachment changes by more than
 //! [`STEADY_FORCE_CHANGE`] from its value when that time began, a load ramps, or an end moves.
 //!
-//! An island whose bodies all sleep is not stepped; only its clock advances. It wakes up when one of
-//! its bodies does, an end moves, a cable is modified, or gravity or an attachment changes.
+//! An island whose bodies all sleep is not stepped; only its clock advances. It wakes up when one
+//! of its bodies does, an end moves, a cable is modified, or gravity or an attachment changes.
 //!
 //! # Validity
 //! The cable must come to rest; without damping it never does.
@@ -31,8 +32,8 @@ pub(crate) struct SleepState {
     pub disturbed: bool,
 }
 
-/// Decides whether an island sleeps through the coming step, and wakes all of it if not. `ends_moved`
-/// tells whether something moves its ends. Bodies slower than `speed` (m/s) may sleep.
+/// Decides whether an island sleeps through the coming step, and wakes all of it if not.
+/// `ends_moved` tells whether something moves its ends. Bodies slower than `speed` (m/s) may sleep.
 pub(crate) fn update(
     contents: &mut Contents,
     world: &mut PhysicsWorld,
@@ -93,8 +94,8 @@ pub(crate) fn keep_awake(
     }
 }
 
-/// Returns whether the forces at the attachments of an island are those at which the time until sleep
-/// began.
+/// Returns whether the forces at the attachments of an island are those at which the time until
+/// sleep began.
 fn is_steady(contents: &Contents, island: &Island) -> bool {
     island.attachments.iter().flatten().filter_map(|&i| contents.attachments.get(i)).all(|a| {
         let force = a.reading.force;

@@ -1,4 +1,4 @@
-//! What an integrator needs to know of a mechanical system, and nothing else.
+//! The interface of a mechanical system to the integrators.
 
 use super::state::State;
 use crate::error::StepFailure;

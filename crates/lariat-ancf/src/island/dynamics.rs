@@ -1,4 +1,4 @@
-//! An island as the integrators see it: accelerations, implicit stages, error filter.
+//! The interface of an island to the integrators: accelerations, implicit stages, error filter.
 
 use super::energy_balance;
 use super::equations::{IslandEquations, MatrixKind};
@@ -37,7 +37,7 @@ pub(super) struct IslandDynamics<'a, 'b> {
     pub vectors: &'a mut Vectors,
 }
 
-/// One stage of an island, as Newton's iteration sees it.
+/// The nonlinear equations of one stage of an island, for Newton's iteration.
 struct IslandStage<'a, 'b, 'c> {
     equations: &'a mut IslandEquations<'b, 'c>,
     stage: &'a Stage,

@@ -48,7 +48,7 @@ pub(super) struct Motion {
     pub spin: Vector3<f64>,
 }
 
-/// See the [module](self).
+/// Coordinates, bodies and pins of an island during one host step.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Layout {
     /// By cable.

@@ -23,8 +23,8 @@
 
 use super::block::BlockTridiagonal;
 use super::equilibrate::{check_finite, equilibrate, for_lower_triangle};
-use super::factorisation::Definiteness;
-use super::{Reason, SingularMatrix, inertia};
+use super::inertia;
+use super::outcome::{Definiteness, Reason, SingularMatrix};
 use fearless_simd::{Level, dispatch};
 
 /// Number of diagonals below the main one.

@@ -20,7 +20,7 @@
 //! - Scaling by exact maxima: it rounds.
 
 use super::block::BlockTridiagonal;
-use super::{Reason, SingularMatrix};
+use super::outcome::{Reason, SingularMatrix};
 
 /// Calls `visit(row, column, value)` for the lower triangle, diagonal included.
 pub(super) fn for_lower_triangle(a: &BlockTridiagonal, mut visit: impl FnMut(usize, usize, f64)) {

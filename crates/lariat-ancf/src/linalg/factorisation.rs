@@ -19,24 +19,12 @@
 //! - A choice by the caller: a matrix turns out to be indefinite only during the elimination.
 //! - The unpivoted factors of an indefinite matrix: their growth is unbounded.
 
-use super::SingularMatrix;
 use super::banded::Banded;
 use super::block::BlockTridiagonal;
+use super::outcome::{Definiteness, SingularMatrix};
 use super::substitution;
 use super::twisted::{self, Node};
 use fearless_simd::{Level, dispatch};
-
-/// The signs of the eigenvalues, as far as they are known.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Definiteness {
-    /// All eigenvalues are positive.
-    PositiveDefinite,
-    /// Not positive definite.
-    Indefinite {
-        /// Number of negative eigenvalues; `None` where rounding leaves the count uncertain.
-        negative: Option<usize>,
-    },
-}
 
 /// Which factors are in the buffers.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

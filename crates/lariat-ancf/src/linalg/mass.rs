@@ -21,7 +21,7 @@
 //! - A banded scalar factor: its chain of dependent operations is twice as long.
 //! - The explicit inverse: it is dense.
 
-use super::{Reason, SingularMatrix};
+use super::outcome::{Reason, SingularMatrix};
 use fearless_simd::{Level, Simd, dispatch, f64x4, prelude::*};
 
 /// Mass matrix: per unknown ordering of a node r (3 numbers), t (3 numbers).

@@ -5,8 +5,8 @@
 //!
 //! Barnes 1999.
 
+use super::attempt::{Budget, Failure};
 use super::scale::LoadScale;
-use super::{Budget, Failure};
 use crate::cable::Cable;
 use crate::integrate::{Integrator, Method, NewtonMode, StepControl};
 

@@ -17,9 +17,9 @@
 //!
 //! Kelley & Keyes 1998 (pseudo-transient continuation); Rockafellar 1976 (proximal point).
 
+use super::attempt::{Budget, EquilibriumReport, Failure, MAX_SLOPE_CHANGE, largest_change};
 use super::potential::{moment_work, potential};
 use super::scale::{LoadScale, largest_force};
-use super::{Budget, EquilibriumReport, Failure, MAX_SLOPE_CHANGE, largest_change};
 use crate::cable::Cable;
 use crate::error::StepFailure;
 use crate::linalg::Definiteness;

@@ -19,8 +19,8 @@
 //!
 //! Newton's method with the symmetric part of the tangent: it ends in a cycle on a towed cable.
 
+use super::attempt::{Budget, EquilibriumReport, Failure};
 use super::scale::{LoadScale, largest_force};
-use super::{Budget, EquilibriumReport, Failure};
 use crate::cable::Cable;
 use crate::integrate::{Integrator, Method, NewtonMode, StepControl};
 use crate::system::project_vector;

@@ -9,7 +9,8 @@
 
 use ::nalgebra::DMatrix;
 
-/// Share by which the diagonal of G M^-1 G^T is raised, since joints may lock the same motion twice.
+/// Share by which the diagonal of G M^-1 G^T is raised, since joints may lock the same motion
+/// twice.
 const REGULARISATION: f64 = 1e-12;
 
 /// A limit of a joint: the side to which it pushes, and the impulse with which it did, in N s.
@@ -32,7 +33,8 @@ pub(super) struct Constraints {
 }
 
 impl Constraints {
-    /// Returns `P columns` and `P free`, with the limits that are active under the accelerations `all`.
+    /// Returns `P columns` and `P free`, with the limits that are active under the accelerations
+    /// `all`.
     pub fn project(
         mut self,
         columns: &DMatrix<f64>,

@@ -10,10 +10,10 @@
 //! body as good as immovable along what its joints hold, without a singular matrix.
 //!
 //! # Validity
-//! With c = e, near a singular configuration (a straight arm with free elbows moves along itself only by
-//! its bends; W is of the order of e there), an error of a joint of 1e-6 m reads as 1e3 N: such an arm,
-//! once struck, blew up within ten steps. Therefore c is [`ISOLATED_COMPLIANCE`] for a mechanism
-//! that touches nothing. 0.01 works as well; with 1e-3 one of six runs failed.
+//! With c = e, near a singular configuration (a straight arm with free elbows moves along itself
+//! only by its bends; W is of the order of e there), an error of a joint of 1e-6 m reads as 1e3 N:
+//! such an arm, once struck, blew up within ten steps. Therefore c is [`ISOLATED_COMPLIANCE`] for a
+//! mechanism that touches nothing. 0.01 works as well; with 1e-3 one of six runs failed.
 
 use ::nalgebra::{Matrix6, Vector6};
 use lariat_ancf::island::RigidBody;
@@ -42,7 +42,8 @@ pub(crate) fn unconstrained_part(body: &RigidBody, load: &Vector6<f64>) -> Vecto
     share.map_or(*load, |share| share * load)
 }
 
-/// Returns the impulse implied by a velocity residual. `isolated`: the mechanism touches no other body.
+/// Returns the impulse implied by a velocity residual. `isolated`: the mechanism touches no other
+/// body.
 pub(crate) fn implied_impulse(body: &RigidBody, residual: &Vector6<f64>, isolated: bool) -> Vector6<f64> {
     let (total, own) = (inertia(body), own_inertia(body));
     let response = own.try_inverse().and_then(|own| {

@@ -4,13 +4,13 @@
 //! ```text
 //! W = E^T R      R = P M^-1 E      a = P M^-1 f
 //! ```
-//! M holds the masses of all bodies that joints connect, G the rows of the locked axes and of the active
-//! limits ([`super::constraints`]), and E picks the attached body. Where the loads f of the other
-//! bodies are included, a limit is active if the joint is at it; elsewhere if it pushed in Rapier's last
-//! substep and would with the cables added.
+//! M holds the masses of all bodies that joints connect, G the rows of the locked axes and of the
+//! active limits ([`super::constraints`]), and E picks the attached body. Where the loads f of the
+//! other bodies are included, a limit is active if the joint is at it; elsewhere if it pushed in
+//! Rapier's last substep and would with the cables added.
 //!
-//! A body of a chain that is given a velocity alone would be stopped by its neighbours, so all bodies of
-//! the chain change their velocities together.
+//! A body of a chain that is given a velocity alone would be stopped by its neighbours, so all
+//! bodies of the chain change their velocities together.
 //!
 //! # References
 //! Udwadia & Kalaba 1992.
@@ -71,8 +71,8 @@ pub(super) fn find(world: &PhysicsWorld, request: &Request) -> Option<(JointChai
     Some((JointChain { bodies, response, velocities_before }, loads, mobility))
 }
 
-/// Returns the bodies that impulse joints connect with one, itself first, and the joints; `None` if no
-/// joint holds it, or one of them is a link of a multibody.
+/// Returns the bodies that impulse joints connect with one, itself first, and the joints; `None` if
+/// no joint holds it, or one of them is a link of a multibody.
 fn connected(world: &PhysicsWorld, handle: RigidBodyHandle) -> Option<(Vec<RigidBodyHandle>, Vec<ChainJoint<'_>>)> {
     let holds = |joint: &ImpulseJoint| !joint.data.locked_axes.is_empty();
     if !world.impulse_joints.attached_enabled_joints(handle).any(|(_, _, _, joint)| holds(joint)) {

@@ -2,15 +2,15 @@
 //!
 //! A limit counts as reached within [`LIMIT_DISTANCE`], unless the joint leaves it faster than
 //! [`OPENING_RATE`]. Rapier enforces a limit only in substeps that begin at it or beyond, so the
-//! coordinate of the joint decides; the limit force is not needed, since the predicted loads already
-//! balance it.
+//! coordinate of the joint decides; the limit force is not needed, since the predicted loads
+//! already balance it.
 //!
 //! # Validity
-//! Measured with an arm of three links of 1 kg on a soft rope, struck with 0.5 N s, host steps of 1/30 s
-//! with one iteration to 1/240 s with four: a joint that comes to rest 1e-4 before or behind its limit
-//! changes between free and held from step to step, and the rope carries 12.5 to 14.4 N of 14.7 with
-//! a distance of 1e-4 and a rate of 1e-2; 14.6 to 14.8 N with 1e-3 and 0.1; with a rate of 1 it chatters
-//! (5 to 24 N).
+//! Measured with an arm of three links of 1 kg on a soft rope, struck with 0.5 N s, host steps of
+//! 1/30 s with one iteration to 1/240 s with four: a joint that comes to rest 1e-4 before or behind
+//! its limit changes between free and held from step to step, and the rope carries 12.5 to 14.4 N
+//! of 14.7 with a distance of 1e-4 and a rate of 1e-2; 14.6 to 14.8 N with 1e-3 and 0.1; with a
+//! rate of 1 it chatters (5 to 24 N).
 
 use crate::convert::{rotation, vector};
 use rapier::dynamics::{ImpulseJoint, JointLimits, RigidBody};

@@ -6,21 +6,22 @@
 //! v += a h/2   before Rapier's step, and again after it
 //! ```
 //! The mechanism is predicted with all its loads and given to Rapier as a whole: each of its bodies
-//! moves with the mean velocity of the step, under a force that balances its weight. Rapier's joints
-//! then have nothing to do, for any number of iterations.
+//! moves with the mean velocity of the step, under a force that balances its weight. Rapier's
+//! joints then have nothing to do, for any number of iterations.
 //!
 //! # Validity
-//! No cable is attached to another body of the mechanism, and none of them is near a body from outside.
-//! Otherwise the loads of the others are part of the reaction estimate.
+//! No cable is attached to another body of the mechanism, and none of them is near a body from
+//! outside. Otherwise the loads of the others are part of the reaction estimate.
 //!
-//! Measured: an arm of three links of 1 kg, its tip on a soft rope, host steps of 1/30 s, one iteration
-//! (`lariat stability --case arm`). The rope carries 14.715 N of 14.715; without these loads 14.28 N on
-//! welded impulse joints and 10.9 N on a multibody at its limits, and the step failed for impulse joints
-//! at theirs. Gap 4e-7 m (5e-3 m), spurious energy 0 (1.8 of the largest).
+//! Measured: an arm of three links of 1 kg, its tip on a soft rope, host steps of 1/30 s, one
+//! iteration (`lariat stability --case arm`). The rope carries 14.715 N of 14.715; without these
+//! loads 14.28 N on welded impulse joints and 10.9 N on a multibody at its limits, and the step
+//! failed for impulse joints at theirs. Gap 4e-7 m (5e-3 m), spurious energy 0 (1.8 of the
+//! largest).
 //!
 //! # Alternatives considered
-//! The loads of the others as a reaction estimate: it takes ten steps to settle; meanwhile joints that
-//! have not converged yield, and what Rapier corrects of it enters the estimate as a force.
+//! The loads of the others as a reaction estimate: it takes ten steps to settle; meanwhile joints
+//! that have not converged yield, and what Rapier corrects of it enters the estimate as a force.
 
 use crate::body::{SavedBody, replace_loads};
 use crate::convert::vector;
@@ -82,8 +83,8 @@ impl CarriedLoads {
     }
 }
 
-/// Returns whether the prediction can include the loads on the other bodies of a mechanism: no cable is
-/// attached to them, and they are near no body from outside.
+/// Returns whether the prediction can include the loads on the other bodies of a mechanism: no
+/// cable is attached to them, and they are near no body from outside.
 pub(super) fn can_predict_loads(
     world: &PhysicsWorld,
     bodies: &[RigidBodyHandle],

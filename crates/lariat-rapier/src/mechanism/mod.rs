@@ -1,29 +1,29 @@
 //! Mechanisms: what joints do to a body that a cable is attached to.
 //!
-//! A body that joints hold answers its cables with the inertia of all that it moves with, and impulses
-//! on it change the velocities of all of it.
+//! A body that joints hold answers its cables with the inertia of all that it moves with, and
+//! impulses on it change the velocities of all of it.
 //!
 //! # Equation
 //! ```text
 //! L = (W + e S)^-1      L x'' = f + L a0      v += R p,  or of a multibody  u += R p
 //! ```
 //! W is the mobility of the body in its mechanism, S that of the body alone, a0 its acceleration by
-//! the loads on the other bodies ([`loads`]), and R the response of all bodies, or of the generalised
-//! velocity u, to an impulse p and its moment about the centre of mass.
+//! the loads on the other bodies ([`loads`]), and R the response of all bodies, or of the
+//! generalised velocity u, to an impulse p and its moment about the centre of mass.
 //!
 //! # Validity
-//! Stiff joints. Motors, contacts and centripetal forces enter by the reaction estimate. Two attached
-//! bodies of one mechanism know of each other only by that estimate.
+//! Stiff joints. Motors, contacts and centripetal forces enter by the reaction estimate. Two
+//! attached bodies of one mechanism know of each other only by that estimate.
 //!
 //! # References
 //! Khatib 1987, the operational space inertia.
 //!
 //! # Alternatives considered
 //! The body as a free one, with the inertia of the others as a part of the reaction estimate: the
-//! estimate lags, which adds energy where the step resolves the vibration of the cable (an arm of three
-//! links of 1 kg on a soft rope oscillates by 130 N at 1/240 s). Rapier's softness of joints in the
-//! matrix: the estimate along held axes then feeds on itself. No estimate where a mechanism touches
-//! nothing: motors are then not predicted.
+//! estimate lags, which adds energy where the step resolves the vibration of the cable (an arm of
+//! three links of 1 kg on a soft rope oscillates by 130 N at 1/240 s). Rapier's softness of joints
+//! in the matrix: the estimate along held axes then feeds on itself. No estimate where a mechanism
+//! touches nothing: motors are then not predicted.
 
 mod constraints;
 mod inertia;
@@ -150,11 +150,12 @@ mod tests {
         (world, boxes)
     }
 
-    /// Of a welded pair, what a body carries is the other's inertia about it, and the load on it is the
-    /// other's weight with its moment; for impulse joints and a multibody, either body of the pair.
+    /// Of a welded pair, what a body carries is the other's inertia about it, and the load on it is
+    /// the other's weight with its moment; for impulse joints and a multibody, either body of the
+    /// pair.
     ///
-    /// Reference: the parallel-axis formula, and statics; the compliance of joints is taken out again.
-    /// Bound: single precision.
+    /// Reference: the parallel-axis formula, and statics; the compliance of joints is taken out
+    /// again. Bound: single precision.
     #[test]
     fn a_welded_body_carries_the_inertia_and_the_weight_of_the_other() {
         for (multibody, first) in [(false, 0), (false, 1), (true, 0), (true, 1)] {

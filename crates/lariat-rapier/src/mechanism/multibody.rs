@@ -5,16 +5,17 @@
 //! W = J R      R = P M^-1 J^T      a = P M^-1 sum J_i^T f_i
 //! ```
 //! J is a link's Jacobian (velocity of its centre of mass before angular velocity) and M the mass
-//! matrix, both Rapier's; f_i are the loads on the other links. Each active limit is a unit vector in
-//! G ([`super::constraints`]); limits count only where the loads on the other links are included.
+//! matrix, both Rapier's; f_i are the loads on the other links. Each active limit is a unit vector
+//! in G ([`super::constraints`]); limits count only where the loads on the other links are
+//! included.
 //!
-//! Rapier overwrites the velocities of links by those of the generalised velocity, so a change must be
-//! made there; and it leaves in a link the velocity of the last substep but one.
+//! Rapier overwrites the velocities of links by those of the generalised velocity, so a change must
+//! be made there; and it leaves in a link the velocity of the last substep but one.
 //!
 //! # Validity
 //! Not with kinematic joints of a multibody: Rapier's mass matrix is then only a part of the whole.
-//! Where the loads of the other links are not included, limits enter by the reaction estimate: Rapier
-//! does not report the impulse of a limit of a multibody.
+//! Where the loads of the other links are not included, limits enter by the reaction estimate:
+//! Rapier does not report the impulse of a limit of a multibody.
 //!
 //! # References
 //! Featherstone 2008, section 3.2; Udwadia & Kalaba 1992.
@@ -120,8 +121,8 @@ fn active_limits(multibody: &Multibody) -> Vec<(usize, Limit)> {
     active
 }
 
-/// Gives the bodies of a link's multibody the velocities of its generalised velocity; does nothing for
-/// other bodies.
+/// Gives the bodies of a link's multibody the velocities of its generalised velocity; does nothing
+/// for other bodies.
 pub(crate) fn refresh(world: &mut PhysicsWorld, handle: RigidBodyHandle) {
     let Some(link) = world.multibody_joints.rigid_body_link(handle) else { return };
     let Some(multibody) = world.multibody_joints.get_multibody(link.multibody) else { return };
@@ -154,8 +155,8 @@ impl MultibodyLink {
     }
 }
 
-/// Edits the components of the generalised velocity of a link's multibody with `values`, and refreshes
-/// its bodies.
+/// Edits the components of the generalised velocity of a link's multibody with `values`, and
+/// refreshes its bodies.
 fn edit_velocity<T>(
     world: &mut PhysicsWorld,
     handle: RigidBodyHandle,

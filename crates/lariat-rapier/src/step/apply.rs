@@ -4,9 +4,10 @@
 //! ```text
 //! linvel = dx/h      angvel = log(R1 R0^-1)/h      force = -(m g + reaction estimate)
 //! ```
-//! The force balances gravity and the reaction, so that a body in contact with nothing lands where it
-//! was predicted, for any number of substeps. Gyroscopic forces and damping are disabled meanwhile.
-//! A body that joints hold gets an impulse, with all that it moves with, in place of a velocity.
+//! The force balances gravity and the reaction, so that a body in contact with nothing lands where
+//! it was predicted, for any number of substeps. Gyroscopic forces and damping are disabled
+//! meanwhile. A body that joints hold gets an impulse, with all that it moves with, in place of a
+//! velocity.
 //!
 //! # Validity
 //! In each substep of h Rapier multiplies the attitude by the normalised quaternion (1, w h/2), a
@@ -90,7 +91,8 @@ fn apply_prediction(world: &mut PhysicsWorld, step: &BodyStep, record: &BodyReco
         Some(mechanism) => {
             let wanted = stack_spatial(&vector(linvel), &vector(angvel));
             let change = wanted - stack_spatial(&start.velocity, &start.angular_velocity);
-            // half of the change by the loads on the others comes before the uniform motion, half after
+            // half of the change by the loads on the others comes before the uniform motion, half
+            // after
             let change = change - mechanism.loads.of_body * (0.5 * h);
             mechanism.loads.balance(world);
             mechanism.apply_loads(world, handle, 0.5 * h);
@@ -104,8 +106,8 @@ fn apply_prediction(world: &mut PhysicsWorld, step: &BodyStep, record: &BodyReco
     applied
 }
 
-/// Returns the angular velocity with which Rapier rotates a body as `spin` (rad/s) would, in substeps
-/// of `h` (s).
+/// Returns the angular velocity with which Rapier rotates a body as `spin` (rad/s) would, in
+/// substeps of `h` (s).
 fn linearised(spin: &Vector3<f64>, h: f64) -> Vector3<f64> {
     let half = (0.5 * spin.norm() * h).min(MAX_HALF_ROTATION);
     if half > 0.0 { spin * (half.tan() / half) } else { *spin }

@@ -29,8 +29,8 @@ const JUNCTION_MASS: f64 = 1e-6;
 /// Share of the body's own mobility in B'.
 const OWN_MOBILITY_SHARE: f64 = 0.1;
 
-/// Sets the motors of all bodies of an island that may deviate from their prediction, and disables all
-/// others.
+/// Sets the motors of all bodies of an island that may deviate from their prediction, and disables
+/// all others.
 pub(crate) fn set_motors(
     contents: &mut Contents,
     world: &mut PhysicsWorld,

@@ -1,9 +1,10 @@
 //! Cable ends on fixed, kinematic and disabled bodies: prescribed motion.
 //!
 //! A ball attachment prescribes the position of its node over the step; a clamp is a driven body of
-//! its island, whose uniform motion rotates the tangent. Rapier moves a kinematic body by its velocity
-//! with a linearised rotation in each substep, by at most [`MAX_ROTATION_PER_STEP`] in a step; its
-//! pose after the step is computed the same way, so that the end is where Rapier puts the body.
+//! its island, whose uniform motion rotates the tangent. Rapier moves a kinematic body by its
+//! velocity with a linearised rotation in each substep, by at most [`MAX_ROTATION_PER_STEP`] in a
+//! step; its pose after the step is computed the same way, so that the end is where Rapier puts the
+//! body.
 
 use crate::attachment::Attachment;
 use crate::contents::Contents;
@@ -86,8 +87,8 @@ fn pose_after(world: &PhysicsWorld, handle: RigidBodyHandle, h: f64) -> OriginPo
     }
 }
 
-/// Returns the pose of a kinematic body after Rapier moved it by its velocity for `h` (s): no faster
-/// than Rapier's greatest velocity.
+/// Returns the pose of a kinematic body after Rapier moved it by its velocity for `h` (s): no
+/// faster than Rapier's greatest velocity.
 fn moved_by_velocity(world: &PhysicsWorld, handle: RigidBodyHandle, h: f64) -> OriginPose {
     let body = &world.bodies[handle];
     let parameters = &world.integration_parameters;
@@ -110,8 +111,8 @@ fn moved_by_velocity(world: &PhysicsWorld, handle: RigidBodyHandle, h: f64) -> O
     (centre - attitude * local, attitude)
 }
 
-/// Returns a body with prescribed motion as a driven body of an island: its origin and attitude, and
-/// the uniform motion of the coming step.
+/// Returns a body with prescribed motion as a driven body of an island: its origin and attitude,
+/// and the uniform motion of the coming step.
 pub(crate) fn driven_body(
     world: &PhysicsWorld,
     handle: RigidBodyHandle,
@@ -129,8 +130,8 @@ pub(crate) fn driven_body(
     Ok(body)
 }
 
-/// Returns whether an end of an island with prescribed motion moves in the coming step, or was moved
-/// since the last.
+/// Returns whether an end of an island with prescribed motion moves in the coming step, or was
+/// moved since the last.
 pub(crate) fn have_moved(contents: &Contents, world: &PhysicsWorld, island: &Island, h: f64) -> bool {
     let has_moved = |a: &Attachment, (origin, attitude): OriginPose| {
         a.last_anchor.is_none_or(|before| (origin + attitude * a.anchor - before).norm() > UNMOVED_DISTANCE)

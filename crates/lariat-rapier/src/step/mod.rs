@@ -90,8 +90,8 @@ pub(crate) fn begin(
     Ok(host)
 }
 
-/// Predicts the next Rapier step of a host step. If an island cannot step, all of them and their bodies
-/// stay as they were before it.
+/// Predicts the next Rapier step of a host step. If an island cannot step, all of them and their
+/// bodies stay as they were before it.
 pub(crate) fn predict_next(
     stepper: &mut Stepper,
     contents: &mut Contents,

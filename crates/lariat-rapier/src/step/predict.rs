@@ -1,9 +1,9 @@
 //! Prediction: cables and the bodies attached to them are integrated together.
 //!
 //! # Scheme
-//! The island solver ([`lariat_ancf::island`]) integrates cables and bodies as one system. A body is
-//! free but for gravity, the user's forces and the reaction estimate; one that joints hold has the
-//! inertia and the loads of its whole mechanism ([`crate::mechanism`]).
+//! The island solver ([`lariat_ancf::island`]) integrates cables and bodies as one system. A body
+//! is free but for gravity, the user's forces and the reaction estimate; one that joints hold has
+//! the inertia and the loads of its whole mechanism ([`crate::mechanism`]).
 
 use crate::body;
 use crate::contents::Contents;
@@ -109,8 +109,8 @@ fn read_members(
     Ok(())
 }
 
-/// Returns the force and torque on a member: its own, and those of its cables at the end of the last
-/// step.
+/// Returns the force and torque on a member: its own, and those of its cables at the end of the
+/// last step.
 fn cable_load(contents: &Contents, island: &Island, member: usize, body: &RigidBody) -> Vector6<f64> {
     let mut load = stack_spatial(&body.force, &body.torque);
     for pin in island.pins_on(member) {
@@ -138,7 +138,8 @@ fn integrator(contents: &Contents, island: &Island) -> Integrator {
     all().fold(first, |best, i| if tolerance(&i) < tolerance(&best) { i } else { best })
 }
 
-/// Returns the integrator for one of `count` equal parts of the step that `integrator` is meant for.
+/// Returns the integrator for one of `count` equal parts of the step that `integrator` is meant
+/// for.
 fn share_of(integrator: Integrator, count: u32) -> Integrator {
     let control = match integrator.control {
         StepControl::Tolerance(tolerance) => StepControl::Tolerance(tolerance / f64::from(count)),

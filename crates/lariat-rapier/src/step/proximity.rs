@@ -1,8 +1,8 @@
 //! Which bodies a body is near, and which it will collide with.
 //!
-//! Rapier lists a pair of colliders once their bounding boxes at the start of its last step came within
-//! its prediction distance. A body that moves farther than that in a step meets others before they are
-//! listed: its box, swept along its displacement, is looked up among all others.
+//! Rapier lists a pair of colliders once their bounding boxes at the start of its last step came
+//! within its prediction distance. A body that moves farther than that in a step meets others
+//! before they are listed: its box, swept along its displacement, is looked up among all others.
 
 use crate::convert::{to_vector, vector};
 use crate::ledger::is_ledger;
@@ -15,8 +15,8 @@ use rapier::pipeline::{PhysicsWorld, QueryFilter};
 /// Returns whether a body may deviate from its prediction and must feel its cables meanwhile: it is
 /// near another, a link of a multibody, or joined to a dynamic body.
 ///
-/// Not one that is joined to a fixed body: Rapier's joint would yield to the motors and leave a gap of
-/// 1e-2 m at 5 kN, where it leaves 4e-6 m without them.
+/// Not one that is joined to a fixed body: Rapier's joint would yield to the motors and leave a gap
+/// of 1e-2 m at 5 kN, where it leaves 4e-6 m without them.
 pub(crate) fn may_deviate(world: &PhysicsWorld, handle: RigidBodyHandle) -> bool {
     is_near_another(world, handle) || is_linked(world, handle)
 }
@@ -54,7 +54,8 @@ fn pairs<'a>(
     })
 }
 
-/// Returns a bounding box swept along `displacement` (m), and enlarged by `margin` (m) on all sides.
+/// Returns a bounding box swept along `displacement` (m), and enlarged by `margin` (m) on all
+/// sides.
 fn swept(aabb: Aabb, displacement: &Vector3<f64>, margin: f64) -> Aabb {
     let displacement = to_vector(displacement);
     let moved = Aabb::new(aabb.mins + displacement, aabb.maxs + displacement);
@@ -94,9 +95,9 @@ fn velocity_of(world: &PhysicsWorld, collider: &Collider) -> Vector3<f64> {
     collider.parent().and_then(|b| world.bodies.get(b)).map_or_else(Vector3::zeros, |b| vector(b.linvel()))
 }
 
-/// Returns the speed in m/s at which a body may collide with another within `dt` (s), if no other is
-/// faster than `fastest` (m/s); `None` if it cannot. For pairs in contact it is the speed along the
-/// normal.
+/// Returns the speed in m/s at which a body may collide with another within `dt` (s), if no other
+/// is faster than `fastest` (m/s); `None` if it cannot. For pairs in contact it is the speed along
+/// the normal.
 pub(crate) fn collision(world: &PhysicsWorld, handle: RigidBodyHandle, (dt, fastest): (f64, f64)) -> Option<f64> {
     let velocity = vector(world.bodies[handle].linvel());
     let margin = f64::from(world.integration_parameters.prediction_distance());

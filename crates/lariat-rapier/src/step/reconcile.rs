@@ -7,19 +7,19 @@
 //!            r += 0.3 (L (v_after - v0 + (x_after - x1)/h) - p)/h
 //! cable:     dv = -A^-1 J^T p      dx = h dv
 //! ```
-//! v0 is the velocity that Rapier was given, x1 and v1 are the predicted state, p the impulse of the
-//! motors and L the inertia of the body with its mechanism. The whole of the predicted change of
-//! velocity stays, so that bodies and cables keep their momentum.
+//! v0 is the velocity that Rapier was given, x1 and v1 are the predicted state, p the impulse of
+//! the motors and L the inertia of the body with its mechanism. The whole of the predicted change
+//! of velocity stays, so that bodies and cables keep their momentum.
 //!
 //! # Validity
 //! p is left out for a body that is joined to others: in a chain of joints the motors work against
 //! each other, and the estimate settles on a wrong force with p.
 //!
 //! # Alternatives considered
-//! Leaving p out for bodies in contact: bodies of 1 to 5 kg on a steel wire leave a jam when the host
-//! step is not split. Keeping only a share of the predicted change of velocity of a body that deviated,
-//! `v_after + s (v1 - v0)`, s = 1 where it landed and 0 where it was stopped: a random scene in free
-//! flight gained 8e-3 m/s per mass.
+//! Leaving p out for bodies in contact: bodies of 1 to 5 kg on a steel wire leave a jam when the
+//! host step is not split. Keeping only a share of the predicted change of velocity of a body that
+//! deviated, `v_after + s (v1 - v0)`, s = 1 where it landed and 0 where it was stopped: a random
+//! scene in free flight gained 8e-3 m/s per mass.
 
 use crate::contents::Contents;
 use crate::convert::{rotation, to_vector, vector};
@@ -38,8 +38,8 @@ use rapier::pipeline::PhysicsWorld;
 
 /// Share of the observed reaction that the estimate takes in a step.
 const REACTION_GAIN: f64 = 0.3;
-/// A body landed where it was predicted if it is within this many units of rounding of its position,
-/// at [`USUAL_ITERATIONS`] or fewer solver iterations.
+/// A body landed where it was predicted if it is within this many units of rounding of its
+/// position, at [`USUAL_ITERATIONS`] or fewer solver iterations.
 const POSITION_ROUNDING: f64 = 32.0;
 /// Factor from the tolerance of positions to that of velocities: Rapier adds up balanced forces.
 const VELOCITY_FACTOR: f64 = 8.0;
@@ -134,8 +134,8 @@ fn read_members(
     }
 }
 
-/// Updates the record of a body that Rapier put to sleep instead of stepping it: it is where it was, at
-/// rest.
+/// Updates the record of a body that Rapier put to sleep instead of stepping it: it is where it
+/// was, at rest.
 fn put_to_rest(world: &mut PhysicsWorld, step: &BodyStep, applied: &AppliedMotion, record: &mut BodyRecord) {
     if let Some(mechanism) = step.mechanism {
         mechanism.loads.restore(world);
@@ -148,8 +148,8 @@ fn put_to_rest(world: &mut PhysicsWorld, step: &BodyStep, applied: &AppliedMotio
 }
 
 /// Restores the forces and settings of a body, and sets its state: the predicted one if it landed
-/// there, else Rapier's position with the velocity that contacts and joints left of the predicted one.
-/// `motors` is the impulse of its motors. Returns whether it landed.
+/// there, else Rapier's position with the velocity that contacts and joints left of the predicted
+/// one. `motors` is the impulse of its motors. Returns whether it landed.
 fn read_back(
     world: &mut PhysicsWorld,
     step: &BodyStep,
@@ -225,8 +225,8 @@ fn has_landed(
         && angular.norm() <= slow * vector(applied.angvel).norm().max(MIN_SPIN)
 }
 
-/// Updates the estimate of the force and torque of contacts and joints from the deviations of velocity
-/// and position.
+/// Updates the estimate of the force and torque of contacts and joints from the deviations of
+/// velocity and position.
 fn update_reaction(
     body: &RapierBody,
     step: &BodyStep,

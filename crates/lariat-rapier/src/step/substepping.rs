@@ -5,25 +5,26 @@
 //! h w <= 0.6                      w^2 = k/m,   k = sum of EA/l over the pins of a body
 //! h v g/(1 + g) <= 1 mm           g = 0.1 h^2 k/m
 //! ```
-//! *Vibration.* Between two Rapier steps the reaction estimate of a body in contact is constant. If h
-//! is long compared with the period of the body on its taut cables, the estimate comes too late: two
-//! jammed bodies of 1 kg under 1 kN oscillate by half of it, and a body that is released suddenly is
-//! thrown by the old estimate (a gap of F h^2/2m). Therefore the host step is split finer where a body
-//! that is near others, or has a reaction estimate, hangs on a taut cable. l is the length of the cable
-//! to its end, which gives an upper bound of its stiffness.
+//! *Vibration.* Between two Rapier steps the reaction estimate of a body in contact is constant. If
+//! h is long compared with the period of the body on its taut cables, the estimate comes too late:
+//! two jammed bodies of 1 kg under 1 kN oscillate by half of it, and a body that is released
+//! suddenly is thrown by the old estimate (a gap of F h^2/2m). Therefore the host step is split
+//! finer where a body that is near others, or has a reaction estimate, hangs on a taut cable. l is
+//! the length of the cable to its end, which gives an upper bound of its stiffness.
 //!
-//! *First contact.* A body that hits another at v deviates from its prediction by up to v h, and the
-//! cable, heavier than the body over the step, does not follow by the share g/(1 + g): its impedance is
-//! h^2 k, and a tenth of the body's own mobility counts ([`crate::step::impedance`]). Therefore the
-//! collisions and the taut cables of the whole coming host step count ([`crate::step::proximity`]).
-//! All is evaluated again before each Rapier step, and the rest of the host step is split finer.
+//! *First contact.* A body that hits another at v deviates from its prediction by up to v h, and
+//! the cable, heavier than the body over the step, does not follow by the share g/(1 + g): its
+//! impedance is h^2 k, and a tenth of the body's own mobility counts ([`crate::step::impedance`]).
+//! Therefore the collisions and the taut cables of the whole coming host step count
+//! ([`crate::step::proximity`]). All is evaluated again before each Rapier step, and the rest of
+//! the host step is split finer.
 //!
 //! # Validity
-//! Measured with 1 kg, jams of 1 and 5 kN, host steps of 1/30 to 1/240 s: h w = 2.6 fails, 1.8 holds,
-//! 0.9 fails where two bodies hang on each other and the cable hardly damps, 0.6 holds. A cube of 1 kg
-//! drawn into its stop at 0.05 m/s by a steel wire, 1/30 s: a gap of 7e-6 m; 2.0 mm where only cables
-//! that are taut when the host step begins count. A light ball that hits another at 11 m/s: a gap of
-//! 113 mm without a look at the collisions to come.
+//! Measured with 1 kg, jams of 1 and 5 kN, host steps of 1/30 to 1/240 s: h w = 2.6 fails, 1.8
+//! holds, 0.9 fails where two bodies hang on each other and the cable hardly damps, 0.6 holds. A
+//! cube of 1 kg drawn into its stop at 0.05 m/s by a steel wire, 1/30 s: a gap of 7e-6 m; 2.0 mm
+//! where only cables that are taut when the host step begins count. A light ball that hits another
+//! at 11 m/s: a gap of 113 mm without a look at the collisions to come.
 //!
 //! # Alternatives considered
 //! A fine split always: a pile of 500 boxes costs 0.5 ms in each Rapier step.
@@ -72,9 +73,9 @@ pub(crate) fn count(contents: &Contents, world: &PhysicsWorld, settings: &Settin
     (needed.ceil().min(f64::from(max)) as u32).max(min)
 }
 
-/// Returns the speed in m/s at which the body of an attachment may collide within `dt` (s), or 0 if it
-/// has a reaction estimate. `None` if it does not deviate, or hangs on no cable that is taut or becomes
-/// so.
+/// Returns the speed in m/s at which the body of an attachment may collide within `dt` (s), or 0 if
+/// it has a reaction estimate. `None` if it does not deviate, or hangs on no cable that is taut or
+/// becomes so.
 fn deviation_speed(
     contents: &Contents,
     world: &PhysicsWorld,

@@ -11,6 +11,9 @@ use std::process::{Command, ExitCode};
 /// The subcommands of `lariat-bench`.
 #[derive(Subcommand)]
 pub enum Bench {
+    /// Measure what a cable on a Rapier body costs (program lariat-bench)
+    #[command(disable_help_flag = true)]
+    Coupling(Arguments),
     /// Measure accuracy against cost (program lariat-bench)
     #[command(disable_help_flag = true)]
     Report(Arguments),
@@ -32,6 +35,7 @@ pub struct Arguments {
 /// Runs a subcommand with its arguments.
 pub fn run(bench: &Bench) -> ExitCode {
     let (name, Arguments { arguments }) = match bench {
+        Bench::Coupling(arguments) => ("coupling", arguments),
         Bench::Report(arguments) => ("report", arguments),
         Bench::Stability(arguments) => ("stability", arguments),
         Bench::Table1(arguments) => ("table1", arguments),
