@@ -1,5 +1,6 @@
 //! What a cable did: counts, so that cost can be read without a clock, and the same on every machine.
 
+use crate::effect::EffectCounts;
 use core::ops::AddAssign;
 use serde::{Deserialize, Serialize};
 
@@ -30,37 +31,36 @@ pub struct Diagnostics {
     pub bending_evaluations: u64,
     /// Point loads evaluated.
     pub load_evaluations: u64,
-    /// Elements whose damping force was evaluated; zero for a cable without. The account of a step takes two powers more, not counted.
+    /// Elements for which each effect was evaluated; zero for effects that are absent. The work of a step takes two powers more, not
+    /// counted.
     #[serde(default)]
-    pub damping_evaluations: u64,
-    /// Elements whose drag was evaluated; zero for a cable without. The account of a step takes two powers more, not counted.
-    #[serde(default)]
-    pub drag_evaluations: u64,
-    /// Elements for which a rest shape was evaluated; zero for a cable that is straight and unstretched at rest.
-    #[serde(default)]
-    pub rest_shape_evaluations: u64,
+    pub effects: EffectCounts,
 }
 
 /// Applies `$op` field by field.
 macro_rules! by_field {
-    ($a:expr, $b:expr, $op:expr) => {
-        by_field!(@ $a, $b, $op; host_steps, steps, rejected_steps, newton_iterations, factorisations,
+    ($a:expr, $b:expr, $op:expr, $effects:expr) => {
+        by_field!(@ $a, $b, $op, $effects; host_steps, steps, rejected_steps, newton_iterations, factorisations,
             indefinite_factorisations, solves, mass_solves, force_evaluations, tangent_evaluations, bending_evaluations,
-            load_evaluations, damping_evaluations, drag_evaluations, rest_shape_evaluations)
+            load_evaluations)
     };
-    (@ $a:expr, $b:expr, $op:expr; $($field:ident),*) => { Diagnostics { $($field: $op($a.$field, $b.$field)),* } };
+    (@ $a:expr, $b:expr, $op:expr, $effects:expr; $($field:ident),*) => {
+        Diagnostics { $($field: $op($a.$field, $b.$field),)* effects: $effects }
+    };
 }
 
 impl AddAssign for Diagnostics {
     fn add_assign(&mut self, other: Self) {
-        *self = by_field!(self, other, |a: u64, b: u64| a + b);
+        let mut effects = self.effects;
+        effects += other.effects;
+        *self = by_field!(self, other, |a: u64, b: u64| a + b, effects);
     }
 }
 
 impl Diagnostics {
     /// What was counted after `earlier`; zero where it was reset since.
     pub fn since(&self, earlier: &Self) -> Self {
-        by_field!(self, earlier, u64::saturating_sub)
+        by_field!(self, earlier, u64::saturating_sub, self.effects.since(&earlier.effects))
     }
 
     /// All counts to zero.

@@ -27,7 +27,7 @@
 //! | [`effect`] | one file per effect: damping, drag, buoyancy, rest shape ... |
 //! | [`cable`] | mesh, state, builder, sampling, energies |
 //! | [`integrate`] | one file per time integrator, over one trait |
-//! | [`statics`] | static equilibrium |
+//! | `statics` | static equilibrium: [`Cable::equilibrium`] |
 //! | [`island`] | cables and rigid bodies pinned together, as one system |
 //! | [`linalg`] | the block-tridiagonal solver |
 
@@ -43,27 +43,34 @@ pub mod integrate;
 pub mod island;
 pub mod linalg;
 mod load;
+mod model;
 mod quadrature;
 mod real;
 mod rule;
 mod section;
-pub mod statics;
+mod simd;
+mod statics;
 mod support;
+mod system;
 
 pub use cable::builder::{CableBuilder, STANDARD_GRAVITY};
 pub use cable::energy::{Energy, Momentum};
-pub use cable::exact::Jacobians;
-pub use cable::sample::{Reaction, Sample};
+pub use cable::reactions::Reaction;
+pub use cable::sample::Sample;
 pub use cable::{At, Cable, Snapshot};
 pub use diagnostics::Diagnostics;
-pub use effect::{Account, Buoyancy, Damping, Drag, Effects, Flow, GravityScale, LineLoad, RestPiece, RestShape};
-pub use error::{Error, StepFailure};
-pub use integrate::{Fidelity, Integrator, Method, StepControl};
+pub use effect::{
+    Buoyancy, CablePoint, Damping, Drag, EffectCounts, EffectWork, Effects, Flow, ForceDensity, ForceDerivatives,
+    GravityScale, LineLoad, LineLoads, RestPiece, RestShape,
+};
+pub use error::{EquilibriumFailure, Error, PinProblem, Requirement, StepFailure};
+pub use integrate::{Fidelity, Integrator, IntegratorChoice, IntegratorRef, Method, StepControl};
 pub use load::PointLoad;
 /// The vector type of the public interface (nalgebra's).
 pub use nalgebra::Vector3;
 pub use real::Real;
 pub use rule::{AxialRule, BendingRule, Rule};
-pub use section::{Section, Shape};
+pub use section::{Element, Section, Shape};
 pub use statics::{EquilibriumOptions, EquilibriumReport};
 pub use support::{Motion, SlopeSupport, Support};
+pub use system::jacobian::Jacobians;

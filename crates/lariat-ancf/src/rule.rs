@@ -9,7 +9,7 @@
 //! | `exact-3`, `mean-T1`, `G5-none` ... | any | any | free choice |
 
 use crate::axial::{self, AxialTable};
-use crate::error::Error;
+use crate::error::{Error, nearest};
 use serde::{Deserialize, Serialize};
 use std::fmt;
 use std::str::FromStr;
@@ -108,7 +108,8 @@ impl Rule {
         let axial = matches!(self.axial, AxialRule::Gauss(n) if !range.contains(&n));
         let bending = matches!(self.bending, BendingRule::Gauss(n) if !range.contains(&n));
         if axial || bending {
-            return Err(unknown(&self.to_string(), "1 to 10 Gauss points"));
+            let (rule, expected) = (self.to_string(), "1 to 10 Gauss points");
+            return Err(Error::UnknownRule { rule, expected, suggestion: None });
         }
         Ok(())
     }
@@ -183,8 +184,25 @@ impl fmt::Display for Rule {
     }
 }
 
-fn unknown(text: &str, expected: &'static str) -> Error {
-    Error::UnknownRule { rule: text.to_string(), expected }
+fn unknown(text: &str, expected: &'static str, names: impl IntoIterator<Item = String>) -> Error {
+    Error::UnknownRule { rule: text.to_string(), expected, suggestion: nearest(text, names) }
+}
+
+/// Every axial rule.
+fn axial_rules() -> impl Iterator<Item = AxialRule> {
+    let named = [AxialRule::Projected, AxialRule::Exact, AxialRule::Mean];
+    named.into_iter().chain((1..=MAX_POINTS).map(AxialRule::Gauss))
+}
+
+/// Every bending rule.
+fn bending_rules() -> impl Iterator<Item = BendingRule> + Clone {
+    let named = [BendingRule::None, BendingRule::T1, BendingRule::T2];
+    named.into_iter().chain((1..=MAX_POINTS).map(BendingRule::Gauss))
+}
+
+/// Every pair of an axial and a bending rule.
+fn rules() -> impl Iterator<Item = Rule> {
+    axial_rules().flat_map(|axial| bending_rules().map(move |bending| Rule::new(axial, bending)))
 }
 
 fn points(text: &str) -> Option<u8> {
@@ -204,7 +222,10 @@ impl FromStr for AxialRule {
                 .or_else(|| lower.strip_prefix('g'))
                 .and_then(points)
                 .map(AxialRule::Gauss)
-                .ok_or_else(|| unknown(text, "projected | exact | mean | gauss-N, N from 1 to 10")),
+                .ok_or_else(|| {
+                    let expected = "projected | exact | mean | gauss-N, N from 1 to 10";
+                    unknown(text, expected, axial_rules().map(String::from))
+                }),
         }
     }
 }
@@ -217,9 +238,10 @@ impl FromStr for BendingRule {
             "none" => Ok(BendingRule::None),
             "t1" => Ok(BendingRule::T1),
             "t2" => Ok(BendingRule::T2),
-            _ => points(lower.strip_prefix("gauss-").unwrap_or(&lower))
-                .map(BendingRule::Gauss)
-                .ok_or_else(|| unknown(text, "none | t1 | t2 | gauss-N, N from 1 to 10")),
+            _ => points(lower.strip_prefix("gauss-").unwrap_or(&lower)).map(BendingRule::Gauss).ok_or_else(|| {
+                let expected = "none | t1 | t2 | gauss-N, N from 1 to 10";
+                unknown(text, expected, bending_rules().map(String::from))
+            }),
         }
     }
 }
@@ -237,7 +259,7 @@ impl FromStr for Rule {
             return Ok(Rule::new(AxialRule::Mean, bending.parse()?));
         }
         let parts = text.split_once('-').and_then(|(a, b)| Some(Rule::new(a.parse().ok()?, b.parse().ok()?)));
-        parts.ok_or_else(|| unknown(text, EXPECTED))
+        parts.ok_or_else(|| unknown(text, EXPECTED, rules().map(String::from)))
     }
 }
 
@@ -260,20 +282,11 @@ mod tests {
 
     #[test]
     fn every_rule_reads_back_as_printed() {
-        let gauss = 1..=MAX_POINTS;
-        let axial = [AxialRule::Projected, AxialRule::Exact, AxialRule::Mean]
-            .into_iter()
-            .chain(gauss.clone().map(AxialRule::Gauss));
-        for axial in axial {
-            for bending in [BendingRule::None, BendingRule::T1, BendingRule::T2]
-                .into_iter()
-                .chain(gauss.clone().map(BendingRule::Gauss))
-            {
-                let rule = Rule::new(axial, bending);
-                assert_eq!(rule.to_string().parse::<Rule>().unwrap(), rule);
-                assert_eq!(axial.to_string().parse::<AxialRule>().unwrap(), axial);
-                assert_eq!(bending.to_string().parse::<BendingRule>().unwrap(), bending);
-            }
+        for rule in rules() {
+            let Rule { axial, bending } = rule;
+            assert_eq!(rule.to_string().parse::<Rule>().unwrap(), rule);
+            assert_eq!(axial.to_string().parse::<AxialRule>().unwrap(), axial);
+            assert_eq!(bending.to_string().parse::<BendingRule>().unwrap(), bending);
         }
         for name in ["G2-2", "G10-10", "ST2", "L2T2", "projected-3", "G5-none"] {
             assert_eq!(name.parse::<Rule>().unwrap().to_string(), name);

@@ -23,6 +23,15 @@ pub struct Section {
     pub outer_area: Option<f64>,
 }
 
+/// One element: unstretched length in m and section.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Element {
+    /// Unstretched length in m.
+    pub length: f64,
+    /// Section of the whole element.
+    pub section: Section,
+}
+
 /// Shape of a solid cross-section, in m.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]

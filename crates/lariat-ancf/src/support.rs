@@ -164,7 +164,7 @@ impl Support {
         self.project(k);
         for i in 0..6 {
             base[i] -= stage.c2 * held[i];
-            velocity_base[i] -= stage.rate * stage.c2 * held[i];
+            velocity_base[i] -= stage.dv_dq * stage.c2 * held[i];
             k[i] += held[i];
         }
     }

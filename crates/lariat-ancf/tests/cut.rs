@@ -14,7 +14,7 @@ fn swinging() -> Cable {
         .build()
         .unwrap();
     let rest = RestShape { pieces: vec![RestPiece { from: 0.3, stretch: 1.0, curvature: 0.1 }] };
-    let loads = vec![LineLoad { from: 1.5, to: 1.8, force: Vector3::z() }];
+    let loads = Some(LineLoad { from: 1.5, to: 1.8, force: Vector3::z() }.into());
     cable.set_effects(Effects { rest_shape: Some(rest), line_loads: loads, ..Effects::default() }).unwrap();
     for _ in 0..10 {
         cable.step(1.0 / 60.0).unwrap();
@@ -48,7 +48,7 @@ fn the_parts_have_the_mass_momentum_and_kinetic_energy_of_the_whole() {
         }
         assert_eq!((head.loads().len(), tail.loads().len()), (1, 1));
         assert_relative_eq!(tail.loads()[0].arc_length, 1.9 - s, epsilon = 1e-12);
-        let load = &tail.effects().line_loads[0];
+        let load = &tail.effects().line_loads.as_ref().unwrap().0[0];
         assert_relative_eq!(load.from, 1.5 - s, epsilon = 1e-12);
         assert_relative_eq!(load.to, 1.8 - s, epsilon = 1e-12);
         assert_eq!(tail.effects().rest_shape.as_ref().unwrap().pieces[0].from, 0.0);

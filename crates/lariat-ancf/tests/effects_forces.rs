@@ -26,8 +26,8 @@ fn all() -> Effects {
         drag: Some(drag(Vector3::new(0.5, 0.2, -0.1))),
         buoyancy: Some(Buoyancy { fluid_density: 1000.0, added_mass: 1.0, area: Some(3e-4) }),
         rest_shape: Some(rest_shape()),
-        line_loads: vec![LineLoad { from: 0.2, to: 0.7, force: Vector3::new(0.1, 0.3, -0.2) }],
-        gravity_scale: GravityScale(0.8),
+        line_loads: Some(LineLoad { from: 0.2, to: 0.7, force: Vector3::new(0.1, 0.3, -0.2) }.into()),
+        gravity_scale: Some(GravityScale(0.8)),
     }
 }
 
@@ -128,7 +128,7 @@ fn the_force_of_a_rest_shape_is_the_gradient_of_its_energy() {
             rest.pieces.iter_mut().for_each(|piece| piece.curvature = 0.0);
         }
         let mut cable = shaken(only(|e| e.rest_shape = Some(rest)), name);
-        cable.set_gravity_scale(0.0).unwrap();
+        cable.set_gravity_scale(GravityScale(0.0)).unwrap();
         let (q, v, force) = (cable.positions().to_vec(), cable.velocities().to_vec(), cable.force());
         let mut energy = |i: usize, h: f64| {
             let mut q = q.clone();
@@ -191,7 +191,7 @@ fn absent_effects_evaluate_nothing() {
         let mut cable = soft_cable().fix(At::Start).effects(effects).build().unwrap();
         (0..5).for_each(|_| cable.step(0.01).unwrap());
         let d = *cable.diagnostics();
-        (d.element_evaluations(), [d.damping_evaluations, d.drag_evaluations, d.rest_shape_evaluations])
+        (d.element_evaluations(), [d.effects.damping, d.effects.drag, d.effects.rest_shape])
     };
     assert_eq!(counts(Effects::default()).1, [0; 3]);
     let constant = Effects { damping: None, drag: None, rest_shape: None, ..all() };
@@ -223,7 +223,7 @@ fn an_effect_without_its_numbers_is_refused() {
     refused(cable.set_buoyancy(Buoyancy::new(1000.0, 1.0)), "area");
     refused(cable.set_damping(Damping { axial: -1.0, bending: 0.0 }), "axial damping time");
     refused(cable.set_rest_shape(RestShape::stretched(0.0)), "rest stretch");
-    refused(cable.set_gravity_scale(f64::NAN), "gravity scale");
+    refused(cable.set_gravity_scale(GravityScale(f64::NAN)), "gravity scale");
     refused(cable.add_line_load(LineLoad { from: 2.0, to: 3.0, force: Vector3::x() }), "line load");
     assert_eq!(*cable.effects(), Effects::default());
     let mut limp = build().rule(rule("G5-none")).build().unwrap();

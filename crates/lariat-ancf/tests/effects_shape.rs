@@ -3,7 +3,7 @@
 mod common;
 
 use common::beam::{cantilever, first_mode, only};
-use lariat_ancf::{At, Cable, LineLoad, PointLoad, RestShape, Section, Vector3};
+use lariat_ancf::{At, Cable, GravityScale, LineLoad, PointLoad, RestShape, Section, Vector3};
 
 /// A pre-curved rod without load is an arc of its natural curvature, and an end moment M changes the curvature by M/EI.
 ///
@@ -77,7 +77,7 @@ fn pre_strain_is_tension() {
     assert!((energy - 0.5 * 1e4 * (0.5 * (1.0 - f0 * f0)).powi(2)).abs() < 1e-9);
 }
 
-/// A cantilever under a force per length bends as a beam does, on a part of it too; the line load's work is accounted.
+/// A cantilever under a force per length bends as a beam does, on a part of it too; the line load's work is counted.
 ///
 /// *Source.* Tip deflections q L^4/(8 EI), and for a load on the outer half 41 q L^4/(384 EI) (superposition of Timoshenko 1930).
 #[test]
@@ -101,7 +101,7 @@ fn line_loads_bend_a_cantilever_as_a_beam() {
     let mut cable = cantilever(7).build().unwrap();
     cable.add_line_load(LineLoad::uniform(1000.0 * q)).unwrap();
     (0..20).for_each(|_| cable.step(0.02).unwrap());
-    let (total, work) = (cable.energy().total(), cable.account().line_load);
+    let (total, work) = (cable.energy().total(), cable.effect_work().line_loads);
     assert!(work > 1e-3 && (total - work).abs() < 1e-5 * work, "{total} {work}");
 }
 
@@ -112,7 +112,7 @@ fn line_loads_bend_a_cantilever_as_a_beam() {
 fn a_gravity_scale_is_a_scaled_gravity() {
     let run = |scale: f64, g: f64| {
         let mut cable = common::pendulum(6).gravity(Vector3::new(0.0, -g, 0.0)).build().unwrap();
-        cable.set_gravity_scale(scale).unwrap();
+        cable.set_gravity_scale(GravityScale(scale)).unwrap();
         (0..20).for_each(|_| cable.step(0.01).unwrap());
         cable.positions().to_vec()
     };

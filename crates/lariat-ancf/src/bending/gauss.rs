@@ -10,11 +10,11 @@
 //! and m the monomials of p. The degree of r' x r'' is two, not three: the cubic terms cancel.
 //!
 //! *Source.* Gerstmayr & Shabana 2006 (curvature); Bulin & Hajzman, *T* points. *Validity.* Any: where |r'| < 1/2 at a point, Q^-3
-//! is continued smoothly (`crumple`). Two points or more: one leaves spare modes.
+//! is continued smoothly (`regularisation`). Two points or more: one leaves spare modes.
 //! *Rejected.* Three-vectors at the points (three times the work); the rational integral in closed form (paper: too long).
 
 use super::Bending;
-use super::crumple::Inverse;
+use super::regularisation::RegularisedPower;
 use crate::Real;
 use crate::element::gram::{Six, Upper, form, slope_square, upper, weighted};
 use crate::quadrature::gauss_legendre;
@@ -120,7 +120,10 @@ impl Bending for Gauss {
     fn energy(&self, g: &Six<f64>) -> f64 {
         let x = minors(g);
         // P >= 0; rounding of the minors of a straight element may leave it at -1e-16
-        self.points.iter().map(|p| p.weight * form(&p.m, &x).max(0.0) * Inverse::of(form(&p.b, g)).cube()).sum()
+        self.points
+            .iter()
+            .map(|p| p.weight * form(&p.m, &x).max(0.0) * RegularisedPower::new(form(&p.b, g)).cube())
+            .sum()
     }
 
     #[inline(always)]
@@ -130,9 +133,9 @@ impl Bending for Gauss {
         // gradient of sum_q c_q P_q at fixed c_q = w_q/Q_q^3 is one sweep over the minors: collect c_q m_q first
         let mut minor_weights = [zero; 6];
         for point in &self.points {
-            let at = Inverse::of(form(&point.b, g));
+            let at = RegularisedPower::new(form(&point.b, g));
             let cube = scale * at.inverse * at.inverse * at.inverse * point.weight;
-            let slope = cube * at.inverse * form(&point.m, &x) * -3.0 * at.slope(3.0);
+            let slope = cube * at.inverse * form(&point.m, &x) * -3.0 * at.derivative(3.0);
             let cube = cube * at.value(3.0);
             for i in 0..6 {
                 minor_weights[i] = minor_weights[i] + cube * point.m[i];
@@ -151,14 +154,14 @@ impl Bending for Gauss {
         let zero = scale.splat(0.0);
         let mut minor_weights = [zero; 6];
         for point in &self.points {
-            let at = Inverse::of(form(&point.b, g));
+            let at = RegularisedPower::new(form(&point.b, g));
             let cube = scale * at.inverse * at.inverse * at.inverse * point.weight;
             let fourth = cube * at.inverse;
             let p = form(&point.m, &x);
             // Hessian: c Pi + b u^T + u b^T, u = -3 v/Q^4 + 6 P b/Q^5, v = dP/dg
             let v = weighted_minor_gradient(&point.m, g);
             let square = fourth * p * at.inverse * 6.0;
-            let cross = fourth * -3.0 * at.slope(3.0);
+            let cross = fourth * -3.0 * at.derivative(3.0);
             let slope = cross * p;
             let cube = cube * at.value(3.0);
             let mut u = v;

@@ -1,21 +1,26 @@
 //! Bending rules: how the energy EI kappa^2/2 of the curvature kappa = |r' x r''| / |r'|^3 is integrated over an element.
 //!
-//! With `P = |r' x r''|^2 l^2/4` and `Q = |r'|^2`, both scalar functions of the Gram numbers
-//! ([`gram`](crate::element::gram)), every rule has the form `U = (2 EI/l) u(g)`:
+//! # Equation
+//!
+//! With `P = |r' x r''|^2 l^2/4` and `Q = |r'|^2`, both scalar functions of the Gram numbers ([`gram`](crate::element::gram)), every
+//! rule has the form `U = (2 EI/l) u(g)`:
 //!
 //! | file | u(g) | paper's name |
 //! |---|---|---|
 //! | [`gauss`] | sum_q w_q P_q/Q_q^3 | *T* points |
 //! | [`t1`] | rho.g: mean of \|r''\|^2, |r'| taken as 1 | T1 |
 //! | [`t2`] | rho.g/(a.g)^2: mean stretch divided out | T2 |
-//! | [`NoBending`] | 0: a chain, a limp rope | - |
+//! | [`NoBending`] | 0: a chain, a rope without bending stiffness | - |
 //!
-//! Where |r'| falls below one half, the powers of 1/Q are continued smoothly (`crumple`): a crumpled element stays regular.
+//! # Validity
 //!
-//! A new rule implements [`Bending`]: a scalar function with its weighted gradient and Hessian; nothing else changes.
+//! Any element state: where |r'| falls below one half, the powers of 1/Q are continued smoothly (`regularisation`).
+//!
+//! A new rule implements [`Bending`], a scalar function with its weighted gradient and Hessian; it needs a name in
+//! [`BendingRule`](crate::BendingRule) and a variant of the kernel in `system/elements.rs`, which the compiler asks for.
 
-pub(crate) mod crumple;
 pub mod gauss;
+pub(crate) mod regularisation;
 pub mod t1;
 pub mod t2;
 
@@ -24,9 +29,9 @@ use crate::element::gram::{Six, Upper};
 
 /// A bending energy `u(g)` per `2 EI/l`, with weighted derivatives (see [`gram`](crate::element::gram)).
 pub trait Bending {
-    /// True if the rule has no energy at all: the kernel then computes nothing.
+    /// Whether the rule has no energy at all.
     const ABSENT: bool = false;
-    /// The energy u(g).
+    /// Returns the energy u(g).
     fn energy(&self, g: &Six<f64>) -> f64;
     /// Adds `scale * e_a du/dg_a` to `n`.
     fn add_gradient<T: Real>(&self, g: &Six<T>, scale: T, n: &mut Six<T>);

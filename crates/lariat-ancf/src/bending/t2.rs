@@ -1,14 +1,14 @@
 //! T2: the curvature r''/|r'|^2 with the mean square of the stretch taken out of the integral.
 //!
 //! `u = R/A^2`, `R = rho.g`, `A = a.g = int |r'|^2 dxi`; the derivative of A is kept, so the force has an energy. Where A < 1/4, A^-2 is
-//! continued smoothly (`crumple`).
+//! continued smoothly (`regularisation`).
 //! *Source.* Berzeri & Shabana 2000, model T2; Bulin & Hajzman ("ST2", "L2T2"). *Validity.* |r'| nearly constant inside the
 //! element. *Rejected.* A frozen while differentiating (the literal reading): it is the gradient of no energy, the pendulum's
 //! energy drifts, and it meets the paper's number worse (2.8e-4 m from G10-10, 9.6e-5 with the derivative, 1.02e-4 printed:
 //! assets/reference/table1_reproduction.csv).
 
 use super::Bending;
-use super::crumple::Inverse;
+use super::regularisation::RegularisedPower;
 use super::t1::RHO;
 use crate::Real;
 use crate::axial::moment;
@@ -30,8 +30,8 @@ impl Default for T2 {
 
 impl T2 {
     #[inline(always)]
-    fn parts<T: Real>(&self, g: &Six<T>) -> (T, Inverse<T>) {
-        (form(&RHO, g), Inverse::of(form(&self.a, g)))
+    fn parts<T: Real>(&self, g: &Six<T>) -> (T, RegularisedPower<T>) {
+        (form(&RHO, g), RegularisedPower::new(form(&self.a, g)))
     }
 }
 
@@ -45,7 +45,7 @@ impl Bending for T2 {
         let (r, a) = self.parts(g);
         let square = scale * a.inverse * a.inverse;
         let first = square * a.value(2.0);
-        let second = square * r * a.inverse * -2.0 * a.slope(2.0);
+        let second = square * r * a.inverse * -2.0 * a.derivative(2.0);
         for i in 0..6 {
             n[i] = n[i] + first * (PAIR_WEIGHT[i] * RHO[i]) + second * self.weighted_a[i];
         }
@@ -56,7 +56,7 @@ impl Bending for T2 {
         let square = scale * a.inverse * a.inverse;
         let first = square * a.value(2.0);
         // -2 (rho a^T + a rho^T)/A^3 + 6 R a a^T/A^4 = a u^T + u a^T,  u = -2 rho/A^3 + 3 R a/A^4
-        let cross = square * a.inverse * -2.0 * a.slope(2.0);
+        let cross = square * a.inverse * -2.0 * a.derivative(2.0);
         let second = cross * r;
         let square = square * r * a.inverse * a.inverse * 3.0;
         let mut u = *g;

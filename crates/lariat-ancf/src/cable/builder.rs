@@ -1,22 +1,22 @@
 //! Building a cable.
 
-use super::model::{Element, Model};
 use super::{At, Cable, Snapshot, layout};
-use crate::effect::{Damping, Effects};
+use crate::effect::force_density::ForceDensities;
+use crate::effect::{Damping, Effects, ForceDensity};
 use crate::error::{Error, require, require_finite};
-use crate::integrate::{Fidelity, Integrator};
+use crate::integrate::{Fidelity, Integrator, IntegratorChoice};
 use crate::load::PointLoad;
+use crate::model::{MAX_ELEMENTS, Model};
 use crate::rule::Rule;
+use crate::section::Element;
 use crate::section::Section;
 use crate::support::{Motion, SlopeSupport, Support};
 use nalgebra::Vector3;
+use std::sync::Arc;
 
 /// Gravity that a cable has unless told otherwise, in m/s^2: (0, -9.81, 0). Not the standard 9.80665: the value that games and
 /// engines use.
 pub const STANDARD_GRAVITY: Vector3<f64> = Vector3::new(0.0, -9.81, 0.0);
-
-/// Largest number of elements of a cable.
-const MOST_ELEMENTS: usize = 1_000_000;
 
 /// How a node is held at the start; see [`CableBuilder::fix`] and [`CableBuilder::clamp`].
 #[derive(Clone, Copy, Debug)]
@@ -36,13 +36,14 @@ pub struct CableBuilder {
     nodes_at: Vec<f64>,
     rule: Rule,
     allow_rank_deficient: bool,
-    integrator: Result<Integrator, Fidelity>,
+    integrator: IntegratorChoice,
     gravity: Vector3<f64>,
     velocity: Vector3<f64>,
     angular_velocity: Vector3<f64>,
     holds: Vec<(At, Hold)>,
     loads: Vec<PointLoad>,
     effects: Effects,
+    force_densities: ForceDensities,
 }
 
 impl Default for CableBuilder {
@@ -56,13 +57,14 @@ impl Default for CableBuilder {
             nodes_at: Vec::new(),
             rule: Rule::default(),
             allow_rank_deficient: false,
-            integrator: Err(Fidelity::Engineering),
+            integrator: IntegratorChoice::default(),
             gravity: STANDARD_GRAVITY,
             velocity: Vector3::zeros(),
             angular_velocity: Vector3::zeros(),
             holds: Vec::new(),
             loads: Vec::new(),
             effects: Effects::default(),
+            force_densities: ForceDensities::default(),
         }
     }
 }
@@ -122,17 +124,17 @@ impl CableBuilder {
         self
     }
 
-    /// Time integrator. Default: fidelity engineering.
-    pub fn integrator(mut self, integrator: Integrator) -> Self {
-        self.integrator = Ok(integrator);
+    /// Time integrator: an [`Integrator`], or a [`Fidelity`] that chooses one by the cable's frequencies. Default:
+    /// [`Fidelity::Engineering`].
+    pub fn integrator(mut self, integrator: impl Into<IntegratorChoice>) -> Self {
+        self.integrator = integrator.into();
         self
     }
 
-    /// Time integrator of a fidelity. Default: engineering. Its rule is the builder's default; its number of elements is advice:
-    /// [`Fidelity::elements`].
-    pub fn fidelity(mut self, fidelity: Fidelity) -> Self {
-        self.integrator = Err(fidelity);
-        self
+    /// Time integrator of a fidelity. Default: engineering. The fidelity's rule is the builder's default; its number of elements is
+    /// a recommendation: [`Fidelity::elements`].
+    pub fn fidelity(self, fidelity: Fidelity) -> Self {
+        self.integrator(fidelity)
     }
 
     /// Gravity in m/s^2. Default [`STANDARD_GRAVITY`].
@@ -183,27 +185,36 @@ impl CableBuilder {
         self
     }
 
+    /// Adds a force per length of your own.
+    pub fn force_density(mut self, force: Arc<dyn ForceDensity>) -> Self {
+        self.force_densities.attach(force);
+        self
+    }
+
     /// Builds the cable.
     ///
     /// # Errors
-    /// [`Error::InvalidValue`] for a number that is out of range or not finite, [`Error::InvalidShape`] for fewer than two
-    /// points, coincident points, no elements or no section, [`Error::RankDeficient`] for a rule with spare modes,
-    /// [`Error::OutOfRange`] for an arc length that is not on the cable, and as [`Cable::set_effects`].
+    /// [`Error::InvalidValue`] for a number that is out of range or not finite; [`Error::TooFewPoints`],
+    /// [`Error::CoincidentPoints`], [`Error::ElementCount`] or [`Error::NoSection`] for what is missing;
+    /// [`Error::RankDeficient`] for a rule with spare modes; [`Error::OutOfRange`] for an arc length that is not on the
+    /// cable, [`Error::NodeBeforeMesh`] for a node number; and as [`Cable::set_effects`].
     pub fn build(self) -> Result<Cable, Error> {
-        let invalid = |reason: String| Error::InvalidShape { cable: self.name.clone(), reason };
+        let name = self.name.clone();
+        self.build_named().map_err(|error| error.of_cable(&name))
+    }
+
+    fn build_named(self) -> Result<Cable, Error> {
+        let cable = || self.name.clone();
         self.points.iter().try_for_each(|p| require_finite("point (m)", p))?;
         require_finite("gravity (m/s^2)", &self.gravity)?;
         if self.points.len() < 2 {
-            return Err(invalid(format!("needs at least 2 points, got {}", self.points.len())));
+            return Err(Error::TooFewPoints { cable: cable(), count: self.points.len() });
         }
-        if let Some(i) = self.points.windows(2).position(|p| p[0] == p[1]) {
-            return Err(invalid(format!("points {i} and {} coincide at {:?}", i + 1, self.points[i].as_slice())));
+        if let Some(index) = self.points.windows(2).position(|p| p[0] == p[1]) {
+            return Err(Error::CoincidentPoints { cable: cable(), index, point: self.points[index] });
         }
-        if self.elements > MOST_ELEMENTS {
-            return Err(invalid(format!("takes at most {MOST_ELEMENTS} elements, got {}", self.elements)));
-        }
-        if self.elements == 0 {
-            return Err(invalid("needs at least 1 element, got 0".to_string()));
+        if !(1..=MAX_ELEMENTS).contains(&self.elements) {
+            return Err(Error::ElementCount { cable: cable(), count: self.elements, most: MAX_ELEMENTS });
         }
         let drawn: f64 = self.points.windows(2).map(|p| (p[1] - p[0]).norm()).sum();
         let length = self.length.unwrap_or(drawn);
@@ -216,13 +227,13 @@ impl CableBuilder {
         let mut sections = self.sections.clone();
         sections.sort_by(|a, b| a.0.total_cmp(&b.0));
         if sections.first().is_none_or(|(from, _)| *from > 0.0) {
-            return Err(invalid("needs a section from arc length 0 on".to_string()));
+            return Err(Error::NoSection { cable: cable() });
         }
         let arc_length = |at: At| match at {
             At::Start | At::Node(0) => Ok(0.0),
             At::End => Ok(length),
             At::ArcLength(s) => Ok(s),
-            At::Node(i) => Err(invalid(format!("node {i} has no place before the cable is built: give an arc length"))),
+            At::Node(node) => Err(Error::NodeBeforeMesh { cable: cable(), node }),
         };
         let mut breaks = vec![0.0, length];
         breaks.extend(sections.iter().map(|(from, _)| *from));
@@ -245,11 +256,11 @@ impl CableBuilder {
             })
             .collect();
         let (positions, slopes) = layout::along_polyline(&self.points, &s, self.gravity);
-        let mut state = Snapshot::default();
+        let mut snapshot = Snapshot::default();
         for (r, t) in positions.iter().zip(&slopes) {
-            state.phase.q.extend(r.iter().chain(t.iter()));
+            snapshot.state.q.extend(r.iter().chain(t.iter()));
         }
-        state.phase.v.resize(state.phase.q.len(), 0.0);
+        snapshot.state.v.resize(snapshot.state.q.len(), 0.0);
         let model = Model {
             name: self.name.clone(),
             elements,
@@ -258,9 +269,10 @@ impl CableBuilder {
             supports: Vec::new(),
             loads: Vec::new(),
             effects: self.effects,
+            force_densities: self.force_densities,
         };
-        let implicit = model.effects.damping.is_some();
-        let mut cable = Cable::from_parts(model, state, Integrator::default())?;
+        let implicit = model.effects.needs_implicit_integrator();
+        let mut cable = Cable::from_parts(model, snapshot, Integrator::default())?;
         for (at, hold) in self.holds {
             let node = cable.node(At::ArcLength(arc_length(at)?.min(length)))?;
             let slope = match hold {
@@ -276,12 +288,9 @@ impl CableBuilder {
         for load in self.loads {
             cable.add_load(load)?;
         }
-        let integrator = match self.integrator {
-            Ok(integrator) => integrator,
-            // damping needs an implicit method, however soft the cable
-            Err(fidelity) => fidelity.integrator(if implicit { f64::INFINITY } else { cable.frequency_bound() }),
-        };
-        cable.set_integrator(integrator)?;
+        // damping needs an implicit method, however soft the cable
+        let frequency_bound = if implicit { f64::INFINITY } else { cable.frequency_bound() };
+        cable.set_integrator(self.integrator.integrator(frequency_bound))?;
         Ok(cable)
     }
 }

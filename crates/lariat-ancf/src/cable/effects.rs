@@ -1,33 +1,31 @@
-//! Effects of a cable: read, switched on and off between steps, accounted.
+//! Effects of a cable and forces of the user's own: read, and changed between steps.
 
-use super::model::Model;
-use super::{Cable, Equations};
-use crate::effect::account::hermite;
-use crate::effect::{Account, Buoyancy, Damping, Drag, Effects, GravityScale, LineLoad, RestShape};
-use crate::element::{mass, shape};
-use crate::error::{Error, require, require_finite};
-use crate::integrate::{Integrator, State};
-use crate::quadrature::gauss_legendre;
+use super::Cable;
+use crate::effect::*;
+use crate::error::{Error, Requirement};
 use crate::rule::BendingRule;
 use nalgebra::Vector3;
+use std::sync::Arc;
 
 impl Cable {
-    /// Effects that are on.
+    /// Returns the effects that are on.
     pub fn effects(&self) -> &Effects {
         &self.model.effects
     }
 
-    /// Work of effects since the cable was built.
-    pub fn account(&self) -> &Account {
-        &self.state.account
+    /// Returns the work of effects since the cable was built.
+    pub fn effect_work(&self) -> &EffectWork {
+        &self.snapshot.work
     }
 
-    /// Replaces all effects from the next step on. Not for every step: tables are built anew and the mass matrix is factored. Position
-    /// and velocity stay as they are.
+    /// Replaces all effects from the next step on. Positions and velocities stay as they are. Not meant for every step, because it builds
+    /// tables and factors the mass matrix.
     ///
     /// # Errors
-    /// [`Error::InvalidValue`] for a number out of range, [`Error::InvalidShape`] for an effect that the cable's section or rule has no
-    /// number for (a diameter, an area, a bending rule), [`Error::UnsupportedControl`] for damping with an explicit integrator.
+    /// [`Error::InvalidValue`] for a number out of range, [`Error::MissingForEffect`] for an effect that needs a diameter, an area or
+    /// a bending rule that the cable does not have, [`Error::EmptyRestPiece`] for a piece of a rest shape that covers no element,
+    /// [`Error::WrongCount`] for samples of a flow that are not one per node, [`Error::ExplicitDamping`] for damping with an explicit
+    /// integrator.
     /// The cable is then as before.
     pub fn set_effects(&mut self, effects: Effects) -> Result<(), Error> {
         self.redefine(self.rule(), effects, self.integrator())
@@ -39,66 +37,77 @@ impl Cable {
         self.set_effects(effects)
     }
 
-    /// Switches internal damping on, or off with `None`.
-    ///
-    /// # Errors
-    /// As [`set_effects`](Self::set_effects).
-    pub fn set_damping(&mut self, damping: impl Into<Option<Damping>>) -> Result<(), Error> {
-        self.change_effects(|effects| effects.damping = damping.into())
-    }
-
-    /// Switches drag on, or off with `None`.
-    ///
-    /// # Errors
-    /// As [`set_effects`](Self::set_effects).
-    pub fn set_drag(&mut self, drag: impl Into<Option<Drag>>) -> Result<(), Error> {
-        self.change_effects(|effects| effects.drag = drag.into())
-    }
-
-    /// Switches buoyancy and added mass on, or off with `None`.
-    ///
-    /// # Errors
-    /// As [`set_effects`](Self::set_effects).
-    pub fn set_buoyancy(&mut self, buoyancy: impl Into<Option<Buoyancy>>) -> Result<(), Error> {
-        self.change_effects(|effects| effects.buoyancy = buoyancy.into())
-    }
-
-    /// Sets the stress-free shape, or straight and unstretched with `None`.
-    ///
-    /// # Errors
-    /// As [`set_effects`](Self::set_effects).
-    pub fn set_rest_shape(&mut self, rest_shape: impl Into<Option<RestShape>>) -> Result<(), Error> {
-        self.change_effects(|effects| effects.rest_shape = rest_shape.into())
-    }
-
-    /// Multiplies gravity for this cable; 1 = as it is.
-    ///
-    /// # Errors
-    /// As [`set_effects`](Self::set_effects).
-    pub fn set_gravity_scale(&mut self, scale: f64) -> Result<(), Error> {
-        self.change_effects(|effects| effects.gravity_scale = GravityScale(scale))
-    }
-
     /// Adds a force per length.
     ///
     /// # Errors
     /// As [`set_effects`](Self::set_effects).
     pub fn add_line_load(&mut self, load: LineLoad) -> Result<(), Error> {
-        self.change_effects(|effects| effects.line_loads.push(load))
+        self.change_effects(|effects| effects.line_loads.get_or_insert_default().0.push(load))
     }
 
-    /// Removes all forces per length.
+    /// Returns the forces per length of your own, in the order in which they were attached.
+    pub fn force_densities(&self) -> impl Iterator<Item = &Arc<dyn ForceDensity>> {
+        self.model.force_densities.iter()
+    }
+
+    /// Attaches a force per length of your own; see [`ForceDensity`]. After a cable was read back from a file, attach its functions again
+    /// in the same order.
+    ///
+    /// ```
+    /// use lariat_ancf::{Cable, CablePoint, ForceDensity, Section, Vector3};
+    /// use std::sync::Arc;
+    ///
+    /// /// Pulls towards the y axis, in proportion to the distance.
+    /// #[derive(Debug)]
+    /// struct Spring;
+    ///
+    /// impl ForceDensity for Spring {
+    ///     fn force(&self, at: &CablePoint) -> Vector3<f64> {
+    ///         -10.0 * Vector3::new(at.position.x, 0.0, at.position.z)
+    ///     }
+    ///     fn depends_on_velocity(&self) -> bool {
+    ///         false
+    ///     }
+    /// }
+    ///
+    /// let points = [Vector3::zeros(), Vector3::new(2.0, 0.0, 0.0)];
+    /// let mut cable = Cable::builder().points(points).section(Section::round(0.01, 1e8, 4000.0)?).build()?;
+    /// cable.attach_force_density(Arc::new(Spring))?;
+    /// cable.step(1.0 / 60.0)?;
+    /// assert!(cable.effect_work().force_densities > 0.0);
+    /// # Ok::<(), lariat_ancf::Error>(())
+    /// ```
     ///
     /// # Errors
-    /// As [`set_effects`](Self::set_effects).
-    pub fn clear_line_loads(&mut self) -> Result<(), Error> {
-        self.change_effects(|effects| effects.line_loads.clear())
+    /// [`Error::StepFailed`] if the mass matrix cannot be factored.
+    pub fn attach_force_density(&mut self, force: Arc<dyn ForceDensity>) -> Result<(), Error> {
+        let mut model = self.model.clone();
+        model.force_densities.attach(force);
+        self.rebuild(model)
     }
 
-    /// Samples a flow of your own at the nodes, from now until the next call: for wind zones, gusts, currents from elsewhere. Call it
-    /// before every step, or as often as the flow changes; `field` gives the velocity in m/s at a place (m), for the middle of the time
-    /// until the next call if it changes in time. On top of what the drag's [`Flow`](crate::Flow) gives; linear between nodes. Allocates at
-    /// the first call only, and samples that are those there are cost nothing.
+    /// Removes all forces per length of your own, missing ones included.
+    ///
+    /// # Errors
+    /// As [`attach_force_density`](Self::attach_force_density).
+    pub fn clear_force_densities(&mut self) -> Result<(), Error> {
+        let mut model = self.model.clone();
+        model.force_densities.clear();
+        self.rebuild(model)
+    }
+
+    /// Rejects a cable that was read back without its functions.
+    pub(crate) fn check_forces(&self) -> Result<(), Error> {
+        match self.model.force_densities.missing() {
+            0 => Ok(()),
+            count => Err(Error::MissingForceDensities { cable: self.name().to_string(), count }),
+        }
+    }
+
+    /// Samples a flow of your own at the nodes, valid until the next call: for wind zones, gusts, computed currents. Call it before every
+    /// step, or as often as the flow changes; `field` returns the velocity in m/s at a position (m), for the middle of the time until the
+    /// next call if it changes in time. The samples are added to the drag's [`Flow`](crate::Flow), linear between nodes. Allocates at the
+    /// first call only; samples that do not differ from the last ones cost nothing.
     ///
     /// ```
     /// # use lariat_ancf::{Cable, Drag, Flow, Section, Vector3};
@@ -107,32 +116,33 @@ impl Cable {
     /// cable.set_drag(Drag::new(1.2, 1.2, 0.01, Flow::default()))?;
     /// for _ in 0..10 {
     ///     let time = cable.time() + 0.5 / 60.0;
-    ///     cable.sample_flow(|place| if place.x > 1.0 { Vector3::new(0.0, 0.0, 8.0 * time) } else { Vector3::zeros() })?;
+    ///     cable.sample_flow(|r| if r.x > 1.0 { Vector3::new(0.0, 0.0, 8.0 * time) } else { Vector3::zeros() })?;
     ///     cable.step(1.0 / 60.0)?;
     /// }
     /// # Ok::<(), lariat_ancf::Error>(())
     /// ```
     ///
     /// # Errors
-    /// [`Error::InvalidShape`] for a cable without drag, [`Error::InvalidValue`] for a velocity that is not finite; the samples are then as
+    /// [`Error::MissingForEffect`] for a cable without drag, [`Error::InvalidValue`] for a velocity that is not finite; the samples are then as
     /// before.
     pub fn sample_flow(&mut self, mut field: impl FnMut(Vector3<f64>) -> Vector3<f64>) -> Result<(), Error> {
-        let (Some(drag), Some(fluid)) = (&mut self.model.effects.drag, &mut self.system.fluid) else {
-            let reason = "a flow acts by drag, and this cable has none".to_string();
-            return Err(Error::InvalidShape { cable: self.model.name.clone(), reason });
+        let (Some(drag), Some(table)) = (&mut self.model.effects.drag, &mut self.system.forces.at_points.drag) else {
+            let (cable, effect) = (self.model.name.clone(), "a sampled flow");
+            return Err(Error::MissingForEffect { cable, effect, requirement: Requirement::Drag });
         };
-        let places = self.state.phase.q.chunks_exact(6).map(|q| Vector3::new(q[0], q[1], q[2]));
-        if fluid.sample(&mut drag.flow.samples, places.map(&mut field))? {
+        let positions = self.snapshot.state.q.chunks_exact(6).map(|q| Vector3::new(q[0], q[1], q[2]));
+        let changed = table.sample(&mut drag.flow.samples, positions.map(&mut field));
+        if changed.map_err(|e| e.of_cable(&self.model.name))? {
             // accelerations change, the length of the next step does not
             self.revision += 1;
-            self.state.phase.memory.valid = false;
-            self.state.phase.memory.revision = self.revision;
+            self.snapshot.state.memory.valid = false;
+            self.snapshot.state.memory.revision = self.revision;
         }
         Ok(())
     }
 
-    /// Kelvin-Voigt times that damp the `mode`-th lowest natural frequency, counted from 1, by this damping ratio (share of critical):
-    /// [`natural_frequencies`](Self::natural_frequencies) at the present state, motions without stiffness left out, and
+    /// Returns the Kelvin-Voigt times that damp the `mode`-th lowest natural frequency, counted from 1, by this damping ratio (fraction of
+    /// critical): [`natural_frequencies`](Self::natural_frequencies) at the present state without zero-frequency modes, and
     /// [`Damping::from_ratio`]. In space a bending mode comes twice, once per plane. The curvature's time is 0 for a cable without bending.
     ///
     /// ```
@@ -155,207 +165,25 @@ impl Cable {
             return Err(Error::OutOfRange { cable, what, value: mode as f64, limit: elastic.len() as f64 });
         };
         let damping = Damping::from_ratio(ratio, omega)?;
-        let limp = self.rule().bending == BendingRule::None;
-        Ok(if limp { Damping { bending: 0.0, ..damping } } else { damping })
-    }
-
-    /// Takes over the account of a host step that succeeded, `before` being the positions when it began.
-    pub(crate) fn settle(&mut self, before: &[f64]) {
-        let Cable { system, state, .. } = self;
-        state.account.add(&core::mem::take(&mut system.account));
-        if !system.line_force.is_empty() {
-            let moved = state.phase.q.iter().zip(before);
-            state.account.line_load +=
-                system.line_force.iter().zip(moved).map(|(f, (q, q0))| f * (q - q0)).sum::<f64>();
-        }
+        let no_bending = self.rule().bending == BendingRule::None;
+        Ok(if no_bending { Damping { bending: 0.0, ..damping } } else { damping })
     }
 }
 
-/// Refuses damping under an explicit integrator.
-pub(crate) fn check_integrator(model: &Model, integrator: Integrator) -> Result<(), Error> {
-    if model.effects.damping.is_some() && !integrator.method.properties().implicit {
-        return Err(Error::UnsupportedControl {
-            method: integrator.method.to_string(),
-            reason: "internal damping lowers the stability limit of explicit methods far below any step; use an implicit one",
-        });
-    }
-    Ok(())
-}
-
-impl Model {
-    /// Refuses effects that are out of range or that the cable has no numbers for.
-    pub(crate) fn check_effects(&self) -> Result<(), Error> {
-        let Effects { damping, drag, buoyancy, rest_shape, line_loads, gravity_scale } = &self.effects;
-        let invalid = |reason: &str| Err(Error::InvalidShape { cable: self.name.clone(), reason: reason.to_string() });
-        require("gravity scale", gravity_scale.0, true, "a number")?;
-        let limp = self.rule.bending == BendingRule::None;
-        if let Some(damping) = damping {
-            damping.check()?;
-            if limp && damping.bending > 0.0 {
-                return invalid("damping of bending needs a bending rule, this cable has none");
-            }
-        }
-        if let Some(rest) = rest_shape {
-            rest.check()?;
-            self.check_pieces(rest)?;
-            if limp && rest.pieces.iter().any(|piece| piece.curvature > 0.0) {
-                return invalid("a natural curvature needs a bending rule, this cable has none");
-            }
-        }
-        if let Some(drag) = drag {
-            drag.check()?;
-            let samples = drag.flow.samples.len();
-            if samples != 0 && samples != self.nodes() {
-                return invalid(&format!("{samples} samples of the flow, the cable has {} nodes", self.nodes()));
-            }
-            if drag.diameter.is_none() && self.elements.iter().any(|e| e.section.diameter.is_none()) {
-                return invalid("drag needs a diameter: of the section, or of the drag");
-            }
-        }
-        if let Some(buoyancy) = buoyancy {
-            let Buoyancy { fluid_density, added_mass, area } = *buoyancy;
-            require("fluid density (kg/m^3)", fluid_density, fluid_density > 0.0, "> 0")?;
-            require("coefficient of added mass", added_mass, added_mass >= 0.0, ">= 0")?;
-            require("displaced area (m^2)", area.unwrap_or(1.0), area.is_none_or(|a| a > 0.0), "> 0")?;
-            if area.is_none() && self.elements.iter().any(|e| e.section.outer_area.is_none()) {
-                return invalid("buoyancy needs a displaced area: of the section, or of the buoyancy");
-            }
-        }
-        for load in line_loads {
-            require(
-                "begin of a line load (m)",
-                load.from,
-                load.from >= 0.0 && load.from < self.length(),
-                "on the cable",
-            )?;
-            require("end of a line load (m)", load.to, load.to > load.from, "> its begin")?;
-            require_finite("line load (N/m)", &load.force)?;
-        }
-        Ok(())
-    }
-
-    /// Refuses pieces of a rest shape that no element has.
-    fn check_pieces(&self, rest: &RestShape) -> Result<(), Error> {
-        let s = self.node_arc_lengths();
-        for (i, piece) in rest.pieces.iter().enumerate() {
-            let end = rest.pieces.get(i + 1).map_or(f64::INFINITY, |next| next.from);
-            if !s.windows(2).any(|s| (piece.from..end).contains(&(0.5 * (s[0] + s[1])))) {
-                let reason = format!("no element has its middle in the rest shape's piece from {} m on", piece.from);
-                return Err(Error::InvalidShape { cable: self.name.clone(), reason });
-            }
-        }
-        Ok(())
-    }
-
-    /// Displaced fluid in kg/m.
-    fn displaced(&self, element: usize) -> f64 {
-        self.effects
-            .buoyancy
-            .as_ref()
-            .map_or(0.0, |b| b.fluid_density * b.area.or(self.elements[element].section.outer_area).unwrap_or(0.0))
-    }
-
-    /// Mass per length in kg/m that resists acceleration, added mass included.
-    pub(crate) fn inertia(&self, element: usize) -> f64 {
-        let own = self.elements[element].section.mass_per_length;
-        match &self.effects.buoyancy {
-            None => own,
-            Some(buoyancy) => own + buoyancy.added_mass * self.displaced(element),
-        }
-    }
-
-    /// Weight per length in N/m: scaled gravity less buoyancy.
-    pub(crate) fn weight(&self, element: usize) -> Vector3<f64> {
-        let own = self.elements[element].section.mass_per_length;
-        if self.effects.buoyancy.is_none() && self.effects.gravity_scale.0 == 1.0 {
-            return own * self.gravity;
-        }
-        (self.effects.gravity_scale.0 * (own - self.displaced(element))) * self.gravity
-    }
-
-    /// Stress-free stretch and curvature (1/m) of an element.
-    pub(crate) fn rest(&self, element: usize) -> (f64, f64) {
-        let Some(rest) = &self.effects.rest_shape else { return (1.0, 0.0) };
-        let begin: f64 = self.elements[..element].iter().map(|e| e.length).sum();
-        rest.at(begin + 0.5 * self.elements[element].length)
-    }
-
-    /// Generalised force of the line loads; empty without.
-    pub(crate) fn line_force(&self) -> Vec<f64> {
-        let mut force = Vec::new();
-        for load in &self.effects.line_loads {
-            force.resize(6 * self.nodes(), 0.0);
-            let mut begin = 0.0;
-            for (e, element) in self.elements.iter().enumerate() {
-                let l = element.length;
-                let (a, b) = (((load.from - begin) / l).clamp(0.0, 1.0), ((load.to - begin) / l).clamp(0.0, 1.0));
-                begin += l;
-                if a == b {
-                    continue;
+macro_rules! setters {
+    ($({ field: $field:ident, type: $type:ident, set: $set:ident, key: $key:literal, summary: $summary:literal })*) => {
+        impl Cable {
+            $(
+                #[doc = concat!("Sets one effect, or removes it with `None`: ", $summary)]
+                ///
+                /// # Errors
+                /// As [`set_effects`](Self::set_effects).
+                pub fn $set(&mut self, effect: impl Into<Option<$type>>) -> Result<(), Error> {
+                    self.change_effects(|effects| effects.$field = effect.into())
                 }
-                let weights = if (a, b) == (0.0, 1.0) { mass::load_weights(l) } else { partial_weights(l, a, b) };
-                for (i, f) in force[6 * e..6 * e + 12].iter_mut().enumerate() {
-                    *f += weights[i / 3] * load.force[i % 3];
-                }
-            }
+            )*
         }
-        force
-    }
-
-    /// Sum of weights and line loads in N, and the sum of their sizes.
-    pub(crate) fn dead_resultant(&self) -> (Vector3<f64>, f64) {
-        let mut sum = (Vector3::zeros(), 0.0);
-        for (e, element) in self.elements.iter().enumerate() {
-            let weight = element.length * self.weight(e);
-            // a neutrally buoyant cable is measured by what it weighs in air
-            let size = element.length * element.section.mass_per_length * self.gravity.norm();
-            sum = (sum.0 + weight, sum.1 + size * self.effects.gravity_scale.0.abs());
-        }
-        for load in &self.effects.line_loads {
-            let force = (load.to.min(self.length()) - load.from) * load.force;
-            sum = (sum.0 + force, sum.1 + force.norm());
-        }
-        sum
-    }
+    };
 }
 
-/// Weights of a load per length on the piece from `a` to `b` (shares of the length) of an element.
-fn partial_weights(length: f64, a: f64, b: f64) -> [f64; 4] {
-    let mut sum = [0.0; 4];
-    for (x, w) in gauss_legendre(2) {
-        let at = shape::position(a + (b - a) * x, length);
-        for k in 0..4 {
-            sum[k] += w * (b - a) * length * at[k];
-        }
-    }
-    sum
-}
-
-impl Equations<'_> {
-    /// Adds to the account what effects took in a step from `before` to `after`.
-    pub(crate) fn account_step(&mut self, before: &State, after: &State, h: f64, range: core::ops::Range<usize>) {
-        let system = &mut *self.system;
-        let damps = system.kernel.as_ref().is_some_and(|kernel| kernel.damps());
-        if !damps && system.fluid.is_none() {
-            return;
-        }
-        let (mut q, mut v) = (core::mem::take(&mut system.rhs), core::mem::take(&mut system.z));
-        for (weights, share) in hermite().into_iter().zip([0.211_324_865_405_187_1, 0.788_675_134_594_812_9]) {
-            for (i, k) in range.clone().enumerate() {
-                let mix = |x0: f64, d0: f64, x1: f64, d1: f64| {
-                    weights[0] * x0 + weights[1] * h * d0 + weights[2] * x1 + weights[3] * h * d1
-                };
-                q[i] = mix(before.q[k], before.v[k], after.q[k], after.v[k]);
-                v[i] = mix(before.v[k], before.memory.acceleration[k], after.v[k], after.memory.acceleration[k]);
-            }
-            if let Some(kernel) = system.kernel.as_ref().filter(|_| damps) {
-                system.account.damping += 0.5 * h * system.elements.damping_power(kernel, &q, &v);
-            }
-            if let Some(fluid) = &mut system.fluid {
-                system.account.drag += 0.5 * h * fluid.power(system.level, before.time + share * h, &q, &v);
-            }
-        }
-        system.rhs = q;
-        system.z = v;
-    }
-}
+crate::for_each_effect!(setters);

@@ -18,7 +18,7 @@ pub struct Energy {
 }
 
 impl Energy {
-    /// Sum of all, in J.
+    /// Returns the sum of all, in J.
     pub fn total(&self) -> f64 {
         self.kinetic + self.axial + self.bending + self.gravity
     }
@@ -43,16 +43,16 @@ pub struct Momentum {
 }
 
 impl Cable {
-    /// Kinetic, strain and gravity energy of the present state.
+    /// Returns kinetic, strain and gravity energy of the present state.
     pub fn energy(&self) -> Energy {
-        let (axial, bending) = self.system.strain_energy(self.positions());
+        let (axial, bending) = self.system.forces.strain_energy(self.positions());
         let momentum = self.generalised_momentum();
         let kinetic = 0.5 * momentum.iter().zip(self.velocities()).map(|(p, v)| p * v).sum::<f64>();
-        let gravity = -self.system.gravity_work(self.positions());
+        let gravity = -self.system.loads.gravity_work(self.positions());
         Energy { kinetic, axial, bending, gravity }
     }
 
-    /// Linear and angular momentum of the present state.
+    /// Returns linear and angular momentum of the present state.
     pub fn momentum(&self) -> Momentum {
         let p = self.generalised_momentum();
         let vector = |x: &[f64]| Vector3::new(x[0], x[1], x[2]);
@@ -67,7 +67,7 @@ impl Cable {
 
     fn generalised_momentum(&self) -> Vec<f64> {
         let mut p = vec![0.0; self.velocities().len()];
-        self.system.multiply_mass(self.velocities(), &mut p);
+        self.system.mass.multiply(self.system.level, self.velocities(), &mut p);
         p
     }
 }

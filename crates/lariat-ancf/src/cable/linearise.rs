@@ -1,65 +1,71 @@
 //! The cable's matrices at its present state: for eigenfrequencies, buckling loads and coupling.
 
 use super::Cable;
-use super::kernel_effects::Rates;
-use super::projection::project_matrix;
+use crate::effect::acts::ForceInput;
+use crate::integrate::State;
 use crate::linalg::BlockTridiagonal;
+use crate::system::jacobian::Jacobians;
+use crate::system::project_matrix;
 use nalgebra::DMatrix;
 
 impl Cable {
-    /// Consistent mass matrix over all coordinates (kg, kg m, kg m^2); supports are not applied.
+    /// Returns the consistent mass matrix over all coordinates (kg, kg m, kg m^2); supports are not applied.
     pub fn mass_matrix(&mut self) -> BlockTridiagonal {
-        let system = &mut self.system;
-        system.matrix.clear();
-        system.add_mass(1.0);
-        system.matrix.clone()
+        let mut matrix = BlockTridiagonal::zeros(self.nodes());
+        self.system.mass.add_to(&mut matrix, 1.0);
+        matrix
     }
 
-    /// Tangent stiffness -dF/dq at the present state over all coordinates (N/m, N, N m); supports are not applied. Of damping and
-    /// drag the part that the step matrix takes, see [`damping`](crate::effect::damping) and [`drag`](crate::effect::drag); all of it:
-    /// [`jacobians`](Self::jacobians).
+    /// Returns the tangent stiffness -dF/dq at the present state over all coordinates (N/m, N, N m); supports are not applied. Of damping,
+    /// drag and forces of your own the part that the step matrix takes, see [`damping`](crate::effect::damping),
+    /// [`drag`](crate::effect::drag) and [`force_density`](crate::effect::force_density); all of it: [`jacobians`](Self::jacobians).
     pub fn stiffness_matrix(&mut self) -> BlockTridiagonal {
         let mut force = vec![0.0; self.positions().len()];
         self.evaluate_with_stiffness(&mut force).clone()
     }
 
-    /// Damping matrix -dF/dq' at the present state over all coordinates (N s/m, N s, N m s); supports are not applied.
+    /// Returns the damping matrix -dF/dq' at the present state over all coordinates (N s/m, N s, N m s); supports are not applied.
     pub fn damping_matrix(&mut self) -> BlockTridiagonal {
         let mut force = vec![0.0; self.positions().len()];
         let stiffness = self.evaluate_with_stiffness(&mut force).clone();
-        let (mut equations, phase) = self.equations();
-        let rates = Rates { v: &phase.v, rate: 1.0 };
-        equations.moving_force_and_matrix(phase.time, &phase.q, rates, 1.0, 0.0, &mut force);
-        let mut damping = self.system.matrix.clone();
-        let blocks = |m: &mut BlockTridiagonal, k: BlockTridiagonal| {
-            for (block, k) in m.diag.iter_mut().chain(&mut m.lower).zip(k.diag.iter().chain(&k.lower)) {
-                block.0.iter_mut().flatten().zip(k.0.iter().flatten()).for_each(|(m, k)| *m -= k);
-            }
-        };
-        blocks(&mut damping, stiffness);
+        let mut damping = self.evaluate_with_matrix(1.0, &mut force).clone();
+        let blocks = stiffness.diag.iter().chain(&stiffness.lower);
+        for (block, k) in damping.diag.iter_mut().chain(&mut damping.lower).zip(blocks) {
+            block.0.iter_mut().flatten().zip(k.0.iter().flatten()).for_each(|(c, k)| *c -= k);
+        }
         damping
     }
 
-    /// Generalised force at the present state: elastic, gravity, loads and effects (N on positions, N m on slopes); no reactions.
+    /// Returns the exact derivatives of the force at the present state, supports not applied. Dense, and some ten times the work of
+    /// [`stiffness_matrix`](Self::stiffness_matrix): for tens or hundreds of nodes.
+    pub fn jacobians(&self) -> Jacobians {
+        Jacobians::new(&self.system, &self.model, input(&self.snapshot.state, 0.0))
+    }
+
+    /// Returns the generalised force at the present state: elastic, gravity, loads and effects (N on positions, N m on slopes); no
+    /// reactions.
     pub fn force(&mut self) -> Vec<f64> {
         let mut force = vec![0.0; self.positions().len()];
         self.evaluate(&mut force);
         force
     }
 
-    /// [`force`](Self::force) into a slice of 6 numbers per node; allocates nothing.
+    /// Computes [`force`](Self::force) into a slice of 6 numbers per node; allocates nothing.
     pub fn evaluate(&mut self, force: &mut [f64]) {
-        let (mut equations, phase) = self.equations();
-        equations.moving_force(phase.time, &phase.q, &phase.v, 1.0, force);
+        let (mut equations, state) = self.equations();
+        equations.force(input(state, 0.0), force);
     }
 
-    /// Force into a slice of 6 numbers per node, and the stiffness as [`stiffness_matrix`](Self::stiffness_matrix); allocates
-    /// nothing.
+    /// Computes the force into a slice of 6 numbers per node, and the stiffness as [`stiffness_matrix`](Self::stiffness_matrix) does;
+    /// allocates nothing.
     pub fn evaluate_with_stiffness(&mut self, force: &mut [f64]) -> &BlockTridiagonal {
-        let (mut equations, phase) = self.equations();
-        let rates = Rates { v: &phase.v, rate: 0.0 };
-        equations.moving_force_and_matrix(phase.time, &phase.q, rates, 1.0, 0.0, force);
-        &self.system.matrix
+        self.evaluate_with_matrix(0.0, force)
+    }
+
+    fn evaluate_with_matrix(&mut self, dv_dq: f64, force: &mut [f64]) -> &BlockTridiagonal {
+        let (mut equations, state) = self.equations();
+        equations.force_and_matrix(input(state, dv_dq), 0.0, force);
+        &self.system.step.matrix
     }
 
     /// Applies the supports to a matrix: held rows and columns become those of the identity.
@@ -67,11 +73,10 @@ impl Cable {
         project_matrix(&self.model, matrix);
     }
 
-    /// Angular frequencies in rad/s of small motions about the present state, supports in place, ascending: `det(K - omega^2 M) = 0`. 0
-    /// for a motion that meets no stiffness, or a negative one (buckling). A dense eigenproblem: for tens or hundreds of nodes.
-    /// [`damping_at_mode`](Self::damping_at_mode) damps one of them by a given ratio.
-    ///
-    /// *Source.* Golub & Van Loan 2013, section 8.7 (Cholesky reduction of a symmetric pencil).
+    /// Returns the angular frequencies in rad/s of small motions about the present state, supports in place, ascending:
+    /// `det(K - omega^2 M) = 0`. 0 for a mode of zero or negative stiffness (buckling). A dense eigenproblem, reduced by Cholesky's factors
+    /// (Golub & Van Loan 2013, section 8.7): for tens or hundreds of nodes. [`damping_at_mode`](Self::damping_at_mode) damps one of them
+    /// by a given ratio.
     pub fn natural_frequencies(&mut self) -> Vec<f64> {
         let held_at = 10.0 * self.frequency_bound() * self.frequency_bound();
         let mut held = BlockTridiagonal::zeros(self.nodes());
@@ -80,7 +85,7 @@ impl Cable {
         self.apply_supports(&mut k);
         self.apply_supports(&mut m);
         let held = dense(&held);
-        // what is held is put above all frequencies, and dropped
+        // held coordinates get a frequency above all others, and are dropped
         let k = dense(&k) + &held * (held_at - 1.0);
         let dropped = held.trace().round() as usize;
         let Some(factor) = dense(&m).cholesky() else { return Vec::new() };
@@ -92,6 +97,11 @@ impl Cable {
         squares.truncate(squares.len() - dropped);
         squares.into_iter().map(|x| x.max(0.0).sqrt()).collect()
     }
+}
+
+/// The arguments of an evaluation at a state.
+fn input(state: &State, dv_dq: f64) -> ForceInput<'_> {
+    ForceInput { time: state.time, q: &state.q, v: &state.v, dv_dq, scale: 1.0 }
 }
 
 fn dense(a: &BlockTridiagonal) -> DMatrix<f64> {

@@ -1,47 +1,41 @@
-//! A cable: its mesh, its state, and its step.
+//! A cable: its description, its state, and its step.
+//!
+//! | file | what it holds |
+//! |---|---|
+//! | [`builder`], `layout` | building a cable |
+//! | `state` | reading and changing the state; snapshots |
+//! | `supports`, `loads`, `effects` | what acts on it, changed between steps |
+//! | `edit` | cutting, refining, changing the rule |
+//! | [`sample`], [`reactions`], [`energy`] | reading results |
+//! | [`linearise`] | matrices at the present state |
 
-mod assembly;
 pub mod builder;
-mod cut;
+mod edit;
 mod effects;
 pub mod energy;
-mod equations;
-pub mod exact;
-mod fluid;
-mod frequency;
-mod hold;
-mod kernel_effects;
 mod layout;
 pub mod linearise;
-mod made;
-mod model;
-mod projection;
-mod refine;
-mod rest;
+mod loads;
+pub mod reactions;
 pub mod sample;
 mod saved;
-mod simd;
-mod strategy;
-mod system;
-
-pub use model::{Element, Model};
+mod state;
+mod supports;
 
 use crate::diagnostics::Diagnostics;
-use crate::effect::Account;
+use crate::effect::EffectWork;
 use crate::error::{Error, StepFailure, require};
-use crate::integrate::drive::{self, Counts};
-use crate::integrate::{Integrator, Scratch, State};
+use crate::integrate::{Integrator, IntegratorRef, OneStep, Scratch, State, step_control};
+use crate::model::Model;
 use crate::rule::Rule;
+use crate::section::Element;
+use crate::system::{Buffers, CableDynamics, Equations, System};
 use builder::CableBuilder;
-pub(crate) use effects::check_integrator;
-pub(crate) use equations::Equations;
-pub(crate) use fluid::Fluid;
-pub(crate) use kernel_effects::Rates;
+use fearless_simd::Level;
 pub(crate) use layout::along_polyline;
 use nalgebra::Vector3;
-pub(crate) use projection::{project_matrix, project_vector};
 use serde::{Deserialize, Serialize};
-use system::System;
+pub use state::Snapshot;
 
 /// Shortest step in s: squares of its smallest part must not vanish.
 pub(crate) const SHORTEST_STEP: f64 = 1e-100;
@@ -66,30 +60,31 @@ impl From<f64> for At {
     }
 }
 
-/// All that changes while a cable moves. Plain data: clone it, serialise it, put it back, and the run goes on bitwise the same.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Snapshot {
-    pub(crate) phase: State,
-    /// Work of effects so far.
-    #[serde(default)]
-    pub(crate) account: Account,
-}
-
-/// A cable of ANCF elements with its force strategy, integrator and state.
+/// A cable of ANCF elements with its rule, integrator and state.
 ///
-/// Serialises as its description and state; a deserialised cable continues bitwise the same run.
+/// Serialises as its description and state; a deserialised cable continues bitwise the same run. JSON needs `serde_json` with its
+/// feature `float_roundtrip`: without it, numbers are read back changed in the last bit.
+///
+/// # Validity
+///
+/// - "Linear elastic" is the St Venant-Kirchhoff law on the Green strain, N = EA (f^2 - 1)/2 f per unstretched length: a good law within a
+///   few percent of stretch f = 1, too stiff in large extension, too soft in large compression (its stiffness vanishes at f = 0.577).
+/// - No torsion: the section rotates freely about the axis, and no moment about it is transmitted.
+/// - No contact, of cables with bodies, with each other or with themselves; no friction over pulleys.
+/// - No reel: the unstretched length is constant, but for [`cut`](Self::cut).
 #[derive(Clone, Debug, Serialize, Deserialize)]
 #[serde(try_from = "saved::Saved", into = "saved::Saved")]
 pub struct Cable {
     pub(crate) model: Model,
-    pub(crate) state: Snapshot,
+    pub(crate) snapshot: Snapshot,
     integrator: Integrator,
     diagnostics: Diagnostics,
     pub(crate) system: System,
+    pub(crate) buffers: Buffers,
     scratch: Scratch,
-    /// State at the beginning of the host step, to go back to.
-    saved: State,
-    /// Counts changes of supports, loads and integrator.
+    /// State at the beginning of the host step, restored if it fails.
+    before: State,
+    /// Counts changes of supports, loads, effects and integrator.
     pub(crate) revision: u64,
 }
 
@@ -99,159 +94,164 @@ impl Cable {
         CableBuilder::default()
     }
 
-    pub(crate) fn from_parts(model: Model, state: Snapshot, integrator: Integrator) -> Result<Self, Error> {
-        model.check()?;
-        state
-            .phase
-            .check(6 * model.nodes())
-            .map_err(|reason| Error::InvalidShape { cable: model.name.clone(), reason })?;
-        let system = System::new(&model).map_err(|failure| Error::StepRefused {
+    pub(crate) fn from_parts(model: Model, snapshot: Snapshot, integrator: Integrator) -> Result<Self, Error> {
+        model.check().map_err(|e| e.of_cable(&model.name))?;
+        snapshot.state.check(&model.name, 6 * model.nodes())?;
+        let system = System::new(&model).map_err(|failure| Error::StepFailed {
             cable: model.name.clone(),
-            time: state.phase.time,
-            at: state.phase.time,
+            time: snapshot.state.time,
+            at: snapshot.state.time,
             step: 0.0,
             failure,
         })?;
-        check_integrator(&model, integrator)?;
+        check_integrator(&model, &integrator.method)?;
         Ok(Cable {
-            model,
-            state,
             integrator: integrator.checked()?,
             diagnostics: Diagnostics::default(),
             system,
+            buffers: Buffers::new(&model),
             scratch: Scratch::default(),
-            saved: State::default(),
+            before: State::default(),
             revision: 0,
+            model,
+            snapshot,
         })
+    }
+
+    /// Replaces the description: everything derived from it is built anew.
+    fn rebuild(&mut self, model: Model) -> Result<(), Error> {
+        let system = System::with_level(&model, self.system.level);
+        self.system = system.map_err(|failure| self.step_failed(self.time(), 0.0, failure))?;
+        self.buffers = Buffers::new(&model);
+        self.model = model;
+        self.revise();
+        Ok(())
     }
 
     /// Advances the cable by `dt` (s), the host's step, with its integrator. `dt` = 0 does nothing.
     ///
     /// # Errors
-    /// [`Error::InvalidValue`] for a `dt` that is negative, not finite, or below 1e-100 and not zero; [`Error::StepRefused`] if
-    /// the step cannot be done: the cable is then exactly as before. [`Error::InvalidShape`] for a cable with
+    /// [`Error::InvalidValue`] for a `dt` that is negative, not finite, or below 1e-100 and not zero; [`Error::StepFailed`] if
+    /// the step failed: the cable is then exactly as before. [`Error::Attached`] for a cable with
     /// [attached](Self::attach) nodes, which only an [`island`](crate::island) can step.
     pub fn step(&mut self, dt: f64) -> Result<(), Error> {
-        self.step_with(dt, self.integrator)
+        let integrator = self.integrator;
+        self.step_with(dt, &integrator)
     }
 
-    /// [`step`](Self::step) with this integrator instead of the cable's own: for callers who split a host step, and its tolerance.
+    /// Advances the cable as [`step`](Self::step) does, with this integrator instead of the cable's own: `&Integrator`, or an
+    /// [`IntegratorRef`] with a method of another crate.
     ///
     /// # Errors
-    /// As [`step`](Self::step).
-    pub fn step_with(&mut self, dt: f64, integrator: Integrator) -> Result<(), Error> {
-        let Integrator { method, control } = integrator.checked()?;
-        require("dt (s)", dt, dt == 0.0 || dt >= SHORTEST_STEP, "0, or >= 1e-100")?;
+    /// As [`step`](Self::step), [`Integrator::checked`] and [`set_integrator`](Self::set_integrator).
+    pub fn step_with<'a>(&mut self, dt: f64, integrator: impl Into<IntegratorRef<'a>>) -> Result<(), Error> {
+        let integrator = integrator.into();
+        integrator.check()?;
+        check_integrator(&self.model, integrator.method)?;
+        require("dt (s)", dt, dt == 0.0 || dt >= SHORTEST_STEP, "0, or >= 1e-100")
+            .map_err(|e| e.of_cable(self.name()))?;
         if dt == 0.0 {
             return Ok(());
         }
-        self.check_not_attached()?;
-        self.saved.copy_from(&self.state.phase);
+        self.check_complete()?;
+        self.before.copy_from(&self.snapshot.state);
         self.refresh_memory();
-        self.system.account = Account::default();
-        let mut counts = Counts::default();
-        let mut equations =
-            Equations { model: &self.model, system: &mut self.system, diagnostics: &mut self.diagnostics };
-        let phase = &mut self.state.phase;
-        let outcome = drive::advance(&mut equations, method, control, phase, dt, &mut self.scratch, &mut counts);
+        self.system.meter.work = EffectWork::default();
+        let equations = Equations { model: &self.model, system: &mut self.system, diagnostics: &mut self.diagnostics };
+        let mut dynamics = CableDynamics { equations, buffers: &mut self.buffers };
+        let state = &mut self.snapshot.state;
+        let (counts, outcome) = step_control::advance(&mut dynamics, integrator, state, dt, &mut self.scratch);
         self.diagnostics.steps += counts.steps;
         self.diagnostics.rejected_steps += counts.rejected;
         match outcome {
             Ok(()) => {
                 self.diagnostics.host_steps += 1;
-                let saved = core::mem::take(&mut self.saved);
-                self.settle(&saved.q);
-                self.saved = saved;
+                self.snapshot.add_work_of_step(&mut self.system, &self.before.q);
                 Ok(())
             }
-            Err(refusal) => {
-                core::mem::swap(&mut self.state.phase, &mut self.saved);
-                Err(self.refused(refusal.time, refusal.step, refusal.failure))
+            Err(failed) => {
+                core::mem::swap(&mut self.snapshot.state, &mut self.before);
+                Err(self.step_failed(failed.time, failed.step, failed.failure))
             }
         }
     }
 
-    pub(crate) fn refused(&self, at: f64, step: f64, failure: StepFailure) -> Error {
-        log::warn!("cable {:?}: step refused at t = {at} s: {failure}", self.model.name);
-        Error::StepRefused { cable: self.model.name.clone(), time: self.time(), at, step, failure }
+    pub(crate) fn step_failed(&self, at: f64, step: f64, failure: StepFailure) -> Error {
+        log::warn!("cable {:?}: step failed at t = {at} s: {failure}", self.model.name);
+        Error::StepFailed { cable: self.model.name.clone(), time: self.time(), at, step, failure }
     }
 
-    /// Accelerations of another description of the cable (a snapshot from before a change) are not used.
-    pub(crate) fn refresh_memory(&mut self) {
-        let memory = &mut self.state.phase.memory;
-        if memory.revision != self.revision {
-            memory.valid = false;
-            memory.step = 0.0;
-            memory.revision = self.revision;
-        }
-    }
-
-    pub(crate) fn check_not_attached(&self) -> Result<(), Error> {
+    /// Rejects a cable that cannot be stepped by itself.
+    pub(crate) fn check_complete(&self) -> Result<(), Error> {
+        self.check_forces()?;
         match self.model.supports.iter().find(|(_, s)| s.attached) {
             None => Ok(()),
-            Some((node, _)) => Err(Error::InvalidShape {
-                cable: self.name().to_string(),
-                reason: format!("node {node} is attached to a body: only an island can move it"),
-            }),
+            Some((node, _)) => Err(Error::Attached { cable: self.name().to_string(), node: *node }),
         }
     }
 
-    pub(crate) fn equations(&mut self) -> (Equations<'_>, &State) {
+    pub(crate) fn equations(&mut self) -> (Equations<'_>, &mut State) {
         let equations = Equations { model: &self.model, system: &mut self.system, diagnostics: &mut self.diagnostics };
-        (equations, &self.state.phase)
+        (equations, &mut self.snapshot.state)
     }
 
-    /// Name.
+    pub(crate) fn dynamics(&mut self) -> (CableDynamics<'_>, &State) {
+        let equations = Equations { model: &self.model, system: &mut self.system, diagnostics: &mut self.diagnostics };
+        (CableDynamics { equations, buffers: &mut self.buffers }, &self.snapshot.state)
+    }
+
+    /// Forces a SIMD level, for benchmarks and for the test that all levels agree. Not part of the state.
+    ///
+    /// # Errors
+    /// [`Error::StepFailed`] if the mass matrix cannot be factored.
+    #[doc(hidden)]
+    pub fn set_simd_level(&mut self, level: Level) -> Result<(), Error> {
+        self.system.level = level;
+        let failure = self.system.factor_mass(&self.model).err();
+        failure.map_or(Ok(()), |failure| Err(self.step_failed(self.time(), 0.0, failure)))
+    }
+
+    /// Returns the name.
     pub fn name(&self) -> &str {
         &self.model.name
     }
 
-    /// Time of the state in s.
+    /// Returns the time of the state in s.
     pub fn time(&self) -> f64 {
-        self.state.phase.time
+        self.snapshot.state.time
     }
 
-    /// Unstretched length in m.
+    /// Returns the unstretched length in m.
     pub fn length(&self) -> f64 {
         self.model.length()
     }
 
-    /// Elements: lengths and sections.
+    /// Returns the elements: lengths and sections.
     pub fn elements(&self) -> &[Element] {
         &self.model.elements
     }
 
-    /// Number of nodes: one more than elements.
+    /// Returns the number of nodes: one more than elements.
     pub fn nodes(&self) -> usize {
         self.model.nodes()
     }
 
-    /// Arc lengths of the nodes in m, ascending from 0.
+    /// Returns the arc lengths of the nodes in m, ascending from 0.
     pub fn node_arc_lengths(&self) -> Vec<f64> {
         self.model.node_arc_lengths()
     }
 
-    /// Force strategy.
+    /// Returns the rule of the elastic forces.
     pub fn rule(&self) -> Rule {
         self.model.rule
     }
 
-    /// Gravity in m/s^2.
+    /// Returns gravity in m/s^2.
     pub fn gravity(&self) -> Vector3<f64> {
         self.model.gravity
     }
 
-    /// Nodal coordinates, flat: by node the position (m) and the slope dr/ds.
-    pub fn positions(&self) -> &[f64] {
-        &self.state.phase.q
-    }
-
-    /// Nodal velocities, flat: by node m/s and 1/s.
-    pub fn velocities(&self) -> &[f64] {
-        &self.state.phase.v
-    }
-
-    /// Position of a node in m.
+    /// Returns the position of a node in m.
     ///
     /// # Panics
     /// If there is no such node.
@@ -259,17 +259,17 @@ impl Cable {
         Vector3::from_column_slice(&self.positions()[6 * node..6 * node + 3])
     }
 
-    /// Counts of what was done.
+    /// Returns the counters.
     pub fn diagnostics(&self) -> &Diagnostics {
         &self.diagnostics
     }
 
-    /// Counts, to reset them.
+    /// Returns the counters, to reset them.
     pub fn diagnostics_mut(&mut self) -> &mut Diagnostics {
         &mut self.diagnostics
     }
 
-    /// Time integrator.
+    /// Returns the time integrator.
     pub fn integrator(&self) -> Integrator {
         self.integrator
     }
@@ -277,70 +277,18 @@ impl Cable {
     /// Changes the time integrator from the next step on.
     ///
     /// # Errors
-    /// As [`Integrator::checked`].
+    /// As [`Integrator::checked`]; [`Error::ExplicitDamping`] for an explicit method on a cable with internal damping.
     pub fn set_integrator(&mut self, integrator: Integrator) -> Result<(), Error> {
-        check_integrator(&self.model, integrator)?;
+        check_integrator(&self.model, &integrator.method)?;
         self.integrator = integrator.checked()?;
         self.revise();
         Ok(())
     }
 
-    /// An upper bound of the cable's angular frequencies in rad/s.
+    /// Returns an upper bound of the cable's angular frequencies in rad/s; effects and forces of your own are not in it, but added mass and
+    /// the rest stretch.
     pub fn frequency_bound(&self) -> f64 {
-        self.system.frequency_bound
-    }
-
-    /// The state: clone it to take a snapshot.
-    pub fn snapshot(&self) -> &Snapshot {
-        &self.state
-    }
-
-    /// Puts a state back; the run then continues bitwise as it did from there (if supports, loads, effects and integrator are
-    /// as they were, else from its positions and velocities).
-    ///
-    /// # Errors
-    /// [`Error::InvalidShape`] if the state is of a cable with another number of nodes, or is not finite.
-    pub fn restore(&mut self, state: Snapshot) -> Result<(), Error> {
-        state
-            .phase
-            .check(self.positions().len())
-            .map_err(|reason| Error::InvalidShape { cable: self.name().to_string(), reason })?;
-        let Account { damping, drag, line_load } = state.account;
-        [damping, drag, line_load].into_iter().try_for_each(|x| require("work of effects (J)", x, true, "a number"))?;
-        self.state = state;
-        Ok(())
-    }
-
-    /// Sets nodal coordinates and velocities, flat as [`positions`](Self::positions) and [`velocities`](Self::velocities).
-    ///
-    /// # Errors
-    /// [`Error::InvalidShape`] for the wrong number, [`Error::InvalidValue`] for numbers that are not finite.
-    pub fn set_coordinates(&mut self, positions: &[f64], velocities: &[f64]) -> Result<(), Error> {
-        let n = self.positions().len();
-        if positions.len() != n || velocities.len() != n {
-            return Err(Error::InvalidShape {
-                cable: self.name().to_string(),
-                reason: format!("needs {n} coordinates, got {} and {}", positions.len(), velocities.len()),
-            });
-        }
-        positions.iter().try_for_each(|&x| require("coordinate", x, true, "a number"))?;
-        velocities.iter().try_for_each(|&x| require("velocity", x, true, "a number"))?;
-        self.state.phase.q.copy_from_slice(positions);
-        self.state.phase.v.copy_from_slice(velocities);
-        self.disturb();
-        Ok(())
-    }
-
-    /// The state changed under the integrator: accelerations must be computed anew.
-    pub(crate) fn disturb(&mut self) {
-        self.state.phase.memory.valid = false;
-        self.state.phase.memory.step = 0.0;
-    }
-
-    /// Supports, loads or integrator changed: states from before keep their positions and velocities only.
-    pub(crate) fn revise(&mut self) {
-        self.revision += 1;
-        self.refresh_memory();
+        self.system.scales.frequency_bound
     }
 
     pub(crate) fn check_arc_length(&self, s: f64) -> Result<(), Error> {
@@ -352,7 +300,7 @@ impl Cable {
         }
     }
 
-    /// Arc length of a point in m.
+    /// Returns the arc length of a point in m.
     ///
     /// # Errors
     /// [`Error::OutOfRange`] if it is not on the cable.
@@ -370,16 +318,24 @@ impl Cable {
         Error::OutOfRange { cable: self.name().to_string(), what: "node", value, limit }
     }
 
-    /// Number of the node at a point.
+    /// Returns the number of the node at a point.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] if it is not on the cable, [`Error::InvalidShape`] if no node is within 1e-9 of the length.
+    /// [`Error::OutOfRange`] if it is not on the cable, [`Error::NoNode`] if no node is within 1e-9 of the length.
     pub fn node(&self, at: impl Into<At>) -> Result<usize, Error> {
         let s = self.arc_length(at)?;
-        let near = |x: &f64| (x - s).abs() <= 1e-9 * self.length();
-        self.node_arc_lengths().iter().position(near).ok_or_else(|| Error::InvalidShape {
-            cable: self.name().to_string(),
-            reason: format!("no node at arc length {s} m: ask for one with node_at when building"),
+        let nodes = self.node_arc_lengths();
+        nodes.iter().position(|x| (x - s).abs() <= 1e-9 * self.length()).ok_or_else(|| {
+            let nearest = nodes.iter().copied().min_by(|a, b| (a - s).abs().total_cmp(&(b - s).abs())).unwrap_or(0.0);
+            Error::NoNode { cable: self.name().to_string(), arc_length: s, nearest }
         })
     }
+}
+
+/// Checks that a cable has an implicit method where an effect needs one.
+pub(crate) fn check_integrator(model: &Model, method: &dyn OneStep) -> Result<(), Error> {
+    if model.effects.needs_implicit_integrator() && method.stability_limit().is_some() {
+        return Err(Error::ExplicitDamping { cable: model.name.clone(), method: method.name() });
+    }
+    Ok(())
 }

@@ -1,10 +1,10 @@
 //! A cable as it is serialised: its description and state; the rest is derived.
 
-use super::model::Model;
 use super::{Cable, Snapshot};
 use crate::diagnostics::Diagnostics;
 use crate::error::Error;
 use crate::integrate::Integrator;
+use crate::model::Model;
 use serde::{Deserialize, Serialize};
 
 /// A cable as it is serialised.
@@ -12,7 +12,7 @@ use serde::{Deserialize, Serialize};
 #[serde(rename = "Cable")]
 pub(super) struct Saved {
     model: Model,
-    state: Snapshot,
+    snapshot: Snapshot,
     integrator: Integrator,
     diagnostics: Diagnostics,
     #[serde(default)]
@@ -21,15 +21,15 @@ pub(super) struct Saved {
 
 impl From<Cable> for Saved {
     fn from(cable: Cable) -> Self {
-        let Cable { model, state, integrator, diagnostics, revision, .. } = cable;
-        Saved { model, state, integrator, diagnostics, revision }
+        let Cable { model, snapshot, integrator, diagnostics, revision, .. } = cable;
+        Saved { model, snapshot, integrator, diagnostics, revision }
     }
 }
 
 impl TryFrom<Saved> for Cable {
     type Error = Error;
     fn try_from(saved: Saved) -> Result<Self, Error> {
-        let mut cable = Cable::from_parts(saved.model, saved.state, saved.integrator)?;
+        let mut cable = Cable::from_parts(saved.model, saved.snapshot, saved.integrator)?;
         cable.diagnostics = saved.diagnostics;
         cable.revision = saved.revision;
         Ok(cable)

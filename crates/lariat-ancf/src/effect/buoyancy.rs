@@ -1,17 +1,34 @@
 //! Buoyancy and added mass of a cable in a fluid.
 //!
+//! # Equation
+//!
 //! ```text
 //! w = (rhoA - rho_f A_d) g          M = int S^T (rhoA + C_a rho_f A_d) S ds
 //! ```
 //!
-//! A_d is the displaced area per length. The weight and the mass matrix are changed once; a step does no more work than without.
-//! *Source.* Archimedes; Morison et al. 1950 for the added mass C_a rho_f A_d of a cylinder (C_a = 1 for a circle in ideal flow, Lamb
-//! 1932, art. 68). *Validity.* A closed, fully immersed cable in a fluid at rest or in slow change: the term (1 + C_a) rho_f A_d u' of
-//! an accelerated fluid is left out. A constant force per length is exact for a cable whose ends are closed; the tension that is read
-//! is then the *effective* tension (that of the wall plus the fluid's pressure times the area). Added mass acts in all directions
-//! alike: the true one acts across the cable only, so waves along it come out slower, by sqrt(1 + C_a rho_f A_d/rhoA). *Rejected.* Added
-//! mass across the cable alone: a mass matrix that depends on the configuration, with its quadratic velocity terms, in every step.
+//! A_d is the displaced area per length. The weight and the mass matrix change once; a step does no more work than without.
+//!
+//! # Validity
+//!
+//! A closed, fully immersed cable in a fluid at rest or in slow change: the term (1 + C_a) rho_f A_d u' of an accelerated fluid is
+//! left out. A constant force per length is exact for a cable whose ends are closed; the tension that is read is then the
+//! *effective* tension (that of the wall plus the fluid's pressure times the area). Added mass acts in all directions alike: the
+//! true one acts across the cable only, so waves along it are slower by sqrt(1 + C_a rho_f A_d/rhoA).
+//!
+//! # References
+//!
+//! Archimedes; Morison et al. 1950 for the added mass C_a rho_f A_d of a cylinder (C_a = 1 for a circle in ideal flow, Lamb 1932,
+//! art. 68).
+//!
+//! # Alternatives considered
+//!
+//! Added mass across the cable alone: a mass matrix that depends on the configuration, with its quadratic velocity terms, in every
+//! step.
 
+use super::acts::{Acts, Nothing};
+use super::{Cut, Effect, Target};
+use crate::error::{Error, Requirement, require};
+use crate::section::Section;
 use serde::{Deserialize, Serialize};
 
 /// Buoyancy and added mass.
@@ -28,8 +45,54 @@ pub struct Buoyancy {
 }
 
 impl Buoyancy {
-    /// Buoyancy in a fluid of this density (kg/m^3), with the coefficient of added mass.
+    /// Creates buoyancy in a fluid of this density (kg/m^3), with the coefficient of added mass.
     pub fn new(fluid_density: f64, added_mass: f64) -> Self {
         Buoyancy { fluid_density, added_mass, area: None }
+    }
+}
+
+impl Effect for Buoyancy {
+    const DISSIPATIVE: bool = false;
+
+    fn check(&self, cable: &Target<'_>) -> Result<(), Error> {
+        let Buoyancy { fluid_density, added_mass, area } = *self;
+        require("fluid density (kg/m^3)", fluid_density, fluid_density > 0.0, "> 0")?;
+        require("coefficient of added mass", added_mass, added_mass >= 0.0, ">= 0")?;
+        require("displaced area (m^2)", area.unwrap_or(1.0), area.is_none_or(|a| a > 0.0), "> 0")?;
+        if area.is_none() && cable.elements.iter().any(|e| e.section.outer_area.is_none()) {
+            return Err(cable.missing("buoyancy", Requirement::DisplacedArea));
+        }
+        Ok(())
+    }
+
+    fn depends_on_velocity(&self) -> bool {
+        false
+    }
+
+    fn has_exact_tangent(&self) -> bool {
+        true
+    }
+
+    fn needs_implicit_integrator(&self) -> bool {
+        false
+    }
+
+    fn cut(&self, _: Cut<'_>) -> [Option<Self>; 2] {
+        [Some(*self); 2]
+    }
+
+    fn refine(&mut self, _: usize, _: f64) {}
+}
+
+impl Acts for Buoyancy {
+    type InElement = Nothing;
+    type AtPoints = Nothing;
+
+    fn added_mass(&self, section: &Section) -> f64 {
+        self.added_mass * self.displaced_mass(section)
+    }
+
+    fn displaced_mass(&self, section: &Section) -> f64 {
+        self.fluid_density * self.area.or(section.outer_area).unwrap_or(0.0)
     }
 }

@@ -1,4 +1,6 @@
-//! The squared curvature at Gauss points as a function of the Gram numbers: what damping and rest shape of bending build on.
+//! The squared curvature at Gauss points as a function of the Gram numbers: shared by damping and rest shape of bending.
+//!
+//! # Equation
 //!
 //! `w = (kappa l/2)^2 = P/Q^3` ([`gauss`](crate::bending::gauss) for P, Q), so a function f(w) has the weighted derivatives
 //!
@@ -7,17 +9,20 @@
 //! w_gg = P_gg/Q^3 - 3 (P_g b^T + b P_g^T)/Q^4 + 12 P b b^T/Q^5
 //! ```
 //!
-//! with Q^-3 and its derivatives continued where an element is crumpled ([`crumple`](crate::bending::crumple)).
+//! with Q^-3 and its derivatives continued where an element is crumpled ([`regularisation`](crate::bending::regularisation)).
 //!
-//! *Source.* As the bending rule. *Validity.* Any.
+//! # Validity
+//!
+//! Any element state.
 
 use crate::Real;
-use crate::bending::crumple::Inverse;
 use crate::bending::gauss::{add_weighted_minor_hessian, minor_coefficients, minors, weighted_minor_gradient};
+use crate::bending::regularisation::RegularisedPower;
 use crate::element::gram::{PAIR_WEIGHT, Six, Upper, form, slope_square, upper, weighted};
 use crate::quadrature::gauss_legendre;
+use crate::rule::BendingRule;
 
-/// A square of half the turn per element well above the rounding of the minors, whose difference w is.
+/// Floor for w, above the cancellation error of the 2x2 minors.
 pub(crate) const NOISE: f64 = 2.5e-12;
 
 /// Constants of one Gauss point.
@@ -47,13 +52,21 @@ pub(crate) struct Squared<T> {
     pub inverse: T,
 }
 
-/// Gauss points of the rule, ascending.
-pub(crate) fn points(count: usize) -> Vec<Point> {
+/// Gauss points of effects beside a bending rule that has none of its own.
+const POINTS: usize = 3;
+
+/// Points of a bending rule, ascending; none without bending.
+pub(crate) fn points_of(rule: BendingRule) -> Vec<Point> {
+    let count = match rule {
+        BendingRule::None => return Vec::new(),
+        BendingRule::Gauss(count) => count as usize,
+        BendingRule::T1 | BendingRule::T2 => POINTS,
+    };
     gauss_legendre(count).into_iter().map(|(xi, weight)| Point::at(xi, weight)).collect()
 }
 
 impl Point {
-    /// The point at xi in `[0, 1]`.
+    /// Creates the point at xi in `[0, 1]`.
     pub fn at(xi: f64, weight: f64) -> Self {
         let b = slope_square(xi);
         // l r''/2 in control vectors
@@ -62,13 +75,13 @@ impl Point {
         Point { weight, b, weighted_b: weighted(&b), m: minor_coefficients(xi), second }
     }
 
-    /// w and its gradient.
+    /// Returns w and its gradient.
     #[inline(always)]
     pub fn squared<T: Real>(&self, g: &Six<T>) -> Squared<T> {
-        let at = Inverse::of(form(&self.b, g));
+        let at = RegularisedPower::new(form(&self.b, g));
         let cube = at.inverse * at.inverse * at.inverse;
         let fourth = cube * at.inverse;
-        let powers = [cube * at.value(3.0), fourth * at.slope(3.0) * -3.0, fourth * at.inverse * 6.0];
+        let powers = [cube * at.value(3.0), fourth * at.derivative(3.0) * -3.0, fourth * at.inverse * 6.0];
         let p = form(&self.m, &minors(g));
         // P >= 0; rounding of the minors of a straight element may leave it at -1e-16
         let p = (p + p.abs()) * 0.5;
@@ -81,8 +94,8 @@ impl Point {
         Squared { w: powers[0] * p, gradient, p, minor, powers, inverse: at.inverse }
     }
 
-    /// Adds the pairs of `scale |l r''/2|^2`: with them, [`gradient`](crate::element::gram::gradient) of any three vectors makes the gradient of
-    /// half of it.
+    /// Adds the pairs of `scale |l r''/2|^2`: the [`gradient`](crate::element::gram::gradient) of any three vectors with these pairs is
+    /// the gradient of half of it.
     #[inline(always)]
     pub fn add_second_derivative<T: Real>(&self, scale: T, n: &mut Six<T>) {
         for i in 0..6 {
@@ -116,7 +129,7 @@ impl Point {
 }
 
 impl<T: Real> Squared<T> {
-    /// dw/dt for the plain rates of the Gram numbers.
+    /// Returns dw/dt for the plain rates of the Gram numbers.
     #[inline(always)]
     pub fn rate(&self, rates: &Six<T>) -> T {
         let mut sum = self.gradient[0] * rates[0] * (1.0 / PAIR_WEIGHT[0]);

@@ -1,6 +1,9 @@
 //! Internal damping after Kelvin and Voigt: stress = E (strain + time * strain rate), for stretch and bending.
 //!
-//! The dissipation function of an element and the force it makes, in Gram numbers g, their rates g' and the velocities v of the control vectors:
+//! # Equation
+//!
+//! The dissipation function of an element and its force, in Gram numbers g, their rates g' and the velocities v of the control
+//! vectors:
 //!
 //! ```text
 //! R = 1/2 EA tau_a int eps'^2 + 1/2 EI tau_b int kappa'^2          F = -dR/dq'          power 2R
@@ -9,40 +12,57 @@
 //! phi = (1 - w/e)^3 where w < e, else 0
 //! ```
 //!
-//! A is the axial rule's own matrix, the points are those of the bending rule (three for T1, T2). An element that is bent (w >= e) is damped by
-//! the rate of the *scalar* curvature: only g and g' enter, so rigid motion makes no force to the last bit of g' = 0. A nearly straight one
-//! is damped by the rate of the curvature *vector*, which is what a small vibration about the straight line needs. In a plane both are the same and
-//! the force is EI tau kappa', without a kink where the curvature passes through zero. At rest nothing is left of either.
+//! A is the axial rule's matrix, the points are those of the bending rule (three for T1, T2). An element that is bent (w >= e) is
+//! damped by the rate of the *scalar* curvature: only g and g' enter, so rigid motion makes no force, to the last bit of g' = 0. A
+//! nearly straight one is damped by the rate of the curvature *vector*, which is what a small vibration about the straight line
+//! needs. In a plane both are the same and the force is EI tau kappa', without a kink where the curvature passes through zero. Both
+//! vanish at zero velocity.
 //!
-//! *Source.* Garcia-Vallejo, Valverde & Dominguez, Nonlinear Dyn. 42 (2005) 347 (internal damping of ANCF beams by the rates of Green
-//! strain and of the scalar curvature); the vector rate is that of the linear beam. *Validity.* Damping ratio tau omega/2: it grows with
-//! frequency. The scalar curvature sees a curvature that *turns about the axis* as no change: this is the cable that may spin freely in its own
-//! axis, which is what an element without twist is. e = 1e-7: an element that turns the cable by less than 6e-4 rad and spins about its
-//! axis by omega heats up, by at most 0.42 e EI tau omega^2/l in W (max of phi w is 0.105 e); 0 where it is straight or bent further.
+//! The derivative of the force by velocity is exact. By position the step takes the part that keeps its matrix symmetric: the
+//! geometric stiffness of the viscous stress, of bending that across the curvature and where it stiffens (along it, the derivative
+//! of g' cancels it). Left out is C (dg'/dq), which is unsymmetric; its symmetric half would make stiff matrices indefinite. The exact
+//! derivative is [`Cable::jacobians`](crate::Cable::jacobians)'s.
 //!
-//! *Rejected.* The scalar rate for all curvatures (e = 0): a dissipation of g and g' alone must vanish at the straight cable, because any
-//! transverse velocity of a straight cable is the limit of a fast spin of a slightly bent one. The force then is EI tau times the rate along a
-//! direction that turns arbitrarily fast where the curvature is small, and the step has to follow: 2 m of 10 mm steel rope in 200 elements, let go
-//! from horizontal in a breeze, tau = 1 ms: 4111 steps for the first 1/60 s, against 39 for 30/60 s. The vector rate for all: smooth, and a spinning bent cable
-//! heats up. Rayleigh damping by the mass matrix: it damps falling.
+//! # Validity
 //!
-//! *Tangent.* By velocity exact. By position the step takes the part that keeps its matrix symmetric: geometric
-//! stiffness of the viscous stress, of bending that across the curvature and where it stiffens (along it, what g' adds cancels it). Left out is C (dg'/dq),
-//! unsymmetric; its symmetric half, taken in, makes stiff matrices indefinite. The exact derivative is
-//! [`Cable::jacobians`](crate::Cable::jacobians)'s; what Newton's iteration would save with it is in the table of [`exact`](crate::cable::exact).
+//! Damping ratio tau omega/2: it grows with frequency. The scalar curvature does not change when the curvature rotates about the
+//! axis: the cable may spin freely about its own axis, as an element without twist does. e = 1e-7: an element that bends by less
+//! than 6e-4 rad and spins about its axis by omega heats up, by at most 0.42 e EI tau omega^2/l in W (the maximum of phi w is
+//! 0.105 e); by nothing where it is straight or bent further.
+//!
+//! # References
+//!
+//! Garcia-Vallejo, Valverde & Dominguez, Nonlinear Dyn. 42 (2005) 347 (internal damping of ANCF beams by the rates of Green strain
+//! and of the scalar curvature); the vector rate is that of the linear beam.
+//!
+//! # Alternatives considered
+//!
+//! - The scalar rate for all curvatures (e = 0): a dissipation of g and g' alone must vanish at the straight cable, because any
+//!   transverse velocity of a straight cable is the limit of a fast spin of a slightly bent one. The force is then EI tau times the
+//!   rate along a direction that rotates arbitrarily fast where the curvature is small, and the step has to follow: 2 m of 10 mm steel
+//!   rope in 200 elements, released from horizontal in a breeze, tau = 1 ms, took 4111 steps for the first 1/60 s, against 39 for
+//!   30/60 s.
+//! - The vector rate for all curvatures: smooth, and a spinning bent cable heats up.
+//! - Rayleigh damping by the mass matrix: it damps falling.
+//! - The exact, unsymmetric tangent in Newton's iteration: fewer iterations where drag or axial damping dominate the motion (up to
+//!   45 % at fidelity game), 0 to 10 % fewer elsewhere, while it stores nine blocks for six per element and is factored by L U in
+//!   place of L D L^T.
 
-use super::curvature::{NOISE, Point};
+use super::acts::{Acts, ElementForce, Nothing, SampledPoint};
+use super::curvature::{self, NOISE, Point};
+use super::{Cut, Effect, Target};
 use crate::Real;
-use crate::axial::AxialTable;
-use crate::element::gram::{Control, PAIR_WEIGHT, Six, Upper, dot, gradient, gram, quadratic_form};
-use crate::element::kernel::Stiffness;
-use crate::error::{Error, require};
+use crate::axial::projected;
+use crate::element::gram::{Control, dot, gradient, quadratic_form};
+use crate::element::kernel::{Gradient, GramForce, GramState, Hessian, Load};
+use crate::error::{Error, Requirement, require};
+use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
 /// e: square of half the turn per element, in rad, below which the curvature is damped as a vector.
 const STRAIGHT: f64 = 1e-7;
 
-/// Kelvin-Voigt times: how long the rate of strain must last to double the stress.
+/// Kelvin-Voigt times: the time that the rate of strain must last to double the stress.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Damping {
@@ -53,10 +73,9 @@ pub struct Damping {
 }
 
 impl Damping {
-    /// The time in s that damps a mode of this angular frequency (rad/s) with this damping ratio: 2 ratio/omega, for both kinds. By the
+    /// Returns the times in s that damp a mode of this angular frequency (rad/s) with this damping ratio: 2 ratio/omega, for both
+    /// kinds. Valid for a mode whose restoring force is elastic; where gravity or tension restores, less of the energy is strain. By the
     /// number of a mode: [`Cable::damping_at_mode`](crate::Cable::damping_at_mode).
-    ///
-    /// *Validity.* A mode whose restoring force is elastic; where gravity or tension restores, less of the energy is strain.
     ///
     /// # Errors
     /// [`Error::InvalidValue`] for a ratio below 0 or a frequency that is not positive.
@@ -67,101 +86,153 @@ impl Damping {
         Ok(Damping { axial: time, bending: time })
     }
 
-    /// Damping ratio of an elastic mode of this angular frequency (rad/s) by the bending time: tau omega/2.
+    /// Returns the damping ratio of an elastic mode of this angular frequency (rad/s) by the bending time: tau omega/2.
     pub fn bending_ratio(&self, angular_frequency: f64) -> f64 {
         0.5 * self.bending * angular_frequency
     }
+}
 
-    pub(crate) fn check(&self) -> Result<(), Error> {
+impl Effect for Damping {
+    const DISSIPATIVE: bool = true;
+
+    fn check(&self, cable: &Target<'_>) -> Result<(), Error> {
         require("axial damping time (s)", self.axial, self.axial >= 0.0, ">= 0")?;
-        require("bending damping time (s)", self.bending, self.bending >= 0.0, ">= 0")
-    }
-
-    /// Adds the viscous part to the weighted gradient `n`, and the pairs that act on the velocities to `viscous`.
-    #[inline(always)]
-    pub(crate) fn add_gradient<T: Real>(
-        &self,
-        table: &AxialTable,
-        points: &[Point],
-        stiffness: Stiffness<T>,
-        g: &Six<T>,
-        rates: &Six<T>,
-        [n, viscous]: [&mut Six<T>; 2],
-    ) {
-        table.add_product(rates, stiffness.axial * self.axial, n);
-        for point in points {
-            let at = point.squared(g);
-            let scale = stiffness.bending * (0.5 * self.bending * point.weight);
-            let shares = Shares::of(at.w);
-            at.add_gradient(scale * shares.scalar * at.rate(rates), n);
-            point.add_second_derivative(scale * shares.vector * at.inverse * at.inverse, viscous);
+        require("bending damping time (s)", self.bending, self.bending >= 0.0, ">= 0")?;
+        if cable.has_no_bending() && self.bending > 0.0 {
+            return Err(cable.missing("damping of bending", Requirement::BendingRule));
         }
+        Ok(())
     }
 
-    /// Adds the viscous part to the weighted gradient `n`, what of it is geometric stiffness to `geometric` and `h`, the derivative by
-    /// velocity times `rate` to `h`, and the pairs that act on the velocities to `viscous`: times `rate` they are geometric too.
-    #[inline(always)]
-    pub(crate) fn add_hessian<T: Real>(
-        &self,
-        table: &AxialTable,
-        points: &[Point],
-        stiffness: Stiffness<T>,
-        g: &Six<T>,
-        rates: &Six<T>,
-        rate: f64,
-        [n, geometric, viscous]: [&mut Six<T>; 3],
-        h: &mut Upper<T>,
-    ) {
-        let axial = stiffness.axial * self.axial;
-        table.add_product(rates, axial, n);
-        table.add_product(rates, axial, geometric);
-        table.add_hessian(axial * rate, h);
-        for point in points {
-            let at = point.squared(g);
-            let scale = stiffness.bending * (0.5 * self.bending * point.weight);
-            let shares = Shares::of(at.w);
-            let moment = scale * shares.scalar * at.rate(rates);
-            at.add_gradient(moment, n);
-            let stiffening = (moment + moment.abs()) * 0.5;
-            at.add_gradient(stiffening, geometric);
-            point.add_second(g, &at, stiffening, h);
-            at.add_square(scale * shares.scalar * rate - stiffening * 0.5 / (at.w + NOISE), h);
-            point.add_second_derivative(scale * shares.vector * at.inverse * at.inverse, viscous);
-        }
+    fn depends_on_velocity(&self) -> bool {
+        true
     }
 
-    /// `tau kappa'/kappa` at a place of an element, of the scalar curvature, and the share of the vector's rate.
-    pub(crate) fn moment_shares(&self, xi: f64, g: &Six<f64>, rates: &Six<f64>) -> (f64, f64) {
-        let at = Point::at(xi, 1.0).squared(g);
-        let shares = Shares::of(at.w);
-        (0.5 * self.bending * at.rate(rates) * shares.scalar, 0.25 * self.bending * shares.vector)
+    fn has_exact_tangent(&self) -> bool {
+        false
     }
 
-    /// Power 2R in W that an element with velocities `v` turns into heat.
-    pub(crate) fn power(
-        &self,
-        table: &AxialTable,
-        points: &[Point],
-        stiffness: Stiffness<f64>,
-        d: &Control<f64>,
-        v: &Control<f64>,
-    ) -> f64 {
-        let (g, rates) = (gram(d), gram_rates(d, v));
-        let axial = stiffness.axial * self.axial * quadratic_form(&table.matrix, &rates, &rates);
-        let bending = points.iter().map(|point| {
-            let at = point.squared(&g);
-            let (rate, shares) = (at.rate(&rates), Shares::of(at.w));
-            let mut pairs = [0.0; 6];
-            point.add_second_derivative(shares.vector * at.inverse * at.inverse, &mut pairs);
-            let force = gradient(&pairs, v);
-            let vector: f64 = (0..3).map(|i| dot(&force[i], &v[i])).sum();
-            0.5 * self.bending * point.weight * (shares.scalar * rate * rate + vector)
-        });
-        axial + stiffness.bending * bending.sum::<f64>()
+    /// Internal damping lowers the stability limit of explicit methods far below any step.
+    fn needs_implicit_integrator(&self) -> bool {
+        true
+    }
+
+    fn cut(&self, _: Cut<'_>) -> [Option<Self>; 2] {
+        [Some(*self); 2]
+    }
+
+    fn refine(&mut self, _: usize, _: f64) {}
+}
+
+impl Acts for Damping {
+    type InElement = DampingTable;
+    type AtPoints = Nothing;
+
+    fn in_element(&self, cable: &Target<'_>) -> Option<DampingTable> {
+        let points = if self.bending > 0.0 { curvature::points_of(cable.rule.bending) } else { Vec::new() };
+        Some(DampingTable { damping: *self, points })
     }
 }
 
-/// How the rate of bending is shared between the scalar and the vector of curvature.
+/// Damping as the kernel needs it.
+#[derive(Clone, Debug)]
+pub(crate) struct DampingTable {
+    damping: Damping,
+    /// Points of bending; empty if it is not damped.
+    points: Vec<Point>,
+}
+
+impl GramForce for DampingTable {
+    #[inline(always)]
+    fn needs_rates(&self) -> bool {
+        true
+    }
+
+    #[inline(always)]
+    fn add_gradient<T: Real, L: Load<T>>(&self, at: &GramState<'_, T>, _: &L, sum: &mut Gradient<T>) {
+        let Some(rates) = &at.rates else { return };
+        at.table.add_product(rates, at.stiffness.axial * self.damping.axial, &mut sum.n);
+        for point in &self.points {
+            let w = point.squared(&at.g);
+            let scale = at.stiffness.bending * (0.5 * self.damping.bending * point.weight);
+            let shares = Shares::new(w.w);
+            w.add_gradient(scale * shares.scalar * w.rate(rates), &mut sum.n);
+            point.add_second_derivative(scale * shares.vector * w.inverse * w.inverse, &mut sum.viscous);
+        }
+    }
+
+    #[inline(always)]
+    fn add_hessian<T: Real, L: Load<T>>(
+        &self,
+        at: &GramState<'_, T>,
+        rate: f64,
+        _: &L,
+        sum: &mut Gradient<T>,
+        tangent: &mut Hessian<T>,
+    ) {
+        let Some(rates) = &at.rates else { return };
+        let axial = at.stiffness.axial * self.damping.axial;
+        at.table.add_product(rates, axial, &mut sum.n);
+        at.table.add_product(rates, axial, &mut tangent.geometric);
+        at.table.add_hessian(axial * rate, &mut tangent.h);
+        let mut viscous = [at.g[0].splat(0.0); 6];
+        for point in &self.points {
+            let w = point.squared(&at.g);
+            let scale = at.stiffness.bending * (0.5 * self.damping.bending * point.weight);
+            let shares = Shares::new(w.w);
+            let moment = scale * shares.scalar * w.rate(rates);
+            w.add_gradient(moment, &mut sum.n);
+            let stiffening = (moment + moment.abs()) * 0.5;
+            w.add_gradient(stiffening, &mut tangent.geometric);
+            point.add_second(&at.g, &w, stiffening, &mut tangent.h);
+            w.add_square(scale * shares.scalar * rate - stiffening * 0.5 / (w.w + NOISE), &mut tangent.h);
+            point.add_second_derivative(scale * shares.vector * w.inverse * w.inverse, &mut viscous);
+        }
+        for i in 0..6 {
+            sum.viscous[i] = sum.viscous[i] + viscous[i];
+            tangent.geometric[i] = tangent.geometric[i] + viscous[i] * rate;
+        }
+    }
+}
+
+impl ElementForce for DampingTable {
+    fn dissipates(&self) -> bool {
+        true
+    }
+
+    /// Returns the power -2R.
+    fn power(&self, at: &GramState<'_, f64>, v: &Control<f64>) -> f64 {
+        let Some(rates) = &at.rates else { return 0.0 };
+        let axial = at.stiffness.axial * self.damping.axial * quadratic_form(&at.table.matrix, rates, rates);
+        let bending = self.points.iter().map(|point| {
+            let w = point.squared(&at.g);
+            let (rate, shares) = (w.rate(rates), Shares::new(w.w));
+            let mut pairs = [0.0; 6];
+            point.add_second_derivative(shares.vector * w.inverse * w.inverse, &mut pairs);
+            let force = gradient(&pairs, v);
+            let vector: f64 = (0..3).map(|i| dot(&force[i], &v[i])).sum();
+            0.5 * self.damping.bending * point.weight * (shares.scalar * rate * rate + vector)
+        });
+        -(axial + at.stiffness.bending * bending.sum::<f64>())
+    }
+
+    fn strain(&self, at: &SampledPoint<'_>) -> f64 {
+        let Some(rates) = &at.at.rates else { return 0.0 };
+        // linear in the Gram numbers, and -1/2 at zero
+        self.damping.axial * (projected::strain(rates, at.xi) + 0.5)
+    }
+
+    fn curvature(&self, at: &SampledPoint<'_>) -> Vector3<f64> {
+        let Some(rates) = at.at.rates.as_ref().filter(|_| self.damping.bending > 0.0) else { return Vector3::zeros() };
+        let w = Point::at(at.xi, 1.0).squared(&at.at.g);
+        let shares = Shares::new(w.w);
+        let scalar = 0.5 * self.damping.bending * w.rate(rates) * shares.scalar;
+        let vector = 0.25 * self.damping.bending * shares.vector;
+        at.curvature * scalar + at.vector_rate * (vector * at.power)
+    }
+}
+
+/// Shares of the scalar and of the vector of curvature in the rate of bending.
 struct Shares<T> {
     /// (1 - phi)/w.
     scalar: T,
@@ -171,18 +242,10 @@ struct Shares<T> {
 
 impl<T: Real> Shares<T> {
     #[inline(always)]
-    fn of(w: T) -> Self {
+    fn new(w: T) -> Self {
         // (1 - y^3)/(1 - y) = 1 + y + y^2, y = 1 - w/e
         let y = (w * (-1.0 / STRAIGHT) + 1.0).at_least(0.0);
         let square = y * y;
         Shares { scalar: (square + y + 1.0) / w.at_least(STRAIGHT), vector: square * y * 4.0 }
     }
-}
-
-/// Rates of the Gram numbers: `g'_ij = d_i . v_j + v_i . d_j`.
-#[inline(always)]
-pub(crate) fn gram_rates<T: Real>(d: &Control<T>, v: &Control<T>) -> Six<T> {
-    let twice = |i: usize| dot(&d[i], &v[i]) * PAIR_WEIGHT[0];
-    let pair = |i: usize, j: usize| dot(&d[i], &v[j]) + dot(&v[i], &d[j]);
-    [twice(0), pair(0, 1), pair(0, 2), twice(1), pair(1, 2), twice(2)]
 }

@@ -1,19 +1,32 @@
-//! The velocity of a fluid as a function of place and time.
+//! The velocity of a fluid as a function of position and time.
+//!
+//! # Equation
 //!
 //! ```text
 //! u(r, t) = U profile(up . r) history(t) + samples at the nodes, linear between them
 //! ```
 //!
-//! profile and history are piecewise linear, constant beyond their first and last row. *Source.* The power law of wind
-//! (Hellmann 1916) and other profiles by tables. *Validity.* One direction by the tables; any field by samples, which the caller takes anew
-//! as often as it changes ([`Cable::sample_flow`]), held in between: of order 2 in the time between them if taken for its middle. Times are
-//! those of the cable's clock, which `set_time` turns without turning the weather. *Snapshots.* Tables and samples are data of the cable:
-//! serialised with it, and a copy read back goes on bitwise until samples are taken again. A [`Snapshot`] holds none, as it holds no loads.
-//! *Rejected.* A function of the user's inside the cable: it cannot be serialised, and a snapshot would not replay; powers and sines
-//! evaluated in the step: their last bits differ between machines.
+//! profile and history are piecewise linear, constant beyond their first and last row.
+//!
+//! # Validity
+//!
+//! One direction by the tables; any field by samples, which the caller takes anew as often as it changes ([`Cable::sample_flow`]) and
+//! which are held in between: of order 2 in the time between them if taken for its middle. Times are those of the cable's clock;
+//! `set_time` changes the clock, not the flow history. Tables and samples are data of the cable: serialised with it, and a copy read
+//! back continues bitwise until samples are taken again. A [`Snapshot`] holds none, as it holds no loads.
+//!
+//! # References
+//!
+//! The power law of wind (Hellmann 1916) and other profiles by tables.
+//!
+//! # Alternatives considered
+//!
+//! A function of the user's inside the cable: it cannot be serialised, and a snapshot would not replay (for any force per length there
+//! is [`ForceDensity`], which says so). Powers and sines evaluated in the step: their last bits differ between machines.
 //!
 //! [`Cable::sample_flow`]: crate::Cable::sample_flow
 //! [`Snapshot`]: crate::Snapshot
+//! [`ForceDensity`]: crate::ForceDensity
 
 use crate::error::{Error, require, require_finite};
 use nalgebra::Vector3;
@@ -49,12 +62,12 @@ pub struct Flow {
 }
 
 impl Flow {
-    /// The same velocity (m/s) everywhere and always; zero for a fluid at rest.
+    /// Creates a flow of the same velocity (m/s) everywhere and always; zero for a fluid at rest.
     pub fn uniform(velocity: Vector3<f64>) -> Self {
         Flow { velocity, ..Flow::default() }
     }
 
-    /// Wind after the power law: `velocity` (m/s) at `reference` (m) above the origin along `up`, times (height/reference)^exponent, up to
+    /// Creates wind after the power law: `velocity` (m/s) at `reference` (m) above the origin along `up`, times (height/reference)^exponent, up to
     /// `top` (m); none below the origin. A table of 64 pieces, denser near the ground.
     pub fn power_law(velocity: Vector3<f64>, up: Vector3<f64>, reference: f64, exponent: f64, top: f64) -> Self {
         let row = |i: usize| {
@@ -64,22 +77,22 @@ impl Flow {
         Flow { velocity, profile: Some(Profile { up, rows: (0..ROWS).map(row).collect() }), ..Flow::default() }
     }
 
-    /// The same flow with a factor in time: rows of time (s) and factor.
+    /// Returns the same flow with a factor in time: rows of time (s) and factor.
     pub fn with_history(mut self, rows: impl IntoIterator<Item = [f64; 2]>) -> Self {
         self.history = rows.into_iter().collect();
         self
     }
 
-    /// Velocity in m/s at a place and a time, samples aside.
-    pub fn at(&self, time: f64, place: &Vector3<f64>) -> Vector3<f64> {
+    /// Returns the velocity in m/s at a position and a time, without samples.
+    pub fn at(&self, time: f64, position: &Vector3<f64>) -> Vector3<f64> {
         let velocity = self.in_time(time);
         match &self.profile {
             None => velocity,
-            Some(profile) => velocity * profile.factor(place),
+            Some(profile) => velocity * profile.factor(position),
         }
     }
 
-    /// Velocity where the profile is 1.
+    /// Returns the velocity where the profile is 1.
     pub(crate) fn in_time(&self, time: f64) -> Vector3<f64> {
         if self.history.is_empty() { self.velocity } else { self.velocity * interpolate(&self.history, time) }
     }
@@ -98,14 +111,14 @@ impl Flow {
 }
 
 impl Profile {
-    pub(crate) fn factor(&self, place: &Vector3<f64>) -> f64 {
-        interpolate(&self.rows, place.dot(&self.up) / self.up.norm())
+    pub(crate) fn factor(&self, position: &Vector3<f64>) -> f64 {
+        interpolate(&self.rows, position.dot(&self.up) / self.up.norm())
     }
 
-    /// The factor's gradient in 1/m; 0 on a row.
-    pub(crate) fn gradient(&self, place: &Vector3<f64>) -> Vector3<f64> {
+    /// Returns the factor's gradient in 1/m; 0 on a row.
+    pub(crate) fn gradient(&self, position: &Vector3<f64>) -> Vector3<f64> {
         let up = self.up / self.up.norm();
-        let height = place.dot(&up);
+        let height = position.dot(&up);
         let piece = self.rows.windows(2).find(|r| r[0][0] < height && height < r[1][0]);
         up * piece.map_or(0.0, |r| (r[1][1] - r[0][1]) / (r[1][0] - r[0][0]))
     }
@@ -119,7 +132,7 @@ fn check_rows(what: &str, rows: &[[f64; 2]]) -> Result<(), Error> {
     }
 }
 
-/// Piecewise linear, constant outside; `rows` is not empty.
+/// Interpolates linearly, constant outside; `rows` is not empty.
 fn interpolate(rows: &[[f64; 2]], x: f64) -> f64 {
     let after = rows.partition_point(|row| row[0] <= x);
     match (after.checked_sub(1).and_then(|i| rows.get(i)), rows.get(after)) {
@@ -134,7 +147,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_power_law_is_met_at_its_rows_and_between_them() {
+    fn the_table_of_a_power_law_agrees_with_it_at_and_between_its_rows() {
         let flow = Flow::power_law(Vector3::new(10.0, 0.0, 0.0), Vector3::new(0.0, 2.0, 0.0), 10.0, 0.14, 40.0);
         for height in [1.0, 5.0, 10.0, 25.0] {
             let u = flow.at(0.0, &Vector3::new(3.0, height, -1.0));
@@ -152,7 +165,7 @@ mod tests {
     }
 
     #[test]
-    fn tables_that_do_not_ascend_or_are_not_finite_are_refused() {
+    fn tables_that_do_not_ascend_or_are_not_finite_are_rejected() {
         let flow = Flow::uniform(Vector3::x());
         assert!(flow.check().is_ok());
         assert!(flow.clone().with_history([[1.0, 0.0], [1.0, 4.0]]).check().is_err());

@@ -1,14 +1,27 @@
-//! A force per length over a piece of the cable: snow, a paid-out line's lead, marine growth.
+//! Constant forces per length on pieces of the cable: snow, a marker line, marine growth.
+//!
+//! # Equation
 //!
 //! ```text
 //! F = int_from^to S(s)^T f ds
 //! ```
 //!
-//! f in N per m of unstretched cable, in world axes, constant: a dead load with potential -f . int r ds. *Source.* Virtual work;
-//! the integral over Hermite's functions is exact, also for pieces that end inside an element. *Validity.* Dead loads; wind that
-//! turns with the cable is [`drag`](super::drag). *Rejected.* Lumping on the nodes: it loses the moments on the slopes, and with them
-//! an order of the static shape. It enters a constant vector: no work in a step.
+//! f in N per m of unstretched cable, in world axes, constant: a dead load with potential -f . int r ds. The integral over Hermite's
+//! functions is exact, also for pieces that end inside an element. It enters a constant vector: no work in a step.
+//!
+//! # Validity
+//!
+//! Dead loads; wind that follows the direction of the cable is [`drag`](super::drag).
+//!
+//! # Alternatives considered
+//!
+//! Lumping on the nodes: it loses the moments on the slopes, and with them an order of the static shape.
 
+use super::acts::{Acts, Nothing};
+use super::{Cut, Effect, Target};
+use crate::element::{mass, shape};
+use crate::error::{Error, require, require_finite};
+use crate::quadrature::gauss_legendre;
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
@@ -25,8 +38,102 @@ pub struct LineLoad {
 }
 
 impl LineLoad {
-    /// A force per length (N/m) on the whole cable.
+    /// Creates a force per length (N/m) on the whole cable.
     pub fn uniform(force: Vector3<f64>) -> Self {
         LineLoad { from: 0.0, to: f64::MAX, force }
     }
+}
+
+/// Constant forces per length; they add up where they overlap.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(transparent)]
+pub struct LineLoads(pub Vec<LineLoad>);
+
+impl From<LineLoad> for LineLoads {
+    fn from(load: LineLoad) -> Self {
+        LineLoads(vec![load])
+    }
+}
+
+impl Effect for LineLoads {
+    const DISSIPATIVE: bool = false;
+
+    fn check(&self, cable: &Target<'_>) -> Result<(), Error> {
+        self.0.iter().try_for_each(|load| {
+            let on_cable = load.from >= 0.0 && load.from < cable.length();
+            require("begin of a line load (m)", load.from, on_cable, "on the cable")?;
+            require("end of a line load (m)", load.to, load.to > load.from, "> its begin")?;
+            require_finite("line load (N/m)", &load.force)
+        })
+    }
+
+    fn depends_on_velocity(&self) -> bool {
+        false
+    }
+
+    fn has_exact_tangent(&self) -> bool {
+        true
+    }
+
+    fn needs_implicit_integrator(&self) -> bool {
+        false
+    }
+
+    fn cut(&self, cut: Cut<'_>) -> [Option<Self>; 2] {
+        let s = cut.arc_length();
+        let behind = |load: &LineLoad| {
+            let to = load.to - s;
+            (to > 0.0).then(|| LineLoad { from: (load.from - s).max(0.0), to, ..*load })
+        };
+        let head: Vec<LineLoad> = self.0.iter().copied().filter(|load| load.from < s).collect();
+        let tail: Vec<LineLoad> = self.0.iter().filter_map(behind).collect();
+        [head, tail].map(|loads| (!loads.is_empty()).then_some(LineLoads(loads)))
+    }
+
+    fn refine(&mut self, _: usize, _: f64) {}
+}
+
+impl Acts for LineLoads {
+    type InElement = Nothing;
+    type AtPoints = Nothing;
+
+    fn dead_force(&self, cable: &Target<'_>) -> Vec<f64> {
+        let mut force = vec![0.0; 6 * cable.nodes()];
+        for load in &self.0 {
+            let mut begin = 0.0;
+            for (e, element) in cable.elements.iter().enumerate() {
+                let l = element.length;
+                let (a, b) = (((load.from - begin) / l).clamp(0.0, 1.0), ((load.to - begin) / l).clamp(0.0, 1.0));
+                begin += l;
+                if a == b {
+                    continue;
+                }
+                let weights = if (a, b) == (0.0, 1.0) { mass::load_weights(l) } else { partial_weights(l, a, b) };
+                for (i, f) in force[6 * e..6 * e + 12].iter_mut().enumerate() {
+                    *f += weights[i / 3] * load.force[i % 3];
+                }
+            }
+        }
+        force
+    }
+
+    fn add_resultant(&self, cable: &Target<'_>, sum: &mut Vector3<f64>, size: &mut f64) {
+        for load in &self.0 {
+            let force = (load.to.min(cable.length()) - load.from) * load.force;
+            *sum += force;
+            *size += force.norm();
+        }
+    }
+}
+
+/// Weights of a load per length on the piece from `a` to `b` (fractions of the length) of an element.
+fn partial_weights(length: f64, a: f64, b: f64) -> [f64; 4] {
+    let mut sum = [0.0; 4];
+    for (x, w) in gauss_legendre(2) {
+        let at = shape::position(a + (b - a) * x, length);
+        for k in 0..4 {
+            sum[k] += w * (b - a) * length * at[k];
+        }
+    }
+    sum
 }

@@ -1,29 +1,51 @@
 //! Rest shape: stress-free stretch and curvature of a cable that was coiled, or built in under pre-strain.
 //!
+//! # Equation
+//!
 //! ```text
 //! N = EA (eps - eps_0) f,  eps_0 = (f_0^2 - 1)/2        U_axial = EA l/8 (g.A.g - 2 f_0^2 a.g + f_0^4)
 //! U_bending = EI l/2 sum_q w_q (S_q - S_0)^2,           S = sqrt(kappa^2 + k_r^2), S_0 = sqrt(kappa_0^2 + k_r^2), k_r = kappa_0/100
 //! ```
 //!
-//! The square of kappa is the bending rule's; the rest is added here at the points of the rule (three for T1, T2): stress-free is every
-//! shape of curvature kappa_0, to the last bit for Gauss rules. *Source.* The energy of an elastic rod without twist: with a free
-//! section spin, 1/2 EI |kappa - kappa_0 n|^2 is least where the natural direction n lies along kappa, which leaves 1/2 EI (kappa - kappa_0)^2
-//! (Langer & Singer 1996, SIAM Review 38:605, on the twist-free frame). *Validity.* The *direction* of the natural curvature is free:
-//! a coil may unwind into any curve of the same curvature, out of plane without resistance, and one that passes through the straight
-//! line may come out on the other side. So a cable that is *straighter* than kappa_0 has no resistance across its plane, and less than
-//! none: it may wrinkle at the size of the mesh, and one pulled straight by force trembles so, which error control follows (`lariat stability
-//! --case "hanging 1e4"`: 22 times the steps with effects). Draw its start shape finely, corners of a coarse polyline stay. Meant for cables that stay
-//! near one plane or beyond kappa_0. k_r rounds the cusp there: between kappa_0/2 and 2 kappa_0 moments are off by less than 0.5 % of EI
-//! kappa_0. The straight cable is an unstable equilibrium. f_0 within a few percent of 1: EA counts per length of the reference.
+//! The square of kappa is the bending rule's; the rest is added here at the points of the rule (three for T1, T2). Every shape of
+//! curvature kappa_0 is stress-free, to the last bit for Gauss rules. k_r rounds the cusp of the energy at the straight cable:
+//! between kappa_0/2 and 2 kappa_0 moments change by less than 0.5 % of EI kappa_0.
 //!
-//! *Tangent.* Exact beyond kappa_0; below, the compressive bending moment's geometric stiffness across the curvature is left out, which keeps the step
-//! matrix definite and costs Newton iterations; all of it is in [`Cable::jacobians`](crate::Cable::jacobians). *Rejected.* A natural curvature with
-//! a direction: it needs the twist that this element does not have. Points of zero k_r: the tangent is infinite at the straight cable.
+//! The tangent is exact beyond kappa_0. Below, the geometric stiffness of the compressive bending moment across the curvature is
+//! left out, which keeps the step matrix definite and costs Newton iterations; [`Cable::jacobians`](crate::Cable::jacobians) has all
+//! of it.
+//!
+//! # Validity
+//!
+//! The *direction* of the natural curvature is free: a coil may unwind into any curve of the same curvature, out of plane without
+//! resistance, and one that passes through the straight line may come out on the other side. A cable that is *straighter* than
+//! kappa_0 has therefore no stiffness across its plane, or a negative one: it may wrinkle at the size of the mesh, and one that is
+//! pulled straight vibrates at that size, which error control follows (`lariat stability --case "hanging 1e4"`: 22 times the steps
+//! with effects). Draw its start shape finely, because the corners of a coarse polyline stay. Meant for cables that stay near one
+//! plane or beyond kappa_0. The straight cable is an unstable equilibrium. f_0 within a few percent of 1: EA counts per length of
+//! the reference.
+//!
+//! # References
+//!
+//! The energy of an elastic rod without twist: with a section that rotates freely about the axis, 1/2 EI |kappa - kappa_0 n|^2 is
+//! least where the natural direction n lies along kappa, which leaves 1/2 EI (kappa - kappa_0)^2 (Langer & Singer 1996, SIAM Review
+//! 38:605, on the twist-free frame).
+//!
+//! # Alternatives considered
+//!
+//! A natural curvature with a direction: it needs the twist that this element does not have. k_r = 0: the tangent is infinite at the
+//! straight cable.
 
-use super::curvature::{NOISE, Point};
+use super::acts::{Acts, ElementForce, Nothing, SampledPoint};
+use super::curvature::{self, NOISE, Point};
+use super::{Cut, Effect, Target};
 use crate::Real;
-use crate::element::gram::{Six, Upper};
-use crate::error::{Error, require};
+use crate::element::gram::{Six, form};
+use crate::element::kernel::{Gradient, GramForce, GramState, Hessian, Load};
+use crate::error::{Error, Requirement, require};
+use crate::section::Element;
+use crate::simd::padded;
+use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
 /// k_r over kappa_0.
@@ -33,7 +55,7 @@ const ROUNDING: f64 = 0.01;
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct RestPiece {
-    /// Arc length of the unstretched cable where the piece begins, in m; the element whose middle lies in the piece has it.
+    /// Arc length of the unstretched cable where the piece begins, in m; it acts on the elements whose middle lies in it.
     pub from: f64,
     /// Stretch without stress f_0, > 0; 1 = unstretched, above 1 = longer than its reference length.
     pub stretch: f64,
@@ -41,7 +63,7 @@ pub struct RestPiece {
     pub curvature: f64,
 }
 
-/// The shape that a cable takes without stress.
+/// The shape of a cable without stress.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(transparent)]
 pub struct RestShape {
@@ -50,23 +72,46 @@ pub struct RestShape {
 }
 
 impl RestShape {
-    /// A natural curvature (1/m) of the whole cable.
+    /// Creates a natural curvature (1/m) of the whole cable.
     pub fn curved(curvature: f64) -> Self {
         RestShape { pieces: vec![RestPiece { from: 0.0, stretch: 1.0, curvature }] }
     }
 
-    /// A stress-free stretch of the whole cable: below 1 it is under tension at its reference length.
+    /// Creates a stress-free stretch of the whole cable: below 1 it is under tension at its reference length.
     pub fn stretched(stretch: f64) -> Self {
         RestShape { pieces: vec![RestPiece { from: 0.0, stretch, curvature: 0.0 }] }
     }
 
-    /// Stretch and curvature (1/m) at an arc length.
+    /// Returns stretch and curvature (1/m) at an arc length.
     pub fn at(&self, arc_length: f64) -> (f64, f64) {
         let piece = self.pieces.iter().rev().find(|piece| piece.from <= arc_length);
         piece.map_or((1.0, 0.0), |piece| (piece.stretch, piece.curvature))
     }
 
-    pub(crate) fn check(&self) -> Result<(), Error> {
+    /// Whether any piece is curved.
+    pub(crate) fn is_curved(&self) -> bool {
+        self.pieces.iter().any(|piece| piece.curvature > 0.0)
+    }
+
+    /// The first piece that no element of a cable has.
+    fn unused(&self, elements: &[Element]) -> Option<usize> {
+        let mut begin = 0.0;
+        let middle = |e: &Element| {
+            let end = begin + e.length;
+            0.5 * (core::mem::replace(&mut begin, end) + end)
+        };
+        let middles: Vec<f64> = elements.iter().map(middle).collect();
+        (0..self.pieces.len()).find(|&i| {
+            let end = self.pieces.get(i + 1).map_or(f64::INFINITY, |next| next.from);
+            !middles.iter().any(|s| (self.pieces[i].from..end).contains(s))
+        })
+    }
+}
+
+impl Effect for RestShape {
+    const DISSIPATIVE: bool = false;
+
+    fn check(&self, cable: &Target<'_>) -> Result<(), Error> {
         let mut before = f64::NEG_INFINITY;
         for piece in &self.pieces {
             require("arc length of a rest shape (m)", piece.from, piece.from > before, "ascending")?;
@@ -74,11 +119,155 @@ impl RestShape {
             require("rest curvature (1/m)", piece.curvature, piece.curvature >= 0.0, ">= 0")?;
             before = piece.from;
         }
+        if let Some(i) = self.unused(cable.elements) {
+            let from = self.pieces[i].from;
+            return Err(Error::EmptyRestPiece { cable: cable.name.to_string(), from });
+        }
+        if cable.has_no_bending() && self.is_curved() {
+            return Err(cable.missing("a natural curvature", Requirement::BendingRule));
+        }
         Ok(())
+    }
+
+    fn depends_on_velocity(&self) -> bool {
+        false
+    }
+
+    fn has_exact_tangent(&self) -> bool {
+        !self.is_curved()
+    }
+
+    fn needs_implicit_integrator(&self) -> bool {
+        false
+    }
+
+    fn cut(&self, cut: Cut<'_>) -> [Option<Self>; 2] {
+        let s = cut.arc_length();
+        let before = self.pieces.partition_point(|piece| piece.from <= s).saturating_sub(1);
+        let shift = |piece: &RestPiece| RestPiece { from: (piece.from - s).max(0.0), ..*piece };
+        let head = RestShape { pieces: self.pieces.clone() };
+        let tail = RestShape { pieces: self.pieces[before..].iter().map(shift).collect() };
+        let [of_head, of_tail] = cut.parts();
+        [(head, of_head), (tail, of_tail)].map(|(mut shape, elements)| {
+            while let Some(i) = shape.unused(elements) {
+                shape.pieces.remove(i);
+            }
+            (!shape.pieces.is_empty()).then_some(shape)
+        })
+    }
+
+    fn refine(&mut self, _: usize, _: f64) {}
+}
+
+/// Rest shape of all elements, as the kernel needs it.
+#[derive(Clone, Debug)]
+pub(crate) struct RestTable {
+    /// f_0^2 - 1 by element, padded; empty = unstretched.
+    excess: Vec<f64>,
+    points: Vec<Point>,
+    /// Target and rounding of the natural curvature by element, padded; empty = straight.
+    natural: [Vec<f64>; 2],
+}
+
+impl Acts for RestShape {
+    type InElement = RestTable;
+    type AtPoints = Nothing;
+
+    fn in_element(&self, cable: &Target<'_>) -> Option<RestTable> {
+        let mut begin = 0.0;
+        let mut rest = Vec::new();
+        for element in cable.elements {
+            let middle = begin + 0.5 * element.length;
+            begin += element.length;
+            let (stretch, curvature) = self.at(middle);
+            rest.push((stretch * stretch - 1.0, NaturalCurvature::new(curvature, element.length)));
+        }
+        let stretched = rest.iter().any(|(excess, _)| *excess != 0.0);
+        let curved = rest.iter().any(|(_, natural)| natural.target != 0.0);
+        let none = Vec::new;
+        let numbers = |f: fn(&NaturalCurvature<f64>) -> f64| padded(rest.iter().map(|(_, natural)| f(natural)));
+        let table = RestTable {
+            excess: if stretched { padded(rest.iter().map(|(excess, _)| *excess)) } else { none() },
+            points: if curved { curvature::points_of(cable.rule.bending) } else { Vec::new() },
+            natural: if curved { [numbers(|n| n.target), numbers(|n| n.rounding)] } else { [none(), none()] },
+        };
+        (stretched || curved).then_some(table)
     }
 }
 
-/// The natural curvature of elements as the kernel needs it: half angles per element, `S_0 l/2` and `(k_r l/2)^2`.
+impl RestTable {
+    fn of(&self, element: usize) -> NaturalCurvature<f64> {
+        let [target, rounding] = [0, 1].map(|i| self.natural[i][element]);
+        NaturalCurvature { target, rounding }
+    }
+
+    #[inline(always)]
+    fn natural<T: Real, L: Load<T>>(&self, from: &L) -> NaturalCurvature<T> {
+        NaturalCurvature { target: from.load(&self.natural[0]), rounding: from.load(&self.natural[1]) }
+    }
+}
+
+impl GramForce for RestTable {
+    #[inline(always)]
+    fn needs_rates(&self) -> bool {
+        false
+    }
+
+    #[inline(always)]
+    fn add_gradient<T: Real, L: Load<T>>(&self, at: &GramState<'_, T>, from: &L, sum: &mut Gradient<T>) {
+        if !self.excess.is_empty() {
+            at.table.add_mean(-(at.stiffness.axial * from.load(&self.excess)), &mut sum.n);
+        }
+        if !self.points.is_empty() {
+            self.natural(from).add_gradient(&self.points, at.stiffness.bending, &at.g, &mut sum.n);
+        }
+    }
+
+    #[inline(always)]
+    fn add_hessian<T: Real, L: Load<T>>(
+        &self,
+        at: &GramState<'_, T>,
+        _: f64,
+        from: &L,
+        sum: &mut Gradient<T>,
+        tangent: &mut Hessian<T>,
+    ) {
+        if !self.excess.is_empty() {
+            let scale = -(at.stiffness.axial * from.load(&self.excess));
+            at.table.add_mean(scale, &mut sum.n);
+            at.table.add_mean(scale, &mut tangent.geometric);
+        }
+        if !self.points.is_empty() {
+            self.natural(from).add_hessian(&self.points, at.stiffness.bending, &at.g, sum, tangent);
+        }
+    }
+}
+
+impl ElementForce for RestTable {
+    fn energy(&self, element: usize, at: &GramState<'_, f64>) -> (f64, f64) {
+        // EA l/8 ((1 + x)^2 - 1 - 2 x a.g)
+        let axial = |x: &f64| at.stiffness.axial * x * (1.0 + 0.5 * x - form(&at.table.a, &at.g));
+        let bending = if self.points.is_empty() {
+            0.0
+        } else {
+            at.stiffness.bending * self.of(element).energy(&self.points, &at.g)
+        };
+        (self.excess.get(element).map_or(0.0, axial), bending)
+    }
+
+    fn strain(&self, at: &SampledPoint<'_>) -> f64 {
+        self.excess.get(at.element).map_or(0.0, |x| -0.5 * x)
+    }
+
+    fn curvature(&self, at: &SampledPoint<'_>) -> Vector3<f64> {
+        if self.points.is_empty() {
+            return Vector3::zeros();
+        }
+        at.curvature * (self.of(at.element).moment_factor(at.curvature.norm(), at.length) - 1.0)
+    }
+}
+
+/// Natural curvature of an element as half angles: `S_0 l/2` and `(k_r l/2)^2`.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct NaturalCurvature<T> {
     pub target: T,
@@ -94,7 +283,7 @@ impl NaturalCurvature<f64> {
         NaturalCurvature { target, rounding }
     }
 
-    /// What is added to the squared curvature's energy, over 2 EI/l.
+    /// Energy beyond that of the squared curvature, over 2 EI/l.
     pub fn energy(&self, points: &[Point], g: &Six<f64>) -> f64 {
         if self.target == 0.0 {
             return 0.0;
@@ -121,28 +310,28 @@ impl<T: Real> NaturalCurvature<T> {
         }
     }
 
-    /// Adds the gradient of the energy to `n`, and its Hessian to `geometric` and `h`: without what would be negative stiffness.
+    /// Adds the gradient of the energy, and its Hessian without what would be negative stiffness.
     #[inline(always)]
     pub fn add_hessian(
         &self,
         points: &[Point],
         flexural: T,
         g: &Six<T>,
-        [n, geometric]: [&mut Six<T>; 2],
-        h: &mut Upper<T>,
+        sum: &mut Gradient<T>,
+        tangent: &mut Hessian<T>,
     ) {
         for point in points {
             let at = point.squared(g);
             let square = at.w + self.rounding;
             let first = -(flexural * self.target * point.weight / square.sqrt());
-            at.add_gradient(first, n);
+            at.add_gradient(first, &mut sum.n);
             // with the bending rule's own share not below zero: across the curvature, and along it
             let own = flexural * point.weight;
             let positive = |x: T| (x + x.abs()) * 0.5 - own;
             let (across, along) = (positive(first + own), positive(first * self.rounding / square + own));
-            at.add_gradient(across, geometric);
-            point.add_second(g, &at, across, h);
-            at.add_square((along - across) * 0.5 / (at.w + NOISE), h);
+            at.add_gradient(across, &mut tangent.geometric);
+            point.add_second(g, &at, across, &mut tangent.h);
+            at.add_square((along - across) * 0.5 / (at.w + NOISE), &mut tangent.h);
         }
     }
 }

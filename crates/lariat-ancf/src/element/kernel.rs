@@ -1,10 +1,16 @@
-//! Energy, force and tangent of one element for a pair of rules.
+//! Energy, force and tangent of one element for a pair of rules and the effects that act on Gram numbers.
+//!
+//! # Equation
 //!
 //! `U = EA l/8 (g.A.g - 2 a.g + 1) + (2 EI/l) u(g)` ([`axial`](crate::axial), [`bending`](crate::bending)); derivatives with respect to the
 //! control vectors by [`gram`](super::gram). The nodes follow by the constant map d1 = 3 (r_j - r_i)/l, done where the result is
-//! scattered. Generic over [`Real`]: one element in `f64`, eight in lanes.
+//! scattered.
+//!
+//! # Validity
+//!
+//! Any element state. Generic over [`Real`]: one element in `f64` or in dual numbers, eight in lanes.
 
-use super::gram::{Control, Six, Upper, gradient, gram, hessian_block};
+use super::gram::{Control, PAIR_WEIGHT, Six, Upper, dot, gradient, gram, hessian_block};
 use crate::Real;
 use crate::axial::AxialTable;
 use crate::bending::Bending;
@@ -35,10 +41,7 @@ pub fn force<T: Real, B: Bending>(
     stiffness: Stiffness<T>,
     d: &Control<T>,
 ) -> Control<T> {
-    let g = gram(d);
-    let mut n: Six<T> = table.gradient(&g, stiffness.axial);
-    bending.add_gradient(&g, stiffness.bending, &mut n);
-    gradient(&n, d)
+    Kernel { table, bending, effects: &NoEffects }.force(&ElementState { stiffness, d: *d, velocity: None }, &NoEffects)
 }
 
 /// Gradient and second derivatives of the energy with respect to the control vectors.
@@ -49,17 +52,176 @@ pub fn force_and_tangent<T: Real, B: Bending>(
     stiffness: Stiffness<T>,
     d: &Control<T>,
 ) -> (Control<T>, Blocks<T>) {
-    let g = gram(d);
-    let mut n: Six<T> = table.gradient(&g, stiffness.axial);
-    let mut h: Upper<T> = table.hessian(stiffness.axial);
-    bending.add_hessian(&g, stiffness.bending, &mut n, &mut h);
-    let blocks = [
-        hessian_block(0, 0, &n, &h, d),
-        hessian_block(0, 1, &n, &h, d),
-        hessian_block(0, 2, &n, &h, d),
-        hessian_block(1, 1, &n, &h, d),
-        hessian_block(1, 2, &n, &h, d),
-        hessian_block(2, 2, &n, &h, d),
-    ];
-    (gradient(&n, d), blocks)
+    let state = ElementState { stiffness, d: *d, velocity: None };
+    Kernel { table, bending, effects: &NoEffects }.force_and_tangent(&state, 0.0, &NoEffects)
+}
+
+/// What one element, or a group of elements in lanes, is evaluated at.
+#[derive(Clone, Copy)]
+pub(crate) struct ElementState<T> {
+    pub stiffness: Stiffness<T>,
+    /// Control vectors.
+    pub d: Control<T>,
+    /// Their velocities, where a force depends on them and the cable moves.
+    pub velocity: Option<Control<T>>,
+}
+
+/// An element state in Gram numbers, as effects see it.
+pub(crate) struct GramState<'a, T> {
+    pub table: &'a AxialTable,
+    pub stiffness: Stiffness<T>,
+    /// Gram numbers.
+    pub g: Six<T>,
+    /// Their rates, where the element has velocities.
+    pub rates: Option<Six<T>>,
+}
+
+/// Weighted derivatives of what acts on an element (see [`gram`](super::gram)).
+pub(crate) struct Gradient<T> {
+    /// Pairs that act on the control vectors.
+    pub n: Six<T>,
+    /// Pairs that act on their velocities.
+    pub viscous: Six<T>,
+}
+
+/// Weighted second derivatives of what acts on an element.
+pub(crate) struct Hessian<T> {
+    /// Pairs of the geometric stiffness.
+    pub geometric: Six<T>,
+    pub h: Upper<T>,
+}
+
+/// Reads the numbers of the element, or of the group of elements, that is evaluated.
+pub(crate) trait Load<T> {
+    /// From a list with a number per element.
+    fn load(&self, by_element: &[f64]) -> T;
+}
+
+/// An effect that acts on Gram numbers and their rates, evaluated within the kernel.
+pub(crate) trait GramForce {
+    /// Whether it needs rates.
+    fn needs_rates(&self) -> bool;
+
+    /// Adds its weighted derivatives.
+    fn add_gradient<T: Real, L: Load<T>>(&self, at: &GramState<'_, T>, from: &L, sum: &mut Gradient<T>);
+
+    /// Adds its weighted derivatives and second derivatives; `rate` = d velocity/d position in 1/s.
+    fn add_hessian<T: Real, L: Load<T>>(
+        &self,
+        at: &GramState<'_, T>,
+        rate: f64,
+        from: &L,
+        sum: &mut Gradient<T>,
+        tangent: &mut Hessian<T>,
+    );
+}
+
+/// No effect: no code runs.
+pub(crate) struct NoEffects;
+
+impl GramForce for NoEffects {
+    #[inline(always)]
+    fn needs_rates(&self) -> bool {
+        false
+    }
+    #[inline(always)]
+    fn add_gradient<T: Real, L: Load<T>>(&self, _: &GramState<'_, T>, _: &L, _: &mut Gradient<T>) {}
+    #[inline(always)]
+    fn add_hessian<T: Real, L: Load<T>>(
+        &self,
+        _: &GramState<'_, T>,
+        _: f64,
+        _: &L,
+        _: &mut Gradient<T>,
+        _: &mut Hessian<T>,
+    ) {
+    }
+}
+
+impl<T> Load<T> for NoEffects {
+    fn load(&self, _: &[f64]) -> T {
+        unreachable!("no effect reads a number")
+    }
+}
+
+/// The element kernel for an axial rule, a bending rule and effects.
+#[derive(Clone, Copy)]
+pub(crate) struct Kernel<'a, B, E> {
+    pub table: &'a AxialTable,
+    pub bending: &'a B,
+    pub effects: &'a E,
+}
+
+impl<B: Bending, E: GramForce> Kernel<'_, B, E> {
+    /// Negative force on the control vectors, in N m.
+    #[inline(always)]
+    pub fn force<T: Real, L: Load<T>>(&self, state: &ElementState<T>, from: &L) -> Control<T> {
+        let (at, mut sum) = self.begin(state);
+        self.bending.add_gradient(&at.g, at.stiffness.bending, &mut sum.n);
+        self.effects.add_gradient(&at, from, &mut sum);
+        sum.force(state)
+    }
+
+    /// Negative force on the control vectors, in N m, and its derivatives; `rate` = d velocity/d position in 1/s.
+    #[inline(always)]
+    pub fn force_and_tangent<T: Real, L: Load<T>>(
+        &self,
+        state: &ElementState<T>,
+        rate: f64,
+        from: &L,
+    ) -> (Control<T>, Blocks<T>) {
+        let (at, mut sum) = self.begin(state);
+        let mut h = self.table.hessian(at.stiffness.axial);
+        self.bending.add_hessian(&at.g, at.stiffness.bending, &mut sum.n, &mut h);
+        let mut tangent = Hessian { geometric: sum.n, h };
+        self.effects.add_hessian(&at, rate, from, &mut sum, &mut tangent);
+        let Hessian { geometric, h } = &tangent;
+        let blocks = [
+            hessian_block(0, 0, geometric, h, &state.d),
+            hessian_block(0, 1, geometric, h, &state.d),
+            hessian_block(0, 2, geometric, h, &state.d),
+            hessian_block(1, 1, geometric, h, &state.d),
+            hessian_block(1, 2, geometric, h, &state.d),
+            hessian_block(2, 2, geometric, h, &state.d),
+        ];
+        (sum.force(state), blocks)
+    }
+
+    /// Gram numbers, their rates, and the axial rule's share of the gradient.
+    #[inline(always)]
+    fn begin<'a, T: Real>(&'a self, state: &ElementState<T>) -> (GramState<'a, T>, Gradient<T>) {
+        let g = gram(&state.d);
+        let rates = match &state.velocity {
+            Some(velocity) => Some(gram_rates(&state.d, velocity)),
+            None => None,
+        };
+        let n = self.table.gradient(&g, state.stiffness.axial);
+        let at = GramState { table: self.table, stiffness: state.stiffness, g, rates };
+        (at, Gradient { n, viscous: [g[0].splat(0.0); 6] })
+    }
+}
+
+impl<T: Real> Gradient<T> {
+    /// Negative force on the control vectors.
+    #[inline(always)]
+    fn force(&self, state: &ElementState<T>) -> Control<T> {
+        let mut force = gradient(&self.n, &state.d);
+        if let Some(velocity) = &state.velocity {
+            let viscous = gradient(&self.viscous, velocity);
+            for i in 0..3 {
+                for x in 0..3 {
+                    force[i][x] = force[i][x] + viscous[i][x];
+                }
+            }
+        }
+        force
+    }
+}
+
+/// Rates of the Gram numbers: `g'_ij = d_i . v_j + v_i . d_j`.
+#[inline(always)]
+pub(crate) fn gram_rates<T: Real>(d: &Control<T>, v: &Control<T>) -> Six<T> {
+    let twice = |i: usize| dot(&d[i], &v[i]) * PAIR_WEIGHT[0];
+    let pair = |i: usize, j: usize| dot(&d[i], &v[j]) + dot(&v[i], &d[j]);
+    [twice(0), pair(0, 1), pair(0, 2), twice(1), pair(1, 2), twice(2)]
 }

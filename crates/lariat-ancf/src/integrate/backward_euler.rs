@@ -1,15 +1,31 @@
-//! Backward Euler: order 1, L-stable. Not offered as a method: what the drive takes where another makes energy.
+//! Backward Euler: order 1, L-stable. Not offered as a method: the fallback of the [energy
+//! guard](super::energy_guard) for steps at which another method creates energy.
+//!
+//! # Equation
 //!
 //! ```text
-//! q_{n+1} = q_n + h v_{n+1}    M (v_{n+1} - v_n) = h F(q_{n+1})    E_{n+1} - E_n <= -1/2 dv.M dv + 1/2 kappa |dq|^2
+//! q_{n+1} = q_n + h v_{n+1}        M (v_{n+1} - v_n) = h F(q_{n+1})
+//! E_{n+1} - E_n <= -1/2 dv.M dv + 1/2 kappa |dq|^2
 //! ```
 //!
-//! kappa is how negative the stiffness is on the way: zero in tension, so that no energy is made at any step; in a slack cable under
-//! compression the second term is h^2 kappa |v_{n+1}|^2/2, and what is made in a given time falls as h. *Source.* Taylor's formula for the
-//! potential about q_{n+1}; Hairer & Wanner 1996, IV.3. *Validity.* Steps that have to be lived through. *Rejected.* As an integrator:
-//! it loses half to 87 % of a pendulum's energy.
+//! -kappa is the lowest eigenvalue of the stiffness along the step. It is zero in tension: no step
+//! of any length creates energy. In a slack cable under compression the second term is h^2 kappa
+//! |v_{n+1}|^2/2, so the energy created in a given time falls with h.
+//!
+//! # Validity
+//!
+//! Single steps that would otherwise create energy.
+//!
+//! # References
+//!
+//! Taylor's formula for the potential about q_{n+1}; Hairer & Wanner 1996, IV.3.
+//!
+//! # Alternatives considered
+//!
+//! Backward Euler as the integrator of whole runs: it loses between one half and 87 % of a
+//! pendulum's energy.
 
 use super::dirk::Tableau;
 
 /// The tableau.
-pub const TABLEAU: Tableau = Tableau { a: &[&[1.0]], b: &[1.0], error: &[], calibration: 1.0 };
+pub const TABLEAU: Tableau = Tableau { name: "backward-euler", a: &[&[1.0]], b: &[1.0], estimate: None };

@@ -1,18 +1,34 @@
 //! ESDIRK4(3)6L\[2\]SA: five implicit stages, order 4, L-stable, stiffly accurate. The default.
 //!
-//! *Error.* Embedded order 3, multiplied by 2.5: on pendulums it sees 40 % of the error of the result (`tests/tolerance.rs` holds
-//! the product to the error). *Source.* Kennedy & Carpenter, Appl. Numer. Math. 44 (2003) 139 (the implicit half of
-//! ARK4(3)6L\[2\]SA). *Validity.* Any stiffness. *Why the default.* Against ESDIRK3 it costs less below 5e-4 m on the paper's
-//! pendulum and below 1e-5 m on taut steel (docs/accuracy). *Rejected.* Rosenbrock methods (RODAS4, 5P): on stiff cables
-//! at 1/60 s they end, without a word, at a wrong answer; two-stage Gauss: Newton diverges on thin cables.
+//! # Equation
+//!
+//! The tableau below. The error estimate is the embedded formula of order 3 multiplied by 2.5: on
+//! pendulums it estimates 40 % of the error of the result (`tests/tolerance.rs` compares the
+//! product with the true error).
+//!
+//! # Validity
+//!
+//! Any stiffness. It is the default because it costs less than ESDIRK3 for errors below 5e-4 m on
+//! the paper's pendulum and below 1e-5 m on taut steel (docs/accuracy).
+//!
+//! # References
+//!
+//! Kennedy & Carpenter, Appl. Numer. Math. 44 (2003) 139 (the implicit half of ARK4(3)6L\[2\]SA).
+//!
+//! # Alternatives considered
+//!
+//! - Rosenbrock methods (RODAS4, 5P): on stiff cables at 1/60 s they return a wrong answer without
+//!   an error.
+//! - Two-stage Gauss: Newton's iteration diverges on thin cables.
 
-use super::dirk::Tableau;
+use super::dirk::{Estimate, Tableau};
 
 const G: f64 = 0.25;
 const B: [f64; 6] = [82_889.0 / 524_892.0, 0.0, 15_625.0 / 83_664.0, 69_875.0 / 102_672.0, -2_260.0 / 8_211.0, G];
 
 /// The tableau.
 pub const TABLEAU: Tableau = Tableau {
+    name: "esdirk4",
     a: &[
         &[0.0],
         &[G, G],
@@ -28,13 +44,16 @@ pub const TABLEAU: Tableau = Tableau {
         &B,
     ],
     b: &B,
-    error: &[
-        B[0] - 4_586_570_599.0 / 29_645_900_160.0,
-        0.0,
-        B[2] - 178_811_875.0 / 945_068_544.0,
-        B[3] - 814_220_225.0 / 1_159_782_912.0,
-        B[4] + 3_700_637.0 / 11_593_932.0,
-        B[5] - 61_727.0 / 225_920.0,
-    ],
-    calibration: 2.5,
+    estimate: Some(Estimate {
+        weights: &[
+            B[0] - 4_586_570_599.0 / 29_645_900_160.0,
+            0.0,
+            B[2] - 178_811_875.0 / 945_068_544.0,
+            B[3] - 814_220_225.0 / 1_159_782_912.0,
+            B[4] + 3_700_637.0 / 11_593_932.0,
+            B[5] - 61_727.0 / 225_920.0,
+        ],
+        order: 4,
+        calibration: 2.5,
+    }),
 };

@@ -1,25 +1,44 @@
-//! Symmetric compositions of kicks and drifts: the engine of the explicit symplectic methods.
+//! Symmetric compositions of kicks and drifts: the explicit symplectic methods, each given by its
+//! weights.
+//!
+//! # Equation
 //!
 //! ```text
-//! for each i:  v += b_i h k(q);   q += a_i h v        (b first, and last; k at the end serves the next step)
+//! for each i:  v += b_i h k(q);   q += a_i h v
 //! ```
 //!
-//! Where k depends on v (rotating bodies, damping), it is evaluated at v extrapolated with the k before it to the time of q: then
-//! Verlet keeps its order, and the higher methods have order 2 in that part.
+//! Where k depends on v (rotating bodies, drag), it is evaluated at v extrapolated with the
+//! previous k to the time of q: then Verlet keeps its order, and the methods of higher order have
+//! order 2 in that part.
 //!
-//! M is factored once; a step costs one force evaluation and one mass solve per drift. Symplectic, so energy errors stay
-//! bounded while h omega_max stays below [`Composition::stability_limit`]. *Source.* Hairer, Lubich & Wanner 2006, II and VI; Blanes &
-//! Casas 2016. *Validity.* Soft cables; drag, with order 2. Cables with internal damping are refused: it lowers the stability limit to
-//! h < 2/(tau omega_max^2), far below what a step here can be. *Rejected.* Error control: it destroys the symplectic structure.
+//! The step begins and ends with a kick, and k at its end serves the next step. M is factored once;
+//! a step costs one force evaluation and one mass solve per drift.
+//!
+//! # Validity
+//!
+//! Soft cables; drag, with order 2. The methods are symplectic: energy errors stay bounded while h
+//! omega_max stays below [`Composition::stability_limit`]. Internal damping is an error, because it
+//! lowers the stability limit to h < 2/(tau omega_max^2), far below practical steps.
+//!
+//! # References
+//!
+//! Hairer, Lubich & Wanner 2006, II and VI; Blanes & Casas 2016.
+//!
+//! # Alternatives considered
+//!
+//! Error control: it destroys the symplectic structure.
 
-use super::dirk::add;
 use super::dynamics::Dynamics;
-use super::{OneStep, Scratch, State};
+use super::one_step::{OneStep, Scratch, StepRequest, add_scaled};
+use super::state::State;
 use crate::error::StepFailure;
 
-/// Weights of the first half of a symmetric composition b1 a1 b2 a2 ...; the rest follows by symmetry.
+/// Weights of the first half of a symmetric composition b1 a1 b2 a2 ...; the rest follows by
+/// symmetry.
 #[derive(Clone, Copy, Debug)]
 pub struct Composition {
+    /// Name of the method.
+    pub name: &'static str,
     /// Kicks b1, b2, ... up to the middle.
     pub kicks: &'static [f64],
     /// Drifts a1, a2, ... up to the middle.
@@ -41,17 +60,19 @@ impl Composition {
 }
 
 impl OneStep for Composition {
-    fn stages(&self) -> usize {
-        0
+    fn name(&self) -> String {
+        self.name.to_string()
+    }
+
+    fn stability_limit(&self) -> Option<f64> {
+        Some(self.stability_limit)
     }
 
     fn step(
         &self,
         system: &mut dyn Dynamics,
         now: &State,
-        h: f64,
-        _: f64,
-        _: bool,
+        StepRequest { h, .. }: StepRequest,
         scratch: &mut Scratch,
     ) -> Result<Option<f64>, StepFailure> {
         let Scratch { next, velocity_base, .. } = scratch;
@@ -61,8 +82,8 @@ impl OneStep for Composition {
         let mut time = now.time;
         let (mut kicked, mut drifted) = (0.0, 0.0);
         for i in 0..self.stages {
-            add(&mut next.v, h * self.kick(i), &next.memory.acceleration);
-            add(&mut next.q, h * self.drift(i), &next.v);
+            add_scaled(&mut next.v, h * self.kick(i), &next.memory.acceleration);
+            add_scaled(&mut next.q, h * self.drift(i), &next.v);
             time += h * self.drift(i);
             if i + 1 == self.stages {
                 time = now.time + h;
@@ -70,16 +91,16 @@ impl OneStep for Composition {
             system.prescribe(time, &mut next.q, &mut next.v);
             kicked += self.kick(i);
             drifted += self.drift(i);
-            if system.follows_velocity() {
+            if system.depends_on_velocity() {
                 velocity_base.copy_from_slice(&next.v);
-                add(velocity_base, h * (drifted - kicked), &next.memory.acceleration);
+                add_scaled(velocity_base, h * (drifted - kicked), &next.memory.acceleration);
                 system.prescribe(time, &mut next.q, velocity_base);
                 system.acceleration(time, &next.q, velocity_base, &mut next.memory.acceleration)?;
             } else {
                 system.acceleration(time, &next.q, &next.v, &mut next.memory.acceleration)?;
             }
         }
-        add(&mut next.v, h * self.kick(self.stages), &next.memory.acceleration);
+        add_scaled(&mut next.v, h * self.kick(self.stages), &next.memory.acceleration);
         system.prescribe(now.time + h, &mut next.q, &mut next.v);
         Ok(None)
     }
@@ -90,7 +111,8 @@ mod tests {
     use super::Composition;
     use crate::integrate::{rkn, verlet};
 
-    /// Half the trace of the step matrix of q' = v, v' = -x^2 q with h = 1: bounded while it stays within [-1, 1].
+    /// Returns half the trace of the step matrix of q' = v, v' = -x^2 q with h = 1: bounded while
+    /// it stays within [-1, 1].
     fn half_trace(method: &Composition, x: f64) -> f64 {
         let image = |mut q: f64, mut v: f64| {
             for i in 0..method.stages {

@@ -1,60 +1,30 @@
-//! A method with its step control, and the three choices that most users need: [`Fidelity`].
+//! Presets: an integrator and a recommended number of elements for each of three levels of
+//! accuracy.
 //!
-//! The figures at each choice are those of `docs/accuracy/fidelity.csv`, which `lariat report` measures; a test of `lariat-bench` holds
-//! them to that file.
+//! The figures of each preset are those of `docs/accuracy/fidelity.csv`, which `lariat report`
+//! measures; a test of `lariat-bench` compares them with that file.
 
-use super::method::{Method, NewtonMode, Stepper};
-use crate::error::{Error, require};
+use super::generalised_alpha::NewtonMode;
+use super::integrator::{Integrator, StepControl};
+use super::method::Method;
+use crate::error::{Error, nearest};
 use crate::rule::Rule;
 use serde::{Deserialize, Serialize};
+use std::str::FromStr;
 
-/// How the length of the integration steps inside a host step is chosen. Each lands exactly on the host's step.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum StepControl {
-    /// Position error in m per host step; steps are chosen, rejected and retried to keep it.
-    Tolerance(f64),
-    /// This many equal steps per host step.
-    Substeps(u32),
-    /// The fewest equal steps no longer than this, in s (by more than single precision: a host's own step may be so).
-    MaxStep(f64),
-    /// Explicit methods: the fewest equal steps within this share (0 to 1) of the stability limit.
-    Stable(f64),
-}
-
-/// A method and its step control.
+/// A preset of accuracy against time.
 ///
-/// ```
-/// use lariat_ancf::{Integrator, Method, StepControl};
-/// assert_eq!(Integrator::default(), Integrator::tolerance(Method::Esdirk4, 1e-6)?);
-/// assert!(Integrator::tolerance(Method::Verlet, 1e-6).is_err()); // no error estimate
-/// # Ok::<(), lariat_ancf::Error>(())
-/// ```
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Integrator {
-    /// The method.
-    pub method: Method,
-    /// How steps are chosen.
-    pub control: StepControl,
-}
-
-impl Default for Integrator {
-    /// That of [`Fidelity::Engineering`]: error-controlled ESDIRK4, 1e-6 m per host step.
-    fn default() -> Self {
-        Integrator { method: Method::Esdirk4, control: StepControl::Tolerance(1e-6) }
-    }
-}
-
-/// Three choices of accuracy against time.
-///
-/// Each measured on three scenes, with its own integrator, the default rule, and so many elements (`docs/accuracy`, CPU time of one
-/// thread): *pendulum*, the paper's, 2 s, against the real beam; *payload*, a crate of 50 kg in Rapier on a cable, 1 s, against an
-/// independent code; *taut steel*, a plucked cable of 10 mm, 0.1 s, against its analytic modes (amplitude 1e-4 m). The payload's
-/// cable rings undamped, and a tolerance follows that.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+/// Each is measured in three scenes, with its own integrator, the default rule, and the number of
+/// elements in the table (`docs/accuracy`, CPU time of one thread): *pendulum*, the paper's, 2 s,
+/// against the beam without discretisation; *payload*, a crate of 50 kg in Rapier on a cable, 1 s,
+/// against an independent code; *taut steel*, a plucked cable of 10 mm, 0.1 s, against its analytic
+/// modes (amplitude 1e-4 m). The payload's cable vibrates undamped, and a tolerance resolves that
+/// vibration.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Fidelity {
-    /// One-iteration generalised-alpha 0.5 at h <= 1/240 s, with full Newton where a step does not contract.
+    /// One-iteration generalised-alpha 0.5 at h <= 1/240 s, with full Newton where a step does not
+    /// contract.
     ///
     /// | scene | elements | error m | CPU ms |
     /// |---|---:|---:|---:|
@@ -69,9 +39,10 @@ pub enum Fidelity {
     /// | pendulum | 20 | 3.7e-4 | 10.6 |
     /// | payload | 10 | 8.7e-4 | 137 |
     /// | taut steel | 20 | 5.6e-5 | 0.91 |
+    #[default]
     Engineering,
-    /// Symplectic explicit of order 4 at half its stable step where the cable is soft enough (omega_max below 5e4 rad/s), else ESDIRK4 at
-    /// 1e-9 m per host step.
+    /// The symplectic explicit method of order 4 at half its stable step where the cable is soft
+    /// enough (omega_max below 5e4 rad/s), else ESDIRK4 at 1e-9 m per host step.
     ///
     /// | scene | elements | error m | CPU ms |
     /// |---|---:|---:|---:|
@@ -81,15 +52,16 @@ pub enum Fidelity {
     Reference,
 }
 
-/// Above this frequency in rad/s the reference fidelity is implicit: of the scenes of `docs/accuracy`, the payload (3.4e4 rad/s) is cheaper
-/// explicit, the pendulum with 80 elements (8.7e4 rad/s) implicit.
-const EXPLICIT_FREQUENCY: f64 = 5e4;
+/// Largest angular frequency in rad/s of a cable for which the reference fidelity is explicit: of
+/// the scenes of `docs/accuracy`, the payload (3.4e4 rad/s) is cheaper with an explicit method, the
+/// pendulum with 80 elements (8.7e4 rad/s) with an implicit one.
+const MAX_EXPLICIT_FREQUENCY: f64 = 5e4;
 
 impl Fidelity {
-    /// All, from the cheapest.
+    /// All presets, from the cheapest.
     pub const ALL: [Fidelity; 3] = [Fidelity::Game, Fidelity::Engineering, Fidelity::Reference];
 
-    /// Name: `game`, `engineering` or `reference`.
+    /// Returns the name: `game`, `engineering` or `reference`.
     pub fn name(self) -> &'static str {
         match self {
             Fidelity::Game => "game",
@@ -98,13 +70,15 @@ impl Fidelity {
         }
     }
 
-    /// The force strategy: the default one for all three. It has the least error for its time in `docs/accuracy`.
+    /// Returns the force strategy: the default rule for all three, which has the smallest error for
+    /// its time in `docs/accuracy`.
     pub fn rule(self) -> Rule {
         Rule::default()
     }
 
-    /// Advice: a number of elements whose error of mesh is about that of time, for a cable that swings and bends as the pendulum
-    /// of `docs/accuracy` does. A taut cable needs fewer, one with sharper bends more.
+    /// Returns the recommended number of elements: the mesh error is about the time error for a
+    /// cable that swings and bends as the pendulum of `docs/accuracy` does. A taut cable needs
+    /// fewer elements, one with sharper bends more.
     pub fn elements(self) -> usize {
         match self {
             Fidelity::Game => 10,
@@ -113,7 +87,7 @@ impl Fidelity {
         }
     }
 
-    /// The integrator, for a cable whose frequencies stay below `frequency_bound` (rad/s).
+    /// Returns the integrator for a cable whose frequencies stay below `frequency_bound` (rad/s).
     pub fn integrator(self, frequency_bound: f64) -> Integrator {
         match self {
             Fidelity::Game => Integrator {
@@ -121,7 +95,7 @@ impl Fidelity {
                 control: StepControl::MaxStep(1.0 / 240.0),
             },
             Fidelity::Engineering => Integrator::default(),
-            Fidelity::Reference if frequency_bound < EXPLICIT_FREQUENCY => {
+            Fidelity::Reference if frequency_bound < MAX_EXPLICIT_FREQUENCY => {
                 Integrator { method: Method::Rkn4, control: StepControl::Stable(0.5) }
             }
             Fidelity::Reference => Integrator { method: Method::Esdirk4, control: StepControl::Tolerance(1e-9) },
@@ -129,50 +103,50 @@ impl Fidelity {
     }
 }
 
-impl Integrator {
-    /// A method with a tolerance in m of position error per host step.
-    ///
-    /// # Errors
-    /// [`Error::UnsupportedControl`] if the method has no error estimate, [`Error::InvalidValue`] for a bad tolerance.
-    pub fn tolerance(method: Method, tolerance: f64) -> Result<Self, Error> {
-        Integrator { method, control: StepControl::Tolerance(tolerance) }.checked()
+impl FromStr for Fidelity {
+    type Err = Error;
+    fn from_str(text: &str) -> Result<Self, Error> {
+        Fidelity::ALL.into_iter().find(|fidelity| fidelity.name() == text).ok_or_else(|| Error::UnknownFidelity {
+            name: text.to_string(),
+            suggestion: nearest(text, Fidelity::ALL.map(|fidelity| fidelity.name().to_string())),
+        })
     }
+}
 
-    /// A method with a fixed number of equal steps per host step.
-    ///
-    /// # Errors
-    /// [`Error::InvalidValue`] for zero steps.
-    pub fn substeps(method: Method, substeps: u32) -> Result<Self, Error> {
-        Integrator { method, control: StepControl::Substeps(substeps) }.checked()
+/// An integrator, or a fidelity that chooses one by the cable's frequencies. Default:
+/// [`Fidelity::Engineering`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum IntegratorChoice {
+    /// The integrator of a preset.
+    Fidelity(Fidelity),
+    /// This integrator.
+    Integrator(Integrator),
+}
+
+impl IntegratorChoice {
+    /// Returns the integrator for a cable whose frequencies stay below `frequency_bound` (rad/s).
+    pub fn integrator(self, frequency_bound: f64) -> Integrator {
+        match self {
+            IntegratorChoice::Fidelity(fidelity) => fidelity.integrator(frequency_bound),
+            IntegratorChoice::Integrator(integrator) => integrator,
+        }
     }
+}
 
-    /// The same, if the method can do what the control asks.
-    ///
-    /// # Errors
-    /// [`Error::UnsupportedControl`] or [`Error::InvalidValue`].
-    pub fn checked(self) -> Result<Self, Error> {
-        if let Method::GeneralisedAlpha { rho, .. } = self.method {
-            require("rho of generalised-alpha", rho, (0.0..=1.0).contains(&rho), "between 0 and 1")?;
-        }
-        let unsupported = |reason| Err(Error::UnsupportedControl { method: self.method.to_string(), reason });
-        match self.control {
-            StepControl::Tolerance(tolerance) => {
-                require("tolerance (m)", tolerance, tolerance > 0.0, "> 0")?;
-                if self.method.properties().estimate_order.is_none() {
-                    return unsupported("it does not estimate its error; give substeps, max_step, or another method");
-                }
-            }
-            StepControl::Substeps(substeps) => {
-                require("substeps", f64::from(substeps), substeps > 0, "> 0")?;
-            }
-            StepControl::MaxStep(step) => require("max_step (s)", step, step > 0.0, "> 0")?,
-            StepControl::Stable(share) => {
-                require("share of the stability limit", share, share > 0.0 && share <= 1.0, "in (0, 1]")?;
-                if !matches!(self.method.stepper(), Stepper::Explicit(_)) {
-                    return unsupported("only explicit methods have a stability limit; give a tolerance or substeps");
-                }
-            }
-        }
-        Ok(self)
+impl Default for IntegratorChoice {
+    fn default() -> Self {
+        IntegratorChoice::Fidelity(Fidelity::default())
+    }
+}
+
+impl From<Fidelity> for IntegratorChoice {
+    fn from(fidelity: Fidelity) -> Self {
+        IntegratorChoice::Fidelity(fidelity)
+    }
+}
+
+impl From<Integrator> for IntegratorChoice {
+    fn from(integrator: Integrator) -> Self {
+        IntegratorChoice::Integrator(integrator)
     }
 }

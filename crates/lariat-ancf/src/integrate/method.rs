@@ -1,25 +1,16 @@
-//! The methods by name, and what each is good for.
+//! The methods by name, with their properties.
 
-use super::dirk::Tableau;
-use super::explicit::Composition;
-use super::generalised_alpha::GeneralisedAlpha;
-use super::{OneStep, esdirk3, esdirk4, midpoint, rkn, tr_bdf2, trapezoid, verlet};
-use crate::error::{Error, require};
+use super::dynamics::Dynamics;
+use super::generalised_alpha::{GeneralisedAlpha, NewtonMode};
+use super::one_step::{OneStep, Scratch, StepRequest};
+use super::state::State;
+use super::{esdirk3, esdirk4, midpoint, rkn, tr_bdf2, trapezoid, verlet};
+use crate::error::{Error, StepFailure, nearest};
 use serde::{Deserialize, Serialize};
 use std::fmt;
 use std::str::FromStr;
 
-/// Newton's iteration of generalised-alpha.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-pub enum NewtonMode {
-    /// To convergence.
-    #[default]
-    Converged,
-    /// One iteration, checked; more where it does not contract.
-    Once,
-}
-
-/// A time integrator. See [`Method::properties`] for what each is good for.
+/// A time integration method. [`Method::properties`] says what each is suited for.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(into = "String", try_from = "String")]
 pub enum Method {
@@ -31,7 +22,7 @@ pub enum Method {
     GeneralisedAlpha {
         /// Spectral radius at infinity, 0 to 1.
         rho: f64,
-        /// One Newton iteration, or to convergence.
+        /// Newton's iteration.
         newton: NewtonMode,
     },
     /// TR-BDF2.
@@ -48,7 +39,7 @@ pub enum Method {
     Rkn6,
 }
 
-/// What a method can do and what it costs.
+/// Order, cost, stability and range of a method.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Properties {
     /// Order of convergence in time.
@@ -63,23 +54,6 @@ pub struct Properties {
     pub stability: &'static str,
     /// When to use it.
     pub validity: &'static str,
-}
-
-/// A method ready to step.
-pub(crate) enum Stepper {
-    Dirk(&'static Tableau),
-    Alpha(GeneralisedAlpha),
-    Explicit(&'static Composition),
-}
-
-impl Stepper {
-    pub(crate) fn one_step(&self) -> &dyn OneStep {
-        match self {
-            Stepper::Dirk(tableau) => *tableau,
-            Stepper::Alpha(alpha) => alpha,
-            Stepper::Explicit(composition) => *composition,
-        }
-    }
 }
 
 impl Method {
@@ -98,78 +72,101 @@ impl Method {
         Method::Rkn6,
     ];
 
-    pub(crate) fn stepper(&self) -> Stepper {
+    /// Calls `f` with the implementation of the method.
+    fn with_implementation<R>(&self, f: impl FnOnce(&dyn OneStep) -> R) -> R {
         match *self {
-            Method::Midpoint => Stepper::Dirk(&midpoint::TABLEAU),
-            Method::Trapezoid => Stepper::Alpha(trapezoid::METHOD),
-            Method::GeneralisedAlpha { rho, newton } => Stepper::Alpha(GeneralisedAlpha { rho, newton }),
-            Method::TrBdf2 => Stepper::Dirk(&tr_bdf2::TABLEAU),
-            Method::Esdirk3 => Stepper::Dirk(&esdirk3::TABLEAU),
-            Method::Esdirk4 => Stepper::Dirk(&esdirk4::TABLEAU),
-            Method::Verlet => Stepper::Explicit(&verlet::METHOD),
-            Method::Rkn4 => Stepper::Explicit(&rkn::ORDER_4),
-            Method::Rkn6 => Stepper::Explicit(&rkn::ORDER_6),
+            Method::Midpoint => f(&midpoint::TABLEAU),
+            Method::Trapezoid => f(&trapezoid::METHOD),
+            Method::GeneralisedAlpha { rho, newton } => f(&GeneralisedAlpha { rho, newton }),
+            Method::TrBdf2 => f(&tr_bdf2::TABLEAU),
+            Method::Esdirk3 => f(&esdirk3::TABLEAU),
+            Method::Esdirk4 => f(&esdirk4::TABLEAU),
+            Method::Verlet => f(&verlet::METHOD),
+            Method::Rkn4 => f(&rkn::ORDER_4),
+            Method::Rkn6 => f(&rkn::ORDER_6),
         }
     }
 
-    /// Order, stability, cost and range of the method.
+    /// Returns order, stability, cost and range of the method.
     pub fn properties(&self) -> Properties {
-        let implicit = |order, stages, estimate_order, stability, validity| Properties {
+        let of = |order, stages, stability, validity| Properties {
             order,
             stages,
-            implicit: true,
-            estimate_order,
+            implicit: self.stability_limit().is_none(),
+            estimate_order: self.estimate_order(),
             stability,
             validity,
         };
-        let explicit = |order, stages, validity| Properties {
-            order,
-            stages,
-            implicit: false,
-            estimate_order: None,
-            stability: "explicit, symplectic; h omega_max below its limit",
-            validity,
-        };
+        const SYMPLECTIC: &str = "explicit, symplectic; h omega_max below its limit";
         match *self {
-            Method::Midpoint => {
-                implicit(2, 1, None, "A-stable, symplectic", "soft cables; rings on stiff ones at coarse steps")
-            }
-            Method::Trapezoid => {
-                implicit(2, 1, Some(3), "A-stable", "soft cables; rings on stiff ones at coarse steps")
-            }
+            Method::Midpoint => of(2, 1, "A-stable, symplectic", "soft cables; rings on stiff ones at coarse steps"),
+            Method::Trapezoid => of(2, 1, "A-stable", "soft cables; rings on stiff ones at coarse steps"),
             Method::GeneralisedAlpha { newton: NewtonMode::Once, .. } => {
-                implicit(2, 1, Some(3), "A-stable; linearly implicit, checked", "games, h <= 1/240 s (fidelity game)")
+                of(2, 1, "A-stable; linearly implicit, checked", "games, h <= 1/240 s (fidelity game)")
             }
             Method::GeneralisedAlpha { rho: 0.0, .. } => {
-                implicit(2, 1, Some(3), "L-stable", "stiff cables at coarse fixed steps; loses energy")
+                of(2, 1, "L-stable", "stiff cables at coarse fixed steps; loses energy")
             }
             Method::GeneralisedAlpha { .. } => {
-                implicit(2, 1, Some(3), "A-stable, damps above 1/h", "soft cables; spurious tension on steel at 1/60 s")
+                of(2, 1, "A-stable, damps above 1/h", "soft cables; spurious tension on steel at 1/60 s")
             }
-            Method::TrBdf2 => implicit(2, 2, Some(3), "L-stable", "any stiffness, coarse tolerance"),
-            Method::Esdirk3 => implicit(3, 3, Some(3), "L-stable", "any stiffness, coarse steps"),
-            Method::Esdirk4 => implicit(4, 5, Some(4), "L-stable", "any stiffness (fidelity engineering, the default)"),
-            Method::Verlet => explicit(2, 1, "soft cables, many small steps"),
-            Method::Rkn4 => explicit(4, 6, "soft cables, fine accuracy (fidelity reference)"),
-            Method::Rkn6 => explicit(6, 11, "soft cables, errors in time near rounding"),
+            Method::TrBdf2 => of(2, 2, "L-stable", "any stiffness, coarse tolerance"),
+            Method::Esdirk3 => of(3, 3, "L-stable", "any stiffness, coarse steps"),
+            Method::Esdirk4 => of(4, 5, "L-stable", "any stiffness (fidelity engineering, the default)"),
+            Method::Verlet => of(2, 1, SYMPLECTIC, "soft cables, many small steps"),
+            Method::Rkn4 => of(4, 6, SYMPLECTIC, "soft cables, fine accuracy (fidelity reference)"),
+            Method::Rkn6 => of(6, 11, SYMPLECTIC, "soft cables, errors in time near rounding"),
         }
+    }
+}
+
+impl OneStep for Method {
+    fn name(&self) -> String {
+        match self {
+            // the trapezoidal rule is generalised-alpha with rho = 1, and has its own name
+            Method::Trapezoid => "trapezoid".to_string(),
+            _ => self.with_implementation(|method| method.name()),
+        }
+    }
+
+    fn stages(&self) -> usize {
+        self.with_implementation(|method| method.stages())
+    }
+
+    fn estimate_order(&self) -> Option<u32> {
+        self.with_implementation(|method| method.estimate_order())
+    }
+
+    fn stability_limit(&self) -> Option<f64> {
+        self.with_implementation(|method| method.stability_limit())
+    }
+
+    fn has_algorithmic_acceleration(&self) -> bool {
+        self.with_implementation(|method| method.has_algorithmic_acceleration())
+    }
+
+    fn needs_energy_guard(&self) -> bool {
+        self.with_implementation(|method| method.needs_energy_guard())
+    }
+
+    fn check(&self) -> Result<(), Error> {
+        self.with_implementation(|method| method.check())
+    }
+
+    fn step(
+        &self,
+        system: &mut dyn Dynamics,
+        now: &State,
+        request: StepRequest,
+        scratch: &mut Scratch,
+    ) -> Result<Option<f64>, StepFailure> {
+        self.with_implementation(|method| method.step(system, now, request, scratch))
     }
 }
 
 impl fmt::Display for Method {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Method::Midpoint => f.write_str("midpoint"),
-            Method::Trapezoid => f.write_str("trapezoid"),
-            Method::GeneralisedAlpha { rho, newton: NewtonMode::Converged } => write!(f, "generalised-alpha-{rho}"),
-            Method::GeneralisedAlpha { rho, newton: NewtonMode::Once } => write!(f, "generalised-alpha-{rho}-once"),
-            Method::TrBdf2 => f.write_str("tr-bdf2"),
-            Method::Esdirk3 => f.write_str("esdirk3"),
-            Method::Esdirk4 => f.write_str("esdirk4"),
-            Method::Verlet => f.write_str("verlet"),
-            Method::Rkn4 => f.write_str("rkn4"),
-            Method::Rkn6 => f.write_str("rkn6"),
-        }
+        f.write_str(&self.name())
     }
 }
 
@@ -183,14 +180,15 @@ impl FromStr for Method {
                 None => (rest, NewtonMode::Converged),
             };
             if let Ok(rho) = rho.parse::<f64>() {
-                require("rho of generalised-alpha", rho, (0.0..=1.0).contains(&rho), "between 0 and 1")?;
-                return Ok(Method::GeneralisedAlpha { rho, newton });
+                let method = Method::GeneralisedAlpha { rho, newton };
+                return method.check().map(|()| method);
             }
         }
         Method::ALL.into_iter().find(|m| m.to_string() == name).ok_or_else(|| Error::UnknownIntegrator {
             name: text.to_string(),
             expected: Method::ALL.map(|m| m.to_string()).join(", ")
                 + " (generalised-alpha with any spectral radius from 0 to 1)",
+            suggestion: nearest(text, Method::ALL.map(|m| m.to_string())),
         })
     }
 }

@@ -1,8 +1,18 @@
 //! Symplectic Runge-Kutta-Nystrom methods of order 4 (6 stages) and 6 (11 stages) for q'' = f(q).
 //!
-//! They use that the kinetic energy is quadratic, which removes order conditions and makes their error constants hundreds of
-//! times smaller than those of Yoshida's compositions of the same order. *Source.* Blanes & Moan, J. Comput. Appl. Math. 142
-//! (2002) 313: SRKN-6b and SRKN-11b. *Validity.* Forces that do not depend on velocity; h omega_max below the stability limit.
+//! # Equation
+//!
+//! Compositions of kicks and drifts, see [`explicit`](super::explicit). Because the kinetic energy
+//! is quadratic, some order conditions are void, and the error constants are hundreds of times
+//! smaller than those of Yoshida's compositions of the same order.
+//!
+//! # Validity
+//!
+//! Forces that do not depend on velocity; h omega_max below the stability limit.
+//!
+//! # References
+//!
+//! Blanes & Moan, J. Comput. Appl. Math. 142 (2002) 313: SRKN-6b and SRKN-11b.
 
 use super::explicit::Composition;
 
@@ -11,6 +21,7 @@ const A4: [f64; 2] = [0.245_298_957_184_271, 0.604_872_665_711_080];
 
 /// Order 4.
 pub const ORDER_4: Composition = Composition {
+    name: "rkn4",
     kicks: &[B4[0], B4[1], B4[2], 1.0 - 2.0 * (B4[0] + B4[1] + B4[2])],
     drifts: &[A4[0], A4[1], 0.5 - (A4[0] + A4[1])],
     stages: 6,
@@ -35,6 +46,7 @@ const A6: [f64; 5] = [
 /// Order 6.
 #[expect(clippy::approx_constant)] // the limit is not pi
 pub const ORDER_6: Composition = Composition {
+    name: "rkn6",
     kicks: &[B6[0], B6[1], B6[2], B6[3], B6[4], 0.5 - (B6[0] + B6[1] + B6[2] + B6[3] + B6[4])],
     drifts: &[A6[0], A6[1], A6[2], A6[3], A6[4], 1.0 - 2.0 * (A6[0] + A6[1] + A6[2] + A6[3] + A6[4])],
     stages: 11,

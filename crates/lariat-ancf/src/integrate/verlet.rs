@@ -1,8 +1,19 @@
 //! Velocity Verlet: order 2, one force evaluation per step.
 //!
-//! *Source.* Verlet 1967; Hairer, Lubich & Wanner 2003. *Validity.* h omega_max < 2.
+//! # Equation
+//!
+//! Half a kick, a drift, half a kick; see [`explicit`](super::explicit).
+//!
+//! # Validity
+//!
+//! h omega_max < 2.
+//!
+//! # References
+//!
+//! Verlet 1967; Hairer, Lubich & Wanner 2003.
 
 use super::explicit::Composition;
 
-/// Half a kick, a drift, half a kick.
-pub const METHOD: Composition = Composition { kicks: &[0.5], drifts: &[1.0], stages: 1, stability_limit: 2.0 };
+/// The method.
+pub const METHOD: Composition =
+    Composition { name: "verlet", kicks: &[0.5], drifts: &[1.0], stages: 1, stability_limit: 2.0 };

@@ -107,16 +107,20 @@ pub fn stages(scene: &Scene, model: CableModel, split: Split) -> Result<[f64; 3]
         let Some((physics, set)) = scene.parts() else { return Ok([f64::NAN; 3]) };
         let mut spent = [0.0; 3];
         for _ in 0..STEPS * split.steps as usize {
-            let clock = Instant::now();
-            set.predict(physics)?;
-            let predicted = clock.elapsed();
-            physics.step();
-            let stepped = clock.elapsed();
-            set.reconcile(physics)?;
-            let times = [predicted, stepped - predicted, clock.elapsed() - stepped];
-            for (spent, time) in spent.iter_mut().zip(times) {
-                *spent += time.as_secs_f64() * 1e6 / STEPS as f64;
+            let mut host = set.begin(physics)?;
+            while host.is_unfinished() {
+                let clock = Instant::now();
+                set.predict_next(physics, &mut host)?;
+                let predicted = clock.elapsed();
+                physics.step();
+                let stepped = clock.elapsed();
+                set.reconcile(physics);
+                let times = [predicted, stepped - predicted, clock.elapsed() - stepped];
+                for (spent, time) in spent.iter_mut().zip(times) {
+                    *spent += time.as_secs_f64() * 1e6 / STEPS as f64;
+                }
             }
+            set.finish(physics, host);
         }
         for (least, spent) in least.iter_mut().zip(spent) {
             *least = least.min(spent);

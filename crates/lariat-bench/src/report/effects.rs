@@ -37,8 +37,8 @@ fn cases() -> Vec<(&'static str, &'static str, Effects)> {
     let rest = |rest| Effects { rest_shape: Some(rest), ..Effects::default() };
     let buoyancy = Effects { buoyancy: Some(Buoyancy::new(1000.0, 1.0)), ..Effects::default() };
     let constant = Effects {
-        line_loads: vec![LineLoad::uniform(Vector3::x())],
-        gravity_scale: GravityScale(0.5),
+        line_loads: Some(LineLoad::uniform(Vector3::x()).into()),
+        gravity_scale: Some(GravityScale(0.5)),
         ..Effects::default()
     };
     let all = Effects {
@@ -129,9 +129,9 @@ fn row(options: &Options, name: &str, cable: &mut Cable) -> Result<Vec<Cell>, Er
         per_step(d.factorisations),
         per_step(d.element_evaluations()),
         per_step(d.bending_evaluations),
-        per_step(d.damping_evaluations),
-        per_step(d.drag_evaluations),
-        per_step(d.rest_shape_evaluations),
+        per_step(d.effects.damping),
+        per_step(d.effects.drag),
+        per_step(d.effects.rest_shape),
     ]);
     Ok(row)
 }

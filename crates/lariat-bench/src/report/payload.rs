@@ -138,7 +138,7 @@ pub fn measure_all(options: &Options) -> Result<Vec<Point>, Error> {
     let mut points = Vec::new();
     let mut one = |options: &Options, name: &str, rule, integrator: Integrator, elements, hz| {
         let mut scene = scene(rule, elements, hz)?;
-        scene.cables[0].integrator = Ok(integrator);
+        scene.cables[0].integrator = integrator.into();
         let setting = Setting::new(name, rule, integrator, elements, scene.dt);
         points.push(against_monolithic(options, setting, &scene, hz));
         Ok::<(), Error>(())

@@ -1,0 +1,63 @@
+//! Cutting a cable in two, without changing the shape or motion of either part.
+//!
+//! # Validity
+//!
+//! Any node between the ends. The tension at the cut is unbalanced from then on: a taut cable whips, and needs an integrator with error
+//! control, or damping.
+//!
+//! # References
+//!
+//! The nodal coordinates of the cut are doubled ([`insert_node`](Cable::insert_node) places them first): mass, momenta and kinetic energy
+//! of the parts sum to those of the whole to rounding.
+
+use crate::cable::{At, Cable, Snapshot};
+use crate::effect::Cut;
+use crate::error::Error;
+use crate::integrate::{Memory, State};
+
+impl Cable {
+    /// Cuts the cable at a point: this one keeps the part before it, the rest is returned. A support or load at the point itself stays with
+    /// this one. Effects act on both parts; their work so far, and the counters, stay with this one.
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] if the point is not on the cable, or at one of its ends.
+    pub fn cut(&mut self, at: impl Into<At>) -> Result<Cable, Error> {
+        let s = self.arc_length(at)?;
+        let length = self.length();
+        if s <= 1e-9 * length || s >= length * (1.0 - 1e-9) {
+            let cable = self.name().to_string();
+            return Err(Error::OutOfRange {
+                cable,
+                what: "arc length of a cut must lie between the ends:",
+                value: s,
+                limit: length,
+            });
+        }
+        let node = self.insert_node(At::ArcLength(s))?;
+        let s = self.node_arc_lengths()[node];
+        let (mut head, mut tail) = (self.model.clone(), self.model.clone());
+        tail.name = format!("{}, cut off", self.model.name);
+        tail.elements = head.elements.split_off(node);
+        head.supports.retain(|(n, _)| *n <= node);
+        tail.supports.retain(|(n, _)| *n > node);
+        tail.supports.iter_mut().for_each(|(n, _)| *n -= node);
+        head.loads.retain(|load| load.arc_length <= s);
+        tail.loads.retain(|load| load.arc_length > s);
+        tail.loads.iter_mut().for_each(|load| load.arc_length = (load.arc_length - s).min(length - s));
+        [head.effects, tail.effects] = self.model.effects.cut(Cut { node, elements: &self.model.elements });
+        tail.force_densities = self.model.force_densities.behind(s);
+        let state = &self.snapshot.state;
+        let part =
+            |q: &[f64], v: &[f64]| State { time: state.time, q: q.to_vec(), v: v.to_vec(), memory: Memory::default() };
+        let (end, begin) = (6 * node + 6, 6 * node);
+        let head_state = Snapshot { state: part(&state.q[..end], &state.v[..end]), work: self.snapshot.work };
+        let tail_state = Snapshot { state: part(&state.q[begin..], &state.v[begin..]), ..Snapshot::default() };
+        let tail = Cable::from_parts(tail, tail_state, self.integrator)?;
+        let mut head = Cable::from_parts(head, head_state, self.integrator)?;
+        head.diagnostics = self.diagnostics;
+        head.revision = self.revision;
+        head.revise();
+        *self = head;
+        Ok(tail)
+    }
+}

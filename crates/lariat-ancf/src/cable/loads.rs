@@ -1,0 +1,75 @@
+//! Gravity and point loads of a cable, changed between steps.
+
+use super::Cable;
+use crate::error::{Error, require, require_finite};
+use crate::load::PointLoad;
+use nalgebra::Vector3;
+
+impl Cable {
+    /// Changes gravity (m/s^2).
+    ///
+    /// # Errors
+    /// [`Error::InvalidValue`] for numbers that are not finite.
+    pub fn set_gravity(&mut self, gravity: Vector3<f64>) -> Result<(), Error> {
+        require_finite("gravity (m/s^2)", &gravity).map_err(|e| e.of_cable(self.name()))?;
+        self.model.gravity = gravity;
+        self.system.loads.weigh(&self.model);
+        self.revise();
+        Ok(())
+    }
+
+    /// Returns the point loads.
+    pub fn loads(&self) -> &[PointLoad] {
+        &self.model.loads
+    }
+
+    /// Adds a point load; a ramp begins now.
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] for an arc length off the cable, [`Error::InvalidValue`] for numbers that are not finite.
+    pub fn add_load(&mut self, load: PointLoad) -> Result<(), Error> {
+        self.check_arc_length(load.arc_length)?;
+        require_finite("force (N)", &load.force)
+            .and_then(|()| require_finite("moment (N m)", &load.moment))
+            .and_then(|()| require("ramp (s)", load.ramp, load.ramp >= 0.0, ">= 0"))
+            .map_err(|e| e.of_cable(self.name()))?;
+        self.model.loads.push(PointLoad { start: self.time(), ..load });
+        self.system.loads.locate(&self.model);
+        self.revise();
+        Ok(())
+    }
+
+    /// Replaces all point loads. A load that does not change keeps the time at which its ramp began; the ramps of others begin now.
+    ///
+    /// # Errors
+    /// As [`add_load`](Self::add_load); the cable is then as before.
+    pub fn set_loads(&mut self, loads: &[PointLoad]) -> Result<(), Error> {
+        let before = core::mem::take(&mut self.model.loads);
+        for load in loads {
+            if let Err(error) = self.add_load(*load) {
+                self.model.loads = before;
+                self.system.loads.locate(&self.model);
+                self.revise();
+                return Err(error);
+            }
+            if let (Some(old), Some(new)) = (before.iter().find(|old| old.is_same(load)), self.model.loads.last_mut()) {
+                new.start = old.start;
+            }
+        }
+        self.system.loads.locate(&self.model);
+        self.revise();
+        Ok(())
+    }
+
+    /// Removes all point loads.
+    pub fn clear_loads(&mut self) {
+        self.model.loads.clear();
+        self.system.loads.locate(&self.model);
+        self.revise();
+    }
+
+    /// Returns whether all loads are at their full value now, that is no ramp is in progress.
+    pub fn is_loaded_steadily(&self) -> bool {
+        self.model.loads.iter().all(|load| load.factor(self.time()) == 1.0)
+    }
+}

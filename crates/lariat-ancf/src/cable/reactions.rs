@@ -1,0 +1,77 @@
+//! Forces between a cable and what holds it.
+//!
+//! # Equation
+//!
+//! ```text
+//! f = M q'' - F on the position        m = t x (M q'' - F) of the slope t
+//! ```
+
+use super::Cable;
+use crate::effect::acts::ForceInput;
+use crate::error::Error;
+use crate::integrate::Dynamics;
+use crate::system::Buffers;
+use nalgebra::Vector3;
+use serde::{Deserialize, Serialize};
+
+/// Force and moment of a support on the cable.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Reaction {
+    /// Node number.
+    pub node: usize,
+    /// Force on the cable in N.
+    pub force: Vector3<f64>,
+    /// Moment on the cable in N m.
+    pub moment: Vector3<f64>,
+}
+
+impl Cable {
+    /// Returns the reactions of all supports at the present state, by ascending node: force and moment of the support on the cable.
+    ///
+    /// # Errors
+    /// [`Error::StepFailed`] if the present state has no finite acceleration.
+    pub fn reactions(&mut self) -> Result<Vec<Reaction>, Error> {
+        let n = self.positions().len();
+        self.refresh_memory();
+        let mut acceleration = self.snapshot.state.memory.acceleration.clone();
+        if !self.snapshot.state.memory.valid {
+            acceleration.resize(n, 0.0);
+            let (mut dynamics, state) = self.dynamics();
+            let outcome = dynamics.acceleration(state.time, &state.q, &state.v, &mut acceleration);
+            outcome.map_err(|failure| self.step_failed(self.time(), 0.0, failure))?;
+        }
+        let mut residual = vec![0.0; n];
+        let mut inertia = vec![0.0; n];
+        let (mut equations, state) = self.equations();
+        equations
+            .force(ForceInput { time: state.time, q: &state.q, v: &state.v, dv_dq: 0.0, scale: -1.0 }, &mut residual);
+        equations.system.mass.multiply(equations.system.level, &acceleration, &mut inertia);
+        let vector = |x: &[f64], y: &[f64]| Vector3::new(x[0] + y[0], x[1] + y[1], x[2] + y[2]);
+        let reaction = |&(node, _): &(usize, _)| {
+            let i = 6 * node;
+            let slope = Vector3::from_column_slice(&state.q[i + 3..i + 6]);
+            Reaction {
+                node,
+                force: vector(&residual[i..i + 3], &inertia[i..i + 3]),
+                moment: slope.cross(&vector(&residual[i + 3..i + 6], &inertia[i + 3..i + 6])),
+            }
+        };
+        Ok(equations.model.supports.iter().map(reaction).collect())
+    }
+
+    /// Returns force (N) and moment about the node (N m) of the cable on what holds `node`, at the present state and its known
+    /// accelerations; unknown ones are taken as zero. Allocates nothing.
+    pub fn pull(&mut self, node: usize) -> (Vector3<f64>, Vector3<f64>) {
+        self.refresh_memory();
+        let (dynamics, state) = self.dynamics();
+        let (mut equations, Buffers { rhs, product, .. }) = (dynamics.equations, dynamics.buffers);
+        equations.force(ForceInput { time: state.time, q: &state.q, v: &state.v, dv_dq: 0.0, scale: 1.0 }, rhs);
+        if state.memory.valid {
+            equations.system.mass.multiply(equations.system.level, &state.memory.acceleration, product);
+            rhs.iter_mut().zip(product.iter()).for_each(|(r, m)| *r -= m);
+        }
+        let vector = |x: &[f64]| Vector3::new(x[0], x[1], x[2]);
+        let (force, slope) = (vector(&rhs[6 * node..]), vector(&rhs[6 * node + 3..]));
+        (force, vector(&state.q[6 * node + 3..]).cross(&slope))
+    }
+}

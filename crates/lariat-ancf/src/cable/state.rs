@@ -1,0 +1,163 @@
+//! The state of a cable: read, put back, changed between steps.
+
+use super::Cable;
+use crate::effect::EffectWork;
+use crate::error::{Error, require, require_finite};
+use crate::integrate::State;
+use crate::support::SlopeSupport;
+use crate::system::System;
+use nalgebra::Vector3;
+use serde::{Deserialize, Serialize};
+
+/// Everything that changes while a cable moves, as plain data: clone it, serialise it, [restore](Cable::restore) it, and the run continues
+/// bitwise the same. Not in it: the description (supports, loads, effects), samples of a flow, and functions of
+/// [your own](crate::ForceDensity), which stay with the cable.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Snapshot {
+    pub(crate) state: State,
+    /// Work of effects so far.
+    #[serde(default)]
+    pub(crate) work: EffectWork,
+}
+
+impl Snapshot {
+    /// Adds the work of effects in a host step that succeeded; `before` are the positions when it began.
+    pub(crate) fn add_work_of_step(&mut self, system: &mut System, before: &[f64]) {
+        self.work += core::mem::take(&mut system.meter.work);
+        system.loads.of_effects.add_work(before, &self.state.q, &mut self.work);
+    }
+}
+
+impl Cable {
+    /// Returns the nodal coordinates, flat: by node the position (m) and the slope dr/ds.
+    pub fn positions(&self) -> &[f64] {
+        &self.snapshot.state.q
+    }
+
+    /// Returns the nodal velocities, flat: by node m/s and 1/s.
+    pub fn velocities(&self) -> &[f64] {
+        &self.snapshot.state.v
+    }
+
+    /// Returns the state: clone it to keep it.
+    pub fn snapshot(&self) -> &Snapshot {
+        &self.snapshot
+    }
+
+    /// Restores a state; the run then continues bitwise as it did from there (if supports, loads, effects and integrator are
+    /// as they were, else from its positions and velocities).
+    ///
+    /// # Errors
+    /// [`Error::WrongCount`] if the state is of a cable with another number of nodes, [`Error::InvalidValue`] if it is not
+    /// finite.
+    pub fn restore(&mut self, snapshot: Snapshot) -> Result<(), Error> {
+        snapshot.state.check(self.name(), self.positions().len())?;
+        let mut works = snapshot.work.by_key();
+        works
+            .try_for_each(|(_, x)| require("work of effects (J)", x, true, "a number"))
+            .map_err(|e| e.of_cable(self.name()))?;
+        self.snapshot = snapshot;
+        Ok(())
+    }
+
+    /// Sets nodal coordinates and velocities, flat as [`positions`](Self::positions) and [`velocities`](Self::velocities).
+    ///
+    /// # Errors
+    /// [`Error::WrongCount`] for the wrong number, [`Error::InvalidValue`] for numbers that are not finite.
+    pub fn set_coordinates(&mut self, positions: &[f64], velocities: &[f64]) -> Result<(), Error> {
+        let n = self.positions().len();
+        for (what, each, given) in [("coordinates", "coordinate", positions), ("velocities", "velocity", velocities)] {
+            if given.len() != n {
+                let (cable, count) = (self.name().to_string(), given.len());
+                return Err(Error::WrongCount { cable, what, count, expected: n });
+            }
+            given.iter().try_for_each(|&x| require(each, x, true, "a number")).map_err(|e| e.of_cable(self.name()))?;
+        }
+        self.snapshot.state.q.copy_from_slice(positions);
+        self.snapshot.state.v.copy_from_slice(velocities);
+        self.disturb();
+        Ok(())
+    }
+
+    /// Marks the accelerations as unknown, after a change of the state.
+    pub(crate) fn disturb(&mut self) {
+        self.snapshot.state.memory.valid = false;
+        self.snapshot.state.memory.step = 0.0;
+    }
+
+    /// Marks a change of supports, loads, effects or integrator: states from before keep their positions and velocities only.
+    pub(crate) fn revise(&mut self) {
+        self.revision += 1;
+        self.refresh_memory();
+    }
+
+    /// Sets the velocity field of a rigid motion: `velocity` (m/s) of the start point, `angular_velocity` (rad/s) about it. Held points keep
+    /// the velocity of their supports.
+    ///
+    /// # Errors
+    /// [`Error::InvalidValue`] for numbers that are not finite.
+    pub fn set_rigid_motion(&mut self, velocity: Vector3<f64>, angular_velocity: Vector3<f64>) -> Result<(), Error> {
+        require_finite("velocity (m/s)", &velocity)?;
+        require_finite("angular velocity (rad/s)", &angular_velocity)?;
+        let start = self.node_position(0);
+        let state = &mut self.snapshot.state;
+        for (q, v) in state.q.chunks_exact(6).zip(state.v.chunks_exact_mut(6)) {
+            let (r, t) = (Vector3::new(q[0], q[1], q[2]), Vector3::new(q[3], q[4], q[5]));
+            v[..3].copy_from_slice((velocity + angular_velocity.cross(&(r - start))).as_slice());
+            v[3..].copy_from_slice(angular_velocity.cross(&t).as_slice());
+        }
+        for (node, support) in &self.model.supports {
+            // the next step moves held coordinates to their positions; here only their velocity counts
+            let mut position = [0.0; 6];
+            support.prescribe(state.time, &mut position, &mut state.v[6 * node..6 * node + 6]);
+        }
+        self.disturb();
+        Ok(())
+    }
+
+    /// Returns the speed of the fastest node in m/s.
+    pub fn speed(&self) -> f64 {
+        let squared = |v: &[f64]| v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
+        self.velocities().chunks_exact(6).map(squared).fold(0.0, f64::max).sqrt()
+    }
+
+    /// Advances the clock by `dt` (s) at rest: positions stay, velocities become zero. For a caller who knows that the cable is at rest,
+    /// or wants it frozen.
+    pub fn rest(&mut self, dt: f64) {
+        let state = &mut self.snapshot.state;
+        state.time += dt;
+        state.v.fill(0.0);
+        state.memory.valid = false;
+        state.memory.step = 0.0;
+    }
+
+    /// Sets the clock to `time` (s); prescribed motions and the ramps of loads keep their distance from it.
+    ///
+    /// # Errors
+    /// [`Error::InvalidValue`] for a time that is not finite.
+    pub fn set_time(&mut self, time: f64) -> Result<(), Error> {
+        require("time (s)", time, true, "a number")?;
+        let later = time - self.time();
+        self.model.loads.iter_mut().for_each(|load| load.start += later);
+        for (_, support) in &mut self.model.supports {
+            let slope = match &mut support.slope {
+                SlopeSupport::Prescribed(motion) => Some(motion),
+                _ => None,
+            };
+            support.position.iter_mut().chain(slope).for_each(|motion| motion.start += later);
+        }
+        self.snapshot.state.time = time;
+        self.revise();
+        Ok(())
+    }
+
+    /// Discards accelerations that belong to another description of the cable (of a snapshot from before a change).
+    pub(crate) fn refresh_memory(&mut self) {
+        let memory = &mut self.snapshot.state.memory;
+        if memory.revision != self.revision {
+            memory.valid = false;
+            memory.step = 0.0;
+            memory.revision = self.revision;
+        }
+    }
+}

@@ -1,0 +1,126 @@
+//! A method with its step control.
+
+use super::method::Method;
+use super::one_step::OneStep;
+use crate::error::{Error, require};
+use serde::{Deserialize, Serialize};
+
+/// How the length of the integration steps within a host step is chosen. The last one always ends
+/// exactly with the host step.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum StepControl {
+    /// Position error in m per host step; steps are chosen, rejected and retried to keep it.
+    Tolerance(f64),
+    /// This many equal steps per host step.
+    Substeps(u32),
+    /// The fewest equal steps no longer than this, in s. A host step that exceeds a multiple of it
+    /// by no more than the rounding of single precision takes no additional step.
+    MaxStep(f64),
+    /// Explicit methods: the fewest equal steps within this share (0 to 1) of the stability limit.
+    Stable(f64),
+}
+
+/// A method and its step control.
+///
+/// ```
+/// use lariat_ancf::{Integrator, Method, StepControl};
+/// assert_eq!(Integrator::default(), Integrator::tolerance(Method::Esdirk4, 1e-6)?);
+/// assert!(Integrator::tolerance(Method::Verlet, 1e-6).is_err()); // no error estimate
+/// # Ok::<(), lariat_ancf::Error>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Integrator {
+    /// The method.
+    pub method: Method,
+    /// How steps are chosen.
+    pub control: StepControl,
+}
+
+impl Default for Integrator {
+    /// Error-controlled ESDIRK4, 1e-6 m per host step.
+    fn default() -> Self {
+        Integrator { method: Method::Esdirk4, control: StepControl::Tolerance(1e-6) }
+    }
+}
+
+impl Integrator {
+    /// Returns a method with a tolerance in m of position error per host step.
+    ///
+    /// # Errors
+    /// [`Error::NoErrorEstimate`] if the method has no error estimate, [`Error::InvalidValue`] for
+    /// a bad tolerance.
+    pub fn tolerance(method: Method, tolerance: f64) -> Result<Self, Error> {
+        Integrator { method, control: StepControl::Tolerance(tolerance) }.checked()
+    }
+
+    /// Returns a method with a fixed number of equal steps per host step.
+    ///
+    /// # Errors
+    /// [`Error::InvalidValue`] for zero steps.
+    pub fn substeps(method: Method, substeps: u32) -> Result<Self, Error> {
+        Integrator { method, control: StepControl::Substeps(substeps) }.checked()
+    }
+
+    /// Returns the same, if the method supports the step control.
+    ///
+    /// # Errors
+    /// [`Error::NoErrorEstimate`], [`Error::NoStabilityLimit`] or [`Error::InvalidValue`].
+    pub fn checked(self) -> Result<Self, Error> {
+        IntegratorRef::from(&self).check().map(|()| self)
+    }
+}
+
+/// A borrowed method of any crate and its step control: what
+/// [`Cable::step_with`](crate::Cable::step_with) and
+/// [`Island::step_with`](crate::island::Island::step_with) take. An [`Integrator`] converts to it.
+#[derive(Clone, Copy, Debug)]
+pub struct IntegratorRef<'a> {
+    /// The method.
+    pub method: &'a dyn OneStep,
+    /// How steps are chosen.
+    pub control: StepControl,
+}
+
+impl<'a> From<&'a Integrator> for IntegratorRef<'a> {
+    fn from(integrator: &'a Integrator) -> Self {
+        IntegratorRef { method: &integrator.method, control: integrator.control }
+    }
+}
+
+impl IntegratorRef<'_> {
+    /// Checks that the method supports the step control.
+    ///
+    /// # Errors
+    /// [`Error::NoErrorEstimate`], [`Error::NoStabilityLimit`] or [`Error::InvalidValue`].
+    pub fn check(&self) -> Result<(), Error> {
+        self.method.check()?;
+        match self.control {
+            StepControl::Tolerance(tolerance) => {
+                require("tolerance (m)", tolerance, tolerance > 0.0, "> 0")?;
+                if self.method.estimate_order().is_none() {
+                    return Err(Error::NoErrorEstimate { method: self.method.name() });
+                }
+            }
+            StepControl::Substeps(substeps) => {
+                require("substeps", f64::from(substeps), substeps > 0, "> 0")?;
+            }
+            StepControl::MaxStep(step) => require("max_step (s)", step, step > 0.0, "> 0")?,
+            StepControl::Stable(share) => {
+                require("share of the stability limit", share, share > 0.0 && share <= 1.0, "in (0, 1]")?;
+                if self.method.stability_limit().is_none() {
+                    return Err(Error::NoStabilityLimit { method: self.method.name() });
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Returns the tolerance in m per host step, if the error is controlled.
+    pub(super) fn tolerance(&self) -> Option<f64> {
+        match self.control {
+            StepControl::Tolerance(tolerance) => Some(tolerance),
+            _ => None,
+        }
+    }
+}

@@ -1,0 +1,76 @@
+//! The state of a mechanical system between two steps: positions, velocities, and what a method
+//! carries from step to step.
+
+use crate::error::{Error, require};
+use serde::{Deserialize, Serialize};
+
+/// What a method carries from step to step, besides positions and velocities. Plain data, part of a
+/// snapshot.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Memory {
+    /// Acceleration at the present state, if `valid`.
+    pub acceleration: Vec<f64>,
+    /// Algorithmic acceleration of a method that [has
+    /// one](super::OneStep::has_algorithmic_acceleration), as generalised-alpha; else empty.
+    pub algorithmic: Vec<f64>,
+    /// Whether the accelerations belong to the present state.
+    pub valid: bool,
+    /// Revision of the system's description that the accelerations belong to: every change of
+    /// supports, loads or method makes another.
+    #[serde(default)]
+    pub revision: u64,
+    /// Length in s that error control proposes for the next step; 0 = no proposal.
+    pub step: f64,
+}
+
+/// Positions, velocities and method memory at a time.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct State {
+    /// Time in s.
+    pub time: f64,
+    /// Positions: flat (r, t) by node, m and 1.
+    pub q: Vec<f64>,
+    /// Velocities: flat (r', t') by node, m/s and 1/s.
+    pub v: Vec<f64>,
+    /// Memory of the method.
+    pub memory: Memory,
+}
+
+impl State {
+    /// Copies `other` into the existing buffers; the derived `clone_from` would allocate new ones.
+    pub(crate) fn copy_from(&mut self, other: &State) {
+        let State { time, q, v, memory: Memory { acceleration, algorithmic, valid, step, revision } } = other;
+        self.time = *time;
+        self.q.clone_from(q);
+        self.v.clone_from(v);
+        self.memory.revision = *revision;
+        self.memory.acceleration.clone_from(acceleration);
+        self.memory.algorithmic.clone_from(algorithmic);
+        self.memory.valid = *valid;
+        self.memory.step = *step;
+    }
+
+    /// Checks that this is a finite state of `size` coordinates; `cable` is the name for the error.
+    pub(crate) fn check(&self, cable: &str, size: usize) -> Result<(), Error> {
+        let Memory { acceleration, algorithmic, valid, step, .. } = &self.memory;
+        let lists = [
+            ("positions", &self.q, false),
+            ("velocities", &self.v, false),
+            ("accelerations", acceleration, !valid),
+            ("algorithmic accelerations", algorithmic, true),
+        ];
+        for (what, list, may_be_empty) in lists {
+            let count = list.len();
+            if count != size && !(may_be_empty && count == 0) {
+                return Err(Error::WrongCount { cable: cable.to_string(), what, count, expected: size });
+            }
+        }
+        let finite = |what: &str, x: f64| require(what, x, true, "a number");
+        finite("time (s)", self.time)
+            .and_then(|()| require("proposed step (s)", *step, *step >= 0.0, ">= 0"))
+            .and_then(|()| self.q.iter().try_for_each(|&x| finite("position", x)))
+            .and_then(|()| self.v.iter().try_for_each(|&x| finite("velocity", x)))
+            .and_then(|()| acceleration.iter().chain(algorithmic).try_for_each(|&x| finite("acceleration", x)))
+            .map_err(|error| error.of_cable(cable))
+    }
+}

@@ -1,0 +1,149 @@
+//! What a cable is made of: plain data from which everything else is rebuilt.
+
+use crate::effect::force_density::ForceDensities;
+use crate::effect::{Effects, Target};
+use crate::error::{Error, require, require_finite};
+use crate::load::PointLoad;
+use crate::rule::Rule;
+use crate::section::Element;
+use crate::support::Support;
+use nalgebra::Vector3;
+use serde::{Deserialize, Serialize};
+
+/// Largest number of elements of a cable.
+pub(crate) const MAX_ELEMENTS: usize = 1_000_000;
+
+/// The description of a cable; see [`CableBuilder`](crate::CableBuilder) for units and defaults.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Model {
+    pub(crate) name: String,
+    pub(crate) elements: Vec<Element>,
+    pub(crate) rule: Rule,
+    pub(crate) gravity: Vector3<f64>,
+    /// Supports by node, ascending, none of them free.
+    pub(crate) supports: Vec<(usize, Support)>,
+    pub(crate) loads: Vec<PointLoad>,
+    #[serde(default)]
+    pub(crate) effects: Effects,
+    #[serde(default)]
+    pub(crate) force_densities: ForceDensities,
+}
+
+impl Model {
+    /// Refuses numbers that make no cable: for descriptions that come from a file.
+    pub(crate) fn check(&self) -> Result<(), Error> {
+        let cable = || self.name.clone();
+        if self.elements.is_empty() {
+            return Err(Error::ElementCount { cable: cable(), count: 0, most: MAX_ELEMENTS });
+        }
+        self.rule.check_points()?;
+        for element in &self.elements {
+            require("element length (m)", element.length, element.length > 0.0, "> 0")?;
+            element.section.checked()?;
+        }
+        require_finite("gravity (m/s^2)", &self.gravity)?;
+        let length = self.length();
+        for load in &self.loads {
+            let s = load.arc_length;
+            require("arc length of a load (m)", s, s >= 0.0 && s <= length * (1.0 + 1e-12), "on the cable")?;
+            require_finite("force (N)", &load.force)?;
+            require_finite("moment (N m)", &load.moment)?;
+            require("ramp (s)", load.ramp, load.ramp >= 0.0, ">= 0")?;
+        }
+        let nodes = self.nodes();
+        let unordered = self.supports.windows(2).find(|s| s[0].0 >= s[1].0).map(|s| s[1].0);
+        let outside = self.supports.iter().map(|(node, _)| *node).find(|node| *node >= nodes);
+        if let Some(node) = unordered.or(outside) {
+            return Err(Error::SupportOrder { cable: cable(), node, nodes });
+        }
+        self.supports.iter().try_for_each(|(_, support)| support.check())?;
+        self.check_effects()
+    }
+
+    /// Number of nodes.
+    pub(crate) fn nodes(&self) -> usize {
+        self.elements.len() + 1
+    }
+
+    /// Unstretched length in m.
+    pub(crate) fn length(&self) -> f64 {
+        self.elements.iter().map(|e| e.length).sum()
+    }
+
+    /// Arc length of each node in m.
+    pub(crate) fn node_arc_lengths(&self) -> Vec<f64> {
+        let mut s = vec![0.0];
+        for element in &self.elements {
+            s.push(s[s.len() - 1] + element.length);
+        }
+        s
+    }
+
+    /// Element and local coordinate xi of an arc length in `[0, length]`.
+    pub(crate) fn locate(&self, arc_length: f64) -> (usize, f64) {
+        let mut rest = arc_length;
+        for (e, element) in self.elements.iter().enumerate() {
+            if rest <= element.length || e + 1 == self.elements.len() {
+                return (e, (rest / element.length).clamp(0.0, 1.0));
+            }
+            rest -= element.length;
+        }
+        unreachable!("a cable has at least one element")
+    }
+
+    /// The support of a node, if any.
+    pub(crate) fn support(&self, node: usize) -> Option<&Support> {
+        self.supports.iter().find(|(n, _)| *n == node).map(|(_, s)| s)
+    }
+
+    /// Sets the support of a node; a free one is removed.
+    pub(crate) fn set_support(&mut self, node: usize, support: Support) {
+        self.supports.retain(|(n, _)| *n != node);
+        if !support.is_free() {
+            let at = self.supports.partition_point(|(n, _)| *n < node);
+            self.supports.insert(at, (node, support));
+        }
+    }
+
+    /// The cable as effects see it.
+    pub(crate) fn target(&self) -> Target<'_> {
+        Target { name: &self.name, rule: self.rule, elements: &self.elements }
+    }
+
+    /// Rejects effects that are out of range or that the cable has no numbers for.
+    pub(crate) fn check_effects(&self) -> Result<(), Error> {
+        self.effects.check(&self.target())
+    }
+
+    /// Returns whether a force depends on velocity.
+    pub(crate) fn depends_on_velocity(&self) -> bool {
+        self.effects.depends_on_velocity() || self.force_densities.depend_on_velocity()
+    }
+
+    /// Returns whether the step matrix holds the exact tangent of the force.
+    pub(crate) fn has_exact_tangent(&self) -> bool {
+        self.effects.has_exact_tangent() && self.force_densities.is_empty()
+    }
+
+    /// Returns the mass per length in kg/m that resists acceleration, added mass included.
+    pub(crate) fn inertia(&self, element: &Element) -> f64 {
+        element.section.mass_per_length + self.effects.added_mass(&element.section)
+    }
+
+    /// Returns the weight per length in N/m: scaled gravity less buoyancy.
+    pub(crate) fn weight(&self, element: &Element) -> Vector3<f64> {
+        self.effects.weight(&element.section, self.gravity)
+    }
+
+    /// Returns the sum of weights and constant forces in N, and the sum of their sizes.
+    pub(crate) fn dead_resultant(&self) -> (Vector3<f64>, f64) {
+        let mut sum = (Vector3::zeros(), 0.0);
+        for element in &self.elements {
+            // a neutrally buoyant cable is measured by its weight in air
+            let size = element.length * element.section.mass_per_length * self.gravity.norm();
+            sum = (sum.0 + element.length * self.weight(element), sum.1 + size * self.effects.gravity_factor().abs());
+        }
+        self.effects.add_resultant(&self.target(), &mut sum.0, &mut sum.1);
+        sum
+    }
+}

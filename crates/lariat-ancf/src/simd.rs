@@ -1,0 +1,63 @@
+//! Vector instructions: the best that the processor has, found at run time.
+//!
+//! Every level runs the same source with the same order of operations and no fused multiply-add, so the choice changes the time
+//! and nothing else: a run is bitwise the same at every level.
+//!
+//! # Alternatives considered
+//!
+//! A copy of the kernels for SSE4.2 too: its instructions on `f64` are those of SSE2 but for rounding and selection, so it costs time
+//! to compile and saves none.
+
+use fearless_simd::{Simd, SimdBase, f64x8};
+
+/// Elements evaluated together.
+pub(crate) const LANES: usize = 8;
+
+/// Runs an expression with `$simd` bound to the token of a level's instructions: AVX-512, AVX2 and SSE2 on x86-64.
+#[cfg(target_arch = "x86_64")]
+macro_rules! dispatch {
+    ($level:expr, $simd:ident => $body:expr) => {
+        match $level {
+            fearless_simd::Level::Avx512($simd) => fearless_simd::Simd::vectorize(
+                $simd,
+                #[inline(always)]
+                || $body,
+            ),
+            fearless_simd::Level::Avx2($simd) => fearless_simd::Simd::vectorize(
+                $simd,
+                #[inline(always)]
+                || $body,
+            ),
+            other => {
+                let $simd = other.as_sse2().expect("every x86-64 processor has SSE2");
+                fearless_simd::Simd::vectorize(
+                    $simd,
+                    #[inline(always)]
+                    || $body,
+                )
+            }
+        }
+    };
+}
+
+#[cfg(not(target_arch = "x86_64"))]
+macro_rules! dispatch {
+    ($level:expr, $simd:ident => $body:expr) => { fearless_simd::dispatch!($level, $simd => $body) };
+}
+
+pub(crate) use dispatch;
+
+/// Eight consecutive values from `first` on.
+#[inline(always)]
+pub(crate) fn load<S: Simd>(simd: S, values: &[f64], first: usize) -> f64x8<S> {
+    f64x8::from_slice(simd, &values[first..first + LANES])
+}
+
+/// Values by element, padded by copies of the last one to a multiple of [`LANES`].
+pub(crate) fn padded(values: impl Iterator<Item = f64>) -> Vec<f64> {
+    let mut values: Vec<f64> = values.collect();
+    if let Some(&last) = values.last() {
+        values.resize(values.len().next_multiple_of(LANES), last);
+    }
+    values
+}

@@ -1,0 +1,113 @@
+//! Elastic forces and effects: everything that acts on a cable but loads.
+
+use super::elements::Elements;
+use super::lanes::MatrixOutput;
+use crate::diagnostics::Diagnostics;
+use crate::effect::acts::{ForceInput, PointForce, SampledPoint};
+use crate::effect::force_density::ForceDensityTable;
+use crate::effect::tables::{ElementTables, PointTables};
+use crate::model::Model;
+use fearless_simd::Level;
+use nalgebra::Vector3;
+
+/// Elements and the tables of the effects that act during an evaluation.
+#[derive(Clone, Debug)]
+pub(crate) struct Forces {
+    pub elements: Elements,
+    /// Effects within the element kernel, if there are any.
+    pub in_element: Option<ElementTables>,
+    /// Effects at Gauss points.
+    pub at_points: PointTables,
+    /// Forces per length of the user's own.
+    pub densities: Option<ForceDensityTable>,
+}
+
+impl Forces {
+    pub fn new(model: &Model) -> Self {
+        Forces {
+            elements: Elements::new(model),
+            in_element: model.effects.in_element(&model.target()),
+            at_points: model.effects.at_points(&model.target()),
+            densities: model.force_densities.at_points(&model.elements),
+        }
+    }
+
+    /// Adds all forces to `out`, and overwrites the step matrix if that is asked for.
+    pub fn add(
+        &mut self,
+        level: Level,
+        input: ForceInput<'_>,
+        out: &mut [f64],
+        to: Option<MatrixOutput<'_>>,
+        diagnostics: &mut Diagnostics,
+    ) {
+        let (elements, effects) = (&self.elements, self.in_element.as_ref());
+        let mut matrix = match to {
+            None => {
+                elements.add_force(level, effects, input, out);
+                None
+            }
+            Some(MatrixOutput { matrix, mass_scale }) => {
+                let to = MatrixOutput { matrix: &mut *matrix, mass_scale };
+                elements.add_force_and_matrix(level, effects, input, out, to);
+                Some(matrix)
+            }
+        };
+        let count = self.elements.count as u64;
+        let counts = &mut diagnostics.effects;
+        if let Some(effects) = effects {
+            effects.count(count, !input.v.is_empty(), counts);
+        }
+        self.at_points.add(level, input, out, matrix.as_deref_mut(), (count, counts));
+        if let Some(densities) = &mut self.densities {
+            densities.add(level, input, out, matrix);
+            counts.force_densities += count;
+        }
+    }
+
+    /// Returns axial and bending energy in J, from the rest shape.
+    pub fn strain_energy(&self, q: &[f64]) -> (f64, f64) {
+        let (axial, bending) = self.elements.energy(q);
+        match &self.in_element {
+            None => (axial, bending),
+            Some(effects) => {
+                let of_effects = self.elements.effect_energy(effects, q);
+                (axial + of_effects.0, bending + of_effects.1)
+            }
+        }
+    }
+
+    /// Returns the strain that effects add to the one that makes tension.
+    pub fn strain_of_effects(&self, at: &SampledPoint<'_>) -> f64 {
+        self.in_element.as_ref().map_or(0.0, |effects| effects.strain(at))
+    }
+
+    /// Returns the curvature in 1/m that effects add to the one that makes the bending moment.
+    pub fn curvature_of_effects(&self, at: &SampledPoint<'_>) -> Vector3<f64> {
+        self.in_element.as_ref().map_or_else(Vector3::zeros, |effects| effects.curvature(at))
+    }
+
+    /// Returns whether a force can move a cable at rest although it has no potential.
+    pub fn drive(&self) -> bool {
+        self.at_points.drive() || self.densities.is_some()
+    }
+
+    /// Makes all forces steady: as they are at `time` (s).
+    pub fn hold(&mut self, time: f64) {
+        self.at_points.hold(time);
+        if let Some(densities) = &mut self.densities {
+            densities.hold(time);
+        }
+    }
+
+    /// Ends what [`hold`](Self::hold) began.
+    pub fn release(&mut self, model: &Model) {
+        self.at_points = model.effects.at_points(&model.target());
+        self.densities = model.force_densities.at_points(&model.elements);
+    }
+
+    /// The quantity of the last evaluation that was not finite and its node, if a function of the user's made it.
+    pub fn not_finite(&self) -> Option<(&'static str, usize)> {
+        self.densities.as_ref()?.not_finite().map(|element| ("force density", element))
+    }
+}

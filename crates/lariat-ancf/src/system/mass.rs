@@ -1,0 +1,120 @@
+//! The consistent mass matrix of a cable, and its factors with the supports in place.
+
+use super::project_matrix;
+use crate::element::mass;
+use crate::error::StepFailure;
+use crate::linalg::{BlockTridiagonal, Factorisation, MassFactorisation, MassMatrix};
+use crate::model::Model;
+use crate::support::SlopeSupport;
+use fearless_simd::Level;
+
+/// Factors of the mass matrix.
+#[derive(Clone, Debug)]
+#[expect(clippy::large_enum_variant)] // one per cable
+enum MassFactors {
+    /// The same 2x2 blocks for x, y and z.
+    Scalar(MassFactorisation),
+    /// 6x6 blocks, where a slope is held to a direction.
+    Block(Factorisation),
+}
+
+/// The mass matrix, added mass included.
+#[derive(Clone, Debug)]
+pub(crate) struct Mass {
+    matrix: MassMatrix,
+    factors: MassFactors,
+}
+
+impl Mass {
+    /// Assembles the matrix and factors it; `buffer` is overwritten.
+    pub fn new(level: Level, model: &Model, buffer: &mut BlockTridiagonal) -> Result<Self, StepFailure> {
+        let nodes = model.nodes();
+        let mut matrix = MassMatrix { diag: vec![[0.0; 3]; nodes], lower: vec![[0.0; 4]; nodes - 1] };
+        for (e, element) in model.elements.iter().enumerate() {
+            let m = mass::consistent(model.inertia(element), element.length);
+            for (node, k) in [(e, 0), (e + 1, 2)] {
+                matrix.diag[node][0] += m[k][k];
+                matrix.diag[node][1] += m[k][k + 1];
+                matrix.diag[node][2] += m[k + 1][k + 1];
+            }
+            matrix.lower[e] = [m[2][0], m[2][1], m[3][0], m[3][1]];
+        }
+        let mut mass = Mass { matrix, factors: MassFactors::Scalar(MassFactorisation::default()) };
+        mass.factor(level, model, buffer)?;
+        Ok(mass)
+    }
+
+    /// Factors the matrix with the present supports; `buffer` is overwritten.
+    pub fn factor(&mut self, level: Level, model: &Model, buffer: &mut BlockTridiagonal) -> Result<(), StepFailure> {
+        let directed = model.supports.iter().any(|(_, s)| s.slope.is_direction());
+        self.factors = if directed {
+            buffer.clear();
+            self.add_to(buffer, 1.0);
+            project_matrix(model, buffer);
+            let mut factorisation = Factorisation::default();
+            factorisation.factor(level, buffer)?;
+            MassFactors::Block(factorisation)
+        } else {
+            let mut factorisation = MassFactorisation::default();
+            factorisation.factor(&self.with_held_rows(model))?;
+            MassFactors::Scalar(factorisation)
+        };
+        Ok(())
+    }
+
+    /// The matrix with rows and columns of held coordinates replaced by those of the identity.
+    fn with_held_rows(&self, model: &Model) -> MassMatrix {
+        let mut held = self.matrix.clone();
+        for (node, support) in &model.supports {
+            for (held_here, row) in [(support.holds_position(), 0), (support.slope != SlopeSupport::Free, 1)] {
+                if !held_here {
+                    continue;
+                }
+                held.diag[*node][2 * row] = 1.0;
+                held.diag[*node][1] = 0.0;
+                if *node > 0 {
+                    held.lower[node - 1][2 * row] = 0.0;
+                    held.lower[node - 1][2 * row + 1] = 0.0;
+                }
+                if *node + 1 < model.nodes() {
+                    held.lower[*node][row] = 0.0;
+                    held.lower[*node][2 + row] = 0.0;
+                }
+            }
+        }
+        held
+    }
+
+    /// Solves with the factors, in place.
+    pub fn solve(&self, level: Level, rhs: &mut [f64]) {
+        match &self.factors {
+            MassFactors::Scalar(factorisation) => factorisation.solve(level, rhs),
+            MassFactors::Block(factorisation) => factorisation.solve(level, rhs),
+        }
+    }
+
+    /// Computes `y = M x`.
+    pub fn multiply(&self, level: Level, x: &[f64], y: &mut [f64]) {
+        self.matrix.multiply_at(level, x, y);
+    }
+
+    /// Adds `scale M` to a matrix.
+    pub fn add_to(&self, matrix: &mut BlockTridiagonal, scale: f64) {
+        for (block, m) in matrix.diag.iter_mut().zip(&self.matrix.diag) {
+            for x in 0..3 {
+                block.0[x][x] += scale * m[0];
+                block.0[x][3 + x] += scale * m[1];
+                block.0[3 + x][x] += scale * m[1];
+                block.0[3 + x][3 + x] += scale * m[2];
+            }
+        }
+        for (block, m) in matrix.lower.iter_mut().zip(&self.matrix.lower) {
+            for x in 0..3 {
+                block.0[x][x] += scale * m[0];
+                block.0[3 + x][x] += scale * m[1];
+                block.0[x][3 + x] += scale * m[2];
+                block.0[3 + x][3 + x] += scale * m[3];
+            }
+        }
+    }
+}

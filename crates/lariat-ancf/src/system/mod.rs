@@ -1,0 +1,156 @@
+//! The equations of one cable, derived from its [`Model`]: forces, loads, mass, step matrix.
+//!
+//! Everything here is rebuilt when the model changes; nothing of it is part of a snapshot. The parts borrow apart: an evaluation reads
+//! forces and loads and writes the step matrix, while its caller owns the [buffers](Buffers).
+//!
+//! | file | what it holds |
+//! |---|---|
+//! | [`elements`] | numbers of the elements |
+//! | [`lanes`] | the loop over the elements, eight at a time |
+//! | [`forces`] | elastic forces and effects |
+//! | [`loads`] | weight, constant forces, point loads |
+//! | [`mass`] | mass matrix and its factors |
+//! | [`equations`] | one evaluation of everything, factorisation, solution |
+//! | [`dynamics`] | the equations as integrators see them |
+//! | [`energy_balance`] | work of effects and change of energy over a step |
+//! | [`jacobian`] | exact derivatives |
+//! | [`frequency`] | a bound of the frequencies |
+//! | [`projection`] | supports in vectors and matrices |
+
+pub(crate) mod dynamics;
+pub(crate) mod elements;
+pub(crate) mod energy_balance;
+pub(crate) mod equations;
+pub(crate) mod forces;
+mod frequency;
+pub(crate) mod jacobian;
+mod lanes;
+pub(crate) mod loads;
+pub(crate) mod mass;
+mod projection;
+
+pub(crate) use dynamics::CableDynamics;
+pub(crate) use equations::Equations;
+pub(crate) use projection::{project_matrix, project_vector};
+
+use crate::error::StepFailure;
+use crate::linalg::{BlockTridiagonal, Factorisation};
+use crate::model::Model;
+use energy_balance::EnergyMeter;
+use fearless_simd::Level;
+use forces::Forces;
+use loads::Loads;
+use mass::Mass;
+
+/// Everything derived from a [`Model`].
+#[derive(Clone, Debug)]
+pub(crate) struct System {
+    pub level: Level,
+    pub forces: Forces,
+    pub loads: Loads,
+    pub mass: Mass,
+    pub step: StepMatrix,
+    pub scales: Scales,
+    pub meter: EnergyMeter,
+    /// Time in s at which statics evaluate forces that depend on it.
+    pub static_time: f64,
+}
+
+/// The matrix of an implicit step and its factors.
+#[derive(Clone, Debug)]
+pub(crate) struct StepMatrix {
+    pub matrix: BlockTridiagonal,
+    pub factorisation: Factorisation,
+    /// c2 in s^2 of the stage whose matrix is factored; 0 = none.
+    pub factored: f64,
+}
+
+/// Vectors of an evaluation or a step, allocated once; their contents are unspecified when it begins.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Buffers {
+    /// Residual of a stage, and its increment.
+    pub rhs: Vec<f64>,
+    pub product: Vec<f64>,
+    /// Displacement of a stage from its explicit part.
+    pub z: Vec<f64>,
+    /// Velocities of a stage; empty where no force depends on them.
+    pub velocity: Vec<f64>,
+}
+
+/// Sizes by which increments and steps are judged.
+#[derive(Clone, Debug)]
+pub(crate) struct Scales {
+    /// Largest distance in m over which the slope of a node acts: l/8.
+    slope_lever: Vec<f64>,
+    /// An upper bound of the angular frequencies in rad/s.
+    pub frequency_bound: f64,
+    /// Smallest `L l rhoA/EA` in s^2: an acceleration k strains an element by this times k/l.
+    pub stiff_time_squared: f64,
+}
+
+impl System {
+    pub fn new(model: &Model) -> Result<Self, StepFailure> {
+        Self::with_level(model, Level::new())
+    }
+
+    /// Creates the system for a SIMD level.
+    pub fn with_level(model: &Model, level: Level) -> Result<Self, StepFailure> {
+        let mut step = StepMatrix {
+            matrix: BlockTridiagonal::zeros(model.nodes()),
+            factorisation: Factorisation::default(),
+            factored: 0.0,
+        };
+        Ok(System {
+            level,
+            forces: Forces::new(model),
+            loads: Loads::new(model),
+            mass: Mass::new(level, model, &mut step.matrix)?,
+            step,
+            scales: Scales::new(model),
+            meter: EnergyMeter::new(model),
+            static_time: 0.0,
+        })
+    }
+
+    /// Factors the mass matrix with the present supports.
+    pub fn factor_mass(&mut self, model: &Model) -> Result<(), StepFailure> {
+        self.mass.factor(self.level, model, &mut self.step.matrix)
+    }
+}
+
+impl Buffers {
+    pub fn new(model: &Model) -> Self {
+        let zeros = || vec![0.0; 6 * model.nodes()];
+        let velocity = if model.depends_on_velocity() { zeros() } else { Vec::new() };
+        Buffers { rhs: zeros(), product: zeros(), z: zeros(), velocity }
+    }
+}
+
+impl Scales {
+    fn new(model: &Model) -> Self {
+        let mut slope_lever = vec![0.0f64; model.nodes()];
+        for (e, element) in model.elements.iter().enumerate() {
+            for node in [e, e + 1] {
+                slope_lever[node] = slope_lever[node].max(element.length / 8.0);
+            }
+        }
+        let stiff = model.elements.iter().fold(f64::INFINITY, |least, e| {
+            least.min(model.length() * e.length * model.inertia(e) / e.section.axial_stiffness)
+        });
+        Scales { slope_lever, frequency_bound: frequency::bound(model), stiff_time_squared: stiff }
+    }
+
+    /// Returns the largest component of a nodal vector as a displacement in m (of r, and of t over l/8), and the largest |t|.
+    pub fn extent(&self, x: &[f64]) -> (f64, f64) {
+        let (mut displacement, mut slope, mut not_finite) = (0.0f64, 0.0f64, 0.0f64);
+        for (x, lever) in x.chunks_exact(6).zip(&self.slope_lever) {
+            let r = x[0] * x[0] + x[1] * x[1] + x[2] * x[2];
+            let t = x[3] * x[3] + x[4] * x[4] + x[5] * x[5];
+            displacement = displacement.max(r).max(lever * lever * t);
+            slope = slope.max(t);
+            // a sum carries the NaN that max drops
+            not_finite += 0.0 * (r + t);
+        }
+        (displacement.sqrt() + not_finite, slope.sqrt() + not_finite)
+    }
+}
