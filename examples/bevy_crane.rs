@@ -1,10 +1,11 @@
-//! A crane of bevy_ecs entities: `cargo run --release --example bevy_crane`.
+//! A crane made of bevy_ecs entities lifts a crate and turns: `cargo run --release --example bevy_crane`.
 //!
-//! A boom (kinematic) stands over a crate of 200 kg that lies on the ground, on a slack rope of 8 mm; it rises by 3 m and turns by 90 degrees.
-//! It checks itself: the crate lies still as long as the rope is slack, then hangs by its weight, under the boom's tip.
+//! A kinematic boom stands over a crate of 200 kg that lies on the ground, attached by a slack steel rope of 8 mm. The boom rises by 3 m and
+//! turns by 90 degrees. The example checks that the crate does not move while the rope is slack, that it hangs below the tip of the boom in the
+//! end, and that the force on it is its weight.
 
 use bevy_ecs::prelude::*;
-use lariat_bevy::event::StepRefused;
+use lariat_bevy::event::StepFailed;
 use lariat_bevy::rapier::prelude::ColliderBuilder;
 use lariat_bevy::{
     At, Attachment, AttachmentReading, Bending, Body, BodyPose, Cable, CableStep, Damping, Diagnostics, Drag,
@@ -20,7 +21,7 @@ const ARM: f64 = 4.0; // m
 const HEIGHT: f64 = 5.0; // m
 const MASS: f32 = 200.0; // kg
 
-/// How far the boom is up (m) and round (rad): it rises within 6 s, then turns within 12 s, smoothly.
+/// Height (m) and angle (rad) of the boom above its start: it rises within 6 s, then turns within 12 s, both smoothly.
 fn boom(time: f64) -> (f64, f64) {
     let smooth = |x: f64| x.clamp(0.0, 1.0).powi(2) * (3.0 - 2.0 * x.clamp(0.0, 1.0));
     (3.0 * smooth(time / 6.0), std::f64::consts::FRAC_PI_2 * smooth((time - 6.0) / 12.0))
@@ -41,7 +42,7 @@ fn spawn(mut commands: Commands) {
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let mut world = World::new();
     lariat_bevy::install(&mut world);
-    world.add_observer(|event: On<StepRefused>| panic!("{}", event.error));
+    world.add_observer(|event: On<StepFailed>| panic!("{}", event.error));
     let system = world.register_system(spawn);
     world.run_system(system)?;
     let Crane(boom_, crate_, hook) = *world.resource::<Crane>();
@@ -65,19 +66,19 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         if step == 1500 {
             let under = Vector3::new(0.0, 0.0, ARM);
             let off = (p.x - under.x).hypot(p.z - under.z);
-            println!("hangs {off:.2} m from under the tip, by {pull:.0} N; it weighs {weight:.0} N");
+            println!("the crate hangs {off:.2} m off the point below the tip; force {pull:.0} N, weight {weight:.0} N");
             if off > 0.5 || (pull / weight - 1.0).abs() > 0.05 || p.y < 2.5 {
-                return Err("it does not hang as it should".into());
+                return Err("position or force of the hanging crate is wrong".into());
             }
         }
     }
     let done = world.resource::<Diagnostics>();
     println!(
-        "{} integration steps, {} rejected, {} Newton iterations; cables worked {:.0} J on bodies",
+        "{} integration steps, {} rejected, {} Newton iterations; work of the cables on bodies {:.0} J",
         done.cables.steps, done.cables.rejected_steps, done.cables.newton_iterations, done.interface_work
     );
     println!(
-        "time per host step: predict {:.0} us, Rapier {:.0} us, all the rest {:.0} us",
+        "time per host step: predict {:.0} us, Rapier {:.0} us, other {:.0} us",
         done.times.predict.as_secs_f64() / 1500.0 * 1e6,
         done.times.engine.as_secs_f64() / 1500.0 * 1e6,
         (done.times.prepare + done.times.reconcile + done.times.publish).as_secs_f64() / 1500.0 * 1e6

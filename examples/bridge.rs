@@ -1,9 +1,12 @@
 //! A suspension bridge: two main cables, hangers tied to them, five deck plates. `cargo run --release --example bridge`
 //!
-//! It runs assets/scenes/bridge.toml, as `lariat run` does, and writes out/bridge/view.html, which shows it moving.
+//! Runs assets/scenes/bridge.toml, as `lariat run` does, and writes out/bridge/view.html, a page that plays the motion.
 //!
-//! *Source.* Equal loads P at equal distances d make a parabola, `H f = w L^2/8` with `w = P/d`: here 4.5 P d, and the main cable's own
-//! 0.08 kg/m x 12.47 m adds its weight times L/8. Elements cannot have the kinks of a light cable at its clips: 0.35 % are missing.
+//! # References
+//!
+//! Equal loads P at equal distances d make a parabola, `H f = w L^2/8` with `w = P/d`: here 4.5 P d; the main cable's own weight
+//! (0.08 kg/m x 12.47 m) adds its weight times L/8. Cubic elements cannot have the kinks of a light cable at the hangers, which accounts
+//! for 0.35 %.
 
 use lariat_scene::run::{Options, World, run};
 use lariat_scene::{Purpose, Scene};
@@ -18,7 +21,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let summary = run(&scene, out, &mut Options::default())?;
     println!("{} s in {:.2} s; open {}", summary.simulated_s, summary.wall_s, out.join("view.html").display());
 
-    // the same by hand: a world steps and is asked
+    // the same without files: step a world and read it
     let mut world = World::build(&scene)?;
     world.start(Purpose::Run)?;
     let number = |name: &str| scene.attachments.iter().position(|a| a.name == name).ok_or(format!("no {name}"));
@@ -35,8 +38,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         }
     }
     let moment = 4.5 * (0.5 * DECK + 0.02 * 1.8) * G * 2.0 + 0.08 * G * 12.47 * 12.0 / 8.0;
-    println!("sag {sag:.4} m, pull at the tower {pull:.1} N, by hand {:.1} N", moment / sag);
+    println!("sag {sag:.4} m, force at the tower {pull:.1} N, parabola {:.1} N", moment / sag);
     println!("hanger {lift:.2} N, half a plate weighs {:.2} N", 0.5 * DECK * G);
     let fine = (pull * sag / moment - 1.0).abs() < 5e-3 && (lift / (0.5 * DECK * G) - 1.0).abs() < 2e-3;
-    if fine { Ok(()) } else { Err("not the parabola".into()) }
+    if fine { Ok(()) } else { Err("force or sag differ from the parabola".into()) }
 }

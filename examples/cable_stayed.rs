@@ -1,7 +1,9 @@
 //! A deck of 600 kg sinks on six stays, three from each tower: `cargo run --release --example cable_stayed`.
 //!
-//! *Source.* A rigid deck on elastic bars sinks level by v; a stay of length L and slope angle a carries `N = EA v sin(a)/L`, and
-//! `v = W/sum(EA sin^2(a)/L)`; of the geometry before the deck sinks.
+//! # References
+//!
+//! A rigid deck on elastic bars sinks level by v. A stay of length L at the angle a carries `N = EA v sin(a)/L`, and
+//! `v = W/sum(EA sin^2(a)/L)`, with the geometry before the deck sinks.
 
 use lariat_rapier::lariat_ancf::{At, Cable, Damping, Integrator, Section, StepControl, Vector3};
 use lariat_rapier::rapier::prelude::*;
@@ -47,13 +49,17 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         let expected = STIFFNESS * sinks * sine / length;
         lift += force.y;
         worst = worst.max((force.norm() / expected - 1.0).abs());
-        println!("stay at {x:+} m: {:7.1} N, by hand {expected:7.1} N", force.norm());
+        println!("stay at {x:+} m: {:7.1} N, linear theory {expected:7.1} N", force.norm());
     }
     let sunk = 0.9 - f64::from(world.bodies[deck].translation().y);
-    println!("deck sunk by {:.3} mm, by hand {:.3} mm; lift {lift:.1} N of {weight:.1} N", 1e3 * sunk, 1e3 * sinks);
+    println!(
+        "deck sunk by {:.3} mm, linear theory {:.3} mm; lift {lift:.1} N of {weight:.1} N",
+        1e3 * sunk,
+        1e3 * sinks
+    );
     if worst < 5e-3 && (lift / weight - 1.0).abs() < 1e-3 {
         Ok(())
     } else {
-        Err("the stays carry something else".into())
+        Err("forces of the stays differ from linear theory".into())
     }
 }

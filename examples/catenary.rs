@@ -1,7 +1,9 @@
-//! A slack line between two points out of level, at rest, checked against the catenary: `cargo run --release --example catenary`.
+//! A slack line between two points of different height in equilibrium, compared with the catenary: `cargo run --release --example catenary`.
 //!
-//! *Source.* An inextensible, limp line of length l, span w and rise v has `sqrt(l^2 - v^2) = 2 a sinh(w/2a)` and the horizontal
-//! pull `H = m g a`; its lowest point is at `w/2 - a artanh(v/l)`. Here EA is 7000 times the weight.
+//! # References
+//!
+//! An inextensible line of length l without bending stiffness, with span w and rise v, has `sqrt(l^2 - v^2) = 2 a sinh(w/2a)` and the
+//! horizontal force `H = m g a`; its lowest point is at `w/2 - a artanh(v/l)`. Here EA is 7000 times the weight.
 
 use lariat::{At, Cable, Section, Vector3};
 
@@ -34,11 +36,11 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let a = 0.5 * (low + high);
     let (horizontal, place) = (MASS * 9.81 * a, 0.5 * SPAN - a * (RISE / LENGTH).atanh());
     println!("equilibrium in {} iterations, stable: {}", report.iterations, report.stable);
-    println!("horizontal pull {:.4} N, catenary {horizontal:.4} N", -pull.x);
+    println!("horizontal force {:.4} N, catenary {horizontal:.4} N", -pull.x);
     println!("lowest point at x = {:.4} m, y = {:.4} m; catenary x = {place:.4} m", lowest.x, lowest.y);
     if (-pull.x / horizontal - 1.0).abs() < 2e-3 && (lowest.x - place).abs() < 2e-3 {
         Ok(())
     } else {
-        Err("not the catenary".into())
+        Err("force or lowest point differ from the catenary".into())
     }
 }

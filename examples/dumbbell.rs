@@ -1,7 +1,9 @@
-//! Two balls on a cable spin in space: `cargo run --release --example dumbbell`.
+//! Two balls connected by a cable spin without gravity: `cargo run --release --example dumbbell`.
 //!
-//! *Source.* Nothing acts from outside: momentum and angular momentum stay. The cable starts unstretched, stretches by what the spin
-//! pulls, and rings; the energy stays but for what the integrator takes (1e-3 of it allowed).
+//! # References
+//!
+//! Nothing acts from outside, so momentum and angular momentum are conserved. The cable starts unstretched and vibrates along its axis;
+//! the energy is conserved up to the numerical damping of the integrator (1e-3 of it is allowed).
 
 use lariat_rapier::lariat_ancf::{At, Cable, Section, Vector3};
 use lariat_rapier::rapier::prelude::*;
@@ -49,6 +51,6 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     if linear < 1e-4 && angular.abs() < 1e-4 && (left / energy - 1.0).abs() < 1e-3 {
         Ok(())
     } else {
-        Err("not kept".into())
+        Err("momentum or energy is not conserved".into())
     }
 }

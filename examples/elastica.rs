@@ -1,8 +1,10 @@
-//! A cantilever bent far by a force, and one by a moment, at its tip: `cargo run --release --example elastica`.
+//! Large deflections of a cantilever under a force and under a moment at its tip: `cargo run --release --example elastica`.
 //!
-//! *Source.* Under a transverse force with P L^2/EI = 10 the inextensible elastica sinks by 0.81061 L and draws in by 0.55500 L
-//! (Mattiasson 1981, Int. J. Numer. Methods Eng. 17, 145, table 1); under an end moment it is an arc of radius EI/M, here a quarter
-//! and a whole circle.
+//! # References
+//!
+//! Under a transverse force with P L^2/EI = 10 the tip of the inextensible elastica moves by 0.81061 L across and by 0.55500 L towards the
+//! clamp (Mattiasson 1981, Int. J. Numer. Methods Eng. 17, 145, table 1). Under an end moment it is an arc of radius EI/M, here a quarter
+//! circle and a full circle.
 
 use lariat::{At, Cable, PointLoad, Section, Vector3};
 use std::f64::consts::PI;
@@ -16,7 +18,7 @@ fn tip(force: Vector3<f64>, moment: Vector3<f64>) -> Result<Vector3<f64>, lariat
         .gravity(Vector3::zeros())
         .clamp(At::Start)
         .build()?;
-    // in four parts: a whole circle is too far from a straight line for one
+    // in four load steps: a full circle is too far from the straight line for one
     for part in 1..=4 {
         beam.clear_loads();
         let share = f64::from(part) / 4.0;
@@ -37,13 +39,13 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     for (name, force, moment, expected) in [
         ("force, P L^2/EI = 10", -10.0 * Vector3::y(), none, Vector3::new(1.0 - 0.55500, -0.81061, 0.0)),
         ("moment, quarter circle", none, 0.5 * PI * Vector3::z(), Vector3::new(2.0 / PI, 2.0 / PI, 0.0)),
-        ("moment, whole circle", none, 2.0 * PI * Vector3::z(), none),
+        ("moment, full circle", none, 2.0 * PI * Vector3::z(), none),
     ] {
         let tip = tip(force, moment)?;
         let off = (tip - expected).norm();
-        println!("{name:<23} tip at {:+.5}, {:+.5} m, {off:.1e} m off", tip.x, tip.y);
+        println!("{name:<23} tip at {:+.5}, {:+.5} m, error {off:.1e} m", tip.x, tip.y);
         if off > 1e-4 {
-            return Err(format!("{name}: {off:.1e} m off").into());
+            return Err(format!("{name}: error {off:.1e} m").into());
         }
     }
     Ok(())

@@ -1,7 +1,9 @@
 //! A winch takes up the slack of a rope and lifts a box off the ground: `cargo run --release --example hoist`.
 //!
-//! *Source.* At rest the rope carries the box, 10 kg x 9.81 m/s^2 = 98.10 N, and is longer by (box + half the rope) g L/EA; the box
-//! rises by the way of the winch less slack and stretch (single precision adds 0.5 mm to that way).
+//! # References
+//!
+//! At rest the rope carries the weight of the box, 10 kg x 9.81 m/s^2 = 98.10 N, and is elongated by (box + half the rope) g L/EA. The box
+//! rises by the displacement of the winch less slack and elongation (single precision adds 0.5 mm to that displacement).
 
 use lariat_rapier::lariat_ancf::{At, Cable, Integrator, Section, StepControl, Vector3};
 use lariat_rapier::rapier::prelude::*;
@@ -21,7 +23,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             .points([Vector3::new(0.0, 2.1, 0.0), Vector3::new(0.0, 0.2, 0.0)])
             .length(1.91) // m: 1 cm slack
             .section(Section::square(0.01, 1.0e9, 4000.0)?) // EA = 1e5 N, 0.4 kg/m
-            // damps the bouncing of the box, which the material alone would not
+            // L-stable: damps the vibration of the box on the rope; the material has no damping here
             .integrator(Integrator {
                 method: "generalised-alpha-0".parse()?,
                 control: StepControl::MaxStep(1.0 / 240.0),
@@ -49,12 +51,12 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             (pull, lifted) = (pull + force / 60.0, lifted + height / 60.0);
         }
     }
-    let way = f64::from(world.bodies[winch].translation().y) - 2.1;
-    let expected = way - 0.01 - 1.91 * 9.81 * (10.0 + 0.5 * 1.91 * 0.4) / 1.0e5;
+    let displacement = f64::from(world.bodies[winch].translation().y) - 2.1;
+    let expected = displacement - 0.01 - 1.91 * 9.81 * (10.0 + 0.5 * 1.91 * 0.4) / 1.0e5;
     println!("at rest: {pull:.3} N of 98.10 N, lifted {lifted:.5} m of {expected:.5} m");
     if (pull / 98.10 - 1.0).abs() < 2e-3 && (lifted - expected).abs() < 2e-4 {
         Ok(())
     } else {
-        Err("not lifted as it should".into())
+        Err("force or height differ from statics".into())
     }
 }

@@ -1,1 +1,22 @@
-//! The examples of Lariat that need more than the mechanics are the example targets of this package.
+//! The examples of Lariat that need more than the mechanics are the example targets of this package. The code on the pages of the
+//! repository is compiled and run as its documentation tests, because all crates are at hand here.
+
+/// Runs the code of a page.
+#[cfg(doctest)]
+macro_rules! page {
+    ($name:ident, $path:literal) => {
+        #[doc = include_str!($path)]
+        struct $name;
+    };
+}
+
+#[cfg(doctest)]
+mod pages {
+    page!(Readme, "../README.md");
+    page!(Theory, "../docs/theory.md");
+    page!(Ancf, "../crates/lariat-ancf/README.md");
+    page!(Rapier, "../crates/lariat-rapier/README.md");
+    page!(RapierF64, "../crates/lariat-rapier-f64/README.md");
+    page!(Bevy, "../crates/lariat-bevy/README.md");
+    page!(Scene, "../crates/lariat-scene/README.md");
+}

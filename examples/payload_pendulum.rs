@@ -1,6 +1,6 @@
-//! A 50 kg crate hangs by its top face on a 0.8 kg cable, let go from horizontal: `cargo run --release --example payload_pendulum`.
+//! A crate of 50 kg on a cable of 0.8 kg, released from horizontal: `cargo run --release --example payload_pendulum`.
 //!
-//! It checks itself against a fine run of an independent monolithic code (good to 2e-5 m): the crate's centre after 0.5 s and 1 s.
+//! Compares the centre of the crate after 0.5 s and 1 s with a fine run of an independent monolithic program (error 2e-5 m).
 
 use lariat_rapier::lariat_ancf::{At, Cable, Fidelity, Section, Vector3};
 use lariat_rapier::rapier::prelude::*;
@@ -33,7 +33,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
                 let expected = [(1.70292, -1.21801), (-0.82138, -1.91419)][step / 30 - 1];
                 let off = (f64::from(at.x) - expected.0).hypot(f64::from(at.y) - expected.1);
                 println!(
-                    "  {:.1} s: crate at {:.4}, {:.4} m, {off:.1e} m off; the hook pulls {:.1} N, gap {:.0e} m",
+                    "  {:.1} s: crate at {:.4}, {:.4} m, error {off:.1e} m; force of the cable {:.1} N, gap {:.0e} m",
                     step as f64 / 60.0,
                     at.x,
                     at.y,
@@ -42,7 +42,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
                 );
                 let most = if fidelity == Fidelity::Game { 2e-2 } else { 6e-3 };
                 if off > most {
-                    return Err(format!("more than {most} m").into());
+                    return Err(format!("the error is more than {most} m").into());
                 }
             }
         }

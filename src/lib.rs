@@ -1,9 +1,9 @@
-//! Lariat: cables that obey real materials.
+//! Lariat: cables computed as finite elements, for Rapier and Bevy.
 //!
-//! Young's modulus, density and section go in; motion, tension and bending moment come out. A cable is a chain of ANCF
-//! elements (absolute nodal coordinate formulation), stepped by an integrator that controls its own error.
+//! You give Young's modulus, density and cross-section; Lariat computes motion, tension and bending moment. A cable is a chain of
+//! ANCF elements (absolute nodal coordinate formulation), stepped by an integrator that controls its own error.
 //!
-//! A wire rope hangs between two points; then one end is let go:
+//! A wire rope hangs between two points; then one end is released:
 //!
 //! ```
 //! use lariat::{At, Cable, Section, Vector3};
@@ -24,40 +24,39 @@
 //! for _ in 0..60 {
 //!     rope.step(1.0 / 60.0)?;                                   // s; error-controlled inside
 //! }
-//! println!("after {:.0} s the pin holds {:.1} N", rope.time(), rope.reactions()?[0].force.norm());
+//! println!("after {:.0} s the support carries {:.1} N", rope.time(), rope.reactions()?[0].force.norm());
 //! # assert!((-middle.position.y - 0.735).abs() < 0.005 && (middle.tension - 1.27).abs() < 0.05, "{middle:?}");
 //! # Ok(())
 //! # }
 //! ```
 //!
-//! The crate re-exports [`lariat_ancf`], the mechanics, which knows no engine; with feature `rapier` also the coupling to rapier3d, as
-//! `lariat::coupling`; with feature `bevy` cables as components of bevy_ecs, as `lariat::ecs`. Units are SI throughout, numbers are `f64`.
+//! The crate re-exports [`lariat_ancf`], the mechanics, which knows no engine. Feature `rapier` adds `lariat_rapier`, the coupling to
+//! rapier3d; feature `bevy` adds `lariat_bevy`, cables as components of bevy_ecs. Units are SI, numbers are `f64`.
 //!
 //! | to | look at |
 //! |---|---|
 //! | make a cable | [`CableBuilder`], [`Section`], [`Support`], [`PointLoad`] |
-//! | choose the force model | [`Rule`]: `projected-3` (default), the paper's `G5-3`, `ST2`, `L2T2` ... |
+//! | choose the rule of the elastic forces | [`Rule`]: `projected-3` (default), the paper's `G5-3`, `ST2`, `L2T2` ... |
 //! | choose the integrator | [`Integrator`], [`Fidelity`], [`Method`] |
 //! | read it | [`Cable::sample`], [`Cable::reactions`], [`Cable::energy`], [`Cable::diagnostics`] |
 //! | find its static shape | [`Cable::equilibrium`] |
 //! | take and restore snapshots | [`Cable::snapshot`], [`Cable::restore`], serde |
 //!
-//! What accuracy costs, by rule, integrator and mesh: `docs/accuracy` in the repository.
+//! # Limits
+//!
+//! Cables do not collide, with colliders or with each other; their length does not change in time (no reel); they have no torsion, no
+//! shear and no plasticity. The material law is linear in the Green strain. JSON snapshots need `serde_json` with feature `float_roundtrip`.
+//!
+//! The equations, their validity and their sources are in `docs/theory.md` of the repository, recipes in `docs/cookbook.md`, error against
+//! CPU time in `docs/accuracy`.
 
-#[doc(no_inline)]
-pub use lariat_ancf as ancf;
 #[doc(inline)]
 pub use lariat_ancf::integrate::NewtonMode;
 #[doc(inline)]
 pub use lariat_ancf::*;
 #[cfg(feature = "bevy")]
 #[doc(no_inline)]
-pub use lariat_bevy as ecs;
+pub use lariat_bevy;
 #[cfg(feature = "rapier")]
 #[doc(no_inline)]
-pub use lariat_rapier as coupling;
-
-/// The README's example compiles and runs.
-#[cfg(doctest)]
-#[doc = include_str!("../README.md")]
-struct Readme;
+pub use lariat_rapier;

@@ -1,18 +1,11 @@
-//! Hard cases stay numerically stable: one file per family; the cases are those of `lariat stability`.
+//! Hard cases remain numerically stable: the cases are those of `lariat stability`, in
+//! `crates/lariat-bench/src/stability/cases`.
+//!
+//! `cargo test` runs every family quickly; with the environment variable `LARIAT_LONG_TESTS=1` it
+//! also runs the slowest cases and more random scenes.
 
-mod changes;
-mod collapse;
-mod compression;
+mod check;
+mod families;
 mod faults;
-mod jam;
-mod limp;
-mod long;
-mod many;
-mod mass_ratio;
-mod mechanisms;
+mod misses;
 mod random;
-mod scale;
-mod snatch;
-mod stiffness;
-mod suite;
-mod whip;

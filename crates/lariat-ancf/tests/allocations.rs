@@ -1,4 +1,4 @@
-//! A warm cable steps without allocating.
+//! Steps after the first do not allocate.
 
 #![allow(unsafe_code)] // a global allocator is unsafe by nature
 
@@ -12,7 +12,7 @@ use lariat_ancf::{
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
 
-/// The system's allocator, counting what the present thread asks for.
+/// The system's allocator, counting the requests of the present thread.
 struct Counting;
 
 thread_local! {
@@ -47,7 +47,7 @@ fn allocations(run: impl FnOnce()) -> u64 {
     COUNT.get() - before
 }
 
-/// The counter counts.
+/// The counter counts an allocation.
 ///
 /// *Source.* A vector on the heap.
 #[test]
@@ -55,7 +55,8 @@ fn the_counter_sees_an_allocation() {
     assert_eq!(allocations(|| drop(std::hint::black_box(vec![1.0f64; 100]))), 1);
 }
 
-/// A hundred host steps of every method, fixed and error controlled, after ten to warm up: no allocation.
+/// A hundred host steps of every method, fixed and error controlled, after ten to warm up: no
+/// allocation.
 ///
 /// *Source.* The contract; a real-time host cannot wait for an allocator.
 #[test]
@@ -75,7 +76,7 @@ fn a_warm_cable_steps_without_allocating() {
     }
 }
 
-/// Effects that are evaluated in the step, on a cable alone and on one that holds a body.
+/// All effects that a step evaluates.
 fn effects() -> Effects {
     let flow = Flow::power_law(Vector3::new(1.0, 0.0, 0.3), Vector3::y(), 1.0, 0.14, 10.0)
         .with_history([[0.0, 0.5], [1.0, 1.0]]);
@@ -88,7 +89,7 @@ fn effects() -> Effects {
     }
 }
 
-/// The same with effects.
+/// The same with effects, for a cable alone and one with a body.
 ///
 /// *Source.* The contract.
 #[test]

@@ -1,18 +1,19 @@
-//! Bad input: typed errors that name the value, and nothing changes.
+//! Bad input: typed errors that carry the value and the name of the cable, and the cable is
+//! unchanged.
 
 mod common;
 
 use common::pendulum;
 use lariat_ancf::integrate::NewtonMode;
 use lariat_ancf::{
-    At, Cable, CableBuilder, Error, Fidelity, Integrator, Method, Motion, PointLoad, Rule, Section, SlopeSupport,
-    StepControl, Support, Vector3,
+    At, Cable, CableBuilder, Drag, Effects, Error, Fidelity, Flow, GravityScale, Integrator, Method, Motion, PointLoad,
+    Rule, Section, SlopeSupport, StepControl, Support, Vector3,
 };
 
-/// What is never acceptable where a positive finite number is asked for.
+/// Numbers that are never accepted where a positive finite number is needed.
 const NOT_POSITIVE: [f64; 5] = [0.0, -1.0, f64::NAN, f64::INFINITY, f64::NEG_INFINITY];
 
-/// The error is `InvalidValue` and says which number it met.
+/// Checks that the error is `InvalidValue` with the bad number, in its message too.
 fn assert_names<T: std::fmt::Debug>(result: Result<T, Error>, bad: f64, context: &str) {
     let error = result.expect_err(context);
     let Error::InvalidValue { value, .. } = &error else { panic!("{context}: {error}") };
@@ -20,11 +21,11 @@ fn assert_names<T: std::fmt::Debug>(result: Result<T, Error>, bad: f64, context:
     assert!(error.to_string().contains(&bad.to_string()), "{context}: {error}");
 }
 
-/// Every number of a section, one after the other.
+/// Every number of a section is checked.
 ///
 /// *Source.* The contract: errors carry the value.
 #[test]
-fn a_section_refuses_numbers_that_are_not_positive_and_finite() {
+fn sections_reject_numbers_that_are_not_positive_and_finite() {
     for bad in NOT_POSITIVE {
         assert_names(Section::round(bad, 1e9, 1e3), bad, "diameter");
         assert_names(Section::square(bad, 1e9, 1e3), bad, "side");
@@ -37,17 +38,17 @@ fn a_section_refuses_numbers_that_are_not_positive_and_finite() {
     assert!(Section::from_stiffness(1.0, 0.0, 1.0).is_ok(), "EI may be zero");
     assert_names(Section::from_stiffness(1.0, -1e-3, 1.0), -1e-3, "EI");
     assert_names(Section::tube(0.01, 0.02, 1e9, 1e3), 0.02, "inner diameter above the outer");
-    // each number is fine, their product is not
+    // each number is valid, their product overflows
     assert!(matches!(Section::round(1e200, 1e9, 1e3), Err(Error::InvalidValue { .. })));
 }
 
-/// Points, length, elements, gravity, velocities.
+/// Points, length, elements, section, gravity, velocities and loads are checked.
 ///
 /// *Source.* The contract: errors carry the value.
 #[test]
-fn a_builder_refuses_shapes_that_are_no_cable() {
+fn builders_reject_descriptions_that_are_not_a_cable() {
     let build = |f: &dyn Fn(CableBuilder) -> CableBuilder| f(pendulum(4)).build();
-    let error = |f: &dyn Fn(CableBuilder) -> CableBuilder| build(f).expect_err("a description of no cable");
+    let error = |f: &dyn Fn(CableBuilder) -> CableBuilder| build(f).expect_err("not a cable");
     let (x, cable) = (Vector3::x, || "pendulum".to_string());
     assert_eq!(error(&|b| b.points([])), Error::TooFewPoints { cable: cable(), count: 0 });
     assert_eq!(error(&|b| b.points([x()])), Error::TooFewPoints { cable: cable(), count: 1 });
@@ -74,11 +75,11 @@ fn a_builder_refuses_shapes_that_are_no_cable() {
     }
 }
 
-/// Places that are not on the cable, before and after it is built.
+/// Arc lengths and nodes that are not on the cable are errors, before and after it is built.
 ///
 /// *Source.* The contract: errors carry the value and the limit.
 #[test]
-fn places_off_the_cable_are_refused_with_the_limit() {
+fn arc_lengths_off_the_cable_are_errors_with_the_limit() {
     for s in [-0.1, 2.1, f64::NAN, f64::INFINITY] {
         for builder in [
             pendulum(4).fix(s),
@@ -87,7 +88,7 @@ fn places_off_the_cable_are_refused_with_the_limit() {
             pendulum(4).load(PointLoad::force(s, Vector3::x())),
             pendulum(4).section_from(s, Section::round(0.01, 1e9, 1e3).unwrap()),
         ] {
-            let error = builder.build().expect_err("a place off the cable");
+            let error = builder.build().expect_err("off the cable");
             let Error::OutOfRange { value, limit, .. } = error else { panic!("{s}: {error}") };
             assert!((value == s || s.is_nan()) && limit == 2.0);
         }
@@ -102,11 +103,11 @@ fn places_off_the_cable_are_refused_with_the_limit() {
     assert_eq!(cable.fix(0.3), Err(no_node));
 }
 
-/// Rules and integrators by name, rank deficient rules, controls that a method cannot follow.
+/// Unknown names, rank deficient rules and step controls that a method does not support are errors.
 ///
-/// *Source.* The contract: the error shows what was given and what is accepted.
+/// *Source.* The contract: the error carries what was given and what is accepted.
 #[test]
-fn unknown_and_unsuitable_rules_and_integrators_are_refused() {
+fn unknown_and_unsuitable_rules_and_integrators_are_errors() {
     let error = "G3-99".parse::<Rule>().unwrap_err();
     assert!(matches!(&error, Error::UnknownRule { rule, .. } if rule == "G3-99"), "{error}");
     assert!(matches!(Rule::gauss(0, 3), Err(Error::UnknownRule { .. })));
@@ -147,11 +148,12 @@ fn unknown_and_unsuitable_rules_and_integrators_are_refused() {
     );
 }
 
-/// Numbers given to a living cable: the error names them, and nothing changes.
+/// Bad numbers given to a built cable are errors that carry them and the cable's name, and change
+/// nothing.
 ///
 /// *Source.* The contract: no error loses the last good state.
 #[test]
-fn bad_numbers_given_to_a_cable_leave_it_as_it_was() {
+fn bad_numbers_leave_a_built_cable_unchanged() {
     let mut cable = pendulum(4).build().unwrap();
     cable.step(0.01).unwrap();
     let before = cable.snapshot().clone();
@@ -176,6 +178,57 @@ fn bad_numbers_given_to_a_cable_leave_it_as_it_was() {
     assert_eq!(*cable.snapshot(), before);
     assert!(cable.loads().is_empty() && cable.support(At::End).unwrap().is_free());
     cable.step(0.01).unwrap();
+}
+
+/// The error of a misspelt name proposes the nearest one; a name that is near none proposes none.
+///
+/// *Source.* One letter changed, missing, added or exchanged.
+#[test]
+fn misspelt_names_are_answered_with_the_nearest_name() {
+    for (text, near) in
+        [("esdirc4", "esdirk4"), ("tr-bdf", "tr-bdf2"), ("trapezoidal", "trapezoid"), ("Verlett", "verlet")]
+    {
+        let error = text.parse::<Method>().unwrap_err();
+        assert!(matches!(&error, Error::UnknownIntegrator { suggestion: Some(s), .. } if s == near), "{error}");
+        assert!(error.to_string().contains(&format!("did you mean {near:?}?")), "{error}");
+    }
+    for (text, near) in [("G5_3", "G5-3"), ("ST22", "ST2"), ("projected3", "projected-3"), ("exact-non", "exact-none")]
+    {
+        let error = text.parse::<Rule>().unwrap_err();
+        assert!(matches!(&error, Error::UnknownRule { suggestion: Some(s), .. } if s == near), "{error}");
+    }
+    let error = "engneering".parse::<Fidelity>().unwrap_err();
+    let suggestion = Some("engineering".to_string());
+    assert_eq!(error, Error::UnknownFidelity { name: "engneering".to_string(), suggestion });
+    let error = "rk4 of Kutta".parse::<Fidelity>().unwrap_err();
+    assert!(matches!(error, Error::UnknownFidelity { suggestion: None, .. }), "{error}");
+}
+
+/// An error about a number of a cable carries the cable's name.
+///
+/// *Source.* The contract.
+#[test]
+fn errors_about_numbers_of_a_cable_carry_its_name() {
+    let nan = Vector3::new(f64::NAN, 0.0, 0.0);
+    let mut cable = pendulum(4).build().unwrap();
+    let drag = Drag::new(-1.0, 1.0, 0.1, Flow::default());
+    let support = Support { position: Some(Motion::fixed(nan)), ..Support::default() };
+    for error in [
+        pendulum(4).length(-1.0).build().err(),
+        pendulum(4)
+            .effects(Effects { gravity_scale: Some(GravityScale(f64::NAN)), ..Effects::default() })
+            .build()
+            .err(),
+        cable.step(-1.0).err(),
+        cable.set_gravity(nan).err(),
+        cable.set_drag(drag).err(),
+        cable.add_load(PointLoad::force(1.0, nan)).err(),
+        cable.set_support(At::End, support).err(),
+    ] {
+        let error = error.expect("a bad number");
+        assert!(matches!(&error, Error::InvalidValue { cable: Some(name), .. } if name == "pendulum"), "{error:?}");
+        assert!(error.to_string().starts_with("cable \"pendulum\": "), "{error}");
+    }
 }
 
 /// Presets and their integrators are always valid.

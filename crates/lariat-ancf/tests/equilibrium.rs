@@ -1,8 +1,10 @@
-//! Static equilibrium where it is hard to find: far starts, thin cables, loops, heavy loads, supports that jumped.
+//! Static equilibrium in difficult cases: distant start shapes, thin cables, loops, heavy loads,
+//! supports that have jumped.
 //!
-//! *Physics.* A shape at rest balances: the reactions are minus the loads. A stable one is a minimum of the potential
-//! energy (Lagrange-Dirichlet): every small displacement that the supports allow raises it.
-//! *Source.* Both are laws outside of the solver: the balance reads the reactions, the minimum reads energies alone.
+//! *Physics.* In equilibrium the reactions balance the loads. A stable one is a minimum of the
+//! potential energy (Lagrange-Dirichlet): every small displacement that the supports allow raises
+//! it. *Source.* Both laws are independent of the solver: the balance uses the reactions, the
+//! minimum energies alone.
 
 mod common;
 
@@ -13,7 +15,7 @@ use lariat_ancf::{
 };
 
 const GRAVITY: f64 = 9.81;
-const LIMP: Rule = Rule::new(AxialRule::Projected, BendingRule::None);
+const NO_BENDING: Rule = Rule::new(AxialRule::Projected, BendingRule::None);
 
 /// A cable of 1 kg/m, with a name for messages.
 struct Kind {
@@ -23,11 +25,11 @@ struct Kind {
     rule: Rule,
 }
 
-/// From limp to steel of 1 cm, and a thin one: EA L^2/EI = 1e10 with 10 m.
+/// From zero bending stiffness to steel of 1 cm, and a thin cable: EA L^2/EI = 1e10 with 10 m.
 fn kinds() -> [Kind; 4] {
     let kind = |name, axial, bending, rule| Kind { name, axial, bending, rule };
     [
-        kind("limp", 1e5, 0.0, LIMP),
+        kind("no bending", 1e5, 0.0, NO_BENDING),
         kind("soft", 1e5, 0.1, Rule::default()),
         kind("steel", 1e7, 10.0, Rule::default()),
         kind("thin", 1e6, 0.01, Rule::default()),
@@ -59,7 +61,7 @@ fn potential(cable: &Cable) -> f64 {
     cable.energy().total() - loads.sum::<f64>()
 }
 
-/// Checks what a shape at rest must be, and gives the sum of the reactions back.
+/// Checks the laws that an equilibrium satisfies.
 fn check_at_rest(what: &str, cable: &mut Cable) {
     let gravity = cable.gravity();
     let loads: Vector3<f64> = cable.loads().iter().map(|l| l.force).sum::<Vector3<f64>>() + gravity * cable.length();
@@ -95,9 +97,10 @@ fn check_at_rest(what: &str, cable: &mut Cable) {
     cable.set_coordinates(&q, &still).unwrap();
 }
 
-/// Every kind of cable in every hard place, even and odd numbers of elements: at rest, at a minimum, nothing folded.
+/// Every kind of cable in every difficult case, with even and odd numbers of elements, ends in
+/// balance, at a minimum of the energy and without folds.
 #[test]
-fn hard_places_end_at_rest_and_at_a_minimum_of_the_energy() {
+fn difficult_cases_end_in_balance_at_a_minimum_of_the_energy() {
     let load = |f: f64| PointLoad::force(f, Vector3::new(0.0, -5000.0, 0.0));
     let mut most = 0;
     for kind in &kinds() {
@@ -136,10 +139,11 @@ fn hard_places_end_at_rest_and_at_a_minimum_of_the_energy() {
     println!("at most {most} iterations");
 }
 
-/// Two sides of a light, stiff cable that carry a heavy weight: T = F/(2 sin), the triangle of the unstretched length.
+/// A heavy weight on a light, stiff cable makes it a triangle of its unstretched length, with T =
+/// F/(2 sin).
 ///
-/// *Source.* Statics of three forces: half length 5, half span 4, so depth 3 and T = (5000 + weight/2)/(2 * 3/5), the
-/// stretch and the weight are 1e-3 of it.
+/// *Source.* Statics of three forces: half length 5, half span 4, so depth 3 and T = (5000 +
+/// weight/2)/(2 * 3/5), the stretch and the weight are 1e-3 of it.
 #[test]
 fn heavy_weight_pulls_a_slack_cable_into_a_triangle() {
     let mut cable = pinned(&kinds()[2], 10.0, [8.0, 0.0, 0.0], 40)
@@ -148,21 +152,22 @@ fn heavy_weight_pulls_a_slack_cable_into_a_triangle() {
         .unwrap();
     cable.equilibrium().unwrap();
     let depth = -cable.node_position(20).y;
-    // at the middle of an element: the sharp bend makes the strain oscillate inside the elements next to it
+    // at the middle of an element: the sharp bend makes the strain oscillate inside the elements
+    // next to it
     let tension = cable.sample(2.375).unwrap().tension;
     println!("depth {depth:.4} m, tension {tension:.1} N");
     assert!((depth - 3.0).abs() < 0.03, "{depth}");
     assert!((tension - 5000.0 / 1.2).abs() < 0.02 * tension, "{tension}");
 }
 
-/// Straightened out, a rod whose end was folded back on itself: the far slope reversed and of length 2, the chord of
-/// the last element a third of its length.
+/// A rod whose end is folded back on itself is straightened: the far slope reversed and of length
+/// 2, the chord of the last element a third of its length.
 ///
-/// *Source.* With the slopes (1, -2) along a line and the chord 1/3, r' = 1/3 - 3/2 P1 - 5/6 P2 on the element (P
-/// Legendre): r'^2 has mean 1 and first moment 0, so the strain projected on linear functions vanishes; no rod does
-/// that. An unloaded rod is straight.
+/// *Source.* With the slopes (1, -2) along a line and the chord 1/3, r' = 1/3 - 3/2 P1 - 5/6 P2 on
+/// the element (P Legendre): r'^2 has mean 1 and first moment 0, so the strain projected on linear
+/// functions vanishes; no rod does that. An unloaded rod is straight.
 #[test]
-fn a_folded_end_is_no_equilibrium() {
+fn a_folded_end_is_straightened() {
     for bending in [0.01, 1.0, 10.0] {
         let mut rod = Cable::builder()
             .points([Vector3::zeros(), Vector3::x()])
@@ -184,11 +189,13 @@ fn a_folded_end_is_no_equilibrium() {
     }
 }
 
-/// A limp cable that is clamped upwards at its start falls over and hangs; it does not crumple on the clamp.
+/// A cable without bending stiffness that is clamped upwards at its start hangs down from the
+/// clamp; it does not collapse onto it.
 ///
-/// *Source.* The lowest shape of a limp cable under gravity hangs straight down from its support: its end is near -L.
+/// *Source.* The lowest shape of such a cable under gravity hangs straight down from its support:
+/// its end is near -L.
 #[test]
-fn a_limp_cable_clamped_upwards_hangs_from_its_clamp() {
+fn a_cable_without_bending_clamped_upwards_hangs_from_its_clamp() {
     for n in [20, 41] {
         let mut cable = cable(&kinds()[0], 10.0, [0.0, 10.0, 0.0], n).clamp(At::Start).build().unwrap();
         let report = cable.equilibrium().unwrap();
@@ -198,12 +205,13 @@ fn a_limp_cable_clamped_upwards_hangs_from_its_clamp() {
     }
 }
 
-/// What nothing holds is refused at once, with the resultant: free, held by a slope alone, turned by a moment about a
-/// pin.
+/// A cable that its supports cannot hold is an error without iterations, with the resultant: free,
+/// held by a slope alone, rotated by a moment about a pin.
 ///
-/// *Source.* Newton's second law: a resultant force accelerates a free body, a moment turns one about a pin.
+/// *Source.* Newton's second law: a resultant force accelerates a free body, a moment rotates one
+/// about a pin.
 #[test]
-fn what_nothing_holds_is_refused_at_once() {
+fn a_cable_that_is_not_held_is_an_error_without_iterations() {
     let free = || cable(&kinds()[1], 1.0, [1.0, 0.0, 0.0], 200);
     let mut by_slope = free().build().unwrap();
     let slope = SlopeSupport::Direction(Vector3::x());
@@ -233,12 +241,12 @@ fn what_nothing_holds_is_refused_at_once() {
     assert_eq!(at_rest.positions(), before);
 }
 
-/// A search that fails ends within five times the iterations of an attempt, says when, why and how far it came, and
-/// leaves the cable as it was.
+/// A search that fails ends within five times the iterations of an attempt, its error carries time,
+/// reason and residual, and the cable is unchanged.
 ///
 /// *Source.* The contract.
 #[test]
-fn a_failing_search_is_bounded_and_says_why() {
+fn a_failed_search_is_bounded_and_its_error_carries_the_reason() {
     for iterations in [0, 1, 3, 7] {
         let mut cable = pinned(&kinds()[3], 10.0, [0.0, -8.0, 0.0], 41).build().unwrap();
         let before = cable.snapshot().clone();

@@ -1,4 +1,4 @@
-//! One suite over every time integrator: order of convergence, invariants, and exact landing.
+//! Conformance of every time integrator: order of convergence, invariants, and exact times.
 
 mod common;
 
@@ -6,7 +6,7 @@ use common::{EXACT_IN_TIME, Random, largest_difference, map3, soft_cable};
 use lariat_ancf::integrate::NewtonMode;
 use lariat_ancf::{At, Cable, Integrator, Method, Motion, PointLoad, SlopeSupport, StepControl, Support, Vector3};
 
-/// The soft cable held at its start, which then moves along a cubic of time.
+/// The soft cable held at its start, which moves along a cubic of time.
 fn towed() -> Cable {
     let mut cable = soft_cable().fix(At::Start).build().unwrap();
     let motion = Motion::hermite(
@@ -19,7 +19,7 @@ fn towed() -> Cable {
     cable
 }
 
-/// The soft cable swinging about a pin, with a slope held to a direction at the other end: every kind of support.
+/// The soft cable swinging about a pin, with its slope held to a direction at the other end.
 fn swinging() -> Cable {
     let mut cable = soft_cable().fix(At::Start).velocity(Vector3::new(0.0, 0.3, 0.5)).build().unwrap();
     let slope = SlopeSupport::Direction(Vector3::new(1.0, 0.0, 0.0));
@@ -27,7 +27,7 @@ fn swinging() -> Cable {
     cable
 }
 
-/// The soft cable thrown and spinning, held by nothing, no gravity.
+/// The soft cable free, translating and rotating, without gravity.
 fn thrown() -> Cable {
     soft_cable()
         .gravity(Vector3::zeros())
@@ -42,14 +42,14 @@ fn with(mut cable: Cable, method: Method, control: StepControl) -> Cable {
     cable
 }
 
-/// State after 0.25 s.
+/// Returns the state after 0.25 s.
 fn end(mut cable: Cable, method: Method, steps: u32) -> Vec<f64> {
     cable.set_integrator(Integrator::substeps(method, steps).unwrap()).unwrap();
     cable.step(0.25).unwrap_or_else(|e| panic!("{method}: {e}"));
     cable.positions().iter().chain(cable.velocities()).copied().collect()
 }
 
-/// Observed orders in two halvings of the step, against a run whose error is far below.
+/// Returns the observed orders in two halvings of the step, against a run with a far smaller error.
 fn orders(start: fn() -> Cable, method: Method) -> [f64; 2] {
     let reference = end(start(), Method::Rkn6, 6400);
     let steps = match method.properties().order {
@@ -63,8 +63,8 @@ fn orders(start: fn() -> Cable, method: Method) -> [f64; 2] {
     [(errors[0] / errors[1]).log2(), (errors[1] / errors[2]).log2()]
 }
 
-/// Both halvings reach the claimed order, and the second does not pass it: then the steps are in the range where the
-/// order shows.
+/// Checks that both halvings reach the claimed order and the second does not exceed it, so that the
+/// steps are in the asymptotic range.
 fn assert_order(method: Method, observed: [f64; 2]) {
     let claimed = f64::from(method.properties().order);
     println!("{method}: claimed {claimed}, observed {observed:.2?}");
@@ -72,11 +72,12 @@ fn assert_order(method: Method, observed: [f64; 2]) {
     assert!(observed[1] < claimed + 0.5, "{method}: {observed:?}, claimed {claimed}");
 }
 
-/// Halving the step divides the error by 2^order, as each method claims, for a cable that swings, and whose supports do
-/// not move.
+/// Halving the step divides the error by 2^order, as each method claims, for a swinging cable with
+/// supports at rest.
 ///
-/// *Source.* The claimed order (`Method::properties`). The reference is the sixth-order symplectic method at a tenth of
-/// the step or less, error below 1e-13, itself checked in `independent_solver_agrees_with_the_reference_method`.
+/// *Source.* The claimed order (`Method::properties`). The reference is the sixth-order symplectic
+/// method at a tenth of the step or less, error below 1e-13, itself checked in
+/// `independent_solver_agrees_with_the_reference_method`.
 #[test]
 fn every_method_converges_with_its_order() {
     for method in Method::ALL {
@@ -84,11 +85,12 @@ fn every_method_converges_with_its_order() {
     }
 }
 
-/// A prescribed motion does not lower the order: the moving end's acceleration enters at each stage's own time.
+/// A prescribed motion does not reduce the order: the moving end's acceleration enters at each
+/// stage's own time.
 ///
 /// *Source.* As above; a cubic motion, and a load that ramps up over the whole run.
 #[test]
-fn a_moving_support_does_not_lower_the_order() {
+fn a_moving_support_does_not_reduce_the_order() {
     let start = || {
         let mut cable = towed();
         let load = PointLoad { ramp: 0.4, ..PointLoad::force(0.7, Vector3::new(0.5, 0.0, 2.0)) };
@@ -100,12 +102,12 @@ fn a_moving_support_does_not_lower_the_order() {
     }
 }
 
-/// A free cable keeps its linear momentum to rounding with every method, and its centre of mass moves on a straight
-/// line.
+/// A free cable conserves its linear momentum to rounding with every method.
 ///
-/// *Source.* Newton's third law: the rules' forces sum to zero, and every method keeps linear invariants.
+/// *Source.* Newton's third law: the rules' forces sum to zero, and every method conserves linear
+/// invariants.
 #[test]
-fn a_free_cable_keeps_its_linear_momentum() {
+fn a_free_cable_conserves_its_linear_momentum() {
     for method in Method::ALL {
         let mut cable = with(thrown(), method, StepControl::Substeps(8));
         let before = cable.momentum().linear;
@@ -118,13 +120,14 @@ fn a_free_cable_keeps_its_linear_momentum() {
     }
 }
 
-/// Angular momentum is quadratic in the state: symplectic methods keep it to rounding, the others to their order.
+/// Angular momentum is quadratic in the state: symplectic methods conserve it to rounding, the
+/// others to their order.
 ///
-/// *Source.* Hairer, Lubich & Wanner 2006, theorems IV.2.2 and VI.4: symplectic Runge-Kutta methods and compositions of
-/// kicks and drifts keep it; midpoint is the only implicit one here (the trapezoidal rule is conjugate to it and keeps
-/// a nearby quantity).
+/// *Source.* Hairer, Lubich & Wanner 2006, theorems IV.2.2 and VI.4: symplectic Runge-Kutta methods
+/// and compositions of kicks and drifts conserve it; midpoint is the only implicit one here (the
+/// trapezoidal rule is conjugate to it and conserves a nearby quantity).
 #[test]
-fn symplectic_methods_keep_the_angular_momentum_and_the_others_lose_it_at_their_order() {
+fn symplectic_methods_conserve_angular_momentum_and_the_others_to_their_order() {
     for method in Method::ALL {
         let drift = |substeps: u32| {
             let mut cable = with(thrown(), method, StepControl::Substeps(substeps));
@@ -148,13 +151,13 @@ fn symplectic_methods_keep_the_angular_momentum_and_the_others_lose_it_at_their_
     }
 }
 
-/// The energy error of a symplectic method oscillates and does not grow, and falls with its order.
+/// The energy error of a symplectic method oscillates without growth, and falls with its order.
 ///
-/// *Source.* Backward error analysis (Hairer, Lubich & Wanner 2006, IX.8). The trapezoidal rule is conjugate
-/// symplectic: as well behaved. 20 s against 2 s.
+/// *Source.* Backward error analysis (Hairer, Lubich & Wanner 2006, IX.8). The trapezoidal rule is
+/// conjugate symplectic, with the same property. 20 s against 2 s.
 #[test]
 fn energy_error_of_symplectic_methods_stays_bounded_and_falls_with_their_order() {
-    // stretched by 5 % between two pins and let fall: nonlinear, but it never goes slack
+    // stretched by 5 % between two pins and released: nonlinear, but never slack
     let start = || {
         let points = [Vector3::zeros(), Vector3::new(1.05, 0.0, 0.0)];
         soft_cable().points(points).fix(At::Start).fix(At::End).build().unwrap()
@@ -178,9 +181,9 @@ fn energy_error_of_symplectic_methods_stays_bounded_and_falls_with_their_order()
     }
 }
 
-/// A rotated and shifted run is the rotated and shifted run: no axis of the world is special.
+/// A run of the rotated and shifted cable is the rotated and shifted run.
 ///
-/// *Source.* Objectivity. 1e-12 m is rounding, grown over 0.5 s.
+/// *Source.* Frame indifference. 1e-12 m is rounding, grown over 0.5 s.
 #[test]
 fn a_rotated_and_shifted_run_is_the_same_run() {
     let mut random = Random::new(21);
@@ -210,11 +213,12 @@ fn a_rotated_and_shifted_run_is_the_same_run() {
     }
 }
 
-/// The cable is at the host's time to the bit after steps of any length, and a step of zero does nothing.
+/// The cable reaches the host's time to the bit after steps of any length, and a step of zero does
+/// nothing.
 ///
 /// *Source.* A host adds its steps in f64; any difference would accumulate.
 #[test]
-fn every_method_lands_on_the_hosts_time_to_the_bit() {
+fn every_method_reaches_the_hosts_time_to_the_bit() {
     for method in Method::ALL {
         for control in [StepControl::Substeps(7), StepControl::MaxStep(1.3e-3), StepControl::Tolerance(1e-4)] {
             let integrator = Integrator { method, control };
@@ -234,7 +238,7 @@ fn every_method_lands_on_the_hosts_time_to_the_bit() {
     }
 }
 
-/// How many small host steps make up a time does not matter beyond the tolerance.
+/// The division of a time into host steps changes the motion by no more than the tolerance.
 ///
 /// *Source.* The exact-in-time run.
 #[test]
@@ -255,8 +259,9 @@ fn uneven_host_steps_give_the_same_motion() {
     }
 }
 
-/// A solver that shares nothing with the integrators and the block-tridiagonal matrices agrees on two elements: the
-/// assembled force, a dense mass matrix, its dense inverse, and the classical Runge-Kutta method of order 4.
+/// An independent solver agrees on two elements: the assembled force, a dense mass matrix, its
+/// dense inverse, and the classical Runge-Kutta method of order 4 share nothing with the
+/// integrators and the block-tridiagonal matrices.
 ///
 /// *Source.* Kutta 1901, 8000 steps: error below 1e-9 m by halving the step.
 #[test]
@@ -265,7 +270,7 @@ fn independent_solver_agrees_with_the_reference_method() {
     let build = || soft_cable().elements(2).fix(At::Start).integrator(integrator).build().unwrap();
     let mut evaluator = build();
     let n = evaluator.positions().len();
-    // rows and columns of the pinned position drop out
+    // without rows and columns of the pinned position
     let free: Vec<usize> = (3..n).collect();
     let mass = common::dense(&evaluator.mass_matrix());
     let mass = nalgebra::DMatrix::from_fn(free.len(), free.len(), |r, c| mass[(free[r], free[c])]);

@@ -1,4 +1,5 @@
-//! State is plain data: snapshot, restore and continue is bitwise the same run, and two cables do the same.
+//! The state is plain data: a run continued from a snapshot is bitwise the same, and so are those
+//! of two equal cables.
 
 mod common;
 
@@ -7,7 +8,8 @@ use lariat_ancf::{
     At, Cable, Error, Integrator, Method, Motion, PointLoad, SlopeSupport, StepControl, Support, Vector3,
 };
 
-/// A cable that uses everything a state could forget: a moving support, a clamp's direction, a load that ramps up.
+/// A cable with everything that a state must represent: a moving support, a clamp's direction, a
+/// load that ramps up.
 fn busy(method: Method, control: StepControl) -> Option<Cable> {
     let integrator = Integrator { method, control };
     integrator.checked().ok()?;
@@ -40,11 +42,11 @@ fn bits(cable: &Cable) -> Vec<u64> {
     numbers.map(|x| x.to_bits()).chain([cable.time().to_bits()]).collect()
 }
 
-/// A state put back into a cable that has gone on, or into another one, continues as the run did that was not
-/// interrupted.
+/// A state restored to a cable that has moved on, or to another one, continues bitwise as the
+/// uninterrupted run.
 ///
-/// *Source.* Bitwise equality of the two runs. It guards against memory of a method (accelerations, the proposed step)
-/// that lives outside the state.
+/// *Source.* Bitwise equality of the two runs. It guards against memory of a method (accelerations,
+/// the proposed step) that lives outside the state.
 #[test]
 fn a_restored_state_continues_bitwise_the_same_run() {
     for (method, control) in cases() {
@@ -65,9 +67,10 @@ fn a_restored_state_continues_bitwise_the_same_run() {
     }
 }
 
-/// A cable written to JSON and read back goes on bitwise the same, counts included.
+/// A cable written to JSON and read back continues bitwise the same run, counts included.
 ///
-/// *Source.* Bitwise equality; serde_json prints the shortest decimal that reads back to the same number.
+/// *Source.* Bitwise equality; serde_json prints the shortest decimal that reads back to the same
+/// number.
 #[test]
 fn a_cable_read_back_from_json_continues_bitwise_the_same_run() {
     for (method, control) in cases() {
@@ -85,11 +88,11 @@ fn a_cable_read_back_from_json_continues_bitwise_the_same_run() {
     }
 }
 
-/// Two cables made alike do the same to the bit, and so does a clone.
+/// Two equal cables, and a clone, give bitwise the same run.
 ///
 /// *Source.* Bitwise equality: no hash map, no clock, no shared state.
 #[test]
-fn two_cables_made_alike_give_the_same_bits() {
+fn equal_cables_give_the_same_bits() {
     for (method, control) in cases() {
         let (Some(mut a), Some(mut b)) = (busy(method, control), busy(method, control)) else { continue };
         run(&mut a, 6);
@@ -104,11 +107,11 @@ fn two_cables_made_alike_give_the_same_bits() {
     }
 }
 
-/// Reading reactions does not change the run.
+/// Reading reactions and energies does not change the run.
 ///
-/// *Source.* Bitwise equality with a run that is not read. It guards against reactions that are read before a new
-/// support has put its node in place marking the accelerations as known, so that the next step began from the old
-/// place.
+/// *Source.* Bitwise equality with a run that is not read. It guards against reactions that are
+/// read before a new support has put its node in place marking the accelerations as known, so that
+/// the next step began from the old place.
 #[test]
 fn reading_reactions_and_energies_does_not_change_the_run() {
     for (method, control) in cases() {
@@ -122,17 +125,17 @@ fn reading_reactions_and_energies_does_not_change_the_run() {
     }
 }
 
-/// A state of another mesh, and JSON whose state does not fit its elements, are refused.
+/// A state of another mesh, and JSON whose state does not fit its elements, are errors.
 ///
 /// *Source.* The contract: no panic on user input.
 #[test]
-fn a_state_of_another_mesh_is_refused() {
+fn a_state_of_another_mesh_is_an_error() {
     let mut cable = soft_cable().build().unwrap();
     let other = soft_cable().elements(7).build().unwrap();
     let error = cable.restore(other.snapshot().clone()).unwrap_err();
     let (count, expected) = (other.positions().len(), cable.positions().len());
     assert_eq!(error, Error::WrongCount { cable: cable.name().to_string(), what: "positions", count, expected });
     let mut json = serde_json::to_value(&cable).unwrap();
-    json["state"] = serde_json::to_value(other.snapshot()).unwrap();
+    json["snapshot"] = serde_json::to_value(other.snapshot()).unwrap();
     assert!(serde_json::from_value::<Cable>(json).is_err());
 }

@@ -1,9 +1,9 @@
-//! The coefficients of the implicit Runge-Kutta methods: order conditions and stability functions.
+//! Order conditions and stability functions of the implicit Runge-Kutta methods.
 
 use lariat_ancf::integrate::dirk::Tableau;
 use lariat_ancf::integrate::{esdirk3, esdirk4, midpoint, tr_bdf2};
 
-/// Residuals of the order conditions up to order 4 for weights `b`: largest per order.
+/// Returns the largest residual of the order conditions of each order up to 4 for weights `b`.
 fn order_conditions(t: &Tableau, b: &[f64]) -> [f64; 4] {
     let s = t.a.len();
     let a = |i: usize, j: usize| t.a[i].get(j).copied().unwrap_or(0.0);
@@ -25,11 +25,11 @@ fn order_conditions(t: &Tableau, b: &[f64]) -> [f64; 4] {
     ]
 }
 
-/// The tableaus satisfy Butcher's conditions to their order, their embedded formulas to theirs and no further: else
-/// there would be no estimate.
+/// The tableaus satisfy Butcher's conditions up to their order, and their embedded formulas exactly
+/// up to theirs, so that the difference estimates the error.
 ///
-/// *Source.* Butcher's order conditions (Hairer, Norsett & Wanner 1993, II.2, table 2.1), to the rounding of the
-/// printed fractions.
+/// *Source.* Butcher's order conditions (Hairer, Norsett & Wanner 1993, II.2, table 2.1), to the
+/// rounding of the printed fractions.
 #[test]
 fn tableaus_satisfy_the_order_conditions_they_claim() {
     for (name, tableau, order, embedded) in [
@@ -53,7 +53,8 @@ fn tableaus_satisfy_the_order_conditions_they_claim() {
     }
 }
 
-/// Stability function R(z) of a tableau at z = x + i y, absolute value, by solving the stages one after the other.
+/// Returns the absolute value of a tableau's stability function R(z) at z = x + i y, by solving the
+/// stages successively.
 fn amplification(t: &Tableau, z: (f64, f64)) -> f64 {
     type C = (f64, f64);
     let mul = |a: C, b: C| (a.0 * b.0 - a.1 * b.1, a.0 * b.1 + a.1 * b.0);
@@ -76,12 +77,14 @@ fn amplification(t: &Tableau, z: (f64, f64)) -> f64 {
     end.0.hypot(end.1)
 }
 
-/// No implicit tableau amplifies an oscillation of any frequency; those called L-stable forget an infinitely stiff one.
+/// No implicit tableau amplifies an oscillation of any frequency, and the L-stable ones damp an
+/// infinitely stiff component at once.
 ///
-/// *Source.* Definition of A- and L-stability (Hairer & Wanner 1996, IV.3): |R(i y)| <= 1 for all y, R(infinity) = 0.
+/// *Source.* Definition of A- and L-stability (Hairer & Wanner 1996, IV.3): |R(i y)| <= 1 for all
+/// y, R(infinity) = 0.
 #[test]
 fn implicit_tableaus_are_stable_for_every_frequency() {
-    for (name, tableau, forgets) in [
+    for (name, tableau, l_stable) in [
         ("midpoint", midpoint::TABLEAU, false),
         ("tr-bdf2", tr_bdf2::TABLEAU, true),
         ("esdirk3", esdirk3::TABLEAU, true),
@@ -92,6 +95,6 @@ fn implicit_tableaus_are_stable_for_every_frequency() {
             assert!(r <= 1.0 + 1e-12, "{name}: |R| = {r} at y = 1e{}", f64::from(k) / 100.0);
         }
         let stiff = amplification(&tableau, (-1e9, 0.0));
-        assert_eq!(stiff < 1e-6, forgets, "{name}: R = {stiff}");
+        assert_eq!(stiff < 1e-6, l_stable, "{name}: R = {stiff}");
     }
 }

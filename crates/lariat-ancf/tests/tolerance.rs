@@ -1,4 +1,5 @@
-//! `tolerance` means position error in metres per host step: it tracks the true error of a step.
+//! The tolerance is the position error in metres per host step: the true error of a host step
+//! follows it.
 
 mod common;
 
@@ -8,16 +9,16 @@ use lariat_ancf::{Cable, Integrator, Method, Section};
 
 const HOST_STEP: f64 = 1.0 / 60.0;
 
-/// True errors of host steps over their tolerance.
+/// True errors of host steps divided by their tolerance.
 struct Ratios {
     /// Of all host steps, ascending.
     all: Vec<f64>,
-    /// Of those that the error control cut in three or more, ascending.
+    /// Of those that error control divided into three steps or more, ascending.
     cut: Vec<f64>,
 }
 
 impl Ratios {
-    /// What misses the claim of [`tolerance_tracks_the_true_error`], if anything.
+    /// Returns a description if the claim of [`true_error_follows_tolerance`] is not met.
     fn miss(&self) -> Option<String> {
         let worst = self.all[self.all.len() - 1];
         let low = self.cut.len() >= 10 && self.cut[self.cut.len() / 2] < 0.1;
@@ -37,12 +38,12 @@ impl std::fmt::Display for Ratios {
             at(all, 9),
             at(all, 10)
         )?;
-        write!(f, "; of {} host steps cut in three or more: median {:.3}", cut.len(), at(cut, 5))
+        write!(f, "; of {} host steps of three steps or more: median {:.3}", cut.len(), at(cut, 5))
     }
 }
 
-/// True errors of `count` host steps of a run: each step is repeated from the same state by `exact`. The largest
-/// displacement error of any node.
+/// Returns the true errors of `count` host steps of a run, the largest displacement error of any
+/// node: each step is repeated from the same state by `exact`.
 fn ratios(mut cable: Cable, mut exact: Cable, tolerance: f64, count: usize) -> Ratios {
     let errors: Vec<(f64, u64)> = (0..count)
         .map(|_| {
@@ -64,14 +65,16 @@ fn ratios(mut cable: Cable, mut exact: Cable, tolerance: f64, count: usize) -> R
     Ratios { all: sorted(1), cut: sorted(3) }
 }
 
-/// No host step's error is more than 10 times its tolerance, and the middle one is not below a tenth of it, among the
-/// host steps that error control cut in three or more: where the host's step is the longest that can be taken, or half
-/// of it, the error is what it is.
+/// Checks that no host step's error exceeds 10 times its tolerance, and that the median is not
+/// below a tenth of it among the host steps that error control divided into three steps or more: in
+/// the others the step is bounded by the host's and not by the error.
 ///
-/// Two seconds of the paper's pendulum, 10 elements, host step 1/60 s, tolerances from 1e-3 to 1e-7 m.
+/// Two seconds of the paper's pendulum, 10 elements, host step 1/60 s, tolerances from 1e-3 to 1e-7
+/// m.
 ///
-/// *Source.* The same step by the symplectic method of order 6, whose error in a host step is below 1e-12 m.
-fn tolerance_tracks_the_true_error(method: Method) {
+/// *Source.* The same step by the symplectic method of order 6, whose error in a host step is below
+/// 1e-12 m.
+fn true_error_follows_tolerance(method: Method) {
     let mut missed = Vec::new();
     for tolerance in [1e-3, 1e-4, 1e-5, 1e-6, 1e-7] {
         let cable = pendulum(10).integrator(Integrator::tolerance(method, tolerance).unwrap()).build().unwrap();
@@ -83,68 +86,68 @@ fn tolerance_tracks_the_true_error(method: Method) {
     assert!(missed.is_empty(), "{method} misses at\n{}", missed.join("\n"));
 }
 
-/// See [`tolerance_tracks_the_true_error`].
+/// See [`true_error_follows_tolerance`].
 ///
 /// *Source.* As there.
 #[test]
-fn tolerance_tracks_the_true_error_of_esdirk3() {
-    tolerance_tracks_the_true_error(Method::Esdirk3);
+fn true_error_follows_tolerance_of_esdirk3() {
+    true_error_follows_tolerance(Method::Esdirk3);
 }
 
-/// See [`tolerance_tracks_the_true_error`].
+/// See [`true_error_follows_tolerance`].
 ///
 /// *Source.* As there.
 #[test]
-fn tolerance_tracks_the_true_error_of_esdirk4() {
-    tolerance_tracks_the_true_error(Method::Esdirk4);
+fn true_error_follows_tolerance_of_esdirk4() {
+    true_error_follows_tolerance(Method::Esdirk4);
 }
 
-/// See [`tolerance_tracks_the_true_error`].
+/// See [`true_error_follows_tolerance`].
 ///
 /// *Source.* As there.
 #[test]
-fn tolerance_tracks_the_true_error_of_tr_bdf2() {
-    tolerance_tracks_the_true_error(Method::TrBdf2);
+fn true_error_follows_tolerance_of_tr_bdf2() {
+    true_error_follows_tolerance(Method::TrBdf2);
 }
 
-/// See [`tolerance_tracks_the_true_error`].
+/// See [`true_error_follows_tolerance`].
 ///
 /// *Source.* As there.
 #[test]
-fn tolerance_tracks_the_true_error_of_the_trapezoidal_rule() {
-    tolerance_tracks_the_true_error(Method::Trapezoid);
+fn true_error_follows_tolerance_of_the_trapezoidal_rule() {
+    true_error_follows_tolerance(Method::Trapezoid);
 }
 
-/// See [`tolerance_tracks_the_true_error`].
+/// See [`true_error_follows_tolerance`].
 ///
 /// *Source.* As there.
 #[test]
-fn tolerance_tracks_the_true_error_of_generalised_alpha_0() {
-    tolerance_tracks_the_true_error(Method::GeneralisedAlpha { rho: 0.0, newton: NewtonMode::Converged });
+fn true_error_follows_tolerance_of_generalised_alpha_0() {
+    true_error_follows_tolerance(Method::GeneralisedAlpha { rho: 0.0, newton: NewtonMode::Converged });
 }
 
-/// See [`tolerance_tracks_the_true_error`].
+/// See [`true_error_follows_tolerance`].
 ///
 /// *Source.* As there.
 #[test]
-fn tolerance_tracks_the_true_error_of_generalised_alpha_05() {
-    tolerance_tracks_the_true_error(Method::GeneralisedAlpha { rho: 0.5, newton: NewtonMode::Converged });
+fn true_error_follows_tolerance_of_generalised_alpha_05() {
+    true_error_follows_tolerance(Method::GeneralisedAlpha { rho: 0.5, newton: NewtonMode::Converged });
 }
 
-/// See [`tolerance_tracks_the_true_error`].
+/// See [`true_error_follows_tolerance`].
 ///
 /// *Source.* As there.
 #[test]
-fn tolerance_tracks_the_true_error_of_generalised_alpha_05_once() {
-    tolerance_tracks_the_true_error(Method::GeneralisedAlpha { rho: 0.5, newton: NewtonMode::Once });
+fn true_error_follows_tolerance_of_generalised_alpha_05_once() {
+    true_error_follows_tolerance(Method::GeneralisedAlpha { rho: 0.5, newton: NewtonMode::Once });
 }
 
-/// Pendulums that the error control was not tuned on: ten times stiffer, five millimetres thin, three metres long and
-/// stiffer. Default method.
+/// Pendulums for which the error control was not tuned: ten times stiffer, five millimetres thin,
+/// three metres long and stiffer. Default method.
 ///
 /// *Source.* As above; 60 host steps.
 #[test]
-fn tolerance_tracks_the_true_error_of_other_pendulums() {
+fn true_error_follows_tolerance_of_other_pendulums() {
     let Integrator { method, .. } = Integrator::default();
     let mut missed = Vec::new();
     for (name, side, modulus, length) in

@@ -1,4 +1,4 @@
-//! The machine on which figures were measured: one line for reports.
+//! The machine that results were measured on, in one line.
 
 use std::process::Command;
 
@@ -8,7 +8,7 @@ fn first_line(program: &str, arguments: &[&str]) -> String {
     text.lines().next().unwrap_or("unknown").to_string()
 }
 
-/// Processor, compiler, commit and load.
+/// Returns processor, compiler, commit and load in one line.
 pub fn line() -> String {
     let cpuinfo = std::fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
     let field = |name: &str| {

@@ -23,14 +23,24 @@
 //! }
 //! ```
 //!
-//! Cables, effects, attachments and events are those of [`lariat_bevy`]; bodies are bevy_rapier's entities. Between
-//! [`PhysicsSet::SyncBackend`] and [`PhysicsSet::StepSimulation`] cables and their bodies are predicted, between that and
-//! [`PhysicsSet::Writeback`] they are settled. One Rapier step is one host step: with hard contacts choose a short one.
+//! Cables, effects, attachments and events are those of [`lariat_bevy`]; bodies are bevy_rapier's
+//! entities. Between [`PhysicsSet::SyncBackend`] and [`PhysicsSet::StepSimulation`] cables are
+//! integrated together with the bodies attached to them; between that and [`PhysicsSet::Writeback`]
+//! both are reconciled.
 //!
-//! *Validity.* [`TimestepMode::Fixed`] and [`TimestepMode::Variable`] with one substep: others step more than once between the two stages,
-//! and are refused ([`StepRefused`](lariat_bevy::event::StepRefused)). A refused step stops bevy_rapier's pipeline for the frame. Only bodies of
-//! the default context can be held. A length unit other than 1 is not supported. [`Snapshot`](lariat_bevy::Snapshot)
-//! holds cables alone: bodies are bevy_rapier's.
+//! # Limits
+//!
+//! - [`TimestepMode::Fixed`] and [`TimestepMode::Variable`] with one substep. Other modes step more
+//!   than once between the two stages; with them every step fails
+//!   ([`StepFailed`](lariat_bevy::event::StepFailed)), and bevy_rapier's pipeline is stopped for
+//!   the frame.
+//! - One Rapier step is one host step: with stiff cables on light bodies in contact choose a short
+//!   one.
+//! - Only bodies of the default context can be attached to.
+//! - A length unit other than 1 is not supported.
+//! - A [`Snapshot`](lariat_bevy::Snapshot) holds cables alone, because the bodies are
+//!   bevy_rapier's.
+//! - The limits of [`lariat_bevy`](lariat_bevy#limits): no contact of cables, no reel.
 
 use bevy::ecs::intern::Interned;
 use bevy::ecs::schedule::ScheduleLabel;
@@ -42,16 +52,16 @@ use bevy_rapier3d::plugin::context::{
 use bevy_rapier3d::prelude::{PhysicsSet, RapierConfiguration, RapierRigidBodyHandle, SimulationMode, TimestepMode};
 use core::mem::swap;
 pub use lariat_bevy;
-use lariat_bevy::{AfterEngine, BeforeEngine, BodyHandle, Cables, Physics, install_in};
+use lariat_bevy::{AfterEngine, BeforeEngine, BodyHandle, Cables, Error, Physics, install_in};
 
-/// Couples cables to the bodies of bevy_rapier, whose plugin must step in the same schedule.
+/// Attaches cables to the bodies of bevy_rapier, whose plugin must step in the same schedule.
 #[derive(Clone, Debug)]
 pub struct LariatRapierPlugin {
     schedule: Interned<dyn ScheduleLabel>,
 }
 
 impl Default for LariatRapierPlugin {
-    /// In `PostUpdate`, as bevy_rapier's default.
+    /// Steps in `PostUpdate`, the default of bevy_rapier.
     fn default() -> Self {
         Self::in_schedule(PostUpdate)
     }
@@ -63,7 +73,7 @@ impl LariatRapierPlugin {
         Self::in_schedule(FixedUpdate)
     }
 
-    /// Steps in another schedule.
+    /// Steps in `schedule`.
     pub fn in_schedule(schedule: impl ScheduleLabel) -> Self {
         LariatRapierPlugin { schedule: schedule.intern() }
     }
@@ -72,23 +82,25 @@ impl LariatRapierPlugin {
 /// The two halves of a step.
 #[derive(SystemSet, Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum LariatSystems {
-    /// Predicts cables and their bodies, before [`PhysicsSet::StepSimulation`].
+    /// Integrates cables together with their bodies, before [`PhysicsSet::StepSimulation`].
     BeforeStep,
-    /// Settles them, after it.
+    /// Reconciles them, after it.
     AfterStep,
 }
 
-/// Whether a prediction waits for Rapier's step, and whether bevy_rapier's pipeline was stopped for a refused one.
+/// The state of the step between its two halves.
 #[derive(Resource, Default)]
 struct Pending {
+    /// Whether the first half ran.
     predicted: bool,
+    /// Whether bevy_rapier's pipeline was stopped because the first half failed.
     stopped: bool,
 }
 
 impl Plugin for LariatRapierPlugin {
     fn build(&self, app: &mut App) {
         install_in(app);
-        app.init_resource::<Pending>().add_observer(name_body).add_observer(forget_body);
+        app.init_resource::<Pending>().add_observer(add_handle).add_observer(remove_handle);
         app.configure_sets(
             self.schedule,
             (
@@ -105,8 +117,8 @@ impl Plugin for LariatRapierPlugin {
     }
 }
 
-/// A body of the default context can be held by cables.
-fn name_body(
+/// Lets cables be attached to a body of the default context.
+fn add_handle(
     added: On<Add<RapierRigidBodyHandle>>,
     bodies: Query<(&RapierRigidBodyHandle, Option<&RapierContextEntityLink>)>,
     default: Query<(), With<DefaultRapierContext>>,
@@ -118,7 +130,8 @@ fn name_body(
     }
 }
 
-fn forget_body(removed: On<Remove<RapierRigidBodyHandle>>, mut commands: Commands) {
+/// Ends that when the body is removed.
+fn remove_handle(removed: On<Remove<RapierRigidBodyHandle>>, mut commands: Commands) {
     if let Ok(mut entity) = commands.get_entity(removed.entity) {
         entity.try_remove::<BodyHandle>();
     }
@@ -132,13 +145,14 @@ type Context = (
     &'static mut RapierConfiguration,
 );
 
-/// Runs `action` while [`Physics`] is bevy_rapier's world; nothing is copied.
+/// Runs `action` while [`Physics`] is bevy_rapier's world, without copying it.
 fn with_physics(world: &mut World, action: impl FnOnce(&mut World)) {
     exchange(world);
     action(world);
     exchange(world);
 }
 
+/// Swaps the parts of bevy_rapier's default context with those of [`Physics`].
 fn exchange(world: &mut World) {
     let mut contexts = world.query_filtered::<Context, With<DefaultRapierContext>>();
     world.resource_scope(|world, mut physics: Mut<Physics>| {
@@ -160,23 +174,21 @@ fn exchange(world: &mut World) {
     });
 }
 
-/// The step that bevy_rapier is about to make, in s.
-fn step(mode: TimestepMode, time: &Time) -> Result<f32, String> {
-    let substeps = match mode {
-        TimestepMode::Fixed { dt, substeps: 1 } => return Ok(dt),
+/// Returns the step that bevy_rapier is about to make, in s.
+fn step(mode: TimestepMode, time: &Time) -> Result<f32, Error> {
+    match mode {
+        TimestepMode::Fixed { dt, substeps: 1 } => Ok(dt),
         TimestepMode::Variable { max_dt, time_scale, substeps: 1 } => {
-            return Ok((time.delta_secs() * time_scale).min(max_dt));
+            Ok((time.delta_secs() * time_scale).min(max_dt))
         }
-        TimestepMode::Interpolated { .. } => {
-            return Err("TimestepMode::Interpolated steps a varying number of times per frame, cables need one: use \
-                        TimestepMode::Fixed with substeps = 1 in a fixed schedule"
-                .to_string());
+        TimestepMode::Interpolated { .. } => Err(Error::VaryingSteps),
+        TimestepMode::Fixed { substeps, .. } | TimestepMode::Variable { substeps, .. } => {
+            Err(Error::Substeps { substeps })
         }
-        TimestepMode::Fixed { substeps, .. } | TimestepMode::Variable { substeps, .. } => substeps,
-    };
-    Err(format!("TimestepMode has substeps = {substeps}, cables need 1: shorten the time step instead"))
+    }
 }
 
+/// The first half of a step.
 fn before(world: &mut World) {
     let mut configs = world.query_filtered::<&RapierConfiguration, With<DefaultRapierContext>>();
     let active = configs
@@ -186,26 +198,27 @@ fn before(world: &mut World) {
         return;
     }
     let dt = step(*world.resource::<TimestepMode>(), world.resource::<Time>());
-    let refused = match dt {
+    let failed = match dt {
         Ok(0.0) => return,
         Ok(dt) => {
             with_physics(world, |world| {
                 world.resource_mut::<Physics>().integration_parameters.dt = dt;
                 world.run_schedule(BeforeEngine);
             });
-            world.resource::<Cables>().is_refused()
+            world.resource::<Cables>().has_failed()
         }
-        Err(reason) => {
-            world.resource_mut::<Cables>().refuse(reason);
+        Err(error) => {
+            world.resource_mut::<Cables>().report_failure(error);
             true
         }
     };
-    *world.resource_mut::<Pending>() = Pending { predicted: true, stopped: refused };
-    if refused {
+    *world.resource_mut::<Pending>() = Pending { predicted: true, stopped: failed };
+    if failed {
         set_active(world, false);
     }
 }
 
+/// The second half of a step.
 fn after(world: &mut World) {
     let pending = core::mem::take(&mut *world.resource_mut::<Pending>());
     if pending.stopped {

@@ -1,16 +1,17 @@
-//! Attachments: entities that hold a point of a cable to a point of a body.
+//! Attachments: entities that connect a point of a cable to a point of a body.
 
+use crate::pending::Pending;
 use crate::point::Point;
-use crate::world::Cables;
 use bevy_ecs::bundle::Bundle;
 use bevy_ecs::component::Component;
 use bevy_ecs::entity::Entity;
 use bevy_ecs::lifecycle::HookContext;
 use bevy_ecs::world::DeferredWorld;
+use core::ops::Deref;
 use lariat_ancf::{At, Vector3};
 use lariat_rapier::{AttachmentHandle, AttachmentKind};
 
-/// How a point of a cable is held. Spawn it with its relationships:
+/// An attachment of a point of a cable. Spawn it with its relationships:
 ///
 /// ```
 /// # use bevy_ecs::prelude::*;
@@ -22,50 +23,58 @@ use lariat_rapier::{AttachmentHandle, AttachmentKind};
 /// world.spawn(Attachment::ball(cable, At::Start).to_world());
 /// world.spawn(Attachment::ball(cable, At::End).to(load).at([0.0, 0.5, 0.0]));
 /// ```
+///
+/// # Limits
+///
+/// A ball transmits no moment. A clamp holds the direction of the tangent; the cable has no
+/// torsion.
 #[derive(Component, Clone, Copy, Debug, PartialEq)]
 #[require(AttachmentReading)]
-#[component(on_discard = retire)]
+#[component(on_discard = discarded)]
 pub struct Attachment {
     /// The point of the cable.
     pub at: At,
     /// Ball or clamp.
-    pub pin: AttachmentKind,
-    /// The point of the body in m, in body axes from its origin (in world axes for the world). Default: where the cable's point is.
+    pub kind: AttachmentKind,
+    /// The point of the body in m, in body axes from its origin; in world axes for the world.
+    /// Default: where the cable's point is.
     pub anchor: Option<Vector3<f64>>,
-    /// Holds to the world, not to a body.
+    /// Whether it is attached to the world instead of a body.
     pub world: bool,
 }
 
 impl Attachment {
-    /// Holds the position of a point of `cable`.
+    /// Prescribes the position of a point of `cable`.
     pub fn ball(cable: Entity, at: impl Into<At>) -> AttachmentDraft {
-        AttachmentDraft { cable, at: at.into(), pin: AttachmentKind::Ball }
+        AttachmentDraft { cable, at: at.into(), kind: AttachmentKind::Ball }
     }
 
-    /// Holds the position and the direction of the tangent of a point of `cable`.
+    /// Prescribes the position of a point of `cable` and the direction of its tangent.
     pub fn clamp(cable: Entity, at: impl Into<At>) -> AttachmentDraft {
-        AttachmentDraft { cable, at: at.into(), pin: AttachmentKind::Clamp }
+        AttachmentDraft { cable, at: at.into(), kind: AttachmentKind::Clamp }
     }
 }
 
-/// An attachment that lacks its body.
+/// An attachment without its body.
 #[derive(Clone, Copy, Debug)]
 pub struct AttachmentDraft {
     cable: Entity,
     at: At,
-    pin: AttachmentKind,
+    kind: AttachmentKind,
 }
 
 impl AttachmentDraft {
-    /// To a body, where the cable's point is: [`at`](ToBodyBundle::at) gives another anchor.
+    /// Attaches to a body, at the present position of the cable's point unless
+    /// [`at`](ToBodyBundle::at) sets another anchor.
     pub fn to(self, body: Entity) -> ToBodyBundle {
-        let attachment = Attachment { at: self.at, pin: self.pin, anchor: None, world: false };
+        let attachment = Attachment { at: self.at, kind: self.kind, anchor: None, world: false };
         ToBodyBundle { attachment, cable: OnCable(self.cable), body: ToBody(body) }
     }
 
-    /// To the world, where the cable's point is: [`at`](ToWorldBundle::at) gives another place.
+    /// Attaches to the world, at the present position of the cable's point unless
+    /// [`at`](ToWorldBundle::at) sets another.
     pub fn to_world(self) -> ToWorldBundle {
-        let attachment = Attachment { at: self.at, pin: self.pin, anchor: None, world: true };
+        let attachment = Attachment { at: self.at, kind: self.kind, anchor: None, world: true };
         ToWorldBundle { attachment, cable: OnCable(self.cable) }
     }
 }
@@ -79,7 +88,7 @@ pub struct ToBodyBundle {
 }
 
 impl ToBodyBundle {
-    /// The point of the body in m, in body axes from its origin.
+    /// Sets the point of the body in m, in body axes from its origin.
     pub fn at(mut self, anchor: impl Into<Point>) -> Self {
         self.attachment.anchor = Some(anchor.into().0);
         self
@@ -94,9 +103,9 @@ pub struct ToWorldBundle {
 }
 
 impl ToWorldBundle {
-    /// The place in m.
-    pub fn at(mut self, place: impl Into<Point>) -> Self {
-        self.attachment.anchor = Some(place.into().0);
+    /// Sets the position in m.
+    pub fn at(mut self, position: impl Into<Point>) -> Self {
+        self.attachment.anchor = Some(position.into().0);
         self
     }
 }
@@ -106,53 +115,53 @@ impl ToWorldBundle {
 #[relationship(relationship_target = CableAttachments)]
 pub struct OnCable(pub Entity);
 
-/// The attachments of a cable; they go when it goes.
+/// The attachments of a cable; they are despawned with it.
 #[derive(Component, Clone, Debug, Default, PartialEq, Eq)]
 #[relationship_target(relationship = OnCable, linked_spawn)]
 pub struct CableAttachments(Vec<Entity>);
 
-/// The body of an attachment. Insert another to hold to another body: the gap closes with at most 10 m/s.
+/// The body of an attachment. Insert another one to attach to another body: the gap closes with at
+/// most 10 m/s.
 #[derive(Component, Clone, Copy, Debug, PartialEq, Eq)]
 #[relationship(relationship_target = BodyAttachments)]
 pub struct ToBody(pub Entity);
 
-/// The attachments of a body; when it goes they end, and their cables go on free.
+/// The attachments of a body. When it is despawned they end, and their cables are free there.
 #[derive(Component, Clone, Debug, Default, PartialEq, Eq)]
 #[relationship_target(relationship = ToBody)]
 pub struct BodyAttachments(Vec<Entity>);
 
-/// The force in N beyond which an attachment breaks, read after each host step.
+/// The force in N above which an attachment breaks, compared after each host step.
 #[derive(Component, Clone, Copy, Debug, PartialEq)]
 pub struct BreakForce(pub f64);
 
-/// What passed through an attachment, after the last step.
+/// Force, moment, gap and work of an attachment after the last host step.
 #[derive(Component, Clone, Copy, Debug, Default, PartialEq)]
-pub struct AttachmentReading {
-    /// Force of the cable on the body in N, world axes.
-    pub force: Vector3<f64>,
-    /// Moment of the cable on the body about the anchor in N m, world axes; zero for a ball.
-    pub moment: Vector3<f64>,
-    /// Distance of node and anchor in m.
-    pub gap: f64,
-    /// Work of the cable on the body since the attachment was made, in J.
-    pub work: f64,
+pub struct AttachmentReading(pub lariat_rapier::AttachmentReading);
+
+impl Deref for AttachmentReading {
+    type Target = lariat_rapier::AttachmentReading;
+    fn deref(&self) -> &lariat_rapier::AttachmentReading {
+        &self.0
+    }
 }
 
-/// An attachment that holds: its handle in the set.
+/// The handle of an attachment in the set, while it exists there.
 #[derive(Component, Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Holds(pub AttachmentHandle);
+pub(crate) struct Attached(pub AttachmentHandle);
 
-/// An attachment that could not be made, until it changes.
+/// Marks an attachment that could not be made, until it changes.
 #[derive(Component, Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Unable;
+pub(crate) struct NotAttachable;
 
-/// Leaves the hold of an attachment to be ended.
-fn retire(mut world: DeferredWorld, context: HookContext) {
-    let Some(handle) = world.get::<Holds>(context.entity).map(|h| h.0) else { return };
-    if let Some(mut cables) = world.get_resource_mut::<Cables>() {
-        cables.retired_attachments.push((context.entity, handle));
+/// Notes that the attachment of a component that is removed or replaced is to be removed from the
+/// set.
+fn discarded(mut world: DeferredWorld, context: HookContext) {
+    let Some(handle) = world.get::<Attached>(context.entity).map(|attached| attached.0) else { return };
+    if let Some(mut pending) = world.get_resource_mut::<Pending>() {
+        pending.removed_attachments.push((context.entity, handle));
     }
     if let Ok(mut commands) = world.commands().get_entity(context.entity) {
-        commands.try_remove::<Holds>();
+        commands.try_remove::<Attached>();
     }
 }

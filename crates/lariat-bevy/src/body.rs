@@ -1,39 +1,43 @@
 //! Rigid bodies as components, for programs that own their Rapier world.
 
-use crate::point::{Point, from_vector, to_vector};
-use crate::world::{Cables, Physics};
+use crate::cables::Cables;
+use crate::pending::Pending;
+use crate::physics::Physics;
+use crate::point::Point;
 use bevy_ecs::component::Component;
 use bevy_ecs::entity::Entity;
 use bevy_ecs::lifecycle::HookContext;
 use bevy_ecs::system::{Query, Res, ResMut, SystemParam};
 use bevy_ecs::world::DeferredWorld;
 use lariat_ancf::Vector3;
+use lariat_rapier::convert::{rotation, to_pose, to_vector, vector};
 use lariat_rapier::rapier::dynamics::{RigidBody, RigidBodyBuilder, RigidBodyHandle};
 use lariat_rapier::rapier::geometry::ColliderBuilder;
 use lariat_rapier::rapier::math::Pose;
-use nalgebra::{Quaternion, UnitQuaternion};
+use nalgebra::UnitQuaternion;
 
-/// A rigid body with its colliders; the plugin makes it before the next step, and removes it when this component or the entity goes.
+/// A rigid body with its colliders. It is added to Rapier's world in the next host step, and
+/// removed with this component or its entity.
 #[derive(Component, Clone, Debug)]
 #[require(BodyPose)]
-#[component(on_discard = retire)]
+#[component(on_discard = discarded)]
 pub struct Body {
     pub(crate) rigid: RigidBodyBuilder,
     pub(crate) colliders: Vec<ColliderBuilder>,
 }
 
 impl Body {
-    /// A body as Rapier's builder describes it.
+    /// A body of Rapier's builder.
     pub fn new(rigid: RigidBodyBuilder) -> Self {
         Body { rigid, colliders: Vec::new() }
     }
 
-    /// A body that forces move.
+    /// A body that forces and impulses move.
     pub fn dynamic() -> Self {
         Self::new(RigidBodyBuilder::dynamic())
     }
 
-    /// A body that stands still.
+    /// A body at rest.
     pub fn fixed() -> Self {
         Self::new(RigidBodyBuilder::fixed())
     }
@@ -43,14 +47,14 @@ impl Body {
         Self::new(RigidBodyBuilder::kinematic_position_based())
     }
 
-    /// Its place in m.
+    /// Sets the position in m.
     pub fn at(mut self, position: impl Into<Point>) -> Self {
         self.rigid = self.rigid.translation(to_vector(&position.into().0));
         self
     }
 
-    /// Its velocity in m/s.
-    pub fn moving(mut self, velocity: impl Into<Point>) -> Self {
+    /// Sets the initial velocity in m/s.
+    pub fn velocity(mut self, velocity: impl Into<Point>) -> Self {
         self.rigid = self.rigid.linvel(to_vector(&velocity.into().0));
         self
     }
@@ -62,72 +66,68 @@ impl Body {
     }
 }
 
-/// What Rapier calls a body. The plugin keeps it; who brings bodies of another plugin sets it ([`BodyHandle::external`]).
+/// The handle of an entity's body in Rapier's world. Inserted with a [`Body`]; for bodies of
+/// another plugin insert it yourself ([`BodyHandle::external`]).
 #[derive(Component, Clone, Copy, Debug, PartialEq, Eq)]
 pub struct BodyHandle {
     pub(crate) handle: RigidBodyHandle,
 }
 
 impl BodyHandle {
-    /// A body that someone else makes and removes.
+    /// The handle of a body that another plugin adds and removes.
     pub fn external(handle: RigidBodyHandle) -> Self {
         BodyHandle { handle }
     }
 }
 
-/// Where a body is after the last step, and where it was before it.
+/// Position, rotation and velocity of a body after the last host step.
 #[derive(Component, Clone, Copy, Debug, Default, PartialEq)]
 pub struct BodyPose {
-    /// Place of its origin in m.
+    /// Position of its origin in m.
     pub position: Vector3<f64>,
-    /// Attitude.
+    /// Rotation from body to world axes.
     pub rotation: UnitQuaternion<f64>,
     /// Velocity of its centre of mass in m/s.
     pub velocity: Vector3<f64>,
+    /// Position and rotation before the last host step.
     before: (Vector3<f64>, UnitQuaternion<f64>),
 }
 
 impl BodyPose {
-    /// Place and attitude between the last two steps: 0 = before, 1 = after.
+    /// Returns position and rotation at a fraction of the last host step: 0 = before it, 1 = after
+    /// it.
     pub fn between(&self, fraction: f64) -> (Vector3<f64>, UnitQuaternion<f64>) {
-        let (place, attitude) = &self.before;
-        let turn = (self.rotation * attitude.inverse()).scaled_axis() * fraction;
-        (place.lerp(&self.position, fraction), UnitQuaternion::from_scaled_axis(turn) * attitude)
+        let (position, rotation) = &self.before;
+        let change = (self.rotation * rotation.inverse()).scaled_axis() * fraction;
+        (position.lerp(&self.position, fraction), UnitQuaternion::from_scaled_axis(change) * rotation)
     }
 
-    pub(crate) fn follow(&mut self, body: &RigidBody, first: bool) {
-        let q = body.rotation();
-        let now = (
-            from_vector(body.translation()),
-            UnitQuaternion::from_quaternion(Quaternion::new(q.w.into(), q.x.into(), q.y.into(), q.z.into())),
-        );
-        self.before = if first { now } else { (self.position, self.rotation) };
+    /// Reads the state of a body; for a new one it is the state before the step too.
+    pub(crate) fn read(&mut self, body: &RigidBody, new: bool) {
+        let now = (vector(body.translation()), rotation(*body.rotation()));
+        self.before = if new { now } else { (self.position, self.rotation) };
         (self.position, self.rotation) = now;
-        self.velocity = from_vector(body.linvel());
+        self.velocity = vector(body.linvel());
     }
 }
 
-/// Where a kinematic body is to be after the next step.
+/// Position and rotation of a kinematic body after the next host step.
 #[derive(Component, Clone, Copy, Debug, Default, PartialEq)]
 pub struct KinematicTarget {
-    /// Place of its origin in m.
+    /// Position of its origin in m.
     pub position: Vector3<f64>,
-    /// Attitude.
+    /// Rotation from body to world axes.
     pub rotation: UnitQuaternion<f64>,
 }
 
 impl KinematicTarget {
-    /// This place (m), unturned.
+    /// A position in m, without rotation.
     pub fn at(position: impl Into<Point>) -> Self {
         KinematicTarget { position: position.into().0, rotation: UnitQuaternion::identity() }
     }
 
     pub(crate) fn pose(&self) -> Pose {
-        let q = self.rotation.coords.map(|x| x as f32);
-        Pose::from_parts(
-            to_vector(&self.position),
-            lariat_rapier::rapier::math::Rotation::from_xyzw(q.x, q.y, q.z, q.w),
-        )
+        to_pose(&self.position, &self.rotation)
     }
 }
 
@@ -136,31 +136,32 @@ impl KinematicTarget {
 pub struct Bodies<'w, 's> {
     physics: ResMut<'w, Physics>,
     handles: Query<'w, 's, &'static BodyHandle>,
-    links: Res<'w, Cables>,
+    cables: Res<'w, Cables>,
 }
 
 impl Bodies<'_, '_> {
-    /// The body of an entity; none before its first step.
+    /// Returns the body of an entity; `None` before its first host step.
     pub fn get(&self, entity: Entity) -> Option<&RigidBody> {
         self.physics.bodies.get(self.handles.get(entity).ok()?.handle)
     }
 
-    /// The body of an entity, to change it.
+    /// Returns the body of an entity, to change it.
     pub fn get_mut(&mut self, entity: Entity) -> Option<&mut RigidBody> {
         self.physics.bodies.get_mut(self.handles.get(entity).ok()?.handle)
     }
 
-    /// The entity of a body, as Rapier's queries and events name it.
+    /// Returns the entity of a body, for handles in results of Rapier's queries and events.
     pub fn entity(&self, handle: RigidBodyHandle) -> Option<Entity> {
-        self.links.links.bodies.get(&handle.into_raw_parts()).copied()
+        self.cables.links.bodies.get(&handle).copied()
     }
 }
 
-/// Leaves the body of an entity to be removed.
-fn retire(mut world: DeferredWorld, context: HookContext) {
+/// Notes that the body of a component that is removed or replaced is to be removed from Rapier's
+/// world.
+fn discarded(mut world: DeferredWorld, context: HookContext) {
     let Some(handle) = world.get::<BodyHandle>(context.entity).map(|b| b.handle) else { return };
-    if let Some(mut cables) = world.get_resource_mut::<Cables>() {
-        cables.retired_bodies.push(handle);
+    if let Some(mut pending) = world.get_resource_mut::<Pending>() {
+        pending.removed_bodies.push(handle);
     }
     if let Ok(mut commands) = world.commands().get_entity(context.entity) {
         commands.try_remove::<BodyHandle>();

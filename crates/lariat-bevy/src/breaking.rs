@@ -1,11 +1,11 @@
-//! Cables that part where they are pulled too hard.
+//! Cables that break where their tension is too large.
 
 use crate::attachment::{Attachment, OnCable};
-use crate::cable::{Cable, State};
-use crate::effects::{Bending, Buoyancy, Damping, Drag, GravityScale, LineLoads, PointLoads, RestShape, Rule};
-use crate::event::{CableBroken, Notice};
+use crate::cable::Cable;
+use crate::cables::Cables;
+use crate::components::{CableComponents, put};
+use crate::event::CableBroken;
 use crate::interpolate::Interpolate;
-use crate::world::{Cables, bring_home, lend_out, with_cables};
 use bevy_ecs::component::Component;
 use bevy_ecs::entity::Entity;
 use bevy_ecs::name::Name;
@@ -13,114 +13,93 @@ use bevy_ecs::prelude::World;
 use lariat_ancf::At;
 use lariat_rapier::CableHandle;
 
-/// The tension in N at which a cable parts, read after each host step; absent, nothing is read. The cable parts at the node that is nearest to
-/// the largest tension, but not at an end, so a single element does not part: the rest is a new entity with the same components, and takes the attachments beyond.
+/// The tension in N above which a cable breaks, compared after each host step; without it nothing
+/// is compared.
+///
+/// The cable breaks at the inner node nearest to the largest tension, so that a cable of one
+/// element does not break. The part behind the break is a new entity with the same components, and
+/// takes the attachments behind the break.
 #[derive(Component, Clone, Copy, Debug, PartialEq)]
 pub struct BreakTension(pub f64);
 
-/// Parts the cables whose tension is beyond their limit.
-pub(crate) fn part(world: &mut World) {
-    let mut of = world.query::<(Entity, &Cable, &BreakTension)>();
-    let overloaded: Vec<(Entity, f64, f64)> = of
-        .iter(world)
-        .filter_map(|(entity, cable, limit)| {
-            let (s, tension) = cable.core().ok().filter(|_| !cable.is_asleep())?.peak_tension();
-            (tension > limit.0).then_some((entity, s, tension))
-        })
-        .collect();
-    for (entity, s, tension) in overloaded {
-        if let Some((rest, arc_length)) = part_one(world, entity, s) {
+/// Breaks the cables whose tension exceeds their limit.
+pub(crate) fn break_cables(world: &mut World) {
+    let mut limits = world.query::<(Entity, &BreakTension)>();
+    let cables = world.resource::<Cables>();
+    let peak = |(entity, limit): (Entity, &BreakTension)| {
+        let cable = cables.get(entity).ok().filter(|_| !cables.is_asleep(entity))?;
+        let (arc_length, tension) = cable.peak_tension();
+        (tension > limit.0).then_some((entity, arc_length, tension))
+    };
+    let overloaded: Vec<(Entity, f64, f64)> = limits.iter(world).filter_map(peak).collect();
+    for (entity, peak, tension) in overloaded {
+        if let Some((rest, arc_length)) = break_cable(world, entity, peak) {
             let event = CableBroken { entity, rest, arc_length, tension };
-            world.resource_mut::<Cables>().notices.push(Notice::Broken(event));
+            world.resource_mut::<Cables>().events.push(event.into());
         }
     }
 }
 
-/// Where a cable parts: at the inner node that is nearest to `s`; one element does not part.
-fn place(cable: &lariat_ancf::Cable, s: f64) -> Option<At> {
-    let nodes = cable.node_arc_lengths();
-    let inner = &nodes[1..nodes.len() - 1];
-    let nearest = inner.iter().copied().min_by(|a, b| (a - s).abs().total_cmp(&(b - s).abs()));
-    nearest.map(At::ArcLength)
-}
-
-fn part_one(world: &mut World, entity: Entity, s: f64) -> Option<(Entity, f64)> {
-    let cable = world.get::<Cable>(entity)?;
-    let State::Lent(lent) = &cable.state else { return None };
-    let (handle, at, plan) = (lent.handle(), place(lent, s)?, cable.plan.clone());
-    let drawn = world.get::<Interpolate>(entity).is_some();
-    let rest = world.entity_mut(entity).clone_and_spawn_with_opt_in(|clone| {
-        clone.allow::<(Rule, Bending, Damping, Drag, Buoyancy, GravityScale, BreakTension, Name)>();
-    });
-    let cut = with_set(world, |cables| {
-        let tail = cables.set.cut(handle, at).ok()?;
-        cables.links.cables.insert(tail, rest);
-        let length = cables.set.get(handle).ok()?.length();
-        Some((length, parts(cables, handle)?, parts(cables, tail)?, move_attachments(cables, tail, length, rest)))
-    });
-    let Some((length, kept, beyond, moved)) = cut else {
-        world.despawn(rest);
-        return None;
-    };
-    world.entity_mut(rest).insert(Cable { plan, state: State::Away, counted: Default::default() });
-    if drawn {
-        world.entity_mut(rest).insert(Interpolate::default());
-    }
-    // components say what either part does
-    if world.get::<PointLoads>(entity).is_some() {
-        world.entity_mut(entity).insert(kept.0);
-        world.entity_mut(rest).insert(beyond.0);
-    }
-    if world.get::<LineLoads>(entity).is_some() {
-        world.entity_mut(entity).insert(kept.1);
-        world.entity_mut(rest).insert(beyond.1);
-    }
-    if let Some(shape) = beyond.2 {
-        world.entity_mut(rest).insert(shape);
-    }
+/// Breaks a cable near an arc length; returns the entity of the part behind the break, and the arc
+/// length of the break (m).
+fn break_cable(world: &mut World, entity: Entity, arc_length: f64) -> Option<(Entity, f64)> {
+    let description = world.get::<Cable>(entity)?.clone();
+    let components = CableComponents::of(world.entity(entity));
+    let mut cables = world.resource_mut::<Cables>();
+    let handle = cables.handle(entity).ok()?;
+    let at = inner_node(cables.get(entity).ok()?, arc_length)?;
+    let tail = cables.set.cut(handle, at).ok()?;
+    let (before, behind) = (cables.set.get(handle).ok()?, cables.set.get(tail).ok()?);
+    let length = before.length();
+    let [before, behind] = [before, behind].map(|part| components.of_part(part));
+    let rest = world.spawn_empty().id();
+    let mut cables = world.resource_mut::<Cables>();
+    // linked before its component is inserted, which else would build a new cable
+    cables.links.insert_cable(rest, tail);
+    let moved = move_attachments(&mut cables, tail, length, rest);
+    before.put(&mut world.entity_mut(entity));
+    behind.put(&mut world.entity_mut(rest));
+    let (limit, name) = (world.get::<BreakTension>(entity).copied(), world.get::<Name>(entity).cloned());
+    let drawn = world.get::<Interpolate>(entity).map(|_| Interpolate::default());
+    let mut part = world.entity_mut(rest);
+    put(&mut part, limit);
+    put(&mut part, name);
+    put(&mut part, drawn);
+    part.insert(description);
     for (attachment, at) in moved {
-        if let Some(mut held) = world.get_mut::<Attachment>(attachment) {
-            held.at = at;
+        if let Some(mut attachment) = world.get_mut::<Attachment>(attachment) {
+            attachment.at = at;
         }
         world.entity_mut(attachment).insert(OnCable(rest));
     }
-    with_set(world, |_| Some(()));
     Some((rest, length))
 }
 
-/// Loads and rest shape of a part, as components.
-fn parts(cables: &Cables, handle: CableHandle) -> Option<(PointLoads, LineLoads, Option<RestShape>)> {
-    let cable = cables.set.get(handle).ok()?;
-    let effects = cable.effects();
-    let shape = effects.rest_shape.clone().map(RestShape);
-    Some((PointLoads(cable.loads().to_vec()), LineLoads(effects.line_loads.clone().unwrap_or_default().0), shape))
+/// Returns the inner node that is nearest to an arc length (m); a cable of one element has none.
+fn inner_node(cable: &lariat_ancf::Cable, arc_length: f64) -> Option<At> {
+    let nodes = cable.node_arc_lengths();
+    let inner = &nodes[1..nodes.len() - 1];
+    let distance = |node: &f64| (node - arc_length).abs();
+    inner.iter().copied().min_by(|a, b| distance(a).total_cmp(&distance(b))).map(At::ArcLength)
 }
 
-/// Attachments beyond the cut, at `length` (m), are the rest's from now on; where they hold it.
+/// Links the attachments behind a break at `length` (m) to the entity `rest`; returns them with
+/// their points on its cable.
 fn move_attachments(cables: &mut Cables, tail: CableHandle, length: f64, rest: Entity) -> Vec<(Entity, At)> {
     let Cables { set, links, .. } = cables;
     let mut moved = Vec::new();
-    for (attachment, bound) in &mut links.attachments {
-        if set.attachment(*attachment).is_ok_and(|a| a.cable() == tail) {
-            bound.cable = rest;
-            bound.made.at = match bound.made.at {
+    for (handle, link) in &mut links.attachments {
+        let Ok(attachment) = set.attachment(*handle) else { continue };
+        if attachment.cable() == tail {
+            link.cable = rest;
+            link.made.at = match link.made.at {
                 At::ArcLength(s) => At::ArcLength(s - length),
-                // nodes have other numbers, and the end stays the end
-                At::Node(_) => set.attachment(*attachment).map_or(At::End, |a| At::ArcLength(a.arc_length())),
+                // nodes have other numbers, and the end remains the end
+                At::Node(_) => At::ArcLength(attachment.arc_length()),
                 at => at,
             };
-            moved.push((bound.entity, bound.made.at));
+            moved.push((link.entity, link.made.at));
         }
     }
     moved
-}
-
-/// Runs `action` while the set has all its cables.
-fn with_set<T>(world: &mut World, action: impl FnOnce(&mut Cables) -> Option<T>) -> Option<T> {
-    with_cables(world, |cables, of| {
-        bring_home(cables, of);
-        let outcome = action(cables);
-        lend_out(cables, of);
-        outcome
-    })
 }

@@ -1,26 +1,41 @@
-//! Effects as components: present = on, absent = no work at all.
+//! Effects as components: an effect acts on a cable while its component is there, and costs nothing
+//! while it is not.
 //!
-//! What an entity has beside its [`Cable`](crate::Cable) is compared with what the cable does when one of these components was added,
-//! changed or removed; a difference takes effect on the next step.
+//! A change of these components takes effect in the next host step. The components of the effects
+//! in [`for_each_effect`](lariat_ancf::for_each_effect) are generated from that list, each a
+//! newtype of the mechanics' parameters; [`Damping`] alone is written by hand, because a share of
+//! critical damping depends on the cable. [`Rule`], [`Bending`] and [`PointLoads`] are no effects
+//! of the list.
 
-use crate::plan::Plan;
+use crate::pending::Pending;
 use crate::point::Point;
-use crate::prepare::ChangedEffects;
 use bevy_ecs::component::Component;
 use bevy_ecs::lifecycle::HookContext;
-use bevy_ecs::name::Name;
 #[cfg(feature = "reflect")]
 use bevy_ecs::reflect::ReflectComponent;
-use bevy_ecs::world::{DeferredWorld, EntityRef};
+use bevy_ecs::world::DeferredWorld;
 #[cfg(feature = "reflect")]
 use bevy_reflect::prelude::*;
 use core::f64::consts::PI;
-use lariat_ancf::{BendingRule, Effects, Fidelity, Flow, IntegratorChoice, LineLoad, PointLoad, RestPiece};
+use lariat_ancf::{BendingRule, Flow, LineLoad, PointLoad, RestPiece, Section, Vector3};
 use serde::{Deserialize, Serialize};
 
-/// Force strategy; see [`lariat_ancf::Rule`]. Absent: `projected-3`.
+/// A component that adds an effect of the mechanics to a cable.
+pub(crate) trait EffectComponent: Component + Clone + PartialEq {
+    /// The parameters in the mechanics.
+    type Effect: lariat_ancf::effect::Effect;
+
+    /// Returns the effect on a cable of this section and unstretched length (m).
+    fn resolve(&self, section: &Section, length: f64) -> Result<Self::Effect, lariat_ancf::Error>;
+
+    /// Returns the component of a part of a cable that broke, on which the effect has become
+    /// `effect`.
+    fn of_part(&self, effect: &Self::Effect) -> Self;
+}
+
+/// Rule for the elastic forces; see [`lariat_ancf::Rule`]. Default: `projected-3`.
 #[derive(Component, Clone, Copy, Debug, PartialEq, Eq, Default, Serialize, Deserialize)]
-#[component(on_remove = removed)]
+#[component(on_remove = note_removal)]
 #[cfg_attr(
     feature = "reflect",
     derive(bevy_reflect::Reflect),
@@ -29,20 +44,21 @@ use serde::{Deserialize, Serialize};
 pub struct Rule(pub lariat_ancf::Rule);
 
 impl Rule {
-    /// Projected strain, bending by three Gauss points: the default.
+    /// Projected axial strain, bending by three Gauss points: the default.
     pub const PROJECTED_3: Rule =
         Rule(lariat_ancf::Rule::new(lariat_ancf::AxialRule::Projected, BendingRule::Gauss(3)));
-    /// Gauss quadrature with five points for the axial energy and three for bending.
+    /// Five Gauss points for the axial energy and three for bending.
     pub const G5_3: Rule = Rule(lariat_ancf::Rule::new(lariat_ancf::AxialRule::Gauss(5), BendingRule::Gauss(3)));
-    /// The paper's ST2.
+    /// ST2 of the paper.
     pub const ST2: Rule = Rule(lariat_ancf::Rule::ST2);
-    /// The paper's L2T2.
+    /// L2T2 of the paper.
     pub const L2T2: Rule = Rule(lariat_ancf::Rule::L2T2);
 }
 
-/// Bending stiffness, by the bending half of the [`Rule`]. Absent: the cable is limp, and no bending code runs.
+/// Bending stiffness, by the bending half of the [`Rule`]. Without it the cable has none, and no
+/// bending code runs.
 #[derive(Component, Clone, Copy, Debug, PartialEq, Eq, Default, Serialize, Deserialize)]
-#[component(on_remove = removed)]
+#[component(on_remove = note_removal)]
 #[cfg_attr(
     feature = "reflect",
     derive(bevy_reflect::Reflect),
@@ -50,54 +66,106 @@ impl Rule {
 )]
 pub struct Bending;
 
-/// Internal damping after Kelvin and Voigt; see [`lariat_ancf::Damping`].
+/// Forces and moments at points; see [`PointLoad`]. A ramp begins when the load is added.
+#[derive(Component, Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[component(on_remove = note_removal)]
+#[cfg_attr(
+    feature = "reflect",
+    derive(bevy_reflect::Reflect),
+    reflect(opaque, Component, Clone, Serialize, Deserialize)
+)]
+pub struct PointLoads(pub Vec<PointLoad>);
+
+/// Internal damping (Kelvin-Voigt); see [`lariat_ancf::Damping`].
 #[derive(Component, Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[component(on_remove = removed)]
+#[component(on_remove = note_removal)]
 #[cfg_attr(
     feature = "reflect",
     derive(bevy_reflect::Reflect),
     reflect(opaque, Component, Clone, Serialize, Deserialize)
 )]
 pub enum Damping {
-    /// Times in s of the axial strain and of the curvature.
+    /// Damping times in s of axial strain and curvature.
     Times(lariat_ancf::Damping),
-    /// This share of critical damping for the first axial mode of the cable with one end held.
+    /// Share of critical damping for the first axial mode of the cable with one end fixed.
     CriticalFraction(f64),
 }
 
 impl Damping {
-    /// Time in s of strain and curvature alike.
+    /// The same damping time in s for strain and curvature.
     pub fn time(time: f64) -> Self {
         Damping::Times(lariat_ancf::Damping { axial: time, bending: time })
     }
 
-    /// This share of critical damping for the first axial mode of the cable with one end held, omega = pi/(2 L) sqrt(EA/(rho A)); faster
-    /// vibrations are damped more, slower ones (a load that bounces on the cable) less, in proportion to their frequency.
+    /// Share of critical damping for the first axial mode of the cable with one end fixed, omega =
+    /// pi/(2 L) sqrt(EA/(rho A)). The damping ratio of other modes is proportional to their
+    /// frequency: higher for vibrations within the cable, lower for a heavy load that bounces on
+    /// it.
     pub fn critical_fraction(fraction: f64) -> Self {
         Damping::CriticalFraction(fraction)
     }
+}
 
-    fn resolve(self, plan: &Plan, length: f64) -> Result<lariat_ancf::Damping, lariat_ancf::Error> {
-        match self {
+impl EffectComponent for Damping {
+    type Effect = lariat_ancf::Damping;
+
+    fn resolve(&self, section: &Section, length: f64) -> Result<lariat_ancf::Damping, lariat_ancf::Error> {
+        match *self {
             Damping::Times(times) => Ok(times),
             Damping::CriticalFraction(fraction) => {
-                let section = plan.section.clone()?;
                 let wave = (section.axial_stiffness / section.mass_per_length).sqrt();
                 lariat_ancf::Damping::from_ratio(fraction, 0.5 * PI * wave / length)
             }
         }
     }
+
+    fn of_part(&self, effect: &lariat_ancf::Damping) -> Self {
+        match self {
+            Damping::Times(_) => Damping::Times(*effect),
+            Damping::CriticalFraction(_) => *self,
+        }
+    }
 }
 
-/// Drag of a fluid or wind; see [`lariat_ancf::Drag`].
-#[derive(Component, Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[component(on_remove = removed)]
-#[cfg_attr(
-    feature = "reflect",
-    derive(bevy_reflect::Reflect),
-    reflect(opaque, Component, Clone, Serialize, Deserialize)
-)]
-pub struct Drag(pub lariat_ancf::Drag);
+/// Generates a component for every effect of the list but damping.
+macro_rules! newtypes {
+    () => {};
+    ({ field: damping, $($entry:tt)* } $($others:tt)*) => { newtypes!($($others)*); };
+    ({ field: $field:ident, type: $type:ident, set: $set:ident, key: $key:literal, summary: $summary:literal }
+     $($others:tt)*) => {
+        #[doc = $summary]
+        #[doc = concat!("\n\nParameters and theory: [`lariat_ancf::", stringify!($type), "`].")]
+        #[derive(Component, Clone, Debug, PartialEq, Serialize, Deserialize)]
+        #[component(on_remove = note_removal)]
+        #[cfg_attr(
+            feature = "reflect",
+            derive(bevy_reflect::Reflect),
+            reflect(opaque, Component, Clone, Serialize, Deserialize)
+        )]
+        pub struct $type(pub lariat_ancf::$type);
+
+        impl From<lariat_ancf::$type> for $type {
+            fn from(effect: lariat_ancf::$type) -> Self {
+                $type(effect)
+            }
+        }
+
+        impl EffectComponent for $type {
+            type Effect = lariat_ancf::$type;
+
+            fn resolve(&self, _: &Section, _: f64) -> Result<lariat_ancf::$type, lariat_ancf::Error> {
+                Ok(self.0.clone())
+            }
+
+            fn of_part(&self, effect: &lariat_ancf::$type) -> Self {
+                $type(effect.clone())
+            }
+        }
+
+        newtypes!($($others)*);
+    };
+}
+lariat_ancf::for_each_effect!(newtypes);
 
 impl Drag {
     /// Air at rest: 1.2 kg/m^3, normal coefficient 1.2, tangential 0.01.
@@ -110,22 +178,12 @@ impl Drag {
         Drag(lariat_ancf::Drag::new(1000.0, 1.2, 0.01, Flow::default()))
     }
 
-    /// The fluid moves with this velocity in m/s.
+    /// Sets the velocity of the fluid in m/s, uniform in space.
     pub fn flowing(mut self, velocity: impl Into<Point>) -> Self {
         self.0.flow = Flow::uniform(velocity.into().0);
         self
     }
 }
-
-/// Buoyancy and added mass; see [`lariat_ancf::Buoyancy`].
-#[derive(Component, Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[component(on_remove = removed)]
-#[cfg_attr(
-    feature = "reflect",
-    derive(bevy_reflect::Reflect),
-    reflect(opaque, Component, Clone, Serialize, Deserialize)
-)]
-pub struct Buoyancy(pub lariat_ancf::Buoyancy);
 
 impl Buoyancy {
     /// Fresh water: 1000 kg/m^3, coefficient of added mass 1.
@@ -134,15 +192,25 @@ impl Buoyancy {
     }
 }
 
-/// Stress-free stretch and curvature; see [`lariat_ancf::RestShape`]. Absent: straight and unstretched.
-#[derive(Component, Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[component(on_remove = removed)]
-#[cfg_attr(
-    feature = "reflect",
-    derive(bevy_reflect::Reflect),
-    reflect(opaque, Component, Clone, Serialize, Deserialize)
-)]
-pub struct RestShape(pub lariat_ancf::RestShape);
+impl GravityScale {
+    /// Multiplies gravity by `factor`.
+    pub fn new(factor: f64) -> Self {
+        GravityScale(lariat_ancf::GravityScale(factor))
+    }
+}
+
+impl LineLoads {
+    /// A force per length in N/m on the whole cable, world axes.
+    pub fn uniform(force: impl Into<Point>) -> Self {
+        LineLoads(LineLoad::uniform(force.into().0).into())
+    }
+}
+
+impl From<Vec<LineLoad>> for LineLoads {
+    fn from(loads: Vec<LineLoad>) -> Self {
+        LineLoads(lariat_ancf::LineLoads(loads))
+    }
+}
 
 impl From<Vec<RestPiece>> for RestShape {
     fn from(pieces: Vec<RestPiece>) -> Self {
@@ -150,141 +218,17 @@ impl From<Vec<RestPiece>> for RestShape {
     }
 }
 
-/// Forces per length; see [`LineLoad`].
-#[derive(Component, Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-#[component(on_remove = removed)]
-#[cfg_attr(
-    feature = "reflect",
-    derive(bevy_reflect::Reflect),
-    reflect(opaque, Component, Clone, Serialize, Deserialize)
-)]
-pub struct LineLoads(pub Vec<LineLoad>);
-
-/// Forces and moments at points; see [`PointLoad`]. A ramp begins when the load is new to the cable.
-#[derive(Component, Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-#[component(on_remove = removed)]
-#[cfg_attr(
-    feature = "reflect",
-    derive(bevy_reflect::Reflect),
-    reflect(opaque, Component, Clone, Serialize, Deserialize)
-)]
-pub struct PointLoads(pub Vec<PointLoad>);
-
-/// What gravity is multiplied by for this cable.
-#[derive(Component, Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[component(on_remove = removed)]
-#[cfg_attr(
-    feature = "reflect",
-    derive(bevy_reflect::Reflect),
-    reflect(opaque, Component, Clone, Serialize, Deserialize)
-)]
-pub struct GravityScale(pub f64);
-
-/// What the components of an entity ask of its cable.
-#[derive(Clone, Debug, Default)]
-pub(crate) struct Wanted {
-    pub name: Option<String>,
-    pub rule: lariat_ancf::Rule,
-    pub effects: Effects,
-    pub damping: Option<Damping>,
-    pub loads: Vec<PointLoad>,
-}
-
-impl Wanted {
-    pub fn of(entity: EntityRef) -> Self {
-        let mut rule = entity.get::<Rule>().copied().unwrap_or_default().0;
-        if !entity.contains::<Bending>() {
-            rule.bending = BendingRule::None;
-        }
-        let effects = Effects {
-            damping: None,
-            drag: entity.get::<Drag>().map(|e| e.0.clone()),
-            buoyancy: entity.get::<Buoyancy>().map(|e| e.0),
-            rest_shape: entity.get::<RestShape>().map(|e| e.0.clone()),
-            line_loads: entity.get::<LineLoads>().map(|e| lariat_ancf::LineLoads(e.0.clone())),
-            gravity_scale: entity.get::<GravityScale>().map(|e| lariat_ancf::GravityScale(e.0)),
-        };
-        Wanted {
-            name: entity.get::<Name>().map(|name| name.as_str().to_string()),
-            rule,
-            effects,
-            damping: entity.get::<Damping>().copied(),
-            loads: entity.get::<PointLoads>().map(|e| e.0.clone()).unwrap_or_default(),
-        }
-    }
-
-    /// Effects with the damping that a cable of this length has.
-    fn effects(&self, plan: &Plan, length: f64) -> Result<Effects, lariat_ancf::Error> {
-        let damping = self.damping.map(|d| d.resolve(plan, length)).transpose()?;
-        Ok(Effects { damping, ..self.effects.clone() })
+impl PointLoads {
+    /// A force in N, world axes, at an arc length in m.
+    pub fn force(arc_length: f64, force: impl Into<Point>) -> Self {
+        let force: Vector3<f64> = force.into().0;
+        PointLoads(vec![PointLoad::force(arc_length, force)])
     }
 }
 
-/// Builds a cable with its effects.
-pub(crate) fn build(plan: &Plan, wanted: &Wanted) -> Result<lariat_ancf::Cable, lariat_ancf::Error> {
-    let drawn: f64 = plan.points.windows(2).map(|p| (p[1] - p[0]).norm()).sum();
-    let effects = match wanted.damping {
-        // a length that is none is refused by the builder
-        Some(_) if plan.length.unwrap_or(drawn) > 0.0 => wanted.effects(plan, plan.length.unwrap_or(drawn))?,
-        _ => wanted.effects.clone(),
-    };
-    let mut cable = plan.build(wanted.name.as_deref().unwrap_or("cable"), wanted.rule, &effects)?;
-    wanted.loads.iter().try_for_each(|load| cable.add_load(*load))?;
-    Ok(cable)
-}
-
-/// Makes a cable do what is wanted of it; touches it only where it does something else.
-pub(crate) fn update(cable: &mut crate::Cable, wanted: &Wanted) -> Result<(), lariat_ancf::Error> {
-    let plan = cable.plan.clone();
-    let Ok(core) = cable.core() else { return Ok(()) };
-    let (rule, effects) = (core.rule(), wanted.effects(&plan, core.length())?);
-    let same_effects = *core.effects() == effects;
-    let same_loads =
-        core.loads().len() == wanted.loads.len() && core.loads().iter().zip(&wanted.loads).all(|(a, b)| a.is_same(b));
-    if rule == wanted.rule && same_effects && same_loads {
-        return Ok(());
-    }
-    let Ok(core) = cable.core_mut() else { return Ok(()) };
-    // all of it or nothing
-    let mut changed = core.clone();
-    if rule != wanted.rule || !same_effects {
-        // damping needs an implicit method, however soft the cable; what the user has set stays
-        let soft = core.frequency_bound();
-        let choice = |f: Fidelity, damped: bool| f.integrator(if damped { f64::INFINITY } else { soft });
-        let (damped, damps) = (core.effects().damping.is_some(), effects.damping.is_some());
-        let integrator = match plan.integrator {
-            IntegratorChoice::Fidelity(fidelity) if core.integrator() == choice(fidelity, damped) => {
-                choice(fidelity, damps)
-            }
-            _ => core.integrator(),
-        };
-        wanted.rule.check()?;
-        changed.redefine(wanted.rule, effects, integrator)?;
-    }
-    if !same_loads {
-        changed.set_loads(&wanted.loads)?;
-    }
-    *core = changed;
-    Ok(())
-}
-
-/// Registers the effects with the app's types.
-#[cfg(all(feature = "bevy_app", feature = "reflect"))]
-pub(crate) fn register(app: &mut bevy_app::App) {
-    app.register_type::<Rule>()
-        .register_type::<Bending>()
-        .register_type::<Damping>()
-        .register_type::<Drag>()
-        .register_type::<Buoyancy>()
-        .register_type::<RestShape>()
-        .register_type::<LineLoads>()
-        .register_type::<PointLoads>()
-        .register_type::<GravityScale>();
-}
-
-/// Lets a cable be looked at that lost an effect.
-fn removed(mut world: DeferredWorld, context: HookContext) {
-    if let Some(mut changed) = world.get_resource_mut::<ChangedEffects>() {
-        changed.0.insert(context.entity);
+/// Marks a cable for update when one of its effects is removed.
+fn note_removal(mut world: DeferredWorld, context: HookContext) {
+    if let Some(mut pending) = world.get_resource_mut::<Pending>() {
+        pending.changed_effects.insert(context.entity);
     }
 }

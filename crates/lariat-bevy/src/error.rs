@@ -1,4 +1,4 @@
-//! What can go wrong between entities and cables.
+//! The error type of this crate.
 
 use bevy_ecs::entity::Entity;
 use thiserror::Error as ThisError;
@@ -7,25 +7,42 @@ use thiserror::Error as ThisError;
 #[derive(Clone, Debug, PartialEq, ThisError)]
 #[non_exhaustive]
 pub enum Error {
-    /// A cable that is not built: see [`Cable::failure`](crate::Cable::failure).
-    #[error("the cable is not built")]
-    NotBuilt,
+    /// An entity without a [`Cable`](crate::Cable), or one that was spawned before
+    /// [`install`](crate::install) and waits for the first host step.
+    #[error("entity {0} has no cable")]
+    NotACable(Entity),
+    /// A cable whose description cannot be built.
+    #[error("the cable of entity {entity} could not be built: {reason}")]
+    NotBuilt {
+        /// The entity of the cable.
+        entity: Entity,
+        /// Why it could not be built.
+        reason: lariat_ancf::Error,
+    },
+    /// An attachment to an entity without a body.
+    #[error("entity {0} has no body")]
+    NotABody(Entity),
     /// From the mechanics of a cable.
     #[error(transparent)]
     Cable(#[from] lariat_ancf::Error),
     /// From the coupling to bodies.
     #[error(transparent)]
     Coupling(#[from] lariat_rapier::Error),
-    /// An attachment to an entity that is no cable.
-    #[error("entity {0} is no cable")]
-    NotACable(Entity),
-    /// An attachment to an entity that is no body.
-    #[error("entity {0} is no body")]
-    NotABody(Entity),
-    /// From the engine that steps the bodies.
-    #[error("{0}")]
-    Engine(String),
+    /// A host engine that takes several Rapier steps between [`BeforeEngine`](crate::BeforeEngine)
+    /// and [`AfterEngine`](crate::AfterEngine).
+    #[error("the host engine is set to {substeps} substeps, cables need 1: shorten the time step instead")]
+    Substeps {
+        /// Rapier steps per host step.
+        substeps: usize,
+    },
+    /// A host engine that takes a varying number of Rapier steps between
+    /// [`BeforeEngine`](crate::BeforeEngine) and [`AfterEngine`](crate::AfterEngine).
+    #[error(
+        "the host engine takes a varying number of steps per frame, cables need one: use a fixed time step without substeps \
+         in a fixed schedule"
+    )]
+    VaryingSteps,
     /// The schedules and resources of [`install`](crate::install) are missing.
-    #[error("no cables in this world: call lariat_bevy::install first")]
+    #[error("this world has no cables: call lariat_bevy::install first")]
     NotInstalled,
 }

@@ -1,4 +1,5 @@
-//! What happens to cables and attachments: each is a message to read, and an entity event to observe.
+//! Events of cables and attachments. Each is sent twice: as a message to read, and as an entity
+//! event to observe.
 
 use crate::error::Error;
 use bevy_ecs::entity::Entity;
@@ -6,130 +7,128 @@ use bevy_ecs::event::EntityEvent;
 use bevy_ecs::message::{Message, Messages};
 use bevy_ecs::world::World;
 
-/// The description of a cable, or a change of its effects, is not possible. A cable that was built goes on as it was.
+/// The description of a cable, or a change of its effects, is not possible. A cable that was built
+/// keeps its previous effects.
 #[derive(EntityEvent, Message, Clone, Debug, PartialEq)]
 pub struct CableFailed {
     /// The cable.
     pub entity: Entity,
-    /// Why.
+    /// The cause.
     pub error: lariat_ancf::Error,
 }
 
-/// The host step was refused: time stands still, cables and bodies are as after the last step that could be done. Comes again each
-/// step until the cause is gone. Triggered for every cable that is connected to the culprit.
+/// A host step failed: no body and no cable advances, and all keep the state after the last
+/// successful Rapier step. Sent again at each host step until the cause is removed, for every cable
+/// that is connected to it.
 #[derive(EntityEvent, Message, Clone, Debug, PartialEq)]
-pub struct StepRefused {
-    /// The cable; [`Entity::PLACEHOLDER`] if the cause is no cable's.
+pub struct StepFailed {
+    /// The cable; [`Entity::PLACEHOLDER`] if the cause does not lie in a cable.
     pub entity: Entity,
-    /// Why: with the cable's name, the time and the value.
+    /// The cause, with the name of the cable, the time and the value.
     pub error: Error,
 }
 
-/// A cable and the bodies that it holds came to rest and sleep.
+/// A cable and the bodies attached to it fell asleep.
 #[derive(EntityEvent, Message, Clone, Debug, PartialEq)]
 pub struct CableAsleep {
     /// The cable.
     pub entity: Entity,
 }
 
-/// A cable was woken.
+/// A cable woke up.
 #[derive(EntityEvent, Message, Clone, Debug, PartialEq)]
 pub struct CableAwake {
     /// The cable.
     pub entity: Entity,
 }
 
-/// A cable parted because its tension grew beyond [`BreakTension`](crate::BreakTension).
+/// A cable broke because its tension exceeded [`BreakTension`](crate::BreakTension).
 #[derive(EntityEvent, Message, Clone, Debug, PartialEq)]
 pub struct CableBroken {
-    /// The cable: what is before the break.
+    /// The cable, which is now the part before the break.
     pub entity: Entity,
-    /// A new entity: the rest.
+    /// A new entity: the part behind the break.
     pub rest: Entity,
-    /// Where it broke, in m along the unstretched cable: its length from now on.
+    /// Arc length of the break in m, unstretched: the new length of the cable.
     pub arc_length: f64,
-    /// The tension in N that broke it.
+    /// The tension in N at which it broke.
     pub tension: f64,
 }
 
-/// Why an attachment ended.
+/// Reason why an attachment ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum End {
-    /// The body went away, or is no body any more.
+pub enum EndReason {
+    /// The body was removed.
     BodyGone,
-    /// The user let go: the entity is no longer an attachment to this body.
+    /// The user removed the attachment, its cable or its body relationship; the entity stays.
     Released,
-    /// The force grew beyond [`BreakForce`](crate::BreakForce).
+    /// The force exceeded [`BreakForce`](crate::BreakForce).
     Broken,
 }
 
-/// An attachment ended, and its cable goes on free. Its entity is despawned after this, but for [`End::Released`]. Not sent where the cable
-/// itself goes away.
+/// An attachment ended, and the cable is free there. Its entity is despawned after this event,
+/// except for [`EndReason::Released`]. Not sent when the cable itself is removed.
 #[derive(EntityEvent, Message, Clone, Debug, PartialEq)]
 pub struct AttachmentEnded {
     /// The attachment.
     pub entity: Entity,
     /// Its cable.
     pub cable: Entity,
-    /// The body it held to; none for the world.
+    /// The body it was attached to; `None` for the world.
     pub body: Option<Entity>,
-    /// Why.
-    pub end: End,
+    /// Why it ended.
+    pub reason: EndReason,
 }
 
-/// An attachment cannot be made. It is tried again when one of its components changes.
+/// An attachment cannot be made. It is tried again when one of its components changes, or when a
+/// cable is spawned.
 #[derive(EntityEvent, Message, Clone, Debug, PartialEq)]
 pub struct AttachmentFailed {
     /// The attachment.
     pub entity: Entity,
-    /// Why.
+    /// The cause.
     pub error: Error,
-}
-
-/// An event that waits to be sent.
-#[derive(Clone, Debug)]
-pub(crate) enum Notice {
-    Failed(CableFailed),
-    Refused(StepRefused),
-    Asleep(CableAsleep),
-    Awake(CableAwake),
-    Broken(CableBroken),
-    Ended(AttachmentEnded),
-    NotAttached(AttachmentFailed),
-}
-
-impl Notice {
-    /// Writes the message and runs the observers.
-    pub fn send(self, world: &mut World) {
-        fn both<E>(world: &mut World, event: E)
-        where
-            E: Message + Clone + for<'a> EntityEvent<Trigger<'a>: Default>,
-        {
-            world.write_message(event.clone());
-            world.trigger(event);
-        }
-        match self {
-            Notice::Failed(event) => both(world, event),
-            Notice::Refused(event) => both(world, event),
-            Notice::Asleep(event) => both(world, event),
-            Notice::Awake(event) => both(world, event),
-            Notice::Broken(event) => both(world, event),
-            Notice::Ended(event) => both(world, event),
-            Notice::NotAttached(event) => both(world, event),
-        }
-    }
 }
 
 /// Calls `$apply!` with the type of each event.
 macro_rules! for_each_event {
     ($apply:ident) => {
-        $apply!(CableFailed, StepRefused, CableAsleep, CableAwake, CableBroken, AttachmentEnded, AttachmentFailed)
+        $apply!(CableFailed, StepFailed, CableAsleep, CableAwake, CableBroken, AttachmentEnded, AttachmentFailed);
     };
 }
 #[cfg(feature = "bevy_app")]
 pub(crate) use for_each_event;
 
-/// Makes room for the messages.
+macro_rules! queue {
+    ($($event:ident),*) => {
+        /// An event that is sent at the end of the host step.
+        #[derive(Clone, Debug)]
+        pub(crate) enum QueuedEvent {
+            $($event($event)),*
+        }
+
+        impl QueuedEvent {
+            /// Writes the message and runs the observers.
+            pub fn send(self, world: &mut World) {
+                match self {
+                    $(QueuedEvent::$event(event) => {
+                        world.write_message(event.clone());
+                        world.trigger(event);
+                    })*
+                }
+            }
+        }
+
+        $(impl From<$event> for QueuedEvent {
+            fn from(event: $event) -> Self {
+                QueuedEvent::$event(event)
+            }
+        })*
+    };
+}
+for_each_event!(queue);
+
+/// Adds the message queues to a world.
 pub(crate) fn register(world: &mut World) {
     macro_rules! init {
         ($($event:ident),*) => { $( world.init_resource::<Messages<$event>>(); )* };

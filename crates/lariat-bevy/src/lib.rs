@@ -1,15 +1,18 @@
-//! ANCF cables on rapier3d's bodies as components of bevy_ecs.
+//! ANCF cables on rapier3d's bodies, as components of bevy_ecs.
 //!
-//! A cable is an entity, an effect is a component, an attachment is an entity with relationships to its cable and its body.
+//! A cable is an entity, an effect is a component, and an attachment is an entity with
+//! relationships to its cable and its body. The resource [`Cables`] holds the state of all cables.
 //!
 //! ```
 //! use bevy_ecs::prelude::*;
 //! use lariat_bevy::rapier::prelude::ColliderBuilder;
-//! use lariat_bevy::{At, Attachment, AttachmentReading, Bending, Body, BodyPose, Cable, Damping};
+//! use lariat_bevy::{At, Attachment, AttachmentReading, Bending, Body, BodyPose, Cable};
+//! use lariat_bevy::{Cables, Damping};
 //!
 //! let mut world = World::new();
 //! lariat_bevy::install(&mut world);
-//! let crate_ = world.spawn(Body::dynamic().at([0.0, -2.1, 0.0]).with(ColliderBuilder::cuboid(0.1, 0.1, 0.1).mass(50.0))).id();
+//! let cube = ColliderBuilder::cuboid(0.1, 0.1, 0.1).mass(50.0);
+//! let crate_ = world.spawn(Body::dynamic().at([0.0, -2.1, 0.0]).with(cube)).id();
 //! let rope = world.spawn((
 //!     Cable::steel_rope(0.006).between([0.0, 0.0, 0.0], [0.0, -2.0, 0.0]),
 //!     Bending,
@@ -21,42 +24,65 @@
 //! for _ in 0..480 {
 //!     lariat_bevy::advance(&mut world, 1.0 / 60.0); // s
 //! }
+//! let weight = 50.0 * 9.81; // N
 //! let pull = world.get::<AttachmentReading>(hook).unwrap().force.y;
-//! assert!((pull - 50.0 * 9.81).abs() < 5.0, "{pull} N"); // the crate hangs
+//! assert!((pull - weight).abs() < 5.0, "{pull} N");
+//! let tension = world.resource::<Cables>().get(rope)?.sample(1.0)?.tension;
+//! assert!((tension - weight).abs() < 5.0, "{tension} N");
 //! assert!((world.get::<BodyPose>(crate_).unwrap().position.y + 2.1).abs() < 1e-3);
+//! # Ok::<(), lariat_bevy::Error>(())
 //! ```
 //!
-//! | to | look at |
+//! | to | see |
 //! |---|---|
-//! | make a cable | [`Cable`], [`Rule`], and the effects [`Bending`], [`Damping`], [`Drag`], [`Buoyancy`], [`RestShape`], [`LineLoads`], [`PointLoads`], [`GravityScale`] |
-//! | hold it | [`Attachment`], [`OnCable`], [`ToBody`], [`BreakForce`], [`BreakTension`]; read [`AttachmentReading`] |
-//! | make bodies | [`Body`], [`KinematicTarget`]; read [`BodyPose`], [`Bodies`] |
+//! | describe a cable | [`Cable`], [`Rule`], and the effects [`Bending`], [`Damping`], [`Drag`], [`Buoyancy`], [`RestShape`], [`LineLoads`], [`PointLoads`], [`GravityScale`] |
+//! | read or change its state | [`Cables`] |
+//! | attach it | [`Attachment`], [`OnCable`], [`ToBody`], [`AttachmentReading`] |
+//! | let it break | [`BreakForce`], [`BreakTension`] |
+//! | make bodies | [`Body`], [`KinematicTarget`], [`BodyPose`], [`Bodies`] |
 //! | step | [`advance`], or [`CableStep`] in a schedule of your own; with feature `bevy_app` the plugin |
-//! | put systems between | [`CableSystems`] |
-//! | be told | [`event`] |
-//! | draw | [`Cable::curve`], [`Interpolate`] |
-//! | know the cost | [`Diagnostics`] |
+//! | order systems against the stages of a step | [`CableSystems`] |
+//! | react to events | [`event`] |
+//! | draw | [`curve()`], [`Interpolate`] |
+//! | measure the cost | [`Diagnostics`] |
 //! | roll back | [`Snapshot`] |
 //!
-//! Features: `bevy_app` (a plugin), `reflect` (effects register with bevy_reflect).
+//! Features: `bevy_app` (a plugin), `reflect` (components of effects register with bevy_reflect).
 //!
-//! *Determinism.* Systems that step run one after the other, cables in an order that does not depend on that of spawning, so neither the
-//! number of threads nor the order of spawning within a frame changes a bit.
+//! # Determinism
 //!
-//! *Limits.* The cable of a disabled entity goes on. `Entity` numbers do not survive a [`Snapshot`] that brings despawned entities back. A refused step stops the whole world,
-//! not only the cables that it concerns.
+//! The systems of a step run one after the other, and the order of cables in it does not depend on
+//! the order of spawning. Neither the number of threads nor the order of spawning within a frame
+//! changes a bit of the result.
+//!
+//! # Limits
+//!
+//! - No contact of cables with bodies or with each other, no cables joined to each other, and no
+//!   reel: the unstretched length of a cable is constant.
+//! - If one step fails, no body and no cable of the world advances until the cause is removed: see
+//!   [`StepFailed`](event::StepFailed).
+//! - On the bodies of another plugin ([`BeforeEngine`], [`AfterEngine`]; crate
+//!   `lariat-bevy-rapier`) a host step is one Rapier step, so that taut cables on light bodies in
+//!   contact need a short one.
+//! - The cable of a disabled entity is stepped like any other.
+//! - Restoring a [`Snapshot`] spawns despawned entities again under new numbers.
 
 mod attachment;
 mod body;
 mod breaking;
 mod cable;
+mod cables;
 mod clock;
+mod components;
+mod description;
 mod diagnostics;
 mod effects;
 mod error;
 pub mod event;
+mod install;
 mod interpolate;
-mod plan;
+mod pending;
+mod physics;
 #[cfg(feature = "bevy_app")]
 mod plugin;
 mod point;
@@ -65,7 +91,6 @@ mod publish;
 mod schedule;
 mod snapshot;
 mod step;
-mod world;
 
 pub use attachment::{
     Attachment, AttachmentDraft, AttachmentReading, BodyAttachments, BreakForce, CableAttachments, OnCable, ToBody,
@@ -73,17 +98,19 @@ pub use attachment::{
 };
 pub use body::{Bodies, Body, BodyHandle, BodyPose, KinematicTarget};
 pub use breaking::BreakTension;
-pub use cable::{Cable, CableSample};
+pub use cable::Cable;
+pub use cables::Cables;
 pub use clock::{FixedClock, advance};
 pub use diagnostics::{Diagnostics, Times};
-pub use effects::{Bending, Buoyancy, Damping, Drag, GravityScale, LineLoads, PointLoads, RestShape, Rule};
+pub use effects::*;
 pub use error::Error;
-pub use interpolate::Interpolate;
-pub use lariat_ancf::{self, At};
+pub use install::install;
+pub use interpolate::{Interpolate, curve};
+pub use lariat_ancf::{self, At, Fidelity};
 pub use lariat_rapier::{self, AttachmentKind, Settings, rapier};
+pub use physics::Physics;
 #[cfg(feature = "bevy_app")]
 pub use plugin::{LariatPlugin, install_in};
 pub use point::Point;
-pub use schedule::{AfterEngine, BeforeEngine, CableStep, CableSystems, RapierStep, install};
+pub use schedule::{AfterEngine, BeforeEngine, CableStep, CableSystems, RapierStep};
 pub use snapshot::Snapshot;
-pub use world::{Cables, Physics};

@@ -1,7 +1,8 @@
-//! A plugin for apps.
+//! The plugin for apps.
 
 use crate::event::*;
-use crate::schedule::{CableStep, install};
+use crate::install::install;
+use crate::schedule::CableStep;
 use bevy_app::{App, FixedUpdate, Plugin};
 use bevy_ecs::intern::Interned;
 use bevy_ecs::schedule::ScheduleLabel;
@@ -20,13 +21,14 @@ impl Default for LariatPlugin {
 }
 
 impl LariatPlugin {
-    /// Steps in another schedule.
+    /// Steps once in each run of `schedule`.
     pub fn in_schedule(schedule: impl ScheduleLabel) -> Self {
         LariatPlugin { schedule: schedule.intern() }
     }
 }
 
-/// Adds resources, messages, schedules and types, and no system: for plugins that step with an engine of their own.
+/// Adds resources, messages, schedules and registered types, but no system: for plugins that step
+/// with an engine of their own.
 pub fn install_in(app: &mut App) {
     macro_rules! add {
         ($($event:ident),*) => { $( app.add_message::<$event>(); )* };
@@ -34,7 +36,7 @@ pub fn install_in(app: &mut App) {
     for_each_event!(add);
     install(app.world_mut());
     #[cfg(feature = "reflect")]
-    crate::effects::register(app);
+    crate::components::register(app);
 }
 
 impl Plugin for LariatPlugin {

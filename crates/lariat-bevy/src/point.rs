@@ -1,9 +1,11 @@
-//! Points and vectors as users have them.
+//! Conversion of points and vectors from the types that users have.
 
 use lariat_ancf::Vector3;
+use lariat_rapier::convert::vector;
 use lariat_rapier::rapier::math::Vector;
 
-/// A point or vector: from arrays of `f32` or `f64`, nalgebra's vectors, or rapier's (which are those of glam, and so of Bevy).
+/// A point or vector: from arrays of `f32` or `f64`, nalgebra's vectors, or Rapier's (which are
+/// those of glam, and so of Bevy).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Point(pub Vector3<f64>);
 
@@ -27,16 +29,6 @@ impl From<Vector3<f64>> for Point {
 
 impl From<Vector> for Point {
     fn from(p: Vector) -> Self {
-        [p.x, p.y, p.z].into()
+        Point(vector(p))
     }
-}
-
-/// For rapier, in its precision.
-pub(crate) fn to_vector(v: &Vector3<f64>) -> Vector {
-    Vector::new(v.x as f32, v.y as f32, v.z as f32)
-}
-
-/// From rapier.
-pub(crate) fn from_vector(v: Vector) -> Vector3<f64> {
-    Point::from(v).0
 }

@@ -1,109 +1,103 @@
-//! After a host step: readings, poses, counts, and events.
+//! The stage after a host step: readings, poses, counters and events.
 
-use crate::attachment::{AttachmentReading, BreakForce, Holds};
+use crate::attachment::{Attached, AttachmentReading, BreakForce};
 use crate::body::{BodyHandle, BodyPose};
+use crate::cables::Cables;
 use crate::diagnostics::{Diagnostics, Stage};
-use crate::event::{AttachmentEnded, CableAsleep, CableAwake, End, Notice};
-use crate::world::{AllCables, Cables, Physics, bring_home, lend_out};
+use crate::event::{AttachmentEnded, CableAsleep, CableAwake, EndReason, QueuedEvent};
+use crate::physics::Physics;
 use bevy_ecs::prelude::{DetectChangesMut, Query, Res, ResMut};
 use bevy_ecs::world::World;
 use lariat_rapier::Event;
-use std::time::Instant;
 
-/// What passed through attachments; those that were pulled too hard break.
-pub(crate) fn read_attachments(
-    mut cables: ResMut<Cables>,
-    mut physics: ResMut<Physics>,
-    mut of: AllCables,
-    mut readings: Query<(&mut AttachmentReading, Option<&BreakForce>)>,
-    mut diagnostics: ResMut<Diagnostics>,
-) {
-    let start = Instant::now();
-    let cables = &mut *cables;
-    for event in cables.set.take_events() {
-        let notice = match &event {
-            Event::Asleep(cable) => {
-                cables.links.cables.get(cable).map(|&entity| Notice::Asleep(CableAsleep { entity }))
-            }
-            Event::Awake(cable) => cables.links.cables.get(cable).map(|&entity| Notice::Awake(CableAwake { entity })),
-            Event::AttachmentEnded { attachment, .. } => cables.links.attachments.remove(attachment).map(|bound| {
-                let (entity, cable, body) = (bound.entity, bound.cable, bound.body);
-                Notice::Ended(AttachmentEnded { entity, cable, body, end: End::BodyGone })
+/// Translates the events of the set.
+pub(crate) fn read_events(mut cables: ResMut<Cables>) {
+    let Cables { set, links, events, .. } = &mut *cables;
+    for event in set.take_events() {
+        let translated: Option<QueuedEvent> = match event {
+            Event::Asleep(cable) => links.cables.get(&cable).map(|link| CableAsleep { entity: link.entity }.into()),
+            Event::Awake(cable) => links.cables.get(&cable).map(|link| CableAwake { entity: link.entity }.into()),
+            Event::AttachmentEnded { attachment, .. } => links.attachments.remove(&attachment).map(|link| {
+                let (entity, cable, body) = (link.entity, link.cable, link.body);
+                AttachmentEnded { entity, cable, body, reason: EndReason::BodyGone }.into()
             }),
             _ => None,
         };
-        cables.notices.extend(notice);
+        events.extend(translated);
     }
+}
+
+/// Reads the attachments, and ends those whose force exceeds their limit.
+pub(crate) fn read_attachments(
+    mut cables: ResMut<Cables>,
+    mut physics: ResMut<Physics>,
+    mut readings: Query<(&mut AttachmentReading, Option<&BreakForce>)>,
+    mut diagnostics: ResMut<Diagnostics>,
+) {
+    diagnostics.start();
     let mut broken = Vec::new();
-    let Cables { set, links, .. } = &mut *cables;
-    for (handle, bound) in &mut links.attachments {
-        let (Ok(attachment), Ok((mut reading, limit))) = (set.attachment(*handle), readings.get_mut(bound.entity))
+    let Cables { set, links, events, .. } = &mut *cables;
+    for (handle, link) in &mut links.attachments {
+        let (Ok(attachment), Ok((mut reading, limit))) = (set.attachment(*handle), readings.get_mut(link.entity))
         else {
             continue;
         };
-        diagnostics.interface_work += attachment.work() - bound.counted;
-        bound.counted = attachment.work();
-        let force = attachment.force();
-        let now =
-            AttachmentReading { force, moment: attachment.moment(), gap: attachment.gap(), work: attachment.work() };
-        reading.set_if_neq(now);
-        if limit.is_some_and(|limit| force.norm() > limit.0) {
+        let now = *attachment.reading();
+        diagnostics.interface_work += now.work - link.counted;
+        link.counted = now.work;
+        reading.set_if_neq(AttachmentReading(now));
+        if limit.is_some_and(|limit| now.force.norm() > limit.0) {
             broken.push(*handle);
         }
     }
-    if !broken.is_empty() {
-        bring_home(cables, &mut of);
-        for handle in broken {
-            let Some(bound) = cables.links.attachments.remove(&handle) else { continue };
-            let _ = cables.set.detach(&mut physics, handle);
-            let (entity, cable, body) = (bound.entity, bound.cable, bound.body);
-            cables.notices.push(Notice::Ended(AttachmentEnded { entity, cable, body, end: End::Broken }));
-        }
-        lend_out(cables, &mut of);
+    for handle in broken {
+        let Some(link) = links.attachments.remove(&handle) else { continue };
+        // it was read above, so it exists
+        let _ = set.detach(&mut physics, handle);
+        let (entity, cable, body) = (link.entity, link.cable, link.body);
+        events.push(AttachmentEnded { entity, cable, body, reason: EndReason::Broken }.into());
     }
-    diagnostics.spent(Stage::Publish, start);
+    diagnostics.stop(Stage::Publish);
 }
 
-/// What cables did, and that they moved.
-pub(crate) fn count(mut of: AllCables, mut diagnostics: ResMut<Diagnostics>) {
-    for mut cable in &mut of {
-        let Ok(core) = cable.core() else { continue };
-        let (rule, now) = (core.rule(), *core.diagnostics());
-        let done = now.since(&cable.counted);
-        if !cable.is_asleep() {
-            cable.set_changed();
-        }
+/// Adds up the counters of cables.
+pub(crate) fn count(mut cables: ResMut<Cables>, mut diagnostics: ResMut<Diagnostics>) {
+    let Cables { set, links, .. } = &mut *cables;
+    for (handle, link) in &mut links.cables {
+        let Ok(cable) = set.get(*handle) else { continue };
+        let now = *cable.diagnostics();
+        let done = now.since(&link.counted);
         if done != lariat_ancf::Diagnostics::default() {
-            diagnostics.count(rule, &done);
-            cable.bypass_change_detection().counted = now;
+            diagnostics.count(cable.rule(), &done);
+            link.counted = now;
         }
     }
 }
 
-/// Where bodies are.
+/// Reads the poses of bodies.
 pub(crate) fn read_bodies(physics: Res<Physics>, mut poses: Query<(&BodyHandle, &mut BodyPose)>) {
     for (body, mut pose) in &mut poses {
         let Some(rigid) = physics.bodies.get(body.handle) else { continue };
         let mut now = *pose;
-        now.follow(rigid, false);
+        now.read(rigid, false);
         pose.set_if_neq(now);
     }
 }
 
-/// Sends events; attachments that ended are despawned after theirs.
+/// Sends events; attachments that ended are despawned after theirs, unless the user released them.
 pub(crate) fn send(world: &mut World) {
-    let notices = core::mem::take(&mut world.resource_mut::<Cables>().notices);
-    for notice in notices {
-        let ended = match &notice {
-            Notice::Ended(event) => Some((event.entity, event.end)),
+    let events = core::mem::take(&mut world.resource_mut::<Cables>().events);
+    for event in events {
+        let ended = match &event {
+            QueuedEvent::AttachmentEnded(event) => Some((event.entity, event.reason)),
             _ => None,
         };
-        notice.send(world);
-        if let Some((entity, end)) = ended
+        event.send(world);
+        if let Some((entity, reason)) = ended
             && let Ok(mut entity) = world.get_entity_mut(entity)
         {
-            entity.remove::<Holds>();
-            if end != End::Released {
+            entity.remove::<Attached>();
+            if reason != EndReason::Released {
                 entity.despawn();
             }
         }

@@ -1,114 +1,92 @@
-//! One host step, taken apart into systems.
+//! The systems of one host step.
 
+use crate::cables::Cables;
 use crate::diagnostics::{Diagnostics, Stage};
 use crate::error::Error;
-use crate::event::{Notice, StepRefused};
+use crate::event::StepFailed;
+use crate::physics::Physics;
 use crate::schedule::RapierStep;
-use crate::world::{AllCables, Cables, Physics, bring_home, lend_out};
 use bevy_ecs::entity::Entity;
 use bevy_ecs::prelude::ResMut;
 use bevy_ecs::world::World;
-use std::time::Instant;
+use lariat_rapier::HostStep;
 
-/// Runs [`RapierStep`] as often as a host step has Rapier steps.
-pub(crate) fn advance(world: &mut World) {
-    let begun = begin(world);
-    match begun {
-        Ok(()) => {
-            while world.resource::<Cables>().host.as_ref().is_some_and(lariat_rapier::HostStep::is_unfinished) {
-                world.run_schedule(RapierStep);
-            }
-            finish(world);
-        }
-        Err(error) => refuse(&mut world.resource_mut::<Cables>(), error),
+/// Begins a host step.
+pub(crate) fn begin(mut cables: ResMut<Cables>, mut physics: ResMut<Physics>, mut diagnostics: ResMut<Diagnostics>) {
+    diagnostics.host_steps += 1;
+    match cables.set.begin(&mut physics) {
+        Ok(host) => cables.host = Some(host),
+        Err(error) => report(&mut cables, error),
     }
-    world.resource_mut::<Diagnostics>().host_steps += 1;
-}
-
-fn begin(world: &mut World) -> Result<(), lariat_rapier::Error> {
-    world.resource_scope(|world, mut cables: bevy_ecs::change_detection::Mut<Cables>| {
-        let host = cables.set.begin(&mut world.resource_mut::<Physics>())?;
-        cables.host = Some(host);
-        Ok(())
-    })
 }
 
 /// Begins a host step that is one Rapier step.
-pub(crate) fn begin_one(world: &mut World) {
-    let mut cables = world.resource_mut::<Cables>();
-    (cables.set.settings.rapier_steps, cables.set.settings.most_rapier_steps) = (1, 1);
-    if let Err(error) = begin(world) {
-        refuse(&mut world.resource_mut::<Cables>(), error);
-    }
-    world.resource_mut::<Diagnostics>().host_steps += 1;
+pub(crate) fn begin_single(mut cables: ResMut<Cables>, physics: ResMut<Physics>, diagnostics: ResMut<Diagnostics>) {
+    (cables.set.settings.rapier_steps, cables.set.settings.max_rapier_steps) = (1, 1);
+    begin(cables, physics, diagnostics);
 }
 
-pub(crate) fn finish(world: &mut World) {
-    world.resource_scope(|world, mut cables: bevy_ecs::change_detection::Mut<Cables>| {
-        if let Some(host) = cables.host.take() {
-            cables.set.finish(&mut world.resource_mut::<Physics>(), host);
-        }
-    });
-}
-
-/// Tells the cables that a refused step concerns.
-fn refuse(cables: &mut Cables, error: lariat_rapier::Error) {
-    let culprits: Vec<Entity> =
-        cables.set.refused().iter().filter_map(|handle| cables.links.cables.get(handle)).copied().collect();
-    let culprits = if culprits.is_empty() { vec![Entity::PLACEHOLDER] } else { culprits };
-    for entity in culprits {
-        cables.notices.push(Notice::Refused(StepRefused { entity, error: Error::Coupling(error.clone()) }));
+/// Runs [`RapierStep`] until the host step is complete or has failed.
+pub(crate) fn run_rapier_steps(world: &mut World) {
+    while world.resource::<Cables>().host.as_ref().is_some_and(HostStep::is_unfinished) {
+        world.run_schedule(RapierStep);
     }
 }
 
-/// Integrates cables and their bodies over the next Rapier step, and hands the motion over.
-pub(crate) fn predict(
-    mut cables: ResMut<Cables>,
-    mut physics: ResMut<Physics>,
-    mut of: AllCables,
-    mut diagnostics: ResMut<Diagnostics>,
-) {
-    let start = Instant::now();
+/// Ends a host step.
+pub(crate) fn finish(mut cables: ResMut<Cables>, mut physics: ResMut<Physics>) {
+    if let Some(host) = cables.host.take() {
+        cables.set.finish(&mut physics, host);
+    }
+}
+
+/// Queues [`StepFailed`] for every cable of the island that failed.
+fn report(cables: &mut Cables, error: lariat_rapier::Error) {
+    let Cables { set, links, events, .. } = cables;
+    let failed = set.failed_cables().iter().filter_map(|handle| links.cables.get(handle)).map(|link| link.entity);
+    let mut failed: Vec<Entity> = failed.collect();
+    if failed.is_empty() {
+        failed.push(Entity::PLACEHOLDER);
+    }
+    for entity in failed {
+        events.push(StepFailed { entity, error: Error::Coupling(error.clone()) }.into());
+    }
+}
+
+/// Integrates cables with their bodies over the next Rapier step, and applies the motion to
+/// Rapier's bodies.
+pub(crate) fn predict(mut cables: ResMut<Cables>, mut physics: ResMut<Physics>, mut diagnostics: ResMut<Diagnostics>) {
+    diagnostics.start();
     let cables = &mut *cables;
-    bring_home(cables, &mut of);
-    if let Some(mut host) = cables.host.take() {
-        let outcome = cables.set.predict_next(&mut physics, &mut host);
-        cables.host = Some(host);
-        if let Err(error) = outcome {
-            diagnostics.refused_steps += 1;
-            refuse(cables, error);
-        }
+    if let Some(host) = &mut cables.host
+        && let Err(error) = cables.set.predict_next(&mut physics, host)
+    {
+        diagnostics.failed_steps += 1;
+        report(cables, error);
     }
-    lend_out(cables, &mut of);
-    diagnostics.spent(Stage::Predict, start);
+    diagnostics.stop(Stage::Predict);
 }
 
-/// Rapier's own step; not run where the prediction was refused.
+/// Steps Rapier, unless the prediction failed.
 pub(crate) fn engine(cables: ResMut<Cables>, mut physics: ResMut<Physics>, mut diagnostics: ResMut<Diagnostics>) {
-    if cables.host.as_ref().is_some_and(lariat_rapier::HostStep::is_refused) {
+    if cables.host.as_ref().is_some_and(HostStep::has_failed) {
         return;
     }
-    let start = Instant::now();
+    diagnostics.start();
     physics.step();
-    diagnostics.spent(Stage::Engine, start);
+    diagnostics.stop(Stage::Engine);
 }
 
-/// Settles bodies and cables.
+/// Reconciles bodies and cables, unless the prediction failed.
 pub(crate) fn reconcile(
     mut cables: ResMut<Cables>,
     mut physics: ResMut<Physics>,
-    mut of: AllCables,
     mut diagnostics: ResMut<Diagnostics>,
 ) {
-    let start = Instant::now();
-    let cables = &mut *cables;
-    if cables.host.as_ref().is_some_and(lariat_rapier::HostStep::is_refused) {
+    if cables.host.as_ref().is_some_and(HostStep::has_failed) {
         return;
     }
-    bring_home(cables, &mut of);
-    if let Err(error) = cables.set.reconcile(&mut physics) {
-        refuse(cables, error);
-    }
-    lend_out(cables, &mut of);
-    diagnostics.spent(Stage::Reconcile, start);
+    diagnostics.start();
+    cables.set.reconcile(&mut physics);
+    diagnostics.stop(Stage::Reconcile);
 }

@@ -1,4 +1,4 @@
-//! Why a figure could not be made.
+//! Errors of drawing and saving a figure.
 
 use std::path::PathBuf;
 
@@ -6,23 +6,23 @@ use std::path::PathBuf;
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
-    /// A file that cannot be written.
+    /// A file cannot be written.
     #[error("cannot write to {}: {source}", path.display())]
     Write {
         /// The file.
         path: PathBuf,
-        /// Why.
+        /// The error of the operating system.
         source: std::io::Error,
     },
-    /// A figure that the plotting library could not draw.
-    #[error("cannot draw {}: {reason}", path.display())]
+    /// A figure cannot be drawn.
+    #[error("cannot draw the figure {figure:?}: {reason}")]
     Draw {
-        /// The file.
-        path: PathBuf,
-        /// Why.
+        /// Title of the figure.
+        figure: String,
+        /// What the plotting library reported, or what is missing.
         reason: String,
     },
-    /// The cable of a figure could not be built or stepped.
+    /// The cable of a figure cannot be built or stepped.
     #[error(transparent)]
     Mechanics(#[from] lariat_ancf::Error),
 }

@@ -1,4 +1,5 @@
-//! A logarithmic axis: values are logarithms to base 10, ticks are powers of ten, and 2 and 5 times them where there is room.
+//! A logarithmic axis: values are logarithms to base 10; ticks are powers of ten, and 2 and 5 times
+//! them where there is room.
 
 use plotters::coord::ranged1d::{KeyPointHint, NoDefaultFormatting, Ranged, ValueFormatter};
 
@@ -7,24 +8,25 @@ use plotters::coord::ranged1d::{KeyPointHint, NoDefaultFormatting, Ranged, Value
 pub struct LogAxis {
     from: f64,
     to: f64,
-    /// Ticks at 2 and 5 too.
+    /// Whether ticks are drawn at 2 and 5 too.
     fine: bool,
 }
 
 impl LogAxis {
-    /// From one logarithm to another, with ticks at powers of ten alone.
+    /// Returns an axis from one logarithm to another, with ticks at powers of ten alone.
     pub fn decades(from: f64, to: f64) -> Self {
         LogAxis { from, to, fine: false }
     }
 
-    /// Around positive values, with some room at both ends; ticks at 2 and 5 if less than three decades are shown.
+    /// Returns an axis around positive values with a margin of 6 %, and with ticks at 2 and 5 below
+    /// three decades.
     pub fn around(values: impl Iterator<Item = f64>) -> Self {
-        let (low, high) = super::range(values.map(f64::log10), 0.5);
-        let room = 0.06 * (high - low);
-        LogAxis { from: low - room, to: high + room, fine: high - low < 3.0 }
+        let (low, high) = crate::style::range(values.map(f64::log10), 0.5);
+        let margin = 0.06 * (high - low);
+        LogAxis { from: low - margin, to: high + margin, fine: high - low < 3.0 }
     }
 
-    /// A tick in words: plain where that is short, else a power of ten.
+    /// Formats a tick: a plain number where that is short, otherwise a power of ten.
     pub fn label(value: f64) -> String {
         let (power, mantissa) = (value.floor(), 10f64.powf(value - value.floor()).round());
         let power = power as i32 + i32::from(mantissa > 9.5);
@@ -63,7 +65,7 @@ impl ValueFormatter<f64> for LogAxis {
     }
 }
 
-/// A whole number in raised digits.
+/// Formats a whole number in superscript digits.
 pub fn superscript(power: i32) -> String {
     const DIGITS: [char; 10] = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
     let digit = |c: char| c.to_digit(10).map_or('⁻', |d| DIGITS[d as usize]);

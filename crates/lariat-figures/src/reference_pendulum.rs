@@ -1,8 +1,12 @@
-//! The falling pendulum of Bulin & Hajzman, and what it should do.
+//! The falling pendulum of Bulin & Hajzman, and its reference solution.
 //!
-//! A square cable of side 0.01 m, 2 m long, E = 1e8 Pa, 4000 kg/m^3, pinned at one end with its slope free, released from
-//! horizontal. *Source of the reference.* The motion of the real beam, Richardson-extrapolated from runs with 80 and 160
-//! elements of an independent solver (double precision, time error below 1e-12 m): `assets/reference/pendulum_converged_tip.csv`.
+//! A square cable of side 0.01 m, 2 m long, E = 1e8 Pa, 4000 kg/m^3, is pinned at one end with its
+//! slope free and released from horizontal.
+//!
+//! # References
+//! The motion of the real beam is Richardson-extrapolated from runs with 80 and 160 elements of an
+//! independent solver in double precision, with a time error below 1e-12 m:
+//! `assets/reference/pendulum_converged_tip.csv`.
 
 use lariat_ancf::{At, Cable, Error, Integrator, Rule, Section, Vector3};
 
@@ -10,15 +14,16 @@ use lariat_ancf::{At, Cable, Error, Integrator, Rule, Section, Vector3};
 pub const LENGTH: f64 = 2.0;
 /// Interval of the reference and of [`Trace::run`] in s.
 pub const INTERVAL: f64 = 0.01;
-/// Samples from 0 to 2 s.
+/// Number of samples from 0 to 2 s.
 pub const SAMPLES: usize = 201;
 
 const BEAM: &str = include_str!("../../../assets/reference/pendulum_converged_tip.csv");
 
-/// The pendulum at rest, horizontal.
+/// Builds the pendulum, at rest and horizontal.
 ///
 /// # Errors
-/// As [`CableBuilder::build`](lariat_ancf::CableBuilder::build), for zero elements or an integrator that cannot do what it should.
+/// As [`CableBuilder::build`](lariat_ancf::CableBuilder::build), for zero elements or an
+/// unsupported step control.
 pub fn cable(rule: Rule, elements: usize, integrator: Integrator) -> Result<Cable, Error> {
     Cable::builder()
         .name(format!("pendulum {rule}"))
@@ -32,7 +37,7 @@ pub fn cable(rule: Rule, elements: usize, integrator: Integrator) -> Result<Cabl
         .build()
 }
 
-/// Tip of the real beam at `k` times [`INTERVAL`], in m.
+/// Returns the tip of the real beam at multiples of [`INTERVAL`], in m.
 pub fn beam() -> Vec<Vector3<f64>> {
     let number = |cell: Option<&str>| cell.and_then(|x| x.parse().ok()).unwrap_or(f64::NAN);
     let position = |line: &str| {
@@ -42,7 +47,7 @@ pub fn beam() -> Vec<Vector3<f64>> {
     BEAM.lines().skip(1).map(position).collect()
 }
 
-/// Tip positions of a run at `k` times [`INTERVAL`], 0 to 2 s.
+/// Tip positions of a run at multiples of [`INTERVAL`], from 0 to 2 s.
 #[derive(Clone, Debug)]
 pub struct Trace {
     /// Tip in m.
@@ -65,12 +70,12 @@ impl Trace {
         Ok(Trace { tip, cable })
     }
 
-    /// Largest distance of the tip from another history, in m.
+    /// Returns the largest distance of the tip from another history, in m.
     pub fn distance(&self, other: &[Vector3<f64>]) -> f64 {
         self.tip.iter().zip(other).map(|(a, b)| (a - b).norm()).fold(0.0, f64::max)
     }
 
-    /// Largest vertical distance of the tip from another history, in m.
+    /// Returns the largest vertical distance of the tip from another history, in m.
     pub fn vertical_distance(&self, other: &[Vector3<f64>]) -> f64 {
         self.tip.iter().zip(other).map(|(a, b)| (a.y - b.y).abs()).fold(0.0, f64::max)
     }

@@ -1,94 +1,56 @@
-//! The tip against time: x and y above, distance from references on a logarithmic axis below.
+//! The tip of a cable against time: x and y above, distances from references on a logarithmic axis
+//! below.
 
-use super::log_axis::{LogAxis, superscript};
-use super::{FONT, GRID, INK, PALETTE, SCALE, failed, large, range, save, shrink};
+use crate::Curve;
 use crate::error::Error;
+use crate::log_axis::{LogAxis, superscript};
+use crate::style::{Area, Fault, GRID, PALETTE, SCALE, fault, font, large, range, render, style_mesh};
 use plotters::coord::ranged1d::{Ranged, ValueFormatter};
 use plotters::coord::types::RangedCoordf64;
 use plotters::prelude::*;
-use std::path::Path;
 
-/// A named curve against time.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Curve {
-    /// Name in the legend.
-    pub name: String,
-    /// Time in s and value.
-    pub points: Vec<(f64, f64)>,
-}
-
-/// What the figure shows.
+/// A figure of two panels against time.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct TipFigure {
     /// Title.
     pub title: String,
-    /// Upper panel: positions in m.
+    /// Upper panel: positions in m against time in s.
     pub positions: Vec<Curve>,
-    /// Lower panel: distances in m, drawn on a logarithmic axis; zeros are left out.
+    /// Lower panel: distances in m against time in s, on a logarithmic axis; zeros are left out.
     pub distances: Vec<Curve>,
 }
 
-/// Size as shown in px.
+/// Displayed size in px.
 const SIZE: (u32, u32) = (900, 780);
-
-fn font(size: i32) -> TextStyle<'static> {
-    (FONT, size * SCALE).into_font().color(&INK)
-}
-
-/// Distances below this are drawn at the lower edge, in m.
+/// Distances below this, in m, are drawn at the lower edge.
 const FLOOR: f64 = 1e-10;
 
-/// Draws the figure into an SVG file.
-///
-/// # Errors
-/// [`Error::Output`] if the file cannot be written, [`Error::Figure`] if it cannot be drawn.
-pub fn tip(path: &Path, figure: &TipFigure) -> Result<(), Error> {
-    save(path, &tip_svg(figure).map_err(|reason| failed(path)(&reason))?)
-}
+impl TipFigure {
+    /// Returns the figure as SVG.
+    ///
+    /// # Errors
+    /// [`Error::Draw`] if the plotting library fails.
+    pub fn svg(&self) -> Result<String, Error> {
+        render(&self.title, SIZE, |root| self.draw(root))
+    }
 
-/// The same as text.
-///
-/// # Errors
-/// What the plotting library says.
-pub fn tip_svg(figure: &TipFigure) -> Result<String, String> {
-    let mut svg = String::new();
-    draw(&mut svg, figure)?;
-    Ok(shrink(&svg, SIZE))
-}
-
-fn draw(svg: &mut String, figure: &TipFigure) -> Result<(), String> {
-    let text = |e: &dyn std::fmt::Display| e.to_string();
-    let root = SVGBackend::with_string(svg, (large(SIZE.0), large(SIZE.1))).into_drawing_area();
-    root.fill(&WHITE).map_err(|e| text(&e))?;
-    root.draw(&Text::new(figure.title.clone(), (74 * SCALE, 14 * SCALE), font(21))).map_err(|e| text(&e))?;
-    let (upper, lower) = root.margin(large(46), large(4), large(4), large(24)).split_vertically(large(370));
-    let times = figure.positions.iter().chain(&figure.distances).flat_map(|c| c.points.iter().map(|p| p.0));
-    let (from, to) = range(times, 1e-3);
-    let (low, high) = range(figure.positions.iter().flat_map(|c| c.points.iter().map(|p| p.1)), 0.1);
-    let margin = 0.06 * (high - low);
-    panel(
-        &upper,
-        from..to,
-        RangedCoordf64::from((low - margin)..(high + margin)),
-        "tip [m]",
-        None,
-        &|y| format!("{y:.1}"),
-        &figure.positions,
-        SeriesLabelPosition::LowerLeft,
-    )?;
-    let logarithms: Vec<Curve> = figure.distances.iter().map(logarithm).collect();
-    let (low, high) = range(logarithms.iter().flat_map(|c| c.points.iter().map(|p| p.1)), 1.0);
-    panel(
-        &lower,
-        from..to,
-        LogAxis::decades(low.floor(), high.ceil()),
-        "distance [m]",
-        Some("t [s]"),
-        &|y| format!("10{}", superscript(y.round() as i32)),
-        &logarithms,
-        SeriesLabelPosition::LowerRight,
-    )?;
-    root.present().map_err(|e| text(&e))
+    fn draw(&self, root: &Area<'_>) -> Result<(), Fault> {
+        root.draw(&Text::new(self.title.clone(), (74 * SCALE, 14 * SCALE), font(21))).map_err(fault)?;
+        let (upper, lower) = root.margin(large(46), large(4), large(4), large(24)).split_vertically(large(370));
+        let times = self.positions.iter().chain(&self.distances).flat_map(|c| c.points.iter().map(|p| p.0));
+        let (from, to) = range(times, 1e-3);
+        let (low, high) = range(self.positions.iter().flat_map(|c| c.points.iter().map(|p| p.1)), 0.1);
+        let margin = 0.06 * (high - low);
+        let y = RangedCoordf64::from((low - margin)..(high + margin));
+        let number = |y: &f64| format!("{y:.1}");
+        panel(&upper, (from..to, y), ["", "tip [m]"], &number, &self.positions, SeriesLabelPosition::LowerLeft)?;
+        let logarithms: Vec<Curve> = self.distances.iter().map(logarithm).collect();
+        let (low, high) = range(logarithms.iter().flat_map(|c| c.points.iter().map(|p| p.1)), 1.0);
+        let y = LogAxis::decades(low.floor(), high.ceil());
+        let power = |y: &f64| format!("10{}", superscript(y.round() as i32));
+        let names = ["t [s]", "distance [m]"];
+        panel(&lower, (from..to, y), names, &power, &logarithms, SeriesLabelPosition::LowerRight)
+    }
 }
 
 fn logarithm(curve: &Curve) -> Curve {
@@ -96,45 +58,37 @@ fn logarithm(curve: &Curve) -> Curve {
     Curve { name: curve.name.clone(), points }
 }
 
-fn panel<'a, Y>(
-    area: &DrawingArea<SVGBackend<'a>, plotters::coord::Shift>,
-    x: std::ops::Range<f64>,
-    y: Y,
-    y_name: &str,
-    x_name: Option<&str>,
+/// Draws one panel; an empty name of the x axis leaves its description out.
+fn panel<Y>(
+    area: &Area<'_>,
+    (x, y): (std::ops::Range<f64>, Y),
+    [x_name, y_name]: [&str; 2],
     y_text: &dyn Fn(&f64) -> String,
     curves: &[Curve],
     legend: SeriesLabelPosition,
-) -> Result<(), String>
+) -> Result<(), Fault>
 where
     Y: Ranged<ValueType = f64> + ValueFormatter<f64>,
 {
-    let text = |e: &dyn std::fmt::Display| e.to_string();
     let mut chart = ChartBuilder::on(area)
         .margin_top(large(10))
-        .x_label_area_size(large(if x_name.is_some() { 58 } else { 34 }))
+        .x_label_area_size(large(if x_name.is_empty() { 34 } else { 58 }))
         .y_label_area_size(large(74))
         .build_cartesian_2d(x, y)
-        .map_err(|e| text(&e))?;
+        .map_err(fault)?;
+    let time = |t: &f64| format!("{t:.1}");
     let mut mesh = chart.configure_mesh();
-    mesh.y_desc(y_name)
-        .axis_desc_style(font(19))
-        .label_style(font(16))
-        .axis_style(INK.stroke_width(large(1)))
-        .bold_line_style(GRID.stroke_width(large(1)))
-        .set_all_tick_mark_size(large(4))
-        .light_line_style(TRANSPARENT)
-        .x_label_formatter(&|t| format!("{t:.1}"))
-        .y_label_formatter(y_text);
-    if let Some(name) = x_name {
-        mesh.x_desc(name);
+    style_mesh(&mut mesh, 19, 16);
+    mesh.y_desc(y_name).x_label_formatter(&time).y_label_formatter(y_text);
+    if !x_name.is_empty() {
+        mesh.x_desc(x_name);
     }
-    mesh.draw().map_err(|e| text(&e))?;
+    mesh.draw().map_err(fault)?;
     for (i, curve) in curves.iter().enumerate() {
         let style = PALETTE[i % PALETTE.len()].stroke_width(large(2));
         chart
             .draw_series(LineSeries::new(curve.points.iter().copied(), style))
-            .map_err(|e| text(&e))?
+            .map_err(fault)?
             .label(curve.name.clone())
             .legend(move |(x, y)| PathElement::new(vec![(x, y), (x + 24 * SCALE, y)], style));
     }
@@ -147,5 +101,5 @@ where
         .background_style(WHITE.mix(0.85))
         .border_style(GRID.stroke_width(large(1)))
         .draw()
-        .map_err(|e| text(&e))
+        .map_err(fault)
 }

@@ -1,121 +1,125 @@
-//! A node of a cable held to a body, and what passes through it.
+//! A node of a cable attached to a body, and the force and moment between them.
 
-use crate::CableHandle;
+use crate::handle::CableHandle;
+use crate::ledger::Ledger;
 use ::nalgebra::Vector3;
 use lariat_ancf::island::PinAccount;
-use rapier::dynamics::{ImpulseJointHandle, RigidBodyHandle};
+use rapier::dynamics::RigidBodyHandle;
 use serde::{Deserialize, Serialize};
 
-/// Names an attachment of a [`CableSet`](crate::CableSet).
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
-pub struct AttachmentHandle(pub(crate) u32);
-
-/// How a node is held.
+/// How a node is attached.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum AttachmentKind {
-    /// Its position: a ball joint.
+    /// A ball joint: the position of the node. It transmits no moment.
     #[default]
     Ball,
-    /// Its position and the direction of its tangent: moments reach the body. The length of the tangent, the stretch, is free; so
-    /// is twist, which these cables do not have.
+    /// The position of the node and the direction of its tangent: moments reach the body. The
+    /// length of the tangent (the stretch) stays free, and so does twist, which these cables do not
+    /// have.
     Clamp,
 }
 
-/// A node of a cable held to a point of a body.
+/// A node of a cable attached to a point of a body.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Attachment {
     pub(crate) cable: CableHandle,
     pub(crate) node: usize,
-    /// Of the node, in m.
+    /// Arc length of the node in m.
     pub(crate) arc_length: f64,
     pub(crate) body: RigidBodyHandle,
     /// Point of the body, in body axes from its origin, in m.
     pub(crate) anchor: Vector3<f64>,
-    /// Of a clamp, the tangent in body axes.
+    /// Direction of the tangent in body axes; `None` for a ball.
     pub(crate) direction: Option<Vector3<f64>>,
     pub(crate) ledger: Option<Ledger>,
-    /// Where the anchor of a body that feels nothing was last, in m.
-    pub(crate) placed: Option<Vector3<f64>>,
-    pub(crate) account: Account,
-    /// The force with which the body's patience to sleep began, in N.
-    pub(crate) steady: Vector3<f64>,
-    /// What passed in the Rapier step that was predicted.
+    /// Last position in m of the anchor on a body with prescribed motion.
+    pub(crate) last_anchor: Option<Vector3<f64>>,
+    pub(crate) reading: AttachmentReading,
+    /// Force in N when the time until sleep last began to count.
+    pub(crate) steady_force: Vector3<f64>,
+    /// Exchange between cable and body in the Rapier step that was predicted.
     #[serde(skip)]
-    pub(crate) passed: PinAccount,
+    pub(crate) predicted: PinAccount,
 }
 
-/// What passed through an attachment.
+/// Force, moment, gap and work at an attachment after a step. World axes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub(crate) struct Account {
+pub struct AttachmentReading {
+    /// Force of the cable on the body at the end of the step in N.
     pub force: Vector3<f64>,
+    /// Moment of the cable on the body about the anchor at the end of the step in N m; zero for a
+    /// ball.
     pub moment: Vector3<f64>,
-    /// Node less anchor, in m.
+    /// Position of the node minus that of the anchor in m.
     pub gap: Vector3<f64>,
+    /// Work of the cable on the body since the attachment was made, in J.
     pub work: f64,
+    /// The part of this work that the cable did not lose, in J: force times the growth of the gap,
+    /// summed over Rapier's steps.
     pub residual: f64,
 }
 
-/// The heavy body and the joint through which a pinned body feels its cable within Rapier's step.
-#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
-pub(crate) struct Ledger {
-    pub body: RigidBodyHandle,
-    pub joint: ImpulseJointHandle,
-}
-
 impl Attachment {
-    /// The cable.
+    /// Returns the cable.
     pub fn cable(&self) -> CableHandle {
         self.cable
     }
 
-    /// The node of the cable.
+    /// Returns the index of the node.
     pub fn node(&self) -> usize {
         self.node
     }
 
-    /// The point of the cable, as arc length in m.
+    /// Returns the arc length of the node in m.
     pub fn arc_length(&self) -> f64 {
         self.arc_length
     }
 
-    /// The body.
+    /// Returns the body.
     pub fn body(&self) -> RigidBodyHandle {
         self.body
     }
 
-    /// How the node is held.
+    /// Returns how the node is attached.
     pub fn kind(&self) -> AttachmentKind {
         if self.direction.is_some() { AttachmentKind::Clamp } else { AttachmentKind::Ball }
     }
 
-    /// The point of the body, in body axes from its origin, in m.
+    /// Returns the point of the body, in body axes from its origin, in m.
     pub fn anchor(&self) -> Vector3<f64> {
         self.anchor
     }
 
-    /// Force of the cable on the body at the end of the last step, in N, world axes.
+    /// Returns force, moment, gap and work after the last step.
+    pub fn reading(&self) -> &AttachmentReading {
+        &self.reading
+    }
+
+    /// Returns the force of the cable on the body at the end of the last step, in N, world axes.
     pub fn force(&self) -> Vector3<f64> {
-        self.account.force
+        self.reading.force
     }
 
-    /// Moment of the cable on the body about the anchor at the end of the last step, in N m, world axes; zero for a ball.
+    /// Returns the moment of the cable on the body about the anchor at the end of the last step, in
+    /// N m, world axes; zero for a ball.
     pub fn moment(&self) -> Vector3<f64> {
-        self.account.moment
+        self.reading.moment
     }
 
-    /// Distance of node and anchor after the last step, in m.
+    /// Returns the distance between node and anchor after the last step, in m.
     pub fn gap(&self) -> f64 {
-        self.account.gap.norm()
+        self.reading.gap.norm()
     }
 
-    /// Work of the cable on the body since the attachment was made, in J.
+    /// Returns the work of the cable on the body since the attachment was made, in J.
     pub fn work(&self) -> f64 {
-        self.account.work
+        self.reading.work
     }
 
-    /// What of this work the cable did not lose, in J: force times the growth of the gap, summed over Rapier's steps.
+    /// Returns the part of this work that the cable did not lose, in J: force times the growth of
+    /// the gap, summed over Rapier's steps.
     pub fn residual(&self) -> f64 {
-        self.account.residual
+        self.reading.residual
     }
 }

@@ -1,55 +1,17 @@
-//! Rapier's bodies as the mechanics sees them, and what is remembered of each between steps.
+//! Rapier's bodies as the mechanics see them, and the settings that a step changes and restores.
 
-use crate::Error;
 use crate::convert::{matrix, rotation, vector};
-use ::nalgebra::Vector3;
-use lariat_ancf::island::{BodyMemory, RigidBody};
-use rapier::dynamics::{LockedAxes, RigidBodyHandle};
-use rapier::math::{AngVector, Pose, Vector};
+use crate::error::{BodyQuantity, Error};
+use crate::record::BodyRecord;
+use crate::spatial::split_spatial;
+use ::nalgebra::{Matrix3, Vector3};
+use lariat_ancf::island::RigidBody;
+use rapier::dynamics::{LockedAxes, RigidBody as RapierBody, RigidBodyHandle};
+use rapier::math::{AngVector, Real, Vector};
 use rapier::pipeline::PhysicsWorld;
-use serde::{Deserialize, Serialize};
 
-/// What the coupling remembers of a body.
-#[derive(Clone, Debug, Serialize, Deserialize)]
-pub(crate) struct Remembered {
-    pub handle: RigidBodyHandle,
-    /// Learnt force of contacts and joints, in N.
-    pub force: Vector3<f64>,
-    /// Learnt torque of contacts and joints, in N m.
-    pub torque: Vector3<f64>,
-    /// The body in `f64`, as long as Rapier's copy is what was written last.
-    pub exact: Option<Exact>,
-}
-
-/// A body's state in `f64` beside the state in Rapier that stands for it.
-#[derive(Clone, Debug, Serialize, Deserialize)]
-pub(crate) struct Exact {
-    pub position: Vector3<f64>,
-    pub rotation: ::nalgebra::UnitQuaternion<f64>,
-    pub velocity: Vector3<f64>,
-    pub spin: Vector3<f64>,
-    /// Its accelerations at the end of the step that made this state.
-    pub accelerations: Option<BodyMemory>,
-    /// Centre of mass in body axes and inverse mass, as Rapier had them.
-    pub centre: Vector,
-    pub inverse_mass: rapier::math::Real,
-    pub pose: Pose,
-    pub linvel: Vector,
-    pub angvel: AngVector,
-}
-
-impl Remembered {
-    pub fn new(handle: RigidBodyHandle) -> Self {
-        Remembered { handle, force: Vector3::zeros(), torque: Vector3::zeros(), exact: None }
-    }
-
-    /// Forgets state and reaction: they belong to a body as it was.
-    pub fn forget(&mut self) {
-        *self = Remembered::new(self.handle);
-    }
-}
-
-/// True if the coupling integrates this body: dynamic, enabled, of finite mass. Others move the cable and feel nothing.
+/// Returns whether the coupling integrates a body: dynamic, enabled, of finite mass. The motion of
+/// others is prescribed to their cables.
 pub(crate) fn is_integrated(world: &PhysicsWorld, handle: RigidBodyHandle) -> bool {
     world
         .bodies
@@ -57,80 +19,133 @@ pub(crate) fn is_integrated(world: &PhysicsWorld, handle: RigidBodyHandle) -> bo
         .is_some_and(|b| b.is_dynamic() && b.is_enabled() && b.mass_properties().local_mprops.inv_mass > 0.0)
 }
 
-/// Reads a body: its mass, its state (in `f64` if Rapier's is what was written last), gravity, the user's and the learnt forces. A
-/// sleeping one stands still.
-pub(crate) fn read(
-    world: &PhysicsWorld,
-    handle: RigidBodyHandle,
-    memory: &Remembered,
-    time: f64,
-) -> Result<RigidBody, Error> {
-    let body = &world.bodies[handle];
+/// Returns a body as Rapier holds it: mass, inertia, state in `f64`, and the forces of gravity and
+/// the user. A body without inertia does not rotate. `None` if it is not in the world.
+pub fn rigid_body(world: &PhysicsWorld, handle: RigidBodyHandle) -> Option<RigidBody> {
+    let body = world.bodies.get(handle)?;
     let properties = body.mass_properties();
     let local = &properties.local_mprops;
     let mass = 1.0 / f64::from(local.inv_mass);
-    let free = properties.flags;
-    let allowed = |axis: LockedAxes| !free.contains(axis);
-    let turns = [
-        allowed(LockedAxes::ROTATION_LOCKED_X),
-        allowed(LockedAxes::ROTATION_LOCKED_Y),
-        allowed(LockedAxes::ROTATION_LOCKED_Z),
-    ];
-    let rigid = local.inv_principal_inertia;
-    let turnable = rigid.x > 0.0 && rigid.y > 0.0 && rigid.z > 0.0;
-    let inertia = if turnable { matrix(&local.reconstruct_inertia_matrix()) } else { ::nalgebra::Matrix3::identity() };
-    let mut out = RigidBody {
+    let allowed = |axis: LockedAxes| !properties.flags.contains(axis);
+    let inverse = local.inv_principal_inertia;
+    let turns = inverse.x > 0.0 && inverse.y > 0.0 && inverse.z > 0.0;
+    Some(RigidBody {
         mass,
-        inertia,
+        inertia: if turns { matrix(&local.reconstruct_inertia_matrix()) } else { Matrix3::zeros() },
         position: vector(body.center_of_mass()),
         rotation: rotation(*body.rotation()),
         velocity: vector(body.linvel()),
         angular_velocity: vector(body.angvel()),
-        force: vector(world.gravity) * mass * f64::from(body.gravity_scale())
-            + vector(body.user_force())
-            + memory.force,
-        torque: vector(body.user_torque()) + memory.torque,
+        force: vector(world.gravity) * mass * f64::from(body.gravity_scale()) + vector(body.user_force()),
+        torque: vector(body.user_torque()),
         free: [
             allowed(LockedAxes::TRANSLATION_LOCKED_X),
             allowed(LockedAxes::TRANSLATION_LOCKED_Y),
             allowed(LockedAxes::TRANSLATION_LOCKED_Z),
-            turns[0] && turnable,
-            turns[1] && turnable,
-            turns[2] && turnable,
+            allowed(LockedAxes::ROTATION_LOCKED_X) && turns,
+            allowed(LockedAxes::ROTATION_LOCKED_Y) && turns,
+            allowed(LockedAxes::ROTATION_LOCKED_Z) && turns,
         ],
         carried: None,
         gyroscopic: body.gyroscopic_forces_enabled(),
         memory: None,
-    };
-    if let Some(exact) = &memory.exact
-        && exact.pose == *body.position()
-        && exact.centre == body.local_center_of_mass()
-        && exact.inverse_mass == local.inv_mass
-    {
-        out.position = exact.position;
-        out.rotation = exact.rotation;
-        let (moves, turns) = (exact.linvel == body.linvel(), exact.angvel == body.angvel());
-        if moves {
-            out.velocity = exact.velocity;
-        }
-        if turns {
-            out.angular_velocity = exact.spin;
-        }
-        out.memory = exact.accelerations.filter(|_| moves && turns);
+    })
+}
+
+/// Reads a body of the world: as [`rigid_body`], with the state in `f64` that its record keeps and
+/// the reaction estimate as a further force. A sleeping body stands still.
+pub(crate) fn read(
+    world: &PhysicsWorld,
+    handle: RigidBodyHandle,
+    record: &BodyRecord,
+    time: f64,
+) -> Result<RigidBody, Error> {
+    let mut out = rigid_body(world, handle).ok_or(Error::NoBody(handle))?;
+    let body = &world.bodies[handle];
+    let (force, torque) = split_spatial(&record.reaction);
+    out.force += force;
+    out.torque += torque;
+    if let Some(exact) = &record.exact {
+        exact.apply_to(body, &mut out);
     }
     if body.is_sleeping() {
         out.free = [false; 6];
         out.velocity = Vector3::zeros();
         out.angular_velocity = Vector3::zeros();
     }
-    let checks: [(&'static str, bool); 4] = [
-        ("position", out.position.iter().chain(out.rotation.coords.iter()).all(|x| x.is_finite())),
-        ("velocity", out.velocity.iter().chain(out.angular_velocity.iter()).all(|x| x.is_finite())),
-        ("force", out.force.iter().chain(out.torque.iter()).all(|x| x.is_finite())),
-        ("mass", mass.is_finite() && out.inertia.iter().all(|x| x.is_finite())),
+    let finite = |v: &Vector3<f64>| v.iter().all(|x| x.is_finite());
+    let checks = [
+        (BodyQuantity::Position, finite(&out.position) && out.rotation.coords.iter().all(|x| x.is_finite())),
+        (BodyQuantity::Velocity, finite(&out.velocity) && finite(&out.angular_velocity)),
+        (BodyQuantity::Force, finite(&out.force) && finite(&out.torque)),
+        (BodyQuantity::Mass, out.mass.is_finite() && out.inertia.iter().all(|x| x.is_finite())),
     ];
-    match checks.iter().find(|(_, ok)| !ok) {
+    match checks.into_iter().find(|(_, finite)| !finite) {
         None => Ok(out),
-        Some((what, _)) => Err(Error::BodyNotFinite { body: handle, what, time }),
+        Some((quantity, _)) => Err(Error::BodyNotFinite { body: handle, quantity, time }),
     }
+}
+
+/// Velocities, forces and settings of a body that a step replaces and restores.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct SavedBody {
+    linvel: Vector,
+    angvel: AngVector,
+    user_force: Vector,
+    user_torque: AngVector,
+    gyroscopic: bool,
+    fast_rotation: bool,
+    linear_damping: Real,
+    angular_damping: Real,
+}
+
+impl SavedBody {
+    /// Saves a body.
+    pub fn of(body: &RapierBody) -> Self {
+        SavedBody {
+            linvel: body.linvel(),
+            angvel: body.angvel(),
+            user_force: body.user_force(),
+            user_torque: body.user_torque(),
+            gyroscopic: body.gyroscopic_forces_enabled(),
+            fast_rotation: body.is_fast_rotation_allowed(),
+            linear_damping: body.linear_damping(),
+            angular_damping: body.angular_damping(),
+        }
+    }
+
+    /// Restores the user's forces and the settings.
+    pub fn restore_settings(&self, body: &mut RapierBody) {
+        body.reset_forces(false);
+        body.reset_torques(false);
+        body.add_force(self.user_force, false);
+        body.add_torque(self.user_torque, false);
+        body.enable_gyroscopic_forces(self.gyroscopic);
+        body.set_allow_fast_rotation(self.fast_rotation);
+        body.set_linear_damping(self.linear_damping);
+        body.set_angular_damping(self.angular_damping);
+    }
+
+    /// Returns the factors by which Rapier's damping multiplies velocity and angular velocity in
+    /// `h` (s).
+    pub fn damping_factors(&self, h: f64) -> (f64, f64) {
+        let factor = |damping: Real| 1.0 / (1.0 + h * f64::from(damping));
+        (factor(self.linear_damping), factor(self.angular_damping))
+    }
+
+    /// Restores the velocities.
+    pub fn restore_velocities(&self, body: &mut RapierBody) {
+        body.set_linvel(self.linvel, false);
+        body.set_angvel(self.angvel, false);
+    }
+}
+
+/// Replaces all forces and torques on a body by `force` and `torque`, and disables its damping.
+pub(crate) fn replace_loads(body: &mut RapierBody, force: Vector, torque: AngVector) {
+    body.reset_forces(false);
+    body.reset_torques(false);
+    body.add_force(force, false);
+    body.add_torque(torque, false);
+    body.set_linear_damping(0.0);
+    body.set_angular_damping(0.0);
 }

@@ -1,7 +1,8 @@
-//! Cables as lines for Rapier's debug renderer, coloured by tension.
+//! Drawing of cables through Rapier's debug renderer, coloured by tension.
 
 use crate::convert::to_vector;
-use crate::set::CableSet;
+use ::nalgebra::Vector3;
+use lariat_ancf::Cable;
 use rapier::dynamics::{RigidBodyBuilder, RigidBodyHandle};
 use rapier::pipeline::{DebugColor, DebugRenderBackend, DebugRenderObject};
 
@@ -10,7 +11,7 @@ use rapier::pipeline::{DebugColor, DebugRenderBackend, DebugRenderObject};
 pub struct DrawStyle {
     /// Lines per element. Default 4.
     pub lines: u32,
-    /// Tension in N that is drawn red; none is blue. Default: the largest there is.
+    /// Tension in N that is drawn red; zero tension is drawn blue. Default: the largest tension.
     pub red: Option<f64>,
 }
 
@@ -20,30 +21,33 @@ impl Default for DrawStyle {
     }
 }
 
-impl CableSet {
-    /// Draws all cables. The renderer knows no cables: lines come as those of a body without handle, whom a filter may refuse.
-    pub fn draw(&self, backend: &mut impl DebugRenderBackend, style: &DrawStyle) {
-        let stand_in = RigidBodyBuilder::fixed().build();
-        let object = DebugRenderObject::RigidBody(RigidBodyHandle::invalid(), &stand_in);
-        if !backend.filter_object(object) {
-            return;
-        }
-        let samples = |cable: &lariat_ancf::Cable| -> Vec<(::nalgebra::Vector3<f64>, f64)> {
-            let count = cable.elements().len() * style.lines.max(1) as usize;
-            let at = |k: usize| cable.length() * k as f64 / count as f64;
-            (0..=count).filter_map(|k| cable.sample(at(k)).ok()).map(|s| (s.position, s.tension)).collect()
-        };
-        let all: Vec<_> = self.iter().map(|(_, cable)| samples(cable)).collect();
-        let largest = || all.iter().flatten().map(|(_, tension)| *tension).fold(0.0, f64::max);
-        let red = style.red.unwrap_or_else(largest).max(f64::MIN_POSITIVE);
-        for ends in all.iter().flat_map(|cable| cable.windows(2)) {
-            let share = (0.5 * (ends[0].1 + ends[1].1) / red).clamp(0.0, 1.0);
-            backend.draw_line(object, to_vector(&ends[0].0), to_vector(&ends[1].0), colour(share));
-        }
+/// Draws cables as lines of a body with an invalid handle, which a filter of the renderer may
+/// reject.
+pub(crate) fn draw<'a>(
+    cables: impl Iterator<Item = &'a Cable>,
+    backend: &mut impl DebugRenderBackend,
+    style: &DrawStyle,
+) {
+    let stand_in = RigidBodyBuilder::fixed().build();
+    let object = DebugRenderObject::RigidBody(RigidBodyHandle::invalid(), &stand_in);
+    if !backend.filter_object(object) {
+        return;
+    }
+    let samples = |cable: &Cable| -> Vec<(Vector3<f64>, f64)> {
+        let count = cable.elements().len() * style.lines.max(1) as usize;
+        let arc_length = |k: usize| cable.length() * k as f64 / count as f64;
+        (0..=count).filter_map(|k| cable.sample(arc_length(k)).ok()).map(|s| (s.position, s.tension)).collect()
+    };
+    let all: Vec<_> = cables.map(samples).collect();
+    let largest = || all.iter().flatten().map(|(_, tension)| *tension).fold(0.0, f64::max);
+    let red = style.red.unwrap_or_else(largest).max(f64::MIN_POSITIVE);
+    for ends in all.iter().flat_map(|cable| cable.windows(2)) {
+        let share = (0.5 * (ends[0].1 + ends[1].1) / red).clamp(0.0, 1.0);
+        backend.draw_line(object, to_vector(&ends[0].0), to_vector(&ends[1].0), colour(share));
     }
 }
 
-/// Hue, saturation, lightness, alpha: blue for 0, red for 1.
+/// Returns hue, saturation, lightness and alpha: blue for 0, red for 1.
 fn colour(share: f64) -> DebugColor {
     [240.0 * (1.0 - share as f32), 1.0, 0.5, 1.0]
 }

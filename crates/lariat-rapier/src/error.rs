@@ -1,45 +1,43 @@
-//! What can go wrong between cables and bodies.
+//! The error type of this crate.
 
-use crate::{AttachmentHandle, CableHandle, JunctionHandle};
+use crate::handle::{AttachmentHandle, CableHandle, JunctionHandle};
+use rapier::dynamics::RigidBodyHandle;
 use thiserror::Error as ThisError;
 
-/// The error type of this crate.
+/// What can go wrong between cables and bodies.
 #[derive(Clone, Debug, PartialEq, ThisError)]
 #[non_exhaustive]
 pub enum Error {
-    /// From the mechanics of a cable.
+    /// An error of the mechanics of a cable.
     #[error(transparent)]
     Cable(#[from] lariat_ancf::Error),
-    /// A handle of a cable that is not, or no longer, in the set.
+    /// The handle of a cable that is not, or no longer, in the set.
     #[error("no cable {0:?} in this set")]
     NoCable(CableHandle),
-    /// A cable that was lent and not given back.
-    #[error("cable {0:?} is lent")]
-    Lent(CableHandle),
-    /// A handle of an attachment that is not, or no longer, in the set.
+    /// The handle of an attachment that is not, or no longer, in the set.
     #[error("no attachment {0:?} in this set")]
     NoAttachment(AttachmentHandle),
-    /// A handle of a junction that is not, or no longer, in the set.
+    /// The handle of a junction that is not, or no longer, in the set.
     #[error("no junction {0:?} in this set")]
     NoJunction(JunctionHandle),
-    /// A body that is not in the world.
+    /// The handle of a body that is not in the world.
     #[error("no body {0:?} in this world")]
-    NoBody(rapier::dynamics::RigidBodyHandle),
+    NoBody(RigidBodyHandle),
     /// A time step that is negative or not finite.
     #[error("a time step of {dt} s; expected 0 or more")]
     TimeStep {
-        /// The step in s.
+        /// The time step in s.
         dt: f64,
     },
     /// An anchor that is not finite.
     #[error("the anchor on body {body:?} is not finite: {anchor:?} m")]
     AnchorNotFinite {
         /// The body.
-        body: rapier::dynamics::RigidBodyHandle,
+        body: RigidBodyHandle,
         /// The anchor in m.
         anchor: ::nalgebra::Vector3<f64>,
     },
-    /// A node that already holds to a body or a junction.
+    /// A node that is already attached to a body or part of a junction.
     #[error("cable {cable:?}: node {node} is attached already")]
     AlreadyAttached {
         /// Name of the cable.
@@ -48,13 +46,38 @@ pub enum Error {
         node: usize,
     },
     /// A body whose state is not finite.
-    #[error("body {body:?} has a {what} that is not finite at t = {time} s")]
+    #[error("body {body:?} has a {quantity} that is not finite at t = {time} s")]
     BodyNotFinite {
         /// The body.
-        body: rapier::dynamics::RigidBodyHandle,
-        /// Position, velocity, force or mass.
-        what: &'static str,
+        body: RigidBodyHandle,
+        /// The quantity that is not finite.
+        quantity: BodyQuantity,
         /// Time in s.
         time: f64,
     },
+}
+
+/// A quantity of a body, named in an [`Error`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum BodyQuantity {
+    /// Position or rotation.
+    Position,
+    /// Velocity or angular velocity.
+    Velocity,
+    /// Force or torque.
+    Force,
+    /// Mass or inertia.
+    Mass,
+}
+
+impl core::fmt::Display for BodyQuantity {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        f.write_str(match self {
+            BodyQuantity::Position => "position",
+            BodyQuantity::Velocity => "velocity",
+            BodyQuantity::Force => "force",
+            BodyQuantity::Mass => "mass",
+        })
+    }
 }

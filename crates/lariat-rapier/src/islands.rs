@@ -1,119 +1,130 @@
-//! Which cables, bodies and junctions move together: the connected sets over pins.
+//! Islands: sets of cables, bodies and junctions that are connected by attachments.
 //!
-//! The order within an island, and of islands, is that of the cables' names and first places, not of their handles: the order of
-//! insertion does not change a bit. Islands are found anew only when attachments or the kind of a body change.
+//! Order within and among islands follows the names of the cables and the positions at which they
+//! were inserted, not their handles: a run does not depend on the order of insertion, to the bit.
+//! Islands are found anew when the contents of the set, a cable, or the type of an attached body
+//! changed.
 
 use crate::attachment::Attachment;
 use crate::body::is_integrated;
+use crate::contents::{Contents, Slot};
 use crate::convert::vector;
-use crate::linkage::Linkage;
-use crate::set::{CableSet, Slot};
-use crate::{CableHandle, Error};
+use crate::error::Error;
+use crate::handle::CableHandle;
+use crate::table::Table;
 use ::nalgebra::Vector3;
-use lariat_ancf::island::{Impedance, PinConstraint, RigidBody};
-use lariat_ancf::{At, SlopeSupport, Snapshot};
+use lariat_ancf::island::PinConstraint;
+use lariat_ancf::{At, SlopeSupport};
 use rapier::dynamics::RigidBodyHandle;
-use rapier::math::{AngVector, Vector};
 use rapier::pipeline::PhysicsWorld;
 
-/// What a body is to its cable.
+/// How the body of an attachment takes part.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Role {
-    /// It moves with the cable.
+enum Role {
+    /// It is integrated together with the cable.
     Integrated,
-    /// It moves as it likes, and turns the tangent of a clamp.
+    /// Its motion is prescribed, and rotates the tangent of a clamp.
     Driven,
-    /// It moves as it likes: the end of the cable is prescribed.
+    /// Its motion is prescribed: so is the position of the node.
     Support,
 }
 
-/// An attachment as the islands were found with it.
+/// An attachment as it was when the islands were found.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Held {
+struct AttachedNode {
     attachment: usize,
     cable: usize,
     node: usize,
     body: RigidBodyHandle,
     role: Role,
-    /// From the body's centre of mass, or its origin if it is driven.
+    /// Anchor from the body's centre of mass, or from its origin if it is not integrated.
     anchor: Vector3<f64>,
     direction: Option<Vector3<f64>>,
 }
 
-/// Something that pins hold to.
+/// Something that pins connect cables to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Member {
     /// An integrated body.
     Body(RigidBodyHandle),
-    /// A body that feels nothing.
+    /// A body with prescribed motion.
     Driven(RigidBodyHandle),
     /// A junction, by its index.
     Junction(usize),
 }
 
-/// One island during a Rapier step.
+/// Cables that are connected, and what connects them.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct IslandStep {
-    /// Cables, as indices into the set.
+pub(crate) struct Island {
+    /// Indices of its cables.
     pub cables: Vec<usize>,
     pub members: Vec<Member>,
     /// Pins, with indices into the two lists above.
     pub pins: Vec<PinConstraint>,
-    /// The attachment of each pin; none at a junction.
+    /// By pin, the index of its attachment; `None` at a junction.
     pub attachments: Vec<Option<usize>>,
-    /// Attachments whose ends are prescribed.
+    /// Attachments whose nodes have a prescribed position.
     pub supports: Vec<usize>,
-    /// Members before the step, and as predicted at its end.
-    pub start: Vec<RigidBody>,
-    pub bodies: Vec<RigidBody>,
-    /// By member, what it moves with.
-    pub linkages: Vec<Option<Linkage>>,
-    /// The cables before the step.
-    pub before: Vec<Snapshot>,
-    /// By member, what Rapier was given.
-    pub given: Vec<Option<Given>>,
-    /// By cable, its answer to impulses, where a body of the island is near others.
-    pub impedances: Vec<Impedance>,
-    /// By pin, whether its motors run, and what they passed in N s.
-    pub motors: Vec<bool>,
-    pub impulses: Vec<Vector3<f64>>,
-    /// Whether an end moved or a cable was changed.
-    pub stirred: bool,
-    /// Asleep, or not stepped for another reason.
-    pub idle: bool,
 }
 
-impl IslandStep {
-    /// Handles of its integrated bodies.
-    pub fn handles(&self) -> impl Iterator<Item = RigidBodyHandle> {
+impl Island {
+    /// Returns the handles of its integrated bodies.
+    pub fn bodies(&self) -> impl Iterator<Item = RigidBodyHandle> {
         self.members.iter().filter_map(|m| if let Member::Body(h) = m { Some(*h) } else { None })
+    }
+
+    /// Returns the indices of the pins on a member.
+    pub fn pins_on(&self, member: usize) -> impl Iterator<Item = usize> {
+        self.pins.iter().enumerate().filter(move |(_, p)| p.body == member).map(|(i, _)| i)
     }
 }
 
-/// What Rapier was given for a body in place of its own state, and what to restore.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Given {
-    pub linvel: Vector,
-    pub angvel: AngVector,
-    /// Centre of mass in body axes.
-    pub centre: Vector,
-    /// Whether it touches nothing and no joint holds it.
-    pub alone: bool,
-    /// Whether it is a link of a multibody, or joined to a dynamic body.
-    pub linked: bool,
-    /// Velocities in m/s that balancing its forces adds and takes within Rapier's step.
-    pub rounding: f64,
-    pub own_linvel: Vector,
-    pub own_angvel: AngVector,
-    pub user_force: Vector,
-    pub user_torque: AngVector,
-    pub gyroscopic: bool,
-    pub fast_rotation: bool,
-    pub linear_damping: rapier::math::Real,
-    pub angular_damping: rapier::math::Real,
+/// All islands of a set.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Islands {
+    pub list: Vec<Island>,
+    /// The attachments that they were found with.
+    nodes: Vec<AttachedNode>,
 }
 
-fn hold(world: &PhysicsWorld, attachment: usize, a: &Attachment) -> Held {
+impl Islands {
+    /// Finds the islands of a set, unless nothing changed since they were last found.
+    pub fn update(&mut self, contents: &mut Contents, world: &PhysicsWorld) -> Result<(), Error> {
+        let unchanged = attached_nodes(contents, world).eq(self.nodes.iter().copied());
+        let modified = contents.cables.values().any(|slot| slot.modified);
+        if unchanged && !modified && !contents.changed && !self.list.is_empty() {
+            return Ok(());
+        }
+        contents.changed = false;
+        renumber(contents)?;
+        self.nodes.clear();
+        self.nodes.extend(attached_nodes(contents, world));
+        let mut order: Vec<(usize, &Slot)> = contents.cables.iter().collect();
+        order.sort_by(|(a, one), (b, two)| one.order(two).then(a.cmp(b)));
+        let order: Vec<usize> = order.into_iter().map(|(c, _)| c).collect();
+        let rank = |cable: usize| order.iter().position(|&c| c == cable);
+        let mut nodes = self.nodes.clone();
+        nodes.sort_by_key(|n| (rank(n.cable), n.node));
+        set_supports(contents, &nodes)?;
+        let mut seen = vec![false; contents.cables.len()];
+        self.list.clear();
+        for &first in &order {
+            if !seen[first] {
+                let mut cables = connected(contents, first, &nodes, &mut seen);
+                cables.sort_by_key(|&c| rank(c));
+                self.list.push(connect(contents, cables, &nodes));
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Returns all attachments as they are now.
+fn attached_nodes(contents: &Contents, world: &PhysicsWorld) -> impl Iterator<Item = AttachedNode> {
+    contents.attachments.iter().map(|(i, a)| attached_node(world, i, a))
+}
+
+fn attached_node(world: &PhysicsWorld, attachment: usize, a: &Attachment) -> AttachedNode {
     let role = match (is_integrated(world, a.body), a.direction) {
         (true, _) => Role::Integrated,
         (false, Some(_)) => Role::Driven,
@@ -122,149 +133,105 @@ fn hold(world: &PhysicsWorld, attachment: usize, a: &Attachment) -> Held {
     let centre =
         if role == Role::Integrated { vector(world.bodies[a.body].local_center_of_mass()) } else { Vector3::zeros() };
     let (cable, node, body) = (a.cable.0 as usize, a.node, a.body);
-    Held { attachment, cable, node, body, role, anchor: a.anchor - centre, direction: a.direction }
+    AttachedNode { attachment, cable, node, body, role, anchor: a.anchor - centre, direction: a.direction }
 }
 
-impl CableSet {
-    /// Sorts cables into islands, unless they are sorted.
-    pub(crate) fn find_islands(&mut self, world: &PhysicsWorld) -> Result<(), Error> {
-        let attached = || self.attachments.iter().enumerate().filter_map(|(i, a)| a.as_ref().map(|a| (i, a)));
-        let same = attached().map(|(i, a)| hold(world, i, a)).eq(self.held.iter().copied());
-        let stirred = self.cables.iter().flatten().any(|slot| slot.stirred);
-        if same && !stirred && !self.stale && !self.islands.is_empty() {
-            return Ok(());
-        }
-        self.stale = false;
-        self.renumber()?;
-        let attached = || self.attachments.iter().enumerate().filter_map(|(i, a)| a.as_ref().map(|a| (i, a)));
-        self.held = attached().map(|(i, a)| hold(world, i, a)).collect();
-        let mut order: Vec<usize> = (0..self.cables.len()).filter(|&c| self.cables[c].is_some()).collect();
-        let slot = |c: usize| self.cables[c].as_ref().expect("filtered above");
-        order.sort_by(|&a, &b| slot(a).rank(slot(b)).then(a.cmp(&b)));
-        let mut held = self.held.clone();
-        held.sort_by_key(|h| (order.iter().position(|&c| c == h.cable), h.node));
-        self.give_nodes(&held)?;
-        let mut seen = vec![false; self.cables.len()];
-        self.islands.clear();
-        for &first in &order {
-            if seen[first] {
-                continue;
-            }
-            let mut island = self.reach(first, &held, &mut seen);
-            // the order of cables is that of their ranks, that of members the one in which the cables meet them
-            let place = |c: &usize| order.iter().position(|o| o == c);
-            island.cables.sort_by_key(place);
-            self.pin(&mut island, &held);
-            self.islands.push(island);
-        }
-        Ok(())
+/// Finds the nodes of attachments and junctions by their arc lengths, since the user may have
+/// inserted others.
+fn renumber(contents: &mut Contents) -> Result<(), Error> {
+    let node = |cables: &Table<Slot>, cable: CableHandle, s: f64| {
+        cables.get(cable.0 as usize).map_or(Ok(0), |slot| slot.cable.node(s))
+    };
+    for a in contents.attachments.values_mut() {
+        a.node = node(&contents.cables, a.cable, a.arc_length)?;
     }
-
-    /// Finds the nodes of attachments and junctions by their arc lengths: a user may have placed others.
-    fn renumber(&mut self) -> Result<(), Error> {
-        let node = |cables: &[Option<Box<Slot>>], cable: CableHandle, s: f64| {
-            cables[cable.0 as usize].as_ref().map_or(Ok(0), |slot| slot.cable.node(s))
-        };
-        for a in self.attachments.iter_mut().flatten() {
-            a.node = node(&self.cables, a.cable, a.arc_length)?;
-        }
-        for junction in self.junctions.iter_mut().flatten() {
-            for ((cable, index), s) in junction.nodes.iter_mut().zip(&junction.arc_lengths) {
-                *index = node(&self.cables, *cable, *s)?;
-            }
-        }
-        Ok(())
-    }
-
-    /// Tells nodes who moves them.
-    fn give_nodes(&mut self, held: &[Held]) -> Result<(), Error> {
-        for h in held {
-            let Some(slot) = &mut self.cables[h.cable] else { continue };
-            let support = slot.cable.support(At::Node(h.node))?;
-            let clamped = matches!(support.slope, SlopeSupport::Attached(_));
-            match h.role {
-                Role::Support => continue,
-                _ if support.attached && clamped == h.direction.is_some() => {}
-                _ if h.direction.is_some() => {
-                    slot.cable.attach_clamped(At::Node(h.node))?;
-                }
-                _ => {
-                    slot.cable.attach(At::Node(h.node))?;
-                }
-            }
-            if let (Role::Integrated, Some(a)) = (h.role, &mut self.attachments[h.attachment]) {
-                a.placed = None;
-            }
-        }
-        for (cable, node) in self.junctions.iter().flatten().flat_map(|j| &j.nodes) {
-            if let Some(slot) = &mut self.cables[cable.0 as usize]
-                && !slot.cable.support(At::Node(*node))?.attached
-            {
-                slot.cable.attach(At::Node(*node))?;
-            }
-        }
-        Ok(())
-    }
-
-    /// The cables that are connected to `first`.
-    fn reach(&self, first: usize, held: &[Held], seen: &mut [bool]) -> IslandStep {
-        let mut island = IslandStep { cables: vec![first], ..IslandStep::default() };
-        seen[first] = true;
-        let mut next = 0;
-        while next < island.cables.len() {
-            let cable = island.cables[next];
-            next += 1;
-            let bodies = held.iter().filter(|h| h.cable == cable && h.role == Role::Integrated).map(|h| h.body);
-            let over_bodies = bodies
-                .flat_map(|b| held.iter().filter(move |h| h.body == b && h.role == Role::Integrated).map(|h| h.cable));
-            let handle = CableHandle(cable as u32);
-            let tied = self.junctions.iter().flatten().filter(|j| j.nodes.iter().any(|(c, _)| *c == handle));
-            let over_junctions = tied.flat_map(|j| j.nodes.iter().map(|(c, _)| c.0 as usize));
-            for other in over_bodies.chain(over_junctions) {
-                if !seen[other] {
-                    seen[other] = true;
-                    island.cables.push(other);
-                }
-            }
-        }
-        island
-    }
-
-    /// Members and pins of an island, by cable and node.
-    fn pin(&self, island: &mut IslandStep, held: &[Held]) {
-        let mut add = |cable: usize, node: usize, member: Member, shared: bool, held: Option<&Held>| {
-            let found = island.members.iter().position(|m| shared && *m == member);
-            let body = found.unwrap_or_else(|| {
-                island.members.push(member);
-                island.members.len() - 1
-            });
-            let anchor = held.map_or_else(Vector3::zeros, |h| h.anchor);
-            island.pins.push(PinConstraint { cable, node, body, anchor, direction: held.and_then(|h| h.direction) });
-            island.attachments.push(held.map(|h| h.attachment));
-        };
-        for (c, &cable) in island.cables.iter().enumerate() {
-            for h in held.iter().filter(|h| h.cable == cable) {
-                match h.role {
-                    Role::Integrated => add(c, h.node, Member::Body(h.body), true, Some(h)),
-                    Role::Driven => add(c, h.node, Member::Driven(h.body), false, Some(h)),
-                    Role::Support => island.supports.push(h.attachment),
-                }
-            }
-            for (j, junction) in self.junctions.iter().enumerate() {
-                let Some(junction) = junction else { continue };
-                for (_, node) in junction.nodes.iter().filter(|(c, _)| c.0 as usize == cable) {
-                    add(c, *node, Member::Junction(j), true, None);
-                }
-            }
+    for junction in contents.junctions.values_mut() {
+        for ((cable, index), s) in junction.nodes.iter_mut().zip(&junction.arc_lengths) {
+            *index = node(&contents.cables, *cable, *s)?;
         }
     }
+    Ok(())
 }
 
-impl Slot {
-    /// The order of two cables: by name, then by where they were first.
-    fn rank(&self, other: &Slot) -> core::cmp::Ordering {
-        let places = self.first.iter().zip(&other.first);
-        let by_place = places.fold(core::cmp::Ordering::Equal, |o, (a, b)| o.then(a.total_cmp(b)));
-        self.cable.name().cmp(other.cable.name()).then(by_place)
+/// Tells the cables which of their nodes are moved by an island, and with what.
+fn set_supports(contents: &mut Contents, nodes: &[AttachedNode]) -> Result<(), Error> {
+    for n in nodes.iter().filter(|n| n.role != Role::Support) {
+        let Some(slot) = contents.cables.get_mut(n.cable) else { continue };
+        let support = slot.cable.support(At::Node(n.node))?;
+        let clamped = matches!(support.slope, SlopeSupport::Attached(_));
+        if !support.attached || clamped != n.direction.is_some() {
+            if n.direction.is_some() {
+                slot.cable.attach_clamped(At::Node(n.node))?;
+            } else {
+                slot.cable.attach(At::Node(n.node))?;
+            }
+        }
+        if let (Role::Integrated, Some(a)) = (n.role, contents.attachments.get_mut(n.attachment)) {
+            a.last_anchor = None;
+        }
     }
+    for (cable, node) in contents.junctions.values().flat_map(|j| &j.nodes) {
+        if let Some(slot) = contents.cables.get_mut(cable.0 as usize)
+            && !slot.cable.support(At::Node(*node))?.attached
+        {
+            slot.cable.attach(At::Node(*node))?;
+        }
+    }
+    Ok(())
+}
+
+/// Returns the cables that are connected to `first`, and marks them as seen.
+fn connected(contents: &Contents, first: usize, nodes: &[AttachedNode], seen: &mut [bool]) -> Vec<usize> {
+    let mut cables = vec![first];
+    seen[first] = true;
+    let mut next = 0;
+    while next < cables.len() {
+        let cable = cables[next];
+        next += 1;
+        let integrated = || nodes.iter().filter(|n| n.role == Role::Integrated);
+        let bodies = integrated().filter(|n| n.cable == cable).map(|n| n.body);
+        let over_bodies = bodies.flat_map(|b| integrated().filter(move |n| n.body == b).map(|n| n.cable));
+        let handle = CableHandle(cable as u32);
+        let tied = contents.junctions.values().filter(|j| j.nodes.iter().any(|(c, _)| *c == handle));
+        let over_junctions = tied.flat_map(|j| j.nodes.iter().map(|(c, _)| c.0 as usize));
+        for other in over_bodies.chain(over_junctions) {
+            if !seen[other] {
+                seen[other] = true;
+                cables.push(other);
+            }
+        }
+    }
+    cables
+}
+
+/// Returns the island of `cables`, its members and pins in the order of cables and nodes.
+fn connect(contents: &Contents, cables: Vec<usize>, nodes: &[AttachedNode]) -> Island {
+    let mut island = Island { cables, ..Island::default() };
+    let mut add = |cable: usize, node: usize, member: Member, attached: Option<&AttachedNode>| {
+        // each attachment to a body with prescribed motion has a member of its own
+        let shared = !matches!(member, Member::Driven(_));
+        let found = island.members.iter().position(|m| shared && *m == member);
+        let body = found.unwrap_or_else(|| {
+            island.members.push(member);
+            island.members.len() - 1
+        });
+        let anchor = attached.map_or_else(Vector3::zeros, |n| n.anchor);
+        island.pins.push(PinConstraint { cable, node, body, anchor, direction: attached.and_then(|n| n.direction) });
+        island.attachments.push(attached.map(|n| n.attachment));
+    };
+    for (c, &cable) in island.cables.iter().enumerate() {
+        for n in nodes.iter().filter(|n| n.cable == cable) {
+            match n.role {
+                Role::Integrated => add(c, n.node, Member::Body(n.body), Some(n)),
+                Role::Driven => add(c, n.node, Member::Driven(n.body), Some(n)),
+                Role::Support => island.supports.push(n.attachment),
+            }
+        }
+        for (j, junction) in contents.junctions.iter() {
+            for (_, node) in junction.nodes.iter().filter(|(c, _)| c.0 as usize == cable) {
+                add(c, *node, Member::Junction(j), None);
+            }
+        }
+    }
+    island
 }

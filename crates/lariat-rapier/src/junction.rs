@@ -1,30 +1,27 @@
-//! Cables tied to each other at nodes: a ball joint without mass or body.
+//! Nodes of cables tied to each other: a ball joint without a body.
 
-use crate::CableHandle;
+use crate::handle::CableHandle;
 use lariat_ancf::Cable;
 use lariat_ancf::island::{BodyMemory, RigidBody};
 use serde::{Deserialize, Serialize};
-
-/// Names a junction of a [`CableSet`](crate::CableSet).
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
-pub struct JunctionHandle(pub(crate) u32);
 
 /// Nodes of cables that share one position.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Junction {
     pub(crate) nodes: Vec<(CableHandle, usize)>,
-    /// By node, its arc length in m.
+    /// Arc length in m of each node.
     pub(crate) arc_lengths: Vec<f64>,
     pub(crate) memory: Option<BodyMemory>,
 }
 
 impl Junction {
-    /// Cables and their nodes.
+    /// Returns the cables and their nodes.
     pub fn nodes(&self) -> &[(CableHandle, usize)] {
         &self.nodes
     }
 
-    /// The point without mass, where its first node is.
+    /// Returns the massless point that the island solver moves, at the junction's first node, which
+    /// is one of `first`.
     pub(crate) fn point(&self, first: &Cable) -> Result<RigidBody, lariat_ancf::Error> {
         let node = self.nodes[0].1;
         let mut point = RigidBody::junction(first.node_position(node))?;

@@ -1,8 +1,8 @@
-//! Cables pinned to the bodies of rapier3d.
+//! Cables attached to the bodies of [`rapier3d`](rapier).
 //!
 //! ```
 //! use lariat_ancf::{At, Cable, Section, Vector3};
-//! use lariat_rapier::{CableSet, AttachmentKind};
+//! use lariat_rapier::{AttachmentKind, CableSet};
 //! use rapier::prelude::*;
 //!
 //! let mut world = PhysicsWorld::new();
@@ -26,95 +26,116 @@
 //! # Ok::<(), lariat_rapier::Error>(())
 //! ```
 //!
-//! # The scheme
+//! | to | look at |
+//! |---|---|
+//! | attach cables and step | [`CableSet`], [`Settings`] |
+//! | read forces, gaps and work | [`Attachment`], [`AttachmentReading`], [`WorldEnergy`] |
+//! | tie cables to each other | [`CableSet::join`], [`Junction`] |
+//! | step Rapier yourself | [`CableSet::begin`], [`HostStep`] |
+//! | convert numbers | [`convert`] |
 //!
-//! Rapier has no room for a foreign constraint inside its solver, so the coupling acts between its steps. Per Rapier step h:
+//! # Scheme
+//! Rapier's solver accepts no constraints from outside, so the coupling acts between its steps. Per
+//! Rapier step h:
 //!
-//! 1. **Predict.** Cables and the dynamic bodies they hold are integrated together as one system
-//!    ([`lariat_ancf::island`]), with the cables' own integrator and tolerance, bodies free but for gravity, the user's forces and
-//!    a learnt reaction r of whatever contacts and joints did to them before.
-//! 2. **Hand over.** Rapier is given the predicted motion as a uniform one, `linvel = dx/h`, `angvel = log(R1 R0^-1)/h` (so corrected
-//!    that Rapier's linearised rotation ends there), and a force `-r` in place of gravity and user forces (restored afterwards). A body
-//!    that meets nothing lands where it was predicted, whatever Rapier's settings. A body near others, or that flies into one (`near`),
-//!    also gets an impedance: a motor per pin to a heavy *ledger* body, of
-//!    damping D/h in the axes of D, the pin's block of (C + B')^-1, with C the cable's compliance over the step and B' the mobility
-//!    of the bodies (the body's own scaled by 0.1). If the prediction was right the motors do nothing; if a contact or a joint
-//!    makes the body deviate, it feels the cable within the same step. A body that joints hold is predicted with the inertia and the loads of all that it
-//!    moves with, and struck together with it instead of being given a velocity (`linkage`, `mechanism`, `bear`).
-//! 3. **Reconcile.** A body that landed where predicted keeps its predicted state in `f64`: Rapier's single precision never shakes a
-//!    stiff cable. For one that deviated, p, the motors' impulse, is read from the ledger; the cable gets it back,
-//!    `dv = -A^-1 J^T p`, `dx = h dv`, less where that would make energy; the body has the whole of the predicted velocity and of what it
-//!    deviated by, `v1 + v_after - v0`, so that momentum stays; the reaction learns from what velocity and place deviate by,
-//!    `r += 0.3 (m (v_after - v0) + m (x_after - x1)/h - p)/h` (without p for links of a chain); the gap that is left closes
-//!    during the next prediction.
+//! 1. **Predict.** Cables and the dynamic bodies attached to them are integrated together as one
+//!    system ([`lariat_ancf::island`]), with the cables' own integrator and tolerance. Bodies are
+//!    free, under gravity, applied forces and an estimate r of the contact and joint forces. A body
+//!    that joints hold is predicted with the inertia and the loads of all that it moves with.
+//! 2. **Apply.** Rapier is given the predicted motion as a uniform one, `linvel = dx/h`, `angvel =
+//!    log(R1 R0^-1)/h`, and a force `-r` in place of gravity and applied forces. A body in contact
+//!    with nothing lands where it was predicted, for any settings of Rapier. A body near others
+//!    also gets an impedance: motors between each attachment and a heavy *ledger* body. If the
+//!    prediction was right they do nothing; if a contact or a joint makes the body deviate, it
+//!    feels the cable within the same step.
+//! 3. **Reconcile.** A body that landed keeps its predicted state in `f64`, so that Rapier's single
+//!    precision does not excite a stiff cable. For one that deviated, the impulse of the motors
+//!    acts on the cable, the body keeps its whole predicted change of velocity, and r is updated
+//!    from the velocity and position residuals. The gap that is left closes during the next
+//!    prediction.
 //!
-//! Bodies that feel nothing (fixed, kinematic, disabled) prescribe the end of their cable; a clamp on one is turned by it. Cables
-//! and bodies that come to rest sleep and wake together (`rest`). Integrators carry their accelerations from step to step, so
-//! generalised-alpha and Verlet keep order 2; an implicit method keeps the order it has on a cable alone.
+//! Fixed, kinematic and disabled bodies prescribe the motion of their cable's end, and rotate a
+//! clamp. Cables and bodies that come to rest fall asleep and wake up together.
 //!
-//! *Accounts.* At every pin, force and moment are the cable's residual after each step of its integrator, impulse and work their
-//! integrals by the trapezoidal rule; see [`Attachment`]. The residual of the work is force times growth of the gap.
+//! *Order.* Integrators keep their accelerations from step to step, so generalised-alpha and Verlet
+//! keep order 2; an implicit method keeps the order that it has on a cable alone.
 //!
-//! *Tried and failed* (measured before): explicit staggering (blows up for light bodies and steel), impulses of cable and free
-//! body (contacts break it), prescribing the body's motion with full debt (blows up), motors alone (gaps in jams), rolling Rapier
-//! back (four times the cost, still fails in jams). Here: links and bodies on joints as free ones that learn the inertia of their
-//! mechanism as a force (an arm rings and gains energy); learning without taking p away, for bodies
-//! in contact (1 to 5 kg on a steel wire leave a jam when the host step is not split); motors on a body that a joint holds to the
-//! world (a gap of 1e-2 m at 5 kN; 4e-6 m without); of a body that deviates only a share of what the prediction changed its velocity by,
-//! `v_after + s (v1 - v0)`, s = 1 where it landed, 0 where it was stopped (8e-3 m/s per mass gained by a random scene in free flight).
+//! *Energy balance.* At every attachment, force and moment are the cable's residual after each step
+//! of its integrator; impulse and work are their integrals by the trapezoidal rule
+//! ([`Attachment`]).
 //!
-//! *Limits*
+//! # Validity
+//! - See the limits of [`CableSet`]: no contact of cables, no reel, one number of Rapier steps for
+//!   the whole world, and what is predicted of mechanisms.
+//! - An undamped cable oscillates for ever, and so does the force at its end: a rope that was slack
+//!   and bowed has a tension ripple of 1 % when it is taut, with any integrator. Give it damping
+//!   ([`lariat_ancf::Damping`]), or an integrator that damps.
+//! - Jams need a cable that damps: generalised-alpha-0 at 1/480 s holds 5 kN on a box of 1 kg to
+//!   0.02 %. With the default, ESDIRK4, which hardly damps, a steel wire of 3 mm oscillates by 70 N
+//!   on it.
+//! - A joint counts as at its limit within 1e-3 m or rad of it, and may come to rest that far
+//!   before it.
+//! - A cable is smooth at a node: bent sharply over a hook, its tension oscillates along the cable
+//!   near it. Tie two cables with [`CableSet::join`] instead.
+//! - If the velocity of a kinematic body is set anew at every host step, the work of a clamp on it
+//!   is some per cent short of the energy that the cable gains: the work in the jumps is known
+//!   approximately.
+//! - Damping of Rapier's bodies acts at the end of a step; with it, a body's accelerations are not
+//!   kept.
+//! - Kinematic bodies move with Rapier's precision: in single precision a slow winch moves in jumps
+//!   of 2e-7 m at 2 m, 2 N of a steel bar of 1 cm^2. The package `lariat-rapier-f64`, of the same
+//!   source, has none of this.
 //!
-//! - An undamped cable swings and rings for ever, and so does the load on it: a rope that was slack and bowed carries 1 % of ripple in its
-//!   tension when it is taut, with any integrator. Give it damping ([`lariat_ancf::Damping`]), or an integrator that damps.
-//! - Jams want a cable that damps: generalised-alpha-0 at 1/480 s holds 5 kN on a 1 kg box to 0.02 %. The default, ESDIRK4, hardly
-//!   damps, and lets a steel wire of 3 mm ring by 70 N on it.
-//! - A mechanism near another body from outside, or held by two cables, learns what its other bodies do to the one that is held; limits of multibody
-//!   joints chatter there: Rapier does not say what such a limit pushes with.
-//! - A joint counts as at its limit within 1e-3 m or rad of it (`limits`): it may come to rest so far before it.
-//! - A cable is smooth at a node: bent sharply over a hook, its tension wavers near it; tie two cables with [`CableSet::join`].
-//! - Where a user sets the velocity of a kinematic body anew at every host step, the work of a clamp on it is some per cent short of the
-//!   energy that the cable gains: what passes in the jumps is only approximately known.
-//! - Damping of Rapier's bodies acts at the end of a step; with it a body's accelerations are not carried on.
-//! - Kinematic bodies move by Rapier's precision: in single precision a slow winch moves in jumps of 2e-7 m at 2 m, 2 N of a
-//!   steel bar. The package `lariat-rapier-f64`, of the same source, has none of this.
+//! # References
+//! - Each file of the source names the equations it solves, their sources and their limits.
+//! - Khatib, A unified approach for motion and force control of robot manipulators: the operational
+//!   space formulation, 1987. Featherstone, Rigid Body Dynamics Algorithms, 2008. Udwadia and
+//!   Kalaba, A new perspective on constrained motion, 1992.
+//!
+//! # Alternatives considered
+//! Measured and rejected: the force of the last step applied to the body (explicit staggering),
+//! which is unstable for light bodies and steel; the impulses of cable and free body, which
+//! contacts undo; prescribing the motion of the body to the cable and returning the whole
+//! difference, which is unstable; motors alone, which leave gaps in jams; rolling Rapier back and
+//! iterating, at four times the cost and still failing in jams. Motors on a body that a joint holds
+//! to the world: a gap of 1e-2 m at 5 kN, 4e-6 m without.
 
+mod attach;
 mod attachment;
-mod bear;
 mod body;
-mod convert;
+mod contents;
+pub mod convert;
 #[cfg(feature = "debug-render")]
 mod draw;
-mod ends;
+mod edit;
 mod error;
-mod event;
-mod hand_over;
-mod hold;
-mod impedance;
+mod events;
+mod handle;
 mod islands;
+mod join;
 mod junction;
-mod lend;
-mod limits;
-mod linkage;
+mod ledger;
 mod mechanism;
-mod near;
-mod predict;
-mod reconcile;
-mod rest;
+mod record;
 mod set;
-mod split;
+mod settings;
+mod sleep;
+mod spatial;
 mod step;
+mod table;
 mod totals;
 
-pub use attachment::{Attachment, AttachmentHandle, AttachmentKind};
+pub use attachment::{Attachment, AttachmentKind, AttachmentReading};
+pub use body::rigid_body;
 #[cfg(feature = "debug-render")]
 pub use draw::DrawStyle;
-pub use error::Error;
-pub use event::Event;
-pub use junction::{Junction, JunctionHandle};
+pub use error::{BodyQuantity, Error};
+pub use events::Event;
+pub use handle::{AttachmentHandle, CableHandle, JunctionHandle};
+pub use junction::Junction;
 pub use lariat_ancf;
-pub use lend::Lent;
 pub use rapier;
-pub use set::{CableHandle, CableSet, Settings};
+pub use set::CableSet;
+pub use settings::Settings;
 pub use step::HostStep;
 pub use totals::WorldEnergy;

@@ -1,244 +1,295 @@
-//! The set of cables of a world.
+//! The set of cables of a world: the interface of this crate.
 
-use crate::attachment::{Attachment, AttachmentHandle};
-use crate::body::Remembered;
-use crate::event::Event;
-use crate::islands::{Held, IslandStep};
-use crate::junction::{Junction, JunctionHandle};
-use crate::{Error, convert};
-use lariat_ancf::Cable;
-use lariat_ancf::island::Island;
+use crate::attachment::{Attachment, AttachmentKind};
+use crate::contents::Contents;
+use crate::convert::vector;
+#[cfg(feature = "debug-render")]
+use crate::draw::{self, DrawStyle};
+use crate::error::Error;
+use crate::events::Event;
+use crate::handle::{AttachmentHandle, CableHandle, JunctionHandle};
+use crate::junction::Junction;
+use crate::settings::Settings;
+use crate::step::{self, HostStep, Stepper};
+use crate::totals::{self, WorldEnergy};
+use crate::{attach, edit, join};
+use lariat_ancf::{At, Cable, Momentum};
 use rapier::dynamics::RigidBodyHandle;
 use rapier::math::Vector;
-use rapier::pipeline::PhysicsWorld;
+#[cfg(feature = "debug-render")]
+use rapier::pipeline::DebugRenderBackend;
+use rapier::pipeline::{EventHandler, PhysicsHooks, PhysicsWorld};
 use serde::{Deserialize, Serialize};
 
-/// Names a cable of a [`CableSet`].
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
-pub struct CableHandle(pub(crate) u32);
-
-/// How a set steps.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Settings {
-    /// Rapier steps per host step, at least. Default 4: as accurate in free flight as one, and far better in contact.
-    pub rapier_steps: u32,
-    /// Rapier steps per host step at most: where a light body near others hangs on a stiff, taut cable, `rapier_steps` are too few, and
-    /// as many are taken as the body's vibration on its cables needs. Default 32; `rapier_steps` or less: never more than those.
-    #[serde(default = "most_rapier_steps")]
-    pub most_rapier_steps: u32,
-    /// Cables and bodies on them that are slower than this, in m/s, may sleep, if their forces are steady. Default 2e-3; 0: never.
-    pub sleep_speed: f64,
-}
-
-fn most_rapier_steps() -> u32 {
-    32
-}
-
-impl Default for Settings {
-    fn default() -> Self {
-        Settings { rapier_steps: 4, most_rapier_steps: most_rapier_steps(), sleep_speed: 2e-3 }
-    }
-}
-
-/// A cable in its set.
-#[derive(Clone, Debug, Serialize, Deserialize)]
-pub(crate) struct Slot {
-    pub cable: Cable,
-    pub asleep: bool,
-    /// Touched by the user since the last step.
-    pub stirred: bool,
-    /// Whether its gravity is the world's, and what it was when the set last looked, in m/s^2.
-    pub falls: bool,
-    pub gravity: ::nalgebra::Vector3<f64>,
-    /// Where the ends were when it was inserted, and its length, in m.
-    pub first: [f64; 7],
-}
-
-/// Cables and what they hold to. Serialises with its state; a snapshot of (world, set) replays bitwise.
+/// The cables of a world, attached to its bodies and to each other.
+///
+/// # Limits
+/// - Cables do not collide: neither with colliders nor with each other.
+/// - A cable has a fixed natural length: there is no reel. [`cut`](Self::cut) and
+///   [`get_mut`](Self::get_mut) change it between steps.
+/// - All cables of a set share one number of Rapier steps per host step ([`Settings`]), which is
+///   also that of the whole world: a pile of bodies costs as many Rapier steps as the cables need.
+/// - The bodies of a mechanism (a multibody, or bodies joined by impulse joints) are predicted
+///   together only if the cables are attached to one of them and none of the others touches a body
+///   from outside. Otherwise their effect is estimated from step to step, and limits of multibody
+///   joints chatter. Chains of impulse joints count up to 24 bodies.
+/// - If one cable cannot step, no cable and no body advances.
+///
+/// # Snapshots
+/// A set serialises with all of its state; a snapshot of (world, set) replays to the bit. JSON
+/// needs `serde_json` with its feature `float_roundtrip`, without which numbers change in their
+/// last digit.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub struct CableSet {
     /// How the set steps.
     pub settings: Settings,
-    pub(crate) cables: Vec<Option<Box<Slot>>>,
-    /// Handles of cables that are lent, ascending.
-    #[serde(default)]
-    pub(crate) lent: Vec<u32>,
-    pub(crate) attachments: Vec<Option<Attachment>>,
-    pub(crate) junctions: Vec<Option<Junction>>,
-    /// Ascending by handle.
-    pub(crate) memory: Vec<Remembered>,
-    pub(crate) gravity: Option<Vector>,
-    /// Whether islands must be found anew.
+    pub(crate) contents: Contents,
     #[serde(skip)]
-    pub(crate) stale: bool,
-    /// Whether a prediction waits to be reconciled.
-    #[serde(skip)]
-    pub(crate) pending: bool,
-    #[serde(skip)]
-    pub(crate) held: Vec<Held>,
-    #[serde(skip)]
-    pub(crate) islands: Vec<IslandStep>,
-    #[serde(skip)]
-    pub(crate) solver: Island,
-    #[serde(skip)]
-    pub(crate) events: Vec<Event>,
-    #[serde(skip)]
-    pub(crate) refused: Vec<CableHandle>,
+    stepper: Stepper,
 }
 
 impl CableSet {
-    /// An empty set.
+    /// Returns an empty set.
     pub fn new() -> Self {
         Self::default()
     }
 
-    /// Adds a cable; its clock is set to that of the others. If its gravity is the builder's default, it follows the world's until the user
-    /// sets it; else it keeps its own.
-    pub fn insert(&mut self, mut cable: Cable) -> CableHandle {
-        if let Some(other) = self.cables.iter().flatten().next() {
-            // the time of a cable is always a number
-            let _ = cable.set_time(other.cable.time());
-        }
-        let (start, end) = (cable.node_position(0), cable.node_position(cable.nodes() - 1));
-        let first = [start.x, start.y, start.z, end.x, end.y, end.z, cable.length()];
-        let falls = cable.gravity() == lariat_ancf::STANDARD_GRAVITY;
-        let gravity = cable.gravity();
-        self.cables.push(Some(Box::new(Slot { asleep: false, stirred: true, falls, gravity, first, cable })));
-        self.stale = true;
-        self.gravity = None;
-        CableHandle(self.cables.len() as u32 - 1)
+    /// Adds a cable; its clock is set to that of the others. If its gravity is the builder's
+    /// default, it follows the world's until the user sets it; else it keeps its own.
+    pub fn insert(&mut self, cable: Cable) -> CableHandle {
+        self.contents.insert(cable)
     }
 
-    /// Removes a cable, its attachments and its part in junctions.
+    /// Removes a cable with its attachments, and takes it out of its junctions.
     ///
     /// # Errors
     /// [`Error::NoCable`].
     pub fn remove(&mut self, world: &mut PhysicsWorld, cable: CableHandle) -> Result<Cable, Error> {
-        self.get(cable)?;
-        self.let_go(world, cable)?;
-        let slot = self.cables.get_mut(cable.0 as usize).and_then(Option::take);
-        slot.map(|s| s.cable).ok_or(Error::NoCable(cable))
+        edit::remove(&mut self.contents, world, cable)
     }
 
-    /// Ends the attachments of a cable and its part in junctions.
-    fn let_go(&mut self, world: &mut PhysicsWorld, cable: CableHandle) -> Result<(), Error> {
-        for i in 0..self.attachments.len() {
-            if self.attachments[i].as_ref().is_some_and(|a| a.cable == cable) {
-                self.detach(world, AttachmentHandle(i as u32))?;
-            }
-        }
-        for i in 0..self.junctions.len() {
-            if self.junctions[i].as_ref().is_some_and(|j| j.nodes.iter().any(|(c, _)| *c == cable)) {
-                self.leave(JunctionHandle(i as u32), cable)?;
-            }
-        }
-        self.stale = true;
-        Ok(())
-    }
-
-    /// A cable.
+    /// Cuts a cable at a point between its ends; `cable` keeps the part before it. Returns the
+    /// handle of the other part. Attachments and junctions go with their part; those at the cut
+    /// stay with `cable`.
     ///
     /// # Errors
-    /// [`Error::NoCable`], [`Error::Lent`].
+    /// [`Error::NoCable`], or [`Error::Cable`] for a point that is not between the ends.
+    pub fn cut(&mut self, cable: CableHandle, at: impl Into<At>) -> Result<CableHandle, Error> {
+        edit::cut(&mut self.contents, cable, at.into())
+    }
+
+    /// Returns a cable.
+    ///
+    /// # Errors
+    /// [`Error::NoCable`].
     pub fn get(&self, cable: CableHandle) -> Result<&Cable, Error> {
-        self.cables.get(cable.0 as usize).and_then(Option::as_ref).map(|s| &s.cable).ok_or_else(|| self.missing(cable))
+        self.contents.cable(cable)
     }
 
-    /// A cable, to change it; a sleeping one wakes.
+    /// Returns a cable, to change it; a sleeping one wakes up.
     ///
     /// # Errors
-    /// [`Error::NoCable`], [`Error::Lent`].
+    /// [`Error::NoCable`].
     pub fn get_mut(&mut self, cable: CableHandle) -> Result<&mut Cable, Error> {
-        self.get(cable)?;
-        let slot = self.cables[cable.0 as usize].as_mut().expect("it is here");
-        slot.stirred = true;
-        Ok(&mut slot.cable)
+        self.contents.cable_mut(cable)
     }
 
-    /// All cables.
+    /// Returns all cables.
     pub fn iter(&self) -> impl Iterator<Item = (CableHandle, &Cable)> {
-        self.cables.iter().enumerate().filter_map(|(i, c)| c.as_ref().map(|s| (CableHandle(i as u32), &s.cable)))
+        self.contents.cables.iter().map(|(i, slot)| (CableHandle(i as u32), &slot.cable))
     }
 
-    /// Whether a cable sleeps with the bodies that it holds.
+    /// Returns whether a cable is asleep with the bodies attached to it.
     ///
     /// # Errors
     /// [`Error::NoCable`].
     pub fn is_asleep(&self, cable: CableHandle) -> Result<bool, Error> {
-        self.get(cable)?;
-        Ok(self.cables[cable.0 as usize].as_ref().is_some_and(|s| s.asleep))
+        self.contents.slot(cable).map(|slot| slot.asleep).ok_or(Error::NoCable(cable))
     }
 
-    /// All attachments.
+    /// Attaches a point of a cable to a point of a body (body axes from its origin, in m). A node
+    /// is inserted there if there is none. A gap closes in the next step, at 10 m/s at most; a
+    /// clamp keeps the angle that tangent and body have now.
+    ///
+    /// # Errors
+    /// [`Error::NoCable`], [`Error::NoBody`], [`Error::AlreadyAttached`],
+    /// [`Error::AnchorNotFinite`], or [`Error::Cable`] for a point that is not on the cable.
+    pub fn attach(
+        &mut self,
+        world: &PhysicsWorld,
+        cable: CableHandle,
+        at: impl Into<At>,
+        body: RigidBodyHandle,
+        anchor: Vector,
+        kind: AttachmentKind,
+    ) -> Result<AttachmentHandle, Error> {
+        attach::attach(&mut self.contents, world, (cable, at.into()), (body, vector(anchor)), kind)
+    }
+
+    /// As [`attach`](Self::attach), to the point of the body where the point of the cable is now.
+    ///
+    /// # Errors
+    /// As [`attach`](Self::attach).
+    pub fn attach_here(
+        &mut self,
+        world: &PhysicsWorld,
+        cable: CableHandle,
+        at: impl Into<At>,
+        body: RigidBodyHandle,
+        kind: AttachmentKind,
+    ) -> Result<AttachmentHandle, Error> {
+        let point = (cable, at.into());
+        let anchor = attach::anchor_here(&self.contents, world, point, body)?;
+        attach::attach(&mut self.contents, world, point, (body, anchor), kind)
+    }
+
+    /// Ends an attachment and frees its node.
+    ///
+    /// # Errors
+    /// [`Error::NoAttachment`].
+    pub fn detach(&mut self, world: &mut PhysicsWorld, attachment: AttachmentHandle) -> Result<(), Error> {
+        attach::detach(&mut self.contents, world, attachment)
+    }
+
+    /// Returns all attachments.
     pub fn attachments(&self) -> impl Iterator<Item = (AttachmentHandle, &Attachment)> {
-        self.attachments.iter().enumerate().filter_map(|(i, a)| a.as_ref().map(|a| (AttachmentHandle(i as u32), a)))
+        self.contents.attachments.iter().map(|(i, a)| (AttachmentHandle(i as u32), a))
     }
 
-    /// An attachment.
+    /// Returns an attachment.
     ///
     /// # Errors
     /// [`Error::NoAttachment`].
     pub fn attachment(&self, attachment: AttachmentHandle) -> Result<&Attachment, Error> {
-        self.attachments.get(attachment.0 as usize).and_then(Option::as_ref).ok_or(Error::NoAttachment(attachment))
+        self.contents.attachment(attachment)
     }
 
-    /// A junction.
+    /// Ties a point of a cable to a point of another, or of itself: they share one position, like a
+    /// massless shackle. Nodes are inserted there if there are none; a gap closes in the next step.
+    /// If one of the points is part of a junction, the other joins that junction.
+    ///
+    /// # Errors
+    /// [`Error::NoCable`]; [`Error::AlreadyAttached`] for a node that is attached to a body, or if
+    /// both are part of junctions; [`Error::Cable`] for a point that is not on its cable.
+    pub fn join(&mut self, first: (CableHandle, At), second: (CableHandle, At)) -> Result<JunctionHandle, Error> {
+        join::join(&mut self.contents, first, second)
+    }
+
+    /// Unties a cable from a junction; a junction with a single node left ends.
+    ///
+    /// # Errors
+    /// [`Error::NoJunction`]; [`Error::NoCable`] for a cable that is not part of it.
+    pub fn leave(&mut self, junction: JunctionHandle, cable: CableHandle) -> Result<(), Error> {
+        join::leave(&mut self.contents, junction, cable)
+    }
+
+    /// Returns a junction.
     ///
     /// # Errors
     /// [`Error::NoJunction`].
     pub fn junction(&self, junction: JunctionHandle) -> Result<&Junction, Error> {
-        self.junctions.get(junction.0 as usize).and_then(Option::as_ref).ok_or(Error::NoJunction(junction))
+        self.contents.junction(junction)
     }
 
-    /// What happened during the last host step.
+    /// Advances cables and world by a host step of `world.integration_parameters.dt`, split into
+    /// Rapier steps as the [`Settings`] say.
+    ///
+    /// # Errors
+    /// [`Error::Cable`] if a cable cannot step, [`Error::BodyNotFinite`]. Cables and bodies are
+    /// then as after the last Rapier step that succeeded.
+    pub fn step(&mut self, world: &mut PhysicsWorld) -> Result<(), Error> {
+        self.step_with_events(world, &(), &())
+    }
+
+    /// As [`step`](Self::step), with hooks and an event handler for Rapier.
+    ///
+    /// # Errors
+    /// As [`step`](Self::step).
+    pub fn step_with_events(
+        &mut self,
+        world: &mut PhysicsWorld,
+        hooks: &dyn PhysicsHooks,
+        events: &dyn EventHandler,
+    ) -> Result<(), Error> {
+        let mut host = self.begin(world)?;
+        let mut outcome = Ok(());
+        while host.is_unfinished() {
+            outcome = self.predict_next(world, &mut host);
+            if outcome.is_ok() {
+                world.step_with_events(hooks, events);
+                self.reconcile(world);
+            }
+        }
+        self.finish(world, host);
+        outcome
+    }
+
+    /// Begins a host step, for those who step Rapier themselves: as long as
+    /// [`is_unfinished`](HostStep::is_unfinished), call [`predict_next`](Self::predict_next), step
+    /// Rapier, and call [`reconcile`](Self::reconcile); in the end, or after an error, call
+    /// [`finish`](Self::finish). Meanwhile `world.integration_parameters.dt` is that of a Rapier
+    /// step.
+    ///
+    /// # Errors
+    /// [`Error::TimeStep`].
+    pub fn begin(&mut self, world: &mut PhysicsWorld) -> Result<HostStep, Error> {
+        step::begin(&mut self.stepper, &self.contents, world, &self.settings)
+    }
+
+    /// Predicts the next Rapier step of a host step: integrates cables and their bodies, and gives
+    /// Rapier the motion of the bodies.
+    ///
+    /// # Errors
+    /// As [`step`](Self::step); cables and bodies are then as before.
+    pub fn predict_next(&mut self, world: &mut PhysicsWorld, host: &mut HostStep) -> Result<(), Error> {
+        step::predict_next(&mut self.stepper, &mut self.contents, world, &self.settings, host)
+    }
+
+    /// Updates cables and bodies after Rapier's step.
+    pub fn reconcile(&mut self, world: &mut PhysicsWorld) {
+        step::reconcile(&mut self.stepper, &mut self.contents, world, &self.settings);
+    }
+
+    /// Ends a host step: `world.integration_parameters.dt` is the host's again.
+    pub fn finish(&mut self, world: &mut PhysicsWorld, host: HostStep) {
+        step::finish(world, &host);
+    }
+
+    /// Returns the events of the last host step.
     pub fn events(&self) -> &[Event] {
-        &self.events
+        &self.stepper.events
     }
 
-    /// Takes what happened during the last host step out, so that nobody reads it twice.
+    /// Removes and returns the events of the last host step.
     pub fn take_events(&mut self) -> Vec<Event> {
-        core::mem::take(&mut self.events)
+        core::mem::take(&mut self.stepper.events)
     }
 
-    /// The cables of the island whose step was refused; none if the last step was done.
-    pub fn refused(&self) -> &[CableHandle] {
-        &self.refused
+    /// Returns the cables of the island that could not step; none if the last step succeeded.
+    pub fn failed_cables(&self) -> &[CableHandle] {
+        &self.stepper.failed
     }
 
-    /// What is remembered of a body.
-    pub(crate) fn remembered(&self, body: RigidBodyHandle) -> Option<&Remembered> {
-        let key = |m: &Remembered| m.handle.into_raw_parts();
-        self.memory.binary_search_by_key(&body.into_raw_parts(), key).ok().map(|i| &self.memory[i])
+    /// Returns the linear momentum (kg m/s) and the angular momentum about the origin (kg m^2/s) of
+    /// all cables and enabled dynamic bodies.
+    ///
+    /// # Errors
+    /// [`Error::BodyNotFinite`].
+    pub fn momentum(&self, world: &PhysicsWorld) -> Result<Momentum, Error> {
+        totals::momentum(&self.contents, world)
     }
 
-    /// What is remembered of a body, to change it; nothing at first.
-    pub(crate) fn remember(&mut self, body: RigidBodyHandle) -> &mut Remembered {
-        let key = |m: &Remembered| m.handle.into_raw_parts();
-        let i = match self.memory.binary_search_by_key(&body.into_raw_parts(), key) {
-            Ok(i) => i,
-            Err(i) => {
-                self.memory.insert(i, Remembered::new(body));
-                i
-            }
-        };
-        &mut self.memory[i]
+    /// Returns the energy of all cables and enabled dynamic bodies.
+    ///
+    /// # Errors
+    /// [`Error::BodyNotFinite`].
+    pub fn energy(&self, world: &PhysicsWorld) -> Result<WorldEnergy, Error> {
+        totals::energy(&self.contents, world)
     }
 
-    /// Gives cables that fall with the world its gravity when it changed; one that is the world's to the world's precision stays as it is.
-    pub(crate) fn follow_gravity(&mut self, world: &PhysicsWorld) -> Result<(), Error> {
-        if self.gravity == Some(world.gravity) {
-            return Ok(());
-        }
-        for slot in self.cables.iter_mut().flatten() {
-            // a user who sets a cable's gravity wants it so
-            slot.falls &= slot.gravity == slot.cable.gravity();
-            if slot.falls && convert::to_vector(&slot.cable.gravity()) != world.gravity {
-                slot.cable.set_gravity(convert::vector(world.gravity))?;
-                slot.stirred = true;
-            }
-            slot.gravity = slot.cable.gravity();
-        }
-        self.gravity = Some(world.gravity);
-        Ok(())
+    /// Draws all cables with Rapier's debug renderer, as lines of a body with an invalid handle.
+    #[cfg(feature = "debug-render")]
+    pub fn draw(&self, backend: &mut impl DebugRenderBackend, style: &DrawStyle) {
+        draw::draw(self.iter().map(|(_, cable)| cable), backend, style);
     }
 }

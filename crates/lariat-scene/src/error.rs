@@ -1,4 +1,4 @@
-//! Everything that can go wrong between a scene file and its results, as one enum.
+//! The errors between a scene file and its results.
 
 use std::fmt;
 use std::io;
@@ -27,31 +27,102 @@ impl fmt::Display for Place {
     }
 }
 
+/// Why a value of a scene is not accepted.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum Problem {
+    /// A key that the format does not have.
+    #[error("unknown key `{0}`")]
+    UnknownKey(String),
+    /// A key that must be given.
+    #[error("missing key `{0}`")]
+    MissingKey(String),
+    /// None of these keys is given.
+    #[error("none of {} is given", coded(.0))]
+    NoneGiven(&'static [&'static str]),
+    /// These keys exclude each other.
+    #[error("{} are given together", coded(.0))]
+    TooManyGiven(Vec<&'static str>),
+    /// A value of another type.
+    #[error("found {0}")]
+    WrongType(String),
+    /// A number outside its range.
+    #[error("{} is out of range", number(*.0))]
+    OutOfRange(f64),
+    /// A number that is too large or too small for the single precision of Rapier.
+    #[error("{} is beyond the single precision of Rapier", number(*.0))]
+    BeyondSingle(f64),
+    /// Numbers that are infinite or not a number.
+    #[error("{} not finite", not_finite(.0))]
+    NotFinite(Vec<f64>),
+    /// Too few rows.
+    #[error("too few rows: {0}")]
+    TooFewRows(usize),
+    /// Rows whose first number does not ascend.
+    #[error("{name} = {after} follows {name} = {before}")]
+    NotAscending {
+        /// Name of the first number.
+        name: &'static str,
+        /// The number in one row.
+        before: f64,
+        /// The number in the next row.
+        after: f64,
+    },
+    /// A text that is not one of those accepted.
+    #[error("unknown value {0:?}")]
+    UnknownValue(String),
+    /// A text that a parser does not understand; why not.
+    #[error("{0}")]
+    NotUnderstood(String),
+    /// A name that cannot be given to anything.
+    #[error("{0:?} cannot be a name")]
+    ReservedName(String),
+    /// A name that another has.
+    #[error("{0:?} is taken")]
+    NameTaken(String),
+    /// A name that nothing in the scene has.
+    #[error("no {what} is named {name:?}")]
+    UnknownName {
+        /// What was looked for.
+        what: &'static str,
+        /// The name.
+        name: String,
+    },
+    /// A value that does not agree with the rest of the scene.
+    #[error("{0}")]
+    Conflict(String),
+}
+
+/// A value of a scene that is not accepted.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[error("{place}: {key}: {problem}; accepted: {accepted}{}", did_you_mean(.suggestion.as_deref()))]
+pub struct SceneError {
+    /// Where it was written.
+    pub place: Place,
+    /// Dotted path of the key, with tables of an array by their name.
+    pub key: String,
+    /// Why it is not accepted.
+    pub problem: Problem,
+    /// What is accepted there.
+    pub accepted: String,
+    /// The known name that is nearest to an unknown one.
+    pub suggestion: Option<String>,
+}
+
 /// The error type of this crate.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
-    /// A scene that does not say what it must, or says what it must not.
-    #[error("{place}: {key}: {problem}; accepted: {accepted}")]
-    Scene {
-        /// Where.
-        place: Place,
-        /// Dotted path of the key, tables of an array by their name.
-        key: String,
-        /// What is wrong, with the value.
-        problem: String,
-        /// What is accepted there.
-        accepted: String,
-    },
+    /// A value of a scene that is not accepted.
+    #[error(transparent)]
+    Scene(Box<SceneError>),
     /// A part of the scene format that this version does not compute.
-    #[error("{place}: {key}: {what} is not built yet; take it out of the scene (nothing is ignored silently)")]
+    #[error("{place}: {key} is not built yet: take it out of the scene, nothing is ignored silently")]
     NotBuilt {
-        /// Where.
+        /// Where it was written.
         place: Place,
         /// Dotted path of the key.
         key: String,
-        /// What was asked for.
-        what: String,
     },
     /// A file that is not TOML.
     #[error("{place}: not TOML: {problem}")]
@@ -61,13 +132,23 @@ pub enum Error {
         /// What the parser says.
         problem: String,
     },
-    /// An override that names no place in the scene.
+    /// An override that is not a path into the scene.
     #[error("--set {argument}: {problem}")]
     Override {
         /// The argument as given.
         argument: String,
         /// What is wrong, and what is accepted.
         problem: String,
+    },
+    /// A key that the format does not have, asked for by name.
+    #[error("no key is named {key:?}; accepted: {accepted}{}", did_you_mean(.suggestion.as_deref()))]
+    NoSuchKey {
+        /// The key.
+        key: String,
+        /// The keys of the table.
+        accepted: String,
+        /// The nearest of them.
+        suggestion: Option<String>,
     },
     /// A file that cannot be read.
     #[error("cannot read {}: {source}", path.display())]
@@ -77,7 +158,7 @@ pub enum Error {
         /// Why.
         source: io::Error,
     },
-    /// A folder or file that cannot be made or written before the run begins.
+    /// A folder or file that cannot be created before the run begins.
     #[error("cannot write to {}: {source}", path.display())]
     Output {
         /// The folder or file.
@@ -85,8 +166,8 @@ pub enum Error {
         /// Why.
         source: io::Error,
     },
-    /// A file that could not be written to its end (a full disk); what was written stays.
-    #[error("at t = {time} s: cannot write {}: {source}; samples before it are kept", path.display())]
+    /// A file that could not be written to its end (a full disk); what was written before stays.
+    #[error("at t = {time} s: cannot write {}: {source}; earlier samples are kept", path.display())]
     Write {
         /// The file.
         path: PathBuf,
@@ -95,7 +176,7 @@ pub enum Error {
         /// Why.
         source: io::Error,
     },
-    /// The mechanics refused: a step that cannot be done, no equilibrium. Names the cable and the time.
+    /// A failed step, or a cable without equilibrium. Names the cable and the time.
     #[error("{}{source}", moment(source, *time))]
     Mechanics {
         /// Simulated time of the last good state in s.
@@ -104,7 +185,7 @@ pub enum Error {
         #[source]
         source: lariat_ancf::Error,
     },
-    /// A rigid body that cannot go on.
+    /// A rigid body whose motion cannot be computed.
     #[error("at t = {time} s: body {body:?}: {problem}")]
     Body {
         /// Simulated time in s.
@@ -114,7 +195,7 @@ pub enum Error {
         /// Why.
         problem: String,
     },
-    /// The coupling of cables and bodies refused.
+    /// An error of the coupling between cables and bodies.
     #[error("at t = {time} s: {source}")]
     Coupling {
         /// Simulated time in s.
@@ -124,43 +205,31 @@ pub enum Error {
         source: lariat_rapier::Error,
     },
     /// The run was interrupted; every sample so far is on disk.
-    #[error("interrupted at t = {time} s; samples so far are kept")]
+    #[error("interrupted at t = {time} s; the samples so far are kept")]
     Interrupted {
         /// Simulated time in s.
         time: f64,
     },
-    /// A figure that could not be drawn.
-    #[error("cannot draw {}: {reason}", path.display())]
-    Figure {
-        /// The file.
-        path: PathBuf,
-        /// Why.
-        reason: String,
-    },
 }
 
 impl Error {
-    /// Exit code of the `lariat` command: 2 for bad input (nothing written), 3 for a failed run, 130 for an interrupted one.
+    /// Returns the exit code of the `lariat` command: 2 for bad input (nothing is written), 3 for a failed run, 130 for an
+    /// interrupted one.
     pub fn exit_code(&self) -> u8 {
         match self {
-            Error::Scene { .. }
+            Error::Scene(_)
             | Error::NotBuilt { .. }
             | Error::Syntax { .. }
             | Error::Override { .. }
+            | Error::NoSuchKey { .. }
             | Error::Read { .. }
             | Error::Output { .. } => 2,
-            Error::Write { .. }
-            | Error::Mechanics { .. }
-            | Error::Body { .. }
-            | Error::Coupling { .. }
-            | Error::Figure { .. } => 3,
+            Error::Write { .. } | Error::Mechanics { .. } | Error::Body { .. } | Error::Coupling { .. } => 3,
             Error::Interrupted { .. } => 130,
         }
     }
-}
 
-impl Error {
-    /// A refusal of the mechanics at a time in s, unless it names its own.
+    /// Returns an error of the mechanics at a time in s, unless it names its own.
     pub(crate) fn mechanics(time: f64, source: lariat_ancf::Error) -> Self {
         let time = match &source {
             lariat_ancf::Error::StepFailed { time, .. } => *time,
@@ -176,10 +245,32 @@ impl From<lariat_ancf::Error> for Error {
     }
 }
 
-/// The time, where the mechanics does not name it itself.
+/// Returns the time, where the mechanics does not name it itself.
 fn moment(source: &lariat_ancf::Error, time: f64) -> String {
     match source {
         lariat_ancf::Error::StepFailed { .. } => String::new(),
         _ => format!("at t = {time} s: "),
+    }
+}
+
+/// Returns the question that ends a message about an unknown name.
+pub(crate) fn did_you_mean(suggestion: Option<&str>) -> String {
+    suggestion.map_or(String::new(), |name| format!(". Did you mean {name:?}?"))
+}
+
+fn coded(names: &[&str]) -> String {
+    names.iter().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ")
+}
+
+/// Returns a number as text, very large and very small ones with an exponent.
+fn number(x: f64) -> String {
+    let plain = x == 0.0 || (1e-6..1e9).contains(&x.abs());
+    if plain { format!("{x}") } else { format!("{x:e}") }
+}
+
+fn not_finite(numbers: &[f64]) -> String {
+    match numbers {
+        [x] => format!("{x} is"),
+        _ => format!("{numbers:?} is"),
     }
 }

@@ -2,17 +2,25 @@
 //!
 //! | module | what it holds |
 //! |---|---|
-//! | [`scene`] | scene files: TOML in, a checked scene out |
+//! | [`schema`] | the scene format as data: each key with its unit, range, default and meaning |
+//! | [`document`] | a scene file as a tree of values that know where they were written |
+//! | [`scene`] | the tables of a scene, checked into a [`Scene`] |
 //! | [`run`] | headless runs: probes to CSV, a summary as JSON |
-//! | [`view`] | the run as a page that moves |
+//! | [`view`] | the run as an animated page |
 //!
-//! The library prints nothing; the `lariat` command does.
+//! Modules use those above them; `physics`, the Rapier side of a run, is between [`scene`] and [`run`]. The library prints
+//! nothing; the `lariat` command does.
 
+pub mod document;
 mod error;
 mod physics;
+mod read;
 pub mod run;
 pub mod scene;
+#[macro_use]
+pub mod schema;
+mod suggest;
 pub mod view;
 
-pub use error::{Error, Place};
+pub use error::{Error, Place, Problem, SceneError};
 pub use scene::{Purpose, Scene};

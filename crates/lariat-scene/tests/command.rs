@@ -1,4 +1,4 @@
-//! The `lariat` command as a user meets it: files, exit codes, messages.
+//! The `lariat` command: files, exit codes, messages.
 
 use lariat_scene::run::Summary;
 use std::fs;
@@ -31,7 +31,7 @@ fn rows(file: PathBuf) -> (String, Vec<Vec<f64>>) {
 /// An explicit method within its stability limit, as the cable is at the start.
 const EXPLICIT: &[&str] = &["--set", "cable.pendulum.integrator={ method = \"verlet\", stable = 0.9 }"];
 
-/// A load that stretches the cable fourfold: its frequencies rise past the explicit step, which blows up in mid-run.
+/// A load that stretches the cable fourfold: its frequencies rise beyond the limit of the explicit step during the run.
 const STRETCH: &str = "\n[[load]]\ncable = \"pendulum\"\nat = \"end\"\nforce = [3.0e5, 0.0, 0.0]\nramp = 1.0\n";
 
 #[test]
@@ -101,7 +101,7 @@ fn bad_input_exits_with_2_and_writes_nothing() {
 }
 
 #[test]
-fn a_folder_that_cannot_be_made_is_named() {
+fn a_folder_that_cannot_be_created_is_named() {
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("file");
     fs::write(&file, "in the way").unwrap();
@@ -109,10 +109,75 @@ fn a_folder_that_cannot_be_made_is_named() {
     assert_eq!(output.status.code(), Some(2));
     assert!(stderr(&output).contains("cannot write to"), "{}", stderr(&output));
     assert_eq!(fs::read_to_string(&file).unwrap(), "in the way");
-    // a report finds out before it measures for minutes
-    let output = lariat(&["report", "--out", file.to_str().unwrap()]);
+}
+
+#[test]
+fn help_lists_the_measurements_of_the_workspace() {
+    let help = String::from_utf8(lariat(&["--help"]).stdout).unwrap();
+    for name in ["report", "stability", "table1", "lariat-bench", "keys"] {
+        assert!(help.contains(name), "{name}: {help}");
+    }
+}
+
+/// A copy of the command finds `lariat-bench` beside it, hands all arguments over, `--help` too, and returns its exit code. Without
+/// the program the message says how to build it.
+#[cfg(unix)]
+#[test]
+fn measurements_are_run_by_the_program_beside_the_command() {
+    use std::os::unix::fs::PermissionsExt;
+    let folder = tempfile::tempdir().unwrap();
+    let [command, program, script] = ["lariat", "lariat-bench", "script"].map(|name| folder.path().join(name));
+    // written first and renamed later: a file that another test's child still holds open cannot be executed
+    fs::write(&script, "#!/bin/sh\necho \"$@\"\nexit 3\n").unwrap();
+    fs::set_permissions(&script, fs::Permissions::from_mode(0o755)).unwrap();
+    fs::copy(env!("CARGO_BIN_EXE_lariat"), &command).unwrap();
+    let run = |arguments: &[&str]| {
+        for _ in 0..100 {
+            match Command::new(&command).args(arguments).env_remove("CARGO").output() {
+                Err(error) if error.kind() == std::io::ErrorKind::ExecutableFileBusy => {
+                    std::thread::sleep(std::time::Duration::from_millis(20));
+                }
+                output => return output.unwrap(),
+            }
+        }
+        panic!("{} stays busy", command.display());
+    };
+    let output = run(&["table1"]);
     assert_eq!(output.status.code(), Some(2));
-    assert!(stderr(&output).contains("cannot write to"), "{}", stderr(&output));
+    assert!(stderr(&output).contains("cargo build --release -p lariat-bench"), "{}", stderr(&output));
+    fs::rename(&script, &program).unwrap();
+    for arguments in [&["report", "--out", "a folder", "--quick"][..], &["stability", "--help"], &["table1", "-h"]] {
+        let output = run(arguments);
+        assert_eq!(String::from_utf8_lossy(&output.stdout).trim(), arguments.join(" "));
+        assert_eq!(output.status.code(), Some(3));
+    }
+}
+
+#[test]
+fn an_unknown_subcommand_suggests_the_nearest() {
+    let output = lariat(&["raport", "--out", "x"]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(stderr(&output).contains("'report'"), "{}", stderr(&output));
+}
+
+#[test]
+fn keys_are_listed_in_all_or_by_table_and_misspelt_ones_are_errors() {
+    let text = |arguments: &[&str]| String::from_utf8(lariat(arguments).stdout).unwrap();
+    let all = text(&["keys"]);
+    assert!(
+        all.contains("### `[[cable]]`") && all.contains("### `[cable.drag]`") && all.contains("| `fluid_density` |")
+    );
+    let drag = text(&["keys", "cable.drag"]);
+    assert!(
+        drag.starts_with("### `[cable.drag]`")
+            && drag.contains("[cable.drag.flow.power_law]")
+            && !drag.contains("[[cable]]"),
+        "{drag}"
+    );
+    assert!(text(&["keys", "cable.length"]).contains("| `length` | a finite number > 0 | m |"));
+    let output = lariat(&["keys", "cable.dragg"]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(stderr(&output).contains("Did you mean \"drag\"?"), "{}", stderr(&output));
 }
 
 #[test]
@@ -135,13 +200,53 @@ fn a_run_that_fails_exits_with_3_names_cable_and_time_and_keeps_its_samples() {
 }
 
 #[test]
-fn results_of_an_earlier_run_do_not_stay_behind() {
+fn results_of_the_last_run_are_removed() {
     let folder = tempfile::tempdir().unwrap();
     let to = folder.path().to_str().unwrap();
     assert!(lariat(&["static", &scene("cantilever"), "--out", to]).status.success());
     assert!(folder.path().join("probes/wall.csv").exists());
     assert!(lariat(&["static", &scene("catenary"), "--out", to]).status.success());
     assert!(!folder.path().join("probes/wall.csv").exists());
+}
+
+/// Other files in the folder stay, also those that look like results, and nothing outside is touched.
+#[test]
+fn files_of_the_user_are_not_removed() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("out");
+    let to = out.to_str().unwrap();
+    assert!(lariat(&["static", &scene("cantilever"), "--out", to]).status.success());
+    let outside = folder.path().join("outside.csv");
+    let mine = [out.join("notes.txt"), out.join("probes/mine.csv"), out.join("probes/folder/wall.csv"), outside];
+    fs::create_dir(out.join("probes/folder")).unwrap();
+    mine.iter().for_each(|file| fs::write(file, "mine").unwrap());
+    let list = out.join(".lariat-files");
+    let listed = fs::read_to_string(&list).unwrap();
+    assert!(listed.lines().any(|name| name == "probes/wall.csv"), "{listed}");
+    fs::write(&list, listed + "probes/../../outside.csv\n../outside.csv\nnotes.txt\n").unwrap();
+    assert!(lariat(&["static", &scene("catenary"), "--out", to]).status.success());
+    for file in &mine {
+        assert_eq!(fs::read_to_string(file).unwrap(), "mine", "{}", file.display());
+    }
+    assert!(!out.join("probes/wall.csv").exists() && out.join("probes/middle.csv").exists());
+}
+
+#[test]
+fn static_prints_the_equilibrium_of_each_cable() {
+    let folder = tempfile::tempdir().unwrap();
+    let output = lariat(&["static", &scene("catenary"), "--out", folder.path().to_str().unwrap()]);
+    let text = String::from_utf8(output.stdout).unwrap();
+    for fragment in [
+        "cable \"line\": stable, residual",
+        "peak tension",
+        "sag",
+        "on \"left\" at 0 m: force [",
+        "on \"right\" at 3 m",
+    ] {
+        assert!(text.contains(fragment), "{fragment}: {text}");
+    }
+    let statics = summary(folder.path()).statics.unwrap();
+    assert_eq!((statics.len(), statics[0].name.as_str(), statics[0].reactions.len()), (1, "line", 2));
 }
 
 #[cfg(target_os = "linux")]
@@ -158,7 +263,7 @@ fn a_full_disk_is_an_error_that_says_so() {
 /// No file may grow past 8 kB: rows until then stay, none is cut, and the summary says why the run ended.
 #[cfg(target_os = "linux")]
 #[test]
-fn a_disk_that_fills_up_in_mid_run_leaves_whole_rows() {
+fn a_disk_that_fills_up_during_a_run_leaves_whole_rows() {
     let folder = tempfile::tempdir().unwrap();
     let run = format!(
         "trap '' XFSZ; ulimit -f 8; exec {} run {} --out {}",
@@ -175,7 +280,7 @@ fn a_disk_that_fills_up_in_mid_run_leaves_whole_rows() {
     assert!(text.ends_with('\n') && text.len() <= 8192);
     let (_, rows) = rows(folder.path().join("probes/tip.csv"));
     assert!(rows.len() > 20 && rows.iter().all(|row| row.len() == 13 && row.iter().all(|x| x.is_finite())));
-    // the page does not fit either: none rather than half of one
+    // the page does not fit either and is removed
     assert!(!folder.path().join("view.html").exists());
 }
 
@@ -208,7 +313,7 @@ fn ctrl_c_leaves_every_sample_and_a_summary() {
 }
 
 #[test]
-fn the_tables_list_every_integrator_and_every_refused_rule() {
+fn the_tables_list_every_integrator_and_every_rejected_rule() {
     let output = lariat(&["integrators"]);
     let text = String::from_utf8(output.stdout).unwrap();
     for method in lariat_ancf::Method::ALL {

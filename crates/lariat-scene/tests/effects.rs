@@ -1,4 +1,4 @@
-//! The effect tables of a scene, run and read back against outside values.
+//! The effect tables of a scene, against independent values.
 
 use lariat_scene::{Purpose, Scene, run};
 use std::path::PathBuf;
@@ -28,12 +28,11 @@ youngs_modulus = 1.0e8
 elements = 4
 "#;
 
-/// A free horizontal cable reaches the speed that drag allows: v = v_T tanh(g t/v_T), v_T^2 = 2 w/(rho d C_n); what it lost is in
-/// `dissipated`.
+/// A free horizontal cable falls with v = v_T tanh(g t/v_T), v_T^2 = 2 w/(rho d C_n); the energy taken by drag is in `dissipated`.
 ///
 /// *Source.* Free fall with quadratic drag; conservation of energy.
 #[test]
-fn drag_of_a_scene_slows_a_falling_cable_and_is_accounted() {
+fn drag_of_a_scene_slows_a_falling_cable_and_is_in_the_energy_balance() {
     let text = format!(
         "{CABLE}integrator = {{ tolerance = 1e-8 }}\n[cable.drag]\nfluid_density = 1.2\nnormal = 1.1\ntangential = 0.02\n\
          [[probe]]\nname = \"p\"\nenergy = \"line\"\n"
@@ -51,11 +50,11 @@ fn drag_of_a_scene_slows_a_falling_cable_and_is_accounted() {
     assert_eq!(summary.effect_evaluations["drag"], summary.element_evaluations);
 }
 
-/// A neutrally buoyant cable floats, damping does nothing to it, and every effect that is on has its entry.
+/// A neutrally buoyant cable stays at rest, and every effect that is on has its entry.
 ///
 /// *Source.* Archimedes.
 #[test]
-fn buoyancy_of_a_scene_carries_the_cable() {
+fn buoyancy_of_a_scene_balances_the_weight() {
     let text = format!(
         "{CABLE}[cable.buoyancy]\nfluid_density = 4000.0\n[cable.damping]\naxial = 1e-3\nbending = 1e-2\n\
          [[probe]]\nname = \"p\"\ncable = \"line\"\nat = \"end\"\n"
@@ -108,7 +107,7 @@ fn last(name: &str, text: &str) -> (Vec<f64>, Vec<String>) {
     (rows.pop().unwrap(), summary.effect_evaluations.into_keys().collect())
 }
 
-/// A free cable falls by half of gravity where the scene says so, and is pushed by its line load.
+/// A free cable falls with half of gravity and is accelerated by its line load.
 ///
 /// *Source.* Uniform acceleration, 1/2 (scale g + f/m) t^2.
 #[test]
@@ -155,11 +154,11 @@ at = "end"
     assert!((rows[0][3] / expected - 1.0).abs() < 1e-4, "{:?}", rows[0]);
 }
 
-/// A cable between two points of its unstretched length, stress-free at 0.98 of it, pulls; one that is stress-free at a curvature takes it.
+/// A cable held at its unstretched length with a stress-free stretch of 0.98 is under tension; one with a stress-free curvature takes it.
 ///
 /// *Source.* N = EA (1 - f_0^2)/2 at stretch 1 (the Green law); an elastic rod without load has its natural curvature.
 #[test]
-fn the_rest_shape_of_a_scene_is_taken_or_pulls() {
+fn the_rest_shape_of_a_scene_is_taken_or_causes_tension() {
     let text = r#"
 duration = 0.1
 gravity = [0.0, 0.0, 0.0]
@@ -207,7 +206,7 @@ at = 0.37
     }
 }
 
-/// A cable at a height in a wind by the power law, and one in a wind that freshens, are carried along.
+/// A free cable is accelerated by a wind after the power law at its height, and by a wind that grows with time.
 ///
 /// *Source.* v' = k (u - v)^2 with k = rho d C_n/(2 m): v = u - u/(1 + k u t) for a steady wind; for u = a t,
 /// v = a t - sqrt(a/k) tanh(sqrt(a k) t).

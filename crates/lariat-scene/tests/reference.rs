@@ -1,67 +1,151 @@
-//! docs/scene.md has every key that the parser reads, and no other.
+//! docs/scene.md and the schema: the page shows the keys of the parser, and defaults are what the page says.
 
+use lariat_scene::scene::SceneTable;
+use lariat_scene::schema::{Default, Table, markdown};
 use lariat_scene::{Purpose, Scene};
-use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::Path;
 
-type Keys = BTreeMap<String, BTreeSet<String>>;
-
-fn read(path: &str) -> String {
-    fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join(path)).unwrap()
-}
-
-/// The fields of each table in the source of the parser.
-fn keys_of_the_parser() -> Keys {
-    let (mut keys, mut table, mut renamed) = (Keys::new(), String::new(), None);
-    for line in read("src/scene/table.rs").lines() {
-        if let Some(rest) = line.strip_prefix("pub struct ") {
-            table = rest.trim_end_matches("Table {").to_lowercase();
-        } else if let Some(rest) = line.trim().strip_prefix("#[serde(rename = \"") {
-            renamed = rest.split('"').next().map(str::to_string);
-        } else if let Some((field, _)) = line.strip_prefix("    pub ").and_then(|rest| rest.split_once(':')) {
-            let key = renamed.take().unwrap_or(field.to_string());
-            keys.entry(table.clone()).or_default().insert(key);
-        }
-    }
-    keys
-}
-
-/// The first columns of the tables of the page that begin with `key`, by the last word of the heading above.
-fn keys_of_the_page() -> Keys {
-    let (mut keys, mut heading, mut inside) = (Keys::new(), String::new(), false);
-    for line in read("../../docs/scene.md").lines() {
-        if line.starts_with('#') {
-            let word = line.trim_matches(|c| "#`[] ".contains(c));
-            heading = word.rsplit(['.', ' ']).next().unwrap_or_default().replace('_', "");
-        }
-        inside = line.starts_with("| key |") || inside && line.starts_with('|');
-        if let Some(rest) = line.strip_prefix("| `").filter(|_| inside) {
-            let key = rest.split('`').next().unwrap_or_default().to_string();
-            assert!(keys.entry(heading.clone()).or_default().insert(key.clone()), "{heading}: {key} twice");
-        }
-    }
-    keys
+fn page() -> String {
+    fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/scene.md")).unwrap()
 }
 
 #[test]
-fn the_page_has_every_key_of_the_parser_and_no_other() {
-    let (parser, page) = (keys_of_the_parser(), keys_of_the_page());
-    assert!(parser.len() > 10 && parser["body"].contains("path"), "{parser:?}");
-    // the table of a piece of a rest shape is `RestPieceTable` there and `[[cable.rest_shape.piece]]` here
-    let heading = |table: &str| page.keys().filter(|h| table.ends_with(h.as_str())).max_by_key(|h| h.len()).cloned();
-    let headings: Vec<Option<String>> = parser.keys().map(|table| heading(table)).collect();
-    for ((table, keys), heading) in parser.iter().zip(&headings) {
-        assert_eq!(Some(keys), heading.as_ref().map(|h| &page[h]), "{table}");
-    }
-    for extra in page.keys() {
-        assert_eq!(headings.iter().filter(|h| h.as_ref() == Some(extra)).count(), 1, "{extra}");
+fn the_page_shows_the_keys_of_the_schema() {
+    let (page, tables) = (page(), markdown::tables(&SceneTable::TABLE));
+    let updated = markdown::replace(&page, &tables).expect("the page has no marks for the tables");
+    let lines = page.lines().zip(updated.lines()).find(|(old, new)| old != new);
+    assert!(page == updated, "`lariat keys --into docs/scene.md` writes the tables anew; first difference: {lines:?}");
+    for table in SceneTable::TABLE.all() {
+        assert!(table.keys().count() > 0 && page.contains(table.header), "{}", table.header);
     }
 }
 
 #[test]
-fn the_scene_of_the_page_is_accepted() {
-    let page = read("../../docs/scene.md");
-    let text = page.split("```toml\n").nth(1).unwrap().split("```").next().unwrap();
-    Scene::parse("page.toml", text, &[], Purpose::Run).unwrap();
+fn the_scenes_of_the_page_are_accepted() {
+    let page = page();
+    let blocks: Vec<&str> = page.split("```toml\n").skip(1).filter_map(|rest| rest.split("```").next()).collect();
+    assert_eq!(blocks.len(), 2);
+    Scene::parse("page.toml", blocks[0], &[], Purpose::Run).unwrap();
+    // an effect is a part of a cable
+    let cable = blocks[0].find("[[attachment]]").unwrap();
+    let text = format!("{}{}{}", &blocks[0][..cable], blocks[1], &blocks[0][cable..]);
+    Scene::parse("page.toml", &text, &[], Purpose::Run).unwrap();
+}
+
+/// A scene with every table and no key that has a default value.
+const SCENE: &str = r#"
+duration = 1.0
+[[body]]
+name = "crate"
+shape = { ball = 0.1 }
+mass = 1.0
+[[body]]
+name = "link"
+shape = "none"
+mass = 1.0
+inertia = [1.0, 1.0, 1.0]
+[[joint]]
+kind = "ball"
+body = "link"
+to = "world"
+at = [0.0, 0.0, 0.0]
+[[cable]]
+name = "first"
+points = [[0.0, 0.0, 0.0], [2.0, 0.0, 0.0]]
+section = { round = 0.01 }
+density = 4000.0
+youngs_modulus = 1.0e8
+damping = { axial = 0.1 }
+buoyancy = { fluid_density = 1000.0 }
+[cable.drag]
+fluid_density = 1.2
+flow = { velocity = [1.0, 0.0, 0.0], profile = { rows = [[0.0, 1.0]] } }
+[[cable.rest_shape.piece]]
+from = 0.0
+curvature = 0.1
+[[cable.line_load]]
+force = [0.0, 1.0, 0.0]
+[[cable]]
+name = "second"
+points = [[0.0, 0.0, 0.0], [2.0, 0.0, 0.0]]
+section = { round = 0.01 }
+density = 4000.0
+youngs_modulus = 1.0e8
+damping = { bending = 0.1 }
+[cable.drag]
+fluid_density = 1.2
+flow = { velocity = [1.0, 0.0, 0.0], power_law = { reference = 10.0, exponent = 0.14, top = 100.0 } }
+[[cable.rest_shape.piece]]
+from = 0.0
+stretch = 0.9
+[[attachment]]
+cable = "first"
+at = "start"
+body = "world"
+[[load]]
+cable = "first"
+at = "end"
+force = [0.0, 1.0, 0.0]
+[[probe]]
+name = "all"
+energy = "all"
+"#;
+
+/// Returns path and value of every default of a table and those below it that are in the scene.
+fn defaults(schema: &Table, values: &toml::Table, path: &str) -> Vec<(String, &'static str)> {
+    let mut found = Vec::new();
+    for key in schema.keys() {
+        let path = if path.is_empty() { key.name.to_string() } else { format!("{path}.{}", key.name) };
+        if let Default::Value(value) = key.default {
+            assert!(!values.contains_key(key.name), "{path} is in the scene");
+            found.push((path.clone(), value));
+        }
+        match (values.get(key.name), key.table()) {
+            (Some(toml::Value::Table(inner)), Some(table)) => found.extend(defaults(table, inner, &path)),
+            (Some(toml::Value::Array(rows)), Some(table)) => {
+                for (i, row) in rows.iter().enumerate() {
+                    let row = row.as_table().into_iter();
+                    found.extend(row.flat_map(|row| defaults(table, row, &format!("{path}.{i}"))));
+                }
+            }
+            _ => {}
+        }
+    }
+    found
+}
+
+/// A default that is given explicitly changes nothing, so every default is a value that its key accepts.
+#[test]
+fn defaults_are_what_the_schema_says() {
+    let scene = |sets: &[String]| Scene::parse("scene.toml", SCENE, sets, Purpose::Run).unwrap();
+    let plain = scene(&[]);
+    assert_eq!(plain.cables[0].rule, lariat_ancf::Rule::default());
+    assert_eq!(plain.cables[0].integrator, lariat_ancf::IntegratorChoice::default());
+    assert_eq!(plain.gravity, lariat_ancf::STANDARD_GRAVITY);
+    // the two forms of damping and rest shape leave the other key to its default
+    let values: toml::Table = SCENE.replace("axial = 0.1", "").replace("bending = 0.1", "").parse().unwrap();
+    let mut tried = 0;
+    for (path, value) in defaults(&SceneTable::TABLE, &without(values), "") {
+        let given = path.ends_with("0.damping.axial") || path.ends_with("1.damping.bending");
+        let given =
+            given || path.ends_with("0.rest_shape.piece.0.curvature") || path.ends_with("1.rest_shape.piece.0.stretch");
+        if !given {
+            assert_eq!(scene(&[format!("{path}={value}")]), plain, "{path} = {value}");
+            tried += 1;
+        }
+    }
+    assert!(tried > 30, "{tried}");
+}
+
+/// Removes the keys of rest shapes that have a default.
+fn without(mut values: toml::Table) -> toml::Table {
+    for cable in values.get_mut("cable").and_then(toml::Value::as_array_mut).into_iter().flatten() {
+        let pieces =
+            cable.get_mut("rest_shape").and_then(|rest| rest.get_mut("piece")).and_then(toml::Value::as_array_mut);
+        for piece in pieces.into_iter().flatten().filter_map(toml::Value::as_table_mut) {
+            piece.retain(|key, _| key == "from");
+        }
+    }
+    values
 }

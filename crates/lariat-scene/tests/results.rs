@@ -1,4 +1,4 @@
-//! Runs and tables against values from outside: the real beam, the independent solver, the catenary, the elastica.
+//! Runs and statics against independent values: the converged beam, the independent solver, the catenary, the elastica.
 
 use approx::assert_relative_eq;
 use lariat_scene::run::{self, Options, World};
@@ -21,7 +21,7 @@ fn rows(file: &Path) -> Vec<Vec<f64>> {
 }
 
 #[test]
-fn the_falling_pendulum_scene_follows_the_real_beam() {
+fn the_falling_pendulum_scene_follows_the_converged_beam() {
     let scene = read("falling_pendulum", &[], Purpose::Run);
     let folder = tempfile::tempdir().unwrap();
     let summary = run::run(&scene, folder.path(), &mut Options::default()).unwrap();
@@ -79,19 +79,13 @@ fn the_same_scene_with_the_papers_reference_rule_matches_the_independent_solver_
 }
 
 #[test]
-fn the_catenary_scene_hangs_as_a_catenary() {
+fn the_catenary_scene_has_the_tensions_of_the_catenary() {
     let scene = read("catenary", &[], Purpose::Static);
     let mut world = World::build(&scene).unwrap();
     world.start(Purpose::Static).unwrap();
-    // inextensible and limp: sqrt(L^2 - v^2) = 2 a sinh(w/(2 a)), horizontal tension m g a
+    // inextensible, without bending stiffness: sqrt(L^2 - v^2) = 2 a sinh(w/(2 a)), horizontal tension m g a
     let (w, v, length, weight) = (2.0f64, 0.5f64, 3.0f64, 0.5 * 9.81);
-    let chord = (length * length - v * v).sqrt();
-    let (mut low, mut high) = (0.05f64, 50.0f64);
-    for _ in 0..200 {
-        let a = 0.5 * (low + high);
-        if 2.0 * a * (0.5 * w / a).sinh() > chord { low = a } else { high = a }
-    }
-    let horizontal = weight * low;
+    let horizontal = weight * scale_of_catenary(w, v, length);
     let (left, ..) = world.attachment(0).unwrap();
     let (right, ..) = world.attachment(1).unwrap();
     assert_relative_eq!(left.x, horizontal, max_relative = 2e-3);
@@ -105,8 +99,52 @@ fn the_catenary_scene_hangs_as_a_catenary() {
     assert_relative_eq!(middle.tension, horizontal.hypot(left.y + 1.5 * weight), max_relative = 1.5e-2);
 }
 
+/// The readings of `lariat static` on the catenary: reactions carry the weight, the peak tension is at the higher end, and the sag
+/// is that of the analytic curve below the chord.
+///
+/// *Source.* y = a cosh(x/a) with sqrt(L^2 - v^2) = 2 a sinh(w/(2 a)).
 #[test]
-fn a_run_from_equilibrium_stays_there() {
+fn statics_of_the_catenary_report_reactions_peak_tension_and_sag() {
+    let folder = tempfile::tempdir().unwrap();
+    let summary = run::statics(&read("catenary", &[], Purpose::Static), folder.path()).unwrap();
+    let statics = &summary.statics.unwrap()[0];
+    assert!(statics.stable && statics.residual_n < 1e-6 && statics.iterations > 0, "{statics:?}");
+    let sum: f64 = statics.reactions.iter().map(|reaction| reaction.force_n[1]).sum();
+    assert_relative_eq!(sum, -3.0 * 0.5 * 9.81, max_relative = 1e-9);
+    assert_eq!(statics.reactions.iter().map(|reaction| reaction.at_m).collect::<Vec<_>>(), [0.0, 3.0]);
+    let right = statics.reactions[1].force_n;
+    assert_relative_eq!(statics.peak_tension_n, right[0].hypot(right[1]), max_relative = 2e-3);
+    assert_eq!(statics.peak_tension_at_m, 3.0);
+    let (w, v, length) = (2.0f64, 0.5f64, 3.0f64);
+    let a = scale_of_catenary(w, v, length);
+    // x of the lowest point from the left end
+    let low = 0.5 * w - a * (v / (2.0 * a * (0.5 * w / a).sinh())).asinh();
+    let below = |x: f64| v * x / w - a * (((x - low) / a).cosh() - (low / a).cosh());
+    let sag = (0..=2000).map(|i| below(w * f64::from(i) / 2000.0)).fold(0.0, f64::max);
+    assert_relative_eq!(statics.sag_m.unwrap(), sag, max_relative = 2e-3);
+}
+
+/// Returns a of the catenary of a length over a width and a height, by bisection.
+fn scale_of_catenary(width: f64, height: f64, length: f64) -> f64 {
+    let chord = (length * length - height * height).sqrt();
+    let (mut low, mut high) = (0.05f64, 50.0f64);
+    for _ in 0..200 {
+        let a = 0.5 * (low + high);
+        if 2.0 * a * (0.5 * width / a).sinh() > chord { low = a } else { high = a }
+    }
+    low
+}
+
+#[test]
+fn statics_of_a_cable_with_one_support_have_no_sag() {
+    let folder = tempfile::tempdir().unwrap();
+    let summary = run::statics(&read("cantilever", &[], Purpose::Static), folder.path()).unwrap();
+    let statics = &summary.statics.unwrap()[0];
+    assert_eq!((statics.sag_m, statics.reactions.len(), statics.reactions[0].name.as_str()), (None, 1, "wall"));
+}
+
+#[test]
+fn a_run_from_equilibrium_stays_at_rest() {
     let scene = read("catenary", &[], Purpose::Run);
     let folder = tempfile::tempdir().unwrap();
     run::run(&scene, folder.path(), &mut Options::default()).unwrap();
@@ -151,7 +189,7 @@ fn the_elastica_scene_bends_as_the_elastica_and_the_circle() {
 }
 
 #[test]
-fn a_ramped_load_is_zero_at_the_start_and_in_full_in_statics() {
+fn a_load_with_a_ramp_is_zero_at_the_start_and_full_in_statics() {
     let scene = read("cantilever", &["cable.beam.initial=equilibrium"], Purpose::Run);
     let mut world = World::build(&scene).unwrap();
     world.start(Purpose::Run).unwrap();
@@ -174,7 +212,7 @@ fn a_rigid_start_has_the_energy_and_momentum_of_a_rigid_body() {
     let scene = read("falling_pendulum", &overrides, Purpose::Run);
     let mut world = World::build(&scene).unwrap();
     world.start(Purpose::Run).unwrap();
-    // a rod of 0.8 kg and 2 m about its end, and the rotation of its sections is not in the model
+    // a rod of 0.8 kg and 2 m about its end; the model has no rotational inertia of sections
     let inertia = 0.8 * 4.0 / 3.0;
     assert_relative_eq!(world.energy(None).kinetic, 0.5 * inertia * 9.0, max_relative = 1e-9);
     assert_relative_eq!(world.momentum(None).angular.z, inertia * 3.0, max_relative = 1e-9);

@@ -1,7 +1,7 @@
 //! The cable's matrices at its present state: for eigenfrequencies, buckling loads and coupling.
 
 use super::Cable;
-use crate::effect::acts::{ForceInput, VelocityInput};
+use crate::effect::acts::ForceInput;
 use crate::integrate::State;
 use crate::linalg::BlockTridiagonal;
 use crate::system::jacobian::Jacobians;
@@ -101,7 +101,7 @@ impl Cable {
 
 /// The arguments of an evaluation at a state.
 fn input(state: &State, dv_dq: f64) -> ForceInput<'_> {
-    ForceInput { time: state.time, q: &state.q, velocity: VelocityInput { v: &state.v, dv_dq }, scale: 1.0 }
+    ForceInput { time: state.time, q: &state.q, v: &state.v, dv_dq, scale: 1.0 }
 }
 
 fn dense(a: &BlockTridiagonal) -> DMatrix<f64> {

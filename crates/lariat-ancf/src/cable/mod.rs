@@ -23,10 +23,9 @@ mod state;
 mod supports;
 
 use crate::diagnostics::Diagnostics;
-use crate::effect::EffectWork;
 use crate::error::{Error, StepFailure, require};
 use crate::integrate::{
-    EnergyLaw, Integrator, IntegratorRef, OneStep, Scratch, State, discrete_gradient, step_control,
+    Integrator, IntegratorRef, OneStep, Scratch, State, discrete_gradient, step_control,
 };
 use crate::model::Model;
 use crate::rule::Rule;
@@ -122,13 +121,12 @@ impl Cable {
         })
     }
 
-    /// Replaces the description: everything derived from it is built anew.
+    /// Replaces the description, and builds everything anew that is derived from it.
     fn rebuild(&mut self, model: Model) -> Result<(), Error> {
         let system = System::with_level(&model, self.system.level);
         self.system = system.map_err(|failure| self.step_failed(self.time(), 0.0, failure))?;
         self.buffers = Buffers::new(&model);
         self.model = model;
-        self.revise();
         Ok(())
     }
 
@@ -160,8 +158,7 @@ impl Cable {
         self.check_complete()?;
         self.before.copy_from(&self.snapshot.state);
         self.refresh_memory();
-        self.system.meter.work = EffectWork::default();
-        self.system.meter.law = EnergyLaw::default();
+        self.system.meter.begin();
         let equations = Equations { model: &self.model, system: &mut self.system, diagnostics: &mut self.diagnostics };
         let state = &mut self.snapshot.state;
         let (counts, outcome) = if integrator.method.uses_discrete_gradients() {
@@ -201,9 +198,14 @@ impl Cable {
         }
     }
 
-    pub(crate) fn equations(&mut self) -> (Equations<'_>, &State) {
+    pub(crate) fn equations(&mut self) -> (Equations<'_>, &mut State) {
         let equations = Equations { model: &self.model, system: &mut self.system, diagnostics: &mut self.diagnostics };
-        (equations, &self.snapshot.state)
+        (equations, &mut self.snapshot.state)
+    }
+
+    pub(crate) fn secants(&mut self) -> SecantCable<'_> {
+        let equations = Equations { model: &self.model, system: &mut self.system, diagnostics: &mut self.diagnostics };
+        SecantCable { equations, state: &mut self.snapshot.state, buffers: &mut self.secant_buffers }
     }
 
     pub(crate) fn dynamics(&mut self) -> (CableDynamics<'_>, &State) {

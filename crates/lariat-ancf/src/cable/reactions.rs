@@ -7,7 +7,7 @@
 //! ```
 
 use super::Cable;
-use crate::effect::acts::{ForceInput, VelocityInput};
+use crate::effect::acts::ForceInput;
 use crate::error::Error;
 use crate::integrate::Dynamics;
 use crate::system::Buffers;
@@ -43,8 +43,8 @@ impl Cable {
         let mut residual = vec![0.0; n];
         let mut inertia = vec![0.0; n];
         let (mut equations, state) = self.equations();
-        let velocity = VelocityInput { v: &state.v, dv_dq: 0.0 };
-        equations.force(ForceInput { time: state.time, q: &state.q, velocity, scale: -1.0 }, &mut residual);
+        equations
+            .force(ForceInput { time: state.time, q: &state.q, v: &state.v, dv_dq: 0.0, scale: -1.0 }, &mut residual);
         equations.system.mass.multiply(equations.system.level, &acceleration, &mut inertia);
         let vector = |x: &[f64], y: &[f64]| Vector3::new(x[0] + y[0], x[1] + y[1], x[2] + y[2]);
         let reaction = |&(node, _): &(usize, _)| {
@@ -65,8 +65,7 @@ impl Cable {
         self.refresh_memory();
         let (dynamics, state) = self.dynamics();
         let (mut equations, Buffers { rhs, product, .. }) = (dynamics.equations, dynamics.buffers);
-        let velocity = VelocityInput { v: &state.v, dv_dq: 0.0 };
-        equations.force(ForceInput { time: state.time, q: &state.q, velocity, scale: 1.0 }, rhs);
+        equations.force(ForceInput { time: state.time, q: &state.q, v: &state.v, dv_dq: 0.0, scale: 1.0 }, rhs);
         if state.memory.valid {
             equations.system.mass.multiply(equations.system.level, &state.memory.acceleration, product);
             rhs.iter_mut().zip(product.iter()).for_each(|(r, m)| *r -= m);

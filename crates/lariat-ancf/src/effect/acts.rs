@@ -60,23 +60,12 @@ pub(crate) struct ForceInput<'a> {
     pub time: f64,
     /// Nodal coordinates.
     pub q: &'a [f64],
-    pub velocity: VelocityInput<'a>,
-    /// Factor on the force and its derivatives.
-    pub scale: f64,
-}
-
-/// Velocities at which forces are evaluated.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct VelocityInput<'a> {
     /// Nodal velocities; empty for a cable at rest.
     pub v: &'a [f64],
-    /// Derivative of velocity by position in a stage, in 1/s.
+    /// Derivative of the velocities by the coordinates in 1/s, for the step matrix.
     pub dv_dq: f64,
-}
-
-impl VelocityInput<'_> {
-    /// At rest.
-    pub const REST: VelocityInput<'static> = VelocityInput { v: &[], dv_dq: 0.0 };
+    /// Factor on the force and its derivatives.
+    pub scale: f64,
 }
 
 /// The arguments of a force over a step of the [discrete gradient](crate::integrate::discrete_gradient).
@@ -162,15 +151,15 @@ pub(crate) trait PointForce: Clone + Debug {
     /// Adds its generalised force over a step to `out`, and to `matrix` b h^2 times its negative derivative by the change of the coordinates if
     /// that is asked for. Default: the force at the mean configuration and velocity of the iterate, with its own derivative.
     fn add_over_step(&mut self, level: Level, step: StepInput<'_>, out: &mut [f64], matrix: Option<&mut BlockTridiagonal>) {
-        let StepInput { time, middle, velocity: v, h, .. } = step;
-        // of the mean configuration: half the change, and 2/h of it is the velocity
-        let velocity = VelocityInput { v, dv_dq: 2.0 / h };
+        let StepInput { time, middle: q, velocity: v, h, .. } = step;
+        // the mean configuration changes by half the change, the velocity by 2/h of that
+        let input = ForceInput { time, q, v, dv_dq: 2.0 / h, scale: 1.0 };
         let Some(matrix) = matrix else {
-            return self.add(level, ForceInput { time, q: middle, velocity, scale: 1.0 }, out, None);
+            return self.add(level, input, out, None);
         };
         let scale = 0.5 * BETA * h * h;
         out.iter_mut().for_each(|f| *f *= scale);
-        self.add(level, ForceInput { time, q: middle, velocity, scale }, out, Some(matrix));
+        self.add(level, ForceInput { scale, ..input }, out, Some(matrix));
         out.iter_mut().for_each(|f| *f *= 1.0 / scale);
     }
 

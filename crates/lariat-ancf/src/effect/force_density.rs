@@ -27,7 +27,7 @@
 //! No tangent where none is given: Newton's iteration then converges linearly, and not at all where the force is stiffer than the step
 //! allows.
 
-use super::acts::{ForceInput, PointForce, VelocityInput};
+use super::acts::{ForceInput, PointForce};
 use crate::dual::{Dual, constant};
 use crate::element::shape;
 use crate::linalg::BlockTridiagonal;
@@ -266,7 +266,7 @@ fn differences(force: &dyn ForceDensity, at: &CablePoint, length: f64) -> ForceD
 
 impl PointForce for ForceDensityTable {
     fn add(&mut self, _: Level, input: ForceInput<'_>, out: &mut [f64], mut matrix: Option<&mut BlockTridiagonal>) {
-        let ForceInput { time, q, velocity: VelocityInput { v, dv_dq }, scale } = input;
+        let ForceInput { time, q, v, dv_dq, scale } = input;
         self.not_finite = None;
         for e in 0..self.elements.len() {
             let nodes = 6 * e..6 * e + 12;

@@ -206,7 +206,7 @@ macro_rules! generate {
                 $(if let Some(table) = &mut self.$field {
                     force.fill(0.0);
                     table.add(level, input, force, None);
-                    power.$field += force.iter().zip(input.velocity.v).map(|(f, v)| f * v).sum::<f64>();
+                    power.$field += force.iter().zip(input.v).map(|(f, v)| f * v).sum::<f64>();
                 })*
             }
 

@@ -2,16 +2,16 @@
 //!
 //! # Equation
 //!
-//! With stage velocities V_i and accelerations k_i, the first-order form q' = v, v' = k reduces stage by stage to one
-//! equation of half the size (Hairer & Wanner 1996, IV.8):
+//! With stage velocities V_i and accelerations k_i, the first-order form q' = v, v' = k reduces
+//! stage by stage to one equation of half the size (Hairer & Wanner 1996, IV.8):
 //!
 //! ```text
 //! v^ = v_n + h sum_{j<i} a_ij k_j        q^ = q_n + h sum_{j<i} a_ij V_j + h a_ii v^
 //! M (Q_i - q^) = (h a_ii)^2 F(Q_i, v^ + (Q_i - q^)/(h a_ii))       k_i = (Q_i - q^)/(h a_ii)^2
 //! ```
 //!
-//! The error estimate is `e = h sum (b_j - b^_j) V_j`, filtered by (M + c^2 K)^-1 M so that stiff components, which an L-stable
-//! method damps, do not determine the step.
+//! The error estimate is `e = h sum (b_j - b^_j) V_j`, filtered by (M + c^2 K)^-1 M so that stiff
+//! components, which an L-stable method damps, do not determine the step.
 //!
 //! # Validity
 //!
@@ -23,7 +23,8 @@
 //!
 //! # Alternatives considered
 //!
-//! One tangent for all stages, without a test of its contraction: Newton's iteration fails on thin cables and steps shrink.
+//! One tangent for all stages, without a test of its contraction: Newton's iteration fails on thin
+//! cables and steps shrink.
 
 use super::dynamics::{Dynamics, Newton, Stage};
 use super::one_step::{OneStep, Scratch, StepRequest, add_scaled};
@@ -37,7 +38,8 @@ pub struct Estimate {
     pub weights: &'static [f64],
     /// Exponent of h in the estimate.
     pub order: u32,
-    /// Factor on the estimate by which a tolerance meets the error of the result (see `tests/tolerance.rs`).
+    /// Factor on the estimate by which a tolerance meets the error of the result (see
+    /// `tests/tolerance.rs`).
     pub calibration: f64,
 }
 
@@ -67,7 +69,8 @@ impl Tableau {
             return;
         }
         k.fill(0.0);
-        // at most the last three stages: polynomials of higher degree amplify accelerations that are not smooth
+        // at most the last three stages: polynomials of higher degree amplify accelerations that
+        // are not smooth
         let first = i.saturating_sub(3);
         for j in first..i {
             let weight =

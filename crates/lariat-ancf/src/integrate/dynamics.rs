@@ -1,4 +1,4 @@
-//! What an integrator needs to know of a mechanical system, and nothing else.
+//! The interface of a mechanical system to the integrators.
 
 use super::state::State;
 use crate::error::StepFailure;
@@ -8,8 +8,8 @@ use crate::error::StepFailure;
 pub enum Newton {
     /// When the next increment is predicted to be below this size in m.
     Converge(f64),
-    /// After one iteration (a linearly implicit step). A second solve with the same factors checks it; if it does not contract, the
-    /// iteration continues to this size in m.
+    /// After one iteration (a linearly implicit step). A second solve with the same factors checks
+    /// it; if it does not contract, the iteration continues to this size in m.
     Once(f64),
 }
 
@@ -27,7 +27,8 @@ impl Newton {
     }
 }
 
-/// An implicit stage: find z with `M z = c2 F(base + z, velocity_base + dv_dq z, time)`, `z = y - base`.
+/// An implicit stage: find z with `M z = c2 F(base + z, velocity_base + dv_dq z, time)`, `z = y -
+/// base`.
 #[derive(Clone, Copy, Debug)]
 pub struct Stage {
     /// Time of the stage in s.
@@ -42,10 +43,11 @@ pub struct Stage {
     pub reuse: bool,
 }
 
-/// A mechanical system `M q'' = F(q, q', t)` with constant M, of which some coordinates may be prescribed in time.
+/// A mechanical system `M q'' = F(q, q', t)` with constant M, of which some coordinates may be
+/// prescribed in time.
 ///
-/// Coordinates, velocities and accelerations are flat slices of [`size`](Dynamics::size) numbers. Every method leaves its
-/// outputs unspecified when it fails; no integrator uses them then.
+/// Coordinates, velocities and accelerations are flat slices of [`size`](Dynamics::size) numbers.
+/// Every method leaves its outputs unspecified when it fails; no integrator uses them then.
 pub trait Dynamics {
     /// Returns the number of coordinates.
     fn size(&self) -> usize;
@@ -59,9 +61,10 @@ pub trait Dynamics {
     /// If a force is not finite or the mass matrix is singular.
     fn acceleration(&mut self, time: f64, q: &[f64], v: &[f64], acceleration: &mut [f64]) -> Result<(), StepFailure>;
 
-    /// Solves an implicit stage. On entry `base` and `velocity_base` hold the explicit part and `acceleration` a guess;
-    /// on return `y` holds the position and `acceleration` the acceleration of the stage. Prescribed components of `base`
-    /// and `velocity_base` are changed so that they come out as prescribed.
+    /// Solves an implicit stage. On entry `base` and `velocity_base` hold the explicit part and
+    /// `acceleration` a guess; on return `y` holds the position and `acceleration` the acceleration
+    /// of the stage. Prescribed components of `base` and `velocity_base` are changed so that they
+    /// come out as prescribed.
     ///
     /// # Errors
     /// If the iteration does not converge, a quantity is not finite, or the matrix is singular.
@@ -74,20 +77,24 @@ pub trait Dynamics {
         acceleration: &mut [f64],
     ) -> Result<(), StepFailure>;
 
-    /// Damps the stiff part of a position error: `e <- (M + c2 K)^-1 M e` with the matrix of the last stage.
+    /// Damps the stiff part of a position error: `e <- (M + c2 K)^-1 M e` with the matrix of the
+    /// last stage.
     fn filter(&mut self, error: &mut [f64]);
 
     /// Returns the size of a position error in m.
     fn norm(&self, error: &[f64]) -> f64;
 
-    /// Is called once for every accepted step of length `h` (s), with the states at both ends; accelerations are known in both.
+    /// Is called once for every accepted step of length `h` (s), with the states at both ends;
+    /// accelerations are known in both.
     fn step_accepted(&mut self, _before: &State, _after: &State, _h: f64) {}
 
-    /// Is called with the state at the beginning of a host step and after every accepted step; accelerations are valid.
+    /// Is called with the state at the beginning of a host step and after every accepted step;
+    /// accelerations are valid.
     fn state_reached(&mut self, _state: &State) {}
 
-    /// Returns the spurious energy of a step of length `h` (s) in J, that is the change of energy minus the external work, and the
-    /// kinetic and strain energy to compare it with; `None` where that work is not known.
+    /// Returns the spurious energy of a step of length `h` (s) in J, that is the change of energy
+    /// minus the external work, and the kinetic and strain energy to compare it with; `None` where
+    /// that work is not known.
     fn spurious_energy(&mut self, _before: &State, _after: &State, _h: f64) -> Option<(f64, f64)> {
         None
     }
@@ -107,6 +114,7 @@ pub trait Dynamics {
         true
     }
 
-    /// Returns an upper bound of the angular frequencies of the system in rad/s, near its present state.
+    /// Returns an upper bound of the angular frequencies of the system in rad/s, near its present
+    /// state.
     fn frequency_bound(&self) -> f64;
 }

@@ -1,19 +1,22 @@
 //! The check of fixed steps for spurious energy.
 //!
-//! Generalised-alpha without error control does not detect steps that are too long for a slack cable in fast motion, and creates
-//! energy there.
+//! Generalised-alpha without error control does not detect steps that are too long for a slack
+//! cable in fast motion, and creates energy there.
 //!
 //! # Equation
 //!
-//! The spurious energy of a step is its change of energy minus the external work. It is computed if Newton's iteration needed more
-//! than one iteration and its check, or if the rates of slopes jumped: by a strain of 1e-3 over the step and by a quarter of the
-//! largest rate. Other steps skip the check. If the sum within the host step exceeds 1e-3 of the kinetic and strain energy, the step
-//! is rejected and retried at 1/4 of its length, below 1/8 of the regular step by backward Euler, down to 1/1024 of it.
+//! The spurious energy of a step is its change of energy minus the external work. It is computed if
+//! Newton's iteration needed more than one iteration and its check, or if the rates of slopes
+//! jumped: by a strain of 1e-3 over the step and by a quarter of the largest rate. Other steps skip
+//! the check. If the sum within the host step exceeds 1e-3 of the kinetic and strain energy, the
+//! step is rejected and retried at 1/4 of its length, below 1/8 of the regular step by backward
+//! Euler, down to 1/1024 of it.
 //!
 //! # Validity
 //!
-//! Systems that know the work of their loads; others are not checked. `lariat stability --family random`: none of 500 scenes exceeds
-//! its bound of energy; 16 do if only the number of iterations decides on the check.
+//! Systems that know the work of their loads; others are not checked. `lariat stability --family
+//! random`: none of 500 scenes exceeds its bound of energy; 16 do if only the number of iterations
+//! decides on the check.
 
 use super::backward_euler;
 use super::dynamics::Dynamics;
@@ -31,7 +34,8 @@ const MIN_CHECKED_SHARE: f64 = 1.0 / 1024.0;
 const SLOPE_RATE_JUMP: f64 = 1e-3;
 /// The same change, as a share of the largest rate.
 const SLOPE_RATE_JUMP_SHARE: f64 = 0.25;
-/// After a step was rejected, steps shorter than this share of the regular one are backward Euler's.
+/// After a step was rejected, steps shorter than this share of the regular one are backward
+/// Euler's.
 const FALLBACK_SHARE: f64 = 1.0 / 8.0;
 
 /// The check during one host step.
@@ -50,7 +54,8 @@ pub(super) struct EnergyGuard {
 }
 
 impl EnergyGuard {
-    /// Begins a host step of regular steps of `regular` (s). A guard that is not active accepts everything.
+    /// Begins a host step of regular steps of `regular` (s). A guard that is not active accepts
+    /// everything.
     pub fn new(active: bool, regular: f64) -> Self {
         let (rejected, used_fallback, newton_struggled) = (false, false, false);
         EnergyGuard { active, regular, spurious_energy: 0.0, rejected, used_fallback, newton_struggled }
@@ -98,8 +103,9 @@ impl EnergyGuard {
     }
 }
 
-/// Returns whether the rates of slopes change so much that the step may have created energy: by [`SLOPE_RATE_JUMP`] over the step, and by
-/// [`SLOPE_RATE_JUMP_SHARE`] of the largest rate, more than those of a swinging rope do.
+/// Returns whether the rates of slopes change so much that the step may have created energy: by
+/// [`SLOPE_RATE_JUMP`] over the step, and by [`SLOPE_RATE_JUMP_SHARE`] of the largest rate, more
+/// than those of a swinging rope do.
 fn slope_rates_jump(before: &State, after: &State, h: f64) -> bool {
     let (mut change, mut rate) = (0.0f64, 0.0f64);
     for (v, w) in before.v.chunks_exact(6).zip(after.v.chunks_exact(6)) {

@@ -2,8 +2,9 @@
 //!
 //! # Equation
 //!
-//! The tableau below. The error estimate is the embedded formula of order 2 multiplied by 1.9, a factor tuned on the paper's
-//! pendulum: with a smaller one, the error of one host step in 120 exceeds ten tolerances there (`tests/tolerance.rs`).
+//! The tableau below. The error estimate is the embedded formula of order 2 multiplied by 1.9, a
+//! factor tuned on the paper's pendulum: with a smaller one, the error of one host step in 120
+//! exceeds ten tolerances there (`tests/tolerance.rs`).
 //!
 //! # Validity
 //!

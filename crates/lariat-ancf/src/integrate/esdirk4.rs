@@ -2,13 +2,14 @@
 //!
 //! # Equation
 //!
-//! The tableau below. The error estimate is the embedded formula of order 3 multiplied by 2.5: on pendulums it estimates 40 % of
-//! the error of the result (`tests/tolerance.rs` compares the product with the true error).
+//! The tableau below. The error estimate is the embedded formula of order 3 multiplied by 2.5: on
+//! pendulums it estimates 40 % of the error of the result (`tests/tolerance.rs` compares the
+//! product with the true error).
 //!
 //! # Validity
 //!
-//! Any stiffness. It is the default because it costs less than ESDIRK3 for errors below 5e-4 m on the paper's pendulum and below
-//! 1e-5 m on taut steel (docs/accuracy).
+//! Any stiffness. It is the default because it costs less than ESDIRK3 for errors below 5e-4 m on
+//! the paper's pendulum and below 1e-5 m on taut steel (docs/accuracy).
 //!
 //! # References
 //!
@@ -16,7 +17,8 @@
 //!
 //! # Alternatives considered
 //!
-//! - Rosenbrock methods (RODAS4, 5P): on stiff cables at 1/60 s they return a wrong answer without an error.
+//! - Rosenbrock methods (RODAS4, 5P): on stiff cables at 1/60 s they return a wrong answer without
+//!   an error.
 //! - Two-stage Gauss: Newton's iteration diverges on thin cables.
 
 use super::dirk::{Estimate, Tableau};

@@ -1,21 +1,24 @@
-//! Symmetric compositions of kicks and drifts: the explicit symplectic methods, each given by its weights.
+//! Symmetric compositions of kicks and drifts: the explicit symplectic methods, each given by its
+//! weights.
 //!
 //! # Equation
 //!
 //! ```text
-//! for each i:  v += b_i h k(q);   q += a_i h v        (b first, and last; k at the end serves the next step)
+//! for each i:  v += b_i h k(q);   q += a_i h v
 //! ```
 //!
-//! Where k depends on v (rotating bodies, drag), it is evaluated at v extrapolated with the previous k to the time of q: then
-//! Verlet keeps its order, and the methods of higher order have order 2 in that part.
+//! Where k depends on v (rotating bodies, drag), it is evaluated at v extrapolated with the
+//! previous k to the time of q: then Verlet keeps its order, and the methods of higher order have
+//! order 2 in that part.
 //!
-//! M is factored once; a step costs one force evaluation and one mass solve per drift.
+//! The step begins and ends with a kick, and k at its end serves the next step. M is factored once;
+//! a step costs one force evaluation and one mass solve per drift.
 //!
 //! # Validity
 //!
-//! Soft cables; drag, with order 2. The methods are symplectic: energy errors stay bounded while h omega_max stays below
-//! [`Composition::stability_limit`]. Internal damping is an error, because it lowers the stability limit to
-//! h < 2/(tau omega_max^2), far below practical steps.
+//! Soft cables; drag, with order 2. The methods are symplectic: energy errors stay bounded while h
+//! omega_max stays below [`Composition::stability_limit`]. Internal damping is an error, because it
+//! lowers the stability limit to h < 2/(tau omega_max^2), far below practical steps.
 //!
 //! # References
 //!
@@ -30,7 +33,8 @@ use super::one_step::{OneStep, Scratch, StepRequest, add_scaled};
 use super::state::State;
 use crate::error::StepFailure;
 
-/// Weights of the first half of a symmetric composition b1 a1 b2 a2 ...; the rest follows by symmetry.
+/// Weights of the first half of a symmetric composition b1 a1 b2 a2 ...; the rest follows by
+/// symmetry.
 #[derive(Clone, Copy, Debug)]
 pub struct Composition {
     /// Name of the method.
@@ -107,7 +111,8 @@ mod tests {
     use super::Composition;
     use crate::integrate::{rkn, verlet};
 
-    /// Returns half the trace of the step matrix of q' = v, v' = -x^2 q with h = 1: bounded while it stays within [-1, 1].
+    /// Returns half the trace of the step matrix of q' = v, v' = -x^2 q with h = 1: bounded while
+    /// it stays within [-1, 1].
     fn half_trace(method: &Composition, x: f64) -> f64 {
         let image = |mut q: f64, mut v: f64| {
             for i in 0..method.stages {

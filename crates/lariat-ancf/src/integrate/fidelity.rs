@@ -1,7 +1,8 @@
-//! Presets: an integrator and a recommended number of elements for each of three levels of accuracy.
+//! Presets: an integrator and a recommended number of elements for each of three levels of
+//! accuracy.
 //!
-//! The figures of each preset are those of `docs/accuracy/fidelity.csv`, which `lariat report` measures; a test of `lariat-bench`
-//! compares them with that file.
+//! The figures of each preset are those of `docs/accuracy/fidelity.csv`, which `lariat report`
+//! measures; a test of `lariat-bench` compares them with that file.
 
 use super::generalised_alpha::NewtonMode;
 use super::integrator::{Integrator, StepControl};
@@ -13,14 +14,17 @@ use std::str::FromStr;
 
 /// A preset of accuracy against time.
 ///
-/// Each is measured in three scenes, with its own integrator, the default rule, and the number of elements in the table
-/// (`docs/accuracy`, CPU time of one thread): *pendulum*, the paper's, 2 s, against the beam without discretisation; *payload*, a
-/// crate of 50 kg in Rapier on a cable, 1 s, against an independent code; *taut steel*, a plucked cable of 10 mm, 0.1 s, against its
-/// analytic modes (amplitude 1e-4 m). The payload's cable vibrates undamped, and a tolerance resolves that vibration.
+/// Each is measured in three scenes, with its own integrator, the default rule, and the number of
+/// elements in the table (`docs/accuracy`, CPU time of one thread): *pendulum*, the paper's, 2 s,
+/// against the beam without discretisation; *payload*, a crate of 50 kg in Rapier on a cable, 1 s,
+/// against an independent code; *taut steel*, a plucked cable of 10 mm, 0.1 s, against its analytic
+/// modes (amplitude 1e-4 m). The payload's cable vibrates undamped, and a tolerance resolves that
+/// vibration.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Fidelity {
-    /// One-iteration generalised-alpha 0.5 at h <= 1/240 s, with full Newton where a step does not contract.
+    /// One-iteration generalised-alpha 0.5 at h <= 1/240 s, with full Newton where a step does not
+    /// contract.
     ///
     /// | scene | elements | error m | CPU ms |
     /// |---|---:|---:|---:|
@@ -37,8 +41,8 @@ pub enum Fidelity {
     /// | taut steel | 20 | 5.6e-5 | 0.91 |
     #[default]
     Engineering,
-    /// The symplectic explicit method of order 4 at half its stable step where the cable is soft enough (omega_max below 5e4 rad/s),
-    /// else ESDIRK4 at 1e-9 m per host step.
+    /// The symplectic explicit method of order 4 at half its stable step where the cable is soft
+    /// enough (omega_max below 5e4 rad/s), else ESDIRK4 at 1e-9 m per host step.
     ///
     /// | scene | elements | error m | CPU ms |
     /// |---|---:|---:|---:|
@@ -48,8 +52,9 @@ pub enum Fidelity {
     Reference,
 }
 
-/// Largest angular frequency in rad/s of a cable for which the reference fidelity is explicit: of the scenes of `docs/accuracy`,
-/// the payload (3.4e4 rad/s) is cheaper with an explicit method, the pendulum with 80 elements (8.7e4 rad/s) with an implicit one.
+/// Largest angular frequency in rad/s of a cable for which the reference fidelity is explicit: of
+/// the scenes of `docs/accuracy`, the payload (3.4e4 rad/s) is cheaper with an explicit method, the
+/// pendulum with 80 elements (8.7e4 rad/s) with an implicit one.
 const MAX_EXPLICIT_FREQUENCY: f64 = 5e4;
 
 impl Fidelity {
@@ -65,13 +70,15 @@ impl Fidelity {
         }
     }
 
-    /// Returns the force strategy: the default rule for all three, which has the smallest error for its time in `docs/accuracy`.
+    /// Returns the force strategy: the default rule for all three, which has the smallest error for
+    /// its time in `docs/accuracy`.
     pub fn rule(self) -> Rule {
         Rule::default()
     }
 
-    /// Returns the recommended number of elements: the mesh error is about the time error for a cable that swings and bends as the
-    /// pendulum of `docs/accuracy` does. A taut cable needs fewer elements, one with sharper bends more.
+    /// Returns the recommended number of elements: the mesh error is about the time error for a
+    /// cable that swings and bends as the pendulum of `docs/accuracy` does. A taut cable needs
+    /// fewer elements, one with sharper bends more.
     pub fn elements(self) -> usize {
         match self {
             Fidelity::Game => 10,
@@ -106,7 +113,8 @@ impl FromStr for Fidelity {
     }
 }
 
-/// An integrator, or a fidelity that chooses one by the cable's frequencies. Default: [`Fidelity::Engineering`].
+/// An integrator, or a fidelity that chooses one by the cable's frequencies. Default:
+/// [`Fidelity::Engineering`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum IntegratorChoice {
     /// The integrator of a preset.

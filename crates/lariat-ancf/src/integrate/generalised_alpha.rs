@@ -2,21 +2,26 @@
 //!
 //! # Equation
 //!
-//! In the form of Arnold & Bruls, with algorithmic accelerations a and true ones k (M k = F at every step):
+//! In the form of Arnold & Bruls, with algorithmic accelerations a and true ones k (M k = F at
+//! every step):
 //!
 //! ```text
 //! (1 - am) a_{n+1} + am a_n = (1 - af) k_{n+1} + af k_n
-//! q_{n+1} = q_n + h v_n + h^2 ((1/2 - beta) a_n + beta a_{n+1})      v_{n+1} = v_n + h ((1 - gamma) a_n + gamma a_{n+1})
-//! am = (2 rho - 1)/(rho + 1)   af = rho/(rho + 1)   gamma = 1/2 + af - am   beta = (gamma + 1/2)^2/4
+//! q_{n+1} = q_n + h v_n + h^2 ((1/2 - beta) a_n + beta a_{n+1})
+//! v_{n+1} = v_n + h ((1 - gamma) a_n + gamma a_{n+1})
+//! am = (2 rho - 1)/(rho + 1)   af = rho/(rho + 1)   gamma = 1/2 + af - am
+//! beta = (gamma + 1/2)^2/4
 //! ```
 //!
-//! The error estimate is `h^2 |beta - 1/6 + (am - af)/2| |k_{n+1} - k_n|`, the leading term of the local error.
+//! The error estimate is `h^2 |beta - 1/6 + (am - af)/2| |k_{n+1} - k_n|`, the leading term of the
+//! local error.
 //!
 //! # Validity
 //!
-//! On steel at 1/60 s, rho = 0 is stable without spurious tension, rho >= 0.5 stable with it; rho = 1 is the trapezoidal rule. One
-//! Newton iteration makes a linearly implicit step, the fastest method at game accuracy, for h <= 1/240 s. Fixed steps that are too
-//! long for a slack cable in fast motion can create energy: the [energy guard](super::energy_guard) checks them.
+//! On steel at 1/60 s, rho = 0 is stable without spurious tension, rho >= 0.5 stable with it; rho =
+//! 1 is the trapezoidal rule. One Newton iteration makes a linearly implicit step, the fastest
+//! method at game accuracy, for h <= 1/240 s. Fixed steps that are too long for a slack cable in
+//! fast motion can create energy: the [energy guard](super::energy_guard) checks them.
 //!
 //! # References
 //!

@@ -5,7 +5,8 @@ use super::one_step::OneStep;
 use crate::error::{Error, require};
 use serde::{Deserialize, Serialize};
 
-/// How the length of the integration steps within a host step is chosen. The last one always ends exactly with the host step.
+/// How the length of the integration steps within a host step is chosen. The last one always ends
+/// exactly with the host step.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum StepControl {
@@ -13,8 +14,8 @@ pub enum StepControl {
     Tolerance(f64),
     /// This many equal steps per host step.
     Substeps(u32),
-    /// The fewest equal steps no longer than this, in s. A host step that exceeds a multiple of it by no more than the rounding of
-    /// single precision takes no additional step.
+    /// The fewest equal steps no longer than this, in s. A host step that exceeds a multiple of it
+    /// by no more than the rounding of single precision takes no additional step.
     MaxStep(f64),
     /// Explicit methods: the fewest equal steps within this share (0 to 1) of the stability limit.
     Stable(f64),
@@ -47,7 +48,8 @@ impl Integrator {
     /// Returns a method with a tolerance in m of position error per host step.
     ///
     /// # Errors
-    /// [`Error::NoErrorEstimate`] if the method has no error estimate, [`Error::InvalidValue`] for a bad tolerance.
+    /// [`Error::NoErrorEstimate`] if the method has no error estimate, [`Error::InvalidValue`] for
+    /// a bad tolerance.
     pub fn tolerance(method: Method, tolerance: f64) -> Result<Self, Error> {
         Integrator { method, control: StepControl::Tolerance(tolerance) }.checked()
     }
@@ -69,7 +71,8 @@ impl Integrator {
     }
 }
 
-/// A borrowed method of any crate and its step control: what [`Cable::step_with`](crate::Cable::step_with) and
+/// A borrowed method of any crate and its step control: what
+/// [`Cable::step_with`](crate::Cable::step_with) and
 /// [`Island::step_with`](crate::island::Island::step_with) take. An [`Integrator`] converts to it.
 #[derive(Clone, Copy, Debug)]
 pub struct IntegratorRef<'a> {

@@ -1,8 +1,9 @@
 //! Time integrators, one file each, over one trait.
 //!
-//! A method implements [`OneStep`]: one step of any length on any [`Dynamics`]. [`step_control`] chooses the steps: it lands
-//! exactly on the host's time, estimates the error where the method can, rejects failed steps and retries shorter ones, and
-//! stops with the last good state in place if the shortest step fails.
+//! A method implements [`OneStep`]: one step of any length on any [`Dynamics`]. [`step_control`]
+//! chooses the steps: it lands exactly on the host's time, estimates the error where the method
+//! can, rejects failed steps and retries shorter ones, and stops with the last good state in place
+//! if the shortest step fails.
 //!
 //! | file | contents | order |
 //! |---|---|---|
@@ -11,21 +12,25 @@
 //! | [`generalised_alpha`] | generalised-alpha(rho), converged or one Newton iteration | 2 |
 //! | [`tr_bdf2`] | TR-BDF2 | 2 |
 //! | [`esdirk3`], [`esdirk4`] | L-stable singly diagonally implicit Runge-Kutta | 3, 4 |
-//! | [`dirk`] | the steps of all diagonally implicit Runge-Kutta methods: a method is a [`Tableau`](dirk::Tableau) | |
+//! | [`dirk`] | the step of a diagonally implicit Runge-Kutta method, given by its tableau | |
 //! | [`discrete_gradient`] | guarded discrete gradient: the energy law holds at any step | 2 |
 //! | [`verlet`], [`rkn`] | symplectic explicit methods | 2, 4, 6 |
-//! | [`explicit`] | their steps: a method is a [`Composition`](explicit::Composition) | |
-//! | [`Method`], [`Integrator`], [`Fidelity`] | methods by name, with a step control, and as presets | |
-//! | [`step_control`], [`energy_guard`] | the choice of steps, and the check of fixed steps for spurious energy | |
+//! | [`explicit`] | the step of a symplectic explicit method, given by its weights | |
+//! | [`Method`], [`Integrator`], [`Fidelity`] | by name, with a step control, as presets | |
+//! | [`step_control`] | the choice of steps | |
+//! | [`energy_guard`] | the check of fixed steps for spurious energy | |
 //!
 //! # Adding a method
 //!
-//! Implement [`OneStep`] in a crate of your own; its page has an example of an explicit method. An implicit method calls
-//! [`Dynamics::solve_stage`] once per stage, as `tests/own_integrator.rs` does. A diagonally implicit Runge-Kutta method needs no
-//! code: write its [`Tableau`](dirk::Tableau), which implements the trait. Step with [`Cable::step_with`](crate::Cable::step_with).
+//! Implement [`OneStep`] in a crate of your own; its page has an example of an explicit method. An
+//! implicit method calls [`Dynamics::solve_stage`] once per stage, as `tests/own_integrator.rs`
+//! does. A diagonally implicit Runge-Kutta method needs no code: write its
+//! [`Tableau`](dirk::Tableau), which implements the trait. Step with
+//! [`Cable::step_with`](crate::Cable::step_with).
 //!
-//! A method of this crate is a file here and a variant of [`Method`]: the compiler then asks for its implementation, name and
-//! properties in `method.rs`, and [`Method::ALL`] puts it into every test of integrators.
+//! A method of this crate is a file here and a variant of [`Method`]: the compiler then asks for
+//! its implementation, name and properties in `method.rs`, and [`Method::ALL`] puts it into every
+//! test of integrators.
 
 mod backward_euler;
 pub mod dirk;

@@ -2,12 +2,14 @@
 //!
 //! # Equation
 //!
-//! Full increments under a cap on the change of slope. A factored tangent is tried again in the next iteration, and in the next
-//! stage of the same step, as long as each increment is less than 0.3 of the one before (a force and a solve cost a third of a new
-//! tangent); the first increment that is not smaller is discarded together with the tangent.
+//! Full increments under a cap on the change of slope. A factored tangent is tried again in the
+//! next iteration, and in the next stage of the same step, as long as each increment is less than
+//! 0.3 of the one before (a force and a solve cost a third of a new tangent); the first increment
+//! that is not smaller is discarded together with the tangent.
 //!
-//! The error after increment d_k is predicted as 2 d_k^2/d_{k-1} with a kept tangent, d_k^3/d_{k-1}^2 with a fresh one; the iteration
-//! ends when that, or d_k itself, is below the tolerance.
+//! The error after increment d_k is predicted as 2 d_k^2/d_{k-1} with a kept tangent,
+//! d_k^3/d_{k-1}^2 with a fresh one; the iteration ends when that, or d_k itself, is below the
+//! tolerance.
 //!
 //! # References
 //!
@@ -15,9 +17,10 @@
 //!
 //! # Alternatives considered
 //!
-//! - A line search on the residual: it stagnates on thin cables, because the residual of the stiff axial modes hides the progress of
-//!   the bending modes.
-//! - One tangent for a whole step without a test of its contraction: it diverges on steel, and steps shrink.
+//! - A line search on the residual: it stagnates on thin cables, because the residual of the stiff
+//!   axial modes hides the progress of the bending modes.
+//! - One tangent for a whole step without a test of its contraction: it diverges on steel, and
+//!   steps shrink.
 //! - Tangents kept across host steps: a restored snapshot would not replay bitwise.
 
 use crate::error::StepFailure;
@@ -26,7 +29,8 @@ use crate::error::StepFailure;
 const MAX_ITERATIONS: usize = 12;
 /// Largest change of a slope vector, or rotation of a body in rad, in one Newton iteration.
 const MAX_ROTATION: f64 = 0.5;
-/// A tangent is kept for the next iteration or stage while each increment is below this share of the one before.
+/// A tangent is kept for the next iteration or stage while each increment is below this share of
+/// the one before.
 const MAX_CHORD_CONTRACTION: f64 = 0.3;
 /// One iteration and its check are enough if the second increment is below this share of the first.
 const MAX_ONCE_CONTRACTION: f64 = 0.1;
@@ -42,14 +46,16 @@ pub struct Increment {
 
 /// A system of equations that Newton's iteration solves.
 pub trait Linearised {
-    /// Evaluates the residual at the present iterate, with a new tangent if `fresh`, and solves for the increment.
+    /// Evaluates the residual at the present iterate, with a new tangent if `fresh`, and solves for
+    /// the increment.
     ///
     /// # Errors
     /// If the tangent is singular.
     fn increment(&mut self, fresh: bool) -> Result<Increment, StepFailure>;
     /// Adds this share of the increment to the iterate.
     fn apply(&mut self, share: f64);
-    /// Returns whether a fresh tangent is the exact derivative; if not, increments shrink linearly with fresh tangents too.
+    /// Returns whether a fresh tangent is the exact derivative; if not, increments shrink linearly
+    /// with fresh tangents too.
     fn exact(&self) -> bool {
         true
     }
@@ -57,8 +63,8 @@ pub trait Linearised {
     fn not_finite(&self) -> StepFailure;
 }
 
-/// Iterates to `tolerance` (m). With `once`, one iteration with a fresh tangent and one with the same suffice if they contract.
-/// With `keep`, the last factored tangent is tried first.
+/// Iterates to `tolerance` (m). With `once`, one iteration with a fresh tangent and one with the
+/// same suffice if they contract. With `keep`, the last factored tangent is tried first.
 ///
 /// # Errors
 /// [`StepFailure::NotConverged`], or the failure of an increment.
@@ -83,7 +89,8 @@ pub fn iterate(problem: &mut impl Linearised, tolerance: f64, once: bool, keep: 
             return Err(problem.not_finite());
         }
         problem.apply(damp);
-        // the predicted error: increments shrink linearly with one tangent, quadratically with fresh ones
+        // the predicted error: increments shrink linearly with one tangent, quadratically with
+        // fresh ones
         let error = match (iteration, chord) {
             (1, _) => size,
             (_, true) => size * (2.0 * ratio).min(1.0),

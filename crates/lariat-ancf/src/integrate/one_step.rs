@@ -16,11 +16,13 @@ pub struct StepRequest {
     pub estimate: bool,
 }
 
-/// Vectors of a method, allocated once and reused for every step. Their contents are unspecified when a step begins.
+/// Vectors of a method, allocated once and reused for every step. Their contents are unspecified
+/// when a step begins.
 #[derive(Clone, Debug, Default)]
 pub struct Scratch {
-    /// The result: a method writes positions, velocities and `memory.acceleration` at the end of the step here, and
-    /// `memory.algorithmic` if it [has it](OneStep::has_algorithmic_acceleration).
+    /// The result: a method writes positions, velocities and `memory.acceleration` at the end of
+    /// the step here, and `memory.algorithmic` if it [has
+    /// it](OneStep::has_algorithmic_acceleration).
     pub next: State,
     /// Explicit part of the positions of a stage, for [`Dynamics::solve_stage`].
     pub base: Vec<f64>,
@@ -60,9 +62,11 @@ impl Scratch {
 
 /// An integration method: one step of any length on any [`Dynamics`].
 ///
-/// All that [step control](super::step_control) does, it does with every method: landing on the host's time, rejecting and
-/// retrying failed steps, and error control where the method has an estimate. A method of another crate steps a cable by
-/// [`Cable::step_with`](crate::Cable::step_with), an island by [`Island::step_with`](crate::island::Island::step_with).
+/// All that [step control](super::step_control) does, it does with every method: landing on the
+/// host's time, rejecting and retrying failed steps, and error control where the method has an
+/// estimate. A method of another crate steps a cable by
+/// [`Cable::step_with`](crate::Cable::step_with), an island by
+/// [`Island::step_with`](crate::island::Island::step_with).
 ///
 /// ```
 /// use lariat_ancf::integrate::{Dynamics, IntegratorRef, OneStep, Scratch, State, StepRequest};
@@ -102,7 +106,8 @@ impl Scratch {
 ///     .section(Section::from_stiffness(100.0, 0.0, 0.1)?)
 ///     .fix(At::Start)
 ///     .build()?;
-/// cable.step_with(1.0 / 60.0, IntegratorRef { method: &SymplecticEuler, control: StepControl::Stable(0.5) })?;
+/// let control = StepControl::Stable(0.5);
+/// cable.step_with(1.0 / 60.0, IntegratorRef { method: &SymplecticEuler, control })?;
 /// assert!(cable.node_position(10).y < 0.0);
 /// # Ok::<(), lariat_ancf::Error>(())
 /// ```
@@ -115,25 +120,27 @@ pub trait OneStep: fmt::Debug {
         0
     }
 
-    /// Returns the exponent of h in the error estimate; `None`, the default, if the method has no estimate.
+    /// Returns the exponent of h in the error estimate; `None`, the default, if the method has no
+    /// estimate.
     fn estimate_order(&self) -> Option<u32> {
         None
     }
 
-    /// Returns the product h omega below which an explicit method is stable for an oscillator of angular frequency omega; `None`,
-    /// the default, for an implicit method.
+    /// Returns the product h omega below which an explicit method is stable for an oscillator of
+    /// angular frequency omega; `None`, the default, for an implicit method.
     fn stability_limit(&self) -> Option<f64> {
         None
     }
 
     /// Returns whether the method carries an algorithmic acceleration from step to step in
-    /// [`Memory::algorithmic`](super::Memory::algorithmic); it is the true one when a run begins. Default false.
+    /// [`Memory::algorithmic`](super::Memory::algorithmic); it is the true one when a run begins.
+    /// Default false.
     fn has_algorithmic_acceleration(&self) -> bool {
         false
     }
 
-    /// Returns whether [the energy guard](super::energy_guard) checks the steps of this method where no error is controlled.
-    /// Default false.
+    /// Returns whether [the energy guard](super::energy_guard) checks the steps of this method
+    /// where no error is controlled. Default false.
     fn needs_energy_guard(&self) -> bool {
         false
     }
@@ -152,9 +159,10 @@ pub trait OneStep: fmt::Debug {
         Ok(())
     }
 
-    /// Advances `now` by one step into `scratch.next`, and returns the estimated position error of the step in m if the method has
-    /// an estimate and the request needs it. `now.memory.acceleration` is valid on entry, that of `scratch.next` on return; its
-    /// time is set by the caller.
+    /// Advances `now` by one step into `scratch.next`, and returns the estimated position error of
+    /// the step in m if the method has an estimate and the request needs it.
+    /// `now.memory.acceleration` is valid on entry, that of `scratch.next` on return; its time is
+    /// set by the caller.
     ///
     /// # Errors
     /// The failures of the stages and accelerations of `system`.

@@ -2,9 +2,9 @@
 //!
 //! # Equation
 //!
-//! Compositions of kicks and drifts, see [`explicit`](super::explicit). Because the kinetic energy is quadratic, some order
-//! conditions are void, and the error constants are hundreds of times smaller than those of Yoshida's compositions of the same
-//! order.
+//! Compositions of kicks and drifts, see [`explicit`](super::explicit). Because the kinetic energy
+//! is quadratic, some order conditions are void, and the error constants are hundreds of times
+//! smaller than those of Yoshida's compositions of the same order.
 //!
 //! # Validity
 //!

@@ -1,21 +1,23 @@
-//! The state of a mechanical system between two steps: positions, velocities, and what a method carries from step to step.
+//! The state of a mechanical system between two steps: positions, velocities, and what a method
+//! carries from step to step.
 
 use super::discrete_gradient::Differences;
 use crate::error::{Error, require};
 use serde::{Deserialize, Serialize};
 
-/// What a method carries from step to step, besides positions and velocities. Plain data, part of a snapshot.
+/// What a method carries from step to step, besides positions and velocities. Plain data, part of a
+/// snapshot.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Memory {
     /// Acceleration at the present state, if `valid`.
     pub acceleration: Vec<f64>,
-    /// Algorithmic acceleration of a method that
-    /// [has one](super::OneStep::has_algorithmic_acceleration), as generalised-alpha; else empty.
+    /// Algorithmic acceleration of a method that [has
+    /// one](super::OneStep::has_algorithmic_acceleration), as generalised-alpha; else empty.
     pub algorithmic: Vec<f64>,
     /// Whether the accelerations belong to the present state.
     pub valid: bool,
-    /// Revision of the system's description that the accelerations belong to: every change of supports, loads or method makes
-    /// another.
+    /// Revision of the system's description that the accelerations belong to: every change of
+    /// supports, loads or method makes another.
     #[serde(default)]
     pub revision: u64,
     /// Length in s that error control proposes for the next step; 0 = no proposal.

@@ -2,20 +2,26 @@
 //!
 //! # Equation
 //!
-//! With a tolerance, a step h of a host step H is accepted if its estimated error is below `tolerance h/H` (error per unit step; a
-//! step shorter than H/1024 may err by tolerance/1024), so that the errors of up to 1024 steps add up to the tolerance. The next
-//! step follows from the estimate's order p as `h (0.5 allowed/error)^(1/(p-1))`, within h/5 and 3 h. The remainder of the host
-//! step is split evenly once fewer than two steps remain, and the time after the last step is the host's to the bit.
+//! With a tolerance, a step h of a host step H is accepted if its estimated error is below
+//! `tolerance h/H` (error per unit step; a step shorter than H/1024 may err by tolerance/1024), so
+//! that the errors of up to 1024 steps add up to the tolerance. The next step follows from the
+//! estimate's order p as `h (0.5 allowed/error)^(1/(p-1))`, within h/5 and 3 h. The remainder of
+//! the host step is split evenly once fewer than two steps remain, and the time after the last step
+//! is the host's to the bit.
 //!
-//! A step that fails (Newton's iteration, a pivot, a number that is not finite) is retried at 1/4 of its length down to H/2^20; then
-//! the host step fails with the last good state, which the caller replaces by that of the beginning of the host step.
+//! A step that fails (Newton's iteration, a pivot, a number that is not finite) is retried at 1/4
+//! of its length down to H/2^20; then the host step fails with the last good state, which the
+//! caller replaces by that of the beginning of the host step.
 //!
-//! If the tangent is not exact, Newton's iteration contracts linearly, at a rate that grows with the step and is the same in the next
-//! step. The step after a failure is therefore at most half as long as the failed one, and the bound grows by 1.2 with every step;
-//! error control, which does not take Newton's iteration into account, would try the failed length again at once.
-//! `lariat stability --case "hanging 1e4"` (1/30 s with effects) rejects 988 of 5466 steps; without this bound 3889 of 9227.
+//! If the tangent is not exact, Newton's iteration contracts linearly, at a rate that grows with
+//! the step and is the same in the next step. The step after a failure is therefore at most half as
+//! long as the failed one, and the bound grows by 1.2 with every step; error control, which does
+//! not take Newton's iteration into account, would try the failed length again at once. `lariat
+//! stability --case "hanging 1e4"` (1/30 s with effects) rejects 988 of 5466 steps; without this
+//! bound 3889 of 9227.
 //!
-//! Methods without error control are checked by the [energy guard](super::energy_guard), if they need it.
+//! Methods without error control are checked by the [energy guard](super::energy_guard), if they
+//! need it.
 //!
 //! # References
 //!
@@ -30,19 +36,23 @@ use crate::error::StepFailure;
 
 /// Shortest step, as a share of the host step.
 pub(super) const MIN_STEP_SHARE: f64 = 1.0 / (1u64 << 20) as f64;
-/// Smallest error allowed to a step, as a share of the tolerance: after a jump of velocity errors fall only in proportion to h.
+/// Smallest error allowed to a step, as a share of the tolerance: after a jump of velocity errors
+/// fall only in proportion to h.
 const MIN_ERROR_SHARE: f64 = 1.0 / 1024.0;
 /// Newton's tolerance, as a share of the error allowed to a step.
 const NEWTON_TOLERANCE_SHARE: f64 = 0.1;
-/// Error for which the next step is chosen, as a share of the allowed one: one half costs less than 0.8, with fewer rejections.
+/// Error for which the next step is chosen, as a share of the allowed one: one half costs less than
+/// 0.8, with fewer rejections.
 const TARGET_ERROR_SHARE: f64 = 0.5;
 /// Newton's tolerance in m where no error is controlled.
 const FIXED_STEP_NEWTON_TOLERANCE: f64 = 1e-10;
-/// Relative rounding error of a host step given in single precision: 1/60 s is then longer than four steps of 1/240 s.
+/// Relative rounding error of a host step given in single precision: 1/60 s is then longer than
+/// four steps of 1/240 s.
 pub(super) const SINGLE_PRECISION_ROUNDING: f64 = 1e-7;
 /// Length of the retry of a failed step, as a share of the step.
 const RETRY_SHARE: f64 = 0.25;
-/// Longest step after one at which Newton's iteration failed with an inexact tangent, as a share of it.
+/// Longest step after one at which Newton's iteration failed with an inexact tangent, as a share of
+/// it.
 const MAX_SHARE_OF_FAILED: f64 = 0.5;
 /// Growth of that bound with every accepted step.
 const BOUND_GROWTH: f64 = 1.2;
@@ -67,8 +77,8 @@ pub(crate) struct FailedStep {
     pub failure: StepFailure,
 }
 
-/// Advances `state` by `horizon` (s), and returns the numbers of steps with the outcome. After a failure `state` is the last
-/// accepted one.
+/// Advances `state` by `horizon` (s), and returns the numbers of steps with the outcome. After a
+/// failure `state` is the last accepted one.
 pub(crate) fn advance(
     system: &mut dyn Dynamics,
     integrator: IntegratorRef<'_>,
@@ -151,7 +161,8 @@ fn run(
                     }
                     continue;
                 }
-                // the last step may have been shortened to end with the host step, which does not lower the proposal
+                // the last step may have been shortened to end with the host step, which does not
+                // lower the proposal
                 proposal = if last { proposal.max(h * growth).min(3.0 * h.max(proposal)) } else { h * growth };
             }
         }
@@ -194,8 +205,8 @@ fn prepare(system: &mut dyn Dynamics, state: &mut State, algorithmic: bool) -> R
     Ok(())
 }
 
-/// Checks that a regular step is within the stability limit of an explicit method (the frequency bound is that of one element plus
-/// 5 %, and tight), and that a fixed one is not too short.
+/// Checks that a regular step is within the stability limit of an explicit method (the frequency
+/// bound is that of one element plus 5 %, and tight), and that a fixed one is not too short.
 fn check_length(
     system: &dyn Dynamics,
     integrator: IntegratorRef<'_>,
@@ -215,7 +226,8 @@ fn check_length(
     Ok(())
 }
 
-/// Returns the length of the first step. `remembered` is the step that error control proposed at the end of the last host step.
+/// Returns the length of the first step. `remembered` is the step that error control proposed at
+/// the end of the last host step.
 fn regular_step(system: &dyn Dynamics, integrator: IntegratorRef<'_>, horizon: f64, remembered: f64) -> f64 {
     let equal = |longest: f64| horizon / (horizon / longest - 1e-9).ceil().max(1.0);
     match integrator.control {
@@ -241,7 +253,8 @@ fn fit(proposal: f64, remaining: f64, even: bool) -> (f64, bool) {
     }
 }
 
-/// Exchanges `state` and the result of a step, so that `next` is the state before; the times are not exchanged.
+/// Exchanges `state` and the result of a step, so that `next` is the state before; the times are
+/// not exchanged.
 fn accept(state: &mut State, next: &mut State, algorithmic: bool) {
     core::mem::swap(&mut state.q, &mut next.q);
     core::mem::swap(&mut state.v, &mut next.v);
@@ -252,7 +265,8 @@ fn accept(state: &mut State, next: &mut State, algorithmic: bool) {
     next.time = state.time;
 }
 
-/// Returns the root of the given degree, 1 to 3, by basic arithmetic: a library's `powf` may give other bits on another processor.
+/// Returns the root of the given degree, 1 to 3, by basic arithmetic: a library's `powf` may give
+/// other bits on another processor.
 fn root(x: f64, degree: u32) -> f64 {
     match degree {
         1 => x,

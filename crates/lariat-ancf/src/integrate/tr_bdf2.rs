@@ -2,8 +2,8 @@
 //!
 //! # Equation
 //!
-//! The trapezoidal rule to `(2 - sqrt 2) h`, then BDF2. The error estimate is the embedded third-order formula of Hosea & Shampine,
-//! which estimates the error of the result itself.
+//! The trapezoidal rule to `(2 - sqrt 2) h`, then BDF2. The error estimate is the embedded
+//! third-order formula of Hosea & Shampine, which estimates the error of the result itself.
 //!
 //! # Validity
 //!

@@ -2,8 +2,8 @@
 //!
 //! # Equation
 //!
-//! [`generalised_alpha`](super::generalised_alpha) with rho = 1, where algorithmic and true accelerations coincide. The local error
-//! `h^2/12 (k_{n+1} - k_n)` is that method's estimate.
+//! [`generalised_alpha`](super::generalised_alpha) with rho = 1, where algorithmic and true
+//! accelerations coincide. The local error `h^2/12 (k_{n+1} - k_n)` is that method's estimate.
 //!
 //! # Validity
 //!

@@ -1,12 +1,66 @@
-//! A rigid body as an island sees it.
+//! A rigid body of an island.
 //!
-//! `m x'' = f`, `I omega' + omega x I omega = tau` about the centre of mass, f and tau constant over a step, in world axes.
-//! With a carried inertia C (6x6, symmetric, constant over a step) `(diag(m, I) + C) (x'', omega')` stands on the left: what a link of a
-//! mechanism feels of the links that it moves with. *Source.* Khatib 1987, the operational space inertia.
+//! # Equation
+//!
+//! `m x'' = f`, `I omega' + omega x I omega = tau` about the centre of mass, f and tau constant
+//! over a step, in world axes. With a carried inertia C (6x6, symmetric, constant over a step) the
+//! left side is `(diag(m, I) + C) (x'', omega')`: the inertia of the bodies of a mechanism that
+//! move with this one.
+//!
+//! # References
+//!
+//! Khatib 1987, the operational space inertia.
 
-use super::memory::BodyMemory;
 use crate::error::{Error, require, require_finite};
 use nalgebra::{Matrix3, Matrix6, UnitQuaternion, Vector3, Vector6};
+use serde::{Deserialize, Serialize};
+
+/// Accelerations of a body at the end of a step, in m/s^2 and rad/s^2 in world axes, and what they
+/// depend on. Plain data, part of a snapshot.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct BodyMemory {
+    pub(super) acceleration: [Vector3<f64>; 2],
+    pub(super) algorithmic: Option<[Vector3<f64>; 2]>,
+    pub(super) force: Vector3<f64>,
+    pub(super) torque: Vector3<f64>,
+    pub(super) mass: f64,
+    pub(super) inertia: Matrix3<f64>,
+    pub(super) free: [bool; 6],
+    pub(super) pins: usize,
+    /// The last step of the discrete gradient, if that was the method.
+    #[serde(default)]
+    pub(super) differences: Option<BodyDifferences>,
+}
+
+impl BodyMemory {
+    /// Returns the memory of a step of the discrete gradient, which knows no accelerations.
+    pub(super) fn of_secants(body: &RigidBody, differences: BodyDifferences) -> Self {
+        BodyMemory {
+            acceleration: [Vector3::zeros(); 2],
+            algorithmic: None,
+            force: body.force,
+            torque: body.torque,
+            mass: body.mass,
+            inertia: body.inertia,
+            free: body.free,
+            pins: 0,
+            differences: Some(differences),
+        }
+    }
+}
+
+/// What a body carries to the next step of the [discrete gradient](crate::integrate::discrete_gradient). Plain data.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub(super) struct BodyDifferences {
+    /// Changes of velocity in world axes and of angular velocity in body axes.
+    pub change: [Vector3<f64>; 2],
+    /// Length of the step in s.
+    pub step: f64,
+    /// Velocity and angular velocity at its end, in world axes.
+    pub velocity: [Vector3<f64>; 2],
+    /// Attitude at its end.
+    pub rotation: UnitQuaternion<f64>,
+}
 
 /// A rigid body. All vectors in world axes, SI units.
 #[derive(Clone, Debug, PartialEq)]
@@ -27,20 +81,21 @@ pub struct RigidBody {
     pub force: Vector3<f64>,
     /// Torque in N m.
     pub torque: Vector3<f64>,
-    /// World axes along which forces move the body (x, y, z) and about which they turn it (x, y, z); along others it keeps its
-    /// velocity. All false: a driven body.
+    /// World axes along which forces move the body (x, y, z) and about which torques rotate it (x,
+    /// y, z); along and about the others it keeps its velocity. All false: a driven body.
     pub free: [bool; 6],
-    /// Inertia of what it moves with, beyond its own, about its centre of mass in world axes: velocity before angular velocity
-    /// (kg, kg m, kg m^2). Default: none.
+    /// Inertia of the bodies that move with it, beyond its own, about its centre of mass in world
+    /// axes: velocity before angular velocity (kg, kg m, kg m^2). Default: none.
     pub carried: Option<Matrix6<f64>>,
-    /// Whether the gyroscopic torque -omega x I omega acts (an engine may leave it out).
+    /// Whether the gyroscopic torque -omega x I omega acts (some engines omit it). Default: true.
     pub gyroscopic: bool,
-    /// What integrators carry from step to step; `None` if the state was not the result of a step.
+    /// Accelerations that integrators carry from step to step; `None` if the state is not the
+    /// result of a step.
     pub memory: Option<BodyMemory>,
 }
 
 impl RigidBody {
-    /// A free body at rest, without force.
+    /// Returns a free body at rest, without force.
     ///
     /// # Errors
     /// [`Error::InvalidValue`] for a mass that is not positive, or numbers that are not finite.
@@ -66,7 +121,7 @@ impl RigidBody {
         })
     }
 
-    /// A massless point that holds cables together.
+    /// Returns a massless point that joins cables.
     ///
     /// # Errors
     /// [`Error::InvalidValue`] for a position that is not finite.
@@ -77,13 +132,19 @@ impl RigidBody {
         Ok(body)
     }
 
-    /// Inertia about the centre of mass in world axes, at attitude `rotation`.
+    /// Returns whether it is driven: forces neither move nor rotate it.
+    pub(super) fn is_driven(&self) -> bool {
+        self.free == [false; 6]
+    }
+
+    /// Returns the inertia about the centre of mass in world axes, at attitude `rotation`.
     pub fn world_inertia(&self, rotation: &UnitQuaternion<f64>) -> Matrix3<f64> {
         let r = rotation.to_rotation_matrix();
         r * self.inertia * r.transpose()
     }
 
-    /// Momentum and angular momentum about the centre of mass of what it carries, at velocity `v` and angular velocity `spin`.
+    /// Returns momentum and angular momentum about the centre of mass of the carried inertia, at
+    /// velocity `v` and angular velocity `spin`.
     pub(super) fn carried_momentum(
         &self,
         v: &Vector3<f64>,
@@ -94,20 +155,24 @@ impl RigidBody {
         Some((p.fixed_rows::<3>(0).into_owned(), p.fixed_rows::<3>(3).into_owned()))
     }
 
-    /// Kinetic energy in J, without that of what it carries.
+    /// Returns the kinetic energy in J, without that of the carried inertia.
     pub fn kinetic_energy(&self) -> f64 {
-        let spin = self.world_inertia(&self.rotation) * self.angular_velocity;
-        0.5 * (self.mass * self.velocity.norm_squared() + self.angular_velocity.dot(&spin))
+        0.5 * (self.mass * self.velocity.norm_squared() + self.angular_velocity.dot(&self.spin()))
     }
 
-    /// Linear momentum in kg m/s and angular momentum about the origin in kg m^2/s.
+    /// Returns the linear momentum in kg m/s and the angular momentum about the origin in kg m^2/s,
+    /// without those of the carried inertia.
     pub fn momentum(&self) -> (Vector3<f64>, Vector3<f64>) {
         let linear = self.mass * self.velocity;
-        let spin = self.world_inertia(&self.rotation) * self.angular_velocity;
-        (linear, self.position.cross(&linear) + spin)
+        (linear, self.position.cross(&linear) + self.spin())
     }
 
-    /// World position of a point given in body axes from the centre of mass.
+    /// Returns the angular momentum about the centre of mass in kg m^2/s.
+    fn spin(&self) -> Vector3<f64> {
+        self.rotation * (self.inertia * (self.rotation.inverse() * self.angular_velocity))
+    }
+
+    /// Returns the world position of a point given in body axes from the centre of mass.
     pub fn point(&self, local: &Vector3<f64>) -> Vector3<f64> {
         self.position + self.rotation * local
     }

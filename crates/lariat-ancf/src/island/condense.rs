@@ -1,16 +1,26 @@
-//! What a cable is to the bodies that hold it: its step matrix condensed on the pinned coordinates.
+//! Static condensation of a cable's matrix on its held coordinates.
 //!
-//! With f the free coordinates of a cable and p those of its pinned positions and clamped slopes (whose length is free),
+//! # Equation
+//!
+//! With f the free coordinates of a cable and p those of its pinned positions and clamped slopes
+//! (whose length is free),
 //!
 //! ```text
 //! Y = A_ff^-1 A_fp        W = A_pp - A_pf Y        r_p - A_pf A_ff^-1 r_f
 //! ```
 //!
-//! W (3 rows per pin, 6 per clamp) is the dynamic stiffness that bodies feel; Y carries their increments back into the cable. *Source.* Static
-//! condensation (Guyan 1965; Golub & Van Loan 2013, section 4.5.1 on bordered systems). *Rejected.* Lagrange multipliers: the same
-//! solves, and an indefinite matrix on top.
+//! W (3 rows per pin, 6 per clamp) is the dynamic stiffness of the cable at the bodies; Y gives the
+//! increments of the cable from those of the bodies.
+//!
+//! # References
+//!
+//! Guyan 1965; Golub & Van Loan 2013, section 4.5.1 (bordered systems).
+//!
+//! # Alternatives considered
+//!
+//! Lagrange multipliers: the same solves, and an indefinite matrix in addition.
 
-use super::workspace::Hold;
+use super::hold::Hold;
 use crate::linalg::{BlockTridiagonal, Factorisation};
 use fearless_simd::Level;
 
@@ -22,10 +32,10 @@ struct Column {
     rows: [f64; 18],
 }
 
-/// A condensed cable.
+/// The condensed matrix of a cable.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Condensed {
-    /// By pinned coordinate: the column of A, before and after projection.
+pub(super) struct Condensed {
+    /// By held coordinate: the column of A, before and after projection.
     columns: Vec<Column>,
     /// A_ff^-1 A_fp, one column of 6 per node after the other.
     y: Vec<f64>,
@@ -59,7 +69,8 @@ impl Condensed {
         }
     }
 
-    /// Completes the condensation with the factored, projected matrix; `project` removes held rows from a vector.
+    /// Completes the condensation with the factored, projected matrix; `project` removes held rows
+    /// from a vector.
     pub fn complete(
         &mut self,
         level: Level,
@@ -96,12 +107,12 @@ impl Condensed {
         }
     }
 
-    /// `A_pf u`, for pinned coordinate `i`.
+    /// Returns `A_pf u` for held coordinate `i`.
     pub fn border(&self, i: usize, u: &[f64]) -> f64 {
         self.columns[i].dot(u)
     }
 
-    /// `u -= Y_i displacement`.
+    /// Computes `u -= Y_i displacement`.
     pub fn spread(&self, i: usize, displacement: f64, u: &mut [f64]) {
         for (u, y) in u.iter_mut().zip(&self.y[i * self.size..(i + 1) * self.size]) {
             *u -= y * displacement;

@@ -1,19 +1,28 @@
 //! The small dense symmetric system of an island's bodies: L D L^T with diagonal pivoting.
 //!
-//! *Source.* Golub & Van Loan 2013, section 4.4 (symmetric indefinite systems, here with 1x1 pivots chosen on the diagonal).
-//! *Validity.* Positive definite matrices, and nearly so; a pivot below rounding is an error, never a silent wrong answer.
-//! The order is kept while pivots are sound, and zeros are skipped: a chain of bodies in its order costs O(n), a full matrix O(n^3).
-//! *Rejected.* nalgebra's Cholesky (its products choose kernels at run time: other bits on other
-//! machines).
+//! # Validity
+//!
+//! Positive definite matrices, and nearly so; a pivot below rounding is an error. Rows are
+//! exchanged only where a pivot has lost most of its diagonal entry, and zeros are skipped: a chain
+//! of bodies in its order costs O(n), a full matrix O(n^3).
+//!
+//! # References
+//!
+//! Golub & Van Loan 2013, section 4.4 (symmetric indefinite systems, here with 1x1 pivots chosen on
+//! the diagonal).
+//!
+//! # Alternatives considered
+//!
+//! nalgebra's Cholesky: its products choose kernels at run time, with other bits on other machines.
 
 use crate::linalg::{Reason, SingularMatrix};
 
-/// A pivot that kept this share of its diagonal entry needs no exchange.
-const SOUND: f64 = 1e-3;
+/// Share of its diagonal entry above which a pivot needs no exchange.
+const MIN_PIVOT_SHARE: f64 = 1e-3;
 
 /// A factored symmetric matrix.
 #[derive(Clone, Debug, Default)]
-pub struct Dense {
+pub(super) struct Dense {
     n: usize,
     factors: Vec<f64>,
     order: Vec<usize>,
@@ -48,10 +57,11 @@ impl Dense {
             return fail(0, 0.0, 0.0, Reason::NonFinite);
         }
         for k in 0..n {
-            // the pivot that lost least of its diagonal entry: rows of bodies differ in unit and size
+            // the pivot that has lost the smallest share of its diagonal entry: rows of bodies
+            // differ in unit and size
             let quality =
                 |f: &[f64], i: usize, order: &[usize]| f[i * n + i].abs() / scale[order[i]].max(f64::MIN_POSITIVE);
-            if quality(f, k, &self.order) < SOUND {
+            if quality(f, k, &self.order) < MIN_PIVOT_SHARE {
                 let better = |b, i| if quality(f, i, &self.order) > quality(f, b, &self.order) { i } else { b };
                 let best = (k..n).fold(k, better);
                 swap(f, n, k, best);
@@ -121,7 +131,7 @@ mod tests {
     use nalgebra::{DMatrix, DVector};
 
     #[test]
-    fn the_solution_of_random_definite_systems_is_that_of_an_independent_factorisation() {
+    fn solutions_of_random_definite_systems_match_an_independent_factorisation() {
         let mut state = 1u64;
         let mut random = || {
             state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);

@@ -1,29 +1,41 @@
-//! How a cable answers an impulse at its pins within one step: for engines that must be told before they step.
+//! The response of a cable to an impulse at its pins within one step.
+//!
+//! # Equation
 //!
 //! ```text
 //! A = M + h D + h^2 K        C = J A^-1 J^T        dv = -A^-1 J^T p,  dx = h dv
 //! ```
 //!
-//! D is the damping of effects. J reads the pinned positions, *free* here. C (1/kg) is the velocity that a unit impulse makes at a pin over the step: the
-//! inverse of the mass that a body feels there. *Source.* One implicit Euler step of the cable, linearised. *Validity.* Short steps;
-//! it damps, so it decides only how a deviation from the prediction is shared, never the prediction itself. Under compression
-//! A may be indefinite, or nearly singular, and answer a small impulse with any velocity; then D and K count half, a quarter ...
-//! until half of M suffices: the impulse stays the momentum of the cable. *Rejected.* M counted twice, four times ...: so much of the
-//! momentum is lost.
+//! D is the damping of effects. J selects the pinned positions, which are *free* here. C (1/kg) is
+//! the velocity of a pin at the end of the step per unit impulse: the inverse of the cable's
+//! effective mass there.
+//!
+//! # Validity
+//!
+//! Short steps. It is one implicit Euler step of the cable, linearised, and damps: it decides only
+//! how a deviation from a prediction is shared between cable and bodies, not the prediction itself.
+//! Under compression A may be indefinite or nearly singular, with arbitrarily large velocities for
+//! a small impulse; then D and K are multiplied by 1/2, 1/4 ... until A is positive definite with
+//! half of M: the momentum of the cable remains the impulse.
+//!
+//! # Alternatives considered
+//!
+//! Multiplying M by 2, 4 ... instead: the cable's momentum is then smaller than the impulse by that
+//! factor.
 
 use crate::cable::Cable;
-use crate::effect::acts::{ForceInput, VelocityInput};
+use crate::effect::acts::ForceInput;
 use crate::error::{Error, StepFailure};
 use crate::integrate::add_scaled;
 use crate::linalg::{Definiteness, Factorisation};
 use crate::system::{project_matrix, project_vector};
 use nalgebra::{DMatrix, Vector3};
 
-/// D and K are divided by this at most against compression that makes A indefinite.
-const MOST_INERTIA: f64 = 1e6;
+/// Largest divisor of D and K against compression that makes A indefinite.
+const MAX_DIVISOR: f64 = 1e6;
 
-/// A displacement is left out where this share of it still makes energy.
-const LEAST_SHARE: f64 = 1.0 / 64.0;
+/// Smallest share of the displacement that is tried before it is omitted.
+const MIN_SHARE: f64 = 1.0 / 64.0;
 
 /// The impulse response of one cable at some of its nodes.
 #[derive(Clone, Debug, Default)]
@@ -36,7 +48,7 @@ pub struct Impedance {
 }
 
 impl Impedance {
-    /// Linearises `cable` at its present state for a step of `h` (s), with the attached ones of its nodes free.
+    /// Linearises `cable` at its present state for a step of `h` (s), with its attached nodes free.
     ///
     /// # Errors
     /// [`Error::StepFailed`] if the matrix is singular or not finite.
@@ -47,7 +59,7 @@ impl Impedance {
         self.nodes.extend_from_slice(nodes);
         self.columns.clear();
         self.columns.resize(3 * nodes.len() * size, 0.0);
-        // with its pins free a cable has other supports: put back below
+        // with its pins free a cable has other supports; they are restored below
         let supports = cable.model.supports.clone();
         cable.model.supports.iter_mut().for_each(|(_, s)| s.attached = false);
         let outcome = self.linearise(cable, h);
@@ -59,13 +71,14 @@ impl Impedance {
         let size = cable.positions().len();
         let mut inertia = 1.0;
         loop {
-            // definite with half the inertia: then the response is at most twice that of the inertia alone
+            // positive definite with half the inertia: the response is at most twice that of the
+            // inertia alone
             let definite = self.factor(cable, h, 0.5 * inertia);
             if definite == Ok(true) {
                 break;
             }
             inertia *= 2.0;
-            if inertia > MOST_INERTIA {
+            if inertia > MAX_DIVISOR {
                 definite?;
                 break;
             }
@@ -79,17 +92,16 @@ impl Impedance {
         if !self.nodes.is_empty() {
             self.factorisation.solve_many(system.level, &mut self.columns, 3 * self.nodes.len());
         }
-        // what was solved is inertia M + h^2 K, what is meant M + h^2 K/inertia
+        // the factored matrix is inertia M + h^2 K, the wanted one M + h^2 K/inertia
         self.columns.iter_mut().for_each(|x| *x *= inertia);
         Ok(())
     }
 
-    /// Factors `inertia M + h D + h^2 K`; whether it is positive definite.
+    /// Factors `inertia M + h D + h^2 K`, and returns whether it is positive definite.
     fn factor(&mut self, cable: &mut Cable, h: f64, inertia: f64) -> Result<bool, StepFailure> {
         let (dynamics, state) = cable.dynamics();
         let mut equations = dynamics.equations;
-        let velocity = VelocityInput { v: &state.v, dv_dq: 1.0 / h };
-        let input = ForceInput { time: state.time, q: &state.q, velocity, scale: h * h };
+        let input = ForceInput { time: state.time, q: &state.q, v: &state.v, dv_dq: 1.0 / h, scale: h * h };
         equations.force_and_matrix(input, inertia, &mut dynamics.buffers.product);
         let (model, system) = (&cable.model, &mut cable.system);
         project_matrix(model, &mut system.step.matrix);
@@ -97,19 +109,22 @@ impl Impedance {
         Ok(matches!(kind, Definiteness::PositiveDefinite))
     }
 
-    /// Velocity in m/s of coordinate `i` of the nodes (three per node) for a unit impulse at coordinate `j`, in 1/kg.
+    /// Returns the velocity in m/s of coordinate `i` of the nodes (three per node) for a unit
+    /// impulse at coordinate `j`, in 1/kg.
     pub fn compliance(&self) -> DMatrix<f64> {
         let count = 3 * self.nodes.len();
         let size = self.columns.len() / count.max(1);
         DMatrix::from_fn(count, count, |i, j| self.columns[j * size + 6 * self.nodes[i / 3] + i % 3])
     }
 
-    /// Gives the cable the opposite of `impulses` (N s), one per node, which it gave to what holds the nodes.
+    /// Applies the opposite of `impulses` (N s) to the cable, one per node, as the reaction to
+    /// those that the bodies received.
     ///
-    /// The velocity takes all of them: they are momentum. The displacement dx is halved, and in the end left out, as long as the strain
-    /// energy U grows by more than a cable that answers linearly could: with h^2 K <= A, dU <= (1/2 dx.K dx + U) + 1/2 dx.K dx <= U + p.C p.
-    /// What is left out is a gap, which the next step closes.
-    pub fn kick(&self, cable: &mut Cable, impulses: &[Vector3<f64>]) {
+    /// The velocity changes by all of them, so that momentum is conserved. The displacement dx is
+    /// halved, and finally omitted, as long as the strain energy U grows by more than a linear
+    /// response allows: with h^2 K <= A, dU <= (1/2 dx.K dx + U) + 1/2 dx.K dx <= U + p.C p. An
+    /// omitted displacement is a gap, which the next step closes.
+    pub fn apply_impulses(&self, cable: &mut Cable, impulses: &[Vector3<f64>]) {
         let size = cable.positions().len();
         let mut dv = core::mem::take(&mut cable.buffers.product);
         dv.clear();
@@ -128,10 +143,10 @@ impl Impedance {
         let mut share = 1.0;
         add_scaled(&mut cable.snapshot.state.v, 1.0, &dv);
         add_scaled(&mut cable.snapshot.state.q, self.step, &dv);
-        // what is not a number is not bearable
-        let bearable = |cable: &Cable| strain(cable) - before <= before + given.abs();
-        while !bearable(cable) {
-            let less = if share > LEAST_SHARE { 0.5 * share } else { 0.0 };
+        // false for NaN
+        let is_bounded = |cable: &Cable| strain(cable) - before <= before + given.abs();
+        while !is_bounded(cable) {
+            let less = if share > MIN_SHARE { 0.5 * share } else { 0.0 };
             add_scaled(&mut cable.snapshot.state.q, self.step * (less - share), &dv);
             share = less;
             if share == 0.0 {

@@ -1,61 +1,46 @@
-//! What integrators carry from step to step, for a system that is put together anew at every step.
+//! The accelerations that integrators carry from step to step, of a system that is assembled anew
+//! at every step.
 //!
-//! Accelerations (generalised-alpha: two kinds) are kept with each cable and each body, and taken up again if nothing has changed:
-//! without them every step would begin with an acceleration solve, and methods with memory would be of order 1. They are
-//! dropped when a cable, its supports or its pins were changed, when forces on a body or its motion were, or a gap is open.
+//! Accelerations (true ones, and algorithmic ones if the method has them) are stored with each
+//! cable and each body, and used again if nothing has changed. Without them every step would begin
+//! with an acceleration solve, and methods with memory would be of order 1. They are dropped if a
+//! cable, its supports or its pins have changed, if the forces on a body or its motion have, or if
+//! a gap is open.
 
+use super::body::{BodyMemory, RigidBody};
+use super::hold::vector;
+use super::layout::Layout;
+use super::pin::PinConstraint;
 use super::rotation::angular_acceleration;
-use super::workspace::{Workspace, vector};
-use super::{PinConstraint, RigidBody};
 use crate::cable::Cable;
 use crate::integrate::State;
-use nalgebra::{Matrix3, Vector3};
-use serde::{Deserialize, Serialize};
+use nalgebra::Vector3;
 
-/// Accelerations of a body at the end of a step, in m/s^2 and rad/s^2, world axes; plain data, part of a snapshot.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct BodyMemory {
-    acceleration: [Vector3<f64>; 2],
-    algorithmic: Option<[Vector3<f64>; 2]>,
-    force: Vector3<f64>,
-    torque: Vector3<f64>,
-    mass: f64,
-    inertia: Matrix3<f64>,
-    free: [bool; 6],
-    pins: usize,
-}
-
+/// Returns the number of pins of a body.
 fn pins_of(pins: &[PinConstraint], body: usize) -> usize {
     pins.iter().filter(|p| p.body == body).count()
 }
 
-/// Accelerations from cables and bodies into `phase`, if all of them are still those of its state.
-pub(super) fn recall(
-    cables: &mut [&mut Cable],
-    bodies: &[RigidBody],
-    pins: &[PinConstraint],
-    phase: &mut State,
-    workspace: &Workspace,
-) {
-    let memory = &mut phase.memory;
+/// Collects the accelerations of cables and bodies in `state`, if all of them still belong to it.
+pub(super) fn recall(cables: &mut [&mut Cable], bodies: &[RigidBody], layout: &Layout, state: &mut State) {
+    let memory = &mut state.memory;
     memory.acceleration.clear();
     memory.algorithmic.clear();
     cables.iter_mut().for_each(|c| c.refresh_memory());
-    let driven = |b: &RigidBody| b.free == [false; 6];
     let same = |(i, b): (usize, &RigidBody)| {
         let kept = |m: &BodyMemory| {
-            let loads = m.force == b.force && m.torque == b.torque && m.pins == pins_of(pins, i);
+            let loads = m.force == b.force && m.torque == b.torque && m.pins == pins_of(&layout.pins, i);
             loads && m.mass == b.mass && m.inertia == b.inertia && m.free == b.free
         };
-        driven(b) || b.memory.as_ref().is_some_and(kept)
+        b.is_driven() || b.memory.as_ref().is_some_and(kept)
     };
-    memory.valid = workspace.closed()
+    memory.valid = layout.is_closed()
         && cables.iter().all(|c| c.snapshot.state.memory.valid)
         && bodies.iter().enumerate().all(same);
     if !memory.valid {
         return;
     }
-    let algorithmic = |b: &RigidBody| driven(b) || b.memory.is_some_and(|m| m.algorithmic.is_some());
+    let algorithmic = |b: &RigidBody| b.is_driven() || b.memory.is_some_and(|m| m.algorithmic.is_some());
     let both = bodies.iter().all(algorithmic)
         && cables.iter().all(|c| c.snapshot.state.memory.algorithmic.len() == c.positions().len());
     for cable in cables.iter() {
@@ -75,9 +60,9 @@ pub(super) fn recall(
     }
 }
 
-/// Keeps the accelerations of `phase` with the cables and bodies they belong to.
-pub(super) fn keep(cables: &mut [&mut Cable], bodies: &mut [RigidBody], pins: &[PinConstraint], phase: &State) {
-    let memory = &phase.memory;
+/// Stores the accelerations of `state` with the cables and bodies they belong to.
+pub(super) fn keep(cables: &mut [&mut Cable], bodies: &mut [RigidBody], pins: &[PinConstraint], state: &State) {
+    let memory = &state.memory;
     let both = memory.algorithmic.len() == memory.acceleration.len();
     let mut at = 0;
     for cable in cables.iter_mut() {
@@ -94,7 +79,7 @@ pub(super) fn keep(cables: &mut [&mut Cable], bodies: &mut [RigidBody], pins: &[
         at += n;
     }
     for (i, body) in bodies.iter_mut().enumerate() {
-        let (theta, rate) = (vector(&phase.q[at + 6 * i + 3..]), vector(&phase.v[at + 6 * i + 3..]));
+        let (theta, rate) = (vector(&state.q[at + 6 * i + 3..]), vector(&state.v[at + 6 * i + 3..]));
         let own = at + 6 * i..at + 6 * i + 6;
         let of = |a: &[f64]| {
             let a = &a[own.clone()];
@@ -109,6 +94,7 @@ pub(super) fn keep(cables: &mut [&mut Cable], bodies: &mut [RigidBody], pins: &[
             inertia: body.inertia,
             free: body.free,
             pins: pins_of(pins, i),
+            differences: None,
         });
     }
 }

@@ -1,19 +1,35 @@
-//! Large rotations in a chart: the rotation vector theta from the attitude at the beginning of a step.
+//! Large rotations in a chart: the rotation vector theta from the attitude at the beginning of a
+//! step.
+//!
+//! # Equation
 //!
 //! ```text
 //! R = exp([theta]) R0        omega = J theta'        omega' = J theta'' + J' theta'
 //! J = I + a [theta] + b [theta]^2,   a = (1 - cos p)/p^2,  b = (p - sin p)/p^3,  p = |theta|
 //! ```
 //!
-//! omega in world axes; J is the left Jacobian of SO(3). *Source.* Chirikjian 2012, section 10.8; the rates by differentiation,
-//! checked below by finite differences. *Validity.* p < 2 pi; a step of a game turns a body by less than pi/4.
-//! *Rejected.* Unit quaternions as coordinates (a constraint to project in every stage), one chart for all times (singular).
+//! omega in world axes; J is the left Jacobian of SO(3).
+//!
+//! # Validity
+//!
+//! p < 2 pi. Bodies in games rotate by less than pi/4 in a step.
+//!
+//! # References
+//!
+//! Chirikjian 2012, section 10.8; the rates by differentiation, checked below by finite
+//! differences.
+//!
+//! # Alternatives considered
+//!
+//! - Unit quaternions as coordinates: a constraint to project in every stage.
+//! - One chart for all times: it is singular.
 
 use nalgebra::{Matrix3, Quaternion, UnitQuaternion, Vector3};
 
-/// Below this angle in rad series replace the quotients: they cost less than sines, and lose no digits.
-const SMALL: f64 = 0.5;
-/// Terms of a series: what follows is below 1e-18 of it at [`SMALL`].
+/// Angle in rad below which series replace the quotients: they cost less than sines, without
+/// cancellation.
+const SERIES_ANGLE: f64 = 0.5;
+/// Number of terms of a series: the remainder is below 1e-18 of it at [`SERIES_ANGLE`].
 const TERMS: usize = 7;
 const FOURTH: [f64; TERMS] = coefficients(4);
 const FIFTH: [f64; TERMS] = coefficients(5);
@@ -33,7 +49,8 @@ const fn coefficients(n: usize) -> [f64; TERMS] {
     out
 }
 
-/// s_n = 1/n! - p^2/(n + 2)! + p^4/(n + 4)! ... for n = 1 to 5: `s1 = sin p / p`, `s2 = (1 - cos p)/p^2`, `s3 = (p - sin p)/p^3`.
+/// s_n = 1/n! - p^2/(n + 2)! + p^4/(n + 4)! ... for n = 1 to 5: `s1 = sin p / p`, `s2 = (1 - cos
+/// p)/p^2`, `s3 = (p - sin p)/p^3`.
 struct Series {
     s1: f64,
     s2: f64,
@@ -44,7 +61,7 @@ struct Series {
 
 impl Series {
     fn at(p2: f64) -> Self {
-        if p2 < SMALL * SMALL {
+        if p2 < SERIES_ANGLE * SERIES_ANGLE {
             let sum = |c: &[f64; TERMS]| c.iter().rev().fold(0.0, |sum, c| sum * p2 + c);
             let (s4, s5) = (sum(&FOURTH), sum(&FIFTH));
             let s3 = 1.0 / 6.0 - p2 * s5;
@@ -58,26 +75,26 @@ impl Series {
     }
 }
 
-/// `[v]x`: the matrix of the cross product.
+/// Returns `[v]x`, the matrix of the cross product.
 pub fn skew(v: &Vector3<f64>) -> Matrix3<f64> {
     v.cross_matrix()
 }
 
-/// exp([theta]).
+/// Returns exp([theta]).
 pub fn exponential(theta: &Vector3<f64>) -> UnitQuaternion<f64> {
     let quarter = 0.25 * theta.norm_squared();
     let Series { s1, s2, .. } = Series::at(quarter);
     UnitQuaternion::new_unchecked(Quaternion::from_parts(1.0 - quarter * s2, theta * (0.5 * s1)))
 }
 
-/// Angular velocity J theta', J the left Jacobian.
+/// Returns the angular velocity J theta', J the left Jacobian.
 pub fn spin(theta: &Vector3<f64>, rate: &Vector3<f64>) -> Vector3<f64> {
     let Series { s2, s3, .. } = Series::at(theta.norm_squared());
     let across = theta.cross(rate);
     rate + across * s2 + theta.cross(&across) * s3
 }
 
-/// Inverse of J: theta' = J^-1 omega.
+/// Returns the inverse of J: theta' = J^-1 omega.
 pub fn jacobian_inverse(theta: &Vector3<f64>) -> Matrix3<f64> {
     // (1 - p/2 cot p/2)/p^2
     let Series { s1, s2, s3, .. } = Series::at(0.25 * theta.norm_squared());
@@ -85,7 +102,7 @@ pub fn jacobian_inverse(theta: &Vector3<f64>) -> Matrix3<f64> {
     Matrix3::identity() - k * 0.5 + k * k * ((s2 - s3) / (4.0 * s1))
 }
 
-/// Time derivative of J at rate theta'.
+/// Returns the time derivative of J at rate theta'.
 pub fn jacobian_rate(theta: &Vector3<f64>, rate: &Vector3<f64>) -> Matrix3<f64> {
     let Series { s2, s3, s4, s5, .. } = Series::at(theta.norm_squared());
     let (along, k, dk) = (theta.dot(rate), skew(theta), skew(rate));
@@ -93,14 +110,15 @@ pub fn jacobian_rate(theta: &Vector3<f64>, rate: &Vector3<f64>) -> Matrix3<f64> 
     k * ((2.0 * s4 - s3) * along) + dk * s2 + k * k * ((3.0 * s5 - s4) * along) + (dk * k + k * dk) * s3
 }
 
-/// J' theta': what the rate adds to the angular acceleration.
+/// Returns J' theta', the term of the rate in the angular acceleration.
 pub fn spin_rate(theta: &Vector3<f64>, rate: &Vector3<f64>) -> Vector3<f64> {
     let Series { s3, s4, s5, .. } = Series::at(theta.norm_squared());
     let (along, across) = (theta.dot(rate), theta.cross(rate));
     across * ((2.0 * s4 - s3) * along) + theta.cross(&across) * ((3.0 * s5 - s4) * along) + rate.cross(&across) * s3
 }
 
-/// `scale` times the angular acceleration, of `scale` times the acceleration `k` of the rotation vector.
+/// Returns `scale` times the angular acceleration, from `scale` times the acceleration `k` of the
+/// rotation vector.
 pub fn angular_acceleration(scale: f64, theta: &Vector3<f64>, rate: &Vector3<f64>, k: &Vector3<f64>) -> Vector3<f64> {
     spin(theta, k) + spin_rate(theta, rate) * scale
 }
@@ -130,8 +148,8 @@ mod tests {
             let h = 1e-5;
             let at = |s: f64| Rotation3::new(theta + rate * s);
             // for a small rotation the skew part of the matrix is the rotation vector
-            let turn = (at(h) * at(-h).inverse()).into_inner();
-            let skew_part = (turn - turn.transpose()) * 0.5;
+            let rotation = (at(h) * at(-h).inverse()).into_inner();
+            let skew_part = (rotation - rotation.transpose()) * 0.5;
             let omega = Vector3::new(skew_part[(2, 1)], skew_part[(0, 2)], skew_part[(1, 0)]) / (2.0 * h);
             assert_relative_eq!(spin(&theta, &rate), omega, epsilon = 1e-9);
             assert_relative_eq!(jacobian(&theta) * jacobian_inverse(&theta), Matrix3::identity(), epsilon = 1e-13);

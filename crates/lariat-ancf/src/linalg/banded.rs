@@ -1,30 +1,40 @@
-//! General path: L U with partial pivoting of the equilibrated band.
+//! Factorisation of indefinite matrices: L U with partial pivoting of the equilibrated band.
 //!
-//! Equation: P S A S = L U, A^-1 = S (P^T L U)^-1 S (Golub & Van Loan, 4th ed., sections 3.4 and
-//! 4.3.3); 11 diagonals below, 11 above, 22 above after the interchanges. Condition: Hager's
-//! estimate of |A^-1|_1 (section 3.5.4; Higham, Accuracy and Stability, 2nd ed., algorithm 15.1),
-//! where A = A^T saves the transposed solution.
+//! # Equation
 //!
-//! Validity: accepted only if the entries grew by no more than 2^20 and the estimated reciprocal
-//! condition number of the equilibrated matrix is at least 2^-48.
+//! P S A S = L U, A^-1 = S (P^T L U)^-1 S, with 11 diagonals below, 11 above, and 22 above after
+//! the interchanges. The condition number follows from Hager's estimate of |A^-1|_1, for which A =
+//! A^T saves the solution with the transposed matrix.
 //!
-//! Rejected: Bunch-Kaufman (symmetric interchanges fill the band), complete pivoting (the same),
-//! a threshold on single pivots (no pivot of a nearly singular matrix need be small).
+//! # Validity
+//!
+//! Accepted only if the entries grew by no more than 2^20 and the estimated reciprocal condition
+//! number of the equilibrated matrix is at least 2^-48.
+//!
+//! # References
+//!
+//! Golub & Van Loan, Matrix Computations, 4th ed., sections 3.4, 3.5.4 and 4.3.3; Higham, Accuracy
+//! and Stability, 2nd ed., algorithm 15.1.
+//!
+//! # Alternatives considered
+//!
+//! - Bunch-Kaufman and complete pivoting: symmetric interchanges fill the band.
+//! - A threshold on single pivots: no pivot of a nearly singular matrix need be small.
 
 use super::block::BlockTridiagonal;
 use super::equilibrate::{check_finite, equilibrate, for_lower_triangle};
-use super::factorisation::Definiteness;
-use super::{Reason, SingularMatrix, inertia};
+use super::inertia;
+use super::outcome::{Definiteness, Reason, SingularMatrix};
 use fearless_simd::{Level, dispatch};
 
-/// Diagonals below the main one.
+/// Number of diagonals below the main one.
 const BELOW: usize = 11;
-/// Diagonals above the main one, fill included.
+/// Number of diagonals above the main one, fill included.
 const ABOVE: usize = 2 * BELOW;
 /// Smallest accepted reciprocal condition number.
-const SMALLEST_RCOND: f64 = 1.0 / (1u64 << 48) as f64;
+const MIN_RCOND: f64 = 1.0 / (1u64 << 48) as f64;
 /// Largest accepted growth of the entries.
-const LARGEST_GROWTH: f64 = (1u64 << 20) as f64;
+const MAX_GROWTH: f64 = (1u64 << 20) as f64;
 
 /// One column: the entry of row r, column c is at `ABOVE + r - c`.
 type Column = [f64; ABOVE + 1 + BELOW];
@@ -38,11 +48,11 @@ pub(super) struct Banded {
     scale: Vec<f64>,
     exponents: Vec<i32>,
     largest: Vec<i32>,
-    /// Work space of the condition estimate: the iterate and two solutions.
+    /// Buffers of the condition estimate: the iterate and two solutions.
     work: [Vec<f64>; 3],
 }
 
-/// y -= a x, at full length where possible (a fixed length vectorises).
+/// Computes y -= a x, with a fixed length where possible, which is vectorised.
 #[inline(always)]
 fn subtract<const N: usize>(y: &mut [f64], a: &[f64], x: f64) {
     if let (Some(y), Some(a)) = (y.first_chunk_mut::<N>(), a.first_chunk::<N>()) {
@@ -56,7 +66,7 @@ fn subtract<const N: usize>(y: &mut [f64], a: &[f64], x: f64) {
     }
 }
 
-/// Elimination with row interchanges; an unusable pivot stays on the diagonal.
+/// Eliminates with row interchanges; an unusable pivot remains on the diagonal.
 #[inline(always)]
 fn eliminate(columns: &mut [Column], exchanged: &mut Vec<usize>) {
     let n = columns.len();
@@ -90,7 +100,7 @@ fn eliminate(columns: &mut [Column], exchanged: &mut Vec<usize>) {
     }
 }
 
-/// Forward and back substitution.
+/// Substitutes forwards and backwards.
 #[inline(always)]
 fn substitute(columns: &[Column], exchanged: &[usize], x: &mut [f64]) {
     for j in 0..columns.len() {
@@ -108,7 +118,7 @@ fn substitute(columns: &[Column], exchanged: &[usize], x: &mut [f64]) {
 }
 
 impl Banded {
-    /// Factors and judges the matrix.
+    /// Factors the matrix and checks growth and condition; counts negative eigenvalues if `count`.
     pub(super) fn factor(
         &mut self,
         level: Level,
@@ -136,16 +146,16 @@ impl Banded {
         let error = |reason| Err(SingularMatrix { node, pivot, scale: largest, reason });
         let inverse_norm = self.inverse_norm(level);
         let rcond = 1.0 / (norm * inverse_norm);
-        if !inverse_norm.is_finite() || rcond.is_nan() || rcond < SMALLEST_RCOND {
+        if !inverse_norm.is_finite() || rcond.is_nan() || rcond < MIN_RCOND {
             return error(Reason::Condition);
         }
-        if growth > LARGEST_GROWTH * largest {
+        if growth > MAX_GROWTH * largest {
             return error(Reason::Growth);
         }
         if !count {
             return Ok(Definiteness::Indefinite { negative: None });
         }
-        // the estimate is a lower bound, rarely off by more than a factor of three
+        // the estimate is a lower bound, rarely by more than a factor of three
         let smallest = 1.0 / (3.0 * inverse_norm);
         let negative = inertia::negative(a, &self.scale, smallest)
             .filter(|count| (count % 2 == 1) == (self.determinant_sign() < 0.0));
@@ -155,7 +165,7 @@ impl Banded {
         })
     }
 
-    /// Fills the band with S A S; its largest entry and its 1-norm.
+    /// Fills the band with S A S, and returns its largest entry and its 1-norm.
     fn assemble(&mut self, a: &BlockTridiagonal) -> (f64, f64) {
         let n = self.scale.len();
         let Self { columns, scale, work, .. } = self;
@@ -178,45 +188,41 @@ impl Banded {
         (largest, sums.iter().fold(0.0, |m, v| v.max(m)))
     }
 
-    /// Solves with the factors of the equilibrated matrix.
-    fn solve_scaled(&self, level: Level, x: &mut [f64]) {
-        dispatch!(level, _ => substitute(&self.columns, &self.exchanged, x));
-    }
-
     /// Replaces `rhs` by A^-1 rhs.
     pub(super) fn solve(&self, level: Level, rhs: &mut [f64]) {
         let scale = |x: &mut [f64]| x.iter_mut().zip(&self.scale).for_each(|(v, s)| *v *= s);
         scale(rhs);
-        self.solve_scaled(level, rhs);
+        dispatch!(level, _ => substitute(&self.columns, &self.exchanged, rhs));
         scale(rhs);
     }
 
-    /// Sign of the determinant.
+    /// Returns the sign of the determinant.
     pub(super) fn determinant_sign(&self) -> f64 {
         let exchanges = self.exchanged.iter().enumerate().filter(|&(j, &p)| p != j).count();
         let negative = self.columns.iter().filter(|c| c[ABOVE] < 0.0).count();
         if (exchanges + negative) % 2 == 0 { 1.0 } else { -1.0 }
     }
 
-    /// Estimate of |(S A S)^-1|_1, from below.
+    /// Returns an estimate of |(S A S)^-1|_1 from below.
     fn inverse_norm(&mut self, level: Level) -> f64 {
-        let [mut x, mut y, mut z] = core::mem::take(&mut self.work);
         let n = self.columns.len();
+        let Self { columns, exchanged, work: [x, y, z], .. } = self;
+        let solve = |x: &mut [f64]| dispatch!(level, _ => substitute(columns, exchanged, x));
         let one_norm = |v: &[f64]| v.iter().fold(0.0, |s, v| s + v.abs());
-        // a vector of alternating signs catches what the iteration may miss
+        // a vector of alternating signs covers cases that the iteration misses
         y.clear();
         y.extend((0..n).map(|i| {
             let size = 1.0 + i as f64 / (n - 1).max(1) as f64;
             if i % 2 == 0 { size } else { -size }
         }));
-        self.solve_scaled(level, &mut y);
-        let mut estimate = 2.0 * one_norm(&y) / (3.0 * n as f64);
+        solve(y);
+        let mut estimate = 2.0 * one_norm(y) / (3.0 * n as f64);
         x.clear();
         x.resize(n, 1.0 / n as f64);
         for _ in 0..5 {
-            y.clone_from(&x);
-            self.solve_scaled(level, &mut y);
-            let norm = one_norm(&y);
+            y.clone_from(x);
+            solve(y);
+            let norm = one_norm(y);
             if !norm.is_finite() {
                 estimate = f64::INFINITY;
                 break;
@@ -224,8 +230,8 @@ impl Banded {
             estimate = estimate.max(norm);
             z.clear();
             z.extend(y.iter().map(|v| 1f64.copysign(*v)));
-            self.solve_scaled(level, &mut z);
-            let slope: f64 = z.iter().zip(&x).fold(0.0, |s, (z, x)| s + z * x);
+            solve(z);
+            let slope: f64 = z.iter().zip(x.iter()).fold(0.0, |s, (z, x)| s + z * x);
             let (mut best, mut steepest) = (0, 0.0);
             for (i, v) in z.iter().enumerate() {
                 if v.abs() > steepest {
@@ -242,7 +248,6 @@ impl Banded {
             x.fill(0.0);
             x[best] = 1.0;
         }
-        self.work = [x, y, z];
         estimate
     }
 }

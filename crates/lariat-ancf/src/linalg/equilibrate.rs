@@ -1,15 +1,26 @@
 //! Symmetric scaling by powers of two, and a scan of all entries.
 //!
-//! Equation: A' = S A S with s_i = 2^k_i chosen such that the largest entry of every row is about 1
-//! (Golub & Van Loan, 4th ed., section 3.5.2; iteration after Ruiz, RAL-TR-2001-034), computed on
-//! the exponents alone, so that scaling is exact short of under- and overflow.
+//! # Equation
 //!
-//! Validity: finite entries; a zero row is reported.
+//! A' = S A S with s_i = 2^k_i such that the largest entry of every row is about 1, computed on the
+//! exponents alone, so that scaling is exact except for overflow and underflow.
 //!
-//! Rejected: scaling by the diagonal (it may be zero) and by exact maxima (it rounds).
+//! # Validity
+//!
+//! Finite entries; a zero row is an error.
+//!
+//! # References
+//!
+//! Golub & Van Loan, Matrix Computations, 4th ed., section 3.5.2; the iteration after Ruiz,
+//! RAL-TR-2001-034.
+//!
+//! # Alternatives considered
+//!
+//! - Scaling by the diagonal: it may be zero.
+//! - Scaling by exact maxima: it rounds.
 
 use super::block::BlockTridiagonal;
-use super::{Reason, SingularMatrix};
+use super::outcome::{Reason, SingularMatrix};
 
 /// Calls `visit(row, column, value)` for the lower triangle, diagonal included.
 pub(super) fn for_lower_triangle(a: &BlockTridiagonal, mut visit: impl FnMut(usize, usize, f64)) {
@@ -27,7 +38,7 @@ pub(super) fn for_lower_triangle(a: &BlockTridiagonal, mut visit: impl FnMut(usi
     }
 }
 
-/// An error unless every entry (padding aside) is finite.
+/// Returns an error unless every entry (except the padding) is finite.
 pub(super) fn check_finite(a: &BlockTridiagonal) -> Result<(), SingularMatrix> {
     for i in 0..a.diag.len() {
         let blocks = [Some(&a.diag[i]), a.lower.get(i)];
@@ -39,17 +50,18 @@ pub(super) fn check_finite(a: &BlockTridiagonal) -> Result<(), SingularMatrix> {
     Ok(())
 }
 
-/// Binary exponent of a finite number; `None` for 0. Subnormal numbers count as the smallest normal.
+/// Returns the binary exponent of a finite number; `None` for 0. Subnormal numbers count as the
+/// smallest normal.
 fn exponent(value: f64) -> Option<i32> {
     (value != 0.0).then(|| ((((value.to_bits() >> 52) & 0x7ff) as i32) - 1023).max(-1022))
 }
 
-/// 2^k for |k| <= 1000.
+/// Returns 2^k for |k| <= 1000.
 fn power(k: i32) -> f64 {
     f64::from_bits(((k.clamp(-1000, 1000) + 1023) as u64) << 52)
 }
 
-/// Fills `scale` with s_i; `exponents` and `largest` are work space.
+/// Fills `scale` with s_i; `exponents` and `largest` are buffers.
 pub(super) fn equilibrate(
     a: &BlockTridiagonal,
     scale: &mut Vec<f64>,

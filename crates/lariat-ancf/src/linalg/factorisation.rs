@@ -1,32 +1,30 @@
-//! Factor once, solve often: picks the fast or the general factorisation.
+//! One factorisation for many solutions: [`twisted`](super::twisted) for positive definite
+//! matrices, [`banded`](super::banded) for all others.
 //!
-//! Equation: A x = b (Golub & Van Loan, 4th ed., section 4.5.1), see `twisted` for positive
-//! definite matrices and `banded` for all others.
+//! # Equation
 //!
-//! Validity: a factorisation that returned `Ok` solves without NaN for finite right-hand sides
-//! (short of overflow); after an `Err` there is nothing to solve with and `solve` panics.
+//! A x = b.
 //!
-//! Rejected: deciding by the caller (indefiniteness shows only during the elimination), and using
-//! the unpivoted factors of an indefinite matrix (unbounded growth).
+//! # Validity
+//!
+//! A factorisation that returned `Ok` solves without NaN for finite right-hand sides that do not
+//! overflow; after an `Err` there are no factors, and `solve` panics.
+//!
+//! # References
+//!
+//! Golub & Van Loan, Matrix Computations, 4th ed., section 4.5.1.
+//!
+//! # Alternatives considered
+//!
+//! - A choice by the caller: a matrix turns out to be indefinite only during the elimination.
+//! - The unpivoted factors of an indefinite matrix: their growth is unbounded.
 
-use super::SingularMatrix;
 use super::banded::Banded;
 use super::block::BlockTridiagonal;
+use super::outcome::{Definiteness, SingularMatrix};
 use super::substitution;
 use super::twisted::{self, Node};
 use fearless_simd::{Level, dispatch};
-
-/// What is known about the signs of the eigenvalues.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Definiteness {
-    /// All eigenvalues are positive.
-    PositiveDefinite,
-    /// Not positive definite.
-    Indefinite {
-        /// Number of negative eigenvalues; `None` where rounding leaves the count uncertain.
-        negative: Option<usize>,
-    },
-}
 
 /// Which factors are in the buffers.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -37,7 +35,7 @@ enum State {
     Banded(Definiteness),
 }
 
-/// A factored block-tridiagonal matrix; owns its buffers and reuses them.
+/// A factored block-tridiagonal matrix, with buffers that are reused.
 #[derive(Clone, Debug, Default)]
 pub struct Factorisation {
     nodes: Vec<Node>,
@@ -46,8 +44,8 @@ pub struct Factorisation {
 }
 
 impl Factorisation {
-    /// Factors `a`; allocates only when it is larger than any matrix before (and at the first
-    /// matrix that is not positive definite).
+    /// Factors `a`. Allocates only if it is larger than all previous matrices, and for the first
+    /// matrix that is not positive definite.
     ///
     /// # Errors
     /// If the matrix is singular to working precision or has an entry that is not finite.
@@ -58,8 +56,9 @@ impl Factorisation {
         self.factor_with(level, a, true)
     }
 
-    /// [`factor`](Self::factor) for who only wants to solve: negative eigenvalues are not counted (a matrix that is positive
-    /// definite but for rounding may then be called indefinite). The same factors.
+    /// Factors `a` as [`factor`](Self::factor) does, without counting negative eigenvalues: a
+    /// matrix that is positive definite except for rounding may then be called indefinite. The
+    /// factors are the same.
     ///
     /// # Errors
     /// As [`factor`](Self::factor).
@@ -81,7 +80,7 @@ impl Factorisation {
         Ok(definiteness)
     }
 
-    /// Number of nodes of the factored matrix.
+    /// Returns the number of nodes of the factored matrix.
     pub fn nodes(&self) -> usize {
         self.nodes.len()
     }
@@ -94,7 +93,8 @@ impl Factorisation {
         self.solve_many(level, rhs, 1);
     }
 
-    /// Solves for `count` right-hand sides, each contiguous; same bits as one `solve` for each.
+    /// Solves for `count` right-hand sides, each contiguous, with the same bits as one `solve` for
+    /// each.
     ///
     /// # Panics
     /// If nothing has been factored successfully or the length does not match.
@@ -125,7 +125,7 @@ impl Factorisation {
         }
     }
 
-    /// Number of negative eigenvalues, as far as it is certain.
+    /// Returns the number of negative eigenvalues, if it is certain.
     pub fn negative_eigenvalues(&self) -> Option<usize> {
         match self.state {
             State::Twisted => Some(0),
@@ -135,7 +135,7 @@ impl Factorisation {
         }
     }
 
-    /// Sign of the determinant, 1.0 or -1.0; `None` if nothing has been factored.
+    /// Returns the sign of the determinant, 1.0 or -1.0; `None` if nothing has been factored.
     pub fn determinant_sign(&self) -> Option<f64> {
         match self.state {
             State::Twisted => Some(1.0),

@@ -1,26 +1,36 @@
 //! Number of negative eigenvalues of the equilibrated matrix.
 //!
-//! Equation: inertia(A) is the sum of the inertias of the Schur complements S_i of block
-//! elimination without interchanges (Haynsworth; Sylvester's law, Golub & Van Loan, 4th ed.,
-//! section 8.1.5); each 6x6 S_i is diagonalised, so a zero leading pivot does no harm.
+//! # Equation
 //!
-//! Validity: the computed count is that of A + E with |E|_2 <= 3 * 64 ulp * max |S_i| (1 + |G_i|)^2;
-//! it is returned only if this is below the smallest singular value of A (Weyl's inequality,
-//! section 8.1.2), otherwise `None`.
+//! The inertia of A is the sum of the inertias of the Schur complements S_i of block elimination
+//! without interchanges. Each 6x6 S_i is diagonalised, so that a zero leading pivot does no harm.
 //!
-//! Rejected: signs of unpivoted scalar pivots (undefined for a zero leading entry), Sturm sequences
-//! on a tridiagonal reduction (O(n^2) for a band).
+//! # Validity
+//!
+//! The count is that of A + E with |E|_2 <= 3 * 64 ulp * max |S_i| (1 + |G_i|)^2; it is returned
+//! only if this bound is below the smallest singular value of A (Weyl's inequality), otherwise
+//! `None`.
+//!
+//! # References
+//!
+//! Haynsworth's inertia additivity and Sylvester's law: Golub & Van Loan, Matrix Computations, 4th
+//! ed., section 8.1.5; Weyl's inequality: section 8.1.2.
+//!
+//! # Alternatives considered
+//!
+//! - Signs of unpivoted scalar pivots: undefined for a zero leading entry.
+//! - Sturm sequences on a tridiagonal reduction: O(n^2) for a band.
 
 use super::block::{Block, BlockTridiagonal};
 use nalgebra::{Matrix6, SymmetricEigen, Vector6};
 
-/// Block `b` scaled to S_row b S_column.
+/// Returns the scaled block S_row b S_column.
 fn scaled(b: &Block, row: &[f64], column: &[f64]) -> Matrix6<f64> {
     Matrix6::from_fn(|r, c| b.0[c][r] * row[r] * column[c])
 }
 
-/// Number of negative eigenvalues, or `None` if uncertain; `smallest` is a lower bound on the
-/// smallest singular value of the scaled matrix.
+/// Returns the number of negative eigenvalues, or `None` if it is uncertain; `smallest` is a lower
+/// bound of the smallest singular value of the scaled matrix.
 pub(super) fn negative(a: &BlockTridiagonal, scale: &[f64], smallest: f64) -> Option<usize> {
     let mut count = 0;
     let mut worst: f64 = 0.0;

@@ -1,17 +1,27 @@
 //! Mass matrix of a cable: (2x2 scalar blocks, tridiagonal) x I_3, symmetric positive definite.
 //!
-//! Equation: M a = f with the node blocks (rr rt; rt tt) x I_3, where position r and slope t have
-//! three components each. Block L D L^T from both ends towards the middle node as for the
-//! stiffness (Golub & Van Loan, 4th ed., section 4.5.1), the 2x2 Schur complements
-//! S = (1 0; l 1) diag(p, q) (1 l; 0 1) and G = B S^-1.
+//! # Equation
 //!
-//! Validity: positive definite M; pivots below 2^-42 of their diagonal entry, and entries that are
-//! not finite, are an error.
+//! M a = f with the node blocks (rr rt; rt tt) x I_3, where position r and slope t have three
+//! components each. Block L D L^T from both ends towards the middle node as for the stiffness, with
+//! the 2x2 Schur complements S = (1 0; l 1) diag(p, q) (1 l; 0 1) and G = B S^-1.
 //!
-//! Rejected: lumping (the slope inertia then depends on a free choice), a banded scalar factor
-//! (its chain is twice as long), the explicit inverse (dense).
+//! # Validity
+//!
+//! Positive definite M; pivots below 2^-42 of their diagonal entry, and entries that are not
+//! finite, are an error.
+//!
+//! # References
+//!
+//! Golub & Van Loan, Matrix Computations, 4th ed., section 4.5.1.
+//!
+//! # Alternatives considered
+//!
+//! - Lumping: the slope inertia then depends on a free choice.
+//! - A banded scalar factor: its chain of dependent operations is twice as long.
+//! - The explicit inverse: it is dense.
 
-use super::{Reason, SingularMatrix};
+use super::outcome::{Reason, SingularMatrix};
 use fearless_simd::{Level, Simd, dispatch, f64x4, prelude::*};
 
 /// Mass matrix: per unknown ordering of a node r (3 numbers), t (3 numbers).
@@ -24,17 +34,17 @@ pub struct MassMatrix {
 }
 
 impl MassMatrix {
-    /// The zero matrix of that many nodes.
+    /// Returns the zero matrix of a number of nodes.
     pub fn zeros(nodes: usize) -> Self {
         Self { diag: vec![[0.0; 3]; nodes], lower: vec![[0.0; 4]; nodes.saturating_sub(1)] }
     }
 
-    /// Number of nodes.
+    /// Returns the number of nodes.
     pub fn nodes(&self) -> usize {
         self.diag.len()
     }
 
-    /// y = M x; both have length 6 * nodes.
+    /// Computes y = M x; both have length 6 * nodes.
     ///
     /// # Panics
     /// If a length does not match.
@@ -42,7 +52,7 @@ impl MassMatrix {
         self.multiply_at(Level::new(), x, y);
     }
 
-    /// [`multiply`](Self::multiply) with the instructions of `level`.
+    /// Computes y = M x as [`multiply`](Self::multiply) does, with the instructions of `level`.
     ///
     /// # Panics
     /// If a length does not match.
@@ -69,7 +79,7 @@ fn store<S: Simd>(v: Pair<S>, out: &mut [f64; 6]) {
     out[3..].copy_from_slice(&v[1].as_array()[..3]);
 }
 
-/// y - (g0 g1; g2 g3) x
+/// Returns y - (g0 g1; g2 g3) x.
 #[inline(always)]
 fn minus<S: Simd>(simd: S, y: Pair<S>, g: [f64; 4], x: Pair<S>) -> Pair<S> {
     let s = |k: usize| f64x4::splat(simd, g[k]);
@@ -108,15 +118,15 @@ struct Node {
     inner: [f64; 3],
 }
 
-/// A factored mass matrix; owns its buffers and reuses them.
+/// A factored mass matrix, with buffers that are reused.
 #[derive(Clone, Debug, Default)]
 pub struct MassFactorisation {
     nodes: Vec<Node>,
 }
 
-/// S = (rr, rt, tt) into l, 1/p, 1/q; `entries` are those of the matrix.
+/// Factors S = (rr, rt, tt) into l, 1/p, 1/q; `entries` are those of the matrix.
 fn eliminate(s: [f64; 3], entries: [f64; 3], node: usize) -> Result<[f64; 3], SingularMatrix> {
-    const SMALLEST: f64 = 1.0 / (1u64 << 42) as f64;
+    const MIN_PIVOT: f64 = 1.0 / (1u64 << 42) as f64;
     let l = s[1] / s[0];
     let q = s[2] - l * s[1];
     for (pivot, scale) in [(s[0], entries[0]), (q, entries[2])] {
@@ -125,14 +135,14 @@ fn eliminate(s: [f64; 3], entries: [f64; 3], node: usize) -> Result<[f64; 3], Si
             let (pivot, scale, reason) = (0.0, 0.0, Reason::NonFinite);
             return Err(SingularMatrix { node, pivot, scale, reason });
         }
-        if pivot <= SMALLEST * scale || pivot <= 0.0 || !inverse.is_finite() {
+        if pivot <= MIN_PIVOT * scale || pivot <= 0.0 || !inverse.is_finite() {
             return Err(SingularMatrix { node, pivot, scale, reason: Reason::NotPositive });
         }
     }
     Ok([l, 1.0 / s[0], 1.0 / q])
 }
 
-/// B S^-1
+/// Returns B S^-1.
 fn gain(b: [f64; 4], [l, p, q]: [f64; 3]) -> [f64; 4] {
     let row = |r: f64, t: f64| {
         let t = (t - l * r) * q;
@@ -142,13 +152,13 @@ fn gain(b: [f64; 4], [l, p, q]: [f64; 3]) -> [f64; 4] {
     [g0, g1, g2, g3]
 }
 
-/// S - G B^T
+/// Returns S - G B^T.
 fn schur(s: [f64; 3], g: [f64; 4], b: [f64; 4]) -> [f64; 3] {
     [s[0] - (g[0] * b[0] + g[1] * b[1]), s[1] - (g[2] * b[0] + g[3] * b[1]), s[2] - (g[2] * b[2] + g[3] * b[3])]
 }
 
 impl MassFactorisation {
-    /// Factors `m`; allocates only when it is larger than any matrix before.
+    /// Factors `m`. Allocates only if it is larger than all previous matrices.
     ///
     /// # Errors
     /// If the matrix is not positive definite or not finite; `solve` must not be called then.
@@ -198,7 +208,7 @@ impl MassFactorisation {
         Ok(())
     }
 
-    /// Number of nodes of the factored matrix, 0 after an error.
+    /// Returns the number of nodes of the factored matrix, 0 after an error.
     pub fn nodes(&self) -> usize {
         self.nodes.len()
     }
@@ -224,7 +234,7 @@ fn finite(values: &[f64], node: usize) -> Result<(), SingularMatrix> {
     Err(SingularMatrix { node, pivot, scale, reason })
 }
 
-/// S^-1 b
+/// Returns S^-1 b.
 #[inline(always)]
 fn inner<S: Simd>(simd: S, node: &Node, b: Pair<S>) -> Pair<S> {
     let [l, p, q] = node.inner.map(|v| f64x4::splat(simd, v));

@@ -1,19 +1,33 @@
 //! Linear algebra of a cable: symmetric block-tridiagonal matrices with 6x6 blocks, O(n).
 //!
-//! Equation: A x = b with A = A^T block tridiagonal (Golub & Van Loan, Matrix Computations, 4th ed.,
-//! section 4.5.1), by one of two factorisations, chosen by the matrix:
+//! Public for users of the matrices of a cable, such as
+//! [`Cable::stiffness_matrix`](crate::Cable::stiffness_matrix), and for the benchmarks; a
+//! simulation does not call it.
+//!
+//! # Equation
+//!
+//! A x = b with A = A^T block tridiagonal, by one of two factorisations, chosen by the matrix:
 //! - positive definite: block L D L^T without pivoting, eliminated from both ends towards the
-//!   middle node (section 4.5.1 with the scalar L D L^T of section 4.1 inside a block);
-//! - otherwise: L U with partial pivoting on the equilibrated band (sections 3.5.2 and 4.3.3).
+//!   middle node, with the scalar L D L^T inside a block;
+//! - otherwise: L U with partial pivoting on the equilibrated band.
 //!
-//! Validity: `Ok` means that all pivots were healthy (fast path) or that pivot growth and an estimate
-//! of the condition number are within their bounds (slow path); everything else is an error that
-//! names a node. Results carry the same bits at every SIMD level: all sums have a fixed order and no
-//! multiply-add is fused.
+//! # Validity
 //!
-//! Rejected: a general sparse or banded Cholesky for the fast path (six-lane columns fill a register,
-//! a generic band does not), cyclic reduction (two to three times the arithmetic), Bunch-Kaufman
-//! pivoting for the slow path (its symmetric interchanges destroy the band).
+//! `Ok` means that all pivots are safely positive (first factorisation) or that pivot growth and an
+//! estimate of the condition number are within their bounds (second); everything else is an error
+//! that names a node. Results have the same bits at every SIMD level: all sums have a fixed order
+//! and no multiply-add is fused.
+//!
+//! # References
+//!
+//! Golub & Van Loan, Matrix Computations, 4th ed., sections 3.5.2, 4.1, 4.3.3 and 4.5.1.
+//!
+//! # Alternatives considered
+//!
+//! - A general sparse or banded Cholesky factorisation for positive definite matrices: columns of
+//!   six lanes fill a register, those of a general band do not.
+//! - Cyclic reduction: two to three times the arithmetic.
+//! - Bunch-Kaufman pivoting for indefinite matrices: its symmetric interchanges destroy the band.
 
 mod banded;
 mod block;
@@ -22,38 +36,12 @@ mod factorisation;
 mod inertia;
 mod lanes;
 mod mass;
+mod outcome;
+mod product;
 mod substitution;
 mod twisted;
 
 pub use block::{Block, BlockTridiagonal};
-pub use factorisation::{Definiteness, Factorisation};
+pub use factorisation::Factorisation;
 pub use mass::{MassFactorisation, MassMatrix};
-
-/// Why a matrix could not be factored.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Reason {
-    /// An entry is NaN or infinite, or the elimination overflowed.
-    NonFinite,
-    /// No usable pivot: the matrix is singular.
-    Pivot,
-    /// The estimated reciprocal condition number is below the bound: singular to working precision.
-    Condition,
-    /// Entries grew so much during the elimination that the factors are worthless.
-    Growth,
-    /// A mass matrix that is not positive definite.
-    NotPositive,
-}
-
-/// The matrix is singular to working precision, or not finite.
-#[derive(thiserror::Error, Debug, Clone, PartialEq)]
-#[error("matrix cannot be factored at node {node}: {reason:?} (pivot {pivot:e}, scale {scale:e})")]
-pub struct SingularMatrix {
-    /// Node of the offending entry or of the smallest pivot.
-    pub node: usize,
-    /// The smallest pivot (of the equilibrated matrix for the general path), 0 if there is none.
-    pub pivot: f64,
-    /// What the pivot is measured against: the largest entry (same scaling), 0 if there is none.
-    pub scale: f64,
-    /// What went wrong.
-    pub reason: Reason,
-}
+pub use outcome::{Definiteness, Reason, SingularMatrix};

@@ -1,23 +1,38 @@
-//! Substitution with the two-ended factors.
+//! Substitution with the factors of the two-ended elimination.
 //!
-//! Equation: with G_i = B_i S_i^-1 towards the middle node m,
-//!   inwards  b_{i+1} -= G_i b_i,  c_i = S_i^-1 b_i;  middle x_m = c_m;  outwards x_i = c_i - G_i^T x_{i+1}
-//! (Golub & Van Loan, 4th ed., section 4.5.1, written for the block factors (I + G) S (I + G)^T).
-//! S_i^-1 is applied by substitution with the scalar L D L^T of S_i, never as an inverse.
+//! # Equation
 //!
-//! Validity: after an accepted factorisation; one or several right-hand sides at a time give the
-//! same bits.
+//! With G_i = B_i S_i^-1 towards the middle node m,
 //!
-//! Rejected: substitution with the scalar factor of the whole matrix (its critical path has six
-//! dependent steps per node and direction; here it is one 6x6 product, and the S_i^-1 of different
-//! nodes overlap).
+//! ```text
+//! inwards   b_{i+1} -= G_i b_i,  c_i = S_i^-1 b_i
+//! middle    x_m = c_m
+//! outwards  x_i = c_i - G_i^T x_{i+1}
+//! ```
+//!
+//! for the block factors (I + G) S (I + G)^T. S_i^-1 is applied by substitution with the scalar L D
+//! L^T of S_i, never as an inverse.
+//!
+//! # Validity
+//!
+//! After an accepted factorisation; one or several right-hand sides at a time give the same bits.
+//!
+//! # References
+//!
+//! Golub & Van Loan, Matrix Computations, 4th ed., section 4.5.1.
+//!
+//! # Alternatives considered
+//!
+//! Substitution with the scalar factor of the whole matrix: its critical path has six dependent
+//! steps per node and direction; here it is one 6x6 product, and the S_i^-1 of different nodes
+//! overlap.
 
 use super::lanes::{after, before, columns_times, load, load_block, load_six, splat, store_six, transpose_dots};
 use super::twisted::Node;
 use fearless_simd::{Simd, f64x8, prelude::*};
 
-/// S^-1 b. Column k of `node.columns` holds the unscaled u_rk = d_k l_rk below and, by symmetry,
-/// u_kr above the diagonal; times 1/d_k it serves both triangles.
+/// Returns S^-1 b. Column k of `node.columns` holds the unscaled u_rk = d_k l_rk below and, by
+/// symmetry, u_kr above the diagonal; times 1/d_k it serves both triangles.
 #[inline(always)]
 fn solve_block<S: Simd>(simd: S, node: &Node, b: f64x8<S>) -> f64x8<S> {
     let columns = load_block(simd, &node.columns);

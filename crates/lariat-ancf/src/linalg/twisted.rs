@@ -1,36 +1,49 @@
-//! Fast path: block L D L^T from both ends towards the middle node.
+//! Factorisation of positive definite matrices: block L D L^T from both ends towards the middle
+//! node.
 //!
-//! Equation: S_0 = D_0, S_{i+1} = D_{i+1} - B_i S_i^-1 B_i^T from the top, the same with B^T from
-//! the bottom, and S_m = D_m minus both (Golub & Van Loan, 4th ed., section 4.5.1). With the scalar
-//! S_i = L d L^T (section 4.1.2) and W = B L^-T the update is a sum of six rank-1 terms,
-//! S_{i+1} -= sum_k (W_k / d_k) W_k^T; kept for the solution are S_i's columns, 1/d_k and
-//! G_i = B_i S_i^-1, which is W d^-1 L^-1 by substitution.
-//! Two pivots at a time share their latency: 1/d_{k+1} = a / (a c - b^2) for the pending pivot block
-//! (a b; b c), an error of a few ulp of c, as in the usual formula.
+//! # Equation
 //!
-//! Validity: accepted only if every pivot d satisfies d > 2^-42 a (a its entry in A) and
-//! 1e-140 < d, a < 1e140 (so that a c - b^2 neither overflows nor underflows), and the factors are
-//! finite. 2^-42 is about a thousand ulp: the rounding noise in a pivot of a singular matrix is a few
-//! ulp times the square root of the number of nodes. Error bounds of the block form for positive
-//! definite A: Demmel, Higham & Schreiber, Numer. Linear Algebra Appl. 2 (1995) 173.
+//! S_0 = D_0, S_{i+1} = D_{i+1} - B_i S_i^-1 B_i^T from the first node, the same with B^T from the
+//! last, and S_m = D_m minus both. With the scalar S_i = L d L^T and W = B L^-T the update is a sum
+//! of six rank-1 terms, S_{i+1} -= sum_k (W_k / d_k) W_k^T. Stored for the solution are the columns
+//! of S_i, 1/d_k and G_i = B_i S_i^-1, which is W d^-1 L^-1 by substitution.
 //!
-//! Rejected: Cholesky with square roots (a longer chain per pivot), one-ended elimination (half the
-//! instruction-level parallelism), explicit S_i^-1 (its residual grows with the condition of S_i),
-//! broadcasts of register lanes (they need the port that multiplies at 512 bits; the columns
-//! pass through memory instead, `black_box` keeps the compiler from undoing this).
+//! Two pivots at a time share their latency: 1/d_{k+1} = a / (a c - b^2) for the pending pivot
+//! block (a b; b c), with an error of a few ulp of c, as of the usual formula.
+//!
+//! # Validity
+//!
+//! Accepted only if every pivot d satisfies d > 2^-42 a (a its entry in A) and 1e-140 < d, a <
+//! 1e140 (so that a c - b^2 neither overflows nor underflows), and the factors are finite. 2^-42 is
+//! about a thousand ulp: the rounding error of a pivot of a singular matrix is a few ulp times the
+//! square root of the number of nodes.
+//!
+//! # References
+//!
+//! Golub & Van Loan, Matrix Computations, 4th ed., sections 4.1.2 and 4.5.1. Error bounds of the
+//! block form for positive definite A: Demmel, Higham & Schreiber, Numer. Linear Algebra Appl. 2
+//! (1995) 173.
+//!
+//! # Alternatives considered
+//!
+//! - Cholesky with square roots: a longer chain per pivot.
+//! - One-ended elimination: half the instruction-level parallelism.
+//! - Explicit S_i^-1: its residual grows with the condition of S_i.
+//! - Broadcasts of register lanes: they need the port that multiplies at 512 bits. The columns pass
+//!   through memory instead, and `black_box` keeps the compiler from removing that.
 
 use super::block::{Block, BlockTridiagonal};
 use super::lanes::{Columns, after, diagonal, load_block, load_transposed, splat};
 use core::hint::black_box;
 use fearless_simd::{Simd, f64x8, prelude::*};
 
-/// Factors kept per node.
+/// Factors of one node.
 #[repr(C, align(64))]
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Node {
     /// Column k: d_k l_rk for r > k, the pivot at r = k, d_r l_kr for r < k.
     pub(super) columns: Block,
-    /// G = B S^-1 towards the middle node (of no meaning at the middle node itself).
+    /// G = B S^-1 towards the middle node (unused at the middle node).
     pub(super) gain: Block,
     /// 1 / d_k.
     pub(super) inverse: [f64; 8],
@@ -41,11 +54,11 @@ impl Node {
 }
 
 /// Smallest accepted pivot relative to the diagonal entry of the matrix.
-const SMALLEST_PIVOT: f64 = 1.0 / (1u64 << 42) as f64;
+const MIN_PIVOT: f64 = 1.0 / (1u64 << 42) as f64;
 /// Smallest accepted pivot and, inverted, largest accepted diagonal entry.
 const RANGE: f64 = 1e-140;
 
-/// What has been learnt about the pivots so far.
+/// The checks of the pivots so far.
 #[derive(Clone, Copy)]
 struct Health<S: Simd> {
     bad: bool,
@@ -58,17 +71,17 @@ impl<S: Simd> Health<S> {
     fn inspect(&mut self, simd: S, columns: &Columns<S>, original: &Block) {
         let pivots = diagonal(simd, columns);
         let entries = diagonal(simd, &load_block(simd, original));
-        // `max` may pick either of NaN and RANGE: a NaN entry fails the last comparison anyway
-        let least = (entries * splat(simd, SMALLEST_PIVOT)).max(splat(simd, RANGE));
+        // `max` may return either of NaN and RANGE: a NaN entry fails the last comparison anyway
+        let least = (entries * splat(simd, MIN_PIVOT)).max(splat(simd, RANGE));
         let good = pivots.simd_gt(least).to_bitmask() & entries.simd_lt(splat(simd, 1.0 / RANGE)).to_bitmask();
         self.bad |= good & 0x3f != 0x3f;
-        // column 0 has no upper triangle; lower triangles show in the pivots
+        // column 0 has no upper triangle; lower triangles affect the pivots
         let [_, c1, c2, c3, c4, c5] = *columns;
         self.sum += (c1 + c2) + (c3 + c4) + c5;
     }
 }
 
-/// The factorisation of one node under way.
+/// The elimination of one node.
 struct Step<'a, S: Simd> {
     simd: S,
     /// Schur complement, eliminated in place.
@@ -80,7 +93,7 @@ struct Step<'a, S: Simd> {
 }
 
 impl<S: Simd> Step<'_, S> {
-    /// 1 / d_K and 1 / d_{K+1} of the pending 2x2 pivot block.
+    /// Returns 1 / d_K and 1 / d_{K+1} of the pending 2x2 pivot block.
     #[inline(always)]
     fn inverses<const K: usize>(&self) -> (f64, f64) {
         let (a, b, c) = (self.d[K][K], self.d[K][K + 1], self.d[K + 1][K + 1]);
@@ -118,14 +131,22 @@ impl<S: Simd> Step<'_, S> {
     }
 }
 
+/// Blocks of the matrix that the elimination of a node reads.
+struct Blocks<'a, S: Simd> {
+    /// Block between the node and the next one, rows of the next.
+    coupling: Columns<S>,
+    /// Diagonal block of the next node.
+    next: Columns<S>,
+    /// Diagonal block of the node.
+    original: &'a Block,
+}
+
 /// Eliminates a node: `d` is its Schur complement on entry and that of the next node on return.
 #[inline(always)]
 fn eliminate_node<S: Simd>(
     simd: S,
     d: &mut Columns<S>,
-    coupling: Columns<S>,
-    next: Columns<S>,
-    original: &Block,
+    Blocks { coupling, next, original }: Blocks<'_, S>,
     node: &mut Node,
     health: &mut Health<S>,
 ) {
@@ -155,7 +176,7 @@ fn eliminate_node<S: Simd>(
     }
 }
 
-/// Factors `a` (at least one node) into `nodes` (as many); false if the matrix is not safely
+/// Factors `a` (at least one node) into `nodes` (as many), and returns whether the matrix is safely
 /// positive definite.
 #[inline(always)]
 pub(super) fn factor<S: Simd>(simd: S, a: &BlockTridiagonal, nodes: &mut [Node]) -> bool {
@@ -173,18 +194,21 @@ pub(super) fn factor<S: Simd>(simd: S, a: &BlockTridiagonal, nodes: &mut [Node])
         let (i, j) = (s, n - 1 - s);
         let coupling = load_block(simd, &lower[i]);
         let next = load_block(simd, &diag[i + 1]);
-        eliminate_node(simd, &mut top, coupling, next, &diag[i], &mut nodes[i], &mut health);
+        let blocks = Blocks { coupling, next, original: &diag[i] };
+        eliminate_node(simd, &mut top, blocks, &mut nodes[i], &mut health);
         let coupling = load_transposed(simd, &lower[j - 1]);
-        // the middle node's own block arrives through `top`
+        // the middle node's own block is added with `top`
         let last = s + 1 == from_below;
         let next = if last { [zero; 6] } else { load_block(simd, &diag[j - 1]) };
-        eliminate_node(simd, &mut bottom, coupling, next, &diag[j], &mut nodes[j], &mut health);
+        let blocks = Blocks { coupling, next, original: &diag[j] };
+        eliminate_node(simd, &mut bottom, blocks, &mut nodes[j], &mut health);
     }
     if middle > from_below {
         let i = middle - 1;
         let coupling = load_block(simd, &lower[i]);
         let next = load_block(simd, &diag[middle]);
-        eliminate_node(simd, &mut top, coupling, next, &diag[i], &mut nodes[i], &mut health);
+        let blocks = Blocks { coupling, next, original: &diag[i] };
+        eliminate_node(simd, &mut top, blocks, &mut nodes[i], &mut health);
     }
     if from_below > 0 {
         for c in 0..6 {

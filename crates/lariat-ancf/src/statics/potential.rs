@@ -1,4 +1,4 @@
-//! What the iteration lowers: the potential energy, and the work of moments over a step.
+//! The potential energy, and the work of moments over a step.
 
 use crate::element::shape;
 use crate::load::PointLoad;
@@ -6,10 +6,10 @@ use crate::model::Model;
 use crate::system::Equations;
 use nalgebra::Vector3;
 
-/// Work in J of the full moments while the tangents at their points turn from `from` to `to`: moment times angle
-/// about its axis.
+/// Returns the work in J of the full moments while the tangents at their points rotate from those
+/// of `from` to those of `to`: moment times angle about its axis.
 pub(super) fn moment_work(model: &Model, from: &[f64], to: &[f64]) -> f64 {
-    let turn = |load: &PointLoad| {
+    let work = |load: &PointLoad| {
         let size = load.moment.norm();
         if size == 0.0 {
             return 0.0;
@@ -25,10 +25,10 @@ pub(super) fn moment_work(model: &Model, from: &[f64], to: &[f64]) -> f64 {
         let (a, b) = (normal(from), normal(to));
         size * axis.dot(&a.cross(&b)).atan2(a.dot(&b))
     };
-    model.loads.iter().map(turn).sum()
+    model.loads.iter().map(work).sum()
 }
 
-/// Potential energy in J, forces at a share `load`.
+/// Returns the potential energy in J, with point forces at a share `load`.
 pub(super) fn potential(equations: &Equations<'_>, load: f64, q: &[f64]) -> f64 {
     let (axial, bending) = equations.system.forces.strain_energy(q);
     axial + bending

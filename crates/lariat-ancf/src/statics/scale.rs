@@ -1,16 +1,16 @@
-//! Sizes by which "small" is judged.
+//! Reference magnitudes of force and energy for the tolerances of the iterations.
 
 use crate::model::Model;
 
-/// Sizes by which "small" is judged.
+/// Reference magnitudes of a cable under its loads.
 pub(super) struct LoadScale {
     /// Sum of the loads, or the largest tension at the start if there are none, in N.
     pub force: f64,
-    /// Force that rounding alone makes, in N.
+    /// Residual force due to rounding in N.
     pub rounding: f64,
-    /// Energy that rounding alone makes, in J.
+    /// Energy difference due to rounding in J.
     pub energy_rounding: f64,
-    /// Start of mu in 1/s^2.
+    /// First value of mu in 1/s^2.
     pub mu: f64,
     /// Length of the cable in m.
     pub length: f64,
@@ -19,7 +19,8 @@ pub(super) struct LoadScale {
 }
 
 impl LoadScale {
-    pub fn of(model: &Model, q: &[f64]) -> Self {
+    /// Computes them for a model at coordinates `q`.
+    pub fn new(model: &Model, q: &[f64]) -> Self {
         let length = model.length();
         let mass: f64 = model.elements.iter().map(|e| e.length * e.section.mass_per_length).sum();
         let stiffest = model.elements.iter().map(|e| e.section.axial_stiffness).fold(0.0f64, f64::max);
@@ -44,12 +45,12 @@ impl LoadScale {
     }
 }
 
-/// Largest force on a node in N: on its position, and on its slope over the length `arm` (m), which is where moments
-/// act.
-pub(super) fn largest_force(rhs: &[f64], arm: f64) -> f64 {
+/// Returns the largest force on a node in N: on its position, and on its slope divided by the
+/// length `lever` (m), where moments act.
+pub(super) fn largest_force(rhs: &[f64], lever: f64) -> f64 {
     rhs.chunks_exact(6).fold(0.0f64, |worst, x| {
         let force = (x[0] * x[0] + x[1] * x[1] + x[2] * x[2]).sqrt();
-        let moment = (x[3] * x[3] + x[4] * x[4] + x[5] * x[5]).sqrt() / arm;
+        let moment = (x[3] * x[3] + x[4] * x[4] + x[5] * x[5]).sqrt() / lever;
         let size = if force > moment || force.is_nan() { force } else { moment };
         if size > worst || size.is_nan() { size } else { worst }
     })

@@ -6,7 +6,7 @@
 //! [`newton`](crate::integrate::newton); K = -dF/dq, C = -dF/dq'.
 
 use super::{Buffers, Equations, project_vector};
-use crate::effect::acts::{ForceInput, VelocityInput};
+use crate::effect::acts::ForceInput;
 use crate::error::StepFailure;
 use crate::integrate::newton::{self, Increment, Linearised};
 use crate::integrate::{Dynamics, Stage, State};
@@ -36,8 +36,7 @@ impl Linearised for CableStage<'_, '_> {
             *v = velocity_base[i] + stage.dv_dq * z[i];
         }
         // c2 F - M z, and the matrix
-        let velocity = VelocityInput { v: velocity, dv_dq: stage.dv_dq };
-        let input = ForceInput { time: stage.time, q: y, velocity, scale: stage.c2 };
+        let input = ForceInput { time: stage.time, q: y, v: velocity, dv_dq: stage.dv_dq, scale: stage.c2 };
         if fresh {
             equations.force_and_matrix(input, 1.0, rhs);
         } else {
@@ -85,7 +84,7 @@ impl Dynamics for CableDynamics<'_> {
 
     fn acceleration(&mut self, time: f64, q: &[f64], v: &[f64], acceleration: &mut [f64]) -> Result<(), StepFailure> {
         let CableDynamics { equations, buffers: Buffers { rhs, z, .. } } = self;
-        equations.force(ForceInput { time, q, velocity: VelocityInput { v, dv_dq: 0.0 }, scale: 1.0 }, rhs);
+        equations.force(ForceInput { time, q, v, dv_dq: 0.0, scale: 1.0 }, rhs);
         acceleration.fill(0.0);
         let mut moving = false;
         for (node, support) in &equations.model.supports {

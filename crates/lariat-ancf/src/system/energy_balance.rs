@@ -17,7 +17,7 @@
 
 use super::Equations;
 use crate::effect::EffectWork;
-use crate::effect::acts::{ForceInput, PointForce, VelocityInput};
+use crate::effect::acts::{ForceInput, PointForce};
 use crate::effect::work::{POINTS, hermite};
 use crate::integrate::{EnergyLaw, State};
 use crate::load::PointLoad;
@@ -42,6 +42,14 @@ impl EnergyMeter {
     pub fn new(model: &Model) -> Self {
         let zeros = || vec![0.0; 6 * model.nodes()];
         EnergyMeter { work: EffectWork::default(), law: EnergyLaw::default(), work_of_step: EffectWork::default(), q: zeros(), v: zeros(), force: zeros() }
+    }
+}
+
+impl EnergyMeter {
+    /// Begins a host step.
+    pub fn begin(&mut self) {
+        self.work = EffectWork::default();
+        self.law = EnergyLaw::default();
     }
 }
 
@@ -74,8 +82,7 @@ impl Equations<'_> {
             if let Some(effects) = in_element {
                 forces.elements.add_effect_power(effects, q, v, &mut power);
             }
-            let velocity = VelocityInput { v, dv_dq: 0.0 };
-            let input = ForceInput { time: before.time + share * h, q, velocity, scale: 1.0 };
+            let input = ForceInput { time: before.time + share * h, q, v, dv_dq: 0.0, scale: 1.0 };
             forces.at_points.add_power(system.level, input, force, &mut power);
             if let Some(densities) = &mut forces.densities {
                 force.fill(0.0);
@@ -111,7 +118,7 @@ impl Equations<'_> {
     fn point_power(&mut self, (time, q, v): (f64, &[f64], &[f64])) -> f64 {
         let system = &mut *self.system;
         let mut power = EffectWork::default();
-        let input = ForceInput { time, q, velocity: VelocityInput { v, dv_dq: 0.0 }, scale: 1.0 };
+        let input = ForceInput { time, q, v, dv_dq: 0.0, scale: 1.0 };
         system.forces.at_points.add_power(system.level, input, &mut system.meter.force, &mut power);
         power.total()
     }

@@ -3,7 +3,7 @@
 use super::lanes::MatrixOutput;
 use super::{System, project_matrix, project_vector};
 use crate::diagnostics::Diagnostics;
-use crate::effect::acts::{ForceInput, VelocityInput};
+use crate::effect::acts::ForceInput;
 use crate::error::StepFailure;
 use crate::integrate::Stage;
 use crate::linalg::Definiteness;
@@ -44,7 +44,7 @@ impl Equations<'_> {
     }
 
     fn static_input<'a>(&self, q: &'a [f64], scale: f64) -> ForceInput<'a> {
-        ForceInput { time: self.system.static_time, q, velocity: VelocityInput::REST, scale }
+        ForceInput { time: self.system.static_time, q, v: &[], dv_dq: 0.0, scale }
     }
 
     fn evaluate(&mut self, load_time: f64, input: ForceInput<'_>, out: &mut [f64], mass_scale: Option<f64>) {
@@ -84,6 +84,9 @@ impl Equations<'_> {
     }
 
     fn factor_with(&mut self, count: bool) -> Result<Definiteness, StepFailure> {
+        if let Some((what, node)) = self.system.forces.not_finite() {
+            return Err(StepFailure::NotFinite { what, node });
+        }
         let (level, step) = (self.system.level, &mut self.system.step);
         project_matrix(self.model, &mut step.matrix);
         self.diagnostics.factorisations += 1;

@@ -56,7 +56,7 @@ impl Forces {
         let count = self.elements.count as u64;
         let counts = &mut diagnostics.effects;
         if let Some(effects) = effects {
-            effects.count(count, !input.velocity.v.is_empty(), counts);
+            effects.count(count, !input.v.is_empty(), counts);
         }
         self.at_points.add(level, input, out, matrix.as_deref_mut(), (count, counts));
         if let Some(densities) = &mut self.densities {

@@ -58,7 +58,7 @@ fn add_elements(forces: &Forces, at: ForceInput<'_>, rates: [f64; 2], matrix: &m
             let seed = |x: &[f64], rate: f64| -> [Dual; 12] {
                 core::array::from_fn(|k| Dual { value: x[6 * e + k], slope: if k == i { rate } else { 0.0 } })
             };
-            let force = element_force(forces, e, at.time, &seed(at.q, rates[0]), &seed(at.velocity.v, rates[1]));
+            let force = element_force(forces, e, at.time, &seed(at.q, rates[0]), &seed(at.v, rates[1]));
             for (k, f) in force.iter().enumerate() {
                 matrix[(6 * e + k, 6 * e + i)] -= f.slope;
             }

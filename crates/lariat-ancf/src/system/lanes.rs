@@ -84,7 +84,7 @@ impl Elements {
         out: &mut [f64],
     ) {
         let kernel = Kernel { table: &self.table, bending, effects };
-        let moving = effects.needs_rates() && !input.velocity.v.is_empty();
+        let moving = effects.needs_rates() && !input.v.is_empty();
         for first in (0..self.count).step_by(LANES) {
             let group = Group { simd, first };
             let force = kernel.force(&self.gather(group, input, moving), &group);
@@ -103,12 +103,12 @@ impl Elements {
         to: MatrixOutput<'_>,
     ) {
         let kernel = Kernel { table: &self.table, bending, effects };
-        let moving = effects.needs_rates() && !input.velocity.v.is_empty();
+        let moving = effects.needs_rates() && !input.v.is_empty();
         to.matrix.diag[0] = Block::ZERO;
         for first in (0..self.count).step_by(LANES) {
             let group = Group { simd, first };
             let state = self.gather(group, input, moving);
-            let (force, blocks) = kernel.force_and_tangent(&state, input.velocity.dv_dq, &group);
+            let (force, blocks) = kernel.force_and_tangent(&state, input.dv_dq, &group);
             self.scatter_force(simd, first, &force, out);
             self.scatter_matrix(simd, first, &blocks, to.mass_scale, to.matrix);
         }
@@ -122,7 +122,7 @@ impl Elements {
             bending: group.load(&self.flexural) * input.scale,
         };
         let d = self.gather_control(group, input.q);
-        let velocity = if moving { Some(self.gather_control(group, input.velocity.v)) } else { None };
+        let velocity = if moving { Some(self.gather_control(group, input.v)) } else { None };
         ElementState { stiffness, d, velocity }
     }
 

@@ -33,7 +33,7 @@ mod projection;
 
 pub(crate) use dynamics::CableDynamics;
 pub(crate) use equations::Equations;
-pub(crate) use secant_cable::SecantCable;
+pub(crate) use secant_cable::{SecantCable, dot};
 pub(crate) use projection::{project_matrix, project_vector};
 
 use crate::cable::builder::STANDARD_GRAVITY;
@@ -90,6 +90,8 @@ pub(crate) struct Scales {
     pub frequency_bound: f64,
     /// Energy in J of the mass 1 mm above the ground: what a cable at rest is measured by.
     pub weight_energy: f64,
+    /// Mass in kg, added mass included.
+    pub mass: f64,
     /// Smallest `L l rhoA/EA` in s^2: an acceleration k strains an element by this times k/l.
     pub stiff_time_squared: f64,
 }
@@ -145,7 +147,7 @@ impl Scales {
         });
         let mass: f64 = model.elements.iter().map(|e| model.inertia(e) * e.length).sum();
         let weight_energy = mass * STANDARD_GRAVITY.norm() * 1e-3;
-        Scales { slope_lever, weight_energy, frequency_bound: frequency::bound(model), stiff_time_squared: stiff }
+        Scales { slope_lever, weight_energy, mass, frequency_bound: frequency::bound(model), stiff_time_squared: stiff }
     }
 
     /// Returns the largest component of a nodal vector as a displacement in m (of r, and of t over l/8), and the largest |t|.

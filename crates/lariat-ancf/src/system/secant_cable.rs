@@ -6,15 +6,12 @@ use super::rigid::relative_velocities;
 use super::{Equations, System, project_vector};
 use crate::cable::Cable;
 use crate::effect::EffectWork;
-use crate::effect::acts::{ForceInput, PointForce, StepInput, VelocityInput};
+use crate::effect::acts::{ForceInput, PointForce, StepInput};
 use crate::error::StepFailure;
 use crate::integrate::State;
-use crate::integrate::discrete_gradient::{ALPHA, BETA, Balance, Buffers, Event, SecantSystem};
+use crate::integrate::discrete_gradient::{ALPHA, BETA, Balance, Buffers, Event, SecantSystem, share_to_take};
 use crate::support::{SlopeSupport, Support};
 use core::ops::Range;
-
-/// Share of the velocities relative to rigid motion that a step may lose by rescaling: that of half of their energy.
-const MAX_TAKEN_SHARE: f64 = 0.292_893_218_813_452_5;
 
 /// A cable, its state and the buffers of a step.
 pub(crate) struct SecantCable<'a> {
@@ -23,7 +20,7 @@ pub(crate) struct SecantCable<'a> {
     pub buffers: &'a mut Buffers,
 }
 
-/// The components of a node (r, t) that a support prescribes.
+/// Returns the components of a node (r, t) that a support prescribes.
 fn prescribed(support: &Support) -> Range<usize> {
     let first = if support.position.is_some() { 0 } else { 3 };
     let last = if matches!(support.slope, SlopeSupport::Prescribed(_)) { 6 } else { 3 };
@@ -43,6 +40,16 @@ impl System {
 }
 
 impl Equations<'_> {
+    /// Begins a host step: puts prescribed coordinates in place if supports or the state were changed.
+    pub fn begin_secants(&self, state: &mut State) {
+        let memory = &mut state.memory;
+        memory.valid = false;
+        memory.step = 0.0;
+        if memory.differences.is_empty() || memory.differences.revision != memory.revision {
+            self.prescribe(state.time, &mut state.q, &mut state.v);
+        }
+    }
+
     /// Sets the changes of prescribed coordinates, so that they end where their supports are.
     pub fn prescribe_change(&self, state: &State, b: &mut Buffers) {
         for (node, support) in &self.model.supports {
@@ -56,8 +63,8 @@ impl Equations<'_> {
         }
     }
 
-    /// Computes `h (G + F - f) - M D v` of the present iterate into `rhs`, and the step matrix if asked; without it, returns what the elements
-    /// lose. `work` is that of effects.
+    /// Computes `h (G + F - f) - M D v` of the present iterate into `rhs`, and the step matrix if asked. Without it, returns what the
+    /// elements lose, and adds the work of effects to `work`.
     pub fn secant_residual(
         &mut self,
         state: &State,
@@ -65,106 +72,114 @@ impl Equations<'_> {
         matrix: bool,
         work: &mut EffectWork,
     ) -> ElementLoss {
-        let h = b.h;
+        let loss = self.secant_elements(state, b, matrix);
+        self.external_forces(state, b, matrix, work);
+        if let Some(effects) = &self.system.forces.in_element {
+            effects.add_dissipated(loss.effects, work);
+        }
+        let Buffers { h, velocity_change, rhs, external, product, .. } = b;
+        self.system.mass.multiply(self.system.level, velocity_change, product);
+        for i in 0..rhs.len() {
+            rhs[i] += *h * external[i] - product[i];
+        }
+        loss
+    }
+
+    /// Computes the part of the elements.
+    fn secant_elements(&mut self, state: &State, b: &mut Buffers, matrix: bool) -> ElementLoss {
+        let (system, diagnostics) = (&mut *self.system, &mut *self.diagnostics);
+        let (level, forces) = (system.level, &mut system.forces);
+        let (elements, effects) = (&forces.elements, forces.in_element.as_ref());
+        let count = elements.count() as u64;
+        let Buffers { h, change, change_before, linearised, rhs, .. } = b;
+        let step = CoordinateStep { start: &state.q, change, before: change_before, linearised, h: *h };
+        rhs.fill(0.0);
+        if elements.bends() {
+            diagnostics.bending_evaluations += count;
+        }
+        if let Some(effects) = effects {
+            effects.count(count, true, &mut diagnostics.effects);
+        }
+        if matrix {
+            diagnostics.tangent_evaluations += count;
+            let to = MatrixOutput { matrix: &mut system.step.matrix, mass_scale: 1.0 };
+            elements.add_secant_and_matrix(level, effects, step, rhs, to);
+            ElementLoss::default()
+        } else {
+            diagnostics.force_evaluations += count;
+            elements.add_secant(level, effects, step, rhs)
+        }
+    }
+
+    /// Computes the forces of everything else, G + F, into `external`. Loads and the coefficients of drag are those of the iterate about
+    /// which the step is linear: the present one if the matrix is asked for.
+    fn external_forces(&mut self, state: &State, b: &mut Buffers, matrix: bool, work: &mut EffectWork) {
         let (system, diagnostics) = (&mut *self.system, &mut *self.diagnostics);
         let (level, forces) = (system.level, &mut system.forces);
         let count = forces.elements.count() as u64;
-        let in_element = forces.in_element.as_ref();
-        b.rhs.fill(0.0);
-        let mut rhs = core::mem::take(&mut b.rhs);
-        let Buffers { change, change_before: before, linearised, .. } = &*b;
-        let step = CoordinateStep { start: &state.q, change, before, linearised, h };
-        let mut loss = ElementLoss::default();
-        if matrix {
-            let to = MatrixOutput { matrix: &mut system.step.matrix, mass_scale: 1.0 };
-            forces.elements.add_secant_and_matrix(level, in_element, step, &mut rhs, to);
-            diagnostics.tangent_evaluations += count;
-        } else {
-            loss = forces.elements.add_secant(level, in_element, step, &mut rhs);
-            diagnostics.force_evaluations += count;
-        }
-        if forces.elements.bends() {
-            diagnostics.bending_evaluations += count;
-        }
-        if let Some(effects) = in_element {
-            effects.count(count, true, &mut diagnostics.effects);
-            effects.add_dissipated(loss.effects, work);
-        }
         let at_points = forces.at_points.any() || forces.densities.is_some();
         if at_points || !self.model.loads.is_empty() {
             if matrix {
-                // loads and coefficients of drag are those of the present iterate
                 b.linearised.clear();
             }
             b.find_means(&state.q);
         }
-        let time = state.time + 0.5 * h;
+        let time = state.time + 0.5 * b.h;
+        let [middle, velocity, middle_before, velocity_before] = &b.means;
+        let (external, force) = (&mut b.external[..], &mut b.product[..]);
+        external.fill(0.0);
         if at_points {
-            let [middle, velocity, middle_before, velocity_before] = &b.means;
-            let input = StepInput { time, middle, velocity, middle_before, velocity_before, h };
+            let input = StepInput { time, middle, velocity, middle_before, velocity_before, h: b.h };
             let mut to = if matrix { Some(&mut system.step.matrix) } else { None };
-            b.external.fill(0.0);
-            let (out, force) = (&mut b.external[..], &mut b.product[..]);
             let counts = (count, &mut diagnostics.effects);
-            forces.at_points.add_over_step(level, input, (out, force), to.as_deref_mut(), work, counts);
+            forces.at_points.add_over_step(level, input, (external, force), to.as_deref_mut(), work, counts);
             if let Some(densities) = &mut forces.densities {
                 force.fill(0.0);
                 densities.add_over_step(level, input, force, to);
-                out.iter_mut().zip(force.iter()).for_each(|(out, f)| *out += f);
-                work.force_densities += h * dot(force, velocity);
+                external.iter_mut().zip(force.iter()).for_each(|(out, f)| *out += f);
+                work.force_densities += b.h * dot(force, velocity);
                 diagnostics.effects.force_densities += count;
             }
-            rhs.iter_mut().zip(&b.external).for_each(|(r, f)| *r += h * f);
         }
-        let loads = ForceInput { time, q: &b.means[2], velocity: VelocityInput::REST, scale: h };
-        system.loads.add(&self.model.loads, loads, &mut rhs, None, diagnostics);
-        system.mass.multiply(level, &b.velocity_change, &mut b.product);
-        rhs.iter_mut().zip(&b.product).for_each(|(r, m)| *r -= m);
-        b.rhs = rhs;
-        loss
+        let loads = ForceInput { time, q: middle_before, v: &[], dv_dq: 0.0, scale: 1.0 };
+        system.loads.add(&self.model.loads, loads, external, None, diagnostics);
     }
 
-    /// Returns what the present iterate does to the energy, but for the product of residual and velocity: `rhs` is the residual of all
-    /// coordinates.
+    /// Returns what the present iterate does to the energy, but for the product of residual and velocity: `rhs` is then the residual of
+    /// all coordinates.
     pub fn secant_balance(&mut self, state: &State, b: &mut Buffers, work: &mut EffectWork) -> Balance {
         let loss = self.secant_residual(state, b, false, work);
         let mut balance = Balance { numerical: loss.numerical, effects: loss.effects, ..Balance::default() };
         let system = &*self.system;
+        let Buffers { h, velocity_before, velocity_change, change, rhs, external, product, .. } = b;
         if !self.model.loads.is_empty() {
-            let input = ForceInput {
-                time: state.time + 0.5 * b.h,
-                q: &b.means[2],
-                velocity: VelocityInput::REST,
-                scale: 1.0,
-            };
-            b.external.fill(0.0);
-            system.loads.add(&self.model.loads, input, &mut b.external, None, self.diagnostics);
-            let dead = system.loads.gravity_work(&b.change) + system.loads.effect_work(&b.change);
-            balance.loads = dot(&b.external, &b.change) - dead;
+            let dead = system.loads.gravity_work(change) + system.loads.effect_work(change);
+            balance.loads = dot(external, change) - dead - (work.total() + loss.effects);
         }
         for (node, support) in &self.model.supports {
             for x in prescribed(support) {
-                balance.supports -= b.rhs[6 * node + x] * b.change[6 * node + x] / b.h;
+                balance.supports -= rhs[6 * node + x] * change[6 * node + x] / *h;
             }
         }
-        for i in 0..b.external.len() {
-            b.external[i] = b.velocity_change[i] - b.velocity_before[i];
+        // the forces are used up
+        for i in 0..external.len() {
+            external[i] = velocity_change[i] - velocity_before[i];
         }
-        balance.numerical += 0.5 * ALPHA * system.mass_square(&b.external, &mut b.product);
-        for i in 0..b.external.len() {
-            b.external[i] = state.v[i] + b.velocity_change[i];
+        balance.numerical += 0.5 * ALPHA * system.mass_square(external, product);
+        for i in 0..external.len() {
+            external[i] = state.v[i] + velocity_change[i];
         }
-        let kinetic = 0.5 * system.mass_square(&b.external, &mut b.product);
+        let kinetic = 0.5 * system.mass_square(external, product);
         balance.scale = kinetic + loss.strain + system.scales.weight_energy;
         balance
     }
 
-    /// Adds an increment of the velocity change to the iterate, which becomes the one about which it was linearised.
-    pub fn apply_increment(b: &mut Buffers, increment: &[f64]) {
+    /// Adds the increment of the velocity change in `rhs` to the iterate, which becomes the one about which it was linearised.
+    pub fn apply_increment(b: &mut Buffers) {
         b.linearised.clone_from(&b.change);
-        for i in 0..increment.len() {
-            b.velocity_change[i] += increment[i];
-            b.change[i] += b.h * BETA * increment[i];
+        for i in 0..b.rhs.len() {
+            b.velocity_change[i] += b.rhs[i];
+            b.change[i] += b.h * BETA * b.rhs[i];
         }
     }
 
@@ -181,6 +196,8 @@ impl Equations<'_> {
         memory.differences.displacement.clone_from(&b.change);
         memory.differences.step = b.h;
         memory.differences.revision = memory.revision;
+        let meter = &mut self.system.meter;
+        meter.work += meter.work_of_step;
     }
 }
 
@@ -194,12 +211,7 @@ impl SecantSystem for SecantCable<'_> {
     }
 
     fn begin(&mut self) {
-        let memory = &mut self.state.memory;
-        memory.valid = false;
-        memory.step = 0.0;
-        if memory.differences.is_empty() || memory.differences.revision != memory.revision {
-            self.equations.prescribe(self.state.time, &mut self.state.q, &mut self.state.v);
-        }
+        self.equations.begin_secants(self.state);
     }
 
     fn predict(&mut self, h: f64) {
@@ -212,14 +224,11 @@ impl SecantSystem for SecantCable<'_> {
         equations.diagnostics.newton_iterations += 1;
         equations.secant_residual(state, b, true, &mut EffectWork::default());
         equations.factor_to_solve()?;
-        let mut increment = core::mem::take(&mut b.rhs);
-        equations.solve(&mut increment);
-        Equations::apply_increment(b, &increment);
-        b.rhs = increment;
+        equations.solve(&mut b.rhs);
         if !b.rhs.iter().all(|x| x.is_finite()) {
             return Err(equations.not_finite("Newton increment", &b.rhs));
         }
-        equations.system.meter.work_of_step = EffectWork::default();
+        Equations::apply_increment(b);
         let mut work = EffectWork::default();
         let mut balance = equations.secant_balance(state, b, &mut work);
         equations.system.meter.work_of_step = work;
@@ -255,9 +264,7 @@ impl SecantSystem for SecantCable<'_> {
 
     fn accept(&mut self, balance: &Balance) {
         self.equations.accept_secant(self.state, self.buffers);
-        let meter = &mut self.equations.system.meter;
-        meter.work += meter.work_of_step;
-        meter.law.add(balance);
+        self.equations.system.meter.law.add(balance);
     }
 
     fn count(&mut self, event: Event) {
@@ -266,14 +273,6 @@ impl SecantSystem for SecantCable<'_> {
             Event::Split => self.equations.diagnostics.split_steps += 1,
         }
     }
-}
-
-/// Returns the smaller share u for which v - u w has less kinetic energy than v by the excess, from `1/2 w.M w` and `v.M w`; `None` if
-/// there is none that is small enough.
-pub(crate) fn share_to_take(energy: f64, product: f64, excess: f64) -> Option<f64> {
-    let root = product * product - 4.0 * energy * excess;
-    let share = (product - root.max(0.0).sqrt()) / (2.0 * energy);
-    (root >= 0.0 && (0.0..=MAX_TAKEN_SHARE).contains(&share)).then_some(share)
 }
 
 impl Cable {

@@ -2,5 +2,7 @@
 
 #[path = "../common/mod.rs"]
 mod common;
+mod law;
+mod motion;
 mod recipe;
 mod thrown;

@@ -1,4 +1,4 @@
-//! Scenes and tools that several files share.
+//! Scenes and tools shared by several files.
 
 use lariat_ancf::island::{Island, PinAccount, PinConstraint, RigidBody};
 use lariat_ancf::{At, Cable, Integrator, Section, Vector3};
@@ -40,7 +40,7 @@ impl Scene {
         self
     }
 
-    /// Clamps a node of a cable, as it is, to a point of a body.
+    /// Clamps a node of a cable, in its present direction, to a point of a body.
     pub fn clamp(mut self, cable: usize, at: impl Into<At>, body: usize, anchor: Vector3<f64>) -> Self {
         let node = self.cables[cable].attach_clamped(at).unwrap();
         let slope = Vector3::from_column_slice(&self.cables[cable].positions()[6 * node + 3..6 * node + 6]);
@@ -66,19 +66,19 @@ impl Scene {
         self.island.accounts().iter().map(|a| a.force).collect()
     }
 
-    /// What passed through each pin during the last step.
+    /// Forces, impulses and work at each pin during the last step.
     pub fn accounts(&self) -> &[PinAccount] {
         self.island.accounts()
     }
 
-    /// Linear momentum (kg m/s) and angular momentum about the origin (kg m^2/s) of all.
+    /// Linear momentum (kg m/s) and angular momentum about the origin (kg m^2/s) of the system.
     pub fn momentum(&self) -> (Vector3<f64>, Vector3<f64>) {
         let cables = self.cables.iter().map(|c| (c.momentum().linear, c.momentum().angular));
         let sum = |a: (Vector3<f64>, Vector3<f64>), b: (Vector3<f64>, Vector3<f64>)| (a.0 + b.0, a.1 + b.1);
         cables.chain(self.bodies.iter().map(RigidBody::momentum)).fold((Vector3::zeros(), Vector3::zeros()), sum)
     }
 
-    /// Energy of all in J, with the potential of the bodies' constant forces.
+    /// Energy of the system in J, with the potential of the bodies' constant forces.
     pub fn energy(&self) -> f64 {
         let bodies = self.bodies.iter().map(|b| b.kinetic_energy() - b.force.dot(&b.position));
         self.cables.iter().map(|c| c.energy().total()).chain(bodies).sum()
@@ -93,7 +93,8 @@ impl Scene {
     }
 }
 
-/// A cube of `mass` (kg) and 0.2 m, hung by its top face on a 2 m cable that is pinned at the origin, at rest and horizontal.
+/// A cube of `mass` (kg) and 0.2 m, hung by its top face on a 2 m cable that is pinned at the
+/// origin, at rest and horizontal.
 pub fn payload(section: Section, mass: f64, integrator: Integrator) -> Scene {
     let cable = Cable::builder()
         .points([Vector3::zeros(), Vector3::new(2.0, 0.0, 0.0)])

@@ -1,4 +1,4 @@
-//! Bodies that carry the inertia of others: they move as the two joined rigidly.
+//! Bodies with a carried inertia: they move as the rigidly joined bodies.
 
 use super::bench::{Scene, cube};
 use lariat_ancf::island::RigidBody;
@@ -9,10 +9,11 @@ use nalgebra::{Matrix3, Matrix6};
 const STIFFNESS: f64 = 1e5;
 const LENGTH: f64 = 2.0;
 const LINE: f64 = 1e-3;
-/// Stretch at the start in m: so small that directions stay as they are.
+/// Stretch at the start in m, so small that directions are constant.
 const STRETCH: f64 = 1e-5;
 
-/// Inertia of a second body, `arm` away from the first, about the first's centre of mass.
+/// Returns the inertia of a second body, `arm` away from the first, about the first's centre of
+/// mass.
 fn joined(mass: f64, inertia: &Matrix3<f64>, arm: &Vector3<f64>) -> Matrix6<f64> {
     let lever = arm.cross_matrix() * mass;
     let mut out = Matrix6::identity() * mass;
@@ -22,13 +23,15 @@ fn joined(mass: f64, inertia: &Matrix3<f64>, arm: &Vector3<f64>) -> Matrix6<f64>
     out
 }
 
-/// A cube of 2 kg with another of 3 kg joined to it, above, beside and behind, on a taut light rope along x, let go: it swings along x with the
-/// mass of both reduced by their turning, for each of several methods.
+/// A cube of 2 kg with another of 3 kg joined to it, above, beside and behind, on a taut light rope
+/// along x, is released: it oscillates along x with the effective mass of the joined bodies, for
+/// each of several methods.
 ///
-/// *Source.* Rigid dynamics: at a point off the common centre of mass by d, across the pull, a body of mass M and inertia I about that centre
-/// answers as 1/(1/M + d.I^-1 d); the rope adds a third of its mass. The position is the closed form's, a cosine.
+/// *Source.* Rigid dynamics: at a distance d from the common centre of mass, across the force, a
+/// body of mass M and inertia I about that centre has the effective mass 1/(1/M + d.I^-1 d); the
+/// rope adds a third of its mass. The position is a cosine of time.
 #[test]
-fn a_body_that_carries_another_moves_as_the_two_joined() {
+fn a_body_with_carried_inertia_moves_as_the_joined_bodies() {
     let (mass, other, side) = (2.0, 3.0, 0.2);
     let arms =
         [Vector3::zeros(), Vector3::new(0.3, 0.0, 0.0), Vector3::new(0.0, 0.3, 0.0), Vector3::new(0.1, -0.2, 0.25)];
@@ -57,8 +60,8 @@ fn a_body_that_carries_another_moves_as_the_two_joined() {
         let part = |m: f64, at: Vector3<f64>| cube(m, side) - m * at.cross_matrix() * at.cross_matrix();
         let inertia = part(mass, -centre) + part(other, arm - centre);
         let across = (-centre).cross(&Vector3::x());
-        let turned = inertia.try_inverse().unwrap() * across;
-        let reduced = 1.0 / (1.0 / total + across.dot(&turned)) + LINE * LENGTH / 3.0;
+        let rotation = inertia.try_inverse().unwrap() * across;
+        let reduced = 1.0 / (1.0 / total + across.dot(&rotation)) + LINE * LENGTH / 3.0;
         let rate = (STIFFNESS / LENGTH / reduced).sqrt();
 
         let (steps, dt) = (60, core::f64::consts::TAU / rate / 40.0);

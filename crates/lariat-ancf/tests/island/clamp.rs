@@ -1,4 +1,4 @@
-//! Clamps: the tangent follows the body, and the moment reaches it.
+//! Clamps: the tangent follows the body, and the moment acts on it.
 
 use super::bench::{Scene, soft};
 use lariat_ancf::island::RigidBody;
@@ -9,7 +9,7 @@ fn fine() -> Integrator {
     Integrator::tolerance(Method::Esdirk4, 1e-9).unwrap()
 }
 
-/// Without gravity.
+/// A straight bar without gravity.
 fn bar(section: Section) -> Cable {
     Cable::builder()
         .points([Vector3::zeros(), Vector3::new(1.0, 0.0, 0.0)])
@@ -20,7 +20,7 @@ fn bar(section: Section) -> Cable {
         .unwrap()
 }
 
-/// A body that the island moves with its velocities, and nothing else does.
+/// A driven body, which keeps its velocities.
 fn driven(at: Vector3<f64>, velocity: Vector3<f64>, spin: Vector3<f64>) -> RigidBody {
     let mut body = RigidBody::new(1.0, Matrix3::identity(), at).unwrap();
     body.free = [false; 6];
@@ -29,19 +29,21 @@ fn driven(at: Vector3<f64>, velocity: Vector3<f64>, spin: Vector3<f64>) -> Rigid
     body
 }
 
-/// Sine of the angle between the tangent of a pin's node and the direction it is clamped to.
-fn turned(scene: &Scene, pin: usize) -> f64 {
+/// Returns the sine of the angle between the tangent of a pin's node and its clamped direction.
+fn misalignment(scene: &Scene, pin: usize) -> f64 {
     let p = &scene.pins[pin];
     let q = &scene.cables[p.cable].positions()[6 * p.node + 3..6 * p.node + 6];
     let slope = Vector3::from_column_slice(q).normalize();
     slope.cross(&(scene.bodies[p.body].rotation * p.direction.unwrap())).norm()
 }
 
-/// A cantilever under gravity, held by a body that does not move: the motion of the same cable with a clamp of its own.
+/// A cantilever under gravity, clamped to a body at rest, moves as the same cable with a clamp of
+/// its own.
 ///
-/// *Source.* The cable's own clamp, another path through the code (tests/end_moment.rs and elastica.rs check that one).
+/// *Source.* The cable's own clamp, which other code computes (checked by tests/end_moment.rs and
+/// elastica.rs).
 #[test]
-fn a_clamp_to_a_body_at_rest_is_the_cables_own_clamp() {
+fn a_clamp_to_a_body_at_rest_matches_the_cables_own_clamp() {
     let build = || {
         Cable::builder()
             .points([Vector3::zeros(), Vector3::new(1.0, 0.0, 0.0)])
@@ -64,12 +66,13 @@ fn a_clamp_to_a_body_at_rest_is_the_cables_own_clamp() {
     assert!((reaction.moment + account.moment).norm() < 1e-5 * account.moment.norm(), "{reaction:?} {account:?}");
 }
 
-/// A mass with rotary inertia on the tip of a clamped massless beam, released in the shape of one of its two modes: after a
-/// period of that mode it is where it began.
+/// A mass with rotary inertia on the tip of a clamped massless beam, released in the shape of one
+/// of its two modes, is back at its start after a period of that mode.
 ///
-/// *Source.* Euler-Bernoulli beam with K = EI/L^3 (12, -6L; -6L, 4L^2) about (deflection, rotation) of the tip, M = (m, I).
+/// *Source.* Euler-Bernoulli beam with K = EI/L^3 (12, -6L; -6L, 4L^2) about (deflection, rotation)
+/// of the tip, M = (m, I).
 #[test]
-fn a_body_on_the_tip_of_a_beam_has_its_two_frequencies() {
+fn a_body_on_the_tip_of_a_beam_has_the_two_analytic_frequencies() {
     let (ei, mass, inertia): (f64, f64, f64) = (10.0, 2.0, 0.4);
     let k = [[12.0 * ei, -6.0 * ei], [-6.0 * ei, 4.0 * ei]];
     // det(K - w^2 M) = 0
@@ -97,11 +100,12 @@ fn a_body_on_the_tip_of_a_beam_has_its_two_frequencies() {
     }
 }
 
-/// Two bricks clamped to the ends of a bar, thrown and spinning in space: momenta and energy stay, the tangents stay on the bodies.
+/// Two bricks clamped to the ends of a bar, translating and rotating in space: momenta and energy
+/// are conserved, and the tangents stay in their clamps.
 ///
 /// *Source.* Conservation laws.
 #[test]
-fn clamped_bodies_keep_their_momenta_and_energy() {
+fn clamped_bodies_conserve_momenta_and_energy() {
     let mut ends = [0.0, 1.0].map(|x| {
         let inertia = Matrix3::from_diagonal(&Vector3::new(0.002, 0.005, 0.006));
         let mut body = RigidBody::new(0.5 + x, inertia, Vector3::new(x, 0.03, 0.0)).unwrap();
@@ -127,22 +131,23 @@ fn clamped_bodies_keep_their_momenta_and_energy() {
     assert!((after.0 - before.0).norm() < 1e-9, "{:.1e}", (after.0 - before.0).norm());
     assert!((after.1 - before.1).norm() < 1e-7, "{:.1e}", (after.1 - before.1).norm());
     assert!((scene.energy() - energy).abs() < 1e-5 * energy, "{} {energy}", scene.energy());
-    assert!(scene.gap() < 1e-12 && turned(&scene, 0) < 1e-12 && turned(&scene, 1) < 1e-12);
+    assert!(scene.gap() < 1e-12 && misalignment(&scene, 0) < 1e-12 && misalignment(&scene, 1) < 1e-12);
 }
 
-/// A drive whirls a bar that is clamped to it off its centre, about an axis askew: the energy of the bar is the work that
-/// passed, and the tangent stays.
+/// A driven body rotates a bar that is clamped to it off its centre, about an inclined axis: the
+/// energy of the bar is the work at the clamp, and the tangent stays in the clamp.
 ///
 /// *Source.* Conservation of energy.
 #[test]
-fn what_a_drive_works_the_cable_gains() {
+fn the_work_of_a_driven_body_is_the_energy_gain_of_its_cable() {
     let mut scene = Scene::new(
         vec![bar(soft())],
         vec![driven(Vector3::new(0.0, -0.2, 0.1), Vector3::zeros(), Vector3::new(0.3, 1.5, 0.8))],
         fine(),
     )
     .clamp(0, At::Start, 0, Vector3::new(0.0, 0.2, -0.1));
-    // the first step strikes the bar with the velocity of the drive: it is not work along the path
+    // in the first step the bar takes the velocity of the body by an impact, whose energy loss is
+    // not in the work
     scene.run(1.0 / 240.0, 1);
     let before = scene.energy();
     let (mut work, mut passed) = (0.0, 0.0);
@@ -154,14 +159,15 @@ fn what_a_drive_works_the_cable_gains() {
     let gained = scene.energy() - before;
     assert!(passed > 0.1, "{passed}");
     assert!((gained - work).abs() < 1e-3 * passed, "gained {gained} J, work {work} J of {passed}");
-    assert!(turned(&scene, 0) < 1e-12);
+    assert!(misalignment(&scene, 0) < 1e-12);
 }
 
-/// Impulse and work at the pin of the payload are those that change the body's momentum and energy.
+/// Impulse and work at the pin of the payload, with those of gravity, are the changes of the body's
+/// momentum and energy.
 ///
 /// *Source.* Newton's second law, work and energy.
 #[test]
-fn the_accounts_of_a_pin_explain_the_motion_of_its_body() {
+fn impulse_and_work_at_a_pin_change_momentum_and_energy_of_its_body() {
     let mut scene = super::bench::payload(soft(), 50.0, fine());
     let weight = scene.bodies[0].force;
     let (mut impulse, mut work, mut fall) = (Vector3::zeros(), 0.0, 0.0);
@@ -180,27 +186,28 @@ fn the_accounts_of_a_pin_explain_the_motion_of_its_body() {
     assert!((energy - work - fall).abs() < 1e-3 * energy, "{energy} J, work {work} J and {fall} J");
 }
 
-/// A slope that is not in its clamp's direction turns into it within the step, smoothly, and stays.
+/// A slope that is not in its clamp's direction rotates into it within the step, and stays there.
 ///
 /// *Source.* The contract of a clamp.
 #[test]
-fn a_clamp_turns_a_slope_into_its_direction() {
+fn a_clamp_rotates_a_slope_into_its_direction_within_the_step() {
     let body = driven(Vector3::zeros(), Vector3::zeros(), Vector3::zeros());
     let mut scene = Scene::new(vec![bar(soft())], vec![body], fine()).clamp(0, At::Start, 0, Vector3::zeros());
     let wanted = Vector3::new(1.0, 0.2, -0.1).normalize();
     scene.pins[0].direction = Some(wanted);
     scene.run(1.0 / 60.0, 1);
-    assert!(turned(&scene, 0) < 1e-9, "{:.1e}", turned(&scene, 0));
+    assert!(misalignment(&scene, 0) < 1e-9, "{:.1e}", misalignment(&scene, 0));
     scene.run(1.0 / 60.0, 10);
-    assert!(turned(&scene, 0) < 1e-12);
+    assert!(misalignment(&scene, 0) < 1e-12);
 }
 
-/// Two bodies, clamped to the ends of a rope without bending stiffness, run at each other and past: the ends of the rope are thrown
-/// inside out, their tangents against their clamps. Energy and angular momentum stay.
+/// Two bodies, clamped to the ends of a rope without bending stiffness, move towards and past each
+/// other: the slopes at the ends of the rope reverse against their clamps. Energy and angular
+/// momentum are conserved.
 ///
-/// *Source.* Conservation laws: a stretch that passes through zero is no turn.
+/// *Source.* Conservation laws: a stretch that passes through zero is not a rotation.
 #[test]
-fn a_stretch_that_passes_through_zero_at_a_clamp_makes_no_energy() {
+fn a_slope_that_reverses_at_a_clamp_creates_no_energy() {
     let limp = Section::from_stiffness(100.0, 0.0, 0.1).unwrap();
     let ends = [0.0, 1.0].map(|x| {
         let mut body = RigidBody::new(1.0, Matrix3::from_diagonal_element(0.01), Vector3::new(x, 0.0, 0.0)).unwrap();
@@ -214,20 +221,21 @@ fn a_stretch_that_passes_through_zero_at_a_clamp_makes_no_energy() {
         1,
         Vector3::zeros(),
     );
-    let turning = scene.momentum().1;
-    // the ends of the rope, at rest, meet their bodies as in an inelastic impact
+    let angular = scene.momentum().1;
+    // in the first step the ends of the rope, initially at rest, take the velocities of their
+    // bodies by an inelastic impact
     scene.run(1.0 / 240.0, 1);
     let start = scene.energy();
-    let mut inside_out = 0;
+    let mut reversed = 0;
     for _ in 0..120 {
         scene.run(1.0 / 240.0, 1);
         for p in &scene.pins {
             let q = &scene.cables[0].positions()[6 * p.node + 3..6 * p.node + 6];
             let along = scene.bodies[p.body].rotation * p.direction.unwrap();
-            inside_out += usize::from(Vector3::from_column_slice(q).dot(&along) < 0.0);
+            reversed += usize::from(Vector3::from_column_slice(q).dot(&along) < 0.0);
         }
         assert!((scene.energy() - start).abs() < 1e-5 * start, "{} J of {start} J", scene.energy() - start);
     }
-    assert!(inside_out > 5, "the ends were never inside out");
-    assert!((scene.momentum().1 - turning).norm() < 1e-6, "{:?} {turning:?}", scene.momentum().1);
+    assert!(reversed > 5, "the slopes never reversed");
+    assert!((scene.momentum().1 - angular).norm() < 1e-6, "{:?} {angular:?}", scene.momentum().1);
 }

@@ -1,4 +1,5 @@
-//! Cables and rigid bodies as one system, without any engine: against independent solutions, conservation laws and statics.
+//! Cables and rigid bodies as one system, without an engine: against independent solutions,
+//! conservation laws and statics.
 
 #[path = "../common/mod.rs"]
 mod common;

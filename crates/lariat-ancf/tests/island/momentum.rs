@@ -1,4 +1,4 @@
-//! Free systems keep their momenta and their energy; turned systems run the same.
+//! Free systems conserve momenta and energy; rotated systems move the same.
 
 use super::bench::{Scene, cube, soft};
 use super::common::{Random, map3};
@@ -17,7 +17,7 @@ fn cable(from: Vector3<f64>, to: Vector3<f64>, length: f64) -> Cable {
         .unwrap()
 }
 
-/// 1 kg and 10 kg on a cable that is a little stretched, spinning about one of them.
+/// Bodies of 1 kg and 10 kg on a slightly stretched cable, rotating about each other.
 fn dumbbell(integrator: Integrator) -> Scene {
     let mut bodies =
         [(1.0, 0.0), (10.0, 2.0)].map(|(m, x)| RigidBody::new(m, cube(m, 0.2), Vector3::new(x, 0.0, 0.0)).unwrap());
@@ -34,7 +34,7 @@ fn dumbbell(integrator: Integrator) -> Scene {
     )
 }
 
-/// Three tumbling bricks on two cables, one slack, one taut, pinned off their axes, drifting.
+/// Three tumbling bricks on two cables, one slack, one taut, pinned off their axes, in motion.
 fn three_bricks(integrator: Integrator) -> Scene {
     let brick = |mass: f64, at: Vector3<f64>, velocity: Vector3<f64>, spin: Vector3<f64>| {
         let inertia = Matrix3::from_diagonal(&Vector3::new(0.02, 0.05, 0.06)) * mass;
@@ -59,8 +59,9 @@ fn three_bricks(integrator: Integrator) -> Scene {
         .pin(1, At::End, 2, Vector3::new(-0.1, 0.1, 0.0))
 }
 
-/// Relative changes of linear momentum, angular momentum and energy over 1 s at 1/60 s, from the first step on: in that one
-/// the cables, at rest at first, are struck by their bodies.
+/// Returns the relative changes of linear momentum, angular momentum and energy over 1 s at 1/60 s,
+/// from the end of the first step on, in which the cables, initially at rest, take the velocities
+/// of their bodies by an impact.
 fn changes(mut scene: Scene) -> (f64, f64, f64) {
     scene.run(1.0 / 60.0, 1);
     let ((p0, l0), e0) = (scene.momentum(), scene.energy());
@@ -70,14 +71,17 @@ fn changes(mut scene: Scene) -> (f64, f64, f64) {
     ((p - p0).norm() / l0.norm(), (l - l0).norm() / l0.norm(), (e - e0) / e0)
 }
 
-/// A dumbbell, and three tumbling bricks on two cables, 3D, pinned off their axes, one cable slack, for 1 s at 1/60 s: momenta
-/// and energy stay to what the integrator promises. With a tolerance of 1e-8 m momenta stay to rounding; TR-BDF2 damps waves, so
-/// its energy falls (by 3.5 % here: the cables start at rest and are struck), and its momenta stay to its order; explicit methods see the bodies' velocities half a step late, so
-/// here they are of order 1, and small only because their steps are.
+/// A dumbbell, and three tumbling bricks on two cables, in space, pinned off their axes, one cable
+/// slack, for 1 s at 1/60 s: momenta and energy are conserved to the accuracy of the integrator.
+/// With a tolerance of 1e-8 m momenta are conserved to rounding. TR-BDF2 damps waves, so its energy
+/// falls (by 3.5 % here, because of the impact on the cables), and its momenta change at its order.
+/// Explicit methods use the bodies' velocities of half a step before: their momenta change at order
+/// 1, and little only because their steps are small.
 ///
-/// *Source.* Conservation laws. Changes are relative to the angular momentum and the energy of the start.
+/// *Source.* Conservation laws. Changes are relative to the angular momentum and the energy of the
+/// start.
 #[test]
-fn free_systems_keep_their_momenta() {
+fn free_systems_conserve_momenta_and_energy() {
     let explicit = |method, share| Integrator { method, control: StepControl::Stable(share) };
     let cases = [
         (Integrator::tolerance(Method::Esdirk4, 1e-8).unwrap(), 1e-11, 1e-11, 1e-7),
@@ -97,51 +101,51 @@ fn free_systems_keep_their_momenta() {
     }
 }
 
-/// The same scene turned in space, without gravity, runs the same to rounding: nothing in the equations knows the axes.
+/// The same scene rotated in space, without gravity, gives the rotated motion to rounding.
 ///
-/// *Source.* Isotropy of space.
+/// *Source.* Frame indifference.
 #[test]
-fn a_turned_system_runs_the_same() {
+fn a_rotated_system_gives_the_rotated_motion() {
     let integrator = Integrator::substeps(Method::Esdirk4, 4).unwrap();
     let mut random = Random::new(7);
     let mut straight = three_bricks(integrator);
     straight.run(1.0 / 60.0, 30);
     for _ in 0..3 {
-        let turn = random.rotation();
-        let mut turned = three_bricks(integrator);
-        for cable in &mut turned.cables {
-            let q = map3(cable.positions(), |x| turn * x);
-            let v = map3(cable.velocities(), |x| turn * x);
+        let rotation = random.rotation();
+        let mut rotated = three_bricks(integrator);
+        for cable in &mut rotated.cables {
+            let q = map3(cable.positions(), |x| rotation * x);
+            let v = map3(cable.velocities(), |x| rotation * x);
             cable.set_coordinates(&q, &v).unwrap();
         }
-        for body in &mut turned.bodies {
-            body.position = turn * body.position;
-            body.velocity = turn * body.velocity;
-            body.angular_velocity = turn * body.angular_velocity;
-            body.rotation = UnitQuaternion::from_rotation_matrix(&turn) * body.rotation;
+        for body in &mut rotated.bodies {
+            body.position = rotation * body.position;
+            body.velocity = rotation * body.velocity;
+            body.angular_velocity = rotation * body.angular_velocity;
+            body.rotation = UnitQuaternion::from_rotation_matrix(&rotation) * body.rotation;
         }
-        turned.run(1.0 / 60.0, 30);
-        for (a, b) in straight.bodies.iter().zip(&turned.bodies) {
-            let off = (turn * a.position - b.position).norm();
-            let spin = (turn * a.angular_velocity - b.angular_velocity).norm();
+        rotated.run(1.0 / 60.0, 30);
+        for (a, b) in straight.bodies.iter().zip(&rotated.bodies) {
+            let off = (rotation * a.position - b.position).norm();
+            let spin = (rotation * a.angular_velocity - b.angular_velocity).norm();
             assert!(off < 1e-11 && spin < 1e-9, "{off:.1e} m, {spin:.1e} rad/s");
         }
     }
 }
 
-/// A body whose velocity is changed from outside (an engine's collision, a user) takes its cable along, and the cable's mass holds
-/// it back: what the system has after a step is what the change gave it, not more.
+/// A body whose velocity is changed from outside, by a collision or a user, shares the change of
+/// momentum with its cable: after a step the momenta of the system are those after the change.
 ///
 /// *Source.* Conservation of linear and angular momentum in an inelastic impact.
 #[test]
-fn a_struck_body_shares_its_momentum_with_its_cable() {
+fn a_change_of_a_bodys_velocity_is_shared_with_its_cable() {
     let mut scene = three_bricks(Integrator::tolerance(Method::Esdirk4, 1e-8).unwrap());
     scene.run(1e-3, 1);
     scene.bodies[0].velocity += Vector3::new(3.0, 1.0, -2.0);
     scene.bodies[0].angular_velocity += Vector3::new(0.0, 2.0, 1.0);
     let (linear, angular) = scene.momentum();
     scene.run(1e-3, 1);
-    let (after, turned) = scene.momentum();
+    let (after, angular_after) = scene.momentum();
     assert!((after - linear).norm() < 1e-9 * linear.norm(), "{linear} {after}");
-    assert!((turned - angular).norm() < 1e-7 * angular.norm(), "{angular} {turned}");
+    assert!((angular_after - angular).norm() < 1e-7 * angular.norm(), "{angular} {angular_after}");
 }

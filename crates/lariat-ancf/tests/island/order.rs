@@ -1,5 +1,5 @@
-//! Convergence in the host step towards the monolithic reference, for bodies from a tenth of the cable's mass to ten thousand
-//! times, on a soft cable and on a steel bar.
+//! Convergence with the host step to the monolithic reference, for bodies of a tenth to ten
+//! thousand times the cable's mass, on a soft cable and on a steel bar.
 
 use super::bench::{Scene, payload, soft, steel};
 use super::reference::Reference;
@@ -25,7 +25,8 @@ fn error(section: Section, mass: f64, integrator: Integrator, steps: usize, exac
     (pose(&scene) - exact).norm()
 }
 
-/// The reference agrees with itself at half the step to 1e-10 m, so it is exact for all that follows.
+/// The reference agrees with itself at half the step to 1e-10 m, far below the errors measured with
+/// it.
 ///
 /// *Source.* Order 4: an error of 1e-10 at the coarse step is 6e-12 at the fine one.
 #[test]
@@ -37,11 +38,13 @@ fn the_monolithic_reference_has_converged() {
     }
 }
 
-/// One integration step per host step, 1/120 s to 1/960 s: the error of the body's pose falls with the order of the method
-/// where the step resolves the cable's waves; soft cable: all masses, steel: bodies heavier than the bar.
+/// One integration step per host step, 1/120 s to 1/960 s: the error of the body's pose falls with
+/// the order of the method where the step resolves the cable's waves; soft cable: all masses,
+/// steel: bodies heavier than the bar.
 ///
-/// *Source.* The monolithic reference; orders 2, 3 and 4 of the methods. The stiff part of the motion (order reduction, Hairer
-/// & Wanner 1996, IV.15) takes up to one order from the lightest and the stiffest.
+/// *Source.* The monolithic reference; orders 2, 3 and 4 of the methods. The stiff part of the
+/// motion (order reduction, Hairer & Wanner 1996, IV.15) reduces the order of the lightest and the
+/// stiffest by up to one.
 #[test]
 fn the_error_falls_with_the_order_of_the_method() {
     let cases = [
@@ -58,7 +61,7 @@ fn the_error_falls_with_the_order_of_the_method() {
         let exact = exact(section, mass);
         for (method, least) in METHODS.into_iter().zip(least) {
             let integrator = Integrator::substeps(method, 1).unwrap();
-            // what Newton's iteration leaves hides the method below 1e-9
+            // below 1e-9 the error of Newton's iteration dominates
             let [coarse, fine] = [36, 288].map(|n| error(section, mass, integrator, n, &exact).max(1e-9));
             let order = (coarse / fine).log2() / 3.0;
             assert!(order > least, "{section:?}, {mass} kg, {method}: {coarse:.1e}, {fine:.1e}, order {order:.2}");
@@ -66,12 +69,14 @@ fn the_error_falls_with_the_order_of_the_method() {
     }
 }
 
-/// Methods that carry accelerations from step to step carry them from host step to host step: they keep order 2, one integration
-/// step per host step. So do the explicit ones, on velocities that turn with the body; those of higher order have 2 there.
+/// Methods that carry accelerations from step to step carry them from host step to host step: they
+/// have order 2 with one integration step per host step. So have the explicit ones, whose
+/// accelerations depend on the body's angular velocity.
 ///
-/// *Source.* The monolithic reference; order 2 of the methods, as for a cable alone (tests/integrators.rs).
+/// *Source.* The monolithic reference; order 2 of the methods, as for a cable alone
+/// (tests/integrators.rs).
 #[test]
-fn memory_lives_across_host_steps() {
+fn accelerations_are_kept_across_host_steps() {
     let methods =
         ["generalised-alpha-0", "generalised-alpha-0.5", "generalised-alpha-0.8", "trapezoid", "verlet", "rkn4"];
     let mass = 50.0;
@@ -88,12 +93,13 @@ fn memory_lives_across_host_steps() {
     }
 }
 
-/// One integration step per host step of 1/60 s, whatever the masses and the stiffness: the pose (m and rad) is within 1e-3 with
-/// TR-BDF2, 2.1e-3 with ESDIRK3 (a cube of 80 g on steel; others 4e-4), 2e-4 with ESDIRK4.
+/// With one integration step per host step of 1/60 s, for all masses and stiffnesses, the pose (m
+/// and rad) is within 1e-3 with TR-BDF2, 2.1e-3 with ESDIRK3 (a cube of 80 g on steel; others
+/// 4e-4), 2e-4 with ESDIRK4.
 ///
 /// *Source.* The monolithic reference.
 #[test]
-fn one_step_per_frame_is_stable_and_near_for_every_mass() {
+fn one_step_per_frame_is_stable_and_accurate_for_every_mass() {
     for section in [soft(), steel()] {
         for mass in [0.08, 0.8, 50.0, 800.0, 8000.0] {
             let exact = exact(section, mass);
@@ -105,8 +111,8 @@ fn one_step_per_frame_is_stable_and_near_for_every_mass() {
     }
 }
 
-/// The default integrator keeps 1e-6 m per host step: after 18 of 1/60 s the body is within 1.8e-5 m, and within 1e-6 m with
-/// 288 of 1/960 s, where its tolerance is far from being used up.
+/// The default integrator keeps 1e-6 m per host step: after 18 of 1/60 s the body is within 1.8e-5
+/// m, and within 1e-6 m with 288 of 1/960 s, where its errors are far below its tolerance.
 ///
 /// *Source.* The monolithic reference.
 #[test]

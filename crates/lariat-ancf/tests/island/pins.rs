@@ -1,40 +1,41 @@
-//! Pins that cannot be, and steps that cannot be done: typed errors, and everything as before.
+//! Invalid pins and failed steps: typed errors, and cables and bodies exactly unchanged.
 
 use super::bench::{Scene, cube, payload, soft, steel};
 use lariat_ancf::island::{PinConstraint, RigidBody};
 use lariat_ancf::{Error, Integrator, Method, PinProblem, Vector3};
 use nalgebra::Matrix3;
 
-fn refused(change: impl FnOnce(&mut Scene)) -> Error {
+fn error_of(change: impl FnOnce(&mut Scene)) -> Error {
     let mut scene = payload(soft(), 50.0, Integrator::default());
     scene.run(1.0 / 60.0, 3);
     change(&mut scene);
     let (cables, bodies) =
         (scene.cables.iter().map(|c| c.snapshot().clone()).collect::<Vec<_>>(), scene.bodies.clone());
-    let error = scene.try_step(1.0 / 60.0).expect_err("a step that cannot be");
-    assert!(scene.cables.iter().zip(&cables).all(|(c, state)| c.snapshot() == state), "cables untouched");
-    assert_eq!(scene.bodies, bodies, "bodies untouched");
+    let error = scene.try_step(1.0 / 60.0).expect_err("an invalid step");
+    assert!(scene.cables.iter().zip(&cables).all(|(c, state)| c.snapshot() == state), "cables unchanged");
+    assert_eq!(scene.bodies, bodies, "bodies unchanged");
     error
 }
 
-/// Pins to cables, bodies and nodes that are not there, two on one node, none on an attached node, an anchor that is not a
-/// number, no cable, a negative step: an error that says which, and state for state nothing changed.
+/// Pins to cables, bodies and nodes that do not exist, two on one node, none on an attached node,
+/// one without the clamp of its node, an anchor that is not a number, no cable, a negative step:
+/// each is its own error, and the states are unchanged.
 ///
 /// *Source.* The contract.
 #[test]
-fn pins_that_cannot_be_are_refused() {
+fn invalid_pins_are_typed_errors_and_change_nothing() {
     let not_in_island = |what, index| Error::NotInIsland { pin: 0, what, index, count: 1 };
-    assert_eq!(refused(|s| s.pins[0].cable = 1), not_in_island("cables", 1));
-    assert_eq!(refused(|s| s.pins[0].body = 7), not_in_island("bodies", 7));
-    let off = refused(|s| s.pins[0].node = 99);
+    assert_eq!(error_of(|s| s.pins[0].cable = 1), not_in_island("cables", 1));
+    assert_eq!(error_of(|s| s.pins[0].body = 7), not_in_island("bodies", 7));
+    let off = error_of(|s| s.pins[0].node = 99);
     assert!(matches!(&off, Error::OutOfRange { what: "node", value: 99.0, limit: 10.0, .. }), "{off}");
-    let not_a_number = refused(|s| s.pins[0].anchor.y = f64::NAN);
+    let not_a_number = error_of(|s| s.pins[0].anchor.y = f64::NAN);
     assert!(matches!(not_a_number, Error::InvalidValue { .. }), "{not_a_number}");
     let pin = |node, problem| Error::Pin { cable: "cable".to_string(), node, problem };
-    assert_eq!(refused(|s| s.pins.push(s.pins[0])), pin(10, PinProblem::Duplicate));
-    assert_eq!(refused(|s| s.pins.clear()), pin(10, PinProblem::Missing));
-    assert_eq!(refused(|s| s.pins.push(PinConstraint { node: 3, ..s.pins[0] })), pin(3, PinProblem::NotAttached));
-    assert_eq!(refused(|s| s.pins[0].direction = Some(Vector3::x())), pin(10, PinProblem::ClampMismatch));
+    assert_eq!(error_of(|s| s.pins.push(s.pins[0])), pin(10, PinProblem::Duplicate));
+    assert_eq!(error_of(|s| s.pins.clear()), pin(10, PinProblem::Missing));
+    assert_eq!(error_of(|s| s.pins.push(PinConstraint { node: 3, ..s.pins[0] })), pin(3, PinProblem::NotAttached));
+    assert_eq!(error_of(|s| s.pins[0].direction = Some(Vector3::x())), pin(10, PinProblem::ClampMismatch));
     let mut empty = Scene::new(Vec::new(), Vec::new(), Integrator::default());
     assert_eq!(empty.try_step(0.1), Err(Error::EmptyIsland));
     let mut scene = payload(soft(), 50.0, Integrator::default());
@@ -42,23 +43,23 @@ fn pins_that_cannot_be_are_refused() {
     assert!(matches!(scene.try_step(f64::NAN), Err(Error::InvalidValue { .. })));
 }
 
-/// An explicit step far beyond the stability limit of steel, and a force that overflows: refused, with the state of before; the
-/// next step works when the cause is gone.
+/// An explicit step far beyond the stability limit of steel, and a force that overflows, fail and
+/// keep the state; the next step succeeds without the cause.
 ///
 /// *Source.* The contract; omega_max h = 2 for Verlet, here 2e3.
 #[test]
-fn a_step_that_cannot_be_done_leaves_cables_and_bodies_as_they_were() {
-    let error = refused(|s| s.bodies[0].force.y = 1e300);
+fn a_failed_step_leaves_cables_and_bodies_unchanged() {
+    let error = error_of(|s| s.bodies[0].force.y = 1e300);
     assert!(matches!(error, Error::StepFailed { .. }), "{error}");
     let mut scene = payload(steel(), 50.0, Integrator::substeps(Method::Verlet, 4).unwrap());
-    let refusal = (0..60).find_map(|_| {
+    let failure = (0..60).find_map(|_| {
         let before = (scene.cables[0].snapshot().clone(), scene.bodies.clone());
         let error = scene.try_step(1.0 / 60.0).err()?;
         assert_eq!(*scene.cables[0].snapshot(), before.0);
         assert_eq!(scene.bodies, before.1);
         Some(error)
     });
-    assert!(matches!(refusal, Some(Error::StepFailed { .. })), "{refusal:?}");
+    assert!(matches!(failure, Some(Error::StepFailed { .. })), "{failure:?}");
     let mut again = payload(soft(), 50.0, Integrator::default());
     again.bodies[0].force.y = 1e300;
     again.try_step(1.0 / 60.0).unwrap_err();
@@ -66,11 +67,11 @@ fn a_step_that_cannot_be_done_leaves_cables_and_bodies_as_they_were() {
     again.run(1.0 / 60.0, 1);
 }
 
-/// Bodies that cannot be.
+/// Bodies without mass, without inertia or with numbers that are not finite are errors.
 ///
 /// *Source.* Physics: mass and inertia are positive.
 #[test]
-fn impossible_bodies_are_refused() {
+fn invalid_bodies_are_errors() {
     let build = |mass, inertia, x| RigidBody::new(mass, inertia, Vector3::new(x, 0.0, 0.0));
     assert!(build(0.0, cube(1.0, 1.0), 0.0).is_err());
     assert!(build(f64::NAN, cube(1.0, 1.0), 0.0).is_err());
@@ -79,7 +80,7 @@ fn impossible_bodies_are_refused() {
     assert!(RigidBody::junction(Vector3::new(f64::NAN, 0.0, 0.0)).is_err());
 }
 
-/// A pin that is apart when the step begins (0.1 m, a body put elsewhere) is closed when it ends.
+/// A gap of 0.1 m at a pin when the step begins, after a body was moved, is closed when it ends.
 ///
 /// *Source.* The contract of the island: gaps close within a step.
 #[test]

@@ -1,14 +1,16 @@
-//! A monolithic solution that shares nothing with the island but the cable's force and mass matrix.
+//! A monolithic solution that shares with the island only the cable's force and mass matrix.
 //!
-//! The payload pendulum in its plane, in minimal coordinates: those of the cable but for its ends, and (x, y, theta) of the
-//! body. With f the free coordinates of the cable and p the position of its last node,
+//! The payload pendulum in its plane, in minimal coordinates: those of the cable except for its
+//! ends, and (x, y, theta) of the body. With f the free coordinates of the cable and p the position
+//! of its last node,
 //!
 //! ```text
 //! p = x + rho,  p'' = x'' + theta'' (-rho_y, rho_x) - theta'^2 rho
 //! M_ff f'' + M_fp p'' = F_f     R = F_p - M_pf f'' - M_pp p''     m x'' = m g + R     I theta'' = rho_x R_y - rho_y R_x
 //! ```
 //!
-//! dense matrices, the classical Runge-Kutta method of order 4, steps of a fraction of its stability limit.
+//! Dense matrices, the classical Runge-Kutta method of order 4, steps of a fraction of its
+//! stability limit.
 
 use super::bench::{Scene, payload};
 use super::common::dense;
@@ -43,7 +45,8 @@ impl Reference {
         let mut cable = cables.remove(0);
         let m = dense(&cable.mass_matrix());
         let last = cable.nodes() - 1;
-        // the position of the first node is held, that of the last follows the body: 3 coordinates before, 6 after the free
+        // the position of the first node is held, that of the last follows the body: 3 coordinates
+        // before, 6 after the free
         let free: Vec<usize> = (3..6 * last).chain(6 * last + 3..6 * last + 6).collect();
         let pinned: Vec<usize> = (6 * last..6 * last + 3).collect();
         let part = |rows: &[usize], columns: &[usize]| {

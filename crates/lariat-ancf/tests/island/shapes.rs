@@ -5,22 +5,22 @@ use lariat_ancf::island::RigidBody;
 use lariat_ancf::{At, Cable, Integrator, Method, Section, StepControl, Vector3};
 use nalgebra::Matrix3;
 
-/// A damping integrator that settles on the equilibrium.
-const SETTLING: Integrator = Integrator {
+/// A damping integrator that converges to the equilibrium.
+const DAMPING: Integrator = Integrator {
     method: Method::GeneralisedAlpha { rho: 0.0, newton: lariat_ancf::integrate::NewtonMode::Converged },
     control: StepControl::Substeps(1),
 };
 
-/// A cube that may only slide along x, pushed towards the other end of its cable, which sags: it leaves its rail by nothing, does
-/// not turn, and the energy stays.
+/// A cube that is free along x only, moving towards the other end of its sagging cable, does not
+/// leave its axis or rotate, and the energy is conserved.
 ///
 /// *Source.* The constraint does no work.
 #[test]
-fn locked_axes_do_not_move() {
+fn locked_axes_keep_their_coordinates() {
     let mut scene = payload(soft(), 5.0, Integrator::default());
     scene.bodies[0].free = [true, false, true, false, true, false];
     scene.bodies[0].velocity = Vector3::new(-1.0, 0.0, 0.0);
-    // the first step gives the cable's end, at rest at first, the velocity of the cube
+    // the first step gives the cable's end, initially at rest, the velocity of the cube
     scene.run(1.0 / 60.0, 1);
     let start = scene.energy();
     scene.run(1.0 / 60.0, 60);
@@ -32,11 +32,12 @@ fn locked_axes_do_not_move() {
     assert!(energy.abs() < 1e-3, "{energy:.1e} J");
 }
 
-/// Three cables of 1 g/m meet at a point without mass; two are fixed above, the third carries 5 kg. At rest each cable pulls
-/// along its line: 16.35 N sideways, 16.35 and 32.70 N up.
+/// Three cables of 1 g/m meet at a point without mass; two are fixed above, the third carries 5 kg.
+/// At rest each cable pulls along its line: 16.35 N sideways, 16.35 and 32.70 N up.
 ///
-/// *Source.* Statics of three concurrent forces on taut cables, directions (-1, 1) and (1, 2): sideways H = W/3, up H and 2 H,
-/// W = 49.05 N. The stays stretch by 2e-4 and sag by their 2 g: 1e-3.
+/// *Source.* Statics of three concurrent forces on taut cables, directions (-1, 1) and (1, 2):
+/// sideways H = W/3, up H and 2 H, W = 49.05 N. The stays stretch by 2e-4 and sag by their 2 g:
+/// 1e-3.
 #[test]
 fn a_junction_without_mass_balances_its_three_cables() {
     let light = Section::from_stiffness(2e5, 0.0, 1e-3).unwrap();
@@ -55,7 +56,7 @@ fn a_junction_without_mass_balances_its_three_cables() {
     let mut bob = RigidBody::new(5.0, cube(5.0, 0.1), load).unwrap();
     bob.force = Vector3::new(0.0, -9.81 * 5.0, 0.0);
     let bodies = vec![RigidBody::junction(hub).unwrap(), bob];
-    let mut scene = Scene::new(vec![stay(-1.0), stay(0.5), hanger], bodies, SETTLING)
+    let mut scene = Scene::new(vec![stay(-1.0), stay(0.5), hanger], bodies, DAMPING)
         .pin(0, At::End, 0, Vector3::zeros())
         .pin(1, At::End, 0, Vector3::zeros())
         .pin(2, At::Start, 0, Vector3::zeros())
@@ -69,16 +70,16 @@ fn a_junction_without_mass_balances_its_three_cables() {
     for (force, (x, y)) in forces.iter().zip(statics) {
         assert!((force - Vector3::new(x, y, 0.0)).norm() < 1e-3 * 3.0 * side, "{force:?}, statics {x} {y}");
     }
-    // nothing accelerates a point without mass but a balance of its cables
+    // on a point without mass the cables balance exactly
     assert!((forces[0] + forces[1] + forces[2]).norm() < 1e-9, "{:?}", forces[0] + forces[1] + forces[2]);
 }
 
-/// Three bodies and three cables in a closed ring that spins at 3 rad/s: after 1 s the ring is still equilateral, the centre of mass has
-/// not moved, angular momentum and energy are those of the start.
+/// Three bodies and three cables in a closed ring that rotates at 3 rad/s: after 1 s the ring is
+/// still equilateral, and linear momentum, angular momentum and energy are conserved.
 ///
 /// *Source.* Conservation laws and the threefold symmetry of the start.
 #[test]
-fn a_closed_ring_of_bodies_and_cables_spins() {
+fn a_rotating_closed_ring_keeps_its_shape_and_invariants() {
     let at = |k: usize, r: f64, offset: f64| {
         let a = std::f64::consts::TAU / 3.0 * (k as f64 + offset);
         Vector3::new(r * a.cos(), r * a.sin(), 0.0)

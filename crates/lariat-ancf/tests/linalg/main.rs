@@ -8,7 +8,7 @@ use proptest::prelude::*;
 mod mass;
 mod singular;
 
-/// Every level the processor offers, best first.
+/// Returns every level of the processor, best first.
 fn levels() -> Vec<Level> {
     let best = Level::new();
     #[allow(unused_mut)]
@@ -110,7 +110,8 @@ fn bits(x: &[f64]) -> Vec<u64> {
     x.iter().map(|v| v.to_bits()).collect()
 }
 
-/// Factors and solves at every level, compares bits, returns the verdict and the backward error.
+/// Factors and solves at every level, compares the bits, and returns definiteness and backward
+/// error.
 fn solve_everywhere(a: &BlockTridiagonal, b: &[f64]) -> (Definiteness, f64) {
     let mut first: Option<(Definiteness, Vec<f64>)> = None;
     for level in levels() {
@@ -143,7 +144,7 @@ fn negative_eigenvalues(a: &BlockTridiagonal) -> usize {
 }
 
 #[test]
-fn multiply_is_the_dense_product() {
+fn products_match_dense_products() {
     let mut random = Random(7);
     for n in [1, 2, 3, 8] {
         let a = random.matrix(n, 0.0);
@@ -156,7 +157,7 @@ fn multiply_is_the_dense_product() {
 }
 
 #[test]
-fn positive_definite_of_every_length() {
+fn positive_definite_systems_of_every_size_are_solved() {
     let mut random = Random(1);
     for n in (1..=50).chain([200]) {
         let a = random.matrix(n, 6.0);
@@ -175,7 +176,7 @@ fn positive_definite_of_every_length() {
 }
 
 #[test]
-fn indefinite_of_every_length_with_inertia() {
+fn indefinite_systems_of_every_size_are_solved_and_their_inertia_counted() {
     let mut random = Random(2);
     let mut certain = 0;
     for n in (1..=30).chain([200]) {
@@ -192,7 +193,7 @@ fn indefinite_of_every_length_with_inertia() {
 }
 
 #[test]
-fn zero_leading_pivot() {
+fn zero_leading_pivots_are_no_obstacle() {
     for n in [1, 2, 5] {
         // (0 1; 1 0) blocks: three negative eigenvalues per node
         let a = from_fn(n, |r, c| f64::from(r / 2 == c / 2 && r != c));
@@ -204,7 +205,7 @@ fn zero_leading_pivot() {
 }
 
 #[test]
-fn extreme_scales() {
+fn systems_of_extreme_scale_are_solved() {
     let mut random = Random(11);
     for power in [-900, -480, -460, 460, 480, 900] {
         let scale = 2f64.powi(power);
@@ -222,7 +223,7 @@ fn extreme_scales() {
 }
 
 #[test]
-fn empty_matrix_and_reuse() {
+fn buffers_are_reused_and_an_empty_matrix_is_valid() {
     let mut f = Factorisation::default();
     assert_eq!(f.determinant_sign(), None);
     f.factor(Level::new(), &BlockTridiagonal::default()).unwrap();
@@ -238,9 +239,10 @@ fn empty_matrix_and_reuse() {
     }
 }
 
-/// Elements much stiffer in one random direction than in the others, like a thin cable.
+/// Elements that are much stiffer in one random direction than in the others, as those of a thin
+/// cable.
 #[test]
-fn stiff_in_random_directions() {
+fn systems_stiff_in_random_directions_are_solved() {
     let mut random = Random(6);
     for power in [0, 4, 8, 10] {
         let mut a = BlockTridiagonal::zeros(60);
@@ -272,9 +274,10 @@ fn stiff_in_random_directions() {
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(200))]
 
-    /// Any shift, any row scaling: backward stable or refused, inertia right where claimed.
+    /// With any shift and row scaling the solution is backward stable and the inertia, where it is
+    /// returned, correct.
     #[test]
-    fn random_matrices(
+    fn random_systems_are_solved_with_small_backward_error(
         seed in 1u64..u64::MAX, nodes in 1usize..12, shift in -6.0..6.0f64, spread in 0i32..12,
     ) {
         let mut random = Random(seed);

@@ -31,7 +31,7 @@ fn mass_blocks(m: &MassMatrix) -> BlockTridiagonal {
 }
 
 #[test]
-fn mass_matrix_against_blocks() {
+fn mass_matrices_match_block_matrices() {
     let mut random = Random(4);
     for n in (2..20).chain([101, 200]) {
         let m = cable_mass(n);
@@ -58,7 +58,7 @@ fn mass_matrix_against_blocks() {
 }
 
 #[test]
-fn bad_mass_matrices_are_errors() {
+fn mass_matrices_that_are_not_positive_definite_are_errors() {
     let mut f = MassFactorisation::default();
     for n in [2, 5, 6] {
         for node in 0..n {

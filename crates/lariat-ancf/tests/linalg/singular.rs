@@ -4,7 +4,8 @@ use super::{Random, backward_error, from_fn, levels};
 use fearless_simd::Level;
 use lariat_ancf::linalg::{BlockTridiagonal, Factorisation, Reason};
 
-/// A free chain of springs along each of the six unknowns: constant vectors are in its kernel.
+/// Returns a chain of springs along each of the six unknowns; if `ends` is 0 constant vectors are
+/// in its kernel.
 fn springs(nodes: usize, ends: f64) -> BlockTridiagonal {
     from_fn(nodes, |r, c| {
         let (i, j) = (r / 6, c / 6);
@@ -47,7 +48,7 @@ fn singular_matrices_are_errors() {
 }
 
 #[test]
-fn nearly_singular_matrices_are_solved_or_refused() {
+fn nearly_singular_matrices_are_solved_accurately_or_are_errors() {
     for n in [2, 20, 200] {
         for k in 1..18 {
             let a = springs(n, 0.1f64.powi(k));

@@ -1,15 +1,16 @@
-//! Work and precision of a static catenary, against shooting.
+//! Error against cost for a static catenary, compared with a solution by shooting.
 //!
-//! 12 m of limp cable between pins 10 m apart and 2 m of height between them, EA = 1e5 N, 1 kg/m. The error is the largest distance,
-//! at 33 arc lengths, from [`Catenary`]: the same law, solved without elements.
+//! 12 m of cable without bending stiffness between pins 10 m apart and 2 m of height between them,
+//! EA = 1e5 N, 1 kg/m. The error is the largest distance, at 33 arc lengths, from [`Catenary`]: the
+//! same law, solved without elements.
 
-use super::Bench;
 use super::catenary_reference::Catenary;
-use super::clock;
-use super::failed;
+use super::options::Options;
 use super::point::{self, Point, Setting};
-use super::section::Section;
+use crate::clock;
 use crate::error::Error;
+use crate::numbers::largest;
+use crate::page::Section;
 use cpu_time::ProcessTime;
 use lariat_ancf::{At, AxialRule, BendingRule, Cable, Diagnostics, Rule, Section as CrossSection, Vector3};
 
@@ -34,8 +35,8 @@ fn cable(rule: Rule, elements: usize) -> Result<Cable, lariat_ancf::Error> {
         .build()
 }
 
-/// The shape of a rule against the reference.
-pub fn against_shooting(bench: &Bench<'_>, line: &str, rule: Rule, elements: usize) -> Point {
+/// Finds the equilibrium with a rule, and compares it with the reference.
+pub fn against_shooting(options: &Options, line: &str, rule: Rule, elements: usize) -> Point {
     let setting = Setting {
         line: line.to_string(),
         rule: rule.to_string(),
@@ -59,8 +60,8 @@ pub fn against_shooting(bench: &Bench<'_>, line: &str, rule: Rule, elements: usi
         let [x, y] = reference.at(s);
         found.sample(s).map_or(f64::NAN, |p| (p.position - Vector3::new(x, y, 0.0)).norm())
     };
-    let error = (0..=32).map(off).fold(0.0, |worst: f64, x| if x.is_nan() { x } else { worst.max(x) });
-    let timed = clock::repeat(&bench.options, || {
+    let error = (0..=32).map(off).fold(0.0, largest);
+    let timed = clock::repeat(options.repeats, || {
         let mut cable = start.clone();
         let clock = ProcessTime::now();
         cable.equilibrium()?;
@@ -73,41 +74,40 @@ pub fn against_shooting(bench: &Bench<'_>, line: &str, rule: Rule, elements: usi
     }
 }
 
-/// Measures the ladders of all axial rules.
-pub fn measure_all(bench: &mut Bench<'_>) -> Vec<Point> {
+/// Measures the curves of all axial rules.
+pub fn measure_all(options: &Options) -> Vec<Point> {
     let mut points = Vec::new();
     for axial in AXIAL_RULES {
         let rule = Rule::new(axial, BendingRule::None);
-        bench.tell(&format!("catenary, {rule}"));
-        for &elements in bench.rungs(&RUNGS) {
-            points.push(against_shooting(bench, &rule.to_string(), rule, elements));
+        for &elements in options.rungs(&RUNGS) {
+            points.push(against_shooting(options, &rule.to_string(), rule, elements));
         }
     }
     points
 }
 
-/// The section.
+/// Title of the section.
+pub const TITLE: &str = "Static catenary";
+
+/// Measures the section, and returns it with its points.
 ///
 /// # Errors
 /// [`Error::Figure`].
-pub fn section(points: &[Point]) -> Result<Section, Error> {
+pub fn section(options: &Options) -> Result<(Section, Vec<Point>), Error> {
+    let points = measure_all(options);
     let [x, y] = Catenary::between(AXIAL, GRAVITY, LENGTH, SPAN.0, SPAN.1).miss(SPAN.0, SPAN.1);
-    let mut section = Section::new("Static catenary: work and precision");
+    let mut section = Section::new(TITLE);
     section.text(format!(
-        "{LENGTH} m of limp cable (EA = {AXIAL:.0e} N, 1 kg/m, no bending) between pins {} m apart, one {} m higher; from the slack arc that \
-         a new cable is laid in to equilibrium. *Error* is the largest distance, at 33 arc lengths, from the catenary of the Green law by \
-         shooting with adaptive quadrature (it ends within {:.0e} m of the pin). 4 to 256 elements. A rule that leaves modes without \
-         energy is refused, and shown as failed with the reason.",
+        "{LENGTH} m of cable without bending stiffness (EA = {AXIAL:.0e} N, 1 kg/m) between pins {} m apart, one {} m higher; from the \
+         slack arc of a new cable to equilibrium. *Error* is the largest distance, at 33 arc lengths, from the catenary of Green's law by \
+         shooting with adaptive quadrature (it ends within {:.0e} m of the pin). 4 to 256 elements. A rule with zero-energy modes is \
+         rejected, and listed as failed with the reason.",
         SPAN.0,
         SPAN.1,
         x.hypot(y),
     ));
-    let chart = point::chart("Static catenary: axial rules, no bending", points, None, |_| true);
-    section.figure(
-        "catenary",
-        "Error against CPU time of the equilibrium, a curve for each rule",
-        failed("catenary", chart)?,
-    );
-    section.table(point::table("catenary", points));
-    Ok(section)
+    let chart = point::chart("Static catenary: axial rules, no bending", &points, None, |_| true)?;
+    section.figure("catenary", "Catenary: error against CPU time of the equilibrium, a curve for each rule", chart);
+    point::add(&mut section, "catenary", &points);
+    Ok((section, points))
 }

@@ -1,9 +1,15 @@
-//! A hanging cable without bending stiffness, solved by shooting: nothing here uses the cable's elements.
+//! A hanging cable without bending stiffness, solved by shooting, independently of the elements.
 //!
-//! The energy per unstretched length is EA (f^2 - 1)^2/8, f = |r'|, so the section carries T = EA f (f^2 - 1)/2: the Green law. It is not
-//! Irvine's catenary, whose law is T = EA (f - 1). Adaptive Gauss quadrature in the arc length, Newton's method on the force at one end.
+//! # Equation
+//! The energy per unstretched length is EA (f^2 - 1)^2/8, f = |r'|, so the section carries T = EA f
+//! (f^2 - 1)/2: Green's law. With H and V(s) = V0 + w s the components of the section force, T =
+//! |(H, V)|, dx/ds = f H/T and dy/ds = f V/T. Solved with adaptive Gauss quadrature in the arc
+//! length and Newton's method on the force at one end.
+//!
+//! # Alternatives considered
+//! Irvine's catenary has the law T = EA (f - 1), which is another material.
 
-/// Stretch f >= 0.6 with EA f (f^2 - 1)/2 - c f = tension (N), by Newton's method.
+/// Returns the stretch f >= 0.6 with EA f (f^2 - 1)/2 - c f = tension (N), by Newton's method.
 pub fn stretch(axial: f64, tension: f64, c: f64) -> f64 {
     let mut f = (1.0 + tension.max(0.0) / axial).cbrt().max(1.0);
     for _ in 0..100 {
@@ -25,7 +31,8 @@ const GAUSS: [(f64, f64); 4] = [
     (0.960_289_856_497_536_3, 0.101_228_536_290_376_26),
 ];
 
-/// Integral of a vector function by 8-point Gauss on halved intervals until two levels agree to 1e-14.
+/// Integrates a vector function by 8-point Gauss on halved intervals until two levels agree to
+/// 1e-14.
 fn integrate(f: &dyn Fn(f64) -> [f64; 2], a: f64, b: f64) -> [f64; 2] {
     let gauss = |a: f64, b: f64| {
         let (m, h) = (0.5 * (a + b), 0.5 * (b - a));
@@ -47,10 +54,7 @@ fn integrate(f: &dyn Fn(f64) -> [f64; 2], a: f64, b: f64) -> [f64; 2] {
     halve(&gauss, a, b, gauss(a, b), 40)
 }
 
-/// A hanging cable without bending stiffness: the catenary of the Green law.
-///
-/// H and V(s) = V0 + w s are the components of the section force, T = |(H, V)|, EA f (f^2 - 1)/2 = T; dx/ds = f H/T,
-/// dy/ds = f V/T.
+/// The catenary of Green's law.
 #[derive(Clone, Copy, Debug)]
 pub struct Catenary {
     /// EA in N.
@@ -61,13 +65,13 @@ pub struct Catenary {
     pub length: f64,
     /// Horizontal force in N.
     pub h: f64,
-    /// Vertical force at s = 0 in N (negative: the cable goes down from there).
+    /// Vertical force at s = 0 in N; negative if the cable goes down from there.
     pub v0: f64,
 }
 
 impl Catenary {
-    /// Through (0, 0) and (`dx`, `dy`), dx > 0: Newton's method on (log H, V0) from the parabola, with step halving.
-    /// [`Catenary::miss`] tells how well it ends there.
+    /// Returns the catenary through (0, 0) and (`dx`, `dy`), dx > 0, by Newton's method on (log H,
+    /// V0) from the parabola, with step halving. [`Catenary::miss`] returns the error at its end.
     pub fn between(axial: f64, weight: f64, length: f64, dx: f64, dy: f64) -> Self {
         let slack = (length * length - dy * dy).max(0.0).sqrt();
         let h =
@@ -108,18 +112,18 @@ impl Catenary {
         c
     }
 
-    /// Distance in m, by component, of the end from where it should be.
+    /// Returns the distance in m, by component, of the end from (`dx`, `dy`).
     pub fn miss(&self, dx: f64, dy: f64) -> [f64; 2] {
         let [x, y] = self.at(self.length);
         [x - dx, y - dy]
     }
 
-    /// Tension T in N at an unstretched arc length.
+    /// Returns the tension T in N at an unstretched arc length.
     pub fn tension(&self, s: f64) -> f64 {
         self.h.hypot(self.v0 + self.weight * s)
     }
 
-    /// Position (x, y) in m at an unstretched arc length.
+    /// Returns the position (x, y) in m at an unstretched arc length.
     pub fn at(&self, s: f64) -> [f64; 2] {
         let slope = |s: f64| {
             let t = self.tension(s);

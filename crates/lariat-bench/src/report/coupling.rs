@@ -1,23 +1,28 @@
-//! What the coupling to Rapier does to error, gap, energy and momentum, by host step and by Rapier's solver iterations.
+//! Error, gap, energy and momentum of the coupling to Rapier, against the host step and Rapier's
+//! solver iterations.
 //!
-//! *Payload.* The scene of `payload`; error against the independent monolithic code, energy of crate and cable, which is conserved.
-//! *Dumbbell.* Two balls of 2 and 6 kg on 1.8 m of cable, spinning free of gravity at 5 rad/s: linear momentum is zero and stays so,
-//! angular momentum and energy stay what they were.
+//! *Payload.* The scene of `payload`; error against the independent monolithic code, energy of
+//! crate and cable, which is conserved. *Dumbbell.* Two balls of 2 and 6 kg on 1.8 m of cable spin
+//! without gravity at 5 rad/s: linear momentum remains zero, angular momentum and energy are
+//! conserved.
 
+use super::options::Options;
 use super::payload;
-use super::section::{Cell, Format, Section, Table, both, raw};
-use super::{Bench, clock, failed};
+use crate::clock;
 use crate::error::Error;
+use crate::page::Section;
+use crate::table::{Cell, Table, hidden};
 use cpu_time::ProcessTime;
 use lariat_ancf::{Fidelity, Rule, Vector3};
-use lariat_figures::{LogLog, Series};
+use lariat_figures::{Curve, LogLog};
 use lariat_scene::run::World;
 use lariat_scene::scene::{Purpose, Scene};
 
-/// Host steps per second at Rapier's own number of iterations, and iterations at 60 host steps per second.
+/// Host steps per second at Rapier's own number of iterations, and iterations at 60 host steps per
+/// second.
 const RATES: [u32; 5] = [30, 60, 120, 240, 480];
 const ITERATIONS: [usize; 5] = [1, 2, 4, 8, 16];
-/// What Rapier has by default.
+/// Rapier's default.
 const DEFAULT: usize = 4;
 /// Simulated time in s.
 const DURATION: u32 = 1;
@@ -62,11 +67,11 @@ at = "end"
 body = "heavy"
 "#;
 
-/// What came of a run.
+/// The errors of a run.
 #[derive(Default)]
 struct Drift {
     error: Option<f64>,
-    /// Largest distance between an end of the cable and its place on the body as Rapier has it, in m.
+    /// Largest distance in m between an end of the cable and its anchor on the body in Rapier.
     gap: f64,
     /// Largest change of energy over the largest kinetic energy.
     energy: f64,
@@ -74,19 +79,19 @@ struct Drift {
     momentum: Option<[f64; 2]>,
 }
 
-/// Places of the ends of the cable on bodies: end (0 or 1), body, and anchor in the body's axes in m.
-type Pins = &'static [(usize, usize, [f64; 3])];
-const PAYLOAD_PINS: Pins = &[(1, 0, [0.0, 0.1, 0.0])];
-const DUMBBELL_PINS: Pins = &[(0, 0, [0.1, 0.0, 0.0]), (1, 1, [-0.1, 0.0, 0.0])];
+/// Anchors of the ends of the cable: end (0 or 1), body, and point in the body's axes in m.
+type Anchors = &'static [(usize, usize, [f64; 3])];
+const PAYLOAD_ANCHORS: Anchors = &[(1, 0, [0.0, 0.1, 0.0])];
+const DUMBBELL_ANCHORS: Anchors = &[(0, 0, [0.1, 0.0, 0.0]), (1, 1, [-0.1, 0.0, 0.0])];
 
-fn gap(world: &World, pins: Pins) -> f64 {
+fn gap(world: &World, anchors: Anchors) -> f64 {
     let cables = world.cables();
     let distance = |&(end, body, anchor): &(usize, usize, [f64; 3])| {
         let (cable, body) = (cables.first()?, world.body(body)?);
         let node = if end == 0 { 0 } else { cable.nodes() - 1 };
         Some((cable.node_position(node) - body.position - body.rotation * Vector3::from(anchor)).norm())
     };
-    pins.iter().filter_map(distance).fold(0.0, f64::max)
+    anchors.iter().filter_map(distance).fold(0.0, f64::max)
 }
 
 fn run(world: &mut World, hz: u32, free: bool) -> Result<Drift, Error> {
@@ -101,7 +106,7 @@ fn run(world: &mut World, hz: u32, free: bool) -> Result<Drift, Error> {
         moved[0] = moved[0].max((momentum.linear - start.1.linear).norm());
         moved[1] = moved[1].max((momentum.angular - start.1.angular).norm());
         error = error.max(payload::distance(world, k, hz));
-        drift.gap = drift.gap.max(gap(world, if free { DUMBBELL_PINS } else { PAYLOAD_PINS }));
+        drift.gap = drift.gap.max(gap(world, if free { DUMBBELL_ANCHORS } else { PAYLOAD_ANCHORS }));
     }
     drift.energy = change / kinetic;
     if free {
@@ -113,14 +118,14 @@ fn run(world: &mut World, hz: u32, free: bool) -> Result<Drift, Error> {
     Ok(drift)
 }
 
-fn row(bench: &Bench<'_>, name: &str, scene: &Scene, fidelity: Fidelity, hz: u32, free: bool) -> Vec<Cell> {
+fn row(options: &Options, name: &str, scene: &Scene, fidelity: Fidelity, hz: u32, free: bool) -> Vec<Cell> {
     let iterations = scene.solver_iterations.unwrap_or(DEFAULT);
     let mut row: Vec<Cell> = vec![name.into(), fidelity.name().into(), u64::from(hz).into(), iterations.into()];
     let outcome = || -> Result<Vec<Cell>, Error> {
         let mut world = payload::start(scene)?;
         let drift = run(&mut world, hz, free)?;
         let counts = payload::counts(&world);
-        let time = clock::repeat(&bench.options, || {
+        let time = clock::repeat(options.repeats, || {
             let mut world = payload::start(scene)?;
             let clock = ProcessTime::now();
             for k in 1..=hz * DURATION {
@@ -152,61 +157,62 @@ fn row(bench: &Bench<'_>, name: &str, scene: &Scene, fidelity: Fidelity, hz: u32
     row
 }
 
-/// The section.
+/// Title of the section.
+pub const TITLE: &str = "Coupling: error, gap, energy and momentum";
+
+/// Measures the section.
 ///
 /// # Errors
 /// [`Error::Scene`], [`Error::Figure`]; not for a run that fails, which is a row.
-pub fn section(bench: &mut Bench<'_>) -> Result<Section, Error> {
+pub fn section(options: &Options) -> Result<Section, Error> {
     let mut rows = Vec::new();
-    let rates: Vec<(u32, usize)> = bench.rungs(&RATES).iter().map(|&hz| (hz, DEFAULT)).collect();
-    let iterations = bench.rungs(&ITERATIONS).iter().filter(|n| **n != DEFAULT).map(|&n| (60, n));
+    let rates: Vec<(u32, usize)> = options.rungs(&RATES).iter().map(|&hz| (hz, DEFAULT)).collect();
+    let iterations = options.rungs(&ITERATIONS).iter().filter(|n| **n != DEFAULT).map(|&n| (60, n));
     let cases: Vec<(u32, usize)> = rates.into_iter().chain(iterations).collect();
     let dumbbell = Scene::parse("dumbbell", DUMBBELL, &[], Purpose::Run)?;
     for fidelity in [Fidelity::Game, Fidelity::Engineering] {
         for &(hz, iterations) in &cases {
-            bench.tell(&format!("coupling, {}, {hz} Hz, {iterations} iterations", fidelity.name()));
             let scenes =
                 [("payload", payload::scene(Rule::default(), 10, hz)?, false), ("dumbbell", dumbbell.clone(), true)];
             for (name, mut scene, free) in scenes {
                 scene.dt = 1.0 / f64::from(hz);
                 scene.solver_iterations = Some(iterations);
                 scene.cables[0].integrator = fidelity.into();
-                rows.push(row(bench, name, &scene, fidelity, hz, free));
+                rows.push(row(options, name, &scene, fidelity, hz, free));
             }
         }
     }
-    let (e, n) = (Format::Scientific(1), Format::Plain);
     let columns = vec![
-        both("scene", "scene", n),
-        both("fidelity", "fidelity", n),
-        both("host_steps_per_s", "host steps per s", n),
-        both("solver_iterations", "solver iterations", n),
-        both("error_m", "error m", e),
-        both("gap_m", "gap m", e),
-        both("energy_drift", "energy", e),
-        both("momentum_drift", "momentum", e),
-        both("angular_momentum_drift", "angular momentum", e),
-        both("cpu_median_us", "CPU us per host step", Format::Fixed(1)),
-        raw("cpu_least_us"),
-        raw("cpu_most_us"),
-        raw("steps"),
-        raw("newton_iterations"),
-        raw("factorisations"),
-        raw("element_evaluations"),
-        both("failed", "failed", n),
+        hidden("scene"),
+        hidden("fidelity"),
+        hidden("host_steps_per_s"),
+        hidden("solver_iterations"),
+        hidden("error_m"),
+        hidden("gap_m"),
+        hidden("energy_drift"),
+        hidden("momentum_drift"),
+        hidden("angular_momentum_drift"),
+        hidden("cpu_median_us"),
+        hidden("cpu_least_us"),
+        hidden("cpu_most_us"),
+        hidden("steps"),
+        hidden("newton_iterations"),
+        hidden("factorisations"),
+        hidden("element_evaluations"),
+        hidden("failed"),
     ];
-    let mut section = Section::new("Coupling: error, gap, energy and momentum");
+    let mut section = Section::new(TITLE);
     section.text(
-        "*Payload*: the crate of 50 kg on its cable (10 elements, projected-3), 1 s; *error* against the independent monolithic code as \
-         above. *Dumbbell*: balls of 2 and 6 kg on a cable of 0.72 kg, spinning at 5 rad/s without gravity, 1 s. *Gap* is the largest \
-         distance in m between a cable's end and its place on the body as Rapier has it, at the host's times: single precision. *Energy* is the largest change of the total over \
-         the largest kinetic energy; *momentum* the largest change over that of the heavier ball, *angular momentum* over its own. Host \
-         steps vary at Rapier's 4 solver iterations, iterations at 60 host steps per second; each host step is four Rapier steps, and \
-         bodies are in single precision. What a cable costs beside Rapier's own ropes: `docs/coupling.md`.",
+        "*Payload*: the crate of 50 kg on its cable (10 elements, projected-3), 1 s; *error* from the independent monolithic code as above. \
+         *Dumbbell*: balls of 2 and 6 kg on a cable of 0.72 kg, spinning at 5 rad/s without gravity, 1 s. *Gap* is the largest distance \
+         in m between an end of the cable and its anchor on the body after a host step. *Energy* is the largest change of the total over \
+         the largest kinetic energy; *spin* is the largest change of the angular momentum over its own value. The host step varies with \
+         Rapier's default of 4 solver iterations (the file also has 1 to 16 iterations at 1/60 s); a host step is four Rapier steps, and \
+         bodies are in single precision. The cost beside Rapier's own ropes: `docs/coupling.md`.",
     );
     let pick = |row: &[Cell], column: usize| if let Cell::Number(x) = row[column] { Some(x) } else { None };
     let words = |row: &[Cell], column: usize, word: &str| matches!(&row[column], Cell::Text(t) if t == word);
-    let mut series = Vec::new();
+    let mut all = Vec::new();
     for fidelity in ["game", "engineering"] {
         let curves =
             [("payload", "error", 4), ("payload", "gap", 5), ("dumbbell", "energy", 6), ("dumbbell", "spin", 8)];
@@ -219,17 +225,17 @@ pub fn section(bench: &mut Bench<'_>) -> Result<Section, Error> {
                 _ => None,
             };
             let points = rows.iter().filter(fits).filter_map(point).collect();
-            series.push(Series { name: format!("{fidelity}: {scene}, {name}"), points });
+            all.push(Curve { name: format!("{fidelity}: {scene}, {name}"), points });
         }
     }
     let title = "Coupling against the host step".to_string();
-    let axes = ["host step [s]".to_string(), "m, or share of the whole".to_string()];
-    let svg = LogLog { title, axes, series, floor: None }.svg();
+    let axes = ["host step [s]".to_string(), "m, or share".to_string()];
+    let svg = LogLog { title, axes, curves: all, floor: None }.svg()?;
     section.figure(
         "coupling",
         "Error and gap in m, energy and angular momentum (spin) as shares, against the host step",
-        failed("coupling", svg)?,
+        svg,
     );
-    section.table(Table { name: "coupling", columns, rows, folded: false });
+    section.data(Table { name: "coupling", columns, rows });
     Ok(section)
 }

@@ -1,12 +1,16 @@
-//! What an element costs, and what each effect adds: force, force with exact tangent, a whole implicit step.
+//! The cost of an element and of each effect: force, force with exact tangent, a whole implicit
+//! step.
 //!
-//! One cable of 64 elements, bent and moving, one thread; the trapezoidal rule at a step so short that Newton ends after one iteration
-//! with a fresh tangent, or a second with the same factors. Times are of bursts of calls from the same state; counts are exact and the
-//! same on every machine. A flow of a program is sampled before each step, within its time.
+//! One cable of 64 elements, bent and moving, one thread; the trapezoidal rule at a step so short
+//! that Newton ends after one iteration with a new tangent, or a second with the same factors.
+//! Times are of bursts of calls from the same state; counts are the same on every machine. A flow
+//! that a program samples is sampled before each step, and its time is included.
 
-use super::section::{Cell, Format, Section, Table, both, raw};
-use super::{Bench, clock::Timing};
+use super::options::Options;
+use crate::clock::Timing;
 use crate::error::Error;
+use crate::page::Section;
+use crate::table::{Cell, Format, Table, hidden, shown};
 use cpu_time::ProcessTime;
 use fearless_simd::Level;
 use lariat_ancf::{
@@ -21,10 +25,10 @@ const ELEMENTS: usize = 64;
 /// Calls from one reading of the clock to the next.
 const CALLS: usize = 64;
 
-/// The case whose flow is read from a program at every node before the step.
-const SAMPLED: &str = "drag, flow of a program";
+/// The case whose flow a program samples at every node before the step.
+const SAMPLED: &str = "drag, sampled flow";
 
-/// Name, rule and effects of the cases.
+/// Returns name, rule and effects of the cases.
 fn cases() -> Vec<(&'static str, &'static str, Effects)> {
     let flow = Flow::uniform(Vector3::new(1.0, 0.0, 0.2));
     let wind = Flow::power_law(Vector3::new(1.0, 0.0, 0.2), Vector3::y(), 10.0, 0.14, 100.0);
@@ -45,11 +49,11 @@ fn cases() -> Vec<(&'static str, &'static str, Effects)> {
         ..constant.clone()
     };
     vec![
-        ("limp: no bending", "projected-none", Effects::default()),
-        ("bare", "projected-3", Effects::default()),
-        ("bare, G5-3", "G5-3", Effects::default()),
-        ("bare, ST2", "ST2", Effects::default()),
-        ("bare, L2T2", "L2T2", Effects::default()),
+        ("no bending", "projected-none", Effects::default()),
+        ("no effects", "projected-3", Effects::default()),
+        ("no effects, G5-3", "G5-3", Effects::default()),
+        ("no effects, ST2", "ST2", Effects::default()),
+        ("no effects, L2T2", "L2T2", Effects::default()),
         ("damping, axial", "projected-3", damping(1e-3, 0.0)),
         ("damping, axial and bending", "projected-3", damping(1e-3, 1e-3)),
         ("drag", "projected-3", drag(flow)),
@@ -59,11 +63,11 @@ fn cases() -> Vec<(&'static str, &'static str, Effects)> {
         ("rest shape: stretch", "projected-3", rest(RestShape::stretched(0.999))),
         ("rest shape: curvature", "projected-3", rest(RestShape::curved(0.1))),
         ("line load, gravity scale", "projected-3", constant),
-        ("all", "projected-3", all),
+        ("all effects", "projected-3", all),
     ]
 }
 
-/// A soft cable, bent and moving.
+/// Builds a soft cable, bent and moving.
 fn cable(rule: &str, effects: Effects) -> Result<Cable, Error> {
     let points = [Vector3::zeros(), Vector3::new(2.0, 0.0, 0.0), Vector3::new(2.0, 1.0, 0.3)];
     let builder = Cable::builder().points(points).section(CrossSection::round(0.01, 1.0e8, 4000.0)?).elements(ELEMENTS);
@@ -75,15 +79,15 @@ fn cable(rule: &str, effects: Effects) -> Result<Cable, Error> {
     Ok(cable)
 }
 
-/// ns per element of many readings, each from the same state.
+/// Returns the time in ns per element of many readings, each from the same state.
 fn time(
-    bench: &Bench<'_>,
+    options: &Options,
     cable: &mut Cable,
     mut call: impl FnMut(&mut Cable) -> Result<(), Error>,
 ) -> Result<Option<Timing>, Error> {
     let state = cable.snapshot().clone();
     let mut times = Vec::new();
-    for _ in 0..bench.options.readings {
+    for _ in 0..options.readings {
         cable.restore(state.clone())?;
         let clock = ProcessTime::now();
         for _ in 0..CALLS {
@@ -94,20 +98,20 @@ fn time(
     Ok(Timing::of(times))
 }
 
-/// Times of force, force with tangent and step, and the counts of one step.
-fn row(bench: &Bench<'_>, name: &str, cable: &mut Cable) -> Result<Vec<Cell>, Error> {
+/// Measures force, force with tangent and step, and the counts of one step.
+fn row(options: &Options, name: &str, cable: &mut Cable) -> Result<Vec<Cell>, Error> {
     let mut f = vec![0.0; cable.positions().len()];
-    let force = time(bench, cable, |cable| {
+    let force = time(options, cable, |cable| {
         cable.evaluate(black_box(&mut f));
         Ok(())
     })?;
-    let tangent = time(bench, cable, |cable| {
+    let tangent = time(options, cable, |cable| {
         black_box(cable.evaluate_with_stiffness(black_box(&mut f)));
         Ok(())
     })?;
     cable.diagnostics_mut().reset();
     let sampled = name == SAMPLED;
-    let step = time(bench, cable, |cable| {
+    let step = time(options, cable, |cable| {
         if sampled {
             cable.sample_flow(|place| Vector3::new(1.0, 0.1 * place.x, 0.2))?;
         }
@@ -135,29 +139,29 @@ fn row(bench: &Bench<'_>, name: &str, cable: &mut Cable) -> Result<Vec<Cell>, Er
 fn table(name: &'static str, first: &'static str, rows: Vec<Vec<Cell>>) -> Table {
     let one = Format::Fixed(1);
     let columns = vec![
-        both("case", first, Format::Plain),
-        raw("rule"),
-        both("force_ns", "force", one),
-        raw("force_least_ns"),
-        raw("force_most_ns"),
-        both("tangent_ns", "force + tangent", one),
-        raw("tangent_least_ns"),
-        raw("tangent_most_ns"),
-        both("step_ns", "implicit step", one),
-        both("step_least_ns", "least", one),
-        raw("step_most_ns"),
-        both("newton_per_step", "Newton", one),
-        both("factorisations_per_step", "factorisations", one),
-        both("element_evaluations_per_step", "elements", one),
-        both("bending_evaluations_per_step", "bending", one),
-        both("damping_evaluations_per_step", "damping", one),
-        both("drag_evaluations_per_step", "drag", one),
-        both("rest_shape_evaluations_per_step", "rest shape", one),
+        shown("case", first, Format::Plain),
+        hidden("rule"),
+        shown("force_ns", "force", one),
+        hidden("force_least_ns"),
+        hidden("force_most_ns"),
+        shown("tangent_ns", "force + tangent", one),
+        hidden("tangent_least_ns"),
+        hidden("tangent_most_ns"),
+        shown("step_ns", "implicit step", one),
+        hidden("step_least_ns"),
+        hidden("step_most_ns"),
+        hidden("newton_per_step"),
+        hidden("factorisations_per_step"),
+        hidden("element_evaluations_per_step"),
+        hidden("bending_evaluations_per_step"),
+        hidden("damping_evaluations_per_step"),
+        hidden("drag_evaluations_per_step"),
+        hidden("rest_shape_evaluations_per_step"),
     ];
-    Table { name, columns, rows, folded: false }
+    Table { name, columns, rows }
 }
 
-/// Instruction sets of this machine, the best first.
+/// Returns the instruction sets of this machine, the widest first.
 fn levels() -> Vec<(&'static str, Level)> {
     #[cfg(target_arch = "x86_64")]
     {
@@ -171,32 +175,32 @@ fn levels() -> Vec<(&'static str, Level)> {
     vec![("baseline", Level::baseline())]
 }
 
-/// The section.
+/// Title of the section.
+pub const TITLE: &str = "Cost of an element and of each effect";
+
+/// Measures the section.
 ///
 /// # Errors
 /// [`Error::Mechanics`] if a cable cannot be stepped.
-pub fn section(bench: &mut Bench<'_>) -> Result<Section, Error> {
-    let mut section = Section::new("What an element costs, and each effect");
+pub fn section(options: &Options) -> Result<Section, Error> {
+    let mut section = Section::new(TITLE);
     section.text(format!(
         "ns per element, CPU time on one thread, the median of {} readings of {CALLS} calls from the same state; {ELEMENTS} elements. \
-         *Implicit step* is one step of the trapezoidal rule: force, tangent, factor, solve, update, and the step control around them. \
-         Right of it are counts per step: Newton iterations and factorisations of the cable, the rest in elements evaluated. An effect \
-         that is absent counts nothing.",
-        bench.options.readings
+         *Implicit step* is one step of the trapezoidal rule: force, tangent, factorisation, solution, update and step control. The file \
+         also has the counts per step. An effect that is absent counts nothing.",
+        options.readings
     ));
     let mut rows = Vec::new();
     for (name, rule, effects) in cases() {
-        bench.tell(&format!("effects, {name}"));
-        rows.push(row(bench, name, &mut cable(rule, effects)?)?);
+        rows.push(row(options, name, &mut cable(rule, effects)?)?);
     }
     section.table(table("effects", "effects", rows));
-    section.text("The default rule without effects, by instruction set; which of them runs is decided at run time:");
+    section.text("The default rule without effects by instruction set, which is selected at run time:");
     let mut rows = Vec::new();
     for (name, level) in levels() {
-        bench.tell(&format!("kernels, {name}"));
         let mut cable = cable("projected-3", Effects::default())?;
         cable.set_simd_level(level)?;
-        rows.push(row(bench, name, &mut cable)?);
+        rows.push(row(options, name, &mut cable)?);
     }
     section.table(table("kernels", "instructions", rows));
     Ok(section)

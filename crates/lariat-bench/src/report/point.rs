@@ -1,22 +1,24 @@
-//! One point of a work-precision diagram: a setting, its error, its time, its counts.
+//! A point of a work-precision diagram: a setting, its error, its time, its counts.
 
-use super::Options;
-use super::clock::{self, Timing};
-use super::section::{Cell, Column, Format, Table, both, raw};
+use super::options::Options;
+use crate::clock::{self, Timing};
+use crate::numbers::largest;
+use crate::page::Section;
+use crate::table::{Cell, Format, Table, hidden, shown};
 use cpu_time::ProcessTime;
 use lariat_ancf::{Cable, Diagnostics, Error, Integrator, Rule, StepControl};
-use lariat_figures::{LogLog, Series};
+use lariat_figures::{Curve, LogLog};
 
-/// What is run.
+/// A setting.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Setting {
-    /// The curve that it is a point of.
+    /// The curve that it belongs to.
     pub line: String,
     /// Force strategy.
     pub rule: String,
     /// Integrator.
     pub integrator: String,
-    /// Step control in words.
+    /// Step control, in words.
     pub control: String,
     /// Number of elements.
     pub elements: usize,
@@ -25,7 +27,7 @@ pub struct Setting {
 }
 
 impl Setting {
-    /// A rule, an integrator and a mesh.
+    /// Returns the setting of a rule, an integrator and a mesh.
     pub fn new(line: impl Into<String>, rule: Rule, integrator: Integrator, elements: usize, host: f64) -> Self {
         Setting {
             line: line.into(),
@@ -38,7 +40,7 @@ impl Setting {
     }
 }
 
-/// A step control in words.
+/// Describes a step control.
 pub fn control(control: StepControl) -> String {
     match control {
         StepControl::Tolerance(t) => format!("tolerance {t:.0e} m"),
@@ -48,30 +50,31 @@ pub fn control(control: StepControl) -> String {
     }
 }
 
-/// A setting and what came of it.
+/// A setting and its results.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Point {
-    /// What was run.
+    /// The setting.
     pub setting: Setting,
     /// Error in m; `None` if the run failed.
     pub error: Option<f64>,
-    /// Time of repeated runs.
+    /// CPU time of repeated runs.
     pub time: Option<Timing>,
     /// Counts of one run.
     pub counts: Diagnostics,
-    /// Why it failed.
+    /// The reason why it failed.
     pub failed: Option<String>,
 }
 
 impl Point {
-    /// A run that failed.
+    /// Returns a run that failed.
     pub fn failed(setting: Setting, reason: impl ToString) -> Self {
         let (counts, failed) = (Diagnostics::default(), Some(reason.to_string()));
         Point { setting, error: None, time: None, counts, failed }
     }
 }
 
-/// Runs a cable `steps` host steps: once to read the error after each, then for the clock alone. A failure is a point too.
+/// Runs a cable for some host steps: once to measure the error after each, then for the time alone.
+/// A failure is a point too.
 pub fn run(
     options: &Options,
     setting: Setting,
@@ -90,10 +93,9 @@ pub fn run(
             return Point { counts: *read.diagnostics(), ..Point::failed(setting, reason) };
         }
         let now = error(k, &read);
-        // f64::max would pass over one that is not a number
-        worst = if now.is_nan() { now } else { worst.max(now) };
+        worst = largest(worst, now);
     }
-    let timed = clock::repeat(options, || {
+    let timed = clock::repeat(options.repeats, || {
         let mut cable = start.clone();
         let clock = ProcessTime::now();
         for _ in 0..steps {
@@ -109,30 +111,30 @@ pub fn run(
     }
 }
 
-/// Columns of a table of points.
-const COLUMNS: [Column; 19] = [
-    raw("line"),
-    both("rule", "rule", Format::Plain),
-    both("integrator", "integrator", Format::Plain),
-    both("control", "control", Format::Plain),
-    both("elements", "elements", Format::Plain),
-    raw("host_step_s"),
-    both("error_m", "error m", Format::Scientific(1)),
-    both("cpu_median_ms", "CPU ms", Format::Fixed(3)),
-    both("cpu_least_ms", "least", Format::Fixed(3)),
-    both("cpu_most_ms", "most", Format::Fixed(3)),
-    raw("runs"),
-    both("steps", "steps", Format::Plain),
-    both("rejected_steps", "rejected", Format::Plain),
-    both("newton_iterations", "Newton", Format::Plain),
-    both("factorisations", "factorisations", Format::Plain),
-    raw("solves"),
-    both("element_evaluations", "element evaluations", Format::Plain),
-    raw("tangent_evaluations"),
-    both("failed", "failed", Format::Plain),
+/// Columns of a table of points; pages show a figure instead.
+const COLUMNS: [&str; 19] = [
+    "line",
+    "rule",
+    "integrator",
+    "control",
+    "elements",
+    "host_step_s",
+    "error_m",
+    "cpu_median_ms",
+    "cpu_least_ms",
+    "cpu_most_ms",
+    "runs",
+    "steps",
+    "rejected_steps",
+    "newton_iterations",
+    "factorisations",
+    "solves",
+    "element_evaluations",
+    "tangent_evaluations",
+    "failed",
 ];
 
-/// Points as a table.
+/// Returns points as a table.
 pub fn table(name: &'static str, points: &[Point]) -> Table {
     let rows = points.iter().map(|p| {
         let (s, d) = (&p.setting, &p.counts);
@@ -159,15 +161,31 @@ pub fn table(name: &'static str, points: &[Point]) -> Table {
             p.failed.clone().unwrap_or_default().into(),
         ]
     });
-    let mut columns = COLUMNS.to_vec();
-    if points.iter().all(|p| p.failed.is_none()) {
-        // a column of nothing is not shown
-        columns[COLUMNS.len() - 1].head = None;
-    }
-    Table { name, columns, rows: rows.collect(), folded: true }
+    Table { name, columns: COLUMNS.map(hidden).to_vec(), rows: rows.collect() }
 }
 
-/// Points as a work-precision diagram, a curve for each line that `shown` takes, in the order of the points.
+/// Adds all points to a section, and shows those that failed with their reasons.
+pub fn add(section: &mut Section, name: &'static str, points: &[Point]) {
+    let table = table(name, points);
+    let failed = ["rule", "integrator", "control", "elements", "failed"];
+    let failed = failed.map(|name| shown(name, name, Format::Plain));
+    let failed = table.select(&failed, |row| row.last() != Some(&Cell::from("")));
+    if !failed.rows.is_empty() {
+        section.text("Runs that failed:");
+        section.excerpt(failed);
+    }
+    section.data(table);
+}
+
+/// Returns points with another name for one of the curves.
+pub fn renamed(points: &[Point], line: &str, name: &str) -> Vec<Point> {
+    let mut points = points.to_vec();
+    points.iter_mut().filter(|p| p.setting.line == line).for_each(|p| p.setting.line = name.to_string());
+    points
+}
+
+/// Draws points as a work-precision diagram, with the curves that `keep` takes, in the order of the
+/// points.
 ///
 /// # Errors
 /// As [`LogLog::svg`].
@@ -175,19 +193,19 @@ pub fn chart(
     title: &str,
     points: &[Point],
     floor: Option<(f64, &str)>,
-    shown: impl Fn(&str) -> bool,
-) -> Result<String, String> {
-    let mut series: Vec<Series> = Vec::new();
-    for point in points.iter().filter(|p| shown(&p.setting.line)) {
+    keep: impl Fn(&str) -> bool,
+) -> Result<String, lariat_figures::Error> {
+    let mut curves: Vec<Curve> = Vec::new();
+    for point in points.iter().filter(|p| keep(&p.setting.line)) {
         let name = &point.setting.line;
-        if series.last().is_none_or(|s| s.name != *name) {
-            series.push(Series { name: name.clone(), points: Vec::new() });
+        if curves.last().is_none_or(|s| s.name != *name) {
+            curves.push(Curve { name: name.clone(), points: Vec::new() });
         }
-        if let (Some(error), Some(time), Some(last)) = (point.error, point.time, series.last_mut()) {
+        if let (Some(error), Some(time), Some(last)) = (point.error, point.time, curves.last_mut()) {
             last.points.push((1e3 * time.median, error));
         }
     }
     let axes = ["CPU time [ms]".to_string(), "error [m]".to_string()];
     let floor = floor.map(|(level, why)| (level, why.to_string()));
-    LogLog { title: title.to_string(), axes, series, floor }.svg()
+    LogLog { title: title.to_string(), axes, curves, floor }.svg()
 }

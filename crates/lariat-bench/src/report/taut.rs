@@ -1,27 +1,32 @@
-//! Work and precision of a taut steel cable, against the modes of a rod under tension.
+//! Error against cost for a taut steel cable, compared with the modes of a rod under tension.
 //!
-//! A straight rod between two pins, stretched evenly by f, plucked sideways. With material coordinate s and small deflection y the
-//! energies of the Green law are, to second order in y,
+//! # Equation
+//! A straight rod between two pins, stretched evenly by f, plucked sideways. With material
+//! coordinate s and small deflection y the energies of the Green law are, to second order in y,
 //!
 //! ```text
-//! axial    EA/8 (r'.r' - 1)^2 = const + EA eps y'^2/2, eps = (f^2 - 1)/2        (x' = f; the second order of x decouples)
+//! axial    EA/8 (r'.r' - 1)^2 = const + EA eps y'^2/2, eps = (f^2 - 1)/2, x' = f
 //! bending  EI/2 |r' x r''|^2/|r'|^6 = EI/2 y''^2/f^4
 //! kinetic  m y_t^2/2
 //! ```
 //!
-//! so that sin(k s), k = j pi/L, is a mode with `m omega^2 = EA eps k^2 + EI k^4/f^4`, and from rest
-//! `y(s, t) = sum a_j sin(j pi s/L) cos(omega_j t)`. The formula is that of `D03_eigenfrequencies.json`, "taut", where an independent
-//! code confirms it.
+//! so that sin(k s), k = j pi/L, is a mode with `m omega^2 = EA eps k^2 + EI k^4/f^4`, and from
+//! rest `y(s, t) = sum a_j sin(j pi s/L) cos(omega_j t)`. The formula is that of
+//! `D03_eigenfrequencies.json`, "taut", which an independent code confirms.
 //!
-//! *Validity.* What is left out first is the motion along the cable that y'^2/2 drives, of the order k a^2; then the stretch by the
-//! deflection itself, (pi a/L)^2/4 beside eps, which shifts the frequencies in proportion to a^2 and so y by a^3. The section measures
-//! it: the finest run again with half the amplitude, whose error is 4 times less if it is of the first kind.
+//! # Validity
+//! The largest neglected term is the motion along the cable that y'^2/2 drives, of the order k a^2;
+//! the next is the stretch by the deflection itself, (pi a/L)^2/4 beside eps, which shifts the
+//! frequencies in proportion to a^2 and so y by a^3. The section measures them: the finest run
+//! again with half the amplitude, whose error is 4 times smaller if the first term dominates.
 
+use super::options::Options;
 use super::pendulum::control;
 use super::point::{self, Point, Setting};
-use super::section::{Format, Section, Table, both};
-use super::{Bench, failed};
 use crate::error::Error;
+use crate::numbers::largest;
+use crate::page::Section;
+use crate::table::{Cell, Format, Table, shown};
 use lariat_ancf::{At, Cable, Integrator, Method, Rule, Section as CrossSection, StepControl, Vector3};
 use std::f64::consts::PI;
 
@@ -31,21 +36,21 @@ const LENGTH: f64 = 2.0;
 const TENSION: f64 = 2.0e4;
 /// Amplitudes of the first three modes in m.
 const AMPLITUDES: [f64; 3] = [1e-4, 0.5e-4, 0.25e-4];
-/// Host step in s, and host steps: 0.1 s, four swings of the first mode.
+/// Host step in s; 0.1 s in all, four periods of the first mode.
 pub const HOST: f64 = 4e-3;
 const STEPS: usize = 25;
-/// Where the shape is read, as shares of the length.
+/// Points at which the shape is compared, as shares of the length.
 const READ: [f64; 7] = [0.11, 0.23, 0.37, 0.5, 0.61, 0.78, 0.93];
-/// Elements, tolerance in m and substeps of the rungs.
+/// Elements, tolerance in m and substeps of the settings of a curve.
 const RUNGS: [(usize, f64, u32); 5] = [(4, 3e-7, 16), (6, 1e-7, 32), (8, 3e-8, 64), (12, 1e-8, 128), (16, 3e-9, 256)];
-/// Rules that are run down the rungs, the default first.
+/// Rules that are compared, the default first.
 const RULES: [&str; 4] = ["projected-3", "G5-3", "ST2", "L2T2"];
 
 fn steel() -> Result<CrossSection, lariat_ancf::Error> {
     CrossSection::round(0.01, 2.1e11, 7850.0)
 }
 
-/// Stretch under the tension by Green's law, `EA f (f^2 - 1)/2 = T`.
+/// Returns the stretch under the tension by Green's law, `EA f (f^2 - 1)/2 = T`.
 fn stretch(axial: f64) -> f64 {
     let mut f = 1.0f64;
     for _ in 0..50 {
@@ -54,7 +59,7 @@ fn stretch(axial: f64) -> f64 {
     f
 }
 
-/// Deflection in m and its slope at an unstretched arc length and a time.
+/// Returns the deflection in m and its slope at an unstretched arc length and a time.
 fn deflection(section: &CrossSection, f: f64, size: f64, s: f64, t: f64) -> [f64; 2] {
     let mut sum = [0.0; 2];
     for (j, a) in AMPLITUDES.iter().enumerate() {
@@ -68,7 +73,7 @@ fn deflection(section: &CrossSection, f: f64, size: f64, s: f64, t: f64) -> [f64
     sum
 }
 
-/// The cable at the start, its amplitudes times `size`.
+/// Builds the cable at the start, its amplitudes multiplied by `size`.
 fn cable(rule: Rule, elements: usize, integrator: Integrator, size: f64) -> Result<Cable, lariat_ancf::Error> {
     let section = steel()?;
     let f = stretch(section.axial_stiffness);
@@ -86,7 +91,7 @@ fn cable(rule: Rule, elements: usize, integrator: Integrator, size: f64) -> Resu
         .build()?;
     let start = |s: &f64| {
         let [y, slope] = deflection(&section, f, size, *s, 0.0);
-        // the ends are on the line, whatever the sine rounds to
+        // the ends are on the line, however the sine is rounded
         let y = if *s == 0.0 || *s == LENGTH { 0.0 } else { y };
         [f * s, y, 0.0, f, slope, 0.0]
     };
@@ -95,34 +100,34 @@ fn cable(rule: Rule, elements: usize, integrator: Integrator, size: f64) -> Resu
     Ok(cable)
 }
 
-fn measure(bench: &Bench<'_>, setting: Setting, rule: Rule, integrator: Integrator, size: f64) -> Result<Point, Error> {
+fn measure(options: &Options, setting: Setting, rule: Rule, integrator: Integrator, size: f64) -> Result<Point, Error> {
     let section = steel()?;
     let f = stretch(section.axial_stiffness);
     let cable = cable(rule, setting.elements, integrator, size);
-    Ok(point::run(&bench.options, setting, cable, STEPS, |k, cable| {
+    Ok(point::run(options, setting, cable, STEPS, |k, cable| {
         let t = k as f64 * HOST;
         let off = |share: &f64| {
             let s = share * LENGTH;
             let [y, _] = deflection(&section, f, size, s, t);
             cable.sample(s).map_or(f64::NAN, |p| (p.position - Vector3::new(f * s, y, 0.0)).norm())
         };
-        READ.iter().map(off).fold(0.0, |worst, x| if x.is_nan() { x } else { worst.max(x) })
+        READ.iter().map(off).fold(0.0, largest)
     }))
 }
 
-/// A setting against the modes.
+/// Runs a setting and compares it with the modes.
 ///
 /// # Errors
 /// [`Error::Mechanics`]; not for a run that fails.
-pub fn against_modes(bench: &Bench<'_>, setting: Setting, rule: Rule, integrator: Integrator) -> Result<Point, Error> {
-    measure(bench, setting, rule, integrator, 1.0)
+pub fn against_modes(options: &Options, setting: Setting, rule: Rule, integrator: Integrator) -> Result<Point, Error> {
+    measure(options, setting, rule, integrator, 1.0)
 }
 
-/// Measures the ladders: rules with the default method, then methods with the default rule.
+/// Measures all curves: rules with the default method, then methods with the default rule.
 ///
 /// # Errors
 /// [`Error::Mechanics`]; not for a run that fails, which is a point.
-pub fn measure_all(bench: &mut Bench<'_>) -> Result<Vec<Point>, Error> {
+pub fn measure_all(options: &Options) -> Result<Vec<Point>, Error> {
     let default = Integrator::default().method;
     let rules = RULES.iter().map(|name| Ok((name.to_string(), name.parse::<Rule>()?, default)));
     let methods = Method::ALL.into_iter().filter(|m| *m != default);
@@ -130,71 +135,69 @@ pub fn measure_all(bench: &mut Bench<'_>) -> Result<Vec<Point>, Error> {
     let lines: Vec<(String, Rule, Method)> = rules.chain(methods).collect::<Result<_, lariat_ancf::Error>>()?;
     let mut points = Vec::new();
     for (name, rule, method) in lines {
-        bench.tell(&format!("taut steel, {name}"));
-        for &(elements, tolerance, substeps) in bench.rungs(&RUNGS) {
+        for &(elements, tolerance, substeps) in options.rungs(&RUNGS) {
             let integrator = Integrator { method, control: control(method, tolerance, substeps) };
             let setting = Setting::new(name.as_str(), rule, integrator, elements, HOST);
-            points.push(measure(bench, setting, rule, integrator, 1.0)?);
+            points.push(measure(options, setting, rule, integrator, 1.0)?);
         }
     }
     Ok(points)
 }
 
-/// Errors of a fine run with the whole amplitude and with half of it.
-fn validity(bench: &mut Bench<'_>) -> Result<Table, Error> {
+/// Measures the errors of a fine run with the whole amplitude and with half of it.
+fn validity(options: &Options) -> Result<Table, Error> {
     let integrator = Integrator { method: Method::Rkn4, control: StepControl::Stable(0.5) };
     let mut rows = Vec::new();
     for size in [1.0, 0.5] {
         let setting = Setting::new("", Rule::default(), integrator, 40, HOST);
-        let point = measure(bench, setting, Rule::default(), integrator, size)?;
+        let point = measure(options, setting, Rule::default(), integrator, size)?;
         rows.push(vec![(size * AMPLITUDES[0]).into(), 40usize.into(), point.error.into()]);
     }
     let columns = vec![
-        both("amplitude_m", "amplitude of the first mode m", Format::Scientific(1)),
-        both("elements", "elements", Format::Plain),
-        both("error_m", "error m", Format::Scientific(1)),
+        shown("amplitude_m", "amplitude of the first mode m", Format::Scientific(1)),
+        shown("elements", "elements", Format::Plain),
+        shown("error_m", "error m", Format::Scientific(1)),
     ];
-    Ok(Table { name: "taut_validity", columns, rows, folded: false })
+    Ok(Table { name: "taut_validity", columns, rows })
 }
 
-/// The section.
+/// Title of the section.
+pub const TITLE: &str = "Taut steel cable";
+
+/// Measures the section, and returns it with its points.
 ///
 /// # Errors
-/// [`Error::Figure`], [`Error::Mechanics`].
-pub fn section(bench: &mut Bench<'_>, points: &[Point]) -> Result<Section, Error> {
-    let mut section = Section::new("Taut steel cable: work and precision");
+/// [`Error::Mechanics`], [`Error::Figure`]; not for a run that fails, which is a point.
+pub fn section(options: &Options) -> Result<(Section, Vec<Point>), Error> {
+    let points = measure_all(options)?;
+    let mut section = Section::new(TITLE);
     let (default, rule) = (Integrator::default().method, Rule::default());
     section.text(format!(
         "2 m of steel wire, round, 10 mm, E = 2.1e11 Pa, 7850 kg/m^3, between two pins under {TENSION:.0e} N, plucked in its first three \
          modes (amplitudes {:.1e}, {:.1e}, {:.1e} m), 0.1 s in {STEPS} host steps of 4 ms. *Error* is the largest distance of {} points \
          along the cable from the analytic motion of a rod under tension, y = sum a_j sin(j pi s/L) cos(omega_j t), \
-         m omega^2 = EA eps k^2 + EI k^4/f^4, k = j pi/L, f the stretch, eps = (f^2 - 1)/2: the Green law, linear in the deflection. Down \
-         a curve there are 4 to 16 elements, tolerances of 3e-7 to 3e-9 m per host step or 16 to 256 substeps, explicit methods at 0.95 \
-         of their stable step.",
+         m omega^2 = EA eps k^2 + EI k^4/f^4, k = j pi/L, f the stretch, eps = (f^2 - 1)/2: Green's law, linear in the deflection. Along \
+         a curve there are 4 to 16 elements, tolerances of 3e-7 to 3e-9 m per host step or 16 to 256 substeps; explicit methods at 0.95 \
+         of their stable step. The linear formula neglects a motion along the cable that falls with the square of the amplitude; errors \
+         near that of the first row are those of the formula:",
         AMPLITUDES[0],
         AMPLITUDES[1],
         AMPLITUDES[2],
         READ.len()
     ));
-    bench.tell("taut steel, validity");
-    let table = validity(bench)?;
-    let level = table.rows[0][2].clone();
-    let level =
-        if let super::section::Cell::Number(x) = level { Some((x, "the linear reference ends here")) } else { None };
-    section.text(
-        "What the linear formula leaves out falls with the square of the amplitude (the motion along the cable); errors near that of the \
-         first row are those of the reference, not of the cable:",
-    );
+    let table = validity(options)?;
+    let floor = match table.rows[0][2] {
+        Cell::Number(x) => Some((x, "accuracy of the linear reference")),
+        _ => None,
+    };
     section.table(table);
     let is_rule = |line: &str| RULES.contains(&line);
-    let rules = point::chart(&format!("Taut steel cable: rules, {default}"), points, level, is_rule);
-    section.figure("taut_rules", "Error against CPU time, a curve for each rule", failed("taut_rules", rules)?);
-    let mut named = points.to_vec();
-    let own = |p: &&mut Point| p.setting.line == rule.to_string();
-    named.iter_mut().filter(own).for_each(|p| p.setting.line = default.to_string());
-    let methods = point::chart(&format!("Taut steel cable: integrators, rule {rule}"), &named, level, |l| !is_rule(l));
-    let caption = "Error against CPU time, a curve for each integrator";
-    section.figure("taut_integrators", caption, failed("taut_integrators", methods)?);
-    section.table(point::table("taut", points));
-    Ok(section)
+    let chart = point::chart(&format!("Taut steel cable: rules with {default}"), &points, floor, is_rule)?;
+    section.figure("taut_rules", "Taut steel cable: error against CPU time, a curve for each rule", chart);
+    let named = point::renamed(&points, &rule.to_string(), &default.to_string());
+    let title = format!("Taut steel cable: integrators with rule {rule}");
+    let caption = "Taut steel cable: error against CPU time, a curve for each integrator";
+    section.figure("taut_integrators", caption, point::chart(&title, &named, floor, |l| !is_rule(l))?);
+    point::add(&mut section, "taut", &points);
+    Ok((section, points))
 }

@@ -1,4 +1,5 @@
-//! How a host runs a case: its step, Rapier's solver iterations, the precision of the bodies, and what makes the cables.
+//! How a case is run: host step, solver iterations, precision of the bodies, effects, and the model
+//! of the cables.
 
 use std::fmt;
 
@@ -18,34 +19,39 @@ pub struct Host {
     pub rate: u32,
     /// Rapier's `num_solver_iterations`.
     pub iterations: usize,
-    /// Of the bodies.
+    /// Precision of the bodies.
     pub precision: Precision,
-    /// Whether cables have all effects: damping, drag in a wind, buoyancy and added mass, a rest shape, a line load, scaled gravity.
+    /// Whether cables have all effects: damping, drag in a wind, buoyancy and added mass, a rest
+    /// shape, a line load, scaled gravity.
     pub effects: bool,
 }
 
-/// Host steps per second of the suite.
+/// Host steps per second.
 pub const RATES: [u32; 4] = [30, 60, 240, 1000];
-/// Solver iterations of the suite.
+/// Solver iterations.
 pub const ITERATIONS: [usize; 3] = [1, 4, 8];
 
 impl Host {
-    /// All hosts of the suite, without effects: rates, iterations, precisions.
+    /// Returns all hosts: every rate, number of iterations and precision without effects, and with
+    /// effects at 4 iterations.
     pub fn all() -> Vec<Host> {
         let mut all = Vec::new();
-        for rate in RATES {
-            for iterations in ITERATIONS {
-                for precision in [Precision::Single, Precision::Double] {
-                    all.push(Host { rate, iterations, precision, effects: false });
+        for effects in [false, true] {
+            for rate in RATES {
+                for iterations in ITERATIONS.into_iter().filter(|n| !effects || *n == 4) {
+                    for precision in [Precision::Single, Precision::Double] {
+                        all.push(Host { rate, iterations, precision, effects });
+                    }
                 }
             }
         }
         all
     }
 
-    /// The hosts with all effects: 4 iterations, every rate, both precisions.
-    pub fn with_effects() -> Vec<Host> {
-        Host::all().into_iter().filter(|h| h.iterations == 4).map(|h| Host { effects: true, ..h }).collect()
+    /// Returns whether Rapier's own ropes are compared on this host: single precision, Rapier's
+    /// default of 4 iterations, no effects.
+    pub fn compares_peers(&self) -> bool {
+        self.iterations == 4 && self.precision == Precision::Single && !self.effects
     }
 }
 
@@ -57,30 +63,31 @@ impl fmt::Display for Host {
     }
 }
 
-/// What makes the cables.
+/// The model of the cables.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Make {
+pub enum CableModel {
     /// This library.
     Lariat,
-    /// Rapier's soft rope, with edges of 1e6 Hz, what Rapier's joints have.
+    /// Rapier's soft rope, with edges of 1e6 Hz as in Rapier's joints.
     SoftRope,
     /// Capsules on spherical impulse joints.
-    Capsules,
+    CapsuleChain,
     /// Capsules on spherical multibody joints.
     Multibody,
 }
 
-impl Make {
-    /// What Rapier itself offers.
-    pub const RIVALS: [Make; 3] = [Make::SoftRope, Make::Capsules, Make::Multibody];
+impl CableModel {
+    /// All models.
+    pub const ALL: [CableModel; 4] =
+        [CableModel::Lariat, CableModel::SoftRope, CableModel::CapsuleChain, CableModel::Multibody];
 
-    /// Name in tables.
+    /// Returns the name in tables.
     pub fn name(self) -> &'static str {
         match self {
-            Make::Lariat => "Lariat",
-            Make::SoftRope => "soft rope",
-            Make::Capsules => "capsules, impulse joints",
-            Make::Multibody => "capsules, multibody",
+            CableModel::Lariat => "Lariat",
+            CableModel::SoftRope => "soft rope",
+            CableModel::CapsuleChain => "capsules, impulse joints",
+            CableModel::Multibody => "capsules, multibody joints",
         }
     }
 }

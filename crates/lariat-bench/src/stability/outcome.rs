@@ -1,48 +1,54 @@
-//! What came of a run.
+//! How a run ended.
 
-use super::host::{Host, Make};
+use super::family::Family;
+use super::host::{CableModel, Host};
 use std::fmt;
 
-/// A number that a case reads, with what it must lie in and who says so.
+/// A measured number with its bounds and their source.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Reading {
+pub struct Check {
     /// The quantity, with its unit.
-    pub what: &'static str,
+    pub quantity: &'static str,
     /// What was measured.
     pub value: f64,
-    /// Least and greatest that is right.
+    /// Smallest and largest accepted value.
     pub bounds: (f64, f64),
-    /// Where the bounds come from.
+    /// Source of the bounds.
     pub source: &'static str,
 }
 
-impl Reading {
-    /// A reading between two bounds.
-    pub fn between(what: &'static str, value: f64, bounds: (f64, f64), source: &'static str) -> Self {
-        Reading { what, value, bounds, source }
+impl Check {
+    /// Returns a check between two bounds.
+    pub fn between(quantity: &'static str, value: f64, bounds: (f64, f64), source: &'static str) -> Self {
+        Check { quantity, value, bounds, source }
     }
 
-    /// A reading that must not be more than `most`.
-    pub fn at_most(what: &'static str, value: f64, most: f64, source: &'static str) -> Self {
-        Reading { what, value, bounds: (f64::NEG_INFINITY, most), source }
+    /// Returns a check against a largest value.
+    pub fn at_most(quantity: &'static str, value: f64, most: f64, source: &'static str) -> Self {
+        Check { quantity, value, bounds: (f64::NEG_INFINITY, most), source }
     }
 
-    /// A reading near an expected value, within a share of it.
-    pub fn near(what: &'static str, value: f64, expected: f64, share: f64, source: &'static str) -> Self {
+    /// Returns a check against an expected value within a share of it.
+    pub fn near(quantity: &'static str, value: f64, expected: f64, share: f64, source: &'static str) -> Self {
         let span = share * expected.abs();
-        Reading { what, value, bounds: (expected - span, expected + span), source }
+        Check { quantity, value, bounds: (expected - span, expected + span), source }
     }
 
-    /// Whether it is right; one that is not a number never is.
+    /// Returns whether the value is within its bounds; NaN is not.
     pub fn holds(&self) -> bool {
         self.value >= self.bounds.0 && self.value <= self.bounds.1
     }
+
+    /// Returns the bound that is nearer to the value.
+    pub fn nearer_bound(&self) -> f64 {
+        if self.value < self.bounds.0 { self.bounds.0 } else { self.bounds.1 }
+    }
 }
 
-impl fmt::Display for Reading {
+impl fmt::Display for Check {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let (low, high) = self.bounds;
-        write!(f, "{} {:.3e}", self.what, self.value)?;
+        write!(f, "{} {:.3e}", self.quantity, self.value)?;
         match (low.is_finite(), high.is_finite()) {
             (true, true) => write!(f, ", bounds {low:.3e} to {high:.3e}"),
             (false, _) => write!(f, ", at most {high:.3e}"),
@@ -54,48 +60,48 @@ impl fmt::Display for Reading {
 /// How a run ended.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Outcome {
-    /// All invariants held to the end.
-    Held,
-    /// Some did not: what and by how much.
-    Missed(Vec<Reading>),
-    /// A step was refused with this message, where the case allows it, and the last good state was intact.
-    Refused(String),
-    /// A step was refused where the case does not allow it.
+    /// All checks passed to the end.
+    Passed,
+    /// Some checks failed.
+    OutOfBounds(Vec<Check>),
+    /// A step ended in this error, which the case allows; it names the culprit, and the state is as
+    /// before.
+    StepError(String),
+    /// A step ended in an error that the case does not allow.
     Failed(String),
-    /// A number that is not finite came out.
+    /// A number of the state is not finite.
     NotFinite,
     /// It panicked.
     Panicked(String),
-    /// The budget of CPU time ran out at this share of the run, with all invariants intact so far.
-    OverBudget(f64),
+    /// The budget was used up before the end, with all bounds kept so far.
+    OverBudget,
 }
 
 impl Outcome {
-    /// Whether the library did what it promises.
-    pub fn is_kept(&self) -> bool {
-        matches!(self, Outcome::Held | Outcome::Refused(_))
+    /// Returns whether the library did what it promises.
+    pub fn is_good(&self) -> bool {
+        matches!(self, Outcome::Passed | Outcome::StepError(_))
     }
 
-    /// In a word, for tables.
-    pub fn word(&self) -> &'static str {
+    /// Returns the outcome in a word or two.
+    pub fn name(&self) -> &'static str {
         match self {
-            Outcome::Held => "held",
-            Outcome::Missed(_) => "missed",
-            Outcome::Refused(_) => "refused",
+            Outcome::Passed => "passed",
+            Outcome::OutOfBounds(_) => "out of bounds",
+            Outcome::StepError(_) => "error, as allowed",
             Outcome::Failed(_) => "failed",
             Outcome::NotFinite => "not finite",
             Outcome::Panicked(_) => "panicked",
-            Outcome::OverBudget(_) => "over budget",
+            Outcome::OverBudget => "over budget",
         }
     }
 
-    /// What went wrong, with its numbers.
-    pub fn reason(&self) -> String {
+    /// Returns the message or the failed checks; empty if there is nothing more to say.
+    pub fn details(&self) -> String {
         match self {
-            Outcome::Held | Outcome::NotFinite => self.word().to_string(),
-            Outcome::Missed(readings) => readings.iter().map(Reading::to_string).collect::<Vec<_>>().join("; "),
-            Outcome::Refused(text) | Outcome::Failed(text) | Outcome::Panicked(text) => text.clone(),
-            Outcome::OverBudget(share) => format!("{:.0} % done", 100.0 * share),
+            Outcome::Passed | Outcome::NotFinite | Outcome::OverBudget => String::new(),
+            Outcome::OutOfBounds(checks) => checks.iter().map(Check::to_string).collect::<Vec<_>>().join("; "),
+            Outcome::StepError(text) | Outcome::Failed(text) | Outcome::Panicked(text) => text.clone(),
         }
     }
 }
@@ -103,30 +109,42 @@ impl Outcome {
 /// One run of a case.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Row {
-    /// Name of the family.
-    pub family: &'static str,
+    /// The family.
+    pub family: Family,
     /// Name of the case.
     pub case: String,
     /// How it was run.
     pub host: Host,
-    /// What made the cables.
-    pub make: Make,
+    /// The model of the cables.
+    pub model: CableModel,
     /// How it ended.
     pub outcome: Outcome,
-    /// Change of energy, less work put in, over the largest kinetic and strain energy of the run.
+    /// Share of the run that was done.
+    pub completed: f64,
+    /// The reason why the energy balance has no bounds, if it has none.
+    pub energy_not_checked: Option<&'static str>,
+    /// Change of energy, minus the work from outside, plus what damping and drag dissipated, over
+    /// the largest kinetic and strain energy of the run.
     pub energy: f64,
+    /// Largest energy made beyond the work from outside, over the same.
+    pub energy_made: f64,
+    /// Largest energy lost beyond what damping and drag dissipated, over the same, that at the start
+    /// included.
+    pub energy_lost: f64,
     /// Widest gap of an attachment in m.
     pub gap: f64,
     /// Worst error of Rapier's own joints and of locked axes in m.
     pub constraint: f64,
-    /// Largest stretch of a cable, as a polyline.
+    /// Largest stretch of a rope.
     pub stretch: f64,
-    /// Integration steps, and those that were rejected.
+    /// Integration steps taken.
     pub steps: u64,
-    /// Integration steps tried and thrown away.
+    /// Integration steps tried and rejected.
     pub rejected: u64,
-    /// CPU time of the thread per host step in us, building and measuring included.
+    /// Elements evaluated, over all cables.
+    pub evaluations: u64,
+    /// CPU time per host step in us, building and measuring included.
     pub micros: f64,
-    /// CPU time of the thread in s.
+    /// CPU time in s.
     pub seconds: f64,
 }

@@ -1,19 +1,19 @@
-//! Scenes drawn by chance: a recipe is a list of numbers between 0 and 1, so that a test can shrink it.
+//! Parameters of random scenes: numbers between 0 and 1, so that a property test can shrink them.
 
 use super::host::{Host, ITERATIONS, Precision, RATES};
 
-/// Numbers of a recipe.
+/// Number of parameters.
 pub const NUMBERS: usize = 32;
 
-/// Scenes of the full run.
+/// Random scenes of the full run.
 pub const SCENES: usize = 500;
 
-/// What a random scene is made from.
+/// The parameters of a random scene.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Recipe(pub [f64; NUMBERS]);
 
 impl Recipe {
-    /// The recipe of a seed: SplitMix64 (Steele, Lea, Flood 2014).
+    /// Returns the parameters of a seed: SplitMix64 (Steele, Lea, Flood 2014).
     pub fn from_seed(seed: u64) -> Self {
         let mut state = seed.wrapping_mul(0x9E37_79B9_7F4A_7C15);
         Recipe([(); NUMBERS].map(|()| {
@@ -25,22 +25,22 @@ impl Recipe {
         }))
     }
 
-    /// One of `n` choices.
+    /// Maps a parameter to one of `n` choices.
     pub fn choose(&self, i: usize, n: usize) -> usize {
         ((self.0[i] * n as f64) as usize).min(n - 1)
     }
 
-    /// A power of ten between two exponents.
+    /// Maps a parameter to a power of ten between two exponents.
     pub fn power(&self, i: usize, low: f64, high: f64) -> f64 {
         10f64.powf(low + (high - low) * self.0[i])
     }
 
-    /// A number between -1 and 1.
+    /// Maps a parameter to a number between -1 and 1.
     pub fn signed(&self, i: usize) -> f64 {
         2.0 * self.0[i] - 1.0
     }
 
-    /// The host it is run on; the finest step only now and then, it costs most.
+    /// Returns the host that the scene is run on; the shortest step, which costs most, is rare.
     pub fn host(&self) -> Host {
         Host {
             rate: RATES[self.choose(0, 7) / 2],

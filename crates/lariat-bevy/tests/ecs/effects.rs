@@ -1,13 +1,14 @@
-//! Effects are components: on while they are there.
+//! Effects: components that act on a cable while they are there.
 
-use super::bench::{bits, pin, soft, steps, world};
+use super::common::{bits, cable_of, pin, soft, steps, world};
 use bevy_ecs::prelude::*;
 use lariat_bevy::event::CableFailed;
-use lariat_bevy::lariat_ancf::{LineLoad, PointLoad, RestPiece, Vector3};
+use lariat_bevy::lariat_ancf::{Error, PointLoad, RestPiece, Vector3};
 use lariat_bevy::{
-    Bending, Buoyancy, Cable, Damping, Diagnostics, Drag, GravityScale, LineLoads, PointLoads, RestShape, Rule,
+    Bending, Buoyancy, Damping, Diagnostics, Drag, GravityScale, LineLoads, PointLoads, RestShape, Rule,
 };
 
+/// Runs host steps and returns the counters of all cables in them.
 fn counted(world: &mut World, count: usize) -> lariat_bevy::lariat_ancf::Diagnostics {
     world.resource_mut::<Diagnostics>().reset();
     steps(world, count);
@@ -15,7 +16,7 @@ fn counted(world: &mut World, count: usize) -> lariat_bevy::lariat_ancf::Diagnos
 }
 
 #[test]
-fn what_is_absent_is_never_evaluated() {
+fn absent_effects_are_never_evaluated() {
     let mut world = world();
     let cable = world.spawn(soft([0.0; 3], [2.0, 0.0, 0.0])).id();
     world.spawn(pin(cable));
@@ -32,7 +33,7 @@ fn what_is_absent_is_never_evaluated() {
 }
 
 #[test]
-fn an_effect_works_from_the_step_after_it_comes_to_the_step_after_it_goes() {
+fn effects_act_from_the_step_after_insertion_to_the_step_after_removal() {
     let mut world = world();
     let cable = world.spawn(soft([0.0; 3], [2.0, 0.0, 0.0])).id();
     world.spawn(pin(cable));
@@ -50,24 +51,25 @@ fn an_effect_works_from_the_step_after_it_comes_to_the_step_after_it_goes() {
     assert!(off.element_evaluations() > 0);
 }
 
-/// Gravity scale, buoyancy and line loads: a free cable falls with what is left of its weight.
+/// A free cable falls with the acceleration of its remaining weight.
 ///
-/// *Source.* a = g, g/2, 0, and (rho_c - rho_w) g/(rho_c + C_a rho_w) with added mass (motion across a straight cable).
+/// *Source.* a = g, g/2, 0, and (rho_c - rho_w) g/(rho_c + C_a rho_w) with added mass (motion
+/// across a straight cable).
 #[test]
-fn a_free_cable_falls_with_what_is_left_of_its_weight() {
+fn gravity_scale_buoyancy_and_line_loads_change_the_weight_of_a_free_cable() {
     let fall = |bundle: fn(&mut EntityWorldMut)| {
         let mut world = world();
         let mut cable = world.spawn(soft([0.0; 3], [2.0, 0.0, 0.0]));
         bundle(&mut cable);
         let cable = cable.id();
         steps(&mut world, 30);
-        -world.get::<Cable>(cable).unwrap().sample(1.0).unwrap().velocity.y / 0.5
+        -cable_of(&world, cable).sample(1.0).unwrap().velocity.y / 0.5
     };
     let near = |a: f64, b: f64| assert!((a - b).abs() < 1e-5 * 9.81, "{a} {b}");
     near(fall(|_| {}), 9.81);
     near(
         fall(|e| {
-            e.insert(GravityScale(0.5));
+            e.insert(GravityScale::new(0.5));
         }),
         4.905,
     );
@@ -78,31 +80,33 @@ fn a_free_cable_falls_with_what_is_left_of_its_weight() {
         9.81 * 3000.0 / 5000.0,
     );
     let weight = std::f64::consts::FRAC_PI_4 * 1e-4 * 4000.0 * 9.81;
-    let carried = LineLoads(vec![LineLoad::uniform(Vector3::y() * weight)]);
+    let carried = LineLoads::uniform(Vector3::y() * weight);
     let mut world = world();
     let cable = world.spawn((soft([0.0; 3], [2.0, 0.0, 0.0]), carried)).id();
     steps(&mut world, 30);
-    assert!(world.get::<Cable>(cable).unwrap().sample(1.0).unwrap().velocity.norm() < 1e-8);
+    assert!(cable_of(&world, cable).sample(1.0).unwrap().velocity.norm() < 1e-8);
 }
 
 #[test]
-fn an_effect_that_cannot_be_is_refused_by_name_and_the_cable_goes_on() {
+fn an_invalid_effect_fails_by_name_and_the_cable_keeps_its_previous_effects() {
     let mut world = world();
     let cable = world.spawn(soft([0.0; 3], [2.0, 0.0, 0.0])).id();
     world.spawn(pin(cable));
     steps(&mut world, 2);
     world.entity_mut(cable).insert(Damping::time(f64::NAN));
     steps(&mut world, 1);
-    let mut told = world.resource_mut::<Messages<CableFailed>>();
-    let told: Vec<CableFailed> = told.drain().collect();
-    assert_eq!(told.len(), 1);
-    assert!(told[0].entity == cable && told[0].error.to_string().contains("damping"), "{}", told[0].error);
-    let time = world.get::<Cable>(cable).unwrap().core().unwrap().time();
+    let failures: Vec<CableFailed> = world.resource_mut::<Messages<CableFailed>>().drain().collect();
+    assert_eq!(failures.len(), 1);
+    let error = &failures[0].error;
+    let names_damping =
+        matches!(error, Error::InvalidValue { what, value, .. } if what.contains("damping") && value.is_nan());
+    assert!(failures[0].entity == cable && names_damping, "{error}");
+    let time = cable_of(&world, cable).time();
     assert!((time - 3.0 / 60.0).abs() < 1e-6, "{time}");
 }
 
 #[test]
-fn what_did_not_change_does_not_wake_a_cable_or_move_a_bit() {
+fn components_marked_as_changed_without_a_change_leave_every_bit_alone() {
     let run = |touch: bool| {
         let mut world = world();
         let cable = soft([0.0; 3], [2.0, 0.0, 0.0]);
@@ -120,14 +124,14 @@ fn what_did_not_change_does_not_wake_a_cable_or_move_a_bit() {
     assert!(run(false) == run(true));
 }
 
-/// Fidelity reference is explicit on a soft cable, which damping does not go with: both change together, and back.
+/// The reference fidelity is explicit on a soft cable, and damping needs an implicit integrator.
 #[test]
-fn damping_comes_and_goes_on_a_cable_that_is_explicit_without_it() {
+fn damping_on_an_explicit_cable_changes_the_integrator_and_its_removal_restores_it() {
     let mut world = world();
     let cable = soft([0.0; 3], [2.0, 0.0, 0.0]).elements(4).fidelity(lariat_bevy::lariat_ancf::Fidelity::Reference);
     let cable = world.spawn((cable, Bending)).id();
     world.spawn(pin(cable));
-    let integrator = |world: &World| world.get::<Cable>(cable).unwrap().core().unwrap().integrator();
+    let integrator = |world: &World| cable_of(world, cable).integrator();
     steps(&mut world, 2);
     let explicit = integrator(&world);
     world.entity_mut(cable).insert(Damping::time(1e-4));
@@ -137,5 +141,5 @@ fn damping_comes_and_goes_on_a_cable_that_is_explicit_without_it() {
     steps(&mut world, 2);
     assert_eq!(integrator(&world), explicit);
     assert_eq!(world.resource::<Messages<CableFailed>>().len(), 0);
-    assert_eq!(world.resource::<Diagnostics>().refused_steps, 0);
+    assert_eq!(world.resource::<Diagnostics>().failed_steps, 0);
 }

@@ -1,14 +1,14 @@
 //! Cables as components of bevy_ecs.
 
 mod attachments;
-mod bench;
 mod breaking;
 mod cables;
-mod changes;
+mod churn;
 mod clock;
-mod comings;
+mod common;
 mod effects;
 mod events;
+mod lifecycle;
 mod order;
 mod pendulum;
 mod plugin;

@@ -1,6 +1,6 @@
 //! Neither the order of spawning nor the number of threads changes a bit.
 
-use super::bench::{bits, cube, soft, steps, world};
+use super::common::{bits, cube, soft, steps, world};
 use bevy_ecs::prelude::*;
 use bevy_ecs::schedule::{Schedules, SingleThreadedExecutor};
 use lariat_bevy::lariat_ancf::Fidelity;
@@ -36,13 +36,13 @@ fn run(order: [usize; 3], one_thread: bool) -> Vec<u64> {
 }
 
 #[test]
-fn the_order_of_spawning_changes_no_bit() {
+fn the_order_of_spawning_does_not_change_a_bit() {
     let first = run([0, 1, 2], false);
     assert!(first == run([2, 0, 1], false));
     assert!(first == run([2, 1, 0], false));
 }
 
 #[test]
-fn the_number_of_threads_changes_no_bit() {
+fn the_number_of_threads_does_not_change_a_bit() {
     assert!(run([0, 1, 2], false) == run([0, 1, 2], true));
 }

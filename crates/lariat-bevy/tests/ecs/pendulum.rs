@@ -1,6 +1,6 @@
 //! The falling pendulum of Bulin & Hajzman through the ECS.
 
-use super::bench::{bits, pin, steps, world};
+use super::common::{bits, cable_of, pin, steps, world};
 use lariat_bevy::lariat_ancf::{self, At, Section, Vector3};
 use lariat_bevy::{Bending, Cable, Cables, Diagnostics, Physics, Rule};
 
@@ -10,9 +10,9 @@ fn section() -> Section {
 
 /// 2 s at 1/60 s, with one Rapier step in a host step.
 ///
-/// *Source.* The mechanics alone, stepped by the same host steps.
+/// *Source.* The mechanics alone, with the same host steps.
 #[test]
-fn the_pendulum_is_that_of_the_core_bit_for_bit() {
+fn the_pendulum_is_bitwise_that_of_the_mechanics_alone() {
     let mut world = world();
     let mut cables = world.resource_mut::<Cables>();
     let settings = lariat_bevy::Settings { rapier_steps: 1, ..cables.settings() };
@@ -43,14 +43,15 @@ fn the_pendulum_is_that_of_the_core_bit_for_bit() {
 
 /// The tip after 0.5 s, with four Rapier steps in a host step and the default rule.
 ///
-/// *Source.* The real beam, assets/reference/pendulum_converged_tip.csv: (1.3108, -1.2034) m, 10 elements of the default rule are within 2.4e-3 m.
+/// *Source.* A converged solution of the beam, assets/reference/pendulum_converged_tip.csv:
+/// (1.3108, -1.2034) m, 10 elements of the default rule are within 2.4e-3 m.
 #[test]
-fn the_pendulum_follows_the_real_beam() {
+fn the_pendulum_follows_the_reference_beam() {
     let mut world = world();
     let cable = Cable::new(section()).between([0.0, 0.0, 0.0], [2.0, 0.0, 0.0]);
     let cable = world.spawn((cable, Bending)).id();
     world.spawn(pin(cable));
     steps(&mut world, 30);
-    let tip = world.get::<Cable>(cable).unwrap().sample(2.0).unwrap().position;
+    let tip = cable_of(&world, cable).sample(2.0).unwrap().position;
     assert!((tip - Vector3::new(1.3108, -1.2034, 0.0)).norm() < 3e-3, "{tip}");
 }

@@ -1,12 +1,13 @@
 //! The plugin in an app.
 
-use super::bench::soft;
+use super::common::{cable_of, soft};
 use bevy_app::{App, Update};
 use bevy_ecs::prelude::*;
 use bevy_ecs::reflect::AppTypeRegistry;
 use bevy_reflect::TypeRegistry;
+use core::any::TypeId;
 use lariat_bevy::event::CableFailed;
-use lariat_bevy::{Bending, Cable, CableStep, CableSystems, Damping, LariatPlugin, RapierStep};
+use lariat_bevy::{Bending, Cable, CableStep, CableSystems, LariatPlugin, PointLoads, RapierStep, Rule};
 
 #[derive(Resource, Default)]
 struct Order(Vec<&'static str>);
@@ -17,7 +18,7 @@ fn note(name: &'static str) -> impl Fn(ResMut<Order>) {
 
 /// Systems between the stages run where the documentation says.
 #[test]
-fn systems_can_be_put_between_the_stages() {
+fn user_systems_run_between_the_stages() {
     let mut app = App::new();
     app.add_plugins(LariatPlugin::in_schedule(Update)).init_resource::<Order>();
     app.add_systems(CableStep, note("before").before(CableSystems::Prepare));
@@ -29,7 +30,7 @@ fn systems_can_be_put_between_the_stages() {
     let four = ["predicted", "stepped"].repeat(4);
     let expected: Vec<&str> = ["before"].into_iter().chain(four).chain(["after"]).collect();
     assert_eq!(app.world().resource::<Order>().0, expected);
-    let time = app.world().get::<Cable>(cable).unwrap().core().unwrap().time();
+    let time = cable_of(app.world(), cable).time();
     assert!((time - 1.0 / 60.0).abs() < 1e-7);
 }
 
@@ -46,12 +47,18 @@ fn messages_of_an_app_are_dropped_after_two_frames() {
 }
 
 #[test]
-fn effects_are_in_the_type_registry() {
+fn all_effects_are_in_the_type_registry() {
     let mut app = App::new();
     app.init_resource::<AppTypeRegistry>();
     app.add_plugins(LariatPlugin::default());
     let registry = app.world().resource::<AppTypeRegistry>().read();
     let registry: &TypeRegistry = &registry;
-    assert!(registry.get(core::any::TypeId::of::<Damping>()).is_some());
-    assert!(registry.get_type_data::<ReflectComponent>(core::any::TypeId::of::<Bending>()).is_some());
+    let is_component = |id: TypeId| registry.get_type_data::<ReflectComponent>(id).is_some();
+    assert!([TypeId::of::<Rule>(), TypeId::of::<Bending>(), TypeId::of::<PointLoads>()].into_iter().all(is_component));
+    macro_rules! check {
+        ($({ field: $field:ident, type: $type:ident, $($entry:tt)* })*) => {
+            $(assert!(is_component(TypeId::of::<lariat_bevy::$type>()), stringify!($type));)*
+        };
+    }
+    lariat_bevy::lariat_ancf::for_each_effect!(check);
 }

@@ -1,9 +1,9 @@
-//! A snapshot brings a run back bit for bit.
+//! Snapshots restore a run bitwise.
 
-use super::bench::{bits, cube, pin, soft, steps, world};
+use super::common::{bits, cable_of, cube, pin, soft, steps, world};
 use bevy_ecs::prelude::*;
 use lariat_bevy::rapier::prelude::ColliderBuilder;
-use lariat_bevy::{At, Attachment, AttachmentReading, Bending, Body, BodyPose, Cable, Cables, Damping, Drag, Snapshot};
+use lariat_bevy::{At, Attachment, AttachmentReading, Bending, Body, BodyPose, Cables, Damping, Drag, Snapshot};
 
 /// A load that swings into a wall, on a cable with effects.
 fn scene(world: &mut World) -> (Entity, Entity, Entity) {
@@ -18,7 +18,7 @@ fn scene(world: &mut World) -> (Entity, Entity, Entity) {
 }
 
 #[test]
-fn a_run_from_a_snapshot_is_the_run_that_was() {
+fn a_run_from_a_snapshot_replays_bitwise() {
     let mut world = world();
     let (cable, load, hook) = scene(&mut world);
     let state = |world: &World| {
@@ -41,9 +41,10 @@ fn a_run_from_a_snapshot_is_the_run_that_was() {
     }
 }
 
-/// After the snapshot the load and an effect go, a cable and a body come, an attachment goes to another body.
+/// After the snapshot a load is despawned, an effect is removed, and a cable, a body and an
+/// attachment are spawned.
 #[test]
-fn a_snapshot_brings_back_what_went_and_takes_what_came() {
+fn a_snapshot_respawns_what_was_despawned_and_despawns_what_was_spawned() {
     let mut world = world();
     let (cable, load, hook) = scene(&mut world);
     steps(&mut world, 25);
@@ -67,7 +68,7 @@ fn a_snapshot_brings_back_what_went_and_takes_what_came() {
     assert!(bits(&world, cable) == then);
     let load = renamed[&load];
     assert!(world.get::<BodyPose>(load).unwrap().position.y < -0.5);
-    // a cable that went comes back too
+    // a despawned cable is respawned too
     world.despawn(cable);
     steps(&mut world, 3);
     let renamed = snapshot.restore(&mut world).unwrap();
@@ -75,16 +76,15 @@ fn a_snapshot_brings_back_what_went_and_takes_what_came() {
     assert!(bits(&world, renamed[&cable]) == then);
 }
 
-/// Rollback by copies of components: the copy of a cable that is written over it holds its place in the set.
 #[test]
-fn a_cable_that_is_overwritten_by_a_copy_of_itself_goes_back_in_time() {
+fn a_single_cable_can_be_restored_to_an_earlier_state() {
     let mut world = world();
     let cable = world.spawn((soft([0.0; 3], [1.6, 0.0, 0.0]), Bending)).id();
     steps(&mut world, 10);
-    let copy = world.get::<Cable>(cable).unwrap().clone();
+    let earlier = cable_of(&world, cable).snapshot().clone();
     steps(&mut world, 10);
-    let then = world.get::<Cable>(cable).unwrap().positions().to_vec();
-    world.entity_mut(cable).insert(copy);
+    let then = bits(&world, cable);
+    world.resource_mut::<Cables>().get_mut(cable).unwrap().restore(earlier).unwrap();
     steps(&mut world, 10);
-    assert_eq!(world.get::<Cable>(cable).unwrap().positions(), then);
+    assert!(bits(&world, cable) == then);
 }

@@ -1,30 +1,32 @@
-//! Clamps: the moment reaches the body.
+//! Clamps: moments reach the body.
 
-use super::bench::{add_cube, cable, gap, run, soft, v, weightless};
+use super::common::{add_cube, cable, gap, run, soft, weightless};
+use lariat_rapier::convert::vector;
 use lariat_rapier::lariat_ancf::{At, Cable, Integrator, Method, Section, Vector3};
 use lariat_rapier::rapier::prelude::*;
 use lariat_rapier::{AttachmentKind, CableSet};
 
-/// EA, EI and next to no mass: a beam.
+/// Returns a beam: axial stiffness 1e6 N, bending stiffness `ei` (N m^2), almost no mass.
 fn beam(ei: f64) -> Section {
     Section::from_stiffness(1e6, ei, 1e-4).unwrap()
 }
 
-/// An L-stable method that damps a beam without mass to rest.
-fn stiff() -> Integrator {
+/// Returns an L-stable integrator, which damps the modes of a massless beam to rest.
+fn massless_beam_integrator() -> Integrator {
     Integrator::tolerance(Method::Esdirk3, 1e-7).unwrap()
 }
 
-/// A body clamped to the tip of a beam without mass, the beam clamped to a fixed or a kinematic body; set moving in the lower of its two modes, it
-/// is back after a period.
+/// A body is clamped to the tip of a massless beam, and the beam to a fixed or kinematic body. Set
+/// in motion in the lower of its two modes, it is back after a period.
 ///
-/// *Source.* Euler-Bernoulli: K = EI/L^3 (12, -6L; -6L, 4L^2) about (deflection, rotation) of the tip, M = (m, I).
+/// Reference: Euler-Bernoulli beam, K = EI/L^3 (12, -6L; -6L, 4L^2) for deflection and rotation of
+/// the tip, M = (m, I).
 #[test]
-fn a_body_on_the_tip_of_a_beam_has_its_frequency() {
+fn a_body_clamped_to_the_tip_of_a_beam_oscillates_at_its_natural_frequency() {
     let (ei, mass, inertia) = (10.0f64, 2.0, 0.4);
     let (a, b, c) = (mass * inertia, -(12.0 * ei * inertia + 4.0 * ei * mass), 12.0 * ei * ei);
     let omega = ((-b - (b * b - 4.0 * a * c).sqrt()) / (2.0 * a)).sqrt();
-    let turn = (12.0 * ei - omega * omega * mass) / (6.0 * ei);
+    let ratio = (12.0 * ei - omega * omega * mass) / (6.0 * ei);
     for base in [RigidBodyBuilder::fixed(), RigidBodyBuilder::kinematic_velocity_based()] {
         let mut world = weightless();
         let base = world.insert_body(base);
@@ -35,44 +37,45 @@ fn a_body_on_the_tip_of_a_beam_has_its_frequency() {
                 .translation(Vector::new(1.0, 0.0, 0.0))
                 .additional_mass_properties(properties)
                 .linvel(Vector::new(0.0, speed as Real, 0.0))
-                .angvel(Vector::new(0.0, 0.0, (speed * turn) as Real)),
+                .angvel(Vector::new(0.0, 0.0, (speed * ratio) as Real)),
         );
         let period = std::f64::consts::TAU / omega;
         world.integration_parameters.dt = (period / 60.0) as Real;
         let mut set = CableSet::new();
-        let rod = cable([0.0; 3], [1.0, 0.0, 0.0], beam(ei)).gravity(Vector3::zeros()).integrator(stiff());
+        let rod =
+            cable([0.0; 3], [1.0, 0.0, 0.0], beam(ei)).gravity(Vector3::zeros()).integrator(massless_beam_integrator());
         let rod = set.insert(rod.elements(6).build().unwrap());
         set.attach(&world, rod, At::Start, base, Vector::ZERO, AttachmentKind::Clamp).unwrap();
         let end = set.attach(&world, rod, At::End, tip, Vector::ZERO, AttachmentKind::Clamp).unwrap();
         run(&mut world, &mut set, 15);
-        // at a quarter of the period it is farthest out, and the clamp holds it with the most moment
-        let out = v(world.bodies[tip].translation()).y;
-        let angle = v(world.bodies[tip].rotation().to_scaled_axis()).z;
+        // at a quarter of the period deflection and moment are largest
+        let out = vector(world.bodies[tip].translation()).y;
+        let angle = vector(world.bodies[tip].rotation().to_scaled_axis()).z;
         assert!((out - speed / omega).abs() < 5e-3 * speed / omega, "{out:.3e} m of {:.3e}", speed / omega);
         let moment = set.attachment(end).unwrap().moment();
         let expected = ei * (6.0 * out - 4.0 * angle);
         assert!((moment.z - expected).abs() < 1e-2 * expected.abs() + 1e-4, "{moment:?} N m of {expected}");
         run(&mut world, &mut set, 45);
-        let back = (v(world.bodies[tip].translation()) - Vector3::x()).norm();
+        let back = (vector(world.bodies[tip].translation()) - Vector3::x()).norm();
         assert!(back < 5e-3 * speed / omega, "{back:.1e} m");
-        assert!((v(world.bodies[tip].linvel()).y - speed).abs() < 5e-3 * speed);
+        assert!((vector(world.bodies[tip].linvel()).y - speed).abs() < 5e-3 * speed);
         assert!(gap(&set) < 1e-6);
     }
 }
 
-/// A kinematic arm turns at 1 rad/s with a heavy cable clamped across its end: the tangent at the clamp turns with it, and the work of
-/// the arm is the energy of the cable.
+/// A kinematic arm rotates at 1 rad/s with a heavy cable clamped across its end: the tangent at the
+/// clamp rotates with it, and its work is the energy that the cable gains.
 ///
-/// *Source.* The prescribed motion; conservation of energy.
+/// Reference: the prescribed motion; conservation of energy.
 #[test]
-fn a_turning_arm_turns_the_tangent_and_works() {
+fn the_work_of_a_rotating_arm_is_the_energy_of_its_clamped_cable() {
     let mut world = weightless();
     let arm = world.insert_body(RigidBodyBuilder::kinematic_velocity_based());
     let mut set = CableSet::new();
     let whip = cable([0.5, 0.0, 0.0], [0.5, 1.0, 0.0], soft()).gravity(Vector3::zeros()).build().unwrap();
     let whip = set.insert(whip);
     let held = set.attach_here(&world, whip, At::Start, arm, AttachmentKind::Clamp).unwrap();
-    // the first step strikes the cable: that is no work along a path
+    // the first step accelerates the cable by an impulse, whose work is not along a path
     world.bodies[arm].set_angvel(Vector::new(0.0, 0.0, 1.0), true);
     set.step(&mut world).unwrap();
     let state = |set: &CableSet| (-set.attachment(held).unwrap().work(), set.get(whip).unwrap().energy().total());
@@ -81,7 +84,7 @@ fn a_turning_arm_turns_the_tangent_and_works() {
     for _ in 0..120 {
         set.step(&mut world).unwrap();
         let tangent = set.get(whip).unwrap().sample(0.0).unwrap().slope.normalize();
-        let along = v(*world.bodies[arm].rotation() * Vector::Y);
+        let along = vector(*world.bodies[arm].rotation() * Vector::Y);
         worst = worst.max((tangent - along).norm());
         passed += (state(&set).0 - before).abs();
         before = state(&set).0;
@@ -91,11 +94,11 @@ fn a_turning_arm_turns_the_tangent_and_works() {
     assert!(passed > 1e-2 && (work - gained).abs() < 0.02 * passed, "{work} J, {gained} J of {passed}");
 }
 
-/// A crate clamped to a hanging rope that points down: still there after a second, with no moment.
+/// A crate is clamped to a vertical rope in equilibrium: after a second it has not moved.
 ///
-/// *Source.* Statics.
+/// Reference: statics.
 #[test]
-fn a_crate_clamped_in_line_hangs_without_moment() {
+fn a_crate_clamped_in_line_with_its_rope_feels_no_moment() {
     let mut world = PhysicsWorld::new();
     let load = add_cube(&mut world, 5.0, 0.1, [0.0, -1.1, 0.0]);
     let mut set = CableSet::new();
@@ -109,5 +112,5 @@ fn a_crate_clamped_in_line_hangs_without_moment() {
     let a = set.attachment(held).unwrap();
     assert_eq!(a.kind(), AttachmentKind::Clamp);
     assert!(a.moment().norm() < 1e-6, "{:?}", a.moment());
-    assert!(v(world.bodies[load].rotation().to_scaled_axis()).norm() < 1e-6);
+    assert!(vector(world.bodies[load].rotation().to_scaled_axis()).norm() < 1e-6);
 }

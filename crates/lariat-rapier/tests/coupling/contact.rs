@@ -1,11 +1,12 @@
-//! Bodies in contact while a cable pulls: jams and friction.
+//! Bodies in contact while a cable pulls: jams, friction, impacts.
 
-use super::bench::{add_cube, cable, damping, gap, run, soft, steel, tension, v, weightless, wire};
+use super::common::{add_cube, cable, gap, l_stable_integrator, run, soft, steel, tension, weightless, wire};
+use lariat_rapier::convert::vector;
 use lariat_rapier::lariat_ancf::{At, Section, Vector3};
 use lariat_rapier::rapier::prelude::*;
 use lariat_rapier::{AttachmentKind, CableSet};
 
-/// A cube behind two posts, 5 cm away; a winch pulls until the cable carries 5 kN, and stops.
+/// A cube 5 cm behind two posts; a winch pulls until the cable carries 5 kN, and stops.
 fn jam(section: Section, mass: Real) {
     const PULL: f64 = 5e3;
     let mut world = weightless();
@@ -14,18 +15,18 @@ fn jam(section: Section, mass: Real) {
         world.insert(post, ColliderBuilder::cuboid(0.1, 0.3, 1.0));
     }
     let load = add_cube(&mut world, mass, 0.1, [-2.1, 0.0, 0.0]);
-    // the winch near the origin, where single precision resolves what stretches steel
+    // the winch is near the origin, where single precision resolves the stretch of steel
     let winch = world.insert_body(RigidBodyBuilder::kinematic_velocity_based());
     let mut set = CableSet::new();
-    let rope = cable([0.0; 3], [-2.0, 0.0, 0.0], section).integrator(damping()).gravity(Vector3::zeros());
+    let rope = cable([0.0; 3], [-2.0, 0.0, 0.0], section).integrator(l_stable_integrator()).gravity(Vector3::zeros());
     let rope = set.insert(rope.build().unwrap());
     set.attach(&world, rope, At::Start, winch, Vector::ZERO, AttachmentKind::Ball).unwrap();
     set.attach(&world, rope, At::End, load, Vector::new(0.1, 0.0, 0.0), AttachmentKind::Ball).unwrap();
-    // the rope's, and that of Rapier's contacts, 15 mm for 5 kN on 1 kg
+    // of the rope and of Rapier's contact, 15 mm for 5 kN on 1 kg
     let compliance = 2.0 / section.axial_stiffness + 3e-6 / f64::from(mass);
     let (mut widest, mut held) = (0.0f64, Vec::new());
     for k in 0..720 {
-        // the winch makes up what is missing at a rate of 5/s, 5 cm/s at first, then stops
+        // the winch closes the difference at a rate of 5/s, after 5 cm/s at first, then stops
         let missing = (PULL - tension(&set, rope, 1.0)) * compliance;
         let speed = if k < 60 { 0.05 } else { (5.0 * missing).clamp(-0.05, 0.05) };
         let speed = if k < 600 { speed } else { 0.0 };
@@ -44,12 +45,13 @@ fn jam(section: Section, mass: Real) {
     assert!(world.bodies[load].linvel().length() < 1e-4, "{case}, {}", world.bodies[load].linvel());
 }
 
-/// A light and a heavy cube jammed between posts; the winch stops at 5 kN: the tension stays, the pin is closed, and nothing
-/// moves. A soft rope, a steel wire of 3 mm, a steel bar of 1 cm.
+/// A light and a heavy cube jammed between posts, on a soft rope, a steel wire of 3 mm and a steel
+/// bar of 1 cm: the tension is constant, the gap closed, and nothing moves.
 ///
-/// *Source.* Statics: the tension is what the winch was stopped at; 2 % for the contact to settle.
+/// Reference: statics: the tension at which the winch stopped, within 2 % for the contact to
+/// settle.
 #[test]
-fn a_jammed_cube_holds_what_the_winch_pulls() {
+fn a_jammed_cube_holds_the_tension_at_which_the_winch_stopped() {
     for section in [soft(), wire(), steel()] {
         for mass in [1.0, 100.0] {
             jam(section, mass);
@@ -57,12 +59,12 @@ fn a_jammed_cube_holds_what_the_winch_pulls() {
     }
 }
 
-/// A cube of 20 kg on the ground, friction 0.5; the winch stretches the rope by one newton per frame. The cube holds until the pull
-/// is mu m g, then slides at it.
+/// A cube of 20 kg on the ground, friction 0.5; a winch increases the tension by 1 N per frame. The
+/// cube holds until the tension is mu m g, then slides.
 ///
-/// *Source.* Coulomb: 98.10 N, within 2 %.
+/// Reference: Coulomb friction, 98.10 N, within 2 %.
 #[test]
-fn a_cube_starts_to_slide_when_the_pull_is_friction_times_weight() {
+fn a_cube_slides_when_the_pull_reaches_the_friction_limit() {
     let grip = 0.5 * 20.0 * 9.81;
     for section in [soft(), wire()] {
         let mut world = PhysicsWorld::new();
@@ -73,7 +75,9 @@ fn a_cube_starts_to_slide_when_the_pull_is_friction_times_weight() {
         let winch = RigidBodyBuilder::kinematic_velocity_based().translation(Vector::new(0.0, 0.1, 0.0));
         let winch = world.insert_body(winch);
         let mut set = CableSet::new();
-        let rope = cable([0.0, 0.1, 0.0], [-2.0, 0.1, 0.0], section).integrator(damping()).gravity(Vector3::zeros());
+        let rope = cable([0.0, 0.1, 0.0], [-2.0, 0.1, 0.0], section)
+            .integrator(l_stable_integrator())
+            .gravity(Vector3::zeros());
         let rope = set.insert(rope.build().unwrap());
         set.attach(&world, rope, At::Start, winch, Vector::ZERO, AttachmentKind::Ball).unwrap();
         set.attach(&world, rope, At::End, load, Vector::new(0.1, 0.0, 0.0), AttachmentKind::Ball).unwrap();
@@ -90,7 +94,8 @@ fn a_cube_starts_to_slide_when_the_pull_is_friction_times_weight() {
             }
         }
         let slid = f64::from(world.bodies[load].translation().x - from);
-        // a rope under mu m g takes up a third of what the winch pulled in, the cube the rest
+        // the stretch of the rope under mu m g is a third of the winch's displacement, sliding the
+        // rest
         let wound = speed * 5.0;
         println!(
             "friction EA {:.1e}: peak {peak:.2} N, crept {crept:.1e} m, slid {slid:.1e} of {wound:.1e} m",
@@ -102,12 +107,13 @@ fn a_cube_starts_to_slide_when_the_pull_is_friction_times_weight() {
     }
 }
 
-/// A cube of 1 kg is drawn into its stop by a steel wire, slow enough for the wire to be slack, in host steps of 1/30 s: at no time is the
-/// pin open by more than 0.3 mm. Looked at only when the host step begins, and only if the wire is taut, it opened by 2 mm.
+/// A cube of 1 kg is drawn into its stop by a steel wire, so slowly that the wire is slack, in host
+/// steps of 1/30 s: the gap stays below 0.3 mm. It opened by 2 mm when the number of Rapier steps
+/// was chosen only once per host step, by cables that were taut already.
 ///
-/// *Source.* The contract of an attachment.
+/// Reference: the contract of an attachment.
 #[test]
-fn a_pin_stays_closed_when_its_body_first_meets_another() {
+fn the_gap_stays_closed_at_the_first_contact_of_a_body() {
     for iterations in [1, 4] {
         let mut world = weightless();
         world.integration_parameters.dt = 1.0 / 30.0;
@@ -119,7 +125,8 @@ fn a_pin_stays_closed_when_its_body_first_meets_another() {
         let load = add_cube(&mut world, 1.0, 0.1, [-2.1, 0.0, 0.0]);
         let winch = world.insert_body(RigidBodyBuilder::kinematic_velocity_based());
         let mut set = CableSet::new();
-        let rope = cable([0.0; 3], [-2.0, 0.0, 0.0], wire()).integrator(damping()).gravity(Vector3::zeros());
+        let rope =
+            cable([0.0; 3], [-2.0, 0.0, 0.0], wire()).integrator(l_stable_integrator()).gravity(Vector3::zeros());
         let rope = set.insert(rope.build().unwrap());
         set.attach(&world, rope, At::Start, winch, Vector::ZERO, AttachmentKind::Ball).unwrap();
         set.attach(&world, rope, At::End, load, Vector::new(0.1, 0.0, 0.0), AttachmentKind::Ball).unwrap();
@@ -131,17 +138,18 @@ fn a_pin_stays_closed_when_its_body_first_meets_another() {
             pulled = pulled.max(tension(&set, rope, 1.0));
         }
         println!("{iterations} iterations: gap {widest:.1e} m, pull {pulled:.0} N");
-        assert!(pulled > 1e3, "it never met the stop: {pulled} N");
+        assert!(pulled > 1e3, "no contact with the stop: {pulled} N");
         assert!(widest < 3e-4, "{iterations} iterations: {widest:.1e} m");
     }
 }
 
-/// A light ball on a taut rope is whirled into another at 12 m/s, 10 cm in a Rapier step of 1/120 s, which no pair of Rapier's foretells: the
-/// pin stays within 1 cm. Without looking ahead it opened by 10 cm.
+/// A light ball on a taut rope hits another at 12 m/s. It moves 10 cm in a Rapier step of 1/120 s,
+/// so Rapier lists no pair before: the gap stays below 1 cm. It opened by 10 cm without a look at
+/// the collisions to come.
 ///
-/// *Source.* The contract of an attachment, at the speed of the blow.
+/// Reference: the contract of an attachment, at the speed of the impact.
 #[test]
-fn a_pin_holds_when_its_body_flies_into_another() {
+fn the_gap_stays_closed_when_a_body_flies_into_another() {
     let mut world = weightless();
     world.integration_parameters.dt = 1.0 / 30.0;
     let ball = RigidBodyBuilder::dynamic().translation(Vector::new(1.0, 0.0, 0.0)).linvel(Vector::new(0.0, 12.0, 0.0));
@@ -150,7 +158,10 @@ fn a_pin_holds_when_its_body_flies_into_another() {
     let block = RigidBodyBuilder::dynamic().translation(Vector::new(far.1 as Real, far.0 as Real, 0.0));
     let (block, _) = world.insert(block, ColliderBuilder::ball(0.06).mass(10.0));
     let mut set = CableSet::new();
-    let rope = cable([0.0; 3], [1.0, 0.0, 0.0], soft()).integrator(damping()).gravity(Vector3::zeros()).fix(At::Start);
+    let rope = cable([0.0; 3], [1.0, 0.0, 0.0], soft())
+        .integrator(l_stable_integrator())
+        .gravity(Vector3::zeros())
+        .fix(At::Start);
     let rope = set.insert(rope.build().unwrap());
     set.attach(&world, rope, At::End, ball, Vector::ZERO, AttachmentKind::Ball).unwrap();
     let mut widest = 0.0f64;
@@ -159,17 +170,17 @@ fn a_pin_holds_when_its_body_flies_into_another() {
         widest = widest.max(gap(&set));
     }
     println!("gap {widest:.1e} m, the other at {:.2} m/s", world.bodies[block].linvel().length());
-    assert!(world.bodies[block].linvel().length() > 0.05, "they never met");
+    assert!(world.bodies[block].linvel().length() > 0.05, "they never collided");
     assert!(widest < 1e-2, "{widest:.1e} m");
 }
 
-/// Two balls whirl about each other on a taut wire, and strike a third: all momentum there was is there, in steps that do not resolve the
-/// turning, so that the pull changes a ball's velocity within each.
+/// Two balls rotate about each other on a taut wire and hit a third. The steps do not resolve the
+/// rotation, so the tension changes the velocity of a ball within each.
 ///
-/// *Source.* Conservation of momentum. 1.7e-3 kg m/s of each ball's 5 are gained; 0.9 where a ball that deviates keeps only a share of what the
-/// pull changed its velocity by.
+/// Reference: conservation of momentum. The error is 1.7e-3 kg m/s of the 5 of each ball; it was
+/// 0.9 when a ball that deviated kept only a share of the velocity change by the tension.
 #[test]
-fn a_blow_to_whirling_bodies_keeps_the_momentum() {
+fn an_impact_conserves_the_momentum_of_rotating_bodies() {
     let mut world = weightless();
     let mut add = |at: [Real; 3], speed: Real| {
         let ball = RigidBodyBuilder::dynamic().translation(Vector::from(at)).linvel(Vector::new(0.0, speed, 0.0));
@@ -178,16 +189,17 @@ fn a_blow_to_whirling_bodies_keeps_the_momentum() {
     let ends = [add([0.5, 0.0, 0.0], 5.0), add([-0.5, 0.0, 0.0], -5.0)];
     add([0.3, 0.42, 0.0], 0.0);
     let mut set = CableSet::new();
-    let rope = cable([-0.5, 0.0, 0.0], [0.5, 0.0, 0.0], wire()).integrator(damping()).gravity(Vector3::zeros());
+    let rope =
+        cable([-0.5, 0.0, 0.0], [0.5, 0.0, 0.0], wire()).integrator(l_stable_integrator()).gravity(Vector3::zeros());
     let rope = set.insert(rope.build().unwrap());
     set.attach(&world, rope, At::End, ends[0], Vector::ZERO, AttachmentKind::Ball).unwrap();
     set.attach(&world, rope, At::Start, ends[1], Vector::ZERO, AttachmentKind::Ball).unwrap();
     run(&mut world, &mut set, 1);
     let before = set.momentum(&world).unwrap().linear;
-    let spin = v(world.bodies[ends[0]].linvel());
+    let spin = vector(world.bodies[ends[0]].linvel());
     run(&mut world, &mut set, 30);
     let gained = set.momentum(&world).unwrap().linear - before;
     println!("momentum gained {:.1e} kg m/s, {spin:?} to {:?}", gained.norm(), world.bodies[ends[0]].linvel());
-    assert!(world.bodies.iter().any(|(h, b)| !ends.contains(&h) && b.linvel().length() > 0.1), "they never met");
+    assert!(world.bodies.iter().any(|(h, b)| !ends.contains(&h) && b.linvel().length() > 0.1), "they never collided");
     assert!(gained.norm() < 3e-3, "{:.1e} kg m/s", gained.norm());
 }

@@ -1,6 +1,7 @@
-//! Drawing through Rapier's debug renderer.
+//! Drawing with Rapier's debug renderer.
 
-use super::bench::{add_cube, cable, soft, v};
+use super::common::{add_cube, cable, soft};
+use lariat_rapier::convert::vector;
 use lariat_rapier::lariat_ancf::At;
 use lariat_rapier::rapier::pipeline::{DebugColor, DebugRenderBackend, DebugRenderObject};
 use lariat_rapier::rapier::prelude::*;
@@ -15,9 +16,9 @@ impl DebugRenderBackend for Lines {
     }
 }
 
-/// Four lines per element from one end to the other, red where the tension is that of the style, blue where there is none.
+/// Four lines per element from one end to the other; red at the tension of the style, blue at zero.
 ///
-/// *Source.* The contract.
+/// Reference: the contract.
 #[test]
 fn a_cable_is_drawn_along_its_length_and_coloured_by_tension() {
     let mut world = PhysicsWorld::new();
@@ -34,7 +35,7 @@ fn a_cable_is_drawn_along_its_length_and_coloured_by_tension() {
     assert_eq!(lines.0.len(), 80);
     let (own, other) = lines.0.split_at(40);
     assert!(own.windows(2).all(|w| w[0].1 == w[1].0), "one line goes on where the last ended");
-    assert!((v(own[39].1) - set.get(taut).unwrap().node_position(10)).norm() < 1e-6);
+    assert!((vector(own[39].1) - set.get(taut).unwrap().node_position(10)).norm() < 1e-6);
     assert!(own.iter().all(|(_, _, c)| c[0] < 1.0), "some 100 N: red");
     assert!(other.last().unwrap().2[0] > 200.0, "a free end: blue");
 }

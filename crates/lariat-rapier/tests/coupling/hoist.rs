@@ -1,10 +1,13 @@
-//! A winch lifts a box from the ground: from slack to taut to hanging.
+//! A winch lifts a box from the ground: slack, taut, hanging.
 
-use super::bench::{add_cube, cable, gap, soft, tension, wire};
+use super::common::{add_cube, cable, gap, soft, tension, wire};
 use lariat_rapier::lariat_ancf::{At, Damping, Section};
 use lariat_rapier::rapier::prelude::*;
 use lariat_rapier::{AttachmentKind, CableSet};
 
+/// Lifts a box of 10 kg from the ground: the winch takes up 2 cm of slack at 1 cm/s, lifts at 20
+/// cm/s, and stops. At rest on the ground nothing moves; hanging, the rope carries the weight, and
+/// the height is that of winch, slack and stretch.
 fn hoist(section: Section) {
     let mut world = PhysicsWorld::new();
     let ground = RigidBodyBuilder::fixed().translation(Vector::new(0.0, -0.5, 0.0));
@@ -12,7 +15,8 @@ fn hoist(section: Section) {
     let load = add_cube(&mut world, 10.0, 0.1, [0.0, 0.1, 0.0]);
     let winch = world.insert_body(RigidBodyBuilder::kinematic_velocity_based().translation(Vector::new(0.0, 2.1, 0.0)));
     let mut set = CableSet::new();
-    // a tenth of critical for the bounce of the box; a rope whose strands rub, or it would swing on from when it was bowed
+    // a tenth of critical damping for the bounce of the box; bending damping, or the rope would
+    // keep on oscillating from when it was bowed
     let bounce = (section.axial_stiffness / (1.92 * 10.0)).sqrt();
     let losses = Damping { axial: 0.2 / bounce, bending: 0.5 };
     let builder = cable([0.0, 2.1, 0.0], [0.0, 0.2, 0.0], section).length(1.92).damping(losses);
@@ -23,7 +27,7 @@ fn hoist(section: Section) {
     let (mut jitter, mut widest, mut held): (Real, f64, Vec<f64>) = (0.0, 0.0, Vec::new());
     for k in 0..1440 {
         let time = k as Real / 60.0;
-        // 1 cm/s from 2 s on, until the rope is taut and the box in the air; 20 cm/s from 7 s on, none from 9 s on
+        // 1 cm/s from 2 s on, until the box is in the air; 20 cm/s from 7 s on, 0 from 9 s on
         let speed = 0.01 * smooth(time - 2.0) + 0.19 * smooth(time - 7.0) - 0.2 * smooth(time - 9.0);
         world.bodies[winch].set_linvel(Vector::new(0.0, speed, 0.0), true);
         set.step(&mut world).unwrap();
@@ -45,19 +49,14 @@ fn hoist(section: Section) {
     assert!((lift - (winch - 0.02 - stretch)).abs() < 1e-4, "{lift} m, winch {winch} m");
 }
 
-/// A box of 10 kg on the ground, its rope 2 cm slack; the winch takes up the slack at 1 cm/s, lifts at 20 cm/s and stops. At rest
-/// on the ground nothing moves; hanging, the rope carries the weight, and the box is as high as winch, slack and stretch say.
-///
-/// *Source.* 98.10 N; EA of the rope.
+/// Reference: the weight, 98.10 N; the axial stiffness of the rope.
 #[test]
-fn a_box_is_lifted_from_the_ground_by_a_soft_rope() {
+fn a_soft_rope_lifts_a_box_from_the_ground() {
     hoist(soft());
 }
 
-/// The same with a steel wire of 3 mm.
-///
-/// *Source.* As above.
+/// Reference: as above.
 #[test]
-fn a_box_is_lifted_from_the_ground_by_a_steel_wire() {
+fn a_steel_wire_lifts_a_box_from_the_ground() {
     hoist(wire());
 }

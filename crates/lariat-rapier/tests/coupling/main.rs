@@ -1,18 +1,19 @@
-//! Cables and rapier3d's bodies: against statics, a monolithic code, conservation laws, and what a user may do to a world.
+//! Cables on Rapier's bodies: statics, a monolithic code, conservation laws, and changes by the
+//! user.
 
-mod bench;
-mod changes;
+mod assemblies;
+mod attachment_points;
 mod clamps;
+mod common;
 mod contact;
+mod determinism;
 mod draw;
-mod hanging;
+mod free_flight;
 mod hoist;
 mod joints;
-mod many;
-mod motion;
-mod nodes;
 mod payload;
-mod replay;
+mod prescribed_motion;
 mod sleep;
-mod spinning;
-mod split;
+mod statics;
+mod substepping;
+mod user_changes;

@@ -1,6 +1,7 @@
-//! Sleep: a load and its cable come to rest together, wake together, and do not drift.
+//! A load and its cable fall asleep together, wake up together, and do not drift.
 
-use super::bench::{add_cube, cable, gap, run, soft, tension, v};
+use super::common::{add_cube, cable, gap, run, soft, tension};
+use lariat_rapier::convert::vector;
 use lariat_rapier::lariat_ancf::{At, Damping, PointLoad, Vector3};
 use lariat_rapier::rapier::prelude::*;
 use lariat_rapier::{AttachmentKind, CableHandle, CableSet, Event};
@@ -13,7 +14,8 @@ struct Hoist {
     rope: CableHandle,
 }
 
-/// 10 kg on a damped rope of 2 m under a kinematic winch, hung in at its natural length: it bounces and comes to rest.
+/// Returns 10 kg on a damped rope of 2 m under a kinematic winch, released at its natural length:
+/// it bounces and comes to rest.
 fn hoist() -> Hoist {
     let mut world = PhysicsWorld::new();
     let load = add_cube(&mut world, 10.0, 0.1, [0.0, -2.1, 0.0]);
@@ -27,8 +29,8 @@ fn hoist() -> Hoist {
 }
 
 impl Hoist {
-    /// Steps until the load sleeps; how many.
-    fn until_asleep(&mut self) -> usize {
+    /// Steps until the load sleeps; returns how many steps.
+    fn step_until_asleep(&mut self) -> usize {
         for k in 0..1200 {
             self.set.step(&mut self.world).unwrap();
             if self.world.bodies[self.load].is_sleeping() && self.set.is_asleep(self.rope).unwrap() {
@@ -39,18 +41,20 @@ impl Hoist {
     }
 
     fn height(&self) -> f64 {
-        v(self.world.bodies[self.load].translation()).y
+        vector(self.world.bodies[self.load].translation()).y
     }
 }
 
-/// Hung in, it falls asleep where statics says; the winch wakes it, lifts it by half a metre, and it falls asleep half a metre higher. While
-/// it sleeps no element is evaluated, and ten minutes of it do not move a bit.
+/// It falls asleep at static equilibrium; the winch wakes it up and lifts it by half a metre, and
+/// it falls asleep there. While it sleeps no element is evaluated, and ten minutes do not change
+/// its state by a bit.
 ///
-/// *Source.* The stretch of the rope under 10 kg and its own weight; the winch's path.
+/// Reference: the stretch of the rope under 10 kg and its own weight; the displacement of the
+/// winch.
 #[test]
-fn a_resting_load_sleeps_wakes_and_sleeps_higher() {
+fn a_load_at_rest_sleeps_until_its_winch_moves() {
     let mut h = hoist();
-    h.until_asleep();
+    h.step_until_asleep();
     assert!(h.set.events().contains(&Event::Asleep(h.rope)));
     let stretch = 2.0 * 9.81 * (10.0 + 0.5 * 2.0 * 0.4) / 1e5;
     assert!((h.height() + 2.1 + stretch).abs() < 2e-5, "{} m of {}", h.height(), -2.1 - stretch);
@@ -69,18 +73,19 @@ fn a_resting_load_sleeps_wakes_and_sleeps_higher() {
         assert!(k > 0 || h.set.events().contains(&Event::Awake(h.rope)));
     }
     h.world.bodies[h.winch].set_linvel(Vector::ZERO, true);
-    h.until_asleep();
-    let lifted = v(h.world.bodies[h.winch].translation()).y;
+    h.step_until_asleep();
+    let lifted = vector(h.world.bodies[h.winch].translation()).y;
     assert!((lifted - 0.5).abs() < 1e-4 && (h.height() - asleep - lifted).abs() < 2e-5, "{} m", h.height() - asleep);
 }
 
-/// What wakes it: a force of the user, a cube that falls on it, a load on the cable, gravity, a fixed body that is moved.
+/// A sleeping load wakes up by a force, an impulse, a load on the cable, a change of gravity, a
+/// fixed body that is moved, and another cable.
 ///
-/// *Source.* The contract.
+/// Reference: the contract.
 #[test]
-fn whatever_stirs_it_wakes_it() {
-    type Stir = fn(&mut Hoist);
-    let stirs: [(&str, Stir); 6] = [
+fn forces_impulses_loads_gravity_and_moved_supports_wake_a_load() {
+    type Disturbance = fn(&mut Hoist);
+    let disturbances: [(&str, Disturbance); 6] = [
         ("force", |h| h.world.bodies[h.load].add_force(Vector::new(5.0, 0.0, 0.0), true)),
         ("impulse", |h| h.world.bodies[h.load].apply_impulse(Vector::new(1.0, 0.0, 0.0), true)),
         ("load on the cable", |h| {
@@ -96,13 +101,13 @@ fn whatever_stirs_it_wakes_it() {
             h.set.get_mut(line).unwrap().add_load(PointLoad::force(0.4, Vector3::new(0.0, -20.0, 0.0))).unwrap();
         }),
     ];
-    for (what, stir) in stirs {
+    for (what, disturb) in disturbances {
         let mut h = hoist();
-        h.until_asleep();
-        let before = v(h.world.bodies[h.load].translation());
-        stir(&mut h);
+        h.step_until_asleep();
+        let before = vector(h.world.bodies[h.load].translation());
+        disturb(&mut h);
         run(&mut h.world, &mut h.set, 30);
-        let moved = (v(h.world.bodies[h.load].translation()) - before).norm();
+        let moved = (vector(h.world.bodies[h.load].translation()) - before).norm();
         assert!(!h.set.is_asleep(h.rope).unwrap() && moved > 1e-4, "{what}: {moved:.1e} m");
         assert!(gap(&h.set) < 1e-6, "{what}");
     }
@@ -110,11 +115,11 @@ fn whatever_stirs_it_wakes_it() {
 
 /// A swinging load does not fall asleep at its turning points.
 ///
-/// *Source.* The contract: never let a body sleep while its cable moves.
+/// Reference: the contract: no body sleeps while its cable moves.
 #[test]
-fn a_slow_pendulum_swings_on() {
+fn a_slow_pendulum_does_not_fall_asleep() {
     let mut world = PhysicsWorld::new();
-    // 5 cm aside on 10 m: at most 0.05 m/s, slow enough for Rapier
+    // an amplitude of 5 cm on 10 m: at most 0.05 m/s, slow enough for Rapier to put it to sleep
     let load = add_cube(&mut world, 10.0, 0.1, [0.05, -10.1, 0.0]);
     let mut set = CableSet::new();
     let rope = set.insert(cable([0.0; 3], [0.05, -10.0, 0.0], soft()).fix(At::Start).build().unwrap());
@@ -123,7 +128,7 @@ fn a_slow_pendulum_swings_on() {
     for k in 0..1200 {
         set.step(&mut world).unwrap();
         assert!(!world.bodies[load].is_sleeping(), "step {k}");
-        least = least.min(v(world.bodies[load].translation()).x);
+        least = least.min(vector(world.bodies[load].translation()).x);
     }
     assert!(least < -0.04, "{least}");
 }

@@ -14,7 +14,7 @@ let style = {};
 
 function readStyle() {
   const all = getComputedStyle(document.documentElement);
-  for (const name of ["paper", "ink", "soft", "grid", "accent", "dynamic", "fixed", "kinematic"]) {
+  for (const name of ["paper", "ink", "soft", "grid", "accent", "load", "dynamic", "fixed", "kinematic"]) {
     style[name] = all.getPropertyValue("--" + name).trim();
   }
 }
@@ -163,7 +163,7 @@ function drawPiece(g, s, t, width, stroke) {
   g.stroke();
 }
 
-function drawMarks(g, frame, names) {
+function drawMarks(g, frame, time, names) {
   const label = (text, p) => {
     g.font = "12px system-ui, 'DejaVu Sans', sans-serif";
     g.textAlign = "left";
@@ -173,6 +173,7 @@ function drawMarks(g, frame, names) {
     g.fillStyle = style.ink;
     g.fillText(text, p[0] + 8, p[1] - 8);
   };
+  for (const arrow of loadArrows(frame, time)) drawArrow(g, arrow, names, label);
   for (const hold of data.attachments) {
     const p = project(onCable(frame.cables[hold.cable], hold.at));
     if (!p) continue;
@@ -217,8 +218,8 @@ function drawMarks(g, frame, names) {
   }
 }
 
-// Draws a frame; returns a number that depends on all that was drawn of cables and bodies.
-function drawScene(g, width, height, frame, names) {
+// Draws a frame at its time; returns a number that depends on all that was drawn of cables and bodies.
+function drawScene(g, width, height, frame, time, names) {
   aim(width, height);
   g.fillStyle = style.paper;
   g.fillRect(0, 0, width, height);
@@ -234,6 +235,6 @@ function drawScene(g, width, height, frame, names) {
   cableItems(items, frame);
   items.sort((a, b) => b.depth - a.depth);
   for (const item of items) item.draw(g);
-  drawMarks(g, frame, names);
+  drawMarks(g, frame, time, names);
   return items.reduce((sum, item) => sum + item.depth, 0);
 }

@@ -6,14 +6,23 @@ let current = 0, playing = false, clock = 0, before = 0;
 
 const figure = (x, digits = 4) => (x === null || x === undefined ? "not finite" : +x === 0 ? "0" : String(+Number(x).toPrecision(digits)));
 
+// The static equilibrium of a cable in words.
+function equilibrium(c) {
+  const sag = c.sag_m === null ? "" : `, sag ${figure(c.sag_m)} m`;
+  const stable = c.stable ? "stable" : "unstable or indifferent";
+  return `${stable}, peak tension ${figure(c.peak_tension_n)} N${sag}, residual ${figure(c.residual_n, 2)} N`;
+}
+
 function fillHeader() {
   element("name").textContent = data.name;
   const s = data.summary, effects = Object.entries(s.effect_evaluations).map(([k, v]) => `${k} ${v}`);
-  const rows = [
-    ["simulated", `${figure(s.simulated_s, 6)} s`], ["CPU", `${figure(s.cpu_s)} s`], ["real time factor", figure(s.real_time_factor)],
-    ["steps", `${s.steps} (${s.rejected_steps} rejected)`], ["Newton iterations", s.newton_iterations],
-    ["energy", `${figure(s.energy_start_j, 6)} → ${figure(s.energy_end_j, 6)} J`], ["largest gap", `${figure(s.max_gap_m, 3)} m`],
-  ];
+  const rows = s.statics
+    ? [["CPU", `${figure(s.cpu_s)} s`], ["energy", `${figure(s.energy_end_j, 6)} J`], ...s.statics.map((c) => [c.name, equilibrium(c)])]
+    : [
+        ["simulated", `${figure(s.simulated_s, 6)} s`], ["CPU", `${figure(s.cpu_s)} s`], ["real time factor", figure(s.real_time_factor)],
+        ["steps", `${s.steps} (${s.rejected_steps} rejected)`], ["Newton iterations", s.newton_iterations],
+        ["energy", `${figure(s.energy_start_j, 6)} → ${figure(s.energy_end_j, 6)} J`], ["largest gap", `${figure(s.max_gap_m, 3)} m`],
+      ];
   if (effects.length) rows.push(["effects", effects.join(", ")]);
   for (const [name, value] of rows) {
     const row = document.createElement("div"), dt = document.createElement("dt"), dd = document.createElement("dd");
@@ -55,7 +64,7 @@ function fillKey() {
       high = Math.max(high, numbers[first + NODE * i + 7]);
     }
   }
-  // rounding of a slack cable is no tension
+  // rounding errors of a slack cable are not shown as tension
   const tidy = (x) => figure(Math.abs(x) < 1e-9 * Math.max(-lowest, highest) ? 0 : x, 4);
   element("key").textContent = `now ${tidy(low)} to ${tidy(high)} N\ngrid ${figure(cell)} m`;
 }
@@ -65,13 +74,13 @@ function show() {
   const [w, h] = [Math.max(1, Math.round(box.width * ratio)), Math.max(1, Math.round(box.height * ratio))];
   if (canvas.width !== w || canvas.height !== h) [canvas.width, canvas.height] = [w, h];
   pen.setTransform(ratio, 0, 0, ratio, 0, 0);
-  const drawn = drawScene(pen, box.width, box.height, frames[current], element("names").checked);
+  const drawn = drawScene(pen, box.width, box.height, frames[current], times[current], element("names").checked);
   const last = times[times.length - 1];
   slider.value = current;
-  element("time").textContent = `t = ${times[current].toFixed(3)} s of ${figure(last)} s`;
+  element("time").textContent = data.summary.statics ? "static equilibrium" : `t = ${times[current].toFixed(3)} s of ${figure(last)} s`;
   fillKey();
   movePlots(times[current]);
-  // what a test looks at
+  // read by tests
   Object.assign(document.documentElement.dataset, { ready: "true", frames: frames.length, frame: current, drawn: drawn.toPrecision(12) });
 }
 
@@ -183,6 +192,8 @@ function listen() {
 fillHeader();
 if (frames.length > 0) {
   slider.max = frames.length - 1;
+  // nothing moves
+  document.body.classList.toggle("static", frames.length < 2);
   setTheme(matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "light");
   fillLegend();
   resetView();

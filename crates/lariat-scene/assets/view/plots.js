@@ -1,9 +1,9 @@
-// The probes: a fold for each, a plot for each quantity, all with a cursor at the present time.
+// The probes: a section for each, a plot for each quantity, all with a cursor at the present time.
 
-// By first column: what it is and its unit; a quantity goes on to the next first column.
+// Quantity and unit by first column; the next columns belong to it up to the next first column.
 const QUANTITIES = {
   x: ["position", "m"], vx: ["velocity", "m/s"], sx: ["slope", "1"], tension: ["tension", "N"], curvature: ["curvature", "1/m"],
-  moment: ["bending moment", "N m"], qx: ["attitude (quaternion)", "1"], wx: ["angular velocity", "rad/s"], fx: ["force on what holds the cable", "N"],
+  moment: ["bending moment", "N m"], qx: ["rotation (quaternion)", "1"], wx: ["angular velocity", "rad/s"], fx: ["force on what holds the cable", "N"],
   mx: ["moment on what holds the cable", "N m"], gap: ["gap", "m"], kinetic: ["energy", "J"], dissipated: ["dissipated, interface work, total", "J"],
   px: ["momentum", "kg m/s"], lx: ["angular momentum about the origin", "kg m²/s"],
 };
@@ -20,6 +20,36 @@ function quantities(columns) {
 }
 
 const shown = [];
+
+// Sizes that the values of a probe are compared with, by unit: a curve that stays within rounding of them is constant. Bodies are
+// in single precision.
+function scalesOf(probe) {
+  const largest = (names) => {
+    const columns = probe.columns.map((name, c) => (names.includes(name) ? probe.table[c] : [])).flat();
+    return columns.reduce((most, x) => Math.max(most, Math.abs(x)), 0);
+  };
+  const duration = times[times.length - 1] || 1, tension = Math.max(Math.abs(lowest), Math.abs(highest));
+  return {
+    position: size, gap: 1e-3 * size, velocity: size / duration, slope: 1, "rotation (quaternion)": 1, "angular velocity": 1 / duration, tension,
+    curvature: 1 / size, "bending moment": 1e-3 * tension * size, "force on what holds the cable": tension,
+    "moment on what holds the cable": Math.max(tension, largest(["fx", "fy", "fz"])) * size,
+    energy: largest(probe.columns.slice(1)), "dissipated, interface work, total": largest(probe.columns.slice(1)),
+    momentum: largest(["lx", "ly", "lz"]) / size, "angular momentum about the origin": largest(["px", "py", "pz"]) * size,
+  };
+}
+
+// The columns of a group that change, and those that are constant but for rounding, with their value.
+function sorted(probe, group, scales) {
+  const roundings = data.bodies.length ? 1e-6 : 1e-9, changing = [], constant = [];
+  const extremes = group.columns.map((c) => probe.table[c].reduce(([a, b], x) => [Math.min(a, x), Math.max(b, x)], [Infinity, -Infinity]));
+  const scale = Math.max(scales[group.title[0]] || 0, ...extremes.flat().map((x) => (Number.isFinite(x) ? Math.abs(x) : 0)));
+  group.columns.forEach((c, k) => {
+    const [low, high] = extremes[k], rounding = roundings * scale;
+    if (!(high - low <= rounding)) changing.push(c);
+    else constant.push([probe.columns[c], Math.max(Math.abs(low), Math.abs(high)) <= rounding ? 0 : 0.5 * (low + high)]);
+  });
+  return { changing, constant };
+}
 
 function plot(place, probe, group, jump) {
   const inks = getComputedStyle(document.documentElement), ink = (name) => inks.getPropertyValue("--" + name).trim();
@@ -52,31 +82,43 @@ function plot(place, probe, group, jump) {
   shown.push({ chart, now, rows: probe.table[0], place });
 }
 
-// A range that a constant does not collapse, nor rounding of a constant fill.
+// The range of the vertical axis, never empty.
 function widen(low, high) {
   if (low === null || !Number.isFinite(low) || !Number.isFinite(high)) return [-1, 1];
   const least = Math.max(1e-9 * Math.max(Math.abs(low), Math.abs(high)), 1e-12), pad = Math.max(0.06 * (high - low), least);
   return [low - pad, high + pad];
 }
 
+function say(place, text) {
+  const p = document.createElement("p");
+  p.className = "constant";
+  p.textContent = text;
+  place.append(p);
+}
+
 function fillProbe(fold, probe, jump) {
+  const scales = scalesOf(probe);
   for (const group of quantities(probe.columns)) {
     const title = document.createElement("h2");
     title.textContent = `${group.title[0]}, ${group.title[1]}`;
     const place = document.createElement("div");
     fold.append(title, place);
-    if (probe.table[0].length > 1) plot(place, probe, group, jump);
-    else table(place, probe, group);
+    const { changing, constant } = sorted(probe, group, scales);
+    if (probe.table[0].length < 2) table(place, probe, group, constant);
+    else {
+      if (changing.length) plot(place, probe, { ...group, columns: changing }, jump);
+      if (constant.length) say(place, `constant: ${constant.map(([name, x]) => `${name} = ${figure(x, 6)}`).join(", ")}`);
+    }
   }
 }
 
-// One row: numbers say more than a plot of points.
-function table(place, probe, group) {
-  const body = document.createElement("table");
+// A single row is shown as numbers.
+function table(place, probe, group, constant) {
+  const body = document.createElement("table"), values = new Map(constant);
   for (const c of group.columns) {
-    const row = body.insertRow();
+    const row = body.insertRow(), x = values.get(probe.columns[c]);
     row.insertCell().textContent = probe.columns[c];
-    row.insertCell().textContent = probe.table[c].length ? probe.table[c][0].toPrecision(8) : "no sample";
+    row.insertCell().textContent = probe.table[c].length ? figure(x, 8) : "no sample";
   }
   place.append(body);
 }
@@ -101,7 +143,7 @@ function makePlots(jump, after) {
   });
 }
 
-// Plots have their colours and sizes from when they were made.
+// Plots keep the colours and sizes with which they were made.
 function remakePlots(jump, after) {
   shown.length = 0;
   for (const [i, fold] of [...document.querySelectorAll("#plots details")].entries()) {

@@ -1,15 +1,15 @@
-//! From checked bodies to Rapier's.
+//! From bodies of a scene to bodies of Rapier.
 
-use super::convert::{to_pose, to_vector, vector};
 use crate::scene::body::{BodyKind, BodyMass, BodyScene, BodyShape};
+use lariat_rapier::convert::{to_pose, to_vector, vector};
 use lariat_rapier::rapier::dynamics::{MassProperties, RigidBodyHandle};
 use lariat_rapier::rapier::math::{Real, Vector};
 use lariat_rapier::rapier::prelude::{ColliderBuilder, PhysicsWorld, RigidBodyBuilder};
 
-/// The collider of a body, with its mass; `None` if it has no shape.
+/// Returns the collider of a body, with its mass; `None` if it has no shape.
 ///
 /// # Errors
-/// In words, for a mesh that makes no shape, or a mass that single precision cannot hold.
+/// In words, for a mesh that is not a shape, or a mass beyond single precision.
 pub fn collider(body: &BodyScene) -> Result<Option<ColliderBuilder>, String> {
     let real = |x: f64| x as Real;
     let builder = match &body.shape {
@@ -31,12 +31,12 @@ pub fn collider(body: &BodyScene) -> Result<Option<ColliderBuilder>, String> {
         BodyShape::Plane(normal) => {
             ColliderBuilder::new(lariat_rapier::rapier::geometry::SharedShape::halfspace(to_vector(normal)))
         }
-        BodyShape::Mesh { vertices, triangles } => {
-            let corners: Vec<Vector> = vertices.iter().map(|x| to_vector(&(*x).into())).collect();
+        BodyShape::Mesh(mesh) => {
+            let corners: Vec<Vector> = mesh.vertices.iter().map(|x| to_vector(&(*x).into())).collect();
             if body.kind == BodyKind::Dynamic {
                 ColliderBuilder::convex_hull(&corners).ok_or("the mesh has no convex hull")?
             } else {
-                ColliderBuilder::trimesh(corners, triangles.clone()).map_err(|error| error.to_string())?
+                ColliderBuilder::trimesh(corners, mesh.triangles.clone()).map_err(|error| error.to_string())?
             }
         }
     };
@@ -60,7 +60,7 @@ pub fn collider(body: &BodyScene) -> Result<Option<ColliderBuilder>, String> {
     }
 }
 
-/// The mass of a collider, if it is one that a body can move with.
+/// Returns the mass of a collider, if a body can move with it.
 fn has_mass(builder: &ColliderBuilder) -> Result<MassProperties, String> {
     let of = |builder: ColliderBuilder| builder.build().mass_properties();
     let (solid, has) = (of(builder.clone().density(1.0)), of(builder.clone()));
@@ -75,7 +75,7 @@ fn has_mass(builder: &ColliderBuilder) -> Result<MassProperties, String> {
     }
 }
 
-/// Adds a body as the scene draws it.
+/// Inserts a body as drawn.
 ///
 /// # Errors
 /// As [`collider`]; not for a checked scene.
@@ -85,8 +85,9 @@ pub fn insert(world: &mut PhysicsWorld, body: &BodyScene) -> Result<RigidBodyHan
         BodyKind::Fixed => RigidBodyBuilder::fixed(),
         BodyKind::Kinematic => RigidBodyBuilder::kinematic_position_based(),
     };
-    // a cap of 45 degrees in each step would change the motion without a word
-    let mut builder = builder.pose(to_pose(&body.pose(0.0))).allow_fast_rotation(true).can_sleep(false);
+    // a limit of 45 degrees in each step would change the motion silently
+    let (position, rotation) = body.pose(0.0);
+    let mut builder = builder.pose(to_pose(&position, &rotation)).allow_fast_rotation(true).can_sleep(false);
     let collider = collider(body)?;
     if let (None, Some(BodyMass::Mass(mass))) = (&collider, body.mass) {
         let moments = body.inertia.map_or(Vector::ZERO, |moments| to_vector(&moments));

@@ -1,16 +1,16 @@
-//! From checked joints to Rapier's.
+//! From joints of a scene to joints of Rapier.
 
-use super::convert::to_pose;
 use crate::scene::{JointKind, Scene};
 use lariat_ancf::Vector3;
+use lariat_rapier::convert::to_pose;
 use lariat_rapier::rapier::dynamics::{GenericJoint, GenericJointBuilder, JointAxesMask, RigidBodyHandle};
 use lariat_rapier::rapier::prelude::{PhysicsWorld, RigidBodyBuilder};
 use nalgebra::UnitQuaternion;
 
-/// Adds the joints of a scene to its bodies as drawn.
+/// Inserts the joints of a scene between its bodies as drawn.
 ///
 /// # Errors
-/// Name of the body and a reason, for a joint that Rapier refuses; not for a checked scene.
+/// Name of the body and a reason, for a joint that Rapier rejects; not for a checked scene.
 pub fn insert(world: &mut PhysicsWorld, scene: &Scene, bodies: &[RigidBodyHandle]) -> Result<(), (String, String)> {
     let mut ground = None;
     for joint in &scene.joints {
@@ -27,23 +27,23 @@ pub fn insert(world: &mut PhysicsWorld, scene: &Scene, bodies: &[RigidBodyHandle
             JointKind::Ball => (JointAxesMask::LOCKED_SPHERICAL_AXES, Vector3::x()),
             JointKind::Fixed => (JointAxesMask::LOCKED_FIXED_AXES, Vector3::x()),
         };
-        // Rapier's free axis is the x of the joint's frame
-        let turn = UnitQuaternion::rotation_between(&Vector3::x(), &axis)
+        // the free axis of Rapier's joints is the x axis of the joint frame
+        let to_axis = UnitQuaternion::rotation_between(&Vector3::x(), &axis)
             .unwrap_or_else(|| UnitQuaternion::from_axis_angle(&Vector3::y_axis(), std::f64::consts::PI));
-        let local = |(place, attitude): (Vector3<f64>, UnitQuaternion<f64>)| {
-            let back = attitude.inverse();
-            to_pose(&(back * (joint.point - place), back * turn))
+        let local = |(position, rotation): (Vector3<f64>, UnitQuaternion<f64>)| {
+            let back = rotation.inverse();
+            to_pose(&(back * (joint.point - position)), &(back * to_axis))
         };
-        let made: GenericJoint = GenericJointBuilder::new(axes)
+        let built: GenericJoint = GenericJointBuilder::new(axes)
             .local_frame1(local(pose))
             .local_frame2(local(scene.bodies[joint.body].pose(0.0)))
             .contacts_enabled(false)
             .build();
         let second = bodies[joint.body];
         if !joint.multibody {
-            world.insert_impulse_joint(first, second, made);
-        } else if world.multibody_joints.insert(first, second, made, true).is_none() {
-            return Err((scene.bodies[joint.body].name.clone(), format!("Rapier refuses the joint {:?}", joint.name)));
+            world.insert_impulse_joint(first, second, built);
+        } else if world.multibody_joints.insert(first, second, built, true).is_none() {
+            return Err((scene.bodies[joint.body].name.clone(), format!("Rapier rejects the joint {:?}", joint.name)));
         }
     }
     Ok(())

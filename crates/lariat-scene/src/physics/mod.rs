@@ -1,13 +1,11 @@
-//! The Rapier side of a scene: its bodies, and its cables once they hold to them.
+//! The Rapier side of a scene: its bodies, and its cables once they are attached to them.
 //!
-//! Nothing sleeps: a run is there for its numbers. One step goes to a time that the run stops at. A step shorter than the host's is split into proportionally fewer Rapier steps,
-//! so that probes between host times do not make Rapier's steps shorter than its usual ones by much. Loads on bodies act with
-//! their value at the middle of the step, at the point of the body where it is when the step begins.
+//! Bodies never sleep. One step goes to the next time at which the run stops. A step shorter than the host step is split into
+//! proportionally fewer Rapier steps, so that probes between host times do not shorten the Rapier steps much. Loads on bodies have
+//! their value at the middle of the step, and act at the point of the body where it is at the beginning of the step.
 
 mod build;
-mod convert;
 mod joints;
-pub mod pins;
 mod reading;
 
 pub use build::collider;
@@ -16,24 +14,25 @@ pub use reading::BodyState;
 use crate::error::Error;
 use crate::scene::Scene;
 use crate::scene::body::BodyKind;
-use convert::{to_pose, to_vector};
+use lariat_ancf::island::RigidBody;
 use lariat_ancf::{At, Cable, Momentum, Vector3};
+use lariat_rapier::convert::{to_pose, to_vector};
 use lariat_rapier::rapier::dynamics::RigidBodyHandle;
 use lariat_rapier::rapier::math::Real;
 use lariat_rapier::rapier::prelude::PhysicsWorld;
-use lariat_rapier::{AttachmentHandle, CableHandle, CableSet};
+use lariat_rapier::{AttachmentHandle, AttachmentKind, AttachmentReading, CableHandle, CableSet};
 
-/// Difference of velocities at the start that goes without a word, in m/s.
+/// Largest difference of velocities at the start without a warning, in m/s.
 const JOLT: f64 = 1e-5;
 
-/// Bodies of a scene, and its cables while they run.
+/// The bodies of a scene, and its cables during a run.
 pub struct Physics {
     world: PhysicsWorld,
     bodies: Vec<RigidBodyHandle>,
     cables: CableSet,
     handles: Vec<CableHandle>,
-    /// By attachment of the scene; `None` for the world, which is a support of the cable.
-    pins: Vec<Option<AttachmentHandle>>,
+    /// By attachment of the scene; `None` for one to the world, which is a support of the cable.
+    attachments: Vec<Option<AttachmentHandle>>,
     /// By attachment, force and moment of the cable at t = 0, with the body still held.
     held_by: Vec<(Vector3<f64>, Vector3<f64>)>,
     /// Rapier steps per host step.
@@ -45,22 +44,22 @@ pub struct Physics {
 }
 
 impl Physics {
-    /// Bodies as drawn, no cables yet.
+    /// Builds the bodies as drawn, without cables.
     ///
     /// # Errors
     /// [`Error::Body`]; not for a checked scene.
     pub fn build(scene: &Scene) -> Result<Self, Error> {
         let mut world = PhysicsWorld::new();
         world.gravity = to_vector(&scene.gravity);
-        // a cap of 400 m/s would change the motion without a word
+        // a limit of 400 m/s would change the motion silently
         world.integration_parameters.normalized_max_linear_velocity = Real::MAX;
         if let Some(n) = scene.solver_iterations {
             world.integration_parameters.num_solver_iterations = n;
         }
         let mut bodies = Vec::new();
         for body in &scene.bodies {
-            let refuse = |problem| Error::Body { time: 0.0, body: body.name.clone(), problem };
-            bodies.push(build::insert(&mut world, body).map_err(refuse)?);
+            let failed = |problem| Error::Body { time: 0.0, body: body.name.clone(), problem };
+            bodies.push(build::insert(&mut world, body).map_err(failed)?);
         }
         joints::insert(&mut world, scene, &bodies).map_err(|(body, problem)| Error::Body {
             time: 0.0,
@@ -74,7 +73,7 @@ impl Physics {
             bodies,
             cables,
             handles: Vec::new(),
-            pins: Vec::new(),
+            attachments: Vec::new(),
             held_by: Vec::new(),
             rapier_steps,
             reached: 0.0,
@@ -82,8 +81,8 @@ impl Physics {
         })
     }
 
-    /// Takes the cables of the scene and holds them to the bodies, where they are, and to each other; `held_by` are force (N) and moment (N m) by which
-    /// each attachment was held until now.
+    /// Takes the cables of the scene, attaches them to the bodies and joins them to each other; `held_by` are force (N) and moment
+    /// (N m) of the cable on the support at each attachment until now.
     ///
     /// # Errors
     /// [`Error::Mechanics`] or [`Error::Coupling`]; not for a checked scene.
@@ -97,13 +96,17 @@ impl Physics {
         self.held_by = held_by.to_vec();
         for attachment in &scene.attachments {
             let Some(body) = attachment.body else {
-                self.pins.push(None);
+                self.attachments.push(None);
                 continue;
             };
-            let cable = (self.handles[attachment.cable], attachment.arc_length);
-            let place = (self.bodies[body], attachment.anchor);
-            let pin = pins::attach(&mut self.cables, &self.world, cable, place, attachment.clamp);
-            self.pins.push(Some(pin.map_err(|error| self.explain(scene, 0.0, error))?));
+            let (cable, body) = (self.handles[attachment.cable], self.bodies[body]);
+            let at = At::ArcLength(attachment.arc_length);
+            let kind = if attachment.clamp { AttachmentKind::Clamp } else { AttachmentKind::Ball };
+            let attached = match attachment.anchor {
+                None => self.cables.attach_here(&self.world, cable, at, body, kind),
+                Some(anchor) => self.cables.attach(&self.world, cable, at, body, to_vector(&anchor), kind),
+            };
+            self.attachments.push(Some(attached.map_err(|error| self.explain(scene, 0.0, error))?));
         }
         for junction in &scene.junctions {
             let [a, b] = junction.points.map(|(cable, s)| (self.handles[cable], At::ArcLength(s)));
@@ -112,7 +115,7 @@ impl Physics {
         Ok(())
     }
 
-    /// Attachments whose two sides start at different velocities, in words.
+    /// Returns a warning for each attachment whose two sides start at different velocities.
     ///
     /// # Errors
     /// [`Error::Mechanics`]; not for a checked scene.
@@ -126,7 +129,7 @@ impl Physics {
             let difference = (point.velocity - there).norm();
             if difference > JOLT {
                 jolts.push(format!(
-                    "attachment {:?}: cable and body start {difference:.3e} m/s apart in velocity, and meet with a jolt",
+                    "attachment {:?}: cable and body start with velocities {difference:.3e} m/s apart, which gives a shock",
                     attachment.name
                 ));
             }
@@ -134,14 +137,14 @@ impl Physics {
         Ok(jolts)
     }
 
-    /// Moves everything from one time to another, in s.
+    /// Advances cables and bodies from one time to another, in s.
     ///
     /// # Errors
     /// [`Error::Mechanics`] names the cable and the time, [`Error::Body`] the body.
     pub fn advance(&mut self, scene: &Scene, from: f64, to: f64) -> Result<(), Error> {
         self.drive(scene, to);
         self.load(scene, from, to);
-        // the steps that single precision makes of the time add up to another time: the next step makes up for the last
+        // steps rounded to single precision add up to another time: the next step compensates for the last
         let dt = (to - self.reached) as Real;
         if dt <= 0.0 {
             return Ok(());
@@ -155,7 +158,7 @@ impl Physics {
         for (_, attachment) in self.cables.attachments() {
             self.max_gap = self.max_gap.max(attachment.gap());
         }
-        // Rapier disables what is not finite any more
+        // Rapier disables bodies whose state is not finite
         match self.bodies.iter().position(|&body| !self.world.bodies[body].is_enabled()) {
             None => Ok(()),
             Some(i) => {
@@ -165,11 +168,12 @@ impl Physics {
         }
     }
 
-    /// Tells kinematic bodies where to be at a time.
+    /// Sets the positions of kinematic bodies at a time.
     fn drive(&mut self, scene: &Scene, time: f64) {
         for (body, &handle) in scene.bodies.iter().zip(&self.bodies) {
             if body.kind == BodyKind::Kinematic {
-                self.world.bodies[handle].set_next_kinematic_position(to_pose(&body.pose(time)));
+                let (position, rotation) = body.pose(time);
+                self.world.bodies[handle].set_next_kinematic_position(to_pose(&position, &rotation));
             }
         }
     }
@@ -190,70 +194,72 @@ impl Physics {
         }
     }
 
-    /// An error of the coupling, in the words of the scene.
+    /// Converts an error of the coupling, with the names of the scene.
     fn explain(&self, scene: &Scene, time: f64, error: lariat_rapier::Error) -> Error {
         match error {
             lariat_rapier::Error::Cable(source) => Error::mechanics(time, source),
-            lariat_rapier::Error::BodyNotFinite { body, what, time } => {
+            lariat_rapier::Error::BodyNotFinite { body, quantity, time } => {
                 let name = self.bodies.iter().position(|b| *b == body).map(|i| scene.bodies[i].name.clone());
-                Error::Body { time, body: name.unwrap_or_default(), problem: format!("its {what} is not finite") }
+                Error::Body { time, body: name.unwrap_or_default(), problem: format!("its {quantity} is not finite") }
             }
             source => Error::Coupling { time, source },
         }
     }
 
-    /// The cables, in the order of the scene.
+    /// Returns the cables, in the order of the scene.
     pub fn cables(&self) -> Vec<&Cable> {
         self.cables.iter().map(|(_, cable)| cable).collect()
     }
 
-    /// What passes at an attachment; `None` for one to the world. At t = 0 that which holds the cable at a body that does not move yet.
+    /// Returns force, moment, gap and work at an attachment; `None` for one to the world. At t = 0 force and moment are those on a
+    /// body that is still held.
     ///
     /// # Errors
     /// [`Error::Coupling`]; not for an attachment of the scene.
-    pub fn passing(&self, index: usize, time: f64) -> Result<Option<pins::Passing>, Error> {
-        let Some(pin) = self.pins.get(index).copied().flatten() else { return Ok(None) };
-        let mut passing = pins::passing(&self.cables, pin).map_err(|source| Error::Coupling { time, source })?;
+    pub fn reading(&self, index: usize, time: f64) -> Result<Option<AttachmentReading>, Error> {
+        let Some(handle) = self.attachments.get(index).copied().flatten() else { return Ok(None) };
+        let attachment = self.cables.attachment(handle).map_err(|source| Error::Coupling { time, source })?;
+        let mut reading = *attachment.reading();
         if time == 0.0 {
-            // before the first step nothing has passed yet
-            (passing.force, passing.moment) = self.held_by[index];
+            // before the first step there is no force of the coupling yet
+            (reading.force, reading.moment) = self.held_by[index];
         }
-        Ok(Some(passing))
+        Ok(Some(reading))
     }
 
-    /// Largest gap of all attachments at the ends of all steps so far, in m.
+    /// Returns the largest gap of all attachments at the ends of all steps so far, in m.
     pub fn max_gap(&self) -> f64 {
         self.max_gap
     }
 
-    /// State of a body at a time.
+    /// Returns the state of a body at a time.
     pub fn body(&self, scene: &Scene, index: usize, time: f64) -> BodyState {
         let state = reading::state(&self.world.bodies[self.bodies[index]]);
         let body = &scene.bodies[index];
         if body.kind == BodyKind::Kinematic {
-            // Rapier's is the mean over its last step
+            // that of Rapier is the mean over its last step
             return BodyState { velocity: body.velocity(time), angular_velocity: body.angular_velocity, ..state };
         }
         state
     }
 
-    /// Kinetic energy of the dynamic bodies and their potential in gravity, in J.
+    /// Returns kinetic energy and potential energy in gravity of the dynamic bodies, in J.
     pub fn energy(&self, scene: &Scene) -> (f64, f64) {
-        self.dynamic(scene)
-            .map(|handle| reading::energy(&self.world.bodies[handle], &scene.gravity))
-            .fold((0.0, 0.0), |sum, e| (sum.0 + e.0, sum.1 + e.1))
+        let potential = |body: &RigidBody| -body.mass * scene.gravity.dot(&body.position);
+        self.dynamic(scene).fold((0.0, 0.0), |sum, body| (sum.0 + body.kinetic_energy(), sum.1 + potential(&body)))
     }
 
-    /// Momentum of the dynamic bodies.
+    /// Returns the momentum of the dynamic bodies.
     pub fn momentum(&self, scene: &Scene) -> Momentum {
         let zero = Momentum { linear: Vector3::zeros(), angular: Vector3::zeros() };
-        self.dynamic(scene)
-            .map(|handle| reading::momentum(&self.world.bodies[handle]))
-            .fold(zero, |sum, p| Momentum { linear: sum.linear + p.linear, angular: sum.angular + p.angular })
+        self.dynamic(scene).map(|body| body.momentum()).fold(zero, |sum, (linear, angular)| Momentum {
+            linear: sum.linear + linear,
+            angular: sum.angular + angular,
+        })
     }
 
-    fn dynamic(&self, scene: &Scene) -> impl Iterator<Item = RigidBodyHandle> {
-        let bodies = scene.bodies.iter().zip(&self.bodies);
-        bodies.filter(|(body, _)| body.kind == BodyKind::Dynamic).map(|(_, &handle)| handle)
+    fn dynamic(&self, scene: &Scene) -> impl Iterator<Item = RigidBody> {
+        let bodies = scene.bodies.iter().zip(&self.bodies).filter(|(body, _)| body.kind == BodyKind::Dynamic);
+        bodies.filter_map(|(_, &handle)| lariat_rapier::rigid_body(&self.world, handle))
     }
 }

@@ -1,8 +1,8 @@
 //! Headless runs: host steps of `dt`, probes at their own times, results in a folder.
 //!
-//! The host step is split where a probe falls between two host times, so that a sample is a state that was computed, not one
-//! that was interpolated. Each sample is written through to its file at once: a run that fails, is interrupted or fills the
-//! disk leaves every sample so far, a `summary.json` that says what happened, and a [`view.html`](crate::view) of it.
+//! The host step is split where a probe falls between two host times, so that a sample is a computed state, not an interpolated
+//! one. Each sample is written to its file at once: a run that fails, is interrupted or fills the disk leaves every sample so
+//! far, a `summary.json` with the reason, and a [`view.html`](crate::view).
 //!
 //! ```
 //! use lariat_scene::{Purpose, Scene, run};
@@ -36,10 +36,12 @@
 mod output;
 mod probe;
 pub mod schedule;
+mod statics;
 mod summary;
 mod world;
 
 pub(crate) use probe::columns;
+pub use statics::{CableStatics, StaticReaction};
 pub use summary::Summary;
 pub use world::World;
 
@@ -53,10 +55,10 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 
-/// What a run does beside running.
+/// Options of a run.
 #[derive(Default)]
 pub struct Options<'a> {
-    /// Set to true from another thread (or a signal handler) to stop after the present host step.
+    /// Set it to true from another thread (or a signal handler) to stop after the present host step.
     pub stop: Arc<AtomicBool>,
     /// Called after each host step with the simulated time in s.
     pub progress: Option<&'a mut dyn FnMut(f64)>,

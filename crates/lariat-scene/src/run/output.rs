@@ -1,6 +1,7 @@
 //! The folder of a run: `probes/NAME.csv`, `view.html` and `summary.json`.
 //!
-//! Numbers are the shortest text that reads back to the same f64. Every row is written through to the file.
+//! Numbers are the shortest text that reads back to the same f64. Every row is written to the file at once. The names of all files
+//! of a run are kept in `.lariat-files`, so that the next run into the same folder removes these and no others.
 
 use super::{Summary, World, probe};
 use crate::error::Error;
@@ -14,6 +15,8 @@ use std::time::Duration;
 
 const SUMMARY: &str = "summary.json";
 const PAGE: &str = "view.html";
+const PROBES: &str = "probes";
+const FILES: &str = ".lariat-files";
 
 /// The file of a probe.
 struct ProbeFile {
@@ -33,17 +36,20 @@ pub(super) struct Output {
 }
 
 impl Output {
-    /// Makes the folder and its files, with their headers. Files of probes that an earlier run left are removed.
+    /// Creates the folder and its files with their headers. Files that the last run wrote there are removed.
     pub fn create(scene: &Scene, folder: &Path) -> Result<Self, Error> {
         let fail = |path: &Path| {
             let path = path.to_path_buf();
             move |source| Error::Output { path, source }
         };
-        let probes = folder.join("probes");
+        let probes = folder.join(PROBES);
         fs::create_dir_all(&probes).map_err(fail(&probes))?;
-        for stale in old_results(folder, &probes).map_err(fail(&probes))? {
+        for stale in files_of_last_run(folder).map_err(fail(&folder.join(FILES)))? {
             fs::remove_file(&stale).map_err(fail(&stale))?;
         }
+        let names = scene.probes.iter().map(|probe| format!("{PROBES}/{}.csv", probe.name));
+        let list: String = [SUMMARY, PAGE].map(String::from).into_iter().chain(names).map(|name| name + "\n").collect();
+        fs::write(folder.join(FILES), list).map_err(fail(&folder.join(FILES)))?;
         let mut files = Vec::new();
         for p in &scene.probes {
             let path = probes.join(format!("{}.csv", p.name));
@@ -77,12 +83,12 @@ impl Output {
         Ok(())
     }
 
-    /// Takes the state at a host time for the page.
+    /// Records the state at a host time for the page.
     pub fn frame(&mut self, world: &World) -> Result<(), Error> {
         self.view.frame(world)
     }
 
-    /// CPU and wall time that the page took so far.
+    /// Returns the CPU and wall time that recording took so far.
     pub fn spent(&self) -> (Duration, Duration) {
         self.view.spent()
     }
@@ -93,7 +99,7 @@ impl Output {
         let write = |name: &str, text: String| {
             let (path, time) = (folder.join(name), world.time());
             fs::write(&path, text).map_err(|source| {
-                // half of it is worse than none
+                // a part of a file would be misleading
                 let _ = fs::remove_file(&path);
                 Error::Write { path, time, source }
             })
@@ -104,7 +110,7 @@ impl Output {
 }
 
 impl ProbeFile {
-    /// Appends a row; of one that does not fit on the disk nothing stays.
+    /// Appends a row; nothing stays of one that does not fit on the disk.
     fn append(&mut self, row: &str, time: f64) -> Result<(), Error> {
         let written = self.file.write_all(row.as_bytes());
         if written.is_err() {
@@ -115,15 +121,18 @@ impl ProbeFile {
     }
 }
 
-/// Files that a run writes and an earlier run left.
-fn old_results(folder: &Path, probes: &Path) -> io::Result<Vec<PathBuf>> {
-    let mut found = Vec::new();
-    for entry in fs::read_dir(probes)? {
-        let path = entry?.path();
-        if path.extension().is_some_and(|e| e == "csv") && path.is_file() {
-            found.push(path);
-        }
-    }
-    found.extend([SUMMARY, PAGE].map(|name| folder.join(name)).into_iter().filter(|path| path.is_file()));
-    Ok(found)
+/// Returns the files that the last run into a folder wrote and that are still there.
+fn files_of_last_run(folder: &Path) -> io::Result<Vec<PathBuf>> {
+    let list = match fs::read_to_string(folder.join(FILES)) {
+        Ok(list) => list,
+        Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(Vec::new()),
+        Err(error) => return Err(error),
+    };
+    // nothing outside the folder, whatever the list says
+    let ours = |name: &&str| {
+        let probe =
+            name.strip_prefix("probes/").is_some_and(|file| file.ends_with(".csv") && !file.contains(['/', '\\']));
+        probe || [SUMMARY, PAGE].contains(name)
+    };
+    Ok(list.lines().filter(ours).map(|name| folder.join(name)).filter(|path| path.is_file()).collect())
 }

@@ -1,15 +1,15 @@
 //! What a probe writes: the columns of its file and a row of numbers.
 //!
-//! `dissipated` is what damping and drag took from the cables so far. `interface_work` is the work that cables did so far on the bodies
-//! they are held to, the part of a cable's energy that went there; `total` is what is there now, kinetic to gravity, with `"all"`
-//! that of dynamic bodies too. The gap of an attachment to the world is zero: it holds the cable point itself. Force and moment of
-//! an attachment are those on the body or the world; at t = 0 they are those of a cable whose bodies are still held.
+//! `dissipated` is the energy that damping and drag have taken from the cables, `interface_work` the work that cables have done on
+//! the bodies they are attached to, and `total` the sum of the present energies, kinetic to gravity, with `"all"` including the
+//! dynamic bodies. The gap of an attachment to the world is zero, because it is a support of the cable. Force and moment of an
+//! attachment are those on the body or the world; at t = 0 those of a cable whose bodies are still held.
 
 use super::World;
 use crate::error::Error;
 use crate::scene::Target;
 
-/// The columns of a probe.
+/// Returns the columns of a probe.
 pub(crate) fn columns(target: Target) -> &'static [&'static str] {
     match target {
         Target::Point { .. } => {

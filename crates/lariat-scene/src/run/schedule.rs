@@ -1,11 +1,11 @@
-//! When the run stops to look: host times and probe times, merged.
+//! The times at which a run stops: host times and probe times, merged.
 //!
 //! The k-th time of an interval is `k every`, rounded once: 7 times 0.01 s is 0.07 s, not 0.07000000000000001 s. Times that
-//! differ by less than 1e-9 of the host step are the same.
+//! differ by less than 1e-9 of the host step count as one.
 
 use crate::scene::Scene;
 
-/// The k-th time of an interval in s. Where the interval is one over a whole number, that number divides k.
+/// Returns the k-th time of an interval in s. For an interval of one over a whole number, k is divided by that number.
 pub fn nominal(k: u64, every: f64) -> f64 {
     let per = (1.0 / every).round();
     if per >= 1.0 && (per * every - 1.0).abs() < 1e-14 { k as f64 / per } else { k as f64 * every }
@@ -29,12 +29,12 @@ pub struct Schedule {
     dt: f64,
     /// Number of the next host time; `None` when the last is past.
     host: Option<u64>,
-    /// Interval and number of the next sample of each probe; without interval at host times.
+    /// Interval and number of the next sample of each probe; without interval, at host times.
     probes: Vec<(Option<f64>, u64)>,
 }
 
 impl Schedule {
-    /// The schedule of a scene.
+    /// Returns the schedule of a scene.
     pub fn new(scene: &Scene) -> Self {
         Schedule {
             duration: scene.duration,
@@ -44,7 +44,7 @@ impl Schedule {
         }
     }
 
-    /// The next time to stop at; `None` when the duration is over.
+    /// Returns the next time to stop at; `None` when the duration is over.
     pub fn next_event(&mut self) -> Option<Event> {
         let host = self.host?;
         let same = 1e-9 * self.dt.min(self.duration);
@@ -90,7 +90,7 @@ mod tests {
     }
 
     #[test]
-    fn probe_times_split_host_steps_and_both_end_on_the_duration() {
+    fn probe_times_split_host_steps_and_both_end_at_the_duration() {
         let events = schedule(0.05, 1.0 / 60.0, &[Some(0.01), None]);
         let times: Vec<f64> = events.iter().map(|e| e.time).collect();
         assert_eq!(times, [0.0, 0.01, 1.0 / 60.0, 0.02, 0.03, 2.0 / 60.0, 0.04, 0.05]);
@@ -99,7 +99,7 @@ mod tests {
     }
 
     #[test]
-    fn a_duration_that_is_no_multiple_of_the_host_step_ends_with_a_shorter_one() {
+    fn a_duration_that_is_not_a_multiple_of_the_host_step_ends_with_a_shorter_step() {
         let events = schedule(0.25, 0.1, &[None, Some(0.2)]);
         assert_eq!(events.iter().map(|e| e.time).collect::<Vec<_>>(), [0.0, 0.1, 0.2, 0.25]);
         assert_eq!(events[3].probes, [(0, 3)]);

@@ -1,6 +1,6 @@
-//! `summary.json`: what a run did, in one object.
+//! `summary.json`: the results and costs of a run, in one object.
 
-use super::World;
+use super::{CableStatics, World};
 use crate::error::Error;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -13,23 +13,23 @@ pub struct Summary {
     pub name: String,
     /// Time simulated in s.
     pub simulated_s: f64,
-    /// CPU time of the process during the run in s, without what [`view.html`](crate::view) took.
+    /// CPU time of the process during the run in s, without the time for [`view.html`](crate::view).
     pub cpu_s: f64,
-    /// Wall time of the run in s, without that too.
+    /// Wall time of the run in s, also without it.
     pub wall_s: f64,
     /// Simulated time over wall time: above 1 is faster than the clock.
     pub real_time_factor: f64,
     /// Integration steps, all cables together.
     pub steps: u64,
-    /// Integration steps thrown away.
+    /// Rejected integration steps.
     pub rejected_steps: u64,
-    /// Newton iterations, those of statics included.
+    /// Newton iterations, including those of statics.
     pub newton_iterations: u64,
     /// Factorisations of step matrices.
     pub factorisations: u64,
     /// Elements evaluated, with or without tangent.
     pub element_evaluations: u64,
-    /// Evaluations by effect, for the effects that are on.
+    /// Elements evaluated by effect, for the effects that are on.
     pub effect_evaluations: BTreeMap<String, u64>,
     /// Largest distance between an attachment's two sides at the ends of all steps, in m.
     pub max_gap_m: f64,
@@ -37,10 +37,13 @@ pub struct Summary {
     pub energy_start_j: Option<f64>,
     /// Total energy at the end in J; null if it is not finite.
     pub energy_end_j: Option<f64>,
-    /// What the user should know.
+    /// Warnings.
     pub warnings: Vec<String>,
     /// Why the run failed; null if it did not.
     pub failed: Option<String>,
+    /// The equilibrium of each cable; only for `lariat static`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub statics: Option<Vec<CableStatics>>,
 }
 
 impl Summary {
@@ -67,10 +70,11 @@ impl Summary {
             energy_end_j: finite(world.energy(None).total()),
             warnings: world.warnings.clone(),
             failed: failed.map(ToString::to_string),
+            statics: world.statics.clone(),
         }
     }
 
-    /// The summary as JSON.
+    /// Returns the summary as JSON.
     pub fn to_json(&self) -> String {
         serde_json::to_string_pretty(self).unwrap_or_else(|error| format!("{{\"failed\": \"{error}\"}}"))
     }

@@ -1,5 +1,6 @@
 //! The cables and bodies of a scene while it runs.
 
+use super::CableStatics;
 use crate::error::Error;
 use crate::physics::{BodyState, Physics};
 use crate::scene::{AttachmentScene, Engine, Purpose, Scene};
@@ -13,12 +14,14 @@ pub struct World {
     alone: Vec<Cable>,
     /// Bodies, with `engine = "rapier"`.
     physics: Option<Box<Physics>>,
-    /// Time that cables and bodies have reached together, in s.
+    /// Common time of cables and bodies in s.
     time: f64,
     pub(super) warnings: Vec<String>,
     /// Iterations of the statics, which are Newton iterations too.
     pub(super) static_iterations: u64,
     pub(super) energy_start: f64,
+    /// Equilibria of all cables, if the world was started for statics.
+    pub(super) statics: Option<Vec<CableStatics>>,
 }
 
 impl World {
@@ -40,11 +43,12 @@ impl World {
             warnings: Vec::new(),
             static_iterations: 0,
             energy_start: 0.0,
+            statics: None,
         };
         for cable in &world.alone {
             if let Some(reason) = cable.rule().spare_modes() {
                 world.warnings.push(format!(
-                    "cable {:?}: rule {} leaves modes without energy, as allowed: {reason}",
+                    "cable {:?}: rule {} has zero-energy modes, as allowed: {reason}",
                     cable.name(),
                     cable.rule()
                 ));
@@ -53,13 +57,14 @@ impl World {
         Ok(world)
     }
 
-    /// Puts the cables into their start: static equilibrium where the scene asks for it, with bodies held where they are drawn;
-    /// loads; initial motion. For a run with Rapier the bodies then take hold of the cables.
+    /// Brings the cables to their start: static equilibrium where the scene asks for it, with bodies held where they are drawn;
+    /// loads; initial motion. For a run with Rapier the cables are then attached to the bodies.
     ///
     /// # Errors
     /// [`Error::Mechanics`] if there is no equilibrium.
     pub fn start(&mut self, purpose: Purpose) -> Result<(), Error> {
-        let World { scene, alone, warnings, static_iterations, .. } = self;
+        let World { scene, alone, warnings, static_iterations, statics, .. } = self;
+        *statics = (purpose == Purpose::Static).then(Vec::new);
         let mut held_by = vec![Default::default(); scene.attachments.len()];
         for (i, cable) in alone.iter_mut().enumerate() {
             let fully = purpose == Purpose::Static;
@@ -77,6 +82,9 @@ impl World {
                         "cable {:?}: the equilibrium found is unstable or indifferent (stiffness not positive definite)",
                         cable.name()
                     ));
+                }
+                if let Some(statics) = statics {
+                    statics.push(CableStatics::read(scene, i, cable, &report)?);
                 }
             }
             if !fully {
@@ -96,11 +104,11 @@ impl World {
             }
         }
         if purpose == Purpose::Static && !self.scene.body_loads.is_empty() {
-            self.warnings.push("loads on bodies take no part: statics hold bodies where they are drawn".to_string());
+            self.warnings.push("loads on bodies are not applied: statics hold bodies where they are drawn".to_string());
         }
         if purpose == Purpose::Static && !self.scene.junctions.is_empty() {
             self.warnings
-                .push("junctions are held where they are drawn while each cable settles by itself".to_string());
+                .push("junctions are held where they are drawn while each cable finds its equilibrium".to_string());
         }
         match &mut self.physics {
             Some(physics) if purpose == Purpose::Run => {
@@ -112,7 +120,7 @@ impl World {
         }
     }
 
-    /// Remembers the energy at the start.
+    /// Records the energy at the start.
     pub(super) fn note_start(&mut self) {
         self.energy_start = self.energy(None).total();
     }
@@ -136,12 +144,12 @@ impl World {
         Ok(())
     }
 
-    /// The scene.
+    /// Returns the scene.
     pub fn scene(&self) -> &Scene {
         &self.scene
     }
 
-    /// Cables of the scene, in its order.
+    /// Returns the cables, in the order of the scene.
     pub fn cables(&self) -> Vec<&Cable> {
         match &self.physics {
             Some(physics) if self.alone.is_empty() => physics.cables(),
@@ -149,7 +157,7 @@ impl World {
         }
     }
 
-    /// Time that all have reached, in s.
+    /// Returns the time that all cables and bodies have reached, in s.
     pub fn time(&self) -> f64 {
         match &self.physics {
             Some(_) => self.time,
@@ -166,14 +174,11 @@ impl World {
         cables
     }
 
-    /// Energy of a cable, or of all cables and dynamic bodies.
+    /// Returns the energy of a cable, or of all cables and dynamic bodies.
     pub fn energy(&self, cable: Option<usize>) -> Energy {
         let mut sum = Energy::default();
         for e in self.chosen(cable).into_iter().map(Cable::energy) {
-            sum.kinetic += e.kinetic;
-            sum.axial += e.axial;
-            sum.bending += e.bending;
-            sum.gravity += e.gravity;
+            sum += e;
         }
         if let (None, Some(physics)) = (cable, &self.physics) {
             let (kinetic, gravity) = physics.energy(&self.scene);
@@ -183,12 +188,13 @@ impl World {
         sum
     }
 
-    /// Energy in J that damping and drag took so far from a cable, or from all.
+    /// Returns the energy in J that damping and drag have taken from a cable, or from all.
     pub fn dissipated(&self, cable: Option<usize>) -> f64 {
         self.chosen(cable).into_iter().map(|cable| cable.effect_work().dissipated()).sum()
     }
 
-    /// Evaluations by effect, summed over the cables that have it; zero for effects that act by constant vectors or the mass matrix.
+    /// Returns the number of elements evaluated by effect, summed over the cables that have it; zero for effects that act by
+    /// constant vectors or the mass matrix.
     pub fn effect_evaluations(&self) -> BTreeMap<String, u64> {
         let mut counts = BTreeMap::new();
         for cable in self.cables() {
@@ -200,7 +206,7 @@ impl World {
         counts
     }
 
-    /// Work in J that a cable, or all, did so far on the bodies they hold to.
+    /// Returns the work in J that a cable, or all, have done on the bodies that they are attached to.
     ///
     /// # Errors
     /// [`Error::Coupling`]; not for a running scene.
@@ -208,12 +214,12 @@ impl World {
         let Some(physics) = &self.physics else { return Ok(0.0) };
         let mut sum = 0.0;
         for (k, _) in self.scene.attachments.iter().enumerate().filter(|(_, a)| cable.is_none_or(|c| c == a.cable)) {
-            sum += physics.passing(k, self.time)?.map_or(0.0, |passing| passing.work);
+            sum += physics.reading(k, self.time)?.map_or(0.0, |reading| reading.work);
         }
         Ok(sum)
     }
 
-    /// Momentum of a cable, or of all cables and dynamic bodies.
+    /// Returns the momentum of a cable, or of all cables and dynamic bodies.
     pub fn momentum(&self, cable: Option<usize>) -> Momentum {
         let zero = Momentum { linear: Vector3::zeros(), angular: Vector3::zeros() };
         let bodies = self.physics.as_ref().filter(|_| cable.is_none()).map(|physics| physics.momentum(&self.scene));
@@ -224,28 +230,29 @@ impl World {
             .fold(zero, |sum, p| Momentum { linear: sum.linear + p.linear, angular: sum.angular + p.angular })
     }
 
-    /// State of a body; `None` without bodies.
+    /// Returns the state of a body; `None` without bodies.
     pub fn body(&self, index: usize) -> Option<BodyState> {
         self.physics.as_ref().map(|physics| physics.body(&self.scene, index, self.time))
     }
 
-    /// Largest distance so far between a cable's point and the body's that it is held to, in m.
+    /// Returns the largest distance so far between the two sides of an attachment, in m.
     pub fn max_gap(&self) -> f64 {
         self.physics.as_ref().map_or(0.0, |physics| physics.max_gap())
     }
 
-    /// Force (N) and moment (N m) of the cable on what an attachment holds it to, and the gap (m) between the two.
+    /// Returns force (N) and moment (N m) of the cable on the body or world that an attachment holds it to, and the gap (m)
+    /// between the two.
     ///
     /// # Errors
     /// [`Error::Mechanics`] if the present state has no finite acceleration.
     pub fn attachment(&mut self, index: usize) -> Result<(Vector3<f64>, Vector3<f64>, f64), Error> {
         if let Some(physics) = &self.physics
-            && let Some(passing) = physics.passing(index, self.time)?
+            && let Some(reading) = physics.reading(index, self.time)?
         {
-            return Ok((passing.force, passing.moment, passing.gap));
+            return Ok((reading.force, reading.moment, reading.gap.norm()));
         }
         let AttachmentScene { cable, arc_length, .. } = self.scene.attachments[index];
-        // a copy, because reading reactions counts as touching a cable, which wakes it
+        // a copy, because reading reactions modifies a cable, which wakes it
         let mut coupled = None;
         let cable = match self.alone.get_mut(cable) {
             Some(cable) => cable,
@@ -256,8 +263,8 @@ impl World {
     }
 }
 
-/// Force (N) and moment (N m) of a cable on what supports it at an arc length; zero if nothing does.
-fn pull(cable: &mut Cable, arc_length: f64) -> Result<(Vector3<f64>, Vector3<f64>), Error> {
+/// Returns force (N) and moment (N m) of a cable on its support at an arc length; zero without one.
+pub(super) fn pull(cable: &mut Cable, arc_length: f64) -> Result<(Vector3<f64>, Vector3<f64>), Error> {
     let node = cable.node(arc_length)?;
     let held = |reaction: &&Reaction| reaction.node == node;
     let on_cable = cable.reactions()?.iter().find(held).map(|r| (r.force, r.moment));

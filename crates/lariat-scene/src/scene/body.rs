@@ -1,23 +1,87 @@
-//! A checked `[[body]]`, and where a fixed or kinematic one is at any time.
+//! `[[body]]`: a rigid body, and where a fixed or kinematic one is at any time.
 
+use super::mesh::Mesh;
+use crate::document::{Document, KeyPath};
+use crate::error::{Error, Problem};
+use crate::schema::{ANY, Choose, Kind, NOT_NEGATIVE, POSITIVE, choice, table};
 use lariat_ancf::Vector3;
 use nalgebra::UnitQuaternion;
+use serde::Deserialize;
+use std::path::Path;
 
-/// What moves a body.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum BodyKind {
-    /// Forces.
-    Dynamic,
-    /// Nothing.
-    Fixed,
-    /// Its path, or its constant velocity.
-    Kinematic,
+/// Largest distance of `position` from the start of a path, in m.
+const PATH_GAP: f64 = 1e-6;
+
+/// Three numbers that stay finite in the single precision of Rapier.
+const SINGLE: Kind = Kind::Numbers(&["x", "y", "z"], ANY.single());
+
+choice! {
+    /// What moves a body.
+    enum BodyKind {
+        /// Forces.
+        Dynamic = "dynamic",
+        /// Nothing.
+        Fixed = "fixed",
+        /// Its path, or its constant velocity.
+        Kinematic = "kinematic",
+    }
+}
+
+table! {
+    /// A rigid body, computed by Rapier in single precision. Bodies never sleep, and Rapier's limits of velocity are lifted.
+    struct BodyTable("[[body]]") {
+        /// No other body has it.
+        name: String = required, Kind::Name(&["world", "all"]);
+        /// `"dynamic"` bodies move by forces, `"fixed"` ones do not move, `"kinematic"` ones follow `path` or a constant velocity.
+        kind: BodyKind = "dynamic", Kind::Choice(BodyKind::names);
+        /// Shape about the origin of the body.
+        shape: BodyShape = required, Kind::Either(&[Kind::Choice(|| vec!["none"]), Kind::Table(&SHAPE)]), "m";
+        /// Mass of a dynamic body, or `density`; other bodies have neither.
+        mass: Option<f64> = ("a dynamic body needs `mass` or `density`"), Kind::Number(POSITIVE.single()), "kg";
+        /// Density of a dynamic body with a shape, instead of `mass`.
+        density: Option<f64> = (), Kind::Number(POSITIVE.single()), "kg/m^3";
+        /// Principal moments of inertia of a dynamic body, none larger than the sum of the others. They are about the axes of the body
+        /// through its centre of mass, which for a mesh is that of the convex hull.
+        inertia: Option<[f64; 3]> = ("that of the shape; without shape the body does not rotate"), Kind::Numbers(&["x", "y", "z"], POSITIVE.single()), "kg m^2";
+        /// Position of the origin.
+        position: Option<Vector3<f64>> = ("`[0.0, 0.0, 0.0]`, or the start of `path`"), SINGLE, "m";
+        /// Axis times angle.
+        rotation: Vector3<f64> = [0.0, 0.0, 0.0], SINGLE, "rad";
+        /// Velocity of the origin of a dynamic body, or of a kinematic one without `path`.
+        velocity: Option<Vector3<f64>> = ("`[0.0, 0.0, 0.0]`"), SINGLE, "m/s";
+        /// Angular velocity of a dynamic or kinematic body, in world axes. A kinematic body keeps it.
+        angular_velocity: Option<Vector3<f64>> = ("`[0.0, 0.0, 0.0]`"), SINGLE, "rad/s";
+        /// Coefficient of friction of a body with a shape.
+        friction: Option<f64> = ("Rapier's"), Kind::Number(NOT_NEGATIVE.single());
+        /// Path of the origin of a kinematic body. Linear between rows, at rest outside; put corners on multiples of `dt`.
+        path: Option<Vec<[f64; 4]>> = ("none"), Kind::Ascending(&["t", "x", "y", "z"]), "s, m";
+    }
+}
+
+table! {
+    /// Or `"none"`: a body that touches nothing.
+    keys SHAPE("[body.shape]") {
+        /// Half extents.
+        cuboid = (), Kind::Numbers(&["x", "y", "z"], POSITIVE.single()), "m";
+        /// Radius.
+        ball = (), Kind::Number(POSITIVE.single()), "m";
+        /// Half height along y, and radius.
+        cylinder = (), Kind::Numbers(&["half height", "radius"], POSITIVE.single()), "m";
+        /// Half height of the cylindrical part along y, and radius.
+        capsule = (), Kind::Numbers(&["half height", "radius"], POSITIVE.single()), "m";
+        /// Normal of a half space whose surface goes through the origin, for a fixed or kinematic body.
+        plane = (), SINGLE;
+        /// OBJ file with triangles, named from the folder of the scene. A dynamic body takes their convex hull, which must enclose a volume.
+        mesh = (), Kind::Text;
+    }
+    choose Choose::ExactlyOne(&["cuboid", "ball", "cylinder", "capsule", "plane", "mesh"]);
 }
 
 /// The shape of a body, about its origin, in m.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(rename_all = "lowercase")]
 pub enum BodyShape {
-    /// No shape: it meets nothing.
+    /// No shape: it touches nothing.
     None,
     /// Half extents.
     Cuboid(Vector3<f64>),
@@ -30,20 +94,15 @@ pub enum BodyShape {
     /// A half space: the unit normal of its surface, which goes through the origin.
     Plane(Vector3<f64>),
     /// Triangles; a dynamic body takes their convex hull.
-    Mesh {
-        /// Corners.
-        vertices: Vec<[f64; 3]>,
-        /// Three corners each.
-        triangles: Vec<[u32; 3]>,
-    },
+    Mesh(Mesh),
 }
 
-/// How heavy a dynamic body is.
+/// Mass or density of a dynamic body.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum BodyMass {
-    /// In kg.
+    /// Mass in kg.
     Mass(f64),
-    /// In kg/m^3, of the shape.
+    /// Density of the shape in kg/m^3.
     Density(f64),
 }
 
@@ -62,7 +121,7 @@ pub struct BodyScene {
     pub inertia: Option<Vector3<f64>>,
     /// Origin at t = 0 in m.
     pub position: Vector3<f64>,
-    /// Attitude at t = 0.
+    /// Rotation at t = 0.
     pub rotation: UnitQuaternion<f64>,
     /// Velocity of the origin in m/s.
     pub velocity: Vector3<f64>,
@@ -70,33 +129,130 @@ pub struct BodyScene {
     pub angular_velocity: Vector3<f64>,
     /// Coefficient of friction; `None` = Rapier's.
     pub friction: Option<f64>,
-    /// Places at times, in s and m; times ascend. Empty: none.
+    /// Positions at times, in s and m, by ascending time. Empty for none.
     pub path: Vec<(f64, Vector3<f64>)>,
 }
 
+/// Reads the body at a path of keys; files are named from `folder`.
+pub(super) fn read(doc: &Document<'_>, at: &KeyPath, row: BodyTable, folder: &Path) -> Result<BodyScene, Error> {
+    check_kind(doc, at, &row)?;
+    let mut shape = row.shape.clone();
+    match &mut shape {
+        BodyShape::Plane(normal) => {
+            let at = at.key("shape").key("plane");
+            let zero = || doc.conflict(&at, format!("{:?} has no direction", normal.as_slice()));
+            *normal = normal.try_normalize(f64::MIN_POSITIVE).ok_or_else(zero)?;
+        }
+        BodyShape::Mesh(mesh) => {
+            mesh.read(folder).map_err(|problem| doc.conflict(&at.key("shape").key("mesh"), problem))?;
+        }
+        BodyShape::None if row.friction.is_some() => {
+            return Err(doc.conflict(&at.key("friction"), "a body without shape touches nothing"));
+        }
+        _ => {}
+    }
+    let mut body = BodyScene {
+        mass: mass(doc, at, &row, &shape)?,
+        inertia: inertia(doc, &at.key("inertia"), row.inertia)?,
+        name: row.name,
+        kind: row.kind,
+        shape,
+        position: row.position.unwrap_or_default(),
+        rotation: UnitQuaternion::from_scaled_axis(row.rotation),
+        velocity: row.velocity.unwrap_or_default(),
+        angular_velocity: row.angular_velocity.unwrap_or_default(),
+        friction: row.friction,
+        path: path(doc, &at.key("path"), row.path.as_deref().unwrap_or_default())?,
+    };
+    if !body.path.is_empty() {
+        let start = body.pose(0.0).0;
+        if let Some(position) = row.position.filter(|position| (start - position).norm() > PATH_GAP) {
+            let problem = format!("{:?} is not where the path is at t = 0", position.as_slice());
+            let accepted = format!("{:?}, or no position", start.as_slice());
+            return Err(doc.error_accepting(&at.key("position"), Problem::Conflict(problem), accepted));
+        }
+        body.position = start;
+    }
+    Ok(body)
+}
+
+/// Checks that a body has no key that its kind excludes.
+fn check_kind(doc: &Document<'_>, at: &KeyPath, row: &BodyTable) -> Result<(), Error> {
+    let (dynamic, kinematic) = (row.kind == BodyKind::Dynamic, row.kind == BodyKind::Kinematic);
+    for (key, given, allowed) in [
+        ("mass", row.mass.is_some(), dynamic),
+        ("density", row.density.is_some(), dynamic),
+        ("inertia", row.inertia.is_some(), dynamic),
+        ("velocity", row.velocity.is_some(), dynamic || kinematic),
+        ("angular_velocity", row.angular_velocity.is_some(), dynamic || kinematic),
+        ("path", row.path.is_some(), kinematic),
+    ] {
+        if given && !allowed {
+            return Err(doc.conflict(&at.key(key), format!("a {} body has no {key}", row.kind.name())));
+        }
+    }
+    if row.path.is_some() && row.velocity.is_some() {
+        return Err(doc.conflict(&at.key("velocity"), "the path determines the velocity"));
+    }
+    Ok(())
+}
+
+fn mass(doc: &Document<'_>, at: &KeyPath, row: &BodyTable, shape: &BodyShape) -> Result<Option<BodyMass>, Error> {
+    match (row.kind, shape, row.mass, row.density) {
+        (BodyKind::Fixed | BodyKind::Kinematic, ..) => Ok(None),
+        (_, BodyShape::Plane(_), ..) => Err(doc.conflict(&at.key("shape").key("plane"), "a half space has no mass")),
+        (_, _, Some(_), Some(_)) => Err(doc.conflict(&at.key("density"), "both mass and density are given")),
+        (_, BodyShape::None, None, Some(_)) => {
+            Err(doc.conflict(&at.key("density"), "a body without shape has no volume"))
+        }
+        (_, _, Some(mass), None) => Ok(Some(BodyMass::Mass(mass))),
+        (_, _, None, Some(density)) => Ok(Some(BodyMass::Density(density))),
+        (_, _, None, None) => Err(doc.missing(&at.key("mass"))),
+    }
+}
+
+fn inertia(doc: &Document<'_>, at: &KeyPath, moments: Option<[f64; 3]>) -> Result<Option<Vector3<f64>>, Error> {
+    let Some(moments) = moments else { return Ok(None) };
+    let (sum, largest) = (moments.iter().sum::<f64>(), moments.iter().copied().fold(0.0, f64::max));
+    if largest > (sum - largest) * (1.0 + 1e-6) {
+        return Err(doc.conflict(at, format!("{moments:?}: no distribution of mass has such moments")));
+    }
+    Ok(Some(Vector3::from(moments)))
+}
+
+fn path(doc: &Document<'_>, at: &KeyPath, rows: &[[f64; 4]]) -> Result<Vec<(f64, Vector3<f64>)>, Error> {
+    let row = |&[t, x, y, z]: &[f64; 4]| {
+        let position = Vector3::new(x, y, z);
+        super::references::single(doc, at, &position)?;
+        Ok((t, position))
+    };
+    rows.iter().map(row).collect()
+}
+
 impl BodyScene {
-    /// Origin and attitude that the scene gives at a time (s). A dynamic body is only there at t = 0.
+    /// Returns origin (m) and rotation at a time (s): for a dynamic body those at t = 0.
     pub fn pose(&self, time: f64) -> (Vector3<f64>, UnitQuaternion<f64>) {
         if self.kind != BodyKind::Kinematic {
             return (self.position, self.rotation);
         }
-        let place = if self.path.is_empty() { self.position + self.velocity * time } else { along(&self.path, time).0 };
-        (place, UnitQuaternion::from_scaled_axis(self.angular_velocity * time) * self.rotation)
+        let position =
+            if self.path.is_empty() { self.position + self.velocity * time } else { along(&self.path, time).0 };
+        (position, UnitQuaternion::from_scaled_axis(self.angular_velocity * time) * self.rotation)
     }
 
-    /// Velocity of the origin (m/s) that the scene gives at a time (s); at a row of the path that of the part which begins there.
+    /// Returns the velocity of the origin (m/s) at a time (s); at a row of the path that of the part which begins there.
     pub fn velocity(&self, time: f64) -> Vector3<f64> {
         if self.path.is_empty() { self.velocity } else { along(&self.path, time).1 }
     }
 
-    /// A point of the body, in body axes, as a point of the world at t = 0.
+    /// Returns a point of the body, in its axes, as a point of the world at t = 0.
     pub fn to_world(&self, point: &Vector3<f64>) -> Vector3<f64> {
-        let (place, attitude) = self.pose(0.0);
-        place + attitude * point
+        let (position, rotation) = self.pose(0.0);
+        position + rotation * point
     }
 }
 
-/// Place and velocity on a path: linear between rows, constant before the first and after the last.
+/// Returns position and velocity on a path: linear between rows, constant before the first and after the last.
 fn along(path: &[(f64, Vector3<f64>)], time: f64) -> (Vector3<f64>, Vector3<f64>) {
     let next = path.partition_point(|(t, _)| *t <= time);
     match (next.checked_sub(1).and_then(|i| path.get(i)), path.get(next)) {
@@ -125,13 +281,13 @@ mod tests {
             (4.0, 2.0, 0.0),
             (9.0, 2.0, 0.0),
         ] {
-            let (place, velocity) = along(&path, time);
-            assert_eq!((place.y, velocity.y), (y, v), "t = {time}");
+            let (position, velocity) = along(&path, time);
+            assert_eq!((position.y, velocity.y), (y, v), "t = {time}");
         }
     }
 
     #[test]
-    fn a_point_of_a_turned_body_goes_to_the_world() {
+    fn a_point_of_a_rotated_body_is_converted_to_world_axes() {
         let body = BodyScene {
             name: "hook".to_string(),
             kind: BodyKind::Kinematic,

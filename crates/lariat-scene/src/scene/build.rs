@@ -1,10 +1,10 @@
-//! From a checked scene to cables: mesh, supports, loads, start.
+//! From a checked scene to cables: elements, supports, loads and motion at the start.
 
-use super::{AttachmentScene, Scene};
+use super::{AttachmentScene, LoadScene, Scene};
 use lariat_ancf::{At, Cable, Error, Motion, PointLoad, Vector3};
 
 impl Scene {
-    /// A cable at its drawn start, held by its attachments and junctions where it is drawn, without loads.
+    /// Builds a cable as drawn, supported at its attachments and junctions, without loads.
     ///
     /// # Errors
     /// As [`CableBuilder::build`](lariat_ancf::CableBuilder::build).
@@ -33,7 +33,7 @@ impl Scene {
         builder.build()
     }
 
-    /// The points of a cable that junctions tie to others.
+    /// Returns the points of a cable that junctions tie to others.
     pub fn tied(&self, index: usize) -> impl Iterator<Item = &(usize, f64)> {
         self.junctions.iter().flat_map(|j| &j.points).filter(move |(cable, _)| *cable == index)
     }
@@ -43,20 +43,14 @@ impl Scene {
     /// # Errors
     /// As [`Cable::add_load`].
     pub fn add_loads(&self, cable: &mut Cable, index: usize, ramped: bool, at_once: bool) -> Result<(), Error> {
-        for load in self.loads.iter().filter(|l| l.cable == index && (l.ramp > 0.0) == ramped) {
-            let ramp = if at_once { 0.0 } else { load.ramp };
-            cable.add_load(PointLoad {
-                arc_length: load.arc_length,
-                force: load.force,
-                moment: load.moment,
-                ramp,
-                start: 0.0,
-            })?;
+        let chosen = |load: &&LoadScene| load.cable == index && (load.load.ramp > 0.0) == ramped;
+        for LoadScene { load, .. } in self.loads.iter().filter(chosen) {
+            cable.add_load(PointLoad { ramp: if at_once { 0.0 } else { load.ramp }, ..*load })?;
         }
         Ok(())
     }
 
-    /// Where in the world the anchor of an attachment is at t = 0, in m; `None` = where the cable point is.
+    /// Returns the anchor of an attachment in the world at t = 0, in m; `None` = where the cable point is.
     pub fn anchor(&self, attachment: &AttachmentScene) -> Option<Vector3<f64>> {
         let body = attachment.body.map(|body| &self.bodies[body]);
         attachment.anchor.map(|anchor| body.map_or(anchor, |body| body.to_world(&anchor)))
@@ -76,7 +70,7 @@ impl Scene {
         Ok(())
     }
 
-    /// Gives a cable its initial rigid motion, with held points at rest.
+    /// Sets the initial rigid motion of a cable, with supported points at rest.
     ///
     /// # Errors
     /// As [`Cable::set_rigid_motion`].

@@ -1,93 +1,106 @@
-//! Scene files: TOML in, a checked [`Scene`] out. The format, key by key: docs/scene.md in the repository.
+//! The tables of a scene file: keys, checks and the checked [`Scene`]. The format, key by key: docs/scene.md in the repository.
 //!
-//! Everything is checked before anything is written: an unknown key, a missing key, a value out of range or a reference to
-//! nothing is an error that names file, line, key and what is accepted. Parts of the format that this version does not compute
-//! (contact, breaking, reeling) are read and then refused by name, never ignored.
+//! Each file declares the keys of its table ([`table!`](crate::schema)), the type that they are checked into, and the checks that
+//! go beyond single values. Nothing here knows the engine: what only Rapier can judge (whether a shape encloses a volume) is
+//! checked where a scene is [read](Scene::read).
 //!
-//! Extensions of the format: `section = { tube = [outer, inner] }`; `allow_rank_deficient = true` runs a rule that leaves modes
-//! without energy (Table 1 needs G2-2); `integrator = { fidelity = ".." }`, `{ method, max_step }`, `{ method, stable }`; energy
-//! and momentum probes of one cable; `axial = "projected"` and rules such as `projected-3`.
-//!
-//! # Bodies
-//!
-//! Without `engine`, a scene with bodies runs in Rapier and one without does not. A `[[body]]` without `kind` is dynamic; `shape`
-//! must be given, a dynamic body needs `mass` or `density`, and other bodies have neither. Cylinders and capsules stand along the
-//! body's y. `inertia` is about the body's axes through its centre of mass, which for a mesh is that of the convex hull; without
-//! shape and `inertia` a body does not turn. `velocity` is that of the origin. A kinematic body follows its `path`, or moves at its
-//! constant `velocity`; it turns at its constant `angular_velocity` either way. Paths are met at host times and linear between
-//! them, so put corners on multiples of `dt`. A load on a body keeps its direction in world axes; `point` without value is the
-//! origin. Rapier's caps on velocities are lifted, and nothing sleeps. With `initial = "equilibrium"` and in `lariat static` bodies are held where they are drawn while the cables settle.
-//!
-//! # Joints
-//!
-//! A `[[joint]]` holds a dynamic `body` `to` another or the world, at a point and along an axis that are given in the world at t = 0, so
-//! that it starts closed. With `multibody = true` the body is a link of a multibody, computed in reduced coordinates: exact where
-//! Rapier's other joints give way under a pull (see the page of `lariat-rapier`). Bodies on a joint do not meet each other.
-//!
-//! # Junctions
-//!
-//! A `[[junction]]` ties the point `at` of a `cable` to the point `other_at` of an `other` (or of the same): they share one position, and
-//! slopes are free. Both points start at the same place, within 1e-6 m. Several junctions at one point make one knot. Junctions
-//! need `engine = "rapier"`, which they call for as bodies do. While cables settle (`initial = "equilibrium"`, `lariat static`)
-//! junctions stay where they are drawn, as bodies do.
-//!
-//! # Anchors
-//!
-//! An `anchor` to the world or a body must be where the cable point starts (within 1e-6 m), because a straight start has no way to get
-//! to any other place without a jump; with `initial = "equilibrium"` and in `lariat static` any anchor will do, and the cable
-//! is moved there. A load with a ramp is zero at t = 0, so it takes no part in `initial = "equilibrium"`; `lariat static`
-//! applies all loads in full.
-//!
-//! | file | what it holds |
+//! | file | table |
 //! |---|---|
-//! | [`table`], [`value`] | the tables as written |
-//! | [`document`], `overrides` | the file as a tree with places; `--set` |
-//! | [`keys`] | what is accepted, in words |
-//! | `check`, `check_cable`, `check_body`, `check_hold`, `check_joint`, `check_junction` | ranges and references |
-//! | [`body`], `mesh` | bodies, and the files of their shapes |
+//! | `mod`: [`SceneTable`] | the scene itself |
+//! | [`cable`], [`integrator`], [`effects`], [`flow`] | `[[cable]]` |
+//! | [`body`], `mesh` | `[[body]]` |
+//! | [`joint`], [`attachment`], [`junction`], [`load`], [`probe`] | the tables of these names |
+//! | `references` | names and points that tables refer to |
 //! | `build` | from a scene to cables |
 
+pub mod attachment;
 pub mod body;
 mod build;
-mod check;
-mod check_body;
-mod check_cable;
-mod check_effects;
-mod check_flow;
-mod check_hold;
-mod check_joint;
-mod check_junction;
-pub mod document;
-pub mod keys;
+pub mod cable;
+pub mod effects;
+pub mod flow;
+pub mod integrator;
+pub mod joint;
+pub mod junction;
+pub mod load;
 mod mesh;
-mod overrides;
-pub mod table;
-pub mod value;
+pub mod probe;
+mod references;
 
-use crate::error::Error;
-use crate::physics::collider as physics_of;
+pub use attachment::AttachmentScene;
+pub use cable::CableScene;
+pub use joint::{JointKind, JointScene};
+pub use junction::JunctionScene;
+pub use load::{BodyLoadScene, LoadScene};
+pub use mesh::Mesh;
+pub use probe::{ProbeScene, Target};
+
+use crate::document::{Document, KeyPath};
+use crate::error::{Error, Problem};
+use crate::schema::{Default, Key, Kind, MANY, POSITIVE, VECTOR, choice, table};
 use body::BodyScene;
-use document::Document;
-use lariat_ancf::{Effects, IntegratorChoice, Rule, Section, Vector3};
+use lariat_ancf::Vector3;
 use std::path::Path;
-use value::At;
 
-/// What a scene is read for.
+/// Largest number of steps, and of samples of a probe, in a run; more is taken for a mistake.
+const MAX_COUNT: f64 = 1e8;
+
+/// Why a scene is read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Purpose {
-    /// A run in time.
+    /// For a run in time.
     Run,
-    /// The static equilibrium: no duration needed, anchors anywhere.
+    /// For the static equilibrium: no duration needed, anchors anywhere.
     Static,
 }
 
-/// What moves bodies.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Engine {
-    /// Nothing: there are none.
-    None,
-    /// rapier3d.
-    Rapier,
+choice! {
+    /// What moves bodies.
+    enum Engine {
+        /// rapier3d.
+        Rapier = "rapier",
+        /// Nothing: there are none.
+        None = "none",
+    }
+}
+
+table! {
+    /// Duration, steps and the world.
+    struct SceneTable("The scene") {
+        /// Name of the scene.
+        name: Option<String> = ("the name of the file"), Kind::Text;
+        /// Simulated time.
+        duration: Option<f64> = ("required by `lariat run`"), Kind::Number(POSITIVE), "s";
+        /// Host step, the step of Rapier: at most 1e8 steps in all. The default is 1/60 s.
+        dt: f64 = 0.016666666666666666, Kind::Number(POSITIVE), "s";
+        /// Gravity.
+        gravity: Vector3<f64> = [0.0, -9.81, 0.0], VECTOR, "m/s^2";
+        /// Computes the bodies, and the junctions of cables.
+        engine: Option<Engine> = ("`\"rapier\"` with bodies or junctions, else `\"none\"`"), Kind::Choice(Engine::names);
+        /// Rapier's `num_solver_iterations`, with `engine = "rapier"`.
+        solver_iterations: Option<u32> = ("Rapier's"), Kind::Whole(1, MANY);
+        /// Rigid bodies.
+        body: Vec<body::BodyTable> = ("none"), Kind::Tables(&body::BodyTable::TABLE);
+        /// Joints between bodies.
+        joint: Vec<joint::JointTable> = ("none"), Kind::Tables(&joint::JointTable::TABLE);
+        /// Cables, at least one.
+        cable: Vec<cable::CableTable> = required, Kind::Tables(&cable::CableTable::TABLE);
+        /// Points of cables held by bodies or the world.
+        attachment: Vec<attachment::AttachmentTable> = ("none"), Kind::Tables(&attachment::AttachmentTable::TABLE);
+        /// Cables tied to each other.
+        junction: Vec<junction::JunctionTable> = ("none"), Kind::Tables(&junction::JunctionTable::TABLE);
+        /// Point forces and moments.
+        load: Vec<load::LoadTable> = ("none"), Kind::Tables(&load::LoadTable::TABLE);
+        /// What a run writes down.
+        probe: Vec<probe::ProbeTable> = ("none"), Kind::Tables(&probe::ProbeTable::TABLE);
+    }
+    plus &[Key {
+        name: "sheave",
+        kind: Kind::NotBuilt,
+        unit: "",
+        default: Default::Absent("none"),
+        meaning: "Wheels and eyes that cables pass over.",
+    }];
 }
 
 /// A checked scene.
@@ -95,7 +108,7 @@ pub enum Engine {
 pub struct Scene {
     /// Name.
     pub name: String,
-    /// Simulated time in s; 0 if none was given (statics).
+    /// Simulated time in s; 0 if none was given, for statics.
     pub duration: f64,
     /// Host step in s.
     pub dt: f64,
@@ -123,182 +136,114 @@ pub struct Scene {
     pub probes: Vec<ProbeScene>,
 }
 
-/// A checked cable.
-#[derive(Clone, Debug, PartialEq)]
-pub struct CableScene {
-    /// Name.
-    pub name: String,
-    /// Start shape in m.
-    pub points: Vec<Vector3<f64>>,
-    /// Unstretched length in m.
-    pub length: f64,
-    /// True to start from static equilibrium.
-    pub equilibrium: bool,
-    /// Number of elements.
-    pub elements: usize,
-    /// Section.
-    pub section: Section,
-    /// Force strategy.
-    pub rule: Rule,
-    /// Effects.
-    pub effects: Effects,
-    /// Integrator, or a fidelity.
-    pub integrator: IntegratorChoice,
-    /// Initial velocity in m/s.
-    pub velocity: Vector3<f64>,
-    /// Initial angular velocity about the start point in rad/s.
-    pub angular_velocity: Vector3<f64>,
-}
-
-/// A checked attachment of a cable to a body or the world.
-#[derive(Clone, Debug, PartialEq)]
-pub struct AttachmentScene {
-    /// Name.
-    pub name: String,
-    /// Position of the cable in [`Scene::cables`].
-    pub cable: usize,
-    /// Arc length in m.
-    pub arc_length: f64,
-    /// Position of the body in [`Scene::bodies`]; `None` = the world.
-    pub body: Option<usize>,
-    /// Place in m, in axes of the body or the world; `None` = where the cable point is.
-    pub anchor: Option<Vector3<f64>>,
-    /// True to hold the direction of the tangent too.
-    pub clamp: bool,
-}
-
-/// What a joint leaves free; directions are unit vectors in world axes at t = 0.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum JointKind {
-    /// Turns about an axis.
-    Hinge(Vector3<f64>),
-    /// Moves along an axis.
-    Slider(Vector3<f64>),
-    /// Turns about a point.
-    Ball,
-    /// Nothing.
-    Fixed,
-}
-
-/// A checked joint between bodies.
-#[derive(Clone, Debug, PartialEq)]
-pub struct JointScene {
-    /// Name.
-    pub name: String,
-    /// Position in [`Scene::bodies`] of the body that it holds.
-    pub body: usize,
-    /// Position of what it holds to; `None` = the world.
-    pub to: Option<usize>,
-    /// Where it is at t = 0, in m.
-    pub point: Vector3<f64>,
-    /// What it leaves free.
-    pub kind: JointKind,
-    /// True for a link of a multibody.
-    pub multibody: bool,
-}
-
-/// A checked junction: two points of cables that share one position, like a shackle without mass.
-#[derive(Clone, Debug, PartialEq)]
-pub struct JunctionScene {
-    /// Name.
-    pub name: String,
-    /// Positions of the cables in [`Scene::cables`], and arc lengths in m.
-    pub points: [(usize, f64); 2],
-}
-
-/// A checked point load.
-#[derive(Clone, Debug, PartialEq)]
-pub struct LoadScene {
-    /// Position of the cable in [`Scene::cables`].
-    pub cable: usize,
-    /// Arc length in m.
-    pub arc_length: f64,
-    /// Force in N.
-    pub force: Vector3<f64>,
-    /// Moment in N m.
-    pub moment: Vector3<f64>,
-    /// Time from zero to full in s.
-    pub ramp: f64,
-}
-
-/// A checked load on a body.
-#[derive(Clone, Debug, PartialEq)]
-pub struct BodyLoadScene {
-    /// Position of the body in [`Scene::bodies`].
-    pub body: usize,
-    /// Where the force acts, in axes of the body from its origin, in m.
-    pub point: Vector3<f64>,
-    /// Force in N, world axes.
-    pub force: Vector3<f64>,
-    /// Moment in N m, world axes.
-    pub moment: Vector3<f64>,
-    /// Time from zero to full in s.
-    pub ramp: f64,
-}
-
-/// A checked probe.
-#[derive(Clone, Debug, PartialEq)]
-pub struct ProbeScene {
-    /// Name; its file is `probes/NAME.csv`.
-    pub name: String,
-    /// Interval in s; `None` = each host step.
-    pub every: Option<f64>,
-    /// What is read.
-    pub target: Target,
-}
-
-/// What a probe reads; numbers are positions in the scene's lists.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Target {
-    /// A point of a cable.
-    Point {
-        /// The cable.
-        cable: usize,
-        /// Arc length in m.
-        arc_length: f64,
-    },
-    /// Pose and velocity of a body.
-    Body(usize),
-    /// Force, moment and gap of an attachment.
-    Attachment(usize),
-    /// Energy of a cable, or of all.
-    Energy(Option<usize>),
-    /// Momentum of a cable, or of all.
-    Momentum(Option<usize>),
-}
-
-impl Scene {
-    /// Reads and checks a scene file, with overrides `KEY=VALUE`.
-    ///
-    /// # Errors
-    /// [`Error::Read`], [`Error::Syntax`], [`Error::Override`], [`Error::Scene`], [`Error::NotBuilt`].
-    pub fn read(path: &Path, overrides: &[String], purpose: Purpose) -> Result<Self, Error> {
-        let text = std::fs::read_to_string(path).map_err(|source| Error::Read { path: path.to_path_buf(), source })?;
-        let stem = path.file_stem().map_or_else(|| "scene".to_string(), |s| s.to_string_lossy().into_owned());
-        Self::parse_named(&path.display().to_string(), &stem, &text, overrides, purpose)
+/// Checks the values of a document against each other; `fallback` names a scene without name, and files are named from `folder`.
+pub(crate) fn check(doc: &Document<'_>, fallback: &str, folder: &Path, purpose: Purpose) -> Result<Scene, Error> {
+    let root = KeyPath::default();
+    let table: SceneTable = effects::typed(doc, &root, toml::Value::Table(doc.resolve()?))?;
+    let engine = engine(doc, &table)?;
+    let duration = match (table.duration, purpose) {
+        (Some(duration), _) => duration,
+        (None, Purpose::Static) => 0.0,
+        (None, Purpose::Run) => return Err(doc.missing(&root.key("duration"))),
+    };
+    let dt = table.dt;
+    if duration / dt > MAX_COUNT {
+        return Err(doc.conflict(&root.key("dt"), format!("{dt} s makes {:.3e} steps", duration / dt)));
     }
-
-    /// Checks the text of a scene; `file` is its name in errors.
-    ///
-    /// # Errors
-    /// As [`read`](Self::read).
-    pub fn parse(file: &str, text: &str, overrides: &[String], purpose: Purpose) -> Result<Self, Error> {
-        Self::parse_named(file, file, text, overrides, purpose)
+    if engine == Engine::Rapier {
+        if f64::from(dt as f32) < f64::from(f32::MIN_POSITIVE) * 1e3 {
+            return Err(doc.conflict(&root.key("dt"), format!("{dt} s is too short for Rapier, in single precision")));
+        }
+        references::single(doc, &root.key("gravity"), &table.gravity)?;
     }
-
-    fn parse_named(file: &str, name: &str, text: &str, overrides: &[String], purpose: Purpose) -> Result<Self, Error> {
-        let mut document = Document::parse(file, text)?;
-        overrides.iter().try_for_each(|argument| document.set(argument))?;
-        let folder = Path::new(file).parent().unwrap_or(Path::new(""));
-        check::scene(&document, document.read()?, name, folder, purpose)
+    if table.cable.is_empty() {
+        return Err(doc.missing(&root.key("cable")));
     }
+    let mut scene = Scene {
+        name: table.name.unwrap_or_else(|| fallback.to_string()),
+        duration,
+        dt,
+        gravity: table.gravity,
+        engine,
+        solver_iterations: table.solver_iterations.map(|n| n as usize),
+        bodies: Vec::new(),
+        cables: Vec::new(),
+        attachments: Vec::new(),
+        joints: Vec::new(),
+        junctions: Vec::new(),
+        loads: Vec::new(),
+        body_loads: Vec::new(),
+        probes: Vec::new(),
+    };
+    for (i, row) in table.cable.into_iter().enumerate() {
+        let at = root.key("cable").item(i);
+        references::unique(doc, &at, &row.name, scene.cables.iter().map(|c| c.name.as_str()))?;
+        scene.cables.push(cable::read(doc, &at, row)?);
+    }
+    for (i, row) in table.body.into_iter().enumerate() {
+        let at = root.key("body").item(i);
+        references::unique(doc, &at, &row.name, scene.bodies.iter().map(|b| b.name.as_str()))?;
+        scene.bodies.push(body::read(doc, &at, row, folder)?);
+    }
+    for (i, row) in table.joint.into_iter().enumerate() {
+        let row = joint::read(doc, &scene, i, row)?;
+        scene.joints.push(row);
+    }
+    for (i, row) in table.attachment.into_iter().enumerate() {
+        let row = attachment::read(doc, &scene, i, row)?;
+        scene.attachments.push(row);
+    }
+    for (i, row) in table.junction.into_iter().enumerate() {
+        let row = junction::read(doc, &scene, i, row)?;
+        scene.junctions.push(row);
+    }
+    for (i, row) in table.load.into_iter().enumerate() {
+        load::read(doc, &mut scene, i, row)?;
+    }
+    for (i, row) in table.probe.into_iter().enumerate() {
+        let row = probe::read(doc, &scene, i, row)?;
+        scene.probes.push(row);
+    }
+    check_start(doc, &scene, purpose)?;
+    Ok(scene)
 }
 
-/// The arc length of a place on a cable of this length, in m.
-fn arc_length(at: At, length: f64) -> f64 {
-    match at {
-        At::Start => 0.0,
-        At::End => length,
-        At::ArcLength(s) => s,
+/// Returns the engine; without the key, bodies and junctions choose Rapier.
+fn engine(doc: &Document<'_>, table: &SceneTable) -> Result<Engine, Error> {
+    let engine = match table.engine {
+        None if table.body.is_empty() && table.junction.is_empty() => Engine::None,
+        None => Engine::Rapier,
+        Some(engine) => engine,
+    };
+    if engine == Engine::None {
+        for (key, given) in [("body", !table.body.is_empty()), ("junction", !table.junction.is_empty())] {
+            if given {
+                let problem = Problem::Conflict(format!("engine = \"none\" computes no {key}"));
+                let accepted = "engine = \"rapier\", or no engine";
+                return Err(doc.error_accepting(&KeyPath::root(key).item(0), problem, accepted));
+            }
+        }
+        if table.solver_iterations.is_some() {
+            return Err(doc.conflict(&KeyPath::root("solver_iterations"), "it is a setting of engine = \"rapier\""));
+        }
     }
+    Ok(engine)
+}
+
+/// Builds every cable once as drawn, and checks attachments and junctions against them.
+fn check_start(doc: &Document<'_>, scene: &Scene, purpose: Purpose) -> Result<(), Error> {
+    let mut cables = Vec::new();
+    for i in 0..scene.cables.len() {
+        let failed = |error: lariat_ancf::Error| {
+            let problem = Problem::Conflict(error.to_string());
+            doc.error_accepting(
+                &KeyPath::root("cable").item(i),
+                problem,
+                "a cable that can be built, see docs/scene.md",
+            )
+        };
+        cables.push(scene.build_cable(i).map_err(failed)?);
+    }
+    attachment::check_start(doc, scene, &cables, purpose)?;
+    junction::check_start(doc, scene, &cables)
 }

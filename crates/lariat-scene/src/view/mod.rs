@@ -1,46 +1,50 @@
-//! `view.html`: the run as a page that opens from disk, without network, and moves.
+//! `view.html`: the run as an animated page that opens from disk, without network.
 //!
-//! The page holds its data and all that draws them. Cables are the cubics of their elements: a frame has position, slope and tension at
-//! each node and the tension in the middle of each element, so curves are as smooth as computed. Bodies have position and attitude.
-//! Probes are plotted from the rows of their files. Nothing is interpolated in time: every picture is a state of the run.
+//! The page contains its data and its program. Cables are drawn as the cubics of their elements: a frame has position, slope and
+//! tension at each node and the tension in the middle of each element. Bodies have position and rotation, loads are arrows. Probes
+//! are plotted from the rows of their files. Nothing is interpolated in time: every picture is a state of the run.
 //!
-//! *Limits.* A frame for each host step, at most [`FRAMES`] of them: when they are full every other one is dropped and from then on
-//! every other step is taken, and so on. So there are 300 to 600 of a long run, evenly spaced, and the last state beside. Fewer
-//! where frames are so large that the page would have more than [`NUMBERS`] numbers. A cable of more than [`NODES`] nodes is sampled
-//! at that many places. Probes are thinned in the same way to at most [`ROWS`] rows; their files have them all.
+//! # Limits
 //!
-//! *Cost.* [`Summary::cpu_s`](crate::run::Summary::cpu_s) and its wall time leave the sampling of frames out; a row of a probe is copied
-//! once more, some 20 ns. Frames are kept in memory and written when the run ends, however it ends. The command takes 4.4 ms of CPU more
-//! for the page of the falling pendulum, whose run takes 13 ms (201 frames of 20 elements, 0.4 MB), and 4 ms beside the 1.0 s of
-//! the payload pendulum.
+//! There is a frame for each host step, at most [`FRAMES`]: when this number is reached, every other frame is dropped and from then
+//! on every other step recorded, and so on. A long run has 300 to 600 evenly spaced frames and the last state, and fewer where the
+//! page would have more than [`NUMBERS`] numbers. A cable of more than [`NODES`] nodes is sampled at this many points. Probes are
+//! decimated in the same way to at most [`ROWS`] rows; their files have all rows.
 //!
-//! *Drawing* is on a 2D canvas of our own, painted from far to near. WebGL, and three.js on it, was rejected: it is missing on
-//! many remote desktops and virtual machines, and three.js 0.187 is 2.1 MB beside our 40 kB. Where large surfaces cross, painting
-//! by depth shows a wrong one in front for a few pixels. The plots are uPlot's (MIT, `assets/uplot`).
+//! # Cost
+//!
+//! [`Summary::cpu_s`](crate::run::Summary::cpu_s) and its wall time do not include the recording of frames. Frames are kept in
+//! memory and written when the run ends, whether it fails or not.
+//!
+//! # Alternatives considered
+//!
+//! The scene is painted from far to near on a 2D canvas. WebGL, and three.js on it, was rejected: it is missing on many remote
+//! desktops and virtual machines, and three.js 0.187 has 2.1 MB, this page 50 kB. Where large surfaces cross, painting by depth
+//! shows the wrong one in front for a few pixels. The plots are by uPlot (MIT, `assets/uplot`).
 
+mod decimator;
 mod page;
-mod thin;
 
 use crate::error::Error;
 use crate::run::{Summary, World};
 use crate::scene::{Engine, Scene};
 use cpu_time::ProcessTime;
+use decimator::Decimator;
 use std::time::{Duration, Instant};
-use thin::Thin;
 
-/// Most frames of a page.
+/// Largest number of frames of a page.
 pub const FRAMES: usize = 600;
-/// Most numbers in the frames of a page, 4 bytes each: 11 MB of text.
+/// Largest number of numbers in the frames of a page, 4 bytes each: 11 MB of text.
 pub const NUMBERS: usize = 2_000_000;
-/// Most nodes of a cable in a frame.
+/// Largest number of nodes of a cable in a frame.
 pub const NODES: usize = 201;
-/// Most rows of a probe in a page.
+/// Largest number of rows of a probe in a page.
 pub const ROWS: usize = 2000;
 
-/// What a run leaves for its page.
+/// Records a run for its page.
 pub struct Recorder {
-    frames: Thin<Frame>,
-    probes: Vec<Thin<Vec<f64>>>,
+    frames: Decimator<Frame>,
+    probes: Vec<Decimator<Vec<f64>>>,
     cpu: Duration,
     wall: Duration,
 }
@@ -53,19 +57,19 @@ struct Frame {
 }
 
 impl Recorder {
-    /// A recorder that has nothing yet.
+    /// Returns an empty recorder.
     pub fn new(scene: &Scene) -> Self {
         let nodes: usize = scene.cables.iter().map(|cable| 1 + 9 * (cable.elements + 1).min(NODES)).sum();
-        let most = (NUMBERS / (nodes + 7 * scene.bodies.len()).max(1)).clamp(2, FRAMES);
+        let limit = (NUMBERS / (nodes + 7 * scene.bodies.len()).max(1)).clamp(2, FRAMES);
         Recorder {
-            frames: Thin::new(most),
-            probes: scene.probes.iter().map(|_| Thin::new(ROWS)).collect(),
+            frames: Decimator::new(limit),
+            probes: scene.probes.iter().map(|_| Decimator::new(ROWS)).collect(),
             cpu: Duration::ZERO,
             wall: Duration::ZERO,
         }
     }
 
-    /// Takes the present state as a frame, if it is its turn.
+    /// Records the present state as a frame, if one is due.
     ///
     /// # Errors
     /// [`Error::Mechanics`] if a cable cannot be read; not for a state that a step has reached.
@@ -82,17 +86,17 @@ impl Recorder {
         Ok(())
     }
 
-    /// Takes a row of a probe.
+    /// Records a row of a probe.
     pub fn row(&mut self, probe: usize, row: &[f64]) {
         self.probes[probe].offer(row);
     }
 
-    /// CPU and wall time that frames took.
+    /// Returns the CPU and wall time that recording took.
     pub fn spent(&self) -> (Duration, Duration) {
         (self.cpu, self.wall)
     }
 
-    /// The page, with the present state as last frame if all cables have reached one time.
+    /// Returns the page, with the present state as last frame if all cables have reached the same time.
     pub fn page(mut self, world: &World, summary: &Summary) -> String {
         let time = world.time();
         let together =

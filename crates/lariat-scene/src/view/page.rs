@@ -1,12 +1,12 @@
 //! The page as text: the template of `assets/view` with its data.
 //!
-//! Frames are one run of little-endian `f32` in base64: for each frame, for each cable the number of nodes and for each node arc
-//! length, position, slope, tension here and half-way to the next node; then for each body position and quaternion. Times and rows of
-//! probes are `f64`.
+//! Frames are a sequence of little-endian `f32` in base64: for each frame, for each cable the number of nodes and for each node arc
+//! length, position, slope, tension there and half-way to the next node; then for each body position and quaternion. Times and
+//! rows of probes are `f64`.
 
-use super::{Frame, thin::Thin};
+use super::{Decimator, Frame};
 use crate::run::{Summary, columns};
-use crate::scene::body::{BodyKind, BodyShape};
+use crate::scene::body::BodyShape;
 use crate::scene::{Scene, Target};
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
@@ -15,7 +15,7 @@ use serde_json::{Value, json};
 const PAGE: &str = include_str!("../../assets/view/page.html");
 const STYLE: &str =
     concat!(include_str!("../../assets/uplot/uPlot.min.css"), include_str!("../../assets/view/style.css"));
-/// With the licence of its author, which asks to be kept.
+/// With its licence, which must be kept.
 const UPLOT: &str = concat!(
     "/*\n",
     include_str!("../../assets/uplot/LICENSE"),
@@ -26,14 +26,15 @@ const SCRIPT: &str = concat!(
     include_str!("../../assets/view/data.js"),
     include_str!("../../assets/view/shapes.js"),
     include_str!("../../assets/view/camera.js"),
+    include_str!("../../assets/view/arrows.js"),
     include_str!("../../assets/view/draw.js"),
     include_str!("../../assets/view/plots.js"),
     include_str!("../../assets/view/page.js"),
 );
 
-/// The whole page.
-pub fn write(scene: &Scene, summary: &Summary, frames: &[Frame], probes: &[Thin<Vec<f64>>]) -> String {
-    let rows = |thin: &Thin<Vec<f64>>| base64(thin.rows().flatten().flat_map(|x| x.to_le_bytes()));
+/// Returns the whole page.
+pub fn write(scene: &Scene, summary: &Summary, frames: &[Frame], probes: &[Decimator<Vec<f64>>]) -> String {
+    let rows = |probe: &Decimator<Vec<f64>>| base64(probe.rows().flatten().flat_map(|x| x.to_le_bytes()));
     let data = json!({
         "name": scene.name,
         "summary": summary,
@@ -41,7 +42,7 @@ pub fn write(scene: &Scene, summary: &Summary, frames: &[Frame], probes: &[Thin<
         "cables": scene.cables.iter().map(|c| json!({ "name": c.name, "diameter": c.section.diameter })).collect::<Vec<_>>(),
         "bodies": scene.bodies.iter().map(|b| json!({
             "name": b.name,
-            "kind": match b.kind { BodyKind::Dynamic => "dynamic", BodyKind::Fixed => "fixed", BodyKind::Kinematic => "kinematic" },
+            "kind": b.kind.name(),
             "shape": shape(&b.shape),
         })).collect::<Vec<_>>(),
         "attachments": scene.attachments.iter().map(|a| json!({
@@ -50,13 +51,14 @@ pub fn write(scene: &Scene, summary: &Summary, frames: &[Frame], probes: &[Thin<
         "junctions": scene.junctions.iter().map(|j| json!({ "cable": j.points[0].0, "at": j.points[0].1 })).collect::<Vec<_>>(),
         "times": base64(frames.iter().flat_map(|f| f.time.to_le_bytes())),
         "frames": base64(frames.iter().flat_map(|f| &f.numbers).flat_map(|x| x.to_le_bytes())),
-        "probes": scene.probes.iter().zip(probes).map(|(p, thin)| json!({
-            "name": p.name, "about": about(scene, p.target), "columns": columns(p.target), "rows": rows(thin),
+        "loads": loads(scene, summary.statics.is_some()),
+        "probes": scene.probes.iter().zip(probes).map(|(p, recorded)| json!({
+            "name": p.name, "about": about(scene, p.target), "columns": columns(p.target), "rows": rows(recorded),
         })).collect::<Vec<_>>(),
     });
-    // no text of the scene can end the script that holds it
+    // no text of the scene may end the script element
     let data = data.to_string().replace('<', "\\u003c");
-    // text and marks of the template take turns
+    // text and marks of the template alternate
     let part = |(i, text): (usize, &str)| match text {
         "TITLE" if i % 2 == 1 => escaped(&scene.name),
         "STYLE" if i % 2 == 1 => STYLE.to_string(),
@@ -84,15 +86,41 @@ fn shape(shape: &BodyShape) -> Value {
         BodyShape::Cylinder(size) => json!({ "cylinder": size }),
         BodyShape::Capsule(size) => json!({ "capsule": size }),
         BodyShape::Plane(normal) => json!({ "plane": normal.as_slice() }),
-        BodyShape::Mesh { vertices, triangles } => {
-            let corners = vertices.iter().flatten().flat_map(|&x| (x as f32).to_le_bytes());
-            let faces = triangles.iter().flatten().flat_map(|i| i.to_le_bytes());
+        BodyShape::Mesh(mesh) => {
+            let corners = mesh.vertices.iter().flatten().flat_map(|&x| (x as f32).to_le_bytes());
+            let faces = mesh.triangles.iter().flatten().flat_map(|i| i.to_le_bytes());
             json!({ "mesh": [base64(corners), base64(faces)] })
         }
     }
 }
 
-/// What a probe reads, in words.
+/// Returns the loads that a picture shows as arrows; in statics those on cables, in full.
+fn loads(scene: &Scene, statics: bool) -> Value {
+    let ramp = |ramp: f64| if statics { 0.0 } else { ramp };
+    let mut loads = Vec::new();
+    for load in &scene.loads {
+        let (cable, l) = (load.cable, &load.load);
+        loads.push(json!({
+            "cable": cable, "at": l.arc_length, "force": l.force.as_slice(), "moment": l.moment.as_slice(), "ramp": ramp(l.ramp),
+        }));
+    }
+    for load in scene.body_loads.iter().filter(|_| !statics) {
+        loads.push(json!({
+            "body": load.body, "point": load.point.as_slice(), "force": load.force.as_slice(),
+            "moment": load.moment.as_slice(), "ramp": load.ramp,
+        }));
+    }
+    for (c, cable) in scene.cables.iter().enumerate() {
+        for load in cable.effects.line_loads.iter().flat_map(|loads| &loads.0) {
+            loads.push(json!({
+                "cable": c, "from": load.from, "to": load.to.min(cable.length), "perLength": load.force.as_slice(),
+            }));
+        }
+    }
+    Value::Array(loads)
+}
+
+/// Returns what a probe reads, in words.
 fn about(scene: &Scene, target: Target) -> String {
     let whose = |cable: Option<usize>| cable.map_or("all".to_string(), |c| format!("cable {}", scene.cables[c].name));
     match target {

@@ -1,6 +1,6 @@
-//! Bad joints.
+//! Invalid joints.
 
-use super::bench::{Case, all_are_accepted, all_are_refused};
+use super::cases::{Case, all_are_accepted, all_are_errors};
 
 /// Two links on the world; lines are numbered from 1.
 const GOOD: &str = r#"duration = 1.0
@@ -42,15 +42,15 @@ multibody = true
 "#;
 
 const CASES: &[Case] = &[
-    ("kind = \"hinge\"", "kind = \"screw\"", 24, &["joint.shoulder.kind: unknown kind \"screw\"", "\"slider\""]),
+    ("kind = \"hinge\"", "kind = \"screw\"", 24, &["joint.shoulder.kind: unknown value \"screw\"", "\"slider\""]),
     ("kind = \"hinge\"\n", "", 22, &["missing key `kind`", "\"hinge\""]),
     ("body = \"upper\"", "body = \"arm\"", 25, &["joint.shoulder.body: no body is named \"arm\"", "upper | lower"]),
     ("body = \"upper\"", "body = \"base\"", 25, &["joint.shoulder.body", "not dynamic"]),
     ("to = \"world\"", "to = \"wall\"", 26, &["joint.shoulder.to: no body is named \"wall\""]),
-    ("to = \"world\"", "to = \"upper\"", 26, &["joint.shoulder.to: a body on a joint to itself"]),
+    ("to = \"world\"", "to = \"upper\"", 26, &["joint.shoulder.to: the body would be joined to itself"]),
     ("at = [0.0, 0.0, 0.0]", "at = [0.0, inf, 0.0]", 27, &["joint.shoulder.at", "not finite"]),
     ("at = [0.0, 0.0, 0.0]", "at = \"end\"", 27, &["joint.shoulder.at", "in the world at t = 0"]),
-    ("axis = [0.0, 0.0, 1.0]", "axis = [0.0, 0.0, 0.0]", 28, &["joint.shoulder.axis", "is no direction of a hinge"]),
+    ("axis = [0.0, 0.0, 1.0]", "axis = [0.0, 0.0, 0.0]", 28, &["joint.shoulder.axis", "has no direction"]),
     ("axis = [0.0, 0.0, 1.0]\n", "", 22, &["joint.shoulder.axis: missing key", "for a hinge or a slider"]),
     ("kind = \"ball\"", "kind = \"ball\"\naxis = [0.0, 0.0, 1.0]", 33, &["joint.elbow.axis: a ball joint has no axis"]),
     ("name = \"elbow\"", "name = \"shoulder\"", 31, &["\"shoulder\" is taken"]),
@@ -59,7 +59,7 @@ const CASES: &[Case] = &[
         "body = \"lower\"\nto = \"upper\"",
         "body = \"upper\"\nto = \"lower\"",
         33,
-        &["joint.elbow.body: it is a link after joint \"shoulder\""],
+        &["joint.elbow.body: it is already a link after joint \"shoulder\""],
     ),
     ("inertia = [0.1, 0.1, 0.1]", "inertia = [0.1, 0.1, 0.1]\nvelocity = [1.0, 0.0, 0.0]", 26, &["start at rest"]),
     ("multibody = true", "multibody = 1", 29, &["joint.shoulder.multibody", "true | false"]),
@@ -67,8 +67,8 @@ const CASES: &[Case] = &[
 ];
 
 #[test]
-fn every_slip_in_a_joint_is_named_with_its_line_its_key_and_what_is_accepted() {
-    all_are_refused(GOOD, CASES);
+fn errors_in_a_joint_name_line_key_and_accepted_values() {
+    all_are_errors(GOOD, CASES);
 }
 
 #[test]

@@ -1,8 +1,8 @@
 //! Attachments to bodies: clamps, points between nodes, forces at rest.
 
-use super::bench::Results;
+use super::results::Results;
 
-/// A beam that sticks out along x from `wall`, with more tables after it.
+/// Returns a cantilever along x from the body `wall`, with more tables after it.
 fn beam(wall: &str, rest: &str) -> String {
     format!(
         r#"
@@ -66,11 +66,12 @@ fn a_clamp_on_a_fixed_body_is_a_clamp_to_the_world() {
     }
 }
 
-/// A mass of 1 kg clamped to the tip of the beam, dropped: it swings to twice the static deflection, and turns with the beam's end.
+/// A mass of 1 kg clamped to the tip of the beam and released: it oscillates to twice the static deflection, and rotates with the
+/// tip.
 ///
 /// *Source.* Beam theory: `P L^3/3EI + w L^4/8EI` and `P L^2/2EI + w L^3/6EI`, twice; `w^2 = 3EI/((m + 33/140 w L) L^3)`.
 #[test]
-fn a_body_clamped_to_a_beam_turns_with_its_end() {
+fn a_body_clamped_to_a_beam_rotates_with_its_end() {
     let tip = r#"
 [[body]]
 name = "tip"
@@ -119,9 +120,9 @@ attachment = "joint"
     }
 }
 
-/// A weight held between two nodes stays where the cable is.
+/// A weight attached between two nodes stays at the cable.
 #[test]
-fn a_body_may_be_held_at_any_arc_length() {
+fn a_body_can_be_attached_at_any_arc_length() {
     let middle = r#"
 [[body]]
 name = "bead"

@@ -1,8 +1,8 @@
-//! Scenes with rigid bodies through the command, against values from outside.
+//! Scenes with rigid bodies, run by the command, against independent values.
 
-mod bench;
 mod holds;
 mod motion;
+mod results;
 mod runs;
 mod scenes;
 mod structures;

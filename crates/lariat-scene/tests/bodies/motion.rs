@@ -1,11 +1,11 @@
-//! Bodies by themselves: mass, motion, loads, paths.
+//! Bodies without cables: mass, motion, loads, paths.
 
-use super::bench::{Results, free};
+use super::results::{Results, free};
 use std::fs;
 
 /// *Source.* Newton: `x = F t^2/2m`, with a ramp `x = F (t^2/2 - r t/2 + r^2/6)/m`, `I w = M t`.
 #[test]
-fn a_load_moves_and_turns_a_body() {
+fn a_load_accelerates_and_rotates_a_body() {
     let body = "shape = \"none\"\nmass = 2.0\ninertia = [1.0, 1.0, 0.5]";
     for (load, x, w) in [
         ("force = [4.0, 0.0, 0.0]", 1.0, 0.0),
@@ -22,7 +22,7 @@ fn a_load_moves_and_turns_a_body() {
 
 /// *Source.* `m v^2/2 + I w^2/2`, `m v`, `r x m v + I w`; volumes of ball, cylinder and capsule; the hull of a tetrahedron.
 #[test]
-fn a_body_has_the_mass_of_its_shape_and_the_velocity_that_it_was_given() {
+fn a_body_has_the_mass_of_its_shape_and_its_initial_velocity() {
     let pi = std::f64::consts::PI;
     for (shape, volume) in [
         ("cuboid = [0.1, 0.2, 0.3]", 8.0 * 0.006),
@@ -47,7 +47,7 @@ fn a_body_has_the_mass_of_its_shape_and_the_velocity_that_it_was_given() {
     assert!((row[4] - 0.8).abs() < 1e-6 && row[5].abs() < 1e-6 && (results.rows("energy")[0][1] - 0.8).abs() < 1e-6);
 }
 
-/// Rapier caps velocities unless it is told not to.
+/// Rapier limits velocities by default.
 ///
 /// *Source.* Newton's first law.
 #[test]
@@ -83,7 +83,7 @@ fn the_velocity_of_a_mesh_is_that_of_its_origin() {
 
 /// *Source.* The path; `exp(w t)`.
 #[test]
-fn a_kinematic_body_follows_its_path_and_takes_the_cable_with_it() {
+fn a_kinematic_body_follows_its_path_and_moves_the_cable() {
     let text = r#"
 duration = 1.0
 dt = 0.05

@@ -1,9 +1,9 @@
-//! Runs with bodies as runs: contact, statics, equilibrium at the start, probes between host times, failures.
+//! Contact, statics, equilibrium at the start, probes between host times, failures.
 
-use super::bench::{Results, asset, free};
+use super::results::{Results, asset, free};
 use std::fs;
 
-/// A box on a slope of slope angle 0.5 rad (gravity is tilted instead), friction as given on both.
+/// Returns a box on a slope of 0.5 rad (gravity is inclined instead), with the same friction on both.
 fn slope(friction: f64, rest: &str) -> String {
     let (x, y) = (9.81 * 0.5f64.sin(), -9.81 * 0.5f64.cos());
     let body = format!(
@@ -25,7 +25,7 @@ fn a_box_on_a_slope_slides_if_its_friction_is_small() {
     assert!((slides[1] / x - 1.0).abs() < 2e-2 && (slides[2] - 0.1).abs() < 2e-3, "{slides:?}, {x}");
 }
 
-/// Every shape comes to rest on a plane, and on a mesh, as high as its size says; single precision contacts give way by 1 mm.
+/// Every shape comes to rest on a plane and on a mesh at the height of its size; contacts in single precision penetrate by 1 mm.
 #[test]
 fn shapes_rest_at_their_height() {
     let folder = tempfile::tempdir().unwrap();
@@ -67,7 +67,7 @@ fn shapes_rest_at_their_height() {
 }
 
 #[test]
-fn statics_tell_that_loads_on_bodies_take_no_part() {
+fn statics_warn_that_loads_on_bodies_are_not_applied() {
     let text = CATENARY.to_string() + "\n[[load]]\nbody = \"ball\"\nforce = [0.0, 1.0, 0.0]\n";
     let warnings = Results::of_text("static", &text).done().summary().warnings;
     assert!(warnings.len() == 1 && warnings[0].contains("loads on bodies"), "{warnings:?}");
@@ -94,7 +94,7 @@ fn without_bodies_rapier_changes_nothing_but_its_steps() {
     assert_eq!(rapier.summary().simulated_s, 1.0);
 }
 
-/// Two balls hang at the ends of a cable over the top of nothing: in statics all is held where it is drawn.
+/// A post and a ball at the ends of a slack cable; in statics both are held where they are drawn.
 const CATENARY: &str = r#"
 duration = 0.2
 [[body]]
@@ -139,10 +139,10 @@ name = "energy"
 energy = "all"
 "#;
 
-/// The cable hangs as the catenary scene's does between the same points, in statics and at the start; then the ball falls, and
-/// the cable pulls it on.
+/// The cable has the shape of the catenary scene between the same points, in statics and at the start; then the ball falls, and
+/// the cable pulls it.
 ///
-/// *Source.* The catenary scene, which is held against the analytic catenary; free fall.
+/// *Source.* The catenary scene, which is compared with the analytic catenary; free fall.
 #[test]
 fn a_start_from_equilibrium_holds_the_bodies_until_the_run_begins() {
     let catenary = Results::of("static", &asset("catenary"), &[]).done().last("middle");
@@ -160,7 +160,7 @@ fn a_start_from_equilibrium_holds_the_bodies_until_the_run_begins() {
     assert!((energy.last().unwrap()[7] - energy[0][7]).abs() < 1e-3, "{energy:?}");
 }
 
-/// *Source.* The same run without the probe, within what its tolerance leaves.
+/// *Source.* The same run without the probe, within its tolerance.
 #[test]
 fn probes_between_host_times_see_the_same_motion() {
     let probe = "\n[[probe]]\nname = \"often\"\nevery = 0.003\nbody = \"crate\"\n";
@@ -176,7 +176,7 @@ fn probes_between_host_times_see_the_same_motion() {
 }
 
 #[test]
-fn an_end_that_starts_at_another_velocity_than_its_body_is_told() {
+fn an_end_that_starts_at_another_velocity_than_its_body_is_a_warning() {
     let moving =
         Results::of("run", &asset("payload_pendulum"), &["body.crate.velocity=[0,0,1]", "duration=0.1"]).done();
     let warnings = moving.summary().warnings;
@@ -190,7 +190,7 @@ fn an_end_that_starts_at_another_velocity_than_its_body_is_told() {
     }
 }
 
-/// A load that no explicit step can follow; a load that no single-precision number can.
+/// A load beyond the stability limit of an explicit method; a load beyond the single precision of a body.
 #[test]
 fn a_run_that_fails_exits_with_3_names_cable_or_body_and_time_and_keeps_its_samples() {
     let text = fs::read_to_string(asset("payload_pendulum")).unwrap();
@@ -210,7 +210,7 @@ fn a_run_that_fails_exits_with_3_names_cable_or_body_and_time_and_keeps_its_samp
 }
 
 #[test]
-fn a_broken_body_exits_with_2_and_writes_nothing() {
+fn an_invalid_body_exits_with_2_and_writes_nothing() {
     let results = Results::of("run", &asset("payload_pendulum"), &["body.crate.mass=-1"]);
     let message = String::from_utf8_lossy(&results.output.stderr).into_owned();
     assert_eq!(results.output.status.code(), Some(2), "{message}");

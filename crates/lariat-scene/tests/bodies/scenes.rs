@@ -1,12 +1,12 @@
 //! The scenes of assets/scenes with bodies.
 
-use super::bench::{Results, asset};
+use super::results::{Results, asset};
 
-/// The box is where it should be after 0.5 s and 1 s, the pin closed, energy and momentum as they must be.
+/// Positions of the box at 0.5 s and 1 s, the gap of the attachment, conservation of energy, and the balance of momentum.
 ///
-/// *Source.* A fine run of an independent monolithic code, good to 2e-5 m; the law of momentum.
+/// *Source.* A run with small steps of an independent monolithic code, error below 2e-5 m; the law of momentum.
 #[test]
-fn the_payload_pendulum_swings_as_the_independent_code_says() {
+fn the_payload_pendulum_agrees_with_the_independent_code() {
     let results = Results::of("run", &asset("payload_pendulum"), &[]).done();
     let rows = results.rows("crate");
     for (time, x, y) in [(0.5, 1.70292, -1.21801), (1.0, -0.82138, -1.91419)] {
@@ -23,7 +23,7 @@ fn the_payload_pendulum_swings_as_the_independent_code_says() {
         assert!((row[7] - start).abs() < 0.1, "energy {} J at {} s", row[7], row[0]);
         assert!((row[1..5].iter().sum::<f64>() - row[7]).abs() < 1e-9);
     }
-    // what the pin takes up and gravity gives is the change of momentum; the trapezoid sum over the first, smooth 0.25 s
+    // the impulse of support and gravity is the change of momentum; trapezoid sum over the first, smooth 0.25 s
     let (pin, momentum) = (results.rows("pin"), results.rows("momentum"));
     let mut impulse = [0.0, 0.0];
     for k in 1..=15 {
@@ -39,11 +39,11 @@ fn the_payload_pendulum_swings_as_the_independent_code_says() {
     }
 }
 
-/// What passes at the hook is what the box gets: momentum, and energy.
+/// Force and work at the hook are the changes of momentum and energy of the box.
 ///
 /// *Source.* The laws of momentum and of energy for the box alone, from the probe of its motion.
 #[test]
-fn force_and_work_at_the_hook_are_what_the_box_gets() {
+fn force_and_work_at_the_hook_balance_the_motion_of_the_box() {
     let results = Results::of("run", &asset("payload_pendulum"), &[]).done();
     let (boxes, hook, energy) = (results.rows("crate"), results.rows("hook"), results.rows("energy"));
     let mut impulse = [0.0, 0.0];
@@ -52,7 +52,7 @@ fn force_and_work_at_the_hook_are_what_the_box_gets() {
         for i in 0..2 {
             impulse[i] += 0.5 * h * (hook[k][1 + i] + hook[k - 1][1 + i]);
             let gravity = [0.0, -9.81 * 50.0 * boxes[k][0]][i];
-            // samples of a force that rings between them say less about their sum later on
+            // later the force oscillates between samples, and their sum is less accurate
             if boxes[k][0] < 0.25 {
                 let off = impulse[i] + gravity - 50.0 * boxes[k][8 + i];
                 assert!(off.abs() < 5e-2, "{off} N s at {} s", boxes[k][0]);
@@ -70,7 +70,7 @@ fn force_and_work_at_the_hook_are_what_the_box_gets() {
     assert!(most > 1.0, "the cable did work: {most} J");
 }
 
-/// Nothing acts from outside: momentum and angular momentum stay, and the energy but for what the integrator takes.
+/// Without external forces momentum and angular momentum are constant, and the energy but for numerical dissipation.
 ///
 /// *Source.* Conservation laws; the angular momentum at the start is that of rigid bodies, `w (sum of m r^2 + I)`.
 #[test]
@@ -96,7 +96,7 @@ fn the_dumbbell_keeps_its_momenta() {
     assert!(results.summary().max_gap_m < 1e-6);
 }
 
-/// Before the lift the box stands still; in the end the rope carries it, as high as the winch, the slack and the stretch say.
+/// Before the lift the box is at rest; in the end the rope carries it, at the height given by winch, slack and stretch.
 ///
 /// *Source.* 10 kg x 9.81 m/s^2 = 98.10 N; EA = 1e5 N.
 #[test]

@@ -1,13 +1,13 @@
-//! Structures of assets/scenes: a deck on stays, a suspension bridge, a load under a helicopter.
+//! Structures of assets/scenes: a deck on stays, a suspension bridge, a slung load, a multibody arm, joints.
 
-use super::bench::{Results, asset};
+use super::results::{Results, asset};
 
 const WEIGHT: f64 = 600.0 * 9.81;
 
-/// The stays carry the deck, each as much as its slope and length say.
+/// The stays carry the deck in proportion to their stiffness against its sinking.
 ///
-/// *Source.* Statics of a rigid deck that sinks level on elastic bars: `N = EA v sin(a)/L`, `v = W/sum(EA sin^2(a)/L)`; of the geometry
-/// as it is before the deck sinks, 0.1 % of a stay's length.
+/// *Source.* Statics of a rigid deck that sinks level on elastic bars: `N = EA v sin(a)/L`, `v = W/sum(EA sin^2(a)/L)`, with the
+/// geometry before the deck sinks (by 0.1 % of the length of a stay).
 #[test]
 fn the_stays_of_a_deck_carry_their_shares() {
     let results = Results::of("run", &asset("cable_stayed"), &[]).done();
@@ -34,13 +34,13 @@ fn the_stays_of_a_deck_carry_their_shares() {
     assert!(results.summary().max_gap_m < 1e-6);
 }
 
-/// Horizontal pull times sag is the moment of the loads about the middle of the span.
+/// Horizontal tension times sag is the moment of the loads about the middle of the span.
 ///
 /// *Source.* `H f = w L^2/8`, which for five equal loads in six equal spaces is `4.5 P d`; and the cable's own weight, spread along its
 /// length of 12.47 m: `0.08 kg/m x g x 12.47 m x 12 m/8` (its steeper ends carry a little more of it: 0.01 %). The tower carries half of
-/// all. C1 elements cannot have the kinks that a light cable has at its clips: the pull is 0.35 % short with 24 elements.
+/// the weight. C1 elements do not represent the kinks of a light cable at its clips: the tension is 0.35 % low with 24 elements.
 #[test]
-fn a_suspension_bridge_pulls_at_its_towers_as_the_parabola_says() {
+fn a_suspension_bridge_has_the_tension_of_the_parabola() {
     let results = Results::of("run", &asset("bridge"), &[]).done();
     let [tower, middle, hanger] = ["tower", "middle", "hanger"].map(|probe| {
         let late: Vec<_> = results.rows(probe).into_iter().filter(|row| row[0] > 3.0).collect();
@@ -60,11 +60,11 @@ fn a_suspension_bridge_pulls_at_its_towers_as_the_parabola_says() {
     assert!(results.summary().max_gap_m < 1e-5);
 }
 
-/// The load swings out and back once while the helicopter flies, and hangs still when it has stopped.
+/// The load swings out and back once while the helicopter flies, and is at rest when it has stopped.
 ///
 /// *Source.* The simple pendulum: amplitude `acos(1 - v^2/2gL)`, period `4 sqrt(L/g) K(sin(a/2))`, 6.4 s for L = 10.0617 m.
 #[test]
-fn a_slung_load_swings_once_and_hangs_still() {
+fn a_slung_load_swings_once_and_comes_to_rest() {
     let results = Results::of("run", &asset("slung_load"), &[]).done();
     let (load, above) = (results.rows("load"), results.rows("helicopter"));
     let angles: Vec<(f64, f64)> =
@@ -81,7 +81,7 @@ fn a_slung_load_swings_once_and_hangs_still() {
     assert!(most(6.91, 10.0) < 0.1, "{} degrees are left", most(6.91, 10.0));
 }
 
-/// A tether holds the tip of a multibody arm whose elbow is pulled down; the tip stays level.
+/// A tether supports the tip of a multibody arm with a force at its elbow; the tip stays at its height.
 ///
 /// *Source.* Moments about the shoulder: `T x 1.5 m = 3 kg g x 0.75 m + 20 N x 0.5 m`.
 #[test]
@@ -97,13 +97,13 @@ fn a_tether_holds_the_tip_of_a_multibody_arm() {
     assert!(results.summary().max_gap_m < 1e-3 && results.last("tip")[7] < 1e-6, "{}", results.summary().max_gap_m);
 }
 
-/// A hinge turns about its axis and keeps its point, a slider moves along its axis and does not turn, a ball keeps its point, a fixed
-/// joint moves with what it holds to: by impulse joints and in a multibody, from bodies that are turned at the start.
+/// A hinge rotates about its axis and keeps its point, a slider moves along its axis and does not rotate, a ball keeps its point, a
+/// fixed joint moves with the other body: by impulse joints and in a multibody, from bodies that are rotated at the start.
 ///
-/// *Source.* A physical pendulum let go from level: `v = sqrt(2 g h)` of the centre for a slider, `w = sqrt(2 m g h/I)` for a hinge,
-/// from the energy at the place where it is.
+/// *Source.* A physical pendulum released from horizontal: `v = sqrt(2 g h)` of the centre for a slider, `w = sqrt(2 m g h/I)` for a hinge,
+/// from the energy at its position.
 #[test]
-fn joints_leave_free_what_they_say() {
+fn joints_have_the_freedom_of_their_kind() {
     for multibody in [false, true] {
         let scene = |joint: &str| {
             format!(

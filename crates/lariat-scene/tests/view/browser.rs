@@ -1,4 +1,4 @@
-//! Chromium without a window, spoken to in its DevTools protocol: enough of it to open a page, look at it and use the mouse.
+//! Headless Chromium, controlled by its DevTools protocol: opens a page, evaluates expressions in it and uses the mouse.
 
 use serde_json::{Value, json};
 use std::fs;
@@ -8,7 +8,7 @@ use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
 use tungstenite::{Message, WebSocket};
 
-/// How long a browser may take for anything, in s.
+/// How long the browser may take to respond.
 const PATIENCE: Duration = Duration::from_secs(60);
 
 pub struct Browser {
@@ -57,7 +57,7 @@ impl Browser {
         browser
     }
 
-    /// Sends a command and waits for its answer; what the page says meanwhile is remembered.
+    /// Sends a command and waits for its answer; messages of the page in between are recorded.
     pub fn call(&mut self, method: &str, parameters: Value) -> Value {
         self.sent += 1;
         let mut message = json!({ "id": self.sent, "method": method, "params": parameters });
@@ -100,7 +100,7 @@ impl Browser {
         }
     }
 
-    /// The value of an expression in the page, as text.
+    /// Returns the value of an expression in the page, as text.
     pub fn ask(&mut self, expression: &str) -> String {
         let question = json!({ "expression": format!("String({expression})"), "returnByValue": true });
         let answer = self.call("Runtime.evaluate", question);
@@ -108,14 +108,14 @@ impl Browser {
         answer["result"]["value"].as_str().unwrap().to_string()
     }
 
-    /// A mouse event at a place in pixels.
+    /// Sends a mouse event at a position in pixels.
     pub fn mouse(&mut self, kind: &str, x: f64, y: f64) {
         let buttons = u8::from(kind != "mouseReleased");
         let event = json!({ "type": kind, "x": x, "y": y, "button": "left", "buttons": buttons, "clickCount": 1, "deltaX": 0, "deltaY": -400 });
         self.call("Input.dispatchMouseEvent", event);
     }
 
-    /// The middle of an element, in pixels.
+    /// Returns the middle of an element, in pixels.
     pub fn middle_of(&mut self, id: &str) -> (f64, f64) {
         let of = |side: &str, size: &str| {
             format!("(b => b.{side} + b.{size} / 2)(document.getElementById('{id}').getBoundingClientRect())")
@@ -129,7 +129,7 @@ impl Browser {
         self.mouse("mouseReleased", x, y);
     }
 
-    /// The picture of the page as PNG.
+    /// Returns a screenshot of the page as PNG.
     pub fn picture(&mut self) -> Vec<u8> {
         use base64::Engine as _;
         let shot = self.call("Page.captureScreenshot", json!({ "format": "png" }));

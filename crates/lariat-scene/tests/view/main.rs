@@ -1,4 +1,4 @@
-//! `view.html`: what it holds, and, in a browser, what it shows.
+//! `view.html`: its contents, and what it shows in a browser.
 
 mod browser;
 mod page;

@@ -1,4 +1,4 @@
-//! The page as a file: it is there however the run ends, holds what the run computed, and asks for nothing from outside.
+//! The page as a file: it is written however the run ends, has the results of the run, and loads nothing.
 
 use base64::Engine as _;
 use lariat_scene::run::{self, Options};
@@ -11,7 +11,7 @@ pub fn scene(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("../../assets/scenes/{name}.toml"))
 }
 
-/// Runs a scene into a folder that goes when it is dropped.
+/// Runs a scene into a temporary folder.
 pub fn page_of(name: &str, sets: &[&str]) -> tempfile::TempDir {
     let folder = tempfile::tempdir().unwrap();
     let sets: Vec<String> = sets.iter().map(ToString::to_string).collect();
@@ -53,7 +53,7 @@ fn last_row(file: &Path) -> Vec<f64> {
 
 /// The tip in the last frame is the tip of the last row, to single precision; the rows in the page are those of the files, to the bit.
 #[test]
-fn the_page_holds_what_the_run_wrote() {
+fn the_page_has_what_the_run_wrote() {
     let folder = page_of("payload_pendulum", &["duration=0.5"]);
     let (data, probes) = (Data::read(folder.path()), folder.path().join("probes"));
     assert_eq!(data.times().len(), 31);
@@ -79,7 +79,7 @@ fn the_page_holds_what_the_run_wrote() {
 }
 
 #[test]
-fn a_long_run_has_no_more_frames_and_rows_than_the_limits_say_and_ends_at_its_end() {
+fn a_long_run_keeps_to_the_limits_of_frames_and_rows_and_has_its_last_state() {
     let light = "cable.pendulum.integrator={ method = \"generalised-alpha-0\", substeps = 1 }";
     let folder = page_of("falling_pendulum", &["duration=25.0", "cable.pendulum.elements=2", light]);
     let data = Data::read(folder.path());
@@ -98,7 +98,7 @@ fn statics_have_one_frame() {
     assert_eq!(Data::read(folder.path()).times(), [0.0]);
 }
 
-/// A run that blows up, and one that is stopped: the page has every state until then, and says what happened.
+/// A run that fails, and one that is stopped: the page has every state until then, and the reason.
 #[test]
 fn a_run_that_ends_early_leaves_its_page() {
     let folder = tempfile::tempdir().unwrap();
@@ -123,7 +123,7 @@ fn a_run_that_ends_early_leaves_its_page() {
     assert_eq!(Data::read(folder.path()).times().last(), Some(&0.51));
 }
 
-/// A scene may be called anything: the page stays a page. It never goes to the network, and says so to the browser.
+/// The name of a scene is any text; the page stays valid. Its policy forbids all loading.
 #[test]
 fn no_name_breaks_the_page_and_nothing_is_loaded() {
     let folder = page_of("falling_pendulum", &["duration=0.02", r#"name="</script><!-- @DATA@ @SCRIPT@ &""#]);
@@ -150,7 +150,7 @@ fn the_page_knows_the_columns_of_every_probe() {
 
 #[cfg(target_os = "linux")]
 #[test]
-fn a_full_disk_that_spoils_the_page_spares_the_summary() {
+fn a_full_disk_while_the_page_is_written_leaves_the_summary() {
     let folder = tempfile::tempdir().unwrap();
     std::os::unix::fs::symlink("/dev/full", folder.path().join("view.html")).unwrap();
     let catenary = Scene::read(&scene("catenary"), &[], Purpose::Static).unwrap();

@@ -1,4 +1,4 @@
-//! The page in a browser without network. Ignored unless asked for, because it needs Chromium: `.ci/view` installs it and runs these.
+//! The page in a browser without network. Ignored by default, because it needs Chromium: `.ci/view` installs it and runs these.
 
 use super::browser::Browser;
 use super::page::{page_of, scene};
@@ -7,15 +7,15 @@ use lariat_scene::{Purpose, Scene};
 
 const DRAWN: &str = "document.documentElement.dataset.drawn";
 const FRAME: &str = "document.documentElement.dataset.frame";
-/// Pixels of the scene that are not those of the paper.
+/// Number of pixels of the scene that differ from the background.
 const INK: &str = "(() => { const d = pen.getImageData(0, 0, canvas.width, canvas.height).data; let n = 0; \
                    for (let i = 4; i < d.length; i += 4) n += d[i] !== d[0] || d[i + 1] !== d[1] || d[i + 2] !== d[2]; return n; })()";
 
-/// The pendulum: as many frames as host times, the slider to its end shows another picture, the mouse turns and zooms, play runs to
-/// the end and stops, a click in a plot goes there, and nothing complains.
+/// The pendulum: a frame for each host time, the slider at its end shows another picture, the mouse rotates and zooms, Play runs to
+/// the end and stops, a click in a plot goes to its time, and the page reports no error.
 #[test]
 #[ignore = "needs Chromium: .ci/view"]
-fn the_page_shows_the_run_and_obeys_its_controls() {
+fn the_page_shows_the_run_and_its_controls_work() {
     let folder = page_of("falling_pendulum", &["duration=0.6"]);
     let mut page = Browser::start(1200, 800);
     page.open(&folder.path().join("view.html"));
@@ -52,10 +52,11 @@ fn the_page_shows_the_run_and_obeys_its_controls() {
     assert_eq!(page.ask("document.documentElement.dataset.playing"), "true");
     let end = std::time::Instant::now() + std::time::Duration::from_secs(20);
     while page.ask("document.documentElement.dataset.playing") == "true" {
-        assert!(std::time::Instant::now() < end, "it never ends");
+        assert!(std::time::Instant::now() < end, "the animation never ends");
     }
     assert_eq!(page.ask(FRAME), "60");
-    // two folds are open: 6 plots of the tip and of the middle
+    // two sections are open: 6 plots of the tip and of the middle; the motion is in a plane, and z is not a curve
+    assert!(page.ask("document.querySelector('.constant').textContent").contains("z = 0"));
     assert_eq!(page.ask("document.querySelectorAll('.uplot').length"), "12");
     page.ask("document.querySelector('.u-over').id = 'over'");
     page.click("over");
@@ -65,10 +66,10 @@ fn the_page_shows_the_run_and_obeys_its_controls() {
     assert!(page.complaints.is_empty(), "{:?}", page.complaints);
 }
 
-/// All shapes, statics, a run that failed at once: drawn without complaint.
+/// All shapes, statics, a run that fails at once: drawn without an error of the page.
 #[test]
 #[ignore = "needs Chromium: .ci/view"]
-fn every_shape_and_every_kind_of_end_is_shown() {
+fn every_shape_and_every_kind_of_outcome_is_shown() {
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(
         folder.path().join("corner.obj"),
@@ -108,7 +109,11 @@ fn every_shape_and_every_kind_of_end_is_shown() {
     page.open(&folder.path().join("view.html"));
     assert_eq!(page.ask("document.documentElement.dataset.frames"), "1");
     assert_eq!(page.ask("document.querySelectorAll('.uplot').length"), "0");
-    // it stretches without end, and no equilibrium is found
+    for id in ["play", "slider", "pace"] {
+        assert_eq!(page.ask(&format!("getComputedStyle(document.getElementById('{id}')).display")), "none", "{id}");
+    }
+    assert!(page.ask("document.getElementById('summary').textContent").contains("peak tension"));
+    // it stretches without limit, and no equilibrium is found
     let limp = ["cable.line.axial_stiffness=1e-9".to_string()];
     run::run(&catenary(&limp, Purpose::Run), folder.path(), &mut Options::default()).unwrap_err();
     page.open(&folder.path().join("view.html"));
@@ -116,10 +121,69 @@ fn every_shape_and_every_kind_of_end_is_shown() {
     assert!(page.complaints.is_empty(), "{:?}", page.complaints);
 }
 
+/// A cable at rest in its equilibrium moves by rounding errors only: the page has no curve, but values.
+#[test]
+#[ignore = "needs Chromium: .ci/view"]
+fn rounding_errors_are_not_plotted() {
+    let folder = page_of("catenary", &[]);
+    let mut page = Browser::start(1200, 800);
+    page.open(&folder.path().join("view.html"));
+    page.ask("document.querySelectorAll('#plots details').forEach((fold) => (fold.open = true))");
+    // a section fills when the browser has noticed that it is open
+    let end = std::time::Instant::now() + std::time::Duration::from_secs(20);
+    while page.ask("[...document.querySelectorAll('#plots details')].every((fold) => fold.childElementCount > 1)")
+        != "true"
+    {
+        assert!(std::time::Instant::now() < end, "a section stays empty");
+    }
+    assert_eq!(page.ask("document.querySelectorAll('.uplot').length"), "0");
+    let constant = page.ask("[...document.querySelectorAll('.constant')].map((p) => p.textContent).join('; ')");
+    for text in ["fx = 3.08", "gap = 0", "vx = 0, vy = 0, vz = 0", "kinetic = 0"] {
+        assert!(constant.contains(text), "{text}: {constant}");
+    }
+    assert!(page.complaints.is_empty(), "{:?}", page.complaints);
+}
+
+/// Forces, moments and forces per length are arrows at their points; a load with a ramp grows with time.
+#[test]
+#[ignore = "needs Chromium: .ci/view"]
+fn loads_are_arrows() {
+    let folder = tempfile::tempdir().unwrap();
+    let elastica = Scene::read(&scene("elastica"), &[], Purpose::Static).unwrap();
+    run::statics(&elastica, folder.path()).unwrap();
+    let mut page = Browser::start(1200, 800);
+    page.open(&folder.path().join("view.html"));
+    assert_eq!(page.ask("loadArrows(frames[0], 0).map((arrow) => arrow.heads)"), "1,2");
+    assert_eq!(page.ask("loadArrows(frames[0], 0)[0].label"), "10 N");
+    let off = "(() => { const { from, vector } = loadArrows(frames[0], 0)[0], p = data.probes[0].table; \
+               return Math.hypot(from[0] - p[1][0], from[1] - p[2][0]) + (vector[1] < 0 && vector[0] === 0 ? 0 : 9); })()";
+    assert!(page.ask(off).parse::<f64>().unwrap() < 1e-6);
+    let green = "(() => { const d = pen.getImageData(0, 0, canvas.width, canvas.height).data; let n = 0; \
+                 for (let i = 0; i < d.length; i += 4) n += d[i] === 11 && d[i + 1] === 122 && d[i + 2] === 85; return n; })()";
+    page.ask("setTheme('light'); show()");
+    assert!(page.ask(green).parse::<u32>().unwrap() > 50, "no arrow is drawn");
+
+    let text = std::fs::read_to_string(scene("elastica")).unwrap()
+        + "\n[[body]]\nname = \"ball\"\nshape = { ball = 0.1 }\nmass = 1.0\n[[load]]\nbody = \"ball\"\nforce = [0, 0, 2]\nramp = 0.2\n";
+    let text = text.replace("engine = \"none\"", "").replacen(
+        "[[cable]]\n",
+        "[[cable]]\nline_load = [{ force = [0, -1, 0] }]\n",
+        1,
+    );
+    let sets = ["duration=0.2".to_string()];
+    run::run(&Scene::parse("loads.toml", &text, &sets, Purpose::Run).unwrap(), folder.path(), &mut Options::default())
+        .unwrap();
+    page.open(&folder.path().join("view.html"));
+    assert_eq!(page.ask("loadArrows(frames[0], 0).length"), "7");
+    let last = "loadArrows(frames[frames.length - 1], 0.2).filter((arrow) => arrow.label).map((arrow) => arrow.label)";
+    assert!(page.ask(last).contains("2 N") && page.ask(last).contains("1 N/m"), "{}", page.ask(last));
+    assert!(page.complaints.is_empty(), "{:?}", page.complaints);
+}
+
 /// Draws docs/view.png anew: `LARIAT_PICTURE=docs/view.png .ci/view`.
 #[test]
 #[ignore = "needs Chromium: .ci/view"]
-fn the_picture_of_the_readme() {
+fn the_picture_of_the_readme_is_small() {
     let folder = page_of("bridge", &[]);
     let mut page = Browser::start(1200, 720);
     page.open(&folder.path().join("view.html"));

@@ -13,7 +13,7 @@
 
 use super::{Drag, POINTS, Split};
 use crate::dual::{Dual, constant};
-use crate::effect::acts::{ForceInput, PointForce, StepInput, VelocityInput};
+use crate::effect::acts::{ForceInput, PointForce, StepInput};
 use crate::effect::{Flow, Target};
 use crate::element::shape;
 use crate::error::{Error, require_finite};
@@ -162,7 +162,7 @@ impl DragTable {
 
     #[inline(always)]
     fn run<S: Simd>(&self, simd: S, input: ForceInput<'_>, out: &mut [f64], mut matrix: Option<&mut BlockTridiagonal>) {
-        let ForceInput { time, q, velocity: VelocityInput { v, dv_dq }, scale } = input;
+        let ForceInput { time, q, v, dv_dq, scale } = input;
         let base = self.flow.in_time(time);
         let zero = Lanes::splat(simd, 0.0);
         for first in (0..self.count).step_by(LANES) {

@@ -71,6 +71,17 @@ pub(crate) struct Balance {
 }
 
 impl Balance {
+    /// Adds the law of another part of the system.
+    pub fn add(&mut self, other: &Balance) {
+        self.residual += other.residual;
+        self.numerical += other.numerical;
+        self.effects += other.effects;
+        self.supports += other.supports;
+        self.loads += other.loads;
+        self.rescaled += other.rescaled;
+        self.scale += other.scale;
+    }
+
     /// Returns the energy that the step makes.
     pub fn excess(&self) -> f64 {
         self.residual - self.numerical - self.effects - self.rescaled
@@ -115,4 +126,15 @@ pub(crate) enum Event {
     Rescaled,
     /// The step was divided.
     Split,
+}
+
+/// Share of the velocities relative to rigid motion that a step may lose by rescaling: that of half of their energy.
+const MAX_TAKEN_SHARE: f64 = 0.292_893_218_813_452_5;
+
+/// Returns the smaller share u for which v - u w has less kinetic energy than v by the excess, from `1/2 w.M w` and `v.M w`; `None` if
+/// there is none that is small enough.
+pub(crate) fn share_to_take(energy: f64, product: f64, excess: f64) -> Option<f64> {
+    let root = product * product - 4.0 * energy * excess;
+    let share = (product - root.max(0.0).sqrt()) / (2.0 * energy);
+    (root >= 0.0 && (0.0..=MAX_TAKEN_SHARE).contains(&share)).then_some(share)
 }

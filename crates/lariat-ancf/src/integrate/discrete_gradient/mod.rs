@@ -52,7 +52,7 @@ pub(crate) use advance::advance;
 pub(crate) use buffers::Buffers;
 pub use buffers::Differences;
 pub use law::EnergyLaw;
-pub(crate) use law::{Balance, Event, SecantSystem};
+pub(crate) use law::{Balance, Event, SecantSystem, share_to_take};
 
 /// The guarded discrete gradient as a method; only [`Cable`](crate::Cable) and [`Island`](crate::island::Island) can take it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -1,17 +1,24 @@
-//! `lariat report`, `lariat stability` and `lariat table1`; the `lariat` command of lariat-scene starts this program for them.
+//! `lariat report`, `lariat stability`, `lariat coupling` and `lariat table1`: the `lariat` command
+//! of lariat-scene starts this program.
 
-mod progress;
 mod stability;
 
 use clap::{Parser, Subcommand};
-use lariat_bench::{Error, report, table1};
+use lariat_bench::report::{self, Progress};
+use lariat_bench::{Error, coupling, page, table1};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 #[derive(Parser)]
-#[command(name = "lariat", version, about = "Accuracy against cost, hard cases, and the paper's Table 1, measured")]
-#[command(after_help = "Exit codes: 0 done; 2 bad input, nothing written; 3 the measurement failed")]
+#[command(
+    name = "lariat",
+    version,
+    about = "Measures accuracy against cost, hard cases, the coupling, and the paper's Table 1"
+)]
+#[command(
+    after_help = "Exit codes: 0 done; 2 bad input, nothing written; 3 a measurement failed, what was measured is written"
+)]
 struct Cli {
     #[command(subcommand)]
     command: Command,
@@ -19,23 +26,30 @@ struct Cli {
 
 #[derive(Subcommand)]
 enum Command {
-    /// Run the hard cases on all hosts, beside what Rapier offers: DIR/stability.md and DIR/stability.csv
+    /// Run the hard cases on all hosts, beside the ropes of Rapier: stability.md, stability.svg and
+    /// two CSV files in DIR
     Stability(stability::Arguments),
+    /// Measure the cost of a cable on a body, beside the ropes of Rapier; some minutes
+    Coupling {
+        /// The page; a CSV file of all runs is written beside it
+        #[arg(long, value_name = "FILE")]
+        out: PathBuf,
+    },
     /// Measure Table 1 of the paper: accuracy and cost of the force strategies
     Table1 {
         /// Write the table as CSV too
         #[arg(long, value_name = "FILE")]
         csv: Option<PathBuf>,
     },
-    /// Measure accuracy against cost: README.md, index.html, *.csv and *.svg in DIR; some minutes
+    /// Measure accuracy against cost: README.md, *.csv and *.svg in DIR; some minutes
     Report {
-        /// Folder for the report; made if it is not there
+        /// Folder for the report; created if it does not exist
         #[arg(long, value_name = "DIR")]
         out: PathBuf,
-        /// Coarse settings and few runs: below a minute
+        /// Measure the coarsest settings with few runs: below a minute
         #[arg(long)]
         quick: bool,
-        /// Put the tables that a README shows between their marks in this file too
+        /// Put the tables of a README between their marks in this file too
         #[arg(long, value_name = "FILE")]
         readme: Option<PathBuf>,
     },
@@ -45,12 +59,13 @@ fn main() -> ExitCode {
     let cli = Cli::parse();
     let outcome = match cli.command {
         Command::Stability(arguments) => stability::measure(&arguments),
-        Command::Table1 { csv } => measure_table1(csv),
-        Command::Report { out, quick, readme } => make_report(&out, quick, readme),
+        Command::Coupling { out } => measure_coupling(&out),
+        Command::Table1 { csv } => measure_table1(csv.as_deref()),
+        Command::Report { out, quick, readme } => make_report(&out, quick, readme.as_deref()),
     };
     match outcome {
         Ok(text) => {
-            // a closed pipe is no failure of the run
+            // a closed pipe is no failure of the measurement
             let _ = io::stdout().write_all(text.as_bytes());
             ExitCode::SUCCESS
         }
@@ -61,26 +76,36 @@ fn main() -> ExitCode {
     }
 }
 
-fn make_report(out: &Path, quick: bool, readme: Option<PathBuf>) -> Result<String, Error> {
+fn make_report(out: &Path, quick: bool, readme: Option<&Path>) -> Result<String, Error> {
     let options = if quick { report::Options::quick() } else { report::Options::full() };
-    let spinner = progress::Spinner::new();
-    let outcome = report::run(out, options, &mut |what| spinner.tell(what));
-    spinner.finish();
-    let report = outcome?;
+    let report = report::run(out, &options, &mut |progress| match progress {
+        Progress::Begun(title) => eprint!("{title} ... "),
+        Progress::Done(seconds) => eprintln!("{seconds:.1} s"),
+        Progress::Failed(reason) => eprintln!("failed: {reason}"),
+    })?;
     if let Some(readme) = readme {
-        report::update_readme(&report, &readme)?;
+        report::readme::update(&report, readme)?;
     }
-    Ok(format!("{:.0} s; open {}\n", report.seconds, out.join("index.html").display()))
+    report.check()?;
+    Ok(format!("{:.0} s; open {}\n", report.seconds, out.join("README.md").display()))
 }
 
-fn measure_table1(csv: Option<PathBuf>) -> Result<String, Error> {
-    // a file that cannot be written is known before the measurement, not after
-    let failed = |path: &PathBuf, source| Error::Output { path: path.clone(), source };
-    let file =
-        csv.as_ref().map(|path| std::fs::File::create(path).map_err(|source| failed(path, source))).transpose()?;
-    let table = table1::measure(3)?;
-    if let (Some(path), Some(mut file)) = (&csv, file) {
-        file.write_all(table.to_csv().as_bytes()).map_err(|source| failed(path, source))?;
+fn measure_coupling(out: &Path) -> Result<String, Error> {
+    // a file that cannot be written is known before the measurement
+    page::write(out, "")?;
+    let (text, table) = coupling::measure(&mut |line| eprintln!("{line}"))?;
+    page::write(out, &text)?;
+    page::write(&out.with_extension("csv"), &table.csv())?;
+    Ok(format!("results in {}\n", out.display()))
+}
+
+fn measure_table1(csv: Option<&Path>) -> Result<String, Error> {
+    if let Some(path) = csv {
+        page::write(path, "")?;
     }
-    Ok(table.to_text())
+    let table = table1::measure(3)?;
+    if let Some(path) = csv {
+        page::write(path, &table.table().csv())?;
+    }
+    Ok(table.text())
 }

@@ -1,30 +1,25 @@
-//! The cases, one file per family.
+//! The cases, a file per family.
 
 mod changes;
 mod collapse;
 mod compression;
 mod jam;
-mod limp;
 mod long;
 mod many;
 mod mass_ratio;
 mod mechanisms;
-mod random;
+mod prelude;
+pub mod random;
 mod scale;
 mod snatch;
 mod stiffness;
 mod whip;
+mod zero_bending;
 
-pub use random::scene as random_scene;
+use super::world::case::Case;
+use crate::stability::family::Family;
 
-use super::stage::Case;
-use super::{engine, stage};
-use crate::stability::Family;
-
-/// Gravity in m/s^2.
-const G: f64 = 9.81;
-
-/// The cases of a family.
+/// Returns the cases of a family.
 pub fn of(family: Family) -> Vec<Case> {
     match family {
         Family::MassRatio => mass_ratio::cases(),
@@ -33,7 +28,7 @@ pub fn of(family: Family) -> Vec<Case> {
         Family::Whip => whip::cases(),
         Family::Compression => compression::cases(),
         Family::Collapse => collapse::cases(),
-        Family::Limp => limp::cases(),
+        Family::ZeroBending => zero_bending::cases(),
         Family::Jam => jam::cases(),
         Family::Changes => changes::cases(),
         Family::Long => long::cases(),
@@ -42,13 +37,4 @@ pub fn of(family: Family) -> Vec<Case> {
         Family::Mechanisms => mechanisms::cases(),
         Family::Random => random::cases(),
     }
-}
-
-/// Stretch f of a cable whose tension follows Green's law, `N = EA (f^2 - 1)/2 f`, at a tension N/EA.
-fn green_stretch(share: f64) -> f64 {
-    let mut f = 1.0 + share;
-    for _ in 0..50 {
-        f -= (0.5 * (f * f - 1.0) * f - share) / (1.5 * f * f - 0.5);
-    }
-    f
 }

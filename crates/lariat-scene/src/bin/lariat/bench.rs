@@ -1,30 +1,53 @@
-//! Subcommands of the package `lariat-bench`, which is not published and is not linked into this command.
+//! `lariat report`, `lariat stability` and `lariat table1`, which the program `lariat-bench` runs.
 //!
-//! `lariat report ...` runs the program `lariat-bench` beside this one. Where there is none and cargo started this command (`cargo run -p
-//! lariat-scene -- report ...`), cargo builds and runs it.
+//! They belong to the unpublished package `lariat-bench`, which is not linked into this command. `lariat report ...` starts the
+//! program `lariat-bench` in the folder of this one. Under `cargo run -p lariat-scene -- report ...` cargo builds and runs it.
 
-use clap::CommandFactory;
-use clap::error::ErrorKind;
+use clap::{Args, Subcommand};
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 use std::process::{Command, ExitCode};
 
 /// The subcommands of `lariat-bench`.
-const NAMES: [&str; 3] = ["report", "stability", "table1"];
+#[derive(Subcommand)]
+pub enum Bench {
+    /// Measure what a cable on a Rapier body costs (program lariat-bench)
+    #[command(disable_help_flag = true)]
+    Coupling(Arguments),
+    /// Measure accuracy against cost (program lariat-bench)
+    #[command(disable_help_flag = true)]
+    Report(Arguments),
+    /// Run the hard cases on all hosts (program lariat-bench)
+    #[command(disable_help_flag = true)]
+    Stability(Arguments),
+    /// Measure Table 1 of the paper (program lariat-bench)
+    #[command(disable_help_flag = true)]
+    Table1(Arguments),
+}
 
-/// Runs a subcommand of `lariat-bench` with its arguments; anything else is a usage error.
-pub fn run(arguments: &[OsString]) -> ExitCode {
-    let name = arguments.first().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
-    if !NAMES.contains(&name.as_str()) {
-        crate::Cli::command().error(ErrorKind::InvalidSubcommand, format!("unrecognized subcommand '{name}'")).exit();
-    }
+#[derive(Args)]
+pub struct Arguments {
+    /// Arguments of the subcommand; --help lists them
+    #[arg(trailing_var_arg = true, allow_hyphen_values = true)]
+    arguments: Vec<OsString>,
+}
+
+/// Runs a subcommand with its arguments.
+pub fn run(bench: &Bench) -> ExitCode {
+    let (name, Arguments { arguments }) = match bench {
+        Bench::Coupling(arguments) => ("coupling", arguments),
+        Bench::Report(arguments) => ("report", arguments),
+        Bench::Stability(arguments) => ("stability", arguments),
+        Bench::Table1(arguments) => ("table1", arguments),
+    };
     let Some(mut command) = command() else {
         eprintln!(
-            "error: lariat {name} needs the program lariat-bench beside lariat: cargo build --release -p lariat-bench"
+            "error: lariat {name} needs the program lariat-bench in the folder of lariat; in the workspace of Lariat, \
+             `cargo build --release -p lariat-bench` builds it"
         );
         return ExitCode::from(2);
     };
-    match command.args(arguments).status() {
+    match command.arg(name).args(arguments).status() {
         Ok(status) => ExitCode::from(status.code().and_then(|code| u8::try_from(code).ok()).unwrap_or(1)),
         Err(error) => {
             eprintln!("error: cannot start lariat-bench: {error}");
@@ -33,7 +56,7 @@ pub fn run(arguments: &[OsString]) -> ExitCode {
     }
 }
 
-/// The command that starts `lariat-bench`: through cargo if cargo started this program, so that it is never an old build.
+/// Returns the command that starts `lariat-bench`: through cargo if cargo started this program, so that it is up to date.
 fn command() -> Option<Command> {
     let manifest = Path::new(env!("CARGO_MANIFEST_DIR")).join("../lariat-bench/Cargo.toml");
     if let Some(cargo) = std::env::var_os("CARGO").filter(|_| manifest.is_file()) {
@@ -45,11 +68,11 @@ fn command() -> Option<Command> {
         command.arg("--");
         return Some(command);
     }
-    beside().map(Command::new)
+    neighbour().map(Command::new)
 }
 
-/// The program `lariat-bench` in the folder of this one.
-fn beside() -> Option<PathBuf> {
+/// Returns the program `lariat-bench` in the folder of this one.
+fn neighbour() -> Option<PathBuf> {
     let program = std::env::current_exe().ok()?.with_file_name(format!("lariat-bench{}", std::env::consts::EXE_SUFFIX));
     program.is_file().then_some(program)
 }

@@ -1,15 +1,14 @@
-//! The `lariat` command: run scenes, find equilibria, print what can be chosen.
-//!
-//! `lariat report`, `lariat stability` and `lariat table1` are of the unpublished package `lariat-bench`: see [`bench`].
+//! The `lariat` command: runs scenes, finds equilibria, lists keys, rules and integrators.
 
 mod bench;
+mod describe;
+mod keys;
 mod progress;
 mod tables;
 
 use clap::{Args, Parser, Subcommand};
 use lariat_scene::run::{self, Options, Summary};
 use lariat_scene::{Error, Purpose, Scene};
-use std::ffi::OsString;
 use std::io::{self, Write};
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -17,9 +16,10 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 #[derive(Parser)]
-#[command(version, about = "Cables that obey real materials: run scenes, find equilibria, compare force strategies")]
+#[command(version, about = "Cables with real materials: runs scenes, finds equilibria, compares force strategies")]
 #[command(
-    after_help = "Exit codes: 0 done; 2 bad input, nothing written; 3 the run failed, samples so far are kept; 130 interrupted"
+    after_help = "Exit codes: 0 done; 2 invalid input, nothing written; 3 the run failed, samples so far are kept; 130 interrupted\n\
+                  report, stability and table1 are measurements of the workspace: see lariat report --help"
 )]
 struct Cli {
     #[command(subcommand)]
@@ -28,27 +28,34 @@ struct Cli {
 
 #[derive(Subcommand)]
 enum Command {
-    /// Run a scene: writes DIR/summary.json, DIR/probes/*.csv and DIR/view.html, in place of all that are there
+    /// Run a scene: writes DIR/summary.json, DIR/probes/*.csv and DIR/view.html, and removes what the last run wrote there
     Run(SceneArguments),
-    /// Find the static equilibrium of a scene: the same files, at t = 0
+    /// Find the static equilibrium of a scene: prints it, and writes the same files, at t = 0
     Static(SceneArguments),
-    /// What can be chosen as `rule`
+    /// List the keys of a scene file, with unit, range and default
+    Keys {
+        /// A table or key, such as cable.drag
+        key: Option<String>,
+        /// Replace the tables in this page (docs/scene.md) instead of printing them
+        #[arg(long, value_name = "FILE", conflicts_with = "key")]
+        into: Option<PathBuf>,
+    },
+    /// List the values of `rule`
     Rules,
-    /// What can be chosen as `integrator`
+    /// List the values of `integrator`
     Integrators,
-    /// Measurements of the workspace: `report`, `stability`, `table1`
-    #[command(external_subcommand)]
-    Bench(Vec<OsString>),
+    #[command(flatten)]
+    Bench(bench::Bench),
 }
 
 #[derive(Args)]
 struct SceneArguments {
     /// Scene file (TOML)
     scene: PathBuf,
-    /// Folder for the results; made if it is not there
+    /// Folder for the results; created if it does not exist
     #[arg(long, value_name = "DIR")]
     out: PathBuf,
-    /// Override a key, such as cable.sling.elements=20; may be given many times
+    /// Override a key, such as cable.sling.elements=20; may be repeated
     #[arg(long, value_name = "KEY=VALUE")]
     set: Vec<String>,
 }
@@ -56,15 +63,19 @@ struct SceneArguments {
 fn main() -> ExitCode {
     let cli = Cli::parse();
     let outcome = match cli.command {
-        Command::Run(arguments) => run_scene(&arguments).map(|summary| describe(&summary, &arguments)),
-        Command::Static(arguments) => find_static(&arguments).map(|summary| describe(&summary, &arguments)),
+        Command::Run(arguments) => run_scene(&arguments).map(|summary| describe::run(&summary, &arguments.out)),
+        Command::Static(arguments) => {
+            find_static(&arguments).map(|summary| describe::statics(&summary, &arguments.out))
+        }
+        Command::Keys { into: Some(file), .. } => keys::update(&file),
+        Command::Keys { key, into: None } => keys::print(key.as_deref()),
         Command::Rules => Ok(tables::rules()),
         Command::Integrators => Ok(tables::integrators()),
-        Command::Bench(arguments) => return bench::run(&arguments),
+        Command::Bench(bench) => return bench::run(&bench),
     };
     match outcome {
         Ok(text) => {
-            // a closed pipe is no failure of the run
+            // a closed pipe is not a failure of the run
             let _ = io::stdout().write_all(text.as_bytes());
             ExitCode::SUCCESS
         }
@@ -86,7 +97,7 @@ fn run_scene(arguments: &SceneArguments) -> Result<Summary, Error> {
         }
     });
     if let Err(error) = handler {
-        let _ = writeln!(io::stderr(), "warning: Ctrl-C will not write a summary: {error}");
+        let _ = writeln!(io::stderr(), "warning: Ctrl-C will not leave a summary: {error}");
     }
     let mut bar = progress::Bar::new(scene.duration);
     let mut report = |time: f64| bar.advance(time);
@@ -99,23 +110,4 @@ fn run_scene(arguments: &SceneArguments) -> Result<Summary, Error> {
 fn find_static(arguments: &SceneArguments) -> Result<Summary, Error> {
     let scene = Scene::read(&arguments.scene, &arguments.set, Purpose::Static)?;
     run::statics(&scene, &arguments.out)
-}
-
-fn describe(summary: &Summary, arguments: &SceneArguments) -> String {
-    let warnings: String = summary.warnings.iter().map(|warning| format!("warning: {warning}\n")).collect();
-    let energy = |x: Option<f64>| x.map_or("not finite".to_string(), |x| format!("{x:.6} J"));
-    format!(
-        "{warnings}{}: {} s in {:.3} s ({:.1} times real time), {} steps, {} rejected, {} Newton iterations, \
-         energy {} -> {}\nresults in {}\n",
-        summary.name,
-        summary.simulated_s,
-        summary.wall_s,
-        summary.real_time_factor,
-        summary.steps,
-        summary.rejected_steps,
-        summary.newton_iterations,
-        energy(summary.energy_start_j),
-        energy(summary.energy_end_j),
-        arguments.out.display()
-    )
 }

@@ -1,13 +1,13 @@
-//! What can be chosen: rules and integrators, as tables for a terminal.
+//! The values of `rule` and `integrator`, as tables for a terminal.
 
 use lariat_ancf::{AxialRule, BendingRule, Method, Rule};
 
-/// A row of the table of rules: name, axial and bending energy, when to use it.
+/// Rows of the table of rules: name, axial and bending energy, when to use it.
 const NOTES: [(&str, &str, &str); 8] = [
     (
         "projected-3",
         "strain projected on linear functions; 3 Gauss points",
-        "default: neither locks nor has spare modes",
+        "default: neither locks nor has zero-energy modes",
     ),
     ("G3-3", "3 Gauss points; 3 Gauss points", "under-integrated: relieves locking a little"),
     ("G4-4", "4 Gauss points; 4 Gauss points", "as G3-3, less"),
@@ -18,11 +18,11 @@ const NOTES: [(&str, &str, &str); 8] = [
         "exact; r''/|r'|^2 with the mean stretch",
         "the paper's symbolic model; |r'| nearly constant in an element",
     ),
-    ("L2T2", "mean strain; r''/|r'|^2 with the mean stretch", "the paper's simplified model, as we read it"),
-    ("exact-none", "exact; none", "a chain, a limp rope"),
+    ("L2T2", "mean strain; r''/|r'|^2 with the mean stretch", "the paper's simplified model"),
+    ("exact-none", "exact; none", "a chain, or a rope without bending stiffness"),
 ];
 
-/// The table of rules.
+/// Returns the table of rules.
 pub fn rules() -> String {
     let mut text = format!("{:<12} {:<53} {}\n", "rule", "axial energy; bending energy", "validity");
     for (name, energies, note) in NOTES {
@@ -33,15 +33,15 @@ pub fn rules() -> String {
              \x20 bending  none | t1 (mean of |r''|^2) | t2 | gauss-N (N), N from 1 to 10\n\
              Cost: the axial energy is a constant quadratic form of six numbers whatever the rule; Gauss bending costs in\n\
              proportion to its points; `lariat table1` measures both.\n\n\
-             Refused, because modes of deformation cost no energy (allow_rank_deficient = true runs them all the same):\n";
-    for (reason, names) in refused() {
+             Rejected because of zero-energy modes (allow_rank_deficient = true runs them nevertheless):\n";
+    for (reason, names) in rejected() {
         text += &format!("  {}\n    {reason}\n", names.join(", "));
     }
     text
 }
 
-/// Refused pairs by reason, in the order of the lists of rules.
-fn refused() -> Vec<(&'static str, Vec<String>)> {
+/// Returns the rejected pairs by reason, in the order of the lists of rules.
+fn rejected() -> Vec<(&'static str, Vec<String>)> {
     let axial =
         [AxialRule::Projected, AxialRule::Exact, AxialRule::Mean].into_iter().chain((1..=10).map(AxialRule::Gauss));
     let mut groups: Vec<(&'static str, Vec<String>)> = Vec::new();
@@ -60,7 +60,7 @@ fn refused() -> Vec<(&'static str, Vec<String>)> {
     groups
 }
 
-/// The table of integrators.
+/// Returns the table of integrators.
 pub fn integrators() -> String {
     let header = ("integrator", "order", "error estimate", "cost per step", "stability", "validity");
     let mut text =

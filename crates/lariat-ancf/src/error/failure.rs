@@ -1,0 +1,131 @@
+//! The reasons that errors carry: why a time step or a static solution failed, what an effect
+//! needs, and what is wrong with a pin.
+
+use std::fmt;
+use thiserror::Error as ThisError;
+
+/// Why a time step failed, at the shortest step that was tried.
+#[derive(Clone, Debug, PartialEq, ThisError)]
+#[non_exhaustive]
+pub enum StepFailure {
+    /// Newton's iteration did not converge.
+    #[error("Newton did not converge in {iterations} iterations, last increment {increment:.3e} m")]
+    NotConverged {
+        /// Iterations done.
+        iterations: usize,
+        /// Size of the last increment in m.
+        increment: f64,
+    },
+    /// A force, a tangent or a position became infinite or not a number.
+    #[error("{what} is not finite at node {node}")]
+    NotFinite {
+        /// The quantity.
+        what: &'static str,
+        /// The first node where it was seen.
+        node: usize,
+    },
+    /// The estimated error stayed above the tolerance.
+    #[error("estimated error {estimate:.3e} m above the allowed {allowed:.3e} m")]
+    ErrorTooLarge {
+        /// Estimated position error of the step in m.
+        estimate: f64,
+        /// Allowed error of the step in m.
+        allowed: f64,
+    },
+    /// An explicit step beyond the stability limit of the cable.
+    #[error(
+        "explicit step {step:.3e} s is beyond the stability limit {limit:.3e} s: use more substeps, or an implicit method"
+    )]
+    Unstable {
+        /// Requested step in s.
+        step: f64,
+        /// Longest stable step in s.
+        limit: f64,
+    },
+    /// Fixed steps so short that a host step would take more than a million of them.
+    #[error("step {step:.3e} s is shorter than a millionth of the host's step, {least:.3e} s")]
+    TooShort {
+        /// Requested step in s.
+        step: f64,
+        /// Shortest step in s.
+        least: f64,
+    },
+    /// A step of the discrete gradient that makes energy however it is divided.
+    #[error("the step makes {energy:.3e} J, of {scale:.3e} J in the system, however it is divided")]
+    EnergyMade {
+        /// Energy made in J.
+        energy: f64,
+        /// Energy of the system in J.
+        scale: f64,
+    },
+    /// A method that the system cannot take.
+    #[error("the system has no discrete gradients: use another method")]
+    NoDiscreteGradient,
+    /// The matrix of the step is singular.
+    #[error("singular step matrix: {0}")]
+    Singular(#[from] crate::linalg::SingularMatrix),
+}
+
+/// Why no static equilibrium was found.
+#[derive(Clone, Debug, PartialEq, ThisError)]
+#[non_exhaustive]
+pub enum EquilibriumFailure {
+    /// No support can take the resultant of the loads.
+    #[error("nothing holds the cable in place")]
+    NotHeld,
+    /// Every shape that was found has a folded element, which no cable has.
+    #[error("no shape was found without folds: element {element} is folded on itself")]
+    Folded {
+        /// The first folded element.
+        element: usize,
+    },
+    /// The iteration did not converge.
+    #[error("the iteration did not converge")]
+    NotConverged,
+    /// A force or a matrix of the iteration, or a step of the dynamic relaxation, failed.
+    #[error(transparent)]
+    Step(#[from] StepFailure),
+}
+
+/// What an effect needs of a cable.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Requirement {
+    /// A bending rule other than [`BendingRule::None`](crate::BendingRule::None).
+    BendingRule,
+    /// A diameter, of the section or of the drag.
+    Diameter,
+    /// A displaced area, of the section or of the buoyancy.
+    DisplacedArea,
+    /// Drag.
+    Drag,
+}
+
+impl fmt::Display for Requirement {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Requirement::BendingRule => "a bending rule, and the cable has none",
+            Requirement::Diameter => "a diameter: of the section, or of the drag",
+            Requirement::DisplacedArea => "a displaced area: of the section, or of the buoyancy",
+            Requirement::Drag => "drag, and the cable has none",
+        })
+    }
+}
+
+/// What is wrong with a pin of an [`island`](crate::island).
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ThisError)]
+#[non_exhaustive]
+pub enum PinProblem {
+    /// The node has a pin and is not [attached](crate::Cable::attach).
+    #[error("is pinned but not attached")]
+    NotAttached,
+    /// One of node and pin holds the tangent and the other does not.
+    #[error("and its pin do not agree on whether the tangent is clamped")]
+    ClampMismatch,
+    /// The node has two pins.
+    #[error("has two pins")]
+    Duplicate,
+    /// The node is [attached](crate::Cable::attach) and has no pin.
+    #[error("is attached but has no pin")]
+    Missing,
+}

@@ -1,0 +1,338 @@
+//! The matrices of an island and its linear equations: see [`island`](super).
+
+use super::condense::Condensed;
+use super::dense::Dense;
+use super::hold::{Hold, direction_near, vector};
+use super::layout::{Layout, Part};
+use super::rotation::skew;
+use crate::cable::Cable;
+use crate::effect::acts::ForceInput;
+use crate::error::StepFailure;
+use crate::linalg::Factorisation;
+use crate::support::SlopeSupport;
+use crate::system::{project_matrix, project_vector};
+use nalgebra::{Matrix3, Vector3};
+
+/// Which matrix of an island.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum MatrixKind {
+    /// The mass matrix.
+    Mass,
+    /// The step matrix of the last stage.
+    Step,
+}
+
+/// A matrix of one cable, condensed on its held coordinates.
+#[derive(Clone, Debug, Default)]
+struct HeldMatrix {
+    condensed: Condensed,
+    /// By hold, the direction of the slope when the matrix was factored.
+    directions: Vec<Vector3<f64>>,
+}
+
+/// Matrices and buffers of one cable.
+#[derive(Clone, Debug, Default)]
+struct CableBuffers {
+    step: HeldMatrix,
+    mass: HeldMatrix,
+    /// Factors of the mass matrix; those of the step matrix are the cable's own.
+    mass_factorisation: Factorisation,
+    /// Mass matrix times accelerations.
+    product: Vec<f64>,
+}
+
+impl CableBuffers {
+    fn matrix(&self, kind: MatrixKind) -> &HeldMatrix {
+        match kind {
+            MatrixKind::Mass => &self.mass,
+            MatrixKind::Step => &self.step,
+        }
+    }
+}
+
+/// Factored matrices of an island; nothing here outlives a host step but the buffers.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Matrices {
+    cables: Vec<CableBuffers>,
+    /// The matrix of the bodies, and its factors.
+    bodies: Vec<f64>,
+    dense: Dense,
+    mass_is_factored: bool,
+    /// c2 of the stage whose step matrix is factored; 0 = none.
+    pub factored: f64,
+}
+
+impl Matrices {
+    /// Begins a host step.
+    pub fn begin(&mut self, layout: &Layout) {
+        self.cables.resize_with(layout.parts.len(), CableBuffers::default);
+        self.cables.iter_mut().zip(&layout.parts).for_each(|(buffers, part)| buffers.product.resize(part.size, 0.0));
+        self.mass_is_factored = false;
+        self.factored = 0.0;
+    }
+}
+
+/// The equations of an island during one host step.
+pub(super) struct IslandEquations<'a, 'b> {
+    pub cables: &'a mut [&'b mut Cable],
+    pub layout: &'a Layout,
+    pub matrices: &'a mut Matrices,
+}
+
+impl IslandEquations<'_, '_> {
+    /// Returns the cables with their coordinates.
+    pub fn parts(&self) -> impl Iterator<Item = (&Cable, &Part)> {
+        self.cables.iter().map(|cable| &**cable).zip(&self.layout.parts)
+    }
+
+    /// Computes `out = M x` of the cables; entries of bodies are left as they are.
+    pub fn multiply_mass(&self, x: &[f64], out: &mut [f64]) {
+        for (cable, part) in self.parts() {
+            cable.system.mass.multiply(cable.system.level, &x[part.range()], &mut out[part.range()]);
+        }
+    }
+
+    /// Computes the rows `scale F - M z` of all cables; `z` holds accelerations times the scale.
+    pub fn cable_rows(&mut self, at: &ForceInput<'_>, z: &[f64], rhs: &mut [f64]) {
+        let layout = self.layout;
+        for ((cable, part), buffers) in self.cables.iter_mut().zip(&layout.parts).zip(&mut self.matrices.cables) {
+            let range = part.range();
+            let rows = &mut rhs[range.clone()];
+            let (mut equations, _) = cable.equations();
+            equations.force(ForceInput { q: &at.q[range.clone()], v: &at.v[range.clone()], ..*at }, rows);
+            equations.system.mass.multiply(equations.system.level, &z[range], &mut buffers.product);
+            subtract(rows, &buffers.product);
+        }
+    }
+
+    /// Computes the rows as [`cable_rows`](Self::cable_rows), and factors and condenses the step
+    /// matrices of all cables.
+    pub fn cable_rows_and_matrices(
+        &mut self,
+        at: &ForceInput<'_>,
+        z: &[f64],
+        rhs: &mut [f64],
+    ) -> Result<(), StepFailure> {
+        let layout = self.layout;
+        for ((cable, part), buffers) in self.cables.iter_mut().zip(&layout.parts).zip(&mut self.matrices.cables) {
+            let range = part.range();
+            let rows = &mut rhs[range.clone()];
+            let CableBuffers { step, product, .. } = buffers;
+            update_clamp_directions(cable, &part.holds, at.q, &mut step.directions);
+            let (mut equations, _) = cable.equations();
+            let input = ForceInput { q: &at.q[range.clone()], v: &at.v[range.clone()], ..*at };
+            equations.force_and_matrix(input, 1.0, rows);
+            step.condensed.read(&equations.system.step.matrix, &part.holds);
+            equations.factor_to_solve()?;
+            let (level, model) = (equations.system.level, equations.model);
+            let factorisation = &equations.system.step.factorisation;
+            step.condensed.complete(level, factorisation, &part.holds, |x| project_vector(model, x));
+            equations.system.mass.multiply(equations.system.level, &z[range], product);
+            subtract(rows, product);
+        }
+        Ok(())
+    }
+
+    /// Factors and condenses the mass matrices of all cables, and the bodies' matrix at this
+    /// configuration.
+    pub fn factor_mass(&mut self, q: &[f64], v: &[f64]) -> Result<(), StepFailure> {
+        let layout = self.layout;
+        let clamped = layout.clamps.iter().any(Option::is_some);
+        if !self.matrices.mass_is_factored || clamped {
+            for ((cable, part), buffers) in self.cables.iter_mut().zip(&layout.parts).zip(&mut self.matrices.cables) {
+                let CableBuffers { mass, mass_factorisation, .. } = buffers;
+                update_clamp_directions(cable, &part.holds, q, &mut mass.directions);
+                let Cable { model, system, .. } = &mut **cable;
+                let matrix = &mut system.step.matrix;
+                matrix.clear();
+                system.mass.add_to(matrix, 1.0);
+                mass.condensed.read(matrix, &part.holds);
+                project_matrix(model, matrix);
+                mass_factorisation.factor(system.level, matrix)?;
+                mass.condensed.complete(system.level, mass_factorisation, &part.holds, |x| project_vector(model, x));
+            }
+            self.matrices.mass_is_factored = true;
+        }
+        self.factor_bodies(MatrixKind::Mass, q, v, &[])
+    }
+
+    /// Factors the matrix of the bodies: masses, condensed cables, and, of the step matrix, the
+    /// geometric stiffness of the levers under the rows `rhs` of the held coordinates.
+    pub fn factor_bodies(&mut self, kind: MatrixKind, q: &[f64], v: &[f64], rhs: &[f64]) -> Result<(), StepFailure> {
+        let layout = self.layout;
+        let Matrices { cables, bodies: matrix, dense, .. } = &mut *self.matrices;
+        let n = 6 * layout.bodies.len();
+        matrix.clear();
+        matrix.resize(n * n, 0.0);
+        let mut add = |row: usize, column: usize, value: f64| matrix[row * n + column] += value;
+        for (i, body) in layout.bodies.iter().enumerate() {
+            let at = layout.body_at(i);
+            let motion = layout.motion(i, &q[at..at + 6], &v[at..at + 6]);
+            let inertia = body.world_inertia(&motion.rotation);
+            for r in 0..3 {
+                add(6 * i + r, 6 * i + r, body.mass);
+                for c in 0..3 {
+                    add(6 * i + 3 + r, 6 * i + 3 + c, inertia[(r, c)]);
+                }
+            }
+            if let Some(carried) = &body.carried {
+                for (r, c) in pairs(6) {
+                    add(6 * i + r, 6 * i + c, carried[(r, c)]);
+                }
+            }
+        }
+        for (buffers, part) in cables.iter().zip(&layout.parts) {
+            let w = &buffers.matrix(kind).condensed.w;
+            let count = 3 * part.holds.len();
+            for (a, hold) in part.holds.iter().enumerate() {
+                let (rotating, body) = (layout.rotating_vector(hold, q), 6 * layout.pins[hold.pin].body);
+                if kind == MatrixKind::Step {
+                    let geometric = -skew(&vector(&rhs[hold.at..])) * skew(&rotating);
+                    let symmetric = (geometric + geometric.transpose()) * 0.5;
+                    for (r, c) in pairs(3) {
+                        add(body + 3 + r, body + 3 + c, symmetric[(r, c)]);
+                    }
+                }
+                let ga = -skew(&rotating);
+                for (b, other) in part.holds.iter().enumerate() {
+                    let block = Matrix3::from_fn(|r, c| w[(3 * a + r) * count + 3 * b + c]);
+                    let gb = -skew(&layout.rotating_vector(other, q));
+                    let second = 6 * layout.pins[other.pin].body;
+                    let rotated = block * gb;
+                    for (r, c) in pairs(3) {
+                        add(body + 3 + r, second + 3 + c, (ga.transpose() * rotated)[(r, c)]);
+                        if !hold.slope {
+                            add(body + r, second + 3 + c, rotated[(r, c)]);
+                        }
+                        if !other.slope {
+                            add(body + 3 + r, second + c, (ga.transpose() * block)[(r, c)]);
+                        }
+                        if !hold.slope && !other.slope {
+                            add(body + r, second + c, block[(r, c)]);
+                        }
+                    }
+                }
+            }
+        }
+        for (i, body) in layout.bodies.iter().enumerate() {
+            for x in (0..6).filter(|&x| !body.free[x]) {
+                let row = 6 * i + x;
+                for j in 0..n {
+                    matrix[row * n + j] = 0.0;
+                    matrix[j * n + row] = 0.0;
+                }
+                matrix[row * n + row] = 1.0;
+            }
+        }
+        Ok(dense.factor(matrix, n)?)
+    }
+
+    /// Solves in place: rows in, increments out, those of pinned coordinates included. The
+    /// increments of bodies are displacements and rotations in world axes.
+    pub fn solve(&mut self, kind: MatrixKind, q: &[f64], rhs: &mut [f64]) {
+        let layout = self.layout;
+        let Matrices { cables: buffers, dense, .. } = &mut *self.matrices;
+        for ((cable, part), buffers) in self.cables.iter_mut().zip(&layout.parts).zip(buffers.iter()) {
+            let cable = &mut **cable;
+            let directions = &buffers.matrix(kind).directions;
+            for (hold, factored) in part.holds.iter().zip(directions).filter(|(h, _)| h.slope) {
+                // the matrix was factored with this direction
+                let along = direction_near(&q[hold.at..], factored).dot(&vector(&rhs[hold.at..]));
+                rhs[hold.at..hold.at + 3].copy_from_slice((factored * along).as_slice());
+                if let Some((_, support)) = cable.model.supports.iter_mut().find(|(n, _)| *n == hold.node) {
+                    support.slope = SlopeSupport::Attached(*factored);
+                }
+            }
+            let rows = &mut rhs[part.range()];
+            project_vector(&cable.model, rows);
+            let factorisation = match kind {
+                MatrixKind::Mass => &buffers.mass_factorisation,
+                MatrixKind::Step => &cable.system.step.factorisation,
+            };
+            factorisation.solve(cable.system.level, rows);
+            cable.diagnostics_mut().solves += 1;
+        }
+        for (part, buffers) in layout.parts.iter().zip(buffers.iter()) {
+            let condensed = &buffers.matrix(kind).condensed;
+            for (h, hold) in part.holds.iter().enumerate() {
+                let rows = &rhs[part.range()];
+                let row = Vector3::from_fn(|x, _| -condensed.border(3 * h + x, rows));
+                layout.pass(hold, &row, &layout.rotating_vector(hold, q), rhs);
+            }
+        }
+        let at = layout.bodies_at;
+        for (i, body) in layout.bodies.iter().enumerate() {
+            for x in (0..6).filter(|&x| !body.free[x]) {
+                rhs[at + 6 * i + x] = 0.0;
+            }
+        }
+        dense.solve(&mut rhs[at..at + 6 * layout.bodies.len()]);
+        for (part, buffers) in layout.parts.iter().zip(buffers.iter()) {
+            let HeldMatrix { condensed, directions } = buffers.matrix(kind);
+            let displacement = |hold: &Hold, rhs: &[f64]| {
+                let at = layout.body_at(layout.pins[hold.pin].body);
+                let rotated = vector(&rhs[at + 3..]).cross(&layout.rotating_vector(hold, q));
+                if hold.slope { rotated } else { vector(&rhs[at..]) + rotated }
+            };
+            for (h, hold) in part.holds.iter().enumerate() {
+                let displacement = displacement(hold, rhs);
+                let rows = &mut rhs[part.range()];
+                for x in 0..3 {
+                    condensed.spread(3 * h + x, displacement[x], rows);
+                }
+            }
+            for (hold, factored) in part.holds.iter().zip(directions) {
+                let mut held = displacement(hold, rhs);
+                if hold.slope {
+                    let along = factored.dot(&vector(&rhs[hold.at..]));
+                    held += direction_near(&q[hold.at..], factored) * along;
+                }
+                rhs[hold.at..hold.at + 3].copy_from_slice(held.as_slice());
+            }
+        }
+    }
+
+    /// Returns the size in m of a vector of increments, with rotations multiplied by the lever they
+    /// displace.
+    pub fn norm(&self, x: &[f64]) -> f64 {
+        let mut worst = 0.0f64;
+        let mut take = |size: f64| worst = if size > worst || size.is_nan() { size } else { worst };
+        for (cable, part) in self.parts() {
+            take(cable.system.scales.extent(&x[part.range()]).0);
+        }
+        for (i, lever) in self.layout.levers.iter().enumerate() {
+            let at = self.layout.body_at(i);
+            take(vector(&x[at..]).norm());
+            take(vector(&x[at + 3..]).norm() * lever);
+        }
+        worst
+    }
+}
+
+/// Sets the directions of a cable's clamps at coordinates `q` of the island in its supports, and
+/// records them by hold as those of the matrix to be factored.
+fn update_clamp_directions(cable: &mut Cable, holds: &[Hold], q: &[f64], directions: &mut Vec<Vector3<f64>>) {
+    let supports = &mut cable.model.supports;
+    directions.clear();
+    for hold in holds {
+        let mut d = Vector3::zeros();
+        if hold.slope
+            && let Some(SlopeSupport::Attached(held)) =
+                supports.iter_mut().find(|(n, _)| *n == hold.node).map(|(_, s)| &mut s.slope)
+        {
+            *held = direction_near(&q[hold.at..], held);
+            d = *held;
+        }
+        directions.push(d);
+    }
+}
+
+fn subtract(x: &mut [f64], y: &[f64]) {
+    for (x, y) in x.iter_mut().zip(y) {
+        *x -= y;
+    }
+}
+
+fn pairs(n: usize) -> impl Iterator<Item = (usize, usize)> {
+    (0..n).flat_map(move |r| (0..n).map(move |c| (r, c)))
+}

@@ -1,0 +1,183 @@
+//! The coordinates of an island, and what pins and clamps prescribe during one host step.
+//!
+//! The coordinates are those of the cables, one after the other, then six per body: position and
+//! rotation vector. Everything here is set when the step begins and constant until it ends.
+
+use super::body::RigidBody;
+use super::clamp::Clamp;
+use super::hold::{Hold, direction, vector};
+use super::pin::PinConstraint;
+use super::rotation::{exponential, spin};
+use crate::cable::Cable;
+use nalgebra::{UnitQuaternion, Vector3};
+
+/// Largest component of a gap in m that is rounding.
+const GAP_ROUNDING: f64 = 1e-12;
+/// Largest mean speed in m/s with which a gap closes, to limit the acceleration of the cable after
+/// a teleport.
+pub const CLOSING_SPEED: f64 = 10.0;
+/// Where the cosine between a slope and its clamp is below minus this, the slope of a cable without
+/// bending stiffness has reversed: it is along the clamp, with negative stretch. Treating this as a
+/// rotation by pi in one step creates energy without bound.
+const REVERSED_COSINE: f64 = 0.9;
+
+/// The coordinates of one cable.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Part {
+    /// Offset among the island's coordinates.
+    pub at: usize,
+    /// Number of coordinates.
+    pub size: usize,
+    /// Those that follow bodies.
+    pub holds: Vec<Hold>,
+}
+
+impl Part {
+    /// Returns the range of the coordinates.
+    pub fn range(&self) -> core::ops::Range<usize> {
+        self.at..self.at + self.size
+    }
+}
+
+/// A body at an instant.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Motion {
+    pub position: Vector3<f64>,
+    pub rotation: UnitQuaternion<f64>,
+    pub velocity: Vector3<f64>,
+    pub spin: Vector3<f64>,
+}
+
+/// Coordinates, bodies and pins of an island during one host step.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Layout {
+    /// By cable.
+    pub parts: Vec<Part>,
+    /// The bodies when the step began.
+    pub bodies: Vec<RigidBody>,
+    /// By body, the largest distance of a pin from the centre of mass in m, by which a rotation
+    /// displaces it.
+    pub levers: Vec<f64>,
+    pub pins: Vec<PinConstraint>,
+    /// By pin, the clamped direction if it is a clamp.
+    pub clamps: Vec<Option<Clamp>>,
+    /// By pin, the part of the gap that closes in this step, and the part that remains.
+    closing: Vec<Vector3<f64>>,
+    remaining: Vec<Vector3<f64>>,
+    /// Offset of the bodies' coordinates.
+    pub bodies_at: usize,
+    /// Time in s at which the step began, and its duration in s.
+    start: f64,
+    duration: f64,
+}
+
+impl Layout {
+    /// Begins a step of `dt` (s) from the present state.
+    pub fn begin(&mut self, cables: &[&mut Cable], bodies: &[RigidBody], pins: &[PinConstraint], dt: f64) {
+        self.parts.resize_with(cables.len(), Part::default);
+        let mut at = 0;
+        for (c, (part, cable)) in self.parts.iter_mut().zip(cables).enumerate() {
+            part.at = at;
+            part.size = cable.positions().len();
+            at += part.size;
+            part.holds.clear();
+            for (i, pin) in pins.iter().enumerate().filter(|(_, p)| p.cable == c) {
+                let position = Hold { pin: i, node: pin.node, at: part.at + 6 * pin.node, slope: false };
+                part.holds.push(position);
+                if pin.direction.is_some() {
+                    part.holds.push(Hold { at: position.at + 3, slope: true, ..position });
+                }
+            }
+        }
+        self.bodies_at = at;
+        self.bodies.clear();
+        self.bodies.extend_from_slice(bodies);
+        self.levers.clear();
+        self.levers.resize(bodies.len(), 0.0);
+        self.pins.clear();
+        self.pins.extend_from_slice(pins);
+        self.closing.clear();
+        self.remaining.clear();
+        self.clamps.clear();
+        for pin in pins {
+            let (cable, body) = (&cables[pin.cable], &bodies[pin.body]);
+            let gap = cable.node_position(pin.node) - body.point(&pin.anchor);
+            let gap = if gap.amax() < GAP_ROUNDING { Vector3::zeros() } else { gap };
+            let share = (CLOSING_SPEED * dt / (1.5 * gap.norm()).max(GAP_ROUNDING)).min(1.0);
+            self.closing.push(gap * share);
+            self.remaining.push(gap * (1.0 - share));
+            self.levers[pin.body] = self.levers[pin.body].max(pin.anchor.norm());
+            self.clamps.push(pin.direction.map(|wanted| {
+                let slope = body.rotation.inverse() * vector(&cable.positions()[6 * pin.node + 3..]);
+                let present = direction(&slope).unwrap_or(wanted);
+                let present = if present.dot(&wanted) < -REVERSED_COSINE { -present } else { present };
+                Clamp::new(present, wanted, dt)
+            }));
+        }
+        self.start = cables[0].time();
+        self.duration = dt;
+    }
+
+    /// Returns the number of coordinates.
+    pub fn size(&self) -> usize {
+        self.bodies_at + 6 * self.bodies.len()
+    }
+
+    /// Returns the offset of a body's coordinates.
+    pub fn body_at(&self, body: usize) -> usize {
+        self.bodies_at + 6 * body
+    }
+
+    /// Returns the offset of a pinned node's coordinates.
+    pub fn pin_at(&self, pin: usize) -> usize {
+        self.parts[self.pins[pin].cable].at + 6 * self.pins[pin].node
+    }
+
+    /// Returns all coordinates that follow bodies.
+    pub fn holds(&self) -> impl Iterator<Item = &Hold> {
+        self.parts.iter().flat_map(|part| &part.holds)
+    }
+
+    /// Returns whether no gap closes and no clamp rotates in this step.
+    pub fn is_closed(&self) -> bool {
+        self.closing.iter().chain(&self.remaining).all(|gap| *gap == Vector3::zeros())
+            && self.clamps.iter().flatten().all(Clamp::is_constant)
+    }
+
+    /// Returns the elapsed share of the step, 0 to 1.
+    pub fn elapsed(&self, time: f64) -> f64 {
+        ((time - self.start) / self.duration).clamp(0.0, 1.0)
+    }
+
+    /// Returns the attitude of body `i` at its coordinates `q`.
+    pub fn attitude(&self, i: usize, q: &[f64]) -> UnitQuaternion<f64> {
+        exponential(&vector(&q[3..])) * self.bodies[i].rotation
+    }
+
+    /// Returns body `i` at its coordinates `q` and their rates `v`. Inlined, so that callers pay
+    /// only for the fields they use.
+    #[inline(always)]
+    pub fn motion(&self, i: usize, q: &[f64], v: &[f64]) -> Motion {
+        let theta = vector(&q[3..]);
+        Motion {
+            position: vector(q),
+            rotation: exponential(&theta) * self.bodies[i].rotation,
+            velocity: vector(v),
+            spin: spin(&theta, &vector(&v[3..])),
+        }
+    }
+
+    /// Returns gap and rate of a pin. The gap is a cubic of time with zero rate at both ends: a
+    /// jump of the rate would give the cable an impulse.
+    pub fn gap(&self, pin: usize, time: f64) -> (Vector3<f64>, Vector3<f64>) {
+        let s = self.elapsed(time);
+        let open = self.remaining[pin] + self.closing[pin] * (1.0 - s * s * (3.0 - 2.0 * s));
+        (open, self.closing[pin] * (-6.0 * s * (1.0 - s) / self.duration))
+    }
+
+    /// Returns the second time derivative of a pin's gap.
+    pub fn gap_acceleration(&self, pin: usize, time: f64) -> Vector3<f64> {
+        let s = self.elapsed(time);
+        self.closing[pin] * (-6.0 * (1.0 - 2.0 * s) / (self.duration * self.duration))
+    }
+}

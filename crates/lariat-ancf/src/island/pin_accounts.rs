@@ -1,0 +1,119 @@
+//! Forces, impulses and work at the pins of an island over a host step.
+//!
+//! # Equation
+//!
+//! ```text
+//! f = F_r - (M q'')_r          m = t x (F_t - (M q'')_t)
+//! impulse = int f dt           work = int f.v + m.omega dt
+//! ```
+//!
+//! f and m are force and moment of the cable on the body at the anchor: the residual of the cable
+//! at the pinned rows after every step of the integrator. The integrals are by the trapezoidal rule
+//! over these steps.
+//!
+//! # References
+//!
+//! Virtual work; the residual of a held row is its reaction.
+
+use super::equations::IslandEquations;
+use super::hold::vector;
+use super::layout::Layout;
+use crate::effect::acts::ForceInput;
+use crate::integrate::State;
+use nalgebra::Vector3;
+
+/// What the cable did to the body at one pin during the last step. World axes.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct PinAccount {
+    /// Force at the end of the step in N.
+    pub force: Vector3<f64>,
+    /// Moment about the anchor at the end of the step in N m; zero at a ball.
+    pub moment: Vector3<f64>,
+    /// Impulse over the step in N s.
+    pub impulse: Vector3<f64>,
+    /// Angular impulse about the anchor over the step in N m s.
+    pub angular_impulse: Vector3<f64>,
+    /// Work over the step in J.
+    pub work: f64,
+    power: f64,
+}
+
+impl PinAccount {
+    /// Adds a step of length `h` (s) of mean force, moment and power; of a slope only the moment counts.
+    pub(super) fn add_mean(&mut self, h: f64, slope: bool, (force, moment, power): (Vector3<f64>, Vector3<f64>, f64)) {
+        if slope {
+            self.moment = moment;
+        } else {
+            self.force = force;
+        }
+        self.impulse += force * h;
+        self.angular_impulse += moment * h;
+        self.work += power * h;
+    }
+}
+
+/// The accounts of all pins.
+#[derive(Clone, Debug, Default)]
+pub(super) struct PinAccounts {
+    /// By pin.
+    pub pins: Vec<PinAccount>,
+    /// Time in s up to which they are integrated; `None` before the first state of a step.
+    until: Option<f64>,
+}
+
+impl PinAccounts {
+    /// Begins a host step.
+    pub fn begin(&mut self, pins: usize) {
+        self.pins.clear();
+        self.pins.resize(pins, PinAccount::default());
+        self.until = None;
+    }
+
+    /// Adds the impulses of an inelastic impact: `momentum` is what the nodes of the cables gained,
+    /// `change` the change of all velocities `v`. The work is that on the body; the cable's
+    /// remaining energy loss is heat.
+    pub fn add_impact(&mut self, layout: &Layout, q: &[f64], v: &[f64], change: &[f64], momentum: &[f64]) {
+        for (pin, account) in self.pins.iter_mut().enumerate() {
+            let (at, body) = (layout.pin_at(pin), layout.body_at(layout.pins[pin].body));
+            let impulse = -vector(&momentum[at..]);
+            let mean = vector(&v[at..]) + 0.5 * vector(&change[at..]);
+            account.impulse += impulse;
+            account.work += impulse.dot(&mean);
+            if layout.clamps[pin].is_some() {
+                let angular = -vector(&q[at + 3..]).cross(&vector(&momentum[at + 3..]));
+                account.angular_impulse += angular;
+                account.work += angular.dot(&(vector(&v[body + 3..]) + 0.5 * vector(&change[body + 3..])));
+            }
+        }
+    }
+
+    /// Integrates the accounts to a state whose accelerations are known; `rhs` is a buffer.
+    pub fn integrate_to(&mut self, equations: &mut IslandEquations<'_, '_>, state: &State, rhs: &mut [f64]) {
+        if self.pins.is_empty() {
+            return;
+        }
+        let (q, v) = (&state.q, &state.v);
+        let at = ForceInput { time: state.time, scale: 1.0, q, v, dv_dq: 0.0 };
+        equations.cable_rows(&at, &state.memory.acceleration, rhs);
+        let half = match self.until {
+            Some(before) => 0.5 * (state.time - before),
+            None => 0.0,
+        };
+        let layout = equations.layout;
+        for (pin, account) in self.pins.iter_mut().enumerate() {
+            let at = layout.pin_at(pin);
+            let (motion, rho) = layout.lever(pin, q, v);
+            let force = vector(&rhs[at..]);
+            let clamped = layout.clamps[pin].is_some();
+            let moment = if clamped { vector(&q[at + 3..]).cross(&vector(&rhs[at + 3..])) } else { Vector3::zeros() };
+            let power = force.dot(&(motion.velocity + motion.spin.cross(&rho))) + moment.dot(&motion.spin);
+            account.impulse += (account.force + force) * half;
+            account.angular_impulse += (account.moment + moment) * half;
+            account.work += (account.power + power) * half;
+            account.force = force;
+            account.moment = moment;
+            account.power = power;
+        }
+        self.until = Some(state.time);
+    }
+}

@@ -1,0 +1,141 @@
+//! One host step of an island.
+
+use super::body::RigidBody;
+use super::dynamics::{IslandDynamics, Vectors};
+use super::equations::{IslandEquations, Matrices};
+use super::layout::Layout;
+use super::memory;
+use super::pin::{PinConstraint, check};
+use super::pin_accounts::{PinAccount, PinAccounts};
+use super::secant::SecantBuffers;
+use super::secant_step::SecantStep;
+use crate::cable::{Cable, SHORTEST_STEP, check_integrator};
+use crate::error::{Error, require};
+use crate::integrate::{Integrator, IntegratorRef, Scratch, State, step_control};
+
+/// Buffers of an island, reused from step to step; nothing in them is state.
+#[derive(Clone, Debug, Default)]
+pub struct Island {
+    layout: Layout,
+    matrices: Matrices,
+    accounts: PinAccounts,
+    vectors: Vectors,
+    secants: SecantBuffers,
+    scratch: Scratch,
+    state: State,
+}
+
+impl Island {
+    /// Advances `cables` and `bodies`, held together by `pins`, by `dt` (s) with `integrator`.
+    ///
+    /// # Errors
+    /// [`Error::StepFailed`] if the step fails; [`Error::Pin`], [`Error::NotInIsland`] or
+    /// [`Error::OutOfRange`] for a pin that fits no attached node, cable or body;
+    /// [`Error::EmptyIsland`] and [`Error::TimeMismatch`]; and as
+    /// [`Cable::step_with`](Cable::step_with). Cables and bodies are then exactly as before.
+    pub fn step(
+        &mut self,
+        cables: &mut [&mut Cable],
+        bodies: &mut [RigidBody],
+        pins: &[PinConstraint],
+        integrator: Integrator,
+        dt: f64,
+    ) -> Result<(), Error> {
+        self.step_with(cables, bodies, pins, (&integrator).into(), dt)
+    }
+
+    /// Advances as [`step`](Self::step) does, with a method that may be of another crate.
+    ///
+    /// # Errors
+    /// As [`step`](Self::step).
+    pub fn step_with(
+        &mut self,
+        cables: &mut [&mut Cable],
+        bodies: &mut [RigidBody],
+        pins: &[PinConstraint],
+        integrator: IntegratorRef<'_>,
+        dt: f64,
+    ) -> Result<(), Error> {
+        require("dt (s)", dt, dt == 0.0 || dt >= SHORTEST_STEP, "0, or >= 1e-100")?;
+        integrator.check()?;
+        check(cables, bodies, pins)?;
+        cables.iter().try_for_each(|cable| check_integrator(&cable.model, integrator.method))?;
+        if dt == 0.0 {
+            return Ok(());
+        }
+        cables.iter_mut().for_each(|cable| cable.system.meter.begin());
+        let Island { layout, matrices, accounts, vectors, secants: buffers, scratch, state } = self;
+        layout.begin(cables, bodies, pins, dt);
+        matrices.begin(layout);
+        accounts.begin(pins.len());
+        vectors.resize(layout.size());
+        gather(cables, bodies, state);
+        if integrator.method.uses_discrete_gradients() {
+            return SecantStep { cables, bodies, layout, matrices, accounts, vectors, buffers, state }
+                .run(integrator.control, dt);
+        }
+        memory::recall(cables, bodies, layout, state);
+        let equations = IslandEquations { cables: &mut *cables, layout, matrices };
+        let mut system = IslandDynamics { equations, accounts, vectors };
+        if let Err(failure) = system.match_velocities(state) {
+            return Err(cables[0].step_failed(state.time, 0.0, failure));
+        }
+        let (counts, outcome) = step_control::advance(&mut system, integrator, state, dt, scratch);
+        for cable in cables.iter_mut() {
+            let diagnostics = cable.diagnostics_mut();
+            diagnostics.steps += counts.steps;
+            diagnostics.rejected_steps += counts.rejected;
+        }
+        if let Err(failed) = outcome {
+            return Err(cables[0].step_failed(failed.time, failed.step, failed.failure));
+        }
+        memory::keep(cables, bodies, pins, state);
+        scatter(cables, bodies, state, layout);
+        Ok(())
+    }
+
+    /// Returns forces, impulses and work at each pin during the last step.
+    pub fn accounts(&self) -> &[PinAccount] {
+        &self.accounts.pins
+    }
+}
+
+/// Collects the coordinates of cables, then of bodies (position, rotation vector from the present
+/// attitude).
+fn gather(cables: &[&mut Cable], bodies: &[RigidBody], state: &mut State) {
+    state.q.clear();
+    state.v.clear();
+    for cable in cables {
+        state.q.extend_from_slice(cable.positions());
+        state.v.extend_from_slice(cable.velocities());
+    }
+    for body in bodies {
+        state.q.extend(body.position.iter().chain(&[0.0; 3]));
+        state.v.extend(body.velocity.iter().chain(body.angular_velocity.iter()));
+    }
+    state.time = cables[0].time();
+    state.memory.step = cables.iter().map(|c| c.snapshot.state.memory.step).fold(f64::INFINITY, f64::min);
+}
+
+/// Returns the coordinates to cables and bodies.
+fn scatter(cables: &mut [&mut Cable], bodies: &mut [RigidBody], state: &State, layout: &Layout) {
+    for (cable, part) in cables.iter_mut().zip(&layout.parts) {
+        let Cable { snapshot, system, buffers, .. } = &mut **cable;
+        // the positions when the host step began
+        core::mem::swap(&mut buffers.rhs, &mut snapshot.state.q);
+        snapshot.state.q.copy_from_slice(&state.q[part.range()]);
+        snapshot.state.v.copy_from_slice(&state.v[part.range()]);
+        snapshot.state.time = state.time;
+        snapshot.state.memory.differences.clear();
+        snapshot.add_work_of_step(system, &buffers.rhs);
+        cable.diagnostics_mut().host_steps += 1;
+    }
+    for (i, body) in bodies.iter_mut().enumerate() {
+        let at = layout.body_at(i);
+        let motion = layout.motion(i, &state.q[at..at + 6], &state.v[at..at + 6]);
+        body.position = motion.position;
+        body.rotation = motion.rotation;
+        body.velocity = motion.velocity;
+        body.angular_velocity = motion.spin;
+    }
+}

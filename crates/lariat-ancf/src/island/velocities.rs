@@ -1,0 +1,78 @@
+//! Matching the velocities of pinned nodes and their bodies at the beginning of a host step.
+//!
+//! # Equation
+//!
+//! ```text
+//! M dv = M J
+//! ```
+//!
+//! dv is the change of all velocities, J the velocity of the pinned nodes relative to their bodies.
+//!
+//! An inelastic impact: cable and body exchange the impulse that makes them move together, so that
+//! momentum is conserved when an engine, a user or a collision has changed a body's velocity.
+
+use super::dynamics::IslandDynamics;
+use super::equations::MatrixKind;
+use super::hold::vector;
+use crate::error::StepFailure;
+use crate::integrate::{Dynamics, State};
+
+/// Largest jump of velocity at a pin in m/s that is rounding.
+const JUMP_ROUNDING: f64 = 1e-10;
+
+impl IslandDynamics<'_, '_> {
+    /// Gives pinned nodes the velocity of their bodies, by an inelastic impact.
+    pub(super) fn match_velocities(&mut self, state: &mut State) -> Result<(), StepFailure> {
+        let State { time, q, v, memory } = state;
+        self.vectors.jump.copy_from_slice(v);
+        self.prescribe(*time, q, v);
+        let layout = self.equations.layout;
+        let jump = &mut self.vectors.jump;
+        for (jump, v) in jump.iter_mut().zip(v.iter()) {
+            *jump -= v;
+        }
+        let mut largest = 0.0f64;
+        for (c, part) in layout.parts.iter().enumerate() {
+            for node in 0..part.size / 6 {
+                let at = part.at + 6 * node;
+                let pin = layout.pins.iter().position(|p| p.cable == c && p.node == node);
+                if pin.is_none() {
+                    jump[at..at + 3].fill(0.0);
+                }
+                if pin.is_none_or(|pin| layout.clamps[pin].is_none()) {
+                    jump[at + 3..at + 6].fill(0.0);
+                }
+                largest = largest.max(vector(&jump[at..]).norm()).max(vector(&jump[at + 3..]).norm());
+            }
+        }
+        if largest > JUMP_ROUNDING {
+            memory.valid = false;
+            self.share_jump(q, v)?;
+        }
+        layout.follow(*time, q, v);
+        Ok(())
+    }
+
+    /// Shares the momentum of the jump among cables and bodies.
+    fn share_jump(&mut self, q: &[f64], v: &mut [f64]) -> Result<(), StepFailure> {
+        let Self { equations, accounts, vectors } = self;
+        let super::dynamics::Vectors { rhs, z, velocity, jump, .. } = &mut **vectors;
+        equations.factor_mass(q, v)?;
+        rhs.fill(0.0);
+        equations.multiply_mass(jump, rhs);
+        equations.layout.pass_pinned_rows(q, rhs);
+        equations.solve(MatrixKind::Mass, q, rhs);
+        for part in &equations.layout.parts {
+            for i in part.range() {
+                z[i] = rhs[i] - jump[i];
+            }
+        }
+        equations.multiply_mass(z, velocity);
+        accounts.add_impact(equations.layout, q, v, rhs, velocity);
+        // the chart is at its origin: rates of the rotation vector are angular velocities
+        for (v, change) in v.iter_mut().zip(rhs.iter()) {
+            *v += change;
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,74 @@
+//! One attempt to find an equilibrium: its report, its budget of iterations and its failure.
+
+use crate::error::StepFailure;
+
+/// The result of [`Cable::equilibrium`](crate::Cable::equilibrium).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct EquilibriumReport {
+    /// Iterations of all attempts together.
+    pub iterations: usize,
+    /// Largest residual force in N.
+    pub residual: f64,
+    /// True if the tangent stiffness is positive definite; false for an unstable or indifferent
+    /// shape.
+    pub stable: bool,
+}
+
+/// Largest change of a slope vector in one iteration.
+pub(super) const MAX_SLOPE_CHANGE: f64 = 0.3;
+/// Largest number of iterations of all attempts together, as a multiple of that of one.
+const MAX_ATTEMPTS: usize = 5;
+
+/// Iterations done and remaining.
+pub(super) struct Budget {
+    /// Largest residual force over the sum of the loads.
+    pub tolerance: f64,
+    /// Largest number of iterations of one attempt.
+    pub attempt: usize,
+    /// Iterations done.
+    pub done: usize,
+}
+
+impl Budget {
+    /// Takes one iteration, and returns whether one remained.
+    pub fn take(&mut self) -> bool {
+        let more = !self.spent();
+        self.done += usize::from(more);
+        more
+    }
+
+    /// Returns whether no iteration remains.
+    pub fn spent(&self) -> bool {
+        self.done >= MAX_ATTEMPTS.saturating_mul(self.attempt)
+    }
+}
+
+/// Why an attempt failed.
+pub(super) struct Failure {
+    /// The failure of a matrix or a step, if that was the reason.
+    pub cause: Option<StepFailure>,
+    /// Largest residual force in N where it ended.
+    pub residual: f64,
+}
+
+impl Default for Failure {
+    fn default() -> Self {
+        Failure { cause: None, residual: f64::NAN }
+    }
+}
+
+/// Returns the largest change of a position component in m and of a slope component.
+pub(super) fn largest_change(dq: &[f64]) -> (f64, f64) {
+    let largest = |from: usize| {
+        dq.chunks_exact(6).flat_map(|x| &x[from..from + 3]).fold(0.0f64, |m, x| {
+            if x.is_nan() {
+                f64::NAN
+            } else if m.is_nan() {
+                m
+            } else {
+                m.max(x.abs())
+            }
+        })
+    };
+    (largest(0), largest(3))
+}

@@ -1,0 +1,174 @@
+//! The sequence of attempts: see [`statics`](super).
+
+use super::attempt::{Budget, EquilibriumReport, Failure};
+use super::{folds, start_shape};
+use crate::cable::Cable;
+use crate::error::{EquilibriumFailure, Error, require};
+use crate::model::Model;
+use crate::support::SlopeSupport;
+use nalgebra::Vector3;
+
+/// Tolerance and number of iterations of an equilibrium.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct EquilibriumOptions {
+    /// Largest residual force over the sum of the loads. Default 1e-9.
+    pub tolerance: f64,
+    /// Largest number of iterations of each attempt; all attempts together take at most five times
+    /// as many. Default 400.
+    pub iterations: usize,
+}
+
+impl Default for EquilibriumOptions {
+    fn default() -> Self {
+        EquilibriumOptions { tolerance: 1e-9, iterations: 400 }
+    }
+}
+
+impl Cable {
+    /// Moves the cable to static equilibrium under gravity, its full point loads, its effects and
+    /// its supports, and sets its velocities to zero. A flow is that of the cable's time.
+    ///
+    /// # Errors
+    /// [`Error::NoEquilibrium`] if none is found; the cable is then as before. [`Error::Attached`]
+    /// for a cable with [attached](Self::attach) nodes.
+    pub fn equilibrium(&mut self) -> Result<EquilibriumReport, Error> {
+        self.equilibrium_with(EquilibriumOptions::default())
+    }
+
+    /// Moves the cable to static equilibrium as [`equilibrium`](Self::equilibrium) does, with
+    /// options.
+    ///
+    /// # Errors
+    /// As [`equilibrium`](Self::equilibrium).
+    pub fn equilibrium_with(&mut self, options: EquilibriumOptions) -> Result<EquilibriumReport, Error> {
+        let no_equilibrium = |cable: &Cable, failure: EquilibriumFailure, residual: f64, iterations: usize| {
+            Error::NoEquilibrium { cable: cable.name().to_string(), time: cable.time(), failure, residual, iterations }
+        };
+        self.check_complete()?;
+        require("equilibrium tolerance", options.tolerance, options.tolerance > 0.0, "> 0")?;
+        if let Some(resultant) = unheld(&self.model) {
+            return Err(no_equilibrium(self, EquilibriumFailure::NotHeld, resultant, 0));
+        }
+        self.system.static_time = self.time();
+        let (before, revision, work) = (self.snapshot.clone(), self.revision, self.snapshot.work);
+        let loads = self.model.loads.clone();
+        // the point loads ramp with a time from 0 to 1 while statics are solved
+        self.model.loads.iter_mut().for_each(|load| (load.ramp, load.start) = (1.0, 0.0));
+        let mut budget = Budget { tolerance: options.tolerance, attempt: options.iterations, done: 0 };
+        let outcome = self.attempts(&mut budget);
+        self.model.loads = loads;
+        match outcome {
+            Ok(report) => {
+                // the work of drag during the search is not part of the cable's history
+                self.snapshot.work = work;
+                self.set_at_rest();
+                Ok(report)
+            }
+            Err(failure) => {
+                let fold = folds::first_fold(&self.model, self.positions());
+                self.snapshot = before;
+                self.revision = revision;
+                let reason = match (failure.cause, fold) {
+                    (Some(cause), _) => cause.into(),
+                    (None, Some(element)) => EquilibriumFailure::Folded { element },
+                    (None, None) => EquilibriumFailure::NotConverged,
+                };
+                Err(no_equilibrium(self, reason, failure.residual, budget.done))
+            }
+        }
+    }
+
+    fn attempts(&mut self, budget: &mut Budget) -> Result<EquilibriumReport, Failure> {
+        self.place_supports();
+        if self.system.forces.drive() {
+            return self.come_to_rest_in_flow(budget);
+        }
+        let start = self.snapshot.clone();
+        let moments = self.model.loads.iter().any(|load| load.moment != Vector3::zeros());
+        let pure = moments
+            && self.model.gravity == Vector3::zeros()
+            && self.model.loads.iter().all(|load| load.force == Vector3::zeros());
+        let loads = !self.model.loads.is_empty();
+        let mut unstable = None;
+        let mut last = Failure::default();
+        for attempt in 0..5 {
+            let outcome = match attempt {
+                0 if moments => self.ramp_loads(budget),
+                1 => self.minimise_energy(1.0, budget),
+                2 if loads && !moments => self.ramp_loads(budget),
+                3 => {
+                    start_shape::lay_out(&self.model, &mut self.snapshot.state.q);
+                    self.minimise_energy(1.0, budget)
+                }
+                4 => {
+                    let relaxed = self.relax(budget);
+                    relaxed.and_then(|()| self.minimise_energy(1.0, budget))
+                }
+                _ => continue,
+            };
+            match outcome.and_then(|report| self.without_folds(report, budget)) {
+                // the first minimum is accepted even if it is indifferent, and so is any shape
+                // under moments alone
+                Ok(report) if report.stable || attempt == 1 || pure => return Ok(report),
+                Ok(report) => unstable = unstable.or(Some((report, self.snapshot.clone()))),
+                Err(failure) => {
+                    // an attempt without an iteration has no residual
+                    let residual = if failure.residual.is_nan() { last.residual } else { failure.residual };
+                    last = Failure { residual, ..failure };
+                }
+            }
+            if budget.spent() {
+                break;
+            }
+            if attempt < 4 {
+                self.snapshot = start.clone();
+            }
+        }
+        match unstable {
+            Some((report, state)) => {
+                self.snapshot = state;
+                Ok(EquilibriumReport { iterations: budget.done, ..report })
+            }
+            None => Err(last),
+        }
+    }
+
+    /// Moves the supports to their prescribed positions, and the cable with them.
+    fn place_supports(&mut self) {
+        let (equations, state) = self.equations();
+        let before = state.q.clone();
+        equations.prescribe(state.time, &mut state.q, &mut state.v);
+        start_shape::move_with_supports(equations.model, &before, &mut state.q);
+    }
+
+    /// Returns the report if no element is folded; else straightens the folds and minimises the
+    /// energy again.
+    fn without_folds(&mut self, report: EquilibriumReport, budget: &mut Budget) -> Result<EquilibriumReport, Failure> {
+        if folds::first_fold(&self.model, self.positions()).is_none() {
+            return Ok(report);
+        }
+        folds::straighten(&self.model, &mut self.snapshot.state.q);
+        let report = self.minimise_energy(1.0, budget)?;
+        match folds::first_fold(&self.model, self.positions()) {
+            None => Ok(report),
+            Some(_) => Err(Failure { cause: None, residual: report.residual }),
+        }
+    }
+}
+
+/// Returns the resultant of the loads in N that no support can take, if there is one: a force on a
+/// cable without a held position, or moments alone (divided by the length) on one that is free to
+/// rotate about its only held point.
+fn unheld(model: &Model) -> Option<f64> {
+    let (weight, size) = model.dead_resultant();
+    let size = model.loads.iter().fold(size, |sum, load| sum + load.force.norm());
+    let held = model.supports.iter().filter(|(_, support)| support.holds_position()).count();
+    let rotates = model.supports.iter().all(|(_, support)| support.slope == SlopeSupport::Free);
+    let force = model.loads.iter().fold(weight, |sum, load| sum + load.force).norm();
+    let moment = model.loads.iter().map(|load| load.moment).sum::<Vector3<f64>>().norm();
+    match held {
+        0 => (force > 1e-12 * size).then_some(force),
+        1 => (rotates && size == 0.0 && moment > 0.0).then_some(moment / model.length()),
+        _ => None,
+    }
+}

@@ -1,0 +1,136 @@
+//! Pages of results: Markdown, with the CSV files and SVG figures that stand beside it.
+
+use crate::error::Error;
+use crate::table::Table;
+use std::path::Path;
+
+/// A figure.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Figure {
+    /// Stem of the SVG file.
+    pub name: &'static str,
+    /// What the figure shows.
+    pub caption: String,
+    /// The drawing.
+    pub svg: String,
+}
+
+/// A part of a section.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Block {
+    /// Markdown.
+    Text(String),
+    /// A table that is shown, and saved as CSV.
+    Table(Table),
+    /// A table that is shown alone: part of another one.
+    Excerpt(Table),
+    /// A table that is saved as CSV alone; the page links to it.
+    Data(Table),
+    /// A figure.
+    Figure(Figure),
+}
+
+/// A section of a page.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Section {
+    /// Title.
+    pub title: &'static str,
+    /// Its parts.
+    pub blocks: Vec<Block>,
+}
+
+impl Section {
+    /// Returns an empty section.
+    pub fn new(title: &'static str) -> Self {
+        Section { title, blocks: Vec::new() }
+    }
+
+    /// Adds Markdown.
+    pub fn text(&mut self, text: impl Into<String>) {
+        self.blocks.push(Block::Text(text.into()));
+    }
+
+    /// Adds a table that is shown, and saved as CSV.
+    pub fn table(&mut self, table: Table) {
+        self.blocks.push(Block::Table(table));
+    }
+
+    /// Adds a table that is shown alone.
+    pub fn excerpt(&mut self, table: Table) {
+        self.blocks.push(Block::Excerpt(table));
+    }
+
+    /// Adds a table that is saved as CSV alone.
+    pub fn data(&mut self, table: Table) {
+        self.blocks.push(Block::Data(table));
+    }
+
+    /// Adds a figure.
+    pub fn figure(&mut self, name: &'static str, caption: &str, svg: String) {
+        self.blocks.push(Block::Figure(Figure { name, caption: caption.to_string(), svg }));
+    }
+
+    /// Returns the tables that are saved as CSV.
+    pub fn tables(&self) -> impl Iterator<Item = &Table> {
+        self.blocks.iter().filter_map(|block| match block {
+            Block::Table(table) | Block::Data(table) => Some(table),
+            _ => None,
+        })
+    }
+
+    /// Returns the section as Markdown, figures as links to their files.
+    pub fn markdown(&self) -> String {
+        let mut out = format!("## {}\n\n", self.title);
+        for block in &self.blocks {
+            out += &match block {
+                Block::Text(text) => format!("{text}\n\n"),
+                Block::Figure(figure) => format!("![{}]({}.svg)\n\n", figure.caption, figure.name),
+                Block::Excerpt(table) => table.markdown() + "\n",
+                Block::Table(table) => format!("{}\nIn full: [{}]({1}).\n\n", table.markdown(), table.file()),
+                Block::Data(table) => format!("All {} runs: [{}]({1}).\n\n", table.rows.len(), table.file()),
+            };
+        }
+        out
+    }
+
+    /// Writes the CSV files and figures into a folder.
+    ///
+    /// # Errors
+    /// [`Error::Output`].
+    pub fn save(&self, folder: &Path) -> Result<(), Error> {
+        for block in &self.blocks {
+            match block {
+                Block::Table(table) | Block::Data(table) => write(&folder.join(table.file()), &table.csv())?,
+                Block::Figure(figure) => write(&folder.join(format!("{}.svg", figure.name)), &figure.svg)?,
+                Block::Text(_) | Block::Excerpt(_) => {}
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Returns a page as Markdown.
+pub fn markdown<'a>(title: &str, introduction: &str, sections: impl IntoIterator<Item = &'a Section>) -> String {
+    let sections: String = sections.into_iter().map(Section::markdown).collect();
+    format!("# {title}\n\n{}\n\n{sections}", introduction.trim_end()).trim_end().to_string() + "\n"
+}
+
+/// Writes a text file.
+///
+/// # Errors
+/// [`Error::Output`].
+pub fn write(path: &Path, text: &str) -> Result<(), Error> {
+    std::fs::write(path, text).map_err(|source| Error::Output { path: path.to_path_buf(), source })
+}
+
+/// Creates a folder, and checks that it can be written before hours of measurements end in an
+/// error.
+///
+/// # Errors
+/// [`Error::Output`].
+pub fn create_folder(folder: &Path) -> Result<(), Error> {
+    std::fs::create_dir_all(folder).map_err(|source| Error::Output { path: folder.to_path_buf(), source })?;
+    let trial = folder.join(".writable");
+    write(&trial, "")?;
+    std::fs::remove_file(&trial).map_err(|source| Error::Output { path: trial, source })
+}

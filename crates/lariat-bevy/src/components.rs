@@ -1,0 +1,137 @@
+//! The components that together say what a cable does, in one list.
+//!
+//! The list is that of [`for_each_effect`](lariat_ancf::for_each_effect), and before it [`Rule`],
+//! [`Bending`] and [`PointLoads`]. Building, updating, breaking, snapshots, change detection and
+//! reflection all use [`CableComponents`], so a new effect needs no further line in this crate.
+
+use crate::description::Description;
+use crate::effects::*;
+use bevy_ecs::component::Component;
+use bevy_ecs::query::{Changed, Or};
+use bevy_ecs::world::{EntityRef, EntityWorldMut};
+use lariat_ancf::{BendingRule, Effects, Error, PointLoad, Section};
+
+macro_rules! components {
+    ($({ field: $field:ident, type: $type:ident, set: $set:ident, key: $key:literal, summary: $summary:literal })*) => {
+        /// The components beside a [`Cable`](crate::Cable) that say what it does.
+        #[derive(Clone, Debug, Default, PartialEq)]
+        pub(crate) struct CableComponents {
+            rule: Option<Rule>,
+            bending: Option<Bending>,
+            point_loads: Option<PointLoads>,
+            $($field: Option<$type>,)*
+        }
+
+        /// Query filter: one of the components was added or changed.
+        pub(crate) type AnyChanged =
+            Or<(Changed<Rule>, Changed<Bending>, Changed<PointLoads>, $(Changed<$type>),*)>;
+
+        impl CableComponents {
+            /// Reads the components of an entity.
+            pub fn of(entity: EntityRef) -> Self {
+                CableComponents {
+                    rule: entity.get().copied(),
+                    bending: entity.get().copied(),
+                    point_loads: entity.get().cloned(),
+                    $($field: entity.get().cloned(),)*
+                }
+            }
+
+            /// Writes the components of an entity, those that differ alone.
+            pub fn put(self, entity: &mut EntityWorldMut) {
+                put(entity, self.rule);
+                put(entity, self.bending);
+                put(entity, self.point_loads);
+                $(put(entity, self.$field);)*
+            }
+
+            /// Returns the components of a part of a cable that broke.
+            pub fn of_part(&self, part: &lariat_ancf::Cable) -> Self {
+                let effects = part.effects();
+                CableComponents {
+                    rule: self.rule,
+                    bending: self.bending,
+                    point_loads: self.point_loads.as_ref().map(|_| PointLoads(part.loads().to_vec())),
+                    $($field: self.$field.as_ref().zip(effects.$field.as_ref()).map(|(c, effect)| c.of_part(effect)),)*
+                }
+            }
+
+            /// Returns the effects on a cable of this section and unstretched length (m).
+            fn effects(&self, section: &Section, length: f64) -> Result<Effects, Error> {
+                Ok(Effects { $($field: self.$field.as_ref().map(|c| c.resolve(section, length)).transpose()?,)* })
+            }
+        }
+
+        /// Registers the components with the type registry of an app.
+        #[cfg(all(feature = "bevy_app", feature = "reflect"))]
+        pub(crate) fn register(app: &mut bevy_app::App) {
+            app.register_type::<Rule>().register_type::<Bending>().register_type::<PointLoads>();
+            $(app.register_type::<$type>();)*
+        }
+    };
+}
+lariat_ancf::for_each_effect!(components);
+
+impl CableComponents {
+    fn rule(&self) -> lariat_ancf::Rule {
+        let mut rule = self.rule.unwrap_or_default().0;
+        if self.bending.is_none() {
+            rule.bending = BendingRule::None;
+        }
+        rule
+    }
+
+    fn loads(&self) -> &[PointLoad] {
+        self.point_loads.as_ref().map_or(&[], |loads| &loads.0)
+    }
+
+    /// Builds a cable from its description and these components.
+    pub fn build(&self, name: &str, description: &Description) -> Result<lariat_ancf::Cable, Error> {
+        let length = description.unstretched_length();
+        // the builder rejects any other length, with a better message than an effect on such a
+        // cable could give
+        let effects = match &description.section {
+            Ok(section) if length > 0.0 => self.effects(section, length)?,
+            _ => Effects::default(),
+        };
+        description.build(name, self.rule(), effects, self.loads())
+    }
+
+    /// Returns a cable changed to what these components say; `None` if it does that already.
+    pub fn updated(
+        &self,
+        cable: &lariat_ancf::Cable,
+        description: &Description,
+    ) -> Result<Option<lariat_ancf::Cable>, Error> {
+        let (rule, loads) = (self.rule(), self.loads());
+        let effects = self.effects(&description.section.clone()?, cable.length())?;
+        let same_rule = rule == cable.rule() && effects == *cable.effects();
+        let same_loads =
+            cable.loads().len() == loads.len() && cable.loads().iter().zip(loads).all(|(a, b)| a.is_same(b));
+        if same_rule && same_loads {
+            return Ok(None);
+        }
+        let mut changed = cable.clone();
+        if !same_rule {
+            let integrator = description.integrator_for(cable, &effects);
+            rule.check()?;
+            changed.redefine(rule, effects, integrator)?;
+        }
+        if !same_loads {
+            changed.set_loads(loads)?;
+        }
+        Ok(Some(changed))
+    }
+}
+
+/// Writes or removes a component if that changes anything, so that nothing is marked as changed
+/// that is not.
+pub(crate) fn put<C: Component + PartialEq>(entity: &mut EntityWorldMut, component: Option<C>) {
+    if entity.get::<C>() == component.as_ref() {
+        return;
+    }
+    match component {
+        Some(component) => entity.insert(component),
+        None => entity.remove::<C>(),
+    };
+}

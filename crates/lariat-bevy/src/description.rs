@@ -1,0 +1,90 @@
+//! The description that a cable is built from.
+
+use lariat_ancf::{At, Effects, Error, Integrator, IntegratorChoice, PointLoad, Rule, Section, Vector3};
+
+/// The geometry, section and integrator of a cable; rule, effects and loads are components beside
+/// it.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Description {
+    pub section: Result<Section, Error>,
+    /// Points of the initial shape in m.
+    pub points: Vec<Vector3<f64>>,
+    /// Unstretched length in m; `None`: that of the initial shape.
+    pub length: Option<f64>,
+    pub elements: usize,
+    /// Whether it starts in static equilibrium between its ends.
+    pub hanging: bool,
+    pub integrator: IntegratorChoice,
+    /// In m/s^2; `None`: that of the world.
+    pub gravity: Option<Vector3<f64>>,
+    /// Initial velocity in m/s.
+    pub velocity: Vector3<f64>,
+}
+
+impl Description {
+    pub fn new(section: Result<Section, Error>) -> Self {
+        Description {
+            section,
+            points: Vec::new(),
+            length: None,
+            elements: 10,
+            hanging: false,
+            integrator: IntegratorChoice::default(),
+            gravity: None,
+            velocity: Vector3::zeros(),
+        }
+    }
+
+    /// Returns the unstretched length in m, whether or not a cable of it can be built.
+    pub fn unstretched_length(&self) -> f64 {
+        self.length.unwrap_or_else(|| self.points.windows(2).map(|p| (p[1] - p[0]).norm()).sum())
+    }
+
+    /// Builds the cable.
+    pub fn build(
+        &self,
+        name: &str,
+        rule: Rule,
+        effects: Effects,
+        loads: &[PointLoad],
+    ) -> Result<lariat_ancf::Cable, Error> {
+        let mut builder = lariat_ancf::Cable::builder()
+            .name(name)
+            .points(self.points.iter().copied())
+            .section(self.section.clone()?)
+            .elements(self.elements)
+            .rule(rule)
+            .effects(effects)
+            .velocity(self.velocity)
+            .integrator(self.integrator);
+        if let Some(length) = self.length {
+            builder = builder.length(length);
+        }
+        if let Some(gravity) = self.gravity {
+            builder = builder.gravity(gravity);
+        }
+        let mut cable = if self.hanging {
+            let mut cable = builder.fix(At::Start).fix(At::End).build()?;
+            cable.equilibrium()?;
+            cable.release(At::Start)?;
+            cable.release(At::End)?;
+            cable
+        } else {
+            builder.build()?
+        };
+        loads.iter().try_for_each(|load| cable.add_load(*load))?;
+        Ok(cable)
+    }
+
+    /// Returns the integrator of a cable that is given other effects: the described one, unless the
+    /// user has set another since the cable was built.
+    pub fn integrator_for(&self, cable: &lariat_ancf::Cable, effects: &Effects) -> Integrator {
+        // internal damping needs an implicit method, however low the frequencies of the cable
+        let choice = |effects: &Effects| {
+            let implicit = effects.needs_implicit_integrator();
+            self.integrator.integrator(if implicit { f64::INFINITY } else { cable.frequency_bound() })
+        };
+        let untouched = cable.integrator() == choice(cable.effects());
+        if untouched { choice(effects) } else { cable.integrator() }
+    }
+}

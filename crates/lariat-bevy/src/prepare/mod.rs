@@ -1,0 +1,46 @@
+//! The stage before a host step: applies to the set and to Rapier's world what was spawned, changed
+//! or removed since the last one.
+
+pub(crate) mod attachments;
+pub(crate) mod bodies;
+pub(crate) mod effects;
+pub(crate) mod removals;
+
+use crate::cable::{Cable, build};
+use crate::cables::Cables;
+use crate::diagnostics::{Diagnostics, Stage};
+use crate::interpolate::Interpolate;
+use bevy_ecs::entity::Entity;
+use bevy_ecs::entity_disabling::Disabled;
+use bevy_ecs::prelude::{Changed, Commands, Query, Res, ResMut, World};
+use bevy_ecs::query::Allow;
+
+/// Starts the clock of the stage.
+pub(crate) fn begin(mut diagnostics: ResMut<Diagnostics>) {
+    diagnostics.start();
+}
+
+/// Stops the clock of the stage.
+pub(crate) fn end(mut diagnostics: ResMut<Diagnostics>) {
+    diagnostics.stop(Stage::Prepare);
+}
+
+/// Builds the cables that were spawned before [`install`](crate::install).
+pub(crate) fn build_cables(
+    new: Query<Entity, (Changed<Cable>, Allow<Disabled>)>,
+    cables: Res<Cables>,
+    mut commands: Commands,
+) {
+    for entity in new.iter().filter(|entity| !cables.links.built.contains_key(entity)) {
+        commands.queue(move |world: &mut World| build(world.into(), entity));
+    }
+}
+
+/// Copies the coordinates of cables that are drawn between host steps.
+pub(crate) fn copy_coordinates(cables: Res<Cables>, mut drawn: Query<(Entity, &mut Interpolate)>) {
+    for (entity, mut interpolate) in &mut drawn {
+        if let Ok(cable) = cables.get(entity) {
+            interpolate.copy(cable);
+        }
+    }
+}

@@ -1,0 +1,124 @@
+//! The contents of a set: cables, attachments, junctions and records of bodies.
+
+use crate::attachment::Attachment;
+use crate::convert;
+use crate::error::Error;
+use crate::handle::{AttachmentHandle, CableHandle, JunctionHandle};
+use crate::junction::Junction;
+use crate::record::Records;
+use crate::table::Table;
+use lariat_ancf::Cable;
+use rapier::math::Vector;
+use rapier::pipeline::PhysicsWorld;
+use serde::{Deserialize, Serialize};
+
+/// A cable in its set.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub(crate) struct Slot {
+    pub cable: Cable,
+    pub asleep: bool,
+    /// Whether the user had access to the cable since the last step.
+    pub modified: bool,
+    /// Whether its gravity is the world's, and its gravity in m/s^2 when the set last looked.
+    pub follows_gravity: bool,
+    pub gravity: ::nalgebra::Vector3<f64>,
+    /// Positions of both ends and the length when it was inserted, in m.
+    pub sort_key: [f64; 7],
+}
+
+impl Slot {
+    /// Compares two cables by name, then by their positions when they were inserted.
+    pub fn order(&self, other: &Slot) -> core::cmp::Ordering {
+        let keys = self.sort_key.iter().zip(&other.sort_key);
+        let by_position = keys.fold(core::cmp::Ordering::Equal, |o, (a, b)| o.then(a.total_cmp(b)));
+        self.cable.name().cmp(other.cable.name()).then(by_position)
+    }
+}
+
+/// The contents of a set: all of its state.
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
+pub(crate) struct Contents {
+    pub cables: Table<Slot>,
+    pub attachments: Table<Attachment>,
+    pub junctions: Table<Junction>,
+    pub records: Records,
+    /// The world's gravity when it was last copied to the cables.
+    gravity: Option<Vector>,
+    /// Whether cables, attachments or junctions changed since islands were last found.
+    #[serde(skip)]
+    pub changed: bool,
+}
+
+impl Contents {
+    /// Adds a cable; its clock is set to that of the others.
+    pub fn insert(&mut self, mut cable: Cable) -> CableHandle {
+        if let Some(other) = self.cables.values().next() {
+            // the time of a cable is always finite, so this cannot fail
+            let _ = cable.set_time(other.cable.time());
+        }
+        let (start, end) = (cable.node_position(0), cable.node_position(cable.nodes() - 1));
+        let sort_key = [start.x, start.y, start.z, end.x, end.y, end.z, cable.length()];
+        let gravity = cable.gravity();
+        let follows_gravity = gravity == lariat_ancf::STANDARD_GRAVITY;
+        let slot = Slot { asleep: false, modified: true, follows_gravity, gravity, sort_key, cable };
+        let index = self.cables.push(slot);
+        self.changed = true;
+        self.gravity = None;
+        CableHandle(index as u32)
+    }
+
+    /// Returns the slot of a cable.
+    pub fn slot(&self, cable: CableHandle) -> Option<&Slot> {
+        self.cables.get(cable.0 as usize)
+    }
+
+    /// Returns a cable.
+    pub fn cable(&self, cable: CableHandle) -> Result<&Cable, Error> {
+        self.slot(cable).map(|s| &s.cable).ok_or(Error::NoCable(cable))
+    }
+
+    /// Returns a cable, to change it, and marks it as modified.
+    pub fn cable_mut(&mut self, cable: CableHandle) -> Result<&mut Cable, Error> {
+        let slot = self.cables.get_mut(cable.0 as usize).ok_or(Error::NoCable(cable))?;
+        slot.modified = true;
+        Ok(&mut slot.cable)
+    }
+
+    /// Returns an attachment.
+    pub fn attachment(&self, attachment: AttachmentHandle) -> Result<&Attachment, Error> {
+        self.attachments.get(attachment.0 as usize).ok_or(Error::NoAttachment(attachment))
+    }
+
+    /// Returns a junction.
+    pub fn junction(&self, junction: JunctionHandle) -> Result<&Junction, Error> {
+        self.junctions.get(junction.0 as usize).ok_or(Error::NoJunction(junction))
+    }
+
+    /// Returns the cables at `indices`, in that order, to step them.
+    pub fn cables_at(&mut self, indices: &[usize]) -> Vec<&mut Cable> {
+        let position = |i: usize| indices.iter().position(|&k| k == i);
+        let slots = self.cables.iter_mut().filter_map(|(i, slot)| Some((position(i)?, &mut slot.cable)));
+        let mut found: Vec<(usize, &mut Cable)> = slots.collect();
+        found.sort_by_key(|(position, _)| *position);
+        found.into_iter().map(|(_, cable)| cable).collect()
+    }
+
+    /// Copies the world's gravity to the cables that follow it when it changed, unless theirs is
+    /// equal to it within Rapier's rounding.
+    pub fn follow_gravity(&mut self, world: &PhysicsWorld) -> Result<(), Error> {
+        if self.gravity == Some(world.gravity) {
+            return Ok(());
+        }
+        for slot in self.cables.values_mut() {
+            // a cable whose gravity was set by the user no longer follows the world's
+            slot.follows_gravity &= slot.gravity == slot.cable.gravity();
+            if slot.follows_gravity && convert::to_vector(&slot.cable.gravity()) != world.gravity {
+                slot.cable.set_gravity(convert::vector(world.gravity))?;
+                slot.modified = true;
+            }
+            slot.gravity = slot.cable.gravity();
+        }
+        self.gravity = Some(world.gravity);
+        Ok(())
+    }
+}

@@ -1,0 +1,22 @@
+//! Events of a host step.
+
+use crate::handle::{AttachmentHandle, CableHandle};
+use rapier::dynamics::RigidBodyHandle;
+
+/// Something that happened during a host step.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum Event {
+    /// The body of an attachment was removed from the world; the attachment ended and the node of
+    /// the cable is free.
+    AttachmentEnded {
+        /// The attachment.
+        attachment: AttachmentHandle,
+        /// The removed body.
+        body: RigidBodyHandle,
+    },
+    /// A cable and the bodies attached to it came to rest and fell asleep.
+    Asleep(CableHandle),
+    /// A cable woke up.
+    Awake(CableHandle),
+}

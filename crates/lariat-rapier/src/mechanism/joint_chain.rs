@@ -1,0 +1,195 @@
+//! Bodies held together by impulse joints.
+//!
+//! # Equation
+//! ```text
+//! W = E^T R      R = P M^-1 E      a = P M^-1 f
+//! ```
+//! M holds the masses of all bodies that joints connect, G the rows of the locked axes and of the
+//! active limits ([`super::constraints`]), and E picks the attached body. Where the loads f of the
+//! other bodies are included, a limit is active if the joint is at it; elsewhere if it pushed in
+//! Rapier's last substep and would with the cables added.
+//!
+//! A body of a chain that is given a velocity alone would be stopped by its neighbours, so all
+//! bodies of the chain change their velocities together.
+//!
+//! # References
+//! Udwadia & Kalaba 1992.
+
+use super::constraints::{Constraints, Limit};
+use super::limits;
+use super::loads::{CarriedLoads, can_predict_loads, is_isolated};
+use super::request::Request;
+use crate::convert::{rotation, to_vector, vector};
+use crate::ledger::is_ledger;
+use crate::spatial::split_spatial;
+use ::nalgebra::{DMatrix, DVector, Matrix3, Matrix6, Vector3, Vector6};
+use rapier::dynamics::{ImpulseJoint, RigidBody, RigidBodyHandle};
+use rapier::math::{AngVector, Vector};
+use rapier::pipeline::PhysicsWorld;
+
+/// Largest number of bodies of a chain; those beyond count as free.
+const MAX_BODIES: usize = 24;
+
+/// Bodies held together by impulse joints.
+#[derive(Clone, Debug)]
+pub(crate) struct JointChain {
+    /// The attached body first.
+    bodies: Vec<RigidBodyHandle>,
+    /// R: change of the velocities per impulse on the attached body, 6 rows per body.
+    response: DMatrix<f64>,
+    /// Velocities before the step.
+    velocities_before: Vec<(Vector, AngVector)>,
+}
+
+/// A joint, and by its two bodies their index in the chain; `None` for one that is not part of it.
+type ChainJoint<'a> = ([Option<usize>; 2], &'a ImpulseJoint);
+
+/// Returns the chain of a body, the loads on the others, and the mobility of the body; `None` if no
+/// joint holds it.
+pub(super) fn find(world: &PhysicsWorld, request: &Request) -> Option<(JointChain, CarriedLoads, Matrix6<f64>)> {
+    let handle = request.handle;
+    let (bodies, joints) = connected(world, handle)?;
+    let n = 6 * bodies.len();
+    let inverse = inverse_mass(world, &bodies);
+    let predicts_loads = bodies.len() < MAX_BODIES && can_predict_loads(world, &bodies, handle, request.is_attached);
+    let (mut loads, mut forces) = (CarriedLoads::default(), DMatrix::<f64>::zeros(n, 1));
+    for (i, body) in bodies.iter().enumerate().skip(1).filter(|_| predicts_loads) {
+        forces.fixed_view_mut::<6, 1>(6 * i, 0).copy_from(&loads.add(world, *body));
+    }
+    let (rows, limits) = constraint_rows(world, &joints, n, predicts_loads)?;
+    let spread = &inverse * rows.transpose();
+    let columns = inverse.columns(0, 6).into_owned();
+    let free = &inverse * forces;
+    let all = &free + &columns * DMatrix::from_column_slice(6, 1, request.load.as_slice());
+    let constraints = Constraints { rows, spread, limits, substep: request.substep };
+    let (response, free) = constraints.project(&columns, &free, &all)?;
+    let mobility = response.fixed_view::<6, 6>(0, 0).into_owned();
+    loads.of_body = free.fixed_view::<6, 1>(0, 0).into_owned();
+    loads.accelerations = free.column(0).into_owned();
+    loads.isolated = !loads.bodies.is_empty() && is_isolated(world, &bodies, handle);
+    let velocities_before = bodies.iter().map(|b| (world.bodies[*b].linvel(), world.bodies[*b].angvel())).collect();
+    Some((JointChain { bodies, response, velocities_before }, loads, mobility))
+}
+
+/// Returns the bodies that impulse joints connect with one, itself first, and the joints; `None` if
+/// no joint holds it, or one of them is a link of a multibody.
+fn connected(world: &PhysicsWorld, handle: RigidBodyHandle) -> Option<(Vec<RigidBodyHandle>, Vec<ChainJoint<'_>>)> {
+    let holds = |joint: &ImpulseJoint| !joint.data.locked_axes.is_empty();
+    if !world.impulse_joints.attached_enabled_joints(handle).any(|(_, _, _, joint)| holds(joint)) {
+        return None;
+    }
+    let mut bodies = vec![handle];
+    let mut joints: Vec<ChainJoint> = Vec::new();
+    let mut next = 0;
+    while next < bodies.len() {
+        for (a, b, _, joint) in world.impulse_joints.attached_enabled_joints(bodies[next]) {
+            if !holds(joint) {
+                continue;
+            }
+            let ends = [a, b].map(|h| {
+                let known = bodies.iter().position(|x| *x == h);
+                let moves = |b: &RigidBody| b.is_dynamic() && !is_ledger(b);
+                if known.is_none() && bodies.len() < MAX_BODIES && world.bodies.get(h).is_some_and(moves) {
+                    bodies.push(h);
+                    return Some(bodies.len() - 1);
+                }
+                known
+            });
+            // a joint is met at each of its bodies
+            if ends.into_iter().flatten().min() == Some(next) {
+                joints.push((ends, joint));
+            }
+        }
+        next += 1;
+    }
+    let has_link = bodies.iter().any(|b| world.multibody_joints.rigid_body_link(*b).is_some());
+    (!has_link).then_some((bodies, joints))
+}
+
+/// Returns M^-1.
+fn inverse_mass(world: &PhysicsWorld, bodies: &[RigidBodyHandle]) -> DMatrix<f64> {
+    let mut inverse = DMatrix::<f64>::zeros(6 * bodies.len(), 6 * bodies.len());
+    for (i, body) in bodies.iter().enumerate() {
+        let properties = world.bodies[*body].mass_properties();
+        let linear = Matrix3::from_diagonal(&vector(properties.effective_inv_mass));
+        inverse.view_mut((6 * i, 6 * i), (3, 3)).copy_from(&linear);
+        let s = &properties.effective_world_inv_inertia;
+        let angular = Matrix3::new(s.m11, s.m12, s.m13, s.m12, s.m22, s.m23, s.m13, s.m23, s.m33).map(f64::from);
+        inverse.view_mut((6 * i + 3, 6 * i + 3), (3, 3)).copy_from(&angular);
+    }
+    inverse
+}
+
+/// Returns G with `n` columns, and by row its limit.
+fn constraint_rows(
+    world: &PhysicsWorld,
+    joints: &[ChainJoint],
+    n: usize,
+    predicts_loads: bool,
+) -> Option<(DMatrix<f64>, Vec<Option<Limit>>)> {
+    let active =
+        |joint: &ImpulseJoint| if predicts_loads { limits::reached(world, joint) } else { limits::pushing(joint) };
+    let held = |joint: &ImpulseJoint| joint.data.locked_axes.bits() | active(joint);
+    let count: usize = joints.iter().map(|(_, joint)| held(joint).count_ones() as usize).sum();
+    let mut rows = DMatrix::<f64>::zeros(count, n);
+    let mut found: Vec<Option<Limit>> = Vec::with_capacity(count);
+    for (ends, joint) in joints {
+        let (a, b) = (world.bodies.get(joint.body1())?, world.bodies.get(joint.body2())?);
+        let (frame1, frame2) = (*a.position() * joint.data.local_frame1, *b.position() * joint.data.local_frame2);
+        let (basis, point) = (rotation(frame1.rotation).to_rotation_matrix(), vector(frame2.translation));
+        let held = held(joint);
+        for axis in (0..6).filter(|axis| held & (1 << axis) != 0) {
+            let row = found.len();
+            let along = basis.matrix().column(axis % 3).into_owned();
+            for (index, body, sign) in [(ends[0], a, -1.0), (ends[1], b, 1.0)] {
+                let Some(index) = index else { continue };
+                let (linear, angular) = if axis < 3 {
+                    (along, (point - vector(body.center_of_mass())).cross(&along))
+                } else {
+                    (Vector3::zeros(), along)
+                };
+                for x in 0..3 {
+                    rows[(row, 6 * index + x)] = sign * linear[x];
+                    rows[(row, 6 * index + 3 + x)] = sign * angular[x];
+                }
+            }
+            let limited = joint.data.locked_axes.bits() & (1 << axis) == 0;
+            found.push(limited.then(|| {
+                if predicts_loads {
+                    Limit { side: limits::nearest_side(world, joint, axis), impulse: 0.0 }
+                } else {
+                    let impulse = -f64::from(joint.data.limits[axis].impulse);
+                    Limit { side: impulse.signum(), impulse }
+                }
+            }));
+        }
+    }
+    Some((rows, found))
+}
+
+impl JointChain {
+    /// Returns the change of all velocities by an impulse on the attached body.
+    pub(super) fn velocity_change(&self, impulse: &Vector6<f64>) -> DVector<f64> {
+        &self.response * impulse
+    }
+
+    /// Changes the velocities of all bodies.
+    pub(super) fn change_velocity(&self, world: &mut PhysicsWorld, change: &DVector<f64>) {
+        for (i, handle) in self.bodies.iter().enumerate() {
+            let Some(body) = world.bodies.get_mut(*handle) else { continue };
+            let (linear, angular) = split_spatial(&change.fixed_rows::<6>(6 * i).into_owned());
+            body.set_linvel(to_vector(&(vector(body.linvel()) + linear)), false);
+            body.set_angvel(to_vector(&(vector(body.angvel()) + angular)), false);
+        }
+    }
+
+    /// Restores the velocities before the step.
+    pub(super) fn revert(&self, world: &mut PhysicsWorld) {
+        for (handle, (linvel, angvel)) in self.bodies.iter().zip(&self.velocities_before) {
+            if let Some(body) = world.bodies.get_mut(*handle) {
+                body.set_linvel(*linvel, false);
+                body.set_angvel(*angvel, false);
+            }
+        }
+    }
+}

@@ -1,0 +1,171 @@
+//! Links of multibodies.
+//!
+//! # Equation
+//! ```text
+//! W = J R      R = P M^-1 J^T      a = P M^-1 sum J_i^T f_i
+//! ```
+//! J is a link's Jacobian (velocity of its centre of mass before angular velocity) and M the mass
+//! matrix, both Rapier's; f_i are the loads on the other links. Each active limit is a unit vector
+//! in G ([`super::constraints`]); limits count only where the loads on the other links are
+//! included.
+//!
+//! Rapier overwrites the velocities of links by those of the generalised velocity, so a change must
+//! be made there; and it leaves in a link the velocity of the last substep but one.
+//!
+//! # Validity
+//! Not with kinematic joints of a multibody: Rapier's mass matrix is then only a part of the whole.
+//! Where the loads of the other links are not included, limits enter by the reaction estimate:
+//! Rapier does not report the impulse of a limit of a multibody.
+//!
+//! # References
+//! Featherstone 2008, section 3.2; Udwadia & Kalaba 1992.
+
+use super::constraints::{Constraints, Limit};
+use super::limits;
+use super::loads::{CarriedLoads, can_predict_loads, is_isolated};
+use super::request::Request;
+use crate::convert::to_vector;
+use crate::spatial::split_spatial;
+use ::nalgebra::{DMatrix, DVector, Matrix6, Vector6};
+use rapier::dynamics::{Multibody, RigidBodyHandle};
+use rapier::math::Real;
+use rapier::pipeline::PhysicsWorld;
+
+/// A link of a multibody.
+#[derive(Clone, Debug)]
+pub(crate) struct MultibodyLink {
+    /// R: change of the generalised velocity per impulse on the link.
+    response: DMatrix<Real>,
+    /// The generalised velocity before the step.
+    velocity_before: Vec<Real>,
+}
+
+/// Returns the multibody of a link and the index of the link, if its mass matrix is computed and
+/// covers all degrees of freedom.
+fn multibody(world: &PhysicsWorld, handle: RigidBodyHandle) -> Option<(&Multibody, usize)> {
+    let link = world.multibody_joints.rigid_body_link(handle)?;
+    let multibody = world.multibody_joints.get_multibody(link.multibody)?;
+    let n = multibody.ndofs();
+    let complete = n > 0
+        && multibody.body_jacobian(link.id).ncols() == n
+        && multibody.inv_augmented_mass().lu_internal().nrows() == n;
+    complete.then_some((multibody, link.id))
+}
+
+/// Makes Rapier compute the mass matrix of a link's multibody, if it has not since joints changed.
+pub(crate) fn prepare(world: &mut PhysicsWorld, handle: RigidBodyHandle) {
+    let Some(link) = world.multibody_joints.rigid_body_link(handle).copied() else { return };
+    let Some(multibody) = world.multibody_joints.get_multibody_mut(link.multibody) else { return };
+    let n = multibody.ndofs();
+    // with kinematic joints the matrix never covers all degrees of freedom
+    let missing =
+        multibody.body_jacobian(link.id).ncols() != n || multibody.inv_augmented_mass().lu_internal().is_empty();
+    if n > 0 && missing {
+        multibody.dof_inverse_inertia(&world.bodies);
+    }
+}
+
+/// Returns a link, the loads on the others, and the mobility of the link.
+pub(super) fn find(world: &PhysicsWorld, request: &Request) -> Option<(MultibodyLink, CarriedLoads, Matrix6<f64>)> {
+    let handle = request.handle;
+    let (multibody, id) = multibody(world, handle)?;
+    let n = multibody.ndofs();
+    let jacobian = |id: usize| multibody.body_jacobian(id).map(f64::from);
+    let inverse = |b: &DMatrix<f64>| {
+        let mut x = b.map(|x| x as Real);
+        multibody.inv_augmented_mass().solve_mut(&mut x).then(|| x.map(f64::from))
+    };
+    let handles: Vec<RigidBodyHandle> = multibody.links().map(|l| l.rigid_body_handle()).collect();
+    let predicts_loads = can_predict_loads(world, &handles, handle, request.is_attached);
+    let (mut loads, mut forces) = (CarriedLoads::default(), DVector::<f64>::zeros(n));
+    let moves = |i: &usize| *i != id && world.bodies.get(handles[*i]).is_some_and(|b| b.is_dynamic());
+    for i in (0..handles.len()).filter(|i| predicts_loads && moves(i)) {
+        forces += jacobian(i).transpose() * loads.add(world, handles[i]);
+    }
+    let active = if predicts_loads { active_limits(multibody) } else { Vec::new() };
+    let mut rows = DMatrix::<f64>::zeros(active.len(), n);
+    active.iter().enumerate().for_each(|(i, (dof, _))| rows[(i, *dof)] = 1.0);
+    let own = jacobian(id);
+    let spread = inverse(&rows.transpose())?;
+    let columns = inverse(&DMatrix::from_iterator(n, 6, own.transpose().iter().copied()))?;
+    let free = inverse(&DMatrix::from_column_slice(n, 1, forces.as_slice()))?;
+    let all = &free + &columns * DMatrix::from_column_slice(6, 1, request.load.as_slice());
+    let limits = active.into_iter().map(|(_, limit)| Some(limit)).collect();
+    let (response, free) = Constraints { rows, spread, limits, substep: 1.0 }.project(&columns, &free, &all)?;
+    let mobility = Matrix6::from_iterator((&own * &response).iter().copied());
+    loads.of_body = Vector6::from_iterator((&own * &free).iter().copied());
+    loads.accelerations = free.column(0).into_owned();
+    loads.isolated = !loads.bodies.is_empty() && is_isolated(world, &handles, handle);
+    let velocity_before = multibody.generalized_velocity().iter().copied().collect();
+    Some((MultibodyLink { response: response.map(|x| x as Real), velocity_before }, loads, mobility))
+}
+
+/// Returns the limits at which the joints of a multibody are, by degree of freedom.
+fn active_limits(multibody: &Multibody) -> Vec<(usize, Limit)> {
+    let velocity = multibody.generalized_velocity();
+    let mut active = Vec::new();
+    for link in multibody.links() {
+        let data = &link.joint.data;
+        let free = |axis: usize| data.locked_axes.bits() & (1 << axis) == 0;
+        let turns = (3..6).filter(|x| free(*x)).count();
+        let limited = data.limit_axes.bits();
+        for (dof, axis) in (link.assembly_id()..).zip((0..6).filter(|x| free(*x))) {
+            if limited & (1 << axis) != 0 && (axis < 3 || turns == 1) {
+                let at = f64::from(link.joint.coords()[axis]);
+                if let Some(side) = limits::active_side(at, &data.limits[axis], f64::from(velocity[dof])) {
+                    active.push((dof, Limit { side, impulse: 0.0 }));
+                }
+            }
+        }
+    }
+    active
+}
+
+/// Gives the bodies of a link's multibody the velocities of its generalised velocity; does nothing
+/// for other bodies.
+pub(crate) fn refresh(world: &mut PhysicsWorld, handle: RigidBodyHandle) {
+    let Some(link) = world.multibody_joints.rigid_body_link(handle) else { return };
+    let Some(multibody) = world.multibody_joints.get_multibody(link.multibody) else { return };
+    for id in 0..multibody.num_links() {
+        let (Some(link), jacobian) = (multibody.link(id), multibody.body_jacobian(id)) else { continue };
+        let Some(body) = world.bodies.get_mut(link.rigid_body_handle()) else { continue };
+        if jacobian.ncols() == multibody.ndofs() && body.is_dynamic() {
+            let v = jacobian * multibody.generalized_velocity();
+            let (linear, angular) = split_spatial(&v.map(f64::from));
+            body.set_linvel(to_vector(&linear), false);
+            body.set_angvel(to_vector(&angular), false);
+        }
+    }
+}
+
+impl MultibodyLink {
+    /// Returns the change of the generalised velocity by an impulse on the link.
+    pub(super) fn velocity_change(&self, impulse: &Vector6<f64>) -> DVector<f64> {
+        self.response.map(f64::from) * impulse
+    }
+
+    /// Changes the generalised velocity.
+    pub(super) fn change_velocity(&self, world: &mut PhysicsWorld, handle: RigidBodyHandle, change: &DVector<f64>) {
+        edit_velocity(world, handle, change.iter(), |u, change| *u += *change as Real);
+    }
+
+    /// Restores the generalised velocity before the step.
+    pub(super) fn revert(&self, world: &mut PhysicsWorld, handle: RigidBodyHandle) {
+        edit_velocity(world, handle, self.velocity_before.iter(), |u, before| *u = *before);
+    }
+}
+
+/// Edits the components of the generalised velocity of a link's multibody with `values`, and
+/// refreshes its bodies.
+fn edit_velocity<T>(
+    world: &mut PhysicsWorld,
+    handle: RigidBodyHandle,
+    values: impl Iterator<Item = T>,
+    edit: impl Fn(&mut Real, T),
+) {
+    let Some(link) = world.multibody_joints.rigid_body_link(handle).copied() else { return };
+    if let Some(multibody) = world.multibody_joints.get_multibody_mut(link.multibody) {
+        multibody.generalized_velocity_mut().iter_mut().zip(values).for_each(|(u, value)| edit(u, value));
+    }
+    refresh(world, handle);
+}

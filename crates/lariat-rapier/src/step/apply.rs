@@ -1,0 +1,158 @@
+//! Applying a prediction: Rapier is given the predicted motion as a uniform one.
+//!
+//! # Equation
+//! ```text
+//! linvel = dx/h      angvel = log(R1 R0^-1)/h      force = -(m g + reaction estimate)
+//! ```
+//! The force balances gravity and the reaction, so that a body in contact with nothing lands where
+//! it was predicted, for any number of substeps. Gyroscopic forces and damping are disabled
+//! meanwhile. A body that joints hold gets an impulse, with all that it moves with, in place of a
+//! velocity.
+//!
+//! # Validity
+//! In each substep of h Rapier multiplies the attitude by the normalised quaternion (1, w h/2), a
+//! rotation by 2 atan(|w| h/2); `angvel` is corrected for it up to [`MAX_HALF_ROTATION`].
+
+use crate::body::{SavedBody, replace_loads};
+use crate::contents::Contents;
+use crate::convert::{rotation, to_vector, vector};
+use crate::islands::{Island, Member};
+use crate::mechanism;
+use crate::record::BodyRecord;
+use crate::spatial::{split_spatial, stack_spatial};
+use crate::step::kinematic_ends::MAX_ROTATION_PER_STEP;
+use crate::step::prediction::{AppliedMotion, BodyStep, Prediction};
+use crate::step::proximity;
+use ::nalgebra::Vector3;
+use rapier::math::Real;
+use rapier::pipeline::PhysicsWorld;
+
+/// Half of the rotation in a substep, in rad, up to which `angvel` is corrected.
+const MAX_HALF_ROTATION: f64 = 1.2;
+/// Share of Rapier's largest rotation in a step from which a body is allowed to rotate faster.
+const FAST_ROTATION: f64 = 0.9;
+
+/// Gives Rapier the predicted motion of all bodies of an island for a step of `h` (s).
+pub(crate) fn apply(
+    contents: &mut Contents,
+    world: &mut PhysicsWorld,
+    island: &Island,
+    prediction: &mut Prediction,
+    h: f64,
+) {
+    for (m, member) in island.members.iter().enumerate() {
+        let applied = match member {
+            Member::Body(handle) if !world.bodies[*handle].is_sleeping() => {
+                let record = contents.records.record_mut(*handle);
+                Some(apply_prediction(world, &prediction.body_step(m, *handle, h), record))
+            }
+            _ => None,
+        };
+        prediction.applied.push(applied);
+    }
+}
+
+/// Makes Rapier move a body uniformly to its predicted position and attitude.
+fn apply_prediction(world: &mut PhysicsWorld, step: &BodyStep, record: &BodyRecord) -> AppliedMotion {
+    let &BodyStep { handle, start, end, mechanism, h } = step;
+    let gravity = world.gravity;
+    let (isolated, linked) = (proximity::is_isolated(world, handle), proximity::is_linked(world, handle));
+    let substeps = world.integration_parameters.num_solver_iterations.max(1) as f64;
+    let body = &mut world.bodies[handle];
+    let linvel = to_vector(&((end.position - vector(body.center_of_mass())) / h));
+    let turn = (end.rotation * rotation(*body.rotation()).inverse()).scaled_axis() / h;
+    let angvel = match mechanism {
+        // Rapier rotates links of a multibody exactly
+        Some(mechanism) if mechanism.is_multibody() => to_vector(&turn),
+        _ => to_vector(&linearised(&turn, h / substeps)),
+    };
+    let weight = vector(gravity).norm() * f64::from(body.gravity_scale()).abs();
+    let (reaction_force, _) = split_spatial(&record.reaction);
+    let applied = AppliedMotion {
+        linvel,
+        angvel,
+        centre: body.local_center_of_mass(),
+        isolated,
+        linked,
+        balanced_velocity: (weight + reaction_force.norm() / end.mass) * h,
+        saved: SavedBody::of(body),
+    };
+    // the part of the reaction that joints bear needs no balance
+    let reaction = match mechanism {
+        Some(_) => mechanism::unconstrained_part(end, &record.reaction),
+        None => record.reaction,
+    };
+    let (force, torque) = split_spatial(&reaction);
+    let own_weight = gravity * (end.mass as Real * body.gravity_scale());
+    replace_loads(body, -to_vector(&force) - own_weight, -to_vector(&torque));
+    body.enable_gyroscopic_forces(false);
+    if turn.norm() * h > FAST_ROTATION * MAX_ROTATION_PER_STEP {
+        body.set_allow_fast_rotation(true);
+    }
+    match mechanism {
+        Some(mechanism) => {
+            let wanted = stack_spatial(&vector(linvel), &vector(angvel));
+            let change = wanted - stack_spatial(&start.velocity, &start.angular_velocity);
+            // half of the change by the loads on the others comes before the uniform motion, half
+            // after
+            let change = change - mechanism.loads.of_body * (0.5 * h);
+            mechanism.loads.balance(world);
+            mechanism.apply_loads(world, handle, 0.5 * h);
+            mechanism.apply_impulse(world, handle, &(mechanism::inertia(start) * change));
+        }
+        None => {
+            body.set_linvel(linvel, false);
+            body.set_angvel(angvel, false);
+        }
+    }
+    applied
+}
+
+/// Returns the angular velocity with which Rapier rotates a body as `spin` (rad/s) would, in
+/// substeps of `h` (s).
+fn linearised(spin: &Vector3<f64>, h: f64) -> Vector3<f64> {
+    let half = (0.5 * spin.norm() * h).min(MAX_HALF_ROTATION);
+    if half > 0.0 { spin * (half.tan() / half) } else { *spin }
+}
+
+/// Reverts a prediction: cables, junctions and bodies are as they were before it.
+pub(crate) fn revert(contents: &mut Contents, world: &mut PhysicsWorld, island: &Island, prediction: &Prediction) {
+    restore_cables(contents, island, prediction);
+    for member in &island.members {
+        if let Member::Junction(j) = member
+            && let Some(junction) = contents.junctions.get_mut(*j)
+        {
+            junction.memory = None;
+        }
+    }
+    revert_bodies(world, island, prediction);
+}
+
+/// Restores the cables of an island to their states before the step.
+pub(crate) fn restore_cables(contents: &mut Contents, island: &Island, prediction: &Prediction) {
+    for (cable, snapshot) in contents.cables_at(&island.cables).into_iter().zip(&prediction.snapshots) {
+        // a snapshot of the cable itself always fits
+        let _ = cable.restore(snapshot.clone());
+    }
+}
+
+/// Restores the bodies of an island to their states before the prediction.
+pub(crate) fn revert_bodies(world: &mut PhysicsWorld, island: &Island, prediction: &Prediction) {
+    let applied = island.members.iter().zip(&prediction.applied).zip(&prediction.mechanisms);
+    // in reverse order: of a mechanism, the body that was changed first knows the original state
+    for ((member, applied), mechanism) in applied.rev() {
+        let (Member::Body(handle), Some(applied)) = (member, applied) else { continue };
+        if let Some(mechanism) = mechanism {
+            mechanism.loads.restore(world);
+        }
+        if !world.bodies.contains(*handle) {
+            continue;
+        }
+        if let Some(mechanism) = mechanism {
+            mechanism.revert(world, *handle);
+        }
+        let body = &mut world.bodies[*handle];
+        applied.saved.restore_settings(body);
+        applied.saved.restore_velocities(body);
+    }
+}

@@ -1,0 +1,140 @@
+//! The impedance of the cables within Rapier's step: motors on bodies that may deviate from their
+//! prediction.
+//!
+//! # Equation
+//! ```text
+//! D = the block of its pin in (C + B')^-1
+//! B'_ij = 1/m - [r_i]x I^-1 [r_j]x,   of the body itself times OWN_MOBILITY_SHARE
+//! ```
+//! C is the compliance of the body's cables over the step ([`Impedance`]), B' the mobility of the
+//! bodies at their pins. A [`Ledger`] acts on the body with D about the predicted velocity of the
+//! anchor: if the prediction was right it does nothing; if a contact or a joint makes the body
+//! deviate, the body feels the cable within the same step.
+//!
+//! [`Impedance`]: lariat_ancf::island::Impedance
+
+use crate::contents::Contents;
+use crate::error::Error;
+use crate::islands::{Island, Member};
+use crate::ledger::Ledger;
+use crate::mechanism;
+use crate::step::prediction::{Prediction, StepParameters};
+use crate::step::proximity;
+use ::nalgebra::{DMatrix, Matrix3, Vector3};
+use lariat_ancf::island::RigidBody;
+use rapier::pipeline::PhysicsWorld;
+
+/// Mass in kg given to a junction, which has none, so that the matrix has an inverse.
+const JUNCTION_MASS: f64 = 1e-6;
+/// Share of the body's own mobility in B'.
+pub(crate) const OWN_MOBILITY_SHARE: f64 = 0.1;
+
+/// Sets the motors of all bodies of an island that may deviate from their prediction, and disables
+/// all others.
+pub(crate) fn set_motors(
+    contents: &mut Contents,
+    world: &mut PhysicsWorld,
+    island: &Island,
+    prediction: &mut Prediction,
+    step: &StepParameters,
+) -> Result<(), Error> {
+    prediction.motors.clear();
+    prediction.motors.resize(island.pins.len(), false);
+    let mut linearised = false;
+    for (m, member) in island.members.iter().enumerate() {
+        let (Member::Body(handle), Some(_)) = (member, &prediction.applied[m]) else { continue };
+        let displacement = prediction.end[m].position - prediction.start[m].position;
+        if !proximity::may_deviate(world, *handle)
+            && proximity::unlisted_collision(world, *handle, &displacement, (step.h, step.fastest)).is_none()
+        {
+            continue;
+        }
+        if !linearised {
+            linearise(contents, island, prediction, step.h)?;
+            linearised = true;
+        }
+        for (pin, d) in driving_point(island, prediction, m) {
+            let anchor = island.pins[pin].anchor;
+            let target = (prediction.end[m].point(&anchor) - prediction.start[m].point(&anchor)) / step.h;
+            if let Some(a) = island.attachments[pin].and_then(|a| contents.attachments.get_mut(a)) {
+                let ledger = a.ledger.get_or_insert_with(|| Ledger::insert(world, a.body));
+                ledger.set_motors(world, &a.anchor, &d, &target, step.h);
+                prediction.motors[pin] = true;
+            }
+        }
+    }
+    let off = island.attachments.iter().zip(&prediction.motors).filter(|(_, on)| !**on);
+    disable_motors(contents, world, off.filter_map(|(attachment, _)| *attachment));
+    Ok(())
+}
+
+/// Disables the motors of attachments.
+pub(crate) fn disable_motors(contents: &Contents, world: &mut PhysicsWorld, attachments: impl Iterator<Item = usize>) {
+    for ledger in attachments.filter_map(|a| contents.attachments.get(a)?.ledger) {
+        ledger.disable(world);
+    }
+}
+
+/// Linearises the cables of an island for a step of `h` (s).
+fn linearise(contents: &mut Contents, island: &Island, prediction: &mut Prediction, h: f64) -> Result<(), Error> {
+    prediction.impedances.resize_with(island.cables.len(), Default::default);
+    for (c, cable) in contents.cables_at(&island.cables).into_iter().enumerate() {
+        let nodes: Vec<usize> = island.pins.iter().filter(|p| p.cable == c).map(|p| p.node).collect();
+        prediction.impedances[c].update(cable, &nodes, h)?;
+    }
+    Ok(())
+}
+
+/// Returns D for every pin on a member, by the index of the pin.
+fn driving_point(island: &Island, prediction: &Prediction, member: usize) -> Vec<(usize, Matrix3<f64>)> {
+    let start = &prediction.start;
+    let holds = |c: usize| island.pins_on(member).any(|p| island.pins[p].cable == c);
+    let near: Vec<usize> = (0..island.pins.len()).filter(|&p| holds(island.pins[p].cable)).collect();
+    let n = 3 * near.len();
+    let mut m = DMatrix::<f64>::zeros(n, n);
+    for (a, &i) in near.iter().enumerate() {
+        for (b, &j) in near.iter().enumerate() {
+            let (p, q) = (&island.pins[i], &island.pins[j]);
+            let mut block = Matrix3::zeros();
+            if p.cable == q.cable {
+                let own: Vec<usize> = (0..island.pins.len()).filter(|&k| island.pins[k].cable == p.cable).collect();
+                let at = |pin: usize| 3 * own.iter().position(|&k| k == pin).expect("a pin of its own cable");
+                let c = prediction.impedances[p.cable].compliance();
+                block += c.fixed_view::<3, 3>(at(i), at(j));
+            }
+            if p.body == q.body {
+                let share = if p.body == member { OWN_MOBILITY_SHARE } else { 1.0 };
+                block += mobility(&start[p.body], &p.anchor, &q.anchor) * share;
+            }
+            m.fixed_view_mut::<3, 3>(3 * a, 3 * b).copy_from(&block);
+        }
+    }
+    let Some(inverse) = m.try_inverse() else { return Vec::new() };
+    near.iter()
+        .enumerate()
+        .filter(|&(_, &pin)| island.pins[pin].body == member)
+        .map(|(a, &pin)| (pin, inverse.fixed_view::<3, 3>(3 * a, 3 * a).into_owned()))
+        .collect()
+}
+
+/// Returns the velocity at one point of a body per impulse at another, in 1/kg.
+fn mobility(body: &RigidBody, a: &Vector3<f64>, b: &Vector3<f64>) -> Matrix3<f64> {
+    let (ra, rb) = (body.rotation * a, body.rotation * b);
+    if body.carried.is_some()
+        && let Some(mobility) = mechanism::inertia(body).try_inverse()
+    {
+        let mut out = Matrix3::zeros();
+        let at = |r: usize, c: usize| mobility.fixed_view::<3, 3>(3 * r, 3 * c).into_owned();
+        out += at(0, 0) + at(0, 1) * rb.cross_matrix();
+        out -= ra.cross_matrix() * (at(1, 0) + at(1, 1) * rb.cross_matrix());
+        return out;
+    }
+    let mass = if body.mass > 0.0 { body.mass } else { JUNCTION_MASS };
+    let masked = Matrix3::from_diagonal(&Vector3::from_fn(|i, _| f64::from(u8::from(body.free[i])) / mass));
+    let mut inverse = body.world_inertia(&body.rotation).try_inverse().unwrap_or_else(Matrix3::zeros);
+    for x in (0..3).filter(|&x| !body.free[3 + x]) {
+        inverse.row_mut(x).fill(0.0);
+        inverse.column_mut(x).fill(0.0);
+    }
+    masked - ra.cross_matrix() * inverse * rb.cross_matrix()
+}

@@ -1,0 +1,211 @@
+//! The host step: predict, Rapier's step, reconcile, as many times as a host step has Rapier steps.
+//!
+//! | file | per Rapier step |
+//! |---|---|
+//! | [`substepping`] | how many Rapier steps the host step has; [`proximity`]: which bodies will collide |
+//! | [`kinematic_ends`] | prescribes the ends of cables on fixed and kinematic bodies |
+//! | [`predict`] | integrates cables and bodies together |
+//! | [`apply`] | gives Rapier the predicted motion; reverts it |
+//! | [`impedance`] | lets a body that may deviate feel its cables within Rapier's step |
+//! | [`reconcile`] | takes over what Rapier's step made of it |
+
+pub(crate) mod apply;
+pub(crate) mod impedance;
+pub(crate) mod kinematic_ends;
+pub(crate) mod predict;
+pub(crate) mod prediction;
+pub(crate) mod proximity;
+pub(crate) mod reconcile;
+pub(crate) mod substepping;
+
+use crate::attach;
+use crate::contents::Contents;
+use crate::error::Error;
+use crate::events::Event;
+use crate::handle::CableHandle;
+use crate::islands::{Island, Islands};
+use crate::settings::Settings;
+use crate::sleep;
+use kinematic_ends::KinematicTargets;
+use lariat_ancf::island::Island as IslandSolver;
+use prediction::{Prediction, StepParameters};
+use rapier::math::Real;
+use rapier::pipeline::PhysicsWorld;
+
+/// A host step in progress; see [`CableSet::begin`](crate::CableSet::begin).
+#[derive(Clone, Debug)]
+pub struct HostStep {
+    dt: Real,
+    /// Rapier steps in total, and those done.
+    steps: u32,
+    done: u32,
+    failed: bool,
+    targets: KinematicTargets,
+}
+
+impl HostStep {
+    /// Returns whether Rapier steps are left.
+    pub fn is_unfinished(&self) -> bool {
+        !self.failed && self.done < self.steps
+    }
+
+    /// Returns whether a prediction failed: Rapier must not step.
+    pub fn has_failed(&self) -> bool {
+        self.failed
+    }
+}
+
+/// Buffers and events of the steps of a set. Nothing in them is state.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Stepper {
+    islands: Islands,
+    /// By island.
+    predictions: Vec<Prediction>,
+    solver: IslandSolver,
+    /// Whether a prediction waits for its reconciliation.
+    pending: bool,
+    pub events: Vec<Event>,
+    /// The cables of the island whose step failed.
+    pub failed: Vec<CableHandle>,
+}
+
+/// Begins a host step of `world.integration_parameters.dt`, which becomes that of a Rapier step.
+pub(crate) fn begin(
+    stepper: &mut Stepper,
+    contents: &Contents,
+    world: &mut PhysicsWorld,
+    settings: &Settings,
+) -> Result<HostStep, Error> {
+    let dt = world.integration_parameters.dt;
+    if !(dt.is_finite() && dt >= 0.0) {
+        return Err(Error::TimeStep { dt: f64::from(dt) });
+    }
+    let mut host = HostStep { dt, steps: 1, done: 0, failed: false, targets: KinematicTargets::default() };
+    if dt > 0.0 {
+        stepper.events.clear();
+        host.steps = substepping::count(contents, world, settings, f64::from(dt));
+        host.targets = KinematicTargets::read(world);
+        world.integration_parameters.dt = dt / host.steps as Real;
+    }
+    Ok(host)
+}
+
+/// Predicts the next Rapier step of a host step. If an island cannot step, all of them and their
+/// bodies stay as they were before it.
+pub(crate) fn predict_next(
+    stepper: &mut Stepper,
+    contents: &mut Contents,
+    world: &mut PhysicsWorld,
+    settings: &Settings,
+    host: &mut HostStep,
+) -> Result<(), Error> {
+    if !host.is_unfinished() {
+        return Ok(());
+    }
+    if host.done > 0 {
+        split_finer(contents, world, settings, host);
+    }
+    host.done += 1;
+    if host.dt == 0.0 {
+        return Ok(());
+    }
+    host.targets.advance(world, host.done, host.steps);
+    let outcome = predict_islands(stepper, contents, world, settings, host.steps);
+    host.failed = outcome.is_err();
+    outcome
+}
+
+/// Splits the rest of a host step finer, if a body met another since it began.
+fn split_finer(contents: &Contents, world: &mut PhysicsWorld, settings: &Settings, host: &mut HostStep) {
+    let max = settings.max_rapier_steps / host.steps;
+    let finer = substepping::count(contents, world, settings, f64::from(host.dt)).div_ceil(host.steps).min(max);
+    if finer > 1 {
+        (host.steps, host.done) = (host.steps * finer, host.done * finer);
+        world.integration_parameters.dt = host.dt / host.steps as Real;
+    }
+}
+
+/// Ends a host step: `world.integration_parameters.dt` is the host's again.
+pub(crate) fn finish(world: &mut PhysicsWorld, host: &HostStep) {
+    world.integration_parameters.dt = host.dt;
+    if host.is_unfinished() || host.failed {
+        host.targets.restore(world);
+    }
+}
+
+/// Predicts one of `rapier_steps` Rapier steps of all islands.
+fn predict_islands(
+    stepper: &mut Stepper,
+    contents: &mut Contents,
+    world: &mut PhysicsWorld,
+    settings: &Settings,
+    rapier_steps: u32,
+) -> Result<(), Error> {
+    if core::mem::take(&mut stepper.pending) {
+        // predicted, and never reconciled
+        for (island, prediction) in stepper.islands.list.iter().zip(&stepper.predictions) {
+            apply::revert_bodies(world, island, prediction);
+        }
+    }
+    attach::end_lost(contents, world, &mut stepper.events)?;
+    contents.follow_gravity(world)?;
+    stepper.islands.update(contents, world)?;
+    stepper.predictions.resize_with(stepper.islands.list.len(), Default::default);
+    stepper.predictions.iter_mut().for_each(|prediction| prediction.applied.clear());
+    stepper.failed.clear();
+    let step = StepParameters {
+        h: f64::from(world.integration_parameters.dt),
+        rapier_steps,
+        fastest: proximity::fastest(world),
+        sleep_speed: settings.sleep_speed,
+    };
+    for k in 0..stepper.predictions.len() {
+        if let Err(error) = predict_island(stepper, k, contents, world, &step) {
+            for (island, prediction) in stepper.islands.list.iter().zip(&stepper.predictions).take(k + 1) {
+                apply::revert(contents, world, island, prediction);
+            }
+            stepper.failed.extend(stepper.islands.list[k].cables.iter().map(|&c| CableHandle(c as u32)));
+            return Err(error);
+        }
+    }
+    stepper.pending = true;
+    Ok(())
+}
+
+/// Predicts a Rapier step of one island.
+fn predict_island(
+    stepper: &mut Stepper,
+    k: usize,
+    contents: &mut Contents,
+    world: &mut PhysicsWorld,
+    step: &StepParameters,
+) -> Result<(), Error> {
+    let Stepper { islands, predictions, solver, events, .. } = stepper;
+    let (island, prediction): (&Island, &mut Prediction) = (&islands.list[k], &mut predictions[k]);
+    prediction.snapshots.clear();
+    let slots = island.cables.iter().filter_map(|&c| contents.cables.get(c));
+    prediction.snapshots.extend(slots.map(|slot| slot.cable.snapshot().clone()));
+    let ends_moved = island.bodies().next().is_some() && kinematic_ends::have_moved(contents, world, island, step.h);
+    prediction.sleep = sleep::update(contents, world, island, ends_moved, step.sleep_speed, events);
+    if prediction.sleep.asleep {
+        contents.cables_at(&island.cables).into_iter().for_each(|cable| cable.rest(step.h));
+        return Ok(());
+    }
+    kinematic_ends::prescribe(contents, world, island, step.h)?;
+    impedance::disable_motors(contents, world, island.supports.iter().copied());
+    predict::integrate(contents, world, solver, island, prediction, step)?;
+    apply::apply(contents, world, island, prediction, step.h);
+    impedance::set_motors(contents, world, island, prediction, step)
+}
+
+/// Reconciles all islands with Rapier's step.
+pub(crate) fn reconcile(stepper: &mut Stepper, contents: &mut Contents, world: &mut PhysicsWorld, settings: &Settings) {
+    if !core::mem::take(&mut stepper.pending) {
+        return;
+    }
+    let h = f64::from(world.integration_parameters.dt);
+    for (island, prediction) in stepper.islands.list.iter().zip(&mut stepper.predictions) {
+        reconcile::reconcile(contents, world, island, prediction, (h, settings.sleep_speed));
+        prediction.applied.clear();
+    }
+}

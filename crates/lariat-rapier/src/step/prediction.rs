@@ -1,0 +1,82 @@
+//! Parameters of a Rapier step, and the buffers of an island from its prediction to its
+//! reconciliation.
+
+use crate::body::SavedBody;
+use crate::mechanism::Mechanism;
+use crate::sleep::SleepState;
+use ::nalgebra::Vector3;
+use lariat_ancf::Snapshot;
+use lariat_ancf::island::{Impedance, RigidBody};
+use rapier::dynamics::RigidBodyHandle;
+use rapier::math::{AngVector, Vector};
+
+/// Parameters of a Rapier step.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct StepParameters {
+    /// Time step in s.
+    pub h: f64,
+    /// Number of equal Rapier steps of the host step.
+    pub rapier_steps: u32,
+    /// Speed in m/s of the fastest body that is awake.
+    pub fastest: f64,
+    /// Speed in m/s below which bodies may sleep.
+    pub sleep_speed: f64,
+}
+
+/// The prediction of an island for one Rapier step. Buffers only: nothing in them is state.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Prediction {
+    /// By cable, its state before the step.
+    pub snapshots: Vec<Snapshot>,
+    /// By member, its state before the step.
+    pub start: Vec<RigidBody>,
+    /// By member, its predicted state after the step.
+    pub end: Vec<RigidBody>,
+    /// By member, the bodies that joints move together with it.
+    pub mechanisms: Vec<Option<Mechanism>>,
+    /// By member, the motion given to Rapier.
+    pub applied: Vec<Option<AppliedMotion>>,
+    /// By cable, its response to impulses; valid if any motor is on.
+    pub impedances: Vec<Impedance>,
+    /// By pin, whether its motors are on.
+    pub motors: Vec<bool>,
+    /// By pin, the impulse of its motors in N s.
+    pub impulses: Vec<Vector3<f64>>,
+    pub sleep: SleepState,
+}
+
+/// The motion that Rapier was given for a body, and what to restore afterwards.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct AppliedMotion {
+    pub linvel: Vector,
+    pub angvel: AngVector,
+    /// Centre of mass in body axes.
+    pub centre: Vector,
+    /// Whether it touches nothing and no joint holds it.
+    pub isolated: bool,
+    /// Whether it is a link of a multibody, or joined to a dynamic body.
+    pub linked: bool,
+    /// Velocity in m/s that balanced forces add and remove within Rapier's step.
+    pub balanced_velocity: f64,
+    pub saved: SavedBody,
+}
+
+/// A body in a step.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct BodyStep<'a> {
+    pub handle: RigidBodyHandle,
+    /// Its state before the step.
+    pub start: &'a RigidBody,
+    /// Its predicted state after the step.
+    pub end: &'a RigidBody,
+    pub mechanism: Option<&'a Mechanism>,
+    /// Time step in s.
+    pub h: f64,
+}
+
+impl Prediction {
+    /// Returns member `m`, the body `handle`, in a step of `h` (s).
+    pub fn body_step(&self, m: usize, handle: RigidBodyHandle, h: f64) -> BodyStep<'_> {
+        BodyStep { handle, start: &self.start[m], end: &self.end[m], mechanism: self.mechanisms[m].as_ref(), h }
+    }
+}

@@ -1,0 +1,119 @@
+//! Which bodies a body is near, and which it will collide with.
+//!
+//! Rapier lists a pair of colliders once their bounding boxes at the start of its last step came
+//! within its prediction distance. A body that moves farther than that in a step meets others
+//! before they are listed: its box, swept along its displacement, is looked up among all others.
+
+use crate::convert::{to_vector, vector};
+use crate::ledger::is_ledger;
+use ::nalgebra::Vector3;
+use rapier::dynamics::RigidBodyHandle;
+use rapier::geometry::{Aabb, BoundingVolume, Collider, ColliderHandle, ContactPair};
+use rapier::math::Real;
+use rapier::pipeline::{PhysicsWorld, QueryFilter};
+
+/// Returns whether a body may deviate from its prediction and must feel its cables meanwhile: it is
+/// near another, a link of a multibody, or joined to a dynamic body.
+///
+/// Not one that is joined to a fixed body: Rapier's joint would yield to the motors and leave a gap
+/// of 1e-2 m at 5 kN, where it leaves 4e-6 m without them.
+pub(crate) fn may_deviate(world: &PhysicsWorld, handle: RigidBodyHandle) -> bool {
+    is_near_another(world, handle) || is_linked(world, handle)
+}
+
+/// Returns whether a body is a link of a multibody, or joined to a dynamic body.
+pub(crate) fn is_linked(world: &PhysicsWorld, handle: RigidBodyHandle) -> bool {
+    let dynamic =
+        |b: RigidBodyHandle| b != handle && world.bodies.get(b).is_some_and(|b| b.is_dynamic() && !is_ledger(b));
+    world.multibody_joints.rigid_body_link(handle).is_some()
+        || world.impulse_joints.attached_enabled_joints(handle).any(|(a, b, _, _)| dynamic(a) || dynamic(b))
+}
+
+/// Returns whether a body is near no other, and no joint holds it but that of a ledger.
+pub(crate) fn is_isolated(world: &PhysicsWorld, handle: RigidBodyHandle) -> bool {
+    let ledger = |b: RigidBodyHandle| world.bodies.get(b).is_some_and(is_ledger);
+    let joined = world.impulse_joints.attached_joints(handle).any(|(a, b, _, _)| !ledger(a) && !ledger(b));
+    !joined && !may_deviate(world, handle)
+}
+
+/// Returns whether Rapier lists a pair with a collider of a body. It keeps the pairs of a removed
+/// collider until its next step.
+fn is_near_another(world: &PhysicsWorld, handle: RigidBodyHandle) -> bool {
+    pairs(world, handle).next().is_some()
+}
+
+/// Returns the listed pairs of the colliders of a body: its own collider, the other, the pair.
+fn pairs<'a>(
+    world: &'a PhysicsWorld,
+    handle: RigidBodyHandle,
+) -> impl Iterator<Item = (&'a Collider, &'a Collider, &'a ContactPair)> {
+    let of = |c: &'a ColliderHandle| world.narrow_phase.contact_pairs_with(*c).map(move |pair| (*c, pair));
+    world.bodies[handle].colliders().iter().flat_map(of).filter_map(|(own, pair)| {
+        let other = if pair.collider1 == own { pair.collider2 } else { pair.collider1 };
+        Some((world.colliders.get(own)?, world.colliders.get(other)?, pair))
+    })
+}
+
+/// Returns a bounding box swept along `displacement` (m), and enlarged by `margin` (m) on all
+/// sides.
+fn swept(aabb: Aabb, displacement: &Vector3<f64>, margin: f64) -> Aabb {
+    let displacement = to_vector(displacement);
+    let moved = Aabb::new(aabb.mins + displacement, aabb.maxs + displacement);
+    Aabb::new(aabb.mins.min(moved.mins), aabb.maxs.max(moved.maxs)).loosened(margin as Real)
+}
+
+/// Returns an upper bound in m/s of the speed at which a body with `displacement` (m) in a step may
+/// collide with one that Rapier lists no pair with yet; `None` if it cannot. Slow bodies among slow
+/// ones need no look-up.
+pub(crate) fn unlisted_collision(
+    world: &PhysicsWorld,
+    handle: RigidBodyHandle,
+    displacement: &Vector3<f64>,
+    (dt, fastest): (f64, f64),
+) -> Option<f64> {
+    let listed = f64::from(world.integration_parameters.prediction_distance());
+    let others = dt * fastest;
+    // the list of pairs may be one step old
+    if 2.0 * (displacement.norm() + others) <= listed {
+        return None;
+    }
+    let colliders = world.bodies[handle].colliders().iter().filter_map(|c| world.colliders.get(*c));
+    let collides = colliders.filter(|c| c.is_enabled() && !c.is_sensor()).any(|collider| {
+        let filter =
+            QueryFilter::default().exclude_rigid_body(handle).exclude_sensors().groups(collider.collision_groups());
+        let own = swept(collider.compute_aabb(), displacement, listed);
+        let reached = own.loosened(others as Real);
+        world
+            .intersect_aabb_conservative(reached, filter)
+            .any(|(_, other)| swept(other.compute_aabb(), &(velocity_of(world, other) * dt), 0.0).intersects(&own))
+    });
+    collides.then(|| displacement.norm() / dt + fastest)
+}
+
+/// Returns the velocity in m/s of the body of a collider.
+fn velocity_of(world: &PhysicsWorld, collider: &Collider) -> Vector3<f64> {
+    collider.parent().and_then(|b| world.bodies.get(b)).map_or_else(Vector3::zeros, |b| vector(b.linvel()))
+}
+
+/// Returns the speed in m/s at which a body may collide with another within `dt` (s), if no other
+/// is faster than `fastest` (m/s); `None` if it cannot. For pairs in contact it is the speed along
+/// the normal.
+pub(crate) fn collision(world: &PhysicsWorld, handle: RigidBodyHandle, (dt, fastest): (f64, f64)) -> Option<f64> {
+    let velocity = vector(world.bodies[handle].linvel());
+    let margin = f64::from(world.integration_parameters.prediction_distance());
+    let speeds = pairs(world, handle).filter_map(|(own, other, pair)| {
+        let relative = velocity - velocity_of(world, other);
+        let normals = pair.manifolds().iter().filter(|m| !m.points.is_empty()).map(|m| vector(m.data.normal));
+        let along = normals.map(|n| relative.dot(&n).abs()).reduce(f64::max);
+        let reaches = || swept(own.compute_aabb(), &(relative * dt), margin).intersects(&other.compute_aabb());
+        along.or_else(|| reaches().then(|| relative.norm()))
+    });
+    let listed = speeds.reduce(f64::max);
+    let unlisted = unlisted_collision(world, handle, &(velocity * dt), (dt, fastest));
+    listed.into_iter().chain(unlisted).reduce(f64::max)
+}
+
+/// Returns the speed in m/s of the fastest body that is awake.
+pub(crate) fn fastest(world: &PhysicsWorld) -> f64 {
+    world.active_bodies().map(|(_, b)| f64::from(b.linvel().length())).fold(0.0, f64::max)
+}

@@ -1,0 +1,129 @@
+//! Free flight: momenta and tension of a rotating dumbbell.
+
+use super::common::{cable, gap, soft, tension, weightless, wire};
+use lariat_rapier::convert::vector;
+use lariat_rapier::lariat_ancf::{At, Cable, Section, Vector3};
+use lariat_rapier::rapier::prelude::*;
+use lariat_rapier::{AttachmentKind, CableSet};
+
+const SPIN: f64 = 5.0;
+/// Distance of the anchors from the centres of the balls in m.
+const ARM: f64 = 0.1;
+
+/// A cable of Green-strain material that rotates in equilibrium between two balls, by shooting on
+/// the position of its start.
+struct Steady {
+    start: f64,
+    positions: Vec<(f64, f64)>,
+    /// By node, tension.
+    tension: Vec<f64>,
+}
+
+/// Returns the stretch f at a tension, `N = EA (f^2 - 1)/2 f`.
+fn stretch(n: f64, ea: f64) -> f64 {
+    let mut f = 1.0 + n / ea;
+    for _ in 0..50 {
+        f -= (0.5 * (f * f - 1.0) * f - n / ea) / (1.5 * f * f - 0.5);
+    }
+    f
+}
+
+impl Steady {
+    /// Solves x' = f(N), N' = -mu w^2 x with Runge-Kutta steps for a cable of `length` (m) between
+    /// balls of masses `m` (kg).
+    fn solve(section: Section, length: f64, m: [f64; 2], nodes: usize) -> Steady {
+        let (ea, mu) = (section.axial_stiffness, section.mass_per_length);
+        let shoot = |start: f64| {
+            // the first ball, at start - ARM < 0, is pulled inwards
+            let (mut x, mut n) = (start, -m[0] * SPIN * SPIN * (start - ARM));
+            let (fine, mut positions, mut tensions) = (200, vec![], vec![]);
+            let h = length / ((nodes - 1) * fine) as f64;
+            let rate = |x: f64, n: f64| (stretch(n, ea), -mu * SPIN * SPIN * x);
+            for k in 0..=(nodes - 1) * fine {
+                if k % fine == 0 {
+                    positions.push((x, stretch(n, ea)));
+                    tensions.push(n);
+                }
+                if k < (nodes - 1) * fine {
+                    let a = rate(x, n);
+                    let b = rate(x + 0.5 * h * a.0, n + 0.5 * h * a.1);
+                    x += h * b.0;
+                    n += h * b.1;
+                }
+            }
+            let missing = n - m[1] * SPIN * SPIN * (x + ARM);
+            (missing, positions, tensions)
+        };
+        let (mut low, mut high) = (-length, 0.0);
+        for _ in 0..100 {
+            let middle = 0.5 * (low + high);
+            if shoot(middle).0 > 0.0 { low = middle } else { high = middle }
+        }
+        let (_, positions, tension) = shoot(low);
+        Steady { start: low, positions, tension }
+    }
+}
+
+/// Balls of 1 kg and 10 kg on a cable of 1.8 m (soft; steel wire) rotate at 5 rad/s in space for 10
+/// s, from their steady state: momenta are conserved, and the tension at every node in every frame
+/// is the analytic one.
+///
+/// Reference: conservation laws; [`Steady`].
+#[test]
+fn a_rotating_dumbbell_keeps_its_momenta_and_its_tension() {
+    for section in [soft(), wire()] {
+        let steady = Steady::solve(section, 1.8, [1.0, 10.0], 11);
+        let mut world = weightless();
+        let ends = [steady.start - ARM, steady.positions[10].0 + ARM];
+        let balls = [(1.0, ends[0]), (10.0, ends[1])].map(|(mass, x)| {
+            let body = RigidBodyBuilder::dynamic()
+                .translation(Vector::new(x as Real, 0.0, 0.0))
+                .linvel(Vector::new(0.0, (SPIN * x) as Real, 0.0))
+                .angvel(Vector::new(0.0, 0.0, SPIN as Real));
+            world.insert(body, ColliderBuilder::ball(0.1).mass(mass)).0
+        });
+        let builder =
+            cable([steady.start, 0.0, 0.0], [steady.start + 1.8, 0.0, 0.0], section).gravity(Vector3::zeros());
+        let mut sling: Cable = builder.build().unwrap();
+        let (q, rates): (Vec<_>, Vec<_>) = steady
+            .positions
+            .iter()
+            .map(|(x, f)| ([*x, 0.0, 0.0, *f, 0.0, 0.0], [0.0, SPIN * x, 0.0, 0.0, SPIN * f, 0.0]))
+            .unzip();
+        sling.set_coordinates(&q.concat(), &rates.concat()).unwrap();
+        let mut set = CableSet::new();
+        let sling = set.insert(sling);
+        set.attach(&world, sling, At::Start, balls[0], Vector::new(0.1, 0.0, 0.0), AttachmentKind::Ball).unwrap();
+        set.attach(&world, sling, At::End, balls[1], Vector::new(-0.1, 0.0, 0.0), AttachmentKind::Ball).unwrap();
+        let momenta = |world: &PhysicsWorld, set: &CableSet| {
+            let m = set.get(sling).unwrap().momentum();
+            let (mut p, mut l) = (m.linear, m.angular);
+            for ball in balls {
+                let b = &world.bodies[ball];
+                let mass = f64::from(b.mass());
+                let push = vector(b.linvel()) * mass;
+                p += push;
+                l += vector(b.center_of_mass()).cross(&push) + vector(b.angvel()) * (0.4 * mass * 0.01);
+            }
+            (p, l)
+        };
+        let (p0, l0) = momenta(&world, &set);
+        let (mut worst, mut widest, mut dp) = (0.0f64, 0.0f64, 0.0f64);
+        for _ in 0..600 {
+            set.step(&mut world).unwrap();
+            widest = widest.max(gap(&set));
+            dp = dp.max((momenta(&world, &set).0 - p0).norm());
+            for (node, n) in steady.tension.iter().enumerate() {
+                worst = worst.max((tension(&set, sling, 0.18 * node as f64) / n - 1.0).abs());
+            }
+        }
+        let (p, l) = momenta(&world, &set);
+        let turned = (l - l0).norm() / l0.norm();
+        let case = format!(
+            "EA {:.1e} N: dp {dp:.1e} kg m/s, dL/L {turned:.1e}, tension {worst:.1e}, gap {widest:.1e} m",
+            section.axial_stiffness
+        );
+        println!("{case}");
+        assert!(dp < 1e-5 && (p - p0).norm() < 1e-5 && turned < 1e-5 && worst < 5e-3 && widest < 1e-6, "{case}");
+    }
+}

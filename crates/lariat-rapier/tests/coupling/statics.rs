@@ -1,0 +1,127 @@
+//! Loads at rest: stretch, tensions and tilt.
+
+use super::common::{add_cube, cable, gap, l_stable_integrator, run, soft, steel, tension, wire};
+use lariat_rapier::convert::vector;
+use lariat_rapier::lariat_ancf::{At, Section, Vector3};
+use lariat_rapier::rapier::prelude::*;
+use lariat_rapier::{AttachmentKind, CableSet};
+
+/// Returns position and rotation of the box, and the tensions at mid cable. Taut cables are springs
+/// of Green's law along straight lines, with half of their weight at the lower end; Newton's method
+/// with differences makes two forces and a moment zero.
+fn tilted_box(section: Section, tops: [f64; 2], lengths: [f64; 2], mass: f64) -> (Vector3<f64>, [f64; 2]) {
+    use ::nalgebra::{Matrix3, Vector2};
+    let (ea, half) = (section.axial_stiffness, section.mass_per_length * 0.5);
+    let forces = |u: &Vector3<f64>| {
+        let (s, c) = u.z.sin_cos();
+        let mut out = Vector3::new(0.0, -9.81 * mass, 0.0);
+        let mut pulls = [0.0; 2];
+        for k in 0..2 {
+            let a = [-0.3, 0.3][k];
+            let lever = Vector2::new(c * a - s * 0.1, s * a + c * 0.1);
+            let line = Vector2::new(tops[k], 0.0) - u.xy() - lever;
+            let f = line.norm() / lengths[k];
+            pulls[k] = ea * 0.5 * (f * f - 1.0) * f;
+            // half of each cable's weight hangs on its lower end
+            let force = line.normalize() * pulls[k] - Vector2::new(0.0, half * lengths[k] * 9.81);
+            out += Vector3::new(force.x, force.y, lever.x * force.y - lever.y * force.x);
+        }
+        (out, pulls)
+    };
+    let mut u = Vector3::new(0.0, -1.0, 0.0);
+    for _ in 0..200 {
+        let now = forces(&u).0;
+        let jacobian = Matrix3::from_columns(&[0, 1, 2].map(|k| {
+            let mut moved = u;
+            moved[k] += 1e-8;
+            (forces(&moved).0 - now) / 1e-8
+        }));
+        let step = jacobian.lu().solve(&now).unwrap();
+        u -= step * (0.05 / step.norm()).min(1.0);
+    }
+    (u, forces(&u).1)
+}
+
+/// A box of 50 kg hangs by the ends of its top face from two points of equal height, on cables of
+/// different length; a soft cable and a steel wire.
+///
+/// Reference: [`tilted_box`].
+#[test]
+fn a_box_on_unequal_cables_hangs_at_its_static_tilt() {
+    for section in [soft(), wire()] {
+        let mut world = PhysicsWorld::new();
+        let body = RigidBodyBuilder::dynamic()
+            .translation(Vector::new(0.0, -1.0, 0.0))
+            .linear_damping(2.0)
+            .angular_damping(2.0)
+            .can_sleep(false);
+        let (load, _) = world.insert(body, ColliderBuilder::cuboid(0.3, 0.1, 0.1).mass(50.0));
+        let mut set = CableSet::new();
+        let tops = [-1.0, 0.8];
+        let mut lengths = [0.0; 2];
+        let ropes = [0, 1].map(|k| {
+            let side = [-0.3, 0.3][k];
+            let rope = cable([tops[k], 0.0, 0.0], [side, -0.9, 0.0], section)
+                .integrator(l_stable_integrator())
+                .fix(At::Start)
+                .build()
+                .unwrap();
+            lengths[k] = rope.length();
+            let rope = set.insert(rope);
+            set.attach(&world, rope, At::End, load, Vector::new(side as Real, 0.1, 0.0), AttachmentKind::Ball).unwrap();
+            rope
+        });
+        run(&mut world, &mut set, 1500);
+        let (u, pulls) = tilted_box(section, tops, lengths, 50.0);
+        let b = &world.bodies[load];
+        let angle = vector(b.rotation().to_scaled_axis()).z;
+        let off = (vector(b.translation()).xy() - u.xy()).norm();
+        assert!(off < 1e-4 && (angle - u.z).abs() < 1e-4, "{off:.1e} m, tilt {angle} of {}", u.z);
+        for k in 0..2 {
+            let pull = tension(&set, ropes[k], 0.5 * lengths[k]);
+            assert!((pull / pulls[k] - 1.0).abs() < 2e-3, "cable {k}: {pull} N of {}", pulls[k]);
+        }
+        assert!(b.linvel().length() < 1e-3 && gap(&set) < 1e-6);
+    }
+}
+
+/// Loads from 10 g to 100 t on a vertical cable, released suddenly: after 10 s the stretch is
+/// static, and it never exceeded twice that (5 % more for the waves of the cable).
+///
+/// Reference: `m g + mu g (L - s) = EA (f^2 - 1)/2 f` at mid cable; the overshoot of a sudden load.
+#[test]
+fn a_hanging_load_stretches_its_cable_by_its_stiffness_for_any_mass() {
+    for section in [soft(), steel()] {
+        for mass in [0.01, 0.1, 1.0, 10.0, 100.0, 1e3, 1e4, 1e5] {
+            let mut world = PhysicsWorld::new();
+            let load = add_cube(&mut world, mass as Real, 0.1, [0.0, -2.1, 0.0]);
+            world.bodies[load].set_linear_damping(5.0);
+            let mut set = CableSet::new();
+            let rope = cable([0.0; 3], [0.0, -2.0, 0.0], section).integrator(l_stable_integrator()).fix(At::Start);
+            let rope = set.insert(rope.build().unwrap());
+            set.attach(&world, rope, At::End, load, Vector::new(0.0, 0.1, 0.0), AttachmentKind::Ball).unwrap();
+            let (mut lowest, mut rests) = (0.0f64, 0.0);
+            for _ in 0..600 {
+                set.step(&mut world).unwrap();
+                let l = -set.get(rope).unwrap().node_position(10).y;
+                lowest = lowest.max(l - 2.0);
+                rests = l - 2.0;
+            }
+            // force at mid cable, and its stretch
+            let w = 9.81 * (mass + 0.5 * 2.0 * section.mass_per_length);
+            let mut f = 1.0;
+            for _ in 0..100 {
+                f -= (0.5 * (f * f - 1.0) * f - w / section.axial_stiffness) / (1.5 * f * f - 0.5);
+            }
+            let stretch = 2.0 * (f - 1.0);
+            assert!((rests / stretch - 1.0).abs() < 1e-3, "{mass} kg: {rests:.6e} m of {stretch:.6e}");
+            assert!(lowest < 2.1 * stretch, "{mass} kg: {lowest:.3e} m of {stretch:.3e}");
+            assert!(
+                (tension(&set, rope, 2.0) / (9.81 * mass) - 1.0).abs() < 1e-3 && gap(&set) < 1e-6,
+                "{mass} kg {} {:.1e}",
+                tension(&set, rope, 2.0),
+                gap(&set)
+            );
+        }
+    }
+}

@@ -1,0 +1,157 @@
+//! Bodies that the user removes, disables, moves or changes during a run.
+
+use super::common::{add_cube, cable, gap, run, soft};
+use lariat_rapier::convert::vector;
+use lariat_rapier::lariat_ancf::At;
+use lariat_rapier::rapier::prelude::*;
+use lariat_rapier::{AttachmentHandle, AttachmentKind, CableHandle, CableSet, Event};
+
+struct Hung {
+    world: PhysicsWorld,
+    set: CableSet,
+    load: RigidBodyHandle,
+    rope: CableHandle,
+    held: AttachmentHandle,
+}
+
+/// Returns a load of 5 kg swinging on a cable, after half a second.
+fn hanging_load() -> Hung {
+    let mut world = PhysicsWorld::new();
+    let load = add_cube(&mut world, 5.0, 0.1, [2.0, -0.1, 0.0]);
+    let mut set = CableSet::new();
+    let rope = set.insert(cable([0.0; 3], [2.0, 0.0, 0.0], soft()).fix(At::Start).build().unwrap());
+    let held = set.attach(&world, rope, At::End, load, Vector::new(0.0, 0.1, 0.0), AttachmentKind::Ball).unwrap();
+    run(&mut world, &mut set, 30);
+    Hung { world, set, load, rope, held }
+}
+
+impl Hung {
+    fn run(&mut self, steps: usize) {
+        for _ in 0..steps {
+            self.set.step(&mut self.world).unwrap();
+            assert!(self.set.get(self.rope).unwrap().positions().iter().all(|x| x.is_finite()));
+            if let Some(b) = self.world.bodies.get(self.load) {
+                assert!(vector(b.translation()).iter().chain(vector(b.linvel()).iter()).all(|x| x.is_finite()));
+            }
+        }
+    }
+
+    fn end(&self) -> ::nalgebra::Vector3<f64> {
+        self.set.get(self.rope).unwrap().node_position(10)
+    }
+
+    fn anchor(&self) -> ::nalgebra::Vector3<f64> {
+        vector(*self.world.bodies[self.load].position() * Vector::new(0.0, 0.1, 0.0))
+    }
+}
+
+/// A body is removed from the world: one event, no attachment and no ledger left, and the end of
+/// the cable is free.
+///
+/// Reference: the contract; the energy of the cable alone is conserved.
+#[test]
+fn removing_a_body_ends_its_attachment_and_frees_the_cable() {
+    let mut h = hanging_load();
+    h.world.remove_body(h.load);
+    h.run(1);
+    assert_eq!(h.set.events(), [Event::AttachmentEnded { attachment: h.held, body: h.load }]);
+    assert!(h.set.attachment(h.held).is_err());
+    h.run(1);
+    assert!(h.set.events().is_empty());
+    let energy = |h: &Hung| h.set.get(h.rope).unwrap().energy().total();
+    let before = energy(&h);
+    h.run(60);
+    assert_eq!(h.world.bodies.len(), 0);
+    assert!((energy(&h) - before).abs() < 1e-3 * 0.8 * 9.81 * 2.0, "{} J, {before} J", energy(&h));
+    assert!(h.end().norm() < 2.05, "{:?}", h.end());
+}
+
+/// A body is removed from the world while it is in contact with a wall.
+///
+/// Reference: the contract: one body, the wall, is left.
+#[test]
+fn removing_a_body_in_contact_removes_its_ledger() {
+    let mut h = hanging_load();
+    let at = h.world.bodies[h.load].translation();
+    let wall = RigidBodyBuilder::fixed().translation(at - Vector::new(0.32, 0.0, 0.0));
+    h.world.insert(wall, ColliderBuilder::cuboid(0.1, 2.0, 1.0));
+    h.run(30);
+    assert_eq!(h.world.bodies.len(), 3, "the load, the wall and a ledger");
+    h.world.remove_body(h.load);
+    h.run(30);
+    assert_eq!(h.world.bodies.len(), 1);
+}
+
+/// A body is disabled, and enabled again: its cable holds still with it, and swings on.
+///
+/// Reference: a disabled body does not move; the end of the cable is on its anchor.
+#[test]
+fn a_disabled_body_holds_the_end_of_its_cable_fixed() {
+    let mut h = hanging_load();
+    h.world.bodies[h.load].set_enabled(false);
+    h.run(1);
+    let at = h.world.bodies[h.load].translation();
+    h.run(60);
+    assert_eq!(h.world.bodies[h.load].translation(), at);
+    let held = (h.end() - h.anchor()).norm();
+    h.world.bodies[h.load].set_enabled(true);
+    h.run(60);
+    assert!(held < 5e-7 && gap(&h.set) < 1e-6, "{held:.1e} m");
+    assert!((h.world.bodies[h.load].translation() - at).length() > 0.1, "it swings on");
+}
+
+/// A swinging body becomes fixed or kinematic, and dynamic again: the end of the cable stays on it.
+///
+/// Reference: the contract.
+#[test]
+fn a_body_may_change_between_dynamic_fixed_and_kinematic() {
+    let mut h = hanging_load();
+    for kind in [RigidBodyType::Fixed, RigidBodyType::KinematicVelocityBased, RigidBodyType::KinematicPositionBased] {
+        h.world.bodies[h.load].set_body_type(kind, true);
+        h.world.bodies[h.load].set_linvel(Vector::ZERO, true);
+        h.world.bodies[h.load].set_angvel(Vector::ZERO, true);
+        h.run(30);
+        let held = (h.end() - h.anchor()).norm();
+        h.world.bodies[h.load].set_body_type(RigidBodyType::Dynamic, true);
+        h.run(30);
+        assert!(held < 5e-7 && gap(&h.set) < 1e-3, "{kind:?}: {held:.1e} m, {:.1e} m", gap(&h.set));
+    }
+}
+
+/// A body is set to another position: the gap of 0.1 m, or of 0.5 m that stretches the cable,
+/// closes at 10 m/s at most.
+///
+/// Reference: the contract.
+#[test]
+fn the_gap_to_a_teleported_body_closes() {
+    for jump in [0.1, 0.5] {
+        let mut h = hanging_load();
+        let to = h.world.bodies[h.load].translation() - Vector::new(jump, 0.0, 0.0);
+        h.world.bodies[h.load].set_translation(to, true);
+        h.run((60.0 * f64::from(jump) / 6.6).ceil() as usize);
+        assert!(gap(&h.set) < 1e-3, "{jump} m: {:.1e} m", gap(&h.set));
+        h.run(60);
+        assert!(gap(&h.set) < 1e-3, "{jump} m: {:.1e} m", gap(&h.set));
+    }
+}
+
+/// Wrong handles and points give errors, and change nothing.
+///
+/// Reference: the contract.
+#[test]
+fn wrong_handles_give_typed_errors() {
+    let mut h = hanging_load();
+    let other = add_cube(&mut h.world, 1.0, 0.1, [9.0; 3]);
+    let twice = h.set.attach(&h.world, h.rope, At::End, other, Vector::ZERO, AttachmentKind::Ball).unwrap_err();
+    assert!(matches!(twice, lariat_rapier::Error::AlreadyAttached { node: 10, .. }), "{twice}");
+    let nowhere =
+        h.set.attach(&h.world, h.rope, At::ArcLength(2.123), other, Vector::ZERO, AttachmentKind::Ball).unwrap_err();
+    assert!(matches!(nowhere, lariat_rapier::Error::Cable(_)), "{nowhere}");
+    h.world.remove_body(other);
+    let gone = h.set.attach(&h.world, h.rope, At::Start, other, Vector::ZERO, AttachmentKind::Ball).unwrap_err();
+    assert_eq!(gone, lariat_rapier::Error::NoBody(other));
+    h.run(5);
+    h.set.remove(&mut h.world, h.rope).unwrap();
+    assert!(h.set.get(h.rope).is_err() && h.set.attachment(h.held).is_err());
+    h.set.step(&mut h.world).unwrap();
+}

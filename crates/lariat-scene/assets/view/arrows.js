@@ -1,0 +1,70 @@
+// Loads as arrows: forces with one head, moments with two (along their axis, right-handed), forces per length as a row of arrows.
+// Each starts at the point on which it acts.
+
+const FORCE_LENGTH = 0.16, ROW_LENGTH = 0.08, ROW = 7;
+const lengthOf = (v) => Math.hypot(...v);
+const largestOf = (key) => Math.max(0, ...data.loads.map((load) => (load[key] ? lengthOf(load[key]) : 0)));
+const largestLoad = { force: largestOf("force"), moment: largestOf("moment"), perLength: largestOf("perLength") };
+
+// The arrows at a frame: { from, vector, heads, label }, vector in m of the scene.
+function loadArrows(frame, time) {
+  const arrows = [];
+  const put = (from, load, key, share, length, heads, unit) => {
+    const full = lengthOf(load[key]), magnitude = full * share;
+    if (magnitude === 0) return;
+    // the smallest can still be seen
+    const shown = size * length * Math.max(0.2, magnitude / largestLoad[key]);
+    const vector = load[key].map((x) => (x / full) * shown);
+    arrows.push({ from, vector, heads, label: unit ? `${figure(magnitude, 3)} ${unit}` : "" });
+  };
+  for (const load of data.loads) {
+    if (load.perLength) {
+      for (let i = 0; i < ROW; i++) {
+        const s = load.from + ((load.to - load.from) * i) / (ROW - 1);
+        const unit = i === ROW >> 1 ? "N/m" : "";
+        put(onCable(frame.cables[load.cable], s), load, "perLength", 1, ROW_LENGTH, 1, unit);
+      }
+      continue;
+    }
+    const share = load.ramp > 0 ? Math.min(1, Math.max(0, time / load.ramp)) : 1;
+    let from;
+    if (load.body === undefined) from = onCable(frame.cables[load.cable], load.at);
+    else {
+      const { place, attitude } = poseOf(frame, load.body);
+      from = add(place, turn(attitude, load.point));
+    }
+    put(from, load, "force", share, FORCE_LENGTH, 1, "N");
+    put(from, load, "moment", share, FORCE_LENGTH, 2, "N m");
+  }
+  return arrows;
+}
+
+function drawArrow(g, { from, vector, heads, label }, names, write) {
+  const p = project(from), q = project(add(from, vector));
+  if (!p || !q) return;
+  const [x, y] = [q[0] - p[0], q[1] - p[1]], n = Math.hypot(x, y);
+  g.strokeStyle = g.fillStyle = style.load;
+  g.lineWidth = 2;
+  if (n < 2) {
+    // along the line of sight
+    g.beginPath();
+    g.arc(p[0], p[1], 4, 0, 7);
+    g.stroke();
+    return;
+  }
+  const [u, v] = [x / n, y / n], head = Math.min(11, 0.5 * n);
+  g.beginPath();
+  g.moveTo(p[0], p[1]);
+  g.lineTo(q[0] - 0.8 * head * u, q[1] - 0.8 * head * v);
+  g.stroke();
+  for (let k = 0; k < heads; k++) {
+    const [a, b] = [q[0] - 0.8 * k * head * u, q[1] - 0.8 * k * head * v];
+    g.beginPath();
+    g.moveTo(a, b);
+    g.lineTo(a - head * u - 0.4 * head * v, b - head * v + 0.4 * head * u);
+    g.lineTo(a - head * u + 0.4 * head * v, b - head * v - 0.4 * head * u);
+    g.closePath();
+    g.fill();
+  }
+  if (names && label) write(label, q);
+}

@@ -1,0 +1,85 @@
+//! Results as text for a terminal.
+
+use lariat_scene::run::{CableStatics, Summary};
+use std::fmt::Write as _;
+use std::path::Path;
+
+/// Describes a run in time.
+pub fn run(summary: &Summary, folder: &Path) -> String {
+    let energy = |x: Option<f64>| x.map_or("not finite".to_string(), |x| format!("{x:.6} J"));
+    format!(
+        "{}{}: {} s in {:.3} s ({:.1} times real time), {} steps, {} rejected, {} Newton iterations, energy {} -> {}\n{}",
+        warnings(summary),
+        summary.name,
+        summary.simulated_s,
+        summary.wall_s,
+        summary.real_time_factor,
+        summary.steps,
+        summary.rejected_steps,
+        summary.newton_iterations,
+        energy(summary.energy_start_j),
+        energy(summary.energy_end_j),
+        results(folder)
+    )
+}
+
+/// Describes the static equilibrium of each cable.
+pub fn statics(summary: &Summary, folder: &Path) -> String {
+    let cables: String = summary.statics.iter().flatten().map(cable).collect();
+    format!(
+        "{}{}: static equilibrium in {:.3} s\n{cables}{}",
+        warnings(summary),
+        summary.name,
+        summary.wall_s,
+        results(folder)
+    )
+}
+
+fn cable(statics: &CableStatics) -> String {
+    let stable = if statics.stable { "stable" } else { "unstable or indifferent" };
+    let sag = statics.sag_m.map_or(String::new(), |sag| format!(", sag {} m", short(sag)));
+    let mut text = format!(
+        "cable {:?}: {stable}, residual {:.1e} N after {} iterations\n  peak tension {} N at {} m{sag}\n",
+        statics.name,
+        statics.residual_n,
+        statics.iterations,
+        short(statics.peak_tension_n),
+        short(statics.peak_tension_at_m)
+    );
+    let length = statics.reactions.last().map_or(0.0, |reaction| reaction.at_m);
+    let moment = statics.peak_tension_n.abs() * length;
+    for reaction in &statics.reactions {
+        // writing to a String cannot fail
+        let _ = writeln!(
+            text,
+            "  on {:?} at {} m: force {} N, moment {} N m",
+            reaction.name,
+            short(reaction.at_m),
+            vector(&reaction.force_n, 0.0),
+            vector(&reaction.moment_nm, moment)
+        );
+    }
+    text
+}
+
+/// Returns three numbers, with zero for those that are rounding errors of the largest, or of a quantity of size `scale`.
+fn vector(x: &[f64; 3], scale: f64) -> String {
+    let largest = x.iter().fold(0.0, |largest: f64, x| largest.max(x.abs()));
+    let least = (1e-9 * largest).max(1e-12 * scale);
+    let numbers = x.map(|x| if x.abs() <= least { "0".to_string() } else { short(x) });
+    format!("[{}]", numbers.join(", "))
+}
+
+/// Returns a number with six significant digits.
+fn short(x: f64) -> String {
+    let rounded: f64 = format!("{x:.5e}").parse().unwrap_or(x);
+    if rounded == 0.0 || (1e-4..1e7).contains(&rounded.abs()) { format!("{rounded}") } else { format!("{rounded:e}") }
+}
+
+fn warnings(summary: &Summary) -> String {
+    summary.warnings.iter().map(|warning| format!("warning: {warning}\n")).collect()
+}
+
+fn results(folder: &Path) -> String {
+    format!("results in {}\n", folder.display())
+}

@@ -1,0 +1,108 @@
+//! What `lariat static` reports of each cable: stability, residual, peak tension, sag and reactions.
+
+use crate::error::Error;
+use crate::scene::Scene;
+use lariat_ancf::{Cable, EquilibriumReport, Vector3};
+use serde::{Deserialize, Serialize};
+
+/// Points of each element at which the sag is measured.
+const POINTS: usize = 8;
+
+/// The static equilibrium of a cable.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct CableStatics {
+    /// Name of the cable.
+    pub name: String,
+    /// True if the tangent stiffness is positive definite; false for an unstable or indifferent shape.
+    pub stable: bool,
+    /// Largest residual force in N.
+    pub residual_n: f64,
+    /// Newton iterations.
+    pub iterations: usize,
+    /// Largest tension in N.
+    pub peak_tension_n: f64,
+    /// Arc length of the largest tension in m.
+    pub peak_tension_at_m: f64,
+    /// Largest distance of a point below the straight line between the supports on both sides of it, along gravity, in m. `None`
+    /// without gravity, or if no two supports lie at different horizontal positions.
+    pub sag_m: Option<f64>,
+    /// Forces and moments on what holds the cable, by arc length.
+    pub reactions: Vec<StaticReaction>,
+}
+
+/// Force and moment of a cable on what holds it.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct StaticReaction {
+    /// Name of the attachment or junction.
+    pub name: String,
+    /// Arc length in m.
+    pub at_m: f64,
+    /// Force in N.
+    pub force_n: [f64; 3],
+    /// Moment in N m.
+    pub moment_nm: [f64; 3],
+}
+
+impl CableStatics {
+    /// Reads a cable in equilibrium.
+    ///
+    /// # Errors
+    /// [`Error::Mechanics`] if a reaction cannot be computed; not for an equilibrium.
+    pub(super) fn read(
+        scene: &Scene,
+        index: usize,
+        cable: &mut Cable,
+        report: &EquilibriumReport,
+    ) -> Result<Self, Error> {
+        let attachments = scene.attachments.iter().filter(|a| a.cable == index);
+        let mut held: Vec<(String, f64)> = attachments.map(|a| (a.name.clone(), a.arc_length)).collect();
+        for junction in &scene.junctions {
+            let points = junction.points.iter().filter(|(cable, _)| *cable == index);
+            held.extend(points.map(|&(_, arc_length)| (junction.name.clone(), arc_length)));
+        }
+        held.sort_by(|a, b| a.1.total_cmp(&b.1));
+        let (peak_tension_at_m, peak_tension_n) = cable.peak_tension();
+        let supports: Vec<f64> = held.iter().map(|(_, arc_length)| *arc_length).collect();
+        let sag_m = sag(cable, &supports, &scene.gravity)?;
+        let mut reactions = Vec::new();
+        for (name, at_m) in held {
+            let (force, moment) = super::world::pull(cable, at_m)?;
+            reactions.push(StaticReaction { name, at_m, force_n: force.into(), moment_nm: moment.into() });
+        }
+        Ok(CableStatics {
+            name: cable.name().to_string(),
+            stable: report.stable,
+            residual_n: report.residual,
+            iterations: report.iterations,
+            peak_tension_n,
+            peak_tension_at_m,
+            sag_m,
+            reactions,
+        })
+    }
+}
+
+/// Returns the largest sag of the spans between supports (arc lengths in m, ascending).
+fn sag(cable: &Cable, supports: &[f64], gravity: &Vector3<f64>) -> Result<Option<f64>, Error> {
+    let Some(down) = gravity.try_normalize(f64::MIN_POSITIVE) else { return Ok(None) };
+    let level = |x: Vector3<f64>| x - down * x.dot(&down);
+    let nodes = cable.node_arc_lengths();
+    let mut largest: Option<f64> = None;
+    for span in supports.windows(2) {
+        let (from, to) = (cable.sample(span[0])?.position, cable.sample(span[1])?.position);
+        let across = level(to - from);
+        // a vertical span has no sag
+        if across.norm() <= 1e-9 * cable.length() {
+            continue;
+        }
+        let points =
+            nodes.windows(2).flat_map(|s| (0..POINTS).map(move |k| s[0] + (s[1] - s[0]) * k as f64 / POINTS as f64));
+        for s in points.filter(|s| (span[0]..=span[1]).contains(s)).chain([span[1]]) {
+            let offset = cable.sample(s)?.position - from;
+            let share = level(offset).dot(&across) / across.norm_squared();
+            let below = (offset - (to - from) * share).dot(&down);
+            largest = Some(largest.map_or(below, |sag| sag.max(below)));
+        }
+    }
+    Ok(largest)
+}

@@ -1,0 +1,101 @@
+//! `[[attachment]]`: a point of a cable that a body or the world holds.
+
+use super::references::{Position, arc_length, body_or_world, cable, unique};
+use super::{Purpose, Scene};
+use crate::document::{Document, KeyPath};
+use crate::error::{Error, Problem};
+use crate::schema::{Kind, POSITION, VECTOR, choice, table};
+use lariat_ancf::{Cable, Vector3};
+
+/// Largest distance of an anchor from its cable point at the start, in m.
+const ANCHOR_GAP: f64 = 1e-6;
+
+choice! {
+    /// What an attachment holds.
+    enum AttachmentKind {
+        /// The position.
+        Ball = "ball",
+        /// The position and the direction of the tangent.
+        Clamp = "clamp",
+    }
+}
+
+table! {
+    /// Holds a point of a cable to a body or to the world.
+    struct AttachmentTable("[[attachment]]") {
+        /// No other attachment has it.
+        name: Option<String> = ("`attachment-N`, counted from 0"), Kind::Name(&[]);
+        /// Name of a cable.
+        cable: String = required, Kind::Text;
+        /// Arc length of the unstretched cable, from 0 to its length.
+        at: Position = required, POSITION, "m";
+        /// Name of a body, or `"world"`.
+        body: String = required, Kind::Text;
+        /// Where the body holds the cable, in the axes of the body or the world: within 1e-6 m of where the cable point starts, or
+        /// anywhere with `initial = "equilibrium"`. Anywhere in `lariat static`, too.
+        anchor: Option<Vector3<f64>> = ("the cable point at t = 0"), VECTOR, "m";
+        /// `"ball"` holds the position, `"clamp"` the direction of the tangent, too.
+        kind: AttachmentKind = "ball", Kind::Choice(AttachmentKind::names);
+    }
+}
+
+/// A checked attachment of a cable to a body or the world.
+#[derive(Clone, Debug, PartialEq)]
+pub struct AttachmentScene {
+    /// Name.
+    pub name: String,
+    /// Position of the cable in [`Scene::cables`].
+    pub cable: usize,
+    /// Arc length in m.
+    pub arc_length: f64,
+    /// Position of the body in [`Scene::bodies`]; `None` = the world.
+    pub body: Option<usize>,
+    /// Anchor in m, in the axes of the body or the world; `None` = where the cable point is.
+    pub anchor: Option<Vector3<f64>>,
+    /// True to hold the direction of the tangent, too.
+    pub clamp: bool,
+}
+
+/// Reads the attachment in row `i`.
+pub(super) fn read(
+    doc: &Document<'_>,
+    scene: &Scene,
+    i: usize,
+    row: AttachmentTable,
+) -> Result<AttachmentScene, Error> {
+    let at = KeyPath::root("attachment").item(i);
+    let cable = cable(doc, &at.key("cable"), scene, &row.cable)?;
+    let length = scene.cables[cable].length;
+    let arc_length = arc_length(doc, &at.key("at"), row.at, length)?;
+    let body = body_or_world(doc, &at.key("body"), scene, &row.body)?;
+    let name = row.name.unwrap_or_else(|| format!("attachment-{i}"));
+    unique(doc, &at, &name, scene.attachments.iter().map(|a| a.name.as_str()))?;
+    let same = |a: &&AttachmentScene| a.cable == cable && (a.arc_length - arc_length).abs() <= 1e-9 * length;
+    if let Some(other) = scene.attachments.iter().find(same) {
+        let problem = Problem::Conflict(format!("attachment {:?} already holds the cable there", other.name));
+        return Err(doc.error_accepting(&at.key("at"), problem, "one attachment at a point of a cable"));
+    }
+    Ok(AttachmentScene { name, cable, arc_length, body, anchor: row.anchor, clamp: row.kind == AttachmentKind::Clamp })
+}
+
+/// Compares the anchors with the points of the cables as drawn.
+pub(super) fn check_start(doc: &Document<'_>, scene: &Scene, cables: &[Cable], purpose: Purpose) -> Result<(), Error> {
+    if purpose == Purpose::Static {
+        return Ok(());
+    }
+    for (k, attachment) in scene.attachments.iter().enumerate() {
+        let Some(anchor) = scene.anchor(attachment).filter(|_| !scene.cables[attachment.cable].equilibrium) else {
+            continue;
+        };
+        let at = KeyPath::root("attachment").item(k).key("anchor");
+        let sample = cables[attachment.cable].sample(attachment.arc_length);
+        let point = sample.map_err(|error| doc.conflict(&at, error.to_string()))?.position;
+        let gap = (point - anchor).norm();
+        if gap > ANCHOR_GAP {
+            let (anchor, point) = (anchor.as_slice(), point.as_slice());
+            let problem = format!("{anchor:?} is {gap:.3e} m from the cable point, which starts at {point:?}");
+            return Err(doc.conflict(&at, problem));
+        }
+    }
+    Ok(())
+}

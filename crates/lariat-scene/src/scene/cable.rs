@@ -1,0 +1,213 @@
+//! `[[cable]]`: shape, section, rule and motion of a cable.
+
+use super::effects::{self, EFFECTS};
+use super::integrator::{self, IntegratorTable};
+use crate::document::{Document, KeyPath};
+use crate::error::{Error, Problem};
+use crate::schema::{Choose, Default, Key, Kind, NOT_NEGATIVE, POSITIVE, VECTOR, choice, parse_as, table};
+use lariat_ancf::{AxialRule, BendingRule, Effects, IntegratorChoice, Rule, Section, Shape, Vector3};
+use serde::Deserialize;
+
+choice! {
+    /// How a cable starts.
+    enum Initial {
+        /// As drawn.
+        Straight = "straight",
+        /// In static equilibrium.
+        Equilibrium = "equilibrium",
+    }
+}
+
+table! {
+    /// A cable: an elastic line of a start shape, a section and material, and a rule that computes its elastic forces. An effect
+    /// whose table is absent costs nothing.
+    struct CableTable("[[cable]]") {
+        /// No other cable has it.
+        name: String = required, Kind::Name(&["all"]);
+        /// Start shape: the polyline through these points, of which neighbours differ.
+        points: Vec<Vector3<f64>> = required, Kind::Rows(&["x", "y", "z"], 2), "m";
+        /// Unstretched length: a cable shorter than drawn is taut at the start, a longer one hangs slack.
+        length: Option<f64> = ("the length of the polyline"), Kind::Number(POSITIVE), "m";
+        /// `"straight"` starts as drawn, `"equilibrium"` in the static shape under the loads of the scene, with bodies and junctions
+        /// held where they are drawn.
+        initial: Initial = "straight", Kind::Choice(Initial::names);
+        /// Number of elements.
+        elements: u64 = 10, Kind::Whole(1, 1_000_000);
+        /// Shape of the section; or the three stiffnesses.
+        section: Option<Shape> = ("required without the three stiffnesses"), Kind::Table(&SECTION), "m";
+        /// Density of the material, beside `section`.
+        density: Option<f64> = ("required with `section`"), Kind::Number(POSITIVE), "kg/m^3";
+        /// Young's modulus, beside `section`.
+        youngs_modulus: Option<f64> = ("required with `section`"), Kind::Number(POSITIVE), "Pa";
+        /// EA, with `bending_stiffness` and `mass_per_length`, instead of `section`.
+        axial_stiffness: Option<f64> = ("required without `section`"), Kind::Number(POSITIVE), "N";
+        /// EI, with `axial_stiffness` and `mass_per_length`, instead of `section`.
+        bending_stiffness: Option<f64> = ("required without `section`"), Kind::Number(NOT_NEGATIVE), "N m^2";
+        /// Mass per unstretched length, with `axial_stiffness` and `bending_stiffness`, instead of `section`.
+        mass_per_length: Option<f64> = ("required without `section`"), Kind::Number(POSITIVE), "kg/m";
+        /// Force strategy.
+        rule: RuleTable = "projected-3", RULE;
+        /// `true` runs a rule with zero-energy modes.
+        allow_rank_deficient: bool = false, Kind::Flag;
+        /// Time integrator and step control.
+        integrator: IntegratorTable = { fidelity = "engineering" }, Kind::Table(&IntegratorTable::TABLE);
+        /// Velocity of the start point.
+        velocity: Vector3<f64> = [0.0, 0.0, 0.0], VECTOR, "m/s";
+        /// Angular velocity of the whole cable about its start point.
+        angular_velocity: Vector3<f64> = [0.0, 0.0, 0.0], VECTOR, "rad/s";
+    }
+    rest effects;
+    plus EFFECTS;
+    plus NOT_BUILT;
+}
+
+/// Parts of the format that this version reads and does not compute.
+const NOT_BUILT: &[Key] = &[
+    not_built("contact", "Contact with bodies and other cables."),
+    not_built("break", "Breaking at a tension."),
+    not_built("reel", "Change of the unstretched length at one end."),
+];
+
+const fn not_built(name: &'static str, meaning: &'static str) -> Key {
+    Key { name, kind: Kind::NotBuilt, unit: "", default: Default::Absent("off"), meaning }
+}
+
+table! {
+    /// A solid section of one material.
+    keys SECTION("[cable.section]") {
+        /// Side of a square.
+        square = (), Kind::Number(POSITIVE), "m";
+        /// Diameter.
+        round = (), Kind::Number(POSITIVE), "m";
+        /// Outer and inner diameter, outer > inner >= 0.
+        tube = (), Kind::Numbers(&["outer", "inner"], NOT_NEGATIVE), "m";
+    }
+    choose Choose::ExactlyOne(&["square", "round", "tube"]);
+}
+
+table! {
+    /// A rule by its two parts.
+    struct RulePair("[cable.rule]") {
+        /// Axial energy.
+        axial: AxialRule = required, Kind::Parsed { accepted: "an axial rule of `lariat rules`", parse: parse_as::<AxialRule> };
+        /// Bending energy.
+        bending: BendingRule = required, Kind::Parsed { accepted: "a bending rule of `lariat rules`", parse: parse_as::<BendingRule> };
+    }
+}
+
+/// A rule by its name or by its two parts.
+const RULE: Kind = Kind::Either(&[
+    Kind::Parsed { accepted: "a name of `lariat rules`", parse: parse_as::<Rule> },
+    Kind::Table(&RulePair::TABLE),
+]);
+
+/// A rule as a scene writes it.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(untagged)]
+pub enum RuleTable {
+    /// By its name.
+    Name(Rule),
+    /// By its two parts.
+    Pair(RulePair),
+}
+
+/// A checked cable.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CableScene {
+    /// Name.
+    pub name: String,
+    /// Start shape in m.
+    pub points: Vec<Vector3<f64>>,
+    /// Unstretched length in m.
+    pub length: f64,
+    /// True to start from static equilibrium.
+    pub equilibrium: bool,
+    /// Number of elements.
+    pub elements: usize,
+    /// Section.
+    pub section: Section,
+    /// Force strategy.
+    pub rule: Rule,
+    /// Effects.
+    pub effects: Effects,
+    /// Time integrator.
+    pub integrator: IntegratorChoice,
+    /// Initial velocity in m/s.
+    pub velocity: Vector3<f64>,
+    /// Initial angular velocity about the start point in rad/s.
+    pub angular_velocity: Vector3<f64>,
+}
+
+/// Reads the cable at a path.
+pub(super) fn read(doc: &Document<'_>, at: &KeyPath, row: CableTable) -> Result<CableScene, Error> {
+    if let Some(i) = row.points.windows(2).position(|p| p[0] == p[1]) {
+        let problem = format!("points {i} and {} coincide at {:?}", i + 1, row.points[i].as_slice());
+        return Err(doc.conflict(&at.key("points"), problem));
+    }
+    let drawn: f64 = row.points.windows(2).map(|p| (p[1] - p[0]).norm()).sum();
+    let length = row.length.unwrap_or(drawn);
+    if !length.is_finite() {
+        return Err(doc.error(&at.key("points"), Problem::NotFinite(vec![length])));
+    }
+    let rule = rule(doc, &at.key("rule"), &row)?;
+    let section = section(doc, at, &row)?;
+    let effects = effects::read(doc, at, row.effects, &effects::Context { section: &section, rule, length })?;
+    Ok(CableScene {
+        points: row.points,
+        length,
+        equilibrium: row.initial == Initial::Equilibrium,
+        elements: row.elements as usize,
+        section,
+        rule,
+        effects,
+        integrator: integrator::read(doc, &at.key("integrator"), &row.integrator)?,
+        velocity: row.velocity,
+        angular_velocity: row.angular_velocity,
+        name: row.name,
+    })
+}
+
+fn section(doc: &Document<'_>, at: &KeyPath, row: &CableTable) -> Result<Section, Error> {
+    let stiffness = [
+        ("axial_stiffness", row.axial_stiffness),
+        ("bending_stiffness", row.bending_stiffness),
+        ("mass_per_length", row.mass_per_length),
+    ];
+    let material = [("density", row.density), ("youngs_modulus", row.youngs_modulus)];
+    let given = |keys: &[(&'static str, Option<f64>)]| keys.iter().find(|(_, x)| x.is_some()).map(|(key, _)| *key);
+    let required = |(key, value): (&str, Option<f64>)| value.ok_or_else(|| doc.missing(&at.key(key)));
+    let invalid = |path: &str| {
+        let at = path.split('.').fold(at.clone(), |at, key| at.key(key));
+        move |error: lariat_ancf::Error| doc.conflict(&at, error.to_string())
+    };
+    match (row.section, given(&stiffness), given(&material)) {
+        (None, None, _) => Err(doc.missing(&at.key("section"))),
+        (None, Some(_), Some(key)) => Err(doc.conflict(&at.key(key), format!("{key} has no meaning without section"))),
+        (Some(_), Some(key), _) => Err(doc.conflict(&at.key(key), format!("both section and {key} are given"))),
+        (None, Some(_), None) => {
+            let [ea, ei, m] = stiffness.map(required);
+            Section::from_stiffness(ea?, ei?, m?).map_err(invalid("axial_stiffness"))
+        }
+        (Some(shape), None, _) => {
+            let [density, modulus] = material.map(required);
+            let density = density?;
+            let key = if matches!(shape, Shape::Tube(..)) { "section.tube" } else { "section" };
+            Section::new(shape, modulus?, density).map_err(invalid(key))
+        }
+    }
+}
+
+fn rule(doc: &Document<'_>, at: &KeyPath, row: &CableTable) -> Result<Rule, Error> {
+    let rule = match &row.rule {
+        RuleTable::Name(rule) => *rule,
+        RuleTable::Pair(pair) => Rule::new(pair.axial, pair.bending),
+    };
+    match rule.spare_modes() {
+        Some(reason) if !row.allow_rank_deficient => Err(doc.error_accepting(
+            at,
+            Problem::Conflict(format!("{rule} is rank deficient: {reason}")),
+            "a rule without zero-energy modes (`lariat rules`), or allow_rank_deficient = true beside it",
+        )),
+        _ => Ok(rule),
+    }
+}

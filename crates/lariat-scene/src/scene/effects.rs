@@ -1,0 +1,275 @@
+//! The effects of a `[[cable]]`: a table each, read into the types of the mechanics.
+//!
+//! The mechanics' types are the tables. Where the format has a shorter form (a flow by three numbers, a wind by a power law, a
+//! rest shape of the whole cable) it is written out before serde reads it.
+
+use super::flow::{self, FLOW};
+use crate::document::{Document, KeyPath};
+use crate::error::{Error, Problem};
+use crate::schema::{ANY, Choose, Default, Key, Kind, NOT_NEGATIVE, POSITIVE, VECTOR, table};
+use lariat_ancf::effect::Effect;
+use lariat_ancf::{
+    BendingRule, Buoyancy, Damping, Drag, Effects, GravityScale, LineLoad, LineLoads, RestPiece, RestShape, Rule,
+    Section, for_each_effect,
+};
+use serde::de::DeserializeOwned;
+use toml::Value;
+
+/// What effects need to know of their cable.
+pub(super) struct Context<'c> {
+    /// Section.
+    pub section: &'c Section,
+    /// Force strategy.
+    pub rule: Rule,
+    /// Unstretched length in m.
+    pub length: f64,
+}
+
+/// An effect as a scene writes it. Every effect of the list of the mechanics is one.
+trait SceneEffect: Effect {
+    /// The values of its key.
+    const KIND: Kind;
+    /// What holds without it.
+    const WITHOUT: &'static str;
+
+    /// Writes a shorter form of its value out as the mechanics reads it.
+    fn write_out(_doc: &Document<'_>, _at: &KeyPath, _value: &mut Value, _cable: &Context<'_>) -> Result<(), Error> {
+        Ok(())
+    }
+
+    /// Checks what single values do not show.
+    fn check(&self, doc: &Document<'_>, at: &KeyPath, cable: &Context<'_>) -> Result<(), Error>;
+}
+
+macro_rules! generate {
+    ($({ field: $field:ident, type: $type:ident, set: $set:ident, key: $key:literal, summary: $summary:literal })*) => {
+        /// The keys of all effects.
+        pub(super) const EFFECTS: &[Key] = &[$(Key {
+            name: $key,
+            kind: <$type as SceneEffect>::KIND,
+            unit: "",
+            default: Default::Absent(<$type as SceneEffect>::WITHOUT),
+            meaning: $summary,
+        }),*];
+
+        /// Reads the effects of the cable at a path from its remaining keys.
+        pub(super) fn read(
+            doc: &Document<'_>,
+            at: &KeyPath,
+            mut rows: toml::Table,
+            cable: &Context<'_>,
+        ) -> Result<Effects, Error> {
+            Ok(Effects { $($field: one(doc, &at.key($key), rows.remove($key), cable)?),* })
+        }
+    };
+}
+
+for_each_effect!(generate);
+
+fn one<T: SceneEffect>(
+    doc: &Document<'_>,
+    at: &KeyPath,
+    value: Option<Value>,
+    cable: &Context<'_>,
+) -> Result<Option<T>, Error> {
+    let Some(mut value) = value.filter(|value| value.as_array().is_none_or(|rows| !rows.is_empty())) else {
+        return Ok(None);
+    };
+    T::write_out(doc, at, &mut value, cable)?;
+    let effect: T = typed(doc, at, value)?;
+    SceneEffect::check(&effect, doc, at, cable)?;
+    Ok(Some(effect))
+}
+
+/// Reads a value into a type.
+pub(super) fn typed<T: DeserializeOwned>(doc: &Document<'_>, at: &KeyPath, value: Value) -> Result<T, Error> {
+    value.try_into().map_err(|error: toml::de::Error| doc.conflict(at, error.message()))
+}
+
+table! {
+    /// Internal damping after Kelvin and Voigt: stress = E (strain + time x strain rate).
+    keys DAMPING for Damping("[cable.damping]") {
+        /// Time of the axial strain.
+        axial = 0.0, Kind::Number(NOT_NEGATIVE), "s";
+        /// Time of the curvature, 0 with a rule without bending.
+        bending = 0.0, Kind::Number(NOT_NEGATIVE), "s";
+    }
+    choose Choose::AtLeastOne(&["axial", "bending"]);
+}
+
+impl SceneEffect for Damping {
+    const KIND: Kind = Kind::Table(&DAMPING);
+    const WITHOUT: &'static str = "off";
+
+    fn check(&self, doc: &Document<'_>, at: &KeyPath, cable: &Context<'_>) -> Result<(), Error> {
+        if self.bending > 0.0 && cable.rule.bending == BendingRule::None {
+            return Err(doc.conflict(&at.key("bending"), format!("rule {} has no bending to damp", cable.rule)));
+        }
+        Ok(())
+    }
+}
+
+table! {
+    /// Drag of a fluid or wind by Morison's formula.
+    keys DRAG for Drag("[cable.drag]") {
+        /// Density of the fluid.
+        fluid_density = required, Kind::Number(POSITIVE), "kg/m^3";
+        /// Normal coefficient on the diameter.
+        normal = 1.2, Kind::Number(NOT_NEGATIVE);
+        /// Tangential coefficient on the diameter.
+        tangential = 0.01, Kind::Number(NOT_NEGATIVE);
+        /// Diameter, required for a cable without `section`.
+        diameter = ("that of the section"), Kind::Number(POSITIVE), "m";
+        /// Velocity of the fluid: the same everywhere and always, or a table.
+        flow = ("at rest"), Kind::Either(&[VECTOR, Kind::Table(&FLOW)]), "m/s";
+    }
+}
+
+impl SceneEffect for Drag {
+    const KIND: Kind = Kind::Table(&DRAG);
+    const WITHOUT: &'static str = "off";
+
+    fn write_out(doc: &Document<'_>, at: &KeyPath, value: &mut Value, _: &Context<'_>) -> Result<(), Error> {
+        value.get_mut("flow").map_or(Ok(()), |flow| flow::write_out(doc, &at.key("flow"), flow))
+    }
+
+    fn check(&self, doc: &Document<'_>, at: &KeyPath, cable: &Context<'_>) -> Result<(), Error> {
+        match self.diameter.or(cable.section.diameter) {
+            Some(_) => Ok(()),
+            None => Err(doc.missing(&at.key("diameter"))),
+        }
+    }
+}
+
+table! {
+    /// Buoyancy and added mass in a fluid at rest.
+    keys BUOYANCY for Buoyancy("[cable.buoyancy]") {
+        /// Density of the fluid.
+        fluid_density = required, Kind::Number(POSITIVE), "kg/m^3";
+        /// Coefficient of added mass; 0 for none.
+        added_mass = 1.0, Kind::Number(NOT_NEGATIVE);
+        /// Displaced area, required for a cable without `section`.
+        area = ("that of the section"), Kind::Number(POSITIVE), "m^2";
+    }
+}
+
+impl SceneEffect for Buoyancy {
+    const KIND: Kind = Kind::Table(&BUOYANCY);
+    const WITHOUT: &'static str = "off";
+
+    fn check(&self, doc: &Document<'_>, at: &KeyPath, cable: &Context<'_>) -> Result<(), Error> {
+        match self.area.or(cable.section.outer_area) {
+            Some(_) => Ok(()),
+            None => Err(doc.missing(&at.key("area"))),
+        }
+    }
+}
+
+table! {
+    /// Stress-free stretch and curvature, of the whole cable or of pieces. The natural curvature has no direction, because an
+    /// element without twist knows none: a coil may unwind into any curve of the same curvature, and a cable that is straighter
+    /// than its natural curvature may wrinkle. Draw its start shape with many points.
+    struct RestShapeTable("[cable.rest_shape]") {
+        /// Stress-free stretch of the whole cable: below 1 it pulls at its unstretched length.
+        stretch: Option<f64> = ("1"), Kind::Number(POSITIVE);
+        /// Stress-free curvature of the whole cable, 0 with a rule without bending; it has no direction.
+        curvature: Option<f64> = ("0"), Kind::Number(NOT_NEGATIVE), "1/m";
+        /// Pieces, instead of `stretch` and `curvature`.
+        piece: Vec<RestPiece> = ("none"), Kind::Tables(&REST_PIECE);
+    }
+    choose Choose::AtLeastOne(&["stretch", "curvature", "piece"]);
+}
+
+table! {
+    /// A piece of a rest shape, up to the next piece. An element belongs to the piece in which its middle lies.
+    keys REST_PIECE for RestPiece("[[cable.rest_shape.piece]]") {
+        /// Arc length of the unstretched cable where the piece begins, ascending from piece to piece.
+        from = required, Kind::Number(NOT_NEGATIVE), "m";
+        /// Stress-free stretch.
+        stretch = 1.0, Kind::Number(POSITIVE);
+        /// Stress-free curvature, 0 with a rule without bending.
+        curvature = 0.0, Kind::Number(NOT_NEGATIVE), "1/m";
+    }
+    choose Choose::AtLeastOne(&["stretch", "curvature"]);
+}
+
+impl SceneEffect for RestShape {
+    const KIND: Kind = Kind::Table(&RestShapeTable::TABLE);
+    const WITHOUT: &'static str = "straight and unstretched";
+
+    fn write_out(doc: &Document<'_>, at: &KeyPath, value: &mut Value, _: &Context<'_>) -> Result<(), Error> {
+        let RestShapeTable { stretch, curvature, mut piece } = typed(doc, at, value.clone())?;
+        if stretch.is_some() || curvature.is_some() {
+            if !piece.is_empty() {
+                return Err(doc.conflict(&at.key("piece"), "both pieces and numbers of the whole cable are given"));
+            }
+            let (stretch, curvature) = (stretch.unwrap_or(1.0), curvature.unwrap_or(0.0));
+            piece.push(RestPiece { from: 0.0, stretch, curvature });
+        }
+        *value = Value::try_from(piece).map_err(|error| doc.conflict(at, error.to_string()))?;
+        Ok(())
+    }
+
+    fn check(&self, doc: &Document<'_>, at: &KeyPath, cable: &Context<'_>) -> Result<(), Error> {
+        let mut before = f64::NEG_INFINITY;
+        for (i, piece) in self.pieces.iter().enumerate() {
+            let written = at.key("piece").item(i);
+            let at = if doc.contains(&written) { &written } else { at };
+            if piece.from <= before || piece.from >= cable.length {
+                return Err(doc.error(&at.key("from"), Problem::OutOfRange(piece.from)));
+            }
+            if piece.curvature > 0.0 && cable.rule.bending == BendingRule::None {
+                let problem = format!("rule {} has no bending to curve", cable.rule);
+                return Err(doc.conflict(&at.key("curvature"), problem));
+            }
+            before = piece.from;
+        }
+        Ok(())
+    }
+}
+
+table! {
+    /// A constant force per length of a piece of the cable.
+    keys LINE_LOAD for LineLoad("[[cable.line_load]]") {
+        /// Arc length of the unstretched cable where it begins, below the length of the cable.
+        from = 0.0, Kind::Number(NOT_NEGATIVE), "m";
+        /// Arc length where it ends, above `from`, at most the length of the cable.
+        to = ("the end of the cable"), Kind::Number(POSITIVE), "m";
+        /// Force per length of unstretched cable, in world axes.
+        force = required, VECTOR, "N/m";
+    }
+}
+
+impl SceneEffect for LineLoads {
+    const KIND: Kind = Kind::Tables(&LINE_LOAD);
+    const WITHOUT: &'static str = "none";
+
+    fn write_out(_: &Document<'_>, _: &KeyPath, value: &mut Value, cable: &Context<'_>) -> Result<(), Error> {
+        for load in value.as_array_mut().into_iter().flatten().filter_map(Value::as_table_mut) {
+            load.entry("to").or_insert(Value::Float(cable.length));
+        }
+        Ok(())
+    }
+
+    fn check(&self, doc: &Document<'_>, at: &KeyPath, cable: &Context<'_>) -> Result<(), Error> {
+        for (i, load) in self.0.iter().enumerate() {
+            let at = at.item(i);
+            if load.from >= cable.length {
+                return Err(doc.error(&at.key("from"), Problem::OutOfRange(load.from)));
+            }
+            if load.to <= load.from || load.to > cable.length * (1.0 + 1e-12) {
+                return Err(doc.error(&at.key("to"), Problem::OutOfRange(load.to)));
+            }
+        }
+        Ok(())
+    }
+}
+
+impl SceneEffect for GravityScale {
+    const KIND: Kind = Kind::Number(ANY);
+    const WITHOUT: &'static str = "1";
+
+    fn check(&self, _: &Document<'_>, _: &KeyPath, _: &Context<'_>) -> Result<(), Error> {
+        Ok(())
+    }
+}

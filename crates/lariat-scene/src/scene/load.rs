@@ -1,0 +1,89 @@
+//! `[[load]]`: forces and moments at points of cables and bodies.
+
+use super::Scene;
+use super::body::BodyKind;
+use super::references::{Position, arc_length, body, cable, single};
+use crate::document::{Document, KeyPath};
+use crate::error::{Error, Problem};
+use crate::schema::{Choose, Kind, NOT_NEGATIVE, POSITION, VECTOR, table};
+use lariat_ancf::{PointLoad, Vector3};
+
+table! {
+    /// A point force or moment with a constant direction in the world, on a cable or on a dynamic body.
+    struct LoadTable("[[load]]") {
+        /// Name of a cable, with `at`; or `body`.
+        cable: Option<String> = (), Kind::Text;
+        /// Arc length of the unstretched cable, from 0 to its length, beside `cable`.
+        at: Option<Position> = (), POSITION, "m";
+        /// Name of a dynamic body, instead of `cable`.
+        body: Option<String> = (), Kind::Text;
+        /// Point of the body, in its axes from its origin, beside `body`.
+        point: Option<Vector3<f64>> = ("the origin"), VECTOR, "m";
+        /// Force.
+        force: Option<Vector3<f64>> = ("zero"), VECTOR, "N";
+        /// Moment.
+        moment: Option<Vector3<f64>> = ("zero"), VECTOR, "N m";
+        /// Time from zero to the full load. A load with a ramp is zero at t = 0 and takes no part in `initial = "equilibrium"`.
+        /// `lariat static` applies all loads on cables in full, and none on bodies, which it holds.
+        ramp: f64 = 0.0, Kind::Number(NOT_NEGATIVE), "s";
+    }
+    choose Choose::AtLeastOne(&["force", "moment"]);
+}
+
+/// A checked point load on a cable.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LoadScene {
+    /// Position of the cable in [`Scene::cables`].
+    pub cable: usize,
+    /// The load.
+    pub load: PointLoad,
+}
+
+/// A checked load on a body.
+#[derive(Clone, Debug, PartialEq)]
+pub struct BodyLoadScene {
+    /// Position of the body in [`Scene::bodies`].
+    pub body: usize,
+    /// Where the force acts, in axes of the body from its origin, in m.
+    pub point: Vector3<f64>,
+    /// Force in N, world axes.
+    pub force: Vector3<f64>,
+    /// Moment in N m, world axes.
+    pub moment: Vector3<f64>,
+    /// Time from zero to full in s.
+    pub ramp: f64,
+}
+
+/// Reads the load in row `i` and adds it to the scene.
+pub(super) fn read(doc: &Document<'_>, scene: &mut Scene, i: usize, row: LoadTable) -> Result<(), Error> {
+    let at = KeyPath::root("load").item(i);
+    let (force, moment, ramp) = (row.force.unwrap_or_default(), row.moment.unwrap_or_default(), row.ramp);
+    if let Some(name) = &row.body {
+        for (key, given) in [("cable", row.cable.is_some()), ("at", row.at.is_some())] {
+            if given {
+                let problem = Problem::Conflict(format!("{key} is for a load on a cable"));
+                return Err(doc.error_accepting(&at.key(key), problem, "body and point"));
+            }
+        }
+        let body = body(doc, &at.key("body"), scene, name)?;
+        if scene.bodies[body].kind != BodyKind::Dynamic {
+            return Err(doc.conflict(&at.key("body"), format!("{name:?} is not dynamic, no force moves it")));
+        }
+        let point = row.point.unwrap_or_default();
+        for (key, vector) in [("point", &point), ("force", &force), ("moment", &moment)] {
+            single(doc, &at.key(key), vector)?;
+        }
+        scene.body_loads.push(BodyLoadScene { body, point, force, moment, ramp });
+        return Ok(());
+    }
+    if row.point.is_some() {
+        let problem = Problem::Conflict("point is for a load on a body".to_string());
+        return Err(doc.error_accepting(&at.key("point"), problem, "cable and at"));
+    }
+    let name = row.cable.ok_or_else(|| doc.missing(&at.key("cable")))?;
+    let cable = cable(doc, &at.key("cable"), scene, &name)?;
+    let point = row.at.ok_or_else(|| doc.missing(&at.key("at")))?;
+    let arc_length = arc_length(doc, &at.key("at"), point, scene.cables[cable].length)?;
+    scene.loads.push(LoadScene { cable, load: PointLoad { arc_length, force, moment, ramp, start: 0.0 } });
+    Ok(())
+}

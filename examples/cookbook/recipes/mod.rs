@@ -1,0 +1,80 @@
+//! The recipes of docs/cookbook.md, a file each. The page shows every file up to its `impl Stage`.
+
+mod bridge;
+mod crane;
+mod cut;
+mod grapple;
+mod lamp;
+mod mooring;
+mod tow_rope;
+
+use std::error::Error;
+
+pub type Outcome<T> = Result<T, Box<dyn Error>>;
+
+/// A recipe that is built and can be stepped.
+pub trait Stage {
+    /// Advances by one host step of 1/60 s.
+    fn step(&mut self) -> Outcome<()>;
+
+    /// Compares the end of the run with a value known by hand, and returns one line that says so.
+    ///
+    /// # Errors
+    /// If it is off by more than the recipe allows.
+    fn check(&mut self) -> Outcome<String>;
+}
+
+/// A recipe of the page.
+pub struct Recipe {
+    /// Name of the file, and of the mark on the page.
+    pub name: &'static str,
+    /// Cables and elements of each, bodies, and preset, for the table.
+    pub cables: &'static str,
+    pub bodies: u32,
+    pub preset: &'static str,
+    /// Host steps of a run.
+    pub steps: u32,
+    pub build: fn() -> Outcome<Box<dyn Stage>>,
+    /// The file.
+    pub source: &'static str,
+}
+
+macro_rules! recipe {
+    ($name:ident, $stage:ident, $cables:literal, $bodies:literal, $preset:literal, $steps:literal) => {
+        Recipe {
+            name: stringify!($name),
+            cables: $cables,
+            bodies: $bodies,
+            preset: $preset,
+            steps: $steps,
+            build: || Ok(Box::new($name::$stage::new()?)),
+            source: include_str!(concat!(stringify!($name), ".rs")),
+        }
+    };
+}
+
+/// All recipes, in the order of the page.
+pub const ALL: [Recipe; 7] = [
+    recipe!(tow_rope, TowRope, "1 x 10", 2, "generalised-alpha-0, 1/240 s", 300),
+    recipe!(grapple, Grapple, "1 x 10", 1, "game", 120),
+    recipe!(bridge, Bridge, "2 x 16", 7, "generalised-alpha-0, 1/240 s", 300),
+    recipe!(lamp, Lamp, "1 x 8", 1, "game", 1200),
+    recipe!(cut, Cut, "1 x 12, then 2 x 6", 1, "game", 90),
+    recipe!(crane, Crane, "1 x 10", 1, "generalised-alpha-0, 1/240 s", 900),
+    recipe!(mooring, Mooring, "1 x 30", 0, "engineering, tolerance 1e-4 m", 600),
+];
+
+impl Recipe {
+    /// The beginning of its row in the table of costs.
+    pub fn row(&self) -> String {
+        let Recipe { name, cables, bodies, preset, .. } = self;
+        format!("| {} | {cables} | {bodies} | {preset} |", name.replace('_', " "))
+    }
+
+    /// What the page shows of the file: all but its first comment and its `impl Stage`.
+    pub fn shown(&self) -> &'static str {
+        let end = self.source.find("impl Stage for").unwrap_or(self.source.len());
+        let begin = self.source.find("use ").unwrap_or(0);
+        self.source[begin..end].trim_end()
+    }
+}
