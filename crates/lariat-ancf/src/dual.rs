@@ -1,10 +1,18 @@
-//! A number with a derivative: what makes a tangent out of a kernel that computes a force.
+//! Dual numbers: a value with a derivative, which make a tangent of a kernel that computes a force.
 //!
-//! `(a, a')` with the rules of differentiation: sums, products `(ab)' = a'b + ab'`, quotients, roots, |a|. A kernel over [`Real`] that is
-//! fed (x, 1) for one argument and (y, 0) for the others returns its value and its exact partial derivative. *Source.* Griewank & Walther,
-//! Evaluating Derivatives, 2nd ed. 2008, chapter 3 (forward mode). *Validity.* Exact to rounding wherever the function is smooth; at the
-//! kinks, sqrt(0) and |0|, the derivative is taken as 0. *Use.* [`Cable::jacobians`](crate::Cable::jacobians): one pass per coordinate of
-//! an element, so not for the step.
+//! # Equation
+//!
+//! `(a, a')` with the rules of differentiation: sums, products `(ab)' = a'b + ab'`, quotients, roots, |a|. A kernel over [`Real`] with
+//! (x, 1) for one argument and (y, 0) for the others returns its value and its exact partial derivative.
+//!
+//! # Validity
+//!
+//! Exact to rounding wherever the function is smooth; at the kinks, sqrt(0) and |0|, the derivative is taken as 0. Used by
+//! [`Cable::jacobians`](crate::Cable::jacobians): one pass per coordinate of an element, so not for the step.
+//!
+//! # References
+//!
+//! Griewank & Walther, Evaluating Derivatives, 2nd ed. 2008, chapter 3 (forward mode).
 
 use crate::Real;
 use core::ops::{Add, Div, Mul, Neg, Sub};

@@ -20,16 +20,19 @@
 //! # Ok::<(), lariat_ancf::Error>(())
 //! ```
 //!
+//! What a user of ropes calls is listed at the root. The modules hold the parts:
+//!
 //! | module | what it holds |
 //! |---|---|
-//! | [`element`] | one element as a function of six Gram numbers |
-//! | [`axial`], [`bending`] | one file per rule of the elastic forces |
-//! | [`effect`] | one file per effect: damping, drag, buoyancy, rest shape ... |
-//! | [`cable`] | mesh, state, builder, sampling, energies |
-//! | [`integrate`] | one file per time integrator, over one trait |
+//! | [`cable`] | description, state, builder, sampling, energies, edits |
+//! | [`effect`] | one file per effect: damping, drag, buoyancy, rest shape ..., and forces per length of your own |
+//! | [`integrate`] | one file per time integrator, over one trait, which other crates can implement |
 //! | `statics` | static equilibrium: [`Cable::equilibrium`] |
-//! | [`island`] | cables and rigid bodies pinned together, as one system |
-//! | [`linalg`] | the block-tridiagonal solver |
+//! | [`island`] | cables and rigid bodies pinned together, as one system, for couplings to physics engines |
+//!
+//! Public for tests and benchmarks of the numerics, and for the matrices that [`Cable`] returns; no rope needs them, and they may change
+//! in any release: [`element`] (one element as a function of six Gram numbers), [`axial`] and [`bending`] (one file per rule of the elastic
+//! forces), [`linalg`] (the block-tridiagonal solver).
 
 pub mod axial;
 pub mod bending;

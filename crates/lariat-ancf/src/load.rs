@@ -1,10 +1,19 @@
 //! Point force and moment at an arc length: dead loads in world axes, ramped linearly from zero.
 //!
-//! Force f at arc length s: generalised force `N(s)^T f`. Moment m on the section: the spin of the tangent t = r'(s) is
+//! # Equation
+//!
+//! Force f at arc length s: generalised force `N(s)^T f`. Moment m on the section: the angular velocity of the tangent t = r'(s) is
 //! `t x dt/|t|^2`, so the virtual work `m . (t x dt)/|t|^2` gives the generalised force `(m x t)/|t|^2` on the slope at s.
-//! *Source.* Virtual work; the element has no twist, so the part of m along t does nothing. *Validity.* A moment about a fixed
-//! axis is conservative only while the cable stays in the plane normal to it; its tangent is made symmetric, which leaves the
-//! solution as it is and slows Newton when the cable leaves that plane.
+//!
+//! # Validity
+//!
+//! The element has no twist, so the component of m along t does no work. A moment about a fixed axis is conservative only while the cable
+//! stays in the plane normal to it; its tangent is made symmetric, which does not change the solution and slows Newton's iteration when
+//! the cable leaves that plane.
+//!
+//! # References
+//!
+//! Virtual work.
 
 use nalgebra::{Matrix3, Vector3};
 use serde::{Deserialize, Serialize};
@@ -26,22 +35,22 @@ pub struct PointLoad {
 }
 
 impl PointLoad {
-    /// A constant force in N at an arc length in m.
+    /// Creates a constant force in N at an arc length in m.
     pub fn force(arc_length: f64, force: Vector3<f64>) -> Self {
         PointLoad { arc_length, force, moment: Vector3::zeros(), ramp: 0.0, start: 0.0 }
     }
 
-    /// A constant moment in N m at an arc length in m.
+    /// Creates a constant moment in N m at an arc length in m.
     pub fn moment(arc_length: f64, moment: Vector3<f64>) -> Self {
         PointLoad { arc_length, force: Vector3::zeros(), moment, ramp: 0.0, start: 0.0 }
     }
 
-    /// Whether it is the same load but for the time at which its ramp began.
+    /// Returns whether it is the same load except for the time at which its ramp began.
     pub fn is_same(&self, other: &Self) -> bool {
         PointLoad { start: other.start, ..*self } == *other
     }
 
-    /// Share of the full load at `time`.
+    /// Returns the fraction of the full load at `time`.
     pub fn factor(&self, time: f64) -> f64 {
         if self.ramp > 0.0 { ((time - self.start) / self.ramp).clamp(0.0, 1.0) } else { 1.0 }
     }

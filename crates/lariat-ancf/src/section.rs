@@ -1,8 +1,14 @@
 //! Cross-section and material of a cable, as the three numbers that the equations need.
 //!
-//! `EA` (N), `EI` (N m^2), `rho A` (kg/m). Round: `A = pi d^2/4`, `I = pi d^4/64`; square: `A = a^2`, `I = a^4/12`;
-//! tube: differences of round ones. *Validity.* A homogeneous elastic section. A stranded rope has about half of the
-//! solid's EA and far less EI: use [`Section::from_stiffness`] with measured values.
+//! # Equation
+//!
+//! `EA` (N), `EI` (N m^2), `rho A` (kg/m). Round: `A = pi d^2/4`, `I = pi d^4/64`; square: `A = a^2`, `I = a^4/12`; tube: differences of
+//! round ones.
+//!
+//! # Validity
+//!
+//! A homogeneous elastic section. A stranded rope has about half of the solid's EA and far less EI: use [`Section::from_stiffness`] with
+//! measured values.
 
 use crate::error::{Error, require};
 use serde::{Deserialize, Serialize};

@@ -1,10 +1,16 @@
 //! Boundary conditions at a node, and their motion in time.
 //!
-//! The position and the slope vector of a node are free, prescribed as a cubic polynomial of time, or (the slope) held to a
-//! direction with its length free. A prescribed coordinate leaves the equations: rows and columns of the step matrix are
-//! projected, `A -> P A P + (I - P)`, P the projector on the free directions. *Why a direction.* A clamp that fixes the slope
-//! *vector* also fixes the stretch at the node, which is then wrong by the tension over EA; a clamp holds the direction alone.
-//! *Rejected.* Penalty springs (they limit the step) and Lagrange multipliers (an indefinite matrix for nothing).
+//! # Equation
+//!
+//! The position and the slope vector of a node are free, prescribed as a cubic polynomial of time, or (the slope) held to a direction with
+//! its length free. A prescribed coordinate leaves the equations: rows and columns of the step matrix are projected,
+//! `A -> P A P + (I - P)`, P the projector on the free directions.
+//!
+//! # Alternatives considered
+//!
+//! - A clamp that fixes the slope *vector*: it also fixes the stretch at the node, which is then wrong by the tension over EA; a clamp
+//!   holds the direction alone.
+//! - Penalty springs (they limit the step) and Lagrange multipliers (an indefinite matrix without benefit).
 
 use crate::error::{Error, require};
 use crate::integrate::Stage;

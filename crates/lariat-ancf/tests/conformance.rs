@@ -138,7 +138,7 @@ fn force_is_the_gradient_of_the_energy_and_the_tangent_that_of_the_force() {
 
 /// An element whose slope passes through zero has a finite force, tangent and energy.
 ///
-/// *Source.* The bounds of the continued powers (bending/crumple.rs) in terms of the mean of |r''|^2, rho.g: Q f <= 2/Q_c^2 at a point,
+/// *Source.* The bounds of the continued powers (bending/regularisation.rs) in terms of the mean of |r''|^2, rho.g: Q f <= 2/Q_c^2 at a point,
 /// and for T2 f <= 6/Q_c^2.
 #[test]
 fn an_element_turned_inside_out_is_regular() {

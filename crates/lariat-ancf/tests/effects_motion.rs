@@ -2,7 +2,7 @@
 
 mod common;
 
-use common::{largest_difference, pendulum, rule};
+use common::{implicit, largest_difference, pendulum, rule};
 use lariat_ancf::island::{Island, PinConstraint, RigidBody};
 use lariat_ancf::{
     At, Buoyancy, Cable, CableBuilder, Damping, Drag, Effects, Fidelity, Flow, GravityScale, Integrator, LineLoad,
@@ -21,10 +21,6 @@ fn all() -> Effects {
         line_loads: Some(LineLoad { from: 0.3, to: 1.1, force: Vector3::new(0.0, -0.5, 0.2) }.into()),
         gravity_scale: Some(GravityScale(0.9)),
     }
-}
-
-fn implicit() -> impl Iterator<Item = Method> {
-    Method::ALL.into_iter().filter(|m| m.properties().implicit)
 }
 
 fn wet(effects: Effects) -> CableBuilder {

@@ -136,6 +136,6 @@ fn a_state_of_another_mesh_is_an_error() {
     let (count, expected) = (other.positions().len(), cable.positions().len());
     assert_eq!(error, Error::WrongCount { cable: cable.name().to_string(), what: "positions", count, expected });
     let mut json = serde_json::to_value(&cable).unwrap();
-    json["state"] = serde_json::to_value(other.snapshot()).unwrap();
+    json["snapshot"] = serde_json::to_value(other.snapshot()).unwrap();
     assert!(serde_json::from_value::<Cable>(json).is_err());
 }

@@ -22,12 +22,12 @@ pub enum Error {
         /// The error of the operating system.
         source: std::io::Error,
     },
-    /// A README has no place for the tables of a report.
-    #[error("{}: expected at least one of {expected}", path.display())]
+    /// A README has no place for the table of a report.
+    #[error("{}: expected {expected}", path.display())]
     NoMark {
         /// The README.
         path: PathBuf,
-        /// The marks that are looked for.
+        /// The marks.
         expected: String,
     },
     /// Sections of a report failed; the others are written.

@@ -126,14 +126,26 @@ fn help_lists_the_measurements_of_the_workspace() {
 fn measurements_are_run_by_the_program_beside_the_command() {
     use std::os::unix::fs::PermissionsExt;
     let folder = tempfile::tempdir().unwrap();
-    let (command, program) = (folder.path().join("lariat"), folder.path().join("lariat-bench"));
+    let [command, program, script] = ["lariat", "lariat-bench", "script"].map(|name| folder.path().join(name));
+    // written first and renamed later: a file that another test's child still holds open cannot be executed
+    fs::write(&script, "#!/bin/sh\necho \"$@\"\nexit 3\n").unwrap();
+    fs::set_permissions(&script, fs::Permissions::from_mode(0o755)).unwrap();
     fs::copy(env!("CARGO_BIN_EXE_lariat"), &command).unwrap();
-    let run = |arguments: &[&str]| Command::new(&command).args(arguments).env_remove("CARGO").output().unwrap();
+    let run = |arguments: &[&str]| {
+        for _ in 0..100 {
+            match Command::new(&command).args(arguments).env_remove("CARGO").output() {
+                Err(error) if error.kind() == std::io::ErrorKind::ExecutableFileBusy => {
+                    std::thread::sleep(std::time::Duration::from_millis(20));
+                }
+                output => return output.unwrap(),
+            }
+        }
+        panic!("{} stays busy", command.display());
+    };
     let output = run(&["table1"]);
     assert_eq!(output.status.code(), Some(2));
     assert!(stderr(&output).contains("cargo build --release -p lariat-bench"), "{}", stderr(&output));
-    fs::write(&program, "#!/bin/sh\necho \"$@\"\nexit 3\n").unwrap();
-    fs::set_permissions(&program, fs::Permissions::from_mode(0o755)).unwrap();
+    fs::rename(&script, &program).unwrap();
     for arguments in [&["report", "--out", "a folder", "--quick"][..], &["stability", "--help"], &["table1", "-h"]] {
         let output = run(arguments);
         assert_eq!(String::from_utf8_lossy(&output.stdout).trim(), arguments.join(" "));

@@ -1,7 +1,8 @@
 //! A player shoots a hook at a ledge, swings, and lets go.
 
 use super::{Outcome, Stage};
-use lariat_rapier::lariat_ancf::{At, Cable, Damping, Fidelity, Section, Vector3};
+use lariat_rapier::convert::vector;
+use lariat_rapier::lariat_ancf::{At, Cable, Damping, Fidelity, Section};
 use lariat_rapier::rapier::prelude::*;
 use lariat_rapier::{AttachmentHandle, AttachmentKind, CableSet};
 
@@ -29,11 +30,10 @@ impl Grapple {
     fn shoot(&mut self, point: Vector) -> Outcome<()> {
         let hands = Vector::new(0.0, 0.8, 0.0);
         let from = self.world.bodies[self.player].translation() + hands;
-        let far = |v: Vector| Vector3::new(f64::from(v.x), f64::from(v.y), f64::from(v.z));
-        let speed = far(self.world.bodies[self.player].linvel());
+        let speed = vector(self.world.bodies[self.player].linvel());
         let rope = Cable::builder()
             .name("grapple")
-            .points([far(point), far(from)])
+            .points([vector(point), vector(from)])
             .section(Section::from_stiffness(1.0e5, 0.02, 0.05)?) // EA N, EI N m^2, kg/m: 8 mm
             .elements(10)
             .damping(Damping { axial: 0.02, bending: 0.05 }) // s

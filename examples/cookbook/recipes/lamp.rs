@@ -1,6 +1,7 @@
 //! A street lamp on a cable in the wind.
 
 use super::{Outcome, Stage};
+use lariat_rapier::convert::{to_vector, vector};
 use lariat_rapier::lariat_ancf::{At, Cable, Damping, Drag, Effects, Fidelity, Flow, Section, Vector3};
 use lariat_rapier::rapier::prelude::*;
 use lariat_rapier::{AttachmentKind, CableSet};
@@ -49,10 +50,10 @@ impl Lamp {
         let body = &mut self.world.bodies[self.lamp];
         let v = body.linvel();
         let wind = self.flow.at(self.time, &Vector3::zeros());
-        let past = Vector3::new(wind.x - f64::from(v.x), wind.y - f64::from(v.y), wind.z - f64::from(v.z));
+        let past = wind - vector(v);
         let force = past * (0.5 * AIR * SHADE * past.norm());
         body.reset_forces(true);
-        body.add_force(Vector::new(force.x as Real, force.y as Real, force.z as Real), true);
+        body.add_force(to_vector(&force), true);
     }
 }
 

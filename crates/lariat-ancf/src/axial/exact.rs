@@ -1,9 +1,22 @@
 //! Exact integral of the squared Green strain.
 //!
-//! `a = int b dxi`, `A = int b b^T dxi`; b b^T has degree 8, which five Gauss points integrate exactly, so this is
-//! also what G5-x to G10-x give, to rounding. *Source.* Bulin & Hajzman, strategy "S" (symbolic). *Validity.* Any state;
-//! locks for thin cables (error ~ EA L^2/EI until elements are short): the quartic part of the strain cannot vanish
-//! in a bent element. *Rejected.* The 12x12x12x12 symbolic tensor of the paper: the same number, a thousand terms.
+//! # Equation
+//!
+//! `a = int b dxi`, `A = int b b^T dxi`; b b^T has degree 8, which five Gauss points integrate exactly, so this is also what G5-x to
+//! G10-x give, to rounding.
+//!
+//! # Validity
+//!
+//! Any state; locks for thin cables (error ~ EA L^2/EI until elements are short), because the quartic part of the strain cannot vanish in
+//! a bent element.
+//!
+//! # References
+//!
+//! Bulin & Hajzman, strategy "S" (symbolic).
+//!
+//! # Alternatives considered
+//!
+//! The 12x12x12x12 symbolic tensor of the paper: the same number, a thousand terms.
 
 use super::{AxialTable, gauss};
 

@@ -1,9 +1,21 @@
 //! Gauss quadrature of the squared Green strain with 1 to 10 points.
 //!
-//! `A = sum_q w_q b_q b_q^T`, `a = sum_q w_q b_q`. *Source.* Bulin & Hajzman, strategies "G*L*-*T*". *Validity.* Five points
-//! and more are exact. Three and four under-integrate, which relieves locking a little. One and two points leave
-//! modes of the slope that cost no energy: refused beside a full-curvature rule ([`Rule::check`](crate::Rule::check)).
-//! *Rejected.* Summing over points at run time: the sum is a constant matrix.
+//! # Equation
+//!
+//! `A = sum_q w_q b_q b_q^T`, `a = sum_q w_q b_q`.
+//!
+//! # Validity
+//!
+//! Five points and more are exact. Three and four under-integrate, which reduces locking a little. One and two points leave zero-energy
+//! modes of the slope: rejected beside a full-curvature rule ([`Rule::check`](crate::Rule::check)).
+//!
+//! # References
+//!
+//! Bulin & Hajzman, strategies "G*L*-*T*".
+//!
+//! # Alternatives considered
+//!
+//! Summing over points at run time: the sum is a constant matrix.
 
 use super::{AxialTable, add_outer};
 use crate::element::gram::slope_square;

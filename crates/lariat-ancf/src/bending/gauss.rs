@@ -1,17 +1,27 @@
 //! Gauss quadrature of the full squared curvature with 1 to 10 points.
 //!
+//! # Equation
+//!
 //! `u = sum_q w_q P_q/Q_q^3`, `Q = |r'|^2 = b.g`, and with `p01 = (1-xi)^2`, `p02 = xi(1-xi) - (1-xi)^2 - xi^2`, `p12 = xi^2`
 //!
 //! ```text
 //! (l/2) r' x r'' = p01 d0xd1 + p02 d0xd2 + p12 d1xd2        P = m . X(g)
 //! ```
 //!
-//! where X are the six products of those cross products, which are the 2x2 minors of the Gram matrix (Binet-Cauchy),
-//! and m the monomials of p. The degree of r' x r'' is two, not three: the cubic terms cancel.
+//! where X are the six products of those cross products, which are the 2x2 minors of the Gram matrix (Binet-Cauchy), and m the monomials
+//! of p. The degree of r' x r'' is two, not three: the cubic terms cancel.
 //!
-//! *Source.* Gerstmayr & Shabana 2006 (curvature); Bulin & Hajzman, *T* points. *Validity.* Any: where |r'| < 1/2 at a point, Q^-3
-//! is continued smoothly (`regularisation`). Two points or more: one leaves spare modes.
-//! *Rejected.* Three-vectors at the points (three times the work); the rational integral in closed form (paper: too long).
+//! # Validity
+//!
+//! Any: where |r'| < 1/2 at a point, Q^-3 is continued smoothly (`regularisation`). Two points or more: one leaves zero-energy modes.
+//!
+//! # References
+//!
+//! Gerstmayr & Shabana 2006 (curvature); Bulin & Hajzman, *T* points.
+//!
+//! # Alternatives considered
+//!
+//! Three-vectors at the points (three times the work); the rational integral in closed form (paper: too long).
 
 use super::Bending;
 use super::regularisation::RegularisedPower;

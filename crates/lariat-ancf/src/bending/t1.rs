@@ -1,8 +1,18 @@
 //! T1: the curvature vector taken as r'' (slopes near 1, small rotations inside the element).
 //!
-//! `u = rho.g`, `rho.g = (l^2/4) int |r''|^2 dxi`, `rho = (1, -1, 1, 1/3, -1, 1)` in the pairs of the d basis. The force is
-//! linear, the tangent constant. *Source.* Berzeri & Shabana 2000, model T1. *Validity.* |r'| within a few percent of 1; it also
-//! resists a change of |r'| along the element, which is why it leaves no spare mode with any axial rule.
+//! # Equation
+//!
+//! `u = rho.g`, `rho.g = (l^2/4) int |r''|^2 dxi`, `rho = (1, -1, 1, 1/3, -1, 1)` in the pairs of the d basis. The force is linear, the
+//! tangent constant.
+//!
+//! # Validity
+//!
+//! |r'| within a few percent of 1; it also resists a change of |r'| along the element, so it leaves no zero-energy mode with any axial
+//! rule.
+//!
+//! # References
+//!
+//! Berzeri & Shabana 2000, model T1.
 
 use super::Bending;
 use crate::Real;

@@ -72,7 +72,7 @@ impl Cable {
     ///
     /// let points = [Vector3::zeros(), Vector3::new(2.0, 0.0, 0.0)];
     /// let mut cable = Cable::builder().points(points).section(Section::round(0.01, 1e8, 4000.0)?).build()?;
-    /// cable.attach_force_density(Arc::new(Spring))?;
+    /// cable.add_force_density(Arc::new(Spring))?;
     /// cable.step(1.0 / 60.0)?;
     /// assert!(cable.effect_work().force_densities > 0.0);
     /// # Ok::<(), lariat_ancf::Error>(())
@@ -80,20 +80,27 @@ impl Cable {
     ///
     /// # Errors
     /// [`Error::StepFailed`] if the mass matrix cannot be factored.
-    pub fn attach_force_density(&mut self, force: Arc<dyn ForceDensity>) -> Result<(), Error> {
+    pub fn add_force_density(&mut self, force: Arc<dyn ForceDensity>) -> Result<(), Error> {
         let mut model = self.model.clone();
         model.force_densities.attach(force);
-        self.rebuild(model)
+        let as_before = self.model.force_densities.missing() > 0;
+        self.rebuild(model)?;
+        if !as_before {
+            self.revise();
+        }
+        Ok(())
     }
 
     /// Removes all forces per length of your own, missing ones included.
     ///
     /// # Errors
-    /// As [`attach_force_density`](Self::attach_force_density).
+    /// As [`add_force_density`](Self::add_force_density).
     pub fn clear_force_densities(&mut self) -> Result<(), Error> {
         let mut model = self.model.clone();
         model.force_densities.clear();
-        self.rebuild(model)
+        self.rebuild(model)?;
+        self.revise();
+        Ok(())
     }
 
     /// Rejects a cable that was read back without its functions.

@@ -118,13 +118,12 @@ impl Cable {
         })
     }
 
-    /// Replaces the description: everything derived from it is built anew.
+    /// Replaces the description, and builds everything anew that is derived from it.
     fn rebuild(&mut self, model: Model) -> Result<(), Error> {
         let system = System::with_level(&model, self.system.level);
         self.system = system.map_err(|failure| self.step_failed(self.time(), 0.0, failure))?;
         self.buffers = Buffers::new(&model);
         self.model = model;
-        self.revise();
         Ok(())
     }
 

@@ -1,8 +1,16 @@
 //! Consistent mass matrix of one element, in closed form.
 //!
-//! `M = rho A l int S^T S dxi`, S the Hermite functions of [`shape`](super::shape). It is constant, and the same 4x4 matrix for x, y
-//! and z. *Source.* Any text on Hermite beams, e.g. Bathe 1996, section 4.2; checked against quadrature below.
-//! *Rejected.* Lumping: order two in space, and the slopes would carry no inertia to hold the step.
+//! # Equation
+//!
+//! `M = rho A l int S^T S dxi`, S the Hermite functions of [`shape`](super::shape). It is constant, and the same 4x4 matrix for x, y and z.
+//!
+//! # References
+//!
+//! Any text on Hermite beams, e.g. Bathe 1996, section 4.2; checked against quadrature below.
+//!
+//! # Alternatives considered
+//!
+//! Lumping: order two in space, and the slopes would have no inertia, which limits the step.
 
 /// The 4x4 matrix over (r_i, t_i, r_j, t_j), for mass per length in kg/m and length in m.
 pub fn consistent(mass_per_length: f64, length: f64) -> [[f64; 4]; 4] {

@@ -1,8 +1,13 @@
 //! Shape functions of the element: cubic Hermite in the rest arc length.
 //!
+//! # Equation
+//!
 //! `r(xi) = s1 r_i + s2 l t_i + s3 r_j + s4 l t_j`, `s1 = 1 - 3 xi^2 + 2 xi^3`, `s2 = xi - 2 xi^2 + xi^3`, `s3 = 3 xi^2 - 2 xi^3`,
-//! `s4 = xi^3 - xi^2`. *Source.* Gerstmayr & Shabana 2006, eq. 2. Element coordinates are four 3-vectors
-//! (r_i, t_i, r_j, t_j), t = dr/dx dimensionless.
+//! `s4 = xi^3 - xi^2`. Element coordinates are four 3-vectors (r_i, t_i, r_j, t_j), t = dr/dx dimensionless.
+//!
+//! # References
+//!
+//! Gerstmayr & Shabana 2006, eq. 2.
 
 /// Weights of (r_i, t_i, r_j, t_j) in the position at xi; those of the slopes in m.
 pub fn position(xi: f64, length: f64) -> [f64; 4] {

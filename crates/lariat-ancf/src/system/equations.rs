@@ -84,6 +84,9 @@ impl Equations<'_> {
     }
 
     fn factor_with(&mut self, count: bool) -> Result<Definiteness, StepFailure> {
+        if let Some((what, node)) = self.system.forces.not_finite() {
+            return Err(StepFailure::NotFinite { what, node });
+        }
         let (level, step) = (self.system.level, &mut self.system.step);
         project_matrix(self.model, &mut step.matrix);
         self.diagnostics.factorisations += 1;

@@ -75,6 +75,11 @@ pub fn history<T>(cable: &mut Cable, dt: f64, samples: usize, mut read: impl FnM
     rows
 }
 
+/// All implicit methods.
+pub fn implicit() -> impl Iterator<Item = Method> {
+    Method::ALL.into_iter().filter(|m| m.properties().implicit)
+}
+
 /// Position of the last node in m.
 pub fn tip(cable: &Cable) -> Vector3<f64> {
     cable.node_position(cable.nodes() - 1)

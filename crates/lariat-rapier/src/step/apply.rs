@@ -29,6 +29,8 @@ use rapier::pipeline::PhysicsWorld;
 
 /// Half of the rotation in a substep, in rad, up to which `angvel` is corrected.
 const MAX_HALF_ROTATION: f64 = 1.2;
+/// Share of Rapier's largest rotation in a step from which a body is allowed to rotate faster.
+const FAST_ROTATION: f64 = 0.9;
 
 /// Gives Rapier the predicted motion of all bodies of an island for a step of `h` (s).
 pub(crate) fn apply(
@@ -84,7 +86,7 @@ fn apply_prediction(world: &mut PhysicsWorld, step: &BodyStep, record: &BodyReco
     let own_weight = gravity * (end.mass as Real * body.gravity_scale());
     replace_loads(body, -to_vector(&force) - own_weight, -to_vector(&torque));
     body.enable_gyroscopic_forces(false);
-    if turn.norm() * h > 0.9 * MAX_ROTATION_PER_STEP {
+    if turn.norm() * h > FAST_ROTATION * MAX_ROTATION_PER_STEP {
         body.set_allow_fast_rotation(true);
     }
     match mechanism {

@@ -27,7 +27,7 @@ use rapier::pipeline::PhysicsWorld;
 /// Mass in kg given to a junction, which has none, so that the matrix has an inverse.
 const JUNCTION_MASS: f64 = 1e-6;
 /// Share of the body's own mobility in B'.
-const OWN_MOBILITY_SHARE: f64 = 0.1;
+pub(crate) const OWN_MOBILITY_SHARE: f64 = 0.1;
 
 /// Sets the motors of all bodies of an island that may deviate from their prediction, and disables
 /// all others.

@@ -110,13 +110,7 @@ pub(crate) fn predict_next(
         return Ok(());
     }
     host.targets.advance(world, host.done, host.steps);
-    let step = StepParameters {
-        h: f64::from(world.integration_parameters.dt),
-        rapier_steps: host.steps,
-        fastest: 0.0,
-        sleep_speed: settings.sleep_speed,
-    };
-    let outcome = predict_islands(stepper, contents, world, step);
+    let outcome = predict_islands(stepper, contents, world, settings, host.steps);
     host.failed = outcome.is_err();
     outcome
 }
@@ -139,12 +133,13 @@ pub(crate) fn finish(world: &mut PhysicsWorld, host: &HostStep) {
     }
 }
 
-/// Predicts a Rapier step of all islands.
+/// Predicts one of `rapier_steps` Rapier steps of all islands.
 fn predict_islands(
     stepper: &mut Stepper,
     contents: &mut Contents,
     world: &mut PhysicsWorld,
-    mut step: StepParameters,
+    settings: &Settings,
+    rapier_steps: u32,
 ) -> Result<(), Error> {
     if core::mem::take(&mut stepper.pending) {
         // predicted, and never reconciled
@@ -158,7 +153,12 @@ fn predict_islands(
     stepper.predictions.resize_with(stepper.islands.list.len(), Default::default);
     stepper.predictions.iter_mut().for_each(|prediction| prediction.applied.clear());
     stepper.failed.clear();
-    step.fastest = proximity::fastest(world);
+    let step = StepParameters {
+        h: f64::from(world.integration_parameters.dt),
+        rapier_steps,
+        fastest: proximity::fastest(world),
+        sleep_speed: settings.sleep_speed,
+    };
     for k in 0..stepper.predictions.len() {
         if let Err(error) = predict_island(stepper, k, contents, world, &step) {
             for (island, prediction) in stepper.islands.list.iter().zip(&stepper.predictions).take(k + 1) {

@@ -48,6 +48,9 @@ const USUAL_ITERATIONS: usize = 4;
 /// Speed in m/s and angular speed in rad/s below which the tolerance of velocities is absolute.
 const MIN_SPEED: f64 = 1e-3;
 const MIN_SPIN: f64 = 1e-2;
+/// Angle in rad below which a rotation is equal to the predicted one, in units of the square root of
+/// the rounding: the angle between two quaternions is no more accurate.
+const MIN_ANGLE: f64 = 1e-3;
 
 /// Updates cables, bodies and attachments of an island after a Rapier step of `h` (s).
 pub(crate) fn reconcile(
@@ -220,7 +223,7 @@ fn has_landed(
     let (linear, angular) = split_spatial(deviation);
     let speed = vector(applied.linvel).norm() + applied.balanced_velocity;
     distance <= tolerance * extent
-        && angle <= tolerance.max(1e-3 * f64::from(Real::EPSILON).sqrt()) * 4.0
+        && angle <= tolerance.max(MIN_ANGLE * f64::from(Real::EPSILON).sqrt()) * 4.0
         && linear.norm() <= slow * speed.max(MIN_SPEED)
         && angular.norm() <= slow * vector(applied.angvel).norm().max(MIN_SPIN)
 }

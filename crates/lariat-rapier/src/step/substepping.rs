@@ -34,6 +34,7 @@ use crate::body::is_integrated;
 use crate::contents::Contents;
 use crate::settings::Settings;
 use crate::spatial::split_spatial;
+use crate::step::impedance::OWN_MOBILITY_SHARE;
 use crate::step::proximity;
 use ::nalgebra::Vector3;
 use lariat_ancf::{At, Cable};
@@ -64,7 +65,7 @@ pub(crate) fn count(contents: &Contents, world: &PhysicsWorld, settings: &Settin
         let stiffness: f64 = on_body.map(|b| stiffness(contents, b)).sum();
         let vibration = dt * (stiffness * inverse_mass).sqrt() / MAX_PHASE;
         let step = dt / f64::from(max);
-        let g = 0.1 * step * step * stiffness * inverse_mass;
+        let g = OWN_MOBILITY_SHARE * step * step * stiffness * inverse_mass;
         let first_contact = dt * speed * g / (1.0 + g) / MAX_GAP;
         vibration.max(first_contact)
     });

@@ -1,7 +1,7 @@
 //! Many cables on a body, many bodies on cables, closed loops.
 
 use super::common::{cable, gap, run, soft, weightless};
-use lariat_rapier::convert::vector;
+use lariat_rapier::convert::{to_vector, vector};
 use lariat_rapier::lariat_ancf::{At, Damping, Section, Vector3};
 use lariat_rapier::rapier::prelude::*;
 use lariat_rapier::{AttachmentKind, CableSet};
@@ -55,9 +55,10 @@ fn a_rotating_ring_of_balls_and_cables_keeps_its_momenta_energy_and_shape() {
     };
     let balls = [0, 1, 2].map(|k| {
         let velocity = Vector3::z().cross(&at(k)) * 3.0;
-        let to = |x: Vector3<f64>| Vector::new(x.x as Real, x.y as Real, x.z as Real);
-        let body =
-            RigidBodyBuilder::dynamic().translation(to(at(k))).linvel(to(velocity)).angvel(Vector::new(0.0, 0.0, 3.0));
+        let body = RigidBodyBuilder::dynamic()
+            .translation(to_vector(&at(k)))
+            .linvel(to_vector(&velocity))
+            .angvel(Vector::new(0.0, 0.0, 3.0));
         world.insert(body, ColliderBuilder::ball(0.05).mass(2.0)).0
     });
     let mut set = CableSet::new();

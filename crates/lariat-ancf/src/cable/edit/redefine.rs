@@ -34,6 +34,7 @@ impl Cable {
         check_integrator(&model, &integrator.method)?;
         self.rebuild(model)?;
         self.integrator = integrator;
+        self.revise();
         Ok(())
     }
 }
