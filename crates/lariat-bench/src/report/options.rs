@@ -27,7 +27,7 @@ impl Options {
     pub fn quick() -> Self {
         let command = "cargo run --release -p lariat-scene -- report --out out/report --quick";
         let repeats = Repeats { least: 2, most: 3, enough: 0.02, limit: 0.1 };
-        Options { command, rungs: 3, repeats, readings: 50 }
+        Options { command, rungs: 2, repeats, readings: 50 }
     }
 
     /// Returns the settings of a curve that are measured.
