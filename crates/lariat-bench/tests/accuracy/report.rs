@@ -121,7 +121,8 @@ fn the_page_of_a_report_says_what_its_files_hold() {
     assert_eq!(rejected.len(), 2);
     for row in rejected {
         assert!(row["failed"].contains("rank deficient") && row["error_m"].is_empty(), "{row:?}");
-        assert!(page.contains(&row["failed"]));
+        // a table of the page escapes the bars of |r'|
+        assert!(page.contains(&row["failed"].replace('|', "\\|")), "{row:?}");
     }
 }
 
