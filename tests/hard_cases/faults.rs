@@ -1,5 +1,5 @@
-//! Invalid input in the middle of a run: the step ends in an error that names the culprit, the state
-//! remains bitwise what it was, and the next step works once the cause is removed.
+//! Invalid input in the middle of a run: the step ends in an error that names the culprit, the
+//! state remains bitwise what it was, and the next step works once the cause is removed.
 
 use lariat_ancf::{At, PointLoad, Section, Vector3};
 use lariat_rapier::rapier::prelude::*;
@@ -116,8 +116,9 @@ fn an_infinite_force_on_a_body_is_an_error() {
     }
 }
 
-/// A body without mass cannot be integrated: it holds its end as a fixed one does, and is integrated
-/// again once it has mass. Rapier does not move a dynamic body without mass by forces either.
+/// A body without mass cannot be integrated: it holds its end as a fixed one does, and is
+/// integrated again once it has mass. Rapier does not move a dynamic body without mass by forces
+/// either.
 #[test]
 fn a_body_that_loses_its_mass_holds_its_end() {
     let mut p = pendulum();

@@ -178,9 +178,7 @@ fn exchange(world: &mut World) {
 fn step(mode: TimestepMode, time: &Time) -> Result<f32, Error> {
     match mode {
         TimestepMode::Fixed { dt, substeps: 1 } => Ok(dt),
-        TimestepMode::Variable { max_dt, time_scale, substeps: 1 } => {
-            Ok((time.delta_secs() * time_scale).min(max_dt))
-        }
+        TimestepMode::Variable { max_dt, time_scale, substeps: 1 } => Ok((time.delta_secs() * time_scale).min(max_dt)),
         TimestepMode::Interpolated { .. } => Err(Error::VaryingSteps),
         TimestepMode::Fixed { substeps, .. } | TimestepMode::Variable { substeps, .. } => {
             Err(Error::Substeps { substeps })

@@ -113,7 +113,7 @@ impl Cable {
 
     /// Samples a flow of your own at the nodes, valid until the next call: for wind zones, gusts, computed currents. Call it before every
     /// step, or as often as the flow changes; `field` returns the velocity in m/s at a position (m), for the middle of the time until the
-    /// next call if it changes in time. The samples are added to the drag's [`Flow`](crate::Flow), linear between nodes. Allocates at the
+    /// next call if it changes in time. The samples are added to the drag's [`Flow`], linear between nodes. Allocates at the
     /// first call only; samples that do not differ from the last ones cost nothing.
     ///
     /// ```

@@ -24,7 +24,7 @@ use scene::{SOFT, STEEL, Scene};
 use world::{World, host_steps};
 
 /// The command that makes the page.
-const COMMAND: &str = "cargo run --release -p lariat-scene -- coupling --out docs/coupling.md";
+const COMMAND: &str = "cargo run --release --bin lariat -- coupling --out docs/coupling.md";
 /// Centre of the box of the soft pendulum at 0.5 s and 1 s in m, by a fine run of an independent
 /// monolithic code, accurate to 2e-5 m.
 const CENTRES: [[f64; 3]; 2] = [[1.70292, -1.21801, 0.0], [-0.82138, -1.91419, 0.0]];

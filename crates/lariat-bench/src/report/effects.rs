@@ -6,6 +6,7 @@
 //! Times are of bursts of calls from the same state; counts are the same on every machine. A flow
 //! that a program samples is sampled before each step, and its time is included.
 
+use super::effect_cases::{self, COLUMNS};
 use super::options::Options;
 use crate::clock::Timing;
 use crate::error::Error;
@@ -13,10 +14,7 @@ use crate::page::Section;
 use crate::table::{Cell, Format, Table, hidden, shown};
 use cpu_time::ProcessTime;
 use fearless_simd::Level;
-use lariat_ancf::{
-    At, Buoyancy, Cable, Damping, Drag, Effects, Flow, GravityScale, Integrator, LineLoad, Method, RestShape, Rule,
-    Section as CrossSection, Vector3,
-};
+use lariat_ancf::{At, Cable, Effects, Integrator, Method, Rule, Section as CrossSection, Vector3};
 use std::hint::black_box;
 
 /// Step in s.
@@ -25,47 +23,14 @@ const ELEMENTS: usize = 64;
 /// Calls from one reading of the clock to the next.
 const CALLS: usize = 64;
 
-/// The case whose flow a program samples at every node before the step.
-const SAMPLED: &str = "drag, sampled flow";
-
-/// Returns name, rule and effects of the cases.
-fn cases() -> Vec<(&'static str, &'static str, Effects)> {
-    let flow = Flow::uniform(Vector3::new(1.0, 0.0, 0.2));
-    let wind = Flow::power_law(Vector3::new(1.0, 0.0, 0.2), Vector3::y(), 10.0, 0.14, 100.0);
-    let damping = |axial, bending| Effects { damping: Some(Damping { axial, bending }), ..Effects::default() };
-    let drag = |flow| Effects { drag: Some(Drag::new(1000.0, 1.2, 0.01, flow)), ..Effects::default() };
-    let rest = |rest| Effects { rest_shape: Some(rest), ..Effects::default() };
-    let buoyancy = Effects { buoyancy: Some(Buoyancy::new(1000.0, 1.0)), ..Effects::default() };
-    let constant = Effects {
-        line_loads: Some(LineLoad::uniform(Vector3::x()).into()),
-        gravity_scale: Some(GravityScale(0.5)),
-        ..Effects::default()
-    };
-    let all = Effects {
-        damping: Some(Damping { axial: 1e-3, bending: 1e-3 }),
-        drag: Some(Drag::new(1000.0, 1.2, 0.01, flow.clone())),
-        rest_shape: Some(RestShape::curved(0.1)),
-        buoyancy: Some(Buoyancy::new(1000.0, 1.0)),
-        ..constant.clone()
-    };
-    vec![
-        ("no bending", "projected-none", Effects::default()),
-        ("no effects", "projected-3", Effects::default()),
-        ("no effects, G5-3", "G5-3", Effects::default()),
-        ("no effects, ST2", "ST2", Effects::default()),
-        ("no effects, L2T2", "L2T2", Effects::default()),
-        ("damping, axial", "projected-3", damping(1e-3, 0.0)),
-        ("damping, axial and bending", "projected-3", damping(1e-3, 1e-3)),
-        ("drag", "projected-3", drag(flow)),
-        ("drag, power-law wind", "projected-3", drag(wind)),
-        (SAMPLED, "projected-3", drag(Flow::default())),
-        ("buoyancy", "projected-3", buoyancy),
-        ("rest shape: stretch", "projected-3", rest(RestShape::stretched(0.999))),
-        ("rest shape: curvature", "projected-3", rest(RestShape::curved(0.1))),
-        ("line load, gravity scale", "projected-3", constant),
-        ("all effects", "projected-3", all),
-    ]
-}
+/// Rules that are measured without effects; effects are measured with the default one.
+const RULES: [(&str, &str); 5] = [
+    ("no bending", "projected-none"),
+    ("no effects", "projected-3"),
+    ("no effects, G5-3", "G5-3"),
+    ("no effects, ST2", "ST2"),
+    ("no effects, L2T2", "L2T2"),
+];
 
 /// Builds a soft cable, bent and moving.
 fn cable(rule: &str, effects: Effects) -> Result<Cable, Error> {
@@ -99,7 +64,7 @@ fn time(
 }
 
 /// Measures force, force with tangent and step, and the counts of one step.
-fn row(options: &Options, name: &str, cable: &mut Cable) -> Result<Vec<Cell>, Error> {
+fn row(options: &Options, name: &str, cable: &mut Cable, sampled: bool) -> Result<Vec<Cell>, Error> {
     let mut f = vec![0.0; cable.positions().len()];
     let force = time(options, cable, |cable| {
         cable.evaluate(black_box(&mut f));
@@ -110,7 +75,6 @@ fn row(options: &Options, name: &str, cable: &mut Cable) -> Result<Vec<Cell>, Er
         Ok(())
     })?;
     cable.diagnostics_mut().reset();
-    let sampled = name == SAMPLED;
     let step = time(options, cable, |cable| {
         if sampled {
             cable.sample_flow(|place| Vector3::new(1.0, 0.1 * place.x, 0.2))?;
@@ -129,16 +93,14 @@ fn row(options: &Options, name: &str, cable: &mut Cable) -> Result<Vec<Cell>, Er
         per_step(d.factorisations),
         per_step(d.element_evaluations()),
         per_step(d.bending_evaluations),
-        per_step(d.effects.damping),
-        per_step(d.effects.drag),
-        per_step(d.effects.rest_shape),
     ]);
+    row.extend(d.effects.by_key().map(|(_, n)| per_step(n)).take(COLUMNS.len()));
     Ok(row)
 }
 
 fn table(name: &'static str, first: &'static str, rows: Vec<Vec<Cell>>) -> Table {
     let one = Format::Fixed(1);
-    let columns = vec![
+    let mut columns = vec![
         shown("case", first, Format::Plain),
         hidden("rule"),
         shown("force_ns", "force", one),
@@ -154,10 +116,8 @@ fn table(name: &'static str, first: &'static str, rows: Vec<Vec<Cell>>) -> Table
         hidden("factorisations_per_step"),
         hidden("element_evaluations_per_step"),
         hidden("bending_evaluations_per_step"),
-        hidden("damping_evaluations_per_step"),
-        hidden("drag_evaluations_per_step"),
-        hidden("rest_shape_evaluations_per_step"),
     ];
+    columns.extend(COLUMNS.iter().map(|name| hidden(name)));
     Table { name, columns, rows }
 }
 
@@ -191,8 +151,11 @@ pub fn section(options: &Options) -> Result<Section, Error> {
         options.readings
     ));
     let mut rows = Vec::new();
-    for (name, rule, effects) in cases() {
-        rows.push(row(options, name, &mut cable(rule, effects)?)?);
+    for (name, rule) in RULES {
+        rows.push(row(options, name, &mut cable(rule, Effects::default())?, false)?);
+    }
+    for case in effect_cases::cases() {
+        rows.push(row(options, &case.name, &mut cable("projected-3", case.effects)?, case.sampled)?);
     }
     section.table(table("effects", "effects", rows));
     section.text("The default rule without effects by instruction set, which is selected at run time:");
@@ -200,7 +163,7 @@ pub fn section(options: &Options) -> Result<Section, Error> {
     for (name, level) in levels() {
         let mut cable = cable("projected-3", Effects::default())?;
         cable.set_simd_level(level)?;
-        rows.push(row(options, name, &mut cable)?);
+        rows.push(row(options, name, &mut cable, false)?);
     }
     section.table(table("kernels", "instructions", rows));
     Ok(section)

@@ -12,7 +12,7 @@
 //! | [`taut`] | taut steel cable, plucked | largest distance along the cable after a host step | analytic modes of a rod under tension; derived there |
 //! | [`catenary`] | static catenary | largest distance along the cable | the same law by shooting, [`catenary_reference`] |
 //! | [`model_error`] | errors of T1, T2 and mean strain, separated from those of the mesh | tip distances | `pendulum_converged_tip.csv` |
-//! | [`effects`] | cost of an element and of each effect | | |
+//! | [`effects`], [`effect_cases`] | cost of an element and of each effect | | |
 //! | [`coupling`] | gap, energy and momentum with Rapier | distance as in [`payload`]; drifts | the same; conservation |
 //!
 //! CPU time is that of the process, on one thread: median and extremes of repeated runs of `step`
@@ -23,6 +23,7 @@ pub mod catenary;
 pub mod catenary_reference;
 pub mod cheapest;
 pub mod coupling;
+pub mod effect_cases;
 pub mod effects;
 pub mod model_error;
 pub mod options;

@@ -18,16 +18,16 @@ pub struct Options {
 impl Options {
     /// Everything: some minutes.
     pub fn full() -> Self {
-        let command = "cargo run --release -p lariat-scene -- report --out docs/accuracy --readme README.md";
+        let command = "cargo run --release --bin lariat -- report --out docs/accuracy --readme README.md";
         let repeats = Repeats { least: 5, most: 15, enough: 0.1, limit: 2.0 };
         Options { command, rungs: usize::MAX, repeats, readings: 300 }
     }
 
     /// The coarsest settings of each curve, with few runs: below a minute.
     pub fn quick() -> Self {
-        let command = "cargo run --release -p lariat-scene -- report --out out/report --quick";
+        let command = "cargo run --release --bin lariat -- report --out out/report --quick";
         let repeats = Repeats { least: 2, most: 3, enough: 0.02, limit: 0.1 };
-        Options { command, rungs: 3, repeats, readings: 50 }
+        Options { command, rungs: 2, repeats, readings: 50 }
     }
 
     /// Returns the settings of a curve that are measured.

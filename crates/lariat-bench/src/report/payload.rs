@@ -29,7 +29,7 @@ const ACCURACY: f64 = 2e-5;
 /// Host steps per second, tolerance in m, substeps and share of the stable step of the settings of
 /// a curve.
 const RUNGS: [(u32, f64, u32, f64); 5] =
-    [(30, 1e-4, 4, 0.95), (60, 1e-5, 4, 0.7), (120, 1e-6, 8, 0.5), (240, 1e-7, 16, 0.35), (480, 1e-8, 32, 0.25)];
+    [(30, 1e-4, 8, 0.95), (60, 1e-5, 4, 0.7), (120, 1e-6, 8, 0.5), (240, 1e-7, 16, 0.35), (480, 1e-8, 32, 0.25)];
 const RULES: [&str; 3] = ["G5-3", "projected-3", "ST2"];
 const MESHES: [usize; 4] = [5, 10, 20, 40];
 

@@ -150,7 +150,8 @@ fn change(listed: &Miss, now: &Miss) -> Option<String> {
     }
     // away from the bound is worse
     let outward = (now.value - listed.value) * (listed.value - listed.bound).signum();
-    let share = outward / listed.value.abs();
+    // a run that failed in its first step has done nothing: its value is 0
+    let share = outward / listed.value.abs().max(1e-3 * listed.bound.abs());
     let numbers = format!("{} {:.4}, listed {:.4}, bound {:.4}", now.kind, now.value, listed.value, now.bound);
     // written so that NaN is worse
     if share < -SIGNIFICANT {

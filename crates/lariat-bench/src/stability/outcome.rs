@@ -128,8 +128,8 @@ pub struct Row {
     pub energy: f64,
     /// Largest energy made beyond the work from outside, over the same.
     pub energy_made: f64,
-    /// Largest energy lost beyond what damping and drag dissipated, over the same, that at the start
-    /// included.
+    /// Largest energy lost beyond what damping and drag dissipated, over the same, that at the
+    /// start included.
     pub energy_lost: f64,
     /// Widest gap of an attachment in m.
     pub gap: f64,

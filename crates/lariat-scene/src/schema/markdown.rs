@@ -48,7 +48,7 @@ pub fn tables(root: &'static Table) -> String {
     let mut text = String::new();
     for table in root.all() {
         // writing to a String cannot fail
-        let _ = write!(text, "{}\n", one(table));
+        let _ = writeln!(text, "{}", one(table));
     }
     text.trim_end().to_string() + "\n"
 }

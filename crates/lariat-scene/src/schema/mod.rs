@@ -1,6 +1,6 @@
 //! The scene format as data: each key with its kind, unit, default and meaning, stated once.
 //!
-//! [`table!`] declares the keys of a table together with the type that holds its values. Everything else that depends on the
+//! `table!` declares the keys of a table together with the type that holds its values. Everything else that depends on the
 //! format follows from these declarations:
 //!
 //! | what | where |

@@ -160,7 +160,7 @@ fn loads_are_arrows() {
     assert!(page.ask(off).parse::<f64>().unwrap() < 1e-6);
     let green = "(() => { const d = pen.getImageData(0, 0, canvas.width, canvas.height).data; let n = 0; \
                  for (let i = 0; i < d.length; i += 4) n += d[i] === 11 && d[i + 1] === 122 && d[i + 2] === 85; return n; })()";
-    page.ask("setTheme('light'); show()");
+    page.ask("(setTheme('light'), show())");
     assert!(page.ask(green).parse::<u32>().unwrap() > 50, "no arrow is drawn");
 
     let text = std::fs::read_to_string(scene("elastica")).unwrap()

@@ -35,7 +35,7 @@ pub struct Arguments {
 impl Arguments {
     /// Returns the command that asks for the same, as the page prints it.
     fn command(&self, complete: bool) -> String {
-        let mut command = "cargo run --release -p lariat-scene -- stability --out DIR".to_string();
+        let mut command = "cargo run --release --bin lariat -- stability --out DIR".to_string();
         if self.quick {
             command += " --quick";
         }

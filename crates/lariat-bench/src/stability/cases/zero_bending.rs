@@ -50,8 +50,10 @@ pub fn cases() -> Vec<Case> {
                     )]
                 }))
         });
-        // generalised-alpha 0.5 at 1/240 s damps the vibration after the rope becomes taut
-        cases.push(at_once.energy(0.01, 0.4).may_fail());
+        // The rope is laid along a polyline shorter than itself, and so begins with strain energy,
+        // all of which generalised-alpha 0.5 at 1/240 s may damp; no more than that can be lost.
+
+        cases.push(at_once.energy(0.01, 1.0).may_fail());
     }
     cases
 }

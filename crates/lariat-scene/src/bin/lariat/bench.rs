@@ -1,7 +1,7 @@
 //! `lariat report`, `lariat stability` and `lariat table1`, which the program `lariat-bench` runs.
 //!
 //! They belong to the unpublished package `lariat-bench`, which is not linked into this command. `lariat report ...` starts the
-//! program `lariat-bench` in the folder of this one. Under `cargo run -p lariat-scene -- report ...` cargo builds and runs it.
+//! program `lariat-bench` in the folder of this one. Under `cargo run --bin lariat -- report ...` cargo builds and runs it.
 
 use clap::{Args, Subcommand};
 use std::ffi::OsString;
@@ -58,10 +58,11 @@ pub fn run(bench: &Bench) -> ExitCode {
 
 /// Returns the command that starts `lariat-bench`: through cargo if cargo started this program, so that it is up to date.
 fn command() -> Option<Command> {
-    let manifest = Path::new(env!("CARGO_MANIFEST_DIR")).join("../lariat-bench/Cargo.toml");
+    // from the workspace, whose build is shared, and not from the package, which would be built with features of its own
+    let manifest = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../Cargo.toml");
     if let Some(cargo) = std::env::var_os("CARGO").filter(|_| manifest.is_file()) {
         let mut command = Command::new(cargo);
-        command.args(["run", "--quiet", "--manifest-path"]).arg(manifest);
+        command.args(["run", "--quiet", "--bin", "lariat-bench", "--manifest-path"]).arg(manifest);
         if !cfg!(debug_assertions) {
             command.arg("--release");
         }
