@@ -12,6 +12,7 @@
 //! Khatib 1987, the operational space inertia.
 
 use crate::error::{Error, require, require_finite};
+use crate::integrate::discrete_gradient::ALPHA;
 use nalgebra::{Matrix3, Matrix6, UnitQuaternion, Vector3, Vector6};
 use serde::{Deserialize, Serialize};
 
@@ -158,6 +159,14 @@ impl RigidBody {
     /// Returns the kinetic energy in J, without that of the carried inertia.
     pub fn kinetic_energy(&self) -> f64 {
         0.5 * (self.mass * self.velocity.norm_squared() + self.angular_velocity.dot(&self.spin()))
+    }
+
+    /// Returns the energy in J that the method `discrete-gradient` holds beyond the kinetic energy, as
+    /// [`Cable::energy_in_store`](crate::Cable::energy_in_store); without that of the carried inertia.
+    pub fn energy_in_store(&self) -> f64 {
+        let Some(last) = self.memory.as_ref().and_then(|memory| memory.differences.as_ref()) else { return 0.0 };
+        let [velocity, spin] = last.change;
+        0.5 * ALPHA * (self.mass * velocity.norm_squared() + spin.dot(&(self.inertia * spin)))
     }
 
     /// Returns the linear momentum in kg m/s and the angular momentum about the origin in kg m^2/s,

@@ -2,6 +2,7 @@
 
 #[path = "../common/mod.rs"]
 mod common;
+mod chain;
 mod law;
 mod motion;
 mod recipe;

@@ -22,11 +22,11 @@ pub struct Scene {
     pub driven: bool,
 }
 
-fn power(random: &mut Random, low: f64, high: f64) -> f64 {
+pub fn power(random: &mut Random, low: f64, high: f64) -> f64 {
     10f64.powf(low + 0.5 * (high - low) * (1.0 + random.next()))
 }
 
-fn choose(random: &mut Random, n: usize) -> usize {
+pub fn choose(random: &mut Random, n: usize) -> usize {
     ((0.5 * (1.0 + random.next()) * n as f64) as usize).min(n - 1)
 }
 
