@@ -54,19 +54,20 @@ pub struct ElementStep<T> {
 }
 
 impl<T: Real> ElementStep<T> {
-    /// From the control vectors at the beginning, their change, and their change in the step before.
+    /// From the control vectors at the beginning, their change, and their change in the step before, of which the share `kept`
+    /// counts.
     #[inline(always)]
-    pub fn new(d: &Control<T>, change: &Control<T>, before: &Control<T>) -> Self {
+    pub fn new(d: &Control<T>, change: &Control<T>, before: &Control<T>, kept: f64) -> Self {
         let (mean, middle_before) = (shifted(d, change, 0.5), shifted(d, before, -0.5));
         let (start, gram_change) = (gram(d), gram_rates(&mean, change));
         ElementStep {
             mean,
             change: *change,
-            second: shifted(change, before, -1.0),
+            second: shifted(change, before, -kept),
             start,
             end: combined(&start, &gram_change, 1.0),
             gram_change,
-            gram_before: gram_rates(&middle_before, before),
+            gram_before: gram_rates(&middle_before, before).map(|x| x * kept),
         }
     }
 

@@ -228,7 +228,7 @@ impl SecantIsland<'_, '_> {
             own.pass_impulses(&buffers.rhs, rows);
             for hold in &own.holds {
                 total.residual += hold.residual(buffers.h);
-                total.supports += hold.work(buffers.h);
+                total.closing += hold.work(buffers.h);
                 buffers.rhs[hold.at..hold.at + 3].fill(0.0);
             }
             project_vector(equations.model, &mut buffers.rhs);

@@ -199,10 +199,10 @@ impl BodyStep {
         total.residual -= power(row);
         // the locks take what is left
         total.supports -= all - power(row);
-        let (second, end) = (self.change - self.before, self.velocity + self.change);
+        let (second, start) = (self.change - self.before, self.velocity);
         total.numerical += 0.5 * ALPHA * second.dot(&(self.matrix * second));
         total.loads += self.h * (self.force.dot(&self.mean[0]) + self.torque.dot(&self.mean[1]));
-        total.scale += 0.5 * end.dot(&(self.matrix * end)) + self.mass * STANDARD_GRAVITY.norm() * HEIGHT;
+        total.held += 0.5 * start.dot(&(self.matrix * start)) + self.mass * STANDARD_GRAVITY.norm() * HEIGHT;
     }
 
     /// Takes all free velocities beside `velocity` (m/s) from the end of the step; returns their kinetic energy in J, and their product with

@@ -91,8 +91,8 @@ impl Equations<'_> {
         let (level, forces) = (system.level, &mut system.forces);
         let (elements, effects) = (&forces.elements, forces.in_element.as_ref());
         let count = elements.count() as u64;
-        let Buffers { h, change, change_before, linearised, rhs, .. } = b;
-        let step = CoordinateStep { start: &state.q, change, before: change_before, linearised, h: *h };
+        let Buffers { h, change, change_before, kept, linearised, rhs, .. } = b;
+        let step = CoordinateStep { start: &state.q, change, before: change_before, kept: *kept, linearised, h: *h };
         rhs.fill(0.0);
         if elements.bends() {
             diagnostics.bending_evaluations += count;
@@ -166,11 +166,8 @@ impl Equations<'_> {
             external[i] = velocity_change[i] - velocity_before[i];
         }
         balance.numerical += 0.5 * ALPHA * system.mass_square(external, product);
-        for i in 0..external.len() {
-            external[i] = state.v[i] + velocity_change[i];
-        }
-        let kinetic = 0.5 * system.mass_square(external, product);
-        balance.scale = kinetic + loss.strain + system.scales.weight_energy;
+        let kinetic = 0.5 * system.mass_square(&state.v, product);
+        balance.held = kinetic + loss.strain + system.scales.weight_energy;
         balance
     }
 
@@ -286,7 +283,7 @@ impl Cable {
         let still = vec![0.0; q.len()];
         let mut buffer = still.clone();
         let step =
-            CoordinateStep { start: q, change: &still, before: &differences.displacement, linearised: &[], h: 1.0 };
+            CoordinateStep { start: q, change: &still, before: &differences.displacement, kept: 1.0, linearised: &[], h: 1.0 };
         let elastic = self.system.forces.elements.add_secant(self.system.level, None, step, &mut buffer).numerical;
         elastic + 0.5 * ALPHA * self.system.mass_square(&differences.velocity, &mut buffer)
     }

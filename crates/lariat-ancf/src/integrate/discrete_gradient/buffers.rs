@@ -48,8 +48,10 @@ pub(crate) struct Buffers {
     pub h: f64,
     /// Change of velocities in the step before, O v.
     pub velocity_before: Vec<f64>,
-    /// Change of coordinates in the step before, O q.
+    /// Change of coordinates in the step before.
     pub change_before: Vec<f64>,
+    /// Share of it that counts.
+    pub kept: f64,
     /// Change of velocities D v of the present iterate.
     pub velocity_change: Vec<f64>,
     /// Change of coordinates D q of the present iterate.
@@ -75,16 +77,14 @@ impl Buffers {
     /// shorter one they stay.
     pub fn recall(&mut self, state: &State, h: f64) {
         let differences = &state.memory.differences;
-        let factor = if differences.step > h { h / differences.step } else { 1.0 };
         let size = state.q.len();
         self.h = h;
-        for (own, last) in
-            [(&mut self.velocity_before, &differences.velocity), (&mut self.change_before, &differences.displacement)]
-        {
-            own.clear();
-            own.extend(last.iter().map(|x| factor * x));
-            own.resize(size, 0.0);
-        }
+        self.kept = if differences.step > h { h / differences.step } else { 1.0 };
+        self.velocity_before.clear();
+        self.velocity_before.extend(differences.velocity.iter().map(|x| self.kept * x));
+        self.velocity_before.resize(size, 0.0);
+        self.change_before.clone_from(&differences.displacement);
+        self.change_before.resize(size, 0.0);
         for own in [&mut self.rhs, &mut self.external, &mut self.product] {
             own.resize(size, 0.0);
         }

@@ -28,7 +28,7 @@ impl EnergyLaw {
     pub(crate) fn add(&mut self, step: &Balance) {
         self.numerical += step.numerical;
         self.rescaled += step.rescaled;
-        self.supports += step.supports;
+        self.supports += step.supports + step.closing;
         self.loads += step.loads;
         self.residual += step.residual;
         self.made = self.made.max(step.excess());
@@ -62,12 +62,14 @@ pub(crate) struct Balance {
     pub effects: f64,
     /// Work of supports that move.
     pub supports: f64,
+    /// Work of what closes gaps of pins and rotates clamps into their direction.
+    pub closing: f64,
     /// Work of point loads.
     pub loads: f64,
     /// Energy taken from velocities.
     pub rescaled: f64,
-    /// Kinetic and strain energy at the end, and the weight times 1 mm: what energies are compared with.
-    pub scale: f64,
+    /// Kinetic and strain energy at the beginning, and the weight times 1 mm.
+    pub held: f64,
 }
 
 impl Balance {
@@ -77,9 +79,15 @@ impl Balance {
         self.numerical += other.numerical;
         self.effects += other.effects;
         self.supports += other.supports;
+        self.closing += other.closing;
         self.loads += other.loads;
         self.rescaled += other.rescaled;
-        self.scale += other.scale;
+        self.held += other.held;
+    }
+
+    /// Returns what energies are compared with: the energy held at the beginning, and the work of supports and loads.
+    pub fn scale(&self) -> f64 {
+        self.held + self.supports.abs() + self.loads.abs()
     }
 
     /// Returns the energy that the step makes.

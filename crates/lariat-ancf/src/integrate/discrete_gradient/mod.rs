@@ -82,6 +82,6 @@ pub fn knob(name: &'static str, default: f64) -> f64 {
     std::env::var(name).map_or(default, |x| x.parse().unwrap())
 }
 /// EXPERIMENT
-pub struct Knobs { pub iterations: f64, pub depth: f64, pub flex: f64, pub tension: f64, pub keep: f64, pub rescale: f64 }
+pub struct Knobs { pub iterations: f64, pub depth: f64, pub flex: f64, pub tension: f64, pub keep: f64, pub rescale: f64, pub tan: f64 }
 /// EXPERIMENT
-pub static KNOBS: std::sync::LazyLock<Knobs> = std::sync::LazyLock::new(|| Knobs { iterations: knob("ITER", 8.0), depth: knob("DEPTH", 6.0), flex: knob("FLEX", 1.0), tension: knob("TENSION", 0.5), keep: knob("KEEP", 1.0), rescale: knob("RESCALE", 1.0) });
+pub static KNOBS: std::sync::LazyLock<Knobs> = std::sync::LazyLock::new(|| Knobs { iterations: knob("ITER", 8.0), depth: knob("DEPTH", 6.0), flex: knob("FLEX", 1.0), tension: knob("TENSION", 0.5), keep: knob("KEEP", 1.0), rescale: knob("RESCALE", 1.0), tan: knob("TAN", 0.0) });

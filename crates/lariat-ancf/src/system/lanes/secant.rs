@@ -38,6 +38,8 @@ pub(crate) struct CoordinateStep<'a> {
     pub change: &'a [f64],
     /// Change in the step before.
     pub before: &'a [f64],
+    /// Share of that change that counts: less than 1 after a longer step.
+    pub kept: f64,
     /// The change about which the linear solve was made that gave `change`; empty if none was.
     pub linearised: &'a [f64],
     /// Length of the step in s.
@@ -51,7 +53,7 @@ pub(crate) struct ElementLoss {
     pub numerical: f64,
     /// Dissipation by effects.
     pub effects: f64,
-    /// Strain energy at the end, that of bending in the norm of rule T1.
+    /// Strain energy at the beginning, that of bending in the norm of rule T1.
     pub strain: f64,
 }
 
@@ -92,7 +94,7 @@ impl Elements {
         let [d, change, before] = [step.start, step.change, step.before].map(|x| self.gather_control(group, x));
         let stiffness =
             Stiffness { axial: group.load(&self.axial) * step.h, bending: group.load(&self.flexural) * step.h };
-        (ElementStep::new(&d, &change, &before), stiffness)
+        (ElementStep::new(&d, &change, &before, step.kept), stiffness)
     }
 
     /// Returns the pairs of the axial rule and of the bending rule.
@@ -145,12 +147,12 @@ impl Elements {
             }
             let mut force = gradient(&sum.n, &s.mean);
             let mut numerical = self.axial_square(simd, stiffness, &s.gram_second()) * (0.5 * ALPHA);
-            let mut strain = self.axial_square(simd, stiffness, &over_straight(&s.end)) * 0.5;
+            let mut strain = self.axial_square(simd, stiffness, &over_straight(&s.start)) * 0.5;
             if !B::ABSENT {
                 let of_bending = gradient(&numerical_bending(stiffness.bending), &s.second);
                 force = shifted(&force, &of_bending, 1.0);
                 numerical += product(&of_bending, &s.second) * 0.5;
-                strain += stiffness.bending * form(&RHO, &s.end);
+                strain += stiffness.bending * form(&RHO, &s.start);
             }
             if moving {
                 let viscous = gradient(&sum.viscous, &s.change);
@@ -215,7 +217,8 @@ impl Elements {
             self.scatter_force(simd, first, &force, out);
             let implicit = BETA * step.h;
             let (geometric, h) = (tangent.geometric.map(|x| x * implicit), tangent.h.map(|x| x * implicit));
-            let block = |i, k| hessian_block(i, k, &geometric, &h, &s.mean);
+            let at = shifted(&s.mean, &s.change, crate::integrate::discrete_gradient::KNOBS.tan);
+            let block = |i, k| hessian_block(i, k, &geometric, &h, &at);
             let blocks = [block(0, 0), block(0, 1), block(0, 2), block(1, 1), block(1, 2), block(2, 2)];
             self.scatter_matrix(simd, first, &blocks, to.mass_scale, to.matrix);
         }

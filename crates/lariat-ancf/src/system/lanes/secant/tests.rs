@@ -66,7 +66,7 @@ fn dot(x: &[f64], y: &[f64]) -> f64 {
 fn store(system: &System, q: &[f64], change: &[f64]) -> f64 {
     let still = vec![0.0; q.len()];
     let mut unused = still.clone();
-    let step = CoordinateStep { start: q, change: &still, before: change, linearised: &[], h: 1.0 };
+    let step = CoordinateStep { start: q, change: &still, before: change, kept: 1.0, linearised: &[], h: 1.0 };
     system.forces.elements.add_secant(system.level, None, step, &mut unused).numerical
 }
 
@@ -89,7 +89,7 @@ fn the_work_of_the_force_is_the_change_of_energy_and_the_losses() {
                     let before: Vec<f64> = (0..n).map(|_| before * random.next()).collect();
                     let end: Vec<f64> = q.iter().zip(&change).map(|(q, d)| q + d).collect();
                     let h = 0.01;
-                    let step = CoordinateStep { start: &q, change: &change, before: &before, linearised: &[], h };
+                    let step = CoordinateStep { start: &q, change: &change, before: &before, kept: 1.0, linearised: &[], h };
                     let mut force = vec![0.0; n];
                     let loss = system.forces.elements.add_secant(system.level, system.forces.in_element.as_ref(), step, &mut force);
                     assert!(loss.numerical >= 0.0 && loss.effects >= 0.0, "{rule} {effects:?}: {loss:?}");
@@ -119,7 +119,7 @@ fn the_force_has_no_resultant_and_no_moment_about_the_mean_configuration() {
         let q = coordinates(&mut random, n, 0.1);
         let change: Vec<f64> = (0..n).map(|_| 0.2 * random.next()).collect();
         // no second difference: nothing of bending is dissipated
-        let step = CoordinateStep { start: &q, change: &change, before: &change, linearised: &[], h: 1.0 };
+        let step = CoordinateStep { start: &q, change: &change, before: &change, kept: 1.0, linearised: &[], h: 1.0 };
         let mut force = vec![0.0; n];
         system.forces.elements.add_secant(system.level, None, step, &mut force);
         let mean: Vec<f64> = q.iter().zip(&change).map(|(q, d)| q + 0.5 * d).collect();
@@ -161,7 +161,7 @@ fn the_tangent_at_rest_is_the_derivative_of_the_force() {
             let still = vec![0.0; n];
             let h = 0.1;
             let force = |change: &[f64]| {
-                let step = CoordinateStep { start: &q, change, before: &still, linearised: &[], h };
+                let step = CoordinateStep { start: &q, change, before: &still, kept: 1.0, linearised: &[], h };
                 let mut out = vec![0.0; n];
                 system.forces.elements.add_secant(system.level, system.forces.in_element.as_ref(), step, &mut out);
                 out
@@ -175,7 +175,7 @@ fn the_tangent_at_rest_is_the_derivative_of_the_force() {
                 let minus = force(&change);
                 columns.push(plus.iter().zip(&minus).map(|(p, m)| -(p - m) / 2e-6).collect::<Vec<f64>>());
             }
-            let step = CoordinateStep { start: &q, change: &still, before: &still, linearised: &[], h };
+            let step = CoordinateStep { start: &q, change: &still, before: &still, kept: 1.0, linearised: &[], h };
             let mut out = vec![0.0; n];
             let (level, effects) = (system.level, system.forces.in_element.as_ref());
             let to = MatrixOutput { matrix: &mut system.step.matrix, mass_scale: 1.0 };
@@ -224,7 +224,7 @@ fn the_step_matrix_of_t1_and_of_no_bending_is_positive_definite() {
                 let change: Vec<f64> = (0..n).map(|_| random.next()).collect();
                 let before: Vec<f64> = (0..n).map(|_| random.next()).collect();
                 for h in [1e-3, 0.1, 10.0] {
-                    let step = CoordinateStep { start: &q, change: &change, before: &before, linearised: &[], h };
+                    let step = CoordinateStep { start: &q, change: &change, before: &before, kept: 1.0, linearised: &[], h };
                     let mut out = vec![0.0; n];
                     let (level, effects) = (system.level, system.forces.in_element.as_ref());
                     let to = MatrixOutput { matrix: &mut system.step.matrix, mass_scale: 1.0 };
