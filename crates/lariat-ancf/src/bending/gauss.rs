@@ -196,7 +196,7 @@ impl Bending for Gauss {
     }
 
     #[inline(always)]
-    fn add_secant<T: Real>(&self, g: [&Six<T>; 2], scale: T, n: &mut Six<T>) {
+    fn add_discrete_gradient<T: Real>(&self, g: [&Six<T>; 2], scale: T, n: &mut Six<T>) {
         // D(P f) = f_mean DP + P_mean Df, and DP = P_g at the mean numbers, since P is quadratic in them
         let (x, mean) = middle(g);
         let zero = scale.splat(0.0);

@@ -42,7 +42,7 @@ pub trait Bending {
     fn add_hessian<T: Real>(&self, g: &Six<T>, scale: T, n: &mut Six<T>, h: &mut Upper<T>);
     /// Adds `scale` times a weighted discrete gradient to `n`. With the Gram numbers `g` at both ends of a step, its product with their
     /// change is the change of the energy, to rounding; where they do not change it is the gradient.
-    fn add_secant<T: Real>(&self, g: [&Six<T>; 2], scale: T, n: &mut Six<T>);
+    fn add_discrete_gradient<T: Real>(&self, g: [&Six<T>; 2], scale: T, n: &mut Six<T>);
 }
 
 /// No bending stiffness: no bending code runs.
@@ -59,5 +59,5 @@ impl Bending for NoBending {
     #[inline(always)]
     fn add_hessian<T: Real>(&self, _: &Six<T>, _: T, _: &mut Six<T>, _: &mut Upper<T>) {}
     #[inline(always)]
-    fn add_secant<T: Real>(&self, _: [&Six<T>; 2], _: T, _: &mut Six<T>) {}
+    fn add_discrete_gradient<T: Real>(&self, _: [&Six<T>; 2], _: T, _: &mut Six<T>) {}
 }

@@ -40,7 +40,7 @@ impl Bending for T1 {
         self.add_gradient(g, scale, n);
     }
     #[inline(always)]
-    fn add_secant<T: Real>(&self, [start, _]: [&Six<T>; 2], scale: T, n: &mut Six<T>) {
+    fn add_discrete_gradient<T: Real>(&self, [start, _]: [&Six<T>; 2], scale: T, n: &mut Six<T>) {
         self.add_gradient(start, scale, n);
     }
 }

@@ -30,7 +30,7 @@ use crate::integrate::{
 use crate::model::Model;
 use crate::rule::Rule;
 use crate::section::Element;
-use crate::system::{Buffers, CableDynamics, Equations, SecantCable, System};
+use crate::system::{Buffers, CableDynamics, Equations, CableStep, System};
 use builder::CableBuilder;
 use fearless_simd::Level;
 pub(crate) use layout::along_polyline;
@@ -82,7 +82,7 @@ pub struct Cable {
     diagnostics: Diagnostics,
     pub(crate) system: System,
     pub(crate) buffers: Buffers,
-    pub(crate) secant_buffers: discrete_gradient::Buffers,
+    pub(crate) step_buffers: discrete_gradient::Buffers,
     scratch: Scratch,
     /// State at the beginning of the host step, restored if it fails.
     before: State,
@@ -112,7 +112,7 @@ impl Cable {
             diagnostics: Diagnostics::default(),
             system,
             buffers: Buffers::new(&model),
-            secant_buffers: discrete_gradient::Buffers::default(),
+            step_buffers: discrete_gradient::Buffers::default(),
             scratch: Scratch::default(),
             before: State::default(),
             revision: 0,
@@ -162,7 +162,7 @@ impl Cable {
         let equations = Equations { model: &self.model, system: &mut self.system, diagnostics: &mut self.diagnostics };
         let state = &mut self.snapshot.state;
         let (counts, outcome) = if integrator.method.uses_discrete_gradients() {
-            let mut cable = SecantCable { equations, state, buffers: &mut self.secant_buffers };
+            let mut cable = CableStep { equations, state, buffers: &mut self.step_buffers };
             discrete_gradient::advance(&mut cable, integrator.control, dt)
         } else {
             state.memory.differences.clear();
@@ -203,9 +203,9 @@ impl Cable {
         (equations, &mut self.snapshot.state)
     }
 
-    pub(crate) fn secants(&mut self) -> SecantCable<'_> {
+    pub(crate) fn step_parts(&mut self) -> CableStep<'_> {
         let equations = Equations { model: &self.model, system: &mut self.system, diagnostics: &mut self.diagnostics };
-        SecantCable { equations, state: &mut self.snapshot.state, buffers: &mut self.secant_buffers }
+        CableStep { equations, state: &mut self.snapshot.state, buffers: &mut self.step_buffers }
     }
 
     pub(crate) fn dynamics(&mut self) -> (CableDynamics<'_>, &State) {

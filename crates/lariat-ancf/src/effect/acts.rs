@@ -3,7 +3,7 @@
 use super::{Effect, Target};
 use crate::dual::Dual;
 use crate::element::gram::Control;
-use crate::element::kernel::{Gradient, GramForce, GramState, GramStep, Hessian, Load, SecantForce};
+use crate::element::kernel::{Gradient, GramForce, GramState, GramStep, Hessian, Load, DiscreteGradientForce};
 use crate::linalg::BlockTridiagonal;
 use crate::real::Real;
 use crate::section::Section;
@@ -117,7 +117,7 @@ pub(crate) struct SampledPoint<'a> {
 }
 
 /// An effect within the element kernel.
-pub(crate) trait ElementForce: GramForce + SecantForce + Clone + Debug {
+pub(crate) trait ElementForce: GramForce + DiscreteGradientForce + Clone + Debug {
     /// Axial and bending energy in J that it adds to an element.
     fn energy(&self, _element: usize, _at: &GramState<'_, f64>) -> (f64, f64) {
         (0.0, 0.0)
@@ -195,13 +195,13 @@ impl GramForce for Nothing {
     }
 }
 
-impl SecantForce for Nothing {
+impl DiscreteGradientForce for Nothing {
     #[inline(always)]
-    fn add_secant<T: Real, L: Load<T>>(&self, _: &GramStep<'_, T>, _: &L, _: &mut Gradient<T>) -> T {
+    fn add_discrete_gradient<T: Real, L: Load<T>>(&self, _: &GramStep<'_, T>, _: &L, _: &mut Gradient<T>) -> T {
         match *self {}
     }
     #[inline(always)]
-    fn add_secant_tangent<T: Real, L: Load<T>>(&self, _: &GramStep<'_, T>, _: &L, _: &mut Hessian<T>) {
+    fn add_step_tangent<T: Real, L: Load<T>>(&self, _: &GramStep<'_, T>, _: &L, _: &mut Hessian<T>) {
         match *self {}
     }
     #[inline(always)]

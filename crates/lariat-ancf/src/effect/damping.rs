@@ -54,8 +54,8 @@ use super::{Cut, Effect, Target};
 use crate::Real;
 use crate::axial::projected;
 use crate::element::gram::{Control, contract, dot, gradient, quadratic_form};
-use crate::element::kernel::{Gradient, GramForce, GramState, GramStep, Hessian, Load, SecantForce};
-use crate::element::secant::combined;
+use crate::element::kernel::{Gradient, GramForce, GramState, GramStep, Hessian, Load, DiscreteGradientForce};
+use crate::element::step::combined;
 use crate::error::{Error, Requirement, require};
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
@@ -196,11 +196,11 @@ impl GramForce for DampingTable {
     }
 }
 
-impl SecantForce for DampingTable {
+impl DiscreteGradientForce for DampingTable {
     /// Every term is the square of a product with the change of the Gram numbers or of the control vectors, so the step dissipates
     /// exactly, whatever its length.
     #[inline(always)]
-    fn add_secant<T: Real, L: Load<T>>(&self, at: &GramStep<'_, T>, _: &L, sum: &mut Gradient<T>) -> T {
+    fn add_discrete_gradient<T: Real, L: Load<T>>(&self, at: &GramStep<'_, T>, _: &L, sum: &mut Gradient<T>) -> T {
         let mut stress = [at.rates[0].splat(0.0); 6];
         at.table.add_product(&at.rates, at.stiffness.axial * self.damping.axial, &mut stress);
         let mut power = contract(&stress, &at.rates);
@@ -215,7 +215,7 @@ impl SecantForce for DampingTable {
     }
 
     #[inline(always)]
-    fn add_secant_tangent<T: Real, L: Load<T>>(&self, at: &GramStep<'_, T>, _: &L, tangent: &mut Hessian<T>) {
+    fn add_step_tangent<T: Real, L: Load<T>>(&self, at: &GramStep<'_, T>, _: &L, tangent: &mut Hessian<T>) {
         at.table.add_hessian(at.stiffness.axial * (self.damping.axial * at.rate), &mut tangent.h);
         self.bending(at, |point, w, scalar, vector| {
             w.add_square(scalar * at.rate, &mut tangent.h);

@@ -42,7 +42,7 @@ use super::{Cut, Effect, Target};
 use crate::Real;
 use crate::bending::gauss::middle;
 use crate::element::gram::{Six, form};
-use crate::element::kernel::{Gradient, GramForce, GramState, GramStep, Hessian, Load, SecantForce};
+use crate::element::kernel::{Gradient, GramForce, GramState, GramStep, Hessian, Load, DiscreteGradientForce};
 use crate::error::{Error, Requirement, require};
 use crate::section::Element;
 use crate::simd::padded;
@@ -244,21 +244,21 @@ impl GramForce for RestTable {
     }
 }
 
-impl SecantForce for RestTable {
+impl DiscreteGradientForce for RestTable {
     #[inline(always)]
-    fn add_secant<T: Real, L: Load<T>>(&self, at: &GramStep<'_, T>, from: &L, sum: &mut Gradient<T>) -> T {
+    fn add_discrete_gradient<T: Real, L: Load<T>>(&self, at: &GramStep<'_, T>, from: &L, sum: &mut Gradient<T>) -> T {
         if !self.excess.is_empty() {
             at.table.add_mean(-(at.stiffness.axial * from.load(&self.excess)), &mut sum.n);
         }
         if !self.points.is_empty() {
             let ends = [&at.step.start, &at.step.end];
-            self.natural(from).add_secant(&self.points, at.stiffness.bending, ends, &mut sum.n);
+            self.natural(from).add_discrete_gradient(&self.points, at.stiffness.bending, ends, &mut sum.n);
         }
         at.rates[0].splat(0.0)
     }
 
     #[inline(always)]
-    fn add_secant_tangent<T: Real, L: Load<T>>(&self, at: &GramStep<'_, T>, from: &L, tangent: &mut Hessian<T>) {
+    fn add_step_tangent<T: Real, L: Load<T>>(&self, at: &GramStep<'_, T>, from: &L, tangent: &mut Hessian<T>) {
         if !self.points.is_empty() {
             let mut unused = Gradient { n: at.rates, viscous: at.rates };
             let half = at.stiffness.bending * 0.5;
@@ -343,7 +343,7 @@ impl<T: Real> NaturalCurvature<T> {
 
     /// Adds a discrete gradient of the energy to `n`: `D sqrt(w + r) = Dw/(sum of both roots)`.
     #[inline(always)]
-    pub fn add_secant(&self, points: &[Point], flexural: T, g: [&Six<T>; 2], n: &mut Six<T>) {
+    pub fn add_discrete_gradient(&self, points: &[Point], flexural: T, g: [&Six<T>; 2], n: &mut Six<T>) {
         let (x, mean) = middle(g);
         for point in points {
             let (w, gradient) = point.secant(g, &x, &mean);

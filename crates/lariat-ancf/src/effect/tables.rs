@@ -5,7 +5,7 @@ use super::acts::*;
 use super::*;
 use crate::dual::Dual;
 use crate::element::gram::Control;
-use crate::element::kernel::{Gradient, GramForce, GramState, GramStep, Hessian, Load, SecantForce};
+use crate::element::kernel::{Gradient, GramForce, GramState, GramStep, Hessian, Load, DiscreteGradientForce};
 use crate::linalg::BlockTridiagonal;
 use crate::real::Real;
 use crate::section::Section;
@@ -84,17 +84,17 @@ macro_rules! generate {
             }
         }
 
-        impl SecantForce for ElementTables {
+        impl DiscreteGradientForce for ElementTables {
             #[inline(always)]
-            fn add_secant<T: Real, L: Load<T>>(&self, at: &GramStep<'_, T>, from: &L, sum: &mut Gradient<T>) -> T {
+            fn add_discrete_gradient<T: Real, L: Load<T>>(&self, at: &GramStep<'_, T>, from: &L, sum: &mut Gradient<T>) -> T {
                 let mut power = at.rates[0].splat(0.0);
-                $(if let Some(table) = &self.$field { power = power + table.add_secant(at, from, sum); })*
+                $(if let Some(table) = &self.$field { power = power + table.add_discrete_gradient(at, from, sum); })*
                 power
             }
 
             #[inline(always)]
-            fn add_secant_tangent<T: Real, L: Load<T>>(&self, at: &GramStep<'_, T>, from: &L, tangent: &mut Hessian<T>) {
-                $(if let Some(table) = &self.$field { table.add_secant_tangent(at, from, tangent); })*
+            fn add_step_tangent<T: Real, L: Load<T>>(&self, at: &GramStep<'_, T>, from: &L, tangent: &mut Hessian<T>) {
+                $(if let Some(table) = &self.$field { table.add_step_tangent(at, from, tangent); })*
             }
 
             #[inline(always)]

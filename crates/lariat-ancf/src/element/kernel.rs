@@ -11,7 +11,7 @@
 //! Any element state. Generic over [`Real`]: one element in `f64` or in dual numbers, eight in lanes.
 
 use super::gram::{Control, PAIR_WEIGHT, Six, Upper, dot, gradient, gram, hessian_block};
-use super::secant::ElementStep;
+use super::step::ElementStep;
 use crate::Real;
 use crate::axial::AxialTable;
 use crate::bending::Bending;
@@ -131,14 +131,14 @@ pub(crate) struct GramStep<'a, T> {
 }
 
 /// An effect with discrete gradients.
-pub(crate) trait SecantForce {
+pub(crate) trait DiscreteGradientForce {
     /// Adds the pairs of its discrete gradient over a step, and returns the power in W that it dissipates, without that of the pairs
     /// that act on velocities.
-    fn add_secant<T: Real, L: Load<T>>(&self, at: &GramStep<'_, T>, from: &L, sum: &mut Gradient<T>) -> T;
+    fn add_discrete_gradient<T: Real, L: Load<T>>(&self, at: &GramStep<'_, T>, from: &L, sum: &mut Gradient<T>) -> T;
 
     /// Adds the derivatives of the pairs by the change of the Gram numbers, without what would make the matrix indefinite: pairs of the
     /// geometric stiffness and second derivatives.
-    fn add_secant_tangent<T: Real, L: Load<T>>(&self, at: &GramStep<'_, T>, from: &L, tangent: &mut Hessian<T>);
+    fn add_step_tangent<T: Real, L: Load<T>>(&self, at: &GramStep<'_, T>, from: &L, tangent: &mut Hessian<T>);
 
     /// Adds f_0^2 - 1, f_0 the stretch without stress.
     fn add_rest_strain<T: Real, L: Load<T>>(&self, from: &L, strain: &mut T);

@@ -35,7 +35,7 @@ pub struct BodyMemory {
 
 impl BodyMemory {
     /// Returns the memory of a step of the discrete gradient, which knows no accelerations.
-    pub(super) fn of_secants(body: &RigidBody, differences: BodyDifferences) -> Self {
+    pub(super) fn of_differences(body: &RigidBody, differences: BodyDifferences) -> Self {
         BodyMemory {
             acceleration: [Vector3::zeros(); 2],
             algorithmic: None,

@@ -51,11 +51,7 @@ mod pin;
 mod pin_accounts;
 mod rotation;
 mod rows;
-mod secant;
-mod secant_body;
-mod secant_holds;
-mod secant_rescale;
-mod secant_step;
+mod discrete_gradient;
 mod step;
 mod velocities;
 

@@ -7,8 +7,7 @@ use super::layout::Layout;
 use super::memory;
 use super::pin::{PinConstraint, check};
 use super::pin_accounts::{PinAccount, PinAccounts};
-use super::secant::SecantBuffers;
-use super::secant_step::SecantStep;
+use super::discrete_gradient::{HostStep, StepBuffers};
 use crate::cable::{Cable, SHORTEST_STEP, check_integrator};
 use crate::error::{Error, require};
 use crate::integrate::{Integrator, IntegratorRef, Scratch, State, step_control};
@@ -20,7 +19,7 @@ pub struct Island {
     matrices: Matrices,
     accounts: PinAccounts,
     vectors: Vectors,
-    secants: SecantBuffers,
+    by_discrete_gradient: StepBuffers,
     scratch: Scratch,
     state: State,
 }
@@ -64,14 +63,14 @@ impl Island {
             return Ok(());
         }
         cables.iter_mut().for_each(|cable| cable.system.meter.begin());
-        let Island { layout, matrices, accounts, vectors, secants: buffers, scratch, state } = self;
+        let Island { layout, matrices, accounts, vectors, by_discrete_gradient: buffers, scratch, state } = self;
         layout.begin(cables, bodies, pins, dt);
         matrices.begin(layout);
         accounts.begin(pins.len());
         vectors.resize(layout.size());
         gather(cables, bodies, state);
         if integrator.method.uses_discrete_gradients() {
-            return SecantStep { cables, bodies, layout, matrices, accounts, vectors, buffers, state }
+            return HostStep { cables, bodies, layout, matrices, accounts, vectors, buffers, state }
                 .run(integrator.control, dt);
         }
         memory::recall(cables, bodies, layout, state);

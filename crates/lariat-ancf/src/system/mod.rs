@@ -27,13 +27,13 @@ pub(crate) mod jacobian;
 mod lanes;
 pub(crate) mod loads;
 pub(crate) mod mass;
-mod rigid;
-mod secant_cable;
+mod rigid_motion;
+mod discrete_gradient;
 mod projection;
 
 pub(crate) use dynamics::CableDynamics;
 pub(crate) use equations::Equations;
-pub(crate) use secant_cable::{SecantCable, dot};
+pub(crate) use discrete_gradient::{CableStep, dot};
 pub(crate) use projection::{project_matrix, project_vector};
 
 use crate::cable::builder::STANDARD_GRAVITY;

@@ -40,9 +40,10 @@ pub fn energies(cable: &Cable) -> [f64; 2] {
     [energy.total() + cable.energy_in_store(), energy.kinetic + energy.axial + energy.bending]
 }
 
-/// Work of everything without potential, as the cable accounts for it.
+/// Work of everything without potential that can give energy, as the cable accounts for it: all but internal damping.
 pub fn work(cable: &Cable) -> f64 {
-    cable.energy_law().supports + cable.energy_law().loads + cable.effect_work().total()
+    let effects = cable.effect_work();
+    cable.energy_law().supports + cable.energy_law().loads + effects.total() - effects.damping
 }
 
 /// Takes host steps, and returns the largest growth of energy beyond the work, as a share of the largest kinetic and strain energy.

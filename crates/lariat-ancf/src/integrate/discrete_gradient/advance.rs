@@ -1,6 +1,6 @@
 //! From one host step to the next, which the last step reaches exactly, in equal steps.
 
-use super::{SecantSystem, ladder};
+use super::{DiscreteGradientSystem, safeguard};
 use crate::error::StepFailure;
 use crate::integrate::StepControl;
 use crate::integrate::step_control::{Counts, FailedStep, MIN_STEP_SHARE, SINGLE_PRECISION_ROUNDING};
@@ -8,7 +8,7 @@ use crate::integrate::step_control::{Counts, FailedStep, MIN_STEP_SHARE, SINGLE_
 /// Advances the system by `horizon` (s), and returns the numbers of steps with the outcome. After a failure the state is the last accepted
 /// one.
 pub(crate) fn advance(
-    system: &mut dyn SecantSystem,
+    system: &mut dyn DiscreteGradientSystem,
     control: StepControl,
     horizon: f64,
 ) -> (Counts, Result<(), FailedStep>) {
@@ -30,7 +30,7 @@ pub(crate) fn advance(
     let steps = steps as u64;
     for i in 1..=steps {
         let time = system.time();
-        if let Err(failure) = ladder::step(system, h, 0) {
+        if let Err(failure) = safeguard::step(system, h, 0) {
             return (counts, Err(failed(time, failure)));
         }
         // the sum of the parts of a step is off by rounding

@@ -97,7 +97,7 @@ impl Balance {
 }
 
 /// A mechanical system with discrete gradients, at its present state.
-pub(crate) trait SecantSystem {
+pub(crate) trait DiscreteGradientSystem {
     /// Returns the present time in s.
     fn time(&self) -> f64;
 

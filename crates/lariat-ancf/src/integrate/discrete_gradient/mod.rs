@@ -8,7 +8,7 @@
 //! M D v = h (G + F - f + R)        D q = h v^        v^ = v0 + b D v - a O v
 //! ```
 //!
-//! f is the discrete gradient of the strain energy U ([`element::secant`](crate::element::secant)): `f . D q = D U + loss`. G are dead loads, F all other forces, R the
+//! f is the discrete gradient of the strain energy U ([`element::step`](crate::element::step)): `f . D q = D U + loss`. G are dead loads, F all other forces, R the
 //! reactions of supports, which move by D q as prescribed. The product of the first equation with v^ is the *energy law*: with
 //!
 //! ```text
@@ -23,7 +23,7 @@
 //! # Solution
 //!
 //! Newton's iteration begins at the constant acceleration of the step before. One iteration is taken, and *the step is accepted by its own energy law*: the residual r of the
-//! equation makes the energy `v^.r`, which must not be above what the step loses, to 1e-9 of its energy ([`ladder`]). Only if it is, the step is iterated further, then its
+//! equation makes the energy `v^.r`, which must not be above what the step loses, to 1e-9 of its energy ([`safeguard`]). Only if it is, the step is iterated further, then its
 //! velocities relative to rigid motion are scaled down, then it is divided by four.
 //!
 //! # Validity
@@ -43,7 +43,7 @@
 
 mod advance;
 mod buffers;
-mod ladder;
+mod safeguard;
 mod law;
 
 use super::{Dynamics, OneStep, Scratch, State, StepRequest};
@@ -52,7 +52,7 @@ pub(crate) use advance::advance;
 pub(crate) use buffers::Buffers;
 pub use buffers::Differences;
 pub use law::EnergyLaw;
-pub(crate) use law::{Balance, Event, SecantSystem, share_to_take};
+pub(crate) use law::{Balance, Event, DiscreteGradientSystem, share_to_take};
 
 /// The guarded discrete gradient as a method; only [`Cable`](crate::Cable) and [`Island`](crate::island::Island) can take it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -76,12 +76,3 @@ impl OneStep for DiscreteGradient {
 pub(crate) const ALPHA: f64 = 1.0 / 16.0;
 /// Coefficient b = 1/2 + a.
 pub(crate) const BETA: f64 = 0.5 + ALPHA;
-
-/// EXPERIMENT
-pub fn knob(name: &'static str, default: f64) -> f64 {
-    std::env::var(name).map_or(default, |x| x.parse().unwrap())
-}
-/// EXPERIMENT
-pub struct Knobs { pub iterations: f64, pub depth: f64, pub flex: f64, pub tension: f64, pub keep: f64, pub rescale: f64, pub tan: f64 }
-/// EXPERIMENT
-pub static KNOBS: std::sync::LazyLock<Knobs> = std::sync::LazyLock::new(|| Knobs { iterations: knob("ITER", 8.0), depth: knob("DEPTH", 6.0), flex: knob("FLEX", 1.0), tension: knob("TENSION", 0.5), keep: knob("KEEP", 1.0), rescale: knob("RESCALE", 1.0), tan: knob("TAN", 0.0) });

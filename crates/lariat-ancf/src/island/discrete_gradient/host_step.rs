@@ -4,32 +4,32 @@
 //! The deviation at the end of a host step is known from the memory of cable and body; only what differs from it in the next one, because
 //! an engine or a user changed the body's velocity, is shared by an impact.
 
-use super::body::{BodyMemory, RigidBody};
-use super::dynamics::{IslandDynamics, Vectors};
-use super::equations::{IslandEquations, Matrices};
-use super::hold::vector;
-use super::layout::Layout;
-use super::pin_accounts::PinAccounts;
-use super::secant::{SecantBuffers, SecantIsland};
+use crate::island::body::{BodyMemory, RigidBody};
+use crate::island::dynamics::{IslandDynamics, Vectors};
+use crate::island::equations::{IslandEquations, Matrices};
+use crate::island::hold::vector;
+use crate::island::layout::Layout;
+use crate::island::pin_accounts::PinAccounts;
+use super::{IslandStep, StepBuffers};
 use crate::cable::Cable;
 use crate::error::{Error, StepFailure};
 use crate::integrate::{State, StepControl, discrete_gradient};
 use nalgebra::Vector3;
 
 /// The parts of an island that a host step needs.
-pub(super) struct SecantStep<'a, 'b> {
+pub(in crate::island) struct HostStep<'a, 'b> {
     pub cables: &'a mut [&'b mut Cable],
     pub bodies: &'a mut [RigidBody],
     pub layout: &'a Layout,
     pub matrices: &'a mut Matrices,
     pub accounts: &'a mut PinAccounts,
     pub vectors: &'a mut Vectors,
-    pub buffers: &'a mut SecantBuffers,
+    pub buffers: &'a mut StepBuffers,
     /// The coordinates of all, gathered.
     pub state: &'a mut State,
 }
 
-impl SecantStep<'_, '_> {
+impl HostStep<'_, '_> {
     /// Advances by `dt` (s). Cables and bodies are as before if it fails.
     pub fn run(mut self, control: StepControl, dt: f64) -> Result<(), Error> {
         self.buffers.begin(self.cables, self.layout);
@@ -39,8 +39,8 @@ impl SecantStep<'_, '_> {
             self.restore();
             return Err(self.cables[0].step_failed(time, 0.0, failure));
         }
-        let SecantStep { cables, layout, accounts, buffers, .. } = &mut self;
-        let mut island = SecantIsland { cables, layout, accounts, buffers };
+        let HostStep { cables, layout, accounts, buffers, .. } = &mut self;
+        let mut island = IslandStep { cables, layout, accounts, buffers };
         let (counts, outcome) = discrete_gradient::advance(&mut island, control, dt);
         for cable in self.cables.iter_mut() {
             let diagnostics = cable.diagnostics_mut();
@@ -69,13 +69,13 @@ impl SecantStep<'_, '_> {
         }
         for (body, own) in self.bodies.iter_mut().zip(&self.buffers.bodies) {
             own.write(body);
-            body.memory = Some(BodyMemory::of_secants(body, own.differences()));
+            body.memory = Some(BodyMemory::of_differences(body, own.differences()));
         }
     }
 
     /// Gives pinned nodes the velocities of their bodies, and the deviations that they had from them.
     fn match_velocities(&mut self) -> Result<(), StepFailure> {
-        let SecantStep { cables, bodies, layout, matrices, accounts, vectors, buffers, state } = self;
+        let HostStep { cables, bodies, layout, matrices, accounts, vectors, buffers, state } = self;
         let deviations: &mut Vec<[Vector3<f64>; 2]> = &mut buffers.deviations;
         deviations.clear();
         deviations.extend((0..layout.pins.len()).map(|pin| deviation(cables, bodies, layout, pin)));

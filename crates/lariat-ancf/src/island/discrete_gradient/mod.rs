@@ -2,8 +2,8 @@
 //!
 //! # Equation
 //!
-//! The unknowns of Newton's iteration are the changes of velocities D v of the cables and D u of the [bodies](super::secant_body); held
-//! coordinates [follow](super::secant_holds). Each cable is condensed on them as for the other integrators, and the matrix of the bodies is
+//! The unknowns of Newton's iteration are the changes of velocities D v of the cables and D u of the [bodies](self::body); held
+//! coordinates [follow](self::holds). Each cable is condensed on them as for the other integrators, and the matrix of the bodies is
 //!
 //! ```text
 //! B + sum G^T W G + b h/2 (p.rho)+ (1 - rho rho^T/rho^2)          G = (1, -[arm]x)
@@ -13,21 +13,28 @@
 //! step matrices of the cables are. The energy law is that of the whole: forces and torques on the bodies do work, as do gaps that close
 //! and the axes along which a body is locked.
 
+mod body;
+mod holds;
+mod host_step;
+mod rescale;
+
+pub(super) use host_step::HostStep;
+
 use super::condense::Condensed;
 use super::dense::Dense;
 use super::hold::vector;
 use super::layout::Layout;
 use super::pin_accounts::PinAccounts;
 use super::rotation::skew;
-use super::secant_body::BodyStep;
-use super::secant_holds::HoldStep;
+use body::BodyStep;
+use holds::HoldStep;
 use crate::cable::Cable;
 use crate::effect::EffectWork;
 use crate::error::StepFailure;
 use crate::integrate::State;
-use crate::integrate::discrete_gradient::{BETA, Balance, Event, SecantSystem};
+use crate::integrate::discrete_gradient::{BETA, Balance, Event, DiscreteGradientSystem};
 use crate::support::SlopeSupport;
-use crate::system::{Equations, SecantCable, dot, project_vector};
+use crate::system::{Equations, CableStep, dot, project_vector};
 use nalgebra::{Matrix3, Vector3};
 
 /// Length below which the free direction of a clamped slope has no direction.
@@ -35,7 +42,7 @@ const MIN_DIRECTION: f64 = 1e-9;
 
 /// Matrices and vectors of a step.
 #[derive(Clone, Debug, Default)]
-pub(super) struct SecantBuffers {
+pub(super) struct StepBuffers {
     pub bodies: Vec<BodyStep>,
     pub cables: Vec<CableBuffers>,
     /// The matrix of the bodies, and its factors.
@@ -57,14 +64,14 @@ pub(super) struct CableBuffers {
 }
 
 /// An island during one host step.
-pub(super) struct SecantIsland<'a, 'b> {
+pub(super) struct IslandStep<'a, 'b> {
     pub cables: &'a mut [&'b mut Cable],
     pub layout: &'a Layout,
     pub accounts: &'a mut PinAccounts,
-    pub buffers: &'a mut SecantBuffers,
+    pub buffers: &'a mut StepBuffers,
 }
 
-impl SecantBuffers {
+impl StepBuffers {
     /// Begins a host step.
     pub fn begin(&mut self, cables: &[&mut Cable], layout: &Layout) {
         self.bodies.clear();
@@ -79,13 +86,13 @@ impl SecantBuffers {
     }
 }
 
-impl SecantIsland<'_, '_> {
+impl IslandStep<'_, '_> {
     /// Sets held coordinates of the iterate to where their bodies are, and the free directions of clamped slopes.
     fn follow(&mut self) {
-        let SecantBuffers { bodies, cables: own, .. } = &mut *self.buffers;
+        let StepBuffers { bodies, cables: own, .. } = &mut *self.buffers;
         for (cable, own) in self.cables.iter_mut().zip(own) {
             for hold in &mut own.holds {
-                let SecantCable { state, buffers, .. } = cable.secants();
+                let CableStep { state, buffers, .. } = cable.step_parts();
                 hold.follow(self.layout, &bodies[hold.body], state, buffers);
                 if hold.slope
                     && let Some(along) = hold.along.try_normalize(MIN_DIRECTION)
@@ -99,12 +106,12 @@ impl SecantIsland<'_, '_> {
 
     /// Computes residuals and step matrices of all cables, factors and condenses these, and sums the rows of the bodies.
     fn linearise(&mut self) -> Result<(), StepFailure> {
-        let SecantBuffers { bodies, cables: own, rows, .. } = &mut *self.buffers;
+        let StepBuffers { bodies, cables: own, rows, .. } = &mut *self.buffers;
         rows.fill(0.0);
         for ((cable, own), part) in self.cables.iter_mut().zip(own).zip(&self.layout.parts) {
-            let SecantCable { mut equations, state, buffers } = cable.secants();
+            let CableStep { mut equations, state, buffers } = cable.step_parts();
             equations.diagnostics.newton_iterations += 1;
-            equations.secant_residual(state, buffers, true, &mut EffectWork::default());
+            equations.step_residual(state, buffers, true, &mut EffectWork::default());
             own.pass_impulses(&buffers.rhs, rows);
             own.condensed.read(&equations.system.step.matrix, &part.holds);
             equations.factor_to_solve()?;
@@ -120,7 +127,7 @@ impl SecantIsland<'_, '_> {
 
     /// Factors the matrix of the bodies for steps of length `h` (s).
     fn factor_bodies(&mut self, h: f64) -> Result<(), StepFailure> {
-        let SecantBuffers { bodies, cables, matrix, dense, .. } = &mut *self.buffers;
+        let StepBuffers { bodies, cables, matrix, dense, .. } = &mut *self.buffers;
         let n = 6 * bodies.len();
         matrix.clear();
         matrix.resize(n * n, 0.0);
@@ -175,9 +182,9 @@ impl SecantIsland<'_, '_> {
 
     /// Solves for the increments and adds them to the iterate.
     fn add_increment(&mut self) -> Result<(), StepFailure> {
-        let SecantBuffers { bodies, cables: own, dense, rows, .. } = &mut *self.buffers;
+        let StepBuffers { bodies, cables: own, dense, rows, .. } = &mut *self.buffers;
         for (cable, own) in self.cables.iter_mut().zip(own.iter()) {
-            let SecantCable { mut equations, buffers, .. } = cable.secants();
+            let CableStep { mut equations, buffers, .. } = cable.step_parts();
             equations.solve(&mut buffers.rhs);
             for (h, hold) in own.holds.iter().enumerate() {
                 let impulse = Vector3::from_fn(|x, _| -own.condensed.border(3 * h + x, &buffers.rhs));
@@ -189,7 +196,7 @@ impl SecantIsland<'_, '_> {
         }
         dense.solve(rows);
         for (cable, own) in self.cables.iter_mut().zip(own.iter()) {
-            let SecantCable { equations, buffers, .. } = cable.secants();
+            let CableStep { equations, buffers, .. } = cable.step_parts();
             for (h, hold) in own.holds.iter().enumerate() {
                 let moved = hold.moved(rows);
                 for x in 0..3 {
@@ -217,13 +224,13 @@ impl SecantIsland<'_, '_> {
 
     /// Returns what the present iterate does to the energy.
     fn balance(&mut self) -> Balance {
-        let SecantBuffers { bodies, cables: own, rows, .. } = &mut *self.buffers;
+        let StepBuffers { bodies, cables: own, rows, .. } = &mut *self.buffers;
         rows.fill(0.0);
         let mut total = Balance::default();
         for (cable, own) in self.cables.iter_mut().zip(own) {
-            let SecantCable { mut equations, state, buffers } = cable.secants();
+            let CableStep { mut equations, state, buffers } = cable.step_parts();
             let mut work = EffectWork::default();
-            total.add(&equations.secant_balance(state, buffers, &mut work));
+            total.add(&equations.step_balance(state, buffers, &mut work));
             equations.system.meter.work_of_step = work;
             own.pass_impulses(&buffers.rhs, rows);
             for hold in &own.holds {
@@ -252,7 +259,7 @@ impl CableBuffers {
     }
 }
 
-impl SecantSystem for SecantIsland<'_, '_> {
+impl DiscreteGradientSystem for IslandStep<'_, '_> {
     fn time(&self) -> f64 {
         self.cables[0].time()
     }
@@ -263,14 +270,14 @@ impl SecantSystem for SecantIsland<'_, '_> {
 
     fn begin(&mut self) {
         for cable in self.cables.iter_mut() {
-            let SecantCable { equations, state, .. } = cable.secants();
-            equations.begin_secants(state);
+            let CableStep { equations, state, .. } = cable.step_parts();
+            equations.begin_host_step(state);
         }
     }
 
     fn predict(&mut self, h: f64) {
         for cable in self.cables.iter_mut() {
-            let SecantCable { equations, state, buffers } = cable.secants();
+            let CableStep { equations, state, buffers } = cable.step_parts();
             buffers.recall(state, h);
             equations.prescribe_change(state, buffers);
         }
@@ -280,24 +287,24 @@ impl SecantSystem for SecantIsland<'_, '_> {
 
     fn iterate(&mut self) -> Result<Balance, StepFailure> {
         self.linearise()?;
-        self.factor_bodies(self.cables[0].secant_buffers.h)?;
+        self.factor_bodies(self.cables[0].step_buffers.h)?;
         self.add_increment()?;
         self.follow();
         Ok(self.balance())
     }
 
     fn rescale(&mut self, balance: &mut Balance) -> bool {
-        super::secant_rescale::rescale(self, balance)
+        rescale::rescale(self, balance)
     }
 
     fn accept(&mut self, balance: &Balance) {
         for (cable, own) in self.cables.iter_mut().zip(&self.buffers.cables) {
-            let SecantCable { mut equations, state, buffers } = cable.secants();
+            let CableStep { mut equations, state, buffers } = cable.step_parts();
             for hold in &own.holds {
                 let action = hold.action(&self.buffers.bodies[hold.body], buffers.h);
                 self.accounts.pins[hold.pin].add_mean(buffers.h, hold.slope, action);
             }
-            equations.accept_secant(state, buffers);
+            equations.accept_step(state, buffers);
         }
         self.buffers.bodies.iter_mut().for_each(BodyStep::accept);
         // the law is that of the whole: the first cable keeps it
@@ -305,6 +312,6 @@ impl SecantSystem for SecantIsland<'_, '_> {
     }
 
     fn count(&mut self, event: Event) {
-        self.cables.iter_mut().for_each(|cable| cable.secants().count(event));
+        self.cables.iter_mut().for_each(|cable| cable.step_parts().count(event));
     }
 }

@@ -8,20 +8,20 @@
 //!          e = d_m - h/4 w^ x (d1 - d0)
 //! ```
 //!
-//! l is the stretch at a clamp. Both are exact, by the Cayley map of the [body](super::secant_body), so a hold does to the body what it does to
+//! l is the stretch at a clamp. Both are exact, by the Cayley map of the [body](super::body), so a hold does to the body what it does to
 //! the cable: an impulse p of the held rows passes the impulse p and the angular impulse `rho_m x p`, or of a slope `t_m x p` alone. The
 //! closing of a gap and the rotation of a clamp into its direction do work, which counts as that of a support.
 
-use super::hold::{Hold, vector};
-use super::layout::Layout;
-use super::secant_body::BodyStep;
+use crate::island::hold::{Hold, vector};
+use crate::island::layout::Layout;
+use super::body::BodyStep;
 use crate::integrate::State;
 use crate::integrate::discrete_gradient::{ALPHA, BETA, Buffers};
 use nalgebra::{Matrix3, Vector3};
 
 /// A hold over a step.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct HoldStep {
+pub(in crate::island) struct HoldStep {
     /// First coordinate within the cable.
     pub at: usize,
     pub node: usize,

@@ -5,17 +5,17 @@
 //! Of an island that nothing holds, the relative velocities are those beside the translation of its centre of mass, so its momentum stays;
 //! of any other, all velocities that nothing prescribes. Scaling those of cables and bodies together keeps pinned points on their bodies.
 
-use super::secant::SecantIsland;
+use super::IslandStep;
 use crate::integrate::discrete_gradient::{Balance, share_to_take};
-use crate::system::{SecantCable, dot};
+use crate::system::{CableStep, dot};
 use nalgebra::Vector3;
 
-/// See [`SecantSystem::rescale`](crate::integrate::discrete_gradient::SecantSystem::rescale).
-pub(super) fn rescale(island: &mut SecantIsland<'_, '_>, balance: &mut Balance) -> bool {
+/// See [`DiscreteGradientSystem::rescale`](crate::integrate::discrete_gradient::DiscreteGradientSystem::rescale).
+pub(in crate::island) fn rescale(island: &mut IslandStep<'_, '_>, balance: &mut Balance) -> bool {
     let velocity = mean_velocity(island);
     let (mut energy, mut product) = (0.0, 0.0);
     for cable in island.cables.iter_mut() {
-        let SecantCable { equations, state, buffers: b } = cable.secants();
+        let CableStep { equations, state, buffers: b } = cable.step_parts();
         for i in 0..b.change.len() {
             b.external[i] = state.v[i] + b.velocity_change[i];
         }
@@ -37,7 +37,7 @@ pub(super) fn rescale(island: &mut SecantIsland<'_, '_>, balance: &mut Balance) 
     let share = share_to_take(energy, product, balance.excess());
     let factor = share.unwrap_or(0.0);
     for cable in island.cables.iter_mut() {
-        cable.secant_buffers.taken.iter_mut().for_each(|w| *w *= factor);
+        cable.step_buffers.taken.iter_mut().for_each(|w| *w *= factor);
     }
     island.buffers.bodies.iter_mut().for_each(|body| body.taken *= factor);
     if share.is_some() {
@@ -47,7 +47,7 @@ pub(super) fn rescale(island: &mut SecantIsland<'_, '_>, balance: &mut Balance) 
 }
 
 /// Returns the velocity of the centre of mass of an island that nothing holds, at the end of the step; else zero.
-fn mean_velocity(island: &mut SecantIsland<'_, '_>) -> Vector3<f64> {
+fn mean_velocity(island: &mut IslandStep<'_, '_>) -> Vector3<f64> {
     let held = island.cables.iter().any(|cable| cable.model.supports.iter().any(|(_, support)| !support.attached))
         || island.buffers.bodies.iter().any(|body| body.free != [true; 6]);
     if held {
@@ -55,7 +55,7 @@ fn mean_velocity(island: &mut SecantIsland<'_, '_>) -> Vector3<f64> {
     }
     let (mut momentum, mut mass) = (Vector3::zeros(), 0.0);
     for cable in island.cables.iter_mut() {
-        let SecantCable { equations, state, buffers: b } = cable.secants();
+        let CableStep { equations, state, buffers: b } = cable.step_parts();
         for i in 0..b.change.len() {
             b.external[i] = state.v[i] + b.velocity_change[i];
         }

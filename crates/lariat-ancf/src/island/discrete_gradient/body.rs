@@ -25,7 +25,7 @@
 //!
 //! The midpoint rule in the rotation vector of the [other integrators](super::rotation): it keeps neither energy nor angular momentum.
 
-use super::body::{BodyDifferences, RigidBody};
+use crate::island::body::{BodyDifferences, RigidBody};
 use crate::cable::builder::STANDARD_GRAVITY;
 use crate::integrate::discrete_gradient::{ALPHA, BETA, Balance};
 use nalgebra::{Matrix3, Matrix6, Quaternion, UnitQuaternion, Vector3, Vector6};
@@ -35,7 +35,7 @@ const HEIGHT: f64 = 1e-3;
 
 /// A body, at its present state and over a step.
 #[derive(Clone, Debug)]
-pub(super) struct BodyStep {
+pub(in crate::island) struct BodyStep {
     mass: f64,
     /// B.
     matrix: Matrix6<f64>,

@@ -2,7 +2,7 @@
 //!
 //! # Equation
 //!
-//! The pairs n of an element ([`element::secant`](crate::element::secant)) add up those of the axial rule, of the bending rule and of effects; the force is
+//! The pairs n of an element ([`element::step`](crate::element::step)) add up those of the axial rule, of the bending rule and of effects; the force is
 //! `N(n) dm`. Of its derivative by the change D d the tangent takes, with `B = dg/dd` at dm,
 //!
 //! ```text
@@ -21,8 +21,8 @@ use crate::bending::Bending;
 use crate::bending::t1::RHO;
 use crate::effect::tables::ElementTables;
 use crate::element::gram::{PAIR_WEIGHT, Six, contract, form, gradient, gram, hessian_block};
-use crate::element::kernel::{Gradient, GramForce, GramStep, Hessian, Load, SecantForce, Stiffness, gram_rates};
-use crate::element::secant::{ElementStep, STRAIGHT, combined, product, shifted};
+use crate::element::kernel::{Gradient, GramForce, GramStep, Hessian, Load, DiscreteGradientForce, Stiffness, gram_rates};
+use crate::element::step::{ElementStep, STRAIGHT, combined, product, shifted};
 use crate::integrate::discrete_gradient::{ALPHA, BETA};
 use crate::linalg::Block;
 use crate::simd::{LANES, dispatch};
@@ -59,7 +59,7 @@ pub(crate) struct ElementLoss {
 
 impl Elements {
     /// Adds h times the discrete-gradient force to `out`, and overwrites the matrix by the mass matrix plus `b h^2` times the tangent.
-    pub fn add_secant_and_matrix(
+    pub fn add_discrete_gradient_and_matrix(
         &self,
         level: Level,
         effects: Option<&ElementTables>,
@@ -68,12 +68,12 @@ impl Elements {
         to: MatrixOutput<'_>,
     ) {
         with_bending!(&self.bending, bending => {
-            dispatch!(level, simd => self.secant_matrix_lanes(simd, bending, effects, step, out, to))
+            dispatch!(level, simd => self.step_matrix_lanes(simd, bending, effects, step, out, to))
         });
     }
 
     /// Adds h times the discrete-gradient force to `out`, and returns what the elements lose.
-    pub fn add_secant(
+    pub fn add_discrete_gradient(
         &self,
         level: Level,
         effects: Option<&ElementTables>,
@@ -81,7 +81,7 @@ impl Elements {
         out: &mut [f64],
     ) -> ElementLoss {
         with_bending!(&self.bending, bending => {
-            dispatch!(level, simd => self.secant_lanes(simd, bending, effects, step, out))
+            dispatch!(level, simd => self.discrete_gradient_lanes(simd, bending, effects, step, out))
         })
     }
 
@@ -108,7 +108,7 @@ impl Elements {
     ) -> [Six<f64x8<S>>; 2] {
         let axial = self.table.gradient(&s.one_leg(ALPHA), stiffness.axial);
         let mut flexural = [zero(simd); 6];
-        bending.add_secant([&s.start, &s.end], stiffness.bending, &mut flexural);
+        bending.add_discrete_gradient([&s.start, &s.end], stiffness.bending, &mut flexural);
         [axial, flexural]
     }
 
@@ -125,7 +125,7 @@ impl Elements {
     }
 
     #[inline(always)]
-    fn secant_lanes<S: Simd, B: Bending>(
+    fn discrete_gradient_lanes<S: Simd, B: Bending>(
         &self,
         simd: S,
         bending: &B,
@@ -143,7 +143,7 @@ impl Elements {
             let mut sum = Gradient { n: combined(&axial, &flexural, 1.0), viscous: [zero(simd); 6] };
             let mut dissipated = zero(simd);
             if let Some(effects) = effects {
-                dissipated = effects.add_secant(&self.gram_step(stiffness, &s, step.h), &group, &mut sum);
+                dissipated = effects.add_discrete_gradient(&self.gram_step(stiffness, &s, step.h), &group, &mut sum);
             }
             let mut force = gradient(&sum.n, &s.mean);
             let mut numerical = self.axial_square(simd, stiffness, &s.gram_second()) * (0.5 * ALPHA);
@@ -176,7 +176,7 @@ impl Elements {
     }
 
     #[inline(always)]
-    fn secant_matrix_lanes<S: Simd, B: Bending>(
+    fn step_matrix_lanes<S: Simd, B: Bending>(
         &self,
         simd: S,
         bending: &B,
@@ -194,7 +194,7 @@ impl Elements {
             let mut sum = Gradient { n: combined(&axial, &flexural, 1.0), viscous: [zero(simd); 6] };
             let at = self.gram_step(stiffness, &s, step.h);
             if let Some(effects) = effects {
-                effects.add_secant(&at, &group, &mut sum);
+                effects.add_discrete_gradient(&at, &group, &mut sum);
             }
             let mut force = gradient(&sum.n, &s.mean);
             let mut tangent = Hessian { geometric: [zero(simd); 6], h: self.table.hessian(stiffness.axial * BETA) };
@@ -209,7 +209,7 @@ impl Elements {
                 force = shifted(&force, &gradient(&numerical, &s.second), 1.0);
             }
             if let Some(effects) = effects {
-                effects.add_secant_tangent(&at, &group, &mut tangent);
+                effects.add_step_tangent(&at, &group, &mut tangent);
             }
             if moving {
                 force = shifted(&force, &gradient(&sum.viscous, &s.change), at.rate);
@@ -217,8 +217,7 @@ impl Elements {
             self.scatter_force(simd, first, &force, out);
             let implicit = BETA * step.h;
             let (geometric, h) = (tangent.geometric.map(|x| x * implicit), tangent.h.map(|x| x * implicit));
-            let at = shifted(&s.mean, &s.change, crate::integrate::discrete_gradient::KNOBS.tan);
-            let block = |i, k| hessian_block(i, k, &geometric, &h, &at);
+            let block = |i, k| hessian_block(i, k, &geometric, &h, &s.mean);
             let blocks = [block(0, 0), block(0, 1), block(0, 2), block(1, 1), block(1, 2), block(2, 2)];
             self.scatter_matrix(simd, first, &blocks, to.mass_scale, to.matrix);
         }
@@ -243,7 +242,7 @@ impl Elements {
         s: &ElementStep<f64x8<S>>,
     ) -> f64x8<S> {
         let g = if step.linearised.is_empty() {
-            combined(&s.start, &s.gram_before, -crate::integrate::discrete_gradient::KNOBS.tension)
+            combined(&s.start, &s.gram_before, -0.5)
         } else {
             let about = self.gather_control(group, step.linearised);
             let mean = shifted(&shifted(&s.mean, &s.change, -0.5), &about, 0.5);
@@ -266,7 +265,7 @@ fn zero<S: Simd>(simd: S) -> f64x8<S> {
 /// Returns the pairs of the numerical dissipation of bending: those of rule T1 times a.
 #[inline(always)]
 fn numerical_bending<T: Real>(flexural: T) -> Six<T> {
-    let mut n = [flexural * (ALPHA * crate::integrate::discrete_gradient::KNOBS.flex); 6];
+    let mut n = [flexural * ALPHA; 6];
     for i in 0..6 {
         n[i] = n[i] * (PAIR_WEIGHT[i] * RHO[i]);
     }

@@ -1,20 +1,20 @@
 //! One cable under the [discrete gradient](crate::integrate::discrete_gradient).
 
 use super::lanes::MatrixOutput;
-use super::lanes::secant::{CoordinateStep, ElementLoss};
-use super::rigid::relative_velocities;
+use super::lanes::discrete_gradient::{CoordinateStep, ElementLoss};
+use super::rigid_motion::relative_velocities;
 use super::{Equations, System, project_vector};
 use crate::cable::Cable;
 use crate::effect::EffectWork;
 use crate::effect::acts::{ForceInput, PointForce, StepInput};
 use crate::error::StepFailure;
 use crate::integrate::State;
-use crate::integrate::discrete_gradient::{ALPHA, BETA, Balance, Buffers, Event, SecantSystem, share_to_take};
+use crate::integrate::discrete_gradient::{ALPHA, BETA, Balance, Buffers, Event, DiscreteGradientSystem, share_to_take};
 use crate::support::{SlopeSupport, Support};
 use core::ops::Range;
 
 /// A cable, its state and the buffers of a step.
-pub(crate) struct SecantCable<'a> {
+pub(crate) struct CableStep<'a> {
     pub equations: Equations<'a>,
     pub state: &'a mut State,
     pub buffers: &'a mut Buffers,
@@ -41,7 +41,7 @@ impl System {
 
 impl Equations<'_> {
     /// Begins a host step: puts prescribed coordinates in place if supports or the state were changed.
-    pub fn begin_secants(&self, state: &mut State) {
+    pub fn begin_host_step(&self, state: &mut State) {
         let memory = &mut state.memory;
         memory.valid = false;
         memory.step = 0.0;
@@ -65,14 +65,14 @@ impl Equations<'_> {
 
     /// Computes `h (G + F - f) - M D v` of the present iterate into `rhs`, and the step matrix if asked. Without it, returns what the
     /// elements lose, and adds the work of effects to `work`.
-    pub fn secant_residual(
+    pub fn step_residual(
         &mut self,
         state: &State,
         b: &mut Buffers,
         matrix: bool,
         work: &mut EffectWork,
     ) -> ElementLoss {
-        let loss = self.secant_elements(state, b, matrix);
+        let loss = self.step_elements(state, b, matrix);
         self.external_forces(state, b, matrix, work);
         if let Some(effects) = &self.system.forces.in_element {
             effects.add_dissipated(loss.effects, work);
@@ -86,7 +86,7 @@ impl Equations<'_> {
     }
 
     /// Computes the part of the elements.
-    fn secant_elements(&mut self, state: &State, b: &mut Buffers, matrix: bool) -> ElementLoss {
+    fn step_elements(&mut self, state: &State, b: &mut Buffers, matrix: bool) -> ElementLoss {
         let (system, diagnostics) = (&mut *self.system, &mut *self.diagnostics);
         let (level, forces) = (system.level, &mut system.forces);
         let (elements, effects) = (&forces.elements, forces.in_element.as_ref());
@@ -103,11 +103,11 @@ impl Equations<'_> {
         if matrix {
             diagnostics.tangent_evaluations += count;
             let to = MatrixOutput { matrix: &mut system.step.matrix, mass_scale: 1.0 };
-            elements.add_secant_and_matrix(level, effects, step, rhs, to);
+            elements.add_discrete_gradient_and_matrix(level, effects, step, rhs, to);
             ElementLoss::default()
         } else {
             diagnostics.force_evaluations += count;
-            elements.add_secant(level, effects, step, rhs)
+            elements.add_discrete_gradient(level, effects, step, rhs)
         }
     }
 
@@ -147,8 +147,8 @@ impl Equations<'_> {
 
     /// Returns what the present iterate does to the energy, but for the product of residual and velocity: `rhs` is then the residual of
     /// all coordinates.
-    pub fn secant_balance(&mut self, state: &State, b: &mut Buffers, work: &mut EffectWork) -> Balance {
-        let loss = self.secant_residual(state, b, false, work);
+    pub fn step_balance(&mut self, state: &State, b: &mut Buffers, work: &mut EffectWork) -> Balance {
+        let loss = self.step_residual(state, b, false, work);
         let mut balance = Balance { numerical: loss.numerical, effects: loss.effects, ..Balance::default() };
         let system = &*self.system;
         let Buffers { h, velocity_before, velocity_change, change, rhs, external, product, .. } = b;
@@ -181,7 +181,7 @@ impl Equations<'_> {
     }
 
     /// Makes the end of the step the state.
-    pub fn accept_secant(&mut self, state: &mut State, b: &Buffers) {
+    pub fn accept_step(&mut self, state: &mut State, b: &Buffers) {
         for i in 0..b.change.len() {
             state.q[i] += b.change[i];
             state.v[i] += b.velocity_change[i];
@@ -198,7 +198,7 @@ impl Equations<'_> {
     }
 }
 
-impl SecantSystem for SecantCable<'_> {
+impl DiscreteGradientSystem for CableStep<'_> {
     fn time(&self) -> f64 {
         self.state.time
     }
@@ -208,7 +208,7 @@ impl SecantSystem for SecantCable<'_> {
     }
 
     fn begin(&mut self) {
-        self.equations.begin_secants(self.state);
+        self.equations.begin_host_step(self.state);
     }
 
     fn predict(&mut self, h: f64) {
@@ -217,9 +217,9 @@ impl SecantSystem for SecantCable<'_> {
     }
 
     fn iterate(&mut self) -> Result<Balance, StepFailure> {
-        let SecantCable { equations, state, buffers: b } = self;
+        let CableStep { equations, state, buffers: b } = self;
         equations.diagnostics.newton_iterations += 1;
-        equations.secant_residual(state, b, true, &mut EffectWork::default());
+        equations.step_residual(state, b, true, &mut EffectWork::default());
         equations.factor_to_solve()?;
         equations.solve(&mut b.rhs);
         if !b.rhs.iter().all(|x| x.is_finite()) {
@@ -227,7 +227,7 @@ impl SecantSystem for SecantCable<'_> {
         }
         Equations::apply_increment(b);
         let mut work = EffectWork::default();
-        let mut balance = equations.secant_balance(state, b, &mut work);
+        let mut balance = equations.step_balance(state, b, &mut work);
         equations.system.meter.work_of_step = work;
         project_vector(equations.model, &mut b.rhs);
         balance.residual = -dot(&b.rhs, &b.change) / b.h;
@@ -235,7 +235,7 @@ impl SecantSystem for SecantCable<'_> {
     }
 
     fn rescale(&mut self, balance: &mut Balance) -> bool {
-        let SecantCable { equations, state, buffers } = self;
+        let CableStep { equations, state, buffers } = self;
         // the other buffers are free now
         let Buffers { velocity_change, change, rhs, external, product, taken, linearised, .. } = &mut **buffers;
         for i in 0..change.len() {
@@ -260,7 +260,7 @@ impl SecantSystem for SecantCable<'_> {
     }
 
     fn accept(&mut self, balance: &Balance) {
-        self.equations.accept_secant(self.state, self.buffers);
+        self.equations.accept_step(self.state, self.buffers);
         self.equations.system.meter.law.add(balance);
     }
 
@@ -284,7 +284,7 @@ impl Cable {
         let mut buffer = still.clone();
         let step =
             CoordinateStep { start: q, change: &still, before: &differences.displacement, kept: 1.0, linearised: &[], h: 1.0 };
-        let elastic = self.system.forces.elements.add_secant(self.system.level, None, step, &mut buffer).numerical;
+        let elastic = self.system.forces.elements.add_discrete_gradient(self.system.level, None, step, &mut buffer).numerical;
         elastic + 0.5 * ALPHA * self.system.mass_square(&differences.velocity, &mut buffer)
     }
 }

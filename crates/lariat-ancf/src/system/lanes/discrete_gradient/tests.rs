@@ -67,7 +67,7 @@ fn store(system: &System, q: &[f64], change: &[f64]) -> f64 {
     let still = vec![0.0; q.len()];
     let mut unused = still.clone();
     let step = CoordinateStep { start: q, change: &still, before: change, kept: 1.0, linearised: &[], h: 1.0 };
-    system.forces.elements.add_secant(system.level, None, step, &mut unused).numerical
+    system.forces.elements.add_discrete_gradient(system.level, None, step, &mut unused).numerical
 }
 
 /// The work of the discrete-gradient force over any step is the change of strain energy and store, and the losses, which are not negative: for every
@@ -91,7 +91,7 @@ fn the_work_of_the_force_is_the_change_of_energy_and_the_losses() {
                     let h = 0.01;
                     let step = CoordinateStep { start: &q, change: &change, before: &before, kept: 1.0, linearised: &[], h };
                     let mut force = vec![0.0; n];
-                    let loss = system.forces.elements.add_secant(system.level, system.forces.in_element.as_ref(), step, &mut force);
+                    let loss = system.forces.elements.add_discrete_gradient(system.level, system.forces.in_element.as_ref(), step, &mut force);
                     assert!(loss.numerical >= 0.0 && loss.effects >= 0.0, "{rule} {effects:?}: {loss:?}");
                     let work = -dot(&force, &change) / h;
                     let [(a0, b0), (a1, b1)] = [&q, &end].map(|q| system.forces.strain_energy(q));
@@ -121,7 +121,7 @@ fn the_force_has_no_resultant_and_no_moment_about_the_mean_configuration() {
         // no second difference: nothing of bending is dissipated
         let step = CoordinateStep { start: &q, change: &change, before: &change, kept: 1.0, linearised: &[], h: 1.0 };
         let mut force = vec![0.0; n];
-        system.forces.elements.add_secant(system.level, None, step, &mut force);
+        system.forces.elements.add_discrete_gradient(system.level, None, step, &mut force);
         let mean: Vec<f64> = q.iter().zip(&change).map(|(q, d)| q + 0.5 * d).collect();
         let (mut sum, mut moment) = (Vector3::zeros(), Vector3::zeros());
         for (f, x) in force.chunks_exact(6).zip(mean.chunks_exact(6)) {
@@ -163,7 +163,7 @@ fn the_tangent_at_rest_is_the_derivative_of_the_force() {
             let force = |change: &[f64]| {
                 let step = CoordinateStep { start: &q, change, before: &still, kept: 1.0, linearised: &[], h };
                 let mut out = vec![0.0; n];
-                system.forces.elements.add_secant(system.level, system.forces.in_element.as_ref(), step, &mut out);
+                system.forces.elements.add_discrete_gradient(system.level, system.forces.in_element.as_ref(), step, &mut out);
                 out
             };
             let mut columns = Vec::new();
@@ -179,7 +179,7 @@ fn the_tangent_at_rest_is_the_derivative_of_the_force() {
             let mut out = vec![0.0; n];
             let (level, effects) = (system.level, system.forces.in_element.as_ref());
             let to = MatrixOutput { matrix: &mut system.step.matrix, mass_scale: 1.0 };
-                    system.forces.elements.add_secant_and_matrix(level, effects, step, &mut out, to);
+                    system.forces.elements.add_discrete_gradient_and_matrix(level, effects, step, &mut out, to);
             let tangent = system.step.matrix.clone();
             system.step.matrix.clear();
             system.mass.add_to(&mut system.step.matrix, 1.0);
@@ -228,7 +228,7 @@ fn the_step_matrix_of_t1_and_of_no_bending_is_positive_definite() {
                     let mut out = vec![0.0; n];
                     let (level, effects) = (system.level, system.forces.in_element.as_ref());
                     let to = MatrixOutput { matrix: &mut system.step.matrix, mass_scale: 1.0 };
-                    system.forces.elements.add_secant_and_matrix(level, effects, step, &mut out, to);
+                    system.forces.elements.add_discrete_gradient_and_matrix(level, effects, step, &mut out, to);
                     let kind = Factorisation::default().factor(level, &system.step.matrix).unwrap();
                     assert_eq!(kind, Definiteness::PositiveDefinite, "{rule} {of_cable:?} {h}");
                 }
