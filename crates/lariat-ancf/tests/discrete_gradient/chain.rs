@@ -107,20 +107,6 @@ impl Chain {
         sum
     }
 
-    /// Linear and angular momentum about the origin.
-    pub fn momentum(&self) -> (Vector3<f64>, Vector3<f64>) {
-        let mut sum = (Vector3::zeros(), Vector3::zeros());
-        for cable in &self.cables {
-            let momentum = cable.momentum();
-            sum = (sum.0 + momentum.linear, sum.1 + momentum.angular);
-        }
-        for body in &self.bodies {
-            let (linear, angular) = body.momentum();
-            sum = (sum.0 + linear, sum.1 + angular);
-        }
-        sum
-    }
-
     /// Does something to it.
     pub fn disturb(&mut self, seed: u64) {
         let random = &mut Random::new(5000 + seed);

@@ -21,9 +21,7 @@ pub struct Tally {
     pub split: u64,
     pub indefinite: u64,
     pub worst_host_step: u64,
-    pub lost: f64,
 }
-
 
 /// Runs scenes by host steps of 1/60 s for 0.6 s.
 pub fn run(seeds: std::ops::Range<u64>, rule: Rule, longest: f64) -> Tally {
@@ -60,7 +58,6 @@ pub fn run(seeds: std::ops::Range<u64>, rule: Rule, longest: f64) -> Tally {
             tally.worst_host_step = tally.worst_host_step.max(done.newton_iterations);
         }
         let counts = cable.diagnostics();
-        if broken / largest > 1e-9 { println!("seed {seed}: law broken by {:.2e} of {largest:.2e} J", broken / largest); }
         tally.broken = tally.broken.max(broken / largest);
         tally.rise = tally.rise.max(rise / largest);
         tally.host_steps += counts.host_steps;
@@ -72,7 +69,6 @@ pub fn run(seeds: std::ops::Range<u64>, rule: Rule, longest: f64) -> Tally {
     }
     tally
 }
-
 
 /// Runs chains of ropes and bodies likewise.
 pub fn run_chains(seeds: std::ops::Range<u64>, rule: Rule, longest: f64) -> Tally {
@@ -100,9 +96,6 @@ pub fn run_chains(seeds: std::ops::Range<u64>, rule: Rule, longest: f64) -> Tall
             }
             tally.worst_host_step = tally.worst_host_step.max(chain.cables[0].diagnostics().newton_iterations - counts);
         }
-        if broken / largest > 1e-9 {
-            println!("seed {seed}: law broken by {:.2e} of {largest:.2e} J", broken / largest);
-        }
         tally.broken = tally.broken.max(broken / largest);
         let counts = chain.cables[0].diagnostics();
         tally.host_steps += counts.host_steps;
@@ -115,23 +108,39 @@ pub fn run_chains(seeds: std::ops::Range<u64>, rule: Rule, longest: f64) -> Tall
     tally
 }
 
+/// Seeds of the quick set and of the long one.
+fn seeds() -> std::ops::Range<u64> {
+    let long = std::env::var_os("LARIAT_LONG_TESTS").is_some();
+    20_000..if long { 21_000 } else { 20_200 }
+}
+
+/// Checks what a run of scenes must show.
+fn check(name: &str, tally: &Tally) {
+    println!("{name}: {tally:?}");
+    assert!(tally.refused.is_empty(), "{name}: {:?}", tally.refused);
+    assert!(tally.broken < 1e-8, "{name}: law broken by {:e}", tally.broken);
+}
+
+/// No thrown cable is refused, and its energy never rises beyond the work done on it.
+///
+/// *Source.* The energy law, read from the outside; the tolerance is 1e-9 of the energy in each of several steps.
 #[test]
-fn explore() {
-    let number = |name: &str, default: u64| std::env::var(name).map_or(default, |s| s.parse().unwrap());
-    let (from, seeds) = (number("FROM", 0), number("SEEDS", 200));
-    let rules = std::env::var("RULES").unwrap_or("projected-T1,projected-3,projected-none,ST2,G5-3".to_string());
-    for rule in rules.split(',') {
-        for longest in [1.0 / 240.0, 1.0 / 480.0] {
-            for chains in [false, true] {
-                let start = std::time::Instant::now();
-                let range = from..from + seeds;
-                let t = if chains { run_chains(range, rule.parse().unwrap(), longest) } else { run(range, rule.parse().unwrap(), longest) };
-                println!(
-                    "{rule} 1/{:.0} {}: refused {:?} broken {:.1e} rise {:.1e} iterations/step {:.3} rescaled {} split {} indefinite {} of {} steps, worst host step {}, {:.1} s",
-                    1.0 / longest, if chains { "chains" } else { "cables" }, t.refused, t.broken, t.rise,
-                    t.iterations as f64 / t.steps as f64, t.rescaled, t.split, t.indefinite, t.steps, t.worst_host_step, start.elapsed().as_secs_f64()
-                );
-            }
+fn thrown_cables_make_no_energy_and_none_is_refused() {
+    for rule in ["projected-3", "projected-T1", "projected-none", "ST2", "G5-3"] {
+        for longest in [1.0 / 60.0, 1.0 / 240.0] {
+            check(&format!("{rule}, 1/{:.0} s", 1.0 / longest), &run(seeds(), rule.parse().unwrap(), longest));
+        }
+    }
+}
+
+/// The same of chains of ropes and bodies.
+///
+/// *Source.* As above.
+#[test]
+fn thrown_chains_make_no_energy_and_none_is_refused() {
+    for rule in ["projected-3", "projected-T1"] {
+        for longest in [1.0 / 60.0, 1.0 / 240.0] {
+            check(&format!("{rule}, 1/{:.0} s", 1.0 / longest), &run_chains(seeds(), rule.parse().unwrap(), longest));
         }
     }
 }
