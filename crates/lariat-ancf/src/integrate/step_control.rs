@@ -20,15 +20,11 @@
 //! stability --case "hanging 1e4"` (1/30 s with effects) rejects 988 of 5466 steps; without this
 //! bound 3889 of 9227.
 //!
-//! Methods without error control are checked by the [energy guard](super::energy_guard), if they
-//! need it.
-//!
 //! # References
 //!
 //! Hairer & Wanner 1996, IV.8.
 
 use super::dynamics::Dynamics;
-use super::energy_guard::EnergyGuard;
 use super::integrator::{IntegratorRef, StepControl};
 use super::one_step::{Scratch, StepRequest};
 use super::state::State;
@@ -100,8 +96,7 @@ fn run(
     counts: &mut Counts,
 ) -> Result<(), FailedStep> {
     let method = integrator.method;
-    // one stage for the fallback of the energy guard
-    scratch.resize(system.size(), method.stages().max(1));
+    scratch.resize(system.size(), method.stages());
     prepare(system, state, method.has_algorithmic_acceleration())?;
     system.state_reached(state);
     let end = state.time + horizon;
@@ -113,7 +108,6 @@ fn run(
         step: regular,
         failure,
     })?;
-    let mut guard = EnergyGuard::new(tolerance.is_none() && method.needs_energy_guard(), regular);
     let mut proposal = regular;
     let mut max_step = f64::INFINITY;
     let mut done = 0.0;
@@ -123,8 +117,8 @@ fn run(
             NEWTON_TOLERANCE_SHARE * t * (h / horizon).clamp(MIN_ERROR_SHARE, 1.0)
         });
         let request = StepRequest { h, newton_tolerance, estimate: tolerance.is_some() };
-        let outcome = guard
-            .step(system, method, state, request, scratch)
+        let outcome = method
+            .step(system, state, request, scratch)
             .and_then(|estimate| check_finite(&scratch.next, estimate).map(|()| estimate));
         let failed = |failure| Err(FailedStep { time: state.time, step: h, failure });
         match (outcome, tolerance) {
@@ -139,16 +133,7 @@ fn run(
                 }
                 continue;
             }
-            (Ok(_), None) => {
-                scratch.next.time = state.time + h;
-                if !guard.accepts(system, state, &scratch.next, h) {
-                    counts.rejected += 1;
-                    proposal = RETRY_SHARE * h;
-                    continue;
-                }
-                proposal = (2.0 * proposal).min(regular);
-            }
-            (Ok(None), Some(_)) => proposal = (2.0 * proposal).min(regular),
+            (Ok(_), None) | (Ok(None), Some(_)) => proposal = (2.0 * proposal).min(regular),
             (Ok(Some(estimate)), Some(tolerance)) => {
                 let allowed = tolerance * (h / horizon).max(MIN_ERROR_SHARE);
                 let growth =

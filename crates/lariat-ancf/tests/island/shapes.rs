@@ -7,7 +7,7 @@ use nalgebra::Matrix3;
 
 /// A damping integrator that converges to the equilibrium.
 const DAMPING: Integrator = Integrator {
-    method: Method::GeneralisedAlpha { rho: 0.0, newton: lariat_ancf::integrate::NewtonMode::Converged },
+    method: Method::GeneralisedAlpha { rho: 0.0 },
     control: StepControl::Substeps(1),
 };
 
