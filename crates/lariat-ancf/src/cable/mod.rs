@@ -25,7 +25,7 @@ mod supports;
 use crate::diagnostics::Diagnostics;
 use crate::error::{Error, StepFailure, require};
 use crate::integrate::{
-    Integrator, IntegratorRef, OneStep, Scratch, State, discrete_gradient, step_control,
+    Integrator, IntegratorChoice, IntegratorRef, OneStep, Scratch, State, discrete_gradient, step_control,
 };
 use crate::model::Model;
 use crate::rule::Rule;
@@ -79,6 +79,8 @@ pub struct Cable {
     pub(crate) model: Model,
     pub(crate) snapshot: Snapshot,
     integrator: Integrator,
+    /// Whether the integrator is the default, because nobody chose one.
+    pub(crate) default_integrator: bool,
     diagnostics: Diagnostics,
     pub(crate) system: System,
     pub(crate) buffers: Buffers,
@@ -109,6 +111,7 @@ impl Cable {
         check_integrator(&model, &integrator.method)?;
         Ok(Cable {
             integrator: integrator.checked()?,
+            default_integrator: false,
             diagnostics: Diagnostics::default(),
             system,
             buffers: Buffers::new(&model),
@@ -287,6 +290,17 @@ impl Cable {
         self.integrator
     }
 
+    /// Returns the integrator that `choice` means for this cable: an implicit one where internal damping needs it.
+    pub fn integrator_for(&self, choice: impl Into<IntegratorChoice>) -> Integrator {
+        let implicit = self.model.effects.needs_implicit_integrator();
+        choice.into().integrator(if implicit { f64::INFINITY } else { self.frequency_bound() })
+    }
+
+    /// Returns whether the integrator is the builder's default, because nobody chose one. A set of cables may then give it its own.
+    pub fn has_default_integrator(&self) -> bool {
+        self.default_integrator
+    }
+
     /// Changes the time integrator from the next step on.
     ///
     /// # Errors
@@ -294,6 +308,7 @@ impl Cable {
     pub fn set_integrator(&mut self, integrator: Integrator) -> Result<(), Error> {
         check_integrator(&self.model, &integrator.method)?;
         self.integrator = integrator.checked()?;
+        self.default_integrator = false;
         self.revise();
         Ok(())
     }

@@ -59,6 +59,7 @@ impl Cable {
         }
         let mut cable = Cable::from_parts(model, snapshot, self.integrator)?;
         cable.diagnostics = self.diagnostics;
+        cable.default_integrator = self.default_integrator;
         cable.revision = self.revision;
         cable.revise();
         *self = cable;
