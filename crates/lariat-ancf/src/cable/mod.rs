@@ -30,7 +30,7 @@ use crate::integrate::{
 use crate::model::Model;
 use crate::rule::Rule;
 use crate::section::Element;
-use crate::system::{Buffers, CableDynamics, Equations, CableStep, System};
+use crate::system::{Buffers, CableDynamics, CableStep, Equations, System};
 use builder::CableBuilder;
 use fearless_simd::Level;
 pub(crate) use layout::along_polyline;

@@ -3,11 +3,11 @@
 use super::{Effect, Target};
 use crate::dual::Dual;
 use crate::element::gram::Control;
-use crate::element::kernel::{Gradient, GramForce, GramState, GramStep, Hessian, Load, DiscreteGradientForce};
+use crate::element::kernel::{DiscreteGradientForce, Gradient, GramForce, GramState, GramStep, Hessian, Load};
+use crate::integrate::discrete_gradient::BETA;
 use crate::linalg::BlockTridiagonal;
 use crate::real::Real;
 use crate::section::Section;
-use crate::integrate::discrete_gradient::BETA;
 use core::fmt::Debug;
 use fearless_simd::Level;
 use nalgebra::Vector3;
@@ -150,7 +150,13 @@ pub(crate) trait PointForce: Clone + Debug {
 
     /// Adds its generalised force over a step to `out`, and to `matrix` b h^2 times its negative derivative by the change of the coordinates if
     /// that is asked for. Default: the force at the mean configuration and velocity of the iterate, with its own derivative.
-    fn add_over_step(&mut self, level: Level, step: StepInput<'_>, out: &mut [f64], matrix: Option<&mut BlockTridiagonal>) {
+    fn add_over_step(
+        &mut self,
+        level: Level,
+        step: StepInput<'_>,
+        out: &mut [f64],
+        matrix: Option<&mut BlockTridiagonal>,
+    ) {
         let StepInput { time, middle: q, velocity: v, h, .. } = step;
         // the mean configuration changes by half the change, the velocity by 2/h of that
         let input = ForceInput { time, q, v, dv_dq: 2.0 / h, scale: 1.0 };

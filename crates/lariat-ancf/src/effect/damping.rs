@@ -54,7 +54,7 @@ use super::{Cut, Effect, Target};
 use crate::Real;
 use crate::axial::projected;
 use crate::element::gram::{Control, contract, dot, gradient, quadratic_form};
-use crate::element::kernel::{Gradient, GramForce, GramState, GramStep, Hessian, Load, DiscreteGradientForce};
+use crate::element::kernel::{DiscreteGradientForce, Gradient, GramForce, GramState, GramStep, Hessian, Load};
 use crate::element::step::combined;
 use crate::error::{Error, Requirement, require};
 use nalgebra::Vector3;

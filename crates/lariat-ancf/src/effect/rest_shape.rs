@@ -42,7 +42,7 @@ use super::{Cut, Effect, Target};
 use crate::Real;
 use crate::bending::gauss::middle;
 use crate::element::gram::{Six, form};
-use crate::element::kernel::{Gradient, GramForce, GramState, GramStep, Hessian, Load, DiscreteGradientForce};
+use crate::element::kernel::{DiscreteGradientForce, Gradient, GramForce, GramState, GramStep, Hessian, Load};
 use crate::error::{Error, Requirement, require};
 use crate::section::Element;
 use crate::simd::padded;

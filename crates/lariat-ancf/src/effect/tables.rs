@@ -5,7 +5,7 @@ use super::acts::*;
 use super::*;
 use crate::dual::Dual;
 use crate::element::gram::Control;
-use crate::element::kernel::{Gradient, GramForce, GramState, GramStep, Hessian, Load, DiscreteGradientForce};
+use crate::element::kernel::{DiscreteGradientForce, Gradient, GramForce, GramState, GramStep, Hessian, Load};
 use crate::linalg::BlockTridiagonal;
 use crate::real::Real;
 use crate::section::Section;

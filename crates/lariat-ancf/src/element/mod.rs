@@ -8,5 +8,5 @@
 pub mod gram;
 pub mod kernel;
 pub mod mass;
-pub mod step;
 pub mod shape;
+pub mod step;

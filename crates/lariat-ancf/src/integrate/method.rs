@@ -112,9 +112,12 @@ impl Method {
             Method::TrBdf2 => of(2, 2, "L-stable", "any stiffness, coarse tolerance"),
             Method::Esdirk3 => of(3, 3, "L-stable", "any stiffness, coarse steps"),
             Method::Esdirk4 => of(4, 5, "L-stable", "any stiffness (fidelity engineering, the default)"),
-            Method::DiscreteGradient => {
-                of(2, 1, "the energy law holds at any step", "games, h <= 1/240 s (fidelity game); any stiffness, fixed steps")
-            }
+            Method::DiscreteGradient => of(
+                2,
+                1,
+                "the energy law holds at any step",
+                "games, h <= 1/240 s (fidelity game); any stiffness, fixed steps",
+            ),
             Method::Verlet => of(2, 1, SYMPLECTIC, "soft cables, many small steps"),
             Method::Rkn4 => of(4, 6, SYMPLECTIC, "soft cables, fine accuracy (fidelity reference)"),
             Method::Rkn6 => of(6, 11, SYMPLECTIC, "soft cables, errors in time near rounding"),

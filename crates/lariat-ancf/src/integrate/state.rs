@@ -43,7 +43,8 @@ pub struct State {
 impl State {
     /// Copies `other` into the existing buffers; the derived `clone_from` would allocate new ones.
     pub(crate) fn copy_from(&mut self, other: &State) {
-        let State { time, q, v, memory: Memory { acceleration, algorithmic, valid, step, revision, differences } } = other;
+        let State { time, q, v, memory: Memory { acceleration, algorithmic, valid, step, revision, differences } } =
+            other;
         self.time = *time;
         self.q.clone_from(q);
         self.v.clone_from(v);

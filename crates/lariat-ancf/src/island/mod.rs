@@ -39,6 +39,7 @@ mod body;
 mod clamp;
 mod condense;
 mod dense;
+mod discrete_gradient;
 mod dynamics;
 mod energy_balance;
 mod equations;
@@ -51,7 +52,6 @@ mod pin;
 mod pin_accounts;
 mod rotation;
 mod rows;
-mod discrete_gradient;
 mod step;
 mod velocities;
 

@@ -1,13 +1,13 @@
 //! One host step of an island.
 
 use super::body::RigidBody;
+use super::discrete_gradient::{HostStep, StepBuffers};
 use super::dynamics::{IslandDynamics, Vectors};
 use super::equations::{IslandEquations, Matrices};
 use super::layout::Layout;
 use super::memory;
 use super::pin::{PinConstraint, check};
 use super::pin_accounts::{PinAccount, PinAccounts};
-use super::discrete_gradient::{HostStep, StepBuffers};
 use crate::cable::{Cable, SHORTEST_STEP, check_integrator};
 use crate::error::{Error, require};
 use crate::integrate::{Integrator, IntegratorRef, Scratch, State, step_control};

@@ -9,7 +9,9 @@ use crate::effect::EffectWork;
 use crate::effect::acts::{ForceInput, PointForce, StepInput};
 use crate::error::StepFailure;
 use crate::integrate::State;
-use crate::integrate::discrete_gradient::{ALPHA, BETA, Balance, Buffers, Event, DiscreteGradientSystem, share_to_take};
+use crate::integrate::discrete_gradient::{
+    ALPHA, BETA, Balance, Buffers, DiscreteGradientSystem, Event, share_to_take,
+};
 use crate::support::{SlopeSupport, Support};
 use core::ops::Range;
 
@@ -282,9 +284,16 @@ impl Cable {
         }
         let still = vec![0.0; q.len()];
         let mut buffer = still.clone();
-        let step =
-            CoordinateStep { start: q, change: &still, before: &differences.displacement, kept: 1.0, linearised: &[], h: 1.0 };
-        let elastic = self.system.forces.elements.add_discrete_gradient(self.system.level, None, step, &mut buffer).numerical;
+        let step = CoordinateStep {
+            start: q,
+            change: &still,
+            before: &differences.displacement,
+            kept: 1.0,
+            linearised: &[],
+            h: 1.0,
+        };
+        let elastic =
+            self.system.forces.elements.add_discrete_gradient(self.system.level, None, step, &mut buffer).numerical;
         elastic + 0.5 * ALPHA * self.system.mass_square(&differences.velocity, &mut buffer)
     }
 }

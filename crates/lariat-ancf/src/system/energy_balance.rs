@@ -41,7 +41,14 @@ pub(crate) struct EnergyMeter {
 impl EnergyMeter {
     pub fn new(model: &Model) -> Self {
         let zeros = || vec![0.0; 6 * model.nodes()];
-        EnergyMeter { work: EffectWork::default(), law: EnergyLaw::default(), work_of_step: EffectWork::default(), q: zeros(), v: zeros(), force: zeros() }
+        EnergyMeter {
+            work: EffectWork::default(),
+            law: EnergyLaw::default(),
+            work_of_step: EffectWork::default(),
+            q: zeros(),
+            v: zeros(),
+            force: zeros(),
+        }
     }
 }
 

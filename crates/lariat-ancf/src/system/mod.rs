@@ -17,6 +17,7 @@
 //! | [`frequency`] | a bound of the frequencies |
 //! | [`projection`] | supports in vectors and matrices |
 
+mod discrete_gradient;
 pub(crate) mod dynamics;
 pub(crate) mod elements;
 pub(crate) mod energy_balance;
@@ -27,13 +28,12 @@ pub(crate) mod jacobian;
 mod lanes;
 pub(crate) mod loads;
 pub(crate) mod mass;
-mod rigid_motion;
-mod discrete_gradient;
 mod projection;
+mod rigid_motion;
 
+pub(crate) use discrete_gradient::{CableStep, dot};
 pub(crate) use dynamics::CableDynamics;
 pub(crate) use equations::Equations;
-pub(crate) use discrete_gradient::{CableStep, dot};
 pub(crate) use projection::{project_matrix, project_vector};
 
 use crate::cable::builder::STANDARD_GRAVITY;

@@ -27,8 +27,7 @@ impl Chain {
         let bricks = choose(random, 2) == 0;
         let clamped = choose(random, 4) == 0;
         let bending = if choose(random, 4) == 0 { 0.0 } else { power(random, -6.0, 1.0) };
-        let section =
-            Section::from_stiffness(power(random, 3.0, 7.0), bending, power(random, -2.0, 0.5)).unwrap();
+        let section = Section::from_stiffness(power(random, 3.0, 7.0), bending, power(random, -2.0, 0.5)).unwrap();
         let elements = 2 + choose(random, 4);
         let speed = if choose(random, 2) == 0 { 0.0 } else { 5.0 };
         let velocity = random.vector() * speed;

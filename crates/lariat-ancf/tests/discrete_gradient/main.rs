@@ -1,8 +1,8 @@
 //! The guarded discrete gradient.
 
+mod chain;
 #[path = "../common/mod.rs"]
 mod common;
-mod chain;
 mod law;
 mod motion;
 mod recipe;

@@ -28,7 +28,12 @@ fn the_pendulum_errs_by_millimetres_at_one_iteration_per_step() {
         for (h, bound) in [(1.0 / 240.0, 6.5e-3), (1.0 / 480.0, 2.1e-3)] {
             let (ours, d) = path(steps(h));
             let error = ours.iter().zip(&exact).map(|(a, b)| (a - b).norm()).fold(0.0, f64::max);
-            println!("{name}, h = 1/{:.0}: {error:.2e} m, {} iterations in {} steps", 1.0 / h, d.newton_iterations, d.steps);
+            println!(
+                "{name}, h = 1/{:.0}: {error:.2e} m, {} iterations in {} steps",
+                1.0 / h,
+                d.newton_iterations,
+                d.steps
+            );
             assert!(error < bound, "{name}, {h}: {error:e}");
             assert!(d.newton_iterations as f64 <= 1.01 * d.steps as f64, "{name}: {d:?}");
         }

@@ -1,9 +1,7 @@
 //! Cables drawn by chance: of any stiffness, slack or taut, held anyhow, thrown, and disturbed in the middle of the run.
 
 use crate::common::Random;
-use lariat_ancf::{
-    At, Cable, Integrator, Method, Motion, Rule, Section, SlopeSupport, StepControl, Support, Vector3,
-};
+use lariat_ancf::{At, Cable, Integrator, Method, Motion, Rule, Section, SlopeSupport, StepControl, Support, Vector3};
 
 /// What happens in the middle of a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -42,8 +40,7 @@ pub fn scene(seed: u64, rule: Rule, method: Method, longest: f64) -> Scene {
     }
     let drawn: f64 = points.windows(2).map(|p| (p[1] - p[0]).norm()).sum();
     let bending = if choose(random, 4) == 0 { 0.0 } else { power(random, -6.0, 1.0) };
-    let section =
-        Section::from_stiffness(power(random, 3.0, 7.0), bending, power(random, -2.0, 0.5)).unwrap();
+    let section = Section::from_stiffness(power(random, 3.0, 7.0), bending, power(random, -2.0, 0.5)).unwrap();
     let weightless = choose(random, 3) == 0;
     let gravity = if weightless { Vector3::zeros() } else { Vector3::new(0.0, -9.81, 0.0) };
     let mut builder = Cable::builder()

@@ -27,7 +27,8 @@ pub struct Tally {
 pub fn run(seeds: std::ops::Range<u64>, rule: Rule, longest: f64) -> Tally {
     let mut tally = Tally::default();
     for seed in seeds {
-        let crate::recipe::Scene { mut cable, disturbance, driven } = scene(seed, rule, Method::DiscreteGradient, longest);
+        let crate::recipe::Scene { mut cable, disturbance, driven } =
+            scene(seed, rule, Method::DiscreteGradient, longest);
         tally.scenes += 1;
         let (mut largest, mut broken, mut rise, mut rose_from) = (0.0f64, 0.0f64, 0.0f64, f64::INFINITY);
         // the first host step puts supports in place

@@ -50,7 +50,11 @@ impl Cable {
         let part =
             |q: &[f64], v: &[f64]| State { time: state.time, q: q.to_vec(), v: v.to_vec(), memory: Memory::default() };
         let (end, begin) = (6 * node + 6, 6 * node);
-        let head_state = Snapshot { state: part(&state.q[..end], &state.v[..end]), work: self.snapshot.work, law: self.snapshot.law };
+        let head_state = Snapshot {
+            state: part(&state.q[..end], &state.v[..end]),
+            work: self.snapshot.work,
+            law: self.snapshot.law,
+        };
         let tail_state = Snapshot { state: part(&state.q[begin..], &state.v[begin..]), ..Snapshot::default() };
         let tail = Cable::from_parts(tail, tail_state, self.integrator)?;
         let mut head = Cable::from_parts(head, head_state, self.integrator)?;

@@ -25,7 +25,8 @@ use fearless_simd::{Level, Simd, SimdBase, SimdFrom, f64x8};
 use nalgebra::Vector3;
 
 /// Pairs (k, m), k >= m, of the coordinates (r_i, t_i, r_j, t_j).
-pub(super) const PAIRS: [(usize, usize); 10] = [(0, 0), (1, 0), (1, 1), (2, 0), (2, 1), (2, 2), (3, 0), (3, 1), (3, 2), (3, 3)];
+pub(super) const PAIRS: [(usize, usize); 10] =
+    [(0, 0), (1, 0), (1, 1), (2, 0), (2, 1), (2, 2), (3, 0), (3, 1), (3, 2), (3, 3)];
 
 /// A Gauss point: weight, and weights of position and slope on a unit element.
 #[derive(Clone, Copy, Debug)]
@@ -232,7 +233,12 @@ impl DragTable {
     }
 
     #[inline(always)]
-    pub(super) fn scatter_matrix<S: Simd>(&self, first: usize, blocks: &[[[Lanes<S>; 3]; 3]; 10], a: &mut BlockTridiagonal) {
+    pub(super) fn scatter_matrix<S: Simd>(
+        &self,
+        first: usize,
+        blocks: &[[[Lanes<S>; 3]; 3]; 10],
+        a: &mut BlockTridiagonal,
+    ) {
         let mut raw = [[0.0; LANES]; 9];
         for (block, (k, m)) in blocks.iter().zip(PAIRS) {
             for i in 0..9 {
@@ -267,7 +273,13 @@ impl PointForce for DragTable {
     }
 
     /// Adds the drag over a step, linear in its mean velocity: see [`over_step`](super::over_step).
-    fn add_over_step(&mut self, level: Level, step: StepInput<'_>, out: &mut [f64], matrix: Option<&mut BlockTridiagonal>) {
+    fn add_over_step(
+        &mut self,
+        level: Level,
+        step: StepInput<'_>,
+        out: &mut [f64],
+        matrix: Option<&mut BlockTridiagonal>,
+    ) {
         match matrix {
             None => dispatch!(level, simd => self.over_step(simd, step, out, None)),
             Some(matrix) => dispatch!(level, simd => self.over_step(simd, step, out, Some(matrix))),

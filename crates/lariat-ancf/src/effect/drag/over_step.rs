@@ -33,8 +33,8 @@ impl DragTable {
         for first in (0..self.count).step_by(LANES) {
             let length = load(simd, &self.length, first);
             let inverse = Lanes::splat(simd, 1.0) / length;
-            let [x, about, velocity] = [step.middle_before, step.velocity_before, step.velocity]
-                .map(|x| self.gather(simd, first, x, length));
+            let [x, about, velocity] =
+                [step.middle_before, step.velocity_before, step.velocity].map(|x| self.gather(simd, first, x, length));
             let (kn, kt) = (load(simd, &self.normal, first), load(simd, &self.tangential, first));
             let mut force = [[zero; 3]; 4];
             let mut blocks = [[[zero; 3]; 3]; 10];

@@ -43,8 +43,8 @@
 
 mod advance;
 mod buffers;
-mod safeguard;
 mod law;
+mod safeguard;
 
 use super::{Dynamics, OneStep, Scratch, State, StepRequest};
 use crate::error::StepFailure;
@@ -52,7 +52,7 @@ pub(crate) use advance::advance;
 pub(crate) use buffers::Buffers;
 pub use buffers::Differences;
 pub use law::EnergyLaw;
-pub(crate) use law::{Balance, Event, DiscreteGradientSystem, share_to_take};
+pub(crate) use law::{Balance, DiscreteGradientSystem, Event, share_to_take};
 
 /// The guarded discrete gradient as a method; only [`Cable`](crate::Cable) and [`Island`](crate::island::Island) can take it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -67,7 +67,13 @@ impl OneStep for DiscreteGradient {
         true
     }
 
-    fn step(&self, _: &mut dyn Dynamics, _: &State, _: StepRequest, _: &mut Scratch) -> Result<Option<f64>, StepFailure> {
+    fn step(
+        &self,
+        _: &mut dyn Dynamics,
+        _: &State,
+        _: StepRequest,
+        _: &mut Scratch,
+    ) -> Result<Option<f64>, StepFailure> {
         Err(StepFailure::NoDiscreteGradient)
     }
 }

@@ -5,7 +5,7 @@
 //! 3. Velocities relative to rigid motion are scaled down, if that takes at most half of their energy; momenta stay.
 //! 4. Four steps of a quarter, each by the same means.
 
-use super::law::{Balance, Event, DiscreteGradientSystem};
+use super::law::{Balance, DiscreteGradientSystem, Event};
 use crate::error::StepFailure;
 
 /// Share of the energy of the system that a step may make.

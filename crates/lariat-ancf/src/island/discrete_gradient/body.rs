@@ -25,9 +25,9 @@
 //!
 //! The midpoint rule in the rotation vector of the [other integrators](super::rotation): it keeps neither energy nor angular momentum.
 
-use crate::island::body::{BodyDifferences, RigidBody};
 use crate::cable::builder::STANDARD_GRAVITY;
 use crate::integrate::discrete_gradient::{ALPHA, BETA, Balance};
+use crate::island::body::{BodyDifferences, RigidBody};
 use nalgebra::{Matrix3, Matrix6, Quaternion, UnitQuaternion, Vector3, Vector6};
 
 /// Height in m of the weight by which a body at rest is measured.

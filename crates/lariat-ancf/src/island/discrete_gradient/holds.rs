@@ -12,11 +12,11 @@
 //! the cable: an impulse p of the held rows passes the impulse p and the angular impulse `rho_m x p`, or of a slope `t_m x p` alone. The
 //! closing of a gap and the rotation of a clamp into its direction do work, which counts as that of a support.
 
-use crate::island::hold::{Hold, vector};
-use crate::island::layout::Layout;
 use super::body::BodyStep;
 use crate::integrate::State;
 use crate::integrate::discrete_gradient::{ALPHA, BETA, Buffers};
+use crate::island::hold::{Hold, vector};
+use crate::island::layout::Layout;
 use nalgebra::{Matrix3, Vector3};
 
 /// A hold over a step.

@@ -4,16 +4,16 @@
 //! The deviation at the end of a host step is known from the memory of cable and body; only what differs from it in the next one, because
 //! an engine or a user changed the body's velocity, is shared by an impact.
 
+use super::{IslandStep, StepBuffers};
+use crate::cable::Cable;
+use crate::error::{Error, StepFailure};
+use crate::integrate::{State, StepControl, discrete_gradient};
 use crate::island::body::{BodyMemory, RigidBody};
 use crate::island::dynamics::{IslandDynamics, Vectors};
 use crate::island::equations::{IslandEquations, Matrices};
 use crate::island::hold::vector;
 use crate::island::layout::Layout;
 use crate::island::pin_accounts::PinAccounts;
-use super::{IslandStep, StepBuffers};
-use crate::cable::Cable;
-use crate::error::{Error, StepFailure};
-use crate::integrate::{State, StepControl, discrete_gradient};
 use nalgebra::Vector3;
 
 /// The parts of an island that a host step needs.

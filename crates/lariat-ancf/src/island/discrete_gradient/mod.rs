@@ -26,15 +26,15 @@ use super::hold::vector;
 use super::layout::Layout;
 use super::pin_accounts::PinAccounts;
 use super::rotation::skew;
-use body::BodyStep;
-use holds::HoldStep;
 use crate::cable::Cable;
 use crate::effect::EffectWork;
 use crate::error::StepFailure;
 use crate::integrate::State;
-use crate::integrate::discrete_gradient::{BETA, Balance, Event, DiscreteGradientSystem};
+use crate::integrate::discrete_gradient::{BETA, Balance, DiscreteGradientSystem, Event};
 use crate::support::SlopeSupport;
-use crate::system::{Equations, CableStep, dot, project_vector};
+use crate::system::{CableStep, Equations, dot, project_vector};
+use body::BodyStep;
+use holds::HoldStep;
 use nalgebra::{Matrix3, Vector3};
 
 /// Length below which the free direction of a clamped slope has no direction.

@@ -21,7 +21,9 @@ use crate::bending::Bending;
 use crate::bending::t1::RHO;
 use crate::effect::tables::ElementTables;
 use crate::element::gram::{PAIR_WEIGHT, Six, contract, form, gradient, gram, hessian_block};
-use crate::element::kernel::{Gradient, GramForce, GramStep, Hessian, Load, DiscreteGradientForce, Stiffness, gram_rates};
+use crate::element::kernel::{
+    DiscreteGradientForce, Gradient, GramForce, GramStep, Hessian, Load, Stiffness, gram_rates,
+};
 use crate::element::step::{ElementStep, STRAIGHT, combined, product, shifted};
 use crate::integrate::discrete_gradient::{ALPHA, BETA};
 use crate::linalg::Block;

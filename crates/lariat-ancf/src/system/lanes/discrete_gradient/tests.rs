@@ -1,9 +1,9 @@
 //! The identities that the energy law rests on, element by element.
 
 use super::*;
-use crate::system::System;
 use crate::effect::{Damping, Effects, RestPiece, RestShape};
 use crate::linalg::{Definiteness, Factorisation};
+use crate::system::System;
 use crate::{Cable, Rule, Section, Vector3};
 
 struct Random(u64);
@@ -16,8 +16,18 @@ impl Random {
 }
 
 const RULES: [&str; 12] = [
-    "projected-3", "projected-T1", "projected-T2", "projected-none", "exact-5", "ST2", "L2T2", "mean-T1", "G1-T1", "G3-3",
-    "G5-3", "G10-10",
+    "projected-3",
+    "projected-T1",
+    "projected-T2",
+    "projected-none",
+    "exact-5",
+    "ST2",
+    "L2T2",
+    "mean-T1",
+    "G1-T1",
+    "G3-3",
+    "G5-3",
+    "G10-10",
 ];
 
 /// Elements of different length and stiffness, so that a group of lanes and a part of one are filled.
@@ -89,15 +99,22 @@ fn the_work_of_the_force_is_the_change_of_energy_and_the_losses() {
                     let before: Vec<f64> = (0..n).map(|_| before * random.next()).collect();
                     let end: Vec<f64> = q.iter().zip(&change).map(|(q, d)| q + d).collect();
                     let h = 0.01;
-                    let step = CoordinateStep { start: &q, change: &change, before: &before, kept: 1.0, linearised: &[], h };
+                    let step =
+                        CoordinateStep { start: &q, change: &change, before: &before, kept: 1.0, linearised: &[], h };
                     let mut force = vec![0.0; n];
-                    let loss = system.forces.elements.add_discrete_gradient(system.level, system.forces.in_element.as_ref(), step, &mut force);
+                    let loss = system.forces.elements.add_discrete_gradient(
+                        system.level,
+                        system.forces.in_element.as_ref(),
+                        step,
+                        &mut force,
+                    );
                     assert!(loss.numerical >= 0.0 && loss.effects >= 0.0, "{rule} {effects:?}: {loss:?}");
                     let work = -dot(&force, &change) / h;
                     let [(a0, b0), (a1, b1)] = [&q, &end].map(|q| system.forces.strain_energy(q));
                     let [s0, s1] = [(&q, &before), (&end, &change)].map(|(q, d)| store(&system, q, d));
                     let gained = a1 - a0 + b1 - b0 + s1 - s0 + loss.numerical + loss.effects;
-                    let scale = [a0, a1, b0, b1, s0, s1, loss.numerical, loss.effects].map(f64::abs).iter().sum::<f64>();
+                    let scale =
+                        [a0, a1, b0, b1, s0, s1, loss.numerical, loss.effects].map(f64::abs).iter().sum::<f64>();
                     worst = worst.max((work - gained).abs() / scale);
                 }
             }
@@ -150,7 +167,8 @@ fn the_tangent_at_rest_is_the_derivative_of_the_force() {
             // a helix of constant stretch would do; a stretched straight line has all terms but those of bending's own stress
             let q: Vec<f64> = (0..n)
                 .map(|i| {
-                    let length = 3.0 / system.forces.elements.slope_scale((i / 6).min(system.forces.elements.count() - 1));
+                    let length =
+                        3.0 / system.forces.elements.slope_scale((i / 6).min(system.forces.elements.count() - 1));
                     match i % 6 {
                         0 => 1.1 * length * (i / 6) as f64,
                         3 => 1.1,
@@ -163,7 +181,12 @@ fn the_tangent_at_rest_is_the_derivative_of_the_force() {
             let force = |change: &[f64]| {
                 let step = CoordinateStep { start: &q, change, before: &still, kept: 1.0, linearised: &[], h };
                 let mut out = vec![0.0; n];
-                system.forces.elements.add_discrete_gradient(system.level, system.forces.in_element.as_ref(), step, &mut out);
+                system.forces.elements.add_discrete_gradient(
+                    system.level,
+                    system.forces.in_element.as_ref(),
+                    step,
+                    &mut out,
+                );
                 out
             };
             let mut columns = Vec::new();
@@ -179,7 +202,7 @@ fn the_tangent_at_rest_is_the_derivative_of_the_force() {
             let mut out = vec![0.0; n];
             let (level, effects) = (system.level, system.forces.in_element.as_ref());
             let to = MatrixOutput { matrix: &mut system.step.matrix, mass_scale: 1.0 };
-                    system.forces.elements.add_discrete_gradient_and_matrix(level, effects, step, &mut out, to);
+            system.forces.elements.add_discrete_gradient_and_matrix(level, effects, step, &mut out, to);
             let tangent = system.step.matrix.clone();
             system.step.matrix.clear();
             system.mass.add_to(&mut system.step.matrix, 1.0);
@@ -191,7 +214,12 @@ fn the_tangent_at_rest_is_the_derivative_of_the_force() {
                 .enumerate()
                 .map(|(i, (b, m))| (b, m, (6 * i, 6 * i)))
                 .chain(
-                    tangent.lower.iter().zip(&system.step.matrix.lower).enumerate().map(|(i, (b, m))| (b, m, (6 * i + 6, 6 * i))),
+                    tangent
+                        .lower
+                        .iter()
+                        .zip(&system.step.matrix.lower)
+                        .enumerate()
+                        .map(|(i, (b, m))| (b, m, (6 * i + 6, 6 * i))),
                 )
             {
                 for c in 0..6 {
@@ -215,7 +243,8 @@ fn the_tangent_at_rest_is_the_derivative_of_the_force() {
 fn the_step_matrix_of_t1_and_of_no_bending_is_positive_definite() {
     let mut random = Random(3);
     for rule in ["projected-T1", "projected-none", "ST1", "mean-T1", "G2-T1"] {
-        let rest = effects(rule).into_iter().filter(|e| e.rest_shape.as_ref().is_none_or(|r| r.pieces[1].curvature == 0.0));
+        let rest =
+            effects(rule).into_iter().filter(|e| e.rest_shape.as_ref().is_none_or(|r| r.pieces[1].curvature == 0.0));
         for of_cable in rest {
             let system = &mut cable(rule, of_cable.clone()).system;
             let n = 6 * (system.forces.elements.count() + 1);
@@ -224,7 +253,8 @@ fn the_step_matrix_of_t1_and_of_no_bending_is_positive_definite() {
                 let change: Vec<f64> = (0..n).map(|_| random.next()).collect();
                 let before: Vec<f64> = (0..n).map(|_| random.next()).collect();
                 for h in [1e-3, 0.1, 10.0] {
-                    let step = CoordinateStep { start: &q, change: &change, before: &before, kept: 1.0, linearised: &[], h };
+                    let step =
+                        CoordinateStep { start: &q, change: &change, before: &before, kept: 1.0, linearised: &[], h };
                     let mut out = vec![0.0; n];
                     let (level, effects) = (system.level, system.forces.in_element.as_ref());
                     let to = MatrixOutput { matrix: &mut system.step.matrix, mass_scale: 1.0 };
