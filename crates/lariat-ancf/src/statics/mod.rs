@@ -30,9 +30,11 @@ mod dynamic_relaxation;
 mod equilibrium;
 mod folds;
 mod load_ramp;
+mod polish;
 mod potential;
 mod pseudo_transient;
 mod rest_in_flow;
+mod saddle;
 mod scale;
 mod start_shape;
 
