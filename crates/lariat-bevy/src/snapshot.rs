@@ -78,6 +78,7 @@ impl Snapshot {
         let name = |entity: Entity| renamed.get(&entity).copied().unwrap_or(entity);
         let (set, links) = (self.set.clone(), self.links.renamed(&name));
         let mut pending = self.pending.clone();
+        pending.unlinked.iter_mut().for_each(|entity| *entity = name(*entity));
         pending.removed_attachments.iter_mut().for_each(|(entity, _)| *entity = name(*entity));
         // a component that had changed when the snapshot was taken counts as changed again
         pending.changed_effects = links.built.keys().copied().collect();
