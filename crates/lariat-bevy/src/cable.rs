@@ -159,7 +159,10 @@ fn discarded(mut world: DeferredWorld, context: HookContext) {
     let handle = world.get_resource_mut::<Cables>().map(|mut cables| cables.links.remove_cable(entity));
     let Some(mut pending) = world.get_resource_mut::<Pending>() else { return };
     match handle {
-        Some(handle) => pending.removed_cables.extend(handle),
+        Some(handle) => {
+            pending.removed_cables.extend(handle);
+            pending.unlinked.retain(|unlinked| *unlinked != entity);
+        }
         None => pending.unlinked.push(entity),
     }
 }

@@ -33,12 +33,10 @@ pub(crate) fn remove(
     }
     for (entity, handle) in pending.removed_attachments.drain(..) {
         let Some(link) = links.attachments.remove(&handle) else { continue };
-        if set.detach(&mut physics, handle).is_ok() && commands.get_entity(entity).is_ok() {
-            let replaced = attachments.contains(entity);
-            if !replaced {
-                let (cable, body) = (link.cable, link.body);
-                events.push(AttachmentEnded { entity, cable, body, reason: EndReason::Released }.into());
-            }
+        let replaced = attachments.contains(entity);
+        if set.detach(&mut physics, handle).is_ok() && !replaced {
+            let (cable, body) = (link.cable, link.body);
+            events.push(AttachmentEnded { entity, cable, body, reason: EndReason::Released }.into());
         }
     }
     for handle in pending.removed_bodies.drain(..) {
