@@ -66,7 +66,7 @@ fn a_despawned_attachment_releases_the_body() {
     world.despawn(hook);
     steps(&mut world, 31);
     let event = AttachmentEnded { entity: hook, cable, body: Some(load), reason: EndReason::Released };
-    assert_eq!(ended(&mut world), [event.clone()]);
+    assert_eq!(ended(&mut world), std::slice::from_ref(&event));
     assert_eq!(world.resource::<Observed>().0, [event]);
     assert!(height(&world, load) < -3.2);
     assert_eq!(world.get::<CableAttachments>(cable).unwrap().iter().count(), 1);
