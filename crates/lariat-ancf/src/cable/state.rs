@@ -21,6 +21,9 @@ pub struct Snapshot {
     /// The energy law of the discrete gradient so far.
     #[serde(default)]
     pub(crate) law: EnergyLaw,
+    /// Elastic energy in J that inserted nodes added so far.
+    #[serde(default)]
+    pub(crate) inserted_energy: f64,
 }
 
 impl Snapshot {
