@@ -66,14 +66,14 @@ impl Steady {
 
 /// Balls of 1 kg and 10 kg on a cable of 1.8 m (soft; steel wire) rotate at 5 rad/s in space for 10
 /// s, from their steady state: momenta are conserved, and the tension at every node in every frame
-/// is the analytic one; in fidelity game, angular momentum to 1e-4 and tension to 5 %, most of it in
-/// the first steps.
+/// is the analytic one. In fidelity game angular momentum is conserved to 1e-4, and the tension is
+/// right once the axial vibration of the first steps has decayed, after a second.
 ///
 /// Reference: conservation laws; [`Steady`].
 #[test]
 fn a_rotating_dumbbell_keeps_its_momenta_and_its_tension() {
     let engineering = (Fidelity::Engineering, 1e-5, 5e-3);
-    let game = (Fidelity::Game, 1e-4, 5e-2);
+    let game = (Fidelity::Game, 1e-4, 5e-3);
     for (section, (fidelity, most_turned, most_tension)) in
         [(soft(), engineering), (wire(), engineering), (soft(), game), (wire(), game)]
     {
@@ -114,10 +114,13 @@ fn a_rotating_dumbbell_keeps_its_momenta_and_its_tension() {
         };
         let (p0, l0) = momenta(&world, &set);
         let (mut worst, mut widest, mut dp) = (0.0f64, 0.0f64, 0.0f64);
-        for _ in 0..600 {
+        for frame in 0..600 {
             set.step(&mut world).unwrap();
             widest = widest.max(gap(&set));
             dp = dp.max((momenta(&world, &set).0 - p0).norm());
+            if fidelity == Fidelity::Game && frame < 60 {
+                continue;
+            }
             for (node, n) in steady.tension.iter().enumerate() {
                 worst = worst.max((tension(&set, sling, 0.18 * node as f64) / n - 1.0).abs());
             }
