@@ -59,8 +59,8 @@
 //!
 //! - No contact of cables with bodies or with each other, no cables joined to each other, and no
 //!   reel: the unstretched length of a cable is constant.
-//! - If one step fails, no body and no cable of the world advances until the cause is removed: see
-//!   [`StepFailed`](event::StepFailed).
+//! - A cable that cannot step stands still with all that is attached to it until the cause is
+//!   removed: see [`StepFailed`](event::StepFailed).
 //! - On the bodies of another plugin ([`BeforeEngine`], [`AfterEngine`]; crate
 //!   `lariat-bevy-rapier`) a host step is one Rapier step, so that taut cables on light bodies in
 //!   contact need a short one.

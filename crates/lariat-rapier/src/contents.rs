@@ -103,6 +103,19 @@ impl Contents {
         found.into_iter().map(|(_, cable)| cable).collect()
     }
 
+    /// Sets the clocks of the cables of an island to the latest of them: one that could not step for a
+    /// while may since have been attached to others.
+    pub fn align_clocks(&mut self, indices: &[usize]) -> Result<(), Error> {
+        let times = indices.iter().filter_map(|&i| self.cables.get(i)).map(|slot| slot.cable.time());
+        let latest = times.fold(f64::NEG_INFINITY, f64::max);
+        for &i in indices {
+            if let Some(slot) = self.cables.get_mut(i).filter(|slot| slot.cable.time() < latest) {
+                slot.cable.set_time(latest)?;
+            }
+        }
+        Ok(())
+    }
+
     /// Copies the world's gravity to the cables that follow it when it changed, unless theirs is
     /// equal to it within Rapier's rounding.
     pub fn follow_gravity(&mut self, world: &PhysicsWorld) -> Result<(), Error> {

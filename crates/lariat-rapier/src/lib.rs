@@ -129,7 +129,7 @@ pub use attachment::{Attachment, AttachmentKind, AttachmentReading};
 pub use body::rigid_body;
 #[cfg(feature = "debug-render")]
 pub use draw::DrawStyle;
-pub use error::{BodyQuantity, Error};
+pub use error::{BodyQuantity, Error, Failure};
 pub use events::Event;
 pub use handle::{AttachmentHandle, CableHandle, JunctionHandle};
 pub use junction::Junction;

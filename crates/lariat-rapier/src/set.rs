@@ -5,7 +5,7 @@ use crate::contents::Contents;
 use crate::convert::vector;
 #[cfg(feature = "debug-render")]
 use crate::draw::{self, DrawStyle};
-use crate::error::Error;
+use crate::error::{Error, Failure};
 use crate::events::Event;
 use crate::handle::{AttachmentHandle, CableHandle, JunctionHandle};
 use crate::junction::Junction;
@@ -33,7 +33,8 @@ use serde::{Deserialize, Serialize};
 ///   together only if the cables are attached to one of them and none of the others touches a body
 ///   from outside. Otherwise their effect is estimated from step to step, and limits of multibody
 ///   joints chatter. Chains of impulse joints count up to 24 bodies.
-/// - If one cable cannot step, no cable and no body advances.
+/// - Cables that cannot step stand still with the bodies attached to them, and block others that
+///   touch them; all else goes on.
 ///
 /// # Snapshots
 /// A set serialises with all of its state; a snapshot of (world, set) replays to the bit. JSON
@@ -195,8 +196,9 @@ impl CableSet {
     /// Rapier steps as the [`Settings`] say.
     ///
     /// # Errors
-    /// [`Error::Cable`] if a cable cannot step, [`Error::BodyNotFinite`]. Cables and bodies are
-    /// then as after the last Rapier step that succeeded.
+    /// [`Error::StepRefused`] if cables cannot step. They and their bodies are then as after the last
+    /// Rapier step that they could make, and all other cables and bodies have advanced; every such
+    /// island is in [`failures`](Self::failures). With any other error nothing has advanced.
     pub fn step(&mut self, world: &mut PhysicsWorld) -> Result<(), Error> {
         self.step_with_events(world, &(), &())
     }
@@ -220,8 +222,7 @@ impl CableSet {
                 self.reconcile(world);
             }
         }
-        self.finish(world, host);
-        outcome
+        outcome.and(self.finish(world, host))
     }
 
     /// Begins a host step, for those who step Rapier themselves: as long as
@@ -240,7 +241,8 @@ impl CableSet {
     /// Rapier the motion of the bodies.
     ///
     /// # Errors
-    /// As [`step`](Self::step); cables and bodies are then as before.
+    /// An error that concerns the whole set; cables and bodies are then as before. An island that
+    /// cannot step is no error here: it is in [`failures`](Self::failures).
     pub fn predict_next(&mut self, world: &mut PhysicsWorld, host: &mut HostStep) -> Result<(), Error> {
         step::predict_next(&mut self.stepper, &mut self.contents, world, &self.settings, host)
     }
@@ -251,8 +253,12 @@ impl CableSet {
     }
 
     /// Ends a host step: `world.integration_parameters.dt` is the host's again.
-    pub fn finish(&mut self, world: &mut PhysicsWorld, host: HostStep) {
+    ///
+    /// # Errors
+    /// The error of the first of [`failures`](Self::failures).
+    pub fn finish(&mut self, world: &mut PhysicsWorld, host: HostStep) -> Result<(), Error> {
         step::finish(world, &host);
+        self.failures().first().map_or(Ok(()), |failure| Err(failure.error.clone()))
     }
 
     /// Returns the events of the last host step.
@@ -265,9 +271,11 @@ impl CableSet {
         core::mem::take(&mut self.stepper.events)
     }
 
-    /// Returns the cables of the island that could not step; none if the last step succeeded.
-    pub fn failed_cables(&self) -> &[CableHandle] {
-        &self.stepper.failed
+    /// Returns the islands that could not step in the last host step, with their cables and errors.
+    /// They are as they were before the Rapier step that failed, and are tried again in the next
+    /// host step.
+    pub fn failures(&self) -> &[Failure] {
+        &self.stepper.failures
     }
 
     /// Returns the linear momentum (kg m/s) and the angular momentum about the origin (kg m^2/s) of

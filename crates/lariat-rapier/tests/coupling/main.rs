@@ -13,6 +13,7 @@ mod hoist;
 mod joints;
 mod payload;
 mod prescribed_motion;
+mod refused;
 mod sleep;
 mod statics;
 mod substepping;
