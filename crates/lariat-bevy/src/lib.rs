@@ -107,7 +107,7 @@ pub use error::Error;
 pub use install::install;
 pub use interpolate::{Interpolate, curve};
 pub use lariat_ancf::{self, At, Fidelity};
-pub use lariat_rapier::{self, AttachmentKind, Settings, rapier};
+pub use lariat_rapier::{self, AttachmentKind, Gap, Settings, rapier};
 pub use physics::Physics;
 #[cfg(feature = "bevy_app")]
 pub use plugin::{LariatPlugin, install_in};

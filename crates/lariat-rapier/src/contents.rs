@@ -7,6 +7,7 @@ use crate::handle::{AttachmentHandle, CableHandle, JunctionHandle};
 use crate::junction::Junction;
 use crate::record::Records;
 use crate::table::Table;
+use crate::world_mark::WorldMark;
 use lariat_ancf::Cable;
 use rapier::math::Vector;
 use rapier::pipeline::PhysicsWorld;
@@ -42,6 +43,9 @@ pub(crate) struct Contents {
     pub attachments: Table<Attachment>,
     pub junctions: Table<Junction>,
     pub records: Records,
+    /// The mark of the world that the attachments belong to.
+    #[serde(default)]
+    pub mark: Option<WorldMark>,
     /// The world's gravity when it was last copied to the cables.
     gravity: Option<Vector>,
     /// Whether cables, attachments or junctions changed since islands were last found.

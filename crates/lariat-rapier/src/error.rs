@@ -36,6 +36,22 @@ pub enum Error {
     /// The handle of a body that is not in the world.
     #[error("no body {0:?} in this world")]
     NoBody(RigidBodyHandle),
+    /// A world that is not the one of the attachments: no body is where it belongs, or handles name
+    /// other bodies. Nothing has changed.
+    #[error("this world is not the one of the set's attachments: step that one, or detach them first")]
+    OtherWorld,
+    /// An anchor or a second cable too far from the point of the cable.
+    #[error(
+        "cable {cable:?}: {gap:.3e} m from what it is to be attached to, at most {limit:e} m are allowed (see Gap)"
+    )]
+    GapTooLong {
+        /// Name of the cable.
+        cable: String,
+        /// Distance in m.
+        gap: f64,
+        /// Largest distance allowed in m.
+        limit: f64,
+    },
     /// A time step that is negative or not finite.
     #[error("a time step of {dt} s; expected 0 or more")]
     TimeStep {

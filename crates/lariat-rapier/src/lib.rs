@@ -124,8 +124,9 @@ mod spatial;
 mod step;
 mod table;
 mod totals;
+mod world_mark;
 
-pub use attachment::{Attachment, AttachmentKind, AttachmentReading};
+pub use attachment::{Attachment, AttachmentKind, AttachmentOptions, AttachmentReading, Gap};
 pub use body::rigid_body;
 #[cfg(feature = "debug-render")]
 pub use draw::DrawStyle;

@@ -1,6 +1,6 @@
 //! The set of cables of a world: the interface of this crate.
 
-use crate::attachment::{Attachment, AttachmentKind};
+use crate::attachment::{Attachment, AttachmentKind, AttachmentOptions, Gap};
 use crate::contents::Contents;
 use crate::convert::vector;
 #[cfg(feature = "debug-render")]
@@ -12,7 +12,7 @@ use crate::junction::Junction;
 use crate::settings::Settings;
 use crate::step::{self, HostStep, Stepper};
 use crate::totals::{self, WorldEnergy};
-use crate::{attach, edit, join};
+use crate::{attach, edit, join, world_mark};
 use lariat_ancf::{At, Cable, Momentum};
 use rapier::dynamics::RigidBodyHandle;
 use rapier::math::Vector;
@@ -109,12 +109,14 @@ impl CableSet {
     }
 
     /// Attaches a point of a cable to a point of a body (body axes from its origin, in m). A node
-    /// is inserted there if there is none. A gap closes in the next step, at 10 m/s at most; a
-    /// clamp keeps the angle that tangent and body have now.
+    /// is inserted there if there is none. The two points may be up to 1e-3 m apart, or as far as
+    /// `kind.with_gap(..)` says ([`Gap`](crate::Gap)); a clamp keeps the angle that tangent and body
+    /// have now.
     ///
     /// # Errors
     /// [`Error::NoCable`], [`Error::NoBody`], [`Error::AlreadyAttached`],
-    /// [`Error::AnchorNotFinite`], or [`Error::Cable`] for a point that is not on the cable.
+    /// [`Error::AnchorNotFinite`], [`Error::GapTooLong`], [`Error::OtherWorld`], or
+    /// [`Error::Cable`] for a point that is not on the cable.
     pub fn attach(
         &mut self,
         world: &PhysicsWorld,
@@ -122,9 +124,9 @@ impl CableSet {
         at: impl Into<At>,
         body: RigidBodyHandle,
         anchor: Vector,
-        kind: AttachmentKind,
+        kind: impl Into<AttachmentOptions>,
     ) -> Result<AttachmentHandle, Error> {
-        attach::attach(&mut self.contents, world, (cable, at.into()), (body, vector(anchor)), kind)
+        attach::attach(&mut self.contents, world, (cable, at.into()), (body, vector(anchor)), kind.into())
     }
 
     /// As [`attach`](Self::attach), to the point of the body where the point of the cable is now.
@@ -141,7 +143,7 @@ impl CableSet {
     ) -> Result<AttachmentHandle, Error> {
         let point = (cable, at.into());
         let anchor = attach::anchor_here(&self.contents, world, point, body)?;
-        attach::attach(&mut self.contents, world, point, (body, anchor), kind)
+        attach::attach(&mut self.contents, world, point, (body, anchor), kind.into())
     }
 
     /// Ends an attachment and frees its node.
@@ -166,14 +168,33 @@ impl CableSet {
     }
 
     /// Ties a point of a cable to a point of another, or of itself: they share one position, like a
-    /// massless shackle. Nodes are inserted there if there are none; a gap closes in the next step.
-    /// If one of the points is part of a junction, the other joins that junction.
+    /// massless shackle. Nodes are inserted there if there are none. The points may be up to 1e-3 m
+    /// apart ([`join_with_gap`](Self::join_with_gap)). If one of the points is part of a junction,
+    /// the other joins that junction.
     ///
     /// # Errors
-    /// [`Error::NoCable`]; [`Error::AlreadyAttached`] for a node that is attached to a body, or if
-    /// both are part of junctions; [`Error::Cable`] for a point that is not on its cable.
-    pub fn join(&mut self, first: (CableHandle, At), second: (CableHandle, At)) -> Result<JunctionHandle, Error> {
-        join::join(&mut self.contents, first, second)
+    /// [`Error::NoCable`]; [`Error::GapTooLong`]; [`Error::AlreadyAttached`] for a node that is
+    /// attached to a body, or if both are part of junctions; [`Error::Cable`] for a point that is
+    /// not on its cable.
+    pub fn join(
+        &mut self,
+        first: (CableHandle, impl Into<At>),
+        second: (CableHandle, impl Into<At>),
+    ) -> Result<JunctionHandle, Error> {
+        self.join_with_gap(first, second, Gap::default())
+    }
+
+    /// As [`join`](Self::join), with another treatment of a gap between the two points.
+    ///
+    /// # Errors
+    /// As [`join`](Self::join).
+    pub fn join_with_gap(
+        &mut self,
+        first: (CableHandle, impl Into<At>),
+        second: (CableHandle, impl Into<At>),
+        gap: Gap,
+    ) -> Result<JunctionHandle, Error> {
+        join::join(&mut self.contents, (first.0, first.1.into()), (second.0, second.1.into()), gap)
     }
 
     /// Unties a cable from a junction; a junction with a single node left ends.
@@ -232,8 +253,10 @@ impl CableSet {
     /// step.
     ///
     /// # Errors
-    /// [`Error::TimeStep`].
+    /// [`Error::TimeStep`]; [`Error::OtherWorld`] for a world that is not that of the attachments,
+    /// which stay as they are.
     pub fn begin(&mut self, world: &mut PhysicsWorld) -> Result<HostStep, Error> {
+        world_mark::check(&mut self.contents, world)?;
         step::begin(&mut self.stepper, &self.contents, world, &self.settings)
     }
 

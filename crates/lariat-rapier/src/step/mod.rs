@@ -178,7 +178,7 @@ fn predict_islands(
             continue;
         }
         prediction.refused = true;
-        prediction.held.hold(world, island);
+        prediction.held.hold(&contents.records, world, island);
     }
     stepper.pending = true;
     Ok(())

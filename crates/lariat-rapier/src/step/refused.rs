@@ -8,10 +8,12 @@
 //!
 //! # Validity
 //! Rapier cannot lock a link of a multibody: it moves freely from rest during Rapier's step, and is
-//! set back afterwards. A body whose position is not finite is disabled meanwhile.
+//! set back afterwards. A body whose position is not finite is held where it was last; if that is
+//! not known, Rapier disables it.
 
 use crate::body::{SavedBody, replace_loads};
 use crate::islands::Island;
+use crate::record::{ExactState, Records};
 use rapier::dynamics::{LockedAxes, Multibody, RigidBodyHandle};
 use rapier::math::{Pose, Real, Vector};
 use rapier::pipeline::PhysicsWorld;
@@ -35,26 +37,26 @@ struct HeldBody {
 
 impl HeldBodies {
     /// Holds the bodies of an island that are awake.
-    pub fn hold(&mut self, world: &mut PhysicsWorld, island: &Island) {
+    pub fn hold(&mut self, records: &Records, world: &mut PhysicsWorld, island: &Island) {
         for handle in island.bodies() {
             if world.bodies[handle].is_sleeping() || self.bodies.iter().any(|held| held.handle == handle) {
                 continue;
             }
             let Some(link) = world.multibody_joints.rigid_body_link(handle).copied() else {
-                self.add(world, handle, LockedAxes::all());
+                self.add(records, world, handle, LockedAxes::all());
                 continue;
             };
             if let Some(multibody) = world.multibody_joints.get_multibody_mut(link.multibody) {
                 self.multibodies.push((handle, multibody.clone()));
                 multibody.generalized_velocity_mut().fill(0.0);
                 let links: Vec<RigidBodyHandle> = multibody.links().map(|link| link.rigid_body_handle()).collect();
-                links.into_iter().for_each(|link| self.add(world, link, LockedAxes::empty()));
+                links.into_iter().for_each(|link| self.add(records, world, link, LockedAxes::empty()));
             }
         }
     }
 
     /// Stops a body, and locks `axes` beside those that are locked.
-    fn add(&mut self, world: &mut PhysicsWorld, handle: RigidBodyHandle, axes: LockedAxes) {
+    fn add(&mut self, records: &Records, world: &mut PhysicsWorld, handle: RigidBodyHandle, axes: LockedAxes) {
         let Some(body) = world.bodies.get_mut(handle) else { return };
         let activation = body.activation_mut();
         let time_since_can_sleep = core::mem::take(&mut activation.time_since_can_sleep);
@@ -64,9 +66,9 @@ impl HeldBodies {
         body.set_linvel(Vector::ZERO, false);
         body.set_angvel(Vector::ZERO, false);
         body.set_locked_axes(locked | axes, false);
-        if !pose.is_finite() {
-            body.set_position(Pose::IDENTITY, false);
-            body.set_enabled(false);
+        let last = records.get(handle).and_then(|record| record.exact.as_ref()).map(ExactState::pose);
+        if let Some(last) = last.filter(|_| !pose.is_finite()) {
+            body.set_position(last, false);
         }
     }
 
@@ -81,9 +83,6 @@ impl HeldBodies {
         }
         for held in self.bodies.drain(..) {
             let Some(body) = world.bodies.get_mut(held.handle) else { continue };
-            if !held.pose.is_finite() {
-                body.set_enabled(true);
-            }
             if *body.position() != held.pose {
                 body.set_position(held.pose, false);
             }

@@ -18,3 +18,4 @@ mod sleep;
 mod statics;
 mod substepping;
 mod user_changes;
+mod worlds;

@@ -3,7 +3,7 @@
 use super::common::{add_cube, cable, run, soft};
 use lariat_rapier::lariat_ancf::{At, PointLoad, Vector3};
 use lariat_rapier::rapier::prelude::*;
-use lariat_rapier::{AttachmentKind, CableHandle, CableSet, Error};
+use lariat_rapier::{AttachmentKind, CableHandle, CableSet, Error, Gap};
 
 /// Adds a load of 5 kg on 2 m of cable, released from horizontal, at z (m).
 fn add_pendulum(world: &mut PhysicsWorld, set: &mut CableSet, z: f64, name: &str) -> (CableHandle, RigidBodyHandle) {
@@ -54,8 +54,7 @@ fn a_refused_step_concerns_its_island_alone() {
     let times = [bad, good].map(|(rope, _)| set.get(rope).unwrap().time());
     assert!((times[0] - 40.0 / 60.0).abs() < 1e-5 && (times[1] - 50.0 / 60.0).abs() < 1e-5, "{times:?}");
     // the two clocks are aligned when the cables become one island
-    set.join((bad.0, At::End), (good.0, At::ArcLength(1.0))).unwrap_err();
-    set.join((bad.0, At::ArcLength(1.0)), (good.0, At::ArcLength(1.0))).unwrap();
+    set.join_with_gap((bad.0, 1.0), (good.0, 1.0), Gap::Close).unwrap();
     run(&mut world, &mut set, 5);
     assert_eq!(set.get(bad.0).unwrap().time(), set.get(good.0).unwrap().time());
 }
@@ -125,4 +124,23 @@ fn a_multibody_on_a_cable_that_cannot_step_keeps_its_state() {
     set.get_mut(rope).unwrap().clear_loads();
     run(&mut world, &mut set, 20);
     assert!(world.bodies[links[1]].translation().y < -0.2);
+}
+
+/// A body whose position is not a number keeps it, with its velocities, and goes on when it is set
+/// right.
+#[test]
+fn a_body_without_a_position_keeps_its_velocities() {
+    let (mut world, mut set) = (PhysicsWorld::new(), CableSet::new());
+    let bad = add_pendulum(&mut world, &mut set, 0.0, "bad");
+    run(&mut world, &mut set, 20);
+    let at = world.bodies[bad.1].translation();
+    world.bodies[bad.1].set_translation(Vector::new(Real::NAN, 0.0, 0.0), true);
+    let before = state(&world, &set, bad);
+    for _ in 0..5 {
+        set.step(&mut world).unwrap_err();
+        assert!(state(&world, &set, bad) == before);
+    }
+    world.bodies[bad.1].set_translation(at, true);
+    run(&mut world, &mut set, 20);
+    assert!(world.bodies[bad.1].is_enabled());
 }
