@@ -179,12 +179,11 @@ impl FromStr for Method {
     type Err = Error;
     fn from_str(text: &str) -> Result<Self, Error> {
         let name = text.to_ascii_lowercase();
-        if let Some(rest) = name.strip_prefix("generalised-alpha-") {
-            if let Ok(rho) = rest.parse::<f64>() {
+        if let Some(rest) = name.strip_prefix("generalised-alpha-")
+            && let Ok(rho) = rest.parse::<f64>() {
                 let method = Method::GeneralisedAlpha { rho };
                 return method.check().map(|()| method);
             }
-        }
         Method::ALL.into_iter().find(|m| m.to_string() == name).ok_or_else(|| Error::UnknownIntegrator {
             name: text.to_string(),
             expected: Method::ALL.map(|m| m.to_string()).join(", ")

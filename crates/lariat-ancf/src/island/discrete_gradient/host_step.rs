@@ -89,7 +89,7 @@ impl HostStep<'_, '_> {
             }
         };
         add(deviations, -1.0, &mut state.v);
-        let equations = IslandEquations { cables: &mut **cables, layout, matrices };
+        let equations = IslandEquations { cables, layout, matrices };
         IslandDynamics { equations, accounts, vectors }.match_velocities(state)?;
         add(deviations, 1.0, &mut state.v);
         for (cable, part) in cables.iter_mut().zip(&layout.parts) {
