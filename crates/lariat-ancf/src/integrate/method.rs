@@ -180,10 +180,11 @@ impl FromStr for Method {
     fn from_str(text: &str) -> Result<Self, Error> {
         let name = text.to_ascii_lowercase();
         if let Some(rest) = name.strip_prefix("generalised-alpha-")
-            && let Ok(rho) = rest.parse::<f64>() {
-                let method = Method::GeneralisedAlpha { rho };
-                return method.check().map(|()| method);
-            }
+            && let Ok(rho) = rest.parse::<f64>()
+        {
+            let method = Method::GeneralisedAlpha { rho };
+            return method.check().map(|()| method);
+        }
         Method::ALL.into_iter().find(|m| m.to_string() == name).ok_or_else(|| Error::UnknownIntegrator {
             name: text.to_string(),
             expected: Method::ALL.map(|m| m.to_string()).join(", ")
