@@ -17,6 +17,7 @@
 //!
 //! Lumping on the nodes: it loses the moments on the slopes, and with them an order of the static shape.
 
+use crate::point::Point;
 use super::acts::{Acts, Nothing};
 use super::{Cut, Effect, Target};
 use crate::element::{mass, shape};
@@ -39,8 +40,8 @@ pub struct LineLoad {
 
 impl LineLoad {
     /// Creates a force per length (N/m) on the whole cable.
-    pub fn uniform(force: Vector3<f64>) -> Self {
-        LineLoad { from: 0.0, to: f64::MAX, force }
+    pub fn uniform(force: impl Into<Point>) -> Self {
+        LineLoad { from: 0.0, to: f64::MAX, force: force.into().0 }
     }
 }
 
