@@ -15,11 +15,11 @@ fn add_pendulum(world: &mut PhysicsWorld, set: &mut CableSet, z: f64, name: &str
 }
 
 /// Returns coordinates and clock of a cable, and the state of a body, to the bit.
-fn state(world: &PhysicsWorld, set: &CableSet, (rope, load): (CableHandle, RigidBodyHandle)) -> (Vec<u64>, Vec<u32>) {
+fn state(world: &PhysicsWorld, set: &CableSet, (rope, load): (CableHandle, RigidBodyHandle)) -> (Vec<u64>, Vec<u64>) {
     let (rope, load) = (set.get(rope).unwrap(), &world.bodies[load]);
     let cable = rope.positions().iter().chain(rope.velocities()).chain([&rope.time()]).map(|x| x.to_bits()).collect();
     let body = [load.translation(), load.linvel(), load.angvel()].into_iter().flat_map(|v| v.to_array());
-    (cable, body.chain(load.rotation().to_array()).map(Real::to_bits).collect())
+    (cable, body.chain(load.rotation().to_array()).map(|x| f64::from(x).to_bits()).collect())
 }
 
 /// One of two pendulums has an infinite force for ten host steps: it keeps its state to the bit, the
@@ -88,7 +88,10 @@ fn a_body_that_cannot_step_is_an_obstacle_for_others() {
     let load = PointLoad::force(1.0, Vector3::new(0.0, 1e300, 0.0));
     set.get_mut(bad.0).unwrap().add_load(load).unwrap();
     let before = state(&world, &set, bad);
-    let (at, top) = (world.bodies[bad.1].translation(), world.bodies[bad.1].translation().y + 0.1 * 2.0_f32.sqrt());
+    let (at, top) = (
+        world.bodies[bad.1].translation(),
+        world.bodies[bad.1].translation().y + (0.1 * core::f64::consts::SQRT_2) as Real,
+    );
     let above = add_cube(&mut world, 1.0, 0.2, [at.x, at.y + 0.6, at.z]);
     for _ in 0..90 {
         set.step(&mut world).unwrap_err();
