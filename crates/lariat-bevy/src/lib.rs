@@ -109,8 +109,8 @@ pub use effects::*;
 pub use error::Error;
 pub use install::install;
 pub use interpolate::{Interpolate, curve};
-pub use lariat_ancf::{self, At, Fidelity, Point};
 pub use junction::Junction;
+pub use lariat_ancf::{self, At, Fidelity, Point};
 pub use lariat_rapier::{self, AttachmentKind, Gap, Rope, RopeEnd, Settings, rapier};
 pub use physics::Physics;
 #[cfg(feature = "bevy_app")]

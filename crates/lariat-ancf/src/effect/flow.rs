@@ -28,8 +28,8 @@
 //! [`Snapshot`]: crate::Snapshot
 //! [`ForceDensity`]: crate::ForceDensity
 
-use crate::point::Point;
 use crate::error::{Error, require, require_finite};
+use crate::point::Point;
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 

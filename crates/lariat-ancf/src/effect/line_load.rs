@@ -17,11 +17,11 @@
 //!
 //! Lumping on the nodes: it loses the moments on the slopes, and with them an order of the static shape.
 
-use crate::point::Point;
 use super::acts::{Acts, Nothing};
 use super::{Cut, Effect, Target};
 use crate::element::{mass, shape};
 use crate::error::{Error, require, require_finite};
+use crate::point::Point;
 use crate::quadrature::gauss_legendre;
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};

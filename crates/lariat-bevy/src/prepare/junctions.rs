@@ -49,7 +49,7 @@ pub(crate) fn update(
         };
         match outcome {
             Ok(Some(handle)) => {
-                cables.links.junctions.insert(handle, JunctionLink { entity, made: junction.clone() });
+                cables.links.junctions.insert(handle, JunctionLink { entity, made: Junction::clone(&junction) });
                 component.insert(Joined(handle)).remove::<NotJoinable>();
             }
             Ok(None) => {
@@ -70,12 +70,7 @@ fn existing(cables: &Cables, junction: &Junction) -> Vec<(CableHandle, At)> {
 }
 
 /// Returns whether a junction of the set is the one that its component describes.
-fn is_as_described(
-    cables: &Cables,
-    handle: JunctionHandle,
-    junction: &Junction,
-    points: &[(CableHandle, At)],
-) -> bool {
+fn is_as_described(cables: &Cables, handle: JunctionHandle, junction: &Junction, points: &[(CableHandle, At)]) -> bool {
     let Ok(joined) = cables.set.junction(handle) else { return false };
     let same = cables.links.junctions.get(&handle).is_some_and(|link| link.made.points == junction.points);
     same && joined.points().map(|(cable, _)| cable).eq(points.iter().map(|(cable, _)| *cable))

@@ -147,7 +147,7 @@ fn a_spawned_rope_hangs_breaks_and_is_despawned_as_a_whole() {
     assert!((height(&world, load) + 2.1).abs() < 1e-3 && cable_of(&world, cable).name() == "sling");
     world.get_mut::<BreakTension>(cable).unwrap().0 = 20.0;
     steps(&mut world, 2);
-    assert!(world.resource::<Messages<CableBroken>>().len() > 0);
+    assert!(!world.resource::<Messages<CableBroken>>().is_empty());
     world.despawn(cable);
     assert!(world.get_entity(ends[0]).is_err());
     assert!(world.resource::<Cables>().get(cable).is_err());

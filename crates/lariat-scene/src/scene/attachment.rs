@@ -100,7 +100,9 @@ pub(super) fn read(
     let gap = match row.gap {
         GapRule::Limit(limit) => Gap::Refuse(limit),
         GapRule::Closing(_) if body.is_none() => {
-            return Err(doc.conflict(&at.key("gap"), "the world does not draw a cable to an anchor; a body does".to_string()));
+            return Err(
+                doc.conflict(&at.key("gap"), "the world does not draw a cable to an anchor; a body does".to_string())
+            );
         }
         GapRule::Closing(_) => Gap::Close,
     };
