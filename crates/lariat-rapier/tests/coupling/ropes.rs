@@ -20,11 +20,20 @@ fn a_rope_in_one_call_holds_where_it_is_told_to() {
     let lower = cables.get(below.cable).unwrap();
     assert!((lower.length() - 0.88).abs() < 1e-12 && lower.elements().len() == 6 && lower.name() == "lower");
     assert!(top.start.is_none() && top.end.is_some() && below.start.is_some());
-    run(&mut world, &mut cables, 600);
-    let pull = |hook| cables.attachment(hook).unwrap().force().y;
-    assert!((pull(below.end.unwrap()) / (2.0 * 9.81) - 1.0).abs() < 0.01, "{}", pull(below.end.unwrap()));
-    let weight = (7.0 + 0.88 * 0.4) * 9.81;
-    assert!((pull(top.end.unwrap()) / weight - 1.0).abs() < 0.01, "{}", pull(top.end.unwrap()));
+    run(&mut world, &mut cables, 300);
+    // the loads still bounce: means over 5 s
+    let mut pulls = [0.0; 2];
+    for _ in 0..300 {
+        run(&mut world, &mut cables, 1);
+        for (pull, hook) in pulls.iter_mut().zip([below.end, top.end]) {
+            *pull += cables.attachment(hook.unwrap()).unwrap().force().y / 300.0;
+        }
+    }
+    let weights = [2.0 * 9.81, (7.0 + 0.88 * 0.4) * 9.81];
+    assert!(
+        pulls.iter().zip(weights).all(|(pull, weight)| (pull / weight - 1.0).abs() < 0.01),
+        "{pulls:?} {weights:?}"
+    );
     let hook = cables.get(top.cable).unwrap().sample(2.0).unwrap().position;
     assert!((world.bodies[load].position() * Vector::new(0.0, 0.1, 0.0) - hook.to_rapier()).length() < 1e-5);
 }
@@ -46,8 +55,8 @@ fn an_impossible_rope_is_an_error_and_adds_nothing() {
     assert_eq!(cables.iter().count() + cables.attachments().count(), 0);
 }
 
-/// A load of 5 kg hangs on a cable of 60 N; a pull that grows to 50 N in 2 s is added. The cable
-/// breaks at the top node when its tension reaches 60 N, and load and rest fall freely. A strength
+/// A load of 5 kg hangs on a cable of 2 kg that bears 80 N; a pull that grows to 50 N in 2 s is added.
+/// The cable breaks at the top node when its tension reaches 80 N, and load and rest fall freely. A strength
 /// that is set while the cable sleeps acts in the next step.
 ///
 /// Reference: N = (M + rho A L) g + F(t), free fall.
@@ -57,14 +66,14 @@ fn a_cable_breaks_at_its_strength() {
         let mut world = PhysicsWorld::new();
         let load = add_cube(&mut world, 5.0, 0.1, [0.0, -2.1, 0.0]);
         let mut set = CableSet::new();
-        let rope = cable([0.0; 3], [0.0, -2.0, 0.0], Section::from_stiffness(1e5, 0.1, 0.1).unwrap());
+        let rope = cable([0.0; 3], [0.0, -2.0, 0.0], Section::from_stiffness(1e5, 0.1, 1.0).unwrap());
         let rope = rope.damping(Damping { axial: 0.01, bending: 0.01 }).fix(At::Start).build().unwrap();
         let rope = set.insert(rope);
         set.attach(&world, rope, At::End, load, Vector::new(0.0, 0.1, 0.0), AttachmentKind::Ball).unwrap();
         run(&mut world, &mut set, 900);
         assert!(set.is_asleep(rope).unwrap());
-        let weight = 5.2 * 9.81;
-        set.set_strength(rope, Some(if asleep { 40.0 } else { 60.0 })).unwrap();
+        let weight = 7.0 * 9.81;
+        set.set_strength(rope, Some(if asleep { 50.0 } else { 80.0 })).unwrap();
         if !asleep {
             run(&mut world, &mut set, 5);
             assert!(set.is_asleep(rope).unwrap(), "a strength that is not exceeded wakes nothing");
@@ -79,13 +88,13 @@ fn a_cable_breaks_at_its_strength() {
         }
         let event = set.events().iter().find(|event| matches!(event, Event::Broken { .. })).cloned();
         let Some(Event::Broken { cable, rest, arc_length, tension }) = event else { panic!("it did not break") };
-        assert!(cable == rope && (arc_length - 0.2).abs() < 1e-9);
+        assert!(cable == rope && (arc_length - 0.2).abs() < 1e-9, "broken at {arc_length} m");
         if asleep {
-            assert!(steps == 1 && (tension - weight).abs() < 0.1, "{steps} steps, {tension} N");
+            assert!(steps == 1 && (tension - weight).abs() < 1.0, "{steps} steps, {tension} N");
         } else {
-            // (60 - weight)/50 of 2 s, in steps of 1/60 s; the load lags behind by a few per cent
-            let expected = (60.0 - weight) / 50.0 * 120.0;
-            assert!((f64::from(steps) - expected).abs() < 4.0 && tension < 61.0, "{steps} of {expected}, {tension} N");
+            // (80 - weight)/50 of 2 s, in steps of 1/60 s; the load lags behind by a few per cent
+            let expected = (80.0 - weight) / 50.0 * 120.0;
+            assert!((f64::from(steps) - expected).abs() < 4.0 && tension < 81.0, "{steps} of {expected}, {tension} N");
             set.get_mut(rest).unwrap().clear_loads();
         }
         let (from, speed) = (world.bodies[load].translation().y, world.bodies[load].linvel().y);
