@@ -59,7 +59,9 @@ impl SpawnRope for Commands<'_, '_> {
         description.points = vec![from.point, to.point];
         description.length = Some(rope.length(&from.point, &to.point));
         description.elements = rope.elements;
-        description.integrator = rope.fidelity.into();
+        if let Some(fidelity) = rope.fidelity {
+            description.integrator = fidelity.into();
+        }
         let damping = Damping::critical_fraction(ROPE_DAMPING);
         // the cable is built when the component `Cable` is inserted, with what is there
         let cable = self.spawn((Name::new(rope.name), Bending, damping, Cable(description))).id();

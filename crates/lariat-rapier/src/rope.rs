@@ -28,8 +28,8 @@ pub struct Rope {
     pub strength: Option<f64>,
     /// Number of elements. Default: that of [`Fidelity::Game`].
     pub elements: usize,
-    /// Accuracy against cost. Default: that of a cable.
-    pub fidelity: Fidelity,
+    /// Accuracy against cost. Default: that of the set.
+    pub fidelity: Option<Fidelity>,
 }
 
 impl Rope {
@@ -50,7 +50,7 @@ impl Rope {
             slack: 0.0,
             strength: None,
             elements: Fidelity::Game.elements(),
-            fidelity: Fidelity::default(),
+            fidelity: None,
         }
     }
 
@@ -80,7 +80,7 @@ impl Rope {
 
     /// Sets accuracy against cost.
     pub fn fidelity(mut self, fidelity: Fidelity) -> Self {
-        self.fidelity = fidelity;
+        self.fidelity = Some(fidelity);
         self
     }
 
@@ -149,8 +149,10 @@ pub(crate) fn add(
         .points([from.point, to.point])
         .length(length)
         .section(section)
-        .elements(rope.elements)
-        .fidelity(rope.fidelity);
+        .elements(rope.elements);
+    if let Some(fidelity) = rope.fidelity {
+        builder = builder.fidelity(fidelity);
+    }
     if length > 0.0 {
         // a length that is not positive is an error of the builder
         let first_mode = core::f64::consts::FRAC_PI_2 * wave_speed / length;
