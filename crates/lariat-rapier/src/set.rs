@@ -10,10 +10,11 @@ use crate::events::Event;
 use crate::handle::{AttachmentHandle, CableHandle, JunctionHandle};
 use crate::junction::Junction;
 use crate::settings::Settings;
+use crate::statics::{self, Equilibrium};
 use crate::step::{self, HostStep, Stepper};
 use crate::totals::{self, WorldEnergy};
 use crate::{attach, edit, join};
-use lariat_ancf::{At, Cable, Momentum};
+use lariat_ancf::{At, Cable, EquilibriumOptions, Momentum};
 use rapier::dynamics::RigidBodyHandle;
 use rapier::math::Vector;
 #[cfg(feature = "debug-render")]
@@ -253,6 +254,18 @@ impl CableSet {
     /// Ends a host step: `world.integration_parameters.dt` is the host's again.
     pub fn finish(&mut self, world: &mut PhysicsWorld, host: HostStep) {
         step::finish(world, &host);
+    }
+
+    /// Moves all cables, and the dynamic bodies attached to them, to static equilibrium under gravity,
+    /// loads and the users' forces; velocities become zero, readings of attachments are those at rest.
+    /// Returns what was moved, what was held, and what nothing is attached to.
+    ///
+    /// # Errors
+    /// [`Error::Cable`] with [`NoEquilibrium`](lariat_ancf::Error::NoEquilibrium) if an island has none;
+    /// [`Error::JointInStatics`] and [`Error::ContactInStatics`] for bodies with joints and contacts. Set
+    /// and world are then as before.
+    pub fn equilibrium(&mut self, world: &mut PhysicsWorld) -> Result<Equilibrium, Error> {
+        statics::equilibrium(&mut self.contents, world, EquilibriumOptions::default())
     }
 
     /// Returns the events of the last host step.

@@ -16,7 +16,7 @@
 //! # Validity
 //!
 //! Loads on bodies that are constant in world axes. No contact: what touches must be known to the
-//! caller. Tangential and spin modes without stiffness keep their place.
+//! caller. Modes without stiffness, such as a turn about a rope, keep their place.
 //!
 //! # References
 //!
