@@ -146,10 +146,9 @@ impl Search {
         let force = scales.iter().map(|s| s.force).sum::<f64>() + of_bodies;
         let mass: f64 = scales.iter().map(|s| s.mass).sum::<f64>() + bodies.iter().map(|b| b.mass).sum::<f64>();
         let length = scales.iter().map(|s| s.length).fold(0.0, f64::max);
-        let has_potential = bodies.iter().all(|b| b.torque == Vector3::zeros())
-            && cables
-                .iter()
-                .all(|c| !c.system.forces.drive() && c.model.loads.iter().all(|load| load.moment == Vector3::zeros()));
+        let has_potential = cables
+            .iter()
+            .all(|c| !c.system.forces.drive() && c.model.loads.iter().all(|load| load.moment == Vector3::zeros()));
         let mut q: Vec<f64> = cables.iter().flat_map(|cable| cable.positions().iter().copied()).collect();
         bodies.iter().for_each(|body| q.extend(body.position.iter().chain(&[0.0; 3])));
         let zeros = || vec![0.0; layout.size()];
@@ -205,7 +204,7 @@ impl Search {
                 }
             };
             self.accept();
-            energy = after;
+            energy = self.energy(cables);
             c2 = (GROWTH * c2).min(MAX_C2 * self.first);
             self.residual = self.balance(cables);
             if !(self.residual <= self.tolerance && moved <= AT_REST * self.length) {
@@ -396,12 +395,17 @@ impl Search {
     }
 }
 
-/// Returns the potential energy in J at coordinates `q`.
+/// Returns the potential energy in J at coordinates `q`, less the work of torques over the rotations from
+/// the attitudes that these are counted from.
 fn energy_of(layout: &Layout, cables: &mut [&mut Cable], q: &[f64]) -> f64 {
     let mut sum = 0.0;
     for (cable, part) in cables.iter_mut().zip(&layout.parts) {
         sum += potential(&cable.equations().0, 1.0, &q[part.range()]);
     }
     let bodies = layout.bodies.iter().enumerate();
-    sum - bodies.map(|(i, body)| body.force.dot(&vector(&q[layout.body_at(i)..]))).sum::<f64>()
+    let work = bodies.map(|(i, body)| {
+        let at = layout.body_at(i);
+        body.force.dot(&vector(&q[at..])) + body.torque.dot(&vector(&q[at + 3..]))
+    });
+    sum - work.sum::<f64>()
 }

@@ -252,3 +252,23 @@ fn an_island_that_nothing_holds_is_an_error() {
     assert!((residual - 5.6 * G).abs() < 1e-9 && *cable.snapshot() == before, "{residual}");
     assert_eq!(bodies[0], body(5.0, [0.0, -1.0, 0.0]));
 }
+
+/// A torque turns a deck on four ropes about the vertical, until the ropes, which then slant, turn it back.
+///
+/// *Source.* Bifilar suspension: each rope's horizontal pull T sin(slant) along the chord of its hook; torque = 4 (W/4) r^2 sin(phi)/h,
+/// h the remaining height (Timoshenko & Young, Vibration Problems), without the weight of the ropes and their stretch.
+#[test]
+fn a_torque_turns_a_deck_until_its_ropes_hold_it() {
+    let corners = [[-1.0, 0.0, -0.5], [1.0, 0.0, -0.5], [1.0, 0.0, 0.5], [-1.0, 0.0, 0.5]];
+    let mut bodies = [body(200.0, [0.0, -2.0, 0.0])];
+    bodies[0].torque = Vector3::new(0.0, 150.0, 0.0);
+    let build = |c: [f64; 3]| rope(c, [c[0], -2.0, c[2]]).fix(At::Start).build().unwrap();
+    let mut cables: Vec<Cable> = corners.into_iter().map(build).collect();
+    let pins: Vec<_> = corners.iter().enumerate().map(|(k, &c)| pin(k, 5, 0, c)).collect();
+    assert!(solve(&mut cables, &mut bodies, &pins));
+    let turned = bodies[0].rotation.scaled_axis();
+    let height = -bodies[0].position.y;
+    // half of each rope hangs on its hook
+    let expected = (150.0 * height / ((200.0 + 4.0 * 0.6) * G * 1.25)).asin();
+    assert!(turned.xz().norm() < 1e-6 && (turned.y / expected - 1.0).abs() < 5e-3, "{turned:?} of {expected}");
+}
