@@ -202,6 +202,7 @@ impl Physics {
             self.bodies.iter().position(|b| *b == handle).map(|i| scene.bodies[i].name.clone())
         };
         match error {
+            lariat_rapier::Error::StepRefused { cause, .. } => self.explain(scene, time, *cause),
             lariat_rapier::Error::Cable(source) => Error::mechanics(time, source),
             lariat_rapier::Error::BodyNotFinite { body, quantity, time } => {
                 let name = name(body).unwrap_or_default();
