@@ -184,12 +184,12 @@ impl Search {
         self.place(cables);
         let (mut shakes, mut straightened, mut lowest) = (0, false, f64::INFINITY);
         let mut c2 = self.first;
-        let mut energy = self.energy(cables);
+        let mut energy = energy_of(&self.layout, cables, &self.q);
         let mut cause = None;
         while self.steps < most {
             self.steps += 1;
             let outcome = self.step(cables, c2);
-            let after = if outcome.is_ok() { self.trial_energy(cables) } else { f64::NAN };
+            let after = if outcome.is_ok() { energy_of(&self.layout, cables, &self.trial) } else { f64::NAN };
             // NaN fails too
             let falls = after.is_finite() && (!self.has_potential || after <= energy + self.energy_rounding);
             let moved = match outcome {
@@ -203,8 +203,9 @@ impl Search {
                     continue;
                 }
             };
-            self.accept();
-            energy = self.energy(cables);
+            core::mem::swap(&mut self.q, &mut self.trial);
+            self.turn();
+            energy = energy_of(&self.layout, cables, &self.q);
             c2 = (GROWTH * c2).min(MAX_C2 * self.first);
             self.residual = self.balance(cables);
             if !(self.residual <= self.tolerance && moved <= AT_REST * self.length) {
@@ -230,7 +231,7 @@ impl Search {
                 self.shake();
             }
             self.place(cables);
-            energy = self.energy(cables);
+            energy = energy_of(&self.layout, cables, &self.q);
             c2 = self.first;
         }
         Err(cause.map_or(EquilibriumFailure::NotConverged, EquilibriumFailure::Step))
@@ -311,12 +312,7 @@ impl Search {
         Err(StepFailure::NotConverged { iterations: MAX_ITERATIONS, increment: before })
     }
 
-    /// Makes the trial the present shape; rotations are counted from it.
-    fn accept(&mut self) {
-        core::mem::swap(&mut self.q, &mut self.trial);
-        self.turn();
-    }
-
+    /// Counts rotations from the present attitudes.
     fn turn(&mut self) {
         for i in 0..self.layout.bodies.len() {
             let at = self.layout.body_at(i);
@@ -325,14 +321,6 @@ impl Search {
             self.layout.bodies[i].rotation = rotation;
             self.q[at + 3..at + 6].fill(0.0);
         }
-    }
-
-    fn energy(&self, cables: &mut [&mut Cable]) -> f64 {
-        energy_of(&self.layout, cables, &self.q)
-    }
-
-    fn trial_energy(&self, cables: &mut [&mut Cable]) -> f64 {
-        energy_of(&self.layout, cables, &self.trial)
     }
 
     /// Returns the largest residual in N, of nodes and of bodies; moments are divided by the lever of the
