@@ -81,7 +81,7 @@ impl World {
                 let report = cable.equilibrium()?;
                 *static_iterations += report.iterations as u64;
                 // with bodies this is where statics begin
-                if !report.stable && !(fully && physics.is_some()) {
+                if !(report.stable || fully && physics.is_some()) {
                     warnings.push(unstable(cable));
                 }
                 reports.push(report);
