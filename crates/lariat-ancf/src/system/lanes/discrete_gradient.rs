@@ -223,7 +223,7 @@ impl Elements {
             let geometric = scaled(&tangent.geometric, implicit);
             let mut h = tangent.h;
             for i in 0..21 {
-                h[i] = h[i] * implicit;
+                h[i] *= implicit;
             }
             let blocks = [
                 hessian_block(0, 0, &geometric, &h, &s.mean),
