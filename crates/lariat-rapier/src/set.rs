@@ -252,7 +252,7 @@ impl CableSet {
 
     /// Ends a host step: `world.integration_parameters.dt` is the host's again.
     pub fn finish(&mut self, world: &mut PhysicsWorld, host: HostStep) {
-        step::finish(world, &host);
+        step::finish(&mut self.contents, world, &host);
     }
 
     /// Returns the events of the last host step.

@@ -38,6 +38,18 @@ pub struct PinAccount {
     power: f64,
 }
 
+impl PinAccount {
+    /// Adds the account of the step that follows.
+    pub fn add(&mut self, next: &PinAccount) {
+        let (impulse, angular_impulse) = (self.impulse, self.angular_impulse);
+        let work = self.work;
+        *self = *next;
+        self.impulse += impulse;
+        self.angular_impulse += angular_impulse;
+        self.work += work;
+    }
+}
+
 /// The accounts of all pins.
 #[derive(Clone, Debug, Default)]
 pub(super) struct PinAccounts {

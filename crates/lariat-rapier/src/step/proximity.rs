@@ -62,6 +62,19 @@ fn swept(aabb: Aabb, displacement: &Vector3<f64>, margin: f64) -> Aabb {
     Aabb::new(aabb.mins.min(moved.mins), aabb.maxs.max(moved.maxs)).loosened(margin as Real)
 }
 
+/// Returns whether the box of a body, swept along `displacement` (m), overlaps that of another. It
+/// needs no list of Rapier's, which has none before its first step, and asks all colliders.
+pub(crate) fn overlaps(world: &PhysicsWorld, handle: RigidBodyHandle, displacement: &Vector3<f64>) -> bool {
+    let margin = f64::from(world.integration_parameters.prediction_distance());
+    let solid = |c: &Collider| c.is_enabled() && !c.is_sensor();
+    let own = world.bodies[handle].colliders().iter().filter_map(|c| world.colliders.get(*c)).filter(|c| solid(c));
+    let mut boxes = own.map(|c| swept(c.compute_aabb(), displacement, margin));
+    boxes.any(|own| {
+        let mut others = world.colliders.iter().map(|(_, c)| c).filter(|c| solid(c) && c.parent() != Some(handle));
+        others.any(|c| c.compute_aabb().intersects(&own))
+    })
+}
+
 /// Returns an upper bound in m/s of the speed at which a body with `displacement` (m) in a step may
 /// collide with one that Rapier lists no pair with yet; `None` if it cannot. Slow bodies among slow
 /// ones need no look-up.

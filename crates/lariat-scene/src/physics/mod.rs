@@ -43,6 +43,37 @@ pub struct Physics {
     max_gap: f64,
 }
 
+impl Clone for Physics {
+    fn clone(&self) -> Self {
+        let w = &self.world;
+        let world = PhysicsWorld {
+            gravity: w.gravity,
+            integration_parameters: w.integration_parameters,
+            islands: w.islands.clone(),
+            broad_phase: w.broad_phase.clone(),
+            narrow_phase: w.narrow_phase.clone(),
+            bodies: w.bodies.clone(),
+            colliders: w.colliders.clone(),
+            impulse_joints: w.impulse_joints.clone(),
+            multibody_joints: w.multibody_joints.clone(),
+            soft_bodies: w.soft_bodies.clone(),
+            // the rest are buffers
+            ..PhysicsWorld::default()
+        };
+        Physics {
+            world,
+            bodies: self.bodies.clone(),
+            cables: self.cables.clone(),
+            handles: self.handles.clone(),
+            attachments: self.attachments.clone(),
+            held_by: self.held_by.clone(),
+            rapier_steps: self.rapier_steps,
+            reached: self.reached,
+            max_gap: self.max_gap,
+        }
+    }
+}
+
 impl Physics {
     /// Builds the bodies as drawn, without cables.
     ///
