@@ -43,7 +43,7 @@ pub(crate) fn integrate(
         return Ok(());
     }
     read_members(contents, world, motions, island, prediction, step)?;
-    let parts = parts(&integrator, step.h);
+    let parts = if island.bodies().next().is_some() { parts(&integrator, step.h) } else { 1 };
     let integrator = share_of(integrator, parts);
     for part in 0..parts {
         for (body, start) in prediction.end.iter_mut().zip(&prediction.start) {

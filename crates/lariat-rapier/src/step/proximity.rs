@@ -31,9 +31,15 @@ pub(crate) fn is_linked(world: &PhysicsWorld, handle: RigidBodyHandle) -> bool {
 
 /// Returns whether a body is near no other, and no joint holds it but that of a ledger.
 pub(crate) fn is_isolated(world: &PhysicsWorld, handle: RigidBodyHandle) -> bool {
+    is_unjointed(world, handle) && !may_deviate(world, handle)
+}
+
+/// Returns whether no joint holds a body but that of a ledger.
+pub(crate) fn is_unjointed(world: &PhysicsWorld, handle: RigidBodyHandle) -> bool {
     let ledger = |b: RigidBodyHandle| world.bodies.get(b).is_some_and(is_ledger);
-    let joined = world.impulse_joints.attached_joints(handle).any(|(a, b, _, _)| !ledger(a) && !ledger(b));
-    !joined && !may_deviate(world, handle)
+    let joined = |(a, b)| !ledger(a) && !ledger(b);
+    world.multibody_joints.rigid_body_link(handle).is_none()
+        && !world.impulse_joints.attached_joints(handle).any(|(a, b, _, _)| joined((a, b)))
 }
 
 /// Returns whether Rapier lists a pair with a collider of a body. It keeps the pairs of a removed

@@ -48,6 +48,9 @@ const TAUT_STRAIN: f64 = 1e-5;
 const MAX_PHASE: f64 = 0.6;
 /// Largest gap in m that may open in a Rapier step.
 const MAX_GAP: f64 = 1e-3;
+/// Steps of a host step of a body that joints hold: the reactions of joints are estimated from step
+/// to step.
+const JOINTED_STEPS: f64 = 4.0;
 /// Share of the force at an attachment from which a reaction estimate counts.
 const MIN_REACTION: f64 = 0.1;
 
@@ -71,7 +74,9 @@ pub(crate) fn count(contents: &Contents, world: &PhysicsWorld, settings: &Settin
         let first_contact = dt * speed * g / (1.0 + g) / MAX_GAP;
         vibration.max(first_contact)
     });
-    let needed = needed.fold(rotation(contents, world, dt), f64::max);
+    let jointed = |a: &Attachment| is_integrated(world, a.body) && !proximity::is_unjointed(world, a.body);
+    let joints = if contents.attachments.values().any(jointed) { JOINTED_STEPS } else { 1.0 };
+    let needed = needed.fold(rotation(contents, world, dt).max(joints), f64::max);
     // a value that is not a number, or too large, gives the maximum
     (needed.ceil().min(f64::from(max)) as u32).max(min)
 }

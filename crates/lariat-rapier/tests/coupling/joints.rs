@@ -144,7 +144,6 @@ fn arm(multibody: bool, limits: bool, iterations: usize, rate: usize, impulse: f
         .build()
         .unwrap();
     let rope = set.insert(rope);
-    set.settings.rapier_steps = 4;
     let held = set.attach_here(&world, rope, At::End, before, AttachmentKind::Ball).unwrap();
     run(&mut world, &mut set, rate);
     world.bodies[links[1]].apply_impulse(Vector::new(0.0, impulse as Real, 0.3 * impulse as Real), true);

@@ -22,6 +22,8 @@ use lariat_rapier::rapier::math::Real;
 use lariat_rapier::rapier::prelude::PhysicsWorld;
 use lariat_rapier::{AttachmentHandle, AttachmentKind, AttachmentReading, CableHandle, CableSet};
 
+/// Rapier steps of a host step: a run is for accuracy, in contacts too, and its cost is that of the cables.
+const RAPIER_STEPS: u32 = 4;
 /// Largest difference of velocities at the start without a warning, in m/s.
 const JOLT: f64 = 1e-5;
 
@@ -98,7 +100,7 @@ impl Physics {
             problem,
         })?;
         let cables = CableSet::new();
-        let rapier_steps = cables.settings.rapier_steps.max(1);
+        let rapier_steps = RAPIER_STEPS;
         Ok(Physics {
             world,
             bodies,
