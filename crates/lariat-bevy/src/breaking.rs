@@ -9,7 +9,7 @@ use crate::interpolate::Interpolate;
 use bevy_ecs::component::Component;
 use bevy_ecs::entity::Entity;
 use bevy_ecs::name::Name;
-use bevy_ecs::prelude::World;
+use bevy_ecs::prelude::{DetectChanges, QueryState, Ref, World};
 use lariat_ancf::At;
 use lariat_rapier::CableHandle;
 
@@ -23,11 +23,11 @@ use lariat_rapier::CableHandle;
 pub struct BreakTension(pub f64);
 
 /// Breaks the cables whose tension exceeds their limit.
-pub(crate) fn break_cables(world: &mut World) {
-    let mut limits = world.query::<(Entity, &BreakTension)>();
+pub(crate) fn break_cables(world: &mut World, limits: &mut QueryState<(Entity, Ref<BreakTension>)>) {
     let cables = world.resource::<Cables>();
-    let peak = |(entity, limit): (Entity, &BreakTension)| {
-        let cable = cables.get(entity).ok().filter(|_| !cables.is_asleep(entity))?;
+    let peak = |(entity, limit): (Entity, Ref<BreakTension>)| {
+        // the tension of a sleeping cable does not change, but its limit may
+        let cable = cables.get(entity).ok().filter(|_| limit.is_changed() || !cables.is_asleep(entity))?;
         let (arc_length, tension) = cable.peak_tension();
         (tension > limit.0).then_some((entity, arc_length, tension))
     };

@@ -155,8 +155,14 @@ pub(crate) fn build(mut world: DeferredWorld, entity: Entity) {
 
 /// Notes that the cable of a component that is removed or replaced is to be removed from the set.
 fn discarded(mut world: DeferredWorld, context: HookContext) {
-    let Some(mut cables) = world.get_resource_mut::<Cables>() else { return };
-    if let Some(handle) = cables.links.remove_cable(context.entity) {
-        world.resource_mut::<Pending>().removed_cables.push(handle);
+    let entity = context.entity;
+    let handle = world.get_resource_mut::<Cables>().map(|mut cables| cables.links.remove_cable(entity));
+    let Some(mut pending) = world.get_resource_mut::<Pending>() else { return };
+    match handle {
+        Some(handle) => {
+            pending.removed_cables.extend(handle);
+            pending.unlinked.retain(|unlinked| *unlinked != entity);
+        }
+        None => pending.unlinked.push(entity),
     }
 }

@@ -76,7 +76,8 @@ pub struct Bending;
 )]
 pub struct PointLoads(pub Vec<PointLoad>);
 
-/// Internal damping (Kelvin-Voigt); see [`lariat_ancf::Damping`].
+/// Internal damping (Kelvin-Voigt); see [`lariat_ancf::Damping`]. On a cable without [`Bending`] it
+/// acts on the axial strain alone.
 #[derive(Component, Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[component(on_remove = note_removal)]
 #[cfg_attr(
@@ -119,11 +120,8 @@ impl EffectComponent for Damping {
         }
     }
 
-    fn of_part(&self, effect: &lariat_ancf::Damping) -> Self {
-        match self {
-            Damping::Times(_) => Damping::Times(*effect),
-            Damping::CriticalFraction(_) => *self,
-        }
+    fn of_part(&self, _: &lariat_ancf::Damping) -> Self {
+        *self
     }
 }
 

@@ -42,6 +42,12 @@ pub enum Error {
          in a fixed schedule"
     )]
     VaryingSteps,
+    /// A body of another engine, which a [`Snapshot`](crate::Snapshot) cannot hold.
+    #[error("the body of attachment {attachment} is not in the resource Physics: a snapshot cannot hold it")]
+    ForeignBodies {
+        /// An attachment to such a body.
+        attachment: Entity,
+    },
     /// The schedules and resources of [`install`](crate::install) are missing.
     #[error("this world has no cables: call lariat_bevy::install first")]
     NotInstalled,

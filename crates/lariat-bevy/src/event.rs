@@ -60,7 +60,8 @@ pub struct CableBroken {
 pub enum EndReason {
     /// The body was removed.
     BodyGone,
-    /// The user removed the attachment, its cable or its body relationship; the entity stays.
+    /// The user removed the attachment or its relationship to cable or body, or despawned its
+    /// entity; an entity that was not despawned stays.
     Released,
     /// The force exceeded [`BreakForce`](crate::BreakForce).
     Broken,

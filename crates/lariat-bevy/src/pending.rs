@@ -14,6 +14,9 @@ use std::collections::BTreeSet;
 pub(crate) struct Pending {
     /// Cables whose component was removed or replaced.
     pub removed_cables: Vec<CableHandle>,
+    /// Entities whose cable component was removed or replaced while [`Cables`](crate::Cables) was taken
+    /// out of the world.
+    pub unlinked: Vec<Entity>,
     /// Attachments whose component was removed or replaced.
     pub removed_attachments: Vec<(Entity, AttachmentHandle)>,
     /// Bodies whose component was removed or replaced.

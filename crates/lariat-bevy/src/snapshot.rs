@@ -9,7 +9,7 @@ use crate::attachment::{Attached, Attachment, AttachmentReading, BreakForce, Not
 use crate::body::{Body, BodyHandle, BodyPose, KinematicTarget};
 use crate::breaking::BreakTension;
 use crate::cable::Cable;
-use crate::cables::{Cables, Links};
+use crate::cables::{AttachmentLink, Cables, Links};
 use crate::clock::FixedClock;
 use crate::components::{CableComponents, put};
 use crate::error::Error;
@@ -45,11 +45,10 @@ impl Snapshot {
     /// Copies the state.
     ///
     /// # Errors
-    /// [`Error::NotInstalled`].
+    /// [`Error::NotInstalled`]; [`Error::ForeignBodies`] if a cable depends on a body that is not in
+    /// [`Physics`], because another engine owns it.
     pub fn take(world: &mut World) -> Result<Snapshot, Error> {
-        if !world.contains_resource::<Cables>() {
-            return Err(Error::NotInstalled);
-        }
+        check(world)?;
         let entities: Vec<Entity> = world.query_filtered::<Entity, AnyOfOurs>().iter(world).collect();
         let entities = entities.into_iter().map(|entity| Saved::of(world.entity(entity))).collect();
         let cables = world.resource::<Cables>();
@@ -68,16 +67,15 @@ impl Snapshot {
     /// entity numbers: returns them, from old to new.
     ///
     /// # Errors
-    /// [`Error::NotInstalled`].
+    /// As [`take`](Self::take); nothing is restored then.
     pub fn restore(&self, world: &mut World) -> Result<BTreeMap<Entity, Entity>, Error> {
-        if !world.contains_resource::<Cables>() {
-            return Err(Error::NotInstalled);
-        }
+        check(world)?;
         world.resource_mut::<Cables>().restoring = true;
         let renamed = self.restore_entities(world);
         let name = |entity: Entity| renamed.get(&entity).copied().unwrap_or(entity);
         let (set, links) = (self.set.clone(), self.links.renamed(&name));
         let mut pending = self.pending.clone();
+        pending.unlinked.iter_mut().for_each(|entity| *entity = name(*entity));
         pending.removed_attachments.iter_mut().for_each(|(entity, _)| *entity = name(*entity));
         // a component that had changed when the snapshot was taken counts as changed again
         pending.changed_effects = links.built.keys().copied().collect();
@@ -116,6 +114,19 @@ impl Snapshot {
             saved.clone().put(world, &name);
         }
         renamed
+    }
+}
+
+/// Checks that a world has cables, and that the bodies they are attached to are in [`Physics`].
+fn check(world: &World) -> Result<(), Error> {
+    let cables = world.get_resource::<Cables>().ok_or(Error::NotInstalled)?;
+    let bodies = &world.resource::<Physics>().bodies;
+    let mut attached = cables.links.attachments.values().filter(|link| !bodies.contains(link.handle));
+    // a body of our own that is gone, the user has removed
+    let own = |link: &AttachmentLink| link.body.is_some_and(|body| world.get::<Body>(body).is_some());
+    match attached.find(|link| !own(link)) {
+        Some(link) => Err(Error::ForeignBodies { attachment: link.entity }),
+        None => Ok(()),
     }
 }
 

@@ -18,6 +18,9 @@ pub struct Snapshot {
     /// Work of effects so far.
     #[serde(default)]
     pub(crate) work: EffectWork,
+    /// Elastic energy in J that inserted nodes added so far.
+    #[serde(default)]
+    pub(crate) inserted_energy: f64,
 }
 
 impl Snapshot {

@@ -25,7 +25,8 @@ pub(crate) fn end(mut diagnostics: ResMut<Diagnostics>) {
     diagnostics.stop(Stage::Prepare);
 }
 
-/// Builds the cables that were spawned before [`install`](crate::install).
+/// Builds the cables that were spawned before [`install`](crate::install), or while [`Cables`] was
+/// taken out of the world.
 pub(crate) fn build_cables(
     new: Query<Entity, (Changed<Cable>, Allow<Disabled>)>,
     cables: Res<Cables>,

@@ -17,6 +17,9 @@ fn hanging(world: &mut World) -> (Entity, Entity, Entity, Entity) {
     (cable, load, top, hook)
 }
 
+#[derive(Resource, Default)]
+struct Observed(Vec<AttachmentEnded>);
+
 fn ended(world: &mut World) -> Vec<AttachmentEnded> {
     world.resource_mut::<Messages<AttachmentEnded>>().drain().collect()
 }
@@ -58,8 +61,13 @@ fn a_despawned_attachment_releases_the_body() {
     let mut world = world();
     let (cable, load, _, hook) = hanging(&mut world);
     steps(&mut world, 30);
+    world.add_observer(|event: On<AttachmentEnded>, mut observed: ResMut<Observed>| observed.0.push(event.clone()));
+    world.init_resource::<Observed>();
     world.despawn(hook);
     steps(&mut world, 31);
+    let event = AttachmentEnded { entity: hook, cable, body: Some(load), reason: EndReason::Released };
+    assert_eq!(ended(&mut world), std::slice::from_ref(&event));
+    assert_eq!(world.resource::<Observed>().0, [event]);
     assert!(height(&world, load) < -3.2);
     assert_eq!(world.get::<CableAttachments>(cable).unwrap().iter().count(), 1);
     assert!(world.get_entity(load).is_ok());
