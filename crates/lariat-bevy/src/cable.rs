@@ -41,7 +41,7 @@ use lariat_ancf::{Fidelity, IntegratorChoice, Section};
 /// [`Cables::get`] returns the reason, and [`CableFailed`] is triggered.
 ///
 /// The component cannot be changed in place. Inserting another description replaces the cable, and
-/// attachments pass to the new one. A clone of the component, like that of a prefab, makes a new
+/// attachments pass to the new one if it is at their anchors ([`Gap`](crate::Gap)). A clone of the component, like that of a prefab, makes a new
 /// cable in its initial state.
 ///
 /// # Limits

@@ -17,14 +17,15 @@ pub struct CableFailed {
     pub error: lariat_ancf::Error,
 }
 
-/// A host step failed: no body and no cable advances, and all keep the state after the last
-/// successful Rapier step. Sent again at each host step until the cause is removed, for every cable
-/// that is connected to it.
+/// A cable could not step: it and all that is connected to it by attachments keep their state, and
+/// everything else goes on. Sent at each host step until the cause is removed, for every cable that
+/// is connected to it. With an error that concerns all cables ([`Entity::PLACEHOLDER`]) nothing
+/// advances.
 #[derive(EntityEvent, Message, Clone, Debug, PartialEq)]
 pub struct StepFailed {
-    /// The cable; [`Entity::PLACEHOLDER`] if the cause does not lie in a cable.
+    /// The cable; [`Entity::PLACEHOLDER`] if the error concerns all cables.
     pub entity: Entity,
-    /// The cause, with the name of the cable, the time and the value.
+    /// The cause, with the names of the cables, the time and the value.
     pub error: Error,
 }
 

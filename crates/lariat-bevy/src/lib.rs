@@ -59,8 +59,8 @@
 //!
 //! - No contact of cables with bodies or with each other, no cables joined to each other, and no
 //!   reel: the unstretched length of a cable is constant.
-//! - If one step fails, no body and no cable of the world advances until the cause is removed: see
-//!   [`StepFailed`](event::StepFailed).
+//! - A cable that cannot step stands still with all that is attached to it until the cause is
+//!   removed: see [`StepFailed`](event::StepFailed).
 //! - On the bodies of another plugin ([`BeforeEngine`], [`AfterEngine`]; crate
 //!   `lariat-bevy-rapier`) a host step is one Rapier step, so that taut cables on light bodies in
 //!   contact need a short one.
@@ -107,7 +107,7 @@ pub use error::Error;
 pub use install::install;
 pub use interpolate::{Interpolate, curve};
 pub use lariat_ancf::{self, At, Fidelity};
-pub use lariat_rapier::{self, AttachmentKind, Settings, rapier};
+pub use lariat_rapier::{self, AttachmentKind, Gap, Settings, rapier};
 pub use physics::Physics;
 #[cfg(feature = "bevy_app")]
 pub use plugin::{LariatPlugin, install_in};

@@ -7,6 +7,7 @@ use crate::handle::{AttachmentHandle, CableHandle, JunctionHandle};
 use crate::junction::Junction;
 use crate::record::Records;
 use crate::table::Table;
+use crate::world_mark::WorldMark;
 use lariat_ancf::Cable;
 use rapier::math::Vector;
 use rapier::pipeline::PhysicsWorld;
@@ -42,6 +43,9 @@ pub(crate) struct Contents {
     pub attachments: Table<Attachment>,
     pub junctions: Table<Junction>,
     pub records: Records,
+    /// The mark of the world that the attachments belong to.
+    #[serde(default)]
+    pub mark: Option<WorldMark>,
     /// The world's gravity when it was last copied to the cables.
     gravity: Option<Vector>,
     /// Whether cables, attachments or junctions changed since islands were last found.
@@ -101,6 +105,19 @@ impl Contents {
         let mut found: Vec<(usize, &mut Cable)> = slots.collect();
         found.sort_by_key(|(position, _)| *position);
         found.into_iter().map(|(_, cable)| cable).collect()
+    }
+
+    /// Sets the clocks of the cables of an island to the latest of them: one that could not step for a
+    /// while may since have been attached to others.
+    pub fn align_clocks(&mut self, indices: &[usize]) -> Result<(), Error> {
+        let times = indices.iter().filter_map(|&i| self.cables.get(i)).map(|slot| slot.cable.time());
+        let latest = times.fold(f64::NEG_INFINITY, f64::max);
+        for &i in indices {
+            if let Some(slot) = self.cables.get_mut(i).filter(|slot| slot.cable.time() < latest) {
+                slot.cable.set_time(latest)?;
+            }
+        }
+        Ok(())
     }
 
     /// Copies the world's gravity to the cables that follow it when it changed, unless theirs is

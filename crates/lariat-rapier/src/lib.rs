@@ -124,12 +124,13 @@ mod spatial;
 mod step;
 mod table;
 mod totals;
+mod world_mark;
 
-pub use attachment::{Attachment, AttachmentKind, AttachmentReading};
+pub use attachment::{Attachment, AttachmentKind, AttachmentOptions, AttachmentReading, Gap};
 pub use body::rigid_body;
 #[cfg(feature = "debug-render")]
 pub use draw::DrawStyle;
-pub use error::{BodyQuantity, Error};
+pub use error::{BodyQuantity, Error, Failure};
 pub use events::Event;
 pub use handle::{AttachmentHandle, CableHandle, JunctionHandle};
 pub use junction::Junction;

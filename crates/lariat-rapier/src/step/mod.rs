@@ -9,6 +9,7 @@
 //! | [`apply`] | gives Rapier the predicted motion; reverts it |
 //! | [`impedance`] | lets a body that may deviate feel its cables within Rapier's step |
 //! | [`reconcile`] | takes over what Rapier's step made of it |
+//! | [`refused`] | holds the bodies of an island that cannot step |
 
 pub(crate) mod apply;
 pub(crate) mod impedance;
@@ -18,14 +19,14 @@ pub(crate) mod prediction;
 pub(crate) mod prescribed_motion;
 pub(crate) mod proximity;
 pub(crate) mod reconcile;
+pub(crate) mod refused;
 pub(crate) mod substepping;
 
 use crate::attach;
 use crate::body;
 use crate::contents::Contents;
-use crate::error::Error;
+use crate::error::{Error, Failure};
 use crate::events::Event;
-use crate::handle::CableHandle;
 use crate::islands::{Island, Islands};
 use crate::settings::Settings;
 use crate::sleep;
@@ -53,7 +54,8 @@ impl HostStep {
         !self.failed && self.done < self.steps
     }
 
-    /// Returns whether a prediction failed: Rapier must not step.
+    /// Returns whether the host step failed as a whole: Rapier must not step. An island that cannot
+    /// step does not count: see [`CableSet::failures`](crate::CableSet::failures).
     pub fn has_failed(&self) -> bool {
         self.failed
     }
@@ -69,8 +71,8 @@ pub(crate) struct Stepper {
     /// Whether a prediction waits for its reconciliation.
     pending: bool,
     pub events: Vec<Event>,
-    /// The cables of the island whose step failed.
-    pub failed: Vec<CableHandle>,
+    /// The islands that could not step in this host step.
+    pub failures: Vec<Failure>,
 }
 
 /// Begins a host step of `world.integration_parameters.dt`, which becomes that of a Rapier step.
@@ -87,6 +89,7 @@ pub(crate) fn begin(
     let mut host = HostStep { dt, steps: 1, done: 0, failed: false, motions: PrescribedMotions::default() };
     if dt > 0.0 {
         stepper.events.clear();
+        stepper.failures.clear();
         host.steps = substepping::count(contents, world, settings, f64::from(dt));
         host.motions = PrescribedMotions::read(contents, world, f64::from(dt));
         if host.steps > 1 {
@@ -97,8 +100,8 @@ pub(crate) fn begin(
     Ok(host)
 }
 
-/// Predicts the next Rapier step of a host step. If an island cannot step, all of them and their
-/// bodies stay as they were before it.
+/// Predicts the next Rapier step of a host step. An island that cannot step stays as it is, with its
+/// bodies, for the rest of the host step.
 pub(crate) fn predict_next(
     stepper: &mut Stepper,
     contents: &mut Contents,
@@ -152,7 +155,8 @@ fn predict_islands(
 ) -> Result<(), Error> {
     if core::mem::take(&mut stepper.pending) {
         // predicted, and never reconciled
-        for (island, prediction) in stepper.islands.list.iter().zip(&stepper.predictions) {
+        for (island, prediction) in stepper.islands.list.iter().zip(&mut stepper.predictions) {
+            prediction.held.release(world);
             apply::revert_bodies(world, island, prediction);
         }
     }
@@ -162,7 +166,6 @@ fn predict_islands(
     stepper.islands.update(contents, world)?;
     stepper.predictions.resize_with(stepper.islands.list.len(), Default::default);
     stepper.predictions.iter_mut().for_each(|prediction| prediction.applied.clear());
-    stepper.failed.clear();
     let is_awake = |body: RigidBodyHandle| !world.bodies[body].is_sleeping();
     let needs_speeds = stepper.islands.list.iter().any(|island| island.bodies().any(is_awake));
     let step = StepParameters {
@@ -173,13 +176,22 @@ fn predict_islands(
         sleep_speed: settings.sleep_speed,
     };
     for k in 0..stepper.predictions.len() {
-        if let Err(error) = predict_island(stepper, k, contents, world, (&host.motions, &step)) {
-            for (island, prediction) in stepper.islands.list.iter().zip(&stepper.predictions).take(k + 1) {
-                apply::revert(contents, world, island, prediction);
-            }
-            stepper.failed.extend(stepper.islands.list[k].cables.iter().map(|&c| CableHandle(c as u32)));
-            return Err(error);
+        let failed =
+            |failure: &Failure| failure.cables.iter().any(|c| stepper.islands.list[k].cables.contains(&(c.0 as usize)));
+        let refused = stepper.failures.iter().any(failed);
+        let outcome = if refused { Ok(()) } else { predict_island(stepper, k, contents, world, (&host.motions, &step)) };
+        let Stepper { islands, predictions, failures, .. } = &mut *stepper;
+        let (island, prediction) = (&islands.list[k], &mut predictions[k]);
+        if let Err(error) = outcome {
+            apply::revert(contents, world, island, prediction);
+            prediction.applied.clear();
+            impedance::disable_motors(contents, world, island.attachments.iter().flatten().copied());
+            failures.push(Failure::new(contents, island, error));
+        } else if !refused {
+            continue;
         }
+        prediction.refused = true;
+        prediction.held.hold(&contents.records, world, island);
     }
     stepper.pending = true;
     Ok(())
@@ -195,7 +207,9 @@ fn predict_island(
 ) -> Result<(), Error> {
     let Stepper { islands, predictions, solver, events, .. } = stepper;
     let (island, prediction): (&Island, &mut Prediction) = (&islands.list[k], &mut predictions[k]);
+    prediction.refused = false;
     prediction.snapshots.clear();
+    contents.align_clocks(&island.cables)?;
     let slots = island.cables.iter().filter_map(|&c| contents.cables.get(c));
     prediction.snapshots.extend(slots.map(|slot| slot.cable.snapshot().clone()));
     let ends_moved = island.bodies().next().is_some() && kinematic_ends::have_moved(contents, world, island, step.h);
@@ -218,7 +232,11 @@ pub(crate) fn reconcile(stepper: &mut Stepper, contents: &mut Contents, world: &
     }
     let h = f64::from(world.integration_parameters.dt);
     for (island, prediction) in stepper.islands.list.iter().zip(&mut stepper.predictions) {
-        reconcile::reconcile(contents, world, island, prediction, (h, settings.sleep_speed));
+        if core::mem::take(&mut prediction.refused) {
+            prediction.held.release(world);
+        } else {
+            reconcile::reconcile(contents, world, island, prediction, (h, settings.sleep_speed));
+        }
         prediction.applied.clear();
     }
 }

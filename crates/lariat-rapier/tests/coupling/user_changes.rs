@@ -76,7 +76,7 @@ fn removing_a_body_in_contact_removes_its_ledger() {
     let wall = RigidBodyBuilder::fixed().translation(at - Vector::new(0.32, 0.0, 0.0));
     h.world.insert(wall, ColliderBuilder::cuboid(0.1, 2.0, 1.0));
     h.run(30);
-    assert_eq!(h.world.bodies.len(), 3, "the load, the wall and a ledger");
+    assert_eq!(h.world.bodies.len(), 4, "the load, the wall, a ledger and the mark of the world");
     h.world.remove_body(h.load);
     h.run(30);
     assert_eq!(h.world.bodies.len(), 1);

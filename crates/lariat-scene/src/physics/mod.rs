@@ -230,6 +230,7 @@ impl Physics {
     /// Converts an error of the coupling, with the names of the scene.
     fn explain(&self, scene: &Scene, time: f64, error: lariat_rapier::Error) -> Error {
         match error {
+            lariat_rapier::Error::StepRefused { cause, .. } => self.explain(scene, time, *cause),
             lariat_rapier::Error::Cable(source) => Error::mechanics(time, source),
             lariat_rapier::Error::BodyNotFinite { body, quantity, time } => {
                 let name = self.bodies.iter().position(|b| *b == body).map(|i| scene.bodies[i].name.clone());
