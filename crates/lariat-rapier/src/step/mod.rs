@@ -179,7 +179,8 @@ fn predict_islands(
         let failed =
             |failure: &Failure| failure.cables.iter().any(|c| stepper.islands.list[k].cables.contains(&(c.0 as usize)));
         let refused = stepper.failures.iter().any(failed);
-        let outcome = if refused { Ok(()) } else { predict_island(stepper, k, contents, world, (&host.motions, &step)) };
+        let outcome =
+            if refused { Ok(()) } else { predict_island(stepper, k, contents, world, (&host.motions, &step)) };
         let Stepper { islands, predictions, failures, .. } = &mut *stepper;
         let (island, prediction) = (&islands.list[k], &mut predictions[k]);
         if let Err(error) = outcome {
