@@ -4,7 +4,6 @@
 mod common;
 
 use common::pendulum;
-use lariat_ancf::integrate::NewtonMode;
 use lariat_ancf::{
     At, Cable, CableBuilder, Drag, Effects, Error, Fidelity, Flow, GravityScale, Integrator, Method, Motion, PointLoad,
     Rule, Section, SlopeSupport, StepControl, Support, Vector3,
@@ -138,7 +137,7 @@ fn unknown_and_unsuitable_rules_and_integrators_are_errors() {
         assert_names(Integrator { method: Method::Verlet, control: StepControl::Stable(bad) }.checked(), bad, "share");
     }
     assert_names(Integrator { method: Method::Verlet, control: StepControl::Stable(1.5) }.checked(), 1.5, "share");
-    let alpha = Method::GeneralisedAlpha { rho: -0.1, newton: NewtonMode::Converged };
+    let alpha = Method::GeneralisedAlpha { rho: -0.1 };
     assert_names(Integrator::substeps(alpha, 1), -0.1, "rho");
     // a builder checks its integrator too
     let verlet = Integrator { method: Method::Verlet, control: StepControl::Tolerance(1e-3) };

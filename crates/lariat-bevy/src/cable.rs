@@ -98,7 +98,7 @@ impl Cable {
         self
     }
 
-    /// Sets the trade-off between accuracy and cost. Default: engineering.
+    /// Sets the trade-off between accuracy and cost. Default: game.
     pub fn fidelity(self, fidelity: Fidelity) -> Self {
         self.integrator(fidelity)
     }

@@ -56,8 +56,13 @@ impl CableSet {
     }
 
     /// Adds a cable; its clock is set to that of the others. If its gravity is the builder's
-    /// default, it follows the world's until the user sets it; else it keeps its own.
-    pub fn insert(&mut self, cable: Cable) -> CableHandle {
+    /// default, it follows the world's until the user sets it; else it keeps its own. If nobody
+    /// chose its integrator, it takes that of [`Settings::fidelity`].
+    pub fn insert(&mut self, mut cable: Cable) -> CableHandle {
+        if cable.has_default_integrator() {
+            // the integrator of a fidelity fits every cable
+            let _ = cable.set_integrator(cable.integrator_for(self.settings.fidelity));
+        }
         self.contents.insert(cable)
     }
 

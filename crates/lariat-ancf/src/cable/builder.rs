@@ -36,7 +36,7 @@ pub struct CableBuilder {
     nodes_at: Vec<f64>,
     rule: Rule,
     allow_rank_deficient: bool,
-    integrator: IntegratorChoice,
+    integrator: Option<IntegratorChoice>,
     gravity: Vector3<f64>,
     velocity: Vector3<f64>,
     angular_velocity: Vector3<f64>,
@@ -57,7 +57,7 @@ impl Default for CableBuilder {
             nodes_at: Vec::new(),
             rule: Rule::default(),
             allow_rank_deficient: false,
-            integrator: IntegratorChoice::default(),
+            integrator: None,
             gravity: STANDARD_GRAVITY,
             velocity: Vector3::zeros(),
             angular_velocity: Vector3::zeros(),
@@ -125,13 +125,13 @@ impl CableBuilder {
     }
 
     /// Time integrator: an [`Integrator`], or a [`Fidelity`] that chooses one by the cable's frequencies. Default:
-    /// [`Fidelity::Engineering`].
+    /// [`Fidelity::Engineering`] for a cable by itself; in a set of cables beside Rapier, the set's.
     pub fn integrator(mut self, integrator: impl Into<IntegratorChoice>) -> Self {
-        self.integrator = integrator.into();
+        self.integrator = Some(integrator.into());
         self
     }
 
-    /// Time integrator of a fidelity. Default: engineering. The fidelity's rule is the builder's default; its number of elements is
+    /// Time integrator of a fidelity. Default: as for [`integrator`](Self::integrator). The fidelity's rule is the builder's default; its number of elements is
     /// a recommendation: [`Fidelity::elements`].
     pub fn fidelity(self, fidelity: Fidelity) -> Self {
         self.integrator(fidelity)
@@ -271,7 +271,6 @@ impl CableBuilder {
             effects: self.effects,
             force_densities: self.force_densities,
         };
-        let implicit = model.effects.needs_implicit_integrator();
         let mut cable = Cable::from_parts(model, snapshot, Integrator::default())?;
         for (at, hold) in self.holds {
             let node = cable.node(At::ArcLength(arc_length(at)?.min(length)))?;
@@ -288,9 +287,8 @@ impl CableBuilder {
         for load in self.loads {
             cable.add_load(load)?;
         }
-        // damping needs an implicit method, however soft the cable
-        let frequency_bound = if implicit { f64::INFINITY } else { cable.frequency_bound() };
-        cable.set_integrator(self.integrator.integrator(frequency_bound))?;
+        cable.set_integrator(cable.integrator_for(self.integrator.unwrap_or_default()))?;
+        cable.default_integrator = self.integrator.is_none();
         Ok(cable)
     }
 }

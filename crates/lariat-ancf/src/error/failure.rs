@@ -50,6 +50,17 @@ pub enum StepFailure {
         /// Shortest step in s.
         least: f64,
     },
+    /// A step of the discrete gradient that makes energy however it is divided.
+    #[error("the step makes {energy:.3e} J, of {scale:.3e} J in the system, however it is divided")]
+    EnergyMade {
+        /// Energy made in J.
+        energy: f64,
+        /// Energy of the system in J.
+        scale: f64,
+    },
+    /// A method that the system cannot take.
+    #[error("the system has no discrete gradients: use another method")]
+    NoDiscreteGradient,
     /// The matrix of the step is singular.
     #[error("singular step matrix: {0}")]
     Singular(#[from] crate::linalg::SingularMatrix),

@@ -1,6 +1,7 @@
 //! The state of a mechanical system between two steps: positions, velocities, and what a method
 //! carries from step to step.
 
+use super::discrete_gradient::Differences;
 use crate::error::{Error, require};
 use serde::{Deserialize, Serialize};
 
@@ -21,6 +22,9 @@ pub struct Memory {
     pub revision: u64,
     /// Length in s that error control proposes for the next step; 0 = no proposal.
     pub step: f64,
+    /// The last step of the discrete gradient.
+    #[serde(default)]
+    pub differences: Differences,
 }
 
 /// Positions, velocities and method memory at a time.
@@ -39,7 +43,8 @@ pub struct State {
 impl State {
     /// Copies `other` into the existing buffers; the derived `clone_from` would allocate new ones.
     pub(crate) fn copy_from(&mut self, other: &State) {
-        let State { time, q, v, memory: Memory { acceleration, algorithmic, valid, step, revision } } = other;
+        let State { time, q, v, memory: Memory { acceleration, algorithmic, valid, step, revision, differences } } =
+            other;
         self.time = *time;
         self.q.clone_from(q);
         self.v.clone_from(v);
@@ -48,16 +53,19 @@ impl State {
         self.memory.algorithmic.clone_from(algorithmic);
         self.memory.valid = *valid;
         self.memory.step = *step;
+        self.memory.differences.copy_from(differences);
     }
 
     /// Checks that this is a finite state of `size` coordinates; `cable` is the name for the error.
     pub(crate) fn check(&self, cable: &str, size: usize) -> Result<(), Error> {
-        let Memory { acceleration, algorithmic, valid, step, .. } = &self.memory;
+        let Memory { acceleration, algorithmic, valid, step, differences, .. } = &self.memory;
         let lists = [
             ("positions", &self.q, false),
             ("velocities", &self.v, false),
             ("accelerations", acceleration, !valid),
             ("algorithmic accelerations", algorithmic, true),
+            ("changes of velocities", &differences.velocity, true),
+            ("changes of positions", &differences.displacement, differences.is_empty()),
         ];
         for (what, list, may_be_empty) in lists {
             let count = list.len();
@@ -71,6 +79,11 @@ impl State {
             .and_then(|()| self.q.iter().try_for_each(|&x| finite("position", x)))
             .and_then(|()| self.v.iter().try_for_each(|&x| finite("velocity", x)))
             .and_then(|()| acceleration.iter().chain(algorithmic).try_for_each(|&x| finite("acceleration", x)))
+            .and_then(|()| {
+                let Differences { velocity, displacement, step, .. } = differences;
+                let mut all = velocity.iter().chain(displacement).chain([step]);
+                all.try_for_each(|&x| finite("change of the last step", x))
+            })
             .map_err(|error| error.of_cable(cable))
     }
 }

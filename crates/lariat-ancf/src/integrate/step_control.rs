@@ -20,22 +20,18 @@
 //! stability --case "hanging 1e4"` (1/30 s with effects) rejects 988 of 5466 steps; without this
 //! bound 3889 of 9227.
 //!
-//! Methods without error control are checked by the [energy guard](super::energy_guard), if they
-//! need it.
-//!
 //! # References
 //!
 //! Hairer & Wanner 1996, IV.8.
 
 use super::dynamics::Dynamics;
-use super::energy_guard::EnergyGuard;
 use super::integrator::{IntegratorRef, StepControl};
 use super::one_step::{Scratch, StepRequest};
 use super::state::State;
 use crate::error::StepFailure;
 
 /// Shortest step, as a share of the host step.
-const MIN_STEP_SHARE: f64 = 1.0 / (1u64 << 20) as f64;
+pub(super) const MIN_STEP_SHARE: f64 = 1.0 / (1u64 << 20) as f64;
 /// Smallest error allowed to a step, as a share of the tolerance: after a jump of velocity errors
 /// fall only in proportion to h.
 const MIN_ERROR_SHARE: f64 = 1.0 / 1024.0;
@@ -48,7 +44,7 @@ const TARGET_ERROR_SHARE: f64 = 0.5;
 const FIXED_STEP_NEWTON_TOLERANCE: f64 = 1e-10;
 /// Relative rounding error of a host step given in single precision: 1/60 s is then longer than
 /// four steps of 1/240 s.
-const SINGLE_PRECISION_ROUNDING: f64 = 1e-7;
+pub(super) const SINGLE_PRECISION_ROUNDING: f64 = 1e-7;
 /// Length of the retry of a failed step, as a share of the step.
 const RETRY_SHARE: f64 = 0.25;
 /// Longest step after one at which Newton's iteration failed with an inexact tangent, as a share of
@@ -100,8 +96,7 @@ fn run(
     counts: &mut Counts,
 ) -> Result<(), FailedStep> {
     let method = integrator.method;
-    // one stage for the fallback of the energy guard
-    scratch.resize(system.size(), method.stages().max(1));
+    scratch.resize(system.size(), method.stages());
     prepare(system, state, method.has_algorithmic_acceleration())?;
     system.state_reached(state);
     let end = state.time + horizon;
@@ -113,7 +108,6 @@ fn run(
         step: regular,
         failure,
     })?;
-    let mut guard = EnergyGuard::new(tolerance.is_none() && method.needs_energy_guard(), regular);
     let mut proposal = regular;
     let mut max_step = f64::INFINITY;
     let mut done = 0.0;
@@ -123,8 +117,8 @@ fn run(
             NEWTON_TOLERANCE_SHARE * t * (h / horizon).clamp(MIN_ERROR_SHARE, 1.0)
         });
         let request = StepRequest { h, newton_tolerance, estimate: tolerance.is_some() };
-        let outcome = guard
-            .step(system, method, state, request, scratch)
+        let outcome = method
+            .step(system, state, request, scratch)
             .and_then(|estimate| check_finite(&scratch.next, estimate).map(|()| estimate));
         let failed = |failure| Err(FailedStep { time: state.time, step: h, failure });
         match (outcome, tolerance) {
@@ -139,16 +133,7 @@ fn run(
                 }
                 continue;
             }
-            (Ok(_), None) => {
-                scratch.next.time = state.time + h;
-                if !guard.accepts(system, state, &scratch.next, h) {
-                    counts.rejected += 1;
-                    proposal = RETRY_SHARE * h;
-                    continue;
-                }
-                proposal = (2.0 * proposal).min(regular);
-            }
-            (Ok(None), Some(_)) => proposal = (2.0 * proposal).min(regular),
+            (Ok(_), None) | (Ok(None), Some(_)) => proposal = (2.0 * proposal).min(regular),
             (Ok(Some(estimate)), Some(tolerance)) => {
                 let allowed = tolerance * (h / horizon).max(MIN_ERROR_SHARE);
                 let growth =

@@ -48,6 +48,18 @@ impl PinAccount {
         self.angular_impulse += angular_impulse;
         self.work += work;
     }
+
+    /// Adds a step of length `h` (s) of mean force, moment and power; of a slope only the moment counts.
+    pub(super) fn add_mean(&mut self, h: f64, slope: bool, (force, moment, power): (Vector3<f64>, Vector3<f64>, f64)) {
+        if slope {
+            self.moment = moment;
+        } else {
+            self.force = force;
+        }
+        self.impulse += force * h;
+        self.angular_impulse += moment * h;
+        self.work += power * h;
+    }
 }
 
 /// The accounts of all pins.

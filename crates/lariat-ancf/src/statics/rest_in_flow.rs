@@ -22,7 +22,7 @@
 use super::attempt::{Budget, EquilibriumReport, Failure, largest_change};
 use super::scale::{LoadScale, largest_force};
 use crate::cable::Cable;
-use crate::integrate::{Integrator, Method, NewtonMode, StepControl};
+use crate::integrate::{Integrator, Method, StepControl};
 use crate::system::project_vector;
 
 /// Factor on the step after a success, and after a failure.
@@ -37,7 +37,7 @@ impl Cable {
     /// Moves the cable to rest in the flow.
     pub(super) fn come_to_rest_in_flow(&mut self, budget: &mut Budget) -> Result<EquilibriumReport, Failure> {
         let (integrator, time) = (self.integrator(), self.time());
-        let method = Method::GeneralisedAlpha { rho: 0.0, newton: NewtonMode::Converged };
+        let method = Method::GeneralisedAlpha { rho: 0.0 };
         let damping = Integrator { method, control: StepControl::Substeps(1) };
         if self.set_integrator(damping).is_err() {
             return Err(Failure::default());

@@ -71,8 +71,13 @@ impl Cable {
         memory.acceleration.clear();
         memory.algorithmic.clear();
         memory.valid = false;
+        if !memory.differences.is_empty() {
+            cut(&mut memory.differences.velocity);
+            cut(&mut memory.differences.displacement);
+        }
         let mut cable = Cable::from_parts(model, snapshot, self.integrator)?;
         cable.diagnostics = self.diagnostics;
+        cable.default_integrator = self.default_integrator;
         cable.revision = self.revision;
         cable.snapshot.inserted_energy += strain_energy(&cable) - before;
         cable.revise();
