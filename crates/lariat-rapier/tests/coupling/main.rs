@@ -16,6 +16,7 @@ mod moving_ends;
 mod payload;
 mod prescribed_motion;
 mod refused;
+mod ropes;
 mod sleep;
 mod statics;
 mod substepping;
