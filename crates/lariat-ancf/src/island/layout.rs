@@ -127,6 +127,16 @@ impl Layout {
         self.duration = dt;
     }
 
+    /// Closes all gaps and rotates all clamps at once: for statics.
+    pub fn close(&mut self) {
+        self.closing.fill(Vector3::zeros());
+        self.remaining.fill(Vector3::zeros());
+        self.rates.fill(Default::default());
+        for (clamp, pin) in self.clamps.iter_mut().zip(&self.pins) {
+            *clamp = pin.direction.map(|wanted| Clamp::new(wanted, wanted, self.duration, Default::default()));
+        }
+    }
+
     /// Returns the number of coordinates.
     pub fn size(&self) -> usize {
         self.bodies_at + 6 * self.bodies.len()

@@ -7,9 +7,11 @@
 mod build;
 mod joints;
 mod reading;
+mod statics;
 
 pub use build::collider;
 pub use reading::BodyState;
+pub use statics::Settled;
 
 use crate::error::Error;
 use crate::scene::Scene;
@@ -235,12 +237,25 @@ impl Physics {
 
     /// Converts an error of the coupling, with the names of the scene.
     fn explain(&self, scene: &Scene, time: f64, error: lariat_rapier::Error) -> Error {
+        let name = |handle: RigidBodyHandle| {
+            self.bodies.iter().position(|b| *b == handle).map(|i| scene.bodies[i].name.clone())
+        };
         match error {
             lariat_rapier::Error::StepRefused { cause, .. } => self.explain(scene, time, *cause),
             lariat_rapier::Error::Cable(source) => Error::mechanics(time, source),
             lariat_rapier::Error::BodyNotFinite { body, quantity, time } => {
-                let name = self.bodies.iter().position(|b| *b == body).map(|i| scene.bodies[i].name.clone());
-                Error::Body { time, body: name.unwrap_or_default(), problem: format!("its {quantity} is not finite") }
+                let name = name(body).unwrap_or_default();
+                Error::Body { time, body: name, problem: format!("its {quantity} is not finite") }
+            }
+            lariat_rapier::Error::JointInStatics { body } => {
+                let problem = "statics compute no joints, and it has one: run the scene until it rests".to_string();
+                Error::Body { time, body: name(body).unwrap_or_default(), problem }
+            }
+            lariat_rapier::Error::ContactInStatics { body, other } => {
+                let other = other.and_then(name).map_or("a collider".to_string(), |other| format!("body {other:?}"));
+                let problem =
+                    format!("statics compute no contacts, and it touches {other}: run the scene until it rests");
+                Error::Body { time, body: name(body).unwrap_or_default(), problem }
             }
             source => Error::Coupling { time, source },
         }

@@ -41,7 +41,7 @@ mod summary;
 mod world;
 
 pub(crate) use probe::columns;
-pub use statics::{CableStatics, StaticReaction};
+pub use statics::{BodyPlace, BodyStatics, CableStatics, StaticReaction};
 pub use summary::Summary;
 pub use world::World;
 
