@@ -20,7 +20,7 @@
 //! );
 //! cables.attach(&world, sling, At::End, crate_, Vector::new(0.0, 0.1, 0.0), AttachmentKind::Ball)?;
 //! for _ in 0..30 {
-//!     cables.step(&mut world)?; // one host step: predict, Rapier's step, reconcile, four times
+//!     cables.step(&mut world)?; // one host step: predict, Rapier's step, reconcile
 //! }
 //! assert!((world.bodies[crate_].translation().y + 1.218).abs() < 6e-3);
 //! # Ok::<(), lariat_rapier::Error>(())

@@ -334,7 +334,7 @@ impl CableSet {
     /// # Errors
     /// The error of the first of [`failures`](Self::failures).
     pub fn finish(&mut self, world: &mut PhysicsWorld, host: HostStep) -> Result<(), Error> {
-        step::finish(world, &host);
+        step::finish(&mut self.contents, world, &host);
         if host.is_complete() {
             breaking::break_overloaded(&mut self.contents, &mut self.stepper.events);
         }

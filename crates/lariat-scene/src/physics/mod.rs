@@ -24,6 +24,8 @@ use lariat_rapier::rapier::math::Real;
 use lariat_rapier::rapier::prelude::PhysicsWorld;
 use lariat_rapier::{AttachmentHandle, AttachmentKind, AttachmentReading, CableHandle, CableSet, Gap};
 
+/// Rapier steps of a host step: a run is for accuracy, in contacts too, and its cost is that of the cables.
+const RAPIER_STEPS: u32 = 4;
 /// Largest difference of velocities at the start without a warning, in m/s.
 const JOLT: f64 = 1e-5;
 
@@ -43,6 +45,37 @@ pub struct Physics {
     reached: f64,
     /// Largest gap so far in m.
     max_gap: f64,
+}
+
+impl Clone for Physics {
+    fn clone(&self) -> Self {
+        let w = &self.world;
+        let world = PhysicsWorld {
+            gravity: w.gravity,
+            integration_parameters: w.integration_parameters,
+            islands: w.islands.clone(),
+            broad_phase: w.broad_phase.clone(),
+            narrow_phase: w.narrow_phase.clone(),
+            bodies: w.bodies.clone(),
+            colliders: w.colliders.clone(),
+            impulse_joints: w.impulse_joints.clone(),
+            multibody_joints: w.multibody_joints.clone(),
+            soft_bodies: w.soft_bodies.clone(),
+            // the rest are buffers
+            ..PhysicsWorld::default()
+        };
+        Physics {
+            world,
+            bodies: self.bodies.clone(),
+            cables: self.cables.clone(),
+            handles: self.handles.clone(),
+            attachments: self.attachments.clone(),
+            held_by: self.held_by.clone(),
+            rapier_steps: self.rapier_steps,
+            reached: self.reached,
+            max_gap: self.max_gap,
+        }
+    }
 }
 
 impl Physics {
@@ -69,7 +102,7 @@ impl Physics {
             problem,
         })?;
         let cables = CableSet::new();
-        let rapier_steps = cables.settings.rapier_steps.max(1);
+        let rapier_steps = RAPIER_STEPS;
         Ok(Physics {
             world,
             bodies,

@@ -8,6 +8,7 @@ use lariat_ancf::{At, AxialRule, Cable, Energy, EquilibriumReport, Momentum, Rea
 use std::collections::BTreeMap;
 
 /// The cables and bodies of a scene in their present state.
+#[derive(Clone)]
 pub struct World {
     pub(super) scene: Scene,
     /// Cables that no body moves; empty once `physics` has taken them.
