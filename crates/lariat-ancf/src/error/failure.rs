@@ -32,6 +32,16 @@ pub enum StepFailure {
         /// Allowed error of the step in m.
         allowed: f64,
     },
+    /// The method makes energy at the shortest step that was tried.
+    #[error(
+        "the method makes energy: {made:.3e} J more than the work on the cable, with {energy:.3e} J of kinetic and strain energy at most: use shorter steps, a smaller tolerance, or a method that damps"
+    )]
+    EnergyMade {
+        /// Spurious energy in J.
+        made: f64,
+        /// Largest kinetic and strain energy in J so far.
+        energy: f64,
+    },
     /// An explicit step beyond the stability limit of the cable.
     #[error(
         "explicit step {step:.3e} s is beyond the stability limit {limit:.3e} s: use more substeps, or an implicit method"

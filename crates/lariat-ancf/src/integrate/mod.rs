@@ -17,6 +17,9 @@
 //! | [`explicit`] | the step of a symplectic explicit method, given by its weights | |
 //! | [`Method`], [`Integrator`], [`Fidelity`] | by name, with a step control, as presets | |
 //! | [`step_control`] | the choice of steps | |
+//! | [`energy_check`] | the check of every implicit step for spurious energy | |
+//! | [`error_budget`] | the error that the steps of a host step may make | |
+//! | [`ErrorNorm`] | which errors a tolerance bounds | |
 //! | [`energy_guard`] | the check of fixed steps for spurious energy | |
 //!
 //! # Adding a method
@@ -34,7 +37,10 @@
 mod backward_euler;
 pub mod dirk;
 mod dynamics;
+pub mod energy_check;
 pub mod energy_guard;
+pub mod error_budget;
+mod error_norm;
 pub mod esdirk3;
 pub mod esdirk4;
 pub mod explicit;
@@ -53,6 +59,7 @@ pub mod trapezoid;
 pub mod verlet;
 
 pub use dynamics::{Dynamics, Newton, Stage};
+pub use error_norm::ErrorNorm;
 pub use fidelity::{Fidelity, IntegratorChoice};
 pub use generalised_alpha::NewtonMode;
 pub use integrator::{Integrator, IntegratorRef, StepControl};
