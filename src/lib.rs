@@ -51,8 +51,6 @@
 //! CPU time in `docs/accuracy`.
 
 #[doc(inline)]
-pub use lariat_ancf::integrate::NewtonMode;
-#[doc(inline)]
 pub use lariat_ancf::*;
 #[cfg(feature = "bevy")]
 #[doc(no_inline)]

@@ -62,6 +62,14 @@ impl Pendulum {
         error
     }
 
+    /// As [`failing_step`](Self::failing_step); the error names the rope, and the cause is returned.
+    fn refused_step(&mut self) -> Error {
+        let error = self.failing_step();
+        let Error::StepRefused { cables, cause, .. } = error else { panic!("{error}") };
+        assert_eq!(cables, ["sling"]);
+        *cause
+    }
+
     /// The cause is removed: after half a second more, the load is still on its rope.
     fn continues(&mut self) {
         self.run(30);
@@ -83,7 +91,7 @@ fn a_body_velocity_that_is_not_finite_is_an_error() {
         } else {
             p.world.bodies[p.load].set_linvel(wrong, true);
         }
-        let error = p.failing_step();
+        let error = p.refused_step();
         assert!(
             matches!(error, Error::BodyNotFinite { body, quantity: BodyQuantity::Velocity, .. } if body == p.load),
             "{error}"
@@ -105,7 +113,7 @@ fn an_infinite_force_on_a_body_is_an_error() {
         } else {
             p.world.bodies[p.load].add_force(wrong, true);
         }
-        let error = p.failing_step();
+        let error = p.refused_step();
         assert!(
             matches!(error, Error::BodyNotFinite { body, quantity: BodyQuantity::Force, .. } if body == p.load),
             "{error}"
@@ -137,7 +145,7 @@ fn a_load_that_overflows_is_an_error_and_the_next_step_works_without_it() {
     let load = PointLoad::force(1.0, Vector3::new(0.0, 1e300, 0.0));
     p.set.get_mut(p.rope).unwrap().add_load(load).unwrap();
     let now = p.set.get(p.rope).unwrap().time();
-    let error = p.failing_step();
+    let error = p.refused_step();
     let Error::Cable(lariat_ancf::Error::StepFailed { cable, time, .. }) = &error else { panic!("{error}") };
     assert!(cable == "sling" && *time == now, "{error}");
     p.set.get_mut(p.rope).unwrap().clear_loads();
@@ -150,7 +158,7 @@ fn positions_and_time_steps_that_are_no_numbers_are_errors() {
     let mut p = pendulum();
     let at = p.world.bodies[p.load].translation();
     p.world.bodies[p.load].set_translation(Vector::new(f32::NAN, 0.0, 0.0), true);
-    let error = p.failing_step();
+    let error = p.refused_step();
     assert!(
         matches!(error, Error::BodyNotFinite { body, quantity: BodyQuantity::Position, .. } if body == p.load),
         "{error}"

@@ -31,6 +31,12 @@ pub struct Diagnostics {
     pub bending_evaluations: u64,
     /// Point loads evaluated.
     pub load_evaluations: u64,
+    /// Steps of the discrete gradient whose velocities were scaled down to keep its energy law.
+    #[serde(default)]
+    pub rescaled_steps: u64,
+    /// Steps of the discrete gradient that were divided to keep its energy law.
+    #[serde(default)]
+    pub split_steps: u64,
     /// Elements for which each effect was evaluated; zero for effects that are absent. The work of a step takes two powers more, not
     /// counted.
     #[serde(default)]
@@ -42,7 +48,7 @@ macro_rules! by_field {
     ($a:expr, $b:expr, $op:expr, $effects:expr) => {
         by_field!(@ $a, $b, $op, $effects; host_steps, steps, rejected_steps, newton_iterations, factorisations,
             indefinite_factorisations, solves, mass_solves, force_evaluations, tangent_evaluations, bending_evaluations,
-            load_evaluations)
+            load_evaluations, rescaled_steps, split_steps)
     };
     (@ $a:expr, $b:expr, $op:expr, $effects:expr; $($field:ident),*) => {
         Diagnostics { $($field: $op($a.$field, $b.$field),)* effects: $effects }

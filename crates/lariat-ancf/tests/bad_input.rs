@@ -4,7 +4,6 @@
 mod common;
 
 use common::pendulum;
-use lariat_ancf::integrate::NewtonMode;
 use lariat_ancf::{
     At, Cable, CableBuilder, Drag, Effects, Error, Fidelity, Flow, GravityScale, Integrator, Method, Motion, PointLoad,
     Rule, Section, SlopeSupport, StepControl, Support, Vector3,
@@ -50,7 +49,7 @@ fn builders_reject_descriptions_that_are_not_a_cable() {
     let build = |f: &dyn Fn(CableBuilder) -> CableBuilder| f(pendulum(4)).build();
     let error = |f: &dyn Fn(CableBuilder) -> CableBuilder| build(f).expect_err("not a cable");
     let (x, cable) = (Vector3::x, || "pendulum".to_string());
-    assert_eq!(error(&|b| b.points([])), Error::TooFewPoints { cable: cable(), count: 0 });
+    assert_eq!(error(&|b| b.points(Vec::<Vector3<f64>>::new())), Error::TooFewPoints { cable: cable(), count: 0 });
     assert_eq!(error(&|b| b.points([x()])), Error::TooFewPoints { cable: cable(), count: 1 });
     assert_eq!(error(&|b| b.points([x(), x()])), Error::CoincidentPoints { cable: cable(), index: 0, point: x() });
     let coincident = Error::CoincidentPoints { cable: cable(), index: 1, point: x() };
@@ -138,7 +137,7 @@ fn unknown_and_unsuitable_rules_and_integrators_are_errors() {
         assert_names(Integrator { method: Method::Verlet, control: StepControl::Stable(bad) }.checked(), bad, "share");
     }
     assert_names(Integrator { method: Method::Verlet, control: StepControl::Stable(1.5) }.checked(), 1.5, "share");
-    let alpha = Method::GeneralisedAlpha { rho: -0.1, newton: NewtonMode::Converged };
+    let alpha = Method::GeneralisedAlpha { rho: -0.1 };
     assert_names(Integrator::substeps(alpha, 1), -0.1, "rho");
     // a builder checks its integrator too
     let verlet = Integrator { method: Method::Verlet, control: StepControl::Tolerance(1e-3) };

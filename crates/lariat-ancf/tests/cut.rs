@@ -100,3 +100,33 @@ fn a_cut_at_an_end_or_beyond_is_refused_and_the_cable_is_whole() {
     }
     assert_eq!(cable.positions(), before);
 }
+
+/// A cut at a node keeps the elastic energy, to rounding. Between two nodes the difference is recorded, whatever the rule; it is
+/// zero where the rule is exact, and with the projected rule between 0 and the strain energy that the projection did not see.
+///
+/// *Source.* Conservation; the bound of `edit/refine.rs`, with the energy of the exact rule on the same shape.
+#[test]
+fn a_cut_accounts_for_the_elastic_energy() {
+    let strain = |cable: &Cable| cable.energy().axial + cable.energy().bending;
+    for name in ["projected-none", "exact-none", "G5-none", "projected-3", "exact-3", "G3-3", "L2T2", "ST2"] {
+        let mut whole = swinging();
+        whole.set_effects(Effects::default()).unwrap();
+        whole.set_rule(name.parse().unwrap()).unwrap();
+        for s in [whole.node_arc_lengths()[4], 0.11, 0.77, 1.03, 1.9] {
+            let mut head = whole.clone();
+            let tail = head.cut(s).unwrap();
+            let jump = strain(&head) + strain(&tail) - strain(&whole);
+            let size = strain(&whole);
+            assert!((head.inserted_energy() - jump).abs() < 1e-12 * size, "{name} {s}: {jump} J of {size}");
+            let exact = s == whole.node_arc_lengths()[4] || ["exact-none", "G5-none"].contains(&name);
+            assert!(!exact || jump.abs() < 1e-11 * size, "{name} {s}: {jump:e} J of {size}");
+            if name == "projected-none" {
+                let mut unprojected = whole.clone();
+                unprojected.set_rule("exact-none".parse().unwrap()).unwrap();
+                let hidden = strain(&unprojected) - strain(&whole);
+                println!("{s}: {jump:e} of at most {hidden:e} J, {size:e} J");
+                assert!(jump >= -1e-12 * size && jump <= hidden, "{s}: {jump} J of at most {hidden}");
+            }
+        }
+    }
+}

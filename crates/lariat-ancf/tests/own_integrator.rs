@@ -8,7 +8,7 @@ mod common;
 
 use common::{EXACT_IN_TIME, largest_difference, soft_cable};
 use lariat_ancf::integrate::dirk::Tableau;
-use lariat_ancf::integrate::{Dynamics, IntegratorRef, Newton, OneStep, Scratch, Stage, State, StepRequest};
+use lariat_ancf::integrate::{Dynamics, IntegratorRef, OneStep, Scratch, Stage, State, StepRequest};
 use lariat_ancf::island::{Island, PinConstraint, RigidBody};
 use lariat_ancf::{At, Cable, Error, Integrator, Method, StepControl, StepFailure, Vector3};
 
@@ -40,8 +40,7 @@ impl OneStep for Newmark {
         }
         let acceleration = &mut next.memory.acceleration;
         acceleration.copy_from_slice(a);
-        let newton = Newton::Converge(newton_tolerance);
-        let stage = Stage { time: now.time + h, c2: 0.25 * h * h, dv_dq: 2.0 / h, newton, reuse: false };
+        let stage = Stage { time: now.time + h, c2: 0.25 * h * h, dv_dq: 2.0 / h, newton_tolerance, reuse: false };
         system.solve_stage(&stage, base, velocity_base, &mut next.q, acceleration)?;
         for i in 0..system.size() {
             next.v[i] = velocity_base[i] + 0.5 * h * acceleration[i];

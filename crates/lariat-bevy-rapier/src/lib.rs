@@ -38,8 +38,8 @@
 //!   one.
 //! - Only bodies of the default context can be attached to.
 //! - A length unit other than 1 is not supported.
-//! - A [`Snapshot`](lariat_bevy::Snapshot) holds cables alone, because the bodies are
-//!   bevy_rapier's.
+//! - A [`Snapshot`](lariat_bevy::Snapshot) with attached cables is refused
+//!   ([`Error::ForeignBodies`]), because the bodies are bevy_rapier's.
 //! - The limits of [`lariat_bevy`](lariat_bevy#limits): no contact of cables, no reel.
 
 use bevy::ecs::intern::Interned;

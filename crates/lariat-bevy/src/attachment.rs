@@ -1,15 +1,14 @@
 //! Attachments: entities that connect a point of a cable to a point of a body.
 
 use crate::pending::Pending;
-use crate::point::Point;
 use bevy_ecs::bundle::Bundle;
 use bevy_ecs::component::Component;
 use bevy_ecs::entity::Entity;
 use bevy_ecs::lifecycle::HookContext;
 use bevy_ecs::world::DeferredWorld;
 use core::ops::Deref;
-use lariat_ancf::{At, Vector3};
-use lariat_rapier::{AttachmentHandle, AttachmentKind};
+use lariat_ancf::{At, Point, Vector3};
+use lariat_rapier::{AttachmentHandle, AttachmentKind, Gap};
 
 /// An attachment of a point of a cable. Spawn it with its relationships:
 ///
@@ -41,6 +40,10 @@ pub struct Attachment {
     pub anchor: Option<Vector3<f64>>,
     /// Whether it is attached to the world instead of a body.
     pub world: bool,
+    /// What to do if the point of the cable is not at the anchor when the attachment is made, or made
+    /// again with another cable or body. Default: a gap of more than 1e-3 m is an error
+    /// ([`AttachmentFailed`](crate::event::AttachmentFailed)).
+    pub gap: Gap,
 }
 
 impl Attachment {
@@ -67,14 +70,14 @@ impl AttachmentDraft {
     /// Attaches to a body, at the present position of the cable's point unless
     /// [`at`](ToBodyBundle::at) sets another anchor.
     pub fn to(self, body: Entity) -> ToBodyBundle {
-        let attachment = Attachment { at: self.at, kind: self.kind, anchor: None, world: false };
+        let attachment = Attachment { at: self.at, kind: self.kind, anchor: None, world: false, gap: Gap::default() };
         ToBodyBundle { attachment, cable: OnCable(self.cable), body: ToBody(body) }
     }
 
     /// Attaches to the world, at the present position of the cable's point unless
     /// [`at`](ToWorldBundle::at) sets another.
     pub fn to_world(self) -> ToWorldBundle {
-        let attachment = Attachment { at: self.at, kind: self.kind, anchor: None, world: true };
+        let attachment = Attachment { at: self.at, kind: self.kind, anchor: None, world: true, gap: Gap::default() };
         ToWorldBundle { attachment, cable: OnCable(self.cable) }
     }
 }
@@ -93,6 +96,12 @@ impl ToBodyBundle {
         self.attachment.anchor = Some(anchor.into().0);
         self
     }
+
+    /// Sets what to do if the point of the cable is not there.
+    pub fn gap(mut self, gap: Gap) -> Self {
+        self.attachment.gap = gap;
+        self
+    }
 }
 
 /// An attachment of a cable to the world.
@@ -108,6 +117,12 @@ impl ToWorldBundle {
         self.attachment.anchor = Some(position.into().0);
         self
     }
+
+    /// Sets what to do if the point of the cable is not there.
+    pub fn gap(mut self, gap: Gap) -> Self {
+        self.attachment.gap = gap;
+        self
+    }
 }
 
 /// The cable of an attachment.
@@ -120,8 +135,8 @@ pub struct OnCable(pub Entity);
 #[relationship_target(relationship = OnCable, linked_spawn)]
 pub struct CableAttachments(Vec<Entity>);
 
-/// The body of an attachment. Insert another one to attach to another body: the gap closes with at
-/// most 10 m/s.
+/// The body of an attachment. Insert another one to attach to another body; if the cable is not
+/// there, [`Attachment::gap`] says whether it is drawn there or the attachment fails.
 #[derive(Component, Clone, Copy, Debug, PartialEq, Eq)]
 #[relationship(relationship_target = BodyAttachments)]
 pub struct ToBody(pub Entity);

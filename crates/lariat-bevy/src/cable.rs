@@ -5,13 +5,12 @@ use crate::components::CableComponents;
 use crate::description::Description;
 use crate::event::CableFailed;
 use crate::pending::Pending;
-use crate::point::Point;
 use bevy_ecs::component::Component;
 use bevy_ecs::entity::Entity;
 use bevy_ecs::lifecycle::HookContext;
 use bevy_ecs::name::Name;
 use bevy_ecs::world::DeferredWorld;
-use lariat_ancf::{Fidelity, IntegratorChoice, Section};
+use lariat_ancf::{Fidelity, IntegratorChoice, Point, Section};
 
 /// The description of a cable. Spawn it with its rule and effects as components beside it;
 /// [`Cables`] then holds the cable:
@@ -41,13 +40,13 @@ use lariat_ancf::{Fidelity, IntegratorChoice, Section};
 /// [`Cables::get`] returns the reason, and [`CableFailed`] is triggered.
 ///
 /// The component cannot be changed in place. Inserting another description replaces the cable, and
-/// attachments pass to the new one. A clone of the component, like that of a prefab, makes a new
+/// attachments pass to the new one if it is at their anchors ([`Gap`](crate::Gap)). A clone of the component, like that of a prefab, makes a new
 /// cable in its initial state.
 ///
 /// # Limits
 ///
 /// The constitutive law is linear elastic, with constant EA and EI: see [`lariat_ancf::element`].
-/// No contact, no joining of cables, no reeling: see the [crate page](crate#limits).
+/// No contact, no reeling: see the [crate page](crate#limits).
 #[derive(Component, Clone, Debug, PartialEq)]
 #[component(immutable, on_insert = built, on_discard = discarded)]
 pub struct Cable(pub(crate) Description);
@@ -98,7 +97,7 @@ impl Cable {
         self
     }
 
-    /// Sets the trade-off between accuracy and cost. Default: engineering.
+    /// Sets the trade-off between accuracy and cost. Default: game.
     pub fn fidelity(self, fidelity: Fidelity) -> Self {
         self.integrator(fidelity)
     }
@@ -155,8 +154,14 @@ pub(crate) fn build(mut world: DeferredWorld, entity: Entity) {
 
 /// Notes that the cable of a component that is removed or replaced is to be removed from the set.
 fn discarded(mut world: DeferredWorld, context: HookContext) {
-    let Some(mut cables) = world.get_resource_mut::<Cables>() else { return };
-    if let Some(handle) = cables.links.remove_cable(context.entity) {
-        world.resource_mut::<Pending>().removed_cables.push(handle);
+    let entity = context.entity;
+    let handle = world.get_resource_mut::<Cables>().map(|mut cables| cables.links.remove_cable(entity));
+    let Some(mut pending) = world.get_resource_mut::<Pending>() else { return };
+    match handle {
+        Some(handle) => {
+            pending.removed_cables.extend(handle);
+            pending.unlinked.retain(|unlinked| *unlinked != entity);
+        }
+        None => pending.unlinked.push(entity),
     }
 }

@@ -58,7 +58,16 @@ macro_rules! components {
 
             /// Returns the effects on a cable of this section and unstretched length (m).
             fn effects(&self, section: &Section, length: f64) -> Result<Effects, Error> {
-                Ok(Effects { $($field: self.$field.as_ref().map(|c| c.resolve(section, length)).transpose()?,)* })
+                let mut effects =
+                    Effects { $($field: self.$field.as_ref().map(|c| c.resolve(section, length)).transpose()?,)* };
+                if let (None, Some(damping)) = (self.bending, &mut effects.damping)
+                    && damping.bending > 0.0
+                    && damping.bending.is_finite()
+                {
+                    // only a cable with bending stiffness damps its curvature
+                    damping.bending = 0.0;
+                }
+                Ok(effects)
             }
         }
 

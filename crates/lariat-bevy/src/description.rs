@@ -1,6 +1,6 @@
 //! The description that a cable is built from.
 
-use lariat_ancf::{At, Effects, Error, Integrator, IntegratorChoice, PointLoad, Rule, Section, Vector3};
+use lariat_ancf::{At, Effects, Error, Fidelity, Integrator, IntegratorChoice, PointLoad, Rule, Section, Vector3};
 
 /// The geometry, section and integrator of a cable; rule, effects and loads are components beside
 /// it.
@@ -29,7 +29,7 @@ impl Description {
             length: None,
             elements: 10,
             hanging: false,
-            integrator: IntegratorChoice::default(),
+            integrator: Fidelity::Game.into(),
             gravity: None,
             velocity: Vector3::zeros(),
         }

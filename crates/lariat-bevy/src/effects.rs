@@ -8,7 +8,6 @@
 //! of the list.
 
 use crate::pending::Pending;
-use crate::point::Point;
 use bevy_ecs::component::Component;
 use bevy_ecs::lifecycle::HookContext;
 #[cfg(feature = "reflect")]
@@ -17,7 +16,7 @@ use bevy_ecs::world::DeferredWorld;
 #[cfg(feature = "reflect")]
 use bevy_reflect::prelude::*;
 use core::f64::consts::PI;
-use lariat_ancf::{BendingRule, Flow, LineLoad, PointLoad, RestPiece, Section, Vector3};
+use lariat_ancf::{BendingRule, Flow, LineLoad, Point, PointLoad, RestPiece, Section, Vector3};
 use serde::{Deserialize, Serialize};
 
 /// A component that adds an effect of the mechanics to a cable.
@@ -76,7 +75,8 @@ pub struct Bending;
 )]
 pub struct PointLoads(pub Vec<PointLoad>);
 
-/// Internal damping (Kelvin-Voigt); see [`lariat_ancf::Damping`].
+/// Internal damping (Kelvin-Voigt); see [`lariat_ancf::Damping`]. On a cable without [`Bending`] it
+/// acts on the axial strain alone.
 #[derive(Component, Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[component(on_remove = note_removal)]
 #[cfg_attr(
@@ -119,11 +119,8 @@ impl EffectComponent for Damping {
         }
     }
 
-    fn of_part(&self, effect: &lariat_ancf::Damping) -> Self {
-        match self {
-            Damping::Times(_) => Damping::Times(*effect),
-            Damping::CriticalFraction(_) => *self,
-        }
+    fn of_part(&self, _: &lariat_ancf::Damping) -> Self {
+        *self
     }
 }
 

@@ -19,6 +19,9 @@ pub enum Error {
         /// Why it could not be built.
         reason: lariat_ancf::Error,
     },
+    /// A junction of fewer than two points.
+    #[error("a junction needs two points of cables or more")]
+    TooFewCables,
     /// An attachment to an entity without a body.
     #[error("entity {0} has no body")]
     NotABody(Entity),
@@ -42,6 +45,12 @@ pub enum Error {
          in a fixed schedule"
     )]
     VaryingSteps,
+    /// A body of another engine, which a [`Snapshot`](crate::Snapshot) cannot hold.
+    #[error("the body of attachment {attachment} is not in the resource Physics: a snapshot cannot hold it")]
+    ForeignBodies {
+        /// An attachment to such a body.
+        attachment: Entity,
+    },
     /// The schedules and resources of [`install`](crate::install) are missing.
     #[error("this world has no cables: call lariat_bevy::install first")]
     NotInstalled,

@@ -17,14 +17,15 @@ pub struct CableFailed {
     pub error: lariat_ancf::Error,
 }
 
-/// A host step failed: no body and no cable advances, and all keep the state after the last
-/// successful Rapier step. Sent again at each host step until the cause is removed, for every cable
-/// that is connected to it.
+/// A cable could not step: it and all that is connected to it by attachments keep their state, and
+/// everything else goes on. Sent at each host step until the cause is removed, for every cable that
+/// is connected to it. With an error that concerns all cables ([`Entity::PLACEHOLDER`]) nothing
+/// advances.
 #[derive(EntityEvent, Message, Clone, Debug, PartialEq)]
 pub struct StepFailed {
-    /// The cable; [`Entity::PLACEHOLDER`] if the cause does not lie in a cable.
+    /// The cable; [`Entity::PLACEHOLDER`] if the error concerns all cables.
     pub entity: Entity,
-    /// The cause, with the name of the cable, the time and the value.
+    /// The cause, with the names of the cables, the time and the value.
     pub error: Error,
 }
 
@@ -60,7 +61,8 @@ pub struct CableBroken {
 pub enum EndReason {
     /// The body was removed.
     BodyGone,
-    /// The user removed the attachment, its cable or its body relationship; the entity stays.
+    /// The user removed the attachment or its relationship to cable or body, or despawned its
+    /// entity; an entity that was not despawned stays.
     Released,
     /// The force exceeded [`BreakForce`](crate::BreakForce).
     Broken,
@@ -90,10 +92,37 @@ pub struct AttachmentFailed {
     pub error: Error,
 }
 
+/// A junction cannot be made. It is tried again when its component changes, or when a cable is
+/// spawned.
+#[derive(EntityEvent, Message, Clone, Debug, PartialEq)]
+pub struct JunctionFailed {
+    /// The junction.
+    pub entity: Entity,
+    /// The cause.
+    pub error: Error,
+}
+
+/// A junction ended because fewer than two of its cables are left; the entity stays.
+#[derive(EntityEvent, Message, Clone, Debug, PartialEq)]
+pub struct JunctionEnded {
+    /// The junction.
+    pub entity: Entity,
+}
+
 /// Calls `$apply!` with the type of each event.
 macro_rules! for_each_event {
     ($apply:ident) => {
-        $apply!(CableFailed, StepFailed, CableAsleep, CableAwake, CableBroken, AttachmentEnded, AttachmentFailed);
+        $apply!(
+            CableFailed,
+            StepFailed,
+            CableAsleep,
+            CableAwake,
+            CableBroken,
+            AttachmentEnded,
+            AttachmentFailed,
+            JunctionFailed,
+            JunctionEnded
+        );
     };
 }
 #[cfg(feature = "bevy_app")]

@@ -9,11 +9,12 @@ use crate::attachment::{Attached, Attachment, AttachmentReading, BreakForce, Not
 use crate::body::{Body, BodyHandle, BodyPose, KinematicTarget};
 use crate::breaking::BreakTension;
 use crate::cable::Cable;
-use crate::cables::{Cables, Links};
+use crate::cables::{AttachmentLink, Cables, Links};
 use crate::clock::FixedClock;
 use crate::components::{CableComponents, put};
 use crate::error::Error;
 use crate::interpolate::Interpolate;
+use crate::junction::{Joined, Junction, NotJoinable};
 use crate::pending::Pending;
 use crate::physics::Physics;
 use bevy_ecs::entity::Entity;
@@ -38,18 +39,17 @@ pub struct Snapshot {
     entities: Vec<Saved>,
 }
 
-type AnyOfOurs = (Or<(With<Cable>, With<Attachment>, With<Body>, With<BodyHandle>)>, Allow<Disabled>);
-type SpawnedByUser = (Or<(With<Cable>, With<Attachment>, With<Body>)>, Allow<Disabled>);
+type AnyOfOurs = (Or<(With<Cable>, With<Attachment>, With<Junction>, With<Body>, With<BodyHandle>)>, Allow<Disabled>);
+type SpawnedByUser = (Or<(With<Cable>, With<Attachment>, With<Junction>, With<Body>)>, Allow<Disabled>);
 
 impl Snapshot {
     /// Copies the state.
     ///
     /// # Errors
-    /// [`Error::NotInstalled`].
+    /// [`Error::NotInstalled`]; [`Error::ForeignBodies`] if a cable depends on a body that is not in
+    /// [`Physics`], because another engine owns it.
     pub fn take(world: &mut World) -> Result<Snapshot, Error> {
-        if !world.contains_resource::<Cables>() {
-            return Err(Error::NotInstalled);
-        }
+        check(world)?;
         let entities: Vec<Entity> = world.query_filtered::<Entity, AnyOfOurs>().iter(world).collect();
         let entities = entities.into_iter().map(|entity| Saved::of(world.entity(entity))).collect();
         let cables = world.resource::<Cables>();
@@ -68,16 +68,15 @@ impl Snapshot {
     /// entity numbers: returns them, from old to new.
     ///
     /// # Errors
-    /// [`Error::NotInstalled`].
+    /// As [`take`](Self::take); nothing is restored then.
     pub fn restore(&self, world: &mut World) -> Result<BTreeMap<Entity, Entity>, Error> {
-        if !world.contains_resource::<Cables>() {
-            return Err(Error::NotInstalled);
-        }
+        check(world)?;
         world.resource_mut::<Cables>().restoring = true;
         let renamed = self.restore_entities(world);
         let name = |entity: Entity| renamed.get(&entity).copied().unwrap_or(entity);
         let (set, links) = (self.set.clone(), self.links.renamed(&name));
         let mut pending = self.pending.clone();
+        pending.unlinked.iter_mut().for_each(|entity| *entity = name(*entity));
         pending.removed_attachments.iter_mut().for_each(|(entity, _)| *entity = name(*entity));
         // a component that had changed when the snapshot was taken counts as changed again
         pending.changed_effects = links.built.keys().copied().collect();
@@ -119,6 +118,19 @@ impl Snapshot {
     }
 }
 
+/// Checks that a world has cables, and that the bodies they are attached to are in [`Physics`].
+fn check(world: &World) -> Result<(), Error> {
+    let cables = world.get_resource::<Cables>().ok_or(Error::NotInstalled)?;
+    let bodies = &world.resource::<Physics>().bodies;
+    let mut attached = cables.links.attachments.values().filter(|link| !bodies.contains(link.handle));
+    // a body of our own that is gone, the user has removed
+    let own = |link: &AttachmentLink| link.body.is_some_and(|body| world.get::<Body>(body).is_some());
+    match attached.find(|link| !own(link)) {
+        Some(link) => Err(Error::ForeignBodies { attachment: link.entity }),
+        None => Ok(()),
+    }
+}
+
 /// Copies Rapier's world except for its workspace.
 fn copy(world: &PhysicsWorld) -> PhysicsWorld {
     PhysicsWorld {
@@ -145,6 +157,7 @@ struct Saved {
     on: Option<OnCable>,
     to: Option<ToBody>,
     body: Option<Body>,
+    junction: Option<Junction>,
     cable: CableComponents,
     plain: Plain,
 }
@@ -156,6 +169,7 @@ impl Saved {
             on: entity.get().copied(),
             to: entity.get().copied(),
             body: entity.get().cloned(),
+            junction: entity.get().cloned(),
             cable: CableComponents::of(entity),
             plain: Plain::of(entity),
         }
@@ -176,6 +190,12 @@ impl Saved {
             }
             Some(_) => {}
         }
+        // before `Joined`, which it removes
+        let junction = self.junction.map(|mut junction| {
+            junction.rename(name);
+            junction
+        });
+        put(&mut entity, junction);
         put(&mut entity, on);
         put(&mut entity, to);
         self.cable.put(&mut entity);
@@ -205,5 +225,5 @@ macro_rules! plain {
 plain! {
     name: Name, cable: Cable, interpolate: Interpolate, break_tension: BreakTension, break_force: BreakForce,
     attachment: Attachment, reading: AttachmentReading, not_attachable: NotAttachable, target: KinematicTarget, pose: BodyPose,
-    body_handle: BodyHandle, attached: Attached,
+    body_handle: BodyHandle, attached: Attached, joined: Joined, not_joinable: NotJoinable,
 }

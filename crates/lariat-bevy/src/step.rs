@@ -33,24 +33,24 @@ pub(crate) fn run_rapier_steps(world: &mut World) {
     }
 }
 
-/// Ends a host step.
-pub(crate) fn finish(mut cables: ResMut<Cables>, mut physics: ResMut<Physics>) {
-    if let Some(host) = cables.host.take() {
-        cables.set.finish(&mut physics, host);
+/// Ends a host step, and reports the islands that could not step.
+pub(crate) fn finish(mut cables: ResMut<Cables>, mut physics: ResMut<Physics>, mut diagnostics: ResMut<Diagnostics>) {
+    let Some(host) = cables.host.take() else { return };
+    if cables.set.finish(&mut physics, host).is_ok() {
+        return;
+    }
+    diagnostics.failed_steps += 1;
+    let Cables { set, links, events, .. } = &mut *cables;
+    for failure in set.failures() {
+        for entity in failure.cables.iter().filter_map(|cable| links.cables.get(cable)).map(|link| link.entity) {
+            events.push(StepFailed { entity, error: Error::Coupling(failure.error.clone()) }.into());
+        }
     }
 }
 
-/// Queues [`StepFailed`] for every cable of the island that failed.
+/// Queues [`StepFailed`] for an error that concerns all cables.
 fn report(cables: &mut Cables, error: lariat_rapier::Error) {
-    let Cables { set, links, events, .. } = cables;
-    let failed = set.failed_cables().iter().filter_map(|handle| links.cables.get(handle)).map(|link| link.entity);
-    let mut failed: Vec<Entity> = failed.collect();
-    if failed.is_empty() {
-        failed.push(Entity::PLACEHOLDER);
-    }
-    for entity in failed {
-        events.push(StepFailed { entity, error: Error::Coupling(error.clone()) }.into());
-    }
+    cables.events.push(StepFailed { entity: Entity::PLACEHOLDER, error: Error::Coupling(error) }.into());
 }
 
 /// Integrates cables with their bodies over the next Rapier step, and applies the motion to

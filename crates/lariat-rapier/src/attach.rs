@@ -1,11 +1,12 @@
 //! Attaching cables to bodies and detaching them.
 
-use crate::attachment::{Attachment, AttachmentKind, AttachmentReading};
+use crate::attachment::{Attachment, AttachmentKind, AttachmentOptions, AttachmentReading};
 use crate::contents::Contents;
 use crate::convert::{rotation, vector};
 use crate::error::Error;
 use crate::events::Event;
 use crate::handle::{AttachmentHandle, CableHandle};
+use crate::world_mark;
 use ::nalgebra::{Vector3, Vector6};
 use lariat_ancf::At;
 use lariat_ancf::island::PinAccount;
@@ -18,12 +19,19 @@ pub(crate) fn attach(
     world: &PhysicsWorld,
     (cable, at): (CableHandle, At),
     (body, anchor): (RigidBodyHandle, Vector3<f64>),
-    kind: AttachmentKind,
+    AttachmentOptions { kind, gap }: AttachmentOptions,
 ) -> Result<AttachmentHandle, Error> {
+    if !world_mark::is_own(contents, world) {
+        return Err(Error::OtherWorld);
+    }
     let rigid = world.bodies.get(body).ok_or(Error::NoBody(body))?;
     if !anchor.iter().all(|x| x.is_finite()) {
         return Err(Error::AnchorNotFinite { body, anchor });
     }
+    check_free(contents, cable, at)?;
+    let existing = contents.cable(cable)?;
+    let point = existing.sample(existing.arc_length(at)?)?.position;
+    gap.check(existing, &point, &(vector(rigid.translation()) + rotation(*rigid.rotation()) * anchor))?;
     let node = free_node(contents, cable, at)?;
     let attached = contents.cable_mut(cable)?;
     let arc_length = attached.node_arc_lengths()[node];
@@ -77,13 +85,18 @@ pub(crate) fn detach(
     let removed = contents.attachments.remove(attachment.0 as usize);
     let Attachment { cable, node, body, ledger, .. } = removed.ok_or(Error::NoAttachment(attachment))?;
     contents.changed = true;
-    if let Some(ledger) = ledger {
-        world.remove_body(ledger.body);
-    }
     // the reaction estimate is invalid without this cable
     contents.records.record_mut(body).reaction = Vector6::zeros();
-    if world.bodies.contains(body) {
-        world.islands.wake_up(&mut world.bodies, body, true);
+    if world_mark::is_own(contents, world) {
+        if let Some(ledger) = ledger {
+            world.remove_body(ledger.body);
+        }
+        if world.bodies.contains(body) {
+            world.islands.wake_up(&mut world.bodies, body, true);
+        }
+    }
+    if contents.attachments.values().next().is_none() {
+        world_mark::remove(contents, world);
     }
     contents.cable_mut(cable)?.detach(At::Node(node))?;
     Ok(())
@@ -108,23 +121,28 @@ pub(crate) fn end_lost(
     Ok(())
 }
 
+/// Checks that no attachment and no junction has the node at a point of a cable.
+fn check_free(contents: &Contents, cable: CableHandle, at: At) -> Result<(), Error> {
+    let existing = contents.cable(cable)?;
+    let Ok(node) = existing.node(at) else { return Ok(()) };
+    let attached = contents.attachments.values().map(|a| (a.cable, a.node));
+    let mut nodes = attached.chain(contents.junctions.values().flat_map(|j| j.nodes.iter().copied()));
+    let taken = nodes.any(|taken| taken == (cable, node));
+    if taken { Err(Error::AlreadyAttached { cable: existing.name().to_string(), node }) } else { Ok(()) }
+}
+
 /// Returns the node at a point of a cable, inserting one if there is none. It must be neither
 /// attached nor part of a junction.
 pub(crate) fn free_node(contents: &mut Contents, cable: CableHandle, at: At) -> Result<usize, Error> {
+    check_free(contents, cable, at)?;
     let edited = contents.cable_mut(cable)?;
     let before = edited.nodes();
     let node = edited.insert_node(at)?;
-    let inserted = edited.nodes() > before;
-    let name = edited.name().to_string();
-    let nodes = contents.junctions.values_mut().flat_map(|j| &mut j.nodes).map(|(c, n)| (*c, n));
-    let nodes = contents.attachments.values_mut().map(|a| (a.cable, &mut a.node)).chain(nodes);
-    let mut taken = false;
-    for (_, n) in nodes.filter(|(c, _)| *c == cable) {
-        if inserted && *n >= node {
-            *n += 1;
-        }
-        taken |= *n == node;
+    if edited.nodes() > before {
+        let attached = contents.attachments.values_mut().map(|a| (a.cable, &mut a.node));
+        let tied = contents.junctions.values_mut().flat_map(|j| &mut j.nodes).map(|(c, n)| (*c, n));
+        attached.chain(tied).filter(|(c, n)| *c == cable && **n >= node).for_each(|(_, n)| *n += 1);
+        contents.changed = true;
     }
-    contents.changed |= inserted;
-    if taken { Err(Error::AlreadyAttached { cable: name, node }) } else { Ok(node) }
+    Ok(node)
 }

@@ -1,10 +1,12 @@
 //! A node of a cable attached to a body, and the force and moment between them.
 
+use crate::error::Error;
 use crate::handle::CableHandle;
 use crate::ledger::Ledger;
 use ::nalgebra::Vector3;
 use lariat_ancf::island::PinAccount;
 use rapier::dynamics::RigidBodyHandle;
+use rapier::math::Real;
 use serde::{Deserialize, Serialize};
 
 /// How a node is attached.
@@ -18,6 +20,65 @@ pub enum AttachmentKind {
     /// length of the tangent (the stretch) stays free, and so does twist, which these cables do not
     /// have.
     Clamp,
+}
+
+impl AttachmentKind {
+    /// Attaches with this treatment of a gap.
+    pub fn with_gap(self, gap: Gap) -> AttachmentOptions {
+        AttachmentOptions { kind: self, gap }
+    }
+}
+
+/// What to do if a point of a cable is not where it is to be attached.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Gap {
+    /// Closes a gap of up to this length in m, and rejects a longer one with
+    /// [`Error::GapTooLong`](crate::Error::GapTooLong).
+    Refuse(f64),
+    /// Closes a gap of any length: in the next step, at 10 m/s at most.
+    Close,
+}
+
+impl Default for Gap {
+    /// Rejects gaps of more than 1e-3 m.
+    fn default() -> Self {
+        Gap::Refuse(1e-3)
+    }
+}
+
+impl Gap {
+    /// Checks the distance between a point of a cable and what it is to be attached to, in m.
+    pub(crate) fn check(
+        self,
+        cable: &lariat_ancf::Cable,
+        point: &Vector3<f64>,
+        target: &Vector3<f64>,
+    ) -> Result<(), Error> {
+        let Gap::Refuse(limit) = self else { return Ok(()) };
+        let gap = (point - target).norm();
+        // far from the origin, Rapier's positions are no more accurate
+        let rounding = 4.0 * f64::from(Real::EPSILON) * target.amax();
+        if gap <= limit + rounding {
+            return Ok(());
+        }
+        Err(Error::GapTooLong { cable: cable.name().to_string(), gap, limit })
+    }
+}
+
+/// How a node is attached. An [`AttachmentKind`] converts into it, with the default [`Gap`].
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct AttachmentOptions {
+    /// Ball or clamp. Default: ball.
+    pub kind: AttachmentKind,
+    /// What to do if the cable is not at the anchor. Default: reject gaps of more than 1e-3 m.
+    pub gap: Gap,
+}
+
+impl From<AttachmentKind> for AttachmentOptions {
+    fn from(kind: AttachmentKind) -> Self {
+        kind.with_gap(Gap::default())
+    }
 }
 
 /// A node of a cable attached to a point of a body.

@@ -1,12 +1,14 @@
 //! The contents of a set: cables, attachments, junctions and records of bodies.
 
 use crate::attachment::Attachment;
+use crate::breaking::Strength;
 use crate::convert;
 use crate::error::Error;
 use crate::handle::{AttachmentHandle, CableHandle, JunctionHandle};
 use crate::junction::Junction;
 use crate::record::Records;
 use crate::table::Table;
+use crate::world_mark::WorldMark;
 use lariat_ancf::Cable;
 use rapier::math::Vector;
 use rapier::pipeline::PhysicsWorld;
@@ -24,6 +26,9 @@ pub(crate) struct Slot {
     pub gravity: ::nalgebra::Vector3<f64>,
     /// Positions of both ends and the length when it was inserted, in m.
     pub sort_key: [f64; 7],
+    /// `None`: it does not break.
+    #[serde(default)]
+    pub strength: Option<Strength>,
 }
 
 impl Slot {
@@ -42,6 +47,9 @@ pub(crate) struct Contents {
     pub attachments: Table<Attachment>,
     pub junctions: Table<Junction>,
     pub records: Records,
+    /// The mark of the world that the attachments belong to.
+    #[serde(default)]
+    pub mark: Option<WorldMark>,
     /// The world's gravity when it was last copied to the cables.
     gravity: Option<Vector>,
     /// Whether cables, attachments or junctions changed since islands were last found.
@@ -60,7 +68,7 @@ impl Contents {
         let sort_key = [start.x, start.y, start.z, end.x, end.y, end.z, cable.length()];
         let gravity = cable.gravity();
         let follows_gravity = gravity == lariat_ancf::STANDARD_GRAVITY;
-        let slot = Slot { asleep: false, modified: true, follows_gravity, gravity, sort_key, cable };
+        let slot = Slot { asleep: false, modified: true, follows_gravity, gravity, sort_key, strength: None, cable };
         let index = self.cables.push(slot);
         self.changed = true;
         self.gravity = None;
@@ -101,6 +109,19 @@ impl Contents {
         let mut found: Vec<(usize, &mut Cable)> = slots.collect();
         found.sort_by_key(|(position, _)| *position);
         found.into_iter().map(|(_, cable)| cable).collect()
+    }
+
+    /// Sets the clocks of the cables of an island to the latest of them: one that could not step for a
+    /// while may since have been attached to others.
+    pub fn align_clocks(&mut self, indices: &[usize]) -> Result<(), Error> {
+        let times = indices.iter().filter_map(|&i| self.cables.get(i)).map(|slot| slot.cable.time());
+        let latest = times.fold(f64::NEG_INFINITY, f64::max);
+        for &i in indices {
+            if let Some(slot) = self.cables.get_mut(i).filter(|slot| slot.cable.time() < latest) {
+                slot.cable.set_time(latest)?;
+            }
+        }
+        Ok(())
     }
 
     /// Copies the world's gravity to the cables that follow it when it changed, unless theirs is

@@ -1,6 +1,8 @@
 //! The error type of this crate.
 
+use crate::contents::Contents;
 use crate::handle::{AttachmentHandle, CableHandle, JunctionHandle};
+use crate::islands::Island;
 use rapier::dynamics::RigidBodyHandle;
 use thiserror::Error as ThisError;
 
@@ -11,6 +13,17 @@ pub enum Error {
     /// An error of the mechanics of a cable.
     #[error(transparent)]
     Cable(#[from] lariat_ancf::Error),
+    /// Cables that cannot step with the bodies attached to them: they stay as they are, and all other
+    /// cables and bodies go on.
+    #[error("cables {cables:?} cannot step at t = {time} s: {cause}")]
+    StepRefused {
+        /// Names of the cables of the island.
+        cables: Vec<String>,
+        /// Time in s.
+        time: f64,
+        /// Why they cannot step.
+        cause: Box<Error>,
+    },
     /// The handle of a cable that is not, or no longer, in the set.
     #[error("no cable {0:?} in this set")]
     NoCable(CableHandle),
@@ -23,6 +36,22 @@ pub enum Error {
     /// The handle of a body that is not in the world.
     #[error("no body {0:?} in this world")]
     NoBody(RigidBodyHandle),
+    /// A world that is not the one of the attachments: no body is where it belongs, or handles name
+    /// other bodies. Nothing has changed.
+    #[error("this world is not the one of the set's attachments: step that one, or detach them first")]
+    OtherWorld,
+    /// An anchor or a second cable too far from the point of the cable.
+    #[error(
+        "cable {cable:?}: {gap:.3e} m from what it is to be attached to, at most {limit:e} m are allowed (see Gap)"
+    )]
+    GapTooLong {
+        /// Name of the cable.
+        cable: String,
+        /// Distance in m.
+        gap: f64,
+        /// Largest distance allowed in m.
+        limit: f64,
+    },
     /// A time step that is negative or not finite.
     #[error("a time step of {dt} s; expected 0 or more")]
     TimeStep {
@@ -55,6 +84,25 @@ pub enum Error {
         /// Time in s.
         time: f64,
     },
+}
+
+/// An island of cables and bodies that could not step: it stays as it is, and all others go on.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Failure {
+    /// The cables of the island.
+    pub cables: Vec<CableHandle>,
+    /// The cause, an [`Error::StepRefused`] with the names of the cables.
+    pub error: Error,
+}
+
+impl Failure {
+    pub(crate) fn new(contents: &Contents, island: &Island, cause: Error) -> Self {
+        let slots = || island.cables.iter().filter_map(|&c| contents.cables.get(c));
+        let cables = slots().map(|slot| slot.cable.name().to_string()).collect();
+        let time = slots().next().map_or(0.0, |slot| slot.cable.time());
+        let error = Error::StepRefused { cables, time, cause: Box::new(cause) };
+        Failure { cables: island.cables.iter().map(|&c| CableHandle(c as u32)).collect(), error }
+    }
 }
 
 /// A quantity of a body, named in an [`Error`].

@@ -1,6 +1,7 @@
 //! Tying cables to each other and untying them.
 
 use crate::attach::free_node;
+use crate::attachment::Gap;
 use crate::contents::Contents;
 use crate::error::Error;
 use crate::handle::{CableHandle, JunctionHandle};
@@ -12,13 +13,16 @@ pub(crate) fn join(
     contents: &mut Contents,
     (first, at_first): (CableHandle, At),
     (second, at_second): (CableHandle, At),
+    gap: Gap,
 ) -> Result<JunctionHandle, Error> {
     // arc lengths stay the same when nodes are inserted
     let lengths = [contents.cable(first)?.arc_length(at_first)?, contents.cable(second)?.arc_length(at_second)?];
     let [at_first, at_second] = lengths.map(At::ArcLength);
+    let [a, b] = [contents.cable(first)?, contents.cable(second)?];
+    gap.check(a, &a.sample(lengths[0])?.position, &b.sample(lengths[1])?.position)?;
     let existing = junction_at(contents, first, at_first);
     if existing.is_none() && junction_at(contents, second, at_second).is_some() {
-        return join(contents, (second, at_second), (first, at_first));
+        return join(contents, (second, at_second), (first, at_first), gap);
     }
     let index = match existing {
         Some(index) => index,

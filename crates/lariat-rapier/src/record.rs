@@ -63,6 +63,11 @@ impl ExactState {
         }
     }
 
+    /// Returns the rounded position and attitude.
+    pub fn pose(&self) -> Pose {
+        self.pose
+    }
+
     /// Replaces what `out` reads of `body` by this state, as far as `body` is still as it was
     /// written.
     pub fn apply_to(&self, body: &RapierBody, out: &mut RigidBody) {

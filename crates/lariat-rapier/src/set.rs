@@ -1,21 +1,21 @@
 //! The set of cables of a world: the interface of this crate.
 
-use crate::attachment::{Attachment, AttachmentKind};
+use crate::attachment::{Attachment, AttachmentKind, AttachmentOptions, Gap};
+use crate::breaking::Strength;
 use crate::contents::Contents;
-use crate::convert::vector;
 #[cfg(feature = "debug-render")]
 use crate::draw::{self, DrawStyle};
-use crate::error::Error;
+use crate::error::{Error, Failure};
 use crate::events::Event;
 use crate::handle::{AttachmentHandle, CableHandle, JunctionHandle};
 use crate::junction::Junction;
+use crate::rope::{self, Rope, RopeEnd, RopeHandles};
 use crate::settings::Settings;
 use crate::step::{self, HostStep, Stepper};
 use crate::totals::{self, WorldEnergy};
-use crate::{attach, edit, join};
-use lariat_ancf::{At, Cable, Momentum};
+use crate::{attach, breaking, edit, join, world_mark};
+use lariat_ancf::{At, Cable, Momentum, Point};
 use rapier::dynamics::RigidBodyHandle;
-use rapier::math::Vector;
 #[cfg(feature = "debug-render")]
 use rapier::pipeline::DebugRenderBackend;
 use rapier::pipeline::{EventHandler, PhysicsHooks, PhysicsWorld};
@@ -33,7 +33,8 @@ use serde::{Deserialize, Serialize};
 ///   together only if the cables are attached to one of them and none of the others touches a body
 ///   from outside. Otherwise their effect is estimated from step to step, and limits of multibody
 ///   joints chatter. Chains of impulse joints count up to 24 bodies.
-/// - If one cable cannot step, no cable and no body advances.
+/// - Cables that cannot step stand still with the bodies attached to them, and block others that
+///   touch them; all else goes on.
 ///
 /// # Snapshots
 /// A set serialises with all of its state; a snapshot of (world, set) replays to the bit. JSON
@@ -55,9 +56,63 @@ impl CableSet {
     }
 
     /// Adds a cable; its clock is set to that of the others. If its gravity is the builder's
-    /// default, it follows the world's until the user sets it; else it keeps its own.
-    pub fn insert(&mut self, cable: Cable) -> CableHandle {
+    /// default, it follows the world's until the user sets it; else it keeps its own. If nobody
+    /// chose its integrator, it takes that of [`Settings::fidelity`].
+    pub fn insert(&mut self, mut cable: Cable) -> CableHandle {
+        if cable.has_default_integrator() {
+            // the integrator of a fidelity fits every cable
+            let _ = cable.set_integrator(cable.integrator_for(self.settings.fidelity));
+        }
         self.contents.insert(cable)
+    }
+
+    /// Adds the usual rope between two points of the world, held there by bodies or by the world: it is
+    /// straight, or sags by its slack.
+    ///
+    /// ```
+    /// use lariat_rapier::{CableSet, Rope};
+    /// use rapier::prelude::*;
+    ///
+    /// let mut world = PhysicsWorld::new();
+    /// let cube = ColliderBuilder::cuboid(0.1, 0.1, 0.1).mass(50.0);
+    /// let (load, _) = world.insert(RigidBodyBuilder::dynamic().translation(Vector::new(0.0, -2.1, 0.0)), cube);
+    /// let mut cables = CableSet::new();
+    /// // a steel rope of 8 mm with 5 % of slack that breaks at 20 kN
+    /// let rope = Rope::steel(0.008).slack(0.05).strength(20e3);
+    /// let rope = cables.add_rope(&world, [0.0, 0.0, 0.0], (load, [0.0, -2.0, 0.0]), rope)?;
+    /// for _ in 0..300 {
+    ///     cables.step(&mut world)?;
+    /// }
+    /// let pull = cables.attachment(rope.end.unwrap())?.force().norm();
+    /// assert!((pull / (50.0 * 9.81) - 1.0).abs() < 0.05, "{pull} N");
+    /// # Ok::<(), lariat_rapier::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::NoBody`]; [`Error::OtherWorld`]; [`Error::Cable`] for two ends at one point, or a
+    /// section or slack that is not possible.
+    pub fn add_rope(
+        &mut self,
+        world: &PhysicsWorld,
+        from: impl Into<RopeEnd<RigidBodyHandle>>,
+        to: impl Into<RopeEnd<RigidBodyHandle>>,
+        rope: Rope,
+    ) -> Result<RopeHandles, Error> {
+        rope::add(self, world, [from.into(), to.into()], &rope)
+    }
+
+    /// Sets the tension in N above which a cable breaks, at the inner node nearest to its largest
+    /// tension, compared after each host step; `None` and it does not break. The event is
+    /// [`Event::Broken`]; the parts have the same strength.
+    ///
+    /// # Errors
+    /// [`Error::NoCable`].
+    pub fn set_strength(&mut self, cable: CableHandle, strength: Option<f64>) -> Result<(), Error> {
+        let slot = self.contents.cables.get_mut(cable.0 as usize).ok_or(Error::NoCable(cable))?;
+        if slot.strength.map(|strength| strength.limit) != strength {
+            slot.strength = strength.map(|limit| Strength { limit, compared: false });
+        }
+        Ok(())
     }
 
     /// Removes a cable with its attachments, and takes it out of its junctions.
@@ -108,22 +163,24 @@ impl CableSet {
     }
 
     /// Attaches a point of a cable to a point of a body (body axes from its origin, in m). A node
-    /// is inserted there if there is none. A gap closes in the next step, at 10 m/s at most; a
-    /// clamp keeps the angle that tangent and body have now.
+    /// is inserted there if there is none. The two points may be up to 1e-3 m apart, or as far as
+    /// `kind.with_gap(..)` says ([`Gap`](crate::Gap)); a clamp keeps the angle that tangent and body
+    /// have now.
     ///
     /// # Errors
     /// [`Error::NoCable`], [`Error::NoBody`], [`Error::AlreadyAttached`],
-    /// [`Error::AnchorNotFinite`], or [`Error::Cable`] for a point that is not on the cable.
+    /// [`Error::AnchorNotFinite`], [`Error::GapTooLong`], [`Error::OtherWorld`], or
+    /// [`Error::Cable`] for a point that is not on the cable.
     pub fn attach(
         &mut self,
         world: &PhysicsWorld,
         cable: CableHandle,
         at: impl Into<At>,
         body: RigidBodyHandle,
-        anchor: Vector,
-        kind: AttachmentKind,
+        anchor: impl Into<Point>,
+        kind: impl Into<AttachmentOptions>,
     ) -> Result<AttachmentHandle, Error> {
-        attach::attach(&mut self.contents, world, (cable, at.into()), (body, vector(anchor)), kind)
+        attach::attach(&mut self.contents, world, (cable, at.into()), (body, anchor.into().0), kind.into())
     }
 
     /// As [`attach`](Self::attach), to the point of the body where the point of the cable is now.
@@ -140,7 +197,7 @@ impl CableSet {
     ) -> Result<AttachmentHandle, Error> {
         let point = (cable, at.into());
         let anchor = attach::anchor_here(&self.contents, world, point, body)?;
-        attach::attach(&mut self.contents, world, point, (body, anchor), kind)
+        attach::attach(&mut self.contents, world, point, (body, anchor), kind.into())
     }
 
     /// Ends an attachment and frees its node.
@@ -165,14 +222,33 @@ impl CableSet {
     }
 
     /// Ties a point of a cable to a point of another, or of itself: they share one position, like a
-    /// massless shackle. Nodes are inserted there if there are none; a gap closes in the next step.
-    /// If one of the points is part of a junction, the other joins that junction.
+    /// massless shackle. Nodes are inserted there if there are none. The points may be up to 1e-3 m
+    /// apart ([`join_with_gap`](Self::join_with_gap)). If one of the points is part of a junction,
+    /// the other joins that junction.
     ///
     /// # Errors
-    /// [`Error::NoCable`]; [`Error::AlreadyAttached`] for a node that is attached to a body, or if
-    /// both are part of junctions; [`Error::Cable`] for a point that is not on its cable.
-    pub fn join(&mut self, first: (CableHandle, At), second: (CableHandle, At)) -> Result<JunctionHandle, Error> {
-        join::join(&mut self.contents, first, second)
+    /// [`Error::NoCable`]; [`Error::GapTooLong`]; [`Error::AlreadyAttached`] for a node that is
+    /// attached to a body, or if both are part of junctions; [`Error::Cable`] for a point that is
+    /// not on its cable.
+    pub fn join(
+        &mut self,
+        first: (CableHandle, impl Into<At>),
+        second: (CableHandle, impl Into<At>),
+    ) -> Result<JunctionHandle, Error> {
+        self.join_with_gap(first, second, Gap::default())
+    }
+
+    /// As [`join`](Self::join), with another treatment of a gap between the two points.
+    ///
+    /// # Errors
+    /// As [`join`](Self::join).
+    pub fn join_with_gap(
+        &mut self,
+        first: (CableHandle, impl Into<At>),
+        second: (CableHandle, impl Into<At>),
+        gap: Gap,
+    ) -> Result<JunctionHandle, Error> {
+        join::join(&mut self.contents, (first.0, first.1.into()), (second.0, second.1.into()), gap)
     }
 
     /// Unties a cable from a junction; a junction with a single node left ends.
@@ -195,8 +271,9 @@ impl CableSet {
     /// Rapier steps as the [`Settings`] say.
     ///
     /// # Errors
-    /// [`Error::Cable`] if a cable cannot step, [`Error::BodyNotFinite`]. Cables and bodies are
-    /// then as after the last Rapier step that succeeded.
+    /// [`Error::StepRefused`] if cables cannot step. They and their bodies are then as after the last
+    /// Rapier step that they could make, and all other cables and bodies have advanced; every such
+    /// island is in [`failures`](Self::failures). With any other error nothing has advanced.
     pub fn step(&mut self, world: &mut PhysicsWorld) -> Result<(), Error> {
         self.step_with_events(world, &(), &())
     }
@@ -220,8 +297,7 @@ impl CableSet {
                 self.reconcile(world);
             }
         }
-        self.finish(world, host);
-        outcome
+        outcome.and(self.finish(world, host))
     }
 
     /// Begins a host step, for those who step Rapier themselves: as long as
@@ -231,8 +307,10 @@ impl CableSet {
     /// step.
     ///
     /// # Errors
-    /// [`Error::TimeStep`].
+    /// [`Error::TimeStep`]; [`Error::OtherWorld`] for a world that is not that of the attachments,
+    /// which stay as they are.
     pub fn begin(&mut self, world: &mut PhysicsWorld) -> Result<HostStep, Error> {
+        world_mark::check(&mut self.contents, world)?;
         step::begin(&mut self.stepper, &self.contents, world, &self.settings)
     }
 
@@ -240,7 +318,8 @@ impl CableSet {
     /// Rapier the motion of the bodies.
     ///
     /// # Errors
-    /// As [`step`](Self::step); cables and bodies are then as before.
+    /// An error that concerns the whole set; cables and bodies are then as before. An island that
+    /// cannot step is no error here: it is in [`failures`](Self::failures).
     pub fn predict_next(&mut self, world: &mut PhysicsWorld, host: &mut HostStep) -> Result<(), Error> {
         step::predict_next(&mut self.stepper, &mut self.contents, world, &self.settings, host)
     }
@@ -251,8 +330,15 @@ impl CableSet {
     }
 
     /// Ends a host step: `world.integration_parameters.dt` is the host's again.
-    pub fn finish(&mut self, world: &mut PhysicsWorld, host: HostStep) {
+    ///
+    /// # Errors
+    /// The error of the first of [`failures`](Self::failures).
+    pub fn finish(&mut self, world: &mut PhysicsWorld, host: HostStep) -> Result<(), Error> {
         step::finish(world, &host);
+        if host.is_complete() {
+            breaking::break_overloaded(&mut self.contents, &mut self.stepper.events);
+        }
+        self.failures().first().map_or(Ok(()), |failure| Err(failure.error.clone()))
     }
 
     /// Returns the events of the last host step.
@@ -265,9 +351,11 @@ impl CableSet {
         core::mem::take(&mut self.stepper.events)
     }
 
-    /// Returns the cables of the island that could not step; none if the last step succeeded.
-    pub fn failed_cables(&self) -> &[CableHandle] {
-        &self.stepper.failed
+    /// Returns the islands that could not step in the last host step, with their cables and errors.
+    /// They are as they were before the Rapier step that failed, and are tried again in the next
+    /// host step.
+    pub fn failures(&self) -> &[Failure] {
+        &self.stepper.failures
     }
 
     /// Returns the linear momentum (kg m/s) and the angular momentum about the origin (kg m^2/s) of

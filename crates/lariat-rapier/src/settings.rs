@@ -1,5 +1,6 @@
 //! Settings of a set.
 
+use lariat_ancf::Fidelity;
 use serde::{Deserialize, Serialize};
 
 /// How a [`CableSet`](crate::CableSet) steps. All of its cables share one number of Rapier steps.
@@ -16,6 +17,14 @@ pub struct Settings {
     /// Speed in m/s below which cables and the bodies on them may fall asleep, if the forces
     /// between them are steady. Default 2e-3; 0 disables sleep.
     pub sleep_speed: f64,
+    /// Fidelity of the cables that are inserted without a chosen integrator. Default: game, whose
+    /// cost per step is bounded and which cannot make energy.
+    #[serde(default = "fidelity")]
+    pub fidelity: Fidelity,
+}
+
+fn fidelity() -> Fidelity {
+    Fidelity::Game
 }
 
 fn max_rapier_steps() -> u32 {
@@ -24,6 +33,6 @@ fn max_rapier_steps() -> u32 {
 
 impl Default for Settings {
     fn default() -> Self {
-        Settings { rapier_steps: 4, max_rapier_steps: max_rapier_steps(), sleep_speed: 2e-3 }
+        Settings { rapier_steps: 4, max_rapier_steps: max_rapier_steps(), sleep_speed: 2e-3, fidelity: fidelity() }
     }
 }

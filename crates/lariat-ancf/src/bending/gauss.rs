@@ -25,6 +25,7 @@
 
 use super::Bending;
 use super::regularisation::RegularisedPower;
+use super::secant::PowerSecant;
 use crate::Real;
 use crate::element::gram::{Six, Upper, form, slope_square, upper, weighted};
 use crate::quadrature::gauss_legendre;
@@ -193,4 +194,37 @@ impl Bending for Gauss {
         }
         add_weighted_minor_hessian(&minor_weights, h);
     }
+
+    #[inline(always)]
+    fn add_discrete_gradient<T: Real>(&self, g: [&Six<T>; 2], scale: T, n: &mut Six<T>) {
+        // D(P f) = f_mean DP + P_mean Df, and DP = P_g at the mean numbers, since P is quadratic in them
+        let (x, mean) = middle(g);
+        let zero = scale.splat(0.0);
+        let mut minor_weights = [zero; 6];
+        for point in &self.points {
+            let power = PowerSecant::cube(form(&point.b, g[0]), form(&point.b, g[1]));
+            let (first, second) = (scale * power.mean * point.weight, scale * power.slope * point.weight);
+            let second = second * form(&point.m, &x);
+            for i in 0..6 {
+                minor_weights[i] = minor_weights[i] + first * point.m[i];
+                n[i] = n[i] + second * point.weighted_b[i];
+            }
+        }
+        let v = weighted_minor_gradient(&minor_weights, &mean);
+        for i in 0..6 {
+            n[i] = n[i] + v[i];
+        }
+    }
+}
+
+/// The mean of the minors at both ends of a step, and the mean of the Gram numbers.
+#[inline(always)]
+pub(crate) fn middle<T: Real>(g: [&Six<T>; 2]) -> (Six<T>, Six<T>) {
+    let [mut x, last] = g.map(minors);
+    let mut mean = *g[0];
+    for i in 0..6 {
+        x[i] = (x[i] + last[i]) * 0.5;
+        mean[i] = (mean[i] + g[1][i]) * 0.5;
+    }
+    (x, mean)
 }

@@ -21,8 +21,11 @@
 
 pub mod gauss;
 pub(crate) mod regularisation;
+mod secant;
 pub mod t1;
 pub mod t2;
+
+pub(crate) use secant::PowerSecant;
 
 use crate::Real;
 use crate::element::gram::{Six, Upper};
@@ -37,6 +40,9 @@ pub trait Bending {
     fn add_gradient<T: Real>(&self, g: &Six<T>, scale: T, n: &mut Six<T>);
     /// Adds the weighted gradient to `n` and the weighted Hessian to `h`, both times `scale`.
     fn add_hessian<T: Real>(&self, g: &Six<T>, scale: T, n: &mut Six<T>, h: &mut Upper<T>);
+    /// Adds `scale` times a weighted discrete gradient to `n`. With the Gram numbers `g` at both ends of a step, its product with their
+    /// change is the change of the energy, to rounding; where they do not change it is the gradient.
+    fn add_discrete_gradient<T: Real>(&self, g: [&Six<T>; 2], scale: T, n: &mut Six<T>);
 }
 
 /// No bending stiffness: no bending code runs.
@@ -52,4 +58,6 @@ impl Bending for NoBending {
     fn add_gradient<T: Real>(&self, _: &Six<T>, _: T, _: &mut Six<T>) {}
     #[inline(always)]
     fn add_hessian<T: Real>(&self, _: &Six<T>, _: T, _: &mut Six<T>, _: &mut Upper<T>) {}
+    #[inline(always)]
+    fn add_discrete_gradient<T: Real>(&self, _: [&Six<T>; 2], _: T, _: &mut Six<T>) {}
 }

@@ -29,7 +29,7 @@
 use crate::Real;
 
 /// Q_c: the square of the slope below which powers of 1/Q are continued.
-const LOWER_LIMIT: f64 = 0.25;
+pub(super) const LOWER_LIMIT: f64 = 0.25;
 
 /// A power of 1/Q, continued below Q_c.
 #[derive(Clone, Copy, Debug)]

@@ -39,4 +39,8 @@ impl Bending for T1 {
     fn add_hessian<T: Real>(&self, g: &Six<T>, scale: T, n: &mut Six<T>, _: &mut Upper<T>) {
         self.add_gradient(g, scale, n);
     }
+    #[inline(always)]
+    fn add_discrete_gradient<T: Real>(&self, [start, _]: [&Six<T>; 2], scale: T, n: &mut Six<T>) {
+        self.add_gradient(start, scale, n);
+    }
 }

@@ -20,6 +20,7 @@
 
 use super::Bending;
 use super::regularisation::RegularisedPower;
+use super::secant::PowerSecant;
 use super::t1::RHO;
 use crate::Real;
 use crate::axial::moment;
@@ -80,6 +81,15 @@ impl Bending for T2 {
                 let k = upper(i, j);
                 h[k] = h[k] + u[j] * self.weighted_a[i] + u[i] * self.weighted_a[j];
             }
+        }
+    }
+    #[inline(always)]
+    fn add_discrete_gradient<T: Real>(&self, g: [&Six<T>; 2], scale: T, n: &mut Six<T>) {
+        let [r0, r1] = g.map(|g| form(&RHO, g));
+        let power = PowerSecant::square(form(&self.a, g[0]), form(&self.a, g[1]));
+        let (first, second) = (scale * power.mean, scale * power.slope * (r0 + r1) * 0.5);
+        for i in 0..6 {
+            n[i] = n[i] + first * (PAIR_WEIGHT[i] * RHO[i]) + second * self.weighted_a[i];
         }
     }
 }

@@ -7,6 +7,7 @@ use crate::error::{Error, require, require_finite};
 use crate::integrate::{Fidelity, Integrator, IntegratorChoice};
 use crate::load::PointLoad;
 use crate::model::{MAX_ELEMENTS, Model};
+use crate::point::Point;
 use crate::rule::Rule;
 use crate::section::Element;
 use crate::section::Section;
@@ -36,7 +37,7 @@ pub struct CableBuilder {
     nodes_at: Vec<f64>,
     rule: Rule,
     allow_rank_deficient: bool,
-    integrator: IntegratorChoice,
+    integrator: Option<IntegratorChoice>,
     gravity: Vector3<f64>,
     velocity: Vector3<f64>,
     angular_velocity: Vector3<f64>,
@@ -57,7 +58,7 @@ impl Default for CableBuilder {
             nodes_at: Vec::new(),
             rule: Rule::default(),
             allow_rank_deficient: false,
-            integrator: IntegratorChoice::default(),
+            integrator: None,
             gravity: STANDARD_GRAVITY,
             velocity: Vector3::zeros(),
             angular_velocity: Vector3::zeros(),
@@ -77,8 +78,8 @@ impl CableBuilder {
     }
 
     /// Start shape: a polyline through these points, in m. At least two.
-    pub fn points(mut self, points: impl IntoIterator<Item = Vector3<f64>>) -> Self {
-        self.points = points.into_iter().collect();
+    pub fn points<P: Into<Point>>(mut self, points: impl IntoIterator<Item = P>) -> Self {
+        self.points = points.into_iter().map(|p| p.into().0).collect();
         self
     }
 
@@ -125,33 +126,33 @@ impl CableBuilder {
     }
 
     /// Time integrator: an [`Integrator`], or a [`Fidelity`] that chooses one by the cable's frequencies. Default:
-    /// [`Fidelity::Engineering`].
+    /// [`Fidelity::Engineering`] for a cable by itself; in a set of cables beside Rapier, the set's.
     pub fn integrator(mut self, integrator: impl Into<IntegratorChoice>) -> Self {
-        self.integrator = integrator.into();
+        self.integrator = Some(integrator.into());
         self
     }
 
-    /// Time integrator of a fidelity. Default: engineering. The fidelity's rule is the builder's default; its number of elements is
+    /// Time integrator of a fidelity. Default: as for [`integrator`](Self::integrator). The fidelity's rule is the builder's default; its number of elements is
     /// a recommendation: [`Fidelity::elements`].
     pub fn fidelity(self, fidelity: Fidelity) -> Self {
         self.integrator(fidelity)
     }
 
     /// Gravity in m/s^2. Default [`STANDARD_GRAVITY`].
-    pub fn gravity(mut self, gravity: Vector3<f64>) -> Self {
-        self.gravity = gravity;
+    pub fn gravity(mut self, gravity: impl Into<Point>) -> Self {
+        self.gravity = gravity.into().0;
         self
     }
 
     /// Initial velocity of the whole cable in m/s. Default zero.
-    pub fn velocity(mut self, velocity: Vector3<f64>) -> Self {
-        self.velocity = velocity;
+    pub fn velocity(mut self, velocity: impl Into<Point>) -> Self {
+        self.velocity = velocity.into().0;
         self
     }
 
     /// Initial angular velocity about the start point in rad/s. Default zero.
-    pub fn angular_velocity(mut self, angular_velocity: Vector3<f64>) -> Self {
-        self.angular_velocity = angular_velocity;
+    pub fn angular_velocity(mut self, angular_velocity: impl Into<Point>) -> Self {
+        self.angular_velocity = angular_velocity.into().0;
         self
     }
 
@@ -271,7 +272,6 @@ impl CableBuilder {
             effects: self.effects,
             force_densities: self.force_densities,
         };
-        let implicit = model.effects.needs_implicit_integrator();
         let mut cable = Cable::from_parts(model, snapshot, Integrator::default())?;
         for (at, hold) in self.holds {
             let node = cable.node(At::ArcLength(arc_length(at)?.min(length)))?;
@@ -288,9 +288,8 @@ impl CableBuilder {
         for load in self.loads {
             cable.add_load(load)?;
         }
-        // damping needs an implicit method, however soft the cable
-        let frequency_bound = if implicit { f64::INFINITY } else { cable.frequency_bound() };
-        cable.set_integrator(self.integrator.integrator(frequency_bound))?;
+        cable.set_integrator(cable.integrator_for(self.integrator.unwrap_or_default()))?;
+        cable.default_integrator = self.integrator.is_none();
         Ok(cable)
     }
 }

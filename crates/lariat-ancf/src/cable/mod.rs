@@ -23,13 +23,14 @@ mod state;
 mod supports;
 
 use crate::diagnostics::Diagnostics;
-use crate::effect::EffectWork;
 use crate::error::{Error, StepFailure, require};
-use crate::integrate::{Integrator, IntegratorRef, OneStep, Scratch, State, step_control};
+use crate::integrate::{
+    Integrator, IntegratorChoice, IntegratorRef, OneStep, Scratch, State, discrete_gradient, step_control,
+};
 use crate::model::Model;
 use crate::rule::Rule;
 use crate::section::Element;
-use crate::system::{Buffers, CableDynamics, Equations, System};
+use crate::system::{Buffers, CableDynamics, CableStep, Equations, System};
 use builder::CableBuilder;
 use fearless_simd::Level;
 pub(crate) use layout::along_polyline;
@@ -78,9 +79,12 @@ pub struct Cable {
     pub(crate) model: Model,
     pub(crate) snapshot: Snapshot,
     integrator: Integrator,
+    /// Whether the integrator is the default, because nobody chose one.
+    pub(crate) default_integrator: bool,
     diagnostics: Diagnostics,
     pub(crate) system: System,
     pub(crate) buffers: Buffers,
+    pub(crate) step_buffers: discrete_gradient::Buffers,
     scratch: Scratch,
     /// State at the beginning of the host step, restored if it fails.
     before: State,
@@ -107,9 +111,11 @@ impl Cable {
         check_integrator(&model, &integrator.method)?;
         Ok(Cable {
             integrator: integrator.checked()?,
+            default_integrator: false,
             diagnostics: Diagnostics::default(),
             system,
             buffers: Buffers::new(&model),
+            step_buffers: discrete_gradient::Buffers::default(),
             scratch: Scratch::default(),
             before: State::default(),
             revision: 0,
@@ -155,11 +161,17 @@ impl Cable {
         self.check_complete()?;
         self.before.copy_from(&self.snapshot.state);
         self.refresh_memory();
-        self.system.meter.work = EffectWork::default();
+        self.system.meter.begin();
         let equations = Equations { model: &self.model, system: &mut self.system, diagnostics: &mut self.diagnostics };
-        let mut dynamics = CableDynamics { equations, buffers: &mut self.buffers };
         let state = &mut self.snapshot.state;
-        let (counts, outcome) = step_control::advance(&mut dynamics, integrator, state, dt, &mut self.scratch);
+        let (counts, outcome) = if integrator.method.uses_discrete_gradients() {
+            let mut cable = CableStep { equations, state, buffers: &mut self.step_buffers };
+            discrete_gradient::advance(&mut cable, integrator.control, dt)
+        } else {
+            state.memory.differences.clear();
+            let mut dynamics = CableDynamics { equations, buffers: &mut self.buffers };
+            step_control::advance(&mut dynamics, integrator, state, dt, &mut self.scratch)
+        };
         self.diagnostics.steps += counts.steps;
         self.diagnostics.rejected_steps += counts.rejected;
         match outcome {
@@ -192,6 +204,11 @@ impl Cable {
     pub(crate) fn equations(&mut self) -> (Equations<'_>, &mut State) {
         let equations = Equations { model: &self.model, system: &mut self.system, diagnostics: &mut self.diagnostics };
         (equations, &mut self.snapshot.state)
+    }
+
+    pub(crate) fn step_parts(&mut self) -> CableStep<'_> {
+        let equations = Equations { model: &self.model, system: &mut self.system, diagnostics: &mut self.diagnostics };
+        CableStep { equations, state: &mut self.snapshot.state, buffers: &mut self.step_buffers }
     }
 
     pub(crate) fn dynamics(&mut self) -> (CableDynamics<'_>, &State) {
@@ -273,6 +290,17 @@ impl Cable {
         self.integrator
     }
 
+    /// Returns the integrator that `choice` means for this cable: an implicit one where internal damping needs it.
+    pub fn integrator_for(&self, choice: impl Into<IntegratorChoice>) -> Integrator {
+        let implicit = self.model.effects.needs_implicit_integrator();
+        choice.into().integrator(if implicit { f64::INFINITY } else { self.frequency_bound() })
+    }
+
+    /// Returns whether the integrator is the builder's default, because nobody chose one. A set of cables may then give it its own.
+    pub fn has_default_integrator(&self) -> bool {
+        self.default_integrator
+    }
+
     /// Changes the time integrator from the next step on.
     ///
     /// # Errors
@@ -280,6 +308,7 @@ impl Cable {
     pub fn set_integrator(&mut self, integrator: Integrator) -> Result<(), Error> {
         check_integrator(&self.model, &integrator.method)?;
         self.integrator = integrator.checked()?;
+        self.default_integrator = false;
         self.revise();
         Ok(())
     }

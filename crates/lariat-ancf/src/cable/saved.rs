@@ -14,6 +14,8 @@ pub(super) struct Saved {
     model: Model,
     snapshot: Snapshot,
     integrator: Integrator,
+    #[serde(default)]
+    default_integrator: bool,
     diagnostics: Diagnostics,
     #[serde(default)]
     revision: u64,
@@ -21,8 +23,8 @@ pub(super) struct Saved {
 
 impl From<Cable> for Saved {
     fn from(cable: Cable) -> Self {
-        let Cable { model, snapshot, integrator, diagnostics, revision, .. } = cable;
-        Saved { model, snapshot, integrator, diagnostics, revision }
+        let Cable { model, snapshot, integrator, default_integrator, diagnostics, revision, .. } = cable;
+        Saved { model, snapshot, integrator, default_integrator, diagnostics, revision }
     }
 }
 
@@ -30,6 +32,7 @@ impl TryFrom<Saved> for Cable {
     type Error = Error;
     fn try_from(saved: Saved) -> Result<Self, Error> {
         let mut cable = Cable::from_parts(saved.model, saved.snapshot, saved.integrator)?;
+        cable.default_integrator = saved.default_integrator;
         cable.diagnostics = saved.diagnostics;
         cable.revision = saved.revision;
         Ok(cable)

@@ -3,7 +3,7 @@
 use super::Cable;
 use crate::effect::EffectWork;
 use crate::error::{Error, require, require_finite};
-use crate::integrate::State;
+use crate::integrate::{EnergyLaw, State};
 use crate::support::SlopeSupport;
 use crate::system::System;
 use nalgebra::Vector3;
@@ -18,12 +18,19 @@ pub struct Snapshot {
     /// Work of effects so far.
     #[serde(default)]
     pub(crate) work: EffectWork,
+    /// The energy law of the discrete gradient so far.
+    #[serde(default)]
+    pub(crate) law: EnergyLaw,
+    /// Elastic energy in J that inserted nodes added so far.
+    #[serde(default)]
+    pub(crate) inserted_energy: f64,
 }
 
 impl Snapshot {
     /// Adds the work of effects in a host step that succeeded; `before` are the positions when it began.
     pub(crate) fn add_work_of_step(&mut self, system: &mut System, before: &[f64]) {
         self.work += core::mem::take(&mut system.meter.work);
+        self.law.merge(&core::mem::take(&mut system.meter.law));
         system.loads.of_effects.add_work(before, &self.state.q, &mut self.work);
     }
 }
@@ -37,6 +44,11 @@ impl Cable {
     /// Returns the nodal velocities, flat: by node m/s and 1/s.
     pub fn velocities(&self) -> &[f64] {
         &self.snapshot.state.v
+    }
+
+    /// Returns the terms of the energy law of the method `discrete-gradient`, since the cable was built.
+    pub fn energy_law(&self) -> &EnergyLaw {
+        &self.snapshot.law
     }
 
     /// Returns the state: clone it to keep it.
@@ -55,6 +67,10 @@ impl Cable {
         let mut works = snapshot.work.by_key();
         works
             .try_for_each(|(_, x)| require("work of effects (J)", x, true, "a number"))
+            .map_err(|e| e.of_cable(self.name()))?;
+        let mut terms = snapshot.law.terms().into_iter();
+        terms
+            .try_for_each(|x| require("term of the energy law (J)", x, true, "a number"))
             .map_err(|e| e.of_cable(self.name()))?;
         self.snapshot = snapshot;
         Ok(())
@@ -83,6 +99,7 @@ impl Cable {
     pub(crate) fn disturb(&mut self) {
         self.snapshot.state.memory.valid = false;
         self.snapshot.state.memory.step = 0.0;
+        self.snapshot.state.memory.differences.clear();
     }
 
     /// Marks a change of supports, loads, effects or integrator: states from before keep their positions and velocities only.
@@ -129,6 +146,7 @@ impl Cable {
         state.v.fill(0.0);
         state.memory.valid = false;
         state.memory.step = 0.0;
+        state.memory.differences.clear();
     }
 
     /// Sets the clock to `time` (s); prescribed motions and the ramps of loads keep their distance from it.

@@ -3,7 +3,8 @@
 use super::{Effect, Target};
 use crate::dual::Dual;
 use crate::element::gram::Control;
-use crate::element::kernel::{Gradient, GramForce, GramState, Hessian, Load};
+use crate::element::kernel::{DiscreteGradientForce, Gradient, GramForce, GramState, GramStep, Hessian, Load};
+use crate::integrate::discrete_gradient::BETA;
 use crate::linalg::BlockTridiagonal;
 use crate::real::Real;
 use crate::section::Section;
@@ -67,6 +68,23 @@ pub(crate) struct ForceInput<'a> {
     pub scale: f64,
 }
 
+/// The arguments of a force over a step of the [discrete gradient](crate::integrate::discrete_gradient).
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct StepInput<'a> {
+    /// Time in the middle of the step in s.
+    pub time: f64,
+    /// Mean coordinates of the iterate.
+    pub middle: &'a [f64],
+    /// Mean velocities of the iterate: the change of the coordinates over h.
+    pub velocity: &'a [f64],
+    /// Mean coordinates of the iterate about which the last linear solve was made; those of the present one before the first.
+    pub middle_before: &'a [f64],
+    /// Mean velocities of that iterate.
+    pub velocity_before: &'a [f64],
+    /// Length of the step in s.
+    pub h: f64,
+}
+
 /// Loads the numbers of a single element.
 pub(crate) struct Single(pub usize);
 
@@ -99,7 +117,7 @@ pub(crate) struct SampledPoint<'a> {
 }
 
 /// An effect within the element kernel.
-pub(crate) trait ElementForce: GramForce + Clone + Debug {
+pub(crate) trait ElementForce: GramForce + DiscreteGradientForce + Clone + Debug {
     /// Axial and bending energy in J that it adds to an element.
     fn energy(&self, _element: usize, _at: &GramState<'_, f64>) -> (f64, f64) {
         (0.0, 0.0)
@@ -130,6 +148,27 @@ pub(crate) trait PointForce: Clone + Debug {
     /// Adds its generalised force on an element, in dual numbers.
     fn add_dual(&self, element: usize, time: f64, q: &[Dual; 12], v: &[Dual; 12], out: &mut [Dual; 12]);
 
+    /// Adds its generalised force over a step to `out`, and to `matrix` b h^2 times its negative derivative by the change of the coordinates if
+    /// that is asked for. Default: the force at the mean configuration and velocity of the iterate, with its own derivative.
+    fn add_over_step(
+        &mut self,
+        level: Level,
+        step: StepInput<'_>,
+        out: &mut [f64],
+        matrix: Option<&mut BlockTridiagonal>,
+    ) {
+        let StepInput { time, middle: q, velocity: v, h, .. } = step;
+        // the mean configuration changes by half the change, the velocity by 2/h of that
+        let input = ForceInput { time, q, v, dv_dq: 2.0 / h, scale: 1.0 };
+        let Some(matrix) = matrix else {
+            return self.add(level, input, out, None);
+        };
+        let scale = 0.5 * BETA * h * h;
+        out.iter_mut().for_each(|f| *f *= scale);
+        self.add(level, ForceInput { scale, ..input }, out, Some(matrix));
+        out.iter_mut().for_each(|f| *f *= 1.0 / scale);
+    }
+
     /// Whether it can move a cable at rest although it has no potential.
     fn drives(&self) -> bool;
 
@@ -158,6 +197,21 @@ impl GramForce for Nothing {
         _: &mut Gradient<T>,
         _: &mut Hessian<T>,
     ) {
+        match *self {}
+    }
+}
+
+impl DiscreteGradientForce for Nothing {
+    #[inline(always)]
+    fn add_discrete_gradient<T: Real, L: Load<T>>(&self, _: &GramStep<'_, T>, _: &L, _: &mut Gradient<T>) -> T {
+        match *self {}
+    }
+    #[inline(always)]
+    fn add_step_tangent<T: Real, L: Load<T>>(&self, _: &GramStep<'_, T>, _: &L, _: &mut Hessian<T>) {
+        match *self {}
+    }
+    #[inline(always)]
+    fn add_rest_strain<T: Real, L: Load<T>>(&self, _: &L, _: &mut T) {
         match *self {}
     }
 }

@@ -16,6 +16,7 @@
 //! Any element state.
 
 use crate::Real;
+use crate::bending::PowerSecant;
 use crate::bending::gauss::{add_weighted_minor_hessian, minor_coefficients, minors, weighted_minor_gradient};
 use crate::bending::regularisation::RegularisedPower;
 use crate::element::gram::{PAIR_WEIGHT, Six, Upper, form, slope_square, upper, weighted};
@@ -92,6 +93,19 @@ impl Point {
             gradient[i] = powers[0] * minor[i] + slope * self.weighted_b[i];
         }
         Squared { w: powers[0] * p, gradient, p, minor, powers, inverse: at.inverse }
+    }
+
+    /// w at both ends of a step, and the weighted discrete gradient: its product with the change of the Gram numbers is the change of w.
+    /// `x` and `mean` are the means of the minors and of the Gram numbers.
+    #[inline(always)]
+    pub fn secant<T: Real>(&self, g: [&Six<T>; 2], x: &Six<T>, mean: &Six<T>) -> ([T; 2], Six<T>) {
+        let power = PowerSecant::cube(form(&self.b, g[0]), form(&self.b, g[1]));
+        let second = power.slope * form(&self.m, x);
+        let mut gradient = weighted_minor_gradient(&self.m, mean);
+        for i in 0..6 {
+            gradient[i] = power.mean * gradient[i] + second * self.weighted_b[i];
+        }
+        (g.map(|g| self.squared(g).w), gradient)
     }
 
     /// Adds the pairs of `scale |l r''/2|^2`: the [`gradient`](crate::element::gram::gradient) of any three vectors with these pairs is

@@ -49,12 +49,13 @@
 //!   place of L D L^T.
 
 use super::acts::{Acts, ElementForce, Nothing, SampledPoint};
-use super::curvature::{self, NOISE, Point};
+use super::curvature::{self, NOISE, Point, Squared};
 use super::{Cut, Effect, Target};
 use crate::Real;
 use crate::axial::projected;
-use crate::element::gram::{Control, dot, gradient, quadratic_form};
-use crate::element::kernel::{Gradient, GramForce, GramState, Hessian, Load};
+use crate::element::gram::{Control, contract, dot, gradient, quadratic_form};
+use crate::element::kernel::{DiscreteGradientForce, Gradient, GramForce, GramState, GramStep, Hessian, Load};
+use crate::element::step::combined;
 use crate::error::{Error, Requirement, require};
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
@@ -191,6 +192,50 @@ impl GramForce for DampingTable {
         for i in 0..6 {
             sum.viscous[i] = sum.viscous[i] + viscous[i];
             tangent.geometric[i] = tangent.geometric[i] + viscous[i] * rate;
+        }
+    }
+}
+
+impl DiscreteGradientForce for DampingTable {
+    /// Every term is the square of a product with the change of the Gram numbers or of the control vectors, so the step dissipates
+    /// exactly, whatever its length.
+    #[inline(always)]
+    fn add_discrete_gradient<T: Real, L: Load<T>>(&self, at: &GramStep<'_, T>, _: &L, sum: &mut Gradient<T>) -> T {
+        let mut stress = [at.rates[0].splat(0.0); 6];
+        at.table.add_product(&at.rates, at.stiffness.axial * self.damping.axial, &mut stress);
+        let mut power = contract(&stress, &at.rates);
+        sum.n = combined(&sum.n, &stress, 1.0);
+        self.bending(at, |point, w, scalar, vector| {
+            let rate = w.rate(&at.rates);
+            w.add_gradient(scalar * rate, &mut sum.n);
+            power = power + scalar * rate * rate;
+            point.add_second_derivative(vector, &mut sum.viscous);
+        });
+        power
+    }
+
+    #[inline(always)]
+    fn add_step_tangent<T: Real, L: Load<T>>(&self, at: &GramStep<'_, T>, _: &L, tangent: &mut Hessian<T>) {
+        at.table.add_hessian(at.stiffness.axial * (self.damping.axial * at.rate), &mut tangent.h);
+        self.bending(at, |point, w, scalar, vector| {
+            w.add_square(scalar * at.rate, &mut tangent.h);
+            point.add_second_derivative(vector * at.rate, &mut tangent.geometric);
+        });
+    }
+
+    #[inline(always)]
+    fn add_rest_strain<T: Real, L: Load<T>>(&self, _: &L, _: &mut T) {}
+}
+
+impl DampingTable {
+    /// Visits the points of bending with the squared curvature and the factors of its scalar and vector rates.
+    #[inline(always)]
+    fn bending<T: Real>(&self, at: &GramStep<'_, T>, mut visit: impl FnMut(&Point, &Squared<T>, T, T)) {
+        for point in &self.points {
+            let w = point.squared(&at.middle);
+            let scale = at.stiffness.bending * (0.5 * self.damping.bending * point.weight);
+            let shares = Shares::new(w.w);
+            visit(point, &w, scale * shares.scalar, scale * shares.vector * w.inverse * w.inverse);
         }
     }
 }

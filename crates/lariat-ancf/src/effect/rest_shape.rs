@@ -40,8 +40,9 @@ use super::acts::{Acts, ElementForce, Nothing, SampledPoint};
 use super::curvature::{self, NOISE, Point};
 use super::{Cut, Effect, Target};
 use crate::Real;
+use crate::bending::gauss::middle;
 use crate::element::gram::{Six, form};
-use crate::element::kernel::{Gradient, GramForce, GramState, Hessian, Load};
+use crate::element::kernel::{DiscreteGradientForce, Gradient, GramForce, GramState, GramStep, Hessian, Load};
 use crate::error::{Error, Requirement, require};
 use crate::section::Element;
 use crate::simd::padded;
@@ -243,6 +244,36 @@ impl GramForce for RestTable {
     }
 }
 
+impl DiscreteGradientForce for RestTable {
+    #[inline(always)]
+    fn add_discrete_gradient<T: Real, L: Load<T>>(&self, at: &GramStep<'_, T>, from: &L, sum: &mut Gradient<T>) -> T {
+        if !self.excess.is_empty() {
+            at.table.add_mean(-(at.stiffness.axial * from.load(&self.excess)), &mut sum.n);
+        }
+        if !self.points.is_empty() {
+            let ends = [&at.step.start, &at.step.end];
+            self.natural(from).add_discrete_gradient(&self.points, at.stiffness.bending, ends, &mut sum.n);
+        }
+        at.rates[0].splat(0.0)
+    }
+
+    #[inline(always)]
+    fn add_step_tangent<T: Real, L: Load<T>>(&self, at: &GramStep<'_, T>, from: &L, tangent: &mut Hessian<T>) {
+        if !self.points.is_empty() {
+            let mut unused = Gradient { n: at.rates, viscous: at.rates };
+            let half = at.stiffness.bending * 0.5;
+            self.natural(from).add_hessian(&self.points, half, &at.middle, &mut unused, tangent);
+        }
+    }
+
+    #[inline(always)]
+    fn add_rest_strain<T: Real, L: Load<T>>(&self, from: &L, strain: &mut T) {
+        if !self.excess.is_empty() {
+            *strain = *strain + from.load(&self.excess);
+        }
+    }
+}
+
 impl ElementForce for RestTable {
     fn energy(&self, element: usize, at: &GramState<'_, f64>) -> (f64, f64) {
         // EA l/8 ((1 + x)^2 - 1 - 2 x a.g)
@@ -307,6 +338,20 @@ impl<T: Real> NaturalCurvature<T> {
         for point in points {
             let at = point.squared(g);
             at.add_gradient(-(flexural * self.target * point.weight / (at.w + self.rounding).sqrt()), n);
+        }
+    }
+
+    /// Adds a discrete gradient of the energy to `n`: `D sqrt(w + r) = Dw/(sum of both roots)`.
+    #[inline(always)]
+    pub fn add_discrete_gradient(&self, points: &[Point], flexural: T, g: [&Six<T>; 2], n: &mut Six<T>) {
+        let (x, mean) = middle(g);
+        for point in points {
+            let (w, gradient) = point.secant(g, &x, &mean);
+            let [first, last] = w.map(|w| (w + self.rounding).sqrt());
+            let scale = -(flexural * self.target * (2.0 * point.weight) / (first + last));
+            for i in 0..6 {
+                n[i] = n[i] + scale * gradient[i];
+            }
         }
     }
 

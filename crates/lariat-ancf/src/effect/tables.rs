@@ -5,7 +5,7 @@ use super::acts::*;
 use super::*;
 use crate::dual::Dual;
 use crate::element::gram::Control;
-use crate::element::kernel::{Gradient, GramForce, GramState, Hessian, Load};
+use crate::element::kernel::{DiscreteGradientForce, Gradient, GramForce, GramState, GramStep, Hessian, Load};
 use crate::linalg::BlockTridiagonal;
 use crate::real::Real;
 use crate::section::Section;
@@ -84,6 +84,25 @@ macro_rules! generate {
             }
         }
 
+        impl DiscreteGradientForce for ElementTables {
+            #[inline(always)]
+            fn add_discrete_gradient<T: Real, L: Load<T>>(&self, at: &GramStep<'_, T>, from: &L, sum: &mut Gradient<T>) -> T {
+                let mut power = at.rates[0].splat(0.0);
+                $(if let Some(table) = &self.$field { power = power + table.add_discrete_gradient(at, from, sum); })*
+                power
+            }
+
+            #[inline(always)]
+            fn add_step_tangent<T: Real, L: Load<T>>(&self, at: &GramStep<'_, T>, from: &L, tangent: &mut Hessian<T>) {
+                $(if let Some(table) = &self.$field { table.add_step_tangent(at, from, tangent); })*
+            }
+
+            #[inline(always)]
+            fn add_rest_strain<T: Real, L: Load<T>>(&self, from: &L, strain: &mut T) {
+                $(if let Some(table) = &self.$field { table.add_rest_strain(from, strain); })*
+            }
+        }
+
         impl ElementTables {
             /// Counts the evaluation of `elements` elements, at rest or `moving`.
             pub fn count(&self, elements: u64, moving: bool, counts: &mut EffectCounts) {
@@ -108,6 +127,11 @@ macro_rules! generate {
             /// Power in W that each effect gives to an element with velocities `v` of the control vectors.
             pub fn add_power(&self, at: &GramState<'_, f64>, v: &Control<f64>, power: &mut EffectWork) {
                 $(if let Some(table) = &self.$field { power.$field += table.power(at, v); })*
+            }
+
+            /// Adds the energy in J that an effect dissipated to its work.
+            pub fn add_dissipated(&self, energy: f64, work: &mut EffectWork) {
+                $(if self.$field.as_ref().is_some_and(|table| table.dissipates()) { work.$field -= energy; return; })*
             }
 
             /// Strain that effects add to the one that makes tension.
@@ -142,6 +166,27 @@ macro_rules! generate {
             ) {
                 $(if let Some(table) = &mut self.$field {
                     table.add(level, input, out, matrix.as_deref_mut());
+                    counts.$field += elements;
+                })*
+            }
+
+            /// Adds the generalised forces of all effects over a step to `out`, b h^2 times their negative derivatives to `matrix` if that is
+            /// asked for, and without it their work over the change of the coordinates to `work`; `force` is a buffer. Counts the
+            /// evaluation of `elements` elements.
+            pub fn add_over_step(
+                &mut self,
+                level: Level,
+                step: StepInput<'_>,
+                (out, force): (&mut [f64], &mut [f64]),
+                mut matrix: Option<&mut BlockTridiagonal>,
+                work: &mut EffectWork,
+                (elements, counts): (u64, &mut EffectCounts),
+            ) {
+                $(if let Some(table) = &mut self.$field {
+                    force.fill(0.0);
+                    table.add_over_step(level, step, force, matrix.as_deref_mut());
+                    out.iter_mut().zip(force.iter()).for_each(|(out, f)| *out += f);
+                    work.$field += step.h * force.iter().zip(step.velocity).map(|(f, v)| f * v).sum::<f64>();
                     counts.$field += elements;
                 })*
             }

@@ -71,6 +71,15 @@ pub fn gradient<T: Real>(n: &Six<T>, d: &Control<T>) -> Control<T> {
     out
 }
 
+/// Product of a weighted gradient and a change of the Gram numbers: the first-order change of the energy.
+#[inline(always)]
+pub fn contract<T: Real>(n: &Six<T>, change: &Six<T>) -> T {
+    (n[0] * change[0] + n[3] * change[3] + n[5] * change[5]) * 0.5
+        + n[1] * change[1]
+        + n[2] * change[2]
+        + n[4] * change[4]
+}
+
 /// Second derivative of the energy with respect to the control vectors (i, k): a 3x3 block `[row][column]`.
 /// On the diagonal, i = k, the block is symmetric and only its upper triangle is computed and then copied.
 #[inline(always)]

@@ -11,6 +11,7 @@
 //! Any element state. Generic over [`Real`]: one element in `f64` or in dual numbers, eight in lanes.
 
 use super::gram::{Control, PAIR_WEIGHT, Six, Upper, dot, gradient, gram, hessian_block};
+use super::step::ElementStep;
 use crate::Real;
 use crate::axial::AxialTable;
 use crate::bending::Bending;
@@ -114,6 +115,33 @@ pub(crate) trait GramForce {
         sum: &mut Gradient<T>,
         tangent: &mut Hessian<T>,
     );
+}
+
+/// A step of an element in Gram numbers, as effects see it.
+pub(crate) struct GramStep<'a, T> {
+    pub table: &'a AxialTable,
+    pub stiffness: Stiffness<T>,
+    pub step: &'a ElementStep<T>,
+    /// Gram numbers of the mean control vectors.
+    pub middle: Six<T>,
+    /// Change of the Gram numbers over the length of the step.
+    pub rates: Six<T>,
+    /// 1/h in 1/s.
+    pub rate: f64,
+}
+
+/// An effect with discrete gradients.
+pub(crate) trait DiscreteGradientForce {
+    /// Adds the pairs of its discrete gradient over a step, and returns the power in W that it dissipates, without that of the pairs
+    /// that act on velocities.
+    fn add_discrete_gradient<T: Real, L: Load<T>>(&self, at: &GramStep<'_, T>, from: &L, sum: &mut Gradient<T>) -> T;
+
+    /// Adds the derivatives of the pairs by the change of the Gram numbers, without what would make the matrix indefinite: pairs of the
+    /// geometric stiffness and second derivatives.
+    fn add_step_tangent<T: Real, L: Load<T>>(&self, at: &GramStep<'_, T>, from: &L, tangent: &mut Hessian<T>);
+
+    /// Adds f_0^2 - 1, f_0 the stretch without stress.
+    fn add_rest_strain<T: Real, L: Load<T>>(&self, from: &L, strain: &mut T);
 }
 
 /// No effect: no code runs.

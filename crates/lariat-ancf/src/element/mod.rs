@@ -9,3 +9,4 @@ pub mod gram;
 pub mod kernel;
 pub mod mass;
 pub mod shape;
+pub mod step;

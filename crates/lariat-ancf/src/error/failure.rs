@@ -32,16 +32,6 @@ pub enum StepFailure {
         /// Allowed error of the step in m.
         allowed: f64,
     },
-    /// The method makes energy at the shortest step that was tried.
-    #[error(
-        "the method makes energy: {made:.3e} J more than the work on the cable, with {energy:.3e} J of kinetic and strain energy at most: use shorter steps, a smaller tolerance, or a method that damps"
-    )]
-    EnergyMade {
-        /// Spurious energy in J.
-        made: f64,
-        /// Largest kinetic and strain energy in J so far.
-        energy: f64,
-    },
     /// An explicit step beyond the stability limit of the cable.
     #[error(
         "explicit step {step:.3e} s is beyond the stability limit {limit:.3e} s: use more substeps, or an implicit method"
@@ -60,6 +50,17 @@ pub enum StepFailure {
         /// Shortest step in s.
         least: f64,
     },
+    /// A step that makes energy however it is divided.
+    #[error("the step makes {energy:.3e} J, of {scale:.3e} J in the system, however it is divided")]
+    EnergyMade {
+        /// Energy made in J.
+        energy: f64,
+        /// Energy of the system in J.
+        scale: f64,
+    },
+    /// A method that the system cannot take.
+    #[error("the system has no discrete gradients: use another method")]
+    NoDiscreteGradient,
     /// The matrix of the step is singular.
     #[error("singular step matrix: {0}")]
     Singular(#[from] crate::linalg::SingularMatrix),

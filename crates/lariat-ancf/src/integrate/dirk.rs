@@ -26,7 +26,7 @@
 //! One tangent for all stages, without a test of its contraction: Newton's iteration fails on thin
 //! cables and steps shrink.
 
-use super::dynamics::{Dynamics, Newton, Stage};
+use super::dynamics::{Dynamics, Stage};
 use super::one_step::{OneStep, Scratch, StepRequest, add_scaled};
 use super::state::State;
 use crate::error::StepFailure;
@@ -133,7 +133,7 @@ impl OneStep for Tableau {
                 time: now.time + self.c(i) * h,
                 c2: diagonal * diagonal,
                 dv_dq: 1.0 / diagonal,
-                newton: Newton::Converge(newton_tolerance),
+                newton_tolerance,
                 reuse: i > 1,
             };
             system.solve_stage(&stage, base, velocity_base, &mut next.q, k)?;

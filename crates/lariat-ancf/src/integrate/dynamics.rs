@@ -3,30 +3,6 @@
 use super::state::State;
 use crate::error::StepFailure;
 
-/// When Newton's iteration of an implicit stage ends.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Newton {
-    /// When the next increment is predicted to be below this size in m.
-    Converge(f64),
-    /// After one iteration (a linearly implicit step). A second solve with the same factors checks
-    /// it; if it does not contract, the iteration continues to this size in m.
-    Once(f64),
-}
-
-impl Newton {
-    /// Returns the size in m to converge to.
-    pub fn tolerance(self) -> f64 {
-        match self {
-            Newton::Converge(tolerance) | Newton::Once(tolerance) => tolerance,
-        }
-    }
-
-    /// Returns whether one checked iteration is enough.
-    pub fn once(self) -> bool {
-        matches!(self, Newton::Once(_))
-    }
-}
-
 /// An implicit stage: find z with `M z = c2 F(base + z, velocity_base + dv_dq z, time)`, `z = y -
 /// base`.
 #[derive(Clone, Copy, Debug)]
@@ -37,8 +13,8 @@ pub struct Stage {
     pub c2: f64,
     /// Derivative of the stage's velocity with respect to its position in 1/s.
     pub dv_dq: f64,
-    /// When Newton's iteration ends.
-    pub newton: Newton,
+    /// Newton's iteration ends when the next increment is predicted to be below this size in m.
+    pub newton_tolerance: f64,
     /// Whether the tangent of the stage before may be tried first.
     pub reuse: bool,
 }
@@ -97,11 +73,6 @@ pub trait Dynamics {
     /// that work is not known.
     fn spurious_energy(&mut self, _before: &State, _after: &State, _h: f64) -> Option<(f64, f64)> {
         None
-    }
-
-    /// Returns the number of Newton iterations so far.
-    fn newton_iterations(&self) -> u64 {
-        0
     }
 
     /// Returns whether accelerations depend on velocities.

@@ -74,7 +74,7 @@ impl EnergyCheck {
         let made = (self.made + spurious).max(0.0);
         let largest = self.largest.max(energy);
         if made > MAX_ENERGY_SHARE * largest {
-            return Err(StepFailure::EnergyMade { made, energy: largest });
+            return Err(StepFailure::EnergyMade { energy: made, scale: largest });
         }
         Ok(EnergyCheck { made, largest, ..self })
     }

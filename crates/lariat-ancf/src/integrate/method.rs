@@ -1,7 +1,8 @@
 //! The methods by name, with their properties.
 
+use super::discrete_gradient::DiscreteGradient;
 use super::dynamics::Dynamics;
-use super::generalised_alpha::{GeneralisedAlpha, NewtonMode};
+use super::generalised_alpha::GeneralisedAlpha;
 use super::one_step::{OneStep, Scratch, StepRequest};
 use super::state::State;
 use super::{esdirk3, esdirk4, midpoint, rkn, tr_bdf2, trapezoid, verlet};
@@ -22,8 +23,6 @@ pub enum Method {
     GeneralisedAlpha {
         /// Spectral radius at infinity, 0 to 1.
         rho: f64,
-        /// Newton's iteration.
-        newton: NewtonMode,
     },
     /// TR-BDF2.
     TrBdf2,
@@ -31,6 +30,8 @@ pub enum Method {
     Esdirk3,
     /// ESDIRK of order 4.
     Esdirk4,
+    /// Guarded discrete gradient.
+    DiscreteGradient,
     /// Velocity Verlet.
     Verlet,
     /// Symplectic Runge-Kutta-Nystrom of order 4.
@@ -61,12 +62,12 @@ impl Method {
     pub const ALL: [Method; 11] = [
         Method::Midpoint,
         Method::Trapezoid,
-        Method::GeneralisedAlpha { rho: 0.0, newton: NewtonMode::Converged },
-        Method::GeneralisedAlpha { rho: 0.5, newton: NewtonMode::Converged },
-        Method::GeneralisedAlpha { rho: 0.5, newton: NewtonMode::Once },
+        Method::GeneralisedAlpha { rho: 0.0 },
+        Method::GeneralisedAlpha { rho: 0.5 },
         Method::TrBdf2,
         Method::Esdirk3,
         Method::Esdirk4,
+        Method::DiscreteGradient,
         Method::Verlet,
         Method::Rkn4,
         Method::Rkn6,
@@ -77,10 +78,11 @@ impl Method {
         match *self {
             Method::Midpoint => f(&midpoint::TABLEAU),
             Method::Trapezoid => f(&trapezoid::METHOD),
-            Method::GeneralisedAlpha { rho, newton } => f(&GeneralisedAlpha { rho, newton }),
+            Method::GeneralisedAlpha { rho } => f(&GeneralisedAlpha { rho }),
             Method::TrBdf2 => f(&tr_bdf2::TABLEAU),
             Method::Esdirk3 => f(&esdirk3::TABLEAU),
             Method::Esdirk4 => f(&esdirk4::TABLEAU),
+            Method::DiscreteGradient => f(&DiscreteGradient),
             Method::Verlet => f(&verlet::METHOD),
             Method::Rkn4 => f(&rkn::ORDER_4),
             Method::Rkn6 => f(&rkn::ORDER_6),
@@ -101,10 +103,7 @@ impl Method {
         match *self {
             Method::Midpoint => of(2, 1, "A-stable, symplectic", "soft cables; rings on stiff ones at coarse steps"),
             Method::Trapezoid => of(2, 1, "A-stable", "soft cables; rings on stiff ones at coarse steps"),
-            Method::GeneralisedAlpha { newton: NewtonMode::Once, .. } => {
-                of(2, 1, "A-stable; linearly implicit, checked", "games, h <= 1/240 s (fidelity game)")
-            }
-            Method::GeneralisedAlpha { rho: 0.0, .. } => {
+            Method::GeneralisedAlpha { rho: 0.0 } => {
                 of(2, 1, "L-stable", "stiff cables at coarse fixed steps; loses energy")
             }
             Method::GeneralisedAlpha { .. } => {
@@ -113,6 +112,12 @@ impl Method {
             Method::TrBdf2 => of(2, 2, "L-stable", "any stiffness, coarse tolerance"),
             Method::Esdirk3 => of(3, 3, "L-stable", "any stiffness, coarse steps"),
             Method::Esdirk4 => of(4, 5, "L-stable", "any stiffness (fidelity engineering, the default)"),
+            Method::DiscreteGradient => of(
+                2,
+                1,
+                "the energy law holds at any step",
+                "games, h <= 1/240 s (fidelity game); any stiffness, fixed steps",
+            ),
             Method::Verlet => of(2, 1, SYMPLECTIC, "soft cables, many small steps"),
             Method::Rkn4 => of(4, 6, SYMPLECTIC, "soft cables, fine accuracy (fidelity reference)"),
             Method::Rkn6 => of(6, 11, SYMPLECTIC, "soft cables, errors in time near rounding"),
@@ -145,8 +150,8 @@ impl OneStep for Method {
         self.with_implementation(|method| method.has_algorithmic_acceleration())
     }
 
-    fn needs_energy_guard(&self) -> bool {
-        self.with_implementation(|method| method.needs_energy_guard())
+    fn uses_discrete_gradients(&self) -> bool {
+        self.with_implementation(|method| method.uses_discrete_gradients())
     }
 
     fn check(&self) -> Result<(), Error> {
@@ -174,15 +179,11 @@ impl FromStr for Method {
     type Err = Error;
     fn from_str(text: &str) -> Result<Self, Error> {
         let name = text.to_ascii_lowercase();
-        if let Some(rest) = name.strip_prefix("generalised-alpha-") {
-            let (rho, newton) = match rest.strip_suffix("-once") {
-                Some(rho) => (rho, NewtonMode::Once),
-                None => (rest, NewtonMode::Converged),
-            };
-            if let Ok(rho) = rho.parse::<f64>() {
-                let method = Method::GeneralisedAlpha { rho, newton };
-                return method.check().map(|()| method);
-            }
+        if let Some(rest) = name.strip_prefix("generalised-alpha-")
+            && let Ok(rho) = rest.parse::<f64>()
+        {
+            let method = Method::GeneralisedAlpha { rho };
+            return method.check().map(|()| method);
         }
         Method::ALL.into_iter().find(|m| m.to_string() == name).ok_or_else(|| Error::UnknownIntegrator {
             name: text.to_string(),

@@ -9,10 +9,11 @@
 //! |---|---|---|
 //! | [`midpoint`] | implicit midpoint rule | 2 |
 //! | [`trapezoid`] | trapezoidal rule | 2 |
-//! | [`generalised_alpha`] | generalised-alpha(rho), converged or one Newton iteration | 2 |
+//! | [`generalised_alpha`] | generalised-alpha(rho) | 2 |
 //! | [`tr_bdf2`] | TR-BDF2 | 2 |
 //! | [`esdirk3`], [`esdirk4`] | L-stable singly diagonally implicit Runge-Kutta | 3, 4 |
 //! | [`dirk`] | the step of a diagonally implicit Runge-Kutta method, given by its tableau | |
+//! | [`discrete_gradient`] | guarded discrete gradient: the energy law holds at any step | 2 |
 //! | [`verlet`], [`rkn`] | symplectic explicit methods | 2, 4, 6 |
 //! | [`explicit`] | the step of a symplectic explicit method, given by its weights | |
 //! | [`Method`], [`Integrator`], [`Fidelity`] | by name, with a step control, as presets | |
@@ -20,7 +21,6 @@
 //! | [`energy_check`] | the check of every implicit step for spurious energy | |
 //! | [`error_budget`] | the error that the steps of a host step may make | |
 //! | [`ErrorNorm`] | which errors a tolerance bounds | |
-//! | [`energy_guard`] | the check of fixed steps for spurious energy | |
 //!
 //! # Adding a method
 //!
@@ -34,11 +34,10 @@
 //! its implementation, name and properties in `method.rs`, and [`Method::ALL`] puts it into every
 //! test of integrators.
 
-mod backward_euler;
 pub mod dirk;
+pub mod discrete_gradient;
 mod dynamics;
 pub mod energy_check;
-pub mod energy_guard;
 pub mod error_budget;
 mod error_norm;
 pub mod esdirk3;
@@ -58,10 +57,10 @@ pub mod tr_bdf2;
 pub mod trapezoid;
 pub mod verlet;
 
-pub use dynamics::{Dynamics, Newton, Stage};
+pub use discrete_gradient::{Differences, EnergyLaw};
+pub use dynamics::{Dynamics, Stage};
 pub use error_norm::ErrorNorm;
 pub use fidelity::{Fidelity, IntegratorChoice};
-pub use generalised_alpha::NewtonMode;
 pub use integrator::{Integrator, IntegratorRef, StepControl};
 pub use method::{Method, Properties};
 pub(crate) use one_step::add_scaled;

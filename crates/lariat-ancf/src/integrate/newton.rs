@@ -32,8 +32,6 @@ const MAX_ROTATION: f64 = 0.5;
 /// A tangent is kept for the next iteration or stage while each increment is below this share of
 /// the one before.
 const MAX_CHORD_CONTRACTION: f64 = 0.3;
-/// One iteration and its check are enough if the second increment is below this share of the first.
-const MAX_ONCE_CONTRACTION: f64 = 0.1;
 
 /// Size of a Newton increment.
 #[derive(Clone, Copy, Debug)]
@@ -63,12 +61,11 @@ pub trait Linearised {
     fn not_finite(&self) -> StepFailure;
 }
 
-/// Iterates to `tolerance` (m). With `once`, one iteration with a fresh tangent and one with the
-/// same suffice if they contract. With `keep`, the last factored tangent is tried first.
+/// Iterates to `tolerance` (m). With `keep`, the last factored tangent is tried first.
 ///
 /// # Errors
 /// [`StepFailure::NotConverged`], or the failure of an increment.
-pub fn iterate(problem: &mut impl Linearised, tolerance: f64, once: bool, keep: bool) -> Result<(), StepFailure> {
+pub fn iterate(problem: &mut impl Linearised, tolerance: f64, keep: bool) -> Result<(), StepFailure> {
     let mut chord = keep;
     let mut chords_contract = true;
     let mut before = f64::INFINITY;
@@ -97,7 +94,7 @@ pub fn iterate(problem: &mut impl Linearised, tolerance: f64, once: bool, keep: 
             (_, false) if !problem.exact() => size * (2.0 * ratio).min(1.0),
             (_, false) => size * ratio * ratio,
         };
-        if damp == 1.0 && (error.min(size) <= tolerance || once && chord && ratio <= MAX_ONCE_CONTRACTION) {
+        if damp == 1.0 && error.min(size) <= tolerance {
             return Ok(());
         }
         if iteration == MAX_ITERATIONS || (!chord && iteration > 5 && ratio > 2.0) {

@@ -142,9 +142,9 @@ pub trait OneStep: fmt::Debug {
         false
     }
 
-    /// Returns whether [the energy guard](super::energy_guard) checks the steps of this method
-    /// where no error is controlled. Default false.
-    fn needs_energy_guard(&self) -> bool {
+    /// Returns whether the method steps by discrete gradients of the energy instead of [`step`](Self::step). Default false; only
+    /// [`DiscreteGradient`](super::discrete_gradient::DiscreteGradient) does.
+    fn uses_discrete_gradients(&self) -> bool {
         false
     }
 

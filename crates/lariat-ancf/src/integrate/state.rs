@@ -1,6 +1,7 @@
 //! The state of a mechanical system between two steps: positions, velocities, and what a method
 //! carries from step to step.
 
+use super::discrete_gradient::Differences;
 use crate::error::{Error, require};
 use serde::{Deserialize, Serialize};
 
@@ -31,6 +32,9 @@ pub struct Memory {
     /// Largest kinetic and strain energy in J so far, for that check.
     #[serde(default)]
     pub largest_energy: f64,
+    /// The last step of the discrete gradient.
+    #[serde(default)]
+    pub differences: Differences,
 }
 
 fn coherent() -> f64 {
@@ -48,6 +52,7 @@ impl Default for Memory {
             coherence: coherent(),
             energy_made: 0.0,
             largest_energy: 0.0,
+            differences: Differences::default(),
         }
     }
 }
@@ -69,8 +74,17 @@ impl State {
     /// Copies `other` into the existing buffers; the derived `clone_from` would allocate new ones.
     pub(crate) fn copy_from(&mut self, other: &State) {
         let State { time, q, v, memory } = other;
-        let Memory { acceleration, algorithmic, valid, step, coherence, revision, energy_made, largest_energy } =
-            memory;
+        let Memory {
+            acceleration,
+            algorithmic,
+            valid,
+            step,
+            coherence,
+            revision,
+            energy_made,
+            largest_energy,
+            differences,
+        } = memory;
         self.time = *time;
         self.q.clone_from(q);
         self.v.clone_from(v);
@@ -82,17 +96,21 @@ impl State {
         self.memory.coherence = *coherence;
         self.memory.energy_made = *energy_made;
         self.memory.largest_energy = *largest_energy;
+        self.memory.differences.copy_from(differences);
     }
 
     /// Checks that this is a finite state of `size` coordinates; `cable` is the name for the error.
     pub(crate) fn check(&self, cable: &str, size: usize) -> Result<(), Error> {
-        let Memory { acceleration, algorithmic, valid, step, coherence, energy_made, largest_energy, .. } =
-            &self.memory;
+        let Memory {
+            acceleration, algorithmic, valid, step, coherence, energy_made, largest_energy, differences, ..
+        } = &self.memory;
         let lists = [
             ("positions", &self.q, false),
             ("velocities", &self.v, false),
             ("accelerations", acceleration, !valid),
             ("algorithmic accelerations", algorithmic, true),
+            ("changes of velocities", &differences.velocity, true),
+            ("changes of positions", &differences.displacement, differences.is_empty()),
         ];
         for (what, list, may_be_empty) in lists {
             let count = list.len();
@@ -109,6 +127,11 @@ impl State {
             .and_then(|()| self.q.iter().try_for_each(|&x| finite("position", x)))
             .and_then(|()| self.v.iter().try_for_each(|&x| finite("velocity", x)))
             .and_then(|()| acceleration.iter().chain(algorithmic).try_for_each(|&x| finite("acceleration", x)))
+            .and_then(|()| {
+                let Differences { velocity, displacement, step, .. } = differences;
+                let mut all = velocity.iter().chain(displacement).chain([step]);
+                all.try_for_each(|&x| finite("change of the last step", x))
+            })
             .map_err(|error| error.of_cable(cable))
     }
 }

@@ -19,9 +19,7 @@
 //! bound 3889 of 9227.
 //!
 //! Steps of implicit methods that make energy are rejected by the [energy
-//! check](super::energy_check), and tried at a quarter as well. Methods without error control are
-//! checked by the [energy guard](super::energy_guard), if they
-//! need it.
+//! check](super::energy_check), and tried at a quarter as well.
 //!
 //! # References
 //!
@@ -29,7 +27,6 @@
 
 use super::dynamics::Dynamics;
 use super::energy_check::{EnergyCheck, MIN_CHECKED_SHARE};
-use super::energy_guard::EnergyGuard;
 use super::error_budget::ErrorBudget;
 use super::error_norm::ErrorNorm;
 use super::integrator::{IntegratorRef, StepControl};
@@ -38,12 +35,12 @@ use super::state::State;
 use crate::error::StepFailure;
 
 /// Shortest step, as a share of the host step.
-const MIN_STEP_SHARE: f64 = 1.0 / (1u64 << 20) as f64;
+pub(super) const MIN_STEP_SHARE: f64 = 1.0 / (1u64 << 20) as f64;
 /// Newton's tolerance in m where no error is controlled.
 const FIXED_STEP_NEWTON_TOLERANCE: f64 = 1e-10;
 /// Relative rounding error of a host step given in single precision: 1/60 s is then longer than
 /// four steps of 1/240 s.
-const SINGLE_PRECISION_ROUNDING: f64 = 1e-7;
+pub(super) const SINGLE_PRECISION_ROUNDING: f64 = 1e-7;
 /// Length of the retry of a failed step, as a share of the step.
 const RETRY_SHARE: f64 = 0.25;
 /// Longest step after one at which Newton's iteration failed with an inexact tangent, as a share of
@@ -95,8 +92,7 @@ fn run(
     counts: &mut Counts,
 ) -> Result<(), FailedStep> {
     let method = integrator.method;
-    // one stage for the fallback of the energy guard
-    scratch.resize(system.size(), method.stages().max(1));
+    scratch.resize(system.size(), method.stages());
     prepare(system, state, method.has_algorithmic_acceleration())?;
     system.state_reached(state);
     let end = state.time + horizon;
@@ -110,10 +106,8 @@ fn run(
         step: regular,
         failure,
     })?;
-    let mut guard = EnergyGuard::new(budget.is_none() && method.needs_energy_guard(), regular);
-    let explicit = method.stability_limit().is_some();
-    let guarded = budget.is_none() && method.needs_energy_guard();
-    let mut energy = EnergyCheck::new(!explicit && !guarded, &state.memory);
+    let implicit = method.stability_limit().is_none();
+    let mut energy = EnergyCheck::new(implicit, &state.memory);
     let mut checked = energy;
     let mut proposal = regular;
     let mut max_step = f64::INFINITY;
@@ -122,8 +116,8 @@ fn run(
         let (h, last) = fit(proposal, horizon - done, budget.is_some());
         let newton_tolerance = budget.as_ref().map_or(FIXED_STEP_NEWTON_TOLERANCE, |b| b.newton_tolerance(h));
         let request = StepRequest { h, newton_tolerance, estimate: budget.is_some() };
-        let outcome = guard
-            .step(system, method, state, request, scratch)
+        let outcome = method
+            .step(system, state, request, scratch)
             .and_then(|estimate| check_finite(&scratch.next, estimate).map(|()| estimate))
             .and_then(|estimate| {
                 scratch.next.time = state.time + h;
@@ -146,15 +140,7 @@ fn run(
                 }
                 continue;
             }
-            (Ok(_), None) => {
-                if !guard.accepts(system, state, &scratch.next, h) {
-                    counts.rejected += 1;
-                    proposal = RETRY_SHARE * h;
-                    continue;
-                }
-                proposal = (2.0 * proposal).min(regular);
-            }
-            (Ok(None), Some(_)) => proposal = (2.0 * proposal).min(regular),
+            (Ok(_), None) | (Ok(None), Some(_)) => proposal = (2.0 * proposal).min(regular),
             (Ok(Some(estimate)), Some(budget)) => {
                 let allowed = budget.allowed(h);
                 if estimate > allowed {

@@ -13,7 +13,7 @@
 //!
 //! Newmark 1959.
 
-use super::generalised_alpha::{GeneralisedAlpha, NewtonMode};
+use super::generalised_alpha::GeneralisedAlpha;
 
 /// The trapezoidal rule.
-pub const METHOD: GeneralisedAlpha = GeneralisedAlpha { rho: 1.0, newton: NewtonMode::Converged };
+pub const METHOD: GeneralisedAlpha = GeneralisedAlpha { rho: 1.0 };

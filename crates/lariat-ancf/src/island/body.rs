@@ -12,6 +12,7 @@
 //! Khatib 1987, the operational space inertia.
 
 use crate::error::{Error, require, require_finite};
+use crate::integrate::discrete_gradient::ALPHA;
 use nalgebra::{Matrix3, Matrix6, UnitQuaternion, Vector3, Vector6};
 use serde::{Deserialize, Serialize};
 
@@ -27,6 +28,39 @@ pub struct BodyMemory {
     pub(super) inertia: Matrix3<f64>,
     pub(super) free: [bool; 6],
     pub(super) pins: usize,
+    /// The last step of the discrete gradient, if that was the method.
+    #[serde(default)]
+    pub(super) differences: Option<BodyDifferences>,
+}
+
+impl BodyMemory {
+    /// Returns the memory of a step of the discrete gradient, which knows no accelerations.
+    pub(super) fn of_differences(body: &RigidBody, differences: BodyDifferences) -> Self {
+        BodyMemory {
+            acceleration: [Vector3::zeros(); 2],
+            algorithmic: None,
+            force: body.force,
+            torque: body.torque,
+            mass: body.mass,
+            inertia: body.inertia,
+            free: body.free,
+            pins: 0,
+            differences: Some(differences),
+        }
+    }
+}
+
+/// What a body carries to the next step of the [discrete gradient](crate::integrate::discrete_gradient). Plain data.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub(super) struct BodyDifferences {
+    /// Changes of velocity in world axes and of angular velocity in body axes.
+    pub change: [Vector3<f64>; 2],
+    /// Length of the step in s.
+    pub step: f64,
+    /// Velocity and angular velocity at its end, in world axes.
+    pub velocity: [Vector3<f64>; 2],
+    /// Attitude at its end.
+    pub rotation: UnitQuaternion<f64>,
 }
 
 /// A rigid body. All vectors in world axes, SI units.
@@ -125,6 +159,14 @@ impl RigidBody {
     /// Returns the kinetic energy in J, without that of the carried inertia.
     pub fn kinetic_energy(&self) -> f64 {
         0.5 * (self.mass * self.velocity.norm_squared() + self.angular_velocity.dot(&self.spin()))
+    }
+
+    /// Returns the energy in J that the method `discrete-gradient` holds beyond the kinetic energy, as
+    /// [`Cable::energy_in_store`](crate::Cable::energy_in_store); without that of the carried inertia.
+    pub fn energy_in_store(&self) -> f64 {
+        let Some(last) = self.memory.as_ref().and_then(|memory| memory.differences.as_ref()) else { return 0.0 };
+        let [velocity, spin] = last.change;
+        0.5 * ALPHA * (self.mass * velocity.norm_squared() + spin.dot(&(self.inertia * spin)))
     }
 
     /// Returns the linear momentum in kg m/s and the angular momentum about the origin in kg m^2/s,

@@ -218,7 +218,7 @@ impl Dynamics for IslandDynamics<'_, '_> {
         for i in 0..z.len() {
             z[i] = stage.c2 * acceleration[i];
         }
-        let wanted = stage.newton.tolerance();
+        let wanted = stage.newton_tolerance;
         let mut tolerance = wanted;
         for (cable, part) in equations.cables.iter_mut().zip(&layout.parts) {
             let of_cable = cable.equations().0.tolerance(wanted, stage, &base[part.range()], &z[part.range()]);
@@ -227,7 +227,7 @@ impl Dynamics for IslandDynamics<'_, '_> {
         let keep = stage.reuse && stage.c2 > 0.0 && equations.matrices.factored == stage.c2;
         let mut problem = IslandStage { equations, stage, base, velocity_base, y, v: velocity, z, rhs };
         problem.update();
-        let outcome = newton::iterate(&mut problem, tolerance, stage.newton.once(), keep);
+        let outcome = newton::iterate(&mut problem, tolerance, keep);
         for i in 0..z.len() {
             acceleration[i] = z[i] / stage.c2;
         }
@@ -282,10 +282,6 @@ impl Dynamics for IslandDynamics<'_, '_> {
 
     fn spurious_energy(&mut self, before: &State, after: &State, h: f64) -> Option<(f64, f64)> {
         energy_balance::spurious_energy(&mut self.equations, before, after, h, &mut self.vectors.rhs)
-    }
-
-    fn newton_iterations(&self) -> u64 {
-        self.equations.cables.first().map_or(0, |cable| cable.diagnostics().newton_iterations)
     }
 
     fn state_reached(&mut self, state: &State) {

@@ -96,6 +96,7 @@ pub(super) fn keep(cables: &mut [&mut Cable], bodies: &mut [RigidBody], pins: &[
             inertia: body.inertia,
             free: body.free,
             pins: pins_of(pins, i),
+            differences: None,
         });
     }
 }

@@ -39,6 +39,7 @@ mod body;
 mod clamp;
 mod condense;
 mod dense;
+mod discrete_gradient;
 mod dynamics;
 mod energy_balance;
 mod equations;

@@ -38,6 +38,20 @@ pub struct PinAccount {
     power: f64,
 }
 
+impl PinAccount {
+    /// Adds a step of length `h` (s) of mean force, moment and power; of a slope only the moment counts.
+    pub(super) fn add_mean(&mut self, h: f64, slope: bool, (force, moment, power): (Vector3<f64>, Vector3<f64>, f64)) {
+        if slope {
+            self.moment = moment;
+        } else {
+            self.force = force;
+        }
+        self.impulse += force * h;
+        self.angular_impulse += moment * h;
+        self.work += power * h;
+    }
+}
+
 /// The accounts of all pins.
 #[derive(Clone, Debug, Default)]
 pub(super) struct PinAccounts {

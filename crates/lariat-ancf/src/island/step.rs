@@ -1,6 +1,7 @@
 //! One host step of an island.
 
 use super::body::RigidBody;
+use super::discrete_gradient::{HostStep, StepBuffers};
 use super::dynamics::{IslandDynamics, Vectors};
 use super::equations::{IslandEquations, Matrices};
 use super::layout::Layout;
@@ -8,7 +9,6 @@ use super::memory;
 use super::pin::{PinConstraint, check};
 use super::pin_accounts::{PinAccount, PinAccounts};
 use crate::cable::{Cable, SHORTEST_STEP, check_integrator};
-use crate::effect::EffectWork;
 use crate::error::{Error, require};
 use crate::integrate::{Integrator, IntegratorRef, Scratch, State, step_control};
 
@@ -19,6 +19,7 @@ pub struct Island {
     matrices: Matrices,
     accounts: PinAccounts,
     vectors: Vectors,
+    by_discrete_gradient: StepBuffers,
     scratch: Scratch,
     state: State,
 }
@@ -61,13 +62,17 @@ impl Island {
         if dt == 0.0 {
             return Ok(());
         }
-        cables.iter_mut().for_each(|cable| cable.system.meter.work = EffectWork::default());
-        let Island { layout, matrices, accounts, vectors, scratch, state } = self;
+        cables.iter_mut().for_each(|cable| cable.system.meter.begin());
+        let Island { layout, matrices, accounts, vectors, by_discrete_gradient: buffers, scratch, state } = self;
         layout.begin(cables, bodies, pins, dt);
         matrices.begin(layout);
         accounts.begin(pins.len());
         vectors.resize(layout.size());
         gather(cables, bodies, state);
+        if integrator.method.uses_discrete_gradients() {
+            return HostStep { cables, bodies, layout, matrices, accounts, vectors, buffers, state }
+                .run(integrator.control, dt);
+        }
         memory::recall(cables, bodies, layout, state);
         let equations = IslandEquations { cables: &mut *cables, layout, matrices };
         let mut system = IslandDynamics { equations, accounts, norm: integrator.norm(), vectors };
@@ -125,6 +130,7 @@ fn scatter(cables: &mut [&mut Cable], bodies: &mut [RigidBody], state: &State, l
         snapshot.state.q.copy_from_slice(&state.q[part.range()]);
         snapshot.state.v.copy_from_slice(&state.v[part.range()]);
         snapshot.state.time = state.time;
+        snapshot.state.memory.differences.clear();
         snapshot.add_work_of_step(system, &buffers.rhs);
         cable.diagnostics_mut().host_steps += 1;
     }

@@ -9,30 +9,46 @@ pub struct EquilibriumReport {
     pub iterations: usize,
     /// Largest residual force in N.
     pub residual: f64,
-    /// True if the tangent stiffness is positive definite; false for an unstable or indifferent
-    /// shape.
+    /// True if the tangent stiffness is positive definite and the increments of Newton's method fell
+    /// to rounding; false for an unstable or indifferent shape. Thick elements of the projected axial
+    /// rule, which is the default, are unstable where they are compressed by more than 1e-3, although
+    /// the rod is not: use an exact axial rule (`exact-3`) there.
     pub stable: bool,
 }
 
 /// Largest change of a slope vector in one iteration.
 pub(super) const MAX_SLOPE_CHANGE: f64 = 0.3;
-/// Largest number of iterations of all attempts together, as a multiple of that of one.
+/// Largest number of iterations of one attempt, with those of its steps, and of all attempts together, as
+/// multiples of its number of steps.
+const MAX_ITERATIONS: usize = 2;
 const MAX_ATTEMPTS: usize = 5;
 
 /// Iterations done and remaining.
 pub(super) struct Budget {
     /// Largest residual force over the sum of the loads.
     pub tolerance: f64,
-    /// Largest number of iterations of one attempt.
+    /// Largest number of steps of one attempt.
     pub attempt: usize,
     /// Iterations done.
     pub done: usize,
+    /// Iterations done when the present attempt began.
+    began: usize,
 }
 
 impl Budget {
+    /// Returns an unspent budget.
+    pub fn new(tolerance: f64, attempt: usize) -> Self {
+        Budget { tolerance, attempt, done: 0, began: 0 }
+    }
+
+    /// Begins an attempt.
+    pub fn begin_attempt(&mut self) {
+        self.began = self.done;
+    }
+
     /// Takes one iteration, and returns whether one remained.
     pub fn take(&mut self) -> bool {
-        let more = !self.spent();
+        let more = !self.spent() && self.done - self.began < MAX_ITERATIONS.saturating_mul(self.attempt);
         self.done += usize::from(more);
         more
     }

@@ -8,7 +8,7 @@
 use super::attempt::{Budget, Failure};
 use super::scale::LoadScale;
 use crate::cable::Cable;
-use crate::integrate::{Integrator, Method, NewtonMode, StepControl};
+use crate::integrate::{Integrator, Method, StepControl};
 
 /// Largest number of steps.
 const MAX_STEPS: usize = 400;
@@ -23,7 +23,7 @@ impl Cable {
         let integrator = self.integrator();
         let scale = LoadScale::new(&self.model, self.positions());
         let mut step = 0.3 / scale.mu.sqrt();
-        let method = Method::GeneralisedAlpha { rho: 0.0, newton: NewtonMode::Converged };
+        let method = Method::GeneralisedAlpha { rho: 0.0 };
         let damping = Integrator { method, control: StepControl::Substeps(1) };
         let time = self.time();
         let fits = self.set_integrator(damping).is_ok();

@@ -13,8 +13,8 @@ use nalgebra::Vector3;
 pub struct EquilibriumOptions {
     /// Largest residual force over the sum of the loads. Default 1e-9.
     pub tolerance: f64,
-    /// Largest number of iterations of each attempt; all attempts together take at most five times
-    /// as many. Default 400.
+    /// Largest number of steps of each attempt; an attempt takes at most twice as many iterations,
+    /// all attempts together at most five times as many. Default 400.
     pub iterations: usize,
 }
 
@@ -54,7 +54,7 @@ impl Cable {
         let loads = self.model.loads.clone();
         // the point loads ramp with a time from 0 to 1 while statics are solved
         self.model.loads.iter_mut().for_each(|load| (load.ramp, load.start) = (1.0, 0.0));
-        let mut budget = Budget { tolerance: options.tolerance, attempt: options.iterations, done: 0 };
+        let mut budget = Budget::new(options.tolerance, options.iterations);
         let outcome = self.attempts(&mut budget);
         self.model.loads = loads;
         match outcome {
@@ -92,6 +92,7 @@ impl Cable {
         let mut unstable = None;
         let mut last = Failure::default();
         for attempt in 0..5 {
+            budget.begin_attempt();
             let outcome = match attempt {
                 0 if moments => self.ramp_loads(budget),
                 1 => self.minimise_energy(1.0, budget),

@@ -11,6 +11,13 @@
 //! points backwards in every element of the node, or if the element runs backwards in its middle
 //! while its ends run forwards.
 //!
+//! A straight element of this rule folds by itself where it is compressed by more than its share delta
+//! of the exact energy: the stiffness of `r' = f + x P_2` is EA (delta f^2 + eps). A thick cable folds
+//! without bending, and may run backwards from there on. So, with bending stiffness, the slope at a
+//! clamp must point along the clamp, and the tangent of an element with EI/(EA l^2) > 1e-4 must turn by
+//! less than 90 degrees in each quarter of it: no beam turns more, its surface would be strained by
+//! 13 % or more.
+//!
 //! # Validity
 //!
 //! A sharp bend (a cable without bending stiffness around one node, a loop that closes within one
@@ -19,11 +26,17 @@
 
 use crate::element::shape;
 use crate::model::Model;
+use crate::rule::BendingRule;
+use crate::section::Element;
 use crate::support::SlopeSupport;
 use nalgebra::Vector3;
 
 /// Cosine of the angle between slope and chord below which the slope points backwards.
 const BACKWARD_COSINE: f64 = -0.05;
+/// Stretch at a clamp below which its tangent is reversed.
+const REVERSED_STRETCH: f64 = -0.1;
+/// EI/(EA l^2) above which an element is thick.
+const THICK: f64 = 1e-4;
 /// Shortest slope after a fold is straightened.
 const MIN_SLOPE: f64 = 0.1;
 
@@ -58,10 +71,36 @@ fn is_buckled(model: &Model, q: &[f64], e: usize) -> bool {
     is_backward(&middle, &chord(q, e)) || is_backward(&middle, &ends)
 }
 
+/// Returns whether the tangent of a thick element turns by more than 90 degrees within a quarter of it.
+fn is_cusped(model: &Model, q: &[f64], e: usize) -> bool {
+    let Element { length, section } = model.elements[e];
+    let bends = model.rule.bending != BendingRule::None;
+    if !bends || section.bending_stiffness <= THICK * section.axial_stiffness * length * length {
+        return false;
+    }
+    let tangent = |quarter: u8| -> Vector3<f64> {
+        let weights = shape::slope(0.25 * f64::from(quarter), length);
+        (0..4).map(|k| weights[k] * vector(q, 6 * e + 3 * k)).sum()
+    };
+    (0..4).any(|quarter| tangent(quarter).dot(&tangent(quarter + 1)) <= 0.0)
+}
+
+/// Returns whether the slope at a clamp points against it, on a cable that bends.
+fn is_clamped_backwards(model: &Model, q: &[f64], node: usize) -> bool {
+    let e = node.min(model.elements.len() - 1);
+    let bends = model.rule.bending != BendingRule::None && model.elements[e].section.bending_stiffness > 0.0;
+    let along = |d: &Vector3<f64>| d.dot(&vector(q, 6 * node + 3));
+    match model.support(node).map(|support| &support.slope) {
+        Some(SlopeSupport::Direction(d) | SlopeSupport::Attached(d)) => bends && along(d) < REVERSED_STRETCH,
+        _ => false,
+    }
+}
+
 /// Returns the first folded element.
 pub(super) fn first_fold(model: &Model, q: &[f64]) -> Option<usize> {
-    let node = (0..model.nodes()).find(|&i| is_reversed(model, q, i)).map(|i| i.min(model.elements.len() - 1));
-    node.or_else(|| (0..model.elements.len()).find(|&e| is_buckled(model, q, e)))
+    let reversed = |&i: &usize| is_reversed(model, q, i) || is_clamped_backwards(model, q, i);
+    let node = (0..model.nodes()).find(reversed).map(|i| i.min(model.elements.len() - 1));
+    node.or_else(|| (0..model.elements.len()).find(|&e| is_buckled(model, q, e) || is_cusped(model, q, e)))
 }
 
 /// Sets the free slopes of folded elements along the chords, with the stretch of the chords.

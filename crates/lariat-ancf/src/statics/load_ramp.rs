@@ -24,6 +24,10 @@ const MAX_ITERATIONS: usize = 16;
 const FEW_ITERATIONS: usize = 9;
 /// Change of slopes below which an increment within the ramp has converged.
 const INTERMEDIATE_CHANGE: f64 = 1e-4;
+/// Change of slopes that is rounding.
+const ROUNDING: f64 = 1e-13;
+/// Change of slopes below which increments that do not fall are rounding.
+const STAGNATION: f64 = 1e-6;
 /// Residual, as a share of the loads, below which a shape carries a part of them.
 const CARRIED_RESIDUAL: f64 = 1e-4;
 
@@ -97,7 +101,8 @@ impl Cable {
         let q = &mut state.q;
         let mut rhs = vec![0.0; q.len()];
         let (mut cause, mut residual) = (None, f64::NAN);
-        let mut close = false;
+        // at rounding on a thin cable no slope changes any more
+        let (mut close, mut before) = (false, f64::INFINITY);
         for _ in 0..MAX_ITERATIONS {
             if !budget.take() {
                 break;
@@ -112,7 +117,7 @@ impl Cable {
                     break;
                 }
             };
-            if residual <= tolerance || close {
+            if close {
                 let stable = matches!(kind, Definiteness::PositiveDefinite);
                 return Ok(EquilibriumReport { iterations: budget.done, residual, stable });
             }
@@ -126,8 +131,9 @@ impl Cable {
             if load < 1.0 && slope < INTERMEDIATE_CHANGE {
                 return Ok(EquilibriumReport { iterations: budget.done, residual, stable: false });
             }
-            // at rounding on a thin cable no slope changes any more
-            close = slope < 1e-13;
+            // a small residual is not enough: see `polish`
+            close = slope < ROUNDING || (residual <= tolerance && slope < STAGNATION && slope > 0.5 * before);
+            before = slope;
         }
         Err(Failure { cause, residual })
     }

@@ -12,7 +12,9 @@
 //! In a flow there is no potential energy to minimise: `rest_in_flow` is the only attempt.
 //!
 //! A shape with [folded elements](folds) is straightened once and minimised again; if it folds
-//! again the attempt has failed. A stable shape is preferred, an unstable one is returned if no
+//! again the attempt has failed. A small residual is not enough: the increments of Newton's method must
+//! have fallen to rounding (`polish`), because the axial stiffness hides moments that are out of balance;
+//! and a saddle of the energy is left along its softest mode (`saddle`). A stable shape is preferred, an unstable one is returned if no
 //! stable one is found. The iterations of each attempt and of all together are bounded.
 //!
 //! # Validity
@@ -30,9 +32,11 @@ mod dynamic_relaxation;
 mod equilibrium;
 mod folds;
 mod load_ramp;
+mod polish;
 mod potential;
 mod pseudo_transient;
 mod rest_in_flow;
+mod saddle;
 mod scale;
 mod start_shape;
 

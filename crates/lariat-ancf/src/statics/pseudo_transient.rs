@@ -6,8 +6,9 @@
 //! `(K + mu M) dq = F(q)`. Large mu follows the gradient of the potential energy in the metric of
 //! mass, mu = 0 is Newton's method. A step is kept if it lowers the energy and the matrix is
 //! positive definite; then mu falls, else it grows. A moment has no potential; it enters by its
-//! work over the step, moment times the angle about its axis by which the tangent rotates. The
-//! iteration ends quadratically. Increments are capped.
+//! work over the step, moment times the angle about its axis by which the tangent rotates. Increments
+//! are capped. The iteration ends by Newton's method alone (`polish`), or on a saddle, which is left
+//! (`saddle`).
 //!
 //! A step that rotates a thin cable stretches it in second order, which costs a large axial energy.
 //! Such a step is not rejected at once: a few more iterations make it the implicit step `F(q + dq)
@@ -18,17 +19,27 @@
 //! Kelley & Keyes 1998 (pseudo-transient continuation); Rockafellar 1976 (proximal point).
 
 use super::attempt::{Budget, EquilibriumReport, Failure, MAX_SLOPE_CHANGE, largest_change};
+use super::polish::Polished;
 use super::potential::{moment_work, potential};
+use super::saddle::Saddle;
 use super::scale::{LoadScale, largest_force};
 use crate::cable::Cable;
 use crate::error::StepFailure;
 use crate::linalg::Definiteness;
 use crate::system::{Equations, project_vector};
+use nalgebra::Vector3;
 
 /// Newton iterations that make a step that raised the energy an implicit one.
 const IMPLICIT_ITERATIONS: usize = 6;
 /// Growth of the residual above which a step that lowered the energy is made an implicit one too.
 const MAX_RESIDUAL_GROWTH: f64 = 4.0;
+/// Residual, as a share of the loads, at which an indefinite matrix is taken for that of a saddle.
+const NEAR_SADDLE: f64 = 1e-4;
+/// Number of shapes of small residual that may be improved without success before the shape is taken
+/// for an indifferent one.
+const MAX_FAILED_POLISHES: usize = 3;
+/// Number of saddles that are left.
+const MAX_SADDLES: usize = 3;
 /// Smallest mu after a failed step, and largest, as shares of its first value.
 const MIN_MU: f64 = 1e-6;
 const MAX_MU: f64 = 1e15;
@@ -39,22 +50,22 @@ enum Step {
     Accepted { energy: f64, residual: f64 },
     /// Rejected: mu must grow.
     Rejected,
-    /// A Newton step at rounding: the shape is converged.
-    Converged,
 }
 
 /// The iteration at a share `load` of the point loads.
-struct Minimisation<'a> {
-    equations: Equations<'a>,
-    scale: LoadScale,
-    load: f64,
-    mu: f64,
-    rhs: Vec<f64>,
+pub(super) struct Minimisation<'a> {
+    pub equations: Equations<'a>,
+    pub scale: LoadScale,
+    pub load: f64,
+    pub mu: f64,
+    pub rhs: Vec<f64>,
     trial: Vec<f64>,
     /// The best trial of the present step.
-    best: Vec<f64>,
-    step: Vec<f64>,
-    inertia: Vec<f64>,
+    pub best: Vec<f64>,
+    pub step: Vec<f64>,
+    pub inertia: Vec<f64>,
+    /// The first saddle that was left.
+    pub saddle: Option<Saddle>,
 }
 
 impl Cable {
@@ -67,8 +78,31 @@ impl Cable {
         equations.prescribe(state.time, &mut state.q, &mut state.v);
         let [rhs, trial, best, step, inertia] = core::array::from_fn(|_| vec![0.0; n]);
         let mu = scale.mu;
-        let mut this = Minimisation { equations, scale, load, mu, rhs, trial, best, step, inertia };
+        let mut this = Minimisation { equations, scale, load, mu, rhs, trial, best, step, inertia, saddle: None };
         let q = &mut state.q;
+        let outcome = this.descend(q, tolerance, budget);
+        match this.saddle.take() {
+            // no lower shape was found: it was not a saddle, but an indifferent shape
+            Some(saddle)
+                if outcome.is_err()
+                    || potential(&this.equations, load, q) > saddle.energy - this.scale.energy_rounding =>
+            {
+                q.copy_from_slice(&saddle.q);
+                Ok(EquilibriumReport { iterations: budget.done, residual: saddle.residual, stable: false })
+            }
+            _ => outcome,
+        }
+    }
+}
+
+impl Minimisation<'_> {
+    /// Minimises from `q`, until the residual in N is within `tolerance` and the shape converged.
+    fn descend(&mut self, q: &mut [f64], tolerance: f64, budget: &mut Budget) -> Result<EquilibriumReport, Failure> {
+        let model = self.equations.model;
+        let has_potential = model.loads.iter().all(|load| load.moment == Vector3::zeros());
+        // an indifferent cable and one under moments have no saddle to leave
+        let leaves = has_potential && !model.supports.is_empty();
+        let (mut saddles, mut failed) = (if leaves { 0 } else { MAX_SADDLES }, 0);
         let mut energy = f64::INFINITY;
         let mut residual = f64::NAN;
         let mut cause = None;
@@ -76,56 +110,69 @@ impl Cable {
             if !budget.take() {
                 break;
             }
-            residual = this.evaluate(q);
+            residual = self.evaluate(q);
             if !residual.is_finite() {
                 cause = Some(StepFailure::NotFinite { what: "force", node: 0 });
                 break;
             }
             if !energy.is_finite() {
-                energy = potential(&this.equations, load, q);
+                energy = potential(&self.equations, self.load, q);
             }
             let small = residual <= tolerance;
-            let kind = this.equations.factor();
-            let definite = matches!(kind, Ok(Definiteness::PositiveDefinite));
-            if small && this.mu == 0.0 {
-                return Ok(EquilibriumReport { iterations: budget.done, residual, stable: definite });
-            }
-            if small && definite {
-                // the force is converged: the last step is Newton's, to converge the shape and to
-                // judge stability
-                this.mu = 0.0;
-                this.equations.static_force_and_matrix(load, q, 1.0, 0.0, &mut this.rhs);
-                let stable = matches!(this.equations.factor(), Ok(Definiteness::PositiveDefinite));
-                if !stable {
-                    return Ok(EquilibriumReport { iterations: budget.done, residual, stable });
+            if small {
+                match self.polish(q, budget) {
+                    Polished::Converged(residual) => {
+                        return Ok(EquilibriumReport { iterations: budget.done, residual, stable: true });
+                    }
+                    Polished::Indefinite => {
+                        let here = Saddle { q: q.to_vec(), energy, residual };
+                        if saddles == MAX_SADDLES || !self.leave_saddle(q, budget) {
+                            return Ok(EquilibriumReport { iterations: budget.done, residual, stable: false });
+                        }
+                        self.saddle.get_or_insert(here);
+                        saddles += 1;
+                        energy = f64::INFINITY;
+                        continue;
+                    }
+                    Polished::Failed if failed == MAX_FAILED_POLISHES => {
+                        return Ok(EquilibriumReport { iterations: budget.done, residual, stable: false });
+                    }
+                    Polished::Failed => {
+                        failed += 1;
+                        self.evaluate(q);
+                    }
                 }
             }
+            let kind = self.equations.factor();
+            let definite = matches!(kind, Ok(Definiteness::PositiveDefinite));
             if !definite {
+                if residual <= NEAR_SADDLE * self.scale.force && saddles < MAX_SADDLES {
+                    saddles = if self.leave_saddle(q, budget) { saddles + 1 } else { MAX_SADDLES };
+                    energy = f64::INFINITY;
+                    continue;
+                }
                 cause = kind.err();
-                if !this.raise_mu(4.0) {
+                if !self.raise_mu(4.0) {
                     break;
                 }
                 continue;
             }
-            match this.step(q, energy, residual, small, budget) {
-                Step::Converged => return Ok(EquilibriumReport { iterations: budget.done, residual, stable: true }),
+            match self.step(q, energy, residual, budget) {
                 Step::Accepted { energy: after, residual } => {
-                    q.copy_from_slice(&this.best);
+                    q.copy_from_slice(&self.best);
                     energy = after;
-                    let (mu, scale) = (this.mu, &this.scale);
-                    this.mu = if mu < scale.mu * 1e-9 || residual < 1e-6 * scale.force { 0.0 } else { mu / 4.0 };
+                    let (mu, scale) = (self.mu, &self.scale);
+                    self.mu = if mu < scale.mu * 1e-9 || residual < 1e-6 * scale.force { 0.0 } else { mu / 4.0 };
                 }
-                Step::Rejected if this.raise_mu(10.0) => {}
+                Step::Rejected if self.raise_mu(10.0) => {}
                 Step::Rejected => break,
             }
         }
         Err(Failure { cause, residual })
     }
-}
 
-impl Minimisation<'_> {
     /// Evaluates force and matrix at `q`, and returns the residual in N.
-    fn evaluate(&mut self, q: &[f64]) -> f64 {
+    pub(super) fn evaluate(&mut self, q: &[f64]) -> f64 {
         self.equations.static_force_and_matrix(self.load, q, 1.0, self.mu, &mut self.rhs);
         project_vector(self.equations.model, &mut self.rhs);
         largest_force(&self.rhs, self.scale.element)
@@ -137,9 +184,8 @@ impl Minimisation<'_> {
         self.mu <= self.scale.mu * MAX_MU
     }
 
-    /// Takes a step from `q` with the factored matrix; `small` if the residual is within its
-    /// tolerance.
-    fn step(&mut self, q: &[f64], energy: f64, residual: f64, small: bool, budget: &mut Budget) -> Step {
+    /// Takes a step from `q` with the factored matrix.
+    fn step(&mut self, q: &[f64], energy: f64, residual: f64, budget: &mut Budget) -> Step {
         self.equations.solve(&mut self.rhs);
         let (displacement, slope) = largest_change(&self.rhs);
         let length = 0.2 * self.scale.length;
@@ -177,9 +223,6 @@ impl Minimisation<'_> {
             }
             if matches!(accepted, Step::Accepted { .. }) {
                 break;
-            }
-            if self.mu == 0.0 && after <= residual * 4.0 && small {
-                return Step::Converged;
             }
             if self.mu == 0.0 || !gain.is_finite() {
                 break;

@@ -19,15 +19,17 @@
 //!
 //! Newton's method with the symmetric part of the tangent: it ends in a cycle on a towed cable.
 
-use super::attempt::{Budget, EquilibriumReport, Failure};
+use super::attempt::{Budget, EquilibriumReport, Failure, largest_change};
 use super::scale::{LoadScale, largest_force};
 use crate::cable::Cable;
-use crate::integrate::{Integrator, Method, NewtonMode, StepControl};
+use crate::integrate::{Integrator, Method, StepControl};
 use crate::system::project_vector;
 
 /// Factor on the step after a success, and after a failure.
 const GROWTH: f64 = 1.3;
 const REDUCTION: f64 = 0.25;
+/// Change of a slope in a step below which the cable is at rest.
+const AT_REST: f64 = 1e-7;
 /// Successive failures after which the search ends.
 const MAX_FAILURES: usize = 12;
 
@@ -35,7 +37,7 @@ impl Cable {
     /// Moves the cable to rest in the flow.
     pub(super) fn come_to_rest_in_flow(&mut self, budget: &mut Budget) -> Result<EquilibriumReport, Failure> {
         let (integrator, time) = (self.integrator(), self.time());
-        let method = Method::GeneralisedAlpha { rho: 0.0, newton: NewtonMode::Converged };
+        let method = Method::GeneralisedAlpha { rho: 0.0 };
         let damping = Integrator { method, control: StepControl::Substeps(1) };
         if self.set_integrator(damping).is_err() {
             return Err(Failure::default());
@@ -59,6 +61,7 @@ impl Cable {
         let scale = LoadScale::new(&self.model, self.positions());
         let mut step = 0.1 / scale.mu.sqrt();
         let mut rhs = vec![0.0; self.positions().len()];
+        let mut before = self.positions().to_vec();
         let (mut residual, mut failures, mut cause) = (f64::NAN, 0, None);
         while budget.take() {
             match self.step(step) {
@@ -78,11 +81,15 @@ impl Cable {
                     continue;
                 }
             }
+            before.iter_mut().zip(self.positions()).for_each(|(before, q)| *before -= q);
+            let (displacement, slope) = largest_change(&before);
+            let change = slope.max(displacement / scale.length);
+            before.copy_from_slice(self.positions());
             let (mut equations, state) = self.equations();
             equations.static_force(1.0, &state.q, 1.0, &mut rhs);
             project_vector(equations.model, &mut rhs);
             residual = largest_force(&rhs, scale.element);
-            if residual <= budget.tolerance * scale.force + scale.rounding {
+            if residual <= budget.tolerance * scale.force + scale.rounding && change <= AT_REST {
                 return Ok(EquilibriumReport { iterations: budget.done, residual, stable: true });
             }
         }

@@ -1,6 +1,7 @@
 //! Reference magnitudes of force and energy for the tolerances of the iterations.
 
 use crate::model::Model;
+use crate::section::Element;
 
 /// Reference magnitudes of a cable under its loads.
 pub(super) struct LoadScale {
@@ -12,6 +13,8 @@ pub(super) struct LoadScale {
     pub energy_rounding: f64,
     /// First value of mu in 1/s^2.
     pub mu: f64,
+    /// Mass of the cable in kg.
+    pub mass: f64,
     /// Length of the cable in m.
     pub length: f64,
     /// Length of the shortest element in m.
@@ -24,6 +27,9 @@ impl LoadScale {
         let length = model.length();
         let mass: f64 = model.elements.iter().map(|e| e.length * e.section.mass_per_length).sum();
         let stiffest = model.elements.iter().map(|e| e.section.axial_stiffness).fold(0.0f64, f64::max);
+        // a short thick element is stiffer in bending than in stretch
+        let bend = |e: &Element| 12.0 * e.section.bending_stiffness / (e.length * e.length);
+        let steepest = model.elements.iter().map(bend).fold(stiffest, f64::max);
         let shortest = model.elements.iter().map(|e| e.length).fold(f64::INFINITY, f64::min);
         let loads: f64 = model.loads.iter().map(|l| l.force.norm() + l.moment.norm() / length).sum();
         let strain = q
@@ -36,9 +42,10 @@ impl LoadScale {
         let epsilon = f64::EPSILON * (1.0 + reach / shortest);
         LoadScale {
             force,
-            rounding: 16.0 * stiffest * epsilon,
+            rounding: 16.0 * steepest * epsilon,
             energy_rounding: 16.0 * stiffest * length * f64::EPSILON,
             mu: 10.0 * force / (mass * length),
+            mass,
             length,
             element: shortest,
         }

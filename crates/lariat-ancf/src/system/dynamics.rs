@@ -132,10 +132,10 @@ impl Dynamics for CableDynamics<'_> {
             z[i] = stage.c2 * acceleration[i];
             y[i] = base[i] + z[i];
         }
-        let tolerance = equations.tolerance(stage.newton.tolerance(), stage, base, z);
+        let tolerance = equations.tolerance(stage.newton_tolerance, stage, base, z);
         let keep = stage.reuse && stage.c2 > 0.0 && equations.system.step.factored == stage.c2;
         let mut problem = CableStage { equations, buffers, stage, base, velocity_base, y };
-        let outcome = newton::iterate(&mut problem, tolerance, stage.newton.once(), keep);
+        let outcome = newton::iterate(&mut problem, tolerance, keep);
         for (k, z) in acceleration.iter_mut().zip(&buffers.z) {
             *k = z / stage.c2;
         }
@@ -168,10 +168,6 @@ impl Dynamics for CableDynamics<'_> {
     fn spurious_energy(&mut self, before: &State, after: &State, h: f64) -> Option<(f64, f64)> {
         let change = self.equations.energy_between(before, after, h, 0..after.q.len())?;
         Some((change.spurious, change.before.max(change.after)))
-    }
-
-    fn newton_iterations(&self) -> u64 {
-        self.equations.diagnostics.newton_iterations
     }
 
     fn frequency_bound(&self) -> f64 {

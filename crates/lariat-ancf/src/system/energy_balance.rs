@@ -19,7 +19,7 @@ use super::Equations;
 use crate::effect::EffectWork;
 use crate::effect::acts::{ForceInput, PointForce};
 use crate::effect::work::{POINTS, hermite};
-use crate::integrate::State;
+use crate::integrate::{EnergyLaw, State};
 use crate::load::PointLoad;
 use crate::model::Model;
 use core::ops::Range;
@@ -29,6 +29,10 @@ use nalgebra::Vector3;
 #[derive(Clone, Debug)]
 pub(crate) struct EnergyMeter {
     pub work: EffectWork,
+    /// The work of effects in a step of the discrete gradient.
+    pub work_of_step: EffectWork,
+    /// The energy law of the discrete gradient in the present host step.
+    pub law: EnergyLaw,
     q: Vec<f64>,
     v: Vec<f64>,
     force: Vec<f64>,
@@ -37,7 +41,22 @@ pub(crate) struct EnergyMeter {
 impl EnergyMeter {
     pub fn new(model: &Model) -> Self {
         let zeros = || vec![0.0; 6 * model.nodes()];
-        EnergyMeter { work: EffectWork::default(), q: zeros(), v: zeros(), force: zeros() }
+        EnergyMeter {
+            work: EffectWork::default(),
+            law: EnergyLaw::default(),
+            work_of_step: EffectWork::default(),
+            q: zeros(),
+            v: zeros(),
+            force: zeros(),
+        }
+    }
+}
+
+impl EnergyMeter {
+    /// Begins a host step.
+    pub fn begin(&mut self) {
+        self.work = EffectWork::default();
+        self.law = EnergyLaw::default();
     }
 }
 
@@ -63,7 +82,7 @@ impl Equations<'_> {
         if in_element.is_none() && !forces.at_points.any() && forces.densities.is_none() {
             return;
         }
-        let EnergyMeter { work, q, v, force } = meter;
+        let EnergyMeter { work, q, v, force, .. } = meter;
         for (weights, share) in hermite().into_iter().zip(POINTS) {
             for (i, k) in range.clone().enumerate() {
                 let mix = |x0: f64, d0: f64, x1: f64, d1: f64| {

@@ -15,6 +15,8 @@
 //! padded with copies of the last element, which are computed and dropped. Effects are a type parameter of the loop: a cable without
 //! any runs code that does not contain them.
 
+pub(crate) mod discrete_gradient;
+
 use super::elements::{Elements, with_bending};
 use crate::bending::Bending;
 use crate::effect::acts::ForceInput;

@@ -17,6 +17,7 @@
 //! | [`frequency`] | a bound of the frequencies |
 //! | [`projection`] | supports in vectors and matrices |
 
+mod discrete_gradient;
 pub(crate) mod dynamics;
 pub(crate) mod elements;
 pub(crate) mod energy_balance;
@@ -28,11 +29,14 @@ mod lanes;
 pub(crate) mod loads;
 pub(crate) mod mass;
 mod projection;
+mod rigid_motion;
 
+pub(crate) use discrete_gradient::{CableStep, dot};
 pub(crate) use dynamics::CableDynamics;
 pub(crate) use equations::Equations;
 pub(crate) use projection::{project_matrix, project_vector};
 
+use crate::cable::builder::STANDARD_GRAVITY;
 use crate::error::StepFailure;
 use crate::linalg::{BlockTridiagonal, Factorisation};
 use crate::model::Model;
@@ -84,6 +88,10 @@ pub(crate) struct Scales {
     slope_lever: Vec<f64>,
     /// An upper bound of the angular frequencies in rad/s.
     pub frequency_bound: f64,
+    /// Energy in J of the mass 1 mm above the ground: what a cable at rest is measured by.
+    pub weight_energy: f64,
+    /// Mass in kg, added mass included.
+    pub mass: f64,
     /// Smallest `L l rhoA/EA` in s^2: an acceleration k strains an element by this times k/l.
     pub stiff_time_squared: f64,
 }
@@ -137,7 +145,9 @@ impl Scales {
         let stiff = model.elements.iter().fold(f64::INFINITY, |least, e| {
             least.min(model.length() * e.length * model.inertia(e) / e.section.axial_stiffness)
         });
-        Scales { slope_lever, frequency_bound: frequency::bound(model), stiff_time_squared: stiff }
+        let mass: f64 = model.elements.iter().map(|e| model.inertia(e) * e.length).sum();
+        let weight_energy = mass * STANDARD_GRAVITY.norm() * 1e-3;
+        Scales { slope_lever, weight_energy, mass, frequency_bound: frequency::bound(model), stiff_time_squared: stiff }
     }
 
     /// Returns the largest component of a nodal vector as a displacement in m (of r, and of t over l/8), and the largest |t|.

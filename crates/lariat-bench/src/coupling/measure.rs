@@ -120,7 +120,7 @@ pub fn stages(scene: &Scene, model: CableModel, split: Split) -> Result<[f64; 3]
                     *spent += time.as_secs_f64() * 1e6 / STEPS as f64;
                 }
             }
-            set.finish(physics, host);
+            set.finish(physics, host)?;
         }
         for (least, spent) in least.iter_mut().zip(spent) {
             *least = least.min(spent);

@@ -12,7 +12,6 @@ use super::options::Options;
 use super::point::{self, Point, Setting};
 use crate::error::Error;
 use crate::page::Section;
-use lariat_ancf::integrate::NewtonMode;
 use lariat_ancf::{Integrator, Method, Rule, StepControl, Vector3};
 use lariat_figures::reference_pendulum::{self as pendulum, INTERVAL, SAMPLES};
 
@@ -38,8 +37,7 @@ const INDEPENDENT: &str = include_str!("../../../../assets/reference/pendulum_G1
 
 /// Returns whether a method is run with a tolerance here; otherwise with substeps.
 pub fn adaptive(method: Method) -> bool {
-    let once = matches!(method, Method::GeneralisedAlpha { newton: NewtonMode::Once, .. });
-    method.properties().estimate_order.is_some() && !once
+    method.properties().estimate_order.is_some()
 }
 
 /// Returns the step control of a method: a tolerance, substeps, or a share of its stability limit.

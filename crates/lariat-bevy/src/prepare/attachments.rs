@@ -11,7 +11,6 @@ use bevy_ecs::change_detection::DetectChanges;
 use bevy_ecs::entity::Entity;
 use bevy_ecs::prelude::{Commands, Has, Query, Ref, ResMut};
 use lariat_rapier::AttachmentHandle;
-use lariat_rapier::convert::to_vector;
 use lariat_rapier::rapier::dynamics::{RigidBodyBuilder, RigidBodyHandle};
 use lariat_rapier::rapier::math::Vector;
 
@@ -53,7 +52,9 @@ pub(crate) fn update(
                 Some(body) => handles.get(body).is_ok_and(|b| b.handle == link.handle),
                 None => attachment.world && link.body.is_none(),
             };
-            if same_body && link.made == *attachment && on.as_ref().is_some_and(|on| on.0 == link.cable) {
+            // a gap is closed or refused when the attachment is made, not later
+            let same = Attachment { gap: link.made.gap, ..*attachment } == link.made;
+            if same_body && same && on.as_ref().is_some_and(|on| on.0 == link.cable) {
                 continue;
             }
             cables.links.attachments.remove(&handle);
@@ -99,10 +100,9 @@ fn attach(
         Some(body) => handles.get(body).map_err(|_| Error::NotABody(body))?.handle,
         None => ground(cables, physics),
     };
+    let kind = attachment.kind.with_gap(attachment.gap);
     let made = match attachment.anchor {
-        Some(anchor) => {
-            cables.set.attach(physics, handle, attachment.at, rigid, to_vector(&anchor), attachment.kind)?
-        }
+        Some(anchor) => cables.set.attach(physics, handle, attachment.at, rigid, anchor, kind)?,
         None => cables.set.attach_here(physics, handle, attachment.at, rigid, attachment.kind)?,
     };
     let link = AttachmentLink { entity, cable, body, handle: rigid, made: *attachment, counted: 0.0 };

@@ -4,6 +4,7 @@
 pub(crate) mod attachments;
 pub(crate) mod bodies;
 pub(crate) mod effects;
+pub(crate) mod junctions;
 pub(crate) mod removals;
 
 use crate::cable::{Cable, build};
@@ -25,7 +26,8 @@ pub(crate) fn end(mut diagnostics: ResMut<Diagnostics>) {
     diagnostics.stop(Stage::Prepare);
 }
 
-/// Builds the cables that were spawned before [`install`](crate::install).
+/// Builds the cables that were spawned before [`install`](crate::install), or while [`Cables`] was
+/// taken out of the world.
 pub(crate) fn build_cables(
     new: Query<Entity, (Changed<Cable>, Allow<Disabled>)>,
     cables: Res<Cables>,

@@ -6,6 +6,7 @@ use crate::event::{AttachmentEnded, EndReason};
 use crate::pending::Pending;
 use crate::physics::Physics;
 use bevy_ecs::prelude::{Commands, Query, ResMut, With};
+use lariat_rapier::CableHandle;
 
 /// Removes cables, then attachments, then bodies.
 pub(crate) fn remove(
@@ -16,7 +17,9 @@ pub(crate) fn remove(
     mut commands: Commands,
 ) {
     let Cables { set, links, events, .. } = &mut *cables;
-    for handle in pending.removed_cables.drain(..) {
+    let unlinked = pending.unlinked.drain(..).filter_map(|entity| links.remove_cable(entity));
+    let unlinked: Vec<CableHandle> = unlinked.collect();
+    for handle in pending.removed_cables.drain(..).chain(unlinked) {
         // one that is not in the set has no attachments there
         let _ = set.remove(&mut physics, handle);
         links.attachments.retain(|attachment, link| {
@@ -30,12 +33,10 @@ pub(crate) fn remove(
     }
     for (entity, handle) in pending.removed_attachments.drain(..) {
         let Some(link) = links.attachments.remove(&handle) else { continue };
-        if set.detach(&mut physics, handle).is_ok() && commands.get_entity(entity).is_ok() {
-            let replaced = attachments.contains(entity);
-            if !replaced {
-                let (cable, body) = (link.cable, link.body);
-                events.push(AttachmentEnded { entity, cable, body, reason: EndReason::Released }.into());
-            }
+        let replaced = attachments.contains(entity);
+        if set.detach(&mut physics, handle).is_ok() && !replaced {
+            let (cable, body) = (link.cable, link.body);
+            events.push(AttachmentEnded { entity, cable, body, reason: EndReason::Released }.into());
         }
     }
     for handle in pending.removed_bodies.drain(..) {

@@ -4,8 +4,8 @@ use super::common::{bodies, cable_of, cube, height, pin, soft, steps, world};
 use bevy_ecs::prelude::*;
 use lariat_bevy::event::{AttachmentEnded, AttachmentFailed, EndReason};
 use lariat_bevy::{
-    At, Attachment, AttachmentReading, Bending, Body, BreakForce, CableAttachments, Cables, Error, KinematicTarget,
-    ToBody, lariat_ancf, lariat_rapier,
+    At, Attachment, AttachmentReading, Bending, Body, BreakForce, CableAttachments, Cables, Error, Gap,
+    KinematicTarget, ToBody, lariat_ancf, lariat_rapier,
 };
 
 /// A crate on a cable: cable, crate, and the two attachments.
@@ -16,6 +16,9 @@ fn hanging(world: &mut World) -> (Entity, Entity, Entity, Entity) {
     let hook = world.spawn(Attachment::ball(cable, At::End).to(load).at([0.0, 0.1, 0.0])).id();
     (cable, load, top, hook)
 }
+
+#[derive(Resource, Default)]
+struct Observed(Vec<AttachmentEnded>);
 
 fn ended(world: &mut World) -> Vec<AttachmentEnded> {
     world.resource_mut::<Messages<AttachmentEnded>>().drain().collect()
@@ -58,8 +61,13 @@ fn a_despawned_attachment_releases_the_body() {
     let mut world = world();
     let (cable, load, _, hook) = hanging(&mut world);
     steps(&mut world, 30);
+    world.add_observer(|event: On<AttachmentEnded>, mut observed: ResMut<Observed>| observed.0.push(event.clone()));
+    world.init_resource::<Observed>();
     world.despawn(hook);
     steps(&mut world, 31);
+    let event = AttachmentEnded { entity: hook, cable, body: Some(load), reason: EndReason::Released };
+    assert_eq!(ended(&mut world), std::slice::from_ref(&event));
+    assert_eq!(world.resource::<Observed>().0, [event]);
     assert!(height(&world, load) < -3.2);
     assert_eq!(world.get::<CableAttachments>(cable).unwrap().iter().count(), 1);
     assert!(world.get_entity(load).is_ok());
@@ -77,6 +85,7 @@ fn removing_the_body_relationship_releases_the_body_and_keeps_the_entity() {
         [AttachmentEnded { entity: hook, cable, body: Some(load), reason: EndReason::Released }]
     );
     assert!(height(&world, load) < -3.0);
+    world.get_mut::<Attachment>(hook).unwrap().gap = Gap::Close;
     world.entity_mut(hook).insert(ToBody(load));
     steps(&mut world, 60);
     assert_eq!(world.resource::<Cables>().attachments(), 2);
@@ -92,7 +101,17 @@ fn a_retargeted_attachment_closes_the_gap_to_the_other_body() {
         Body::fixed().at([1.0, -1.8, 0.0]).with(lariat_bevy::rapier::prelude::ColliderBuilder::cuboid(0.5, 0.1, 0.5));
     world.spawn(floor);
     steps(&mut world, 30);
+    // refused first: the load falls, and the cable is free there
     world.entity_mut(hook).insert(ToBody(other));
+    steps(&mut world, 2);
+    let failures: Vec<AttachmentFailed> = world.resource_mut::<Messages<AttachmentFailed>>().drain().collect();
+    let [AttachmentFailed { entity, error: Error::Coupling(lariat_rapier::Error::GapTooLong { gap, .. }) }] =
+        failures[..]
+    else {
+        panic!("{failures:?}");
+    };
+    assert!(entity == hook && (gap - 1.0).abs() < 0.2, "{gap} m");
+    world.get_mut::<Attachment>(hook).unwrap().gap = Gap::Close;
     for _ in 0..60 {
         steps(&mut world, 1);
         assert!(cable_of(&world, cable).positions().iter().all(|x| x.is_finite()));
@@ -148,6 +167,7 @@ fn an_impossible_attachment_fails_once_and_is_retried_when_it_changes() {
 fn attachments_pass_to_a_cable_that_replaces_another() {
     let mut world = world();
     let (cable, load, _, hook) = hanging(&mut world);
+    world.get_mut::<Attachment>(hook).unwrap().gap = Gap::Close;
     steps(&mut world, 30);
     world.entity_mut(cable).insert(soft([0.0; 3], [0.0, -2.0, 0.0]).elements(4));
     steps(&mut world, 60);
@@ -160,7 +180,8 @@ fn attachments_pass_to_a_cable_that_replaces_another() {
 #[test]
 fn attachments_pass_to_a_body_that_replaces_another() {
     let mut world = world();
-    let (_, load, _, _) = hanging(&mut world);
+    let (_, load, _, hook) = hanging(&mut world);
+    world.get_mut::<Attachment>(hook).unwrap().gap = Gap::Close;
     steps(&mut world, 30);
     world.entity_mut(load).insert(cube(0.1, 9.0, [0.0, -2.1, 0.0]));
     steps(&mut world, 120);

@@ -62,3 +62,34 @@ fn a_cable_breaks_at_its_peak_tension_and_the_rest_falls_with_its_load() {
     assert_relative_eq!(lengths[0] + lengths[1], 2.0, epsilon = 1e-9);
     assert!(world.get::<Bending>(rest).is_some() && world.get::<BreakTension>(rest).is_some());
 }
+
+/// A crate of 5 kg hangs at rest on a cable, both asleep, and the cable is weakened to 20 N, 30 N
+/// below its load: it breaks in the next step. A limit above its tension leaves it asleep.
+#[test]
+fn a_limit_that_is_put_on_a_sleeping_cable_breaks_it() {
+    let mut world = world();
+    let load = world.spawn(cube(0.1, 5.0, [0.0, -2.1, 0.0])).id();
+    let cable = world.spawn((soft([0.0; 3], [0.0, -2.0, 0.0]), Bending, Damping::critical_fraction(1.0))).id();
+    world.spawn(pin(cable));
+    world.spawn(Attachment::ball(cable, At::End).to(load).at([0.0, 0.1, 0.0]));
+    steps(&mut world, 600);
+    assert!(world.resource::<Cables>().is_asleep(cable));
+    world.entity_mut(cable).insert(BreakTension(100.0));
+    steps(&mut world, 10);
+    assert!(world.resource::<Cables>().is_asleep(cable));
+    assert_eq!(world.resource::<Messages<CableBroken>>().len(), 0);
+    world.get_mut::<BreakTension>(cable).unwrap().0 = 20.0;
+    steps(&mut world, 1);
+    let broken: Vec<CableBroken> = world.resource_mut::<Messages<CableBroken>>().drain().collect();
+    assert_eq!(broken.len(), 1);
+    let weight = 9.81 * (5.0 + cable_mass(0.01, 4000.0, 2.0));
+    assert!((broken[0].tension - weight).abs() < 1.0, "{broken:?} {weight} N");
+    let before = height(&world, load);
+    steps(&mut world, 30);
+    assert!(before - height(&world, load) > 1.0);
+}
+
+/// Mass in kg of a round cable: diameter in m, density in kg/m^3, length in m.
+fn cable_mass(diameter: f64, density: f64, length: f64) -> f64 {
+    core::f64::consts::FRAC_PI_4 * diameter * diameter * density * length
+}

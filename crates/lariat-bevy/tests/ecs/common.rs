@@ -46,6 +46,7 @@ pub fn height(world: &World, body: Entity) -> f64 {
     world.get::<BodyPose>(body).unwrap().position.y
 }
 
+/// The number of enabled bodies: all but the mark by which a set knows its world.
 pub fn bodies(world: &World) -> usize {
-    world.resource::<Physics>().bodies.len()
+    world.resource::<Physics>().bodies.iter().filter(|(_, body)| body.is_enabled()).count()
 }

@@ -143,3 +143,35 @@ fn damping_on_an_explicit_cable_changes_the_integrator_and_its_removal_restores_
     assert_eq!(world.resource::<Messages<CableFailed>>().len(), 0);
     assert_eq!(world.resource::<Diagnostics>().failed_steps, 0);
 }
+
+/// Damping of a cable without bending stiffness acts on its axial strain alone, whether [`Bending`]
+/// was never there or was removed; inserted again, it is damped again.
+#[test]
+fn a_cable_without_bending_stiffness_is_damped_along_its_axis_alone() {
+    let mut world = world();
+    let damped = |damping: Damping| (soft([0.0; 3], [2.0, 0.0, 0.0]), damping);
+    let limp = [Damping::time(0.01), Damping::critical_fraction(0.3)].map(|d| world.spawn(damped(d)).id());
+    let stiff = world.spawn((damped(Damping::time(0.01)), Bending)).id();
+    for cable in [limp[0], limp[1], stiff] {
+        world.spawn(pin(cable));
+    }
+    let times = |world: &World, cable: Entity| {
+        let damping = cable_of(world, cable).effects().damping.unwrap();
+        (damping.axial > 0.0, damping.bending > 0.0)
+    };
+    steps(&mut world, 10);
+    assert_eq!(limp.map(|cable| times(&world, cable)), [(true, false); 2]);
+    assert_eq!(times(&world, stiff), (true, true));
+    world.entity_mut(stiff).remove::<Bending>();
+    steps(&mut world, 10);
+    assert_eq!(times(&world, stiff), (true, false));
+    assert!(cable_of(&world, stiff).rule().bending == lariat_bevy::lariat_ancf::BendingRule::None);
+    world.entity_mut(stiff).insert(Bending);
+    steps(&mut world, 10);
+    assert_eq!(times(&world, stiff), (true, true));
+    let failures: Vec<CableFailed> = world.resource_mut::<Messages<CableFailed>>().drain().collect();
+    assert!(failures.is_empty(), "{failures:?}");
+    // a time that is not a number stays an error
+    let wrong = world.spawn(damped(Damping::time(f64::NAN))).id();
+    assert!(world.resource::<lariat_bevy::Cables>().get(wrong).is_err());
+}

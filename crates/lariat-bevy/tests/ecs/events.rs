@@ -4,7 +4,7 @@ use super::common::{bits, cable_of, cube, pin, soft, steps, world};
 use bevy_ecs::prelude::*;
 use lariat_bevy::event::{AttachmentEnded, CableAsleep, CableAwake, StepFailed};
 use lariat_bevy::lariat_rapier::BodyQuantity;
-use lariat_bevy::{At, Attachment, Bending, Cables, Damping, Diagnostics, Error, Physics, lariat_rapier};
+use lariat_bevy::{At, Attachment, Bending, BodyPose, Cables, Damping, Diagnostics, Error, Physics, lariat_rapier};
 
 #[derive(Resource, Default)]
 struct Log(Vec<(&'static str, Entity)>);
@@ -31,8 +31,8 @@ fn sleeping_and_waking_send_events() {
     assert_eq!(world.resource::<Log>().0, [("asleep", cable), ("awake", cable)]);
 }
 
-/// A body whose velocity is not a number: the step fails with the name of the cable, time stands
-/// still, and goes on when the velocity is finite again.
+/// A body whose velocity is not a number: the step fails with the name of the cable, whose time
+/// stands still, and goes on when the velocity is finite again. Another cable and a free body go on.
 #[test]
 fn a_failed_step_names_the_cable_and_keeps_the_last_good_state() {
     let mut world = world();
@@ -40,6 +40,7 @@ fn a_failed_step_names_the_cable_and_keeps_the_last_good_state() {
     let load = world.spawn(cube(0.1, 5.0, [0.0, -2.1, 0.0])).id();
     let cable = world.spawn((soft([0.0; 3], [0.0, -2.0, 0.0]), Name::new("sling"), Bending)).id();
     let other = world.spawn(soft([5.0, 0.0, 0.0], [6.0, 0.0, 0.0])).id();
+    let free = world.spawn(cube(0.1, 1.0, [3.0, 0.0, 0.0])).id();
     world.entity_mut(cable).observe(|event: On<StepFailed>, mut log: ResMut<Log>| log.0.push(("sling", event.entity)));
     world.entity_mut(other).observe(|event: On<StepFailed>, mut log: ResMut<Log>| log.0.push(("other", event.entity)));
     world.spawn(pin(cable));
@@ -55,12 +56,17 @@ fn a_failed_step_names_the_cable_and_keeps_the_last_good_state() {
     assert!(bits(&world, cable) == before);
     assert_eq!(world.resource::<Diagnostics>().failed_steps, 3);
     let failures: Vec<StepFailed> = world.resource_mut::<Messages<StepFailed>>().drain().collect();
-    let Error::Coupling(lariat_rapier::Error::BodyNotFinite { body, quantity: BodyQuantity::Velocity, .. }) =
-        failures[0].error
-    else {
+    let Error::Coupling(lariat_rapier::Error::StepRefused { cables, cause, .. }) = &failures[0].error else {
         panic!("{}", failures[0].error);
     };
+    assert_eq!(*cables, ["sling"]);
+    let lariat_rapier::Error::BodyNotFinite { body, quantity: BodyQuantity::Velocity, .. } = **cause else {
+        panic!("{cause}");
+    };
     assert_eq!(body, handle);
+    // all others went on
+    assert!((cable_of(&world, other).time() - 13.0 / 60.0).abs() < 1e-6);
+    assert!(world.get::<BodyPose>(free).unwrap().velocity.y < -9.81 * 12.5 / 60.0);
     world.resource_mut::<Physics>().bodies[handle].set_linvel(good, true);
     steps(&mut world, 10);
     assert_eq!(world.resource::<Log>().0.len(), 3);

@@ -4,6 +4,7 @@ use super::common::{bits, cable_of, cube, height, pin, soft, steps, world};
 use bevy_ecs::entity_disabling::Disabled;
 use bevy_ecs::prelude::*;
 use lariat_bevy::{At, Attachment, Bending, Cable, Cables, Diagnostics, Snapshot, install};
+use std::collections::BTreeMap;
 
 fn time(world: &World, cable: Entity) -> f64 {
     cable_of(world, cable).time()
@@ -67,6 +68,26 @@ fn a_cable_that_is_spawned_before_installation_is_built_in_the_first_step() {
     assert!(world.resource::<Cables>().get(cable).is_err());
     steps(&mut world, 10);
     assert!((time(&world, cable) - 10.0 / 60.0).abs() < 1e-6);
+}
+
+#[test]
+fn cables_follow_components_that_change_while_the_resource_is_taken_out() {
+    let mut world = world();
+    let [gone, replaced] = [0.0, 1.0].map(|z| world.spawn((soft([0.0, 0.0, z], [1.0, 0.0, z]), Bending)).id());
+    world.spawn(pin(gone));
+    world.spawn(pin(replaced));
+    steps(&mut world, 5);
+    let new = world.resource_scope(|world, _: Mut<Cables>| {
+        world.despawn(gone);
+        world.entity_mut(replaced).insert(soft([0.0, 0.0, 1.0], [1.0, 0.0, 1.0]).elements(3));
+        world.spawn(soft([0.0, 0.0, 2.0], [1.0, 0.0, 2.0])).id()
+    });
+    steps(&mut world, 5);
+    let cables = world.resource::<Cables>();
+    let elements: BTreeMap<Entity, usize> =
+        cables.iter().map(|(entity, cable)| (entity, cable.elements().len())).collect();
+    assert_eq!(elements, [(replaced, 3), (new, 10)].into());
+    assert_eq!(world.resource::<Cables>().attachments(), 1);
 }
 
 #[test]

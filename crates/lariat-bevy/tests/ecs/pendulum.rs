@@ -24,6 +24,7 @@ fn the_pendulum_is_bitwise_that_of_the_mechanics_alone() {
         .points([Vector3::zeros(), Vector3::new(2.0, 0.0, 0.0)])
         .section(section())
         .rule(Rule::G5_3.0)
+        .fidelity(lariat_ancf::Fidelity::Game)
         .fix(At::Start)
         .build()
         .unwrap();

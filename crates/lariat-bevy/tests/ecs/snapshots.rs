@@ -3,7 +3,9 @@
 use super::common::{bits, cable_of, cube, pin, soft, steps, world};
 use bevy_ecs::prelude::*;
 use lariat_bevy::rapier::prelude::ColliderBuilder;
-use lariat_bevy::{At, Attachment, AttachmentReading, Bending, Body, BodyPose, Cables, Damping, Drag, Snapshot};
+use lariat_bevy::{
+    At, Attachment, AttachmentReading, Bending, Body, BodyPose, Cables, Damping, Drag, Error, Physics, Snapshot,
+};
 
 /// A load that swings into a wall, on a cable with effects.
 fn scene(world: &mut World) -> (Entity, Entity, Entity) {
@@ -85,6 +87,26 @@ fn a_single_cable_can_be_restored_to_an_earlier_state() {
     steps(&mut world, 10);
     let then = bits(&world, cable);
     world.resource_mut::<Cables>().get_mut(cable).unwrap().restore(earlier).unwrap();
+    steps(&mut world, 10);
+    assert!(bits(&world, cable) == then);
+}
+
+/// Another engine owns the bodies when `Physics` does not hold them: neither saved nor restored, and
+/// nothing changes.
+#[test]
+fn a_snapshot_without_the_bodies_of_its_cables_is_refused() {
+    let mut world = world();
+    let (cable, ..) = scene(&mut world);
+    steps(&mut world, 10);
+    let snapshot = Snapshot::take(&mut world).unwrap();
+    steps(&mut world, 10);
+    let then = bits(&world, cable);
+    let engine = core::mem::take(&mut world.resource_mut::<Physics>().0);
+    assert!(matches!(Snapshot::take(&mut world), Err(Error::ForeignBodies { .. })));
+    assert!(matches!(snapshot.restore(&mut world), Err(Error::ForeignBodies { .. })));
+    assert!(bits(&world, cable) == then);
+    world.resource_mut::<Physics>().0 = engine;
+    snapshot.restore(&mut world).unwrap();
     steps(&mut world, 10);
     assert!(bits(&world, cable) == then);
 }

@@ -8,6 +8,7 @@
 //! | [`apply`] | gives Rapier the predicted motion; reverts it |
 //! | [`impedance`] | lets a body that may deviate feel its cables within Rapier's step |
 //! | [`reconcile`] | takes over what Rapier's step made of it |
+//! | [`refused`] | holds the bodies of an island that cannot step |
 
 pub(crate) mod apply;
 pub(crate) mod impedance;
@@ -16,13 +17,13 @@ pub(crate) mod predict;
 pub(crate) mod prediction;
 pub(crate) mod proximity;
 pub(crate) mod reconcile;
+pub(crate) mod refused;
 pub(crate) mod substepping;
 
 use crate::attach;
 use crate::contents::Contents;
-use crate::error::Error;
+use crate::error::{Error, Failure};
 use crate::events::Event;
-use crate::handle::CableHandle;
 use crate::islands::{Island, Islands};
 use crate::settings::Settings;
 use crate::sleep;
@@ -49,7 +50,13 @@ impl HostStep {
         !self.failed && self.done < self.steps
     }
 
-    /// Returns whether a prediction failed: Rapier must not step.
+    /// Returns whether all Rapier steps are done.
+    pub(crate) fn is_complete(&self) -> bool {
+        !self.failed && self.done == self.steps && self.dt > 0.0
+    }
+
+    /// Returns whether the host step failed as a whole: Rapier must not step. An island that cannot
+    /// step does not count: see [`CableSet::failures`](crate::CableSet::failures).
     pub fn has_failed(&self) -> bool {
         self.failed
     }
@@ -65,8 +72,8 @@ pub(crate) struct Stepper {
     /// Whether a prediction waits for its reconciliation.
     pending: bool,
     pub events: Vec<Event>,
-    /// The cables of the island whose step failed.
-    pub failed: Vec<CableHandle>,
+    /// The islands that could not step in this host step.
+    pub failures: Vec<Failure>,
 }
 
 /// Begins a host step of `world.integration_parameters.dt`, which becomes that of a Rapier step.
@@ -83,6 +90,7 @@ pub(crate) fn begin(
     let mut host = HostStep { dt, steps: 1, done: 0, failed: false, targets: KinematicTargets::default() };
     if dt > 0.0 {
         stepper.events.clear();
+        stepper.failures.clear();
         host.steps = substepping::count(contents, world, settings, f64::from(dt));
         host.targets = KinematicTargets::read(world);
         world.integration_parameters.dt = dt / host.steps as Real;
@@ -90,8 +98,8 @@ pub(crate) fn begin(
     Ok(host)
 }
 
-/// Predicts the next Rapier step of a host step. If an island cannot step, all of them and their
-/// bodies stay as they were before it.
+/// Predicts the next Rapier step of a host step. An island that cannot step stays as it is, with its
+/// bodies, for the rest of the host step.
 pub(crate) fn predict_next(
     stepper: &mut Stepper,
     contents: &mut Contents,
@@ -143,7 +151,8 @@ fn predict_islands(
 ) -> Result<(), Error> {
     if core::mem::take(&mut stepper.pending) {
         // predicted, and never reconciled
-        for (island, prediction) in stepper.islands.list.iter().zip(&stepper.predictions) {
+        for (island, prediction) in stepper.islands.list.iter().zip(&mut stepper.predictions) {
+            prediction.held.release(world);
             apply::revert_bodies(world, island, prediction);
         }
     }
@@ -152,7 +161,6 @@ fn predict_islands(
     stepper.islands.update(contents, world)?;
     stepper.predictions.resize_with(stepper.islands.list.len(), Default::default);
     stepper.predictions.iter_mut().for_each(|prediction| prediction.applied.clear());
-    stepper.failed.clear();
     let step = StepParameters {
         h: f64::from(world.integration_parameters.dt),
         rapier_steps,
@@ -160,13 +168,22 @@ fn predict_islands(
         sleep_speed: settings.sleep_speed,
     };
     for k in 0..stepper.predictions.len() {
-        if let Err(error) = predict_island(stepper, k, contents, world, &step) {
-            for (island, prediction) in stepper.islands.list.iter().zip(&stepper.predictions).take(k + 1) {
-                apply::revert(contents, world, island, prediction);
-            }
-            stepper.failed.extend(stepper.islands.list[k].cables.iter().map(|&c| CableHandle(c as u32)));
-            return Err(error);
+        let failed =
+            |failure: &Failure| failure.cables.iter().any(|c| stepper.islands.list[k].cables.contains(&(c.0 as usize)));
+        let refused = stepper.failures.iter().any(failed);
+        let outcome = if refused { Ok(()) } else { predict_island(stepper, k, contents, world, &step) };
+        let Stepper { islands, predictions, failures, .. } = &mut *stepper;
+        let (island, prediction) = (&islands.list[k], &mut predictions[k]);
+        if let Err(error) = outcome {
+            apply::revert(contents, world, island, prediction);
+            prediction.applied.clear();
+            impedance::disable_motors(contents, world, island.attachments.iter().flatten().copied());
+            failures.push(Failure::new(contents, island, error));
+        } else if !refused {
+            continue;
         }
+        prediction.refused = true;
+        prediction.held.hold(&contents.records, world, island);
     }
     stepper.pending = true;
     Ok(())
@@ -182,7 +199,9 @@ fn predict_island(
 ) -> Result<(), Error> {
     let Stepper { islands, predictions, solver, events, .. } = stepper;
     let (island, prediction): (&Island, &mut Prediction) = (&islands.list[k], &mut predictions[k]);
+    prediction.refused = false;
     prediction.snapshots.clear();
+    contents.align_clocks(&island.cables)?;
     let slots = island.cables.iter().filter_map(|&c| contents.cables.get(c));
     prediction.snapshots.extend(slots.map(|slot| slot.cable.snapshot().clone()));
     let ends_moved = island.bodies().next().is_some() && kinematic_ends::have_moved(contents, world, island, step.h);
@@ -205,7 +224,11 @@ pub(crate) fn reconcile(stepper: &mut Stepper, contents: &mut Contents, world: &
     }
     let h = f64::from(world.integration_parameters.dt);
     for (island, prediction) in stepper.islands.list.iter().zip(&mut stepper.predictions) {
-        reconcile::reconcile(contents, world, island, prediction, (h, settings.sleep_speed));
+        if core::mem::take(&mut prediction.refused) {
+            prediction.held.release(world);
+        } else {
+            reconcile::reconcile(contents, world, island, prediction, (h, settings.sleep_speed));
+        }
         prediction.applied.clear();
     }
 }

@@ -4,6 +4,7 @@
 use crate::body::SavedBody;
 use crate::mechanism::Mechanism;
 use crate::sleep::SleepState;
+use crate::step::refused::HeldBodies;
 use ::nalgebra::Vector3;
 use lariat_ancf::Snapshot;
 use lariat_ancf::island::{Impedance, RigidBody};
@@ -43,6 +44,9 @@ pub(crate) struct Prediction {
     /// By pin, the impulse of its motors in N s.
     pub impulses: Vec<Vector3<f64>>,
     pub sleep: SleepState,
+    /// Whether the island could not step, and the bodies that are held meanwhile.
+    pub refused: bool,
+    pub held: HeldBodies,
 }
 
 /// The motion that Rapier was given for a body, and what to restore afterwards.

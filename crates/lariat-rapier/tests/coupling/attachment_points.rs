@@ -4,7 +4,7 @@ use super::common::{add_cube, bits, cable, gap, l_stable_integrator, run, soft, 
 use lariat_rapier::convert::vector;
 use lariat_rapier::lariat_ancf::{At, Section, Vector3};
 use lariat_rapier::rapier::prelude::*;
-use lariat_rapier::{AttachmentKind, CableSet, Error};
+use lariat_rapier::{AttachmentKind, CableSet, Error, Gap};
 
 /// A load is attached to a taut rope at its middle, where there was no node.
 ///
@@ -21,8 +21,8 @@ fn a_load_in_the_middle_of_a_rope_hangs_in_a_triangle_of_forces() {
     let rope =
         rope.length(2.1).elements(25).fix(At::Start).fix(At::End).integrator(l_stable_integrator()).build().unwrap();
     let rope = set.insert(rope);
-    let first =
-        set.attach(&world, rope, At::ArcLength(1.05), load, Vector::new(0.0, 0.1, 0.0), AttachmentKind::Ball).unwrap();
+    let closing = AttachmentKind::Ball.with_gap(Gap::Close);
+    let first = set.attach(&world, rope, At::ArcLength(1.05), load, Vector::new(0.0, 0.1, 0.0), closing).unwrap();
     assert_eq!((set.get(rope).unwrap().nodes(), set.attachment(first).unwrap().node()), (27, 13));
     run(&mut world, &mut set, 900);
     let hook = set.get(rope).unwrap().sample(1.05).unwrap().position;
@@ -200,4 +200,42 @@ fn the_result_does_not_depend_on_the_order_of_insertion() {
         all
     });
     assert!(runs[0] == runs[1] && runs[1] == runs[2]);
+}
+
+/// An anchor far from the point of the cable is an error by default, with the distance, and changes
+/// nothing; a limit of the user's holds instead, and with [`Gap::Close`] the gap closes. The same for
+/// two cables that are tied.
+#[test]
+fn a_gap_is_refused_or_closed_as_the_user_says() {
+    for distance in [0.5, 2e-3, 0.9e-3] {
+        for kind in [AttachmentKind::Ball, AttachmentKind::Clamp] {
+            let mut world = PhysicsWorld::new();
+            let load = add_cube(&mut world, 5.0, 0.1, [2.0, -0.1, 0.0]);
+            let mut set = CableSet::new();
+            let rope = set.insert(cable([0.0; 3], [2.0, 0.0, 0.0], soft()).fix(At::Start).build().unwrap());
+            let anchor = Vector::new(0.0, 0.1, distance);
+            let nodes = set.get(rope).unwrap().nodes();
+            let attached = set.attach(&world, rope, 1.93, load, anchor - Vector::X * 0.07, kind);
+            assert_eq!(attached.is_ok(), distance < 1e-3);
+            if let Err(error) = attached {
+                let Error::GapTooLong { gap, limit, .. } = error else { panic!("{error}") };
+                assert!((gap - f64::from(distance)).abs() < 1e-6 && limit == 1e-3);
+                assert_eq!(set.get(rope).unwrap().nodes(), nodes);
+                let limit = kind.with_gap(Gap::Refuse(1.01 * f64::from(distance)));
+                let wide = set.attach(&world, rope, At::End, load, anchor, limit).unwrap();
+                set.detach(&mut world, wide).unwrap();
+                set.attach(&world, rope, At::End, load, anchor, kind.with_gap(Gap::Close)).unwrap();
+            }
+            run(&mut world, &mut set, 30);
+            assert!(gap(&set) < 1e-6, "{distance} m, {kind:?}: {:.1e} m", gap(&set));
+        }
+    }
+    let mut set = CableSet::new();
+    let [a, b] = [0.0, 0.5].map(|z| set.insert(cable([0.0, 0.0, z], [1.0, 0.0, z], soft()).build().unwrap()));
+    assert!(matches!(set.join((a, At::End), (b, At::End)), Err(Error::GapTooLong { gap: 0.5, limit: 1e-3, .. })));
+    assert!(set.join_with_gap((a, At::End), (b, At::End), Gap::Refuse(f64::NAN)).is_err());
+    set.join_with_gap((a, At::End), (b, At::End), Gap::Close).unwrap();
+    run(&mut PhysicsWorld::new(), &mut set, 30);
+    let [a, b] = [a, b].map(|c| set.get(c).unwrap().sample(1.0).unwrap().position);
+    assert!((a - b).norm() < 1e-6);
 }

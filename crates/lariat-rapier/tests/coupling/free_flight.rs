@@ -2,7 +2,7 @@
 
 use super::common::{cable, gap, soft, tension, weightless, wire};
 use lariat_rapier::convert::vector;
-use lariat_rapier::lariat_ancf::{At, Cable, Section, Vector3};
+use lariat_rapier::lariat_ancf::{At, Cable, Fidelity, Section, Vector3};
 use lariat_rapier::rapier::prelude::*;
 use lariat_rapier::{AttachmentKind, CableSet};
 
@@ -66,12 +66,17 @@ impl Steady {
 
 /// Balls of 1 kg and 10 kg on a cable of 1.8 m (soft; steel wire) rotate at 5 rad/s in space for 10
 /// s, from their steady state: momenta are conserved, and the tension at every node in every frame
-/// is the analytic one.
+/// is the analytic one. In fidelity game angular momentum is conserved to 1e-4, and the tension is
+/// right once the axial vibration of the first steps has decayed, after a second.
 ///
 /// Reference: conservation laws; [`Steady`].
 #[test]
 fn a_rotating_dumbbell_keeps_its_momenta_and_its_tension() {
-    for section in [soft(), wire()] {
+    let engineering = (Fidelity::Engineering, 1e-5, 5e-3);
+    let game = (Fidelity::Game, 1e-4, 5e-3);
+    for (section, (fidelity, most_turned, most_tension)) in
+        [(soft(), engineering), (wire(), engineering), (soft(), game), (wire(), game)]
+    {
         let steady = Steady::solve(section, 1.8, [1.0, 10.0], 11);
         let mut world = weightless();
         let ends = [steady.start - ARM, steady.positions[10].0 + ARM];
@@ -84,7 +89,7 @@ fn a_rotating_dumbbell_keeps_its_momenta_and_its_tension() {
         });
         let builder =
             cable([steady.start, 0.0, 0.0], [steady.start + 1.8, 0.0, 0.0], section).gravity(Vector3::zeros());
-        let mut sling: Cable = builder.build().unwrap();
+        let mut sling: Cable = builder.fidelity(fidelity).build().unwrap();
         let (q, rates): (Vec<_>, Vec<_>) = steady
             .positions
             .iter()
@@ -109,10 +114,13 @@ fn a_rotating_dumbbell_keeps_its_momenta_and_its_tension() {
         };
         let (p0, l0) = momenta(&world, &set);
         let (mut worst, mut widest, mut dp) = (0.0f64, 0.0f64, 0.0f64);
-        for _ in 0..600 {
+        for frame in 0..600 {
             set.step(&mut world).unwrap();
             widest = widest.max(gap(&set));
             dp = dp.max((momenta(&world, &set).0 - p0).norm());
+            if fidelity == Fidelity::Game && frame < 60 {
+                continue;
+            }
             for (node, n) in steady.tension.iter().enumerate() {
                 worst = worst.max((tension(&set, sling, 0.18 * node as f64) / n - 1.0).abs());
             }
@@ -120,10 +128,13 @@ fn a_rotating_dumbbell_keeps_its_momenta_and_its_tension() {
         let (p, l) = momenta(&world, &set);
         let turned = (l - l0).norm() / l0.norm();
         let case = format!(
-            "EA {:.1e} N: dp {dp:.1e} kg m/s, dL/L {turned:.1e}, tension {worst:.1e}, gap {widest:.1e} m",
+            "{fidelity:?}, EA {:.1e} N: dp {dp:.1e} kg m/s, dL/L {turned:.1e}, tension {worst:.1e}, gap {widest:.1e} m",
             section.axial_stiffness
         );
         println!("{case}");
-        assert!(dp < 1e-5 && (p - p0).norm() < 1e-5 && turned < 1e-5 && worst < 5e-3 && widest < 1e-6, "{case}");
+        assert!(
+            dp < 1e-5 && (p - p0).norm() < 1e-5 && turned < most_turned && worst < most_tension && widest < 1e-6,
+            "{case}"
+        );
     }
 }

@@ -4,7 +4,7 @@ use super::common::{add_cube, cable, gap, run, soft, tension};
 use lariat_rapier::convert::vector;
 use lariat_rapier::lariat_ancf::{At, Damping, PointLoad, Vector3};
 use lariat_rapier::rapier::prelude::*;
-use lariat_rapier::{AttachmentKind, CableHandle, CableSet, Event};
+use lariat_rapier::{AttachmentKind, CableHandle, CableSet, Event, Gap};
 
 struct Hoist {
     world: PhysicsWorld,
@@ -96,7 +96,8 @@ fn forces_impulses_loads_gravity_and_moved_supports_wake_a_load() {
         ("teleported winch", |h| h.world.bodies[h.winch].set_translation(Vector::new(0.1, 0.0, 0.0), true)),
         ("another cable", |h| {
             let line = h.set.insert(cable([1.0, -2.0, 0.0], [0.1, -2.1, 0.0], soft()).fix(At::Start).build().unwrap());
-            h.set.attach(&h.world, line, At::End, h.load, Vector::new(0.1, 0.0, 0.0), AttachmentKind::Ball).unwrap();
+            let closing = AttachmentKind::Ball.with_gap(Gap::Close);
+            h.set.attach(&h.world, line, At::End, h.load, Vector::new(0.1, 0.0, 0.0), closing).unwrap();
             h.world.bodies[h.load].wake_up(true);
             h.set.get_mut(line).unwrap().add_load(PointLoad::force(0.4, Vector3::new(0.0, -20.0, 0.0))).unwrap();
         }),

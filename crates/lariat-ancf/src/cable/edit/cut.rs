@@ -8,7 +8,8 @@
 //! # References
 //!
 //! The nodal coordinates of the cut are doubled ([`insert_node`](Cable::insert_node) places them first): mass, momenta and kinetic energy
-//! of the parts sum to those of the whole to rounding.
+//! of the parts sum to those of the whole to rounding. So does elastic energy at a node; between two nodes the part before the cut
+//! records the difference ([`inserted_energy`](Cable::inserted_energy)).
 
 use crate::cable::{At, Cable, Snapshot};
 use crate::effect::Cut;
@@ -50,7 +51,7 @@ impl Cable {
         let part =
             |q: &[f64], v: &[f64]| State { time: state.time, q: q.to_vec(), v: v.to_vec(), memory: Memory::default() };
         let (end, begin) = (6 * node + 6, 6 * node);
-        let head_state = Snapshot { state: part(&state.q[..end], &state.v[..end]), work: self.snapshot.work };
+        let head_state = Snapshot { state: part(&state.q[..end], &state.v[..end]), ..self.snapshot.clone() };
         let tail_state = Snapshot { state: part(&state.q[begin..], &state.v[begin..]), ..Snapshot::default() };
         let tail = Cable::from_parts(tail, tail_state, self.integrator)?;
         let mut head = Cable::from_parts(head, head_state, self.integrator)?;

@@ -3,8 +3,17 @@
 //! # Equation
 //!
 //! The element is split at xi; the new node gets the position and the slope dr/ds that the element has there, and their rates. A cubic is
-//! its own Hermite interpolant on any part, so both parts reproduce it exactly: strains, momenta and kinetic energy stay to rounding,
-//! elastic energy to the error of the rule.
+//! its own Hermite interpolant on any part, so both parts reproduce it exactly: strains, momenta and kinetic energy stay to rounding.
+//! Elastic energy stays where the rule integrates it exactly, else it changes by the error of the rule, because the rule of two elements
+//! sees more of the strain than that of one. With the projected axial rule, eps the Green strain and P its projection on linear functions
+//! of the whole element,
+//!
+//! ```text
+//! 0 <= U' - U <= (1 - delta) EA/2 int (eps - P eps)^2 dx
+//! ```
+//!
+//! since both parts together project on a larger space. The change is recorded:
+//! [`Cable::inserted_energy`](crate::Cable::inserted_energy).
 //!
 //! # Validity
 //!
@@ -12,7 +21,11 @@
 //!
 //! # References
 //!
-//! de Casteljau's subdivision.
+//! de Casteljau's subdivision; Pythagoras' theorem for the projections.
+//!
+//! # Alternatives considered
+//!
+//! A new node off the curve, where the energy is that of before: shape and angular momentum would jump instead.
 
 use crate::cable::{At, Cable};
 use crate::element::shape;
@@ -39,6 +52,11 @@ impl Cable {
         model.elements.insert(node, Element { length: (1.0 - xi) * whole.length, ..whole });
         model.supports.iter_mut().filter(|(n, _)| *n >= node).for_each(|(n, _)| *n += 1);
         model.effects.refine(e, xi);
+        let strain_energy = |cable: &Cable| {
+            let (axial, bending) = cable.system.forces.strain_energy(cable.positions());
+            axial + bending
+        };
+        let before = strain_energy(self);
         let mut snapshot = self.snapshot.clone();
         let cut = |x: &mut Vec<f64>| {
             let point = |weights: [f64; 4]| -> Vector3<f64> {
@@ -53,11 +71,23 @@ impl Cable {
         memory.acceleration.clear();
         memory.algorithmic.clear();
         memory.valid = false;
+        if !memory.differences.is_empty() {
+            cut(&mut memory.differences.velocity);
+            cut(&mut memory.differences.displacement);
+        }
         let mut cable = Cable::from_parts(model, snapshot, self.integrator)?;
         cable.diagnostics = self.diagnostics;
+        cable.default_integrator = self.default_integrator;
         cable.revision = self.revision;
+        cable.snapshot.inserted_energy += strain_energy(&cable) - before;
         cable.revise();
         *self = cable;
         Ok(node)
+    }
+
+    /// Returns the elastic energy in J that [inserted nodes](Self::insert_node) have added so far, those of [cuts](Self::cut) included: it
+    /// belongs in an energy balance over such an edit. Zero with the exact axial rule, or 5 Gauss points and more, and no bending.
+    pub fn inserted_energy(&self) -> f64 {
+        self.snapshot.inserted_energy
     }
 }

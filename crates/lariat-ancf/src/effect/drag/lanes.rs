@@ -13,7 +13,7 @@
 
 use super::{Drag, POINTS, Split};
 use crate::dual::{Dual, constant};
-use crate::effect::acts::{ForceInput, PointForce};
+use crate::effect::acts::{ForceInput, PointForce, StepInput};
 use crate::effect::{Flow, Target};
 use crate::element::shape;
 use crate::error::{Error, require_finite};
@@ -25,30 +25,31 @@ use fearless_simd::{Level, Simd, SimdBase, SimdFrom, f64x8};
 use nalgebra::Vector3;
 
 /// Pairs (k, m), k >= m, of the coordinates (r_i, t_i, r_j, t_j).
-const PAIRS: [(usize, usize); 10] = [(0, 0), (1, 0), (1, 1), (2, 0), (2, 1), (2, 2), (3, 0), (3, 1), (3, 2), (3, 3)];
+pub(super) const PAIRS: [(usize, usize); 10] =
+    [(0, 0), (1, 0), (1, 1), (2, 0), (2, 1), (2, 2), (3, 0), (3, 1), (3, 2), (3, 3)];
 
 /// A Gauss point: weight, and weights of position and slope on a unit element.
 #[derive(Clone, Copy, Debug)]
-struct Point {
-    xi: f64,
-    weight: f64,
-    position: [f64; 4],
-    slope: [f64; 4],
+pub(super) struct Point {
+    pub xi: f64,
+    pub weight: f64,
+    pub position: [f64; 4],
+    pub slope: [f64; 4],
 }
 
 /// Drag of all elements, as the evaluation needs it.
 #[derive(Clone, Debug)]
 pub(crate) struct DragTable {
-    points: Vec<Point>,
-    count: usize,
-    flow: Flow,
+    pub(super) points: Vec<Point>,
+    pub(super) count: usize,
+    pub(super) flow: Flow,
     /// Length in m, l k_n and l k_t in kg/m by element, padded.
-    length: Vec<f64>,
-    normal: Vec<f64>,
-    tangential: Vec<f64>,
+    pub(super) length: Vec<f64>,
+    pub(super) normal: Vec<f64>,
+    pub(super) tangential: Vec<f64>,
 }
 
-type Lanes<S> = f64x8<S>;
+pub(super) type Lanes<S> = f64x8<S>;
 
 impl DragTable {
     pub fn new(drag: &Drag, cable: &Target<'_>) -> Self {
@@ -101,7 +102,7 @@ impl DragTable {
     }
 
     #[inline(always)]
-    fn gather<S: Simd>(&self, simd: S, first: usize, x: &[f64], length: Lanes<S>) -> [[Lanes<S>; 3]; 4] {
+    pub(super) fn gather<S: Simd>(&self, simd: S, first: usize, x: &[f64], length: Lanes<S>) -> [[Lanes<S>; 3]; 4] {
         let zero = Lanes::splat(simd, 0.0);
         let mut out = [[zero; 3]; 4];
         if x.is_empty() {
@@ -121,7 +122,7 @@ impl DragTable {
 
     /// Returns the velocity of the fluid at a point of eight elements.
     #[inline(always)]
-    fn flow<S: Simd>(
+    pub(super) fn flow<S: Simd>(
         &self,
         simd: S,
         base: &Vector3<f64>,
@@ -218,7 +219,7 @@ impl DragTable {
     }
 
     #[inline(always)]
-    fn scatter_force<S: Simd>(&self, first: usize, force: &[[Lanes<S>; 3]; 4], out: &mut [f64]) {
+    pub(super) fn scatter_force<S: Simd>(&self, first: usize, force: &[[Lanes<S>; 3]; 4], out: &mut [f64]) {
         let mut raw = [[0.0; LANES]; 12];
         for i in 0..12 {
             force[i / 3][i % 3].store_slice(&mut raw[i]);
@@ -232,7 +233,12 @@ impl DragTable {
     }
 
     #[inline(always)]
-    fn scatter_matrix<S: Simd>(&self, first: usize, blocks: &[[[Lanes<S>; 3]; 3]; 10], a: &mut BlockTridiagonal) {
+    pub(super) fn scatter_matrix<S: Simd>(
+        &self,
+        first: usize,
+        blocks: &[[[Lanes<S>; 3]; 3]; 10],
+        a: &mut BlockTridiagonal,
+    ) {
         let mut raw = [[0.0; LANES]; 9];
         for (block, (k, m)) in blocks.iter().zip(PAIRS) {
             for i in 0..9 {
@@ -263,6 +269,20 @@ impl PointForce for DragTable {
         match matrix {
             None => dispatch!(level, simd => self.run(simd, input, out, None)),
             Some(matrix) => dispatch!(level, simd => self.run(simd, input, out, Some(matrix))),
+        }
+    }
+
+    /// Adds the drag over a step, linear in its mean velocity: see [`over_step`](super::over_step).
+    fn add_over_step(
+        &mut self,
+        level: Level,
+        step: StepInput<'_>,
+        out: &mut [f64],
+        matrix: Option<&mut BlockTridiagonal>,
+    ) {
+        match matrix {
+            None => dispatch!(level, simd => self.over_step(simd, step, out, None)),
+            Some(matrix) => dispatch!(level, simd => self.over_step(simd, step, out, Some(matrix))),
         }
     }
 
@@ -306,7 +326,7 @@ impl PointForce for DragTable {
 }
 
 #[inline(always)]
-fn combine<S: Simd>(x: &[[Lanes<S>; 3]; 4], weights: &[f64; 4]) -> [Lanes<S>; 3] {
+pub(super) fn combine<S: Simd>(x: &[[Lanes<S>; 3]; 4], weights: &[f64; 4]) -> [Lanes<S>; 3] {
     let c = |c: usize| x[0][c] * weights[0] + x[1][c] * weights[1] + x[2][c] * weights[2] + x[3][c] * weights[3];
     [c(0), c(1), c(2)]
 }

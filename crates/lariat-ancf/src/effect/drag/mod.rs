@@ -32,6 +32,7 @@
 //!   2 mm line at fidelity game, 2 % of the same under error control, and an unsymmetric matrix costs every iteration.
 
 mod lanes;
+mod over_step;
 
 pub(crate) use lanes::DragTable;
 
@@ -165,6 +166,21 @@ impl<T: Real> Split<T> {
         let (n, t) = (kn * self.size, kt * self.speed.abs() * self.speed);
         let x = |i: usize| -(n * self.normal[i]) - t * self.along[i];
         [x(0), x(1), x(2)]
+    }
+
+    /// Returns the symmetric matrix D of `f = -D v` for k_n and k_t, `[row][column]`.
+    #[inline(always)]
+    pub fn resistance(&self, kn: T, kt: T) -> [[T; 3]; 3] {
+        let (n, t) = (kn * self.size, kt * self.speed.abs());
+        let e = &self.along;
+        let mut out = [[n; 3]; 3];
+        for r in 0..3 {
+            for c in 0..3 {
+                let outer = (t - n) * (e[r] * e[c]);
+                out[r][c] = if r == c { n + outer } else { outer };
+            }
+        }
+        out
     }
 
     /// Returns `-df/dv` and `df/dt`, `[row][column]`.

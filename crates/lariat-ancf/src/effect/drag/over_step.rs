@@ -1,0 +1,82 @@
+//! Drag over a step of the [discrete gradient](crate::integrate::discrete_gradient): linear in the mean velocity, with coefficients of the
+//! iterate about which the step is linearised.
+//!
+//! # Equation
+//!
+//! ```text
+//! f = -D (v^ - u),   D = k_n |w_n| (I - e e^T) + k_t |w.e| e e^T,   w = v - u of that iterate, e its direction
+//! ```
+//!
+//! D is positive semi-definite, so the power in a fluid at rest is never positive, at any step and any iterate, and the step matrix stays
+//! definite. At convergence w = v^ - u, and this is the force of [`drag`](super).
+
+use super::Split;
+use super::lanes::{DragTable, Lanes, PAIRS, combine};
+use crate::effect::acts::StepInput;
+use crate::element::gram::dot;
+use crate::integrate::discrete_gradient::BETA;
+use crate::linalg::BlockTridiagonal;
+use crate::simd::{LANES, load};
+use fearless_simd::{Simd, SimdBase};
+
+impl DragTable {
+    #[inline(always)]
+    pub(super) fn over_step<S: Simd>(
+        &self,
+        simd: S,
+        step: StepInput<'_>,
+        out: &mut [f64],
+        mut matrix: Option<&mut BlockTridiagonal>,
+    ) {
+        let base = self.flow.in_time(step.time);
+        let zero = Lanes::splat(simd, 0.0);
+        for first in (0..self.count).step_by(LANES) {
+            let length = load(simd, &self.length, first);
+            let inverse = Lanes::splat(simd, 1.0) / length;
+            let [x, about, velocity] =
+                [step.middle_before, step.velocity_before, step.velocity].map(|x| self.gather(simd, first, x, length));
+            let (kn, kt) = (load(simd, &self.normal, first), load(simd, &self.tangential, first));
+            let mut force = [[zero; 3]; 4];
+            let mut blocks = [[[zero; 3]; 3]; 10];
+            for point in &self.points {
+                let place = combine(&x, &point.position);
+                let slope = combine(&x, &point.slope).map(|c| c * inverse);
+                let flow = self.flow(simd, &base, first, point.xi, &place);
+                let relative = |velocity: &[[Lanes<S>; 3]; 4]| {
+                    let v = combine(velocity, &point.position);
+                    [v[0] - flow[0], v[1] - flow[1], v[2] - flow[2]]
+                };
+                let drag = Split::new(&relative(&about), &slope).resistance(kn * point.weight, kt * point.weight);
+                let v = relative(&velocity);
+                let f = [dot(&drag[0], &v), dot(&drag[1], &v), dot(&drag[2], &v)];
+                for k in 0..4 {
+                    for c in 0..3 {
+                        force[k][c] -= f[c] * point.position[k];
+                    }
+                }
+                if matrix.is_some() {
+                    for (block, (k, m)) in blocks.iter_mut().zip(PAIRS) {
+                        let hh = BETA * step.h * point.position[k] * point.position[m];
+                        for r in 0..3 {
+                            for c in 0..3 {
+                                block[r][c] += drag[r][c] * hh;
+                            }
+                        }
+                    }
+                }
+            }
+            for k in [1, 3] {
+                force[k] = force[k].map(|f| f * length);
+            }
+            self.scatter_force(first, &force, out);
+            if let Some(a) = &mut matrix {
+                for (block, (k, m)) in blocks.iter_mut().zip(PAIRS) {
+                    for _ in 0..k % 2 + m % 2 {
+                        *block = block.map(|row| row.map(|x| x * length));
+                    }
+                }
+                self.scatter_matrix(first, &blocks, a);
+            }
+        }
+    }
+}

@@ -1,0 +1,110 @@
+//! The memory of the method, and the buffers of a step.
+
+use crate::integrate::State;
+use serde::{Deserialize, Serialize};
+
+/// Changes of velocities and coordinates over the last step: what the discrete gradient carries to the next one. Plain data, part of a
+/// snapshot.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Differences {
+    /// Change of velocities, flat as these; empty if the state was not the result of a step of this method.
+    pub velocity: Vec<f64>,
+    /// Change of coordinates, flat as these; empty as above.
+    pub displacement: Vec<f64>,
+    /// Length of the step in s.
+    pub step: f64,
+    /// Revision of the system's description at that step.
+    pub revision: u64,
+}
+
+impl Differences {
+    /// Forgets the last step: the next one begins without memory.
+    pub(crate) fn clear(&mut self) {
+        self.velocity.clear();
+        self.displacement.clear();
+        self.step = 0.0;
+        self.revision = 0;
+    }
+
+    /// Returns whether there is no last step.
+    pub(crate) fn is_empty(&self) -> bool {
+        self.velocity.is_empty()
+    }
+
+    /// Copies `other` into the existing vectors.
+    pub(crate) fn copy_from(&mut self, other: &Differences) {
+        self.velocity.clone_from(&other.velocity);
+        self.displacement.clone_from(&other.displacement);
+        self.step = other.step;
+        self.revision = other.revision;
+    }
+}
+
+/// Vectors of a step, with as many numbers as there are coordinates; empty until the method is used.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Buffers {
+    /// Length of the step in s.
+    pub h: f64,
+    /// Change of velocities in the step before, O v.
+    pub velocity_before: Vec<f64>,
+    /// Change of coordinates in the step before.
+    pub change_before: Vec<f64>,
+    /// Share of it that counts.
+    pub kept: f64,
+    /// Change of velocities D v of the present iterate.
+    pub velocity_change: Vec<f64>,
+    /// Change of coordinates D q of the present iterate.
+    pub change: Vec<f64>,
+    /// D q of the iterate about which the last linear solve was made; empty before the first.
+    pub linearised: Vec<f64>,
+    /// What is taken from the velocities at the end, if the step makes energy; else empty.
+    pub taken: Vec<f64>,
+    /// Minus the residual.
+    pub rhs: Vec<f64>,
+    /// Forces without potential.
+    pub external: Vec<f64>,
+    /// Mean coordinates and velocities of the present iterate, and of the one about which it was linearised.
+    pub means: [Vec<f64>; 4],
+    /// Any product.
+    pub product: Vec<f64>,
+}
+
+impl Buffers {
+    /// Takes up the memory of `state` for a step of length `h` (s), and predicts its changes by a constant acceleration.
+    ///
+    /// After a longer step the changes are scaled down to the length of this one, which only loses energy of the store; after a
+    /// shorter one they stay.
+    pub fn recall(&mut self, state: &State, h: f64) {
+        let differences = &state.memory.differences;
+        let size = state.q.len();
+        self.h = h;
+        self.kept = if differences.step > h { h / differences.step } else { 1.0 };
+        self.velocity_before.clear();
+        self.velocity_before.extend(differences.velocity.iter().map(|x| self.kept * x));
+        self.velocity_before.resize(size, 0.0);
+        self.change_before.clone_from(&differences.displacement);
+        self.change_before.resize(size, 0.0);
+        for own in [&mut self.rhs, &mut self.external, &mut self.product] {
+            own.resize(size, 0.0);
+        }
+        self.linearised.clear();
+        self.taken.clear();
+        self.velocity_change.clone_from(&self.velocity_before);
+        self.change.clear();
+        self.change.extend(state.v.iter().zip(&self.velocity_before).map(|(v, before)| h * (v + 0.5 * before)));
+    }
+
+    /// Computes the mean coordinates and velocities.
+    pub fn find_means(&mut self, q: &[f64]) {
+        let rate = 1.0 / self.h;
+        let [middle, velocity, middle_before, velocity_before] = &mut self.means;
+        let about = if self.linearised.is_empty() { &self.change } else { &self.linearised };
+        for (middle, velocity, change) in [(middle, velocity, &self.change), (middle_before, velocity_before, about)] {
+            middle.clear();
+            middle.extend(q.iter().zip(change).map(|(q, d)| q + 0.5 * d));
+            velocity.clear();
+            velocity.extend(change.iter().map(|d| rate * d));
+        }
+    }
+}

@@ -1,0 +1,148 @@
+//! The energy law of a step by its terms, and what a system must be able to do.
+
+use crate::error::StepFailure;
+use serde::{Deserialize, Serialize};
+
+/// Terms of the energy law `D H = work - losses + residual` of the [discrete gradient](crate::integrate::discrete_gradient) since the
+/// cable was built, in J. The work of effects, internal damping among them, is in [`EffectWork`](crate::EffectWork).
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct EnergyLaw {
+    /// Numerical dissipation; never falls.
+    pub numerical: f64,
+    /// Energy of motion relative to rigid motion, taken where the iteration did not converge; never falls.
+    pub rescaled: f64,
+    /// Work of supports that move.
+    pub supports: f64,
+    /// Work of point loads.
+    pub loads: f64,
+    /// Sum over all steps of the product of the residual and the velocity: energy by which the iteration missed the law.
+    pub residual: f64,
+    /// Most energy that a single step made: the product of its residual and velocity beyond what it lost. At most the
+    /// tolerance, 1e-9 of the energy of the system.
+    pub made: f64,
+}
+
+impl EnergyLaw {
+    /// Adds a step.
+    pub(crate) fn add(&mut self, step: &Balance) {
+        self.numerical += step.numerical;
+        self.rescaled += step.rescaled;
+        self.supports += step.supports + step.closing;
+        self.loads += step.loads;
+        self.residual += step.residual;
+        self.made = self.made.max(step.excess());
+    }
+
+    /// Adds another part of the run.
+    pub(crate) fn merge(&mut self, other: &EnergyLaw) {
+        self.numerical += other.numerical;
+        self.rescaled += other.rescaled;
+        self.supports += other.supports;
+        self.loads += other.loads;
+        self.residual += other.residual;
+        self.made = self.made.max(other.made);
+    }
+
+    /// The terms, to check them.
+    pub(crate) fn terms(&self) -> [f64; 6] {
+        let EnergyLaw { numerical, rescaled, supports, loads, residual, made } = *self;
+        [numerical, rescaled, supports, loads, residual, made]
+    }
+}
+
+/// The law of one step, in J.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct Balance {
+    /// Product of the residual and the velocity, over free coordinates.
+    pub residual: f64,
+    /// Numerical dissipation.
+    pub numerical: f64,
+    /// Dissipation by effects within elements.
+    pub effects: f64,
+    /// Work of supports that move.
+    pub supports: f64,
+    /// Work of what closes gaps of pins and rotates clamps into their direction.
+    pub closing: f64,
+    /// Work of point loads.
+    pub loads: f64,
+    /// Energy taken from velocities.
+    pub rescaled: f64,
+    /// Kinetic and strain energy at the beginning, and the weight times 1 mm.
+    pub held: f64,
+}
+
+impl Balance {
+    /// Adds the law of another part of the system.
+    pub fn add(&mut self, other: &Balance) {
+        self.residual += other.residual;
+        self.numerical += other.numerical;
+        self.effects += other.effects;
+        self.supports += other.supports;
+        self.closing += other.closing;
+        self.loads += other.loads;
+        self.rescaled += other.rescaled;
+        self.held += other.held;
+    }
+
+    /// Returns what energies are compared with: the energy held at the beginning, and the work of supports and loads.
+    pub fn scale(&self) -> f64 {
+        self.held + self.supports.abs() + self.loads.abs()
+    }
+
+    /// Returns the energy that the step makes.
+    pub fn excess(&self) -> f64 {
+        self.residual - self.numerical - self.effects - self.rescaled
+    }
+}
+
+/// A mechanical system with discrete gradients, at its present state.
+pub(crate) trait DiscreteGradientSystem {
+    /// Returns the present time in s.
+    fn time(&self) -> f64;
+
+    /// Sets the present time to `time` (s), from which it differs by rounding.
+    fn set_time(&mut self, time: f64);
+
+    /// Begins a host step: puts prescribed coordinates in place if supports or the state were changed.
+    fn begin(&mut self);
+
+    /// Begins a step of length `h` (s): sets the first iterate.
+    fn predict(&mut self, h: f64);
+
+    /// Takes one Newton iteration, and returns what its result does to the energy.
+    ///
+    /// # Errors
+    /// If the matrix is singular or a number is not finite.
+    fn iterate(&mut self) -> Result<Balance, StepFailure>;
+
+    /// Scales velocities relative to rigid motion down until the step makes no energy; returns false, and changes nothing, if that
+    /// would take more than half of their energy.
+    fn rescale(&mut self, balance: &mut Balance) -> bool;
+
+    /// Makes the end of the step the present state.
+    fn accept(&mut self, balance: &Balance);
+
+    /// Counts an event.
+    fn count(&mut self, event: Event);
+}
+
+/// What happened to a step for which one iteration was not enough.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Event {
+    /// Velocities were scaled down.
+    Rescaled,
+    /// The step was divided.
+    Split,
+}
+
+/// Share of the velocities relative to rigid motion that a step may lose by rescaling: that of half of their energy.
+const MAX_TAKEN_SHARE: f64 = 0.292_893_218_813_452_5;
+
+/// Returns the smaller share u for which v - u w has less kinetic energy than v by the excess, from `1/2 w.M w` and `v.M w`; `None` if
+/// there is none that is small enough.
+pub(crate) fn share_to_take(energy: f64, product: f64, excess: f64) -> Option<f64> {
+    let root = product * product - 4.0 * energy * excess;
+    let share = (product - root.max(0.0).sqrt()) / (2.0 * energy);
+    (root >= 0.0 && (0.0..=MAX_TAKEN_SHARE).contains(&share)).then_some(share)
+}

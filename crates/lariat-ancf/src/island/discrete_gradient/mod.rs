@@ -1,0 +1,317 @@
+//! An island under the [discrete gradient](crate::integrate::discrete_gradient): cables and bodies in one step, under one energy law.
+//!
+//! # Equation
+//!
+//! The unknowns of Newton's iteration are the changes of velocities D v of the cables and D u of the [bodies](self::body); held
+//! coordinates [follow](self::holds). Each cable is condensed on them as for the other integrators, and the matrix of the bodies is
+//!
+//! ```text
+//! B + sum G^T W G + b h/2 (p.rho)+ (1 - rho rho^T/rho^2)          G = (1, -[arm]x)
+//! ```
+//!
+//! with the condensed matrices W and the stiffening part of the levers under the impulses p of the pins. It is positive definite if the
+//! step matrices of the cables are. The energy law is that of the whole: forces and torques on the bodies do work, as do gaps that close
+//! and the axes along which a body is locked.
+
+mod body;
+mod holds;
+mod host_step;
+mod rescale;
+
+pub(super) use host_step::HostStep;
+
+use super::condense::Condensed;
+use super::dense::Dense;
+use super::hold::vector;
+use super::layout::Layout;
+use super::pin_accounts::PinAccounts;
+use super::rotation::skew;
+use crate::cable::Cable;
+use crate::effect::EffectWork;
+use crate::error::StepFailure;
+use crate::integrate::State;
+use crate::integrate::discrete_gradient::{BETA, Balance, DiscreteGradientSystem, Event};
+use crate::support::SlopeSupport;
+use crate::system::{CableStep, Equations, dot, project_vector};
+use body::BodyStep;
+use holds::HoldStep;
+use nalgebra::{Matrix3, Vector3};
+
+/// Length below which the free direction of a clamped slope has no direction.
+const MIN_DIRECTION: f64 = 1e-9;
+
+/// Matrices and vectors of a step.
+#[derive(Clone, Debug, Default)]
+pub(super) struct StepBuffers {
+    pub bodies: Vec<BodyStep>,
+    pub cables: Vec<CableBuffers>,
+    /// The matrix of the bodies, and its factors.
+    matrix: Vec<f64>,
+    dense: Dense,
+    /// Rows of the bodies, then their increments.
+    rows: Vec<f64>,
+    /// By pin, velocity of node and slope beside those of the body when the host step began.
+    pub deviations: Vec<[Vector3<f64>; 2]>,
+}
+
+/// Those of one cable.
+#[derive(Clone, Debug, Default)]
+pub(super) struct CableBuffers {
+    pub holds: Vec<HoldStep>,
+    condensed: Condensed,
+    /// The cable at the beginning of the host step.
+    pub start: State,
+}
+
+/// An island during one host step.
+pub(super) struct IslandStep<'a, 'b> {
+    pub cables: &'a mut [&'b mut Cable],
+    pub layout: &'a Layout,
+    pub accounts: &'a mut PinAccounts,
+    pub buffers: &'a mut StepBuffers,
+}
+
+impl StepBuffers {
+    /// Begins a host step.
+    pub fn begin(&mut self, cables: &[&mut Cable], layout: &Layout) {
+        self.bodies.clear();
+        self.bodies.extend(layout.bodies.iter().map(BodyStep::new));
+        self.rows.resize(6 * layout.bodies.len(), 0.0);
+        self.cables.resize_with(cables.len(), CableBuffers::default);
+        for ((own, part), cable) in self.cables.iter_mut().zip(&layout.parts).zip(cables) {
+            own.holds.clear();
+            own.holds.extend(part.holds.iter().map(|hold| HoldStep::new(hold, part.at, layout.pins[hold.pin].body)));
+            own.start.copy_from(&cable.snapshot.state);
+        }
+    }
+}
+
+impl IslandStep<'_, '_> {
+    /// Sets held coordinates of the iterate to where their bodies are, and the free directions of clamped slopes.
+    fn follow(&mut self) {
+        let StepBuffers { bodies, cables: own, .. } = &mut *self.buffers;
+        for (cable, own) in self.cables.iter_mut().zip(own) {
+            for hold in &mut own.holds {
+                let CableStep { state, buffers, .. } = cable.step_parts();
+                hold.follow(self.layout, &bodies[hold.body], state, buffers);
+                if hold.slope
+                    && let Some(along) = hold.along.try_normalize(MIN_DIRECTION)
+                    && let Some((_, support)) = cable.model.supports.iter_mut().find(|(node, _)| *node == hold.node)
+                {
+                    support.slope = SlopeSupport::Attached(along);
+                }
+            }
+        }
+    }
+
+    /// Computes residuals and step matrices of all cables, factors and condenses these, and sums the rows of the bodies.
+    fn linearise(&mut self) -> Result<(), StepFailure> {
+        let StepBuffers { bodies, cables: own, rows, .. } = &mut *self.buffers;
+        rows.fill(0.0);
+        for ((cable, own), part) in self.cables.iter_mut().zip(own).zip(&self.layout.parts) {
+            let CableStep { mut equations, state, buffers } = cable.step_parts();
+            equations.diagnostics.newton_iterations += 1;
+            equations.step_residual(state, buffers, true, &mut EffectWork::default());
+            own.pass_impulses(&buffers.rhs, rows);
+            own.condensed.read(&equations.system.step.matrix, &part.holds);
+            equations.factor_to_solve()?;
+            let (level, model) = (equations.system.level, equations.model);
+            let factors = &equations.system.step.factorisation;
+            own.condensed.complete(level, factors, &part.holds, |x| project_vector(model, x));
+        }
+        for (body, row) in bodies.iter().zip(rows.chunks_exact_mut(6)) {
+            body.complete_row(row);
+        }
+        Ok(())
+    }
+
+    /// Factors the matrix of the bodies for steps of length `h` (s).
+    fn factor_bodies(&mut self, h: f64) -> Result<(), StepFailure> {
+        let StepBuffers { bodies, cables, matrix, dense, .. } = &mut *self.buffers;
+        let n = 6 * bodies.len();
+        matrix.clear();
+        matrix.resize(n * n, 0.0);
+        let mut add = |row: usize, column: usize, block: &Matrix3<f64>| {
+            for r in 0..3 {
+                for c in 0..3 {
+                    matrix[(row + r) * n + column + c] += block[(r, c)];
+                }
+            }
+        };
+        for (i, body) in bodies.iter().enumerate() {
+            let own = body.world_matrix();
+            for (r, c) in [(0, 0), (0, 3), (3, 0), (3, 3)] {
+                add(6 * i + r, 6 * i + c, &own.fixed_view::<3, 3>(r, c).into_owned());
+            }
+        }
+        for CableBuffers { holds, condensed, .. } in cables.iter() {
+            let count = 3 * holds.len();
+            for (a, hold) in holds.iter().enumerate() {
+                let first = 6 * hold.body;
+                add(first + 3, first + 3, &(hold.stiffening() * (0.5 * BETA * h)));
+                let ga = -skew(&hold.arm);
+                for (b, other) in holds.iter().enumerate() {
+                    let second = 6 * other.body;
+                    let block = Matrix3::from_fn(|r, c| condensed.w[(3 * a + r) * count + 3 * b + c]);
+                    let rotated = block * -skew(&other.arm);
+                    add(first + 3, second + 3, &(ga.transpose() * rotated));
+                    if !hold.slope {
+                        add(first, second + 3, &rotated);
+                    }
+                    if !other.slope {
+                        add(first + 3, second, &(ga.transpose() * block));
+                    }
+                    if !hold.slope && !other.slope {
+                        add(first, second, &block);
+                    }
+                }
+            }
+        }
+        for (i, body) in bodies.iter().enumerate() {
+            for x in (0..6).filter(|&x| !body.free[x]) {
+                let row = 6 * i + x;
+                for j in 0..n {
+                    matrix[row * n + j] = 0.0;
+                    matrix[j * n + row] = 0.0;
+                }
+                matrix[row * n + row] = 1.0;
+            }
+        }
+        Ok(dense.factor(matrix, n)?)
+    }
+
+    /// Solves for the increments and adds them to the iterate.
+    fn add_increment(&mut self) -> Result<(), StepFailure> {
+        let StepBuffers { bodies, cables: own, dense, rows, .. } = &mut *self.buffers;
+        for (cable, own) in self.cables.iter_mut().zip(own.iter()) {
+            let CableStep { mut equations, buffers, .. } = cable.step_parts();
+            equations.solve(&mut buffers.rhs);
+            for (h, hold) in own.holds.iter().enumerate() {
+                let impulse = Vector3::from_fn(|x, _| -own.condensed.border(3 * h + x, &buffers.rhs));
+                hold.pass(&impulse, rows);
+            }
+        }
+        for (body, row) in bodies.iter().zip(rows.chunks_exact_mut(6)) {
+            body.lock(row);
+        }
+        dense.solve(rows);
+        for (cable, own) in self.cables.iter_mut().zip(own.iter()) {
+            let CableStep { equations, buffers, .. } = cable.step_parts();
+            for (h, hold) in own.holds.iter().enumerate() {
+                let moved = hold.moved(rows);
+                for x in 0..3 {
+                    own.condensed.spread(3 * h + x, moved[x], &mut buffers.rhs);
+                }
+            }
+            for hold in &own.holds {
+                let moved = hold.moved(rows);
+                for x in 0..3 {
+                    // a slope is free along its direction
+                    let along = if hold.slope { buffers.rhs[hold.at + x] } else { 0.0 };
+                    buffers.rhs[hold.at + x] = along + moved[x];
+                }
+            }
+            if !buffers.rhs.iter().all(|x| x.is_finite()) {
+                return Err(equations.not_finite("Newton increment", &buffers.rhs));
+            }
+            Equations::apply_increment(buffers);
+        }
+        for (body, increment) in bodies.iter_mut().zip(rows.chunks_exact(6)) {
+            body.add(increment);
+        }
+        Ok(())
+    }
+
+    /// Returns what the present iterate does to the energy.
+    fn balance(&mut self) -> Balance {
+        let StepBuffers { bodies, cables: own, rows, .. } = &mut *self.buffers;
+        rows.fill(0.0);
+        let mut total = Balance::default();
+        for (cable, own) in self.cables.iter_mut().zip(own) {
+            let CableStep { mut equations, state, buffers } = cable.step_parts();
+            let mut work = EffectWork::default();
+            total.add(&equations.step_balance(state, buffers, &mut work));
+            equations.system.meter.work_of_step = work;
+            own.pass_impulses(&buffers.rhs, rows);
+            for hold in &own.holds {
+                total.residual += hold.residual(buffers.h);
+                total.closing += hold.work(buffers.h);
+                buffers.rhs[hold.at..hold.at + 3].fill(0.0);
+            }
+            project_vector(equations.model, &mut buffers.rhs);
+            total.residual -= dot(&buffers.rhs, &buffers.change) / buffers.h;
+        }
+        for (body, row) in bodies.iter().zip(rows.chunks_exact_mut(6)) {
+            body.complete_row(row);
+            body.add_balance(row, &mut total);
+        }
+        total
+    }
+}
+
+impl CableBuffers {
+    /// Reads the impulses of the holds from the rows of the cable, and adds them to the rows of the bodies.
+    fn pass_impulses(&mut self, rhs: &[f64], rows: &mut [f64]) {
+        for hold in &mut self.holds {
+            hold.impulse = vector(&rhs[hold.at..]);
+            hold.pass(&hold.impulse, rows);
+        }
+    }
+}
+
+impl DiscreteGradientSystem for IslandStep<'_, '_> {
+    fn time(&self) -> f64 {
+        self.cables[0].time()
+    }
+
+    fn set_time(&mut self, time: f64) {
+        self.cables.iter_mut().for_each(|cable| cable.snapshot.state.time = time);
+    }
+
+    fn begin(&mut self) {
+        for cable in self.cables.iter_mut() {
+            let CableStep { equations, state, .. } = cable.step_parts();
+            equations.begin_host_step(state);
+        }
+    }
+
+    fn predict(&mut self, h: f64) {
+        for cable in self.cables.iter_mut() {
+            let CableStep { equations, state, buffers } = cable.step_parts();
+            buffers.recall(state, h);
+            equations.prescribe_change(state, buffers);
+        }
+        self.buffers.bodies.iter_mut().for_each(|body| body.predict(h));
+        self.follow();
+    }
+
+    fn iterate(&mut self) -> Result<Balance, StepFailure> {
+        self.linearise()?;
+        self.factor_bodies(self.cables[0].step_buffers.h)?;
+        self.add_increment()?;
+        self.follow();
+        Ok(self.balance())
+    }
+
+    fn rescale(&mut self, balance: &mut Balance) -> bool {
+        rescale::rescale(self, balance)
+    }
+
+    fn accept(&mut self, balance: &Balance) {
+        for (cable, own) in self.cables.iter_mut().zip(&self.buffers.cables) {
+            let CableStep { mut equations, state, buffers } = cable.step_parts();
+            for hold in &own.holds {
+                let action = hold.action(&self.buffers.bodies[hold.body], buffers.h);
+                self.accounts.pins[hold.pin].add_mean(buffers.h, hold.slope, action);
+            }
+            equations.accept_step(state, buffers);
+        }
+        self.buffers.bodies.iter_mut().for_each(BodyStep::accept);
+        // the law is that of the whole: the first cable keeps it
+        self.cables[0].system.meter.law.add(balance);
+    }
+
+    fn count(&mut self, event: Event) {
+        self.cables.iter_mut().for_each(|cable| cable.step_parts().count(event));
+    }
+}

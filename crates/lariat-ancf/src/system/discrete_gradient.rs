@@ -1,0 +1,299 @@
+//! One cable under the [discrete gradient](crate::integrate::discrete_gradient).
+
+use super::lanes::MatrixOutput;
+use super::lanes::discrete_gradient::{CoordinateStep, ElementLoss};
+use super::rigid_motion::relative_velocities;
+use super::{Equations, System, project_vector};
+use crate::cable::Cable;
+use crate::effect::EffectWork;
+use crate::effect::acts::{ForceInput, PointForce, StepInput};
+use crate::error::StepFailure;
+use crate::integrate::State;
+use crate::integrate::discrete_gradient::{
+    ALPHA, BETA, Balance, Buffers, DiscreteGradientSystem, Event, share_to_take,
+};
+use crate::support::{SlopeSupport, Support};
+use core::ops::Range;
+
+/// A cable, its state and the buffers of a step.
+pub(crate) struct CableStep<'a> {
+    pub equations: Equations<'a>,
+    pub state: &'a mut State,
+    pub buffers: &'a mut Buffers,
+}
+
+/// Returns the components of a node (r, t) that a support prescribes.
+fn prescribed(support: &Support) -> Range<usize> {
+    let first = if support.position.is_some() { 0 } else { 3 };
+    let last = if matches!(support.slope, SlopeSupport::Prescribed(_)) { 6 } else { 3 };
+    first..last
+}
+
+pub(crate) fn dot(x: &[f64], y: &[f64]) -> f64 {
+    x.iter().zip(y).map(|(x, y)| x * y).sum()
+}
+
+impl System {
+    /// Returns `x.M x`; `product` is a buffer.
+    pub fn mass_square(&self, x: &[f64], product: &mut [f64]) -> f64 {
+        self.mass.multiply(self.level, x, product);
+        dot(x, product)
+    }
+}
+
+impl Equations<'_> {
+    /// Begins a host step: puts prescribed coordinates in place if supports or the state were changed.
+    pub fn begin_host_step(&self, state: &mut State) {
+        let memory = &mut state.memory;
+        memory.valid = false;
+        memory.step = 0.0;
+        if memory.differences.is_empty() || memory.differences.revision != memory.revision {
+            self.prescribe(state.time, &mut state.q, &mut state.v);
+        }
+    }
+
+    /// Sets the changes of prescribed coordinates, so that they end where their supports are.
+    pub fn prescribe_change(&self, state: &State, b: &mut Buffers) {
+        for (node, support) in &self.model.supports {
+            let (mut q, mut v) = ([0.0; 6], [0.0; 6]);
+            support.prescribe(state.time + b.h, &mut q, &mut v);
+            for x in prescribed(support) {
+                let i = 6 * node + x;
+                b.change[i] = q[x] - state.q[i];
+                b.velocity_change[i] = (b.change[i] / b.h - state.v[i] + ALPHA * b.velocity_before[i]) / BETA;
+            }
+        }
+    }
+
+    /// Computes `h (G + F - f) - M D v` of the present iterate into `rhs`, and the step matrix if asked. Without it, returns what the
+    /// elements lose, and adds the work of effects to `work`.
+    pub fn step_residual(
+        &mut self,
+        state: &State,
+        b: &mut Buffers,
+        matrix: bool,
+        work: &mut EffectWork,
+    ) -> ElementLoss {
+        let loss = self.step_elements(state, b, matrix);
+        self.external_forces(state, b, matrix, work);
+        if let Some(effects) = &self.system.forces.in_element {
+            effects.add_dissipated(loss.effects, work);
+        }
+        let Buffers { h, velocity_change, rhs, external, product, .. } = b;
+        self.system.mass.multiply(self.system.level, velocity_change, product);
+        for i in 0..rhs.len() {
+            rhs[i] += *h * external[i] - product[i];
+        }
+        loss
+    }
+
+    /// Computes the part of the elements.
+    fn step_elements(&mut self, state: &State, b: &mut Buffers, matrix: bool) -> ElementLoss {
+        let (system, diagnostics) = (&mut *self.system, &mut *self.diagnostics);
+        let (level, forces) = (system.level, &mut system.forces);
+        let (elements, effects) = (&forces.elements, forces.in_element.as_ref());
+        let count = elements.count() as u64;
+        let Buffers { h, change, change_before, kept, linearised, rhs, .. } = b;
+        let step = CoordinateStep { start: &state.q, change, before: change_before, kept: *kept, linearised, h: *h };
+        rhs.fill(0.0);
+        if elements.bends() {
+            diagnostics.bending_evaluations += count;
+        }
+        if let Some(effects) = effects {
+            effects.count(count, true, &mut diagnostics.effects);
+        }
+        if matrix {
+            diagnostics.tangent_evaluations += count;
+            let to = MatrixOutput { matrix: &mut system.step.matrix, mass_scale: 1.0 };
+            elements.add_discrete_gradient_and_matrix(level, effects, step, rhs, to);
+            ElementLoss::default()
+        } else {
+            diagnostics.force_evaluations += count;
+            elements.add_discrete_gradient(level, effects, step, rhs)
+        }
+    }
+
+    /// Computes the forces of everything else, G + F, into `external`. Loads and the coefficients of drag are those of the iterate about
+    /// which the step is linear: the present one if the matrix is asked for.
+    fn external_forces(&mut self, state: &State, b: &mut Buffers, matrix: bool, work: &mut EffectWork) {
+        let (system, diagnostics) = (&mut *self.system, &mut *self.diagnostics);
+        let (level, forces) = (system.level, &mut system.forces);
+        let count = forces.elements.count() as u64;
+        let at_points = forces.at_points.any() || forces.densities.is_some();
+        if at_points || !self.model.loads.is_empty() {
+            if matrix {
+                b.linearised.clear();
+            }
+            b.find_means(&state.q);
+        }
+        let time = state.time + 0.5 * b.h;
+        let [middle, velocity, middle_before, velocity_before] = &b.means;
+        let (external, force) = (&mut b.external[..], &mut b.product[..]);
+        external.fill(0.0);
+        if at_points {
+            let input = StepInput { time, middle, velocity, middle_before, velocity_before, h: b.h };
+            let mut to = if matrix { Some(&mut system.step.matrix) } else { None };
+            let counts = (count, &mut diagnostics.effects);
+            forces.at_points.add_over_step(level, input, (external, force), to.as_deref_mut(), work, counts);
+            if let Some(densities) = &mut forces.densities {
+                force.fill(0.0);
+                densities.add_over_step(level, input, force, to);
+                external.iter_mut().zip(force.iter()).for_each(|(out, f)| *out += f);
+                work.force_densities += b.h * dot(force, velocity);
+                diagnostics.effects.force_densities += count;
+            }
+        }
+        let loads = ForceInput { time, q: middle_before, v: &[], dv_dq: 0.0, scale: 1.0 };
+        system.loads.add(&self.model.loads, loads, external, None, diagnostics);
+    }
+
+    /// Returns what the present iterate does to the energy, but for the product of residual and velocity: `rhs` is then the residual of
+    /// all coordinates.
+    pub fn step_balance(&mut self, state: &State, b: &mut Buffers, work: &mut EffectWork) -> Balance {
+        let loss = self.step_residual(state, b, false, work);
+        let mut balance = Balance { numerical: loss.numerical, effects: loss.effects, ..Balance::default() };
+        let system = &*self.system;
+        let Buffers { h, velocity_before, velocity_change, change, rhs, external, product, .. } = b;
+        if !self.model.loads.is_empty() {
+            let dead = system.loads.gravity_work(change) + system.loads.effect_work(change);
+            balance.loads = dot(external, change) - dead - (work.total() + loss.effects);
+        }
+        for (node, support) in &self.model.supports {
+            for x in prescribed(support) {
+                balance.supports -= rhs[6 * node + x] * change[6 * node + x] / *h;
+            }
+        }
+        // the forces are used up
+        for i in 0..external.len() {
+            external[i] = velocity_change[i] - velocity_before[i];
+        }
+        balance.numerical += 0.5 * ALPHA * system.mass_square(external, product);
+        let kinetic = 0.5 * system.mass_square(&state.v, product);
+        balance.held = kinetic + loss.strain + system.scales.weight_energy;
+        balance
+    }
+
+    /// Adds the increment of the velocity change in `rhs` to the iterate, which becomes the one about which it was linearised.
+    pub fn apply_increment(b: &mut Buffers) {
+        b.linearised.clone_from(&b.change);
+        for i in 0..b.rhs.len() {
+            b.velocity_change[i] += b.rhs[i];
+            b.change[i] += b.h * BETA * b.rhs[i];
+        }
+    }
+
+    /// Makes the end of the step the state.
+    pub fn accept_step(&mut self, state: &mut State, b: &Buffers) {
+        for i in 0..b.change.len() {
+            state.q[i] += b.change[i];
+            state.v[i] += b.velocity_change[i];
+        }
+        state.v.iter_mut().zip(&b.taken).for_each(|(v, taken)| *v -= taken);
+        state.time += b.h;
+        let memory = &mut state.memory;
+        memory.differences.velocity.clone_from(&b.velocity_change);
+        memory.differences.displacement.clone_from(&b.change);
+        memory.differences.step = b.h;
+        memory.differences.revision = memory.revision;
+        let meter = &mut self.system.meter;
+        meter.work += meter.work_of_step;
+    }
+}
+
+impl DiscreteGradientSystem for CableStep<'_> {
+    fn time(&self) -> f64 {
+        self.state.time
+    }
+
+    fn set_time(&mut self, time: f64) {
+        self.state.time = time;
+    }
+
+    fn begin(&mut self) {
+        self.equations.begin_host_step(self.state);
+    }
+
+    fn predict(&mut self, h: f64) {
+        self.buffers.recall(self.state, h);
+        self.equations.prescribe_change(self.state, self.buffers);
+    }
+
+    fn iterate(&mut self) -> Result<Balance, StepFailure> {
+        let CableStep { equations, state, buffers: b } = self;
+        equations.diagnostics.newton_iterations += 1;
+        equations.step_residual(state, b, true, &mut EffectWork::default());
+        equations.factor_to_solve()?;
+        equations.solve(&mut b.rhs);
+        if !b.rhs.iter().all(|x| x.is_finite()) {
+            return Err(equations.not_finite("Newton increment", &b.rhs));
+        }
+        Equations::apply_increment(b);
+        let mut work = EffectWork::default();
+        let mut balance = equations.step_balance(state, b, &mut work);
+        equations.system.meter.work_of_step = work;
+        project_vector(equations.model, &mut b.rhs);
+        balance.residual = -dot(&b.rhs, &b.change) / b.h;
+        Ok(balance)
+    }
+
+    fn rescale(&mut self, balance: &mut Balance) -> bool {
+        let CableStep { equations, state, buffers } = self;
+        // the other buffers are free now
+        let Buffers { velocity_change, change, rhs, external, product, taken, linearised, .. } = &mut **buffers;
+        for i in 0..change.len() {
+            product[i] = state.q[i] + change[i];
+            rhs[i] = state.v[i] + velocity_change[i];
+        }
+        taken.clone_from(rhs);
+        relative_velocities(equations.model, equations.system, product, taken, external, linearised);
+        let energy = 0.5 * equations.system.mass_square(taken, external);
+        let share = share_to_take(energy, dot(rhs, external), balance.excess());
+        match share {
+            Some(share) => {
+                taken.iter_mut().for_each(|x| *x *= share);
+                balance.rescaled += balance.excess();
+                true
+            }
+            None => {
+                taken.clear();
+                false
+            }
+        }
+    }
+
+    fn accept(&mut self, balance: &Balance) {
+        self.equations.accept_step(self.state, self.buffers);
+        self.equations.system.meter.law.add(balance);
+    }
+
+    fn count(&mut self, event: Event) {
+        match event {
+            Event::Rescaled => self.equations.diagnostics.rescaled_steps += 1,
+            Event::Split => self.equations.diagnostics.split_steps += 1,
+        }
+    }
+}
+
+impl Cable {
+    /// Returns the energy in J that the method `discrete-gradient` holds beyond the mechanical energy: S of the last step. Its law is about
+    /// the sum of both.
+    pub fn energy_in_store(&self) -> f64 {
+        let (q, differences) = (self.positions(), &self.snapshot().state.memory.differences);
+        if differences.is_empty() {
+            return 0.0;
+        }
+        let still = vec![0.0; q.len()];
+        let mut buffer = still.clone();
+        let step = CoordinateStep {
+            start: q,
+            change: &still,
+            before: &differences.displacement,
+            kept: 1.0,
+            linearised: &[],
+            h: 1.0,
+        };
+        let elastic =
+            self.system.forces.elements.add_discrete_gradient(self.system.level, None, step, &mut buffer).numerical;
+        elastic + 0.5 * ALPHA * self.system.mass_square(&differences.velocity, &mut buffer)
+    }
+}

@@ -1,0 +1,288 @@
+//! Discrete-gradient forces of all elements, their tangent and their dissipation, eight elements at a time.
+//!
+//! # Equation
+//!
+//! The pairs n of an element ([`element::step`](crate::element::step)) add up those of the axial rule, of the bending rule and of effects; the force is
+//! `N(n) dm`. Of its derivative by the change D d the tangent takes, with `B = dg/dd` at dm,
+//!
+//! ```text
+//! b (EA l/4) B^T A B + 1/2 max(0, sigma) N(a) + 1/2 (N(n_b) + B^T u''(gm) B) + a (2EI/l) N(rho) + effects
+//! ```
+//!
+//! sigma is the mean axial stress. Left out are `B^T A (B(d1) - B)`, which is unsymmetric and of first order in the rotation per step, and
+//! the geometric stiffness of compression. Only the bending term can make the matrix indefinite; that of T1 is positive.
+//!
+//! sigma is the stress of the last linear solve, and before the first the stress in the middle of the step before: the strains of an
+//! iterate whose slopes have rotated are far from those of the solution.
+
+use super::{Elements, Group, MatrixOutput};
+use crate::Real;
+use crate::bending::Bending;
+use crate::bending::t1::RHO;
+use crate::effect::tables::ElementTables;
+use crate::element::gram::{PAIR_WEIGHT, Six, contract, form, gradient, gram, hessian_block};
+use crate::element::kernel::{
+    DiscreteGradientForce, Gradient, GramForce, GramStep, Hessian, Load, Stiffness, gram_rates,
+};
+use crate::element::step::{ElementStep, STRAIGHT, combined, product, shifted};
+use crate::integrate::discrete_gradient::{ALPHA, BETA};
+use crate::linalg::Block;
+use crate::simd::{LANES, dispatch};
+use crate::system::elements::with_bending;
+use fearless_simd::{Level, Simd, SimdBase, f64x8};
+
+/// A step of the coordinates of a cable.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct CoordinateStep<'a> {
+    /// Coordinates at the beginning.
+    pub start: &'a [f64],
+    /// Change over the step.
+    pub change: &'a [f64],
+    /// Change in the step before.
+    pub before: &'a [f64],
+    /// Share of that change that counts: less than 1 after a longer step.
+    pub kept: f64,
+    /// The change about which the linear solve was made that gave `change`; empty if none was.
+    pub linearised: &'a [f64],
+    /// Length of the step in s.
+    pub h: f64,
+}
+
+/// What the elements of a cable lose in a step, in J.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct ElementLoss {
+    /// Numerical dissipation.
+    pub numerical: f64,
+    /// Dissipation by effects.
+    pub effects: f64,
+    /// Strain energy at the beginning, that of bending in the norm of rule T1.
+    pub strain: f64,
+}
+
+impl Elements {
+    /// Adds h times the discrete-gradient force to `out`, and overwrites the matrix by the mass matrix plus `b h^2` times the tangent.
+    pub fn add_discrete_gradient_and_matrix(
+        &self,
+        level: Level,
+        effects: Option<&ElementTables>,
+        step: CoordinateStep<'_>,
+        out: &mut [f64],
+        to: MatrixOutput<'_>,
+    ) {
+        with_bending!(&self.bending, bending => {
+            dispatch!(level, simd => self.step_matrix_lanes(simd, bending, effects, step, out, to))
+        });
+    }
+
+    /// Adds h times the discrete-gradient force to `out`, and returns what the elements lose.
+    pub fn add_discrete_gradient(
+        &self,
+        level: Level,
+        effects: Option<&ElementTables>,
+        step: CoordinateStep<'_>,
+        out: &mut [f64],
+    ) -> ElementLoss {
+        with_bending!(&self.bending, bending => {
+            dispatch!(level, simd => self.discrete_gradient_lanes(simd, bending, effects, step, out))
+        })
+    }
+
+    #[inline(always)]
+    fn gather_step<S: Simd>(
+        &self,
+        group: Group<S>,
+        step: CoordinateStep<'_>,
+    ) -> (ElementStep<f64x8<S>>, Stiffness<f64x8<S>>) {
+        let [d, change, before] = [step.start, step.change, step.before].map(|x| self.gather_control(group, x));
+        let stiffness =
+            Stiffness { axial: group.load(&self.axial) * step.h, bending: group.load(&self.flexural) * step.h };
+        (ElementStep::new(&d, &change, &before, step.kept), stiffness)
+    }
+
+    /// Returns the pairs of the axial rule and of the bending rule.
+    #[inline(always)]
+    fn pairs<S: Simd, B: Bending>(
+        &self,
+        simd: S,
+        bending: &B,
+        stiffness: Stiffness<f64x8<S>>,
+        s: &ElementStep<f64x8<S>>,
+    ) -> [Six<f64x8<S>>; 2] {
+        let axial = self.table.gradient(&s.one_leg(ALPHA), stiffness.axial);
+        let mut flexural = [zero(simd); 6];
+        bending.add_discrete_gradient([&s.start, &s.end], stiffness.bending, &mut flexural);
+        [axial, flexural]
+    }
+
+    #[inline(always)]
+    fn gram_step<'a, S: Simd>(
+        &'a self,
+        stiffness: Stiffness<f64x8<S>>,
+        step: &'a ElementStep<f64x8<S>>,
+        h: f64,
+    ) -> GramStep<'a, f64x8<S>> {
+        let rate = 1.0 / h;
+        let rates = step.gram_change.map(|x| x * rate);
+        GramStep { table: &self.table, stiffness, step, middle: gram(&step.mean), rates, rate }
+    }
+
+    #[inline(always)]
+    fn discrete_gradient_lanes<S: Simd, B: Bending>(
+        &self,
+        simd: S,
+        bending: &B,
+        effects: Option<&ElementTables>,
+        step: CoordinateStep<'_>,
+        out: &mut [f64],
+    ) -> ElementLoss {
+        let rate = 1.0 / step.h;
+        let moving = effects.is_some_and(|effects| effects.needs_rates());
+        let mut losses = [0.0; 3];
+        for first in (0..self.count).step_by(LANES) {
+            let group = Group { simd, first };
+            let (s, stiffness) = self.gather_step(group, step);
+            let [axial, flexural] = self.pairs(simd, bending, stiffness, &s);
+            let mut sum = Gradient { n: combined(&axial, &flexural, 1.0), viscous: [zero(simd); 6] };
+            let mut dissipated = zero(simd);
+            if let Some(effects) = effects {
+                dissipated = effects.add_discrete_gradient(&self.gram_step(stiffness, &s, step.h), &group, &mut sum);
+            }
+            let mut force = gradient(&sum.n, &s.mean);
+            let mut numerical = self.axial_square(simd, stiffness, &s.gram_second()) * (0.5 * ALPHA);
+            let mut strain = self.axial_square(simd, stiffness, &over_straight(&s.start)) * 0.5;
+            if !B::ABSENT {
+                let of_bending = gradient(&numerical_bending(stiffness.bending), &s.second);
+                force = shifted(&force, &of_bending, 1.0);
+                numerical += product(&of_bending, &s.second) * 0.5;
+                strain += stiffness.bending * form(&RHO, &s.start);
+            }
+            if moving {
+                let viscous = gradient(&sum.viscous, &s.change);
+                force = shifted(&force, &viscous, rate);
+                dissipated += product(&viscous, &s.change) * (rate * rate);
+            }
+            self.scatter_force(simd, first, &force, out);
+            let mut raw = [[0.0; LANES]; 3];
+            numerical.store_slice(&mut raw[0]);
+            dissipated.store_slice(&mut raw[1]);
+            strain.store_slice(&mut raw[2]);
+            for lane in 0..LANES.min(self.count - first) {
+                for k in 0..3 {
+                    losses[k] += raw[k][lane];
+                }
+            }
+        }
+        // the stiffness of the lanes has the factor h; what is dissipated is a power
+        let [numerical, effects, strain] = losses;
+        ElementLoss { numerical: numerical * rate, effects, strain: strain * rate }
+    }
+
+    #[inline(always)]
+    fn step_matrix_lanes<S: Simd, B: Bending>(
+        &self,
+        simd: S,
+        bending: &B,
+        effects: Option<&ElementTables>,
+        step: CoordinateStep<'_>,
+        out: &mut [f64],
+        to: MatrixOutput<'_>,
+    ) {
+        let moving = effects.is_some_and(|effects| effects.needs_rates());
+        to.matrix.diag[0] = Block::ZERO;
+        for first in (0..self.count).step_by(LANES) {
+            let group = Group { simd, first };
+            let (s, stiffness) = self.gather_step(group, step);
+            let [axial, flexural] = self.pairs(simd, bending, stiffness, &s);
+            let mut sum = Gradient { n: combined(&axial, &flexural, 1.0), viscous: [zero(simd); 6] };
+            let at = self.gram_step(stiffness, &s, step.h);
+            if let Some(effects) = effects {
+                effects.add_discrete_gradient(&at, &group, &mut sum);
+            }
+            let mut force = gradient(&sum.n, &s.mean);
+            let mut tangent = Hessian { geometric: [zero(simd); 6], h: self.table.hessian(stiffness.axial * BETA) };
+            let stress = self.mean_stress(group, effects, stiffness, step, &s);
+            self.table.add_mean(stress * 0.5, &mut tangent.geometric);
+            if !B::ABSENT {
+                let mean = combined(&s.start, &s.gram_change, 0.5);
+                let mut unused = [zero(simd); 6];
+                bending.add_hessian(&mean, stiffness.bending * 0.5, &mut unused, &mut tangent.h);
+                let numerical = numerical_bending(stiffness.bending);
+                tangent.geometric = combined(&combined(&tangent.geometric, &flexural, 0.5), &numerical, 1.0);
+                force = shifted(&force, &gradient(&numerical, &s.second), 1.0);
+            }
+            if let Some(effects) = effects {
+                effects.add_step_tangent(&at, &group, &mut tangent);
+            }
+            if moving {
+                force = shifted(&force, &gradient(&sum.viscous, &s.change), at.rate);
+            }
+            self.scatter_force(simd, first, &force, out);
+            let implicit = BETA * step.h;
+            let (geometric, h) = (tangent.geometric.map(|x| x * implicit), tangent.h.map(|x| x * implicit));
+            let block = |i, k| hessian_block(i, k, &geometric, &h, &s.mean);
+            let blocks = [block(0, 0), block(0, 1), block(0, 2), block(1, 1), block(1, 2), block(2, 2)];
+            self.scatter_matrix(simd, first, &blocks, to.mass_scale, to.matrix);
+        }
+    }
+
+    /// Returns `EA l/4 x.A x` for changes of Gram numbers.
+    #[inline(always)]
+    fn axial_square<S: Simd>(&self, simd: S, stiffness: Stiffness<f64x8<S>>, x: &Six<f64x8<S>>) -> f64x8<S> {
+        let mut stress = [zero(simd); 6];
+        self.table.add_product(x, stiffness.axial, &mut stress);
+        contract(&stress, x)
+    }
+
+    /// Returns the mean axial stress times EA l/4, not below zero.
+    #[inline(always)]
+    fn mean_stress<S: Simd>(
+        &self,
+        group: Group<S>,
+        effects: Option<&ElementTables>,
+        stiffness: Stiffness<f64x8<S>>,
+        step: CoordinateStep<'_>,
+        s: &ElementStep<f64x8<S>>,
+    ) -> f64x8<S> {
+        let g = if step.linearised.is_empty() {
+            combined(&s.start, &s.gram_before, -0.5)
+        } else {
+            let about = self.gather_control(group, step.linearised);
+            let mean = shifted(&shifted(&s.mean, &s.change, -0.5), &about, 0.5);
+            let change = gram_rates(&mean, &s.change);
+            combined(&combined(&s.start, &change, BETA), &s.gram_before, -ALPHA)
+        };
+        let mut rest = <f64x8<S> as SimdBase<S>>::splat(group.simd, 1.0);
+        if let Some(effects) = effects {
+            effects.add_rest_strain(&group, &mut rest);
+        }
+        (form(&self.table.a, &g) - rest).at_least(0.0) * stiffness.axial
+    }
+}
+
+#[inline(always)]
+fn zero<S: Simd>(simd: S) -> f64x8<S> {
+    <f64x8<S> as SimdBase<S>>::splat(simd, 0.0)
+}
+
+/// Returns the pairs of the numerical dissipation of bending: those of rule T1 times a.
+#[inline(always)]
+fn numerical_bending<T: Real>(flexural: T) -> Six<T> {
+    let mut n = [flexural * ALPHA; 6];
+    for i in 0..6 {
+        n[i] = n[i] * (PAIR_WEIGHT[i] * RHO[i]);
+    }
+    n
+}
+
+/// Returns Gram numbers less those of the straight unstretched element.
+#[inline(always)]
+fn over_straight<T: Real>(g: &Six<T>) -> Six<T> {
+    let mut y = *g;
+    for i in 0..6 {
+        y[i] = g[i] - STRAIGHT[i];
+    }
+    y
+}
+
+#[cfg(test)]
+mod tests;

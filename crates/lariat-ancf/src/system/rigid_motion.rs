@@ -1,0 +1,113 @@
+//! The part of a cable's velocities that is no rigid motion.
+//!
+//! # Equation
+//!
+//! The rigid motions that supports allow are all six of a cable without any, the rotations about the node whose position is held, if that is
+//! the only support, and none otherwise. The relative velocities are what is left after their projection in the norm of the mass matrix:
+//!
+//! ```text
+//! w = v - v_support - sum_k c_k b_k,     b_j.M w = 0
+//! ```
+//!
+//! so scaling w changes neither linear nor angular momentum (with a support: about it).
+
+use super::System;
+use crate::model::Model;
+use crate::support::SlopeSupport;
+use nalgebra::{SMatrix, SVector, Vector3};
+
+/// A pivot below this share of the largest is none: a straight cable has no inertia about its own axis.
+const LEAST_PIVOT: f64 = 1e-10;
+
+/// Translations and rotations about a point.
+struct Modes<'a> {
+    q: &'a [f64],
+    origin: Vector3<f64>,
+}
+
+impl Modes<'_> {
+    /// Velocity of the vector `i/3` of the cable in mode `k`: translations before rotations.
+    fn at(&self, k: usize, i: usize) -> Vector3<f64> {
+        let position = i.is_multiple_of(6);
+        if k < 3 {
+            return if position { Vector3::ith(k, 1.0) } else { Vector3::zeros() };
+        }
+        let arm = Vector3::from_column_slice(&self.q[i..i + 3]);
+        Vector3::ith(k - 3, 1.0).cross(&if position { arm - self.origin } else { arm })
+    }
+}
+
+/// Replaces the velocities `w` at coordinates `q` by their relative part; `momentum` and `mode` are buffers.
+pub(super) fn relative_velocities(
+    model: &Model,
+    system: &System,
+    q: &[f64],
+    w: &mut [f64],
+    momentum: &mut [f64],
+    mode: &mut [f64],
+) {
+    let origin = |node: usize| Vector3::from_column_slice(&q[6 * node..6 * node + 3]);
+    let (first, modes) = match &model.supports[..] {
+        [] => (0, Modes { q, origin: origin(0) }),
+        [(node, support)] if support.position.is_some() && support.slope == SlopeSupport::Free => {
+            let velocity = Vector3::from_column_slice(&w[6 * node..6 * node + 3]);
+            for w in w.chunks_exact_mut(6) {
+                (0..3).for_each(|x| w[x] -= velocity[x]);
+            }
+            (3, Modes { q, origin: origin(*node) })
+        }
+        supports => {
+            for (node, support) in supports {
+                support.project(&mut w[6 * node..6 * node + 6]);
+            }
+            return;
+        }
+    };
+    let inner = |k: usize, p: &[f64]| {
+        (0..q.len()).step_by(3).map(|i| modes.at(k, i).dot(&Vector3::from_column_slice(&p[i..i + 3]))).sum::<f64>()
+    };
+    let mut matrix = SMatrix::<f64, 6, 6>::identity();
+    let mut rhs = SVector::<f64, 6>::zeros();
+    system.mass.multiply(system.level, w, momentum);
+    (first..6).for_each(|k| rhs[k] = inner(k, momentum));
+    for k in first..6 {
+        for i in (0..q.len()).step_by(3) {
+            mode[i..i + 3].copy_from_slice(modes.at(k, i).as_slice());
+        }
+        system.mass.multiply(system.level, mode, momentum);
+        for j in first..6 {
+            matrix[(j, k)] = inner(j, momentum);
+        }
+    }
+    let c = solve(&mut matrix, rhs);
+    for i in (0..q.len()).step_by(3) {
+        let rigid: Vector3<f64> = (first..6).map(|k| modes.at(k, i) * c[k]).sum();
+        (0..3).for_each(|x| w[i + x] -= rigid[x]);
+    }
+}
+
+/// Solves a semi-definite system by L D L^T; what has no pivot stays zero.
+fn solve(a: &mut SMatrix<f64, 6, 6>, mut b: SVector<f64, 6>) -> SVector<f64, 6> {
+    let diagonal = a.diagonal();
+    let sound = |k: usize, pivot: f64| pivot > LEAST_PIVOT * diagonal[k];
+    for k in 0..6 {
+        let pivot = a[(k, k)];
+        if !sound(k, pivot) {
+            continue;
+        }
+        for i in k + 1..6 {
+            let factor = a[(i, k)] / pivot;
+            for j in k + 1..6 {
+                a[(i, j)] -= factor * a[(k, j)];
+            }
+            b[i] -= factor * b[k];
+        }
+    }
+    let mut x = SVector::<f64, 6>::zeros();
+    for k in (0..6).rev() {
+        if sound(k, a[(k, k)]) {
+            x[k] = (b[k] - (k + 1..6).map(|j| a[(k, j)] * x[j]).sum::<f64>()) / a[(k, k)];
+        }
+    }
+    x
+}

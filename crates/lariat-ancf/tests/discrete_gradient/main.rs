@@ -1,0 +1,9 @@
+//! The guarded discrete gradient.
+
+mod chain;
+#[path = "../common/mod.rs"]
+mod common;
+mod law;
+mod motion;
+mod recipe;
+mod thrown;
