@@ -68,7 +68,7 @@ pub use effect::{
     GravityScale, LineLoad, LineLoads, RestPiece, RestShape, RopeKind,
 };
 pub use error::{EquilibriumFailure, Error, PinProblem, Requirement, StepFailure};
-pub use integrate::{Fidelity, Integrator, IntegratorChoice, IntegratorRef, Method, StepControl};
+pub use integrate::{ErrorNorm, Fidelity, Integrator, IntegratorChoice, IntegratorRef, Method, StepControl};
 pub use load::PointLoad;
 /// The vector type of the public interface (nalgebra's).
 pub use nalgebra::Vector3;

@@ -50,7 +50,7 @@ pub enum StepFailure {
         /// Shortest step in s.
         least: f64,
     },
-    /// A step of the discrete gradient that makes energy however it is divided.
+    /// A step that makes energy however it is divided.
     #[error("the step makes {energy:.3e} J, of {scale:.3e} J in the system, however it is divided")]
     EnergyMade {
         /// Energy made in J.

@@ -156,6 +156,14 @@ pub enum Error {
         /// The nearest name, if one is near.
         suggestion: Option<String>,
     },
+    /// A name that is no error norm.
+    #[error("unknown norm {name:?}: {}expected every, motion or bodies", did_you_mean(.suggestion))]
+    UnknownNorm {
+        /// The text given.
+        name: String,
+        /// The nearest name, if one is near.
+        suggestion: Option<String>,
+    },
     /// A tolerance for a method that does not estimate its error.
     #[error("integrator {method}: it does not estimate its error; give substeps, max_step, or another method")]
     NoErrorEstimate {

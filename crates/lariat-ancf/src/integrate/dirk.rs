@@ -106,8 +106,9 @@ impl OneStep for Tableau {
         scratch: &mut Scratch,
     ) -> Result<Option<f64>, StepFailure> {
         let stages = self.a.len();
-        let Scratch { next, base, velocity_base, error, stage_velocities: stage_v, stage_accelerations: stage_k } =
-            scratch;
+        let Scratch {
+            next, base, velocity_base, error, stage_velocities: stage_v, stage_accelerations: stage_k, ..
+        } = scratch;
         for i in 0..stages {
             let row = self.a[i];
             let diagonal = row[i] * h;
@@ -162,6 +163,7 @@ impl OneStep for Tableau {
             }
         }
         system.filter(error);
-        Ok(Some(embedded.calibration * system.norm(error)))
+        error.iter_mut().for_each(|e| *e *= embedded.calibration);
+        Ok(Some(system.norm(error)))
     }
 }

@@ -31,7 +31,7 @@ pub enum Fidelity {
     /// | payload | 10 | 7.2e-3 | 4.27 |
     /// | taut steel | 10 | 2.0e-4 | 0.11 |
     Game,
-    /// Error-controlled ESDIRK4, 1e-6 m per host step: the default.
+    /// Error-controlled ESDIRK4, 1e-6 m per host step of the motion: the default.
     ///
     /// | scene | elements | error m | CPU ms |
     /// |---|---:|---:|---:|

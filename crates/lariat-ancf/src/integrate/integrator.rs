@@ -1,5 +1,6 @@
 //! A method with its step control.
 
+use super::error_norm::ErrorNorm;
 use super::method::Method;
 use super::one_step::OneStep;
 use crate::error::{Error, require};
@@ -12,6 +13,8 @@ use serde::{Deserialize, Serialize};
 pub enum StepControl {
     /// Position error in m per host step; steps are chosen, rejected and retried to keep it.
     Tolerance(f64),
+    /// The same, of the errors that a norm selects.
+    ToleranceOf(f64, ErrorNorm),
     /// This many equal steps per host step.
     Substeps(u32),
     /// The fewest equal steps no longer than this, in s. A host step that exceeds a multiple of it
@@ -25,7 +28,8 @@ pub enum StepControl {
 ///
 /// ```
 /// use lariat_ancf::{Integrator, Method, StepControl};
-/// assert_eq!(Integrator::default(), Integrator::tolerance(Method::Esdirk4, 1e-6)?);
+/// let fine = Integrator::tolerance(Method::Esdirk4, 1e-8)?;
+/// assert_eq!(fine.method, Integrator::default().method);
 /// assert!(Integrator::tolerance(Method::Verlet, 1e-6).is_err()); // no error estimate
 /// # Ok::<(), lariat_ancf::Error>(())
 /// ```
@@ -38,9 +42,9 @@ pub struct Integrator {
 }
 
 impl Default for Integrator {
-    /// Error-controlled ESDIRK4, 1e-6 m per host step.
+    /// Error-controlled ESDIRK4, 1e-6 m per host step of the [motion](ErrorNorm::Motion).
     fn default() -> Self {
-        Integrator { method: Method::Esdirk4, control: StepControl::Tolerance(1e-6) }
+        Integrator { method: Method::Esdirk4, control: StepControl::ToleranceOf(1e-6, ErrorNorm::Motion) }
     }
 }
 
@@ -96,7 +100,7 @@ impl IntegratorRef<'_> {
     pub fn check(&self) -> Result<(), Error> {
         self.method.check()?;
         match self.control {
-            StepControl::Tolerance(tolerance) => {
+            StepControl::Tolerance(tolerance) | StepControl::ToleranceOf(tolerance, _) => {
                 require("tolerance (m)", tolerance, tolerance > 0.0, "> 0")?;
                 if self.method.estimate_order().is_none() {
                     return Err(Error::NoErrorEstimate { method: self.method.name() });
@@ -116,10 +120,18 @@ impl IntegratorRef<'_> {
         Ok(())
     }
 
+    /// Returns which errors the tolerance bounds.
+    pub(crate) fn norm(&self) -> ErrorNorm {
+        match self.control {
+            StepControl::ToleranceOf(_, norm) => norm,
+            _ => ErrorNorm::Every,
+        }
+    }
+
     /// Returns the tolerance in m per host step, if the error is controlled.
     pub(super) fn tolerance(&self) -> Option<f64> {
         match self.control {
-            StepControl::Tolerance(tolerance) => Some(tolerance),
+            StepControl::Tolerance(tolerance) | StepControl::ToleranceOf(tolerance, _) => Some(tolerance),
             _ => None,
         }
     }

@@ -18,6 +18,9 @@
 //! | [`explicit`] | the step of a symplectic explicit method, given by its weights | |
 //! | [`Method`], [`Integrator`], [`Fidelity`] | by name, with a step control, as presets | |
 //! | [`step_control`] | the choice of steps | |
+//! | [`energy_check`] | the check of every implicit step for spurious energy | |
+//! | [`error_budget`] | the error that the steps of a host step may make | |
+//! | [`ErrorNorm`] | which errors a tolerance bounds | |
 //!
 //! # Adding a method
 //!
@@ -34,6 +37,9 @@
 pub mod dirk;
 pub mod discrete_gradient;
 mod dynamics;
+pub mod energy_check;
+pub mod error_budget;
+mod error_norm;
 pub mod esdirk3;
 pub mod esdirk4;
 pub mod explicit;
@@ -53,6 +59,7 @@ pub mod verlet;
 
 pub use discrete_gradient::{Differences, EnergyLaw};
 pub use dynamics::{Dynamics, Stage};
+pub use error_norm::ErrorNorm;
 pub use fidelity::{Fidelity, IntegratorChoice};
 pub use integrator::{Integrator, IntegratorRef, StepControl};
 pub use method::{Method, Properties};

@@ -28,8 +28,10 @@ pub struct Scratch {
     pub base: Vec<f64>,
     /// Explicit part of the velocities of a stage.
     pub velocity_base: Vec<f64>,
-    /// Estimated position error.
+    /// Estimated position error: a method whose step returns an estimate leaves the vector here.
     pub error: Vec<f64>,
+    /// Sum of the estimated errors of the host step, for step control.
+    pub(crate) error_sum: Vec<f64>,
     /// Velocities of the stages, at least [`OneStep::stages`] of them.
     pub stage_velocities: Vec<Vec<f64>>,
     /// Accelerations of the stages.
@@ -48,6 +50,7 @@ impl Scratch {
             &mut self.base,
             &mut self.velocity_base,
             &mut self.error,
+            &mut self.error_sum,
         ] {
             v.resize(size, 0.0);
         }
@@ -153,8 +156,8 @@ pub trait OneStep: fmt::Debug {
         Ok(())
     }
 
-    /// Advances `now` by one step into `scratch.next`, and returns the estimated position error of
-    /// the step in m if the method has an estimate and the request needs it.
+    /// Advances `now` by one step into `scratch.next`, and returns the size of the estimated position
+    /// error of the step in m, with the vector in `scratch.error`, if the method has an estimate and the request needs it.
     /// `now.memory.acceleration` is valid on entry, that of `scratch.next` on return; its time is
     /// set by the caller.
     ///

@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 
 /// What a method carries from step to step, besides positions and velocities. Plain data, part of a
 /// snapshot.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Memory {
     /// Acceleration at the present state, if `valid`.
     pub acceleration: Vec<f64>,
@@ -22,9 +22,39 @@ pub struct Memory {
     pub revision: u64,
     /// Length in s that error control proposes for the next step; 0 = no proposal.
     pub step: f64,
+    /// Coherence of the errors of the last host step, 0 to 1; see
+    /// [`error_budget`](super::error_budget).
+    #[serde(default = "coherent")]
+    pub coherence: f64,
+    /// Spurious energy in J on the account of the [check](super::energy_check).
+    #[serde(default)]
+    pub energy_made: f64,
+    /// Largest kinetic and strain energy in J so far, for that check.
+    #[serde(default)]
+    pub largest_energy: f64,
     /// The last step of the discrete gradient.
     #[serde(default)]
     pub differences: Differences,
+}
+
+fn coherent() -> f64 {
+    1.0
+}
+
+impl Default for Memory {
+    fn default() -> Self {
+        Memory {
+            acceleration: Vec::new(),
+            algorithmic: Vec::new(),
+            valid: false,
+            revision: 0,
+            step: 0.0,
+            coherence: coherent(),
+            energy_made: 0.0,
+            largest_energy: 0.0,
+            differences: Differences::default(),
+        }
+    }
 }
 
 /// Positions, velocities and method memory at a time.
@@ -43,8 +73,18 @@ pub struct State {
 impl State {
     /// Copies `other` into the existing buffers; the derived `clone_from` would allocate new ones.
     pub(crate) fn copy_from(&mut self, other: &State) {
-        let State { time, q, v, memory: Memory { acceleration, algorithmic, valid, step, revision, differences } } =
-            other;
+        let State { time, q, v, memory } = other;
+        let Memory {
+            acceleration,
+            algorithmic,
+            valid,
+            step,
+            coherence,
+            revision,
+            energy_made,
+            largest_energy,
+            differences,
+        } = memory;
         self.time = *time;
         self.q.clone_from(q);
         self.v.clone_from(v);
@@ -53,12 +93,17 @@ impl State {
         self.memory.algorithmic.clone_from(algorithmic);
         self.memory.valid = *valid;
         self.memory.step = *step;
+        self.memory.coherence = *coherence;
+        self.memory.energy_made = *energy_made;
+        self.memory.largest_energy = *largest_energy;
         self.memory.differences.copy_from(differences);
     }
 
     /// Checks that this is a finite state of `size` coordinates; `cable` is the name for the error.
     pub(crate) fn check(&self, cable: &str, size: usize) -> Result<(), Error> {
-        let Memory { acceleration, algorithmic, valid, step, differences, .. } = &self.memory;
+        let Memory {
+            acceleration, algorithmic, valid, step, coherence, energy_made, largest_energy, differences, ..
+        } = &self.memory;
         let lists = [
             ("positions", &self.q, false),
             ("velocities", &self.v, false),
@@ -76,6 +121,9 @@ impl State {
         let finite = |what: &str, x: f64| require(what, x, true, "a number");
         finite("time (s)", self.time)
             .and_then(|()| require("proposed step (s)", *step, *step >= 0.0, ">= 0"))
+            .and_then(|()| require("coherence of errors", *coherence, *coherence >= 0.0 && *coherence <= 1.0, "0 to 1"))
+            .and_then(|()| require("energy made (J)", *energy_made, *energy_made >= 0.0, ">= 0"))
+            .and_then(|()| require("largest energy (J)", *largest_energy, *largest_energy >= 0.0, ">= 0"))
             .and_then(|()| self.q.iter().try_for_each(|&x| finite("position", x)))
             .and_then(|()| self.v.iter().try_for_each(|&x| finite("velocity", x)))
             .and_then(|()| acceleration.iter().chain(algorithmic).try_for_each(|&x| finite("acceleration", x)))

@@ -8,7 +8,7 @@ use super::rotation::{jacobian_inverse, jacobian_rate};
 use crate::effect::acts::ForceInput;
 use crate::error::StepFailure;
 use crate::integrate::newton::{self, Increment, Linearised};
-use crate::integrate::{Dynamics, Stage, State};
+use crate::integrate::{Dynamics, ErrorNorm, Stage, State};
 
 /// Vectors over all coordinates, reused from step to step.
 #[derive(Clone, Debug, Default)]
@@ -34,6 +34,8 @@ impl Vectors {
 pub(super) struct IslandDynamics<'a, 'b> {
     pub equations: IslandEquations<'a, 'b>,
     pub accounts: &'a mut PinAccounts,
+    /// Which errors count.
+    pub norm: ErrorNorm,
     pub vectors: &'a mut Vectors,
 }
 
@@ -266,7 +268,10 @@ impl Dynamics for IslandDynamics<'_, '_> {
     }
 
     fn norm(&self, error: &[f64]) -> f64 {
-        self.equations.norm(error)
+        match self.norm {
+            ErrorNorm::Bodies => self.equations.norm_of_bodies(error).unwrap_or_else(|| self.equations.norm(error)),
+            ErrorNorm::Every | ErrorNorm::Motion => self.equations.norm(error),
+        }
     }
 
     fn step_accepted(&mut self, before: &State, after: &State, h: f64) {

@@ -12,7 +12,7 @@
 //!
 //! # Validity
 //!
-//! No result where a driven body moves, a gap closes fast, or a cable does not know the work of its
+//! No result where a driven body moves, a gap closes fast, a clamp rotates a slope into place, or a cable does not know the work of its
 //! loads.
 
 use super::body::RigidBody;
@@ -38,6 +38,9 @@ pub(super) fn spurious_energy(
     rhs: &mut [f64],
 ) -> Option<(f64, f64)> {
     let layout = equations.layout;
+    if layout.clamp_rotates() {
+        return None;
+    }
     let moves = |body: &RigidBody| body.velocity != Vector3::zeros() || body.angular_velocity != Vector3::zeros();
     if layout.bodies.iter().any(|body| body.is_driven() && moves(body)) {
         return None;

@@ -325,6 +325,19 @@ impl IslandEquations<'_, '_> {
         }
         worst
     }
+
+    /// Returns the largest displacement in m that `x` makes of the free bodies and their anchors;
+    /// `None` if there is none.
+    pub fn norm_of_bodies(&self, x: &[f64]) -> Option<f64> {
+        let layout = self.layout;
+        let free = (0..layout.bodies.len()).filter(|&i| !layout.bodies[i].is_driven());
+        let sizes = free.map(|i| {
+            let at = layout.body_at(i);
+            let rotation = vector(&x[at + 3..]).norm() * layout.levers[i];
+            vector(&x[at..]).norm().max(rotation) + 0.0 * rotation
+        });
+        sizes.reduce(|worst, size| if size > worst || size.is_nan() { size } else { worst })
+    }
 }
 
 /// Sets the directions of a cable's clamps at coordinates `q` of the island in its supports, and

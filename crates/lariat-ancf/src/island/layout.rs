@@ -160,7 +160,12 @@ impl Layout {
     /// Returns whether no gap closes and no clamp rotates in this step.
     pub fn is_closed(&self) -> bool {
         self.closing.iter().chain(&self.remaining).chain(self.rates.iter().flatten()).all(|x| *x == Vector3::zeros())
-            && self.clamps.iter().flatten().all(Clamp::is_constant)
+            && !self.clamp_rotates()
+    }
+
+    /// Returns whether a clamp rotates a slope into its direction in this step.
+    pub fn clamp_rotates(&self) -> bool {
+        !self.clamps.iter().flatten().all(Clamp::is_constant)
     }
 
     /// Returns the elapsed share of the step, 0 to 1.

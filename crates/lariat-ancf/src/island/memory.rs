@@ -76,6 +76,8 @@ pub(super) fn keep(cables: &mut [&mut Cable], bodies: &mut [RigidBody], pins: &[
         }
         own.valid = memory.valid;
         own.step = memory.step;
+        own.energy_made = memory.energy_made;
+        own.largest_energy = memory.largest_energy;
         at += n;
     }
     for (i, body) in bodies.iter_mut().enumerate() {

@@ -75,7 +75,7 @@ impl Island {
         }
         memory::recall(cables, bodies, layout, state);
         let equations = IslandEquations { cables: &mut *cables, layout, matrices };
-        let mut system = IslandDynamics { equations, accounts, vectors };
+        let mut system = IslandDynamics { equations, accounts, norm: integrator.norm(), vectors };
         if let Err(failure) = system.match_velocities(state) {
             return Err(cables[0].step_failed(state.time, 0.0, failure));
         }
@@ -113,7 +113,12 @@ fn gather(cables: &[&mut Cable], bodies: &[RigidBody], state: &mut State) {
         state.v.extend(body.velocity.iter().chain(body.angular_velocity.iter()));
     }
     state.time = cables[0].time();
-    state.memory.step = cables.iter().map(|c| c.snapshot.state.memory.step).fold(f64::INFINITY, f64::min);
+    let memories = || cables.iter().map(|cable| &cable.snapshot.state.memory);
+    state.memory.step = memories().map(|memory| memory.step).fold(f64::INFINITY, f64::min);
+    // a vibration moves the bodies, so its errors add up for them
+    state.memory.coherence = 1.0;
+    state.memory.energy_made = memories().map(|memory| memory.energy_made).fold(0.0, f64::max);
+    state.memory.largest_energy = memories().map(|memory| memory.largest_energy).fold(0.0, f64::max);
 }
 
 /// Returns the coordinates to cables and bodies.

@@ -55,7 +55,7 @@ impl IslandDynamics<'_, '_> {
 
     /// Shares the momentum of the jump among cables and bodies.
     fn share_jump(&mut self, q: &[f64], v: &mut [f64]) -> Result<(), StepFailure> {
-        let Self { equations, accounts, vectors } = self;
+        let Self { equations, accounts, vectors, .. } = self;
         let super::dynamics::Vectors { rhs, z, velocity, jump, .. } = &mut **vectors;
         equations.factor_mass(q, v)?;
         rhs.fill(0.0);

@@ -102,7 +102,7 @@ impl Dynamics for CableDynamics<'_> {
         project_vector(equations.model, rhs);
         equations.diagnostics.mass_solves += 1;
         mass.solve(level, rhs);
-        let finite = rhs.iter().all(|x| x.is_finite());
+        let finite = rhs.iter().fold(true, |finite, x| finite & x.is_finite());
         for (a, r) in acceleration.iter_mut().zip(rhs.iter()) {
             *a += r;
         }

@@ -44,6 +44,7 @@ impl Setting {
 pub fn control(control: StepControl) -> String {
     match control {
         StepControl::Tolerance(t) => format!("tolerance {t:.0e} m"),
+        StepControl::ToleranceOf(t, norm) => format!("tolerance {t:.0e} m of {}", norm.name()),
         StepControl::Substeps(n) => format!("{n} substeps"),
         StepControl::MaxStep(h) => format!("steps <= 1/{:.0} s", 1.0 / h),
         StepControl::Stable(share) => format!("{share} of the stable step"),

@@ -152,7 +152,7 @@ fn integrator(contents: &Contents, island: &Island) -> Integrator {
         return first;
     }
     let tolerance = |i: &Integrator| match i.control {
-        StepControl::Tolerance(tolerance) => tolerance,
+        StepControl::Tolerance(tolerance) | StepControl::ToleranceOf(tolerance, _) => tolerance,
         _ => f64::INFINITY,
     };
     all().fold(first, |best, i| if tolerance(&i) < tolerance(&best) { i } else { best })
@@ -172,6 +172,7 @@ fn parts(integrator: &Integrator, h: f64) -> u32 {
 fn share_of(integrator: Integrator, count: u32) -> Integrator {
     let control = match integrator.control {
         StepControl::Tolerance(tolerance) => StepControl::Tolerance(tolerance / f64::from(count)),
+        StepControl::ToleranceOf(tolerance, norm) => StepControl::ToleranceOf(tolerance / f64::from(count), norm),
         StepControl::Substeps(substeps) => StepControl::Substeps(substeps.div_ceil(count)),
         control => control,
     };

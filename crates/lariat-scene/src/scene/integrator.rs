@@ -3,7 +3,7 @@
 use crate::document::{Document, KeyPath};
 use crate::error::{Error, Problem};
 use crate::schema::{Choose, Kind, MANY, POSITIVE, SHARE, parse_as, table};
-use lariat_ancf::{Fidelity, Integrator, IntegratorChoice, Method, StepControl};
+use lariat_ancf::{ErrorNorm, Fidelity, Integrator, IntegratorChoice, Method, StepControl};
 
 table! {
     /// A method with a step control; or `fidelity`, which chooses both.
@@ -12,6 +12,8 @@ table! {
         method: Option<Method> = ("`\"esdirk4\"`"), Kind::Parsed { accepted: "a name of `lariat integrators`", parse: parse_as::<Method> };
         /// Error of position per host step, for a method with an error estimate.
         tolerance: Option<f64> = (), Kind::Number(POSITIVE), "m";
+        /// Which errors the tolerance bounds: `"every"` node and body with its vibrations, the `"motion"` that is slow beside the host step, or the free `"bodies"` that the cable moves.
+        norm: Option<ErrorNorm> = ("`\"every\"`"), Kind::Choice(|| ErrorNorm::ALL.map(ErrorNorm::name).to_vec());
         /// Equal steps in each host step.
         substeps: Option<u32> = (), Kind::Whole(1, MANY);
         /// Longest step.
@@ -27,13 +29,20 @@ table! {
 /// Reads the integrator at a path.
 pub(super) fn read(doc: &Document<'_>, at: &KeyPath, row: &IntegratorTable) -> Result<IntegratorChoice, Error> {
     if let Some(fidelity) = row.fidelity {
-        return match row.method {
-            None => Ok(fidelity.into()),
-            Some(_) => Err(doc.error(at, Problem::TooManyGiven(vec!["method", "fidelity"]))),
+        return match (row.method, row.norm) {
+            (None, None) => Ok(fidelity.into()),
+            (Some(_), _) => Err(doc.error(at, Problem::TooManyGiven(vec!["method", "fidelity"]))),
+            (None, Some(_)) => Err(doc.error(at, Problem::TooManyGiven(vec!["norm", "fidelity"]))),
         };
     }
     let controls = [
-        ("tolerance", row.tolerance.map(StepControl::Tolerance)),
+        (
+            "tolerance",
+            row.tolerance.map(|tolerance| match row.norm {
+                None => StepControl::Tolerance(tolerance),
+                Some(norm) => StepControl::ToleranceOf(tolerance, norm),
+            }),
+        ),
         ("substeps", row.substeps.map(StepControl::Substeps)),
         ("max_step", row.max_step.map(StepControl::MaxStep)),
         ("stable", row.stable.map(StepControl::Stable)),
@@ -41,6 +50,9 @@ pub(super) fn read(doc: &Document<'_>, at: &KeyPath, row: &IntegratorTable) -> R
     let Some((key, control)) = controls.into_iter().find_map(|(key, control)| control.map(|c| (key, c))) else {
         return Err(doc.error(at, Problem::NoneGiven(&["tolerance", "substeps", "max_step", "stable", "fidelity"])));
     };
+    if row.norm.is_some() && key != "tolerance" {
+        return Err(doc.missing(&at.key("tolerance")));
+    }
     let method = match row.method {
         Some(method) => method,
         None if key == "tolerance" => Integrator::default().method,

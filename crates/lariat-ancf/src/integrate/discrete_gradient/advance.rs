@@ -17,7 +17,7 @@ pub(crate) fn advance(
         StepControl::Substeps(substeps) => horizon / f64::from(substeps),
         StepControl::MaxStep(longest) => longest * (1.0 + SINGLE_PRECISION_ROUNDING),
         // rejected by `IntegratorRef::check`
-        StepControl::Tolerance(_) | StepControl::Stable(_) => horizon,
+        StepControl::Tolerance(_) | StepControl::ToleranceOf(..) | StepControl::Stable(_) => horizon,
     };
     let steps = (horizon / longest - 1e-9).ceil().max(1.0);
     let (h, end) = (horizon / steps, system.time() + horizon);

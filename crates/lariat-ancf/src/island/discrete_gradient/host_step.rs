@@ -7,7 +7,7 @@
 use super::{IslandStep, StepBuffers};
 use crate::cable::Cable;
 use crate::error::{Error, StepFailure};
-use crate::integrate::{State, StepControl, discrete_gradient};
+use crate::integrate::{ErrorNorm, State, StepControl, discrete_gradient};
 use crate::island::body::{BodyMemory, RigidBody};
 use crate::island::dynamics::{IslandDynamics, Vectors};
 use crate::island::equations::{IslandEquations, Matrices};
@@ -90,7 +90,7 @@ impl HostStep<'_, '_> {
         };
         add(deviations, -1.0, &mut state.v);
         let equations = IslandEquations { cables, layout, matrices };
-        IslandDynamics { equations, accounts, vectors }.match_velocities(state)?;
+        IslandDynamics { equations, accounts, norm: ErrorNorm::Every, vectors }.match_velocities(state)?;
         add(deviations, 1.0, &mut state.v);
         for (cable, part) in cables.iter_mut().zip(&layout.parts) {
             let Cable { model, snapshot, .. } = &mut **cable;
