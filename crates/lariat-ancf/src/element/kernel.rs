@@ -249,7 +249,13 @@ impl<T: Real> Gradient<T> {
 /// Rates of the Gram numbers: `g'_ij = d_i . v_j + v_i . d_j`.
 #[inline(always)]
 pub(crate) fn gram_rates<T: Real>(d: &Control<T>, v: &Control<T>) -> Six<T> {
-    let twice = |i: usize| dot(&d[i], &v[i]) * PAIR_WEIGHT[0];
-    let pair = |i: usize, j: usize| dot(&d[i], &v[j]) + dot(&v[i], &d[j]);
-    [twice(0), pair(0, 1), pair(0, 2), twice(1), pair(1, 2), twice(2)]
+    // no closures: the compiler does not inline them into a function of another SIMD level
+    [
+        dot(&d[0], &v[0]) * PAIR_WEIGHT[0],
+        dot(&d[0], &v[1]) + dot(&v[0], &d[1]),
+        dot(&d[0], &v[2]) + dot(&v[0], &d[2]),
+        dot(&d[1], &v[1]) * PAIR_WEIGHT[0],
+        dot(&d[1], &v[2]) + dot(&v[1], &d[2]),
+        dot(&d[2], &v[2]) * PAIR_WEIGHT[0],
+    ]
 }

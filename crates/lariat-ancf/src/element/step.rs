@@ -67,7 +67,7 @@ impl<T: Real> ElementStep<T> {
             start,
             end: combined(&start, &gram_change, 1.0),
             gram_change,
-            gram_before: gram_rates(&middle_before, before).map(|x| x * kept),
+            gram_before: scaled(&gram_rates(&middle_before, before), kept),
         }
     }
 
@@ -82,6 +82,16 @@ impl<T: Real> ElementStep<T> {
     pub fn gram_second(&self) -> Six<T> {
         combined(&self.gram_change, &self.gram_before, -1.0)
     }
+}
+
+/// `factor x`, of Gram numbers.
+#[inline(always)]
+pub fn scaled<T: Real>(x: &Six<T>, factor: f64) -> Six<T> {
+    let mut out = *x;
+    for i in 0..6 {
+        out[i] = x[i] * factor;
+    }
+    out
 }
 
 /// `x + factor y`, of Gram numbers.
