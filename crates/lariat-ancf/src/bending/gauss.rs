@@ -220,7 +220,7 @@ impl Bending for Gauss {
 /// The mean of the minors at both ends of a step, and the mean of the Gram numbers.
 #[inline(always)]
 pub(crate) fn middle<T: Real>(g: [&Six<T>; 2]) -> (Six<T>, Six<T>) {
-    let [mut x, last] = g.map(minors);
+    let (mut x, last) = (minors(g[0]), minors(g[1]));
     let mut mean = *g[0];
     for i in 0..6 {
         x[i] = (x[i] + last[i]) * 0.5;

@@ -44,17 +44,29 @@ impl<T: Real> PowerSecant<T> {
     /// Of Q^-2.
     #[inline(always)]
     pub fn square(start: T, end: T) -> Self {
-        Self::new(start, end, 2.0, |i, j| -(i * j * (i + j)), |i| i * i)
+        Self::new(
+            (start, end, 2.0),
+            #[inline(always)]
+            |i, j| -(i * j * (i + j)),
+            #[inline(always)]
+            |i| i * i,
+        )
     }
 
     /// Of Q^-3.
     #[inline(always)]
     pub fn cube(start: T, end: T) -> Self {
-        Self::new(start, end, 3.0, |i, j| -(i * j * (i * i + i * j + j * j)), |i| i * i * i)
+        Self::new(
+            (start, end, 3.0),
+            #[inline(always)]
+            |i, j| -(i * j * (i * i + i * j + j * j)),
+            #[inline(always)]
+            |i| i * i * i,
+        )
     }
 
     #[inline(always)]
-    fn new(start: T, end: T, k: f64, secant: impl Fn(T, T) -> T, power: impl Fn(T) -> T) -> Self {
+    fn new((start, end, k): (T, T, f64), secant: impl Fn(T, T) -> T, power: impl Fn(T) -> T) -> Self {
         let one = start.splat(1.0);
         let (q0, q1) = (start.at_least(LOWER_LIMIT), end.at_least(LOWER_LIMIT));
         let (i, j) = (one / q0, one / q1);
@@ -62,10 +74,11 @@ impl<T: Real> PowerSecant<T> {
         let (sum, change) = (y0 + y1, end - start);
         let below = sum / (sum - SMALL);
         let share = ((y1 - y0) * change + below * SMALL_SQUARE) / (change * change + SMALL_SQUARE);
-        let crumpled = (sum * (0.5 * k * (k + 1.0) / LOWER_LIMIT) - k) * LOWER_LIMIT.powi(-(k as i32) - 1);
+        let (half, unit) = (0.5 * k * (k + 1.0) / LOWER_LIMIT, LOWER_LIMIT.powi(-(k as i32) - 1));
+        let crumpled = (sum * half - k) * unit;
         let slope = secant(i, j) * (one - share) + crumpled * share;
-        let taylor = |y: T| (y * (0.5 * k * (k + 1.0) / LOWER_LIMIT) - k) * y * LOWER_LIMIT.powi(-(k as i32) - 1);
-        let mean = (power(i) + power(j) + taylor(y0) + taylor(y1)) * 0.5;
+        let (taylor0, taylor1) = ((y0 * half - k) * y0 * unit, (y1 * half - k) * y1 * unit);
+        let mean = (power(i) + power(j) + taylor0 + taylor1) * 0.5;
         PowerSecant { mean, slope }
     }
 }

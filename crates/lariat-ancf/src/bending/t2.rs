@@ -85,7 +85,7 @@ impl Bending for T2 {
     }
     #[inline(always)]
     fn add_discrete_gradient<T: Real>(&self, g: [&Six<T>; 2], scale: T, n: &mut Six<T>) {
-        let [r0, r1] = g.map(|g| form(&RHO, g));
+        let (r0, r1) = (form(&RHO, g[0]), form(&RHO, g[1]));
         let power = PowerSecant::square(form(&self.a, g[0]), form(&self.a, g[1]));
         let (first, second) = (scale * power.mean, scale * power.slope * (r0 + r1) * 0.5);
         for i in 0..6 {

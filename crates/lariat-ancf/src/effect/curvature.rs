@@ -105,7 +105,7 @@ impl Point {
         for i in 0..6 {
             gradient[i] = power.mean * gradient[i] + second * self.weighted_b[i];
         }
-        (g.map(|g| self.squared(g).w), gradient)
+        ([self.squared(g[0]).w, self.squared(g[1]).w], gradient)
     }
 
     /// Adds the pairs of `scale |l r''/2|^2`: the [`gradient`](crate::element::gram::gradient) of any three vectors with these pairs is

@@ -347,7 +347,7 @@ impl<T: Real> NaturalCurvature<T> {
         let (x, mean) = middle(g);
         for point in points {
             let (w, gradient) = point.secant(g, &x, &mean);
-            let [first, last] = w.map(|w| (w + self.rounding).sqrt());
+            let (first, last) = ((w[0] + self.rounding).sqrt(), (w[1] + self.rounding).sqrt());
             let scale = -(flexural * self.target * (2.0 * point.weight) / (first + last));
             for i in 0..6 {
                 n[i] = n[i] + scale * gradient[i];

@@ -249,7 +249,14 @@ impl<T: Real> Gradient<T> {
 /// Rates of the Gram numbers: `g'_ij = d_i . v_j + v_i . d_j`.
 #[inline(always)]
 pub(crate) fn gram_rates<T: Real>(d: &Control<T>, v: &Control<T>) -> Six<T> {
-    let twice = |i: usize| dot(&d[i], &v[i]) * PAIR_WEIGHT[0];
-    let pair = |i: usize, j: usize| dot(&d[i], &v[j]) + dot(&v[i], &d[j]);
-    [twice(0), pair(0, 1), pair(0, 2), twice(1), pair(1, 2), twice(2)]
+    let [d0, d1, d2] = d;
+    let [v0, v1, v2] = v;
+    [
+        dot(d0, v0) * PAIR_WEIGHT[0],
+        dot(d0, v1) + dot(v0, d1),
+        dot(d0, v2) + dot(v0, d2),
+        dot(d1, v1) * PAIR_WEIGHT[3],
+        dot(d1, v2) + dot(v1, d2),
+        dot(d2, v2) * PAIR_WEIGHT[5],
+    ]
 }

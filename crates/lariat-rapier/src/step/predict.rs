@@ -4,6 +4,11 @@
 //! The island solver ([`lariat_ancf::island`]) integrates cables and bodies as one system. A body
 //! is free but for gravity, the user's forces and the reaction estimate; one that joints hold has
 //! the inertia and the loads of its whole mechanism ([`crate::mechanism`]).
+//!
+//! # Threads
+//! With the feature `parallel`, islands are integrated on the threads of rayon's present pool. One reads and
+//! writes nothing of another, nor of Rapier's world, so results are bitwise the same for any number of
+//! threads.
 
 use crate::body;
 use crate::contents::Contents;
@@ -15,30 +20,95 @@ use crate::step::kinematic_ends;
 use crate::step::prediction::{Prediction, StepParameters};
 use crate::step::proximity;
 use ::nalgebra::{Matrix3, Vector6};
+use core::cell::RefCell;
 use lariat_ancf::island::{Island as IslandSolver, RigidBody};
-use lariat_ancf::{Integrator, StepControl};
+use lariat_ancf::{Cable, Integrator, StepControl};
 use rapier::pipeline::PhysicsWorld;
 
-/// Integrates the cables and members of an island over a step, into `prediction`.
-pub(crate) fn integrate(
+/// Number of elements to integrate below which threads are left asleep: to wake them takes as long.
+#[cfg(feature = "parallel")]
+const FEW_ELEMENTS: usize = 64;
+
+thread_local! {
+    /// Buffers of the islands that this thread integrates.
+    static SOLVERS: RefCell<Vec<Box<IslandSolver>>> = const { RefCell::new(Vec::new()) };
+}
+
+/// An island that is ready, with its cables.
+struct Job<'a> {
+    island: &'a Island,
+    cables: Vec<&'a mut Cable>,
+    prediction: &'a mut Prediction,
+    integrator: Integrator,
+    /// Time step in s.
+    h: f64,
+}
+
+impl Job<'_> {
+    fn run(&mut self) {
+        self.prediction.error = self.integrate().err().map(Error::from);
+    }
+
+    fn integrate(&mut self) -> Result<(), lariat_ancf::Error> {
+        let Job { island, cables, prediction, integrator, h } = self;
+        if island.members.is_empty() {
+            return cables.iter_mut().try_for_each(|cable| cable.step_with(*h, &*integrator));
+        }
+        let mut solver = SOLVERS.with_borrow_mut(Vec::pop).unwrap_or_default();
+        let outcome = solver.step(cables, &mut prediction.end, &island.pins, *integrator, *h);
+        prediction.accounts.clear();
+        prediction.accounts.extend_from_slice(solver.accounts());
+        SOLVERS.with_borrow_mut(|solvers| solvers.push(solver));
+        outcome
+    }
+}
+
+/// Reads members and integrator of an island that will be integrated over a step.
+pub(crate) fn prepare(
     contents: &mut Contents,
     world: &mut PhysicsWorld,
-    solver: &mut IslandSolver,
     island: &Island,
     prediction: &mut Prediction,
     step: &StepParameters,
 ) -> Result<(), Error> {
-    let integrator = share_of(integrator(contents, island), step.rapier_steps);
-    if island.members.is_empty() {
-        for cable in contents.cables_at(&island.cables) {
-            cable.step_with(step.h, &integrator)?;
-        }
-        return Ok(());
+    if !island.members.is_empty() {
+        read_members(contents, world, island, prediction, step.h)?;
     }
-    read_members(contents, world, island, prediction, step.h)?;
-    let mut cables = contents.cables_at(&island.cables);
-    solver.step(&mut cables, &mut prediction.end, &island.pins, integrator, step.h)?;
-    for (account, attachment) in solver.accounts().iter().zip(&island.attachments) {
+    prediction.integrator = Some(share_of(integrator(contents, island), step.rapier_steps));
+    Ok(())
+}
+
+/// Integrates the islands that are ready over a step of `h` (s), into their predictions.
+pub(crate) fn integrate(contents: &mut Contents, islands: &[Island], predictions: &mut [Prediction], h: f64) {
+    let mut slots = contents.cables.all_mut();
+    let ready = islands.iter().zip(predictions).filter_map(|(island, prediction)| {
+        let integrator = prediction.integrator?;
+        let own = island.cables.iter().filter_map(|&c| slots[c].take());
+        let cables = own.map(|slot| &mut slot.cable).collect();
+        Some(Job { island, cables, prediction, integrator, h })
+    });
+    run(&mut ready.collect::<Vec<_>>());
+}
+
+fn run(jobs: &mut [Job<'_>]) {
+    #[cfg(feature = "parallel")]
+    {
+        use rayon::prelude::*;
+        let elements = jobs.iter().flat_map(|job| &job.cables).map(|cable| cable.elements().len()).sum::<usize>();
+        if jobs.len() > 1 && elements >= FEW_ELEMENTS {
+            jobs.par_iter_mut().for_each(Job::run);
+            return;
+        }
+    }
+    jobs.iter_mut().for_each(Job::run);
+}
+
+/// Takes over what the integration of an island tells about its attachments and junctions.
+pub(crate) fn complete(contents: &mut Contents, island: &Island, prediction: &Prediction) {
+    if island.members.is_empty() {
+        return;
+    }
+    for (account, attachment) in prediction.accounts.iter().zip(&island.attachments) {
         if let Some(a) = attachment.and_then(|a| contents.attachments.get_mut(a)) {
             a.predicted = *account;
         }
@@ -50,7 +120,6 @@ pub(crate) fn integrate(
             junction.memory = end.memory;
         }
     }
-    Ok(())
 }
 
 /// Reads the members of an island before the step.

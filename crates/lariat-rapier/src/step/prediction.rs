@@ -2,12 +2,13 @@
 //! reconciliation.
 
 use crate::body::SavedBody;
+use crate::error::Error;
 use crate::mechanism::Mechanism;
 use crate::sleep::SleepState;
 use crate::step::refused::HeldBodies;
 use ::nalgebra::Vector3;
-use lariat_ancf::Snapshot;
-use lariat_ancf::island::{Impedance, RigidBody};
+use lariat_ancf::island::{Impedance, PinAccount, RigidBody};
+use lariat_ancf::{Integrator, Snapshot};
 use rapier::dynamics::RigidBodyHandle;
 use rapier::math::{AngVector, Vector};
 
@@ -39,6 +40,12 @@ pub(crate) struct Prediction {
     pub applied: Vec<Option<AppliedMotion>>,
     /// By cable, its response to impulses; valid if any motor is on.
     pub impedances: Vec<Impedance>,
+    /// The integrator of an island that is ready to be integrated, or was.
+    pub integrator: Option<Integrator>,
+    /// Why the island cannot step.
+    pub error: Option<Error>,
+    /// By pin, what it transmitted in the predicted step.
+    pub accounts: Vec<PinAccount>,
     /// By pin, whether its motors are on.
     pub motors: Vec<bool>,
     /// By pin, the impulse of its motors in N s.

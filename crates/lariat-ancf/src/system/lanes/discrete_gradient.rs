@@ -24,7 +24,7 @@ use crate::element::gram::{PAIR_WEIGHT, Six, contract, form, gradient, gram, hes
 use crate::element::kernel::{
     DiscreteGradientForce, Gradient, GramForce, GramStep, Hessian, Load, Stiffness, gram_rates,
 };
-use crate::element::step::{ElementStep, STRAIGHT, combined, product, shifted};
+use crate::element::step::{ElementStep, STRAIGHT, combined, product, scaled, shifted};
 use crate::integrate::discrete_gradient::{ALPHA, BETA};
 use crate::linalg::Block;
 use crate::simd::{LANES, dispatch};
@@ -93,7 +93,9 @@ impl Elements {
         group: Group<S>,
         step: CoordinateStep<'_>,
     ) -> (ElementStep<f64x8<S>>, Stiffness<f64x8<S>>) {
-        let [d, change, before] = [step.start, step.change, step.before].map(|x| self.gather_control(group, x));
+        let d = self.gather_control(group, step.start);
+        let change = self.gather_control(group, step.change);
+        let before = self.gather_control(group, step.before);
         let stiffness =
             Stiffness { axial: group.load(&self.axial) * step.h, bending: group.load(&self.flexural) * step.h };
         (ElementStep::new(&d, &change, &before, step.kept), stiffness)
@@ -122,7 +124,7 @@ impl Elements {
         h: f64,
     ) -> GramStep<'a, f64x8<S>> {
         let rate = 1.0 / h;
-        let rates = step.gram_change.map(|x| x * rate);
+        let rates = scaled(&step.gram_change, rate);
         GramStep { table: &self.table, stiffness, step, middle: gram(&step.mean), rates, rate }
     }
 
@@ -218,9 +220,15 @@ impl Elements {
             }
             self.scatter_force(simd, first, &force, out);
             let implicit = BETA * step.h;
-            let (geometric, h) = (tangent.geometric.map(|x| x * implicit), tangent.h.map(|x| x * implicit));
-            let block = |i, k| hessian_block(i, k, &geometric, &h, &s.mean);
-            let blocks = [block(0, 0), block(0, 1), block(0, 2), block(1, 1), block(1, 2), block(2, 2)];
+            let (geometric, h) = (scaled(&tangent.geometric, implicit), scaled(&tangent.h, implicit));
+            let blocks = [
+                hessian_block(0, 0, &geometric, &h, &s.mean),
+                hessian_block(0, 1, &geometric, &h, &s.mean),
+                hessian_block(0, 2, &geometric, &h, &s.mean),
+                hessian_block(1, 1, &geometric, &h, &s.mean),
+                hessian_block(1, 2, &geometric, &h, &s.mean),
+                hessian_block(2, 2, &geometric, &h, &s.mean),
+            ];
             self.scatter_matrix(simd, first, &blocks, to.mass_scale, to.matrix);
         }
     }
