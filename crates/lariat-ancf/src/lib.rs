@@ -47,6 +47,7 @@ pub mod island;
 pub mod linalg;
 mod load;
 mod model;
+mod point;
 mod quadrature;
 mod real;
 mod rule;
@@ -72,6 +73,7 @@ pub use integrate::{Fidelity, Integrator, IntegratorChoice, IntegratorRef, Metho
 pub use load::PointLoad;
 /// The vector type of the public interface (nalgebra's).
 pub use nalgebra::Vector3;
+pub use point::Point;
 pub use real::Real;
 pub use rule::{AxialRule, BendingRule, Rule};
 pub use section::{Element, Section, Shape};

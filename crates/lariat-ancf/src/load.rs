@@ -15,6 +15,7 @@
 //!
 //! Virtual work.
 
+use crate::point::Point;
 use nalgebra::{Matrix3, Vector3};
 use serde::{Deserialize, Serialize};
 
@@ -36,12 +37,14 @@ pub struct PointLoad {
 
 impl PointLoad {
     /// Creates a constant force in N at an arc length in m.
-    pub fn force(arc_length: f64, force: Vector3<f64>) -> Self {
+    pub fn force(arc_length: f64, force: impl Into<Point>) -> Self {
+        let force = force.into().0;
         PointLoad { arc_length, force, moment: Vector3::zeros(), ramp: 0.0, start: 0.0 }
     }
 
     /// Creates a constant moment in N m at an arc length in m.
-    pub fn moment(arc_length: f64, moment: Vector3<f64>) -> Self {
+    pub fn moment(arc_length: f64, moment: impl Into<Point>) -> Self {
+        let moment = moment.into().0;
         PointLoad { arc_length, force: Vector3::zeros(), moment, ramp: 0.0, start: 0.0 }
     }
 

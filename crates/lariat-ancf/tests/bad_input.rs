@@ -49,7 +49,7 @@ fn builders_reject_descriptions_that_are_not_a_cable() {
     let build = |f: &dyn Fn(CableBuilder) -> CableBuilder| f(pendulum(4)).build();
     let error = |f: &dyn Fn(CableBuilder) -> CableBuilder| build(f).expect_err("not a cable");
     let (x, cable) = (Vector3::x, || "pendulum".to_string());
-    assert_eq!(error(&|b| b.points([])), Error::TooFewPoints { cable: cable(), count: 0 });
+    assert_eq!(error(&|b| b.points(Vec::<Vector3<f64>>::new())), Error::TooFewPoints { cable: cable(), count: 0 });
     assert_eq!(error(&|b| b.points([x()])), Error::TooFewPoints { cable: cable(), count: 1 });
     assert_eq!(error(&|b| b.points([x(), x()])), Error::CoincidentPoints { cable: cable(), index: 0, point: x() });
     let coincident = Error::CoincidentPoints { cable: cable(), index: 1, point: x() };

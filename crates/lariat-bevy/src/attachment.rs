@@ -1,14 +1,13 @@
 //! Attachments: entities that connect a point of a cable to a point of a body.
 
 use crate::pending::Pending;
-use crate::point::Point;
 use bevy_ecs::bundle::Bundle;
 use bevy_ecs::component::Component;
 use bevy_ecs::entity::Entity;
 use bevy_ecs::lifecycle::HookContext;
 use bevy_ecs::world::DeferredWorld;
 use core::ops::Deref;
-use lariat_ancf::{At, Vector3};
+use lariat_ancf::{At, Point, Vector3};
 use lariat_rapier::{AttachmentHandle, AttachmentKind, Gap};
 
 /// An attachment of a point of a cable. Spawn it with its relationships:

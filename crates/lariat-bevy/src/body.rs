@@ -3,13 +3,12 @@
 use crate::cables::Cables;
 use crate::pending::Pending;
 use crate::physics::Physics;
-use crate::point::Point;
 use bevy_ecs::component::Component;
 use bevy_ecs::entity::Entity;
 use bevy_ecs::lifecycle::HookContext;
 use bevy_ecs::system::{Query, Res, ResMut, SystemParam};
 use bevy_ecs::world::DeferredWorld;
-use lariat_ancf::Vector3;
+use lariat_ancf::{Point, Vector3};
 use lariat_rapier::convert::{rotation, to_pose, to_vector, vector};
 use lariat_rapier::rapier::dynamics::{RigidBody, RigidBodyBuilder, RigidBodyHandle};
 use lariat_rapier::rapier::geometry::ColliderBuilder;

@@ -2,14 +2,17 @@
 
 use crate::attachment::{Attachment, OnCable};
 use crate::cable::Cable;
-use crate::cables::Cables;
+use crate::cables::{Break, Cables};
 use crate::components::{CableComponents, put};
 use crate::event::CableBroken;
 use crate::interpolate::Interpolate;
+use crate::junction::Junction;
 use bevy_ecs::component::Component;
 use bevy_ecs::entity::Entity;
+use bevy_ecs::entity_disabling::Disabled;
 use bevy_ecs::name::Name;
-use bevy_ecs::prelude::{DetectChanges, QueryState, Ref, World};
+use bevy_ecs::prelude::{Query, RemovedComponents, ResMut, World};
+use bevy_ecs::query::Allow;
 use lariat_ancf::At;
 use lariat_rapier::CableHandle;
 
@@ -22,34 +25,43 @@ use lariat_rapier::CableHandle;
 #[derive(Component, Clone, Copy, Debug, PartialEq)]
 pub struct BreakTension(pub f64);
 
-/// Breaks the cables whose tension exceeds their limit.
-pub(crate) fn break_cables(world: &mut World, limits: &mut QueryState<(Entity, Ref<BreakTension>)>) {
-    let cables = world.resource::<Cables>();
-    let peak = |(entity, limit): (Entity, Ref<BreakTension>)| {
-        // the tension of a sleeping cable does not change, but its limit may
-        let cable = cables.get(entity).ok().filter(|_| limit.is_changed() || !cables.is_asleep(entity))?;
-        let (arc_length, tension) = cable.peak_tension();
-        (tension > limit.0).then_some((entity, arc_length, tension))
-    };
-    let overloaded: Vec<(Entity, f64, f64)> = limits.iter(world).filter_map(peak).collect();
-    for (entity, peak, tension) in overloaded {
-        if let Some((rest, arc_length)) = break_cable(world, entity, peak) {
-            let event = CableBroken { entity, rest, arc_length, tension };
-            world.resource_mut::<Cables>().events.push(event.into());
+/// Tells the set which cables break, and at which tension.
+pub(crate) fn set_strengths(
+    mut cables: ResMut<Cables>,
+    limits: Query<(Entity, &BreakTension), Allow<Disabled>>,
+    mut removed: RemovedComponents<BreakTension>,
+) {
+    for entity in removed.read() {
+        if let Ok(handle) = cables.handle(entity) {
+            // a cable with an entity is in the set
+            let _ = cables.set.set_strength(handle, None);
+        }
+    }
+    for (entity, limit) in &limits {
+        if let Ok(handle) = cables.handle(entity) {
+            let _ = cables.set.set_strength(handle, Some(limit.0));
         }
     }
 }
 
-/// Breaks a cable near an arc length; returns the entity of the part behind the break, and the arc
-/// length of the break (m).
-fn break_cable(world: &mut World, entity: Entity, arc_length: f64) -> Option<(Entity, f64)> {
+/// Makes an entity of the part behind each break, with the same components.
+pub(crate) fn split_entities(world: &mut World) {
+    for broken in core::mem::take(&mut world.resource_mut::<Cables>().broken) {
+        let Break { cable, rest: tail, arc_length, tension } = broken;
+        let link = world.resource::<Cables>().links.cables.get(&cable).copied();
+        let Some(rest) = link.and_then(|link| split_entity(world, link.entity, cable, tail)) else { continue };
+        let entity = link.map_or(Entity::PLACEHOLDER, |link| link.entity);
+        let event = CableBroken { entity, rest, arc_length, tension };
+        world.resource_mut::<Cables>().events.push(event.into());
+    }
+}
+
+/// Spawns the entity of the part behind a break.
+fn split_entity(world: &mut World, entity: Entity, cable: CableHandle, tail: CableHandle) -> Option<Entity> {
     let description = world.get::<Cable>(entity)?.clone();
     let components = CableComponents::of(world.entity(entity));
-    let mut cables = world.resource_mut::<Cables>();
-    let handle = cables.handle(entity).ok()?;
-    let at = inner_node(cables.get(entity).ok()?, arc_length)?;
-    let tail = cables.set.cut(handle, at).ok()?;
-    let (before, behind) = (cables.set.get(handle).ok()?, cables.set.get(tail).ok()?);
+    let cables = world.resource::<Cables>();
+    let (before, behind) = (cables.set.get(cable).ok()?, cables.set.get(tail).ok()?);
     let length = before.length();
     let [before, behind] = [before, behind].map(|part| components.of_part(part));
     let rest = world.spawn_empty().id();
@@ -57,6 +69,7 @@ fn break_cable(world: &mut World, entity: Entity, arc_length: f64) -> Option<(En
     // linked before its component is inserted, which else would build a new cable
     cables.links.insert_cable(rest, tail);
     let moved = move_attachments(&mut cables, tail, length, rest);
+    let tied = move_junctions(&mut cables, tail, length, rest);
     before.put(&mut world.entity_mut(entity));
     behind.put(&mut world.entity_mut(rest));
     let (limit, name) = (world.get::<BreakTension>(entity).copied(), world.get::<Name>(entity).cloned());
@@ -72,15 +85,43 @@ fn break_cable(world: &mut World, entity: Entity, arc_length: f64) -> Option<(En
         }
         world.entity_mut(attachment).insert(OnCable(rest));
     }
-    Some((rest, length))
+    for (entity, junction) in tied {
+        if let Some(mut component) = world.get_mut::<Junction>(entity) {
+            *component = junction;
+        }
+    }
+    Some(rest)
 }
 
-/// Returns the inner node that is nearest to an arc length (m); a cable of one element has none.
-fn inner_node(cable: &lariat_ancf::Cable, arc_length: f64) -> Option<At> {
-    let nodes = cable.node_arc_lengths();
-    let inner = &nodes[1..nodes.len() - 1];
-    let distance = |node: &f64| (node - arc_length).abs();
-    inner.iter().copied().min_by(|a, b| distance(a).total_cmp(&distance(b))).map(At::ArcLength)
+/// Points the junctions behind a break at `length` (m) to the entity `rest`; returns those that
+/// changed, with their components.
+fn move_junctions(cables: &mut Cables, tail: CableHandle, length: f64, rest: Entity) -> Vec<(Entity, Junction)> {
+    let Cables { set, links, .. } = cables;
+    let mut moved = Vec::new();
+    for (handle, link) in &mut links.junctions {
+        let Ok(junction) = set.junction(*handle) else { continue };
+        let before = link.made.clone();
+        for (point, (cable, arc_length)) in link.made.points.iter_mut().zip(junction.points()) {
+            if cable == tail {
+                *point = (rest, moved_point(point.1, length, arc_length));
+            }
+        }
+        if link.made != before {
+            moved.push((link.entity, link.made.clone()));
+        }
+    }
+    moved
+}
+
+/// Returns a point of a cable as a point of its part behind a break at `length` (m), where it is at
+/// `arc_length` (m).
+fn moved_point(at: At, length: f64, arc_length: f64) -> At {
+    match at {
+        At::ArcLength(s) => At::ArcLength(s - length),
+        // nodes have other numbers, and the end remains the end
+        At::Node(_) => At::ArcLength(arc_length),
+        at => at,
+    }
 }
 
 /// Links the attachments behind a break at `length` (m) to the entity `rest`; returns them with
@@ -92,12 +133,7 @@ fn move_attachments(cables: &mut Cables, tail: CableHandle, length: f64, rest: E
         let Ok(attachment) = set.attachment(*handle) else { continue };
         if attachment.cable() == tail {
             link.cable = rest;
-            link.made.at = match link.made.at {
-                At::ArcLength(s) => At::ArcLength(s - length),
-                // nodes have other numbers, and the end remains the end
-                At::Node(_) => At::ArcLength(attachment.arc_length()),
-                at => at,
-            };
+            link.made.at = moved_point(link.made.at, length, attachment.arc_length());
             moved.push((link.entity, link.made.at));
         }
     }

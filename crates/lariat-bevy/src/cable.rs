@@ -5,13 +5,12 @@ use crate::components::CableComponents;
 use crate::description::Description;
 use crate::event::CableFailed;
 use crate::pending::Pending;
-use crate::point::Point;
 use bevy_ecs::component::Component;
 use bevy_ecs::entity::Entity;
 use bevy_ecs::lifecycle::HookContext;
 use bevy_ecs::name::Name;
 use bevy_ecs::world::DeferredWorld;
-use lariat_ancf::{Fidelity, IntegratorChoice, Section};
+use lariat_ancf::{Fidelity, IntegratorChoice, Point, Section};
 
 /// The description of a cable. Spawn it with its rule and effects as components beside it;
 /// [`Cables`] then holds the cable:
@@ -47,7 +46,7 @@ use lariat_ancf::{Fidelity, IntegratorChoice, Section};
 /// # Limits
 ///
 /// The constitutive law is linear elastic, with constant EA and EI: see [`lariat_ancf::element`].
-/// No contact, no joining of cables, no reeling: see the [crate page](crate#limits).
+/// No contact, no reeling: see the [crate page](crate#limits).
 #[derive(Component, Clone, Debug, PartialEq)]
 #[component(immutable, on_insert = built, on_discard = discarded)]
 pub struct Cable(pub(crate) Description);

@@ -28,10 +28,11 @@
 use crate::attachment::Attachment;
 use crate::error::Error;
 use crate::event::{QueuedEvent, StepFailed};
+use crate::junction::Junction;
 use bevy_ecs::entity::{Entity, EntityHashMap};
 use bevy_ecs::resource::Resource;
 use lariat_rapier::rapier::dynamics::RigidBodyHandle;
-use lariat_rapier::{AttachmentHandle, CableHandle, CableSet, HostStep, Settings};
+use lariat_rapier::{AttachmentHandle, CableHandle, CableSet, HostStep, JunctionHandle, Settings};
 use std::collections::{BTreeMap, HashMap};
 
 /// The cables of a world: a resource to read with `Res<Cables>` and to change with
@@ -53,13 +54,15 @@ use std::collections::{BTreeMap, HashMap};
 ///
 /// # Limits
 ///
-/// No contact of cables with bodies or with each other, no cables joined to each other, and no
-/// change of length: see the [crate page](crate#limits).
+/// No contact of cables with bodies or with each other, and no change of length: see the
+/// [crate page](crate#limits).
 #[derive(Resource, Default)]
 pub struct Cables {
     pub(crate) set: CableSet,
     pub(crate) links: Links,
     pub(crate) events: Vec<QueuedEvent>,
+    /// Cables that broke in the host step.
+    pub(crate) broken: Vec<Break>,
     /// The host step that is under way.
     pub(crate) host: Option<HostStep>,
     /// Whether a snapshot is being restored, with the cables of all components: those that are
@@ -142,6 +145,18 @@ impl Cables {
     }
 }
 
+/// A cable of the set that broke.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Break {
+    pub cable: CableHandle,
+    /// The part behind the break.
+    pub rest: CableHandle,
+    /// Arc length of the break in m.
+    pub arc_length: f64,
+    /// Tension in N.
+    pub tension: f64,
+}
+
 /// Which entity stands for which object of the set and of Rapier's world.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Links {
@@ -150,6 +165,7 @@ pub(crate) struct Links {
     /// Handle of each cable entity, or why its cable could not be built.
     pub built: EntityHashMap<Result<CableHandle, lariat_ancf::Error>>,
     pub attachments: BTreeMap<AttachmentHandle, AttachmentLink>,
+    pub junctions: BTreeMap<JunctionHandle, JunctionLink>,
     pub bodies: HashMap<RigidBodyHandle, Entity>,
     /// The fixed body to which cables are attached that are attached to the world.
     pub ground: Option<RigidBodyHandle>,
@@ -177,6 +193,14 @@ pub(crate) struct AttachmentLink {
     pub counted: f64,
 }
 
+/// A junction of the set.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct JunctionLink {
+    pub entity: Entity,
+    /// The component that it was made from.
+    pub made: Junction,
+}
+
 impl Links {
     /// Links an entity to its cable.
     pub fn insert_cable(&mut self, entity: Entity, handle: CableHandle) {
@@ -196,6 +220,10 @@ impl Links {
         let mut links = self.clone();
         links.built = self.built.iter().map(|(entity, built)| (name(*entity), built.clone())).collect();
         links.cables.values_mut().for_each(|link| link.entity = name(link.entity));
+        for link in links.junctions.values_mut() {
+            link.entity = name(link.entity);
+            link.made.rename(name);
+        }
         links.bodies.values_mut().for_each(|entity| *entity = name(*entity));
         for link in links.attachments.values_mut() {
             (link.entity, link.cable) = (name(link.entity), name(link.cable));

@@ -8,7 +8,6 @@
 //! of the list.
 
 use crate::pending::Pending;
-use crate::point::Point;
 use bevy_ecs::component::Component;
 use bevy_ecs::lifecycle::HookContext;
 #[cfg(feature = "reflect")]
@@ -17,7 +16,7 @@ use bevy_ecs::world::DeferredWorld;
 #[cfg(feature = "reflect")]
 use bevy_reflect::prelude::*;
 use core::f64::consts::PI;
-use lariat_ancf::{BendingRule, Flow, LineLoad, PointLoad, RestPiece, Section, Vector3};
+use lariat_ancf::{BendingRule, Flow, LineLoad, Point, PointLoad, RestPiece, Section, Vector3};
 use serde::{Deserialize, Serialize};
 
 /// A component that adds an effect of the mechanics to a cable.

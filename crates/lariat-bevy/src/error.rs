@@ -19,6 +19,9 @@ pub enum Error {
         /// Why it could not be built.
         reason: lariat_ancf::Error,
     },
+    /// A junction of fewer than two points.
+    #[error("a junction needs two points of cables or more")]
+    TooFewCables,
     /// An attachment to an entity without a body.
     #[error("entity {0} has no body")]
     NotABody(Entity),

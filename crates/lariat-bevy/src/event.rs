@@ -92,10 +92,37 @@ pub struct AttachmentFailed {
     pub error: Error,
 }
 
+/// A junction cannot be made. It is tried again when its component changes, or when a cable is
+/// spawned.
+#[derive(EntityEvent, Message, Clone, Debug, PartialEq)]
+pub struct JunctionFailed {
+    /// The junction.
+    pub entity: Entity,
+    /// The cause.
+    pub error: Error,
+}
+
+/// A junction ended because fewer than two of its cables are left; the entity stays.
+#[derive(EntityEvent, Message, Clone, Debug, PartialEq)]
+pub struct JunctionEnded {
+    /// The junction.
+    pub entity: Entity,
+}
+
 /// Calls `$apply!` with the type of each event.
 macro_rules! for_each_event {
     ($apply:ident) => {
-        $apply!(CableFailed, StepFailed, CableAsleep, CableAwake, CableBroken, AttachmentEnded, AttachmentFailed);
+        $apply!(
+            CableFailed,
+            StepFailed,
+            CableAsleep,
+            CableAwake,
+            CableBroken,
+            AttachmentEnded,
+            AttachmentFailed,
+            JunctionFailed,
+            JunctionEnded
+        );
     };
 }
 #[cfg(feature = "bevy_app")]

@@ -7,7 +7,7 @@ use crate::diagnostics::Diagnostics;
 use crate::event;
 use crate::pending::Pending;
 use crate::physics::Physics;
-use crate::prepare::{self, attachments, bodies, effects, removals};
+use crate::prepare::{self, attachments, bodies, effects, junctions, removals};
 use crate::publish;
 use crate::schedule::{AfterEngine, BeforeEngine, CableStep, CableSystems, RapierStep};
 use crate::step;
@@ -82,7 +82,9 @@ fn add_prepare(schedule: &mut Schedule) {
             bodies::update,
             effects::watch,
             effects::update,
+            junctions::update,
             attachments::update,
+            breaking::set_strengths,
             prepare::copy_coordinates,
             prepare::end,
         )
@@ -98,7 +100,7 @@ fn add_publish(schedule: &mut Schedule) {
             publish::read_attachments,
             publish::count,
             publish::read_bodies,
-            breaking::break_cables,
+            breaking::split_entities,
             publish::send,
         )
             .chain()

@@ -38,6 +38,8 @@
 //! | describe a cable | [`Cable`], [`Rule`], and the effects [`Bending`], [`Damping`], [`Drag`], [`Buoyancy`], [`RestShape`], [`LineLoads`], [`PointLoads`], [`GravityScale`] |
 //! | read or change its state | [`Cables`] |
 //! | attach it | [`Attachment`], [`OnCable`], [`ToBody`], [`AttachmentReading`] |
+//! | spawn the usual rope in one line | [`SpawnRope::spawn_rope`], [`Rope`] |
+//! | tie cables to each other | [`Junction`] |
 //! | let it break | [`BreakForce`], [`BreakTension`] |
 //! | make bodies | [`Body`], [`KinematicTarget`], [`BodyPose`], [`Bodies`] |
 //! | step | [`advance`], or [`CableStep`] in a schedule of your own; with feature `bevy_app` the plugin |
@@ -57,8 +59,8 @@
 //!
 //! # Limits
 //!
-//! - No contact of cables with bodies or with each other, no cables joined to each other, and no
-//!   reel: the unstretched length of a cable is constant.
+//! - No contact of cables with bodies or with each other, and no reel: the unstretched length of a
+//!   cable is constant.
 //! - A cable that cannot step stands still with all that is attached to it until the cause is
 //!   removed: see [`StepFailed`](event::StepFailed).
 //! - On the bodies of another plugin ([`BeforeEngine`], [`AfterEngine`]; crate
@@ -81,13 +83,14 @@ mod error;
 pub mod event;
 mod install;
 mod interpolate;
+mod junction;
 mod pending;
 mod physics;
 #[cfg(feature = "bevy_app")]
 mod plugin;
-mod point;
 mod prepare;
 mod publish;
+mod rope;
 mod schedule;
 mod snapshot;
 mod step;
@@ -106,11 +109,12 @@ pub use effects::*;
 pub use error::Error;
 pub use install::install;
 pub use interpolate::{Interpolate, curve};
-pub use lariat_ancf::{self, At, Fidelity};
-pub use lariat_rapier::{self, AttachmentKind, Gap, Settings, rapier};
+pub use junction::Junction;
+pub use lariat_ancf::{self, At, Fidelity, Point};
+pub use lariat_rapier::{self, AttachmentKind, Gap, Rope, RopeEnd, Settings, rapier};
 pub use physics::Physics;
 #[cfg(feature = "bevy_app")]
 pub use plugin::{LariatPlugin, install_in};
-pub use point::Point;
+pub use rope::SpawnRope;
 pub use schedule::{AfterEngine, BeforeEngine, CableStep, CableSystems, RapierStep};
 pub use snapshot::Snapshot;

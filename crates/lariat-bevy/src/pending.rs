@@ -6,7 +6,7 @@
 use bevy_ecs::entity::Entity;
 use bevy_ecs::resource::Resource;
 use lariat_rapier::rapier::dynamics::RigidBodyHandle;
-use lariat_rapier::{AttachmentHandle, CableHandle};
+use lariat_rapier::{AttachmentHandle, CableHandle, JunctionHandle};
 use std::collections::BTreeSet;
 
 /// Changes that the next host step carries out.
@@ -19,6 +19,8 @@ pub(crate) struct Pending {
     pub unlinked: Vec<Entity>,
     /// Attachments whose component was removed or replaced.
     pub removed_attachments: Vec<(Entity, AttachmentHandle)>,
+    /// Junctions whose component was removed or replaced.
+    pub removed_junctions: Vec<JunctionHandle>,
     /// Bodies whose component was removed or replaced.
     pub removed_bodies: Vec<RigidBodyHandle>,
     /// Cables whose effects may differ from their components, in the order of entities.

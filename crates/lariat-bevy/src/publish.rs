@@ -2,7 +2,7 @@
 
 use crate::attachment::{Attached, AttachmentReading, BreakForce};
 use crate::body::{BodyHandle, BodyPose};
-use crate::cables::Cables;
+use crate::cables::{Break, Cables};
 use crate::diagnostics::{Diagnostics, Stage};
 use crate::event::{AttachmentEnded, CableAsleep, CableAwake, EndReason, QueuedEvent};
 use crate::physics::Physics;
@@ -12,7 +12,7 @@ use lariat_rapier::Event;
 
 /// Translates the events of the set.
 pub(crate) fn read_events(mut cables: ResMut<Cables>) {
-    let Cables { set, links, events, .. } = &mut *cables;
+    let Cables { set, links, events, broken, .. } = &mut *cables;
     for event in set.take_events() {
         let translated: Option<QueuedEvent> = match event {
             Event::Asleep(cable) => links.cables.get(&cable).map(|link| CableAsleep { entity: link.entity }.into()),
@@ -21,6 +21,10 @@ pub(crate) fn read_events(mut cables: ResMut<Cables>) {
                 let (entity, cable, body) = (link.entity, link.cable, link.body);
                 AttachmentEnded { entity, cable, body, reason: EndReason::BodyGone }.into()
             }),
+            Event::Broken { cable, rest, arc_length, tension } => {
+                broken.push(Break { cable, rest, arc_length, tension });
+                None
+            }
             _ => None,
         };
         events.extend(translated);

@@ -14,6 +14,7 @@ use crate::clock::FixedClock;
 use crate::components::{CableComponents, put};
 use crate::error::Error;
 use crate::interpolate::Interpolate;
+use crate::junction::{Joined, Junction, NotJoinable};
 use crate::pending::Pending;
 use crate::physics::Physics;
 use bevy_ecs::entity::Entity;
@@ -38,8 +39,8 @@ pub struct Snapshot {
     entities: Vec<Saved>,
 }
 
-type AnyOfOurs = (Or<(With<Cable>, With<Attachment>, With<Body>, With<BodyHandle>)>, Allow<Disabled>);
-type SpawnedByUser = (Or<(With<Cable>, With<Attachment>, With<Body>)>, Allow<Disabled>);
+type AnyOfOurs = (Or<(With<Cable>, With<Attachment>, With<Junction>, With<Body>, With<BodyHandle>)>, Allow<Disabled>);
+type SpawnedByUser = (Or<(With<Cable>, With<Attachment>, With<Junction>, With<Body>)>, Allow<Disabled>);
 
 impl Snapshot {
     /// Copies the state.
@@ -156,6 +157,7 @@ struct Saved {
     on: Option<OnCable>,
     to: Option<ToBody>,
     body: Option<Body>,
+    junction: Option<Junction>,
     cable: CableComponents,
     plain: Plain,
 }
@@ -167,6 +169,7 @@ impl Saved {
             on: entity.get().copied(),
             to: entity.get().copied(),
             body: entity.get().cloned(),
+            junction: entity.get().cloned(),
             cable: CableComponents::of(entity),
             plain: Plain::of(entity),
         }
@@ -187,6 +190,12 @@ impl Saved {
             }
             Some(_) => {}
         }
+        // before `Joined`, which it removes
+        let junction = self.junction.map(|mut junction| {
+            junction.rename(name);
+            junction
+        });
+        put(&mut entity, junction);
         put(&mut entity, on);
         put(&mut entity, to);
         self.cable.put(&mut entity);
@@ -216,5 +225,5 @@ macro_rules! plain {
 plain! {
     name: Name, cable: Cable, interpolate: Interpolate, break_tension: BreakTension, break_force: BreakForce,
     attachment: Attachment, reading: AttachmentReading, not_attachable: NotAttachable, target: KinematicTarget, pose: BodyPose,
-    body_handle: BodyHandle, attached: Attached,
+    body_handle: BodyHandle, attached: Attached, joined: Joined, not_joinable: NotJoinable,
 }

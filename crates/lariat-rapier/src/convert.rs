@@ -1,10 +1,47 @@
 //! Conversion between Rapier's numbers (glam, [`Real`]) and those of the mechanics (nalgebra,
 //! `f64`).
 //!
+//! Functions that take a point or vector take either ([`Point`](lariat_ancf::Point)), or an array; a
+//! reading becomes Rapier's vector by [`ToRapier`]:
+//!
+//! ```
+//! use lariat_rapier::convert::ToRapier;
+//! use lariat_rapier::lariat_ancf::Vector3;
+//! use rapier::prelude::*;
+//!
+//! let force = Vector3::new(0.0, -9.81, 0.0); // as of `Attachment::force`
+//! assert_eq!(force.to_rapier(), Vector::new(0.0, -9.81, 0.0));
+//! ```
+//!
 //! A function named after a type returns that of the mechanics; one with `to_` returns Rapier's.
 
 use ::nalgebra as na;
 use rapier::math::{Matrix, Pose, Real, Rotation, Vector};
+
+/// Conversion to Rapier's type, rounded to its precision.
+pub trait ToRapier {
+    /// Rapier's type.
+    type Output;
+
+    /// Converts.
+    fn to_rapier(&self) -> Self::Output;
+}
+
+impl ToRapier for na::Vector3<f64> {
+    type Output = Vector;
+
+    fn to_rapier(&self) -> Vector {
+        to_vector(self)
+    }
+}
+
+impl ToRapier for na::UnitQuaternion<f64> {
+    type Output = Rotation;
+
+    fn to_rapier(&self) -> Rotation {
+        to_rotation(self)
+    }
+}
 
 /// Converts Rapier's vector to `f64`.
 pub fn vector(v: Vector) -> na::Vector3<f64> {

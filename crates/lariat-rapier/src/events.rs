@@ -17,6 +17,17 @@ pub enum Event {
     },
     /// A cable and the bodies attached to it came to rest and fell asleep.
     Asleep(CableHandle),
+    /// The tension of a cable exceeded its [strength](crate::CableSet::set_strength), and it broke.
+    Broken {
+        /// The cable, which is now the part before the break.
+        cable: CableHandle,
+        /// A new cable: the part behind the break.
+        rest: CableHandle,
+        /// Arc length of the break in m, unstretched: the new length of the cable.
+        arc_length: f64,
+        /// The tension in N at which it broke.
+        tension: f64,
+    },
     /// A cable woke up.
     Awake(CableHandle),
 }

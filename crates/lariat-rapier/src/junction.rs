@@ -20,6 +20,12 @@ impl Junction {
         &self.nodes
     }
 
+    /// Returns the cables and the arc lengths of their nodes in m, in the order in which they were
+    /// tied.
+    pub fn points(&self) -> impl Iterator<Item = (CableHandle, f64)> {
+        self.nodes.iter().map(|(cable, _)| *cable).zip(self.arc_lengths.iter().copied())
+    }
+
     /// Returns the massless point that the island solver moves, at the junction's first node, which
     /// is one of `first`.
     pub(crate) fn point(&self, first: &Cable) -> Result<RigidBody, lariat_ancf::Error> {

@@ -29,6 +29,8 @@
 //! | to | look at |
 //! |---|---|
 //! | attach cables and step | [`CableSet`], [`Settings`] |
+//! | make the usual rope in one line | [`CableSet::add_rope`], [`Rope`] |
+//! | let a cable break | [`CableSet::set_strength`] |
 //! | read forces, gaps and work | [`Attachment`], [`AttachmentReading`], [`WorldEnergy`] |
 //! | tie cables to each other | [`CableSet::join`], [`Junction`] |
 //! | step Rapier yourself | [`CableSet::begin`], [`HostStep`] |
@@ -103,6 +105,7 @@
 mod attach;
 mod attachment;
 mod body;
+mod breaking;
 mod contents;
 pub mod convert;
 #[cfg(feature = "debug-render")]
@@ -117,6 +120,7 @@ mod junction;
 mod ledger;
 mod mechanism;
 mod record;
+mod rope;
 mod set;
 mod settings;
 mod sleep;
@@ -136,6 +140,7 @@ pub use handle::{AttachmentHandle, CableHandle, JunctionHandle};
 pub use junction::Junction;
 pub use lariat_ancf;
 pub use rapier;
+pub use rope::{ROPE_DAMPING, Rope, RopeEnd, RopeHandles};
 pub use set::CableSet;
 pub use settings::Settings;
 pub use step::HostStep;

@@ -1,21 +1,21 @@
 //! The set of cables of a world: the interface of this crate.
 
 use crate::attachment::{Attachment, AttachmentKind, AttachmentOptions, Gap};
+use crate::breaking::Strength;
 use crate::contents::Contents;
-use crate::convert::vector;
 #[cfg(feature = "debug-render")]
 use crate::draw::{self, DrawStyle};
 use crate::error::{Error, Failure};
 use crate::events::Event;
 use crate::handle::{AttachmentHandle, CableHandle, JunctionHandle};
 use crate::junction::Junction;
+use crate::rope::{self, Rope, RopeEnd, RopeHandles};
 use crate::settings::Settings;
 use crate::step::{self, HostStep, Stepper};
 use crate::totals::{self, WorldEnergy};
-use crate::{attach, edit, join, world_mark};
-use lariat_ancf::{At, Cable, Momentum};
+use crate::{attach, breaking, edit, join, world_mark};
+use lariat_ancf::{At, Cable, Momentum, Point};
 use rapier::dynamics::RigidBodyHandle;
-use rapier::math::Vector;
 #[cfg(feature = "debug-render")]
 use rapier::pipeline::DebugRenderBackend;
 use rapier::pipeline::{EventHandler, PhysicsHooks, PhysicsWorld};
@@ -64,6 +64,55 @@ impl CableSet {
             let _ = cable.set_integrator(cable.integrator_for(self.settings.fidelity));
         }
         self.contents.insert(cable)
+    }
+
+    /// Adds the usual rope between two points of the world, held there by bodies or by the world: it is
+    /// straight, or sags by its slack.
+    ///
+    /// ```
+    /// use lariat_rapier::{CableSet, Rope};
+    /// use rapier::prelude::*;
+    ///
+    /// let mut world = PhysicsWorld::new();
+    /// let cube = ColliderBuilder::cuboid(0.1, 0.1, 0.1).mass(50.0);
+    /// let (load, _) = world.insert(RigidBodyBuilder::dynamic().translation(Vector::new(0.0, -2.1, 0.0)), cube);
+    /// let mut cables = CableSet::new();
+    /// // a steel rope of 8 mm with 5 % of slack that breaks at 20 kN
+    /// let rope = Rope::steel(0.008).slack(0.05).strength(20e3);
+    /// let rope = cables.add_rope(&world, [0.0, 0.0, 0.0], (load, [0.0, -2.0, 0.0]), rope)?;
+    /// for _ in 0..300 {
+    ///     cables.step(&mut world)?;
+    /// }
+    /// let pull = cables.attachment(rope.end.unwrap())?.force().norm();
+    /// assert!((pull / (50.0 * 9.81) - 1.0).abs() < 0.05, "{pull} N");
+    /// # Ok::<(), lariat_rapier::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::NoBody`]; [`Error::OtherWorld`]; [`Error::Cable`] for two ends at one point, or a
+    /// section or slack that is not possible.
+    pub fn add_rope(
+        &mut self,
+        world: &PhysicsWorld,
+        from: impl Into<RopeEnd<RigidBodyHandle>>,
+        to: impl Into<RopeEnd<RigidBodyHandle>>,
+        rope: Rope,
+    ) -> Result<RopeHandles, Error> {
+        rope::add(self, world, [from.into(), to.into()], &rope)
+    }
+
+    /// Sets the tension in N above which a cable breaks, at the inner node nearest to its largest
+    /// tension, compared after each host step; `None` and it does not break. The event is
+    /// [`Event::Broken`]; the parts have the same strength.
+    ///
+    /// # Errors
+    /// [`Error::NoCable`].
+    pub fn set_strength(&mut self, cable: CableHandle, strength: Option<f64>) -> Result<(), Error> {
+        let slot = self.contents.cables.get_mut(cable.0 as usize).ok_or(Error::NoCable(cable))?;
+        if slot.strength.map(|strength| strength.limit) != strength {
+            slot.strength = strength.map(|limit| Strength { limit, compared: false });
+        }
+        Ok(())
     }
 
     /// Removes a cable with its attachments, and takes it out of its junctions.
@@ -128,10 +177,10 @@ impl CableSet {
         cable: CableHandle,
         at: impl Into<At>,
         body: RigidBodyHandle,
-        anchor: Vector,
+        anchor: impl Into<Point>,
         kind: impl Into<AttachmentOptions>,
     ) -> Result<AttachmentHandle, Error> {
-        attach::attach(&mut self.contents, world, (cable, at.into()), (body, vector(anchor)), kind.into())
+        attach::attach(&mut self.contents, world, (cable, at.into()), (body, anchor.into().0), kind.into())
     }
 
     /// As [`attach`](Self::attach), to the point of the body where the point of the cable is now.
@@ -286,6 +335,9 @@ impl CableSet {
     /// The error of the first of [`failures`](Self::failures).
     pub fn finish(&mut self, world: &mut PhysicsWorld, host: HostStep) -> Result<(), Error> {
         step::finish(world, &host);
+        if host.is_complete() {
+            breaking::break_overloaded(&mut self.contents, &mut self.stepper.events);
+        }
         self.failures().first().map_or(Ok(()), |failure| Err(failure.error.clone()))
     }
 

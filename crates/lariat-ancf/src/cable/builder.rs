@@ -7,6 +7,7 @@ use crate::error::{Error, require, require_finite};
 use crate::integrate::{Fidelity, Integrator, IntegratorChoice};
 use crate::load::PointLoad;
 use crate::model::{MAX_ELEMENTS, Model};
+use crate::point::Point;
 use crate::rule::Rule;
 use crate::section::Element;
 use crate::section::Section;
@@ -77,8 +78,8 @@ impl CableBuilder {
     }
 
     /// Start shape: a polyline through these points, in m. At least two.
-    pub fn points(mut self, points: impl IntoIterator<Item = Vector3<f64>>) -> Self {
-        self.points = points.into_iter().collect();
+    pub fn points<P: Into<Point>>(mut self, points: impl IntoIterator<Item = P>) -> Self {
+        self.points = points.into_iter().map(|p| p.into().0).collect();
         self
     }
 
@@ -138,20 +139,20 @@ impl CableBuilder {
     }
 
     /// Gravity in m/s^2. Default [`STANDARD_GRAVITY`].
-    pub fn gravity(mut self, gravity: Vector3<f64>) -> Self {
-        self.gravity = gravity;
+    pub fn gravity(mut self, gravity: impl Into<Point>) -> Self {
+        self.gravity = gravity.into().0;
         self
     }
 
     /// Initial velocity of the whole cable in m/s. Default zero.
-    pub fn velocity(mut self, velocity: Vector3<f64>) -> Self {
-        self.velocity = velocity;
+    pub fn velocity(mut self, velocity: impl Into<Point>) -> Self {
+        self.velocity = velocity.into().0;
         self
     }
 
     /// Initial angular velocity about the start point in rad/s. Default zero.
-    pub fn angular_velocity(mut self, angular_velocity: Vector3<f64>) -> Self {
-        self.angular_velocity = angular_velocity;
+    pub fn angular_velocity(mut self, angular_velocity: impl Into<Point>) -> Self {
+        self.angular_velocity = angular_velocity.into().0;
         self
     }
 

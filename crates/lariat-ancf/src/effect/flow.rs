@@ -29,6 +29,7 @@
 //! [`ForceDensity`]: crate::ForceDensity
 
 use crate::error::{Error, require, require_finite};
+use crate::point::Point;
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
@@ -63,8 +64,8 @@ pub struct Flow {
 
 impl Flow {
     /// Creates a flow of the same velocity (m/s) everywhere and always; zero for a fluid at rest.
-    pub fn uniform(velocity: Vector3<f64>) -> Self {
-        Flow { velocity, ..Flow::default() }
+    pub fn uniform(velocity: impl Into<Point>) -> Self {
+        Flow { velocity: velocity.into().0, ..Flow::default() }
     }
 
     /// Creates wind after the power law: `velocity` (m/s) at `reference` (m) above the origin along `up`, times (height/reference)^exponent, up to

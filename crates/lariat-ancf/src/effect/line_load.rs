@@ -21,6 +21,7 @@ use super::acts::{Acts, Nothing};
 use super::{Cut, Effect, Target};
 use crate::element::{mass, shape};
 use crate::error::{Error, require, require_finite};
+use crate::point::Point;
 use crate::quadrature::gauss_legendre;
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
@@ -39,8 +40,8 @@ pub struct LineLoad {
 
 impl LineLoad {
     /// Creates a force per length (N/m) on the whole cable.
-    pub fn uniform(force: Vector3<f64>) -> Self {
-        LineLoad { from: 0.0, to: f64::MAX, force }
+    pub fn uniform(force: impl Into<Point>) -> Self {
+        LineLoad { from: 0.0, to: f64::MAX, force: force.into().0 }
     }
 }
 

@@ -218,11 +218,13 @@ impl DiscreteGradientSystem for CableStep<'_> {
         self.equations.prescribe_change(self.state, self.buffers);
     }
 
-    fn iterate(&mut self) -> Result<Balance, StepFailure> {
+    fn iterate(&mut self, fresh: bool) -> Result<Balance, StepFailure> {
         let CableStep { equations, state, buffers: b } = self;
         equations.diagnostics.newton_iterations += 1;
-        equations.step_residual(state, b, true, &mut EffectWork::default());
-        equations.factor_to_solve()?;
+        if fresh {
+            equations.step_residual(state, b, true, &mut EffectWork::default());
+            equations.factor_to_solve()?;
+        }
         equations.solve(&mut b.rhs);
         if !b.rhs.iter().all(|x| x.is_finite()) {
             return Err(equations.not_finite("Newton increment", &b.rhs));

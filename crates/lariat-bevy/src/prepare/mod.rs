@@ -4,6 +4,7 @@
 pub(crate) mod attachments;
 pub(crate) mod bodies;
 pub(crate) mod effects;
+pub(crate) mod junctions;
 pub(crate) mod removals;
 
 use crate::cable::{Cable, build};

@@ -8,6 +8,7 @@ mod clock;
 mod common;
 mod effects;
 mod events;
+mod junctions;
 mod lifecycle;
 mod order;
 mod pendulum;

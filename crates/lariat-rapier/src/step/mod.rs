@@ -50,6 +50,11 @@ impl HostStep {
         !self.failed && self.done < self.steps
     }
 
+    /// Returns whether all Rapier steps are done.
+    pub(crate) fn is_complete(&self) -> bool {
+        !self.failed && self.done == self.steps && self.dt > 0.0
+    }
+
     /// Returns whether the host step failed as a whole: Rapier must not step. An island that cannot
     /// step does not count: see [`CableSet::failures`](crate::CableSet::failures).
     pub fn has_failed(&self) -> bool {

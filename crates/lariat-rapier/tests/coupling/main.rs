@@ -14,6 +14,7 @@ mod joints;
 mod payload;
 mod prescribed_motion;
 mod refused;
+mod ropes;
 mod sleep;
 mod statics;
 mod substepping;

@@ -20,7 +20,7 @@ use lariat_rapier::convert::{to_pose, to_vector};
 use lariat_rapier::rapier::dynamics::RigidBodyHandle;
 use lariat_rapier::rapier::math::Real;
 use lariat_rapier::rapier::prelude::PhysicsWorld;
-use lariat_rapier::{AttachmentHandle, AttachmentKind, AttachmentReading, CableHandle, CableSet};
+use lariat_rapier::{AttachmentHandle, AttachmentKind, AttachmentReading, CableHandle, CableSet, Gap};
 
 /// Largest difference of velocities at the start without a warning, in m/s.
 const JOLT: f64 = 1e-5;
@@ -102,8 +102,14 @@ impl Physics {
             let (cable, body) = (self.handles[attachment.cable], self.bodies[body]);
             let at = At::ArcLength(attachment.arc_length);
             let kind = if attachment.clamp { AttachmentKind::Clamp } else { AttachmentKind::Ball };
+            let gap = match attachment.gap {
+                // the scene was checked in f64 already
+                Gap::Refuse(limit) => Gap::Refuse(limit.max(1e-3)),
+                Gap::Close => Gap::Close,
+            };
+            let kind = kind.with_gap(gap);
             let attached = match attachment.anchor {
-                None => self.cables.attach_here(&self.world, cable, at, body, kind),
+                None => self.cables.attach_here(&self.world, cable, at, body, kind.kind),
                 Some(anchor) => self.cables.attach(&self.world, cable, at, body, to_vector(&anchor), kind),
             };
             self.attachments.push(Some(attached.map_err(|error| self.explain(scene, 0.0, error))?));

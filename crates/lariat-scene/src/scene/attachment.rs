@@ -4,11 +4,10 @@ use super::references::{Position, arc_length, body_or_world, cable, unique};
 use super::{Purpose, Scene};
 use crate::document::{Document, KeyPath};
 use crate::error::{Error, Problem};
-use crate::schema::{Kind, POSITION, VECTOR, choice, table};
+use crate::schema::{Kind, NOT_NEGATIVE, POSITION, VECTOR, choice, table};
 use lariat_ancf::{Cable, Vector3};
-
-/// Largest distance of an anchor from its cable point at the start, in m.
-const ANCHOR_GAP: f64 = 1e-6;
+use lariat_rapier::Gap;
+use serde::Deserialize;
 
 choice! {
     /// What an attachment holds.
@@ -18,6 +17,24 @@ choice! {
         /// The position and the direction of the tangent.
         Clamp = "clamp",
     }
+}
+
+choice! {
+    /// A gap that is not refused.
+    enum ClosingGap {
+        /// Closes.
+        Close = "close",
+    }
+}
+
+/// What a gap at the start means.
+#[derive(Clone, Copy, Debug, Deserialize)]
+#[serde(untagged)]
+pub enum GapRule {
+    /// Largest distance allowed, in m.
+    Limit(f64),
+    /// Any gap closes.
+    Closing(ClosingGap),
 }
 
 table! {
@@ -31,9 +48,12 @@ table! {
         at: Position = required, POSITION, "m";
         /// Name of a body, or `"world"`.
         body: String = required, Kind::Text;
-        /// Where the body holds the cable, in the axes of the body or the world: within 1e-6 m of where the cable point starts, or
-        /// anywhere with `initial = "equilibrium"`. Anywhere in `lariat static`, too.
+        /// Where the body holds the cable, in the axes of the body or the world: no further than `gap` from where the cable point
+        /// starts, or anywhere with `initial = "equilibrium"`. Anywhere in `lariat static`, too.
         anchor: Option<Vector3<f64>> = ("the cable point at t = 0"), VECTOR, "m";
+        /// Largest distance of the anchor from where the cable point starts; or `"close"`, and the cable is drawn to the anchor from any
+        /// distance, at 10 m/s at most. `"close"` needs a body.
+        gap: GapRule = 1e-6, Kind::Either(&[Kind::Choice(ClosingGap::names), Kind::Number(NOT_NEGATIVE)]), "m";
         /// `"ball"` holds the position, `"clamp"` the direction of the tangent, too.
         kind: AttachmentKind = "ball", Kind::Choice(AttachmentKind::names);
     }
@@ -54,6 +74,8 @@ pub struct AttachmentScene {
     pub anchor: Option<Vector3<f64>>,
     /// True to hold the direction of the tangent, too.
     pub clamp: bool,
+    /// What to do if the cable point does not start at the anchor.
+    pub gap: Gap,
 }
 
 /// Reads the attachment in row `i`.
@@ -75,7 +97,17 @@ pub(super) fn read(
         let problem = Problem::Conflict(format!("attachment {:?} already holds the cable there", other.name));
         return Err(doc.error_accepting(&at.key("at"), problem, "one attachment at a point of a cable"));
     }
-    Ok(AttachmentScene { name, cable, arc_length, body, anchor: row.anchor, clamp: row.kind == AttachmentKind::Clamp })
+    let gap = match row.gap {
+        GapRule::Limit(limit) => Gap::Refuse(limit),
+        GapRule::Closing(_) if body.is_none() => {
+            return Err(
+                doc.conflict(&at.key("gap"), "the world does not draw a cable to an anchor; a body does".to_string())
+            );
+        }
+        GapRule::Closing(_) => Gap::Close,
+    };
+    let clamp = row.kind == AttachmentKind::Clamp;
+    Ok(AttachmentScene { name, cable, arc_length, body, anchor: row.anchor, clamp, gap })
 }
 
 /// Compares the anchors with the points of the cables as drawn.
@@ -87,11 +119,12 @@ pub(super) fn check_start(doc: &Document<'_>, scene: &Scene, cables: &[Cable], p
         let Some(anchor) = scene.anchor(attachment).filter(|_| !scene.cables[attachment.cable].equilibrium) else {
             continue;
         };
+        let Gap::Refuse(limit) = attachment.gap else { continue };
         let at = KeyPath::root("attachment").item(k).key("anchor");
         let sample = cables[attachment.cable].sample(attachment.arc_length);
         let point = sample.map_err(|error| doc.conflict(&at, error.to_string()))?.position;
         let gap = (point - anchor).norm();
-        if gap > ANCHOR_GAP {
+        if gap > limit {
             let (anchor, point) = (anchor.as_slice(), point.as_slice());
             let problem = format!("{anchor:?} is {gap:.3e} m from the cable point, which starts at {point:?}");
             return Err(doc.conflict(&at, problem));

@@ -110,11 +110,12 @@ pub(crate) trait DiscreteGradientSystem {
     /// Begins a step of length `h` (s): sets the first iterate.
     fn predict(&mut self, h: f64);
 
-    /// Takes one Newton iteration, and returns what its result does to the energy.
+    /// Takes one Newton iteration, with a new tangent if `fresh`, else with the factors of the last one, and returns what its result
+    /// does to the energy.
     ///
     /// # Errors
     /// If the matrix is singular or a number is not finite.
-    fn iterate(&mut self) -> Result<Balance, StepFailure>;
+    fn iterate(&mut self, fresh: bool) -> Result<Balance, StepFailure>;
 
     /// Scales velocities relative to rigid motion down until the step makes no energy; returns false, and changes nothing, if that
     /// would take more than half of their energy.

@@ -1,7 +1,8 @@
 //! One step, by the cheapest means that keep its energy law.
 //!
-//! 1. One Newton iteration, accepted if it makes at most 1e-9 of the energy of the system.
-//! 2. Up to eight.
+//! 1. One Newton iteration, accepted if its residual makes at most 1e-9 of the energy of the system beyond what the step loses, and loses
+//!    no more energy than the method does.
+//! 2. Up to eight: with the same factors if only the latter fails, else with a new tangent.
 //! 3. Velocities relative to rigid motion are scaled down, if that takes at most half of their energy; momenta stay.
 //! 4. Four steps of a quarter, each by the same means.
 
@@ -25,6 +26,11 @@ fn keeps_law(balance: &Balance) -> bool {
     balance.excess() <= allowed && is_certain(balance)
 }
 
+/// Returns whether the residual loses no more than the method itself.
+fn is_accurate(balance: &Balance) -> bool {
+    -balance.residual <= balance.numerical + balance.effects + TOLERANCE * balance.scale()
+}
+
 /// Returns whether the terms of the law are small enough for their sum to be known to the tolerance.
 fn is_certain(balance: &Balance) -> bool {
     ROUNDING * (balance.numerical + balance.residual.abs()) <= TOLERANCE * balance.scale()
@@ -37,16 +43,25 @@ fn is_certain(balance: &Balance) -> bool {
 pub(super) fn step(system: &mut dyn DiscreteGradientSystem, h: f64, depth: usize) -> Result<(), StepFailure> {
     system.predict(h);
     let mut last = Err(StepFailure::NotConverged { iterations: 0, increment: 0.0 });
+    let mut fresh = true;
     for _ in 0..MAX_ITERATIONS {
-        last = system.iterate();
+        last = system.iterate(fresh);
         match &last {
             Ok(balance) if keeps_law(balance) => {
-                system.accept(balance);
-                return Ok(());
+                if is_accurate(balance) {
+                    break;
+                }
+                fresh = false;
             }
-            Ok(balance) if balance.excess().is_finite() => {}
+            Ok(balance) if balance.excess().is_finite() => fresh = true,
             _ => break,
         }
+    }
+    if let Ok(balance) = &last
+        && keeps_law(balance)
+    {
+        system.accept(balance);
+        return Ok(());
     }
     if let Ok(balance) = &mut last
         && is_certain(balance)

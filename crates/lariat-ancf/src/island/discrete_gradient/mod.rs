@@ -110,7 +110,6 @@ impl IslandStep<'_, '_> {
         rows.fill(0.0);
         for ((cable, own), part) in self.cables.iter_mut().zip(own).zip(&self.layout.parts) {
             let CableStep { mut equations, state, buffers } = cable.step_parts();
-            equations.diagnostics.newton_iterations += 1;
             equations.step_residual(state, buffers, true, &mut EffectWork::default());
             own.pass_impulses(&buffers.rhs, rows);
             own.condensed.read(&equations.system.step.matrix, &part.holds);
@@ -240,6 +239,10 @@ impl IslandStep<'_, '_> {
             }
             project_vector(equations.model, &mut buffers.rhs);
             total.residual -= dot(&buffers.rhs, &buffers.change) / buffers.h;
+            // the free direction of a slope, for another iteration with the same factors
+            for hold in own.holds.iter().filter(|hold| hold.slope) {
+                buffers.rhs[hold.at..hold.at + 3].copy_from_slice(hold.impulse.as_slice());
+            }
         }
         for (body, row) in bodies.iter().zip(rows.chunks_exact_mut(6)) {
             body.complete_row(row);
@@ -285,9 +288,12 @@ impl DiscreteGradientSystem for IslandStep<'_, '_> {
         self.follow();
     }
 
-    fn iterate(&mut self) -> Result<Balance, StepFailure> {
-        self.linearise()?;
-        self.factor_bodies(self.cables[0].step_buffers.h)?;
+    fn iterate(&mut self, fresh: bool) -> Result<Balance, StepFailure> {
+        self.cables.iter_mut().for_each(|cable| cable.diagnostics_mut().newton_iterations += 1);
+        if fresh {
+            self.linearise()?;
+            self.factor_bodies(self.cables[0].step_buffers.h)?;
+        }
         self.add_increment()?;
         self.follow();
         Ok(self.balance())

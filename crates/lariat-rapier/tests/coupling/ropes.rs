@@ -1,0 +1,125 @@
+//! Ropes in one call, and cables that break.
+
+use super::common::{add_cube, cable, run, soft};
+use lariat_rapier::convert::ToRapier;
+use lariat_rapier::lariat_ancf::{At, Cable, Damping, Error as CableError, Point, PointLoad, Section, Vector3};
+use lariat_rapier::rapier::prelude::*;
+use lariat_rapier::{AttachmentKind, CableSet, Error, Event, Rope};
+
+/// A rope between two loads, and one from the world; slack, section and ends are those asked for.
+#[test]
+fn a_rope_in_one_call_holds_where_it_is_told_to() {
+    let mut world = PhysicsWorld::new();
+    let load = add_cube(&mut world, 5.0, 0.1, [0.0, -2.1, 0.0]);
+    let other = add_cube(&mut world, 2.0, 0.1, [0.0, -3.1, 0.0]);
+    let mut cables = CableSet::new();
+    let top = cables.add_rope(&world, [0.0, 0.0, 0.0], (load, [0.0, -2.0, 0.0]), Rope::steel(0.006)).unwrap();
+    let below = Rope::new(soft()).slack(0.1).name("lower").elements(6);
+    let low = (other, Vector::new(0.0, -3.0, 0.0));
+    let below = cables.add_rope(&world, (load, Vector3::new(0.0, -2.2, 0.0)), low, below).unwrap();
+    let lower = cables.get(below.cable).unwrap();
+    assert!((lower.length() - 0.88).abs() < 1e-12 && lower.elements().len() == 6 && lower.name() == "lower");
+    assert!(top.start.is_none() && top.end.is_some() && below.start.is_some());
+    run(&mut world, &mut cables, 300);
+    // the loads still bounce: means over 5 s
+    let mut pulls = [0.0; 2];
+    for _ in 0..300 {
+        run(&mut world, &mut cables, 1);
+        for (pull, hook) in pulls.iter_mut().zip([below.end, top.end]) {
+            *pull += cables.attachment(hook.unwrap()).unwrap().force().y / 300.0;
+        }
+    }
+    let weights = [2.0 * 9.81, (7.0 + 0.88 * 0.4) * 9.81];
+    assert!(
+        pulls.iter().zip(weights).all(|(pull, weight)| (pull / weight - 1.0).abs() < 0.01),
+        "{pulls:?} {weights:?}"
+    );
+    let hook = cables.get(top.cable).unwrap().sample(2.0).unwrap().position;
+    assert!((world.bodies[load].position() * Vector::new(0.0, 0.1, 0.0) - hook.to_rapier()).length() < 1e-5);
+}
+
+/// What is not possible is a typed error, and adds nothing.
+#[test]
+fn an_impossible_rope_is_an_error_and_adds_nothing() {
+    let mut world = PhysicsWorld::new();
+    let gone = add_cube(&mut world, 1.0, 0.1, [1.0, 0.0, 0.0]);
+    world.remove_body(gone);
+    let mut cables = CableSet::new();
+    let mut fails = |to: [f64; 3], rope: Rope| cables.add_rope(&world, [0.0; 3], to, rope).unwrap_err();
+    assert!(matches!(fails([0.0; 3], Rope::steel(0.01)), Error::Cable(CableError::CoincidentPoints { .. })));
+    assert!(matches!(fails([1.0; 3], Rope::steel(-0.01)), Error::Cable(CableError::InvalidValue { .. })));
+    assert!(matches!(fails([1.0; 3], Rope::steel(0.01).slack(-2.0)), Error::Cable(CableError::InvalidValue { .. })));
+    assert!(matches!(fails([f64::NAN; 3], Rope::steel(0.01)), Error::Cable(CableError::InvalidValue { .. })));
+    assert!(matches!(fails([1.0; 3], Rope::steel(0.01).elements(0)), Error::Cable(CableError::ElementCount { .. })));
+    assert_eq!(cables.add_rope(&world, [0.0; 3], (gone, [1.0; 3]), Rope::steel(0.01)), Err(Error::NoBody(gone)));
+    assert_eq!(cables.iter().count() + cables.attachments().count(), 0);
+}
+
+/// A load of 5 kg hangs on a cable of 2 kg that bears 80 N; a pull that grows to 50 N in 2 s is added.
+/// The cable breaks at the top node when its tension reaches 80 N, and load and rest fall freely. A strength
+/// that is set while the cable sleeps acts in the next step.
+///
+/// Reference: N = (M + rho A L) g + F(t), free fall.
+#[test]
+fn a_cable_breaks_at_its_strength() {
+    for asleep in [false, true] {
+        let mut world = PhysicsWorld::new();
+        let load = add_cube(&mut world, 5.0, 0.1, [0.0, -2.1, 0.0]);
+        let mut set = CableSet::new();
+        let rope = cable([0.0; 3], [0.0, -2.0, 0.0], Section::from_stiffness(1e5, 0.1, 1.0).unwrap());
+        let rope = rope.damping(Damping { axial: 0.01, bending: 0.01 }).fix(At::Start).build().unwrap();
+        let rope = set.insert(rope);
+        set.attach(&world, rope, At::End, load, Vector::new(0.0, 0.1, 0.0), AttachmentKind::Ball).unwrap();
+        run(&mut world, &mut set, 900);
+        assert!(set.is_asleep(rope).unwrap());
+        let weight = 7.0 * 9.81;
+        set.set_strength(rope, Some(if asleep { 50.0 } else { 80.0 })).unwrap();
+        if !asleep {
+            run(&mut world, &mut set, 5);
+            assert!(set.is_asleep(rope).unwrap(), "a strength that is not exceeded wakes nothing");
+            let pull = PointLoad { ramp: 2.0, ..PointLoad::force(1.9, [0.0, -50.0, 0.0]) };
+            set.get_mut(rope).unwrap().add_load(pull).unwrap();
+        }
+        let broken = |set: &CableSet| set.events().iter().any(|event| matches!(event, Event::Broken { .. }));
+        let mut steps = 0;
+        while !broken(&set) && steps < 200 {
+            set.step(&mut world).unwrap();
+            steps += 1;
+        }
+        let event = set.events().iter().find(|event| matches!(event, Event::Broken { .. })).cloned();
+        let Some(Event::Broken { cable, rest, arc_length, tension }) = event else { panic!("it did not break") };
+        assert!(cable == rope && (arc_length - 0.2).abs() < 1e-9, "broken at {arc_length} m");
+        if asleep {
+            assert!(steps == 1 && (tension - weight).abs() < 1.0, "{steps} steps, {tension} N");
+        } else {
+            // (80 - weight)/50 of 2 s, in steps of 1/60 s; the load lags behind by a few per cent
+            let expected = (80.0 - weight) / 50.0 * 120.0;
+            assert!((f64::from(steps) - expected).abs() < 4.0 && tension < 81.0, "{steps} of {expected}, {tension} N");
+            set.get_mut(rest).unwrap().clear_loads();
+        }
+        let (from, speed) = (world.bodies[load].translation().y, world.bodies[load].linvel().y);
+        run(&mut world, &mut set, 30);
+        let fallen = f64::from(from - world.bodies[load].translation().y + speed * 0.5);
+        assert!((fallen - 0.5 * 9.81 * 0.25).abs() < 0.05, "{fallen} m");
+        assert_eq!(set.attachments().next().unwrap().1.cable(), rest);
+    }
+}
+
+/// Points and vectors may be arrays, nalgebra's or glam's; the cable and its readings are the same.
+#[test]
+fn points_are_taken_from_arrays_nalgebra_and_glam() {
+    let section = Section::wire_rope(0.01).unwrap();
+    let arrays = Cable::builder().points([[0.5_f32, 0.0, 0.0], [1.5, 0.0, 2.0]]).velocity([0.0, 1.0, 0.0]);
+    let glam = Cable::builder()
+        .points([Vector::new(0.5, 0.0, 0.0), Vector::new(1.5, 0.0, 2.0)])
+        .velocity(Vector::new(0.0, 1.0, 0.0));
+    let nalgebra = Cable::builder()
+        .points([Vector3::new(0.5, 0.0, 0.0), Vector3::new(1.5, 0.0, 2.0)])
+        .velocity(Vector3::new(0.0, 1.0, 0.0));
+    let cables = [arrays, glam, nalgebra].map(|builder| builder.section(section).build().unwrap());
+    assert!(cables[0].positions() == cables[1].positions() && cables[1].positions() == cables[2].positions());
+    assert!(cables[0].velocities() == cables[1].velocities() && cables[1].velocities() == cables[2].velocities());
+    let end = cables[0].node_position(cables[0].nodes() - 1);
+    assert_eq!(Vector::from(Point(end)), Vector::new(1.5, 0.0, 2.0));
+    assert_eq!(end.to_rapier(), Vector::new(1.5, 0.0, 2.0));
+}
