@@ -4,7 +4,7 @@
 //! |---|---|
 //! | [`substepping`] | how many Rapier steps the host step has; [`proximity`]: which bodies will collide |
 //! | [`kinematic_ends`] | prescribes the ends of cables on fixed and kinematic bodies |
-//! | [`predict`] | integrates cables and bodies together |
+//! | [`predict`] | integrates cables and bodies together, all islands at once |
 //! | [`apply`] | gives Rapier the predicted motion; reverts it |
 //! | [`impedance`] | lets a body that may deviate feel its cables within Rapier's step |
 //! | [`reconcile`] | takes over what Rapier's step made of it |
