@@ -23,7 +23,7 @@ pub(crate) struct Workspace {
 /// The workspaces of a thread. As many are lent as calls are nested, or as an island has cables.
 #[derive(Debug, Default)]
 struct Pool {
-    workspaces: Vec<Box<Workspace>>,
+    workspaces: Vec<Workspace>,
     lent: usize,
 }
 
@@ -47,7 +47,7 @@ impl Cable {
     pub(crate) fn take_workspace(&mut self) {
         POOL.with_borrow_mut(|pool| {
             if pool.lent == pool.workspaces.len() {
-                pool.workspaces.push(Box::default());
+                pool.workspaces.push(Workspace::default());
             }
             pool.workspaces[pool.lent].exchange(self);
             pool.lent += 1;

@@ -92,14 +92,18 @@ fn multiply<S: Simd>(simd: S, m: &MassMatrix, x: &[f64], y: &mut [f64]) {
     let (x, _) = x.as_chunks::<6>();
     let (y, _) = y.as_chunks_mut::<6>();
     let zero = f64x4::splat(simd, 0.0);
+    let Some(first) = x.first() else { return };
+    let (mut before, mut here) = ([zero; 2], load(simd, first));
     for i in 0..m.diag.len() {
         let [rr, rt, tt] = m.diag[i];
-        let mut sum = minus(simd, [zero; 2], [rr, rt, rt, tt], load(simd, &x[i]));
+        let mut sum = minus(simd, [zero; 2], [rr, rt, rt, tt], here);
         if i > 0 {
-            sum = minus(simd, sum, m.lower[i - 1], load(simd, &x[i - 1]));
+            sum = minus(simd, sum, m.lower[i - 1], before);
         }
+        before = here;
         if i + 1 < x.len() {
-            sum = minus(simd, sum, transposed(m.lower[i]), load(simd, &x[i + 1]));
+            here = load(simd, &x[i + 1]);
+            sum = minus(simd, sum, transposed(m.lower[i]), here);
         }
         store([zero - sum[0], zero - sum[1]], &mut y[i]);
     }
