@@ -66,7 +66,7 @@ pub use cable::{At, Cable, Snapshot};
 pub use diagnostics::Diagnostics;
 pub use effect::{
     Buoyancy, CablePoint, Damping, Drag, EffectCounts, EffectWork, Effects, Flow, ForceDensity, ForceDerivatives,
-    GravityScale, LineLoad, LineLoads, RestPiece, RestShape,
+    GravityScale, LineLoad, LineLoads, RestPiece, RestShape, RopeKind,
 };
 pub use error::{EquilibriumFailure, Error, PinProblem, Requirement, StepFailure};
 pub use integrate::{Fidelity, Integrator, IntegratorChoice, IntegratorRef, Method, StepControl};

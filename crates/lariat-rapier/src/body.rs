@@ -19,6 +19,16 @@ pub(crate) fn is_integrated(world: &PhysicsWorld, handle: RigidBodyHandle) -> bo
         .is_some_and(|b| b.is_dynamic() && b.is_enabled() && b.mass_properties().local_mprops.inv_mass > 0.0)
 }
 
+/// Makes Rapier compute the mass of a body that was given one besides its colliders, which it does
+/// in its next step only.
+pub(crate) fn update_mass(world: &mut PhysicsWorld, handle: RigidBodyHandle) {
+    let PhysicsWorld { bodies, colliders, .. } = world;
+    let massless = |b: &RapierBody| b.is_dynamic() && b.mass_properties().local_mprops.inv_mass == 0.0;
+    if bodies.get(handle).is_some_and(massless) {
+        bodies[handle].recompute_mass_properties_from_colliders(colliders);
+    }
+}
+
 /// Returns a body as Rapier holds it: mass, inertia, state in `f64`, and the forces of gravity and
 /// the user. A body without inertia does not rotate. `None` if it is not in the world.
 pub fn rigid_body(world: &PhysicsWorld, handle: RigidBodyHandle) -> Option<RigidBody> {
@@ -49,6 +59,7 @@ pub fn rigid_body(world: &PhysicsWorld, handle: RigidBodyHandle) -> Option<Rigid
         carried: None,
         gyroscopic: body.gyroscopic_forces_enabled(),
         memory: None,
+        unsteadiness: Default::default(),
     })
 }
 

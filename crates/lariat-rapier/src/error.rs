@@ -74,6 +74,20 @@ pub enum Error {
         /// The node.
         node: usize,
     },
+    /// A joint on a body whose equilibrium is asked for.
+    #[error("statics compute no joints, and body {body:?} has one: remove it, or step until the body rests")]
+    JointInStatics {
+        /// The body.
+        body: RigidBodyHandle,
+    },
+    /// A contact of a body whose equilibrium is asked for, where it was or where it was moved.
+    #[error("statics compute no contacts, and body {body:?} touches {}: step until it rests", name_of(.other))]
+    ContactInStatics {
+        /// The body.
+        body: RigidBodyHandle,
+        /// The other body; `None` for a collider without one.
+        other: Option<RigidBodyHandle>,
+    },
     /// A body whose state is not finite.
     #[error("body {body:?} has a {quantity} that is not finite at t = {time} s")]
     BodyNotFinite {
@@ -84,6 +98,10 @@ pub enum Error {
         /// Time in s.
         time: f64,
     },
+}
+
+fn name_of(body: &Option<RigidBodyHandle>) -> String {
+    body.map_or("a collider".to_string(), |body| format!("body {body:?}"))
 }
 
 /// An island of cables and bodies that could not step: it stays as it is, and all others go on.

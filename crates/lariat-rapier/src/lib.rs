@@ -20,7 +20,7 @@
 //! );
 //! cables.attach(&world, sling, At::End, crate_, Vector::new(0.0, 0.1, 0.0), AttachmentKind::Ball)?;
 //! for _ in 0..30 {
-//!     cables.step(&mut world)?; // one host step: predict, Rapier's step, reconcile, four times
+//!     cables.step(&mut world)?; // one host step: predict, Rapier's step, reconcile
 //! }
 //! assert!((world.bodies[crate_].translation().y + 1.218).abs() < 6e-3);
 //! # Ok::<(), lariat_rapier::Error>(())
@@ -125,6 +125,7 @@ mod set;
 mod settings;
 mod sleep;
 mod spatial;
+mod statics;
 mod step;
 mod table;
 mod totals;
@@ -143,5 +144,6 @@ pub use rapier;
 pub use rope::{ROPE_DAMPING, Rope, RopeEnd, RopeHandles};
 pub use set::CableSet;
 pub use settings::Settings;
+pub use statics::Equilibrium;
 pub use step::HostStep;
 pub use totals::WorldEnergy;

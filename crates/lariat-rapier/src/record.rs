@@ -1,5 +1,6 @@
 //! What the coupling keeps of each body between steps.
 
+use crate::step::prescribed_motion::MotionMemory;
 use ::nalgebra::{UnitQuaternion, Vector3, Vector6};
 use lariat_ancf::island::{BodyMemory, RigidBody};
 use rapier::dynamics::{RigidBody as RapierBody, RigidBodyHandle};
@@ -15,12 +16,18 @@ pub(crate) struct BodyRecord {
     pub reaction: Vector6<f64>,
     /// The state in `f64`, valid as long as Rapier's copy is the one that was written last.
     pub exact: Option<ExactState>,
+    /// Whether Rapier has stepped it since it was attached: before, no pairs of colliders are listed.
+    #[serde(default)]
+    pub stepped: bool,
+    /// Of a kinematic body, its motion in the last host step.
+    #[serde(default)]
+    pub motion: Option<MotionMemory>,
 }
 
 impl BodyRecord {
     /// A record of an unknown body.
     pub fn new(handle: RigidBodyHandle) -> Self {
-        BodyRecord { handle, reaction: Vector6::zeros(), exact: None }
+        BodyRecord { handle, reaction: Vector6::zeros(), exact: None, stepped: false, motion: None }
     }
 }
 

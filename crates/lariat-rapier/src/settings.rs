@@ -6,12 +6,13 @@ use serde::{Deserialize, Serialize};
 /// How a [`CableSet`](crate::CableSet) steps. All of its cables share one number of Rapier steps.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Settings {
-    /// Smallest number of Rapier steps per host step. Default 4: as accurate as 1 in free flight
-    /// and far more robust in contact. Rapier's cost grows in proportion.
+    /// Smallest number of Rapier steps per host step. Default 1. Rapier's cost, of the whole world,
+    /// grows in proportion.
     pub rapier_steps: u32,
     /// Largest number of Rapier steps per host step. More than `rapier_steps` are taken where a
-    /// light body in contact hangs on a stiff, taut cable, enough to resolve its vibration. Default
-    /// 32. A value of `rapier_steps` or less fixes the number at `rapier_steps`.
+    /// light body in contact hangs on a stiff, taut cable, enough to resolve its vibration, and for
+    /// as long as it does. Default 32. A value of `rapier_steps` or less fixes the number at
+    /// `rapier_steps`.
     #[serde(default = "max_rapier_steps")]
     pub max_rapier_steps: u32,
     /// Speed in m/s below which cables and the bodies on them may fall asleep, if the forces
@@ -33,6 +34,6 @@ fn max_rapier_steps() -> u32 {
 
 impl Default for Settings {
     fn default() -> Self {
-        Settings { rapier_steps: 4, max_rapier_steps: max_rapier_steps(), sleep_speed: 2e-3, fidelity: fidelity() }
+        Settings { rapier_steps: 1, max_rapier_steps: max_rapier_steps(), sleep_speed: 2e-3, fidelity: fidelity() }
     }
 }

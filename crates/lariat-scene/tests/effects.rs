@@ -234,3 +234,28 @@ fn the_wind_of_a_scene_changes_with_height_and_time() {
     let found = run("table", table);
     assert!((found / expected - 1.0).abs() < 1e-5, "{found} {expected}");
 }
+
+/// Damping by the kind of rope is the damping that the mechanics give it; a misspelt kind is answered with the nearest, and a kind
+/// beside times is a conflict.
+///
+/// *Source.* `RopeKind::damping` for the same section and length, itself tested against the logarithmic decrement.
+#[test]
+fn damping_by_the_kind_of_rope() {
+    let text = |damping: &str| {
+        format!(
+            "duration = 1.0\n[[cable]]\nname = \"c\"\npoints = [[0.0, 0.0, 0.0], [3.0, 0.0, 0.0]]\naxial_stiffness = 1.0e6\n\
+             bending_stiffness = 2.0\nmass_per_length = 0.5\ndamping = {{ {damping} }}\n"
+        )
+    };
+    let read = |damping: &str| Scene::parse("rope.toml", &text(damping), &[], Purpose::Run);
+    let section = lariat_ancf::Section::from_stiffness(1e6, 2.0, 0.5).unwrap();
+    for kind in lariat_ancf::RopeKind::ALL {
+        let scene = read(&format!("rope = \"{kind}\"")).unwrap();
+        assert_eq!(scene.cables[0].effects.damping, Some(kind.damping(&section, 3.0).unwrap()));
+    }
+    let misspelt = read("rope = \"wire_rope\"").unwrap_err().to_string();
+    assert!(misspelt.contains("wire-rope") && misspelt.contains("Did you mean"), "{misspelt}");
+    let both = read("rope = \"wire-rope\", axial = 0.1").unwrap_err().to_string();
+    assert!(both.contains("both a kind of rope and times"), "{both}");
+    assert!(read("").is_err());
+}

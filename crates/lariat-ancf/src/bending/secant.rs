@@ -44,29 +44,23 @@ impl<T: Real> PowerSecant<T> {
     /// Of Q^-2.
     #[inline(always)]
     pub fn square(start: T, end: T) -> Self {
-        Self::new(
-            (start, end, 2.0),
-            #[inline(always)]
-            |i, j| -(i * j * (i + j)),
-            #[inline(always)]
-            |i| i * i,
-        )
+        Self::new::<2>(start, end)
     }
 
     /// Of Q^-3.
     #[inline(always)]
     pub fn cube(start: T, end: T) -> Self {
-        Self::new(
-            (start, end, 3.0),
-            #[inline(always)]
-            |i, j| -(i * j * (i * i + i * j + j * j)),
-            #[inline(always)]
-            |i| i * i * i,
-        )
+        Self::new::<3>(start, end)
     }
 
+    /// Of Q^-K, K = 2 or 3. No closures: the compiler does not inline them into a function of another SIMD level.
     #[inline(always)]
-    fn new((start, end, k): (T, T, f64), secant: impl Fn(T, T) -> T, power: impl Fn(T) -> T) -> Self {
+    fn new<const K: usize>(start: T, end: T) -> Self {
+        // 1/Q_c^(K + 1)
+        const { assert!(K == 2 || K == 3) };
+        let limit = 1.0 / LOWER_LIMIT;
+        let (k, limit_power) = if K == 2 { (2.0, limit * limit * limit) } else { (3.0, limit * limit * limit * limit) };
+        let curvature = 0.5 * k * (k + 1.0) * limit;
         let one = start.splat(1.0);
         let (q0, q1) = (start.at_least(LOWER_LIMIT), end.at_least(LOWER_LIMIT));
         let (i, j) = (one / q0, one / q1);
@@ -74,12 +68,15 @@ impl<T: Real> PowerSecant<T> {
         let (sum, change) = (y0 + y1, end - start);
         let below = sum / (sum - SMALL);
         let share = ((y1 - y0) * change + below * SMALL_SQUARE) / (change * change + SMALL_SQUARE);
-        let (half, unit) = (0.5 * k * (k + 1.0) / LOWER_LIMIT, LOWER_LIMIT.powi(-(k as i32) - 1));
-        let crumpled = (sum * half - k) * unit;
-        let slope = secant(i, j) * (one - share) + crumpled * share;
-        let (taylor0, taylor1) = ((y0 * half - k) * y0 * unit, (y1 * half - k) * y1 * unit);
-        let mean = (power(i) + power(j) + taylor0 + taylor1) * 0.5;
-        PowerSecant { mean, slope }
+        let crumpled = (sum * curvature - k) * limit_power;
+        let (above, powers) = if K == 2 {
+            (i * j * (i + j), i * i + j * j)
+        } else {
+            (i * j * (i * i + i * j + j * j), i * i * i + j * j * j)
+        };
+        let slope = crumpled * share - above * (one - share);
+        let taylor = ((y0 * curvature - k) * y0 + (y1 * curvature - k) * y1) * limit_power;
+        PowerSecant { mean: (powers + taylor) * 0.5, slope }
     }
 }
 

@@ -2,13 +2,13 @@
 
 use super::{At, Cable, Snapshot, layout};
 use crate::effect::force_density::ForceDensities;
-use crate::effect::{Damping, Effects, ForceDensity};
+use crate::effect::{Damping, Effects, ForceDensity, RopeKind};
 use crate::error::{Error, require, require_finite};
 use crate::integrate::{Fidelity, Integrator, IntegratorChoice};
 use crate::load::PointLoad;
 use crate::model::{MAX_ELEMENTS, Model};
 use crate::point::Point;
-use crate::rule::Rule;
+use crate::rule::{BendingRule, Rule};
 use crate::section::Element;
 use crate::section::Section;
 use crate::support::{Motion, SlopeSupport, Support};
@@ -44,6 +44,7 @@ pub struct CableBuilder {
     holds: Vec<(At, Hold)>,
     loads: Vec<PointLoad>,
     effects: Effects,
+    damped_as: Option<RopeKind>,
     force_densities: ForceDensities,
 }
 
@@ -65,6 +66,7 @@ impl Default for CableBuilder {
             holds: Vec::new(),
             loads: Vec::new(),
             effects: Effects::default(),
+            damped_as: None,
             force_densities: ForceDensities::default(),
         }
     }
@@ -183,6 +185,14 @@ impl CableBuilder {
     /// Internal damping: the shorthand for its field of [`Effects`].
     pub fn damping(mut self, damping: Damping) -> Self {
         self.effects.damping = Some(damping);
+        self.damped_as = None;
+        self
+    }
+
+    /// Internal damping of a kind of rope: its percent of critical at the lowest axial mode of the cable, and at bending in ten half
+    /// waves; see [`RopeKind`]. Default: no damping.
+    pub fn damped_as(mut self, kind: RopeKind) -> Self {
+        self.damped_as = Some(kind);
         self
     }
 
@@ -204,7 +214,7 @@ impl CableBuilder {
         self.build_named().map_err(|error| error.of_cable(&name))
     }
 
-    fn build_named(self) -> Result<Cable, Error> {
+    fn build_named(mut self) -> Result<Cable, Error> {
         let cable = || self.name.clone();
         self.points.iter().try_for_each(|p| require_finite("point (m)", p))?;
         require_finite("gravity (m/s^2)", &self.gravity)?;
@@ -248,7 +258,7 @@ impl CableBuilder {
             }
         }
         let s = mesh(&mut breaks, length, self.elements);
-        let elements = s
+        let elements: Vec<Element> = s
             .windows(2)
             .map(|ends| {
                 let middle = 0.5 * (ends[0] + ends[1]);
@@ -256,6 +266,11 @@ impl CableBuilder {
                 Element { length: ends[1] - ends[0], section: sections[k - 1].1 }
             })
             .collect();
+        if let Some(kind) = self.damped_as {
+            let damping = kind.damping_of(&elements);
+            let limp = self.rule.bending == BendingRule::None;
+            self.effects.damping = Some(if limp { Damping { bending: 0.0, ..damping } } else { damping });
+        }
         let (positions, slopes) = layout::along_polyline(&self.points, &s, self.gravity);
         let mut snapshot = Snapshot::default();
         for (r, t) in positions.iter().zip(&slopes) {

@@ -75,6 +75,11 @@ impl Cable {
         if state.memory.valid {
             equations.system.mass.multiply(equations.system.level, &state.memory.acceleration, product);
             rhs.iter_mut().zip(product.iter()).for_each(|(r, m)| *r -= m);
+        } else if !state.memory.differences.is_empty() && state.memory.differences.step > 0.0 {
+            // the discrete gradient knows the mean ones of its last step
+            let differences = &state.memory.differences;
+            equations.system.mass.multiply(equations.system.level, &differences.velocity, product);
+            rhs.iter_mut().zip(product.iter()).for_each(|(r, m)| *r -= m / differences.step);
         }
         let vector = |x: &[f64]| Vector3::new(x[0], x[1], x[2]);
         let (force, slope) = (vector(&rhs[6 * node..]), vector(&rhs[6 * node + 3..]));

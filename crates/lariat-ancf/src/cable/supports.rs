@@ -50,6 +50,7 @@ impl Cable {
     }
 
     /// Prescribes the position of a node as `motion` and keeps the support of its slope; cheap if the position was prescribed already.
+    /// A motion that continues position and velocity of the last one keeps what integrators carry from step to step.
     ///
     /// # Errors
     /// As [`set_support`](Self::set_support).
@@ -60,7 +61,18 @@ impl Cable {
             return self.set_support(At::Node(node), new);
         }
         self.model.set_support(node, new);
-        let step = self.snapshot.state.memory.step;
+        let time = self.snapshot.state.time;
+        let [now, then] = [motion.at(time), support.position.unwrap_or(motion).at(time)];
+        let memory = &mut self.snapshot.state.memory;
+        if now[..2] == then[..2] {
+            for held in [&mut memory.acceleration, &mut memory.algorithmic] {
+                if let Some(held) = held.get_mut(6 * node..6 * node + 3) {
+                    held.copy_from_slice(now[2].as_slice());
+                }
+            }
+            return Ok(());
+        }
+        let step = memory.step;
         self.revise();
         self.snapshot.state.memory.step = step;
         Ok(())

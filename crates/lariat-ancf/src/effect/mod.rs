@@ -41,6 +41,7 @@ pub mod gravity;
 pub mod line_load;
 mod list;
 pub mod rest_shape;
+pub mod rope_kind;
 pub(crate) mod tables;
 pub mod work;
 
@@ -53,6 +54,7 @@ pub use gravity::GravityScale;
 pub use line_load::{LineLoad, LineLoads};
 pub use list::{EffectCounts, EffectWork, Effects};
 pub use rest_shape::{RestPiece, RestShape};
+pub use rope_kind::RopeKind;
 
 use crate::error::{Error, Requirement};
 use crate::rule::{BendingRule, Rule};

@@ -249,14 +249,13 @@ impl<T: Real> Gradient<T> {
 /// Rates of the Gram numbers: `g'_ij = d_i . v_j + v_i . d_j`.
 #[inline(always)]
 pub(crate) fn gram_rates<T: Real>(d: &Control<T>, v: &Control<T>) -> Six<T> {
-    let [d0, d1, d2] = d;
-    let [v0, v1, v2] = v;
+    // no closures: the compiler does not inline them into a function of another SIMD level
     [
-        dot(d0, v0) * PAIR_WEIGHT[0],
-        dot(d0, v1) + dot(v0, d1),
-        dot(d0, v2) + dot(v0, d2),
-        dot(d1, v1) * PAIR_WEIGHT[3],
-        dot(d1, v2) + dot(v1, d2),
-        dot(d2, v2) * PAIR_WEIGHT[5],
+        dot(&d[0], &v[0]) * PAIR_WEIGHT[0],
+        dot(&d[0], &v[1]) + dot(&v[0], &d[1]),
+        dot(&d[0], &v[2]) + dot(&v[0], &d[2]),
+        dot(&d[1], &v[1]) * PAIR_WEIGHT[0],
+        dot(&d[1], &v[2]) + dot(&v[1], &d[2]),
+        dot(&d[2], &v[2]) * PAIR_WEIGHT[0],
     ]
 }

@@ -84,22 +84,22 @@ impl<T: Real> ElementStep<T> {
     }
 }
 
+/// `factor x`, of Gram numbers.
+#[inline(always)]
+pub fn scaled<T: Real>(x: &Six<T>, factor: f64) -> Six<T> {
+    let mut out = *x;
+    for i in 0..6 {
+        out[i] = x[i] * factor;
+    }
+    out
+}
+
 /// `x + factor y`, of Gram numbers.
 #[inline(always)]
 pub fn combined<T: Real>(x: &Six<T>, y: &Six<T>, factor: f64) -> Six<T> {
     let mut out = *x;
     for i in 0..6 {
         out[i] = x[i] + y[i] * factor;
-    }
-    out
-}
-
-/// `factor x`, of any numbers. A loop: `map` would not be inlined into the lanes.
-#[inline(always)]
-pub fn scaled<T: Real, const N: usize>(x: &[T; N], factor: f64) -> [T; N] {
-    let mut out = *x;
-    for i in 0..N {
-        out[i] = x[i] * factor;
     }
     out
 }

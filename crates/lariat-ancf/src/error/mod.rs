@@ -138,6 +138,16 @@ pub enum Error {
         /// The nearest name, if one is near.
         suggestion: Option<String>,
     },
+    /// A name that is no kind of rope.
+    #[error("unknown kind of rope {name:?}: {}expected one of {expected}", did_you_mean(.suggestion))]
+    UnknownRopeKind {
+        /// The text given.
+        name: String,
+        /// What is accepted.
+        expected: String,
+        /// The nearest name, if one is near.
+        suggestion: Option<String>,
+    },
     /// A name that is no fidelity.
     #[error("unknown fidelity {name:?}: {}expected game, engineering or reference", did_you_mean(.suggestion))]
     UnknownFidelity {

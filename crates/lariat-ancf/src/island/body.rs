@@ -93,6 +93,10 @@ pub struct RigidBody {
     /// Accelerations that integrators carry from step to step; `None` if the state is not the
     /// result of a step.
     pub memory: Option<BodyMemory>,
+    /// Of a driven body, which moves by the uniform velocities above on the average: what its
+    /// velocity and angular velocity exceed them by at the beginning and at the end of the step, in
+    /// m/s and rad/s. The pins follow cubics between them. Default: zero.
+    pub unsteadiness: [[Vector3<f64>; 2]; 2],
 }
 
 impl RigidBody {
@@ -119,6 +123,7 @@ impl RigidBody {
             carried: None,
             gyroscopic: true,
             memory: None,
+            unsteadiness: Default::default(),
         })
     }
 

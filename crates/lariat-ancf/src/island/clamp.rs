@@ -3,13 +3,20 @@
 //! # Equation
 //!
 //! ```text
-//! u(s) = exp(s^2 (3 - 2 s) [gamma]) u0,   u(1) = the clamped direction
+//! u(s) = exp([theta]) u0,   theta = s^2 (3 - 2 s) gamma + h (w0 s (1 - s)^2 - w1 s^2 (1 - s))
 //! ```
 //!
-//! gamma is zero, and u constant, unless the slope is not in the clamped direction when the step
-//! begins: then it rotates there within the step, as the gap of a pin closes.
+//! gamma is zero unless the slope is not in the clamped direction when the step begins: then it
+//! rotates there within the step, as the gap of a pin closes. w0 and w1 are zero unless the body is
+//! driven unsteadily: they are its angular velocities beyond the mean at both ends of the step h,
+//! in body axes.
+//!
+//! # Validity
+//!
+//! The rate at the end is w1 for small gamma.
 
-use nalgebra::{Rotation3, UnitVector3, Vector3};
+use super::rotation::{exponential, jacobian_rate, spin};
+use nalgebra::{UnitVector3, Vector3};
 
 /// Largest angle in rad that is rounding.
 const ANGLE_ROUNDING: f64 = 1e-12;
@@ -19,25 +26,28 @@ const ANGLE_ROUNDING: f64 = 1e-12;
 pub(super) struct Clamp {
     from: Vector3<f64>,
     rotation: Vector3<f64>,
+    /// w0 and w1 in body axes.
+    rates: [Vector3<f64>; 2],
     duration: f64,
 }
 
 impl Clamp {
     /// Rotates from the `present` direction of the slope to the `wanted` one of the clamp, both
-    /// unit vectors in body axes, within `duration` (s).
-    pub fn new(present: Vector3<f64>, wanted: Vector3<f64>, duration: f64) -> Self {
+    /// unit vectors in body axes, within `duration` (s). `rates` are the angular velocities of the
+    /// body beyond its mean at both ends of the step, in body axes.
+    pub fn new(present: Vector3<f64>, wanted: Vector3<f64>, duration: f64, rates: [Vector3<f64>; 2]) -> Self {
         let (sin, cos) = (present.cross(&wanted).norm(), present.dot(&wanted));
         let angle = sin.atan2(cos);
         if angle < ANGLE_ROUNDING {
-            return Clamp { from: wanted, rotation: Vector3::zeros(), duration };
+            return Clamp { from: wanted, rotation: Vector3::zeros(), rates, duration };
         }
         let axis = UnitVector3::try_new(present.cross(&wanted), 1e-9).unwrap_or_else(|| normal(&present));
-        Clamp { from: present, rotation: axis.into_inner() * angle, duration }
+        Clamp { from: present, rotation: axis.into_inner() * angle, rates, duration }
     }
 
     /// Returns whether the direction is constant.
     pub fn is_constant(&self) -> bool {
-        self.rotation == Vector3::zeros()
+        self.rotation == Vector3::zeros() && self.rates == <[Vector3<f64>; 2]>::default()
     }
 
     /// Returns the direction and its first and second time derivatives at the elapsed share `s` of
@@ -46,11 +56,13 @@ impl Clamp {
         if self.is_constant() {
             return [self.from, Vector3::zeros(), Vector3::zeros()];
         }
-        let (share, h) = (s * s * (3.0 - 2.0 * s), self.duration);
-        let (rate, acceleration) = (6.0 * s * (1.0 - s) / h, (6.0 - 12.0 * s) / (h * h));
-        let u = Rotation3::from_scaled_axis(self.rotation * share) * self.from;
-        let across = self.rotation.cross(&u);
-        [u, across * rate, across * acceleration + self.rotation.cross(&across) * (rate * rate)]
+        let (gamma, [w0, w1], h) = (self.rotation, self.rates, self.duration);
+        let theta = gamma * (s * s * (3.0 - 2.0 * s)) + (w0 * (1.0 - s) - w1 * s) * (s * (1.0 - s) * h);
+        let rate = gamma * (6.0 * s * (1.0 - s) / h) + w0 * ((1.0 - s) * (1.0 - 3.0 * s)) + w1 * (s * (3.0 * s - 2.0));
+        let second = (gamma * ((6.0 - 12.0 * s) / h) + w0 * (6.0 * s - 4.0) + w1 * (6.0 * s - 2.0)) / h;
+        let (u, turn) = (exponential(&theta) * self.from, spin(&theta, &rate));
+        let turn_rate = jacobian_rate(&theta, &rate) * rate + spin(&theta, &second);
+        [u, turn.cross(&u), turn_rate.cross(&u) + turn.cross(&turn.cross(&u))]
     }
 }
 
@@ -70,17 +82,32 @@ mod tests {
     fn direction_rotates_between_its_ends_and_its_derivatives_match_finite_differences() {
         let wanted = Vector3::new(0.6, -0.8, 0.0);
         for present in [Vector3::new(0.0, 0.6, 0.8), -wanted, wanted] {
-            let clamp = Clamp::new(present, wanted, 0.25);
+            let clamp = Clamp::new(present, wanted, 0.25, Default::default());
             assert_relative_eq!(clamp.at(0.0)[0], present, epsilon = 1e-14);
             assert_relative_eq!(clamp.at(1.0)[0], wanted, epsilon = 1e-14);
-            for s in [0.1, 0.4, 0.9] {
-                let e = 1e-5;
-                let [u, rate, acceleration] = clamp.at(s);
-                let (before, after) = (clamp.at(s - e), clamp.at(s + e));
-                assert_relative_eq!(u.norm(), 1.0, epsilon = 1e-14);
-                assert_relative_eq!(rate, (after[0] - before[0]) / (2.0 * e * 0.25), epsilon = 1e-7);
-                assert_relative_eq!(acceleration, (after[1] - before[1]) / (2.0 * e * 0.25), epsilon = 1e-5);
-            }
+            check_derivatives(&clamp);
+        }
+    }
+
+    #[test]
+    fn direction_on_an_unsteady_body_has_the_rates_given_and_its_derivatives_match_finite_differences() {
+        let (d, rates) = (Vector3::new(0.6, -0.8, 0.0), [Vector3::new(1.0, -2.0, 3.0), Vector3::new(0.5, 4.0, -1.0)]);
+        let clamp = Clamp::new(d, d, 0.25, rates);
+        for (s, w) in [(0.0, rates[0]), (1.0, rates[1])] {
+            assert_relative_eq!(clamp.at(s)[0], d, epsilon = 1e-14);
+            assert_relative_eq!(clamp.at(s)[1], w.cross(&d), epsilon = 1e-14);
+        }
+        check_derivatives(&clamp);
+    }
+
+    fn check_derivatives(clamp: &Clamp) {
+        for s in [0.1, 0.4, 0.9] {
+            let e = 1e-5;
+            let [u, rate, acceleration] = clamp.at(s);
+            let (before, after) = (clamp.at(s - e), clamp.at(s + e));
+            assert_relative_eq!(u.norm(), 1.0, epsilon = 1e-14);
+            assert_relative_eq!(rate, (after[0] - before[0]) / (2.0 * e * 0.25), epsilon = 1e-7);
+            assert_relative_eq!(acceleration, (after[1] - before[1]) / (2.0 * e * 0.25), epsilon = 1e-5);
         }
     }
 }

@@ -88,6 +88,11 @@ impl Dense {
         Ok(())
     }
 
+    /// Returns whether the factored matrix is positive definite.
+    pub fn is_positive_definite(&self) -> bool {
+        (0..self.n).all(|k| self.factors[k * self.n + k] > 0.0)
+    }
+
     /// Solves in place.
     pub fn solve(&mut self, rhs: &mut [f64]) {
         let n = self.n;

@@ -8,7 +8,7 @@ use super::rotation::skew;
 use crate::cable::Cable;
 use crate::effect::acts::ForceInput;
 use crate::error::StepFailure;
-use crate::linalg::Factorisation;
+use crate::linalg::{Definiteness, Factorisation};
 use crate::support::SlopeSupport;
 use crate::system::{project_matrix, project_vector};
 use nalgebra::{Matrix3, Vector3};
@@ -225,6 +225,24 @@ impl IslandEquations<'_, '_> {
             }
         }
         Ok(dense.factor(matrix, n)?)
+    }
+
+    /// Returns whether the step matrix at `at` is positive definite: those of the cables, condensed,
+    /// and that of the bodies.
+    pub fn is_positive_definite(&mut self, at: &ForceInput<'_>, rhs: &mut [f64]) -> Result<bool, StepFailure> {
+        let layout = self.layout;
+        let none = vec![0.0; layout.size()];
+        let mut definite = true;
+        for (cable, part) in self.cables.iter_mut().zip(&layout.parts) {
+            let range = part.range();
+            let (mut equations, _) = cable.equations();
+            let input = ForceInput { q: &at.q[range.clone()], v: &at.v[range.clone()], ..*at };
+            equations.force_and_matrix(input, 1.0, &mut rhs[range]);
+            definite &= matches!(equations.factor()?, Definiteness::PositiveDefinite);
+        }
+        self.cable_rows_and_matrices(at, &none, rhs)?;
+        self.factor_bodies(MatrixKind::Step, at.q, at.v, rhs)?;
+        Ok(definite && self.matrices.dense.is_positive_definite())
     }
 
     /// Solves in place: rows in, increments out, those of pinned coordinates included. The

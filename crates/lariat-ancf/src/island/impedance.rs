@@ -29,7 +29,7 @@ use crate::error::{Error, StepFailure};
 use crate::integrate::add_scaled;
 use crate::linalg::{Definiteness, Factorisation};
 use crate::system::{project_matrix, project_vector};
-use nalgebra::{DMatrix, Vector3};
+use nalgebra::{Matrix3, Vector3};
 
 /// Largest divisor of D and K against compression that makes A indefinite.
 const MAX_DIVISOR: f64 = 1e6;
@@ -109,12 +109,16 @@ impl Impedance {
         Ok(matches!(kind, Definiteness::PositiveDefinite))
     }
 
-    /// Returns the velocity in m/s of coordinate `i` of the nodes (three per node) for a unit
-    /// impulse at coordinate `j`, in 1/kg.
-    pub fn compliance(&self) -> DMatrix<f64> {
-        let count = 3 * self.nodes.len();
-        let size = self.columns.len() / count.max(1);
-        DMatrix::from_fn(count, count, |i, j| self.columns[j * size + 6 * self.nodes[i / 3] + i % 3])
+    /// Returns the velocity in m/s at node `i` of the given ones for unit impulses at node `j`, in
+    /// 1/kg.
+    pub fn compliance(&self, i: usize, j: usize) -> Matrix3<f64> {
+        let size = self.columns.len() / (3 * self.nodes.len()).max(1);
+        Matrix3::from_fn(|r, c| self.columns[(3 * j + c) * size + 6 * self.nodes[i] + r])
+    }
+
+    /// Returns the nodes that it was updated with.
+    pub fn nodes(&self) -> &[usize] {
+        &self.nodes
     }
 
     /// Applies the opposite of `impulses` (N s) to the cable, one per node, as the reaction to

@@ -64,6 +64,8 @@ pub(super) struct Layout {
     /// By pin, the part of the gap that closes in this step, and the part that remains.
     closing: Vec<Vector3<f64>>,
     remaining: Vec<Vector3<f64>>,
+    /// By pin, its velocity beyond that of the uniform motion of its body at both ends of the step.
+    rates: Vec<[Vector3<f64>; 2]>,
     /// Offset of the bodies' coordinates.
     pub bodies_at: usize,
     /// Time in s at which the step began, and its duration in s.
@@ -98,6 +100,7 @@ impl Layout {
         self.pins.extend_from_slice(pins);
         self.closing.clear();
         self.remaining.clear();
+        self.rates.clear();
         self.clamps.clear();
         for pin in pins {
             let (cable, body) = (&cables[pin.cable], &bodies[pin.body]);
@@ -107,15 +110,31 @@ impl Layout {
             self.closing.push(gap * share);
             self.remaining.push(gap * (1.0 - share));
             self.levers[pin.body] = self.levers[pin.body].max(pin.anchor.norm());
+            let turned = exponential(&(body.angular_velocity * dt)) * body.rotation;
+            let rate = |[linear, angular]: [Vector3<f64>; 2], attitude: &UnitQuaternion<f64>| {
+                linear + angular.cross(&(attitude * pin.anchor))
+            };
+            let [first, last] = if body.is_driven() { body.unsteadiness } else { Default::default() };
+            self.rates.push([rate(first, &body.rotation), rate(last, &turned)]);
             self.clamps.push(pin.direction.map(|wanted| {
                 let slope = body.rotation.inverse() * vector(&cable.positions()[6 * pin.node + 3..]);
                 let present = direction(&slope).unwrap_or(wanted);
                 let present = if present.dot(&wanted) < -REVERSED_COSINE { -present } else { present };
-                Clamp::new(present, wanted, dt)
+                Clamp::new(present, wanted, dt, [body.rotation.inverse() * first[1], turned.inverse() * last[1]])
             }));
         }
         self.start = cables[0].time();
         self.duration = dt;
+    }
+
+    /// Closes all gaps and rotates all clamps at once: for statics.
+    pub fn close(&mut self) {
+        self.closing.fill(Vector3::zeros());
+        self.remaining.fill(Vector3::zeros());
+        self.rates.fill(Default::default());
+        for (clamp, pin) in self.clamps.iter_mut().zip(&self.pins) {
+            *clamp = pin.direction.map(|wanted| Clamp::new(wanted, wanted, self.duration, Default::default()));
+        }
     }
 
     /// Returns the number of coordinates.
@@ -140,7 +159,7 @@ impl Layout {
 
     /// Returns whether no gap closes and no clamp rotates in this step.
     pub fn is_closed(&self) -> bool {
-        self.closing.iter().chain(&self.remaining).all(|gap| *gap == Vector3::zeros())
+        self.closing.iter().chain(&self.remaining).chain(self.rates.iter().flatten()).all(|x| *x == Vector3::zeros())
             && self.clamps.iter().flatten().all(Clamp::is_constant)
     }
 
@@ -167,17 +186,19 @@ impl Layout {
         }
     }
 
-    /// Returns gap and rate of a pin. The gap is a cubic of time with zero rate at both ends: a
-    /// jump of the rate would give the cable an impulse.
+    /// Returns gap and rate of a pin. The gap is a cubic of time with zero rate at both ends, or
+    /// with those of an unsteady body: a jump of the rate would give the cable an impulse.
     pub fn gap(&self, pin: usize, time: f64) -> (Vector3<f64>, Vector3<f64>) {
-        let s = self.elapsed(time);
+        let (s, h, [first, last]) = (self.elapsed(time), self.duration, self.rates[pin]);
         let open = self.remaining[pin] + self.closing[pin] * (1.0 - s * s * (3.0 - 2.0 * s));
-        (open, self.closing[pin] * (-6.0 * s * (1.0 - s) / self.duration))
+        let beyond = (first * (s * (1.0 - s) * (1.0 - s)) - last * (s * s * (1.0 - s))) * h;
+        let rate = first * ((1.0 - s) * (1.0 - 3.0 * s)) + last * (s * (3.0 * s - 2.0));
+        (open + beyond, self.closing[pin] * (-6.0 * s * (1.0 - s) / h) + rate)
     }
 
     /// Returns the second time derivative of a pin's gap.
     pub fn gap_acceleration(&self, pin: usize, time: f64) -> Vector3<f64> {
-        let s = self.elapsed(time);
-        self.closing[pin] * (-6.0 * (1.0 - 2.0 * s) / (self.duration * self.duration))
+        let (s, h, [first, last]) = (self.elapsed(time), self.duration, self.rates[pin]);
+        self.closing[pin] * (-6.0 * (1.0 - 2.0 * s) / (h * h)) + (first * (6.0 * s - 4.0) + last * (6.0 * s - 2.0)) / h
     }
 }

@@ -52,6 +52,7 @@ mod pin;
 mod pin_accounts;
 mod rotation;
 mod rows;
+mod statics;
 mod step;
 mod velocities;
 
@@ -60,4 +61,5 @@ pub use impedance::Impedance;
 pub use layout::CLOSING_SPEED;
 pub use pin::PinConstraint;
 pub use pin_accounts::PinAccount;
+pub use statics::equilibrium;
 pub use step::Island;

@@ -39,6 +39,16 @@ pub struct PinAccount {
 }
 
 impl PinAccount {
+    /// Adds the account of the step that follows.
+    pub fn add(&mut self, next: &PinAccount) {
+        let (impulse, angular_impulse) = (self.impulse, self.angular_impulse);
+        let work = self.work;
+        *self = *next;
+        self.impulse += impulse;
+        self.angular_impulse += angular_impulse;
+        self.work += work;
+    }
+
     /// Adds a step of length `h` (s) of mean force, moment and power; of a slope only the moment counts.
     pub(super) fn add_mean(&mut self, h: f64, slope: bool, (force, moment, power): (Vector3<f64>, Vector3<f64>, f64)) {
         if slope {

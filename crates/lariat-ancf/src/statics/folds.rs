@@ -97,14 +97,14 @@ fn is_clamped_backwards(model: &Model, q: &[f64], node: usize) -> bool {
 }
 
 /// Returns the first folded element.
-pub(super) fn first_fold(model: &Model, q: &[f64]) -> Option<usize> {
+pub(crate) fn first_fold(model: &Model, q: &[f64]) -> Option<usize> {
     let reversed = |&i: &usize| is_reversed(model, q, i) || is_clamped_backwards(model, q, i);
     let node = (0..model.nodes()).find(reversed).map(|i| i.min(model.elements.len() - 1));
     node.or_else(|| (0..model.elements.len()).find(|&e| is_buckled(model, q, e) || is_cusped(model, q, e)))
 }
 
 /// Sets the free slopes of folded elements along the chords, with the stretch of the chords.
-pub(super) fn straighten(model: &Model, q: &mut [f64]) {
+pub(crate) fn straighten(model: &Model, q: &mut [f64]) {
     for node in 0..model.nodes() {
         let elements = node.saturating_sub(1)..(node + 1).min(model.elements.len());
         let folded = is_reversed(model, q, node) || elements.clone().any(|e| is_buckled(model, q, e));

@@ -29,7 +29,7 @@ pub(super) fn moment_work(model: &Model, from: &[f64], to: &[f64]) -> f64 {
 }
 
 /// Returns the potential energy in J, with point forces at a share `load`.
-pub(super) fn potential(equations: &Equations<'_>, load: f64, q: &[f64]) -> f64 {
+pub(crate) fn potential(equations: &Equations<'_>, load: f64, q: &[f64]) -> f64 {
     let (axial, bending) = equations.system.forces.strain_energy(q);
     axial + bending
         - equations.system.loads.gravity_work(q)

@@ -4,7 +4,7 @@ use crate::model::Model;
 use crate::section::Element;
 
 /// Reference magnitudes of a cable under its loads.
-pub(super) struct LoadScale {
+pub(crate) struct LoadScale {
     /// Sum of the loads, or the largest tension at the start if there are none, in N.
     pub force: f64,
     /// Residual force due to rounding in N.
@@ -54,7 +54,7 @@ impl LoadScale {
 
 /// Returns the largest force on a node in N: on its position, and on its slope divided by the
 /// length `lever` (m), where moments act.
-pub(super) fn largest_force(rhs: &[f64], lever: f64) -> f64 {
+pub(crate) fn largest_force(rhs: &[f64], lever: f64) -> f64 {
     rhs.chunks_exact(6).fold(0.0f64, |worst, x| {
         let force = (x[0] * x[0] + x[1] * x[1] + x[2] * x[2]).sqrt();
         let moment = (x[3] * x[3] + x[4] * x[4] + x[5] * x[5]).sqrt() / lever;

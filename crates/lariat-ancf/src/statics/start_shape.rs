@@ -38,7 +38,7 @@ fn held(model: &Model) -> Vec<usize> {
 
 /// Moves the cable with supports that have jumped: in `q` they are at their positions, in `before`
 /// at the previous ones.
-pub(super) fn move_with_supports(model: &Model, before: &[f64], q: &mut [f64]) {
+pub(crate) fn move_with_supports(model: &Model, before: &[f64], q: &mut [f64]) {
     let held = held(model);
     let (Some(&first), Some(&last)) = (held.first(), held.last()) else { return };
     let jump = |q: &[f64], node: usize| position(q, node) - position(before, node);

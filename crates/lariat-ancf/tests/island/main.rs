@@ -14,4 +14,5 @@ mod pins;
 mod reference;
 mod shapes;
 mod spin;
+mod statics;
 mod thrown;

@@ -54,7 +54,7 @@ fn an_impulse_gives_a_rope_its_momentum_and_no_more_than_its_work() {
     let (node, impulse) = (rope.attach(At::End).unwrap(), Vector3::new(0.3, 2.0, 0.0));
     let mut impedance = Impedance::default();
     impedance.update(&mut rope, &[node], 1.0 / 120.0).unwrap();
-    let given = impulse.dot(&(impedance.compliance() * impulse));
+    let given = impulse.dot(&(impedance.compliance(0, 0) * impulse));
     impedance.apply_impulses(&mut rope, &[impulse]);
     let energy = rope.energy();
     assert!((rope.momentum().linear + impulse).norm() < 1e-9, "{:?}", rope.momentum().linear);

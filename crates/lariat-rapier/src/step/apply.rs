@@ -20,15 +20,15 @@ use crate::islands::{Island, Member};
 use crate::mechanism;
 use crate::record::BodyRecord;
 use crate::spatial::{split_spatial, stack_spatial};
-use crate::step::kinematic_ends::MAX_ROTATION_PER_STEP;
 use crate::step::prediction::{AppliedMotion, BodyStep, Prediction};
+use crate::step::prescribed_motion::MAX_ROTATION_PER_STEP;
 use crate::step::proximity;
 use ::nalgebra::Vector3;
 use rapier::math::Real;
 use rapier::pipeline::PhysicsWorld;
 
 /// Half of the rotation in a substep, in rad, up to which `angvel` is corrected.
-const MAX_HALF_ROTATION: f64 = 1.2;
+pub(crate) const MAX_HALF_ROTATION: f64 = 1.2;
 /// Share of Rapier's largest rotation in a step from which a body is allowed to rotate faster.
 const FAST_ROTATION: f64 = 0.9;
 

@@ -6,8 +6,8 @@
 //! D = the block of its pin in (C + B')^-1
 //! B'_ij = 1/m - [r_i]x I^-1 [r_j]x,   of the body itself times OWN_MOBILITY_SHARE
 //! ```
-//! C is the compliance of the body's cables over the step ([`Impedance`]), B' the mobility of the
-//! bodies at their pins. A [`Ledger`] acts on the body with D about the predicted velocity of the
+//! C is the compliance of the body's cables over the step ([`Impedance`]) at its pins and at the next
+//! ones on these cables, B' the mobility of the bodies at these pins. A [`Ledger`] acts on the body with D about the predicted velocity of the
 //! anchor: if the prediction was right it does nothing; if a contact or a joint makes the body
 //! deviate, the body feels the cable within the same step.
 //!
@@ -40,19 +40,13 @@ pub(crate) fn set_motors(
 ) -> Result<(), Error> {
     prediction.motors.clear();
     prediction.motors.resize(island.pins.len(), false);
-    let mut linearised = false;
-    for (m, member) in island.members.iter().enumerate() {
-        let (Member::Body(handle), Some(_)) = (member, &prediction.applied[m]) else { continue };
-        let displacement = prediction.end[m].position - prediction.start[m].position;
-        if !proximity::may_deviate(world, *handle)
-            && proximity::unlisted_collision(world, *handle, &displacement, (step.h, step.fastest)).is_none()
-        {
-            continue;
-        }
-        if !linearised {
-            linearise(contents, island, prediction, step.h)?;
-            linearised = true;
-        }
+    let mut deviating = core::mem::take(&mut prediction.deviating);
+    deviating.clear();
+    deviating.extend((0..island.members.len()).filter(|&m| deviates(contents, world, island, prediction, m, step)));
+    if !deviating.is_empty() {
+        linearise(contents, island, prediction, &deviating, step.h)?;
+    }
+    for &m in &deviating {
         for (pin, d) in driving_point(island, prediction, m) {
             let anchor = island.pins[pin].anchor;
             let target = (prediction.end[m].point(&anchor) - prediction.start[m].point(&anchor)) / step.h;
@@ -63,6 +57,7 @@ pub(crate) fn set_motors(
             }
         }
     }
+    prediction.deviating = deviating;
     let off = island.attachments.iter().zip(&prediction.motors).filter(|(_, on)| !**on);
     disable_motors(contents, world, off.filter_map(|(attachment, _)| *attachment));
     Ok(())
@@ -75,12 +70,56 @@ pub(crate) fn disable_motors(contents: &Contents, world: &mut PhysicsWorld, atta
     }
 }
 
-/// Linearises the cables of an island for a step of `h` (s).
-fn linearise(contents: &mut Contents, island: &Island, prediction: &mut Prediction, h: f64) -> Result<(), Error> {
+/// Returns whether member `m` of an island is a body that may deviate from its prediction.
+fn deviates(
+    contents: &Contents,
+    world: &PhysicsWorld,
+    island: &Island,
+    prediction: &Prediction,
+    m: usize,
+    step: &StepParameters,
+) -> bool {
+    let (Member::Body(handle), Some(_)) = (island.members[m], &prediction.applied[m]) else { return false };
+    let displacement = prediction.end[m].position - prediction.start[m].position;
+    proximity::may_deviate(world, handle)
+        || proximity::unlisted_collision(world, handle, &displacement, (step.h, step.fastest)).is_some()
+        || !contents.records.get(handle).is_some_and(|record| record.stepped)
+            && proximity::overlaps(world, handle, &displacement)
+}
+
+/// Returns the pins on a member, and those next to them on the same cables.
+fn near_pins(island: &Island, member: usize) -> Vec<usize> {
+    let pins = &island.pins;
+    let mut near: Vec<usize> = island.pins_on(member).collect();
+    for own in island.pins_on(member) {
+        let others = (0..pins.len()).filter(|&p| pins[p].cable == pins[own].cable && pins[p].body != member);
+        let before = others.clone().filter(|&p| pins[p].node < pins[own].node).max_by_key(|&p| pins[p].node);
+        let after = others.filter(|&p| pins[p].node > pins[own].node).min_by_key(|&p| pins[p].node);
+        near.extend(before.into_iter().chain(after));
+    }
+    near.sort_unstable();
+    near.dedup();
+    near
+}
+
+/// Linearises the cables of the `deviating` members of an island for a step of `h` (s).
+fn linearise(
+    contents: &mut Contents,
+    island: &Island,
+    prediction: &mut Prediction,
+    deviating: &[usize],
+    h: f64,
+) -> Result<(), Error> {
+    let mut near: Vec<usize> = deviating.iter().flat_map(|&m| near_pins(island, m)).collect();
+    near.sort_unstable();
+    near.dedup();
     prediction.impedances.resize_with(island.cables.len(), Default::default);
     for (c, cable) in contents.cables_at(&island.cables).into_iter().enumerate() {
-        let nodes: Vec<usize> = island.pins.iter().filter(|p| p.cable == c).map(|p| p.node).collect();
-        prediction.impedances[c].update(cable, &nodes, h)?;
+        let of_cable = near.iter().filter(|&&p| island.pins[p].cable == c);
+        let nodes: Vec<usize> = of_cable.map(|&p| island.pins[p].node).collect();
+        if !nodes.is_empty() {
+            prediction.impedances[c].update(cable, &nodes, h)?;
+        }
     }
     Ok(())
 }
@@ -88,19 +127,19 @@ fn linearise(contents: &mut Contents, island: &Island, prediction: &mut Predicti
 /// Returns D for every pin on a member, by the index of the pin.
 fn driving_point(island: &Island, prediction: &Prediction, member: usize) -> Vec<(usize, Matrix3<f64>)> {
     let start = &prediction.start;
-    let holds = |c: usize| island.pins_on(member).any(|p| island.pins[p].cable == c);
-    let near: Vec<usize> = (0..island.pins.len()).filter(|&p| holds(island.pins[p].cable)).collect();
+    let near = near_pins(island, member);
     let n = 3 * near.len();
     let mut m = DMatrix::<f64>::zeros(n, n);
     for (a, &i) in near.iter().enumerate() {
         for (b, &j) in near.iter().enumerate() {
             let (p, q) = (&island.pins[i], &island.pins[j]);
             let mut block = Matrix3::zeros();
-            if p.cable == q.cable {
-                let own: Vec<usize> = (0..island.pins.len()).filter(|&k| island.pins[k].cable == p.cable).collect();
-                let at = |pin: usize| 3 * own.iter().position(|&k| k == pin).expect("a pin of its own cable");
-                let c = prediction.impedances[p.cable].compliance();
-                block += c.fixed_view::<3, 3>(at(i), at(j));
+            let impedance = &prediction.impedances[p.cable];
+            let index = |node: usize| impedance.nodes().iter().position(|&n| n == node);
+            if p.cable == q.cable
+                && let (Some(one), Some(two)) = (index(p.node), index(q.node))
+            {
+                block += impedance.compliance(one, two);
             }
             if p.body == q.body {
                 let share = if p.body == member { OWN_MOBILITY_SHARE } else { 1.0 };

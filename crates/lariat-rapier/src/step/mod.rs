@@ -3,8 +3,10 @@
 //! | file | per Rapier step |
 //! |---|---|
 //! | [`substepping`] | how many Rapier steps the host step has; [`proximity`]: which bodies will collide |
-//! | [`kinematic_ends`] | prescribes the ends of cables on fixed and kinematic bodies |
-//! | [`predict`] | integrates cables and bodies together, all islands at once |
+//! | [`prescribed_motion`] | how fixed and kinematic bodies move over the host step |
+//! | [`kinematic_ends`] | prescribes the ends of cables on them |
+//! | [`predict`] | reads cables and bodies before the step |
+//! | [`integrate`] | integrates them together, all islands at once |
 //! | [`apply`] | gives Rapier the predicted motion; reverts it |
 //! | [`impedance`] | lets a body that may deviate feel its cables within Rapier's step |
 //! | [`reconcile`] | takes over what Rapier's step made of it |
@@ -12,24 +14,28 @@
 
 pub(crate) mod apply;
 pub(crate) mod impedance;
+pub(crate) mod integrate;
 pub(crate) mod kinematic_ends;
 pub(crate) mod predict;
 pub(crate) mod prediction;
+pub(crate) mod prescribed_motion;
 pub(crate) mod proximity;
 pub(crate) mod reconcile;
 pub(crate) mod refused;
 pub(crate) mod substepping;
 
 use crate::attach;
+use crate::body;
 use crate::contents::Contents;
 use crate::error::{Error, Failure};
 use crate::events::Event;
 use crate::islands::{Island, Islands};
 use crate::settings::Settings;
 use crate::sleep;
-use kinematic_ends::KinematicTargets;
 use lariat_ancf::Snapshot;
 use prediction::{Prediction, StepParameters};
+use prescribed_motion::PrescribedMotions;
+use rapier::dynamics::RigidBodyHandle;
 use rapier::math::Real;
 use rapier::pipeline::PhysicsWorld;
 
@@ -41,7 +47,7 @@ pub struct HostStep {
     steps: u32,
     done: u32,
     failed: bool,
-    targets: KinematicTargets,
+    motions: PrescribedMotions,
 }
 
 impl HostStep {
@@ -86,12 +92,15 @@ pub(crate) fn begin(
     if !(dt.is_finite() && dt >= 0.0) {
         return Err(Error::TimeStep { dt: f64::from(dt) });
     }
-    let mut host = HostStep { dt, steps: 1, done: 0, failed: false, targets: KinematicTargets::default() };
+    let mut host = HostStep { dt, steps: 1, done: 0, failed: false, motions: PrescribedMotions::default() };
     if dt > 0.0 {
         stepper.events.clear();
         stepper.failures.clear();
         host.steps = substepping::count(contents, world, settings, f64::from(dt));
-        host.targets = KinematicTargets::read(world);
+        host.motions = PrescribedMotions::read(contents, world, f64::from(dt));
+        if host.steps > 1 {
+            host.motions.add_others(contents, world, f64::from(dt));
+        }
         world.integration_parameters.dt = dt / host.steps as Real;
     }
     Ok(host)
@@ -116,8 +125,8 @@ pub(crate) fn predict_next(
     if host.dt == 0.0 {
         return Ok(());
     }
-    host.targets.advance(world, host.done, host.steps);
-    let outcome = predict_islands(stepper, contents, world, settings, host.steps);
+    host.motions.advance(world, host.done, host.steps);
+    let outcome = predict_islands(stepper, contents, world, settings, host);
     host.failed = outcome.is_err();
     outcome
 }
@@ -133,20 +142,22 @@ fn split_finer(contents: &Contents, world: &mut PhysicsWorld, settings: &Setting
 }
 
 /// Ends a host step: `world.integration_parameters.dt` is the host's again.
-pub(crate) fn finish(world: &mut PhysicsWorld, host: &HostStep) {
+pub(crate) fn finish(contents: &mut Contents, world: &mut PhysicsWorld, host: &HostStep) {
     world.integration_parameters.dt = host.dt;
     if host.is_unfinished() || host.failed {
-        host.targets.restore(world);
+        host.motions.restore(world);
+    } else if host.dt > 0.0 {
+        host.motions.remember(contents);
     }
 }
 
-/// Predicts one of `rapier_steps` Rapier steps of all islands.
+/// Predicts the next Rapier step of all islands.
 fn predict_islands(
     stepper: &mut Stepper,
     contents: &mut Contents,
     world: &mut PhysicsWorld,
     settings: &Settings,
-    rapier_steps: u32,
+    host: &HostStep,
 ) -> Result<(), Error> {
     if core::mem::take(&mut stepper.pending) {
         // predicted, and never reconciled
@@ -157,13 +168,17 @@ fn predict_islands(
     }
     attach::end_lost(contents, world, &mut stepper.events)?;
     contents.follow_gravity(world)?;
+    contents.attachments.values().for_each(|a| body::update_mass(world, a.body));
     stepper.islands.update(contents, world)?;
     stepper.predictions.resize_with(stepper.islands.list.len(), Default::default);
     stepper.predictions.iter_mut().for_each(|prediction| prediction.applied.clear());
+    let is_awake = |body: RigidBodyHandle| !world.bodies[body].is_sleeping();
+    let needs_speeds = stepper.islands.list.iter().any(|island| island.bodies().any(is_awake));
     let step = StepParameters {
         h: f64::from(world.integration_parameters.dt),
-        rapier_steps,
-        fastest: proximity::fastest(world),
+        rapier_steps: host.steps,
+        share: (f64::from(host.done - 1) / f64::from(host.steps), f64::from(host.done) / f64::from(host.steps)),
+        fastest: if needs_speeds { proximity::fastest(world) } else { 0.0 },
         sleep_speed: settings.sleep_speed,
     };
     let Stepper { islands, predictions, events, failures, .. } = &mut *stepper;
@@ -172,10 +187,11 @@ fn predict_islands(
         prediction.refused = failures.iter().any(failed);
         (prediction.integrator, prediction.error) = (None, None);
         if !prediction.refused {
-            prediction.error = prepare_island(contents, world, island, prediction, &step, events).err();
+            let outcome = prepare_island(contents, world, island, prediction, (&host.motions, &step), events);
+            prediction.error = outcome.err();
         }
     }
-    predict::integrate(contents, &islands.list, predictions, step.h);
+    integrate::integrate(contents, &islands.list, predictions, step.h);
     for (island, prediction) in islands.list.iter().zip(predictions.iter_mut()) {
         if prediction.integrator.is_some() && prediction.error.is_none() {
             prediction.error = complete_island(contents, world, island, prediction, &step).err();
@@ -201,7 +217,7 @@ fn prepare_island(
     world: &mut PhysicsWorld,
     island: &Island,
     prediction: &mut Prediction,
-    step: &StepParameters,
+    (motions, step): (&PrescribedMotions, &StepParameters),
     events: &mut Vec<Event>,
 ) -> Result<(), Error> {
     contents.align_clocks(&island.cables)?;
@@ -217,9 +233,9 @@ fn prepare_island(
         contents.cables_at(&island.cables).into_iter().for_each(|cable| cable.rest(step.h));
         return Ok(());
     }
-    kinematic_ends::prescribe(contents, world, island, step.h)?;
+    kinematic_ends::prescribe(contents, world, motions, island, step)?;
     impedance::disable_motors(contents, world, island.supports.iter().copied());
-    predict::prepare(contents, world, island, prediction, step)
+    predict::prepare(contents, world, motions, island, prediction, step)
 }
 
 /// Gives Rapier the motion of an island that was integrated.

@@ -19,6 +19,8 @@ pub(crate) struct StepParameters {
     pub h: f64,
     /// Number of equal Rapier steps of the host step.
     pub rapier_steps: u32,
+    /// Share of the host step at which it begins and ends, 0 to 1.
+    pub share: (f64, f64),
     /// Speed in m/s of the fastest body that is awake.
     pub fastest: f64,
     /// Speed in m/s below which bodies may sleep.
@@ -38,14 +40,18 @@ pub(crate) struct Prediction {
     pub mechanisms: Vec<Option<Mechanism>>,
     /// By member, the motion given to Rapier.
     pub applied: Vec<Option<AppliedMotion>>,
-    /// By cable, its response to impulses; valid if any motor is on.
+    /// By cable, its response to impulses at pins on and next to deviating members.
     pub impedances: Vec<Impedance>,
     /// The integrator of an island that is ready to be integrated, or was.
     pub integrator: Option<Integrator>,
+    /// Number of equal parts in which it is integrated.
+    pub parts: u32,
     /// Why the island cannot step.
     pub error: Option<Error>,
     /// By pin, what it transmitted in the predicted step.
     pub accounts: Vec<PinAccount>,
+    /// Indices of the members that may deviate from the prediction.
+    pub deviating: Vec<usize>,
     /// By pin, whether its motors are on.
     pub motors: Vec<bool>,
     /// By pin, the impulse of its motors in N s.

@@ -31,9 +31,15 @@ pub(crate) fn is_linked(world: &PhysicsWorld, handle: RigidBodyHandle) -> bool {
 
 /// Returns whether a body is near no other, and no joint holds it but that of a ledger.
 pub(crate) fn is_isolated(world: &PhysicsWorld, handle: RigidBodyHandle) -> bool {
+    is_unjointed(world, handle) && !may_deviate(world, handle)
+}
+
+/// Returns whether no joint holds a body but that of a ledger.
+pub(crate) fn is_unjointed(world: &PhysicsWorld, handle: RigidBodyHandle) -> bool {
     let ledger = |b: RigidBodyHandle| world.bodies.get(b).is_some_and(is_ledger);
-    let joined = world.impulse_joints.attached_joints(handle).any(|(a, b, _, _)| !ledger(a) && !ledger(b));
-    !joined && !may_deviate(world, handle)
+    let joined = |(a, b)| !ledger(a) && !ledger(b);
+    world.multibody_joints.rigid_body_link(handle).is_none()
+        && !world.impulse_joints.attached_joints(handle).any(|(a, b, _, _)| joined((a, b)))
 }
 
 /// Returns whether Rapier lists a pair with a collider of a body. It keeps the pairs of a removed
@@ -60,6 +66,19 @@ fn swept(aabb: Aabb, displacement: &Vector3<f64>, margin: f64) -> Aabb {
     let displacement = to_vector(displacement);
     let moved = Aabb::new(aabb.mins + displacement, aabb.maxs + displacement);
     Aabb::new(aabb.mins.min(moved.mins), aabb.maxs.max(moved.maxs)).loosened(margin as Real)
+}
+
+/// Returns whether the box of a body, swept along `displacement` (m), overlaps that of another. It
+/// needs no list of Rapier's, which has none before its first step, and asks all colliders.
+pub(crate) fn overlaps(world: &PhysicsWorld, handle: RigidBodyHandle, displacement: &Vector3<f64>) -> bool {
+    let margin = f64::from(world.integration_parameters.prediction_distance());
+    let solid = |c: &Collider| c.is_enabled() && !c.is_sensor();
+    let own = world.bodies[handle].colliders().iter().filter_map(|c| world.colliders.get(*c)).filter(|c| solid(c));
+    let mut boxes = own.map(|c| swept(c.compute_aabb(), displacement, margin));
+    boxes.any(|own| {
+        let mut others = world.colliders.iter().map(|(_, c)| c).filter(|c| solid(c) && c.parent() != Some(handle));
+        others.any(|c| c.compute_aabb().intersects(&own))
+    })
 }
 
 /// Returns an upper bound in m/s of the speed at which a body with `displacement` (m) in a step may

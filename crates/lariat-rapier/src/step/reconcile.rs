@@ -8,8 +8,10 @@
 //! cable:     dv = -A^-1 J^T p      dx = h dv
 //! ```
 //! v0 is the velocity that Rapier was given, x1 and v1 are the predicted state, p the impulse of
-//! the motors and L the inertia of the body with its mechanism. The whole of the predicted change
-//! of velocity stays, so that bodies and cables keep their momentum.
+//! the motors, L the inertia of the body with its mechanism, and c the impulse of contacts and
+//! joints in the step. The whole of the predicted change of velocity stays, so that bodies and
+//! cables keep their momentum. Of c, the share s is expected again: what bears a load leaves the
+//! motion of the body as it is (s = 1), a blow is gone with the momentum that it gave (s = 0).
 //!
 //! # Validity
 //! p is left out for a body that is joined to others: in a chain of joints the motors work against
@@ -24,7 +26,7 @@
 use crate::contents::Contents;
 use crate::convert::{rotation, to_vector, vector};
 use crate::islands::{Island, Member};
-use crate::mechanism;
+use crate::mechanism::{self, inertia};
 use crate::record::{BodyRecord, ExactState};
 use crate::sleep;
 use crate::spatial::{split_spatial, stack_spatial};
@@ -130,6 +132,7 @@ fn read_members(
             let p = &prediction.impulses[pin];
             motors += stack_spatial(p, &(step.end.rotation * island.pins[pin].anchor).cross(p));
         }
+        record.stepped = true;
         let landed = read_back(world, &step, applied, record, &motors);
         if landed {
             island.pins_on(m).for_each(|pin| prediction.impulses[pin] = Vector3::zeros());
@@ -170,20 +173,20 @@ fn read_back(
     applied.saved.restore_settings(body);
     if body.local_center_of_mass() != applied.centre {
         // its mass changed during the step: its motion tells nothing about forces
-        *record = BodyRecord::new(handle);
+        *record = BodyRecord { stepped: true, ..BodyRecord::new(handle) };
         return false;
     }
     let after = stack_spatial(&vector(body.linvel()), &vector(body.angvel()));
     let deviation = after - stack_spatial(&vector(applied.linvel), &vector(applied.angvel));
     let landed = has_landed(body, end, applied, &deviation, iterations);
-    update_reaction(body, step, applied, record, &deviation, motors);
     let velocity = stack_spatial(&end.velocity, &end.angular_velocity);
     let velocity = if landed { velocity } else { velocity + deviation };
+    update_reaction(body, step, applied, record, (&deviation, &velocity), motors);
     let (linear_damping, angular_damping) = applied.saved.damping_factors(h);
     if let Some(mechanism) = mechanism {
         let change = velocity - after - mechanism.loads.of_body * (0.5 * h);
         mechanism.apply_loads(world, handle, 0.5 * h);
-        mechanism.apply_impulse(world, handle, &(mechanism::inertia(end) * change));
+        mechanism.apply_impulse(world, handle, &(inertia(end) * change));
         // Rapier does not damp links of a multibody
         if !mechanism.is_multibody() {
             mechanism.loads.damp(world, h);
@@ -235,10 +238,10 @@ fn update_reaction(
     step: &BodyStep,
     applied: &AppliedMotion,
     record: &mut BodyRecord,
-    deviation: &Vector6<f64>,
+    (deviation, velocity): (&Vector6<f64>, &Vector6<f64>),
     motors: &Vector6<f64>,
 ) {
-    let &BodyStep { end, mechanism, h, .. } = step;
+    let &BodyStep { start, end, mechanism, h, .. } = step;
     let moved = (vector(body.center_of_mass()) - end.position) / h;
     let turned = (rotation(*body.rotation()) * end.rotation.inverse()).scaled_axis() / h;
     // in a mechanism that touches nothing, the position tells only how Rapier corrects its joints
@@ -246,21 +249,33 @@ fn update_reaction(
     let change = deviation + stack_spatial(&moved, &turned) * if isolated { 0.0 } else { 1.0 };
     let impulse = match mechanism {
         Some(_) => mechanism::implied_impulse(end, &change, isolated),
-        None => mechanism::inertia(end) * change,
+        None => inertia(end) * change,
     };
     let motors = if applied.linked { Vector6::zeros() } else { *motors };
-    record.reaction += REACTION_GAIN * (impulse - motors) / h;
+    let known = record.reaction * h - motors;
+    // the share of the impulse that did not change the motion of the body
+    let whole = known + inertia(end) * deviation;
+    let gained = velocity - stack_spatial(&start.velocity, &start.angular_velocity);
+    let square = inertia(end).cholesky().map_or(0.0, |inertia| whole.dot(&inertia.solve(&whole)));
+    let share = if square > 0.0 { (1.0 - whole.dot(&gained) / square).clamp(0.0, 1.0) } else { 1.0 };
+    record.reaction += REACTION_GAIN * ((known + impulse) * (share / h) - record.reaction);
 }
 
 /// Gives the cables the opposite of their motors' impulses on bodies that deviated.
 fn apply_motor_impulses(contents: &mut Contents, island: &Island, prediction: &Prediction) {
-    if prediction.impulses.iter().all(|p| *p == Vector3::zeros()) {
-        return;
-    }
-    for (c, cable) in contents.cables_at(&island.cables).into_iter().enumerate() {
-        let of_cable = island.pins.iter().zip(&prediction.impulses).filter(|(pin, _)| pin.cable == c);
-        let impulses: Vec<Vector3<f64>> = of_cable.map(|(_, p)| *p).collect();
-        prediction.impedances[c].apply_impulses(cable, &impulses);
+    let impulse_at = |c: usize, node: usize| {
+        let pin = island.pins.iter().position(|pin| pin.cable == c && pin.node == node);
+        pin.map_or_else(Vector3::zeros, |pin| prediction.impulses[pin])
+    };
+    let driven = |c: usize| {
+        island.pins.iter().zip(&prediction.impulses).any(|(pin, p)| pin.cable == c && *p != Vector3::zeros())
+    };
+    for (c, &cable) in island.cables.iter().enumerate().filter(|(c, _)| driven(*c)) {
+        let nodes = prediction.impedances[c].nodes();
+        let impulses: Vec<Vector3<f64>> = nodes.iter().map(|&node| impulse_at(c, node)).collect();
+        if let Some(slot) = contents.cables.get_mut(cable) {
+            prediction.impedances[c].apply_impulses(&mut slot.cable, &impulses);
+        }
     }
 }
 

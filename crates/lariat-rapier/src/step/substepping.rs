@@ -4,6 +4,7 @@
 //! ```text
 //! h w <= 0.6                      w^2 = k/m,   k = sum of EA/l over the pins of a body
 //! h v g/(1 + g) <= 1 mm           g = 0.1 h^2 k/m
+//! h |w|/(2 N) <= 1.2              in N solver iterations
 //! ```
 //! *Vibration.* Between two Rapier steps the reaction estimate of a body in contact is constant. If
 //! h is long compared with the period of the body on its taut cables, the estimate comes too late:
@@ -34,6 +35,7 @@ use crate::body::is_integrated;
 use crate::contents::Contents;
 use crate::settings::Settings;
 use crate::spatial::split_spatial;
+use crate::step::apply::MAX_HALF_ROTATION;
 use crate::step::impedance::OWN_MOBILITY_SHARE;
 use crate::step::proximity;
 use ::nalgebra::Vector3;
@@ -46,6 +48,9 @@ const TAUT_STRAIN: f64 = 1e-5;
 const MAX_PHASE: f64 = 0.6;
 /// Largest gap in m that may open in a Rapier step.
 const MAX_GAP: f64 = 1e-3;
+/// Steps of a host step of a body that joints hold: the reactions of joints are estimated from step
+/// to step.
+const JOINTED_STEPS: f64 = 4.0;
 /// Share of the force at an attachment from which a reaction estimate counts.
 const MIN_REACTION: f64 = 0.1;
 
@@ -69,9 +74,20 @@ pub(crate) fn count(contents: &Contents, world: &PhysicsWorld, settings: &Settin
         let first_contact = dt * speed * g / (1.0 + g) / MAX_GAP;
         vibration.max(first_contact)
     });
-    let needed = needed.fold(0.0, f64::max);
+    let jointed = |a: &Attachment| is_integrated(world, a.body) && !proximity::is_unjointed(world, a.body);
+    let joints = if contents.attachments.values().any(jointed) { JOINTED_STEPS } else { 1.0 };
+    let needed = needed.fold(rotation(contents, world, dt).max(joints), f64::max);
     // a value that is not a number, or too large, gives the maximum
     (needed.ceil().min(f64::from(max)) as u32).max(min)
+}
+
+/// Returns the number of steps of `dt` (s) that attached bodies need so that none rotates by more
+/// than Rapier's linearised rotation can in a substep.
+fn rotation(contents: &Contents, world: &PhysicsWorld, dt: f64) -> f64 {
+    let substeps = world.integration_parameters.num_solver_iterations.max(1) as f64;
+    let spins = contents.attachments.values().filter_map(|a| world.bodies.get(a.body));
+    let fastest = spins.filter(|b| b.is_dynamic()).map(|b| f64::from(b.angvel().length())).fold(0.0, f64::max);
+    0.5 * fastest * dt / substeps / MAX_HALF_ROTATION
 }
 
 /// Returns the speed in m/s at which the body of an attachment may collide within `dt` (s), or 0 if

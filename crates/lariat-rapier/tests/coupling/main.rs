@@ -3,6 +3,7 @@
 
 mod assemblies;
 mod attachment_points;
+mod blows;
 mod clamps;
 mod common;
 mod contact;
@@ -11,6 +12,7 @@ mod draw;
 mod free_flight;
 mod hoist;
 mod joints;
+mod moving_ends;
 mod payload;
 mod prescribed_motion;
 mod refused;

@@ -69,7 +69,7 @@ fn the_end_of_a_cable_follows_a_fast_drum() {
                 turned =
                     turned.max(f64::from((before.inverse() * *world.bodies[drum].rotation()).to_scaled_axis().z.abs()));
             }
-            assert!(turned > 1.0, "{turned}");
+            assert!(turned > 0.7, "{turned}");
             assert!(worst < 1e-6, "{iterations} iterations, {speed} rad/s: {worst:.1e} m");
         }
     }

@@ -4,7 +4,7 @@ use super::common::{add_cube, cable, gap, l_stable_integrator, run, soft, steel,
 use lariat_rapier::convert::vector;
 use lariat_rapier::lariat_ancf::{At, Section, Vector3};
 use lariat_rapier::rapier::prelude::*;
-use lariat_rapier::{AttachmentKind, CableSet};
+use lariat_rapier::{AttachmentKind, CableSet, Error};
 
 /// Returns position and rotation of the box, and the tensions at mid cable. Taut cables are springs
 /// of Green's law along straight lines, with half of their weight at the lower end; Newton's method
@@ -124,4 +124,106 @@ fn a_hanging_load_stretches_its_cable_by_its_stiffness_for_any_mass() {
             );
         }
     }
+}
+
+/// Cables and bodies found at rest by `equilibrium` are where a damped run leaves them after a long time; they stay there when they are
+/// stepped; readings are those at rest.
+///
+/// Reference: the long-time limit of the motion, and [`tilted_box`].
+#[test]
+fn equilibrium_is_where_a_damped_run_ends() {
+    let tops = [-1.0, 0.8];
+    let build = |damping: Real| {
+        let mut world = PhysicsWorld::new();
+        let body = RigidBodyBuilder::dynamic()
+            .translation(Vector::new(0.1, -1.0, 0.05))
+            .linear_damping(damping)
+            .angular_damping(damping)
+            .can_sleep(false);
+        let (load, _) = world.insert(body, ColliderBuilder::cuboid(0.3, 0.1, 0.1).mass(50.0));
+        let mut set = CableSet::new();
+        let ropes = [0, 1].map(|k| {
+            let side = [-0.3, 0.3][k];
+            let rope = cable([tops[k], 0.0, 0.0], [side + 0.1, -0.9, 0.05], soft())
+                .length((tops[k] - side).hypot(0.9))
+                .integrator(l_stable_integrator())
+                .fix(At::Start);
+            let rope = set.insert(rope.build().unwrap());
+            set.attach(&world, rope, At::End, load, Vector::new(side as Real, 0.1, 0.0), AttachmentKind::Ball).unwrap();
+            rope
+        });
+        (world, set, load, ropes)
+    };
+    let (mut world, mut set, load, ropes) = build(0.0);
+    let report = set.equilibrium(&mut world).unwrap();
+    assert!(report.is_stable() && report.moved == [load] && report.held.is_empty() && report.unattached.is_empty());
+    let (mut moving, mut moving_set, moving_load, _) = build(2.0);
+    run(&mut moving, &mut moving_set, 1500);
+    let (a, b) = (*world.bodies[load].position(), *moving.bodies[moving_load].position());
+    assert!((a.translation - b.translation).length() < 1e-4, "{a:?} {b:?}");
+    assert!(a.rotation.angle_between(b.rotation) < 2e-3, "{a:?} {b:?}");
+    let (u, pulls) = tilted_box(soft(), tops, tops.map(|top| (top - 0.3f64.copysign(top)).hypot(0.9)), 50.0);
+    let angle = vector(world.bodies[load].rotation().to_scaled_axis()).z;
+    assert!((vector(a.translation).xy() - u.xy()).norm() < 1e-4 && (angle - u.z).abs() < 1e-4, "{a:?} {u:?}");
+    for k in 0..2 {
+        let pull = tension(&set, ropes[k], 0.5);
+        assert!((pull / pulls[k] - 1.0).abs() < 2e-3, "{pull} {pulls:?}");
+    }
+    // force balance of the readings
+    let sum: Vector3<f64> = set.attachments().map(|(_, a)| a.force()).sum();
+    assert!((sum - Vector3::y() * 50.0 * 9.81).norm() < 1e-4, "{sum:?}");
+    assert!(gap(&set) < 1e-12);
+    run(&mut world, &mut set, 60);
+    let after = *world.bodies[load].position();
+    assert!((a.translation - after.translation).length() < 1e-5, "{a:?} {after:?}");
+}
+
+/// What statics cannot compute is an error that names the body, and changes nothing: a joint, a contact where the body is, a contact where
+/// it would come to rest, a load that nothing holds. What is held and what is not attached is listed.
+///
+/// Reference: the contract.
+#[test]
+fn equilibrium_refuses_joints_and_contacts_and_lists_what_it_held() {
+    let build = |floor: Option<Real>| {
+        let mut world = PhysicsWorld::new();
+        let (hook, _) = world.insert(RigidBodyBuilder::fixed(), ColliderBuilder::ball(0.01));
+        let loose = add_cube(&mut world, 1.0, 0.1, [5.0, 0.0, 0.0]);
+        let load = add_cube(&mut world, 10.0, 0.1, [0.0, -1.5, 0.0]);
+        if let Some(y) = floor {
+            let floor = RigidBodyBuilder::fixed().translation(Vector::new(0.0, y, 0.0));
+            world.insert(floor, ColliderBuilder::cuboid(5.0, 0.1, 5.0));
+        }
+        let mut set = CableSet::new();
+        let rope = cable([0.0; 3], [0.0, -1.4, 0.0], wire()).length(2.0);
+        let rope = set.insert(rope.build().unwrap());
+        set.attach(&world, rope, At::Start, hook, Vector::ZERO, AttachmentKind::Ball).unwrap();
+        set.attach(&world, rope, At::End, load, Vector::new(0.0, 0.1, 0.0), AttachmentKind::Ball).unwrap();
+        (world, set, [hook, loose, load])
+    };
+    let (mut world, mut set, [hook, loose, load]) = build(None);
+    let report = set.equilibrium(&mut world).unwrap();
+    assert_eq!((report.moved, report.held, report.unattached), (vec![load], vec![hook], vec![loose]));
+    assert!((world.bodies[load].translation().y + 2.1).abs() < 1e-3);
+    // the floor where the box stands, where it comes to rest, and below
+    for (floor, refused) in [(-1.7, true), (-2.2, true), (-2.4, false)] {
+        let (mut world, mut set, [_, _, load]) = build(Some(floor));
+        let before = *world.bodies[load].position();
+        match set.equilibrium(&mut world) {
+            Err(Error::ContactInStatics { body, other }) => {
+                assert!(refused && body == load && other.is_some(), "{floor}");
+                assert_eq!(*world.bodies[load].position(), before);
+            }
+            outcome => assert!(!refused && outcome.is_ok(), "{floor}: {outcome:?}"),
+        }
+    }
+    let (mut world, mut set, [_, loose, load]) = build(None);
+    world.insert_impulse_joint(loose, load, SphericalJointBuilder::new().build());
+    assert_eq!(set.equilibrium(&mut world).unwrap_err(), Error::JointInStatics { body: load });
+    let (mut world, mut set, [hook, _, load]) = build(None);
+    let held: Vec<_> = set.attachments().filter(|(_, a)| a.body() == hook).map(|(handle, _)| handle).collect();
+    set.detach(&mut world, held[0]).unwrap();
+    let before = *world.bodies[load].position();
+    let error = set.equilibrium(&mut world).unwrap_err();
+    assert!(matches!(error, Error::Cable(lariat_rapier::lariat_ancf::Error::NoEquilibrium { .. })), "{error}");
+    assert_eq!(*world.bodies[load].position(), before);
 }

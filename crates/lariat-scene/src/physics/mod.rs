@@ -7,9 +7,11 @@
 mod build;
 mod joints;
 mod reading;
+mod statics;
 
 pub use build::collider;
 pub use reading::BodyState;
+pub use statics::Settled;
 
 use crate::error::Error;
 use crate::scene::Scene;
@@ -22,6 +24,8 @@ use lariat_rapier::rapier::math::Real;
 use lariat_rapier::rapier::prelude::PhysicsWorld;
 use lariat_rapier::{AttachmentHandle, AttachmentKind, AttachmentReading, CableHandle, CableSet, Gap};
 
+/// Rapier steps of a host step: a run is for accuracy, in contacts too, and its cost is that of the cables.
+const RAPIER_STEPS: u32 = 4;
 /// Largest difference of velocities at the start without a warning, in m/s.
 const JOLT: f64 = 1e-5;
 
@@ -41,6 +45,37 @@ pub struct Physics {
     reached: f64,
     /// Largest gap so far in m.
     max_gap: f64,
+}
+
+impl Clone for Physics {
+    fn clone(&self) -> Self {
+        let w = &self.world;
+        let world = PhysicsWorld {
+            gravity: w.gravity,
+            integration_parameters: w.integration_parameters,
+            islands: w.islands.clone(),
+            broad_phase: w.broad_phase.clone(),
+            narrow_phase: w.narrow_phase.clone(),
+            bodies: w.bodies.clone(),
+            colliders: w.colliders.clone(),
+            impulse_joints: w.impulse_joints.clone(),
+            multibody_joints: w.multibody_joints.clone(),
+            soft_bodies: w.soft_bodies.clone(),
+            // the rest are buffers
+            ..PhysicsWorld::default()
+        };
+        Physics {
+            world,
+            bodies: self.bodies.clone(),
+            cables: self.cables.clone(),
+            handles: self.handles.clone(),
+            attachments: self.attachments.clone(),
+            held_by: self.held_by.clone(),
+            rapier_steps: self.rapier_steps,
+            reached: self.reached,
+            max_gap: self.max_gap,
+        }
+    }
 }
 
 impl Physics {
@@ -67,7 +102,7 @@ impl Physics {
             problem,
         })?;
         let cables = CableSet::new();
-        let rapier_steps = cables.settings.rapier_steps.max(1);
+        let rapier_steps = RAPIER_STEPS;
         Ok(Physics {
             world,
             bodies,
@@ -202,12 +237,25 @@ impl Physics {
 
     /// Converts an error of the coupling, with the names of the scene.
     fn explain(&self, scene: &Scene, time: f64, error: lariat_rapier::Error) -> Error {
+        let name = |handle: RigidBodyHandle| {
+            self.bodies.iter().position(|b| *b == handle).map(|i| scene.bodies[i].name.clone())
+        };
         match error {
             lariat_rapier::Error::StepRefused { cause, .. } => self.explain(scene, time, *cause),
             lariat_rapier::Error::Cable(source) => Error::mechanics(time, source),
             lariat_rapier::Error::BodyNotFinite { body, quantity, time } => {
-                let name = self.bodies.iter().position(|b| *b == body).map(|i| scene.bodies[i].name.clone());
-                Error::Body { time, body: name.unwrap_or_default(), problem: format!("its {quantity} is not finite") }
+                let name = name(body).unwrap_or_default();
+                Error::Body { time, body: name, problem: format!("its {quantity} is not finite") }
+            }
+            lariat_rapier::Error::JointInStatics { body } => {
+                let problem = "statics compute no joints, and it has one: run the scene until it rests".to_string();
+                Error::Body { time, body: name(body).unwrap_or_default(), problem }
+            }
+            lariat_rapier::Error::ContactInStatics { body, other } => {
+                let other = other.and_then(name).map_or("a collider".to_string(), |other| format!("body {other:?}"));
+                let problem =
+                    format!("statics compute no contacts, and it touches {other}: run the scene until it rests");
+                Error::Body { time, body: name(body).unwrap_or_default(), problem }
             }
             source => Error::Coupling { time, source },
         }

@@ -41,7 +41,7 @@ mod summary;
 mod world;
 
 pub(crate) use probe::columns;
-pub use statics::{CableStatics, StaticReaction};
+pub use statics::{BodyPlace, BodyStatics, CableStatics, StaticReaction};
 pub use summary::Summary;
 pub use world::World;
 
@@ -72,11 +72,19 @@ pub struct Options<'a> {
 pub fn run(scene: &Scene, out: &Path, options: &mut Options<'_>) -> Result<Summary, Error> {
     record(scene, out, Purpose::Run, |world, output| {
         let mut schedule = Schedule::new(scene);
+        // a copy that is stepped to the probe times between two host steps, so that probes change nothing
+        let mut ahead: Option<World> = None;
         while let Some(event) = schedule.next_event() {
-            world.advance(event.time)?;
+            let read = if event.host {
+                ahead = None;
+                &mut *world
+            } else {
+                ahead.get_or_insert_with(|| world.clone())
+            };
+            read.advance(event.time)?;
             for (probe, sample) in event.probes {
                 let every = scene.probes[probe].every.unwrap_or(scene.dt);
-                output.sample(probe, nominal(sample, every).min(scene.duration), world)?;
+                output.sample(probe, nominal(sample, every).min(scene.duration), read)?;
             }
             if event.host {
                 output.frame(world)?;

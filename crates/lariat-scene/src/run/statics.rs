@@ -1,6 +1,9 @@
-//! What `lariat static` reports of each cable: stability, residual, peak tension, sag and reactions.
+//! What `lariat static` reports: of each cable stability, residual, peak tension, sag and reactions, of the bodies which were
+//! moved, and which held.
 
+use super::World;
 use crate::error::Error;
+use crate::physics::Settled;
 use crate::scene::Scene;
 use lariat_ancf::{Cable, EquilibriumReport, Vector3};
 use serde::{Deserialize, Serialize};
@@ -41,6 +44,44 @@ pub struct StaticReaction {
     pub force_n: [f64; 3],
     /// Moment in N m.
     pub moment_nm: [f64; 3],
+}
+
+/// What statics did with the bodies of a scene.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct BodyStatics {
+    /// Dynamic bodies in equilibrium.
+    pub moved: Vec<BodyPlace>,
+    /// Names of attached bodies that were held where they are drawn: fixed and kinematic ones.
+    pub held: Vec<String>,
+    /// Names of dynamic bodies that no cable is attached to, left where they are drawn.
+    pub unattached: Vec<String>,
+}
+
+/// A body in equilibrium.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct BodyPlace {
+    /// Name of the body.
+    pub name: String,
+    /// Position of its origin in m.
+    pub position_m: [f64; 3],
+    /// Rotation vector in rad.
+    pub rotation_rad: [f64; 3],
+}
+
+impl BodyStatics {
+    pub(super) fn read(world: &World, settled: &Settled) -> Self {
+        let name = |&i: &usize| world.scene.bodies[i].name.clone();
+        let place = |i: &usize| {
+            let state = world.body(*i)?;
+            let (position_m, rotation_rad) = (state.position.into(), state.rotation.scaled_axis().into());
+            Some(BodyPlace { name: name(i), position_m, rotation_rad })
+        };
+        BodyStatics {
+            moved: settled.moved.iter().filter_map(place).collect(),
+            held: settled.held.iter().map(name).collect(),
+            unattached: settled.unattached.iter().map(name).collect(),
+        }
+    }
 }
 
 impl CableStatics {

@@ -1,6 +1,6 @@
 //! `summary.json`: the results and costs of a run, in one object.
 
-use super::{CableStatics, World};
+use super::{BodyStatics, CableStatics, World};
 use crate::error::Error;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -44,6 +44,9 @@ pub struct Summary {
     /// The equilibrium of each cable; only for `lariat static`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub statics: Option<Vec<CableStatics>>,
+    /// What statics did with the bodies; only for `lariat static` of a scene with bodies or junctions.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub static_bodies: Option<BodyStatics>,
 }
 
 impl Summary {
@@ -71,6 +74,7 @@ impl Summary {
             warnings: world.warnings.clone(),
             failed: failed.map(ToString::to_string),
             statics: world.statics.clone(),
+            static_bodies: world.static_bodies.clone(),
         }
     }
 

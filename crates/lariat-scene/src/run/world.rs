@@ -1,13 +1,14 @@
 //! The cables and bodies of a scene while it runs.
 
-use super::CableStatics;
+use super::{BodyStatics, CableStatics};
 use crate::error::Error;
 use crate::physics::{BodyState, Physics};
 use crate::scene::{AttachmentScene, Engine, Purpose, Scene};
-use lariat_ancf::{At, Cable, Energy, Momentum, Reaction, Support, Vector3};
+use lariat_ancf::{At, AxialRule, Cable, Energy, EquilibriumReport, Momentum, Reaction, Support, Vector3};
 use std::collections::BTreeMap;
 
 /// The cables and bodies of a scene in their present state.
+#[derive(Clone)]
 pub struct World {
     pub(super) scene: Scene,
     /// Cables that no body moves; empty once `physics` has taken them.
@@ -22,6 +23,8 @@ pub struct World {
     pub(super) energy_start: f64,
     /// Equilibria of all cables, if the world was started for statics.
     pub(super) statics: Option<Vec<CableStatics>>,
+    /// What statics did with the bodies.
+    pub(super) static_bodies: Option<BodyStatics>,
 }
 
 impl World {
@@ -44,6 +47,7 @@ impl World {
             static_iterations: 0,
             energy_start: 0.0,
             statics: None,
+            static_bodies: None,
         };
         for cable in &world.alone {
             if let Some(reason) = cable.rule().spare_modes() {
@@ -58,66 +62,91 @@ impl World {
     }
 
     /// Brings the cables to their start: static equilibrium where the scene asks for it, with bodies held where they are drawn;
-    /// loads; initial motion. For a run with Rapier the cables are then attached to the bodies.
+    /// loads; initial motion. For a run with Rapier the cables are then attached to the bodies. For statics, all cables go to
+    /// equilibrium, and with Rapier the dynamic bodies attached to them, too.
     ///
     /// # Errors
-    /// [`Error::Mechanics`] if there is no equilibrium.
+    /// [`Error::Mechanics`] if there is no equilibrium, [`Error::Body`] for statics of a body with a joint or a contact.
     pub fn start(&mut self, purpose: Purpose) -> Result<(), Error> {
-        let World { scene, alone, warnings, static_iterations, statics, .. } = self;
-        *statics = (purpose == Purpose::Static).then(Vec::new);
+        let fully = purpose == Purpose::Static;
+        let World { scene, alone, warnings, static_iterations, physics, .. } = self;
         let mut held_by = vec![Default::default(); scene.attachments.len()];
+        let mut reports = Vec::new();
         for (i, cable) in alone.iter_mut().enumerate() {
-            let fully = purpose == Purpose::Static;
-            let settle = fully || scene.cables[i].equilibrium;
             scene.add_loads(cable, i, false, fully)?;
             if fully {
                 scene.add_loads(cable, i, true, true)?;
             }
-            if settle {
+            if fully || scene.cables[i].equilibrium {
                 scene.move_to_anchors(cable, i)?;
                 let report = cable.equilibrium()?;
                 *static_iterations += report.iterations as u64;
-                if !report.stable {
-                    warnings.push(format!(
-                        "cable {:?}: the equilibrium found is unstable or indifferent (stiffness not positive definite)",
-                        cable.name()
-                    ));
+                // with bodies this is where statics begin
+                if !(report.stable || fully && physics.is_some()) {
+                    warnings.push(unstable(cable));
                 }
-                if let Some(statics) = statics {
-                    statics.push(CableStatics::read(scene, i, cable, &report)?);
-                }
+                reports.push(report);
+            }
+            if fully && physics.is_none() {
+                continue;
+            }
+            let by_bodies = |k: &usize| scene.attachments[*k].cable == i && scene.attachments[*k].body.is_some();
+            for k in (0..scene.attachments.len()).filter(by_bodies) {
+                held_by[k] = pull(cable, scene.attachments[k].arc_length)?;
+            }
+            for k in (0..scene.attachments.len()).filter(by_bodies) {
+                let at = At::ArcLength(scene.attachments[k].arc_length);
+                cable.set_support(at, Support::default())?;
+            }
+            for &(_, arc_length) in scene.tied(i) {
+                cable.set_support(At::ArcLength(arc_length), Support::default())?;
             }
             if !fully {
-                let by_bodies = |k: &usize| scene.attachments[*k].cable == i && scene.attachments[*k].body.is_some();
-                for k in (0..scene.attachments.len()).filter(by_bodies) {
-                    held_by[k] = pull(cable, scene.attachments[k].arc_length)?;
-                }
-                for k in (0..scene.attachments.len()).filter(by_bodies) {
-                    let at = At::ArcLength(scene.attachments[k].arc_length);
-                    cable.set_support(at, Support::default())?;
-                }
-                for &(_, arc_length) in scene.tied(i) {
-                    cable.set_support(At::ArcLength(arc_length), Support::default())?;
-                }
                 scene.add_loads(cable, i, true, false)?;
                 scene.set_in_motion(cable, i)?;
             }
         }
-        if purpose == Purpose::Static && !self.scene.body_loads.is_empty() {
-            self.warnings.push("loads on bodies are not applied: statics hold bodies where they are drawn".to_string());
-        }
-        if purpose == Purpose::Static && !self.scene.junctions.is_empty() {
-            self.warnings
-                .push("junctions are held where they are drawn while each cable finds its equilibrium".to_string());
-        }
-        match &mut self.physics {
-            Some(physics) if purpose == Purpose::Run => {
-                physics.take(&self.scene, std::mem::take(&mut self.alone), &held_by)?;
-                self.warnings.extend(physics.jolts(&self.scene)?);
-                Ok(())
+        if let Some(physics) = physics {
+            physics.take(scene, std::mem::take(alone), &held_by)?;
+            if fully {
+                reports = self.settle()?;
+            } else {
+                warnings.extend(physics.jolts(scene)?);
             }
-            _ => Ok(()),
         }
+        if fully {
+            self.read_statics(&reports)?;
+        }
+        Ok(())
+    }
+
+    /// Moves cables and bodies to equilibrium, and returns the reports of the cables.
+    fn settle(&mut self) -> Result<Vec<EquilibriumReport>, Error> {
+        let Some(physics) = &mut self.physics else { return Ok(Vec::new()) };
+        let settled = physics.settle(&self.scene)?;
+        self.static_iterations += settled.cables.iter().map(|report| report.iterations as u64).sum::<u64>();
+        let unstable =
+            self.cables().into_iter().zip(&settled.cables).filter(|(_, r)| !r.stable).map(|(c, _)| unstable(c));
+        let loose = settled.unattached.iter().map(|&i| {
+            let name = &self.scene.bodies[i].name;
+            format!(
+                "body {name:?}: no cable is attached to it: it is left where it is drawn, and may not be at rest there"
+            )
+        });
+        let warnings: Vec<String> = unstable.chain(loose).collect();
+        self.warnings.extend(warnings);
+        self.static_bodies = Some(BodyStatics::read(self, &settled));
+        Ok(settled.cables)
+    }
+
+    /// Reads the equilibrium of each cable.
+    fn read_statics(&mut self, reports: &[EquilibriumReport]) -> Result<(), Error> {
+        // copies, because reading reactions modifies a cable
+        let mut cables: Vec<Cable> = self.cables().into_iter().cloned().collect();
+        let each = cables.iter_mut().zip(reports).enumerate();
+        let read = each.map(|(i, (cable, report))| CableStatics::read(&self.scene, i, cable, report));
+        self.statics = Some(read.collect::<Result<Vec<_>, _>>()?);
+        Ok(())
     }
 
     /// Records the energy at the start.
@@ -261,6 +290,23 @@ impl World {
         let (force, moment) = pull(cable, arc_length)?;
         Ok((force, moment, 0.0))
     }
+}
+
+/// Returns the warning about an equilibrium that is not stable.
+fn unstable(cable: &Cable) -> String {
+    let text = "the equilibrium found is unstable or indifferent (stiffness not positive definite)";
+    let strain = |s: f64| cable.sample(s).map_or(0.0, |sample| sample.green_strain);
+    let compressed = cable.node_arc_lengths().into_iter().map(strain).fold(0.0, f64::min);
+    let why = if compressed < -1e-3 && cable.rule().axial == AxialRule::Projected {
+        let percent = -100.0 * compressed;
+        format!(
+            "; it is compressed by {percent:.2} %, and rule {} holds thick elements to 0.1 % only: see rule exact-3",
+            cable.rule()
+        )
+    } else {
+        String::new()
+    };
+    format!("cable {:?}: {text}{why}", cable.name())
 }
 
 /// Returns force (N) and moment (N m) of a cable on its support at an arc length; zero without one.

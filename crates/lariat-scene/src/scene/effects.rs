@@ -9,8 +9,8 @@ use crate::error::{Error, Problem};
 use crate::schema::{ANY, Choose, Default, Key, Kind, NOT_NEGATIVE, POSITIVE, VECTOR, table};
 use lariat_ancf::effect::Effect;
 use lariat_ancf::{
-    BendingRule, Buoyancy, Damping, Drag, Effects, GravityScale, LineLoad, LineLoads, RestPiece, RestShape, Rule,
-    Section, for_each_effect,
+    BendingRule, Buoyancy, Damping, Drag, Effects, GravityScale, LineLoad, LineLoads, RestPiece, RestShape, RopeKind,
+    Rule, Section, for_each_effect,
 };
 use serde::de::DeserializeOwned;
 use toml::Value;
@@ -87,19 +87,43 @@ pub(super) fn typed<T: DeserializeOwned>(doc: &Document<'_>, at: &KeyPath, value
 }
 
 table! {
-    /// Internal damping after Kelvin and Voigt: stress = E (strain + time x strain rate).
-    keys DAMPING for Damping("[cable.damping]") {
+    /// Internal damping after Kelvin and Voigt: stress = E (strain + time x strain rate). By its times, or by the kind of rope.
+    struct DampingTable("[cable.damping]") {
         /// Time of the axial strain.
-        axial = 0.0, Kind::Number(NOT_NEGATIVE), "s";
+        axial: Option<f64> = ("0"), Kind::Number(NOT_NEGATIVE), "s";
         /// Time of the curvature, 0 with a rule without bending.
-        bending = 0.0, Kind::Number(NOT_NEGATIVE), "s";
+        bending: Option<f64> = ("0"), Kind::Number(NOT_NEGATIVE), "s";
+        /// Kind of rope, instead of `axial` and `bending`: damps the lowest axial mode of the cable, both ends held, and bending in ten
+        /// half waves over its length by 0.1 % of critical (`"parallel-wires"`), 0.32 % (`"spiral-strand"`), 2 % (`"wire-rope"`), 5 %
+        /// (`"fibre-rope"`) or 10 % (`"rubber-hose"`). Slower motion is damped less: a heavy load on the rope needs its own `axial`.
+        rope: Option<RopeKind> = ("none"), Kind::Choice(|| RopeKind::ALL.map(RopeKind::name).to_vec());
     }
-    choose Choose::AtLeastOne(&["axial", "bending"]);
+    choose Choose::AtLeastOne(&["axial", "bending", "rope"]);
 }
 
 impl SceneEffect for Damping {
-    const KIND: Kind = Kind::Table(&DAMPING);
+    const KIND: Kind = Kind::Table(&DampingTable::TABLE);
     const WITHOUT: &'static str = "off";
+
+    fn write_out(doc: &Document<'_>, at: &KeyPath, value: &mut Value, cable: &Context<'_>) -> Result<(), Error> {
+        let DampingTable { axial, bending, rope } = typed(doc, at, value.clone())?;
+        let mut damping = Damping { axial: axial.unwrap_or(0.0), bending: bending.unwrap_or(0.0) };
+        if let Some(rope) = rope {
+            for (key, given) in [("axial", axial), ("bending", bending)] {
+                if given.is_some() {
+                    return Err(doc.conflict(&at.key(key), "both a kind of rope and times are given"));
+                }
+            }
+            damping = rope
+                .damping(cable.section, cable.length)
+                .map_err(|error| doc.conflict(&at.key("rope"), error.to_string()))?;
+            if cable.rule.bending == BendingRule::None {
+                damping.bending = 0.0;
+            }
+        }
+        *value = Value::try_from(damping).map_err(|error| doc.conflict(at, error.to_string()))?;
+        Ok(())
+    }
 
     fn check(&self, doc: &Document<'_>, at: &KeyPath, cable: &Context<'_>) -> Result<(), Error> {
         if self.bending > 0.0 && cable.rule.bending == BendingRule::None {

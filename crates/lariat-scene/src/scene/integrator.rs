@@ -12,7 +12,7 @@ table! {
         method: Option<Method> = ("`\"esdirk4\"`"), Kind::Parsed { accepted: "a name of `lariat integrators`", parse: parse_as::<Method> };
         /// Error of position per host step, for a method with an error estimate.
         tolerance: Option<f64> = (), Kind::Number(POSITIVE), "m";
-        /// Equal steps in each host step; a probe between two host times splits the host step.
+        /// Equal steps in each host step.
         substeps: Option<u32> = (), Kind::Whole(1, MANY);
         /// Longest step.
         max_step: Option<f64> = (), Kind::Number(POSITIVE), "s";

@@ -12,8 +12,8 @@ const JUNCTION_GAP: f64 = 1e-6;
 
 table! {
     /// Ties two points of cables to each other, as a shackle without mass does: they share one position, their slopes are free.
-    /// Several junctions at one point make one knot. Junctions need `engine = "rapier"`. With `initial = "equilibrium"` and in
-    /// `lariat static` they stay where they are drawn while each cable finds its equilibrium.
+    /// Several junctions at one point make one knot. Junctions need `engine = "rapier"`. With `initial = "equilibrium"` they
+    /// stay where they are drawn while each cable finds its equilibrium; `lariat static` moves them.
     struct JunctionTable("[[junction]]") {
         /// No other junction has it.
         name: Option<String> = ("`junction-N`, counted from 0"), Kind::Name(&[]);

@@ -24,7 +24,7 @@ table! {
         /// Moment.
         moment: Option<Vector3<f64>> = ("zero"), VECTOR, "N m";
         /// Time from zero to the full load. A load with a ramp is zero at t = 0 and takes no part in `initial = "equilibrium"`.
-        /// `lariat static` applies all loads on cables in full, and none on bodies, which it holds.
+        /// `lariat static` applies all loads in full.
         ramp: f64 = 0.0, Kind::Number(NOT_NEGATIVE), "s";
     }
     choose Choose::AtLeastOne(&["force", "moment"]);

@@ -11,7 +11,7 @@ table! {
     struct ProbeTable("[[probe]]") {
         /// No other probe has it, capitals aside.
         name: String = required, Kind::Parsed { accepted: "a text that can name a file: without / \\ : * ? \" < > | and leading dot", parse: can_name_a_file };
-        /// Interval of the samples: at most 1e8 samples in all. Host steps are split where a sample falls between two.
+        /// Interval of the samples: at most 1e8 samples in all. A sample between two host steps is read from a copy, stepped up to there.
         every: Option<f64> = ("each host step"), Kind::Number(POSITIVE), "s";
         /// Name of a cable, with `at`.
         cable: Option<String> = (), Kind::Text;

@@ -128,7 +128,7 @@ const CASES: &[Case] = &[
         &["cable.sling.initial: unknown value \"bent\"", "equilibrium"],
     ),
     ("", "[cable.damping]\naxial = -1e-3", 20, &["cable.sling.damping.axial", ">= 0"]),
-    ("", "[cable.damping]", 19, &["cable.sling.damping: none of `axial`, `bending` is given", "at least one"]),
+    ("", "[cable.damping]", 19, &["cable.sling.damping: none of `axial`, `bending`, `rope` is given", "at least one"]),
     ("", "[cable.drag]\nfluid_density = 0.0", 20, &["cable.sling.drag.fluid_density", "> 0"]),
     ("", "[cable.drag]\nnormal = 1.0", 19, &["cable.sling.drag", "fluid_density"]),
     (

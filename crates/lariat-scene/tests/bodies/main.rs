@@ -5,4 +5,5 @@ mod motion;
 mod results;
 mod runs;
 mod scenes;
+mod statics;
 mod structures;

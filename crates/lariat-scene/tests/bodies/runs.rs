@@ -67,13 +67,6 @@ fn shapes_rest_at_their_height() {
 }
 
 #[test]
-fn statics_warn_that_loads_on_bodies_are_not_applied() {
-    let text = CATENARY.to_string() + "\n[[load]]\nbody = \"ball\"\nforce = [0.0, 1.0, 0.0]\n";
-    let warnings = Results::of_text("static", &text).done().summary().warnings;
-    assert!(warnings.len() == 1 && warnings[0].contains("loads on bodies"), "{warnings:?}");
-}
-
-#[test]
 fn the_number_of_solver_iterations_reaches_rapier() {
     let run = |n: usize| Results::of_text("run", &slope(0.2, &format!("solver_iterations = {n}"))).done().last("b");
     assert_eq!(run(4), Results::of_text("run", &slope(0.2, "")).done().last("b"));
@@ -139,18 +132,16 @@ name = "energy"
 energy = "all"
 "#;
 
-/// The cable has the shape of the catenary scene between the same points, in statics and at the start; then the ball falls, and
+/// The cable has the shape of the catenary scene between the same points, at the start; then the ball falls, and
 /// the cable pulls it.
 ///
 /// *Source.* The catenary scene, which is compared with the analytic catenary; free fall.
 #[test]
 fn a_start_from_equilibrium_holds_the_bodies_until_the_run_begins() {
     let catenary = Results::of("static", &asset("catenary"), &[]).done().last("middle");
-    let (statics, run) = (Results::of_text("static", CATENARY).done(), Results::of_text("run", CATENARY).done());
-    for middle in [&statics.rows("middle")[0], &run.rows("middle")[0]] {
-        assert!((1..4).all(|i| (middle[i] - catenary[i]).abs() < 1e-8), "{middle:?} {catenary:?}");
-    }
-    assert_eq!(statics.rows("ball"), run.rows("ball")[..1]);
+    let run = Results::of_text("run", CATENARY).done();
+    let middle = &run.rows("middle")[0];
+    assert!((1..4).all(|i| (middle[i] - catenary[i]).abs() < 1e-8), "{middle:?} {catenary:?}");
     let (first, last) = (&run.rows("ball")[0], run.last("ball"));
     assert!((first[2] - 0.5).abs() < 1e-7 && first[8..11] == [0.0; 3], "{first:?}");
     let fallen = 0.5 - last[2];

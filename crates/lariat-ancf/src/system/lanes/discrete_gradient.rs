@@ -220,7 +220,11 @@ impl Elements {
             }
             self.scatter_force(simd, first, &force, out);
             let implicit = BETA * step.h;
-            let (geometric, h) = (scaled(&tangent.geometric, implicit), scaled(&tangent.h, implicit));
+            let geometric = scaled(&tangent.geometric, implicit);
+            let mut h = tangent.h;
+            for i in 0..21 {
+                h[i] *= implicit;
+            }
             let blocks = [
                 hessian_block(0, 0, &geometric, &h, &s.mean),
                 hessian_block(0, 1, &geometric, &h, &s.mean),

@@ -1,6 +1,6 @@
 //! Results as text for a terminal.
 
-use lariat_scene::run::{CableStatics, Summary};
+use lariat_scene::run::{BodyStatics, CableStatics, Summary};
 use std::fmt::Write as _;
 use std::path::Path;
 
@@ -26,8 +26,9 @@ pub fn run(summary: &Summary, folder: &Path) -> String {
 /// Describes the static equilibrium of each cable.
 pub fn statics(summary: &Summary, folder: &Path) -> String {
     let cables: String = summary.statics.iter().flatten().map(cable).collect();
+    let bodies = summary.static_bodies.as_ref().map_or(String::new(), bodies);
     format!(
-        "{}{}: static equilibrium in {:.3} s\n{cables}{}",
+        "{}{}: static equilibrium in {:.3} s\n{cables}{bodies}{}",
         warnings(summary),
         summary.name,
         summary.wall_s,
@@ -58,6 +59,19 @@ fn cable(statics: &CableStatics) -> String {
             vector(&reaction.force_n, 0.0),
             vector(&reaction.moment_nm, moment)
         );
+    }
+    text
+}
+
+fn bodies(statics: &BodyStatics) -> String {
+    let mut text = String::new();
+    for body in &statics.moved {
+        let (position, rotation) = (vector(&body.position_m, 1.0), vector(&body.rotation_rad, 1e4));
+        // writing to a String cannot fail
+        let _ = writeln!(text, "body {:?}: at {position} m, rotated by {rotation} rad", body.name);
+    }
+    for name in &statics.held {
+        let _ = writeln!(text, "body {name:?}: held where it is drawn");
     }
     text
 }

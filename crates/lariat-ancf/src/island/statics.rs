@@ -1,0 +1,399 @@
+//! Static equilibrium of cables and the bodies that they carry.
+//!
+//! # Equation
+//!
+//! ```text
+//! M z = c2 F(q + z)        F: forces on the cables, forces and torques on the bodies
+//! ```
+//!
+//! is solved again and again with growing c2, from rest each time: a proximal step of the potential
+//! energy in the metric of mass, for c2 = 0 along its gradient, for large c2 Newton's step. A step that
+//! raises the energy is repeated with a smaller c2. Velocities, gyroscopic torques and gaps are zero,
+//! and the rotation vectors of the bodies are counted from their attitude before each step. The end is
+//! checked: forces and moments balance at every node and at every body, no element is folded, and the
+//! matrix is positive definite; a saddle is left by a small displacement.
+//!
+//! # Validity
+//!
+//! Loads on bodies that are constant in world axes. No contact: what touches must be known to the
+//! caller. Modes without stiffness, such as a turn about a rope, keep their place.
+//!
+//! # References
+//!
+//! Rockafellar 1976 (proximal point); Kelley & Keyes 1998 (pseudo-transient continuation).
+//!
+//! # Alternatives considered
+//!
+//! - Newton's method alone: a body on a slack cable has a singular matrix.
+//! - Motion with damping until it rests: its last digits take as long as all before.
+
+use super::body::RigidBody;
+use super::equations::{IslandEquations, Matrices, MatrixKind};
+use super::hold::vector;
+use super::layout::Layout;
+use super::pin::{PinConstraint, check};
+use super::rotation::{exponential, jacobian_inverse};
+use crate::cable::Cable;
+use crate::effect::acts::ForceInput;
+use crate::error::{EquilibriumFailure, Error, StepFailure, require};
+use crate::load::PointLoad;
+use crate::statics::{EquilibriumOptions, EquilibriumReport, LoadScale};
+use crate::statics::{first_fold, largest_force, move_with_supports, potential, straighten};
+use crate::system::project_vector;
+use nalgebra::Vector3;
+
+/// Growth of c2 after a step, and reduction after a rejected one.
+const GROWTH: f64 = 4.0;
+const REDUCTION: f64 = 0.1;
+/// Largest and smallest c2, and that of the test of stability, as multiples of the first.
+const MAX_C2: f64 = 1e8;
+const MIN_C2: f64 = 1e-16;
+const STABILITY_C2: f64 = 1e6;
+/// Newton iterations of one step.
+const MAX_ITERATIONS: usize = 12;
+/// Largest rotation of a body or change of a slope in one iteration.
+const MAX_ROTATION: f64 = 0.3;
+/// Increment that is converged, and below which increments may stop to fall, as shares of the length.
+const CONVERGED: f64 = 1e-13;
+const ROUNDING: f64 = 1e-8;
+/// Displacement of a step at the end, as a share of the length.
+const AT_REST: f64 = 1e-8;
+/// Displacement that leaves a saddle, as a share of the length, and the number of times.
+const SHAKE: f64 = 1e-3;
+const MAX_SHAKES: usize = 3;
+
+/// Moves cables and bodies, held together by `pins`, to static equilibrium under gravity, the full point
+/// loads and effects of the cables, and the forces and torques of the bodies; velocities become zero. Flow
+/// is that of the cables' time.
+///
+/// # Errors
+/// [`Error::NoEquilibrium`] if none is found, and as [`Island::step`](super::Island::step) for pins that
+/// do not fit. Cables and bodies are then as before.
+pub fn equilibrium(
+    cables: &mut [&mut Cable],
+    bodies: &mut [RigidBody],
+    pins: &[PinConstraint],
+    options: EquilibriumOptions,
+) -> Result<EquilibriumReport, Error> {
+    require("equilibrium tolerance", options.tolerance, options.tolerance > 0.0, "> 0")?;
+    check(cables, bodies, pins)?;
+    let mut still = bodies.to_vec();
+    for body in &mut still {
+        (body.velocity, body.angular_velocity, body.memory) = (Vector3::zeros(), Vector3::zeros(), None);
+    }
+    let loads: Vec<Vec<PointLoad>> = cables.iter().map(|cable| cable.model.loads.clone()).collect();
+    cables.iter_mut().flat_map(|cable| &mut cable.model.loads).for_each(|load| load.ramp = 0.0);
+    let supports: Vec<_> = cables.iter().map(|cable| cable.model.supports.clone()).collect();
+    let mut search = Search::new(cables, &still, pins, options.tolerance);
+    let outcome = search.run(cables, options.iterations);
+    let (steps, residual) = (search.steps, search.residual);
+    for ((cable, loads), supports) in cables.iter_mut().zip(loads).zip(supports) {
+        cable.model.loads = loads;
+        if outcome.is_err() {
+            cable.model.supports = supports;
+        }
+    }
+    let stable = outcome.map_err(|failure| Error::NoEquilibrium {
+        cable: cables[0].name().to_string(),
+        time: cables[0].time(),
+        failure,
+        residual,
+        iterations: steps,
+    })?;
+    for (cable, part) in cables.iter_mut().zip(&search.layout.parts) {
+        cable.snapshot.state.q.copy_from_slice(&search.q[part.range()]);
+        cable.snapshot.state.v.fill(0.0);
+        cable.disturb();
+    }
+    for (i, (body, still)) in bodies.iter_mut().zip(&search.layout.bodies).enumerate() {
+        body.position = vector(&search.q[search.layout.body_at(i)..]);
+        body.rotation = still.rotation;
+        (body.velocity, body.angular_velocity, body.memory) = (Vector3::zeros(), Vector3::zeros(), None);
+    }
+    Ok(EquilibriumReport { iterations: steps, residual, stable })
+}
+
+/// The iteration.
+struct Search {
+    layout: Layout,
+    matrices: Matrices,
+    time: f64,
+    /// Coordinates, those of a trial, its displacement, and zero velocities.
+    q: Vec<f64>,
+    trial: Vec<f64>,
+    z: Vec<f64>,
+    v: Vec<f64>,
+    rhs: Vec<f64>,
+    /// Sum of the loads in N, and the largest residual that is small.
+    force: f64,
+    tolerance: f64,
+    energy_rounding: f64,
+    length: f64,
+    /// First c2 in s^2.
+    first: f64,
+    has_potential: bool,
+    steps: usize,
+    residual: f64,
+}
+
+impl Search {
+    fn new(cables: &mut [&mut Cable], bodies: &[RigidBody], pins: &[PinConstraint], tolerance: f64) -> Self {
+        let mut layout = Layout::default();
+        layout.begin(cables, bodies, pins, 1.0);
+        layout.close();
+        let scales: Vec<LoadScale> = cables.iter().map(|c| LoadScale::new(&c.model, c.positions())).collect();
+        let of_bodies: f64 = bodies.iter().filter(|b| b.free[..3] != [false; 3]).map(|b| b.force.norm()).sum();
+        let force = scales.iter().map(|s| s.force).sum::<f64>() + of_bodies;
+        let mass: f64 = scales.iter().map(|s| s.mass).sum::<f64>() + bodies.iter().map(|b| b.mass).sum::<f64>();
+        let length = scales.iter().map(|s| s.length).fold(0.0, f64::max);
+        let has_potential = cables
+            .iter()
+            .all(|c| !c.system.forces.drive() && c.model.loads.iter().all(|load| load.moment == Vector3::zeros()));
+        let mut q: Vec<f64> = cables.iter().flat_map(|cable| cable.positions().iter().copied()).collect();
+        bodies.iter().for_each(|body| q.extend(body.position.iter().chain(&[0.0; 3])));
+        let zeros = || vec![0.0; layout.size()];
+        let (trial, z, v, rhs) = (zeros(), zeros(), zeros(), zeros());
+        let mut matrices = Matrices::default();
+        matrices.begin(&layout);
+        Search {
+            time: cables[0].time(),
+            tolerance: tolerance * force + scales.iter().map(|s| s.rounding).fold(0.0, f64::max),
+            energy_rounding: scales.iter().map(|s| s.energy_rounding).sum(),
+            first: 0.1 * mass * length / force,
+            steps: 0,
+            residual: f64::NAN,
+            layout,
+            matrices,
+            q,
+            trial,
+            z,
+            v,
+            rhs,
+            force,
+            length,
+            has_potential,
+        }
+    }
+
+    /// Iterates to rest, and returns whether the shape is stable.
+    fn run(&mut self, cables: &mut [&mut Cable], most: usize) -> Result<bool, EquilibriumFailure> {
+        if let Some(resultant) = self.unheld(cables) {
+            self.residual = resultant;
+            return Err(EquilibriumFailure::NotHeld);
+        }
+        self.place(cables);
+        let (mut shakes, mut straightened, mut lowest) = (0, false, f64::INFINITY);
+        let mut c2 = self.first;
+        let mut energy = energy_of(&self.layout, cables, &self.q);
+        let mut cause = None;
+        while self.steps < most {
+            self.steps += 1;
+            let outcome = self.step(cables, c2);
+            let after = if outcome.is_ok() { energy_of(&self.layout, cables, &self.trial) } else { f64::NAN };
+            // NaN fails too
+            let falls = after.is_finite() && (!self.has_potential || after <= energy + self.energy_rounding);
+            let moved = match outcome {
+                Ok(moved) if falls => moved,
+                outcome => {
+                    cause = outcome.err();
+                    c2 *= REDUCTION;
+                    if c2 < MIN_C2 * self.first {
+                        break;
+                    }
+                    continue;
+                }
+            };
+            core::mem::swap(&mut self.q, &mut self.trial);
+            self.turn();
+            energy = energy_of(&self.layout, cables, &self.q);
+            c2 = (GROWTH * c2).min(MAX_C2 * self.first);
+            self.residual = self.balance(cables);
+            if !(self.residual <= self.tolerance && moved <= AT_REST * self.length) {
+                continue;
+            }
+            if let Some(element) = self.fold(cables) {
+                if straightened {
+                    return Err(EquilibriumFailure::Folded { element });
+                }
+                straightened = true;
+                for (cable, part) in cables.iter().zip(&self.layout.parts) {
+                    straighten(&cable.model, &mut self.q[part.range()]);
+                }
+            } else if self.is_stable(cables).map_err(EquilibriumFailure::Step)? {
+                return Ok(true);
+            } else {
+                let lower = energy < lowest - self.energy_rounding;
+                lowest = lowest.min(energy);
+                if shakes == MAX_SHAKES || !self.has_potential || shakes > 0 && !lower {
+                    return Ok(false);
+                }
+                shakes += 1;
+                self.shake();
+            }
+            self.place(cables);
+            energy = energy_of(&self.layout, cables, &self.q);
+            c2 = self.first;
+        }
+        Err(cause.map_or(EquilibriumFailure::NotConverged, EquilibriumFailure::Step))
+    }
+
+    /// Returns the resultant of the loads in N if nothing holds the island.
+    fn unheld(&self, cables: &[&mut Cable]) -> Option<f64> {
+        let held = cables.iter().any(|c| c.model.supports.iter().any(|(_, s)| s.position.is_some()))
+            || self.layout.bodies.iter().any(|b| b.free[..3] != [true; 3]);
+        let of_cable =
+            |c: &&mut Cable| c.model.loads.iter().fold(c.model.dead_resultant().0, |sum, load| sum + load.force);
+        let sum = cables.iter().map(of_cable).chain(self.layout.bodies.iter().map(|b| b.force)).sum::<Vector3<f64>>();
+        (!held && sum.norm() > 1e-12 * self.force).then_some(sum.norm())
+    }
+
+    /// Moves held nodes to their supports and bodies, and the cables with them.
+    fn place(&mut self, cables: &[&mut Cable]) {
+        let before = self.q.clone();
+        for (cable, part) in cables.iter().zip(&self.layout.parts) {
+            for (node, support) in &cable.model.supports {
+                let range = part.at + 6 * node..part.at + 6 * node + 6;
+                support.prescribe(self.time, &mut self.q[range.clone()], &mut self.v[range]);
+            }
+        }
+        self.layout.follow(self.time, &mut self.q, &mut self.v);
+        self.v.fill(0.0);
+        for (cable, part) in cables.iter().zip(&self.layout.parts) {
+            move_with_supports(&cable.model, &before[part.range()], &mut self.q[part.range()]);
+        }
+    }
+
+    /// Solves the step of `c2` (s^2) into the trial, and returns its largest displacement in m.
+    fn step(&mut self, cables: &mut [&mut Cable], c2: f64) -> Result<f64, StepFailure> {
+        let Search { layout, matrices, q, trial, z, v, rhs, time, length, .. } = self;
+        trial.copy_from_slice(q);
+        z.fill(0.0);
+        let mut equations = IslandEquations { cables, layout, matrices };
+        let mut before = f64::INFINITY;
+        for iteration in 1..=MAX_ITERATIONS {
+            let at = ForceInput { time: *time, scale: c2, q: trial, v, dv_dq: 0.0 };
+            equations.cable_rows_and_matrices(&at, z, rhs)?;
+            equations.factor_bodies(MatrixKind::Step, trial, v, rhs)?;
+            layout.body_rows(c2, trial, v, z, rhs);
+            equations.solve(MatrixKind::Step, trial, rhs);
+            let size = equations.norm(rhs);
+            let slopes = equations.parts().map(|(c, part)| c.system.scales.extent(&rhs[part.range()]).1);
+            let rotations = (0..layout.bodies.len()).map(|i| vector(&rhs[layout.body_at(i) + 3..]).norm());
+            let rotation = slopes.chain(rotations).fold(0.0, f64::max);
+            let damp = (MAX_ROTATION / rotation.max(MAX_ROTATION)).min(*length / size.max(*length));
+            if !(size * damp).is_finite() {
+                return Err(StepFailure::NotFinite { what: "increment of statics", node: 0 });
+            }
+            for i in 0..layout.bodies_at {
+                z[i] += damp * rhs[i];
+            }
+            for body in 0..layout.bodies.len() {
+                let at = layout.body_at(body);
+                let turn = jacobian_inverse(&vector(&trial[at + 3..])) * vector(&rhs[at + 3..]);
+                for x in 0..3 {
+                    z[at + x] += damp * rhs[at + x];
+                    z[at + 3 + x] += damp * turn[x];
+                }
+            }
+            trial.iter_mut().zip(q.iter()).zip(z.iter()).for_each(|((y, q), z)| *y = q + z);
+            layout.follow(*time, trial, v);
+            layout.follow_acceleration(*time, c2, trial, v, z);
+            v.fill(0.0);
+            let rounding = damp == 1.0 && before <= ROUNDING * *length && size > 0.5 * before;
+            if size <= CONVERGED * *length || rounding {
+                z.iter_mut().zip(trial.iter()).zip(q.iter()).for_each(|((z, y), q)| *z = y - q);
+                return Ok(equations.norm(z));
+            }
+            if damp == 1.0 && iteration > 4 && size > before {
+                return Err(StepFailure::NotConverged { iterations: iteration, increment: size });
+            }
+            before = damp * size;
+        }
+        Err(StepFailure::NotConverged { iterations: MAX_ITERATIONS, increment: before })
+    }
+
+    /// Counts rotations from the present attitudes.
+    fn turn(&mut self) {
+        for i in 0..self.layout.bodies.len() {
+            let at = self.layout.body_at(i);
+            let mut rotation = exponential(&vector(&self.q[at + 3..])) * self.layout.bodies[i].rotation;
+            rotation.renormalize();
+            self.layout.bodies[i].rotation = rotation;
+            self.q[at + 3..at + 6].fill(0.0);
+        }
+    }
+
+    /// Returns the largest residual in N, of nodes and of bodies; moments are divided by the lever of the
+    /// body or by the length of an element.
+    fn balance(&mut self, cables: &mut [&mut Cable]) -> f64 {
+        let Search { layout, matrices, q, z, v, rhs, time, length, .. } = self;
+        let mut equations = IslandEquations { cables, layout, matrices };
+        z.fill(0.0);
+        equations.cable_rows(&ForceInput { time: *time, scale: 1.0, q, v, dv_dq: 0.0 }, z, rhs);
+        layout.body_rows(1.0, q, v, z, rhs);
+        let mut worst = 0.0f64;
+        for (cable, part) in equations.cables.iter().zip(&layout.parts) {
+            let shortest = cable.model.elements.iter().map(|e| e.length).fold(f64::INFINITY, f64::min);
+            project_vector(&cable.model, &mut rhs[part.range()]);
+            worst = worst.max(largest_force(&rhs[part.range()], shortest));
+        }
+        for (i, body) in layout.bodies.iter().enumerate() {
+            let row = &mut rhs[layout.body_at(i)..layout.body_at(i) + 6];
+            row.iter_mut().zip(&body.free).filter(|(_, free)| !**free).for_each(|(x, _)| *x = 0.0);
+            let lever = if layout.levers[i] > 0.0 { layout.levers[i] } else { *length };
+            worst = worst.max(largest_force(row, lever));
+        }
+        if rhs.iter().all(|x| x.is_finite()) { worst } else { f64::NAN }
+    }
+
+    /// Returns the first folded element of a cable.
+    fn fold(&self, cables: &[&mut Cable]) -> Option<usize> {
+        cables.iter().zip(&self.layout.parts).find_map(|(c, part)| first_fold(&c.model, &self.q[part.range()]))
+    }
+
+    /// Returns whether the stiffness is positive definite, but for modes softer than any that matters.
+    fn is_stable(&mut self, cables: &mut [&mut Cable]) -> Result<bool, StepFailure> {
+        let Search { layout, matrices, q, v, rhs, time, first, .. } = self;
+        let mut equations = IslandEquations { cables, layout, matrices };
+        let at = ForceInput { time: *time, scale: STABILITY_C2 * *first, q, v, dv_dq: 0.0 };
+        equations.is_positive_definite(&at, rhs)
+    }
+
+    /// Displaces everything a little, the same in every run.
+    fn shake(&mut self) {
+        let mut seed = 1u64;
+        let mut random = || {
+            seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            2.0 * SHAKE * ((seed >> 11) as f64 / (1u64 << 53) as f64 - 0.5)
+        };
+        for part in &self.layout.parts {
+            for x in self.q[part.range()].chunks_exact_mut(6) {
+                // a position less than a slope, which it turns over the length of an element
+                x[..3].iter_mut().for_each(|x| *x += self.length * 1e-2 * random());
+                x[3..].iter_mut().for_each(|x| *x += random());
+            }
+        }
+        for (i, body) in self.layout.bodies.iter().enumerate() {
+            let at = self.layout.body_at(i);
+            for x in (0..6).filter(|&x| body.free[x]) {
+                self.q[at + x] += if x < 3 { self.length * random() } else { random() };
+            }
+        }
+        self.turn();
+    }
+}
+
+/// Returns the potential energy in J at coordinates `q`, less the work of torques over the rotations from
+/// the attitudes that these are counted from.
+fn energy_of(layout: &Layout, cables: &mut [&mut Cable], q: &[f64]) -> f64 {
+    let mut sum = 0.0;
+    for (cable, part) in cables.iter_mut().zip(&layout.parts) {
+        sum += potential(&cable.equations().0, 1.0, &q[part.range()]);
+    }
+    let bodies = layout.bodies.iter().enumerate();
+    let work = bodies.map(|(i, body)| {
+        let at = layout.body_at(i);
+        body.force.dot(&vector(&q[at..])) + body.torque.dot(&vector(&q[at + 3..]))
+    });
+    sum - work.sum::<f64>()
+}
