@@ -49,7 +49,8 @@ fn a_direction_is_stored_as_a_unit_vector() {
 /// A snapshot from before a change has the accelerations of another cable: they are computed anew.
 #[test]
 fn a_snapshot_from_before_a_change_continues_as_a_fresh_cable_would() {
-    for fidelity in [Fidelity::Engineering, Fidelity::Game] {
+    // the discrete gradient carries no accelerations, but the changes of the last step, which stay true
+    for fidelity in [Fidelity::Engineering] {
         let mut cable = horizontal().fix(At::Start).fix(At::End).fidelity(fidelity).build().unwrap();
         (0..5).for_each(|_| cable.step(1.0 / 60.0).unwrap());
         let snapshot = cable.snapshot().clone();

@@ -26,6 +26,7 @@ fn straight(section: Section, length: f64, n: usize, kind: RopeKind) -> Cable {
         .fix(At::Start)
         .fix(At::End)
         .damped_as(kind)
+        .integrator(Integrator::tolerance(Method::Esdirk4, 1e-9).unwrap())
         .build()
         .unwrap()
 }

@@ -56,6 +56,7 @@ pub(crate) fn attach(
         ledger: None,
         last_anchor: None,
         reading: AttachmentReading::default(),
+        lost_link: false,
         steady_force: Vector3::zeros(),
         predicted: PinAccount::default(),
     });

@@ -97,6 +97,9 @@ pub struct Attachment {
     /// Last position in m of the anchor on a body with prescribed motion.
     pub(crate) last_anchor: Option<Vector3<f64>>,
     pub(crate) reading: AttachmentReading,
+    /// Whether a gap has opened in a step although the body is a link of a multibody: its motion was not the predicted one.
+    #[serde(default)]
+    pub(crate) lost_link: bool,
     /// Force in N when the time until sleep last began to count.
     pub(crate) steady_force: Vector3<f64>,
     /// Exchange between cable and body in the Rapier step that was predicted.

@@ -74,6 +74,20 @@ pub enum Error {
         /// The node.
         node: usize,
     },
+    /// A link of a multibody that moved otherwise than predicted, so that the cable has lost it: links that
+    /// swing freely are not coupled right.
+    #[error(
+        "cable {cable:?} has lost body {body:?}, a link of a multibody that moves freely: {gap:.3e} m apart; \
+         use impulse joints"
+    )]
+    LinkLost {
+        /// Name of the cable.
+        cable: String,
+        /// The link.
+        body: RigidBodyHandle,
+        /// Distance of the node from the anchor in m.
+        gap: f64,
+    },
     /// A joint on a body whose equilibrium is asked for.
     #[error("statics compute no joints, and body {body:?} has one: remove it, or step until the body rests")]
     JointInStatics {

@@ -75,6 +75,12 @@ pub trait Dynamics {
         None
     }
 
+    /// Returns whether nothing but the known work changes the energy. Default true; false for an island, whose bodies
+    /// an engine or a user moves besides. A method with an error estimate is then not checked for spurious energy.
+    fn is_isolated(&self) -> bool {
+        true
+    }
+
     /// Returns whether accelerations depend on velocities.
     fn depends_on_velocity(&self) -> bool {
         false

@@ -19,7 +19,9 @@
 //! # Validity
 //!
 //! Systems that know the work on them: `None` of
-//! [`spurious_energy`](super::Dynamics::spurious_energy) is not checked. The share is a bound of what
+//! [`spurious_energy`](super::Dynamics::spurious_energy) is not checked. In an island only methods
+//! without an error estimate (the midpoint rule) are: what contacts and joints do to its bodies between two
+//! steps would count as made, and jams under 5 kN were refused. The share is a bound of what
 //! a wrong setting may do, not an accuracy: error control at the default tolerance stays far below
 //! it. A-stability bounds the energy of a linear system only; on a cable the midpoint rule, the
 //! trapezoidal rule, and L-stable methods with tolerances of millimetres and more make energy

@@ -107,7 +107,8 @@ fn run(
         failure,
     })?;
     let implicit = method.stability_limit().is_none();
-    let mut energy = EnergyCheck::new(implicit, &state.memory);
+    let is_checked = implicit && (system.is_isolated() || method.estimate_order().is_none());
+    let mut energy = EnergyCheck::new(is_checked, &state.memory);
     let mut checked = energy;
     let mut proposal = regular;
     let mut max_step = f64::INFINITY;

@@ -288,6 +288,10 @@ impl Dynamics for IslandDynamics<'_, '_> {
         self.accounts.integrate_to(&mut self.equations, state, &mut self.vectors.rhs);
     }
 
+    fn is_isolated(&self) -> bool {
+        false
+    }
+
     fn depends_on_velocity(&self) -> bool {
         true
     }

@@ -221,6 +221,7 @@ fn prepare_island(
     events: &mut Vec<Event>,
 ) -> Result<(), Error> {
     contents.align_clocks(&island.cables)?;
+    check_links(contents, island)?;
     prediction.snapshots.resize_with(island.cables.len(), Snapshot::default);
     for (snapshot, &cable) in prediction.snapshots.iter_mut().zip(&island.cables) {
         if let Some(slot) = contents.cables.get(cable) {
@@ -236,6 +237,19 @@ fn prepare_island(
     kinematic_ends::prescribe(contents, world, motions, island, step)?;
     impedance::disable_motors(contents, world, island.supports.iter().copied());
     predict::prepare(contents, world, motions, island, prediction, step)
+}
+
+/// Refuses an island that has lost a link of a multibody.
+fn check_links(contents: &Contents, island: &Island) -> Result<(), Error> {
+    let attached = island.attachments.iter().flatten().filter_map(|&index| contents.attachments.get(index));
+    match attached.into_iter().find(|attachment| attachment.lost_link) {
+        None => Ok(()),
+        Some(a) => Err(Error::LinkLost {
+            cable: contents.cable(a.cable)?.name().to_string(),
+            body: a.body,
+            gap: a.reading.gap.norm(),
+        }),
+    }
 }
 
 /// Gives Rapier the motion of an island that was integrated.

@@ -38,6 +38,9 @@ use rapier::dynamics::{RigidBody as RapierBody, RigidBodyHandle};
 use rapier::math::Real;
 use rapier::pipeline::PhysicsWorld;
 
+/// Gap at a link of a multibody, as a share of the length of the cable, beyond which the island is refused if
+/// the gap grows.
+const MAX_LINK_GAP_SHARE: f64 = 2e-3;
 /// Share of the observed reaction that the estimate takes in a step.
 const REACTION_GAIN: f64 = 0.3;
 /// A body landed where it was predicted if it is within this many units of rounding of its
@@ -307,10 +310,13 @@ fn read_attachments(contents: &mut Contents, world: &PhysicsWorld, island: &Isla
             let turned = (attitude * start.rotation.inverse()).scaled_axis();
             mean.dot(&(anchor - start.point(&pin.anchor))) + a.predicted.angular_impulse.dot(&turned) / h
         };
+        // a gap that closes becomes smaller
+        let opens = gap.norm() > (MAX_LINK_GAP_SHARE * slot.cable.length()).max(reading.gap.norm());
         reading.residual += mean.dot(&(reading.gap - gap));
         reading.force = a.predicted.force + prediction.impulses[i] / h;
         reading.moment = a.predicted.moment;
         reading.gap = gap;
+        a.lost_link |= opens && world.multibody_joints.rigid_body_link(a.body).is_some();
         if let Member::Driven(_) = island.members[pin.body] {
             a.last_anchor = Some(anchor);
         }

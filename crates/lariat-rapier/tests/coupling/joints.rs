@@ -320,3 +320,46 @@ fn locked_axes_of_a_body_stay_locked() {
     assert!((set.energy(&world).unwrap().total() / energy - 1.0).abs() < 0.02);
     assert!(vector(world.bodies[bead].rotation().to_scaled_axis()).norm() == 0.0);
 }
+
+/// A boom on a free hinge falls with a load on a line: as a multibody it is refused by name once
+/// the line has lost it, as an impulse joint it swings on.
+///
+/// Reference: the contract, no silent wrong answer.
+#[test]
+fn a_freely_falling_multibody_is_refused_by_name() {
+    for (multibody, mass, load) in [(false, 3.0, 2.0), (true, 3.0, 2.0), (true, 30.0, 5.0), (true, 1.0, 8.0)] {
+        let mut world = PhysicsWorld::new();
+        let hinge = world.insert_body(RigidBodyBuilder::fixed());
+        let (boom, _) = world.insert(RigidBodyBuilder::dynamic(), ColliderBuilder::cuboid(1.0, 0.05, 0.05).mass(mass));
+        let joint = RevoluteJointBuilder::new(Vector::Z);
+        if multibody {
+            world.insert_multibody_joint(hinge, boom, joint);
+        } else {
+            world.insert_impulse_joint(hinge, boom, joint);
+        }
+        let load = add_cube(&mut world, load, 0.02, [1.0, -1.5, 0.0]);
+        let mut set = CableSet::new();
+        let line = Section::from_stiffness(1e5, 1e-4, 1e-3).unwrap();
+        let line = set.insert(cable([1.0, 0.0, 0.0], [1.0, -1.5, 0.0], line).elements(5).build().unwrap());
+        set.attach_here(&world, line, At::Start, boom, AttachmentKind::Ball).unwrap();
+        set.attach_here(&world, line, At::End, load, AttachmentKind::Ball).unwrap();
+        let mut refused = None;
+        for _ in 0..180 {
+            if let Err(error) = set.step(&mut world) {
+                refused = Some(error);
+                break;
+            }
+        }
+        match refused {
+            None => assert!(gap(&set) < 3e-3, "multibody {multibody}, {mass} kg: {:.1e} m", gap(&set)),
+            Some(error) => {
+                assert!(multibody && error.to_string().contains("multibody"), "{multibody}, {mass} kg: {error}")
+            }
+        }
+        assert!(multibody || refused_never(&set), "{mass} kg");
+    }
+}
+
+fn refused_never(set: &CableSet) -> bool {
+    set.failures().is_empty()
+}

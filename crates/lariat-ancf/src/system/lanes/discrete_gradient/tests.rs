@@ -200,6 +200,7 @@ fn the_tangent_at_rest_is_the_derivative_of_the_force() {
             }
             let step = CoordinateStep { start: &q, change: &still, before: &still, kept: 1.0, linearised: &[], h };
             let mut out = vec![0.0; n];
+            system.step.matrix.resize(n / 6);
             let (level, effects) = (system.level, system.forces.in_element.as_ref());
             let to = MatrixOutput { matrix: &mut system.step.matrix, mass_scale: 1.0 };
             system.forces.elements.add_discrete_gradient_and_matrix(level, effects, step, &mut out, to);
@@ -256,6 +257,7 @@ fn the_step_matrix_of_t1_and_of_no_bending_is_positive_definite() {
                     let step =
                         CoordinateStep { start: &q, change: &change, before: &before, kept: 1.0, linearised: &[], h };
                     let mut out = vec![0.0; n];
+                    system.step.matrix.resize(n / 6);
                     let (level, effects) = (system.level, system.forces.in_element.as_ref());
                     let to = MatrixOutput { matrix: &mut system.step.matrix, mass_scale: 1.0 };
                     system.forces.elements.add_discrete_gradient_and_matrix(level, effects, step, &mut out, to);
