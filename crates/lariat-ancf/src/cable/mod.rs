@@ -7,6 +7,7 @@
 //! | `supports`, `loads`, `effects` | what acts on it, changed between steps |
 //! | `edit` | cutting, refining, changing the rule |
 //! | [`sample`], [`reactions`], [`energy`] | reading results |
+//! | [`mesh`] | how far the mesh resolves the shape |
 //! | [`linearise`] | matrices at the present state |
 
 pub mod builder;
@@ -16,6 +17,7 @@ pub mod energy;
 mod layout;
 pub mod linearise;
 mod loads;
+pub mod mesh;
 pub mod reactions;
 pub mod sample;
 mod saved;
