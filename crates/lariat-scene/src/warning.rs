@@ -55,7 +55,7 @@ pub enum Warning {
     },
     /// The tension is beyond the range of the law.
     #[error(
-        "cable {cable:?}: at {time_s} s its tension is {tension_n:.3e} N, {percent:.3} % of EA = {axial_stiffness_n:.3e} N: the law (Green's strain) \
+        "cable {cable:?}: at {time_s:.4} s its tension is {tension_n:.3e} N, {percent:.1} % of EA = {axial_stiffness_n:.3e} N: the law (Green's strain) \
          holds for small strain and is stiffer than Hooke's beyond; check Young's modulus (Pa), section (m), masses (kg) and length, or \
          add to EA",
         percent = 100.0 * .tension_n / .axial_stiffness_n
@@ -72,7 +72,7 @@ pub enum Warning {
     },
     /// Too short for its thickness.
     #[error(
-        "cable {cable:?}: it is {ratio:.3} times as long as thick ({length_m} m, {diameter_m:.3e} m): below 10 its shear is not small, \
+        "cable {cable:?}: it is {ratio:.3} times as long as thick ({length_m:.4} m, {diameter_m:.3e} m): below 10 its shear is not small, \
          and it has none; check the section, in m"
     )]
     Stubby {

@@ -59,15 +59,20 @@ fn a_modulus_in_gpa_is_told() {
 /// In MPa the modulus of steel is one of a soft rubber: the strain tells.
 #[test]
 fn a_tension_beyond_the_law_is_told_in_runs_and_in_statics() {
-    for (modulus, mass) in [(2.1e5, 2.0), (1.0e6, 10.0)] {
-        for purpose in [Purpose::Run, Purpose::Static] {
-            let warnings = warned(&pendulum([2.0, 0.006, modulus], mass, 0.0, "bob"), purpose);
-            let found = warnings.iter().any(|w| {
-                matches!(w, Warning::LargeStrain { cable, tension_n, axial_stiffness_n, .. }
+    let beyond = |text: &str, purpose| {
+        let warnings = warned(text, purpose);
+        let found = warnings.iter().any(|w| {
+            matches!(w, Warning::LargeStrain { cable, tension_n, axial_stiffness_n, .. }
                 if cable == "wire" && *tension_n > 0.05 * axial_stiffness_n)
-            });
-            assert!(found, "{purpose:?} {modulus:e} {warnings:?}");
-        }
+        });
+        assert!(found, "{purpose:?} {warnings:?}");
+    };
+    for (modulus, mass) in [(2.1e5, 2.0), (1.0e6, 10.0), (1.0e7, 5.0)] {
+        beyond(&pendulum([2.0, 0.006, modulus], mass, 0.0, "bob"), Purpose::Run);
+    }
+    // T/EA = 0.08 to 0.4
+    for (modulus, mass) in [(2.0e7, 4.0), (5.0e6, 2.0), (5.0e6, 5.0)] {
+        beyond(&pendulum([2.0, 0.006, modulus], mass, 0.0, "bob"), Purpose::Static);
     }
     // T/EA = 0.04 at rest
     let area = std::f64::consts::FRAC_PI_4 * 0.006f64.powi(2);
@@ -141,28 +146,31 @@ fn asset(name: &str) -> String {
     std::fs::read_to_string(file).unwrap()
 }
 
-/// A pendulum of two elements, a cantilever of one and of two, a catenary of three: the numbers of elements that are advised do.
+/// A pendulum of two to four elements, a cantilever of one and of two, a catenary of three: after the advice has been followed at most twice
+/// there is no warning, and no more elements than the scenes have.
 ///
-/// *Source.* Independent measurement: errors of 0.11 L, 0.21 L, 0.01 L and 0.02 L.
+/// *Source.* Independent measurement of errors on the coarse meshes: 0.11 L to 0.02 L, 0.21 L, 0.01 L and 0.02 L.
 #[test]
-fn coarse_meshes_are_told_and_the_advice_is_enough() {
-    for (name, from, elements, purpose) in [
-        ("falling_pendulum", "elements = 20", 2, Purpose::Run),
-        ("falling_pendulum", "elements = 20", 4, Purpose::Run),
-        ("cantilever", "elements = 10", 1, Purpose::Static),
-        ("cantilever", "elements = 10", 2, Purpose::Static),
-        ("catenary", "elements = 40", 3, Purpose::Static),
+fn coarse_meshes_are_told_and_the_advice_leads_to_one_that_does() {
+    for (name, own, elements, purpose) in [
+        ("falling_pendulum", 20, 2, Purpose::Run),
+        ("falling_pendulum", 20, 3, Purpose::Run),
+        ("falling_pendulum", 20, 4, Purpose::Run),
+        ("cantilever", 10, 1, Purpose::Static),
+        ("cantilever", 10, 2, Purpose::Static),
+        ("catenary", 40, 3, Purpose::Static),
     ] {
-        let text = |n: usize| {
-            // two arc lengths of probes are no nodes of every mesh, which they need not be
-            asset(name).replace(from, &format!("elements = {n}")).replace("duration = 2.0", "duration = 1.5")
+        let text = |n: usize| asset(name).replace(&format!("elements = {own}"), &format!("elements = {n}"));
+        let advice = |n: usize| match &warned(&text(n), purpose)[..] {
+            [] => None,
+            [Warning::CoarseMesh { enough, .. } | Warning::CoarseElement { enough, .. }] => Some(*enough),
+            others => panic!("{name}, {n} elements: {others:?}"),
         };
-        let warnings = warned(&text(elements), purpose);
-        let [Warning::CoarseMesh { enough, .. } | Warning::CoarseElement { enough, .. }] = warnings[..] else {
-            panic!("{name}, {elements}: {warnings:?}")
-        };
-        assert!(enough > elements, "{name}: {warnings:?}");
-        assert_eq!(warned(&text(enough), purpose), [], "{name} with {enough} elements as advised");
+        let first = advice(elements).unwrap_or_else(|| panic!("{name}, {elements} elements: no warning"));
+        let second = advice(first).unwrap_or(first);
+        println!("{name}: {elements} -> {first} -> {second}");
+        assert!(elements < first && first <= second && second <= own, "{name}: {elements} -> {first} -> {second}");
+        assert!(second == first || advice(second).is_none(), "{name} with {second} elements");
     }
 }
 
@@ -177,23 +185,24 @@ fn a_small_motion_on_a_coarse_mesh_is_told() {
              body = \"world\"\n[[load]]\ncable = \"wire\"\nat = 0.2\nforce = [0.0, 0.8, 0.0]\n"
         )
     };
-    let coarse = warned(&wire(3), Purpose::Run);
-    assert!(matches!(&coarse[..], [Warning::CoarseMotion { elements: 3, .. }]), "{coarse:?}");
+    for n in [2, 4] {
+        let coarse = warned(&wire(n), Purpose::Run);
+        assert!(matches!(&coarse[..], [Warning::CoarseMotion { elements, .. }] if *elements == n), "{coarse:?}");
+    }
     assert_eq!(warned(&wire(30), Purpose::Run), []);
 }
 
-/// Of the scenes of assets/scenes, only the payload pendulum is too coarse: refined twice, its box comes to rest elsewhere by
-/// centimetres after 2 s.
+/// Of the scenes of assets/scenes, only the payload pendulum is too coarse.
+///
+/// *Source.* Independent measurement: after 2 s its box is 0.1 m elsewhere with 20 elements; in the other scenes the estimate is below 4e-4 of
+/// the length.
 #[test]
 fn scenes_that_are_resolved_have_no_warning() {
-    for name in ["falling_pendulum", "towed_line", "dumbbell", "hoist", "slung_load", "tether_multibody", "catenary"] {
+    let scenes = ["falling_pendulum", "towed_line", "dumbbell", "hoist", "slung_load", "tether_multibody", "catenary"];
+    for name in scenes.into_iter().chain(["cable_stayed", "bridge", "cantilever", "elastica"]) {
         assert_eq!(warned(&asset(name), Purpose::Run), [], "{name}");
     }
-    for name in ["cable_stayed", "bridge", "cantilever", "elastica"] {
-        let text = asset(name).replace("duration = ", "duration = 0.1 # ");
-        assert_eq!(warned(&text, Purpose::Run), [], "{name}");
-    }
-    for name in ["catenary", "cantilever", "bridge"] {
+    for name in ["catenary", "cantilever", "bridge", "cable_stayed", "payload_pendulum"] {
         assert_eq!(warned(&asset(name), Purpose::Static), [], "{name}");
     }
     let payload = warned(&asset("payload_pendulum"), Purpose::Run);

@@ -128,7 +128,7 @@ fn record(
     let mut output = Output::create(scene, out)?;
     let (cpu, wall) = (ProcessTime::now(), Instant::now());
     let mut world = World::build(scene)?;
-    let mut watch = Watch::new(&world);
+    let mut watch = Watch::new(&world, purpose);
     let mut told = 0;
     let mut tell = |world: &World| {
         if let Some(warn) = warn {
@@ -139,7 +139,7 @@ fn record(
     let outcome = world.start(purpose).and_then(|()| {
         world.note_start();
         if purpose == Purpose::Run {
-            watch = Watch::new(&world);
+            watch = Watch::new(&world, purpose);
         }
         watch.note(&world)?;
         tell(&world);
