@@ -104,11 +104,7 @@ impl Contents {
 
     /// Returns the cables at `indices`, in that order, to step them.
     pub fn cables_at(&mut self, indices: &[usize]) -> Vec<&mut Cable> {
-        let position = |i: usize| indices.iter().position(|&k| k == i);
-        let slots = self.cables.iter_mut().filter_map(|(i, slot)| Some((position(i)?, &mut slot.cable)));
-        let mut found: Vec<(usize, &mut Cable)> = slots.collect();
-        found.sort_by_key(|(position, _)| *position);
-        found.into_iter().map(|(_, cable)| cable).collect()
+        self.cables.get_many_mut(indices).into_iter().map(|slot| &mut slot.cable).collect()
     }
 
     /// Sets the clocks of the cables of an island to the latest of them: one that could not step for a

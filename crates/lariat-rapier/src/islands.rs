@@ -102,7 +102,9 @@ impl Islands {
         let mut order: Vec<(usize, &Slot)> = contents.cables.iter().collect();
         order.sort_by(|(a, one), (b, two)| one.order(two).then(a.cmp(b)));
         let order: Vec<usize> = order.into_iter().map(|(c, _)| c).collect();
-        let rank = |cable: usize| order.iter().position(|&c| c == cable);
+        let mut ranks = vec![usize::MAX; contents.cables.len()];
+        order.iter().enumerate().for_each(|(rank, &cable)| ranks[cable] = rank);
+        let rank = |cable: usize| ranks.get(cable);
         let mut nodes = self.nodes.clone();
         nodes.sort_by_key(|n| (rank(n.cable), n.node));
         set_supports(contents, &nodes)?;

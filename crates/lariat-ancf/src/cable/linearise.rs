@@ -21,14 +21,15 @@ impl Cable {
     /// [`drag`](crate::effect::drag) and [`force_density`](crate::effect::force_density); all of it: [`jacobians`](Self::jacobians).
     pub fn stiffness_matrix(&mut self) -> BlockTridiagonal {
         let mut force = vec![0.0; self.positions().len()];
-        self.evaluate_with_stiffness(&mut force).clone()
+        self.with_workspace(|cable| cable.evaluate_with_stiffness(&mut force).clone())
     }
 
     /// Returns the damping matrix -dF/dq' at the present state over all coordinates (N s/m, N s, N m s); supports are not applied.
     pub fn damping_matrix(&mut self) -> BlockTridiagonal {
         let mut force = vec![0.0; self.positions().len()];
-        let stiffness = self.evaluate_with_stiffness(&mut force).clone();
-        let mut damping = self.evaluate_with_matrix(1.0, &mut force).clone();
+        let (stiffness, mut damping) = self.with_workspace(|cable| {
+            (cable.evaluate_with_stiffness(&mut force).clone(), cable.evaluate_with_matrix(1.0, &mut force).clone())
+        });
         let blocks = stiffness.diag.iter().chain(&stiffness.lower);
         for (block, k) in damping.diag.iter_mut().chain(&mut damping.lower).zip(blocks) {
             block.0.iter_mut().flatten().zip(k.0.iter().flatten()).for_each(|(c, k)| *c -= k);
@@ -57,7 +58,7 @@ impl Cable {
     }
 
     /// Computes the force into a slice of 6 numbers per node, and the stiffness as [`stiffness_matrix`](Self::stiffness_matrix) does;
-    /// allocates nothing.
+    /// allocates nothing after the first time, when the cable gets a matrix of its own.
     pub fn evaluate_with_stiffness(&mut self, force: &mut [f64]) -> &BlockTridiagonal {
         self.evaluate_with_matrix(0.0, force)
     }

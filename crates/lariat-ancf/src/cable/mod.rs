@@ -9,11 +9,14 @@
 //! | [`sample`], [`reactions`], [`energy`] | reading results |
 //! | [`mesh`] | how far the mesh resolves the shape |
 //! | [`linearise`] | matrices at the present state |
+//! | `workspace` | the buffers of a step, which cables share |
+//! | [`fleet`] | a step of many cables |
 
 pub mod builder;
 mod edit;
 mod effects;
 pub mod energy;
+pub mod fleet;
 mod layout;
 pub mod linearise;
 mod loads;
@@ -23,6 +26,7 @@ pub mod sample;
 mod saved;
 mod state;
 mod supports;
+mod workspace;
 
 use crate::diagnostics::Diagnostics;
 use crate::error::{Error, StepFailure, require};
@@ -85,6 +89,7 @@ pub struct Cable {
     pub(crate) default_integrator: bool,
     diagnostics: Diagnostics,
     pub(crate) system: System,
+    // The rest of a [workspace](self::workspace): empty between two steps.
     pub(crate) buffers: Buffers,
     pub(crate) step_buffers: discrete_gradient::Buffers,
     scratch: Scratch,
@@ -116,7 +121,7 @@ impl Cable {
             default_integrator: false,
             diagnostics: Diagnostics::default(),
             system,
-            buffers: Buffers::new(&model),
+            buffers: Buffers::default(),
             step_buffers: discrete_gradient::Buffers::default(),
             scratch: Scratch::default(),
             before: State::default(),
@@ -130,7 +135,6 @@ impl Cable {
     fn rebuild(&mut self, model: Model) -> Result<(), Error> {
         let system = System::with_level(&model, self.system.level);
         self.system = system.map_err(|failure| self.step_failed(self.time(), 0.0, failure))?;
-        self.buffers = Buffers::new(&model);
         self.model = model;
         Ok(())
     }
@@ -161,6 +165,10 @@ impl Cable {
             return Ok(());
         }
         self.check_complete()?;
+        self.with_workspace(|cable| cable.step_in_workspace(dt, integrator))
+    }
+
+    fn step_in_workspace(&mut self, dt: f64, integrator: IntegratorRef<'_>) -> Result<(), Error> {
         self.before.copy_from(&self.snapshot.state);
         self.refresh_memory();
         self.system.meter.begin();
@@ -183,7 +191,7 @@ impl Cable {
                 Ok(())
             }
             Err(failed) => {
-                core::mem::swap(&mut self.snapshot.state, &mut self.before);
+                self.snapshot.state.copy_from(&self.before);
                 Err(self.step_failed(failed.time, failed.step, failed.failure))
             }
         }

@@ -36,8 +36,10 @@ impl Cable {
         let mut acceleration = self.snapshot.state.memory.acceleration.clone();
         if !self.snapshot.state.memory.valid {
             acceleration.resize(n, 0.0);
-            let (mut dynamics, state) = self.dynamics();
-            let outcome = dynamics.acceleration(state.time, &state.q, &state.v, &mut acceleration);
+            let outcome = self.with_workspace(|cable| {
+                let (mut dynamics, state) = cable.dynamics();
+                dynamics.acceleration(state.time, &state.q, &state.v, &mut acceleration)
+            });
             outcome.map_err(|failure| self.step_failed(self.time(), 0.0, failure))?;
         }
         let mut residual = vec![0.0; n];
@@ -62,6 +64,10 @@ impl Cable {
     /// Returns force (N) and moment about the node (N m) of the cable on what holds `node`, at the present state and its known
     /// accelerations; unknown ones are taken as zero. Allocates nothing.
     pub fn pull(&mut self, node: usize) -> (Vector3<f64>, Vector3<f64>) {
+        self.with_workspace(|cable| cable.pull_in_workspace(node))
+    }
+
+    fn pull_in_workspace(&mut self, node: usize) -> (Vector3<f64>, Vector3<f64>) {
         self.refresh_memory();
         let (dynamics, state) = self.dynamics();
         let (mut equations, Buffers { rhs, product, .. }) = (dynamics.equations, dynamics.buffers);

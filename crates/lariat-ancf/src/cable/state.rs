@@ -12,7 +12,7 @@ use serde::{Deserialize, Serialize};
 /// Everything that changes while a cable moves, as plain data: clone it, serialise it, [restore](Cable::restore) it, and the run continues
 /// bitwise the same. Not in it: the description (supports, loads, effects), samples of a flow, and functions of
 /// [your own](crate::ForceDensity), which stay with the cable.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Snapshot {
     pub(crate) state: State,
     /// Work of effects so far.
@@ -24,6 +24,19 @@ pub struct Snapshot {
     /// Elastic energy in J that inserted nodes added so far.
     #[serde(default)]
     pub(crate) inserted_energy: f64,
+}
+
+impl Clone for Snapshot {
+    fn clone(&self) -> Self {
+        Snapshot { state: self.state.clone(), ..*self }
+    }
+
+    /// Copies `other` into the existing vectors.
+    fn clone_from(&mut self, other: &Self) {
+        let Snapshot { state, work, law, inserted_energy } = other;
+        self.state.copy_from(state);
+        (self.work, self.law, self.inserted_energy) = (*work, *law, *inserted_energy);
+    }
 }
 
 impl Snapshot {

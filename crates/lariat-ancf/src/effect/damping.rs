@@ -205,22 +205,30 @@ impl DiscreteGradientForce for DampingTable {
         at.table.add_product(&at.rates, at.stiffness.axial * self.damping.axial, &mut stress);
         let mut power = contract(&stress, &at.rates);
         sum.n = combined(&sum.n, &stress, 1.0);
-        self.bending(at, |point, w, scalar, vector| {
-            let rate = w.rate(&at.rates);
-            w.add_gradient(scalar * rate, &mut sum.n);
-            power = power + scalar * rate * rate;
-            point.add_second_derivative(vector, &mut sum.viscous);
-        });
+        self.bending(
+            at,
+            #[inline(always)]
+            |point, w, scalar, vector| {
+                let rate = w.rate(&at.rates);
+                w.add_gradient(scalar * rate, &mut sum.n);
+                power = power + scalar * rate * rate;
+                point.add_second_derivative(vector, &mut sum.viscous);
+            },
+        );
         power
     }
 
     #[inline(always)]
     fn add_step_tangent<T: Real, L: Load<T>>(&self, at: &GramStep<'_, T>, _: &L, tangent: &mut Hessian<T>) {
         at.table.add_hessian(at.stiffness.axial * (self.damping.axial * at.rate), &mut tangent.h);
-        self.bending(at, |point, w, scalar, vector| {
-            w.add_square(scalar * at.rate, &mut tangent.h);
-            point.add_second_derivative(vector * at.rate, &mut tangent.geometric);
-        });
+        self.bending(
+            at,
+            #[inline(always)]
+            |point, w, scalar, vector| {
+                w.add_square(scalar * at.rate, &mut tangent.h);
+                point.add_second_derivative(vector * at.rate, &mut tangent.geometric);
+            },
+        );
     }
 
     #[inline(always)]

@@ -62,7 +62,7 @@ impl Impedance {
         // with its pins free a cable has other supports; they are restored below
         let supports = cable.model.supports.clone();
         cable.model.supports.iter_mut().for_each(|(_, s)| s.attached = false);
-        let outcome = self.linearise(cable, h);
+        let outcome = cable.with_workspace(|cable| self.linearise(cable, h));
         cable.model.supports = supports;
         outcome.map_err(|failure| cable.step_failed(cable.time(), h, failure))
     }
@@ -129,6 +129,10 @@ impl Impedance {
     /// response allows: with h^2 K <= A, dU <= (1/2 dx.K dx + U) + 1/2 dx.K dx <= U + p.C p. An
     /// omitted displacement is a gap, which the next step closes.
     pub fn apply_impulses(&self, cable: &mut Cable, impulses: &[Vector3<f64>]) {
+        cable.with_workspace(|cable| self.apply_in_workspace(cable, impulses));
+    }
+
+    fn apply_in_workspace(&self, cable: &mut Cable, impulses: &[Vector3<f64>]) {
         let size = cable.positions().len();
         let mut dv = core::mem::take(&mut cable.buffers.product);
         dv.clear();

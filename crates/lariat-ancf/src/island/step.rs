@@ -62,6 +62,20 @@ impl Island {
         if dt == 0.0 {
             return Ok(());
         }
+        cables.iter_mut().for_each(|cable| cable.take_workspace());
+        let outcome = self.step_in_workspaces(cables, bodies, pins, integrator, dt);
+        cables.iter_mut().rev().for_each(|cable| cable.return_workspace());
+        outcome
+    }
+
+    fn step_in_workspaces(
+        &mut self,
+        cables: &mut [&mut Cable],
+        bodies: &mut [RigidBody],
+        pins: &[PinConstraint],
+        integrator: IntegratorRef<'_>,
+        dt: f64,
+    ) -> Result<(), Error> {
         cables.iter_mut().for_each(|cable| cable.system.meter.begin());
         let Island { layout, matrices, accounts, vectors, by_discrete_gradient: buffers, scratch, state } = self;
         layout.begin(cables, bodies, pins, dt);
@@ -121,7 +135,7 @@ fn scatter(cables: &mut [&mut Cable], bodies: &mut [RigidBody], state: &State, l
     for (cable, part) in cables.iter_mut().zip(&layout.parts) {
         let Cable { snapshot, system, buffers, .. } = &mut **cable;
         // the positions when the host step began
-        core::mem::swap(&mut buffers.rhs, &mut snapshot.state.q);
+        buffers.rhs.copy_from_slice(&snapshot.state.q);
         snapshot.state.q.copy_from_slice(&state.q[part.range()]);
         snapshot.state.v.copy_from_slice(&state.v[part.range()]);
         snapshot.state.time = state.time;

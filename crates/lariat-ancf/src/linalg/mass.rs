@@ -82,8 +82,9 @@ fn store<S: Simd>(v: Pair<S>, out: &mut [f64; 6]) {
 /// Returns y - (g0 g1; g2 g3) x.
 #[inline(always)]
 fn minus<S: Simd>(simd: S, y: Pair<S>, g: [f64; 4], x: Pair<S>) -> Pair<S> {
-    let s = |k: usize| f64x4::splat(simd, g[k]);
-    [y[0] - (s(0) * x[0] + s(1) * x[1]), y[1] - (s(2) * x[0] + s(3) * x[1])]
+    let (g0, g1) = (f64x4::splat(simd, g[0]), f64x4::splat(simd, g[1]));
+    let (g2, g3) = (f64x4::splat(simd, g[2]), f64x4::splat(simd, g[3]));
+    [y[0] - (g0 * x[0] + g1 * x[1]), y[1] - (g2 * x[0] + g3 * x[1])]
 }
 
 #[inline(always)]
@@ -91,14 +92,18 @@ fn multiply<S: Simd>(simd: S, m: &MassMatrix, x: &[f64], y: &mut [f64]) {
     let (x, _) = x.as_chunks::<6>();
     let (y, _) = y.as_chunks_mut::<6>();
     let zero = f64x4::splat(simd, 0.0);
+    let Some(first) = x.first() else { return };
+    let (mut before, mut here) = ([zero; 2], load(simd, first));
     for i in 0..m.diag.len() {
         let [rr, rt, tt] = m.diag[i];
-        let mut sum = minus(simd, [zero; 2], [rr, rt, rt, tt], load(simd, &x[i]));
+        let mut sum = minus(simd, [zero; 2], [rr, rt, rt, tt], here);
         if i > 0 {
-            sum = minus(simd, sum, m.lower[i - 1], load(simd, &x[i - 1]));
+            sum = minus(simd, sum, m.lower[i - 1], before);
         }
+        before = here;
         if i + 1 < x.len() {
-            sum = minus(simd, sum, transposed(m.lower[i]), load(simd, &x[i + 1]));
+            here = load(simd, &x[i + 1]);
+            sum = minus(simd, sum, transposed(m.lower[i]), here);
         }
         store([zero - sum[0], zero - sum[1]], &mut y[i]);
     }
@@ -237,7 +242,8 @@ fn finite(values: &[f64], node: usize) -> Result<(), SingularMatrix> {
 /// Returns S^-1 b.
 #[inline(always)]
 fn inner<S: Simd>(simd: S, node: &Node, b: Pair<S>) -> Pair<S> {
-    let [l, p, q] = node.inner.map(|v| f64x4::splat(simd, v));
+    let [l, p, q] = node.inner;
+    let (l, p, q) = (f64x4::splat(simd, l), f64x4::splat(simd, p), f64x4::splat(simd, q));
     let t = (b[1] - l * b[0]) * q;
     [b[0] * p - l * t, t]
 }

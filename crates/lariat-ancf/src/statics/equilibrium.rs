@@ -55,7 +55,7 @@ impl Cable {
         // the point loads ramp with a time from 0 to 1 while statics are solved
         self.model.loads.iter_mut().for_each(|load| (load.ramp, load.start) = (1.0, 0.0));
         let mut budget = Budget::new(options.tolerance, options.iterations);
-        let outcome = self.attempts(&mut budget);
+        let outcome = self.with_workspace(|cable| cable.attempts(&mut budget));
         self.model.loads = loads;
         match outcome {
             Ok(report) => {

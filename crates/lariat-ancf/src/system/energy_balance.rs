@@ -21,12 +21,11 @@ use crate::effect::acts::{ForceInput, PointForce};
 use crate::effect::work::{POINTS, hermite};
 use crate::integrate::{EnergyLaw, State};
 use crate::load::PointLoad;
-use crate::model::Model;
 use core::ops::Range;
 use nalgebra::Vector3;
 
 /// The work of effects in the present host step, and the vectors to compute work and energy.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub(crate) struct EnergyMeter {
     pub work: EffectWork,
     /// The work of effects in a step of the discrete gradient.
@@ -36,20 +35,6 @@ pub(crate) struct EnergyMeter {
     q: Vec<f64>,
     v: Vec<f64>,
     force: Vec<f64>,
-}
-
-impl EnergyMeter {
-    pub fn new(model: &Model) -> Self {
-        let zeros = || vec![0.0; 6 * model.nodes()];
-        EnergyMeter {
-            work: EffectWork::default(),
-            law: EnergyLaw::default(),
-            work_of_step: EffectWork::default(),
-            q: zeros(),
-            v: zeros(),
-            force: zeros(),
-        }
-    }
 }
 
 impl EnergyMeter {
@@ -77,6 +62,7 @@ impl Equations<'_> {
             return;
         }
         let EnergyMeter { work, q, v, force, .. } = meter;
+        [&mut *q, &mut *v, &mut *force].into_iter().for_each(|x| x.resize(range.len(), 0.0));
         for (weights, share) in hermite().into_iter().zip(POINTS) {
             for (i, k) in range.clone().enumerate() {
                 let mix = |x0: f64, d0: f64, x1: f64, d1: f64| {
@@ -112,6 +98,7 @@ impl Equations<'_> {
     fn mechanical_energy(&mut self, q: &[f64], v: &[f64]) -> (f64, f64) {
         let system = &mut *self.system;
         let momentum = &mut system.meter.force;
+        momentum.resize(v.len(), 0.0);
         system.mass.multiply(system.level, v, momentum);
         let kinetic = 0.5 * momentum.iter().zip(v).map(|(p, v)| p * v).sum::<f64>();
         let (axial, bending) = system.forces.strain_energy(q);
@@ -126,6 +113,7 @@ impl Equations<'_> {
         let system = &mut *self.system;
         let mut power = EffectWork::default();
         let input = ForceInput { time, q, v, dv_dq: 0.0, scale: 1.0 };
+        system.meter.force.resize(v.len(), 0.0);
         system.forces.at_points.add_power(system.level, input, &mut system.meter.force, &mut power);
         power.total()
     }

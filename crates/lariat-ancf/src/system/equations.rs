@@ -51,6 +51,10 @@ impl Equations<'_> {
         out.fill(0.0);
         let (system, diagnostics) = (&mut *self.system, &mut *self.diagnostics);
         let matrix = &mut system.step.matrix;
+        if mass_scale.is_some() {
+            // empty outside of steps
+            matrix.resize(self.model.nodes());
+        }
         let n = self.model.elements.len() as u64;
         let to = mass_scale.map(|mass_scale| MatrixOutput { matrix: &mut *matrix, mass_scale });
         system.forces.add(system.level, input, out, to, diagnostics);

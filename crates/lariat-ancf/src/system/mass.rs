@@ -10,12 +10,11 @@ use fearless_simd::Level;
 
 /// Factors of the mass matrix.
 #[derive(Clone, Debug)]
-#[expect(clippy::large_enum_variant)] // one per cable
 enum MassFactors {
     /// The same 2x2 blocks for x, y and z.
     Scalar(MassFactorisation),
     /// 6x6 blocks, where a slope is held to a direction.
-    Block(Factorisation),
+    Block(Box<Factorisation>),
 }
 
 /// The mass matrix, added mass included.
@@ -26,8 +25,8 @@ pub(crate) struct Mass {
 }
 
 impl Mass {
-    /// Assembles the matrix and factors it; `buffer` is overwritten.
-    pub fn new(level: Level, model: &Model, buffer: &mut BlockTridiagonal) -> Result<Self, StepFailure> {
+    /// Assembles the matrix and factors it.
+    pub fn new(level: Level, model: &Model) -> Result<Self, StepFailure> {
         let nodes = model.nodes();
         let mut matrix = MassMatrix { diag: vec![[0.0; 3]; nodes], lower: vec![[0.0; 4]; nodes - 1] };
         for (e, element) in model.elements.iter().enumerate() {
@@ -40,20 +39,20 @@ impl Mass {
             matrix.lower[e] = [m[2][0], m[2][1], m[3][0], m[3][1]];
         }
         let mut mass = Mass { matrix, factors: MassFactors::Scalar(MassFactorisation::default()) };
-        mass.factor(level, model, buffer)?;
+        mass.factor(level, model)?;
         Ok(mass)
     }
 
-    /// Factors the matrix with the present supports; `buffer` is overwritten.
-    pub fn factor(&mut self, level: Level, model: &Model, buffer: &mut BlockTridiagonal) -> Result<(), StepFailure> {
+    /// Factors the matrix with the present supports.
+    pub fn factor(&mut self, level: Level, model: &Model) -> Result<(), StepFailure> {
         let directed = model.supports.iter().any(|(_, s)| s.slope.is_direction());
         self.factors = if directed {
-            buffer.clear();
-            self.add_to(buffer, 1.0);
-            project_matrix(model, buffer);
+            let mut matrix = BlockTridiagonal::zeros(model.nodes());
+            self.add_to(&mut matrix, 1.0);
+            project_matrix(model, &mut matrix);
             let mut factorisation = Factorisation::default();
-            factorisation.factor(level, buffer)?;
-            MassFactors::Block(factorisation)
+            factorisation.factor(level, &matrix)?;
+            MassFactors::Block(Box::new(factorisation))
         } else {
             let mut factorisation = MassFactorisation::default();
             factorisation.factor(&self.with_held_rows(model))?;

@@ -60,8 +60,8 @@ pub(crate) struct System {
     pub static_time: f64,
 }
 
-/// The matrix of an implicit step and its factors.
-#[derive(Clone, Debug)]
+/// The matrix of an implicit step and its factors; empty between two steps.
+#[derive(Clone, Debug, Default)]
 pub(crate) struct StepMatrix {
     pub matrix: BlockTridiagonal,
     pub factorisation: Factorisation,
@@ -69,7 +69,7 @@ pub(crate) struct StepMatrix {
     pub factored: f64,
 }
 
-/// Vectors of an evaluation or a step, allocated once; their contents are unspecified when it begins.
+/// Vectors of an evaluation or a step; empty between two steps, their contents are unspecified when one begins.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Buffers {
     /// Residual of a stage, and its increment.
@@ -103,34 +103,40 @@ impl System {
 
     /// Creates the system for a SIMD level.
     pub fn with_level(model: &Model, level: Level) -> Result<Self, StepFailure> {
-        let mut step = StepMatrix {
-            matrix: BlockTridiagonal::zeros(model.nodes()),
-            factorisation: Factorisation::default(),
-            factored: 0.0,
-        };
         Ok(System {
             level,
             forces: Forces::new(model),
             loads: Loads::new(model),
-            mass: Mass::new(level, model, &mut step.matrix)?,
-            step,
+            mass: Mass::new(level, model)?,
+            step: StepMatrix::default(),
             scales: Scales::new(model),
-            meter: EnergyMeter::new(model),
+            meter: EnergyMeter::default(),
             static_time: 0.0,
         })
     }
 
     /// Factors the mass matrix with the present supports.
     pub fn factor_mass(&mut self, model: &Model) -> Result<(), StepFailure> {
-        self.mass.factor(self.level, model, &mut self.step.matrix)
+        self.mass.factor(self.level, model)
+    }
+}
+
+impl StepMatrix {
+    /// Makes room for the matrix of a cable, and forgets the factors of another.
+    pub fn begin(&mut self, nodes: usize) {
+        self.matrix.resize(nodes);
+        self.factored = 0.0;
     }
 }
 
 impl Buffers {
-    pub fn new(model: &Model) -> Self {
-        let zeros = || vec![0.0; 6 * model.nodes()];
-        let velocity = if model.depends_on_velocity() { zeros() } else { Vec::new() };
-        Buffers { rhs: zeros(), product: zeros(), z: zeros(), velocity }
+    /// Makes room for the vectors of a cable.
+    pub fn resize(&mut self, model: &Model) {
+        let size = 6 * model.nodes();
+        for vector in [&mut self.rhs, &mut self.product, &mut self.z] {
+            vector.resize(size, 0.0);
+        }
+        self.velocity.resize(if model.depends_on_velocity() { size } else { 0 }, 0.0);
     }
 }
 

@@ -5,7 +5,8 @@
 //! | [`substepping`] | how many Rapier steps the host step has; [`proximity`]: which bodies will collide |
 //! | [`prescribed_motion`] | how fixed and kinematic bodies move over the host step |
 //! | [`kinematic_ends`] | prescribes the ends of cables on them |
-//! | [`predict`] | integrates cables and bodies together |
+//! | [`predict`] | reads cables and bodies before the step |
+//! | [`integrate`] | integrates them together, all islands at once |
 //! | [`apply`] | gives Rapier the predicted motion; reverts it |
 //! | [`impedance`] | lets a body that may deviate feel its cables within Rapier's step |
 //! | [`reconcile`] | takes over what Rapier's step made of it |
@@ -13,6 +14,7 @@
 
 pub(crate) mod apply;
 pub(crate) mod impedance;
+pub(crate) mod integrate;
 pub(crate) mod kinematic_ends;
 pub(crate) mod predict;
 pub(crate) mod prediction;
@@ -30,7 +32,7 @@ use crate::events::Event;
 use crate::islands::{Island, Islands};
 use crate::settings::Settings;
 use crate::sleep;
-use lariat_ancf::island::Island as IslandSolver;
+use lariat_ancf::Snapshot;
 use prediction::{Prediction, StepParameters};
 use prescribed_motion::PrescribedMotions;
 use rapier::dynamics::RigidBodyHandle;
@@ -72,7 +74,6 @@ pub(crate) struct Stepper {
     islands: Islands,
     /// By island.
     predictions: Vec<Prediction>,
-    solver: IslandSolver,
     /// Whether a prediction waits for its reconciliation.
     pending: bool,
     pub events: Vec<Event>,
@@ -180,44 +181,52 @@ fn predict_islands(
         fastest: if needs_speeds { proximity::fastest(world) } else { 0.0 },
         sleep_speed: settings.sleep_speed,
     };
-    for k in 0..stepper.predictions.len() {
-        let failed =
-            |failure: &Failure| failure.cables.iter().any(|c| stepper.islands.list[k].cables.contains(&(c.0 as usize)));
-        let refused = stepper.failures.iter().any(failed);
-        let outcome =
-            if refused { Ok(()) } else { predict_island(stepper, k, contents, world, (&host.motions, &step)) };
-        let Stepper { islands, predictions, failures, .. } = &mut *stepper;
-        let (island, prediction) = (&islands.list[k], &mut predictions[k]);
-        if let Err(error) = outcome {
+    let Stepper { islands, predictions, events, failures, .. } = &mut *stepper;
+    for (island, prediction) in islands.list.iter().zip(predictions.iter_mut()) {
+        let failed = |failure: &Failure| failure.cables.iter().any(|c| island.cables.contains(&(c.0 as usize)));
+        prediction.refused = failures.iter().any(failed);
+        (prediction.integrator, prediction.error) = (None, None);
+        if !prediction.refused {
+            let outcome = prepare_island(contents, world, island, prediction, (&host.motions, &step), events);
+            prediction.error = outcome.err();
+        }
+    }
+    integrate::integrate(contents, &islands.list, predictions, step.h);
+    for (island, prediction) in islands.list.iter().zip(predictions.iter_mut()) {
+        if prediction.integrator.is_some() && prediction.error.is_none() {
+            prediction.error = complete_island(contents, world, island, prediction, &step).err();
+        }
+        if let Some(error) = prediction.error.take() {
             apply::revert(contents, world, island, prediction);
             prediction.applied.clear();
             impedance::disable_motors(contents, world, island.attachments.iter().flatten().copied());
             failures.push(Failure::new(contents, island, error));
-        } else if !refused {
-            continue;
+            prediction.refused = true;
         }
-        prediction.refused = true;
-        prediction.held.hold(&contents.records, world, island);
+        if prediction.refused {
+            prediction.held.hold(&contents.records, world, island);
+        }
     }
     stepper.pending = true;
     Ok(())
 }
 
-/// Predicts a Rapier step of one island.
-fn predict_island(
-    stepper: &mut Stepper,
-    k: usize,
+/// Begins the prediction of a Rapier step of one island: it is then ready to be integrated, or asleep.
+fn prepare_island(
     contents: &mut Contents,
     world: &mut PhysicsWorld,
+    island: &Island,
+    prediction: &mut Prediction,
     (motions, step): (&PrescribedMotions, &StepParameters),
+    events: &mut Vec<Event>,
 ) -> Result<(), Error> {
-    let Stepper { islands, predictions, solver, events, .. } = stepper;
-    let (island, prediction): (&Island, &mut Prediction) = (&islands.list[k], &mut predictions[k]);
-    prediction.refused = false;
-    prediction.snapshots.clear();
     contents.align_clocks(&island.cables)?;
-    let slots = island.cables.iter().filter_map(|&c| contents.cables.get(c));
-    prediction.snapshots.extend(slots.map(|slot| slot.cable.snapshot().clone()));
+    prediction.snapshots.resize_with(island.cables.len(), Snapshot::default);
+    for (snapshot, &cable) in prediction.snapshots.iter_mut().zip(&island.cables) {
+        if let Some(slot) = contents.cables.get(cable) {
+            snapshot.clone_from(slot.cable.snapshot());
+        }
+    }
     let ends_moved = island.bodies().next().is_some() && kinematic_ends::have_moved(contents, world, island, step.h);
     prediction.sleep = sleep::update(contents, world, island, ends_moved, step.sleep_speed, events);
     if prediction.sleep.asleep {
@@ -226,7 +235,18 @@ fn predict_island(
     }
     kinematic_ends::prescribe(contents, world, motions, island, step)?;
     impedance::disable_motors(contents, world, island.supports.iter().copied());
-    predict::integrate(contents, world, solver, motions, island, prediction, step)?;
+    predict::prepare(contents, world, motions, island, prediction, step)
+}
+
+/// Gives Rapier the motion of an island that was integrated.
+fn complete_island(
+    contents: &mut Contents,
+    world: &mut PhysicsWorld,
+    island: &Island,
+    prediction: &mut Prediction,
+    step: &StepParameters,
+) -> Result<(), Error> {
+    predict::complete(contents, island, prediction);
     apply::apply(contents, world, island, prediction, step.h);
     impedance::set_motors(contents, world, island, prediction, step)
 }

@@ -16,7 +16,7 @@ use crate::step::prediction::{Prediction, StepParameters};
 use crate::step::prescribed_motion::PrescribedMotions;
 use crate::step::proximity;
 use ::nalgebra::{Matrix3, Vector6};
-use lariat_ancf::island::{Island as IslandSolver, RigidBody};
+use lariat_ancf::island::RigidBody;
 use lariat_ancf::{Integrator, StepControl};
 use rapier::pipeline::PhysicsWorld;
 
@@ -25,41 +25,36 @@ use rapier::pipeline::PhysicsWorld;
 /// chooses the step, and 4e-7 with this bound.
 const MAX_CONTROLLED_STEP: f64 = 1.0 / 240.0;
 
-/// Integrates the cables and members of an island over a step, into `prediction`.
-pub(crate) fn integrate(
+/// Reads members and integrator of an island that will be [integrated](crate::step::integrate) over a step.
+pub(crate) fn prepare(
     contents: &mut Contents,
     world: &mut PhysicsWorld,
-    solver: &mut IslandSolver,
     motions: &PrescribedMotions,
     island: &Island,
     prediction: &mut Prediction,
     step: &StepParameters,
 ) -> Result<(), Error> {
-    let integrator = share_of(integrator(contents, island), step.rapier_steps);
-    if island.members.is_empty() {
-        for cable in contents.cables_at(&island.cables) {
-            cable.step_with(step.h, &integrator)?;
+    let mut integrator = share_of(integrator(contents, island), step.rapier_steps);
+    prediction.parts = 1;
+    if !island.members.is_empty() {
+        read_members(contents, world, motions, island, prediction, step)?;
+        if island.bodies().next().is_some() {
+            prediction.parts = parts(&integrator, step.h);
+            integrator = share_of(integrator, prediction.parts);
         }
-        return Ok(());
     }
-    read_members(contents, world, motions, island, prediction, step)?;
-    let parts = if island.bodies().next().is_some() { parts(&integrator, step.h) } else { 1 };
-    let integrator = share_of(integrator, parts);
-    for part in 0..parts {
-        for (body, start) in prediction.end.iter_mut().zip(&prediction.start) {
-            let [first, last] = start.unsteadiness;
-            let first = if part == 0 { first } else { Default::default() };
-            body.unsteadiness = [first, if part + 1 == parts { last } else { Default::default() }];
-        }
-        let mut cables = contents.cables_at(&island.cables);
-        solver.step(&mut cables, &mut prediction.end, &island.pins, integrator, step.h / f64::from(parts))?;
-        for (account, attachment) in solver.accounts().iter().zip(&island.attachments) {
-            let Some(a) = attachment.and_then(|a| contents.attachments.get_mut(a)) else { continue };
-            if part == 0 {
-                a.predicted = *account;
-            } else {
-                a.predicted.add(account);
-            }
+    prediction.integrator = Some(integrator);
+    Ok(())
+}
+
+/// Takes over what the integration of an island tells about its attachments and junctions.
+pub(crate) fn complete(contents: &mut Contents, island: &Island, prediction: &Prediction) {
+    if island.members.is_empty() {
+        return;
+    }
+    for (account, attachment) in prediction.accounts.iter().zip(&island.attachments) {
+        if let Some(a) = attachment.and_then(|a| contents.attachments.get_mut(a)) {
+            a.predicted = *account;
         }
     }
     for (member, end) in island.members.iter().zip(&prediction.end) {
@@ -69,7 +64,6 @@ pub(crate) fn integrate(
             junction.memory = end.memory;
         }
     }
-    Ok(())
 }
 
 /// Reads the members of an island before the step.

@@ -2,12 +2,13 @@
 //! reconciliation.
 
 use crate::body::SavedBody;
+use crate::error::Error;
 use crate::mechanism::Mechanism;
 use crate::sleep::SleepState;
 use crate::step::refused::HeldBodies;
 use ::nalgebra::Vector3;
-use lariat_ancf::Snapshot;
-use lariat_ancf::island::{Impedance, RigidBody};
+use lariat_ancf::island::{Impedance, PinAccount, RigidBody};
+use lariat_ancf::{Integrator, Snapshot};
 use rapier::dynamics::RigidBodyHandle;
 use rapier::math::{AngVector, Vector};
 
@@ -41,6 +42,14 @@ pub(crate) struct Prediction {
     pub applied: Vec<Option<AppliedMotion>>,
     /// By cable, its response to impulses at pins on and next to deviating members.
     pub impedances: Vec<Impedance>,
+    /// The integrator of an island that is ready to be integrated, or was.
+    pub integrator: Option<Integrator>,
+    /// Number of equal parts in which it is integrated.
+    pub parts: u32,
+    /// Why the island cannot step.
+    pub error: Option<Error>,
+    /// By pin, what it transmitted in the predicted step.
+    pub accounts: Vec<PinAccount>,
     /// Indices of the members that may deviate from the prediction.
     pub deviating: Vec<usize>,
     /// By pin, whether its motors are on.

@@ -52,3 +52,29 @@ fn a_snapshot_replays_to_the_bit() {
         (other_world, other_set) = bincode::deserialize(&saved).unwrap();
     }
 }
+
+/// The scene and twelve islands more (loads on ropes, two loads on one rope, ropes without a load) on pools of 1, 2 and 4 threads.
+///
+/// Reference: the contract; islands do not act on each other while they are integrated.
+#[test]
+fn any_number_of_threads_gives_the_same_bits() {
+    let runs = [1, 2, 4].map(|threads| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        pool.install(|| {
+            let (mut world, mut set) = scene();
+            for k in 0..12 {
+                let (z, length) = (10.0 + 3.0 * f64::from(k), 1.0 + 0.1 * f64::from(k));
+                let rope = cable([0.0, 0.0, z], [length, 0.0, z], soft()).elements(3 + k as usize);
+                let rope = set.insert(rope.fix(At::Start).build().unwrap());
+                for at in [1.0, 0.6].into_iter().take(k as usize % 3) {
+                    let load = add_cube(&mut world, 2.0, 0.1, [(at * length) as Real, -0.1, z as Real]);
+                    let anchor = Vector::new(0.0, 0.1, 0.0);
+                    set.attach(&world, rope, at * length, load, anchor, AttachmentKind::Ball).unwrap();
+                }
+            }
+            run(&mut world, &mut set, 30);
+            bits(&world, &set)
+        })
+    });
+    assert!(runs[0] == runs[1] && runs[0] == runs[2]);
+}

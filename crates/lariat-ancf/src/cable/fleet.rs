@@ -1,0 +1,55 @@
+//! A step of many cables that nothing connects.
+//!
+//! # Validity
+//!
+//! A cable reads and writes nothing of another, so results are bitwise the same for any number of threads. Cables connected by bodies are
+//! an [`island`](crate::island).
+
+use super::Cable;
+use crate::error::Error;
+use core::borrow::BorrowMut;
+#[cfg(feature = "parallel")]
+use std::sync::Mutex;
+
+/// Cables of a fleet that could not step.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[error("{} cables could not step; number {}: {}", .failures.len(), .failures[0].0, .failures[0].1)]
+pub struct FleetError {
+    /// Number in the fleet and error of each of them, ascending; there is at least one.
+    pub failures: Vec<(usize, Error)>,
+}
+
+/// Advances each cable by `dt` (s) with its integrator, as [`Cable::step`] does; with the feature `parallel`, on the threads of rayon's
+/// present pool if there is more than one cable. `cables` are cables or mutable references to some.
+///
+/// # Errors
+/// [`FleetError`] if some could not step: these are as before, and all others have advanced.
+pub fn step_all<C: BorrowMut<Cable> + Send>(cables: &mut [C], dt: f64) -> Result<(), FleetError> {
+    let failures = failures(cables, |cable| cable.borrow_mut().step(dt));
+    if failures.is_empty() { Ok(()) } else { Err(FleetError { failures }) }
+}
+
+#[cfg(feature = "parallel")]
+fn failures<C: Send>(cables: &mut [C], step: impl Fn(&mut C) -> Result<(), Error> + Sync) -> Vec<(usize, Error)> {
+    use rayon::prelude::*;
+    if cables.len() <= 1 {
+        return serial_failures(cables, step);
+    }
+    // collecting them from the threads would allocate where there are none
+    let failures = Mutex::new(Vec::new());
+    cables.par_iter_mut().enumerate().for_each(|(i, cable)| {
+        if let Err(error) = step(cable) {
+            failures.lock().unwrap_or_else(|poisoned| poisoned.into_inner()).push((i, error));
+        }
+    });
+    let mut failures = failures.into_inner().unwrap_or_else(|poisoned| poisoned.into_inner());
+    failures.sort_by_key(|(i, _)| *i);
+    failures
+}
+
+#[cfg(not(feature = "parallel"))]
+use serial_failures as failures;
+
+fn serial_failures<C>(cables: &mut [C], step: impl Fn(&mut C) -> Result<(), Error>) -> Vec<(usize, Error)> {
+    cables.iter_mut().enumerate().filter_map(|(i, cable)| Some((i, step(cable).err()?))).collect()
+}

@@ -1,0 +1,93 @@
+//! Integration of all islands that are ready, each with its cables and bodies as one system.
+//!
+//! # Threads
+//! With the feature `parallel`, islands are integrated on the threads of rayon's present pool. One
+//! reads and writes nothing of another, nor of Rapier's world, so results are bitwise the same for
+//! any number of threads.
+
+use crate::contents::Contents;
+use crate::error::Error;
+use crate::islands::Island;
+use crate::step::prediction::Prediction;
+use core::cell::RefCell;
+use lariat_ancf::island::Island as IslandSolver;
+use lariat_ancf::{Cable, Integrator};
+
+/// Number of elements to integrate below which threads are left asleep: to wake them takes as long.
+#[cfg(feature = "parallel")]
+const FEW_ELEMENTS: usize = 64;
+
+thread_local! {
+    /// Buffers of the islands that this thread integrates.
+    static SOLVERS: RefCell<Vec<IslandSolver>> = const { RefCell::new(Vec::new()) };
+}
+
+/// An island that is ready, with its cables.
+struct Job<'a> {
+    island: &'a Island,
+    cables: Vec<&'a mut Cable>,
+    prediction: &'a mut Prediction,
+    integrator: Integrator,
+    /// Time step in s.
+    h: f64,
+}
+
+impl Job<'_> {
+    fn run(&mut self) {
+        let outcome = if self.island.members.is_empty() {
+            self.cables.iter_mut().try_for_each(|cable| cable.step_with(self.h, &self.integrator))
+        } else {
+            let mut solver = SOLVERS.with_borrow_mut(Vec::pop).unwrap_or_default();
+            let outcome = self.step_island(&mut solver);
+            SOLVERS.with_borrow_mut(|solvers| solvers.push(solver));
+            outcome
+        };
+        self.prediction.error = outcome.err().map(Error::from);
+    }
+
+    /// Steps cables and members in equal parts, and adds up the accounts of the pins.
+    fn step_island(&mut self, solver: &mut IslandSolver) -> Result<(), lariat_ancf::Error> {
+        let Job { island, cables, prediction, integrator, h } = self;
+        let Prediction { start, end, accounts, parts, .. } = &mut **prediction;
+        for part in 0..*parts {
+            for (body, start) in end.iter_mut().zip(&*start) {
+                let [first, last] = start.unsteadiness;
+                let first = if part == 0 { first } else { Default::default() };
+                body.unsteadiness = [first, if part + 1 == *parts { last } else { Default::default() }];
+            }
+            solver.step(cables, end, &island.pins, *integrator, *h / f64::from(*parts))?;
+            if part == 0 {
+                accounts.clear();
+                accounts.extend_from_slice(solver.accounts());
+            } else {
+                accounts.iter_mut().zip(solver.accounts()).for_each(|(sum, account)| sum.add(account));
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Integrates the islands that are ready over a step of `h` (s), into their predictions.
+pub(crate) fn integrate(contents: &mut Contents, islands: &[Island], predictions: &mut [Prediction], h: f64) {
+    let mut slots = contents.cables.all_mut();
+    let ready = islands.iter().zip(predictions).filter_map(|(island, prediction)| {
+        let integrator = prediction.integrator?;
+        let own = island.cables.iter().filter_map(|&c| slots[c].take());
+        let cables = own.map(|slot| &mut slot.cable).collect();
+        Some(Job { island, cables, prediction, integrator, h })
+    });
+    run(&mut ready.collect::<Vec<_>>());
+}
+
+fn run(jobs: &mut [Job<'_>]) {
+    #[cfg(feature = "parallel")]
+    {
+        use rayon::prelude::*;
+        let elements = jobs.iter().flat_map(|job| &job.cables).map(|cable| cable.elements().len()).sum::<usize>();
+        if jobs.len() > 1 && elements >= FEW_ELEMENTS {
+            jobs.par_iter_mut().for_each(Job::run);
+            return;
+        }
+    }
+    jobs.iter_mut().for_each(Job::run);
+}
