@@ -60,6 +60,7 @@ mod system;
 pub use cable::builder::{CableBuilder, STANDARD_GRAVITY};
 pub use cable::energy::{Energy, Momentum};
 pub use cable::fleet::{FleetError, step_all};
+pub use cable::mesh::{MeshIndicator, MotionIndicator};
 pub use cable::reactions::Reaction;
 pub use cable::sample::Sample;
 pub use cable::{At, Cable, Snapshot};

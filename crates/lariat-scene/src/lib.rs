@@ -21,6 +21,8 @@ pub mod scene;
 pub mod schema;
 mod suggest;
 pub mod view;
+mod warning;
 
 pub use error::{Error, Place, Problem, SceneError};
 pub use scene::{Purpose, Scene};
+pub use warning::Warning;

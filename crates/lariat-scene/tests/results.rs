@@ -106,7 +106,8 @@ fn the_catenary_scene_has_the_tensions_of_the_catenary() {
 #[test]
 fn statics_of_the_catenary_report_reactions_peak_tension_and_sag() {
     let folder = tempfile::tempdir().unwrap();
-    let summary = run::statics(&read("catenary", &[], Purpose::Static), folder.path()).unwrap();
+    let summary =
+        run::statics(&read("catenary", &[], Purpose::Static), folder.path(), &mut run::Options::default()).unwrap();
     let statics = &summary.statics.unwrap()[0];
     assert!(statics.stable && statics.residual_n < 1e-6 && statics.iterations > 0, "{statics:?}");
     let sum: f64 = statics.reactions.iter().map(|reaction| reaction.force_n[1]).sum();
@@ -138,7 +139,8 @@ fn scale_of_catenary(width: f64, height: f64, length: f64) -> f64 {
 #[test]
 fn statics_of_a_cable_with_one_support_have_no_sag() {
     let folder = tempfile::tempdir().unwrap();
-    let summary = run::statics(&read("cantilever", &[], Purpose::Static), folder.path()).unwrap();
+    let summary =
+        run::statics(&read("cantilever", &[], Purpose::Static), folder.path(), &mut run::Options::default()).unwrap();
     let statics = &summary.statics.unwrap()[0];
     assert_eq!((statics.sag_m, statics.reactions.len(), statics.reactions[0].name.as_str()), (None, 1, "wall"));
 }
@@ -160,7 +162,7 @@ fn a_run_from_equilibrium_stays_at_rest() {
 fn the_cantilever_scene_bends_as_the_elastica() {
     let scene = read("cantilever", &[], Purpose::Static);
     let folder = tempfile::tempdir().unwrap();
-    run::statics(&scene, folder.path()).unwrap();
+    run::statics(&scene, folder.path(), &mut run::Options::default()).unwrap();
     let probe = |name: &str| rows(&folder.path().join(format!("probes/{name}.csv")));
     let (tip, wall) = (&probe("tip")[0], &probe("wall")[0]);
     assert!((tip[1] - (1.0 - 0.160_64)).abs() < 1e-4 && (tip[2] + 0.493_46).abs() < 1e-4, "{tip:?}");
@@ -174,7 +176,7 @@ fn the_cantilever_scene_bends_as_the_elastica() {
 #[test]
 fn the_elastica_scene_bends_as_the_elastica_and_the_circle() {
     let folder = tempfile::tempdir().unwrap();
-    run::statics(&read("elastica", &[], Purpose::Static), folder.path()).unwrap();
+    run::statics(&read("elastica", &[], Purpose::Static), folder.path(), &mut run::Options::default()).unwrap();
     let last = |probe: &str| rows(&folder.path().join(format!("probes/{probe}.csv"))).pop().unwrap();
     let two_over_pi = std::f64::consts::FRAC_2_PI;
     for (probe, x, y, within) in [("force", 1.0 - 0.55500, -0.81061, 2e-5), ("moment", two_over_pi, -two_over_pi, 1e-5)]

@@ -7,6 +7,7 @@
 //! | `supports`, `loads`, `effects` | what acts on it, changed between steps |
 //! | `edit` | cutting, refining, changing the rule |
 //! | [`sample`], [`reactions`], [`energy`] | reading results |
+//! | [`mesh`] | how far the mesh resolves the shape |
 //! | [`linearise`] | matrices at the present state |
 //! | `workspace` | the buffers of a step, which cables share |
 //! | [`fleet`] | a step of many cables |
@@ -19,6 +20,7 @@ pub mod fleet;
 mod layout;
 pub mod linearise;
 mod loads;
+pub mod mesh;
 pub mod reactions;
 pub mod sample;
 mod saved;

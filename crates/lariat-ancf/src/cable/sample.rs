@@ -40,7 +40,7 @@ pub struct Sample {
 }
 
 /// A nodal quantity inside element `e`, by the weights of its four node vectors.
-fn combine(x: &[f64], e: usize, weights: [f64; 4]) -> Vector3<f64> {
+pub(super) fn combine(x: &[f64], e: usize, weights: [f64; 4]) -> Vector3<f64> {
     let n = &x[6 * e..6 * e + 12];
     (0..4).map(|k| weights[k] * Vector3::new(n[3 * k], n[3 * k + 1], n[3 * k + 2])).sum()
 }

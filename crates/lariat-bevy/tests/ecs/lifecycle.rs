@@ -35,7 +35,7 @@ fn a_description_inserted_over_another_rebuilds_the_cable() {
     let load = world.spawn(cube(0.1, 5.0, [0.0, -1.1, 0.0])).id();
     let cable = world.spawn((soft([0.0; 3], [0.0, -1.0, 0.0]), Bending)).id();
     world.spawn(pin(cable));
-    world.spawn(Attachment::ball(cable, At::End).to(load).at([0.0, 0.1, 0.0]));
+    world.spawn(Attachment::ball(cable, At::End).to(load).at([0.0, 0.1, 0.0]).gap(lariat_bevy::Gap::Close));
     steps(&mut world, 30);
     world.entity_mut(cable).insert(soft([0.0; 3], [0.0, -1.0, 0.0]).elements(3));
     steps(&mut world, 60);

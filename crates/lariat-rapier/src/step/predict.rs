@@ -156,7 +156,9 @@ fn integrator(contents: &Contents, island: &Island) -> Integrator {
 /// divided.
 fn parts(integrator: &Integrator, h: f64) -> u32 {
     match integrator.control {
-        StepControl::Tolerance(_) | StepControl::ToleranceOf(..) => ((h / MAX_CONTROLLED_STEP) * (1.0 - 1e-6)).ceil().clamp(1.0, 1024.0) as u32,
+        StepControl::Tolerance(_) | StepControl::ToleranceOf(..) => {
+            ((h / MAX_CONTROLLED_STEP) * (1.0 - 1e-6)).ceil().clamp(1.0, 1024.0) as u32
+        }
         _ => 1,
     }
 }

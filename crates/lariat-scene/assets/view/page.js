@@ -38,7 +38,7 @@ function fillHeader() {
     element("words").append(p);
   };
   if (s.failed) say(`failed: ${s.failed}`, true);
-  s.warnings.forEach((warning) => say(`warning: ${warning}`));
+  s.warnings.forEach((warning) => say(`warning: ${warning.text}`));
   if (frames.length === 0) say("nothing was sampled", true);
 }
 

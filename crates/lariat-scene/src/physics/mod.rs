@@ -6,6 +6,7 @@
 
 mod build;
 mod joints;
+mod overlap;
 mod reading;
 mod statics;
 
@@ -16,6 +17,7 @@ pub use statics::Settled;
 use crate::error::Error;
 use crate::scene::Scene;
 use crate::scene::body::BodyKind;
+use crate::warning::Warning;
 use lariat_ancf::island::RigidBody;
 use lariat_ancf::{At, Cable, Momentum, Vector3};
 use lariat_rapier::convert::{to_pose, to_vector};
@@ -160,7 +162,7 @@ impl Physics {
     ///
     /// # Errors
     /// [`Error::Mechanics`]; not for a checked scene.
-    pub fn jolts(&self, scene: &Scene) -> Result<Vec<String>, Error> {
+    pub fn jolts(&self, scene: &Scene) -> Result<Vec<Warning>, Error> {
         let (cables, mut jolts) = (self.cables(), Vec::new());
         for attachment in &scene.attachments {
             let Some(body) = attachment.body else { continue };
@@ -169,10 +171,8 @@ impl Physics {
             let there = state.velocity + state.angular_velocity.cross(&(point.position - state.position));
             let difference = (point.velocity - there).norm();
             if difference > JOLT {
-                jolts.push(format!(
-                    "attachment {:?}: cable and body start with velocities {difference:.3e} m/s apart, which gives a shock",
-                    attachment.name
-                ));
+                let attachment = attachment.name.clone();
+                jolts.push(Warning::VelocityJump { attachment, difference_m_s: difference });
             }
         }
         Ok(jolts)

@@ -38,6 +38,7 @@ mod probe;
 pub mod schedule;
 mod statics;
 mod summary;
+mod watch;
 mod world;
 
 pub(crate) use probe::columns;
@@ -47,6 +48,7 @@ pub use world::World;
 
 use crate::error::Error;
 use crate::scene::{Purpose, Scene};
+use crate::warning::Warning;
 use cpu_time::ProcessTime;
 use output::Output;
 use schedule::{Schedule, nominal};
@@ -54,6 +56,7 @@ use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
+use watch::Watch;
 
 /// Options of a run.
 #[derive(Default)]
@@ -62,6 +65,8 @@ pub struct Options<'a> {
     pub stop: Arc<AtomicBool>,
     /// Called after each host step with the simulated time in s.
     pub progress: Option<&'a mut dyn FnMut(f64)>,
+    /// Called with each warning of [`Summary::warnings`], once, as soon as it is known.
+    pub warn: Option<&'a mut dyn FnMut(&Warning)>,
 }
 
 /// Runs a scene for its duration and writes `summary.json`, `probes/*.csv` and [`view.html`](crate::view) to the folder `out`.
@@ -70,7 +75,8 @@ pub struct Options<'a> {
 /// [`Error::Output`] if the folder cannot be written (before anything runs); [`Error::Mechanics`], [`Error::Write`] or
 /// [`Error::Interrupted`] later: samples, page and summary are then on disk.
 pub fn run(scene: &Scene, out: &Path, options: &mut Options<'_>) -> Result<Summary, Error> {
-    record(scene, out, Purpose::Run, |world, output| {
+    let Options { stop, progress, warn } = options;
+    record(scene, out, Purpose::Run, warn, |world, output, watch| {
         let mut schedule = Schedule::new(scene);
         // a copy that is stepped to the probe times between two host steps, so that probes change nothing
         let mut ahead: Option<World> = None;
@@ -88,11 +94,12 @@ pub fn run(scene: &Scene, out: &Path, options: &mut Options<'_>) -> Result<Summa
             }
             if event.host {
                 output.frame(world)?;
+                watch.note(world)?;
             }
-            if let Some(progress) = options.progress.as_mut().filter(|_| event.host) {
+            if let Some(progress) = progress.as_mut().filter(|_| event.host) {
                 progress(event.time);
             }
-            if options.stop.load(Ordering::Relaxed) && event.time < scene.duration {
+            if stop.load(Ordering::Relaxed) && event.time < scene.duration {
                 return Err(Error::Interrupted { time: event.time });
             }
         }
@@ -104,8 +111,8 @@ pub fn run(scene: &Scene, out: &Path, options: &mut Options<'_>) -> Result<Summa
 ///
 /// # Errors
 /// As [`run`]; [`Error::Mechanics`] if there is no equilibrium.
-pub fn statics(scene: &Scene, out: &Path) -> Result<Summary, Error> {
-    record(scene, out, Purpose::Static, |world, output| {
+pub fn statics(scene: &Scene, out: &Path, options: &mut Options<'_>) -> Result<Summary, Error> {
+    record(scene, out, Purpose::Static, &mut options.warn, |world, output, _| {
         (0..scene.probes.len()).try_for_each(|probe| output.sample(probe, 0.0, world))?;
         output.frame(world)
     })
@@ -115,15 +122,31 @@ fn record(
     scene: &Scene,
     out: &Path,
     purpose: Purpose,
-    body: impl FnOnce(&mut World, &mut Output) -> Result<(), Error>,
+    warn: &mut Option<&mut dyn FnMut(&Warning)>,
+    body: impl FnOnce(&mut World, &mut Output, &mut Watch) -> Result<(), Error>,
 ) -> Result<Summary, Error> {
     let mut output = Output::create(scene, out)?;
     let (cpu, wall) = (ProcessTime::now(), Instant::now());
     let mut world = World::build(scene)?;
+    let mut watch = Watch::new(&world, purpose);
+    let mut told = 0;
+    let mut tell = |world: &World| {
+        if let Some(warn) = warn {
+            world.warnings[told..].iter().for_each(&mut **warn);
+        }
+        told = world.warnings.len();
+    };
     let outcome = world.start(purpose).and_then(|()| {
         world.note_start();
-        body(&mut world, &mut output)
+        if purpose == Purpose::Run {
+            watch = Watch::new(&world, purpose);
+        }
+        watch.note(&world)?;
+        tell(&world);
+        body(&mut world, &mut output, &mut watch)
     });
+    world.warnings.extend(watch.warnings(scene));
+    tell(&world);
     let (cpu, wall, spent) = (cpu.elapsed(), wall.elapsed(), output.spent());
     let own = (cpu.saturating_sub(spent.0), wall.saturating_sub(spent.1));
     let summary = Summary::of(&world, own.0, own.1, outcome.as_ref().err());

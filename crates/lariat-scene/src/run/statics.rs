@@ -26,6 +26,8 @@ pub struct CableStatics {
     pub peak_tension_n: f64,
     /// Arc length of the largest tension in m.
     pub peak_tension_at_m: f64,
+    /// Largest jump of the tension between elements in N, about its error; `None` if no node can judge.
+    pub tension_jump_n: Option<f64>,
     /// Largest distance of a point below the straight line between the supports on both sides of it, along gravity, in m. `None`
     /// without gravity, or if no two supports lie at different horizontal positions.
     pub sag_m: Option<f64>,
@@ -117,6 +119,7 @@ impl CableStatics {
             iterations: report.iterations,
             peak_tension_n,
             peak_tension_at_m,
+            tension_jump_n: cable.tension_jump(),
             sag_m,
             reactions,
         })

@@ -2,6 +2,7 @@
 
 use super::{BodyStatics, CableStatics, World};
 use crate::error::Error;
+use crate::warning::Warning;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::time::Duration;
@@ -38,7 +39,8 @@ pub struct Summary {
     /// Total energy at the end in J; null if it is not finite.
     pub energy_end_j: Option<f64>,
     /// Warnings.
-    pub warnings: Vec<String>,
+    #[serde(serialize_with = "crate::warning::with_texts")]
+    pub warnings: Vec<Warning>,
     /// Why the run failed; null if it did not.
     pub failed: Option<String>,
     /// The equilibrium of each cable; only for `lariat static`.

@@ -4,6 +4,7 @@ use super::{BodyStatics, CableStatics};
 use crate::error::Error;
 use crate::physics::{BodyState, Physics};
 use crate::scene::{AttachmentScene, Engine, Purpose, Scene};
+use crate::warning::Warning;
 use lariat_ancf::{At, AxialRule, Cable, Energy, EquilibriumReport, Momentum, Reaction, Support, Vector3};
 use std::collections::BTreeMap;
 
@@ -17,7 +18,7 @@ pub struct World {
     physics: Option<Box<Physics>>,
     /// Common time of cables and bodies in s.
     time: f64,
-    pub(super) warnings: Vec<String>,
+    pub(super) warnings: Vec<Warning>,
     /// Iterations of the statics, which are Newton iterations too.
     pub(super) static_iterations: u64,
     pub(super) energy_start: f64,
@@ -51,11 +52,8 @@ impl World {
         };
         for cable in &world.alone {
             if let Some(reason) = cable.rule().spare_modes() {
-                world.warnings.push(format!(
-                    "cable {:?}: rule {} has zero-energy modes, as allowed: {reason}",
-                    cable.name(),
-                    cable.rule()
-                ));
+                let (rule, reason) = (cable.rule().to_string(), reason.to_string());
+                world.warnings.push(Warning::RankDeficient { cable: cable.name().to_string(), rule, reason });
             }
         }
         Ok(world)
@@ -70,6 +68,7 @@ impl World {
     pub fn start(&mut self, purpose: Purpose) -> Result<(), Error> {
         let fully = purpose == Purpose::Static;
         let World { scene, alone, warnings, static_iterations, physics, .. } = self;
+        warnings.extend(scene.warnings(purpose));
         let mut held_by = vec![Default::default(); scene.attachments.len()];
         let mut reports = Vec::new();
         for (i, cable) in alone.iter_mut().enumerate() {
@@ -112,6 +111,7 @@ impl World {
                 reports = self.settle()?;
             } else {
                 warnings.extend(physics.jolts(scene)?);
+                warnings.extend(physics.inside(scene));
             }
         }
         if fully {
@@ -127,13 +127,9 @@ impl World {
         self.static_iterations += settled.cables.iter().map(|report| report.iterations as u64).sum::<u64>();
         let unstable =
             self.cables().into_iter().zip(&settled.cables).filter(|(_, r)| !r.stable).map(|(c, _)| unstable(c));
-        let loose = settled.unattached.iter().map(|&i| {
-            let name = &self.scene.bodies[i].name;
-            format!(
-                "body {name:?}: no cable is attached to it: it is left where it is drawn, and may not be at rest there"
-            )
-        });
-        let warnings: Vec<String> = unstable.chain(loose).collect();
+        let loose =
+            settled.unattached.iter().map(|&i| Warning::LeftAsDrawn { body: self.scene.bodies[i].name.clone() });
+        let warnings: Vec<Warning> = unstable.chain(loose).collect();
         self.warnings.extend(warnings);
         self.static_bodies = Some(BodyStatics::read(self, &settled));
         Ok(settled.cables)
@@ -293,20 +289,12 @@ impl World {
 }
 
 /// Returns the warning about an equilibrium that is not stable.
-fn unstable(cable: &Cable) -> String {
-    let text = "the equilibrium found is unstable or indifferent (stiffness not positive definite)";
+fn unstable(cable: &Cable) -> Warning {
     let strain = |s: f64| cable.sample(s).map_or(0.0, |sample| sample.green_strain);
     let compressed = cable.node_arc_lengths().into_iter().map(strain).fold(0.0, f64::min);
-    let why = if compressed < -1e-3 && cable.rule().axial == AxialRule::Projected {
-        let percent = -100.0 * compressed;
-        format!(
-            "; it is compressed by {percent:.2} %, and rule {} holds thick elements to 0.1 % only: see rule exact-3",
-            cable.rule()
-        )
-    } else {
-        String::new()
-    };
-    format!("cable {:?}: {text}{why}", cable.name())
+    let beyond = compressed < -1e-3 && cable.rule().axial == AxialRule::Projected;
+    let (rule, compression) = (cable.rule().to_string(), beyond.then_some(-compressed));
+    Warning::UnstableEquilibrium { cable: cable.name().to_string(), rule, compression }
 }
 
 /// Returns force (N) and moment (N m) of a cable on its support at an arc length; zero without one.

@@ -126,6 +126,8 @@ pub struct CableScene {
     pub elements: usize,
     /// Section.
     pub section: Section,
+    /// Young's modulus in Pa, if the section was given by its shape.
+    pub youngs_modulus: Option<f64>,
     /// Force strategy.
     pub rule: Rule,
     /// Effects.
@@ -158,6 +160,7 @@ pub(super) fn read(doc: &Document<'_>, at: &KeyPath, row: CableTable) -> Result<
         equilibrium: row.initial == Initial::Equilibrium,
         elements: row.elements as usize,
         section,
+        youngs_modulus: row.youngs_modulus,
         rule,
         effects,
         integrator: integrator::read(doc, &at.key("integrator"), &row.integrator)?,

@@ -12,6 +12,7 @@
 //! | [`joint`], [`attachment`], [`junction`], [`load`], [`probe`] | the tables of these names |
 //! | `references` | names and points that tables refer to |
 //! | `build` | from a scene to cables |
+//! | `plausibility` | warnings about what is probably not meant |
 
 pub mod attachment;
 pub mod body;
@@ -24,6 +25,7 @@ pub mod joint;
 pub mod junction;
 pub mod load;
 mod mesh;
+mod plausibility;
 pub mod probe;
 mod references;
 

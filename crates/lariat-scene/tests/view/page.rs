@@ -94,7 +94,7 @@ fn a_long_run_keeps_to_the_limits_of_frames_and_rows_and_has_its_last_state() {
 fn statics_have_one_frame() {
     let folder = tempfile::tempdir().unwrap();
     let catenary = Scene::read(&scene("catenary"), &[], Purpose::Static).unwrap();
-    run::statics(&catenary, folder.path()).unwrap();
+    run::statics(&catenary, folder.path(), &mut run::Options::default()).unwrap();
     assert_eq!(Data::read(folder.path()).times(), [0.0]);
 }
 
@@ -154,7 +154,7 @@ fn a_full_disk_while_the_page_is_written_leaves_the_summary() {
     let folder = tempfile::tempdir().unwrap();
     std::os::unix::fs::symlink("/dev/full", folder.path().join("view.html")).unwrap();
     let catenary = Scene::read(&scene("catenary"), &[], Purpose::Static).unwrap();
-    let error = run::statics(&catenary, folder.path()).unwrap_err();
+    let error = run::statics(&catenary, folder.path(), &mut run::Options::default()).unwrap_err();
     assert!(matches!(error, Error::Write { .. }) && error.to_string().contains("view.html"), "{error}");
     assert!(fs::read_to_string(folder.path().join("summary.json")).unwrap().contains("\"failed\": null"));
 }

@@ -105,7 +105,7 @@ fn every_shape_and_every_kind_of_outcome_is_shown() {
     page.click("names");
 
     let catenary = |sets: &[String], purpose| Scene::read(&scene("catenary"), sets, purpose).unwrap();
-    run::statics(&catenary(&[], Purpose::Static), folder.path()).unwrap();
+    run::statics(&catenary(&[], Purpose::Static), folder.path(), &mut run::Options::default()).unwrap();
     page.open(&folder.path().join("view.html"));
     assert_eq!(page.ask("document.documentElement.dataset.frames"), "1");
     assert_eq!(page.ask("document.querySelectorAll('.uplot').length"), "0");
@@ -150,7 +150,7 @@ fn rounding_errors_are_not_plotted() {
 fn loads_are_arrows() {
     let folder = tempfile::tempdir().unwrap();
     let elastica = Scene::read(&scene("elastica"), &[], Purpose::Static).unwrap();
-    run::statics(&elastica, folder.path()).unwrap();
+    run::statics(&elastica, folder.path(), &mut run::Options::default()).unwrap();
     let mut page = Browser::start(1200, 800);
     page.open(&folder.path().join("view.html"));
     assert_eq!(page.ask("loadArrows(frames[0], 0).map((arrow) => arrow.heads)"), "1,2");

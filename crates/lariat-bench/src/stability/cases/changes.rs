@@ -1,7 +1,7 @@
 //! Changes that a user makes to a running world: 5 kg on 2 m of rope, released from horizontal, and
 //! changed after 0.3 s.
 
-use super::super::engine::AttachmentKind;
+use super::super::engine::{AttachmentKind, Gap};
 use super::prelude::*;
 use crate::stability::host::CableModel;
 
@@ -138,7 +138,7 @@ pub fn cases() -> Vec<Case> {
                     w.suspend_checks();
                 } else if at(0.4) {
                     let rope = w.cable_handle(0)?;
-                    let ball = AttachmentKind::Ball;
+                    let ball = AttachmentKind::Ball.with_gap(Gap::Close);
                     w.attachments.push(w.set.attach(&w.physics, rope, At::End, load, Vector::ZERO, ball)?);
                 }
                 if at(0.7) {

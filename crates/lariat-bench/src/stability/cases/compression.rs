@@ -73,7 +73,8 @@ pub fn cases() -> Vec<Case> {
     }
     let folded = case(Family::Compression, "loop folded on itself", 0.5, |w| {
         let points = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, -0.02, 0.0]].map(Vector3::from);
-        let loop_ = Cable::builder().points(points).section(polymer_rope()).elements(20);
+        let loop_ =
+            Cable::builder().points(points).section(polymer_rope()).elements(20).fidelity(Fidelity::Engineering);
         w.rope(loop_.damping(Damping { axial: 1e-4, bending: 1e-2 }), End::Fixed, End::Free)?;
         Ok(Script::new())
     });

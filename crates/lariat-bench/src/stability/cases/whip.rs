@@ -68,6 +68,7 @@ pub fn cases() -> Vec<Case> {
         w.remove_gravity();
         let points = [[0.0, 0.0], [1.0, 0.0], [1.02, 0.02], [1.0, 0.04], [0.0, 0.04]];
         let thread = Cable::builder()
+            .fidelity(Fidelity::Engineering)
             .points(points.map(|[x, y]| Vector3::new(x, y, 0.0)))
             .section(Section::from_stiffness(1e5, 0.0, 0.05)?)
             .elements(60)

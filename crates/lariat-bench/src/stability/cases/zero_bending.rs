@@ -10,7 +10,10 @@ pub fn cases() -> Vec<Case> {
         let zigzag = || [[0.0, 0.0, 0.0], [0.5, 0.1, 0.0], [1.0, 0.0, 0.0]].map(Vector3::from);
         let still = case(Family::ZeroBending, format!("{name}, slack and weightless, stays at rest"), 1.0, move |w| {
             w.remove_gravity();
-            let rope = Cable::builder().points([Vector3::zeros(), Vector3::x()]).section(section);
+            let rope = Cable::builder()
+                .points([Vector3::zeros(), Vector3::x()])
+                .section(section)
+                .fidelity(Fidelity::Engineering);
             w.rope(rope.gravity(Vector3::zeros()), End::Fixed, End::Free)?;
             Ok(Script::new().checks(|w| {
                 let moved = w.cable(0).map_or(f64::NAN, |c| {

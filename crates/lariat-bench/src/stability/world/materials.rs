@@ -1,8 +1,8 @@
 //! Sections, integrators and effects that cases share.
 
 use lariat_ancf::{
-    Buoyancy, Cable, CableBuilder, Damping, Drag, Effects, Flow, GravityScale, Integrator, LineLoad, RestShape,
-    Section, StepControl, Vector3,
+    Buoyancy, Cable, CableBuilder, Damping, Drag, Effects, Fidelity, Flow, GravityScale, Integrator, LineLoad,
+    RestShape, Section, StepControl, Vector3,
 };
 
 /// E = 1e9 Pa, 4000 kg/m^3, square of 1 cm: EA = 1e5 N, 0.4 kg/m.
@@ -23,7 +23,7 @@ pub fn l_stable_integrator() -> Integrator {
 
 /// Begins a cable along a straight line.
 pub fn straight(a: [f64; 3], b: [f64; 3], section: Section) -> CableBuilder {
-    Cable::builder().points([Vector3::from(a), Vector3::from(b)]).section(section)
+    Cable::builder().points([Vector3::from(a), Vector3::from(b)]).section(section).fidelity(Fidelity::Engineering)
 }
 
 /// All effects, mild: damping, drag in a cross wind of 1.1 m/s, buoyancy in air, a rest curvature

@@ -8,8 +8,7 @@ use std::path::Path;
 pub fn run(summary: &Summary, folder: &Path) -> String {
     let energy = |x: Option<f64>| x.map_or("not finite".to_string(), |x| format!("{x:.6} J"));
     format!(
-        "{}{}: {} s in {:.3} s ({:.1} times real time), {} steps, {} rejected, {} Newton iterations, energy {} -> {}\n{}",
-        warnings(summary),
+        "{}: {} s in {:.3} s ({:.1} times real time), {} steps, {} rejected, {} Newton iterations, energy {} -> {}\n{}",
         summary.name,
         summary.simulated_s,
         summary.wall_s,
@@ -27,20 +26,15 @@ pub fn run(summary: &Summary, folder: &Path) -> String {
 pub fn statics(summary: &Summary, folder: &Path) -> String {
     let cables: String = summary.statics.iter().flatten().map(cable).collect();
     let bodies = summary.static_bodies.as_ref().map_or(String::new(), bodies);
-    format!(
-        "{}{}: static equilibrium in {:.3} s\n{cables}{bodies}{}",
-        warnings(summary),
-        summary.name,
-        summary.wall_s,
-        results(folder)
-    )
+    format!("{}: static equilibrium in {:.3} s\n{cables}{bodies}{}", summary.name, summary.wall_s, results(folder))
 }
 
 fn cable(statics: &CableStatics) -> String {
     let stable = if statics.stable { "stable" } else { "unstable or indifferent" };
     let sag = statics.sag_m.map_or(String::new(), |sag| format!(", sag {} m", short(sag)));
+    let jump = statics.tension_jump_n.map_or(String::new(), |jump| format!(" +- {jump:.1e}"));
     let mut text = format!(
-        "cable {:?}: {stable}, residual {:.1e} N after {} iterations\n  peak tension {} N at {} m{sag}\n",
+        "cable {:?}: {stable}, residual {:.1e} N after {} iterations\n  peak tension {}{jump} N at {} m{sag}\n",
         statics.name,
         statics.residual_n,
         statics.iterations,
@@ -88,10 +82,6 @@ fn vector(x: &[f64; 3], scale: f64) -> String {
 fn short(x: f64) -> String {
     let rounded: f64 = format!("{x:.5e}").parse().unwrap_or(x);
     if rounded == 0.0 || (1e-4..1e7).contains(&rounded.abs()) { format!("{rounded}") } else { format!("{rounded:e}") }
-}
-
-fn warnings(summary: &Summary) -> String {
-    summary.warnings.iter().map(|warning| format!("warning: {warning}\n")).collect()
 }
 
 fn results(folder: &Path) -> String {

@@ -8,7 +8,7 @@ mod tables;
 
 use clap::{Args, Parser, Subcommand};
 use lariat_scene::run::{self, Options, Summary};
-use lariat_scene::{Error, Purpose, Scene};
+use lariat_scene::{Error, Purpose, Scene, Warning};
 use std::io::{self, Write};
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -101,7 +101,7 @@ fn run_scene(arguments: &SceneArguments) -> Result<Summary, Error> {
     }
     let mut bar = progress::Bar::new(scene.duration);
     let mut report = |time: f64| bar.advance(time);
-    let mut options = Options { stop, progress: Some(&mut report) };
+    let mut options = Options { stop, progress: Some(&mut report), warn: Some(&mut warn) };
     let outcome = run::run(&scene, &arguments.out, &mut options);
     bar.finish();
     outcome
@@ -109,5 +109,9 @@ fn run_scene(arguments: &SceneArguments) -> Result<Summary, Error> {
 
 fn find_static(arguments: &SceneArguments) -> Result<Summary, Error> {
     let scene = Scene::read(&arguments.scene, &arguments.set, Purpose::Static)?;
-    run::statics(&scene, &arguments.out)
+    run::statics(&scene, &arguments.out, &mut Options { warn: Some(&mut warn), ..Options::default() })
+}
+
+fn warn(warning: &Warning) {
+    let _ = writeln!(io::stderr(), "warning: {warning}");
 }

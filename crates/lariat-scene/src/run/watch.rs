@@ -1,0 +1,114 @@
+//! What a run says about itself: the mesh and the tension at all host times.
+
+use super::World;
+use crate::error::Error;
+use crate::scene::{Purpose, Scene};
+use crate::warning::Warning;
+use lariat_ancf::Cable;
+
+/// Largest estimate of the error of position without a warning, as a share of the length.
+const MESH: f64 = 2e-3;
+/// Largest estimate of the error of a displacement without a warning, as a share of the largest displacement.
+const MOTION: f64 = 0.1;
+/// Errors of a displacement below this share of the length are those of integrators and statics.
+const ROUNDING: f64 = 1e-5;
+/// Largest angle in rad between the end slopes of an element that no node judges.
+const TURN: f64 = 0.2;
+/// Largest tension over EA.
+const STRAIN: f64 = 0.05;
+/// Largest number of elements that is advised.
+const MOST: f64 = 1e6;
+
+/// The worst readings of the cables of a run so far.
+pub(super) struct Watch(Vec<Worst>);
+
+#[derive(Default)]
+struct Worst {
+    /// Positions that displacements are counted from; `None` if they are a guess of the shape.
+    start: Option<Vec<f64>>,
+    /// Estimate of the error of position in m.
+    position: f64,
+    /// Estimate of the error of the displacement in m: the less of those of the shape and of its change.
+    motion: f64,
+    /// Largest displacement in m.
+    displacement: f64,
+    /// Angle in rad between the end slopes of an element.
+    turn: f64,
+    /// Largest tension in N, and its time in s.
+    tension: (f64, f64),
+}
+
+impl Watch {
+    /// Begins with the cables as they are: for a run at t = 0, for statics as drawn. A cable that is not drawn straight is drawn near the
+    /// equilibrium that statics find, and its displacement says nothing.
+    pub fn new(world: &World, purpose: Purpose) -> Self {
+        let drawn = world.scene.cables.iter().map(|cable| purpose == Purpose::Run || cable.points.len() == 2);
+        let worst = |(cable, known): (&Cable, bool)| Worst {
+            start: known.then(|| cable.positions().to_vec()),
+            ..Worst::default()
+        };
+        Watch(world.cables().into_iter().zip(drawn).map(worst).collect())
+    }
+
+    /// Reads the cables at a host time.
+    ///
+    /// # Errors
+    /// [`Error::Mechanics`]; not for cables that keep their meshes.
+    pub fn note(&mut self, world: &World) -> Result<(), Error> {
+        for (worst, cable) in self.0.iter_mut().zip(world.cables()) {
+            let shape = cable.mesh_indicator();
+            worst.position = worst.position.max(shape.position);
+            worst.turn = worst.turn.max(shape.turn);
+            if let Some(start) = &worst.start {
+                let motion = cable.motion_indicator(start)?;
+                worst.motion = worst.motion.max(motion.error.min(shape.position));
+                worst.displacement = worst.displacement.max(motion.displacement);
+            }
+            let (_, tension) = cable.peak_tension();
+            if tension > worst.tension.0 {
+                worst.tension = (tension, cable.time());
+            }
+        }
+        Ok(())
+    }
+
+    /// Returns the warnings about the cables.
+    pub fn warnings(&self, scene: &Scene) -> Vec<Warning> {
+        self.0
+            .iter()
+            .zip(&scene.cables)
+            .flat_map(|(worst, cable)| {
+                let (elements, name) = (cable.elements, || cable.name.clone());
+                let (position, motion) = (worst.position, worst.motion);
+                let mesh = if position > MESH * cable.length {
+                    let enough = more(elements, position / (0.5 * MESH * cable.length));
+                    Some(Warning::CoarseMesh { cable: name(), error_m: position, elements, enough })
+                } else if motion > MOTION * worst.displacement && motion > ROUNDING * cable.length {
+                    let enough = more(elements, motion / (0.5 * MOTION * worst.displacement));
+                    let displacement_m = worst.displacement;
+                    Some(Warning::CoarseMotion { cable: name(), error_m: motion, displacement_m, elements, enough })
+                } else {
+                    None
+                };
+                let turn = (worst.turn > TURN).then(|| {
+                    // an arc of this angle, divided into k elements, has the indicator h turn^3/(96 k^4), h its length
+                    let parts = (worst.turn.powi(3) / (96.0 * 0.5 * MESH)).powf(0.25).max(2.0);
+                    let enough = (elements as f64 * parts).ceil().clamp(4.0, MOST) as usize;
+                    Warning::CoarseElement { cable: name(), turn_rad: worst.turn, elements, enough }
+                });
+                let ea = cable.section.axial_stiffness;
+                let strain = (worst.tension.0 > STRAIN * ea).then(|| {
+                    let (tension_n, time_s) = worst.tension;
+                    Warning::LargeStrain { cable: name(), time_s, tension_n, axial_stiffness_n: ea }
+                });
+                [strain, mesh, turn].into_iter().flatten()
+            })
+            .collect()
+    }
+}
+
+/// Returns a number of elements that makes an error `factor` times smaller, if it falls with the power 2.5 of the element length: smooth
+/// shapes that are resolved converge with 3 to 4, the falling pendulum from 2 to 8 elements with 2 to 3.
+fn more(elements: usize, factor: f64) -> usize {
+    (elements as f64 * factor.powf(0.4)).ceil().min(MOST) as usize
+}

@@ -1,0 +1,129 @@
+//! What is probably not meant in a scene: sizes and materials that no cable has, bodies that nothing holds.
+//!
+//! Sources of the limits: below ten times its thickness a rod shears visibly (the deflection of a Timoshenko cantilever, nu = 0.3, is 0.8 %
+//! above Euler's at 10, 3 % at 5); the softest technical elastomers have 1e5 Pa; the thickest cables are those of suspension
+//! bridges (Akashi Kaikyo: 1.12 m) and the thickest pipelines 1.42 m (56 inches).
+
+use super::body::{BodyKind, BodyScene, BodyShape};
+use super::{CableScene, Purpose, Scene};
+use crate::warning::Warning;
+
+/// Least length over thickness.
+const SLENDERNESS: f64 = 10.0;
+/// Least Young's modulus in Pa.
+const SOFTEST: f64 = 1e5;
+/// Largest thickness in m.
+const THICKEST: f64 = 1.5;
+
+impl Scene {
+    /// Returns warnings about what is probably not meant, as the scene is written.
+    pub fn warnings(&self, purpose: Purpose) -> Vec<Warning> {
+        let mut warnings: Vec<Warning> = self.cables.iter().flat_map(of_cable).collect();
+        if purpose == Purpose::Run {
+            warnings.extend(self.falling());
+        }
+        warnings
+    }
+
+    /// Returns a warning for each dynamic body that nothing holds, loads or stops.
+    fn falling(&self) -> Vec<Warning> {
+        let Some(down) = self.gravity.try_normalize(f64::MIN_POSITIVE) else { return Vec::new() };
+        let fall_m = 0.5 * self.gravity.norm() * self.duration * self.duration;
+        let held = self.held();
+        let falls = |b: &BodyScene| Warning::FallsFreely { body: b.name.clone(), fall_m, duration_s: self.duration };
+        let mut warnings = Vec::new();
+        for (i, body) in self.bodies.iter().enumerate() {
+            let loaded = self.body_loads.iter().any(|load| load.body == i);
+            // where its horizontal velocity may take it
+            let across = body.velocity - down * body.velocity.dot(&down);
+            let reach = radius(body) + across.norm() * self.duration;
+            let stops = |(j, other): (usize, &BodyScene)| {
+                if j == i || !held[j] || matches!(body.shape, BodyShape::None) {
+                    return false;
+                }
+                if let BodyShape::Plane(normal) = other.shape {
+                    return (other.rotation * normal).dot(&down) < 0.0;
+                }
+                let way = other.position - body.position;
+                let fits = (way - down * way.dot(&down)).norm() <= reach + radius(other);
+                !matches!(other.shape, BodyShape::None) && fits && way.dot(&down) > -reach - radius(other)
+            };
+            if !held[i] && !loaded && !self.bodies.iter().enumerate().any(stops) {
+                warnings.push(falls(body));
+            }
+        }
+        warnings
+    }
+
+    /// Returns by body whether it is connected to the world, or to anything but weights, through cables and joints.
+    fn held(&self) -> Vec<bool> {
+        let mut bodies: Vec<bool> = self.bodies.iter().map(|body| body.kind != BodyKind::Dynamic).collect();
+        // loads, flow and buoyancy may carry a cable
+        let carried = |(i, cable): (usize, &CableScene)| {
+            let effects = &cable.effects;
+            let free = effects.present().all(|key| ["damping", "rest_shape", "gravity_scale"].contains(&key));
+            !free || self.loads.iter().any(|load| load.cable == i)
+        };
+        let mut cables: Vec<bool> = self.cables.iter().enumerate().map(carried).collect();
+        loop {
+            let before = (bodies.clone(), cables.clone());
+            for attachment in &self.attachments {
+                match attachment.body {
+                    None => cables[attachment.cable] = true,
+                    Some(body) => join(&mut cables[attachment.cable], &mut bodies[body]),
+                }
+            }
+            for junction in &self.junctions {
+                let [(a, _), (b, _)] = junction.points;
+                let either = cables[a] || cables[b];
+                (cables[a], cables[b]) = (either, either);
+            }
+            for joint in &self.joints {
+                let either = bodies[joint.body] || joint.to.is_none_or(|to| bodies[to]);
+                bodies[joint.body] = either;
+                if let Some(to) = joint.to {
+                    bodies[to] = either;
+                }
+            }
+            if before == (bodies.clone(), cables.clone()) {
+                return bodies;
+            }
+        }
+    }
+}
+
+fn join(a: &mut bool, b: &mut bool) {
+    (*a, *b) = (*a || *b, *a || *b);
+}
+
+/// Returns the radius in m of a sphere about the origin of a body that holds its shape; not for a half space.
+fn radius(body: &BodyScene) -> f64 {
+    match &body.shape {
+        BodyShape::None | BodyShape::Plane(_) => 0.0,
+        BodyShape::Cuboid(half) => half.norm(),
+        BodyShape::Ball(radius) => *radius,
+        BodyShape::Cylinder([half, radius]) => half.hypot(*radius),
+        BodyShape::Capsule([half, radius]) => half + radius,
+        BodyShape::Mesh(mesh) => {
+            mesh.vertices.iter().map(|x| lariat_ancf::Vector3::from(*x).norm()).fold(0.0, f64::max)
+        }
+    }
+}
+
+fn of_cable(cable: &CableScene) -> Vec<Warning> {
+    let mut warnings = Vec::new();
+    let (section, name) = (&cable.section, || cable.name.clone());
+    // a solid round section has EI/EA = (d/4)^2
+    let diameter_m =
+        section.diameter.unwrap_or_else(|| 4.0 * (section.bending_stiffness / section.axial_stiffness).sqrt());
+    let ratio = cable.length / diameter_m;
+    if ratio < SLENDERNESS {
+        warnings.push(Warning::Stubby { cable: name(), ratio, length_m: cable.length, diameter_m });
+    } else if diameter_m > THICKEST && section.diameter.is_some() {
+        warnings.push(Warning::Thick { cable: name(), diameter_m });
+    }
+    if let Some(youngs_modulus_pa) = cable.youngs_modulus.filter(|modulus| *modulus < SOFTEST) {
+        warnings.push(Warning::SoftMaterial { cable: name(), youngs_modulus_pa });
+    }
+    warnings
+}

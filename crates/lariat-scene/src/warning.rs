@@ -1,0 +1,196 @@
+//! Warnings: what is probably not meant, or not good enough, in a scene that runs.
+//!
+//! A warning changes neither results nor exit codes. It says where, how much, and what to do.
+
+use serde::{Deserialize, Serialize, Serializer};
+
+/// A warning about a scene or a run; its text says what to do. In `summary.json` it is its fields with `kind` and `text`.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, thiserror::Error)]
+#[serde(tag = "kind", rename_all = "snake_case")]
+pub enum Warning {
+    /// The elements are too long for the shape.
+    #[error(
+        "cable {cable:?}: the mesh with elements = {elements} puts points probably more than {error_m:.1e} m off: try elements = {enough}"
+    )]
+    CoarseMesh {
+        /// Name of the cable.
+        cable: String,
+        /// Estimate of the largest error of position in m.
+        error_m: f64,
+        /// Number of elements.
+        elements: usize,
+        /// Number of elements that would do.
+        enough: usize,
+    },
+    /// The elements are too long for a small motion of a cable whose shape is resolved.
+    #[error(
+        "cable {cable:?}: the mesh with elements = {elements} is probably off by {error_m:.1e} m, where the largest displacement is \
+         {displacement_m:.1e} m: try elements = {enough}"
+    )]
+    CoarseMotion {
+        /// Name of the cable.
+        cable: String,
+        /// Estimate of the error of the displacement in m.
+        error_m: f64,
+        /// Largest displacement of a node in m.
+        displacement_m: f64,
+        /// Number of elements.
+        elements: usize,
+        /// Number of elements that would do.
+        enough: usize,
+    },
+    /// An element between points that are held or loaded turns too much.
+    #[error(
+        "cable {cable:?}: an element turns by {turn_rad:.2} rad from end to end: try elements = {enough} instead of {elements}"
+    )]
+    CoarseElement {
+        /// Name of the cable.
+        cable: String,
+        /// Angle between the slopes at the ends of the element in rad.
+        turn_rad: f64,
+        /// Number of elements.
+        elements: usize,
+        /// Number of elements that would do.
+        enough: usize,
+    },
+    /// The tension is beyond the range of the law.
+    #[error(
+        "cable {cable:?}: at {time_s:.4} s its tension is {tension_n:.3e} N, {percent:.1} % of EA = {axial_stiffness_n:.3e} N: the law (Green's strain) \
+         holds for small strain and is stiffer than Hooke's beyond; check Young's modulus (Pa), section (m), masses (kg) and length, or \
+         add to EA",
+        percent = 100.0 * .tension_n / .axial_stiffness_n
+    )]
+    LargeStrain {
+        /// Name of the cable.
+        cable: String,
+        /// Time of the largest tension in s.
+        time_s: f64,
+        /// Largest tension in N.
+        tension_n: f64,
+        /// Axial stiffness EA in N.
+        axial_stiffness_n: f64,
+    },
+    /// Too short for its thickness.
+    #[error(
+        "cable {cable:?}: it is {ratio:.3} times as long as thick ({length_m:.4} m, {diameter_m:.3e} m): below 10 its shear is not small, \
+         and it has none; check the section, in m"
+    )]
+    Stubby {
+        /// Name of the cable.
+        cable: String,
+        /// Unstretched length over thickness.
+        ratio: f64,
+        /// Unstretched length in m.
+        length_m: f64,
+        /// Outer diameter or side in m; without a section that of the solid round one with the same EI/EA.
+        diameter_m: f64,
+    },
+    /// Thicker than any cable.
+    #[error("cable {cable:?}: it is {diameter_m} m thick: the section is in m; was {diameter_m} mm meant?")]
+    Thick {
+        /// Name of the cable.
+        cable: String,
+        /// Outer diameter or side in m.
+        diameter_m: f64,
+    },
+    /// Softer than any rope.
+    #[error(
+        "cable {cable:?}: Young's modulus is {youngs_modulus_pa} Pa, softer than any rope or rubber: it is in Pa (steel 2.1e11, rubber \
+         1e6 to 1e8); was {youngs_modulus_pa} GPa meant?"
+    )]
+    SoftMaterial {
+        /// Name of the cable.
+        cable: String,
+        /// Young's modulus in Pa.
+        youngs_modulus_pa: f64,
+    },
+    /// A dynamic body that nothing holds and nothing stops.
+    #[error(
+        "body {body:?}: nothing holds it, and no body is under it: it falls freely, {fall_m:.3e} m in the {duration_s} s of the run; \
+         attach a cable to it, join it, or set gravity = [0, 0, 0]"
+    )]
+    FallsFreely {
+        /// Name of the body.
+        body: String,
+        /// Fall from rest during the run in m.
+        fall_m: f64,
+        /// Duration of the run in s.
+        duration_s: f64,
+    },
+    /// A cable that starts inside a body.
+    #[error(
+        "cable {cable:?}: at {at_m:.4} m it starts {depth_m:.2e} m inside body {body:?}: contact of cables with bodies is not computed, it \
+         passes through; check the points of the cable and the place of the body"
+    )]
+    StartsInside {
+        /// Name of the cable.
+        cable: String,
+        /// Name of the body.
+        body: String,
+        /// Arc length of the deepest node in m.
+        at_m: f64,
+        /// Its distance from the surface in m.
+        depth_m: f64,
+    },
+    /// A rule with zero-energy modes, as the scene allows.
+    #[error("cable {cable:?}: rule {rule} has zero-energy modes, as allowed: {reason}")]
+    RankDeficient {
+        /// Name of the cable.
+        cable: String,
+        /// Name of the rule.
+        rule: String,
+        /// Which modes.
+        reason: String,
+    },
+    /// An equilibrium that is not stable.
+    #[error("cable {cable:?}: the equilibrium found is unstable or indifferent (stiffness not positive definite){}", compressed(.rule, *.compression))]
+    UnstableEquilibrium {
+        /// Name of the cable.
+        cable: String,
+        /// Name of the rule.
+        rule: String,
+        /// Largest compressive strain, if it is beyond what the rule holds.
+        compression: Option<f64>,
+    },
+    /// A dynamic body that statics leave where it is drawn.
+    #[error("body {body:?}: no cable is attached to it: it is left where it is drawn, and may not be at rest there")]
+    LeftAsDrawn {
+        /// Name of the body.
+        body: String,
+    },
+    /// Cable and body start at different velocities.
+    #[error(
+        "attachment {attachment:?}: cable and body start with velocities {difference_m_s:.3e} m/s apart, which gives a shock: give both the \
+         same `velocity` there"
+    )]
+    VelocityJump {
+        /// Name of the attachment.
+        attachment: String,
+        /// Difference of the velocities in m/s.
+        difference_m_s: f64,
+    },
+}
+
+fn compressed(rule: &str, compression: Option<f64>) -> String {
+    let advice = |strain: f64| {
+        let percent = 100.0 * strain;
+        format!(
+            "; it is compressed by {percent:.2} %, and rule {rule} holds thick elements to 0.1 % only: see rule exact-3"
+        )
+    };
+    compression.map_or(String::new(), advice)
+}
+
+/// Serialises warnings with their texts.
+///
+/// # Errors
+/// As the serialiser.
+pub(crate) fn with_texts<S: Serializer>(warnings: &[Warning], serializer: S) -> Result<S::Ok, S::Error> {
+    #[derive(Serialize)]
+    struct WithText<'a> {
+        text: String,
+        #[serde(flatten)]
+        warning: &'a Warning,
+    }
+    serializer.collect_seq(warnings.iter().map(|warning| WithText { text: warning.to_string(), warning }))
+}
