@@ -26,7 +26,6 @@ fn straight(section: Section, length: f64, n: usize, kind: RopeKind) -> Cable {
         .fix(At::Start)
         .fix(At::End)
         .damped_as(kind)
-        .integrator(Integrator::tolerance(Method::Esdirk4, 1e-9).unwrap())
         .build()
         .unwrap()
 }
@@ -58,7 +57,8 @@ fn named_damping_is_the_logarithmic_decrement_of_the_named_modes() {
         let rod = Section::from_stiffness(1e4, 100.0, 1.0).unwrap();
         let bending = (10.0 * PI / length).powi(2) * 10.0;
         let cable = straight(rod, length, n, kind);
-        let found = decrement(cable, &wave(10.0, 1, 1e-6 * bending), bending, ratio, 5);
+        let found = decrement(cable, &wave(10.0, 1, 1e-6 * bending), bending, ratio, 2);
+        println!("{kind}, bending: {found} of {expected}");
         assert!((found / expected - 1.0).abs() < 0.02, "{kind}, bending: {found} of {expected}");
     }
 }
