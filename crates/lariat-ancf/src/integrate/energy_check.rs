@@ -13,7 +13,7 @@
 //! step after which it exceeds 1 % of the largest kinetic and strain energy of the run so far (with
 //! that of a strain of 1e-5, for a run that begins at rest) is rejected and tried at a quarter of its length; if a step of 1/1024 of the first one still
 //! makes it, the host step fails with
-//! [`StepFailure::EnergyMade`](crate::StepFailure::EnergyMade). The account is part of a snapshot. So
+//! [`StepFailure::EnergyMade`]. The account is part of a snapshot. So
 //! no run gains more than this share between any two times.
 //!
 //! # Validity

@@ -60,16 +60,20 @@ impl Equations<'_> {
         }
     }
 
+    /// Returns the coordinates that supports prescribe, with their values at a time.
+    fn prescribed_at(&self, time: f64) -> impl Iterator<Item = (usize, f64)> {
+        self.model.supports.iter().flat_map(move |(node, support)| {
+            let (mut q, mut v) = ([0.0; 6], [0.0; 6]);
+            support.prescribe(time, &mut q, &mut v);
+            prescribed(support).map(move |x| (6 * node + x, q[x]))
+        })
+    }
+
     /// Sets the changes of prescribed coordinates, so that they end where their supports are.
     pub fn prescribe_change(&self, state: &State, b: &mut Buffers) {
-        for (node, support) in &self.model.supports {
-            let (mut q, mut v) = ([0.0; 6], [0.0; 6]);
-            support.prescribe(state.time + b.h, &mut q, &mut v);
-            for x in prescribed(support) {
-                let i = 6 * node + x;
-                b.change[i] = q[x] - state.q[i];
-                b.velocity_change[i] = (b.change[i] / b.h - state.v[i] + ALPHA * b.velocity_before[i]) / BETA;
-            }
+        for (i, end) in self.prescribed_at(state.time + b.h) {
+            b.change[i] = end - state.q[i];
+            b.velocity_change[i] = (b.change[i] / b.h - state.v[i] + ALPHA * b.velocity_before[i]) / BETA;
         }
     }
 
@@ -198,6 +202,10 @@ impl Equations<'_> {
         }
         state.v.iter_mut().zip(&b.taken).for_each(|(v, taken)| *v -= taken);
         state.time += b.h;
+        // the sum above misses them by rounding: a cable between bodies at rest would never be still
+        for (i, end) in self.prescribed_at(state.time) {
+            state.q[i] = end;
+        }
         let memory = &mut state.memory;
         memory.differences.velocity.clone_from(&b.velocity_change);
         memory.differences.displacement.clone_from(&b.change);

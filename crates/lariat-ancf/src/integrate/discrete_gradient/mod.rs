@@ -23,7 +23,7 @@
 //! # Solution
 //!
 //! Newton's iteration begins at the constant acceleration of the step before. One iteration is taken, and *the step is accepted by its own energy law*: the residual r of the
-//! equation makes the energy `v^.r`, which must not be above what the step loses, to 1e-9 of its energy ([`safeguard`]). Only if it is, the step is iterated further, then its
+//! equation makes the energy `v^.r`, which must not be above what the step loses, to 1e-9 of its energy (safeguard.rs). Only if it is, the step is iterated further, then its
 //! velocities relative to rigid motion are scaled down, then it is divided by four.
 //!
 //! # Validity
