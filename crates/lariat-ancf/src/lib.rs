@@ -25,6 +25,7 @@
 //! | module | what it holds |
 //! |---|---|
 //! | [`cable`] | description, state, builder, sampling, energies, edits |
+//! | [`contact`] | what a cable can touch: obstacles, their shapes and motions |
 //! | [`effect`] | one file per effect: damping, drag, buoyancy, rest shape ..., and forces per length of your own |
 //! | [`integrate`] | one file per time integrator, over one trait, which other crates can implement |
 //! | `statics` | static equilibrium: [`Cable::equilibrium`] |
@@ -37,6 +38,7 @@
 pub mod axial;
 pub mod bending;
 pub mod cable;
+pub mod contact;
 mod diagnostics;
 mod dual;
 pub mod effect;
@@ -66,7 +68,7 @@ pub use cable::sample::Sample;
 pub use cable::{At, Cable, Snapshot};
 pub use diagnostics::Diagnostics;
 pub use effect::{
-    Buoyancy, CablePoint, Damping, Drag, EffectCounts, EffectWork, Effects, Flow, ForceDensity, ForceDerivatives,
+    Buoyancy, CablePoint, Contact, Damping, Drag, EffectCounts, EffectWork, Effects, Flow, ForceDensity, ForceDerivatives,
     GravityScale, LineLoad, LineLoads, RestPiece, RestShape, RopeKind,
 };
 pub use error::{EquilibriumFailure, Error, PinProblem, Requirement, StepFailure};

@@ -1,5 +1,6 @@
 //! What a cable is made of: plain data from which everything else is rebuilt.
 
+use crate::contact::Obstacles;
 use crate::effect::force_density::ForceDensities;
 use crate::effect::{Effects, Target};
 use crate::error::{Error, require, require_finite};
@@ -27,6 +28,9 @@ pub struct Model {
     pub(crate) effects: Effects,
     #[serde(default)]
     pub(crate) force_densities: ForceDensities,
+    /// What it can touch; set by the host, no part of a file.
+    #[serde(skip)]
+    pub(crate) obstacles: Obstacles,
 }
 
 impl Model {

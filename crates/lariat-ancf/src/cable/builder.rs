@@ -1,10 +1,11 @@
 //! Building a cable.
 
 use super::{At, Cable, Snapshot, layout};
+use crate::contact::Obstacles;
 use crate::effect::force_density::ForceDensities;
 use crate::effect::{Damping, Effects, ForceDensity, RopeKind};
 use crate::error::{Error, require, require_finite};
-use crate::integrate::{Fidelity, Integrator, IntegratorChoice};
+use crate::integrate::{Fidelity, IntegratorChoice};
 use crate::load::PointLoad;
 use crate::model::{MAX_ELEMENTS, Model};
 use crate::point::Point;
@@ -286,8 +287,14 @@ impl CableBuilder {
             loads: Vec::new(),
             effects: self.effects,
             force_densities: self.force_densities,
+            obstacles: Obstacles::default(),
         };
-        let mut cable = Cable::from_parts(model, snapshot, Integrator::default())?;
+        // contact has one method that can step it
+        let default = match &model.effects.contact {
+            Some(_) => IntegratorChoice::from(Fidelity::Game),
+            None => IntegratorChoice::default(),
+        };
+        let mut cable = Cable::from_parts(model, snapshot, default.integrator(f64::INFINITY))?;
         for (at, hold) in self.holds {
             let node = cable.node(At::ArcLength(arc_length(at)?.min(length)))?;
             let slope = match hold {
@@ -303,7 +310,7 @@ impl CableBuilder {
         for load in self.loads {
             cable.add_load(load)?;
         }
-        cable.set_integrator(cable.integrator_for(self.integrator.unwrap_or_default()))?;
+        cable.set_integrator(cable.integrator_for(self.integrator.unwrap_or(default)))?;
         cable.default_integrator = self.integrator.is_none();
         Ok(cable)
     }

@@ -3,6 +3,7 @@
 use super::Cable;
 use crate::effect::*;
 use crate::error::{Error, Requirement};
+use crate::integrate::Fidelity;
 use crate::rule::BendingRule;
 use nalgebra::Vector3;
 use std::sync::Arc;
@@ -19,16 +20,20 @@ impl Cable {
     }
 
     /// Replaces all effects from the next step on. Positions and velocities stay as they are. Not meant for every step, because it builds
-    /// tables and factors the mass matrix.
+    /// tables and factors the mass matrix. A cable with the default integrator gets that of the fidelity `game` with [`Contact`].
     ///
     /// # Errors
     /// [`Error::InvalidValue`] for a number out of range, [`Error::MissingForEffect`] for an effect that needs a diameter, an area or
     /// a bending rule that the cable does not have, [`Error::EmptyRestPiece`] for a piece of a rest shape that covers no element,
     /// [`Error::WrongCount`] for samples of a flow that are not one per node, [`Error::ExplicitDamping`] for damping with an explicit
-    /// integrator.
+    /// integrator, [`Error::ContactMethod`] for contact with another method than `discrete-gradient`.
     /// The cable is then as before.
     pub fn set_effects(&mut self, effects: Effects) -> Result<(), Error> {
-        self.redefine(self.rule(), effects, self.integrator())
+        let mut integrator = self.integrator();
+        if effects.contact.is_some() && self.default_integrator {
+            integrator = self.integrator_for(Fidelity::Game);
+        }
+        self.redefine(self.rule(), effects, integrator)
     }
 
     fn change_effects(&mut self, change: impl FnOnce(&mut Effects)) -> Result<(), Error> {

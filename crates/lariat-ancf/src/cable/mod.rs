@@ -77,7 +77,7 @@ impl From<f64> for At {
 /// - "Linear elastic" is the St Venant-Kirchhoff law on the Green strain, N = EA (f^2 - 1)/2 f per unstretched length: a good law within a
 ///   few percent of stretch f = 1, too stiff in large extension, too soft in large compression (its stiffness vanishes at f = 0.577).
 /// - No torsion: the section rotates freely about the axis, and no moment about it is transmitted.
-/// - No contact, of cables with bodies, with each other or with themselves; no friction over pulleys.
+/// - [Contact](crate::contact) with obstacles, fixed or moving as prescribed; not with other cables or with itself.
 /// - No reel: the unstretched length is constant, but for [`cut`](Self::cut).
 #[derive(Clone, Debug, Serialize, Deserialize)]
 #[serde(try_from = "saved::Saved", into = "saved::Saved")]
@@ -370,8 +370,11 @@ impl Cable {
     }
 }
 
-/// Checks that a cable has an implicit method where an effect needs one.
+/// Checks that a cable has an implicit method where an effect needs one, and the discrete gradient for contact.
 pub(crate) fn check_integrator(model: &Model, method: &dyn OneStep) -> Result<(), Error> {
+    if model.effects.contact.is_some() && !method.uses_discrete_gradients() {
+        return Err(Error::ContactMethod { cable: model.name.clone(), method: method.name() });
+    }
     if model.effects.needs_implicit_integrator() && method.stability_limit().is_some() {
         return Err(Error::ExplicitDamping { cable: model.name.clone(), method: method.name() });
     }

@@ -39,6 +39,8 @@ macro_rules! for_each_effect {
               summary: "Stress-free stretch and curvature; without it the cable is straight and unstretched at rest." }
             { field: damping, type: Damping, set: set_damping, key: "damping", summary: "Internal damping (Kelvin-Voigt)." }
             { field: drag, type: Drag, set: set_drag, key: "drag", summary: "Drag of a fluid or wind." }
+            { field: contact, type: Contact, set: set_contact, key: "contact",
+              summary: "Contact and friction with what is around the cable." }
         }
     };
 }

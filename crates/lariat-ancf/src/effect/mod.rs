@@ -13,6 +13,7 @@
 //! | [`line_load`] | force per length | a constant vector, once |
 //! | [`rest_shape`] | stress-free stretch and curvature | Gram numbers of the element |
 //! | [`damping`] | Kelvin-Voigt damping | Gram numbers of the element |
+//! | [`contact`] | contact and friction with obstacles | material points of the centre line, in steps of the discrete gradient |
 //! | [`drag`], [`flow`] | drag of a fluid or wind, steady, by tables in place and time, or sampled from a function of yours | Gauss points of the element |
 //!
 //! Bending stiffness is part of the [rule](crate::Rule).
@@ -32,6 +33,7 @@
 
 pub(crate) mod acts;
 pub mod buoyancy;
+pub mod contact;
 pub(crate) mod curvature;
 pub mod damping;
 pub mod drag;
@@ -46,6 +48,7 @@ pub(crate) mod tables;
 pub mod work;
 
 pub use buoyancy::Buoyancy;
+pub use contact::Contact;
 pub use damping::Damping;
 pub use drag::Drag;
 pub use flow::{Flow, Profile};

@@ -99,6 +99,8 @@ pub enum Requirement {
     DisplacedArea,
     /// Drag.
     Drag,
+    /// A radius, of the contact or by the diameter of the section.
+    Radius,
 }
 
 impl fmt::Display for Requirement {
@@ -107,6 +109,7 @@ impl fmt::Display for Requirement {
             Requirement::BendingRule => "a bending rule, and the cable has none",
             Requirement::Diameter => "a diameter: of the section, or of the drag",
             Requirement::DisplacedArea => "a displaced area: of the section, or of the buoyancy",
+            Requirement::Radius => "a radius: of the contact, or by the diameter of the section",
             Requirement::Drag => "drag, and the cable has none",
         })
     }

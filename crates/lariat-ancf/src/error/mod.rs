@@ -110,6 +110,22 @@ pub enum Error {
         /// The number that is missing.
         count: usize,
     },
+    /// Two obstacles with the same key.
+    #[error("cable {cable:?}: two obstacles have the key {key}")]
+    ObstacleKey {
+        /// Name of the cable.
+        cable: String,
+        /// The key.
+        key: u64,
+    },
+    /// Contact with a method that does not carry it.
+    #[error("cable {cable:?}: {method} cannot step contact: use discrete-gradient")]
+    ContactMethod {
+        /// Name of the cable.
+        cable: String,
+        /// Name of the method.
+        method: String,
+    },
     /// A piece of a rest shape that covers no element.
     #[error("cable {cable:?}: no element has its middle in the piece of the rest shape that begins at {from} m")]
     EmptyRestPiece {

@@ -2,6 +2,7 @@
 //! carries from step to step.
 
 use super::discrete_gradient::Differences;
+use crate::contact::ContactMemory;
 use crate::error::{Error, require};
 use serde::{Deserialize, Serialize};
 
@@ -35,6 +36,9 @@ pub struct Memory {
     /// The last step of the discrete gradient.
     #[serde(default)]
     pub differences: Differences,
+    /// Contacts at the end of the last step of the discrete gradient.
+    #[serde(default)]
+    pub contacts: Vec<ContactMemory>,
 }
 
 fn coherent() -> f64 {
@@ -53,6 +57,7 @@ impl Default for Memory {
             energy_made: 0.0,
             largest_energy: 0.0,
             differences: Differences::default(),
+            contacts: Vec::new(),
         }
     }
 }
@@ -84,6 +89,7 @@ impl State {
             energy_made,
             largest_energy,
             differences,
+            contacts,
         } = memory;
         self.time = *time;
         self.q.clone_from(q);
@@ -97,6 +103,7 @@ impl State {
         self.memory.energy_made = *energy_made;
         self.memory.largest_energy = *largest_energy;
         self.memory.differences.copy_from(differences);
+        self.memory.contacts.clone_from(contacts);
     }
 
     /// Checks that this is a finite state of `size` coordinates; `cable` is the name for the error.
@@ -132,6 +139,7 @@ impl State {
                 let mut all = velocity.iter().chain(displacement).chain([step]);
                 all.try_for_each(|&x| finite("change of the last step", x))
             })
+            .and_then(|()| self.memory.contacts.iter().try_for_each(|contact| contact.check(size / 6 - 1)))
             .map_err(|error| error.of_cable(cable))
     }
 }

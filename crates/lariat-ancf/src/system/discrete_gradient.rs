@@ -5,6 +5,7 @@ use super::lanes::discrete_gradient::{CoordinateStep, ElementLoss};
 use super::rigid_motion::relative_velocities;
 use super::{Equations, System, project_vector};
 use crate::cable::Cable;
+use crate::contact::{ContactBalance, Motion};
 use crate::effect::EffectWork;
 use crate::effect::acts::{ForceInput, PointForce, StepInput};
 use crate::error::StepFailure;
@@ -77,6 +78,26 @@ impl Equations<'_> {
         }
     }
 
+    /// Finds the contacts of a step, if the cable can have any.
+    pub fn find_contacts(&self, state: &State, b: &mut Buffers) {
+        let Buffers { contact, change, h, .. } = b;
+        let memory = &state.memory.contacts;
+        contact.begin(&Motion { model: self.model, time: state.time, h: *h, q: &state.q, change, memory });
+    }
+
+    /// Adds contact forces to the residual of the present iterate, and what they do to its balance.
+    fn balance_contacts(&mut self, b: &mut Buffers, balance: &mut Balance, work: &mut EffectWork) {
+        b.contact.complete(self.model, &b.change);
+        let ContactBalance { loss, obstacles, work: own, before, missed, forces } =
+            b.contact.balance(&b.change, &mut b.rhs);
+        self.diagnostics.effects.contact += b.contact.count();
+        work.contact += own;
+        balance.near = true;
+        balance.held += before;
+        (balance.contacts, balance.obstacles) = (loss, obstacles);
+        (balance.missed, balance.forces) = (missed, forces);
+    }
+
     /// Computes `h (G + F - f) - M D v` of the present iterate into `rhs`, and the step matrix if asked. Without it, returns what the
     /// elements lose, and adds the work of effects to `work`.
     pub fn step_residual(
@@ -95,6 +116,10 @@ impl Equations<'_> {
         self.system.mass.multiply(self.system.level, velocity_change, product);
         for i in 0..rhs.len() {
             rhs[i] += *h * external[i] - product[i];
+        }
+        if matrix && !b.contact.is_empty() {
+            self.diagnostics.effects.contact += b.contact.count();
+            b.contact.linearise(&b.change, &mut b.rhs, &mut self.system.step.matrix);
         }
         loss
     }
@@ -164,12 +189,16 @@ impl Equations<'_> {
     pub fn step_balance(&mut self, state: &State, b: &mut Buffers, work: &mut EffectWork) -> Balance {
         let loss = self.step_residual(state, b, false, work);
         let mut balance = Balance { numerical: loss.numerical, effects: loss.effects, ..Balance::default() };
-        let system = &*self.system;
-        let Buffers { h, velocity_before, velocity_change, change, rhs, external, product, .. } = b;
+        let (system, Buffers { change, external, .. }) = (&*self.system, &*b);
         if !self.model.loads.is_empty() {
             let dead = system.loads.gravity_work(change) + system.loads.effect_work(change);
             balance.loads = dot(external, change) - dead - (work.total() + loss.effects);
         }
+        if !b.contact.is_empty() {
+            self.balance_contacts(b, &mut balance, work);
+        }
+        let system = &*self.system;
+        let Buffers { h, velocity_before, velocity_change, change, rhs, external, product, .. } = b;
         for (node, support) in &self.model.supports {
             for x in prescribed(support) {
                 balance.supports -= rhs[6 * node + x] * change[6 * node + x] / *h;
@@ -181,7 +210,8 @@ impl Equations<'_> {
         }
         balance.numerical += 0.5 * ALPHA * system.mass_square(external, product);
         let kinetic = 0.5 * system.mass_square(&state.v, product);
-        balance.held = kinetic + loss.strain + system.scales.weight_energy;
+        balance.held += kinetic + loss.strain + system.scales.weight_energy;
+        balance.weight = system.scales.weight_energy;
         balance
     }
 
@@ -207,6 +237,7 @@ impl Equations<'_> {
             state.q[i] = end;
         }
         let memory = &mut state.memory;
+        b.contact.remember(&mut memory.contacts);
         memory.differences.velocity.clone_from(&b.velocity_change);
         memory.differences.displacement.clone_from(&b.change);
         memory.differences.step = b.h;
@@ -232,6 +263,7 @@ impl DiscreteGradientSystem for CableStep<'_> {
     fn predict(&mut self, h: f64) {
         self.buffers.recall(self.state, h);
         self.equations.prescribe_change(self.state, self.buffers);
+        self.equations.find_contacts(self.state, self.buffers);
     }
 
     fn iterate(&mut self, fresh: bool) -> Result<Balance, StepFailure> {

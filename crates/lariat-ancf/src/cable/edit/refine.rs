@@ -71,6 +71,7 @@ impl Cable {
         memory.acceleration.clear();
         memory.algorithmic.clear();
         memory.valid = false;
+        crate::contact::split_element(&mut memory.contacts, e);
         if !memory.differences.is_empty() {
             cut(&mut memory.differences.velocity);
             cut(&mut memory.differences.displacement);

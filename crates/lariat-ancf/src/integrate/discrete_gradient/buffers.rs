@@ -1,5 +1,6 @@
 //! The memory of the method, and the buffers of a step.
 
+use crate::contact::ContactStep;
 use crate::integrate::State;
 use serde::{Deserialize, Serialize};
 
@@ -68,6 +69,8 @@ pub(crate) struct Buffers {
     pub means: [Vec<f64>; 4],
     /// Any product.
     pub product: Vec<f64>,
+    /// Contacts.
+    pub contact: ContactStep,
 }
 
 impl Buffers {

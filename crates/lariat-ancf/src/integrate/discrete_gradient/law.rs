@@ -16,6 +16,10 @@ pub struct EnergyLaw {
     pub supports: f64,
     /// Work of point loads.
     pub loads: f64,
+    /// Energy that contacts lost: friction and impact. Never falls.
+    pub contacts: f64,
+    /// Work of obstacles that move.
+    pub obstacles: f64,
     /// Sum over all steps of the product of the residual and the velocity: energy by which the iteration missed the law.
     pub residual: f64,
     /// Most energy that a single step made: the product of its residual and velocity beyond what it lost. At most the
@@ -30,6 +34,8 @@ impl EnergyLaw {
         self.rescaled += step.rescaled;
         self.supports += step.supports + step.closing;
         self.loads += step.loads;
+        self.contacts += step.contacts;
+        self.obstacles += step.obstacles;
         self.residual += step.residual;
         self.made = self.made.max(step.excess());
     }
@@ -40,14 +46,16 @@ impl EnergyLaw {
         self.rescaled += other.rescaled;
         self.supports += other.supports;
         self.loads += other.loads;
+        self.contacts += other.contacts;
+        self.obstacles += other.obstacles;
         self.residual += other.residual;
         self.made = self.made.max(other.made);
     }
 
     /// The terms, to check them.
-    pub(crate) fn terms(&self) -> [f64; 6] {
-        let EnergyLaw { numerical, rescaled, supports, loads, residual, made } = *self;
-        [numerical, rescaled, supports, loads, residual, made]
+    pub(crate) fn terms(&self) -> [f64; 8] {
+        let EnergyLaw { numerical, rescaled, supports, loads, contacts, obstacles, residual, made } = *self;
+        [numerical, rescaled, supports, loads, contacts, obstacles, residual, made]
     }
 }
 
@@ -68,8 +76,19 @@ pub(crate) struct Balance {
     pub loads: f64,
     /// Energy taken from velocities.
     pub rescaled: f64,
-    /// Kinetic and strain energy at the beginning, and the weight times 1 mm.
+    /// Kinetic and strain energy and that of contacts at the beginning, and the weight times 1 mm.
     pub held: f64,
+    /// The weight times 1 mm.
+    pub weight: f64,
+    /// Energy that contacts lose.
+    pub contacts: f64,
+    /// Work of obstacles that move.
+    pub obstacles: f64,
+    /// Whether an obstacle is near.
+    pub near: bool,
+    /// Sum in N of contact forces, and of what the linear solve missed of them.
+    pub forces: f64,
+    pub missed: f64,
 }
 
 impl Balance {
@@ -83,16 +102,27 @@ impl Balance {
         self.loads += other.loads;
         self.rescaled += other.rescaled;
         self.held += other.held;
+        self.weight += other.weight;
+        self.contacts += other.contacts;
+        self.obstacles += other.obstacles;
+        self.near |= other.near;
+        self.forces += other.forces;
+        self.missed += other.missed;
     }
 
-    /// Returns what energies are compared with: the energy held at the beginning, and the work of supports and loads.
+    /// Returns what the method itself loses.
+    pub fn losses(&self) -> f64 {
+        self.numerical + self.effects + self.contacts
+    }
+
+    /// Returns what energies are compared with: the energy held at the beginning, and the work of supports, loads and obstacles.
     pub fn scale(&self) -> f64 {
-        self.held + self.supports.abs() + self.loads.abs()
+        self.held + self.supports.abs() + self.loads.abs() + self.obstacles.abs()
     }
 
     /// Returns the energy that the step makes.
     pub fn excess(&self) -> f64 {
-        self.residual - self.numerical - self.effects - self.rescaled
+        self.residual - self.losses() - self.rescaled
     }
 }
 

@@ -5,6 +5,11 @@
 //! 2. Up to eight: with the same factors if only the latter fails, else with a new tangent.
 //! 3. Velocities relative to rigid motion are scaled down, if that takes at most half of their energy; momenta stay.
 //! 4. Four steps of a quarter, each by the same means.
+//!
+//! Friction and impact lose so much that any error of the iteration hides behind them. Near an obstacle a step is therefore accepted only
+//! if its energy balance *closes*, to 1 % of what it loses, and if the contact forces are those of the linear solve, to 1e-3 in sum; every
+//! iteration has a new tangent, and up to 20 are taken. After those the balance alone must close; and in the last division the
+//! energy law alone must hold.
 
 use super::law::{Balance, DiscreteGradientSystem, Event};
 use crate::error::StepFailure;
@@ -15,6 +20,14 @@ const TOLERANCE: f64 = 1e-9;
 const ROUNDING: f64 = 1e-13;
 /// Largest number of Newton iterations.
 const MAX_ITERATIONS: usize = 8;
+/// Largest number of Newton iterations near an obstacle.
+const MAX_ITERATIONS_NEAR: usize = 20;
+/// Share of the losses by which the balance of a step with contact may miss.
+const CLOSURE: f64 = 1e-2;
+/// Energy by which it may miss in any case, as a share of the weight times 1 mm.
+const CLOSURE_OF_WEIGHT: f64 = 1e-6;
+/// Share of the contact forces that the linear solve may miss.
+const CONSISTENCY: f64 = 1e-3;
 /// Number of parts into which a step is divided.
 const PARTS: usize = 4;
 /// Largest number of divisions of divisions.
@@ -28,12 +41,24 @@ fn keeps_law(balance: &Balance) -> bool {
 
 /// Returns whether the residual loses no more than the method itself.
 fn is_accurate(balance: &Balance) -> bool {
-    -balance.residual <= balance.numerical + balance.effects + TOLERANCE * balance.scale()
+    -balance.residual <= balance.losses() + TOLERANCE * balance.scale()
+}
+
+/// Returns whether the balance of a step closes, if an obstacle is near.
+fn closes(balance: &Balance) -> bool {
+    let floor = (TOLERANCE * balance.scale()).max(CLOSURE_OF_WEIGHT * balance.weight);
+    !balance.near || balance.residual <= CLOSURE * balance.losses() + floor
+}
+
+/// Returns whether contact forces are those of the linear solve, to a share of them and of the weight (its energy at 1 mm is its thousandth in
+/// N).
+fn is_consistent(balance: &Balance) -> bool {
+    balance.missed <= CONSISTENCY * balance.forces + balance.weight
 }
 
 /// Returns whether the terms of the law are small enough for their sum to be known to the tolerance.
 fn is_certain(balance: &Balance) -> bool {
-    ROUNDING * (balance.numerical + balance.residual.abs()) <= TOLERANCE * balance.scale()
+    ROUNDING * (balance.numerical + balance.contacts + balance.residual.abs()) <= TOLERANCE * balance.scale()
 }
 
 /// Advances the system by `h` (s).
@@ -44,27 +69,33 @@ pub(super) fn step(system: &mut dyn DiscreteGradientSystem, h: f64, depth: usize
     system.predict(h);
     let mut last = Err(StepFailure::NotConverged { iterations: 0, increment: 0.0 });
     let mut fresh = true;
-    for _ in 0..MAX_ITERATIONS {
+    for i in 0..MAX_ITERATIONS_NEAR {
         last = system.iterate(fresh);
         match &last {
             Ok(balance) if keeps_law(balance) => {
-                if is_accurate(balance) {
+                if is_accurate(balance) && closes(balance) && is_consistent(balance) {
                     break;
                 }
-                fresh = false;
+                fresh = balance.near;
             }
             Ok(balance) if balance.excess().is_finite() => fresh = true,
             _ => break,
         }
+        if i + 1 >= MAX_ITERATIONS && last.as_ref().is_ok_and(|balance| !balance.near) {
+            break;
+        }
     }
     if let Ok(balance) = &last
         && keeps_law(balance)
+        && (closes(balance) || depth == MAX_DEPTH)
     {
         system.accept(balance);
         return Ok(());
     }
     if let Ok(balance) = &mut last
         && is_certain(balance)
+        && (is_consistent(balance) || depth == MAX_DEPTH)
+        && balance.excess() > 0.0
         && system.rescale(balance)
     {
         system.count(Event::Rescaled);

@@ -286,6 +286,10 @@ impl DiscreteGradientSystem for IslandStep<'_, '_> {
         }
         self.buffers.bodies.iter_mut().for_each(|body| body.predict(h));
         self.follow();
+        for cable in self.cables.iter_mut() {
+            let CableStep { equations, state, buffers } = cable.step_parts();
+            equations.find_contacts(state, buffers);
+        }
     }
 
     fn iterate(&mut self, fresh: bool) -> Result<Balance, StepFailure> {

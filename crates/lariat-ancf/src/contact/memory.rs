@@ -1,0 +1,110 @@
+//! What contacts carry from step to step, and what is read of them.
+
+use super::patch::Patch;
+use crate::cable::Cable;
+use crate::error::{Error, require};
+use nalgebra::Vector3;
+use serde::{Deserialize, Serialize};
+
+/// A contact at the end of a step: part of the state. Vectors marked so are in the obstacle's axes.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ContactMemory {
+    /// Element of the cable.
+    pub(super) element: u32,
+    /// Number of the sample, or of the feature behind the samples.
+    pub(super) place: u32,
+    /// Key of the obstacle.
+    pub(super) obstacle: u64,
+    /// Local coordinate in the element.
+    pub(super) xi: f64,
+    /// Weight in m.
+    pub(super) weight: f64,
+    /// The patch, in the obstacle's axes.
+    pub(super) patch: Patch,
+    /// Outward normal, in the obstacle's axes.
+    pub(super) normal: Vector3<f64>,
+    /// Depth in m, less the offset.
+    pub(super) depth: f64,
+    /// Spring of friction in m, in the obstacle's axes.
+    pub(super) spring: Vector3<f64>,
+    /// Normal force in N.
+    pub(super) force: f64,
+    /// Energy in J.
+    pub(super) energy: f64,
+    /// Outward normal, world axes.
+    pub(super) direction: Vector3<f64>,
+    /// Friction in N, world axes.
+    pub(super) friction: Vector3<f64>,
+    /// Whether it slips.
+    pub(super) slips: bool,
+}
+
+/// Element, obstacle and place: no two contacts share them.
+pub(super) type Key = (u32, u64, u32);
+
+impl ContactMemory {
+    pub(super) fn key(&self) -> Key {
+        (self.element, self.obstacle, self.place)
+    }
+
+    pub(crate) fn check(&self, elements: usize) -> Result<(), Error> {
+        let element = self.element as usize;
+        require("element of a contact", element as f64, element < elements, "one of the cable")?;
+        let numbers = [self.xi, self.weight, self.depth, self.force, self.energy];
+        let vectors = [self.normal, self.spring, self.direction, self.friction];
+        let mut all = numbers.into_iter().chain(vectors.iter().flat_map(|v| [v.x, v.y, v.z]));
+        all.try_for_each(|x| require("contact", x, true, "a number"))
+    }
+}
+
+/// Adapts contacts to an element that is split in two: its own are found anew.
+pub(crate) fn split_element(contacts: &mut Vec<ContactMemory>, element: usize) {
+    contacts.retain(|contact| contact.element as usize != element);
+    contacts.iter_mut().filter(|contact| contact.element as usize > element).for_each(|contact| contact.element += 1);
+}
+
+/// A contact of a cable with an obstacle, as it was at the end of the last step.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Touch {
+    /// Key of the obstacle.
+    pub obstacle: u64,
+    /// Arc length in m of the point that touches.
+    pub arc_length: f64,
+    /// Outward normal of the obstacle.
+    pub normal: Vector3<f64>,
+    /// Normal force in N, > 0: the obstacle pushes the cable along the normal.
+    pub normal_force: f64,
+    /// Friction on the cable in N.
+    pub friction: Vector3<f64>,
+    /// Depth in m by which the cable's surface is in the obstacle.
+    pub depth: f64,
+    /// Whether it slips.
+    pub slips: bool,
+}
+
+impl Cable {
+    /// Returns the contacts with obstacles at the end of the last step, by element.
+    pub fn contacts(&self) -> impl Iterator<Item = Touch> {
+        let (mut element, mut begin) = (0, 0.0);
+        self.snapshot.state.memory.contacts.iter().map(move |contact| {
+            while element < contact.element as usize {
+                begin += self.model.elements[element].length;
+                element += 1;
+            }
+            Touch {
+                obstacle: contact.obstacle,
+                arc_length: begin + contact.xi * self.model.elements[element].length,
+                normal: contact.direction,
+                normal_force: contact.force,
+                friction: contact.friction,
+                depth: contact.depth,
+                slips: contact.slips,
+            }
+        })
+    }
+
+    /// Returns the energy in J that contacts store.
+    pub fn contact_energy(&self) -> f64 {
+        self.snapshot.state.memory.contacts.iter().map(|contact| contact.energy).sum()
+    }
+}

@@ -1,0 +1,63 @@
+//! Contact and friction of a cable with obstacles, as a term of a step of the [discrete gradient](crate::integrate::discrete_gradient).
+//!
+//! # Equation
+//!
+//! A contact is a material point x = S q of the centre line with a weight w (a length) against a [`Patch`] of an obstacle. With the gap g
+//! between the centre line and the patch, the depth `d = r - g`, a convex energy W and the spring u of friction
+//!
+//! ```text
+//! normal     f_n = -W'(g1) gbar                        gbar . (y1 - y0) = g1 - g0 exactly          (patch.rs)
+//! friction   u' = P u0 + P (y1 - y0),  |k_t u'| <= mu N: u1 = u', else u1 = mu N/k_t u'/|u'|       (law.rs)
+//!            f_t = -k_t u1
+//! ```
+//!
+//! y is the place relative to the obstacle, N the normal force of the last accepted step. W is convex, so `f_n . D y <= -D W`; return
+//! mapping loses energy for any bound; so with H of the method plus W + k_t u^2/2 no contact can make energy, at any step. Sticking is a
+//! spring, so it does not creep.
+//!
+//! # Where
+//!
+//! Three Gauss points per element act on faces and on round surfaces that are wide beside their spacing. On edges, corners and thin
+//! rods acts the closest point of the element, one for each of these features (find.rs). Both are chosen when a step begins and stay
+//! the same material points during it; so does the patch. A patch is one-sided: as long as the centre line is behind it, it is
+//! kept. It is swept: where the predicted way of a point meets the surface, the patch is that of the meeting point.
+//!
+//! A contact that is deeper when a step begins than it was when the last one ended (a new one that is born deep, an obstacle that was put
+//! elsewhere, another patch) gets an offset of the difference, so that no energy comes from it.
+//!
+//! # Validity
+//!
+//! `k = EA/(40 r^2)` per length: under the tension T around a radius R the depth is 40 (r/R) (T/EA) of the radius. First touch is of order
+//! 1 in the step, and so is friction, whose bound lags by a step. Restitution is zero where the step does not resolve the contact. The
+//! element has no torsion: forces act on the centre line.
+//!
+//! # References
+//!
+//! Simo & Laursen, Comput. Struct. 42 (1992) 97 (return mapping); Gonzalez, J. Nonlinear Sci. 6 (1996) 449; Wriggers, Computational Contact
+//! Mechanics, 2006.
+//!
+//! # Alternatives considered
+//!
+//! Impulses on the Delassus operator (its cost, and divergence on thin cables), barriers with smoothed friction (creep), the secant
+//! instead of the end-point derivative (rings), Hunt-Crossley damping (no gain).
+
+mod find;
+mod law;
+mod memory;
+mod obstacle;
+mod patch;
+mod point;
+mod shapes;
+mod step;
+mod surface;
+
+pub(crate) use memory::split_element;
+pub use memory::{ContactMemory, Touch};
+pub(crate) use find::Motion;
+pub(crate) use law::NormalLaw;
+pub(crate) use obstacle::Obstacles;
+pub use obstacle::{Obstacle, RigidMotion};
+pub use patch::Patch;
+pub use shapes::{Ball, Capsule, Cuboid, Cylinder, HalfSpace};
+pub(crate) use step::{ContactBalance, ContactStep};
+pub use surface::{Feature, FeatureShape, Nearest, Surface};

@@ -1,0 +1,228 @@
+//! Patches: what the surface of an obstacle looks like from a point of the cable, for the time of a step.
+//!
+//! # Equation
+//!
+//! ```text
+//! plane         g = n . z                  gbar = n
+//! line, point   g = |z| - R                gbar = (z0 + z1)/(|z0| + |z1|)        z = y - p, of a line less its part along it
+//! ```
+//!
+//! so `gbar . (y1 - y0) = g1 - g0` exactly. If z turns by more than 20 degrees in a step, the patch is for this step the plane that touches it
+//! where the way of the point meets it: the distance from a line alone would let a point pass through it.
+//!
+//! A patch belongs to the axes of its obstacle. If these turn, z0 and z1 are those in the axes half way, but for points and for lines
+//! about which they turn, whose distance does not depend on the turn.
+
+use super::obstacle::ObstacleStep;
+use nalgebra::Vector3;
+use serde::{Deserialize, Serialize};
+
+/// Cosine of the angle by which z may turn in a step.
+const MAX_TURN: f64 = 0.94;
+/// Square of the sine of the angle between a line and the axis about which it turns, below which it is that axis.
+const PARALLEL: f64 = 1e-12;
+
+/// A part of a surface, in the obstacle's axes; lengths in m, unit directions.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub enum Patch {
+    /// A face.
+    Plane {
+        /// A point of it.
+        point: Vector3<f64>,
+        /// Its outward normal.
+        normal: Vector3<f64>,
+    },
+    /// A cylinder; an edge if its radius is 0.
+    Line {
+        /// A point of its axis.
+        point: Vector3<f64>,
+        /// Its axis.
+        direction: Vector3<f64>,
+        /// Its radius.
+        radius: f64,
+    },
+    /// A ball; a corner if its radius is 0.
+    Point {
+        /// Its centre.
+        point: Vector3<f64>,
+        /// Its radius.
+        radius: f64,
+    },
+}
+
+/// The gap between a point of the centre line and a patch over a step.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct GapStep {
+    /// At the beginning, in m.
+    pub start: f64,
+    /// At the end, in m.
+    pub end: f64,
+    /// Mean gradient gbar.
+    pub mean: Vector3<f64>,
+    /// Gradient at the end.
+    pub normal: Vector3<f64>,
+}
+
+impl Patch {
+    /// Returns the gap and the outward normal at a point in the obstacle's axes.
+    pub(super) fn gap(&self, y: &Vector3<f64>) -> (f64, Vector3<f64>) {
+        match *self {
+            Patch::Plane { point, normal } => (normal.dot(&(y - point)), normal),
+            Patch::Line { point, direction, radius } => {
+                let z = y - point;
+                away(&(z - direction * direction.dot(&z)), radius)
+            }
+            Patch::Point { point, radius } => away(&(y - point), radius),
+        }
+    }
+
+    /// Returns its radius in m; `None` for a plane.
+    pub(super) fn radius(&self) -> Option<f64> {
+        match *self {
+            Patch::Plane { .. } => None,
+            Patch::Line { radius, .. } | Patch::Point { radius, .. } => Some(radius),
+        }
+    }
+
+    /// Returns the gap over a step in which the point at `x` moves by `change`; the surface is met at the gap `reach`.
+    pub(super) fn over_step(
+        &self,
+        obstacle: &ObstacleStep,
+        x: &Vector3<f64>,
+        change: &Vector3<f64>,
+        reach: f64,
+    ) -> GapStep {
+        match *self {
+            Patch::Plane { point, normal } => {
+                let (z0, z1) = obstacle.beside(&point, x, change);
+                let n = obstacle.middle * normal;
+                GapStep { start: n.dot(&z0), end: n.dot(&z1), mean: n, normal: n }
+            }
+            Patch::Line { point, direction, radius } => {
+                let spins = obstacle.turns && {
+                    let a = obstacle.start.rotation * direction;
+                    a.cross(&obstacle.axis).norm_squared() < PARALLEL
+                };
+                let (z0, z1) =
+                    if spins { obstacle.translated(&point, x, change) } else { obstacle.beside(&point, x, change) };
+                let a = obstacle.middle * direction;
+                radial(z0 - a * a.dot(&z0), z1 - a * a.dot(&z1), radius, reach)
+            }
+            Patch::Point { point, radius } => {
+                let (z0, z1) = obstacle.translated(&point, x, change);
+                radial(z0, z1, radius, reach)
+            }
+        }
+    }
+}
+
+/// Returns the gap and the direction of z.
+fn away(z: &Vector3<f64>, radius: f64) -> (f64, Vector3<f64>) {
+    let l = z.norm();
+    (l - radius, if l > 0.0 { z / l } else { Vector3::x() })
+}
+
+/// Returns the gap |z| - R over a step.
+fn radial(z0: Vector3<f64>, z1: Vector3<f64>, radius: f64, reach: f64) -> GapStep {
+    let (l0, l1) = (z0.norm(), z1.norm());
+    if z0.dot(&z1) < MAX_TURN * l0 * l1
+        && let Some(n) = meets(&z0, &z1, l0, radius + reach)
+    {
+        return GapStep { start: n.dot(&z0) - radius, end: n.dot(&z1) - radius, mean: n, normal: n };
+    }
+    let sum = l0 + l1;
+    if !(sum > 0.0) {
+        return GapStep { start: -radius, end: -radius, mean: Vector3::x(), normal: Vector3::x() };
+    }
+    let normal = if l1 > 0.0 { z1 / l1 } else { z0 / l0 };
+    GapStep { start: l0 - radius, end: l1 - radius, mean: (z0 + z1) / sum, normal }
+}
+
+/// Returns the normal where the way from z0 to z1 meets the distance `reach`, that at z0 if it begins within; `None` if it passes by.
+fn meets(z0: &Vector3<f64>, z1: &Vector3<f64>, l0: f64, reach: f64) -> Option<Vector3<f64>> {
+    if l0 <= reach {
+        return (l0 > 0.0).then(|| z0 / l0);
+    }
+    let way = z1 - z0;
+    let (a, b) = (way.norm_squared(), z0.dot(&way));
+    let root = b * b - a * (l0 * l0 - reach * reach);
+    if root < 0.0 || b >= 0.0 || -b - root.sqrt() > a {
+        return None;
+    }
+    (z0 + way * ((-b - root.sqrt()) / a)).try_normalize(0.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::obstacle::RigidMotion;
+    use super::*;
+    use nalgebra::UnitQuaternion;
+
+    fn patches() -> [Patch; 3] {
+        let (point, direction) = (Vector3::new(0.1, -0.2, 0.05), Vector3::new(0.6, 0.0, 0.8));
+        [
+            Patch::Plane { point, normal: direction },
+            Patch::Line { point, direction, radius: 0.3 },
+            Patch::Point { point, radius: 0.3 },
+        ]
+    }
+
+    /// The mean normal times the relative motion is the change of the gap, exactly, and the end is that of the patch's own distance.
+    ///
+    /// *Source.* The distances |z| - R and n . z by their formulas.
+    #[test]
+    fn the_mean_normal_is_a_discrete_gradient_of_the_gap() {
+        let (x, change) = (Vector3::new(0.5, 0.4, -0.3), Vector3::new(-0.03, 0.05, 0.02));
+        let motion = RigidMotion {
+            velocity: Vector3::new(1.0, -2.0, 0.5),
+            rotation: UnitQuaternion::from_euler_angles(0.3, -0.2, 0.9),
+            ..RigidMotion::default()
+        };
+        let step = ObstacleStep::new(&motion, 0.0, 0.01);
+        for patch in patches() {
+            let gap = patch.over_step(&step, &x, &change, 0.005);
+            let relative = change - 0.01 * motion.velocity;
+            assert!((gap.mean.dot(&relative) - (gap.end - gap.start)).abs() < 1e-15, "{patch:?}");
+            let own = motion.rotation.inverse() * (x + relative);
+            let (end, normal) = patch.gap(&own);
+            assert!((end - gap.end).abs() < 1e-15, "{patch:?}");
+            assert!((motion.rotation * normal - gap.normal).norm() < 1e-14, "{patch:?}");
+            // the normal is the gradient of the gap
+            for k in 0..3 {
+                let d = 1e-6 * Vector3::ith(k, 1.0);
+                let slope = (patch.gap(&(own + d)).0 - patch.gap(&(own - d)).0) / 2e-6;
+                assert!((slope - normal[k]).abs() < 1e-9, "{patch:?}");
+            }
+        }
+    }
+
+    /// A drum that turns about its axis does not move the gap; a ball that turns about its centre neither.
+    ///
+    /// *Source.* Symmetry.
+    #[test]
+    fn a_turn_about_its_own_axis_changes_no_gap() {
+        let direction = Vector3::new(0.6, 0.0, 0.8);
+        let motion = RigidMotion { angular_velocity: 90.0 * direction, ..RigidMotion::default() };
+        let step = ObstacleStep::new(&motion, 0.0, 1.0 / 240.0);
+        let point = Vector3::zeros();
+        for patch in [Patch::Line { point, direction, radius: 0.3 }, Patch::Point { point, radius: 0.3 }] {
+            let gap = patch.over_step(&step, &Vector3::new(0.0, 0.305, 0.0), &Vector3::zeros(), 0.005);
+            assert_eq!(gap.start, gap.end);
+            assert!((gap.mean - Vector3::y()).norm() < 1e-15);
+        }
+    }
+
+    /// A point that is carried through a thin rod in one step is behind it, not beside it; one that passes by is not.
+    ///
+    /// *Source.* Geometry.
+    #[test]
+    fn a_way_through_a_rod_ends_behind_its_face() {
+        let patch = Patch::Line { point: Vector3::zeros(), direction: Vector3::z(), radius: 0.003 };
+        let step = ObstacleStep::new(&RigidMotion::default(), 0.0, 0.01);
+        let fall = Vector3::new(0.0, -0.1, 0.0);
+        let through = patch.over_step(&step, &Vector3::new(0.001, 0.05, 0.0), &fall, 0.005);
+        assert!(through.end < -0.05 && through.start > 0.04, "{through:?}");
+        let beside = patch.over_step(&step, &Vector3::new(0.02, 0.05, 0.0), &fall, 0.005);
+        assert!(beside.end > 0.04, "{beside:?}");
+    }
+}

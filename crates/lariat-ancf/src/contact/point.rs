@@ -1,0 +1,281 @@
+//! One contact over a step: its force, its tangent, and what it does to the energy.
+
+use super::law::{NormalLaw, friction, spring_energy};
+use super::memory::{ContactMemory, Key};
+use super::obstacle::ObstacleStep;
+use super::patch::Patch;
+use nalgebra::{Matrix3, Vector3};
+
+/// A material point that can touch an obstacle in the present step.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct ContactPoint {
+    pub key: Key,
+    /// Number of the obstacle.
+    pub obstacle: usize,
+    pub xi: f64,
+    /// Shape functions of its element.
+    pub shape: [f64; 4],
+    /// Length in m that it stands for.
+    pub weight: f64,
+    pub law: NormalLaw,
+    /// Coefficient of friction.
+    pub friction: f64,
+    /// Gap in m at which it touches: radius and skin.
+    pub reach: f64,
+    pub patch: Patch,
+    /// Depth in m that does not count.
+    pub offset: f64,
+    /// Distance in m from the surface at the beginning.
+    pub distance: f64,
+    /// Position at the beginning.
+    pub start: Vector3<f64>,
+    /// Spring of friction at the beginning, in the obstacle's axes.
+    pub spring: Vector3<f64>,
+    /// Largest friction in N.
+    pub bound: f64,
+    /// What the last linear solve was made with.
+    pub linear: Linear,
+    /// The depth and the friction about which the next one is.
+    pub about: About,
+    /// At the end of the present iterate.
+    pub now: Evaluation,
+}
+
+/// A contact as a linear solve sees it.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Linear {
+    pub force: Vector3<f64>,
+    pub tangent: Matrix3<f64>,
+    /// Change of the position of that iterate.
+    pub change: Vector3<f64>,
+    pressure: f64,
+    slope: f64,
+    depth: f64,
+    slides: Option<Vector3<f64>>,
+}
+
+/// How a contact is made linear.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct About {
+    /// The depth that belongs to the force that the last linear solve gave: on the quadratic start of the law, Newton's iteration about the
+    /// depth itself only halves it.
+    pub depth: Option<f64>,
+    /// As if it stuck, because the direction of slip turned round: the solution lies between.
+    pub sticks: bool,
+}
+
+/// A contact at the end of an iterate.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Evaluation {
+    /// Force on the cable in N.
+    pub force: Vector3<f64>,
+    /// Friction alone.
+    pub friction: Vector3<f64>,
+    pub tangent: Matrix3<f64>,
+    pub normal_force: f64,
+    /// Outward normal.
+    pub normal: Vector3<f64>,
+    pub depth: f64,
+    /// Spring of friction in the obstacle's axes half way.
+    pub spring: Vector3<f64>,
+    pub slides: Option<Vector3<f64>>,
+    /// Energy in J that it stores.
+    pub energy: f64,
+    /// Energy in J that it lost.
+    pub loss: f64,
+    /// Work in J of the obstacle's motion.
+    pub work: f64,
+    pressure: f64,
+    slope: f64,
+}
+
+impl ContactPoint {
+    /// Takes up what was remembered of it: the spring and the bound of friction, and the depth, beyond which nothing counts.
+    pub fn recall(&mut self, y: &Vector3<f64>, memory: Option<&ContactMemory>) {
+        let depth = (self.reach - self.patch.gap(y).0).max(0.0);
+        let known = memory.map_or(0.0, |memory| memory.depth);
+        self.offset = (depth - known).max(0.0);
+        if let Some(memory) = memory {
+            self.spring = memory.spring;
+            self.bound = self.friction * memory.force;
+        }
+    }
+
+    /// Returns the energy in J that it stores at the beginning.
+    pub fn energy_before(&self, y: &Vector3<f64>) -> f64 {
+        let depth = self.reach - self.patch.gap(y).0 - self.offset;
+        self.weight * self.law.at(depth).energy + spring_energy(self.law.stiffness * self.weight, &self.spring)
+    }
+
+    /// Returns the change of its position.
+    pub fn change(&self, change: &[f64]) -> Vector3<f64> {
+        combine(change, self.key.0 as usize, &self.shape)
+    }
+
+    /// Evaluates it for a change of its position over the step.
+    pub fn evaluate(&self, obstacle: &ObstacleStep, change: &Vector3<f64>, about: About) -> Evaluation {
+        let gap = self.patch.over_step(obstacle, &self.start, change, self.reach);
+        let depth = self.reach - gap.end - self.offset;
+        let stiffness = self.weight * self.law.stiffness;
+        let u0 = obstacle.middle * self.spring;
+        let before = self.weight * self.law.at(self.reach - gap.start - self.offset).energy;
+        if depth <= 0.0 && about.depth.is_none() {
+            let loss = before + spring_energy(stiffness, &u0);
+            return Evaluation { depth, normal: gap.normal, loss, ..Evaluation::default() };
+        }
+        let end = self.law.at(depth);
+        let (mut pressure, mut slope) = (end.force, end.slope);
+        if let Some(about) = about.depth {
+            let at = self.law.at(about);
+            (pressure, slope) = (at.force + at.slope * (depth - about), at.slope);
+        }
+        let normal_force = self.weight * pressure;
+        let after = self.weight * end.energy;
+        let mut out = Evaluation {
+            force: gap.mean * normal_force,
+            tangent: gap.normal * gap.normal.transpose() * (self.weight * slope),
+            normal_force,
+            normal: gap.normal,
+            depth,
+            energy: after,
+            loss: before - after - normal_force * (gap.end - gap.start),
+            pressure,
+            slope,
+            ..Evaluation::default()
+        };
+        let mut relative = normal_force * (gap.end - gap.start);
+        if self.friction > 0.0 {
+            let slip = obstacle.slip(&self.start, change);
+            let mean = gap.mean.try_normalize(0.0).unwrap_or(gap.normal);
+            let friction = friction(stiffness, self.bound, &mean, &u0, &slip, about.sticks);
+            out.friction = friction.spring * -friction.stiffness;
+            out.force += out.friction;
+            out.tangent += friction.tangent;
+            out.spring = friction.spring;
+            out.slides = friction.slides;
+            out.energy += spring_energy(stiffness, &friction.spring);
+            out.loss += friction.loss;
+            relative += out.friction.dot(&slip);
+        }
+        if obstacle.moves {
+            out.work = out.force.dot(change) - relative;
+        }
+        out
+    }
+
+    /// Makes it linear at a change of its position.
+    pub fn linearise(&mut self, obstacle: &ObstacleStep, change: Vector3<f64>) {
+        let at = self.evaluate(obstacle, &change, self.about);
+        let Evaluation { force, tangent, pressure, slope, depth, slides, .. } = at;
+        self.linear = Linear { force, tangent, change, pressure, slope, depth, slides };
+    }
+
+    /// Evaluates it at the result of the linear solve, and returns how far that was off in N.
+    pub fn follow(&mut self, obstacle: &ObstacleStep, change: Vector3<f64>) -> f64 {
+        let linear = &self.linear;
+        self.now = self.evaluate(obstacle, &change, About::default());
+        let pressure = linear.pressure + linear.slope * (self.now.depth - linear.depth);
+        let turned = linear.slides.zip(self.now.slides).is_some_and(|(a, b)| a.dot(&b) < 0.0);
+        let pushes = linear.slope > 0.0 && pressure > 0.0;
+        self.about = About { depth: pushes.then(|| self.law.depth_of(pressure)), sticks: turned };
+        let believed = linear.force - linear.tangent * (change - linear.change);
+        (self.now.force - believed).norm()
+    }
+}
+
+/// Returns a nodal vector at a point of an element.
+pub(super) fn combine(q: &[f64], element: usize, shape: &[f64; 4]) -> Vector3<f64> {
+    let d = &q[6 * element..6 * element + 12];
+    let part = |x: usize| shape[0] * d[x] + shape[1] * d[3 + x] + shape[2] * d[6 + x] + shape[3] * d[9 + x];
+    Vector3::new(part(0), part(1), part(2))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::obstacle::RigidMotion;
+    use super::*;
+
+    fn point(patch: Patch, friction: f64) -> ContactPoint {
+        let law = NormalLaw::new(1e9, 5e-3);
+        ContactPoint {
+            key: (0, 0, 0),
+            obstacle: 0,
+            xi: 0.5,
+            shape: [0.5, 0.0, 0.5, 0.0],
+            weight: 0.03,
+            law,
+            friction,
+            reach: 5e-3,
+            patch,
+            offset: 0.0,
+            distance: 0.0,
+            start: Vector3::zeros(),
+            spring: Vector3::zeros(),
+            bound: 0.0,
+            linear: Linear::default(),
+            about: About::default(),
+            now: Evaluation::default(),
+        }
+    }
+
+    /// Without friction the tangent is minus the derivative of the force, but for the turn of the mean normal, on a plane; and no contact
+    /// with an obstacle, moving or turning or at rest, loses less than nothing: `F . D x = work - D (W + U) - loss` with a loss above zero.
+    ///
+    /// *Source.* Central differences, and the energies by their formulas.
+    #[test]
+    fn a_contact_makes_no_energy_but_the_work_of_its_obstacle() {
+        let turning = RigidMotion {
+            velocity: Vector3::new(0.3, -0.2, 0.1),
+            angular_velocity: Vector3::new(3.0, 10.0, -5.0),
+            ..RigidMotion::default()
+        };
+        let normal = Vector3::new(0.0, 0.6, 0.8);
+        let patches = [
+            Patch::Plane { point: Vector3::zeros(), normal },
+            Patch::Line { point: Vector3::zeros(), direction: Vector3::x(), radius: 0.1 },
+            Patch::Point { point: Vector3::zeros(), radius: 0.1 },
+        ];
+        for patch in patches {
+            for motion in [RigidMotion::default(), turning] {
+                let step = ObstacleStep::new(&motion, 0.0, 1.0 / 240.0);
+                for i in 0..64 {
+                    let way = |k: i32, n: i32| f64::from((i * n + k * 5) % 11 - 5) * 4e-5;
+                    let mut p = point(patch, 0.4);
+                    let height = patch.radius().unwrap_or(0.0) + 5e-3 + 2e-5 * f64::from(i % 5 - 3);
+                    p.start = height * normal;
+                    p.spring = 1e-6 * Vector3::new(1.0, -0.8, 0.6) * f64::from(i % 3);
+                    p.bound = f64::from(i % 4) * 20.0;
+                    let before = p.energy_before(&p.start);
+                    let change = Vector3::new(way(1, 3), way(2, 7), way(3, 2));
+                    let now = p.evaluate(&step, &change, About::default());
+                    let made = now.force.dot(&change) - now.work + now.energy - before + now.loss;
+                    assert!(made.abs() < 1e-12, "{patch:?} {i} {made:e}");
+                    if !step.turns {
+                        assert!(now.loss > -1e-13, "{patch:?} {i} {:e}", now.loss);
+                    }
+                }
+            }
+        }
+    }
+
+    /// On a plane the tangent is exact: of the normal force, of sticking and of slipping.
+    ///
+    /// *Source.* Central differences.
+    #[test]
+    fn the_tangent_of_a_plane_is_the_derivative_of_the_force() {
+        let step = ObstacleStep::new(&RigidMotion::default(), 0.0, 1.0 / 240.0);
+        for bound in [0.0, 2.0, 1e4] {
+            let mut p = point(Patch::Plane { point: Vector3::zeros(), normal: Vector3::y() }, 0.4);
+            p.start = Vector3::new(0.0, 5e-3 - 2e-5, 0.0);
+            p.bound = bound;
+            let change = Vector3::new(3e-6, -2e-5, 2e-6);
+            let at = |change: &Vector3<f64>| p.evaluate(&step, change, About::default());
+            for c in 0..3 {
+                let d = 1e-10 * Vector3::ith(c, 1.0);
+                let slope = (at(&(change - d)).force - at(&(change + d)).force) / 2e-10;
+                let column = at(&change).tangent.column(c).into_owned();
+                assert!((slope - column).norm() < 1e-4 * 3e7, "{bound} {slope:?} {column:?}");
+            }
+        }
+    }
+}

@@ -1,0 +1,142 @@
+//! All contacts of a cable over a step.
+
+use super::memory::{ContactMemory, Key};
+use super::obstacle::ObstacleStep;
+use super::point::ContactPoint;
+use crate::integrate::discrete_gradient::BETA;
+use crate::linalg::BlockTridiagonal;
+use nalgebra::{Matrix3, Vector3};
+
+/// The contacts of a step, and what may become one; empty for a cable that is near nothing.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct ContactStep {
+    pub(super) points: Vec<ContactPoint>,
+    /// Samples that are near an obstacle, but not near enough to be a contact.
+    pub(super) watched: Vec<ContactPoint>,
+    pub(super) obstacles: Vec<ObstacleStep>,
+    /// By contact of the memory, whether a point took it up.
+    pub(super) recalled: Vec<bool>,
+    /// Length of the step in s.
+    pub(super) h: f64,
+    /// Energy in J that the contacts store at the beginning.
+    pub(super) before: f64,
+}
+
+/// What contacts do to the energy in a step, in J, and how far the linear solve was off.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct ContactBalance {
+    /// Energy that they lose.
+    pub loss: f64,
+    /// Work of obstacles that move.
+    pub obstacles: f64,
+    /// Work on the cable.
+    pub work: f64,
+    /// Energy that they stored at the beginning.
+    pub before: f64,
+    /// Sum in N of the differences between their forces and what the linear solve believed.
+    pub missed: f64,
+    /// Sum in N of their forces.
+    pub forces: f64,
+}
+
+impl ContactStep {
+    /// Returns whether nothing is near.
+    pub fn is_empty(&self) -> bool {
+        self.points.is_empty() && self.watched.is_empty()
+    }
+
+    /// Returns the number of contacts that are evaluated.
+    pub fn count(&self) -> u64 {
+        self.points.len() as u64
+    }
+
+    /// Adds h times the forces, linear about an iterate, to `rhs`, and `b h^2` times their tangents to the matrix.
+    pub fn linearise(&mut self, change: &[f64], rhs: &mut [f64], matrix: &mut BlockTridiagonal) {
+        let h = self.h;
+        for point in &mut self.points {
+            point.linearise(&self.obstacles[point.obstacle], point.change(change));
+            let linear = &point.linear;
+            if linear.tangent == Matrix3::zeros() {
+                continue;
+            }
+            add_force(point, &(linear.force * h), rhs);
+            let tangent = linear.tangent * (BETA * h * h);
+            let element = point.key.0 as usize;
+            for (p, left) in point.shape.iter().enumerate() {
+                for (q, right) in point.shape.iter().enumerate() {
+                    let block = match (p / 2, q / 2) {
+                        (0, 0) => &mut matrix.diag[element],
+                        (1, 1) => &mut matrix.diag[element + 1],
+                        (1, 0) => &mut matrix.lower[element],
+                        _ => continue,
+                    };
+                    let (row, column, weight) = (3 * (p % 2), 3 * (q % 2), left * right);
+                    for c in 0..3 {
+                        for r in 0..3 {
+                            block.0[column + c][row + r] += weight * tangent[(r, c)];
+                        }
+                    }
+                }
+            }
+        }
+    }
+
+    /// Adds h times the forces at an iterate to `rhs`, and returns what they do.
+    pub fn balance(&mut self, change: &[f64], rhs: &mut [f64]) -> ContactBalance {
+        let mut sum = ContactBalance { before: self.before, ..ContactBalance::default() };
+        for point in &mut self.points {
+            let moved = point.change(change);
+            sum.missed += point.follow(&self.obstacles[point.obstacle], moved);
+            let now = &point.now;
+            sum.forces += now.force.norm();
+            sum.loss += now.loss;
+            sum.obstacles += now.work;
+            sum.work += now.force.dot(&moved);
+            if now.normal_force > 0.0 {
+                let force = now.force * self.h;
+                add_force(point, &force, rhs);
+            }
+        }
+        sum
+    }
+
+    /// Remembers the contacts that touch at the end of the step.
+    pub fn remember(&self, memory: &mut Vec<ContactMemory>) {
+        memory.clear();
+        for point in self.points.iter().filter(|point| point.now.normal_force > 0.0) {
+            let (obstacle, now) = (&self.obstacles[point.obstacle], &point.now);
+            let (element, key, place) = point.key;
+            memory.push(ContactMemory {
+                element,
+                place,
+                obstacle: key,
+                xi: point.xi,
+                weight: point.weight,
+                patch: point.patch,
+                normal: obstacle.end.rotation.tr_mul(&now.normal),
+                depth: now.depth,
+                spring: obstacle.middle.tr_mul(&now.spring),
+                force: now.normal_force,
+                energy: now.energy,
+                direction: now.normal,
+                friction: now.friction,
+                slips: now.slides.is_some(),
+            });
+        }
+        memory.sort_unstable_by_key(|contact| contact.key());
+    }
+}
+
+fn add_force(point: &ContactPoint, force: &Vector3<f64>, rhs: &mut [f64]) {
+    let out = &mut rhs[6 * point.key.0 as usize..][..12];
+    for (k, weight) in point.shape.iter().enumerate() {
+        for x in 0..3 {
+            out[3 * k + x] += weight * force[x];
+        }
+    }
+}
+
+/// Returns the contact with a key.
+pub(super) fn find(memory: &[ContactMemory], key: Key) -> Option<usize> {
+    memory.binary_search_by_key(&key, ContactMemory::key).ok()
+}

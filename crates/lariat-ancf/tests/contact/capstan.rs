@@ -1,0 +1,160 @@
+//! Ropes around drums.
+
+use crate::bench::{GRAVITY, MASS, RADIUS, deepest, rope, run, steps, tension, up, with};
+use lariat_ancf::contact::{Cylinder, Obstacle, RigidMotion};
+use lariat_ancf::{At, Cable, Motion, PointLoad, Support, Vector3};
+use nalgebra::UnitQuaternion;
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
+
+const DRUM: f64 = 0.1;
+
+/// A drum about the z axis.
+fn drum(friction: f64, spin: f64) -> Obstacle {
+    let motion = RigidMotion {
+        rotation: UnitQuaternion::from_axis_angle(&Vector3::x_axis(), FRAC_PI_2),
+        angular_velocity: Vector3::z() * spin,
+        ..RigidMotion::default()
+    };
+    Obstacle::new(1, Cylinder { half_height: 2.0, radius: DRUM }, Vector3::zeros(), friction).moving(motion)
+}
+
+/// A rope around the drum by an angle, 12 elements a turn, with straight ends; and the directions in which its ends point.
+fn wrapped(angle: f64, ei: f64) -> (Cable, [Vector3<f64>; 2]) {
+    let middle = DRUM + RADIUS;
+    let element = TAU * middle / 12.0;
+    let pitch = if angle > 6.0 { 3.0 * RADIUS / TAU } else { 0.0 };
+    let turn = middle.hypot(pitch);
+    let around = (angle * turn / element).round() as usize;
+    let straight = (0.25 / element).round();
+    let total = angle * turn + 2.0 * straight * element;
+    let at = |s: f64| {
+        let phi = ((s - straight * element) / turn).clamp(0.0, angle);
+        let out = Vector3::new(phi.cos(), phi.sin(), 0.0);
+        let along = (Vector3::new(-phi.sin(), phi.cos(), 0.0) * middle + Vector3::z() * pitch) / turn;
+        let beyond = s - straight * element - phi * turn;
+        (out * middle + Vector3::z() * (pitch * phi) + along * beyond, along)
+    };
+    let n = around + 2 * straight as usize;
+    let mut cable = rope(ei, &[Vector3::zeros(), Vector3::x() * total], n).gravity(Vector3::zeros()).build().unwrap();
+    let q: Vec<f64> = cable
+        .node_arc_lengths()
+        .iter()
+        .flat_map(|s| {
+            let (x, t) = at(*s);
+            [x.x, x.y, x.z, t.x, t.y, t.z]
+        })
+        .collect();
+    cable.set_coordinates(&q, &vec![0.0; q.len()]).unwrap();
+    (cable, [-at(0.0).1, at(total).1])
+}
+
+fn pulled(cable: &mut Cable, velocity: Vector3<f64>) {
+    let end = cable.node_position(cable.nodes() - 1);
+    let motion = Motion::uniform(0.0, end, velocity);
+    cable.set_support(At::End, Support { position: Some(motion), ..Support::default() }).unwrap();
+}
+
+/// A rope that is dragged over a drum has the tensions of the capstan equation.
+///
+/// *Source.* T2/T1 = exp(mu phi), Euler-Eytelwein. EI = 1e-3: a stiff rope lifts off earlier, which is physics.
+#[test]
+fn tensions_around_a_drum_are_those_of_the_capstan_equation() {
+    let mut table = Vec::new();
+    for friction in [0.1, 0.3, 0.5] {
+        for quarters in [1.0, 2.0, 4.0, 6.0] {
+            let angle = quarters * FRAC_PI_2;
+            let (mut cable, [back, forth]) = wrapped(angle, 1e-3);
+            pulled(&mut cable, forth * 0.05);
+            cable.add_load(PointLoad::force(0.0, back * 100.0)).unwrap();
+            let mut cable = with(cable, vec![drum(friction, 0.0)]);
+            let (length, mut ratios, mut host) = (cable.length(), Vec::new(), 0);
+            let made = run(&mut cable, 90, |cable| {
+                host += 1;
+                if host > 45 {
+                    ratios.push(tension(cable, length - 0.08) / tension(cable, 0.08));
+                }
+            });
+            let mean = ratios.iter().sum::<f64>() / ratios.len() as f64;
+            let error = mean / (friction * angle).exp() - 1.0;
+            let d = cable.diagnostics();
+            println!(
+                "mu {friction}, {:.0} deg: {mean:.3}, {:+.2} %, deepest {:.1e}, made {made:.0e}, {:.1} sweeps/host, {} split",
+                angle.to_degrees(), 100.0 * error, deepest(&cable), d.newton_iterations as f64 / 90.0, d.split_steps
+            );
+            table.push((friction, angle, error));
+        }
+    }
+    for (friction, angle, error) in table {
+        assert!(error.abs() < if friction * angle > 4.0 { 0.02 } else { 0.01 }, "mu {friction}, {angle}: {error}");
+    }
+}
+
+/// A drum that turns under a rope which is held drags it either way with the same ratio, and friction heats as much as the drum works.
+///
+/// *Source.* Euler-Eytelwein.
+#[test]
+fn a_turning_drum_drags_a_rope_that_is_held() {
+    for spin in [5.0, -5.0] {
+        let (mut cable, [back, _]) = wrapped(PI, 1e-3);
+        pulled(&mut cable, Vector3::zeros());
+        cable.add_load(PointLoad::force(0.0, back * 100.0)).unwrap();
+        let mut cable = with(cable, vec![drum(0.3, spin)]);
+        let made = run(&mut cable, 60, |_| {});
+        let ratio = tension(&cable, cable.length() - 0.08) / tension(&cable, 0.08);
+        let exact = (-0.3 * PI * spin.signum()).exp();
+        let before = *cable.energy_law();
+        run(&mut cable, 30, |_| {});
+        let (work, heat) = {
+            let law = cable.energy_law();
+            (law.obstacles - before.obstacles, law.contacts - before.contacts)
+        };
+        // the difference of the tensions acts on the centre line
+        let power = 100.0 * (exact - 1.0f64).abs() * 5.0 * (DRUM + RADIUS) * 0.5;
+        println!("{spin}: {ratio:.4} for {exact:.4}, made {made:.1e}, work {work:.4}, heat {heat:.4}, {power:.4} J");
+        assert!((ratio / exact - 1.0).abs() < 0.01, "{ratio} for {exact}");
+        assert!((work / power - 1.0).abs() < 0.02 && (heat / work - 1.0).abs() < 1e-3, "{work} {heat} {power}");
+    }
+}
+
+/// Five kN at once on both ends press a rope on a drum: it is nowhere deeper than 5 % of its radius, and at rest in 2 s.
+///
+/// *Source.* 40 (r/R) (T/EA) = 1 % of the radius in the mean; 3 % between the samples.
+#[test]
+fn five_kilonewtons_at_once_press_a_rope_by_a_few_percent_of_its_radius() {
+    let (mut cable, [back, forth]) = wrapped(PI, 0.5);
+    cable.add_load(PointLoad::force(0.0, back * 5000.0)).unwrap();
+    cable.add_load(PointLoad::force(cable.length(), forth * 5000.0)).unwrap();
+    let mut cable = with(cable, vec![drum(0.2, 0.0)]);
+    let mut line: f64 = 0.0;
+    for _ in 0..120 {
+        cable.step(1.0 / 60.0).unwrap();
+        for i in 0..=400 {
+            let x = cable.sample(cable.length() * f64::from(i) / 400.0).unwrap().position;
+            line = line.max(DRUM + RADIUS - x.x.hypot(x.y));
+        }
+    }
+    println!("line {line:.2e} m deep, kinetic {:.1e} J, {:?}", cable.energy().kinetic, cable.diagnostics());
+    assert!(line < 0.05 * RADIUS, "{line}");
+    assert!(cable.energy().kinetic < 1e-6);
+}
+
+/// Two weights on a rope over a drum without friction accelerate as Atwood's.
+///
+/// *Source.* a = g (m2 - m1)/(m1 + m2 + m_rope) at equal lengths, here of the first 0.1 s; the weights are the rope's own, of different mass per length.
+#[test]
+fn weights_over_a_drum_without_friction_fall_as_atwoods() {
+    let (mut cable, [left, right]) = wrapped(PI, 1e-3);
+    // loads along gravity on a weightless rope: a = (F2 - F1)/m
+    cable.add_load(PointLoad::force(0.0, left * 50.0)).unwrap();
+    cable.add_load(PointLoad::force(cable.length(), right * 50.5)).unwrap();
+    let mass = MASS * cable.length();
+    let mut cable = with(cable, vec![drum(0.0, 0.0)]);
+    cable.set_integrator(steps(240.0)).unwrap();
+    run(&mut cable, 6, |_| {});
+    let speed = |cable: &Cable| cable.velocities()[6 * (cable.nodes() - 1) + 1].abs();
+    let before = speed(&cable);
+    run(&mut cable, 6, |_| {});
+    let (a, exact) = ((speed(&cable) - before) / 0.1, 0.5 / mass);
+    println!("{a:.4} m/s^2 for {exact:.4} ({:.2} g), {}", exact / GRAVITY, up());
+    assert!((a / exact - 1.0).abs() < 0.01, "{a} for {exact}");
+}

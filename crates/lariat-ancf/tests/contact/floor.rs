@@ -1,0 +1,111 @@
+//! Floors and inclines: rest, sticking, sliding, being carried.
+
+use crate::bench::{GRAVITY, deepest, energies, rope, run, up, with};
+use lariat_ancf::contact::{HalfSpace, Obstacle, RigidMotion};
+use lariat_ancf::{Cable, Vector3};
+
+fn floor(friction: f64) -> Obstacle {
+    Obstacle::new(1, HalfSpace { normal: up() }, Vector3::zeros(), friction)
+}
+
+fn dropped(tilt: f64, friction: f64) -> Cable {
+    let (along, across) = (Vector3::new(tilt.cos(), tilt.sin(), 0.0), Vector3::new(-tilt.sin(), tilt.cos(), 0.0));
+    let start = across * 0.5;
+    with(rope(0.1, &[start, start + along * 2.0], 20).build().unwrap(), vec![floor(friction)])
+}
+
+/// A rope that falls flat, tilted or on its end comes to rest on the floor, and no host step makes energy.
+///
+/// *Source.* The energy law; at rest is below 1e-6 J of kinetic energy. The forces on the rope at rest are its weight.
+#[test]
+fn a_dropped_rope_comes_to_rest_without_making_energy() {
+    for (tilt, friction, limit) in [(0.0, 0.3, 1.1), (0.2, 0.3, 1.6), (0.2, 0.0, 1.6), (1.2, 0.3, 4.5)] {
+        let mut cable = dropped(tilt, friction);
+        let (mut rest, mut time, mut deep) = (0.0, 0.0, 0.0f64);
+        let made = run(&mut cable, 360, |cable| {
+            time += 1.0 / 60.0;
+            deep = deep.max(deepest(cable));
+            if cable.energy().kinetic > 1e-6 {
+                rest = time;
+            }
+        });
+        let d = cable.diagnostics();
+        let held: f64 = cable.contacts().map(|touch| touch.normal_force * touch.normal.y + touch.friction.y).sum();
+        println!(
+            "tilt {tilt}, mu {friction}: made {made:.1e}, at rest {rest:.2} s, deepest {deep:.1e}, {:.1} sweeps/host, {} split, {} rescaled",
+            d.newton_iterations as f64 / 360.0, d.split_steps, d.rescaled_steps
+        );
+        assert!(made < 1e-8, "{tilt}: {made:e}");
+        assert!(rest < limit, "{tilt}: at rest after {rest} s");
+        assert!((held / (0.28 * GRAVITY) - 1.0).abs() < 1e-3, "{tilt}: {held}");
+    }
+}
+
+fn incline(degrees: f64, friction: f64, at: Vector3<f64>) -> Cable {
+    let angle = degrees.to_radians();
+    let points = [at + up() * 0.005, at + Vector3::new(2.0, 0.005, 0.0)];
+    let gravity = GRAVITY * Vector3::new(angle.sin(), -angle.cos(), 0.0);
+    let cable = rope(0.1, &points, 20).gravity(gravity).build().unwrap();
+    with(cable, vec![Obstacle::new(1, HalfSpace { normal: up() }, at, friction)])
+}
+
+/// Below the angle of friction a rope sticks without creep, and above it slides with the acceleration of Coulomb's law.
+///
+/// *Source.* tan 16.699 degrees = 0.3; g (sin a - mu cos a). The bound of friction lags by one step, in which the rope falls freely.
+#[test]
+fn a_rope_on_an_incline_sticks_or_slides_by_coulombs_law() {
+    let friction = 0.3f64;
+    for degrees in [15.0, 16.5, 17.0, 25.0] {
+        let mut cable = incline(degrees, friction, Vector3::zeros());
+        let middle = |cable: &Cable| cable.node_position(10);
+        let start = middle(&cable);
+        run(&mut cable, 60, |_| {});
+        let (first, before) = (middle(&cable), cable.velocities()[60]);
+        run(&mut cable, 600, |_| {});
+        let (moved, speed) = ((middle(&cable) - first).norm(), cable.velocities()[60] - before);
+        let angle = degrees.to_radians();
+        let exact = (GRAVITY * (angle.sin() - friction * angle.cos())).max(0.0) * 10.0;
+        println!("{degrees}: at first {:.1e} m, then {moved:.3e} m, {speed:.6} m/s for {exact:.6}", (first - start).norm());
+        if exact == 0.0 {
+            assert!(moved < 1e-6 && (first - start).norm() < 3e-3, "{degrees}: {moved:e}");
+        } else {
+            assert!((speed / exact - 1.0).abs() < 1e-3, "{degrees}: {speed} for {exact}");
+        }
+    }
+}
+
+/// A conveyor takes a rope along with mu g until it has its speed, and its work is all the energy that the rope gets.
+///
+/// *Source.* Coulomb's law; 0.5 m/s after 0.17 s. The bound lags by one step.
+#[test]
+fn a_conveyor_carries_a_rope() {
+    let rope = rope(0.1, &[up() * 0.005, Vector3::new(2.0, 0.005, 0.0)], 20).build().unwrap();
+    let motion = RigidMotion { velocity: Vector3::new(0.3, 0.0, 0.4), ..RigidMotion::default() };
+    let mut cable = with(rope, vec![floor(0.3).moving(motion)]);
+    let mut speeds = Vec::new();
+    let made = run(&mut cable, 60, |cable| {
+        let v = &cable.velocities()[60..63];
+        speeds.push((v[0] * v[0] + v[2] * v[2]).sqrt());
+    });
+    let early = 0.3 * GRAVITY * (0.1 - 1.0 / 240.0);
+    println!("made {made:.1e}; {:.4} for {early:.4}, {:.6}; {:?}", speeds[5], speeds[59], cable.energy_law());
+    assert!(made < 1e-8, "{made:e}");
+    assert!((speeds[5] / early - 1.0).abs() < 0.01, "{}", speeds[5]);
+    assert!((speeds[59] / 0.5 - 1.0).abs() < 1e-6, "{}", speeds[59]);
+    assert!(cable.energy_law().obstacles > 0.5 * 0.28 * 0.25);
+}
+
+/// A hundred metres further the same rope moves the same way, but for rounding of the coordinates.
+///
+/// *Source.* Symmetry. Rounding at 100 m is 1.4e-14 m.
+#[test]
+fn a_translation_changes_nothing_beyond_rounding() {
+    let run_at = |at: Vector3<f64>| {
+        let mut cable = incline(17.0, 0.3, at);
+        run(&mut cable, 60, |_| {});
+        (cable.node_position(10) - at, energies(&cable)[1])
+    };
+    let ((here, energy), (there, energy_there)) = (run_at(Vector3::zeros()), run_at(Vector3::new(100.0, 0.0, 100.0)));
+    println!("{:.1e} m, {:.1e} J", (here - there).norm(), energy - energy_there);
+    assert!((here - there).norm() < 1e-8, "{:e}", (here - there).norm());
+}
