@@ -5,9 +5,10 @@
 mod common;
 
 use common::pendulum;
+use lariat_ancf::contact::{Cuboid, HalfSpace, Obstacle};
 use lariat_ancf::island::{Island, PinConstraint, RigidBody};
 use lariat_ancf::{
-    At, Damping, Drag, Effects, Fidelity, Flow, Integrator, LineLoad, Method, PointLoad, RestShape, StepControl,
+    At, Contact, Damping, Drag, Effects, Fidelity, Flow, Integrator, LineLoad, Method, PointLoad, RestShape, StepControl,
     Vector3, step_all,
 };
 use std::alloc::{GlobalAlloc, Layout, System};
@@ -120,6 +121,27 @@ fn a_warm_cable_with_effects_steps_without_allocating() {
         run(10);
         assert_eq!(allocations(|| run(100)), 0, "island, {method}");
     }
+}
+
+/// The same for a cable that slides over a floor and a box.
+///
+/// *Source.* The contract.
+#[test]
+fn a_warm_cable_in_contact_steps_without_allocating() {
+    let mut cable = pendulum(10).integrator(Fidelity::Game).build().unwrap();
+    cable.set_contact(Contact::default().with_radius(0.005)).unwrap();
+    let floor = Obstacle::new(1, HalfSpace { normal: Vector3::y() }, Vector3::new(0.0, -0.5, 0.0), 0.3);
+    let block = Cuboid { half_extents: Vector3::repeat(0.1) };
+    let block = Obstacle::new(2, block, Vector3::new(0.5, -0.5, 0.0), 0.3);
+    let mut run = |steps: usize| {
+        for _ in 0..steps {
+            cable.set_obstacles([floor.clone(), block.clone()]).unwrap();
+            cable.step(1.0 / 60.0).unwrap();
+        }
+    };
+    run(120);
+    assert_eq!(allocations(|| run(100)), 0);
+    assert!(cable.contacts().count() > 5);
 }
 
 /// The same for a cable and a body as one system.

@@ -269,18 +269,22 @@ impl Pair<'_> {
         is_thin(patch, self.radius, self.section.length)
     }
 
-    /// Returns the local coordinate of the point of the element that is closest to a feature. A node belongs to the element behind it, so that
-    /// each minimum of the distance along the cable is found once.
+    /// Returns the local coordinate of the point of the element that will be closest to a feature at the end of the step, as far as that is
+    /// known: the closest point at the beginning would slide off, and the cable sink in behind it. A node belongs to the element behind
+    /// it, so that each minimum of the distance along the cable is found once.
     fn closest(&self, feature: &Feature) -> Option<f64> {
-        let (q, e, length) = (self.motion.q, self.element, self.section.length);
-        let at = |xi: f64| self.step.start.to_own(&combine(q, e, &shape::position(xi, length)));
+        let (Motion { q, change, .. }, e, length) = (self.motion, self.element, self.section.length);
+        let end = &self.step.end;
+        let at = |xi: f64| {
+            let shape = shape::position(xi, length);
+            end.to_own(&(combine(q, e, &shape) + combine(change, e, &shape)))
+        };
         let distance = |xi: f64| feature.distance_squared(&at(xi));
         // growth of the distance along the cable at a node, from the node alone: the same number for both of its elements
         let growth = |node: usize| {
-            let x = Vector3::from_column_slice(&q[6 * node..6 * node + 3]);
-            let t = Vector3::from_column_slice(&q[6 * node + 3..6 * node + 6]);
-            let y = self.step.start.to_own(&x);
-            (y - feature.core(&y)).dot(&self.step.start.rotation.tr_mul(&t))
+            let moved = |x: usize| Vector3::from_fn(|k, _| q[6 * node + x + k] + change[6 * node + x + k]);
+            let y = end.to_own(&moved(0));
+            (y - feature.core(&y)).dot(&end.rotation.tr_mul(&moved(3)))
         };
         let last = self.motion.model.elements.len() - 1;
         let mut best: Option<(f64, f64)> = None;

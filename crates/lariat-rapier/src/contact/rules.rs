@@ -1,0 +1,60 @@
+//! Which colliders a cable touches, and with which friction: as Rapier decides it for two colliders.
+
+use crate::handle::CableHandle;
+use rapier::dynamics::CoefficientCombineRule;
+use rapier::geometry::{Collider, ColliderHandle, InteractionGroups};
+use rapier::math::Real;
+use serde::{Deserialize, Serialize};
+use std::fmt;
+use std::sync::Arc;
+
+/// What a cable is for Rapier's rules of contact.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct ContactRules {
+    /// Its collision groups. Default: all.
+    pub collision_groups: InteractionGroups,
+    /// Its solver groups. Default: all.
+    pub solver_groups: InteractionGroups,
+    /// How its friction is combined with that of a collider. Default: the mean of both.
+    pub friction_combine_rule: CoefficientCombineRule,
+}
+
+impl ContactRules {
+    /// Returns whether the cable touches a collider: both groups allow it, it is enabled and no sensor.
+    pub(crate) fn allow(&self, collider: &Collider) -> bool {
+        collider.is_enabled()
+            && !collider.is_sensor()
+            && self.collision_groups.test(collider.collision_groups())
+            && self.solver_groups.test(collider.solver_groups())
+    }
+
+    /// Returns the coefficient of friction between a cable with its own and a collider.
+    pub(crate) fn friction(&self, own: f64, collider: &Collider) -> f64 {
+        let rules = (self.friction_combine_rule, collider.friction_combine_rule());
+        let combined = CoefficientCombineRule::combine(own as Real, collider.friction(), rules.0, rules.1);
+        f64::from(combined).max(0.0)
+    }
+}
+
+/// Decides whether a cable may touch a collider, beyond the groups; for [`CableSet::set_contact_filter`](crate::CableSet::set_contact_filter). It must
+/// depend on its arguments alone.
+#[derive(Clone)]
+pub struct ContactFilter(Arc<dyn Fn(CableHandle, ColliderHandle) -> bool + Send + Sync>);
+
+impl ContactFilter {
+    /// Wraps a function that returns whether they may touch.
+    pub fn new(allows: impl Fn(CableHandle, ColliderHandle) -> bool + Send + Sync + 'static) -> Self {
+        ContactFilter(Arc::new(allows))
+    }
+
+    pub(crate) fn allows(&self, cable: CableHandle, collider: ColliderHandle) -> bool {
+        (self.0)(cable, collider)
+    }
+}
+
+impl fmt::Debug for ContactFilter {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("ContactFilter")
+    }
+}
