@@ -68,8 +68,8 @@ pub use cable::sample::Sample;
 pub use cable::{At, Cable, Snapshot};
 pub use diagnostics::Diagnostics;
 pub use effect::{
-    Buoyancy, CablePoint, Contact, Damping, Drag, EffectCounts, EffectWork, Effects, Flow, ForceDensity, ForceDerivatives,
-    GravityScale, LineLoad, LineLoads, RestPiece, RestShape, RopeKind,
+    Buoyancy, CablePoint, Contact, Damping, Drag, EffectCounts, EffectWork, Effects, Flow, ForceDensity,
+    ForceDerivatives, GravityScale, LineLoad, LineLoads, RestPiece, RestShape, RopeKind,
 };
 pub use error::{EquilibriumFailure, Error, PinProblem, Requirement, StepFailure};
 pub use integrate::{ErrorNorm, Fidelity, Integrator, IntegratorChoice, IntegratorRef, Method, StepControl};

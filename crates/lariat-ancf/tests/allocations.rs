@@ -8,8 +8,8 @@ use common::pendulum;
 use lariat_ancf::contact::{Cuboid, HalfSpace, Obstacle};
 use lariat_ancf::island::{Island, PinConstraint, RigidBody};
 use lariat_ancf::{
-    At, Contact, Damping, Drag, Effects, Fidelity, Flow, Integrator, LineLoad, Method, PointLoad, RestShape, StepControl,
-    Vector3, step_all,
+    At, Contact, Damping, Drag, Effects, Fidelity, Flow, Integrator, LineLoad, Method, PointLoad, RestShape,
+    StepControl, Vector3, step_all,
 };
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;

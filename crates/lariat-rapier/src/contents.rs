@@ -2,6 +2,7 @@
 
 use crate::attachment::Attachment;
 use crate::breaking::Strength;
+use crate::contact::ContactRules;
 use crate::convert;
 use crate::error::Error;
 use crate::handle::{AttachmentHandle, CableHandle, JunctionHandle};
@@ -29,6 +30,15 @@ pub(crate) struct Slot {
     /// `None`: it does not break.
     #[serde(default)]
     pub strength: Option<Strength>,
+    /// What it may touch.
+    #[serde(default)]
+    pub rules: ContactRules,
+    /// Keys of the colliders that it touched at the end of the last host step, and where.
+    #[serde(default)]
+    pub touched: Vec<(u64, f64)>,
+    /// Keys of the colliders in which it was found although it cannot touch them.
+    #[serde(default)]
+    pub ignored: Vec<u64>,
 }
 
 impl Slot {
@@ -68,7 +78,18 @@ impl Contents {
         let sort_key = [start.x, start.y, start.z, end.x, end.y, end.z, cable.length()];
         let gravity = cable.gravity();
         let follows_gravity = gravity == lariat_ancf::STANDARD_GRAVITY;
-        let slot = Slot { asleep: false, modified: true, follows_gravity, gravity, sort_key, strength: None, cable };
+        let slot = Slot {
+            asleep: false,
+            modified: true,
+            follows_gravity,
+            gravity,
+            sort_key,
+            strength: None,
+            rules: ContactRules::default(),
+            touched: Vec::new(),
+            ignored: Vec::new(),
+            cable,
+        };
         let index = self.cables.push(slot);
         self.changed = true;
         self.gravity = None;

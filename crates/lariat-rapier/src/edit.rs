@@ -31,10 +31,10 @@ pub(crate) fn cut(contents: &mut Contents, cable: CableHandle, at: At) -> Result
     let kept = contents.cable_mut(cable)?;
     let rest = kept.cut(at)?;
     let length = kept.length();
-    let inherited = contents.slot(cable).map(|slot| (slot.follows_gravity, slot.strength));
+    let inherited = contents.slot(cable).map(|slot| (slot.follows_gravity, slot.strength, slot.rules));
     let tail = contents.insert(rest);
     if let (Some(slot), Some(inherited)) = (contents.cables.get_mut(tail.0 as usize), inherited) {
-        (slot.follows_gravity, slot.strength) = inherited;
+        (slot.follows_gravity, slot.strength, slot.rules) = inherited;
     }
     let held = contents.attachments.values_mut().map(|a| (&mut a.cable, &mut a.arc_length));
     let tied = contents.junctions.values_mut().flat_map(|j| j.nodes.iter_mut().zip(&mut j.arc_lengths));

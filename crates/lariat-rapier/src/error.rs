@@ -4,6 +4,7 @@ use crate::contents::Contents;
 use crate::handle::{AttachmentHandle, CableHandle, JunctionHandle};
 use crate::islands::Island;
 use rapier::dynamics::RigidBodyHandle;
+use rapier::geometry::ColliderHandle;
 use thiserror::Error as ThisError;
 
 /// What can go wrong between cables and bodies.
@@ -101,6 +102,21 @@ pub enum Error {
         body: RigidBodyHandle,
         /// The other body; `None` for a collider without one.
         other: Option<RigidBodyHandle>,
+    },
+    /// A cable with contact that would be in a collider in equilibrium: statics compute no contacts.
+    #[error(
+        "statics compute no contacts, and cable {cable:?} would be {depth:.1e} m in collider {collider:?} at {arc_length} m: \
+         step until it rests"
+    )]
+    CableTouchesInStatics {
+        /// Name of the cable.
+        cable: String,
+        /// The collider.
+        collider: ColliderHandle,
+        /// Arc length in m.
+        arc_length: f64,
+        /// Depth in m.
+        depth: f64,
     },
     /// A body whose state is not finite.
     #[error("body {body:?} has a {quantity} that is not finite at t = {time} s")]

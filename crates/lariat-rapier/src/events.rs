@@ -2,6 +2,7 @@
 
 use crate::handle::{AttachmentHandle, CableHandle};
 use rapier::dynamics::RigidBodyHandle;
+use rapier::geometry::ColliderHandle;
 
 /// Something that happened during a host step.
 #[derive(Clone, Debug, PartialEq)]
@@ -27,6 +28,34 @@ pub enum Event {
         arc_length: f64,
         /// The tension in N at which it broke.
         tension: f64,
+    },
+    /// A cable began to touch a collider.
+    ContactStarted {
+        /// The cable.
+        cable: CableHandle,
+        /// The collider.
+        collider: ColliderHandle,
+        /// Arc length of the centre of the forces in m.
+        arc_length: f64,
+        /// Sum of the normal forces in N.
+        force: f64,
+    },
+    /// A cable no longer touches a collider.
+    ContactEnded {
+        /// The cable.
+        cable: CableHandle,
+        /// The collider; it may be gone.
+        collider: ColliderHandle,
+        /// Arc length in m where it was last touched.
+        arc_length: f64,
+    },
+    /// A cable with contact is in a collider that it cannot touch: that of a dynamic body, or one with a shape of the
+    /// program's own. Said once for each.
+    ContactIgnored {
+        /// The cable.
+        cable: CableHandle,
+        /// The collider.
+        collider: ColliderHandle,
     },
     /// A cable woke up.
     Awake(CableHandle),

@@ -30,6 +30,7 @@
 //! |---|---|
 //! | attach cables and step | [`CableSet`], [`Settings`] |
 //! | make the usual rope in one line | [`CableSet::add_rope`], [`Rope`] |
+//! | let a cable touch colliders | [`CableSet::set_contact`], [`ContactRules`], [`CableSet::contacts`] |
 //! | let a cable break | [`CableSet::set_strength`] |
 //! | read forces, gaps and work | [`Attachment`], [`AttachmentReading`], [`WorldEnergy`] |
 //! | tie cables to each other | [`CableSet::join`], [`Junction`] |
@@ -67,7 +68,7 @@
 //! ([`Attachment`]).
 //!
 //! # Validity
-//! - See the limits of [`CableSet`]: no contact of cables, no reel, one number of Rapier steps for
+//! - See the limits of [`CableSet`]: no contact with dynamic bodies, no reel, one number of Rapier steps for
 //!   the whole world, and what is predicted of mechanisms.
 //! - An undamped cable oscillates for ever, and so does the force at its end: a rope that was slack
 //!   and bowed has a tension ripple of 1 % when it is taut, with any integrator. Give it damping
@@ -106,6 +107,7 @@ mod attach;
 mod attachment;
 mod body;
 mod breaking;
+mod contact;
 mod contents;
 pub mod convert;
 #[cfg(feature = "debug-render")]
@@ -133,6 +135,7 @@ mod world_mark;
 
 pub use attachment::{Attachment, AttachmentKind, AttachmentOptions, AttachmentReading, Gap};
 pub use body::rigid_body;
+pub use contact::{ContactFilter, ContactRules};
 #[cfg(feature = "debug-render")]
 pub use draw::DrawStyle;
 pub use error::{BodyQuantity, Error, Failure};

@@ -2,6 +2,7 @@
 
 use crate::attachment::{Attachment, AttachmentKind, AttachmentOptions, Gap};
 use crate::breaking::Strength;
+use crate::contact::{self, ContactFilter, ContactRules};
 use crate::contents::Contents;
 #[cfg(feature = "debug-render")]
 use crate::draw::{self, DrawStyle};
@@ -15,8 +16,10 @@ use crate::statics::{self, Equilibrium};
 use crate::step::{self, HostStep, Stepper};
 use crate::totals::{self, WorldEnergy};
 use crate::{attach, breaking, edit, join, world_mark};
-use lariat_ancf::{At, Cable, EquilibriumOptions, Momentum, Point};
+use lariat_ancf::contact::Touch;
+use lariat_ancf::{At, Cable, Contact, EquilibriumOptions, Momentum, Point};
 use rapier::dynamics::RigidBodyHandle;
+use rapier::geometry::ColliderHandle;
 #[cfg(feature = "debug-render")]
 use rapier::pipeline::DebugRenderBackend;
 use rapier::pipeline::{EventHandler, PhysicsHooks, PhysicsWorld};
@@ -25,7 +28,8 @@ use serde::{Deserialize, Serialize};
 /// The cables of a world, attached to its bodies and to each other.
 ///
 /// # Limits
-/// - Cables do not collide: neither with colliders nor with each other.
+/// - Cables touch fixed and kinematic colliders, if they are told to
+///   ([`set_contact`](Self::set_contact)); neither dynamic bodies, which an event says, nor each other.
 /// - A cable has a fixed natural length: there is no reel. [`cut`](Self::cut) and
 ///   [`get_mut`](Self::get_mut) change it between steps.
 /// - All cables of a set share one number of Rapier steps per host step ([`Settings`]), which is
@@ -113,6 +117,42 @@ impl CableSet {
             slot.strength = strength.map(|limit| Strength { limit, compared: false });
         }
         Ok(())
+    }
+
+    /// Lets a cable touch the colliders of fixed and kinematic bodies, or no longer with `None`. Needs the method
+    /// `discrete-gradient`, which a cable gets if nobody chose its integrator. The cable's own friction is combined
+    /// with that of a collider as [`set_contact_rules`](Self::set_contact_rules) say.
+    ///
+    /// # Errors
+    /// [`Error::NoCable`]; [`Error::Cable`] for numbers out of range, for a cable without a diameter or a radius, and
+    /// for another method.
+    pub fn set_contact(&mut self, cable: CableHandle, contact: impl Into<Option<Contact>>) -> Result<(), Error> {
+        Ok(self.contents.cable_mut(cable)?.set_contact(contact)?)
+    }
+
+    /// Sets the groups of a cable, and how its friction is combined, for its contacts.
+    ///
+    /// # Errors
+    /// [`Error::NoCable`].
+    pub fn set_contact_rules(&mut self, cable: CableHandle, rules: ContactRules) -> Result<(), Error> {
+        let slot = self.contents.cables.get_mut(cable.0 as usize).ok_or(Error::NoCable(cable))?;
+        (slot.rules, slot.modified) = (rules, true);
+        Ok(())
+    }
+
+    /// Sets a function that decides which colliders cables may touch, beyond their groups; it is no part of a
+    /// snapshot.
+    pub fn set_contact_filter(&mut self, filter: Option<ContactFilter>) {
+        self.stepper.finder.filter = filter;
+        self.contents.cables.values_mut().for_each(|slot| slot.modified = true);
+    }
+
+    /// Returns the contacts of a cable at the end of the last step, each with its collider.
+    ///
+    /// # Errors
+    /// [`Error::NoCable`].
+    pub fn contacts(&self, cable: CableHandle) -> Result<impl Iterator<Item = (ColliderHandle, Touch)>, Error> {
+        Ok(self.get(cable)?.contacts().map(|touch| (contact::collider(touch.obstacle), touch)))
     }
 
     /// Removes a cable with its attachments, and takes it out of its junctions.
@@ -336,6 +376,7 @@ impl CableSet {
     pub fn finish(&mut self, world: &mut PhysicsWorld, host: HostStep) -> Result<(), Error> {
         step::finish(&mut self.contents, world, &host);
         if host.is_complete() {
+            contact::events::compare(&mut self.contents, &mut self.stepper.events);
             breaking::break_overloaded(&mut self.contents, &mut self.stepper.events);
         }
         self.failures().first().map_or(Ok(()), |failure| Err(failure.error.clone()))
@@ -348,10 +389,11 @@ impl CableSet {
     /// # Errors
     /// [`Error::Cable`] with [`NoEquilibrium`](lariat_ancf::Error::NoEquilibrium) if an island has none;
     /// [`Error::JointInStatics`] and [`Error::ContactInStatics`] for bodies with joints and contacts;
+    /// [`Error::CableTouchesInStatics`] for a cable with contact that would be in a collider;
     /// [`Error::OtherWorld`]. Set and world are then as before.
     pub fn equilibrium(&mut self, world: &mut PhysicsWorld) -> Result<Equilibrium, Error> {
         world_mark::check(&mut self.contents, world)?;
-        statics::equilibrium(&mut self.contents, world, EquilibriumOptions::default())
+        statics::equilibrium(&mut self.contents, &mut self.stepper.finder, world, EquilibriumOptions::default())
     }
 
     /// Returns the events of the last host step.

@@ -10,6 +10,7 @@
 //! alone may end in an indifferent shape, which its report says.
 
 use crate::body::{is_integrated, rigid_body};
+use crate::contact::broad::Finder;
 use crate::contents::Contents;
 use crate::convert::{rotation, to_pose, vector};
 use crate::error::Error;
@@ -60,6 +61,7 @@ struct Solved<'a> {
 /// Moves cables and the dynamic bodies attached to them to static equilibrium.
 pub(crate) fn equilibrium(
     contents: &mut Contents,
+    finder: &mut Finder,
     world: &mut PhysicsWorld,
     options: EquilibriumOptions,
 ) -> Result<Equilibrium, Error> {
@@ -76,6 +78,12 @@ pub(crate) fn equilibrium(
     }
     let poses: Vec<(RigidBodyHandle, Pose)> = solved.iter().flat_map(|s| poses(world, s)).collect();
     check_contacts(world, &poses)?;
+    finder.begin(contents, world, 0.0);
+    for solved in &mut solved {
+        for (&index, cable) in solved.island.cables.iter().zip(&mut solved.cables) {
+            finder.check_statics(contents, world, index, cable)?;
+        }
+    }
     for a in contents.attachments.values() {
         if !is_integrated(world, a.body) && !out.held.contains(&a.body) {
             out.held.push(a.body);
@@ -101,6 +109,8 @@ fn solve<'a>(
     out: &mut Equilibrium,
 ) -> Result<Solved<'a>, Error> {
     let mut cables: Vec<Cable> = contents.cables_at(&island.cables).into_iter().map(|cable| cable.clone()).collect();
+    // what is touched is looked up when the shape is known
+    cables.iter_mut().try_for_each(|cable| cable.set_obstacles([]))?;
     for a in island.supports.iter().filter_map(|&i| contents.attachments.get(i)) {
         let Some(cable) = island.cables.iter().position(|&c| c == a.cable.0 as usize) else { continue };
         let body = world.bodies.get(a.body).ok_or(Error::NoBody(a.body))?;

@@ -103,6 +103,12 @@ impl Cable {
         })
     }
 
+    /// Returns the largest radius in m with which it touches; 0 without [`Contact`](crate::Contact).
+    pub fn contact_radius(&self) -> f64 {
+        let Some(contact) = self.effects().contact else { return 0.0 };
+        self.elements().iter().fold(0.0, |most: f64, element| most.max(contact.radius_of(&element.section)))
+    }
+
     /// Returns the energy in J that contacts store.
     pub fn contact_energy(&self) -> f64 {
         self.snapshot.state.memory.contacts.iter().map(|contact| contact.energy).sum()

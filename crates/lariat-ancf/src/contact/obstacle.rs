@@ -206,12 +206,7 @@ impl ObstacleStep {
     }
 
     /// Returns vectors from one of its points to a point of the cable at both ends, in the axes half way.
-    pub fn beside(
-        &self,
-        own: &Vector3<f64>,
-        x: &Vector3<f64>,
-        change: &Vector3<f64>,
-    ) -> (Vector3<f64>, Vector3<f64>) {
+    pub fn beside(&self, own: &Vector3<f64>, x: &Vector3<f64>, change: &Vector3<f64>) -> (Vector3<f64>, Vector3<f64>) {
         if self.turns {
             let (y0, y1) = (self.start.to_own(x), self.end.to_own(&(x + change)));
             (self.middle * (y0 - own), self.middle * (y1 - own))

@@ -162,9 +162,7 @@ impl Surface for Cuboid {
 
     fn features(&self, _: &Vector3<f64>, _: f64, visit: &mut dyn FnMut(Feature)) {
         let half = self.half_extents;
-        let corner = |i: u32| {
-            Vector3::from_fn(|axis, _| if (i >> axis) & 1 == 1 { half[axis] } else { -half[axis] })
-        };
+        let corner = |i: u32| Vector3::from_fn(|axis, _| if (i >> axis) & 1 == 1 { half[axis] } else { -half[axis] });
         let mut id = 0;
         for i in 0..8 {
             for axis in (0..3).filter(|axis| (i >> axis) & 1 == 0) {
@@ -201,7 +199,8 @@ mod tests {
         ];
         for shape in &shapes {
             for i in 0..343 {
-                let y = Vector3::new(f64::from(i % 7) - 3.1, f64::from(i / 7 % 7) - 2.9, f64::from(i / 49) - 3.05) * 0.2;
+                let y =
+                    Vector3::new(f64::from(i % 7) - 3.1, f64::from(i / 7 % 7) - 2.9, f64::from(i / 49) - 3.05) * 0.2;
                 let near = shape.nearest(&y);
                 let (gap, normal) = near.patch.gap(&y);
                 assert!((gap - near.distance).abs() < 1e-14, "{shape:?} {y:?}");

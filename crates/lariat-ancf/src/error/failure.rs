@@ -79,6 +79,18 @@ pub enum EquilibriumFailure {
         /// The first folded element.
         element: usize,
     },
+    /// The shape that was found is in something that the cable can touch, and statics compute no contacts.
+    #[error(
+        "statics compute no contacts, and the cable would be {depth:.1e} m in obstacle {obstacle} at {arc_length} m"
+    )]
+    Touches {
+        /// Key of the obstacle.
+        obstacle: u64,
+        /// Arc length in m.
+        arc_length: f64,
+        /// Depth in m.
+        depth: f64,
+    },
     /// The iteration did not converge.
     #[error("the iteration did not converge")]
     NotConverged,

@@ -3,6 +3,7 @@
 use super::attempt::{Budget, EquilibriumReport, Failure};
 use super::{folds, start_shape};
 use crate::cable::Cable;
+use crate::contact::Overlap;
 use crate::error::{EquilibriumFailure, Error, require};
 use crate::model::Model;
 use crate::support::SlopeSupport;
@@ -62,6 +63,12 @@ impl Cable {
                 // the work of drag during the search is not part of the cable's history
                 self.snapshot.work = work;
                 self.set_at_rest();
+                if let Some(overlap) = self.overlap() {
+                    let Overlap { obstacle, arc_length, depth } = overlap;
+                    self.snapshot = before;
+                    let failure = EquilibriumFailure::Touches { obstacle, arc_length, depth };
+                    return Err(no_equilibrium(self, failure, 0.0, budget.done));
+                }
                 Ok(report)
             }
             Err(failure) => {

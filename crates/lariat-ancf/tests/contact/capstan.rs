@@ -79,7 +79,11 @@ fn tensions_around_a_drum_are_those_of_the_capstan_equation() {
             let d = cable.diagnostics();
             println!(
                 "mu {friction}, {:.0} deg: {mean:.3}, {:+.2} %, deepest {:.1e}, made {made:.0e}, {:.1} sweeps/host, {} split",
-                angle.to_degrees(), 100.0 * error, deepest(&cable), d.newton_iterations as f64 / 90.0, d.split_steps
+                angle.to_degrees(),
+                100.0 * error,
+                deepest(&cable),
+                d.newton_iterations as f64 / 90.0,
+                d.split_steps
             );
             table.push((friction, angle, error));
         }
@@ -157,7 +161,8 @@ fn weights_over_a_drum_without_friction_fall_as_atwoods() {
     let speed = |cable: &Cable| cable.velocities()[6 * (cable.nodes() - 1) + 1];
     let mut speeds = Vec::new();
     let made = run(&mut cable, 12, |cable| speeds.push(speed(cable)));
-    let (a, exact) = ((speeds[2] - speeds[10]) / (8.0 / 60.0), GRAVITY * 5.0 / (15.0 + MASS * (length - 2.0 * element)));
+    let (a, exact) =
+        ((speeds[2] - speeds[10]) / (8.0 / 60.0), GRAVITY * 5.0 / (15.0 + MASS * (length - 2.0 * element)));
     println!("{a:.4} m/s^2 for {exact:.4}, made {made:.1e}");
     assert!((a / exact - 1.0).abs() < 0.01, "{a} for {exact}");
 }

@@ -34,7 +34,11 @@ fn a_swing_around_a_drum_keeps_its_energy() {
         let range = (1.0 * 1.975 + 0.14 * 1.95 * 0.975) * GRAVITY * 0.2;
         let made = run(&mut cable, 300, |_| {});
         let share = (start - cable.energy().total()) / range;
-        println!("1/{rate} s: loses {:.2} % of {range:.2} J in 5 s, made {made:.1e}, {:?}", 100.0 * share, cable.energy_law());
+        println!(
+            "1/{rate} s: loses {:.2} % of {range:.2} J in 5 s, made {made:.1e}, {:?}",
+            100.0 * share,
+            cable.energy_law()
+        );
         assert!(made < 1e-8, "{made:e}");
         share
     };
@@ -85,7 +89,10 @@ fn thrown_ropes_make_no_energy() {
             sunk += usize::from(deep == 6);
         });
         if made > 1e-9 {
-            println!("seed {seed}: {made:.1e} {ea:.0e} {ei:.0e} {mass:.0e} {elements} {friction:.2} {held} {:?}", energies(&cable));
+            println!(
+                "seed {seed}: {made:.1e} {ea:.0e} {ei:.0e} {mass:.0e} {elements} {friction:.2} {held} {:?}",
+                energies(&cable)
+            );
         }
         worst = worst.max(made);
         let d = cable.diagnostics();
@@ -94,6 +101,9 @@ fn thrown_ropes_make_no_energy() {
         rescaled += d.rescaled_steps;
         hosts += 60;
     }
-    println!("{seeds} seeds: made {worst:.1e}, {:.1} sweeps/host, {split} split, {rescaled} rescaled, {sunk} sunk", sweeps as f64 / f64::from(hosts));
+    println!(
+        "{seeds} seeds: made {worst:.1e}, {:.1} sweeps/host, {split} split, {rescaled} rescaled, {sunk} sunk",
+        sweeps as f64 / f64::from(hosts)
+    );
     assert!(worst < 1e-7, "{worst:e}");
 }

@@ -42,7 +42,8 @@ fn the_edge_of_a_box_is_not_cut_at_any_mesh() {
     for elements in [20, 40, 80] {
         for shift in [0.0, 0.013] {
             let from = Vector3::new(-1.0 + shift, RADIUS, 0.0);
-            let cable = rope(0.01, &[from, from + Vector3::new(2.0, 0.0, 0.0)], elements).fix(At::Start).build().unwrap();
+            let cable =
+                rope(0.01, &[from, from + Vector3::new(2.0, 0.0, 0.0)], elements).fix(At::Start).build().unwrap();
             let block = Cuboid { half_extents: Vector3::new(1.0, 1.5, 1.0) };
             let block = Obstacle::new(3, block, Vector3::new(-1.0, -1.5, 0.0), 0.3);
             let mut cable = with(cable, vec![block]);
@@ -52,7 +53,8 @@ fn the_edge_of_a_box_is_not_cut_at_any_mesh() {
             let d = cable.diagnostics();
             println!(
                 "{elements} elements, shift {shift}: gap {gap:.2e} m, deepest ever {inside:.1e}, made {made:.1e}, {:.0} sweeps/host, {} split",
-                d.newton_iterations as f64 / 180.0, d.split_steps
+                d.newton_iterations as f64 / 180.0,
+                d.split_steps
             );
             assert!(gap.abs() < 1e-4, "{elements}, {shift}: {gap}");
             assert!(made < 1e-8, "{made:e}");

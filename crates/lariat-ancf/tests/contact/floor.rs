@@ -33,7 +33,9 @@ fn a_dropped_rope_comes_to_rest_without_making_energy() {
         let held: f64 = cable.contacts().map(|touch| touch.normal_force * touch.normal.y + touch.friction.y).sum();
         println!(
             "tilt {tilt}, mu {friction}: made {made:.1e}, at rest {rest:.2} s, deepest {deep:.1e}, {:.1} sweeps/host, {} split, {} rescaled",
-            d.newton_iterations as f64 / 360.0, d.split_steps, d.rescaled_steps
+            d.newton_iterations as f64 / 360.0,
+            d.split_steps,
+            d.rescaled_steps
         );
         assert!(made < 1e-8, "{tilt}: {made:e}");
         assert!(rest < limit, "{tilt}: at rest after {rest} s");
@@ -65,7 +67,10 @@ fn a_rope_on_an_incline_sticks_or_slides_by_coulombs_law() {
         let (moved, speed) = ((middle(&cable) - first).norm(), cable.velocities()[60] - before);
         let angle = degrees.to_radians();
         let exact = (GRAVITY * (angle.sin() - friction * angle.cos())).max(0.0) * 10.0;
-        println!("{degrees}: at first {:.1e} m, then {moved:.3e} m, {speed:.6} m/s for {exact:.6}", (first - start).norm());
+        println!(
+            "{degrees}: at first {:.1e} m, then {moved:.3e} m, {speed:.6} m/s for {exact:.6}",
+            (first - start).norm()
+        );
         if exact == 0.0 {
             assert!(moved < 1e-6 && (first - start).norm() < 3e-3, "{degrees}: {moved:e}");
         } else {

@@ -1,9 +1,9 @@
 //! Contact and friction with obstacles.
 
-#[path = "../common/mod.rs"]
-mod common;
 mod bench;
 mod capstan;
+#[path = "../common/mod.rs"]
+mod common;
 mod energy;
 mod features;
 mod floor;

@@ -58,7 +58,10 @@ fn only_the_discrete_gradient_takes_contact() {
         let integrator = Integrator::substeps(method, 4).unwrap();
         let mut cable = build().integrator(integrator).build().unwrap();
         let refused = cable.set_contact(Contact::default()).unwrap_err();
-        assert!(matches!(&refused, Error::ContactMethod { method: name, .. } if *name == method.to_string()), "{refused}");
+        assert!(
+            matches!(&refused, Error::ContactMethod { method: name, .. } if *name == method.to_string()),
+            "{refused}"
+        );
         assert!(cable.effects().contact.is_none());
         let mut cable = build().fidelity(Fidelity::Game).build().unwrap();
         cable.set_contact(Contact::default()).unwrap();
@@ -126,7 +129,14 @@ fn failures_are_typed() {
     let still = vec![0.0; huge.len()];
     cable.set_coordinates(&huge, &still).unwrap();
     match cable.step(0.01) {
-        Err(Error::StepFailed { failure: StepFailure::NotFinite { .. } | StepFailure::EnergyMade { .. } | StepFailure::NotConverged { .. } | StepFailure::Singular(_), .. }) => {}
+        Err(Error::StepFailed {
+            failure:
+                StepFailure::NotFinite { .. }
+                | StepFailure::EnergyMade { .. }
+                | StepFailure::NotConverged { .. }
+                | StepFailure::Singular(_),
+            ..
+        }) => {}
         other => panic!("{other:?}"),
     }
 }

@@ -33,7 +33,8 @@ fn a_fast_rope_does_not_pass_a_thin_wall() {
                 });
                 println!(
                     "{speed} m/s, tilt {tilt}, {wall_moves}: lowest {lowest:.2e} m, made {made:.1e} (start {start:.0} J), {:.0} sweeps/host, {} split",
-                    cable.diagnostics().newton_iterations as f64 / 30.0, cable.diagnostics().split_steps
+                    cable.diagnostics().newton_iterations as f64 / 30.0,
+                    cable.diagnostics().split_steps
                 );
                 assert!(lowest > -RADIUS, "{speed} m/s, {tilt}: {lowest}");
                 assert!(made < 1e-8, "{speed} m/s: {made:e}");

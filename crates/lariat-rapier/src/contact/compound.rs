@@ -107,9 +107,7 @@ impl Surface for Rounded {
         let Nearest { patch, distance } = self.inner.nearest(y);
         let patch = match patch {
             Patch::Plane { point, normal } => Patch::Plane { point: point + self.border * normal, normal },
-            Patch::Line { point, direction, radius } => {
-                Patch::Line { point, direction, radius: radius + self.border }
-            }
+            Patch::Line { point, direction, radius } => Patch::Line { point, direction, radius: radius + self.border },
             Patch::Point { point, radius } => Patch::Point { point, radius: radius + self.border },
         };
         Nearest { patch, distance: distance - self.border }

@@ -31,7 +31,8 @@ impl Surfaces {
     /// Returns the surface of a collider; `None` for a shape that is the program's own.
     pub fn of(&mut self, collider: ColliderHandle, shape: &SharedShape) -> Option<Arc<dyn Surface>> {
         let key = |handle: ColliderHandle| handle.into_raw_parts();
-        let made = |shape: &SharedShape| Entry { collider, shape: shape.clone(), surface: surface(&**shape).map(Arc::from) };
+        let made =
+            |shape: &SharedShape| Entry { collider, shape: shape.clone(), surface: surface(&**shape).map(Arc::from) };
         let i = match self.0.binary_search_by_key(&key(collider), |entry| key(entry.collider)) {
             Ok(i) => {
                 if !Arc::ptr_eq(&self.0[i].shape.0, &shape.0) {
@@ -62,9 +63,7 @@ pub(super) fn surface(shape: &dyn Shape) -> Option<Box<dyn Surface>> {
             ends: [vector(capsule.segment.a), vector(capsule.segment.b)],
             radius: f64::from(capsule.radius),
         }),
-        TypedShape::Segment(segment) => {
-            Box::new(Capsule { ends: [vector(segment.a), vector(segment.b)], radius: 0.0 })
-        }
+        TypedShape::Segment(segment) => Box::new(Capsule { ends: [vector(segment.a), vector(segment.b)], radius: 0.0 }),
         TypedShape::Triangle(triangle) => {
             Box::new(Mesh::new(vec![triangle.a, triangle.b, triangle.c], vec![[0, 1, 2]], false)?)
         }
@@ -96,10 +95,9 @@ pub(super) fn surface(shape: &dyn Shape) -> Option<Box<dyn Surface>> {
             });
             Box::new(Compound::new(parts.collect::<Option<Vec<_>>>()?))
         }
-        TypedShape::Cylinder(cylinder) => Box::new(Cylinder {
-            half_height: f64::from(cylinder.half_height),
-            radius: f64::from(cylinder.radius),
-        }),
+        TypedShape::Cylinder(cylinder) => {
+            Box::new(Cylinder { half_height: f64::from(cylinder.half_height), radius: f64::from(cylinder.radius) })
+        }
         TypedShape::Cone(cone) => {
             Box::new(Cone { half_height: f64::from(cone.half_height), radius: f64::from(cone.radius) })
         }
@@ -114,4 +112,121 @@ pub(super) fn surface(shape: &dyn Shape) -> Option<Box<dyn Surface>> {
 
 fn rounded(inner: &dyn Shape, border: rapier::math::Real) -> Option<Box<dyn Surface>> {
     Some(Box::new(Rounded { inner: surface(inner)?, border: f64::from(border) }))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::convert::to_vector;
+    use ::nalgebra::Vector3;
+    use lariat_ancf::contact::Patch;
+    use rapier::math::{Pose, Real, Vector};
+
+    fn shapes() -> Vec<(&'static str, SharedShape)> {
+        let v = |x: Real, y: Real, z: Real| Vector::new(x, y, z);
+        let tent = vec![v(-0.5, 0.0, -0.5), v(0.5, 0.0, -0.5), v(0.0, 0.4, 0.0), v(-0.5, 0.0, 0.5), v(0.5, 0.1, 0.5)];
+        let faces = vec![[0, 2, 1], [0, 3, 2], [3, 4, 2], [1, 2, 4]];
+        let cloud: Vec<Vector> =
+            (0..30).map(|i| 0.5 * v((i as Real).sin(), (1.7 * i as Real).sin(), (2.9 * i as Real).cos())).collect();
+        let heights = rapier::parry::utils::Array2::new(4, 5, (0..20).map(|i| 0.2 * (i as Real).sin()).collect());
+        let at = |x: Real| Pose::from_parts(v(x, 0.1, 0.0), rapier::math::Rotation::from_rotation_z(0.4));
+        vec![
+            ("ball", SharedShape::ball(0.3)),
+            ("cuboid", SharedShape::cuboid(0.3, 0.2, 0.4)),
+            ("capsule", SharedShape::capsule(v(-0.2, 0.0, 0.1), v(0.3, 0.2, 0.0), 0.1)),
+            ("segment", SharedShape::segment(v(-0.2, 0.0, 0.1), v(0.3, 0.2, 0.0))),
+            ("cylinder", SharedShape::cylinder(0.3, 0.2)),
+            ("cone", SharedShape::cone(0.3, 0.2)),
+            ("hull", SharedShape::convex_hull(&cloud).unwrap()),
+            ("triangle", SharedShape::triangle(tent[0], tent[1], tent[2])),
+            ("mesh", SharedShape::trimesh(tent.clone(), faces).unwrap()),
+            ("height field", SharedShape::heightfield(heights, v(1.0, 1.0, 1.0))),
+            ("polyline", SharedShape::polyline(tent, None)),
+            ("half-space", SharedShape::halfspace(v(0.0, 0.6, 0.8).normalize())),
+            ("round cuboid", SharedShape::round_cuboid(0.3, 0.2, 0.4, 0.05)),
+            ("round cylinder", SharedShape::round_cylinder(0.3, 0.2, 0.05)),
+            ("round cone", SharedShape::round_cone(0.3, 0.2, 0.05)),
+            ("round hull", SharedShape::round_convex_hull(&cloud, 0.05).unwrap()),
+            (
+                "compound",
+                SharedShape::compound(vec![
+                    (at(0.4), SharedShape::ball(0.2)),
+                    (at(-0.3), SharedShape::cuboid(0.1, 0.2, 0.3)),
+                ]),
+            ),
+        ]
+    }
+
+    /// The surface of every shape has the distances that parry computes, with patches that have them too, and whose normal is the way
+    /// from parry's nearest point; no feature is nearer than the surface.
+    ///
+    /// *Source.* parry's projection of points, to its precision.
+    #[test]
+    fn every_shape_has_the_surface_that_parry_has() {
+        for (name, shape) in shapes() {
+            let surface = surface(&*shape).unwrap();
+            let mut compared = 0;
+            for i in 0..1331 {
+                let y =
+                    Vector3::new(f64::from(i % 11) - 5.05, f64::from(i / 11 % 11) - 4.95, f64::from(i / 121) - 5.02)
+                        * 0.16;
+                let projection = shape.project_local_point(to_vector(&y), false);
+                // inside, only the nearest face of a single convex part is meant
+                if projection.is_inside {
+                    continue;
+                }
+                let exact = y - crate::convert::vector(projection.point);
+                let nearest = surface.nearest(&y);
+                assert!((nearest.distance - exact.norm()).abs() < 2e-5, "{name} {y:?} {nearest:?} {}", exact.norm());
+                let z = match nearest.patch {
+                    Patch::Plane { point, normal } => normal.dot(&(y - point)),
+                    Patch::Line { point, direction, radius } => {
+                        let z = y - point;
+                        (z - direction * direction.dot(&z)).norm() - radius
+                    }
+                    Patch::Point { point, radius } => (y - point).norm() - radius,
+                };
+                assert!((z - nearest.distance).abs() < 1e-7, "{name} {y:?} {nearest:?} {z}");
+                surface.features(&y, 3.0, &mut |feature| {
+                    use lariat_ancf::contact::FeatureShape;
+                    let distance = match feature.shape {
+                        FeatureShape::Point(p) => (y - p).norm(),
+                        FeatureShape::Segment(a, b) => {
+                            let t = ((y - a).dot(&(b - a)) / (b - a).norm_squared()).clamp(0.0, 1.0);
+                            (y - a - (b - a) * t).norm()
+                        }
+                        FeatureShape::Circle { .. } => return,
+                    };
+                    assert!(distance - feature.radius > exact.norm() - 2e-5, "{name} {feature:?}");
+                });
+                let [low, high] = surface.bounds().unwrap_or([Vector3::repeat(-9.0), Vector3::repeat(9.0)]);
+                let near = crate::convert::vector(projection.point);
+                assert!((0..3).all(|x| near[x] > low[x] - 1e-5 && near[x] < high[x] + 1e-5), "{name}");
+                compared += 1;
+            }
+            assert!(compared > 300, "{name}: {compared}");
+        }
+    }
+
+    /// A box as a mesh and as a hull has its twelve edges and eight corners as features, and none within its faces.
+    ///
+    /// *Source.* Geometry.
+    #[test]
+    fn the_features_of_a_box_are_its_edges_and_corners() {
+        let corners: Vec<Vector> =
+            (0..8).map(|i| Vector::new((i & 1) as Real, (i >> 1 & 1) as Real, (i >> 2) as Real)).collect();
+        let (vertices, triangles) = rapier::parry::shape::Cuboid::new(Vector::splat(0.5)).to_trimesh();
+        for shape in [SharedShape::convex_hull(&corners).unwrap(), SharedShape::trimesh(vertices, triangles).unwrap()] {
+            let (mut edges, mut points) = (0, 0);
+            surface(&*shape).unwrap().features(&Vector3::repeat(0.5), 3.0, &mut |feature| match feature.shape {
+                lariat_ancf::contact::FeatureShape::Point(_) => points += 1,
+                lariat_ancf::contact::FeatureShape::Segment(a, b) => {
+                    assert!(((a - b).norm() - 1.0).abs() < 1e-6);
+                    edges += 1;
+                }
+                lariat_ancf::contact::FeatureShape::Circle { .. } => panic!(),
+            });
+            assert_eq!((edges, points), (12, 8));
+        }
+    }
 }

@@ -26,6 +26,7 @@ pub(crate) mod substepping;
 
 use crate::attach;
 use crate::body;
+use crate::contact::broad::Finder;
 use crate::contents::Contents;
 use crate::error::{Error, Failure};
 use crate::events::Event;
@@ -77,6 +78,8 @@ pub(crate) struct Stepper {
     /// Whether a prediction waits for its reconciliation.
     pending: bool,
     pub events: Vec<Event>,
+    /// Finds what cables can touch.
+    pub finder: Finder,
     /// The islands that could not step in this host step.
     pub failures: Vec<Failure>,
 }
@@ -181,13 +184,14 @@ fn predict_islands(
         fastest: if needs_speeds { proximity::fastest(world) } else { 0.0 },
         sleep_speed: settings.sleep_speed,
     };
-    let Stepper { islands, predictions, events, failures, .. } = &mut *stepper;
+    let Stepper { islands, predictions, events, failures, finder, .. } = &mut *stepper;
+    finder.begin(contents, world, step.h);
     for (island, prediction) in islands.list.iter().zip(predictions.iter_mut()) {
         let failed = |failure: &Failure| failure.cables.iter().any(|c| island.cables.contains(&(c.0 as usize)));
         prediction.refused = failures.iter().any(failed);
         (prediction.integrator, prediction.error) = (None, None);
         if !prediction.refused {
-            let outcome = prepare_island(contents, world, island, prediction, (&host.motions, &step), events);
+            let outcome = prepare_island(contents, world, island, prediction, (&host.motions, &step), (finder, events));
             prediction.error = outcome.err();
         }
     }
@@ -218,7 +222,7 @@ fn prepare_island(
     island: &Island,
     prediction: &mut Prediction,
     (motions, step): (&PrescribedMotions, &StepParameters),
-    events: &mut Vec<Event>,
+    (finder, events): (&mut Finder, &mut Vec<Event>),
 ) -> Result<(), Error> {
     contents.align_clocks(&island.cables)?;
     check_links(contents, island)?;
@@ -229,7 +233,11 @@ fn prepare_island(
         }
     }
     let ends_moved = island.bodies().next().is_some() && kinematic_ends::have_moved(contents, world, island, step.h);
-    prediction.sleep = sleep::update(contents, world, island, ends_moved, step.sleep_speed, events);
+    let mut moved = ends_moved;
+    for &cable in &island.cables {
+        moved |= finder.gather(contents, world, cable, (motions, step), events)?;
+    }
+    prediction.sleep = sleep::update(contents, world, island, moved, step.sleep_speed, events);
     if prediction.sleep.asleep {
         contents.cables_at(&island.cables).into_iter().for_each(|cable| cable.rest(step.h));
         return Ok(());
@@ -270,6 +278,7 @@ pub(crate) fn reconcile(stepper: &mut Stepper, contents: &mut Contents, world: &
     if !core::mem::take(&mut stepper.pending) {
         return;
     }
+    stepper.finder.end(world);
     let h = f64::from(world.integration_parameters.dt);
     for (island, prediction) in stepper.islands.list.iter().zip(&mut stepper.predictions) {
         if core::mem::take(&mut prediction.refused) {

@@ -173,7 +173,7 @@ impl BodyMotion {
 }
 
 /// Returns the point that moves uniformly if nothing accelerates a body, in body axes.
-fn reference(world: &PhysicsWorld, handle: RigidBodyHandle) -> Vector3<f64> {
+pub(crate) fn reference(world: &PhysicsWorld, handle: RigidBodyHandle) -> Vector3<f64> {
     let body = &world.bodies[handle];
     if body.body_type() == RigidBodyType::KinematicVelocityBased {
         vector(body.local_center_of_mass())

@@ -4,6 +4,7 @@
 mod assemblies;
 mod attachment_points;
 mod blows;
+mod cable_contact;
 mod clamps;
 mod common;
 mod contact;

@@ -49,7 +49,8 @@ table! {
         rule: RuleTable = "projected-3", RULE;
         /// `true` runs a rule with zero-energy modes.
         allow_rank_deficient: bool = false, Kind::Flag;
-        /// Time integrator and step control.
+        /// Time integrator and step control. A cable with `contact` needs the method `"discrete-gradient"`, and has `{ fidelity = "game" }` by
+        /// default.
         integrator: IntegratorTable = { fidelity = "engineering" }, Kind::Table(&IntegratorTable::TABLE);
         /// Velocity of the start point.
         velocity: Vector3<f64> = [0.0, 0.0, 0.0], VECTOR, "m/s";
@@ -62,11 +63,8 @@ table! {
 }
 
 /// Parts of the format that this version reads and does not compute.
-const NOT_BUILT: &[Key] = &[
-    not_built("contact", "Contact with bodies and other cables."),
-    not_built("break", "Breaking at a tension."),
-    not_built("reel", "Change of the unstretched length at one end."),
-];
+const NOT_BUILT: &[Key] =
+    &[not_built("break", "Breaking at a tension."), not_built("reel", "Change of the unstretched length at one end.")];
 
 const fn not_built(name: &'static str, meaning: &'static str) -> Key {
     Key { name, kind: Kind::NotBuilt, unit: "", default: Default::Absent("off"), meaning }
@@ -154,6 +152,10 @@ pub(super) fn read(doc: &Document<'_>, at: &KeyPath, row: CableTable) -> Result<
     let rule = rule(doc, &at.key("rule"), &row)?;
     let section = section(doc, at, &row)?;
     let effects = effects::read(doc, at, row.effects, &effects::Context { section: &section, rule, length })?;
+    let mut integrator = integrator::read(doc, &at.key("integrator"), &row.integrator)?;
+    if effects.contact.is_some() {
+        integrator = integrator::with_contact(doc, &at.key("integrator"), integrator)?;
+    }
     Ok(CableScene {
         points: row.points,
         length,
@@ -163,7 +165,7 @@ pub(super) fn read(doc: &Document<'_>, at: &KeyPath, row: CableTable) -> Result<
         youngs_modulus: row.youngs_modulus,
         rule,
         effects,
-        integrator: integrator::read(doc, &at.key("integrator"), &row.integrator)?,
+        integrator,
         velocity: row.velocity,
         angular_velocity: row.angular_velocity,
         name: row.name,

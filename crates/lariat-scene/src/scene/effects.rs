@@ -9,8 +9,8 @@ use crate::error::{Error, Problem};
 use crate::schema::{ANY, Choose, Default, Key, Kind, NOT_NEGATIVE, POSITIVE, VECTOR, table};
 use lariat_ancf::effect::Effect;
 use lariat_ancf::{
-    BendingRule, Buoyancy, Damping, Drag, Effects, GravityScale, LineLoad, LineLoads, RestPiece, RestShape, RopeKind,
-    Rule, Section, for_each_effect,
+    BendingRule, Buoyancy, Contact, Damping, Drag, Effects, GravityScale, LineLoad, LineLoads, RestPiece, RestShape,
+    RopeKind, Rule, Section, for_each_effect,
 };
 use serde::de::DeserializeOwned;
 use toml::Value;
@@ -286,6 +286,30 @@ impl SceneEffect for LineLoads {
             }
         }
         Ok(())
+    }
+}
+
+table! {
+    /// Contact and friction with the colliders of fixed and kinematic bodies.
+    keys CONTACT for Contact("[cable.contact]") {
+        /// Radius, required for a cable without `section`.
+        radius = ("half the diameter of the section"), Kind::Number(POSITIVE), "m";
+        /// Normal force per length and depth.
+        stiffness = ("EA/(40 radius^2)"), Kind::Number(POSITIVE), "N/m^2";
+        /// Coefficient of friction of the cable; that of a contact is the mean of both.
+        friction = 0.5, Kind::Number(NOT_NEGATIVE);
+    }
+}
+
+impl SceneEffect for Contact {
+    const KIND: Kind = Kind::Table(&CONTACT);
+    const WITHOUT: &'static str = "off";
+
+    fn check(&self, doc: &Document<'_>, at: &KeyPath, cable: &Context<'_>) -> Result<(), Error> {
+        match self.radius.or(cable.section.diameter) {
+            Some(_) => Ok(()),
+            None => Err(doc.missing(&at.key("radius"))),
+        }
     }
 }
 

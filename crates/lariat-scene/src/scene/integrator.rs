@@ -61,3 +61,21 @@ pub(super) fn read(doc: &Document<'_>, at: &KeyPath, row: &IntegratorTable) -> R
     let checked = Integrator { method, control }.checked();
     checked.map(IntegratorChoice::from).map_err(|error| doc.conflict(&at.key(key), error.to_string()))
 }
+
+/// Returns the integrator of a cable with contact: the one at a path if it can step contact, and the default if none is written there.
+pub(super) fn with_contact(
+    doc: &Document<'_>,
+    at: &KeyPath,
+    written: IntegratorChoice,
+) -> Result<IntegratorChoice, Error> {
+    let method = written.integrator(f64::INFINITY).method;
+    match method {
+        Method::DiscreteGradient => Ok(written),
+        _ if !doc.contains(at) => Ok(Fidelity::Game.into()),
+        _ => Err(doc.error_accepting(
+            at,
+            Problem::Conflict(format!("{method} cannot step contact")),
+            "{ fidelity = \"game\" }, or the method \"discrete-gradient\" with substeps or max_step",
+        )),
+    }
+}

@@ -1,0 +1,67 @@
+//! Whether a cable is in what it can touch: for shapes that were found without contact.
+
+use crate::cable::Cable;
+use nalgebra::Vector3;
+
+/// Depth as a share of the radius below which a cable only touches.
+const TOUCH: f64 = 0.02;
+/// Points of an element that are looked at, without its last node.
+const POINTS: usize = 8;
+
+/// Where a cable is in an obstacle.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Overlap {
+    /// Key of the obstacle.
+    pub obstacle: u64,
+    /// Arc length in m of the deepest point.
+    pub arc_length: f64,
+    /// Its depth in m.
+    pub depth: f64,
+}
+
+impl Cable {
+    /// Returns where the cable is deepest in one of its [obstacles](Self::obstacles), deeper than 2 % of its radius, as they are now; `None` if
+    /// it is in none, or has no [`Contact`](crate::Contact). A piece that reaches to a supported node is left out: a cable may begin within
+    /// what holds it.
+    pub fn overlap(&self) -> Option<Overlap> {
+        let contact = self.effects().contact?;
+        let mut worst: Option<Overlap> = None;
+        for obstacle in self.obstacles() {
+            let motion = &obstacle.motion;
+            let elapsed = self.time() - motion.start;
+            let origin = motion.position + motion.velocity * elapsed;
+            let axes = nalgebra::UnitQuaternion::new(motion.angular_velocity * elapsed) * motion.rotation;
+            let (mut begin, mut held, mut deepest): (f64, bool, Option<Overlap>) = (0.0, false, None);
+            let mut end = |deepest: &mut Option<Overlap>, held: bool| {
+                let found = deepest.take().filter(|_| !held);
+                if let Some(found) = found.filter(|found| worst.is_none_or(|worst| found.depth > worst.depth)) {
+                    worst = Some(found);
+                }
+            };
+            for (e, element) in self.elements().iter().enumerate() {
+                let radius = contact.radius_of(&element.section);
+                let last = usize::from(e + 1 == self.elements().len());
+                for i in 0..POINTS + last {
+                    let xi = i as f64 / POINTS as f64;
+                    let arc_length = (begin + xi * element.length).min(self.length());
+                    let Ok(sample) = self.sample(arc_length) else { continue };
+                    let y: Vector3<f64> = axes.inverse() * (sample.position - origin) + motion.centre;
+                    let depth = radius + obstacle.skin - obstacle.surface.nearest(&y).distance;
+                    if depth <= TOUCH * radius {
+                        end(&mut deepest, held);
+                        held = false;
+                        continue;
+                    }
+                    let node = if i == 0 { Some(e) } else { (i == POINTS).then_some(e + 1) };
+                    held |= node.is_some_and(|node| self.model.support(node).is_some());
+                    if deepest.is_none_or(|deepest| depth > deepest.depth) {
+                        deepest = Some(Overlap { obstacle: obstacle.key, arc_length, depth });
+                    }
+                }
+                begin += element.length;
+            }
+            end(&mut deepest, held);
+        }
+        worst
+    }
+}
