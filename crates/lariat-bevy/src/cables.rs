@@ -54,7 +54,7 @@ use std::collections::{BTreeMap, HashMap};
 ///
 /// # Limits
 ///
-/// No contact of cables with bodies or with each other, and no change of length: see the
+/// No contact of cables with dynamic bodies or with each other, and no change of length: see the
 /// [crate page](crate#limits).
 #[derive(Resource, Default)]
 pub struct Cables {

@@ -189,6 +189,13 @@ impl Buoyancy {
     }
 }
 
+impl Contact {
+    /// Contact with the fixed and kinematic bodies, with this coefficient of friction.
+    pub fn with_friction(friction: f64) -> Self {
+        Contact(lariat_ancf::Contact::with_friction(friction))
+    }
+}
+
 impl GravityScale {
     /// Multiplies gravity by `factor`.
     pub fn new(factor: f64) -> Self {

@@ -6,6 +6,7 @@ use bevy_ecs::entity::Entity;
 use bevy_ecs::event::EntityEvent;
 use bevy_ecs::message::{Message, Messages};
 use bevy_ecs::world::World;
+use lariat_rapier::rapier::geometry::ColliderHandle;
 
 /// The description of a cable, or a change of its effects, is not possible. A cable that was built
 /// keeps its previous effects.
@@ -54,6 +55,46 @@ pub struct CableBroken {
     pub arc_length: f64,
     /// The tension in N at which it broke.
     pub tension: f64,
+}
+
+/// A cable with [`Contact`](crate::Contact) began to touch a collider.
+#[derive(EntityEvent, Message, Clone, Debug, PartialEq)]
+pub struct ContactStarted {
+    /// The cable.
+    pub entity: Entity,
+    /// The body of the collider, if it is one of an entity.
+    pub body: Option<Entity>,
+    /// The collider.
+    pub collider: ColliderHandle,
+    /// Arc length of the centre of the forces in m.
+    pub arc_length: f64,
+    /// Sum of the normal forces in N.
+    pub force: f64,
+}
+
+/// A cable no longer touches a collider.
+#[derive(EntityEvent, Message, Clone, Debug, PartialEq)]
+pub struct ContactEnded {
+    /// The cable.
+    pub entity: Entity,
+    /// The body of the collider, if it is one of an entity and still there.
+    pub body: Option<Entity>,
+    /// The collider.
+    pub collider: ColliderHandle,
+    /// Arc length in m where it was last touched.
+    pub arc_length: f64,
+}
+
+/// A cable with [`Contact`](crate::Contact) is in a collider that it cannot touch, that of a dynamic body. Sent once for
+/// each.
+#[derive(EntityEvent, Message, Clone, Debug, PartialEq)]
+pub struct ContactIgnored {
+    /// The cable.
+    pub entity: Entity,
+    /// The body of the collider, if it is one of an entity.
+    pub body: Option<Entity>,
+    /// The collider.
+    pub collider: ColliderHandle,
 }
 
 /// Reason why an attachment ended.
@@ -118,6 +159,9 @@ macro_rules! for_each_event {
             CableAsleep,
             CableAwake,
             CableBroken,
+            ContactStarted,
+            ContactEnded,
+            ContactIgnored,
             AttachmentEnded,
             AttachmentFailed,
             JunctionFailed,

@@ -59,8 +59,9 @@
 //!
 //! # Limits
 //!
-//! - No contact of cables with bodies or with each other, and no reel: the unstretched length of a
-//!   cable is constant.
+//! - Cables touch fixed and kinematic bodies if they have [`Contact`], neither dynamic bodies, which
+//!   [`ContactIgnored`](event::ContactIgnored) says, nor each other. No reel: the unstretched length of a cable is
+//!   constant.
 //! - A cable that cannot step stands still with all that is attached to it until the cause is
 //!   removed: see [`StepFailed`](event::StepFailed).
 //! - On the bodies of another plugin ([`BeforeEngine`], [`AfterEngine`]; crate

@@ -4,15 +4,18 @@ use crate::attachment::{Attached, AttachmentReading, BreakForce};
 use crate::body::{BodyHandle, BodyPose};
 use crate::cables::{Break, Cables};
 use crate::diagnostics::{Diagnostics, Stage};
-use crate::event::{AttachmentEnded, CableAsleep, CableAwake, EndReason, QueuedEvent};
+use crate::event::{
+    AttachmentEnded, CableAsleep, CableAwake, ContactEnded, ContactIgnored, ContactStarted, EndReason, QueuedEvent,
+};
 use crate::physics::Physics;
 use bevy_ecs::prelude::{DetectChangesMut, Query, Res, ResMut};
 use bevy_ecs::world::World;
 use lariat_rapier::Event;
 
 /// Translates the events of the set.
-pub(crate) fn read_events(mut cables: ResMut<Cables>) {
+pub(crate) fn read_events(mut cables: ResMut<Cables>, physics: Res<Physics>) {
     let Cables { set, links, events, broken, .. } = &mut *cables;
+    let parent = |collider| physics.colliders.get(collider).and_then(|c| links.bodies.get(&c.parent()?).copied());
     for event in set.take_events() {
         let translated: Option<QueuedEvent> = match event {
             Event::Asleep(cable) => links.cables.get(&cable).map(|link| CableAsleep { entity: link.entity }.into()),
@@ -25,6 +28,17 @@ pub(crate) fn read_events(mut cables: ResMut<Cables>) {
                 broken.push(Break { cable, rest, arc_length, tension });
                 None
             }
+            Event::ContactStarted { cable, collider, arc_length, force } => links.cables.get(&cable).map(|link| {
+                ContactStarted { entity: link.entity, body: parent(collider), collider, arc_length, force }.into()
+            }),
+            Event::ContactEnded { cable, collider, arc_length } => links
+                .cables
+                .get(&cable)
+                .map(|link| ContactEnded { entity: link.entity, body: parent(collider), collider, arc_length }.into()),
+            Event::ContactIgnored { cable, collider } => links
+                .cables
+                .get(&cable)
+                .map(|link| ContactIgnored { entity: link.entity, body: parent(collider), collider }.into()),
             _ => None,
         };
         events.extend(translated);

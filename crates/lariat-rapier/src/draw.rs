@@ -1,4 +1,4 @@
-//! Drawing of cables through Rapier's debug renderer, coloured by tension.
+//! Drawing of cables through Rapier's debug renderer, coloured by tension, and of the forces of their contacts.
 
 use crate::convert::to_vector;
 use ::nalgebra::Vector3;
@@ -13,11 +13,13 @@ pub struct DrawStyle {
     pub lines: u32,
     /// Tension in N that is drawn red; zero tension is drawn blue. Default: the largest tension.
     pub red: Option<f64>,
+    /// Length in m of the green line of a contact force of 1 N; 0 draws none. Default 5e-3.
+    pub force_length: f64,
 }
 
 impl Default for DrawStyle {
     fn default() -> Self {
-        DrawStyle { lines: 4, red: None }
+        DrawStyle { lines: 4, red: None, force_length: 5e-3 }
     }
 }
 
@@ -38,7 +40,16 @@ pub(crate) fn draw<'a>(
         let arc_length = |k: usize| cable.length() * k as f64 / count as f64;
         (0..=count).filter_map(|k| cable.sample(arc_length(k)).ok()).map(|s| (s.position, s.tension)).collect()
     };
-    let all: Vec<_> = cables.map(samples).collect();
+    let mut all = Vec::new();
+    for cable in cables {
+        all.push(samples(cable));
+        for touch in cable.contacts().filter(|_| style.force_length > 0.0) {
+            let Ok(sample) = cable.sample(touch.arc_length) else { continue };
+            let force = (touch.normal * touch.normal_force + touch.friction) * style.force_length;
+            let (from, to) = (to_vector(&sample.position), to_vector(&(sample.position + force)));
+            backend.draw_line(object, from, to, CONTACT);
+        }
+    }
     let largest = || all.iter().flatten().map(|(_, tension)| *tension).fold(0.0, f64::max);
     let red = style.red.unwrap_or_else(largest).max(f64::MIN_POSITIVE);
     for ends in all.iter().flat_map(|cable| cable.windows(2)) {
@@ -46,6 +57,9 @@ pub(crate) fn draw<'a>(
         backend.draw_line(object, to_vector(&ends[0].0), to_vector(&ends[1].0), colour(share));
     }
 }
+
+/// Colour of contact forces: green.
+const CONTACT: DebugColor = [120.0, 1.0, 0.4, 1.0];
 
 /// Returns hue, saturation, lightness and alpha: blue for 0, red for 1.
 fn colour(share: f64) -> DebugColor {

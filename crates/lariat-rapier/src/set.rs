@@ -430,7 +430,7 @@ impl CableSet {
         totals::energy(&self.contents, world)
     }
 
-    /// Draws all cables with Rapier's debug renderer, as lines of a body with an invalid handle.
+    /// Draws all cables and the forces of their contacts with Rapier's debug renderer, as lines of a body with an invalid handle.
     #[cfg(feature = "debug-render")]
     pub fn draw(&self, backend: &mut impl DebugRenderBackend, style: &DrawStyle) {
         draw::draw(self.iter().map(|(_, cable)| cable), backend, style);

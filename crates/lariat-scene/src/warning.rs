@@ -119,8 +119,8 @@ pub enum Warning {
     },
     /// A cable that starts inside a body.
     #[error(
-        "cable {cable:?}: at {at_m:.4} m it starts {depth_m:.2e} m inside body {body:?}: contact of cables with bodies is not computed, it \
-         passes through; check the points of the cable and the place of the body"
+        "cable {cable:?}: at {at_m:.4} m it starts {depth_m:.2e} m inside body {body:?}: it passes through, and \
+         [cable.contact] does not push it out; check the points of the cable and the place of the body"
     )]
     StartsInside {
         /// Name of the cable.
@@ -131,6 +131,20 @@ pub enum Warning {
         at_m: f64,
         /// Its distance from the surface in m.
         depth_m: f64,
+    },
+    /// A cable that passes through a body.
+    #[error(
+        "cable {cable:?}: from {time_s:.3} s on it passes through body {body:?}{}", because(*.contact)
+    )]
+    PassesThrough {
+        /// Name of the cable.
+        cable: String,
+        /// Name of the body.
+        body: String,
+        /// Time in s at which it was first found in it.
+        time_s: f64,
+        /// Whether the cable has contact, which dynamic bodies do not take part in.
+        contact: bool,
     },
     /// A rule with zero-energy modes, as the scene allows.
     #[error("cable {cable:?}: rule {rule} has zero-energy modes, as allowed: {reason}")]
@@ -169,6 +183,14 @@ pub enum Warning {
         /// Difference of the velocities in m/s.
         difference_m_s: f64,
     },
+}
+
+fn because(contact: bool) -> &'static str {
+    if contact {
+        ": cables touch fixed and kinematic bodies only"
+    } else {
+        ": without [cable.contact] cables touch nothing"
+    }
 }
 
 fn compressed(rule: &str, compression: Option<f64>) -> String {

@@ -3,8 +3,9 @@
 use lariat_rapier::lariat_ancf::{At, Cable, Contact, Damping, PointLoad, Section, Vector3};
 use lariat_rapier::rapier::dynamics::CoefficientCombineRule;
 use lariat_rapier::rapier::math::Vector as RVector;
+use lariat_rapier::rapier::pipeline::{DebugColor, DebugRenderBackend, DebugRenderObject};
 use lariat_rapier::rapier::prelude::*;
-use lariat_rapier::{CableHandle, CableSet, ContactFilter, ContactRules, Error, Event};
+use lariat_rapier::{CableHandle, CableSet, ContactFilter, ContactRules, DrawStyle, Error, Event};
 use std::f64::consts::PI;
 
 const RADIUS: f64 = 5e-3;
@@ -350,4 +351,34 @@ fn statics_refuse_a_shape_that_is_in_a_collider() {
             other => panic!("{other:?}"),
         }
     }
+}
+
+#[derive(Default)]
+struct Lines(Vec<(RVector, RVector)>);
+
+impl DebugRenderBackend for Lines {
+    fn draw_line(&mut self, _: DebugRenderObject, a: RVector, b: RVector, _: DebugColor) {
+        self.0.push((a, b));
+    }
+}
+
+/// Each contact is drawn as a line of its force, or none of them.
+///
+/// *Source.* The contract: 5 mm per N, and the forces carry the weight.
+#[test]
+fn contact_forces_are_drawn() {
+    let mut world = PhysicsWorld::new();
+    world.insert_collider(half_space(RVector::new(0.0, 1.0, 0.0)), None);
+    let mut cables = CableSet::new();
+    let cable = above(&mut cables);
+    for _ in 0..120 {
+        cables.step(&mut world).unwrap();
+    }
+    let contacts = cables.contacts(cable).unwrap().count();
+    let (mut all, mut none) = (Lines::default(), Lines::default());
+    cables.draw(&mut all, &DrawStyle::default());
+    cables.draw(&mut none, &DrawStyle { force_length: 0.0, ..DrawStyle::default() });
+    assert_eq!((all.0.len(), none.0.len()), (64 + contacts, 64));
+    let up: f64 = all.0[..contacts].iter().map(|(a, b)| f64::from(b.y - a.y)).sum();
+    assert!((up / (5e-3 * 0.14 * 9.81) - 1.0).abs() < 1e-2, "{up}");
 }

@@ -47,6 +47,8 @@ pub struct Physics {
     reached: f64,
     /// Largest gap so far in m.
     max_gap: f64,
+    /// Cables and bodies that were found in each other.
+    passed: Vec<(usize, usize)>,
 }
 
 impl Clone for Physics {
@@ -76,6 +78,7 @@ impl Clone for Physics {
             rapier_steps: self.rapier_steps,
             reached: self.reached,
             max_gap: self.max_gap,
+            passed: self.passed.clone(),
         }
     }
 }
@@ -115,6 +118,7 @@ impl Physics {
             rapier_steps,
             reached: 0.0,
             max_gap: 0.0,
+            passed: Vec::new(),
         })
     }
 
@@ -256,6 +260,13 @@ impl Physics {
                 let problem =
                     format!("statics compute no contacts, and it touches {other}: run the scene until it rests");
                 Error::Body { time, body: name(body).unwrap_or_default(), problem }
+            }
+            lariat_rapier::Error::CableTouchesInStatics { cable, collider, arc_length, depth } => {
+                let body = self.world.colliders.get(collider).and_then(|c| name(c.parent()?)).unwrap_or_default();
+                let problem = format!(
+                    "statics compute no contacts, and cable {cable:?} would be {depth:.1e} m in it at {arc_length:.4} m: run the scene until it rests"
+                );
+                Error::Body { time, body, problem }
             }
             source => Error::Coupling { time, source },
         }

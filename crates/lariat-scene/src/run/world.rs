@@ -157,6 +157,7 @@ impl World {
     pub fn advance(&mut self, time: f64) -> Result<(), Error> {
         if let Some(physics) = &mut self.physics {
             physics.advance(&self.scene, self.time, time)?;
+            self.warnings.extend(physics.passing(&self.scene, time));
             self.time = time;
             return Ok(());
         }

@@ -180,7 +180,11 @@ pub(crate) fn check(doc: &Document<'_>, fallback: &str, folder: &Path, purpose: 
     for (i, row) in table.cable.into_iter().enumerate() {
         let at = root.key("cable").item(i);
         references::unique(doc, &at, &row.name, scene.cables.iter().map(|c| c.name.as_str()))?;
-        scene.cables.push(cable::read(doc, &at, row)?);
+        let cable = cable::read(doc, &at, row)?;
+        if cable.effects.contact.is_some() && engine == Engine::None {
+            return Err(doc.conflict(&at.key("contact"), "the scene has no bodies that the cable could touch"));
+        }
+        scene.cables.push(cable);
     }
     for (i, row) in table.body.into_iter().enumerate() {
         let at = root.key("body").item(i);

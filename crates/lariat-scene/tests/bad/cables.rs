@@ -137,7 +137,8 @@ const CASES: &[Case] = &[
         21,
         &["cable.sling.buoyancy.added_mass", ">= 0"],
     ),
-    ("", "[cable.contact]\nradius = 0.01", 19, &["cable.sling.contact", "not built yet"]),
+    ("", "[cable.contact]\nradius = 0.01", 15, &["cable.sling.integrator", "cannot step contact", "game"]),
+    ("", "[cable.contact]\nfriction = -0.1", 20, &["cable.sling.contact.friction", ">= 0"]),
     ("", "[cable.break]\ntension = 10.0", 19, &["cable.sling.break", "not built yet"]),
     ("", "[cable.reel]\nend = \"start\"\nrate = [[0.0, 0.0]]", 19, &["cable.sling.reel", "not built yet"]),
     (
