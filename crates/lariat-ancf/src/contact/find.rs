@@ -38,7 +38,9 @@ const INTERVALS: usize = 8;
 /// Steps of the golden section.
 const SECTIONS: usize = 32;
 /// Steps along the way to a surface.
-const TRACES: usize = 32;
+const TRACES: usize = 64;
+/// Least step of these, as a share of the distance at which the surface is met.
+const PAST: f64 = 0.02;
 
 /// A step of a cable, as the search sees it.
 pub(crate) struct Motion<'a> {
@@ -121,10 +123,9 @@ impl ContactStep {
                 point.patch = kept.patch;
             } else {
                 point.patch = nearest.patch;
-                if pair.is_thin(&point.patch) || nearest.distance - point.reach > NEAR * pair.radius {
+                if pair.is_thin(&nearest) || nearest.distance - point.reach > NEAR * pair.radius {
                     let end = pair.step.end.to_own(&(point.start + point.change(pair.motion.change)));
-                    let met = trace(&*pair.obstacle.surface, &y, &end, point.reach);
-                    match met.filter(|met| !pair.is_thin(&met.patch)) {
+                    match trace(&*pair.obstacle.surface, [&y, &end], point.reach, |found| !pair.is_thin(found)) {
                         Some(met) => point.patch = met.patch,
                         None => {
                             self.watched.push(point);
@@ -190,17 +191,17 @@ impl ContactStep {
     pub fn complete(&mut self, model: &Model, change: &[f64]) {
         let Some(contact) = &model.effects.contact else { return };
         let surface = |point: &ContactPoint| &*model.obstacles.0[point.obstacle].surface;
-        let thin = |point: &ContactPoint, patch: &Patch| {
+        let thin = |point: &ContactPoint, found: &Nearest| {
             let element = &model.elements[point.key.0 as usize];
-            is_thin(patch, contact.radius_of(&element.section), element.length)
+            is_thin(found, contact.radius_of(&element.section), element.length)
         };
         let meets = |point: &ContactPoint, obstacle: &ObstacleStep| {
             let (y0, y1) = point.way(obstacle, change);
             if (y1 - y0).norm() <= point.distance - point.reach {
                 return None;
             }
-            let met = trace(surface(point), &y0, &y1, point.reach)?;
-            (met.patch.gap(&y1).0 < point.reach && !thin(point, &met.patch)).then_some((met.patch, y0))
+            let met = trace(surface(point), [&y0, &y1], point.reach, |found| !thin(point, found))?;
+            (met.patch.gap(&y1).0 < point.reach).then_some((met.patch, y0))
         };
         for point in self.points.iter_mut().filter(|point| point.key.2 < SAMPLES.len() as u32) {
             let obstacle = &self.obstacles[point.obstacle];
@@ -265,8 +266,8 @@ impl Pair<'_> {
         is_wide(radius, self.radius, self.section.length)
     }
 
-    fn is_thin(&self, patch: &Patch) -> bool {
-        is_thin(patch, self.radius, self.section.length)
+    fn is_thin(&self, found: &Nearest) -> bool {
+        is_thin(found, self.radius, self.section.length)
     }
 
     /// Returns the local coordinate of the point of the element that will be closest to a feature at the end of the step, as far as that is
@@ -319,8 +320,9 @@ fn is_wide(surface: f64, cable: f64, length: f64) -> bool {
     surface + cable >= WIDE * length / SAMPLES.len() as f64
 }
 
-fn is_thin(patch: &Patch, radius: f64, length: f64) -> bool {
-    patch.radius().is_some_and(|own| !is_wide(own, radius, length))
+/// Returns whether the closest points of elements act on a place of a surface, not samples.
+fn is_thin(found: &Nearest, radius: f64, length: f64) -> bool {
+    found.feature && found.patch.radius().is_some_and(|own| !is_wide(own, radius, length))
 }
 
 /// Returns whether a point that touched a patch is behind it, so that it keeps it.
@@ -340,8 +342,13 @@ fn comes_near(surface: &dyn Surface, centre: &Vector3<f64>, radius: f64) -> bool
     }
 }
 
-/// Returns the surface where the way from `start` to `end` comes within `reach` of it.
-fn trace(surface: &dyn Surface, start: &Vector3<f64>, end: &Vector3<f64>, reach: f64) -> Option<Nearest> {
+/// Returns the surface where the way from `start` to `end` comes within `reach` of a part that `counts`; past others it goes on.
+fn trace(
+    surface: &dyn Surface,
+    [start, end]: [&Vector3<f64>; 2],
+    reach: f64,
+    counts: impl Fn(&Nearest) -> bool,
+) -> Option<Nearest> {
     let way = end - start;
     let length = way.norm();
     let (mut done, close) = (0.0, 0.02 * reach);
@@ -351,13 +358,13 @@ fn trace(surface: &dyn Surface, start: &Vector3<f64>, end: &Vector3<f64>, reach:
         }
         let nearest = surface.nearest(&(start + way * (done / length)));
         let gap = nearest.distance - reach;
-        if gap <= close {
+        if gap <= close && counts(&nearest) {
             return Some(nearest);
         }
-        done += gap;
+        done += gap.max(PAST * reach);
     }
     let nearest = surface.nearest(end);
-    (nearest.distance <= reach).then_some(nearest)
+    (nearest.distance <= reach && counts(&nearest)).then_some(nearest)
 }
 
 /// Returns the centre and the radius of a ball about an element, and its largest way in the first iterate.

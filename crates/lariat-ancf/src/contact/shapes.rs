@@ -46,7 +46,7 @@ pub struct Cuboid {
 impl Surface for HalfSpace {
     fn nearest(&self, y: &Vector3<f64>) -> Nearest {
         let patch = Patch::Plane { point: Vector3::zeros(), normal: self.normal };
-        Nearest { patch, distance: self.normal.dot(y) }
+        Nearest { patch, distance: self.normal.dot(y), feature: false }
     }
 
     fn features(&self, _: &Vector3<f64>, _: f64, _: &mut dyn FnMut(Feature)) {}
@@ -59,7 +59,7 @@ impl Surface for HalfSpace {
 impl Surface for Ball {
     fn nearest(&self, y: &Vector3<f64>) -> Nearest {
         let patch = Patch::Point { point: Vector3::zeros(), radius: self.radius };
-        Nearest { patch, distance: y.norm() - self.radius }
+        Nearest { patch, distance: y.norm() - self.radius, feature: true }
     }
 
     fn features(&self, _: &Vector3<f64>, _: f64, visit: &mut dyn FnMut(Feature)) {
@@ -82,7 +82,7 @@ impl Surface for Capsule {
             let end = if t >= 1.0 { b } else { a };
             (end, Patch::Point { point: end, radius })
         };
-        Nearest { patch, distance: (y - point).norm() - radius }
+        Nearest { patch, distance: (y - point).norm() - radius, feature: true }
     }
 
     fn features(&self, _: &Vector3<f64>, _: f64, visit: &mut dyn FnMut(Feature)) {
@@ -111,12 +111,17 @@ impl Surface for Cylinder {
             let outward = radial.normalize();
             let point = radius * outward + half_height * up;
             let patch = Patch::Line { point, direction: Vector3::y().cross(&outward), radius: 0.0 };
-            return Nearest { patch, distance: side.hypot(end) };
+            return Nearest { patch, distance: side.hypot(end), feature: true };
         }
         if end > side {
-            return Nearest { patch: Patch::Plane { point: half_height * up, normal: up }, distance: end };
+            return Nearest {
+                patch: Patch::Plane { point: half_height * up, normal: up },
+                distance: end,
+                feature: false,
+            };
         }
-        Nearest { patch: Patch::Line { point: Vector3::zeros(), direction: Vector3::y(), radius }, distance: side }
+        let patch = Patch::Line { point: Vector3::zeros(), direction: Vector3::y(), radius };
+        Nearest { patch, distance: side, feature: true }
     }
 
     fn features(&self, _: &Vector3<f64>, _: f64, visit: &mut dyn FnMut(Feature)) {
@@ -142,7 +147,7 @@ impl Surface for Cuboid {
         let beyond = y.abs() - half;
         let outside = [beyond.x > 0.0, beyond.y > 0.0, beyond.z > 0.0];
         match outside.iter().filter(|o| **o).count() {
-            3 => Nearest { patch: Patch::Point { point: corner, radius: 0.0 }, distance: beyond.norm() },
+            3 => Nearest { patch: Patch::Point { point: corner, radius: 0.0 }, distance: beyond.norm(), feature: true },
             2 => {
                 let axis = outside.iter().position(|o| !o).unwrap_or(0);
                 let mut point = corner;
@@ -150,12 +155,13 @@ impl Surface for Cuboid {
                 let mut z = y - point;
                 z[axis] = 0.0;
                 let patch = Patch::Line { point, direction: Vector3::ith(axis, 1.0), radius: 0.0 };
-                Nearest { patch, distance: z.norm() }
+                Nearest { patch, distance: z.norm(), feature: true }
             }
             _ => {
                 let axis = beyond.imax();
                 let normal = Vector3::ith(axis, sign[axis]);
-                Nearest { patch: Patch::Plane { point: normal * half[axis], normal }, distance: beyond[axis] }
+                let patch = Patch::Plane { point: normal * half[axis], normal };
+                Nearest { patch, distance: beyond[axis], feature: false }
             }
         }
     }

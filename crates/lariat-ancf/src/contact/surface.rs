@@ -11,6 +11,8 @@ pub struct Nearest {
     pub patch: Patch,
     /// Distance in m; negative inside.
     pub distance: f64,
+    /// Whether a [`Feature`] covers the place: if it is thin, the closest point of an element acts on it, in place of samples.
+    pub feature: bool,
 }
 
 /// A sharp or round part of a surface that a cable can meet between its samples: an edge, a corner, a rod, a ball.

@@ -6,6 +6,7 @@ mod cables;
 mod churn;
 mod clock;
 mod common;
+mod contact;
 mod effects;
 mod events;
 mod junctions;

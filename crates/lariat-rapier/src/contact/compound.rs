@@ -75,11 +75,12 @@ impl Surface for Compound {
     fn nearest(&self, y: &Vector3<f64>) -> Nearest {
         let each = self.parts.iter().map(|part| {
             let nearest = part.surface.nearest(&part.to_own(y));
-            Nearest { patch: part.patch(nearest.patch), distance: nearest.distance }
+            Nearest { patch: part.patch(nearest.patch), ..nearest }
         });
         each.min_by(|a, b| a.distance.total_cmp(&b.distance)).unwrap_or(Nearest {
             patch: Patch::Point { point: Vector3::zeros(), radius: 0.0 },
             distance: f64::INFINITY,
+            feature: false,
         })
     }
 
@@ -104,13 +105,13 @@ pub(super) struct Rounded {
 
 impl Surface for Rounded {
     fn nearest(&self, y: &Vector3<f64>) -> Nearest {
-        let Nearest { patch, distance } = self.inner.nearest(y);
+        let Nearest { patch, distance, feature } = self.inner.nearest(y);
         let patch = match patch {
             Patch::Plane { point, normal } => Patch::Plane { point: point + self.border * normal, normal },
             Patch::Line { point, direction, radius } => Patch::Line { point, direction, radius: radius + self.border },
             Patch::Point { point, radius } => Patch::Point { point, radius: radius + self.border },
         };
-        Nearest { patch, distance: distance - self.border }
+        Nearest { patch, distance: distance - self.border, feature }
     }
 
     fn features(&self, centre: &Vector3<f64>, radius: f64, visit: &mut dyn FnMut(Feature)) {

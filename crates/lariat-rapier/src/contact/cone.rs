@@ -32,23 +32,24 @@ impl Surface for Cone {
         let base = -b;
         if t >= length && side > -f64::EPSILON {
             let point = h * Vector3::y();
-            return Nearest { patch: Patch::Point { point, radius: 0.0 }, distance: (y - point).norm() };
+            return Nearest { patch: Patch::Point { point, radius: 0.0 }, distance: (y - point).norm(), feature: true };
         }
         let in_base = s <= radius;
         if (side <= 0.0 || base > 0.0) && in_base && base >= side {
             let patch = Patch::Plane { point: -h * Vector3::y(), normal: -Vector3::y() };
-            return Nearest { patch, distance: base };
+            return Nearest { patch, distance: base, feature: false };
         }
         if t <= 0.0 {
             let point = radius * outward - h * Vector3::y();
             let patch = Patch::Line { point, direction: Vector3::y().cross(&outward), radius: 0.0 };
-            return Nearest { patch, distance: (y - point).norm() };
+            return Nearest { patch, distance: (y - point).norm(), feature: true };
         }
         let n = outward * normal[0] + Vector3::y() * normal[1];
         let foot = outward * (radius + t * along[0]) + Vector3::y() * (t * along[1] - h);
         let curvature = ((radius + t * along[0]) / normal[0]).max(0.0);
         let direction = outward * along[0] + Vector3::y() * along[1];
-        Nearest { patch: Patch::Line { point: foot - n * curvature, direction, radius: curvature }, distance: side }
+        let patch = Patch::Line { point: foot - n * curvature, direction, radius: curvature };
+        Nearest { patch, distance: side, feature: false }
     }
 
     fn features(&self, _: &Vector3<f64>, _: f64, visit: &mut dyn FnMut(Feature)) {

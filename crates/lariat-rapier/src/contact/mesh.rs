@@ -110,7 +110,7 @@ impl Mesh {
         if !self.solid && distance < 0.0 {
             (normal, distance) = (-normal, -distance);
         }
-        Nearest { patch: Patch::Plane { point, normal }, distance }
+        Nearest { patch: Patch::Plane { point, normal }, distance, feature: false }
     }
 }
 
@@ -128,7 +128,7 @@ impl Surface for Mesh {
                 let direction = (b - a).normalize();
                 let z = y - a;
                 let distance = (z - direction * direction.dot(&z)).norm();
-                Nearest { patch: Patch::Line { point: a, direction, radius: 0.0 }, distance }
+                Nearest { patch: Patch::Line { point: a, direction, radius: 0.0 }, distance, feature: true }
             }
             TrianglePointLocation::OnVertex(i) => {
                 let point = self.vertices[corners[i.min(2) as usize] as usize];
@@ -138,7 +138,7 @@ impl Surface for Mesh {
                 if face.distance < 0.0 || distance - face.distance <= 1e-9 * distance {
                     return face;
                 }
-                Nearest { patch: Patch::Point { point, radius: 0.0 }, distance }
+                Nearest { patch: Patch::Point { point, radius: 0.0 }, distance, feature: true }
             }
             _ => self.face(number, y),
         }

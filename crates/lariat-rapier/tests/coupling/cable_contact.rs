@@ -274,8 +274,17 @@ fn contacts_begin_and_end_with_events() {
         cables.step(&mut world).unwrap();
         began.extend(cables.take_events());
     }
-    let [Event::ContactStarted { cable: c, collider, arc_length, force }] = began[..] else { panic!("{began:?}") };
-    assert!((c, collider) == (cable, floor) && (arc_length - 0.5).abs() < 0.05 && force > 0.0, "{began:?}");
+    // it may bounce: beginnings and ends alternate, from a beginning to a beginning
+    assert!(began.len() % 2 == 1, "{began:?}");
+    for (i, event) in began.iter().enumerate() {
+        match *event {
+            Event::ContactStarted { cable: c, collider, arc_length, force } if i % 2 == 0 => {
+                assert!((c, collider) == (cable, floor) && (arc_length - 0.5).abs() < 0.05 && force > 0.0, "{event:?}");
+            }
+            Event::ContactEnded { cable: c, collider, .. } if i % 2 == 1 => assert!((c, collider) == (cable, floor)),
+            ref other => panic!("{other:?}"),
+        }
+    }
     assert!(cables.contacts(cable).unwrap().all(|(collider, _)| collider == floor));
     world.remove_collider(floor);
     cables.step(&mut world).unwrap();
