@@ -11,7 +11,7 @@ use crate::effect::acts::{ForceInput, PointForce, StepInput};
 use crate::error::StepFailure;
 use crate::integrate::State;
 use crate::integrate::discrete_gradient::{
-    ALPHA, BETA, Balance, Buffers, DiscreteGradientSystem, Event, share_to_take,
+    ALPHA, BETA, Balance, Buffers, DiscreteGradientSystem, Event, share_to_take, sum_of_forces,
 };
 use crate::support::{SlopeSupport, Support};
 use core::ops::Range;
@@ -96,6 +96,7 @@ impl Equations<'_> {
         balance.held += before;
         (balance.contacts, balance.obstacles) = (loss, obstacles);
         (balance.missed, balance.forces) = (missed, forces);
+        balance.impulse += b.h * forces;
     }
 
     /// Computes `h (G + F - f) - M D v` of the present iterate into `rhs`, and the step matrix if asked. Without it, returns what the
@@ -189,7 +190,8 @@ impl Equations<'_> {
     pub fn step_balance(&mut self, state: &State, b: &mut Buffers, work: &mut EffectWork) -> Balance {
         let loss = self.step_residual(state, b, false, work);
         let mut balance = Balance { numerical: loss.numerical, effects: loss.effects, ..Balance::default() };
-        let (system, Buffers { change, external, .. }) = (&*self.system, &*b);
+        let (system, Buffers { h, change, external, product, .. }) = (&*self.system, &*b);
+        balance.impulse = sum_of_forces(product) + *h * sum_of_forces(external);
         if !self.model.loads.is_empty() {
             let dead = system.loads.gravity_work(change) + system.loads.effect_work(change);
             balance.loads = dot(external, change) - dead - (work.total() + loss.effects);
@@ -200,6 +202,9 @@ impl Equations<'_> {
         let system = &*self.system;
         let Buffers { h, velocity_before, velocity_change, change, rhs, external, product, .. } = b;
         for (node, support) in &self.model.supports {
+            if support.position.is_some() {
+                balance.impulse += sum_of_forces(&rhs[6 * node..6 * node + 6]);
+            }
             for x in prescribed(support) {
                 balance.supports -= rhs[6 * node + x] * change[6 * node + x] / *h;
             }
@@ -283,6 +288,7 @@ impl DiscreteGradientSystem for CableStep<'_> {
         equations.system.meter.work_of_step = work;
         project_vector(equations.model, &mut b.rhs);
         balance.residual = -dot(&b.rhs, &b.change) / b.h;
+        balance.imbalance = sum_of_forces(&b.rhs);
         Ok(balance)
     }
 

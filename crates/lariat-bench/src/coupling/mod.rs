@@ -5,6 +5,7 @@
 //! are CPU time on one thread, the mean over a run of 2 s, the smallest of several runs; only the
 //! steps of the world with its cables are timed.
 
+mod assemblies;
 mod measure;
 mod model;
 mod scene;
@@ -96,8 +97,16 @@ pub fn measure(progress: &mut dyn FnMut(&str)) -> Result<(String, Table), Error>
          twenty. The slower presets are left out, and multibody joints are run once.",
     );
     many.excerpt(tables::view(&table, &twenty, &ERRORS[..1]));
+    let mut assemblies = Section::new("Assemblies");
+    assemblies.text(
+        "*Bridge*: two ropes of 20 elements carry ten planks, each on 2 or 4 pins; a box of 60 kg falls on it from 2 m. *Boxes*: a pile of \
+         500 awake boxes of 10 kg that has settled; slack cables of 10 elements lead from fixed points to boxes on its top. The times are \
+         the mean and the largest of host steps; of the pile, the run of three with the smallest mean. Counts are per host step, of all cables.",
+    );
+    assemblies.excerpt(assemblies::table(progress)?);
     let introduction = introduction(&machine);
-    Ok((page::markdown("The cost of a cable on a body", &introduction, &[payload, in_steel, at_rest, many]), table))
+    let sections = [payload, in_steel, at_rest, many, assemblies];
+    Ok((page::markdown("The cost of a cable on a body", &introduction, &sections), table))
 }
 
 fn introduction(machine: &str) -> String {
@@ -107,7 +116,7 @@ fn introduction(machine: &str) -> String {
          E = 1e9 Pa, 4000 kg/m^3, *steel* E = 2e11 Pa, 7850 kg/m^3. A host step is 1/60 s. *Time* is CPU time per host step on one \
          thread: the mean over 2 s, the smallest of 2 to 25 runs. *Rapier alone* is the time of the same world without cables, *per cable* \
          the difference. *Split* is the number of Rapier steps per host step, and of solver iterations in each: `1 x 4` is the default of \
-         Rapier, `4 x 4` that of Lariat. *Stretch* is the largest of the polyline from the fixed point through nodes, particles or joints \
+         Rapier and of Lariat. *Stretch* is the largest of the polyline from the fixed point through nodes, particles or joints \
          to the point of the box. A dash marks a run that flew apart. All columns, with counts of steps, Newton iterations, \
          factorisations and element evaluations: [coupling.csv](coupling.csv).\n\n\
          - **Lariat**: 10 elements, `CableSet`, one `AttachmentKind::Ball`.\n\
@@ -176,7 +185,7 @@ fn fine(scene: &Scene) -> Result<[Vector3<f64>; 2], Error> {
 
 /// Says whether the game fidelity with the default split is as fast as wanted.
 fn target(rows: &[Row]) -> String {
-    let game = rows.iter().find(|r| r.model == CableModel::Lariat(Fidelity::Game) && r.split == SPLITS[2]);
+    let game = rows.iter().find(|r| r.model == CableModel::Lariat(Fidelity::Game) && r.split == SPLITS[0]);
     let time = game.map_or(f64::NAN, |r| r.micros);
     let verdict = if time <= TARGET { "met" } else { "missed" };
     format!(

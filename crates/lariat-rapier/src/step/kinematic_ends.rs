@@ -1,9 +1,10 @@
 //! Cable ends on fixed, kinematic and disabled bodies: prescribed motion.
 //!
-//! A ball attachment prescribes the motion of its node over the step: the cubic through positions
-//! and velocities v + w x r of its anchor at both ends of the step. A clamp is a driven body of its
-//! island, which rotates the tangent. The pose of the body after the step is computed as Rapier
-//! does, so that the end is where Rapier puts the body.
+//! A ball attachment to a body that does not rotate prescribes the motion of its node over the step:
+//! the cubic through positions and velocities of its anchor at both ends of the step. A body that
+//! rotates, or that clamps a cable, is a driven body of the island, which moves the node along the
+//! arc and rotates the tangent. The pose of the body after the step is computed as Rapier does, so
+//! that the end is where Rapier puts the body.
 
 use crate::attachment::Attachment;
 use crate::contents::Contents;
@@ -78,6 +79,7 @@ pub(crate) fn prescribe(
                 (origin + arm, v + w.cross(&arm))
             });
         let from = cable.node_position(a.node);
+        let rests = start_velocity == Vector3::zeros() && end_velocity == Vector3::zeros() && start == end;
         let present = Vector3::from_column_slice(&cable.velocities()[6 * a.node..6 * a.node + 3]);
         let rounding = ROUNDING * f64::from(Real::EPSILON) * (start_velocity.norm() + start.norm().max(1.0) / step.h);
         let continues = (present - start_velocity).norm() <= rounding;
@@ -86,8 +88,7 @@ pub(crate) fn prescribe(
         let behind = from - start;
         let left = (1.0 - CLOSING_SPEED * step.h / (1.5 * behind.norm()).max(f64::MIN_POSITIVE)).max(0.0);
         let target = end + behind * left;
-        let rests = start_velocity == Vector3::zeros() && end_velocity == Vector3::zeros();
-        let motion = if rests && start == end && from == target {
+        let motion = if rests && from == target {
             Motion::fixed(end)
         } else {
             Motion::hermite(cable.time(), step.h, (from, start_velocity), (target, end_velocity))

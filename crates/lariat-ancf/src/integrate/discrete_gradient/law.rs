@@ -89,6 +89,10 @@ pub(crate) struct Balance {
     /// Sum in N of contact forces, and of what the linear solve missed of them.
     pub forces: f64,
     pub missed: f64,
+    /// Sum over nodes and bodies of the impulse in N s that the residual leaves unbalanced.
+    pub imbalance: f64,
+    /// Sum of the impulses in N s that must balance: of inertia, of external forces, of supports and pins.
+    pub impulse: f64,
 }
 
 impl Balance {
@@ -108,6 +112,8 @@ impl Balance {
         self.near |= other.near;
         self.forces += other.forces;
         self.missed += other.missed;
+        self.imbalance += other.imbalance;
+        self.impulse += other.impulse;
     }
 
     /// Returns what the method itself loses.
@@ -124,6 +130,11 @@ impl Balance {
     pub fn excess(&self) -> f64 {
         self.residual - self.losses() - self.rescaled
     }
+}
+
+/// Returns the sum of the magnitudes of the forces on positions in a nodal vector.
+pub(crate) fn sum_of_forces(x: &[f64]) -> f64 {
+    x.as_chunks::<6>().0.iter().map(|x| (x[0] * x[0] + x[1] * x[1] + x[2] * x[2]).sqrt()).sum()
 }
 
 /// A mechanical system with discrete gradients, at its present state.

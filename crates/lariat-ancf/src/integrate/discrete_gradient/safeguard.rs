@@ -1,8 +1,8 @@
 //! One step, by the cheapest means that keep its energy law.
 //!
-//! 1. One Newton iteration, accepted if its residual makes at most 1e-9 of the energy of the system beyond what the step loses, and loses
-//!    no more energy than the method does.
-//! 2. Up to eight: with the same factors if only the latter fails, else with a new tangent.
+//! 1. One Newton iteration, accepted if its residual makes at most 1e-9 of the energy of the system beyond what the step loses, loses no
+//!    more energy than the method does, and leaves at most 3 % of the impulses unbalanced.
+//! 2. Up to eight, up to three for the last condition: with a new tangent if energy is made, else with the same factors.
 //! 3. Velocities relative to rigid motion are scaled down, if that takes at most half of their energy; momenta stay.
 //! 4. Four steps of a quarter, each by the same means.
 //!
@@ -16,6 +16,11 @@ use crate::error::StepFailure;
 
 /// Share of the energy of the system that a step may make.
 const TOLERANCE: f64 = 1e-9;
+/// Share of the impulses of a step that may be unbalanced. The energy law alone lets errors of tension pass where the motion turns fast:
+/// on a rotor, 0.13 rad per step, 20 N of 63.
+const FORCE_TOLERANCE: f64 = 0.03;
+/// Number of iterations after which the balance of impulses is no longer asked for: a slack cable has hardly any.
+const MAX_FOR_FORCES: usize = 3;
 /// Rounding error of the energy law as a share of its terms.
 const ROUNDING: f64 = 1e-13;
 /// Largest number of Newton iterations.
@@ -40,7 +45,7 @@ fn keeps_law(balance: &Balance) -> bool {
 }
 
 /// Returns whether the residual loses no more than the method itself.
-fn is_accurate(balance: &Balance) -> bool {
+fn is_dissipation_right(balance: &Balance) -> bool {
     -balance.residual <= balance.losses() + TOLERANCE * balance.scale()
 }
 
@@ -56,6 +61,11 @@ fn is_consistent(balance: &Balance) -> bool {
     balance.missed <= CONSISTENCY * balance.forces + balance.weight
 }
 
+/// Returns whether the residual leaves a small share of the impulses unbalanced.
+fn are_forces_right(balance: &Balance) -> bool {
+    balance.imbalance <= FORCE_TOLERANCE * balance.impulse
+}
+
 /// Returns whether the terms of the law are small enough for their sum to be known to the tolerance.
 fn is_certain(balance: &Balance) -> bool {
     ROUNDING * (balance.numerical + balance.contacts + balance.residual.abs()) <= TOLERANCE * balance.scale()
@@ -68,12 +78,15 @@ fn is_certain(balance: &Balance) -> bool {
 pub(super) fn step(system: &mut dyn DiscreteGradientSystem, h: f64, depth: usize) -> Result<(), StepFailure> {
     system.predict(h);
     let mut last = Err(StepFailure::NotConverged { iterations: 0, increment: 0.0 });
-    let mut fresh = true;
-    for i in 0..MAX_ITERATIONS_NEAR {
+    let (mut fresh, mut most) = (true, MAX_ITERATIONS);
+    let mut iteration = 0;
+    while iteration < most {
+        iteration += 1;
         last = system.iterate(fresh);
         match &last {
             Ok(balance) if keeps_law(balance) => {
-                if is_accurate(balance) && closes(balance) && is_consistent(balance) {
+                let forces = iteration >= MAX_FOR_FORCES || are_forces_right(balance);
+                if is_dissipation_right(balance) && forces && closes(balance) && is_consistent(balance) {
                     break;
                 }
                 fresh = balance.near;
@@ -81,8 +94,8 @@ pub(super) fn step(system: &mut dyn DiscreteGradientSystem, h: f64, depth: usize
             Ok(balance) if balance.excess().is_finite() => fresh = true,
             _ => break,
         }
-        if i + 1 >= MAX_ITERATIONS && last.as_ref().is_ok_and(|balance| !balance.near) {
-            break;
+        if last.as_ref().is_ok_and(|balance| balance.near) {
+            most = MAX_ITERATIONS_NEAR;
         }
     }
     if let Ok(balance) = &last
