@@ -65,7 +65,7 @@ impl CableSet {
     /// chose its integrator, it takes that of [`Settings::fidelity`].
     pub fn insert(&mut self, mut cable: Cable) -> CableHandle {
         if cable.has_default_integrator() {
-            // the integrator of a fidelity fits every cable
+            // the integrator of a fidelity fits every cable, but one with contact keeps the one that can step it
             let _ = cable.set_integrator(cable.integrator_for(self.settings.fidelity));
         }
         self.contents.insert(cable)

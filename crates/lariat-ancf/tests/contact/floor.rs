@@ -2,7 +2,7 @@
 
 use crate::bench::{GRAVITY, deepest, energies, rope, run, up, with};
 use lariat_ancf::contact::{HalfSpace, Obstacle, RigidMotion};
-use lariat_ancf::{Cable, Vector3};
+use lariat_ancf::{At, Cable, Motion, Support, Vector3};
 
 fn floor(friction: f64) -> Obstacle {
     Obstacle::new(1, HalfSpace { normal: up() }, Vector3::zeros(), friction)
@@ -98,6 +98,37 @@ fn a_conveyor_carries_a_rope() {
     assert!((speeds[5] / early - 1.0).abs() < 0.01, "{}", speeds[5]);
     assert!((speeds[59] / 0.5 - 1.0).abs() < 1e-6, "{}", speeds[59]);
     assert!(cable.energy_law().obstacles > 0.5 * 0.28 * 0.25);
+}
+
+/// A rope of 50 elements and 150 samples that lies on a floor, or is dragged over it, takes one iteration per step; the time is printed.
+///
+/// *Source.* Counters: 4 steps per host step; dragged, the settling of the pull may take more.
+#[test]
+fn a_rope_at_rest_takes_one_iteration_per_step() {
+    for speed in [0.0, 0.5] {
+        let line = [up() * 0.005, Vector3::new(5.0, 0.005, 0.0)];
+        let mut cable = rope(0.1, &line, 50).build().unwrap();
+        if speed > 0.0 {
+            let motion = Motion::uniform(0.0, line[0], Vector3::new(-0.8, 0.0, 0.6) * speed);
+            cable.set_support(At::Start, Support { position: Some(motion), ..Support::default() }).unwrap();
+        }
+        let mut cable = with(cable, vec![floor(0.3)]);
+        run(&mut cable, 60, |_| {});
+        cable.diagnostics_mut().reset();
+        let clock = std::time::Instant::now();
+        for _ in 0..120 {
+            cable.step(1.0 / 60.0).unwrap();
+        }
+        let (time, d) = (clock.elapsed().as_secs_f64() / 120.0, *cable.diagnostics());
+        let sweeps = d.newton_iterations as f64 / 120.0;
+        println!(
+            "{speed} m/s: {sweeps:.2} sweeps, {:.3} ms per host step, {} contacts",
+            1e3 * time,
+            cable.contacts().count()
+        );
+        assert_eq!(cable.contacts().count(), 150);
+        assert!(sweeps <= if speed > 0.0 { 4.4 } else { 4.0 }, "{speed}: {sweeps}");
+    }
 }
 
 /// A hundred metres further the same rope moves the same way, but for rounding of the coordinates.

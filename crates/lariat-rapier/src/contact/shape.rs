@@ -192,7 +192,11 @@ mod tests {
                     let distance = match feature.shape {
                         FeatureShape::Point(p) => (y - p).norm(),
                         FeatureShape::Segment(a, b) => {
-                            let t = ((y - a).dot(&(b - a)) / (b - a).norm_squared()).clamp(0.0, 1.0);
+                            let t = (y - a).dot(&(b - a)) / (b - a).norm_squared();
+                            // its ends are other features
+                            if t <= 0.0 || t >= 1.0 {
+                                return;
+                            }
                             (y - a - (b - a) * t).norm()
                         }
                         FeatureShape::Circle { .. } => return,
