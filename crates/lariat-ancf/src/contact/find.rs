@@ -89,7 +89,7 @@ impl ContactStep {
                 let step = self.obstacles[number];
                 let way = SWEEP * (way + motion.h * step.speed(&centre, size));
                 let near = size + radius * (1.0 + NEAR_FEATURE) + obstacle.skin + way;
-                let own = step.start.to_own(&centre);
+                let own = step.start.own(&centre);
                 if !comes_near(&*obstacle.surface, &own, near) {
                     continue;
                 }
@@ -105,7 +105,7 @@ impl ContactStep {
         }
         self.hand_over(motion.memory);
         for point in &self.points {
-            let y = self.obstacles[point.obstacle].start.to_own(&point.start);
+            let y = self.obstacles[point.obstacle].start.own(&point.start);
             self.before += point.energy_before(&y);
         }
     }
@@ -114,7 +114,7 @@ impl ContactStep {
     fn add_samples(&mut self, pair: &Pair<'_>) {
         for (place, (xi, weight)) in SAMPLES.into_iter().enumerate() {
             let mut point = pair.point(place as u32, xi, weight * pair.section.length);
-            let y = pair.step.start.to_own(&point.start);
+            let y = pair.step.start.own(&point.start);
             let nearest = pair.obstacle.surface.nearest(&y);
             point.distance = nearest.distance;
             let index = find(pair.motion.memory, point.key);
@@ -124,7 +124,7 @@ impl ContactStep {
             } else {
                 point.patch = nearest.patch;
                 if pair.is_thin(&nearest) || nearest.distance - point.reach > NEAR * pair.radius {
-                    let end = pair.step.end.to_own(&(point.start + point.change(pair.motion.change)));
+                    let end = pair.step.end.own(&(point.start + point.change(pair.motion.change)));
                     match trace(&*pair.obstacle.surface, [&y, &end], point.reach, |found| !pair.is_thin(found)) {
                         Some(met) => point.patch = met.patch,
                         None => {
@@ -149,9 +149,9 @@ impl ContactStep {
         let length = pair.section.length;
         let weight = (length / SAMPLES.len() as f64).min(4.0 * pair.radius);
         let mut point = pair.point(SAMPLES.len() as u32 + feature.id, xi, weight);
-        let y = pair.step.start.to_own(&point.start);
+        let y = pair.step.start.own(&point.start);
         let Some((patch, z)) = feature.patch(&y) else { return };
-        let end = pair.step.end.to_own(&(point.start + point.change(pair.motion.change)));
+        let end = pair.step.end.own(&(point.start + point.change(pair.motion.change)));
         point.distance = z.norm() - feature.radius;
         if point.distance - point.reach > NEAR_FEATURE * pair.radius + SWEEP * (end - y).norm() {
             return;
@@ -179,7 +179,7 @@ impl ContactStep {
             for i in left {
                 if !self.recalled[i] && memory[i].weight == point.weight {
                     self.recalled[i] = true;
-                    let y = self.obstacles[point.obstacle].start.to_own(&point.start);
+                    let y = self.obstacles[point.obstacle].start.own(&point.start);
                     point.recall(&y, Some(&memory[i]));
                     break;
                 }
@@ -233,7 +233,7 @@ impl ContactStep {
 impl ContactPoint {
     /// Returns its place in the obstacle's axes at the beginning and at the end of an iterate.
     fn way(&self, obstacle: &ObstacleStep, change: &[f64]) -> (Vector3<f64>, Vector3<f64>) {
-        (obstacle.start.to_own(&self.start), obstacle.end.to_own(&(self.start + self.change(change))))
+        (obstacle.start.own(&self.start), obstacle.end.own(&(self.start + self.change(change))))
     }
 }
 
@@ -278,13 +278,13 @@ impl Pair<'_> {
         let end = &self.step.end;
         let at = |xi: f64| {
             let shape = shape::position(xi, length);
-            end.to_own(&(combine(q, e, &shape) + combine(change, e, &shape)))
+            end.own(&(combine(q, e, &shape) + combine(change, e, &shape)))
         };
         let distance = |xi: f64| feature.distance_squared(&at(xi));
         // growth of the distance along the cable at a node, from the node alone: the same number for both of its elements
         let growth = |node: usize| {
             let moved = |x: usize| Vector3::from_fn(|k, _| q[6 * node + x + k] + change[6 * node + x + k]);
-            let y = end.to_own(&moved(0));
+            let y = end.own(&moved(0));
             (y - feature.core(&y)).dot(&end.rotation.tr_mul(&moved(3)))
         };
         let last = self.motion.model.elements.len() - 1;

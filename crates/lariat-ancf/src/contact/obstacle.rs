@@ -153,7 +153,7 @@ pub(super) struct Pose {
 
 impl Pose {
     /// Returns a point of the world in the body's axes.
-    pub fn to_own(&self, x: &Vector3<f64>) -> Vector3<f64> {
+    pub fn own(&self, x: &Vector3<f64>) -> Vector3<f64> {
         self.rotation.tr_mul(&(x - self.position))
     }
 }
@@ -208,7 +208,7 @@ impl ObstacleStep {
     /// Returns vectors from one of its points to a point of the cable at both ends, in the axes half way.
     pub fn beside(&self, own: &Vector3<f64>, x: &Vector3<f64>, change: &Vector3<f64>) -> (Vector3<f64>, Vector3<f64>) {
         if self.turns {
-            let (y0, y1) = (self.start.to_own(x), self.end.to_own(&(x + change)));
+            let (y0, y1) = (self.start.own(x), self.end.own(&(x + change)));
             (self.middle * (y0 - own), self.middle * (y1 - own))
         } else {
             self.translated(own, x, change)
@@ -229,10 +229,6 @@ impl ObstacleStep {
 
     /// Returns the motion of a point of the cable beside its material, in the axes half way.
     pub fn slip(&self, x: &Vector3<f64>, change: &Vector3<f64>) -> Vector3<f64> {
-        if self.turns {
-            self.middle * (self.end.to_own(&(x + change)) - self.start.to_own(x))
-        } else {
-            change - self.shift
-        }
+        if self.turns { self.middle * (self.end.own(&(x + change)) - self.start.own(x)) } else { change - self.shift }
     }
 }

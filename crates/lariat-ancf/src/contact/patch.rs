@@ -131,7 +131,7 @@ fn radial(z0: Vector3<f64>, z1: Vector3<f64>, radius: f64, reach: f64) -> GapSte
         return GapStep { start: n.dot(&z0) - radius, end: n.dot(&z1) - radius, mean: n, normal: n };
     }
     let sum = l0 + l1;
-    if !(sum > 0.0) {
+    if sum <= 0.0 {
         return GapStep { start: -radius, end: -radius, mean: Vector3::x(), normal: Vector3::x() };
     }
     let normal = if l1 > 0.0 { z1 / l1 } else { z0 / l0 };
