@@ -1,6 +1,6 @@
 //! `summary.json`: the results and costs of a run, in one object.
 
-use super::{BodyStatics, CableStatics, World};
+use super::{BodyStatics, CableStatics, ErrorClaim, World};
 use crate::error::Error;
 use crate::warning::Warning;
 use serde::{Deserialize, Serialize};
@@ -43,6 +43,9 @@ pub struct Summary {
     pub warnings: Vec<Warning>,
     /// Why the run failed; null if it did not.
     pub failed: Option<String>,
+    /// What is claimed about the error that was asked for; only with `--error`. Counts and times above are those of the last run.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub error: Option<ErrorClaim>,
     /// The equilibrium of each cable; only for `lariat static`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub statics: Option<Vec<CableStatics>>,
@@ -75,6 +78,7 @@ impl Summary {
             energy_end_j: finite(world.energy(None).total()),
             warnings: world.warnings.clone(),
             failed: failed.map(ToString::to_string),
+            error: None,
             statics: world.statics.clone(),
             static_bodies: world.static_bodies.clone(),
         }

@@ -72,25 +72,27 @@ impl Watch {
         Ok(())
     }
 
-    /// Returns the warnings about the cables.
-    pub fn warnings(&self, scene: &Scene) -> Vec<Warning> {
+    /// Returns the warnings about the cables. If an error is asked for, that is the limit of the mesh, and only of its indicator: the runs
+    /// judge what nodes cannot.
+    pub fn warnings(&self, scene: &Scene, error: Option<f64>) -> Vec<Warning> {
         self.0
             .iter()
             .zip(&scene.cables)
             .flat_map(|(worst, cable)| {
                 let (elements, name) = (cable.elements, || cable.name.clone());
                 let (position, motion) = (worst.position, worst.motion);
-                let mesh = if position > MESH * cable.length {
-                    let enough = more(elements, position / (0.5 * MESH * cable.length));
+                let limit = error.unwrap_or(MESH * cable.length);
+                let mesh = if position > limit {
+                    let enough = more(elements, position / (0.5 * limit));
                     Some(Warning::CoarseMesh { cable: name(), error_m: position, elements, enough })
-                } else if motion > MOTION * worst.displacement && motion > ROUNDING * cable.length {
+                } else if error.is_none() && motion > MOTION * worst.displacement && motion > ROUNDING * cable.length {
                     let enough = more(elements, motion / (0.5 * MOTION * worst.displacement));
                     let displacement_m = worst.displacement;
                     Some(Warning::CoarseMotion { cable: name(), error_m: motion, displacement_m, elements, enough })
                 } else {
                     None
                 };
-                let turn = (worst.turn > TURN).then(|| {
+                let turn = (error.is_none() && worst.turn > TURN).then(|| {
                     // an arc of this angle, divided into k elements, has the indicator h turn^3/(96 k^4), h its length
                     let parts = (worst.turn.powi(3) / (96.0 * 0.5 * MESH)).powf(0.25).max(2.0);
                     let enough = (elements as f64 * parts).ceil().clamp(4.0, MOST) as usize;
