@@ -125,7 +125,7 @@ pub struct Study<F> {
 /// Host steps.
 #[derive(Clone, Copy, Debug)]
 struct Span {
-    /// Their number.
+    /// Their number; a fraction is a shorter step.
     steps: f64,
     /// Their length in s.
     host_step: f64,
@@ -153,8 +153,7 @@ impl<F> Study<F> {
     where
         F: FnMut(&Resolution, &mut Record) -> Result<W, E>,
     {
-        let steps = (duration / host_step - 1e-9).ceil().max(1.0);
-        Study { span: Some(Span { steps, host_step }), ..Self::of_equilibrium(run) }
+        Study { span: Some(Span { steps: duration / host_step, host_step }), ..Self::of_equilibrium(run) }
     }
 
     /// Returns a study of an equilibrium: `run` records one frame, and the tolerance is `None`.
@@ -188,9 +187,12 @@ impl<F> Study<F> {
         if !(error.is_finite() && error > 0.0) {
             return Err(StudyError::InvalidError { value: error });
         }
-        if let Some(span) = span.filter(|span| !(span.steps.is_finite() && span.host_step > 0.0)) {
-            return Err(StudyError::InvalidSpan { steps: span.steps, host_step: span.host_step });
+        if let Some(Span { steps, host_step }) = span
+            && !(steps.is_finite() && steps > 0.0 && host_step > 0.0)
+        {
+            return Err(StudyError::InvalidSpan { steps, host_step });
         }
+        let span = span.map(|span| Span { steps: (span.steps - 1e-9).ceil().max(1.0), ..span });
         let mut runs = Runs { run, error, span, count: 0, evaluations: 0 };
         let mut first = FIRST;
         let (mut coarse, mut fine, time) = loop {
