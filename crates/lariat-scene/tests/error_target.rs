@@ -76,7 +76,7 @@ fn the_claim_for_the_pendulum_holds_against_the_independent_solver() {
             tip.iter().zip(&beam).map(|(tip, beam)| distance(&tip[1..4], &beam[4..7])).fold(0.0, f64::max);
         let claimed = claim.claimed_m.unwrap();
         println!("asked {error:.0e}, claimed {claimed:.1e}, true {error_of_tip:.1e}, cost {:.1}", claim.cost);
-        assert!(claim.outcome == Outcome::Proven && claimed <= error && error_of_tip <= claimed);
+        assert!(claim.outcome == Outcome::Proven && claimed <= error && error_of_tip <= claimed && claim.cost < 4.0);
         let coarse = |w: &Warning| matches!(w, Warning::CoarseMesh { .. });
         assert!(summary.warnings.iter().all(coarse), "{:?}", summary.warnings);
     }
@@ -151,7 +151,7 @@ fn a_tolerance_that_the_host_step_hides_is_flagged() {
     let scene = read("falling_pendulum", &["duration=0.5"], Purpose::Run);
     let (summary, _) = execute(&scene, Some(5e-2), Purpose::Run);
     let claim = claim(&summary);
-    assert!(claim.host_step_limits && claim.time_m >= 50.0 * claim.tolerance_m.unwrap() * (1.0 - 1e-12));
+    assert!(claim.host_step_limits && claim.time_m > 49.9 * claim.tolerance_m.unwrap());
     let (summary, _) = execute(&scene, Some(1e-4), Purpose::Run);
     let claim = self::claim(&summary);
     assert!(!claim.host_step_limits && claim.time_m > 0.0);
@@ -248,8 +248,7 @@ fn the_claim_for_a_body_on_a_cable_holds_and_is_deterministic() {
     assert!(error.not_covered.iter().any(|text| text.contains("single precision")));
     let mut finer = scene.clone();
     finer.cables[0].elements = 2 * claim.elements;
-    let resolution =
-        lariat_ancf::study::Resolution { elements: 0, tolerance: claim.tolerance_m.map(|x| x / 10.0), max_step: None };
+    let resolution = lariat_ancf::study::Resolution { elements: 0, tolerance: claim.tolerance_m.map(|x| x / 10.0) };
     finer.cables[0].integrator = resolution.integrator().into();
     let (_, there) = execute(&finer, None, Purpose::Run);
     let (a, b) = (rows(folder.path(), "crate"), rows(there.path(), "crate"));

@@ -7,9 +7,8 @@
 //!
 //! - `e_mesh = d max(1, 1/(f^2 - 1))` for the error of the mesh, with the largest distance `d` between the two runs and the least ratio `f`
 //!   of their element lengths, found on the meshes themselves: the whole difference, so that no order is assumed above the second;
-//! - `e_time = max |x(8 tau) - x(tau)|/3`, both with 8 elements. If both take about as many steps, these are limited by the host step, and do
-//!   not depend on the tolerance: then the largest of this, of `T/dt tau`, and of 4/3 of the difference to a run in equal steps of half the
-//!   length, as of a method of order 2 or more. If it is above `0.4 e`, the tolerance is taken smaller.
+//! - `e_time = max |x(8 tau) - x(tau)|/3`, both with 8 elements. If both take about as many steps, each a whole host step, then both keep
+//!   `tau`, their difference says nothing, and `e_time` is at least `T/dt tau`. If it is above `0.4 e`, the tolerance is taken smaller.
 //!
 //! The study ends with the finer of the two runs when `e_mesh + e_time <= e`; else the next run has 1.5 to 3 times as many elements, after the
 //! difference and an order of 2.5. Where refining does not help (the third difference is above 0.6 of the first), the motion is not
@@ -63,8 +62,6 @@ pub struct Resolution {
     pub elements: usize,
     /// Error of position per host step in m; `None` for an equilibrium.
     pub tolerance: Option<f64>,
-    /// Longest step in s of a run in equal steps, which checks the tolerance; else `None`.
-    pub max_step: Option<f64>,
 }
 
 impl Resolution {
@@ -74,14 +71,10 @@ impl Resolution {
         (self.elements * own).div_ceil(largest.max(1)).max(self.elements.div_ceil(2))
     }
 
-    /// Returns the integrator: ESDIRK4 with the tolerance for every node and body, or the longest step; for an equilibrium the default one.
+    /// Returns the integrator: ESDIRK4 with the tolerance for every node and body; for an equilibrium the default one.
     pub fn integrator(&self) -> Integrator {
-        let control = self.max_step.map(StepControl::MaxStep).or(self.tolerance.map(StepControl::Tolerance));
-        control.map_or(Integrator::default(), |control| Integrator { method: Method::Esdirk4, control })
-    }
-
-    fn of_equilibrium(elements: usize) -> Self {
-        Resolution { elements, tolerance: None, max_step: None }
+        let control = |tolerance| Integrator { method: Method::Esdirk4, control: StepControl::Tolerance(tolerance) };
+        self.tolerance.map_or(Integrator::default(), control)
     }
 }
 
@@ -227,7 +220,7 @@ impl<F> Study<F> {
                 Outcome::ElementLimit
             } else {
                 coarse = fine;
-                fine = runs.run(Resolution { tolerance: time.tolerance, ..Resolution::of_equilibrium(next) })?;
+                fine = runs.run(Resolution { elements: next, tolerance: time.tolerance })?;
                 continue;
             };
             let proven = outcome == Outcome::Proven;
@@ -268,37 +261,26 @@ impl<F> Runs<F> {
     where
         F: FnMut(&Resolution, &mut Record) -> Result<W, E>,
     {
-        let Some(Span { steps, host_step }) = self.span else {
-            let [coarse, fine] = [first, 2 * first].map(|elements| self.run(Resolution::of_equilibrium(elements)));
+        let Some(Span { steps, .. }) = self.span else {
+            let [coarse, fine] = [first, 2 * first].map(|elements| self.run(Resolution { elements, tolerance: None }));
             return Ok((coarse?, fine?, Time::default()));
         };
-        let mut tau = self.error / (4.0 * steps);
-        loop {
-            let at =
-                |elements, tolerance| Resolution { tolerance: Some(tolerance), ..Resolution::of_equilibrium(elements) };
-            let coarse = self.run(at(first, tau))?;
-            let loose = self.run(at(2 * first, 8.0 * tau))?;
-            let fine = self.run(at(2 * first, tau))?;
-            let mut error = loose.record.distance(&fine.record)? / 3.0;
-            let saturated = loose.record.steps() as f64 > 0.8 * fine.record.steps() as f64;
-            if saturated {
-                let step = host_step / (2.0 * fine.record.steps_per_frame().ceil().max(1.0));
-                let half = self.run(Resolution { max_step: Some(step), ..at(2 * first, tau) })?;
-                error = error.max(steps * tau).max(4.0 / 3.0 * half.record.distance(&fine.record)?);
-            }
-            let longest = fine.record.longest();
-            let time = Time { error, saturated, tolerance: Some(tau) };
-            // a difference that is not finite says nothing about the tolerance: the meshes are compared, and do not agree
-            if error <= 0.4 * self.error || !error.is_finite() || tau <= TIGHTEST * longest {
-                return Ok((coarse, fine, time));
-            }
-            let tighter = (tau * 0.3 * self.error / error).max(TIGHTEST * longest);
-            if !saturated {
-                let time = Time { error: error * tighter / tau, tolerance: Some(tighter), ..time };
-                return Ok((self.run(at(first, tighter))?, self.run(at(2 * first, tighter))?, time));
-            }
-            tau = tighter;
+        let at = |elements, tolerance| Resolution { elements, tolerance: Some(tolerance) };
+        let tau = self.error / (4.0 * steps);
+        let coarse = self.run(at(first, tau))?;
+        let loose = self.run(at(2 * first, 8.0 * tau))?;
+        let fine = self.run(at(2 * first, tau))?;
+        let saturated = loose.record.steps() as f64 > 0.8 * fine.record.steps() as f64;
+        let difference = loose.record.distance(&fine.record)? / 3.0;
+        let error = if saturated { difference.max(steps * tau) } else { difference };
+        let time = Time { error, saturated, tolerance: Some(tau) };
+        // a difference that is not finite says nothing about the tolerance: the meshes are compared, and do not agree
+        if error <= 0.4 * self.error || !error.is_finite() {
+            return Ok((coarse, fine, time));
         }
+        let tighter = (tau * 0.3 * self.error / error).max(TIGHTEST * fine.record.longest());
+        let time = Time { error: error * tighter / tau, tolerance: Some(tighter), ..time };
+        Ok((self.run(at(first, tighter))?, self.run(at(2 * first, tighter))?, time))
     }
 
     /// Runs the world at a resolution.
@@ -307,7 +289,7 @@ impl<F> Runs<F> {
         F: FnMut(&Resolution, &mut Record) -> Result<W, E>,
     {
         let mut record = Record::default();
-        let Resolution { elements, tolerance, .. } = resolution;
+        let Resolution { elements, tolerance } = resolution;
         self.count += 1;
         let failed = |source| StudyError::Run { elements, tolerance, source };
         let world = (self.run)(&resolution, &mut record).map_err(failed)?;

@@ -77,11 +77,6 @@ impl Record {
         self.cables.iter().map(|cable| cable.steps).sum()
     }
 
-    /// Returns the mean number of integration steps of a cable from one frame to the next.
-    pub(super) fn steps_per_frame(&self) -> f64 {
-        self.steps() as f64 / (self.cables.len().max(1) * (self.times.len().max(2) - 1)) as f64
-    }
-
     /// Returns the number of elements evaluated.
     pub(super) fn evaluations(&self) -> u64 {
         self.cables.iter().map(|cable| cable.evaluations).sum()
