@@ -10,9 +10,7 @@ fn model(size: f64, order: f64, share: f64) -> impl FnMut(&Resolution, &mut Reco
         for k in 0..=100 {
             let t = 0.01 * f64::from(k);
             off = t * size * (resolution.elements as f64).powf(-order);
-            // equal steps of half the length have no error here
-            off +=
-                if resolution.max_step.is_none() { share * f64::from(k) * resolution.tolerance.unwrap() } else { 0.0 };
+            off += share * f64::from(k) * resolution.tolerance.unwrap();
             record.frame(t).point([t + off, 0.0, 0.0]);
         }
         Ok(off)
