@@ -132,6 +132,32 @@ pub enum Warning {
         /// Its distance from the surface in m.
         depth_m: f64,
     },
+    /// Integration makes energy.
+    #[error(
+        "the run makes energy: {made_j:.1e} J until {time_s:.4} s, {percent:.2} % of the largest energy or work ({scale_j:.3e} J): take a smaller tolerance, \
+         shorter steps, or the discrete gradient (fidelity = \"game\"), which makes none", percent = 100.0 * .made_j / .scale_j
+    )]
+    EnergyMade {
+        /// Time in s.
+        time_s: f64,
+        /// Energy made in J.
+        made_j: f64,
+        /// Largest energy or work so far in J.
+        scale_j: f64,
+    },
+    /// Integration takes energy.
+    #[error(
+        "integration takes {lost_j:.1e} J until {time_s:.4} s, {percent:.1} % of the largest energy or work ({scale_j:.3e} J), besides damping and drag: the \
+         motion is damped that much; take a smaller tolerance or shorter steps", percent = 100.0 * .lost_j / .scale_j
+    )]
+    EnergyLost {
+        /// Time in s.
+        time_s: f64,
+        /// Energy lost in J.
+        lost_j: f64,
+        /// Largest energy or work so far in J.
+        scale_j: f64,
+    },
     /// An error that was asked for is not proven, because refining does not help.
     #[error(
         "the error of {asked_m:e} m is not proven{}: meshes up to elements = {elements} do not come closer{}", until(*.horizon_s, *.estimate_m),

@@ -58,6 +58,7 @@ fn a_run_writes_its_probes_and_a_summary_with_every_key() {
         "max_gap_m",
         "energy_start_j",
         "energy_end_j",
+        "energy_balance",
         "warnings",
         "failed",
     ];

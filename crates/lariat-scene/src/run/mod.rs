@@ -33,6 +33,7 @@
 //! # Ok::<(), lariat_scene::Error>(())
 //! ```
 
+mod balance;
 mod error_target;
 mod output;
 mod probe;
@@ -42,6 +43,7 @@ mod summary;
 mod watch;
 mod world;
 
+pub use balance::EnergyBalance;
 pub use error_target::ErrorClaim;
 pub(crate) use probe::columns;
 pub use statics::{BodyPlace, BodyStatics, CableStatics, StaticReaction};
@@ -108,14 +110,16 @@ struct Done {
     output: Output,
     cpu: Duration,
     wall: Duration,
+    balance: Option<EnergyBalance>,
     outcome: Result<(), Error>,
 }
 
 impl Done {
     /// Writes the summary and the page.
     fn finish(self, claim: Option<ErrorClaim>) -> Result<Summary, Error> {
-        let Done { world, output, cpu, wall, outcome } = self;
-        let summary = Summary { error: claim, ..Summary::of(&world, cpu, wall, outcome.as_ref().err()) };
+        let Done { world, output, cpu, wall, balance, outcome } = self;
+        let summary =
+            Summary { error: claim, energy_balance: balance, ..Summary::of(&world, cpu, wall, outcome.as_ref().err()) };
         let written = output.finish(&summary, &world);
         outcome.and(written).map(|()| summary)
     }
@@ -165,7 +169,8 @@ fn simulate(
     tell(&world);
     let (cpu, wall, spent) = (cpu.elapsed(), wall.elapsed(), output.spent());
     let (cpu, wall) = (cpu.saturating_sub(spent.0), wall.saturating_sub(spent.1));
-    Ok(Done { world, output, cpu, wall, outcome })
+    let balance = (purpose == Purpose::Run).then(|| watch.balance());
+    Ok(Done { world, output, cpu, wall, balance, outcome })
 }
 
 /// Advances a world to the end of its scene.
