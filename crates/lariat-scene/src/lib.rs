@@ -7,6 +7,7 @@
 //! | [`scene`] | the tables of a scene, checked into a [`Scene`] |
 //! | [`run`] | headless runs: probes to CSV, a summary as JSON |
 //! | [`view`] | the run as an animated page |
+//! | [`sweep`] | runs of a scene over a grid of values, on all threads |
 //!
 //! Modules use those above them; `physics`, the Rapier side of a run, is between [`scene`] and [`run`]. The library prints
 //! nothing; the `lariat` command does.
@@ -20,6 +21,7 @@ pub mod scene;
 #[macro_use]
 pub mod schema;
 mod suggest;
+pub mod sweep;
 pub mod view;
 mod warning;
 

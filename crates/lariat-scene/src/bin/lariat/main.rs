@@ -4,6 +4,7 @@ mod bench;
 mod describe;
 mod keys;
 mod progress;
+mod sweep;
 mod tables;
 
 use clap::{Args, Parser, Subcommand};
@@ -32,6 +33,8 @@ enum Command {
     Run(SceneArguments),
     /// Find the static equilibrium of a scene: prints it, and writes the same files, at t = 0
     Static(SceneArguments),
+    /// Run a scene over a grid of values, on all threads: writes DIR/rows.jsonl and DIR/table.csv
+    Sweep(sweep::SweepArguments),
     /// List the keys of a scene file, with unit, range and default
     Keys {
         /// A table or key, such as cable.drag
@@ -58,6 +61,9 @@ struct SceneArguments {
     /// Override a key, such as cable.sling.elements=20; may be repeated
     #[arg(long, value_name = "KEY=VALUE")]
     set: Vec<String>,
+    /// Write DIR/run.usda, the motion as OpenUSD, too
+    #[arg(long)]
+    usd: bool,
 }
 
 fn main() -> ExitCode {
@@ -67,6 +73,7 @@ fn main() -> ExitCode {
         Command::Static(arguments) => {
             find_static(&arguments).map(|summary| describe::statics(&summary, &arguments.out))
         }
+        Command::Sweep(arguments) => sweep::run(&arguments),
         Command::Keys { into: Some(file), .. } => keys::update(&file),
         Command::Keys { key, into: None } => keys::print(key.as_deref()),
         Command::Rules => Ok(tables::rules()),
@@ -101,7 +108,7 @@ fn run_scene(arguments: &SceneArguments) -> Result<Summary, Error> {
     }
     let mut bar = progress::Bar::new(scene.duration);
     let mut report = |time: f64| bar.advance(time);
-    let mut options = Options { stop, progress: Some(&mut report), warn: Some(&mut warn) };
+    let mut options = Options { stop, progress: Some(&mut report), warn: Some(&mut warn), usd: arguments.usd };
     let outcome = run::run(&scene, &arguments.out, &mut options);
     bar.finish();
     outcome
@@ -109,7 +116,11 @@ fn run_scene(arguments: &SceneArguments) -> Result<Summary, Error> {
 
 fn find_static(arguments: &SceneArguments) -> Result<Summary, Error> {
     let scene = Scene::read(&arguments.scene, &arguments.set, Purpose::Static)?;
-    run::statics(&scene, &arguments.out, &mut Options { warn: Some(&mut warn), ..Options::default() })
+    run::statics(
+        &scene,
+        &arguments.out,
+        &mut Options { warn: Some(&mut warn), usd: arguments.usd, ..Options::default() },
+    )
 }
 
 fn warn(warning: &Warning) {

@@ -1,0 +1,24 @@
+"""The stubs: strictly typed, and the same as the extension module."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from pathlib import Path
+
+import lariat
+
+
+def test_stubs_are_those_of_the_module() -> None:
+    found = subprocess.run([sys.executable, "-m", "mypy.stubtest", "lariat._lariat", "--allowlist", "-"], input="lariat._lariat.__all__\n",
+                           capture_output=True, text=True, check=False)  # fmt: skip
+    assert found.returncode == 0, found.stdout + found.stderr
+
+
+def test_the_package_and_its_examples_are_strictly_typed(tmp_path: Path) -> None:
+    here = Path(__file__).parent
+    places = [Path(lariat.__file__).parent, here.parent / "examples"]
+    for place in places:
+        arguments = ["--strict", "--cache-dir", str(tmp_path), "--config-file", str(here.parent / "pyproject.toml"), str(place)]
+        found = subprocess.run([sys.executable, "-m", "mypy", *arguments], capture_output=True, text=True, check=False)
+        assert found.returncode == 0, found.stdout + found.stderr
