@@ -11,6 +11,7 @@ import pytest
 
 import lariat
 from lariat import errors
+from lariat.types import Fidelity
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "examples"))
 
@@ -34,23 +35,36 @@ def test_an_end_at_rest_carries_half_of_a_hanging_cable() -> None:
     assert abs(forces.work[0]) < 1e-12
 
 
-@pytest.mark.parametrize(("fidelity", "share"), [("game", 1e-9), ("engineering", 1e-2)])
-def test_impulses_are_what_the_cable_loses(fidelity: str, share: float) -> None:
-    """Momentum: J on the bodies = weight x time - change of the cable's momentum (Newton), for any motion of two ends. To rounding for
-    the discrete gradient, else by the trapezoidal rule."""
+def defect(fidelity: Fidelity, moving: float) -> float:
+    """Returns the momentum in shares of weight x time that is in neither the bodies nor the cable, for ends that accelerate smoothly."""
     cable = straight(fidelity=fidelity)
     coupling = lariat.CoSimulation(cable)
     coupling.attach("start", [0, 0, 0])
-    coupling.attach("end", [2.1, 0, 0], clamp=True)
-    dt, before, impulse = 1 / 200, cable.momentum().linear, np.zeros(3)
-    for k in range(1, 41):
+    coupling.attach("end", [2.0, 0, 0], clamp=True)
+    dt, steps, before, impulse = 1 / 400, 80, cable.momentum().linear, np.zeros(3)
+    for k in range(1, steps + 1):
         t = k * dt
-        turn = 0.2 * np.sin(3 * t)
-        rotations = [[0, 0, 0, 1], [0, 0, np.sin(turn / 2), np.cos(turn / 2)]]
-        forces = coupling.step(dt, [[0.1 * np.sin(5 * t), 0, 0], [2.1, 0.2 * t, 0.1 * t]], rotations)
+        a = moving * 0.2 * np.sin(3 * t) ** 2
+        forces = coupling.step(
+            dt,
+            [[moving * 0.1 * np.sin(5 * t) ** 2, 0, 0], [2.0 - moving * 0.2 * t**2, moving * 0.2 * t**2, moving * 0.1 * t**2]],
+            [[0, 0, 0, 1], [0, 0, np.sin(a / 2), np.cos(a / 2)]],
+            [[moving * 0.5 * np.sin(10 * t), 0, 0], [-moving * 0.4 * t, moving * 0.4 * t, moving * 0.2 * t]],
+            [[0, 0, 0], [0, 0, moving * 0.6 * np.sin(6 * t)]],
+        )
         impulse += dt * forces.force.sum(axis=0)
-    weight = np.array([0, -MASS * LENGTH * 9.81 * 40 * dt, 0])
-    assert impulse == pytest.approx(weight - (cable.momentum().linear - before), abs=share * np.abs(weight).max())
+    weight = MASS * LENGTH * 9.81 * steps * dt
+    lost = impulse - [0, -weight, 0] + cable.momentum().linear - before
+    return float(np.abs(lost).max()) / weight
+
+
+def test_impulses_are_what_the_cable_loses() -> None:
+    """Momentum: J on the bodies = weight x time - change of the cable's momentum (Newton). At ends at rest within the tolerance of
+    Newton's iteration (game) or of the trapezoidal rule (engineering); at ends that accelerate, within 2 % of the weight."""
+    assert defect("game", 0.0) < 1e-4
+    assert defect("engineering", 0.0) < 1e-3
+    assert defect("game", 1.0) < 2e-2
+    assert defect("engineering", 1.0) < 2e-2
 
 
 def test_ends_follow_their_bodies_exactly() -> None:

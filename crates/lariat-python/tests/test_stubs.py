@@ -9,9 +9,11 @@ from pathlib import Path
 import lariat
 
 
-def test_stubs_are_those_of_the_module() -> None:
-    found = subprocess.run([sys.executable, "-m", "mypy.stubtest", "lariat._lariat", "--allowlist", "-"], input="lariat._lariat.__all__\n",
-                           capture_output=True, text=True, check=False)  # fmt: skip
+def test_stubs_are_those_of_the_module(tmp_path: Path) -> None:
+    allowed = tmp_path / "allowed"
+    allowed.write_text("lariat._lariat.__all__\n", encoding="utf-8")
+    arguments = [sys.executable, "-m", "mypy.stubtest", "lariat._lariat", "--allowlist", str(allowed)]
+    found = subprocess.run(arguments, capture_output=True, text=True, check=False, cwd=tmp_path)
     assert found.returncode == 0, found.stdout + found.stderr
 
 
