@@ -48,7 +48,10 @@ fn a_grid_has_all_combinations_in_order() {
     assert_eq!(points.len(), 6);
     assert_eq!(points[0], ["cable.rope.elements=2", "duration=0.05"]);
     assert_eq!(points[5], ["cable.rope.elements=3", "duration=0.1"]);
-    let names = sweep::grid(&["fidelity=game,engineering".to_string(), "gravity=[0.0, -1.0, 0.0],[0.0, -9.81, 0.0]".to_string()]);
+    let names = sweep::grid(&[
+        "fidelity=game,engineering".to_string(),
+        "gravity=[0.0, -1.0, 0.0],[0.0, -9.81, 0.0]".to_string(),
+    ]);
     let names = names.unwrap();
     assert_eq!(names.len(), 4);
     assert_eq!(names[1], ["fidelity=game", "gravity=[0.0, -9.81, 0.0]"]);
@@ -59,7 +62,10 @@ fn a_grid_has_all_combinations_in_order() {
 #[test]
 fn rows_are_those_of_single_runs_and_failures_lose_none() {
     let rows = swept(&grid(), None);
-    assert_eq!(rows.iter().map(|row| row.error.is_some()).collect::<Vec<_>>(), [false, true, false, false, true, false]);
+    assert_eq!(
+        rows.iter().map(|row| row.error.is_some()).collect::<Vec<_>>(),
+        [false, true, false, false, true, false]
+    );
     for row in rows.iter().filter(|row| row.error.is_none()) {
         let scene = Scene::parse("rope.toml", TEXT, &row.settings, Purpose::Run).unwrap();
         let folder = tempfile::tempdir().unwrap();
@@ -114,7 +120,8 @@ fn the_command_writes_one_table() {
     assert_eq!(table.lines().count(), 5);
     assert!(table.starts_with("cable.rope.elements,duration,"), "{table}");
     let mut wrong = Command::new(env!("CARGO_BIN_EXE_lariat"));
-    let wrong = wrong.arg("sweep").arg(&scene).arg("--out").arg(&out).args(["--vary", "cable.rope.element=2,3"]).output();
+    let wrong =
+        wrong.arg("sweep").arg(&scene).arg("--out").arg(&out).args(["--vary", "cable.rope.element=2,3"]).output();
     assert_eq!(wrong.unwrap().status.code(), Some(2));
 }
 
