@@ -212,6 +212,7 @@ impl From<lariat_scene::Error> for Raise {
                 let raise = Raise::from(source.clone());
                 Raise { message, ..raise.with("time", time) }
             }
+            E::Import { line, .. } => Raise::of(&error, vec![("line", line.into())]),
             E::NotBuilt { ref key, .. } | E::NoSuchKey { ref key, .. } => {
                 let key = key.clone();
                 Raise::of(&error, vec![("key", key.into())])

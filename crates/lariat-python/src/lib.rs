@@ -34,7 +34,9 @@ mod _lariat {
     #[pymodule_export]
     use crate::integrator::{Integrator, integrators, recommended_elements, rope_kinds};
     #[pymodule_export]
-    use crate::scene::{Recorded, run_scene, sweep_append, sweep_done, sweep_local, sweep_row, sweep_table, to_toml};
+    use crate::scene::{
+        Recorded, import_mjcf, run_scene, sweep_append, sweep_done, sweep_local, sweep_row, sweep_table, to_toml,
+    };
     #[pymodule_export]
     use crate::section::Section;
     #[pymodule_export]

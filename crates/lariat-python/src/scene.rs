@@ -74,7 +74,13 @@ pub fn to_toml(scene: &Bound<'_, PyDict>) -> PyResult<String> {
     toml::to_string(&value).map_err(|error| wrong(error.to_string()))
 }
 
-/// Runs a scene, or finds its equilibrium: to a folder if one is given. Returns the summary, the rows of the probes, the exception of a
+/// Returns the cables of a MuJoCo model as a scene in TOML.
+#[pyfunction]
+pub fn import_mjcf(file: &str, text: &str) -> PyResult<String> {
+    lariat_scene::mjcf::import(file, text).map_err(raise)
+}
+
+/// Runs a scene, or finds its equilibrium. Returns the summary, the rows of the probes, the exception of a
 /// run that failed, and the run.
 #[pyfunction]
 #[pyo3(signature = (file, text, overrides, *, statics=false, progress=None))]

@@ -27,7 +27,7 @@ from lariat._lariat import (
 from lariat.bodies import Collider, ColliderBuilder, RigidBody, RigidBodyBuilder
 from lariat.effects import Buoyancy, Damping, Drag, Flow, GravityScale, LineLoad, RestPiece, RestShape
 from lariat.errors import Error
-from lariat.scenes import Probe, Run, run, statics
+from lariat.scenes import Probe, Run, import_mjcf, run, statics
 from lariat.sweeps import Sweep, sweep
 
 __all__ = [
@@ -56,6 +56,7 @@ __all__ = [
     "bodies",
     "effects",
     "errors",
+    "import_mjcf",
     "integrators",
     "recommended_elements",
     "results",

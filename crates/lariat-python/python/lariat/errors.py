@@ -260,6 +260,10 @@ class OverrideError(Error, ValueError):
     """An override that is not a path into the scene."""
 
 
+class ImportError(Error, ValueError):  # noqa: A001
+    """A model of another program that cannot be imported right: line."""
+
+
 class ReadError(Error, OSError):
     """A scene that cannot be read."""
 

@@ -219,3 +219,12 @@ def statics(scene: SceneLike, *, set: Mapping[str, Any] | None = None) -> Run:  
     Raises ``NoEquilibriumError`` if there is none, and as ``run``.
     """
     return _collect(scene, set, True, False)
+
+
+def import_mjcf(model: str | PathLike[str]) -> str:
+    """Returns the cables of a MuJoCo model (``<composite type="cable">``, ``<flexcomp dim="1">``), a file or its text, as a scene in TOML.
+
+    Raises ``errors.ImportError`` for what cannot be imported right.
+    """
+    name, text = ("model", fspath(model)) if fspath(model).lstrip().startswith("<") else source(model)
+    return _lariat.import_mjcf(name, text)

@@ -11,7 +11,7 @@ use clap::{Args, Parser, Subcommand};
 use lariat_scene::run::{self, Options, Summary};
 use lariat_scene::{Error, Purpose, Scene, Warning};
 use std::io::{self, Write};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -35,6 +35,14 @@ enum Command {
     Static(SceneArguments),
     /// Run a scene over a grid of values, on all threads: writes DIR/rows.jsonl and DIR/table.csv
     Sweep(sweep::SweepArguments),
+    /// Read the cables of a MuJoCo model (composite cable, flexcomp of dim 1) and print them as a scene
+    Import {
+        /// Model (MJCF, .xml)
+        model: PathBuf,
+        /// Write the scene to this file instead
+        #[arg(long, value_name = "FILE")]
+        out: Option<PathBuf>,
+    },
     /// List the keys of a scene file, with unit, range and default
     Keys {
         /// A table or key, such as cable.drag
@@ -73,6 +81,7 @@ fn main() -> ExitCode {
         Command::Static(arguments) => {
             find_static(&arguments).map(|summary| describe::statics(&summary, &arguments.out))
         }
+        Command::Import { model, out } => import(&model, out.as_deref()),
         Command::Sweep(arguments) => sweep::run(&arguments),
         Command::Keys { into: Some(file), .. } => keys::update(&file),
         Command::Keys { key, into: None } => keys::print(key.as_deref()),
@@ -121,6 +130,15 @@ fn find_static(arguments: &SceneArguments) -> Result<Summary, Error> {
         &arguments.out,
         &mut Options { warn: Some(&mut warn), usd: arguments.usd, ..Options::default() },
     )
+}
+
+fn import(model: &Path, out: Option<&Path>) -> Result<String, Error> {
+    let read = |source| Error::Read { path: model.to_path_buf(), source };
+    let text = std::fs::read_to_string(model).map_err(read)?;
+    let scene = lariat_scene::mjcf::import(&model.display().to_string(), &text)?;
+    let Some(out) = out else { return Ok(scene) };
+    std::fs::write(out, scene).map_err(|source| Error::Output { path: out.to_path_buf(), source })?;
+    Ok(format!("scene: {}\n", out.display()))
 }
 
 fn warn(warning: &Warning) {
