@@ -6,8 +6,6 @@ import subprocess
 import sys
 from pathlib import Path
 
-import lariat
-
 
 def test_stubs_are_those_of_the_module(tmp_path: Path) -> None:
     allowed = tmp_path / "allowed"
@@ -18,9 +16,8 @@ def test_stubs_are_those_of_the_module(tmp_path: Path) -> None:
 
 
 def test_the_package_and_its_examples_are_strictly_typed(tmp_path: Path) -> None:
-    here = Path(__file__).parent
-    places = [Path(lariat.__file__).parent, here.parent / "examples"]
-    for place in places:
-        arguments = ["--strict", "--cache-dir", str(tmp_path), "--config-file", str(here.parent / "pyproject.toml"), str(place)]
-        found = subprocess.run([sys.executable, "-m", "mypy", *arguments], capture_output=True, text=True, check=False)
+    here = Path(__file__).parents[1]
+    for what in (["-p", "lariat"], [str(here / "examples")]):
+        arguments = ["--strict", "--cache-dir", str(tmp_path), "--config-file", str(here / "pyproject.toml"), *what]
+        found = subprocess.run([sys.executable, "-m", "mypy", *arguments], capture_output=True, text=True, check=False, cwd=tmp_path)
         assert found.returncode == 0, found.stdout + found.stderr
