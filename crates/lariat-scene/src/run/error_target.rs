@@ -1,6 +1,6 @@
 //! Runs of a scene to a given error.
 
-use super::{Done, Options, Summary, simulate};
+use super::{Done, Open, Options, Recorded, simulate};
 use crate::error::Error;
 use crate::scene::body::{BodyKind, BodyScene};
 use crate::scene::{Engine, Purpose, Scene};
@@ -9,7 +9,6 @@ use lariat_ancf::Vector3;
 use lariat_ancf::study::{Claim, Outcome, Proof, Resolution, Study, StudyError};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
-use std::path::Path;
 
 /// Elements that a cable gets at most, unless the scene has a quarter as many itself.
 const LIMIT: usize = 160;
@@ -75,11 +74,11 @@ enum Stopped {
 /// Runs a scene until its error is proven, and writes the results of the last run.
 pub(super) fn conduct(
     scene: &Scene,
-    out: &Path,
+    open: Open<'_>,
     purpose: Purpose,
     error: f64,
     options: &mut Options<'_>,
-) -> Result<Summary, Error> {
+) -> Result<Recorded, Error> {
     check(scene, error)?;
     let largest = scene.cables.iter().map(|cable| cable.elements).max().unwrap_or(1);
     let each = |resolution: &Resolution, record: &mut _| -> Result<(Scene, Done), Stopped> {
@@ -93,7 +92,7 @@ pub(super) fn conduct(
                 cable.integrator = resolution.integrator().into();
             }
         }
-        let done = simulate(&scene, out, purpose, options, Some(record)).map_err(Stopped::Before)?;
+        let done = simulate(&scene, open, purpose, options, Some(record)).map_err(Stopped::Before)?;
         if done.outcome.is_err() { Err(Stopped::During(Box::new(done))) } else { Ok((scene, done)) }
     };
     let study = match purpose {
@@ -108,9 +107,9 @@ pub(super) fn conduct(
             if let Some(warn) = &mut options.warn {
                 done.world.warnings.iter().for_each(&mut **warn);
             }
-            done.finish(Some(claim))
+            Ok(done.finish(Some(claim)))
         }
-        Err(StudyError::Run { source: Stopped::During(done), .. }) => done.finish(None),
+        Err(StudyError::Run { source: Stopped::During(done), .. }) => Ok(done.finish(None)),
         Err(StudyError::Run { source: Stopped::Before(error), .. }) => Err(error),
         Err(other) => Err(Error::Study { error, problem: described(&other) }),
     }

@@ -37,6 +37,7 @@ mod balance;
 mod error_target;
 mod output;
 mod probe;
+mod recording;
 pub mod schedule;
 mod statics;
 mod summary;
@@ -46,6 +47,7 @@ mod world;
 pub use balance::EnergyBalance;
 pub use error_target::ErrorClaim;
 pub(crate) use probe::columns;
+pub use recording::{ProbeRecord, Recording, collect};
 pub use statics::{BodyPlace, BodyStatics, CableStatics, StaticReaction};
 pub use summary::Summary;
 pub use world::World;
@@ -56,7 +58,7 @@ use crate::scene::{Purpose, Scene, Target};
 use crate::warning::Warning;
 use cpu_time::ProcessTime;
 use lariat_ancf::study::{Record, Resolution};
-use output::Output;
+use output::{Kept, Output};
 use schedule::{Schedule, nominal};
 use std::path::Path;
 use std::sync::Arc;
@@ -78,6 +80,8 @@ pub struct Options<'a> {
     pub error: Option<f64>,
     /// Called before each run of a scene that an error is asked of.
     pub pilot: Option<&'a mut dyn FnMut(&Resolution)>,
+    /// Whether [`run`] and [`statics`] write `run.usda`, the motion as OpenUSD, too.
+    pub usd: bool,
 }
 
 /// Runs a scene for its duration and writes `summary.json`, `probes/*.csv` and [`view.html`](crate::view) to the folder `out`.
@@ -86,7 +90,7 @@ pub struct Options<'a> {
 /// [`Error::Output`] if the folder cannot be written, [`Error::ErrorTooSmall`] for an error that cannot be proven (both before anything
 /// runs); [`Error::Mechanics`], [`Error::Write`] or [`Error::Interrupted`] later: samples, page and summary are then on disk.
 pub fn run(scene: &Scene, out: &Path, options: &mut Options<'_>) -> Result<Summary, Error> {
-    conduct(scene, out, Purpose::Run, options)
+    to_folder(scene, out, Purpose::Run, options)
 }
 
 /// Finds the static equilibrium of a scene and writes the same files as [`run`], at t = 0.
@@ -94,17 +98,28 @@ pub fn run(scene: &Scene, out: &Path, options: &mut Options<'_>) -> Result<Summa
 /// # Errors
 /// As [`run`]; [`Error::Mechanics`] if there is no equilibrium.
 pub fn statics(scene: &Scene, out: &Path, options: &mut Options<'_>) -> Result<Summary, Error> {
-    conduct(scene, out, Purpose::Static, options)
+    to_folder(scene, out, Purpose::Static, options)
 }
 
-fn conduct(scene: &Scene, out: &Path, purpose: Purpose, options: &mut Options<'_>) -> Result<Summary, Error> {
+fn to_folder(scene: &Scene, out: &Path, purpose: Purpose, options: &mut Options<'_>) -> Result<Summary, Error> {
+    let usd = options.usd;
+    let open = |scene: &Scene| Output::create(scene, out, usd);
+    let Recorded { summary, kept, outcome, .. } = conduct(scene, &open, purpose, options)?;
+    outcome.and(kept.map(|_| ())).map(|()| summary)
+}
+
+/// Opens what the samples of a run go to.
+type Open<'a> = &'a dyn Fn(&Scene) -> Result<Output, Error>;
+
+/// Runs a scene once, or to the error that is asked for.
+fn conduct(scene: &Scene, open: Open<'_>, purpose: Purpose, options: &mut Options<'_>) -> Result<Recorded, Error> {
     match options.error {
-        Some(error) => error_target::conduct(scene, out, purpose, error, options),
-        None => simulate(scene, out, purpose, options, None)?.finish(None),
+        Some(error) => error_target::conduct(scene, open, purpose, error, options),
+        None => Ok(simulate(scene, open, purpose, options, None)?.finish(None)),
     }
 }
 
-/// A run that has ended, or failed, with its samples on disk.
+/// A run that has ended, or failed, with its samples; the summary is still to be written.
 struct Done {
     world: World,
     output: Output,
@@ -116,74 +131,25 @@ struct Done {
 
 impl Done {
     /// Writes the summary and the page.
-    fn finish(self, claim: Option<ErrorClaim>) -> Result<Summary, Error> {
+    fn finish(self, claim: Option<ErrorClaim>) -> Recorded {
         let Done { world, output, cpu, wall, balance, outcome } = self;
-        let summary =
-            Summary { error: claim, energy_balance: balance, ..Summary::of(&world, cpu, wall, outcome.as_ref().err()) };
-        let written = output.finish(&summary, &world);
-        outcome.and(written).map(|()| summary)
+        let summary = Summary::of(&world, cpu, wall, outcome.as_ref().err());
+        let summary = Summary { error: claim, energy_balance: balance, ..summary };
+        let kept = output.finish(&summary, &world);
+        Recorded { world, summary, kept, outcome }
     }
-}
-
-/// Runs a scene, and writes its samples; `record` takes the positions at host times.
-///
-/// # Errors
-/// What hinders it before it begins; later errors are in [`Done`].
-fn simulate(
-    scene: &Scene,
-    out: &Path,
-    purpose: Purpose,
-    options: &mut Options<'_>,
-    mut record: Option<&mut Record>,
-) -> Result<Done, Error> {
-    let mut output = Output::create(scene, out)?;
-    let (cpu, wall) = (ProcessTime::now(), Instant::now());
-    let mut world = World::build(scene)?;
-    let mut watch = Watch::new(&world, purpose);
-    let mut told = 0;
-    let Options { stop, progress, warn, error, .. } = options;
-    let mut tell = |world: &World| {
-        // the runs of a study have the same warnings, and the last one's are told at its end
-        if let (Some(warn), None) = (warn.as_mut(), *error) {
-            world.warnings[told..].iter().for_each(&mut **warn);
-        }
-        told = world.warnings.len();
-    };
-    let outcome = world.start(purpose).and_then(|()| {
-        world.note_start();
-        if purpose == Purpose::Run {
-            watch = Watch::new(&world, purpose);
-        }
-        watch.note(&world)?;
-        tell(&world);
-        match purpose {
-            Purpose::Run => advance(&mut world, &mut output, &mut watch, stop, progress, &mut record),
-            Purpose::Static => {
-                (0..scene.probes.len()).try_for_each(|probe| output.sample(probe, 0.0, &mut world))?;
-                note(&mut record, &world);
-                output.frame(&world)
-            }
-        }
-    });
-    world.warnings.extend(watch.warnings(scene, *error));
-    tell(&world);
-    let (cpu, wall, spent) = (cpu.elapsed(), wall.elapsed(), output.spent());
-    let (cpu, wall) = (cpu.saturating_sub(spent.0), wall.saturating_sub(spent.1));
-    let balance = (purpose == Purpose::Run).then(|| watch.balance());
-    Ok(Done { world, output, cpu, wall, balance, outcome })
 }
 
 /// Advances a world to the end of its scene.
 fn advance(
+    scene: &Scene,
     world: &mut World,
     output: &mut Output,
     watch: &mut Watch,
-    stop: &AtomicBool,
-    progress: &mut Option<&mut dyn FnMut(f64)>,
-    record: &mut Option<&mut Record>,
+    options: &mut Options<'_>,
+    mut record: Option<&mut Record>,
 ) -> Result<(), Error> {
-    let duration = world.scene.duration;
-    let mut schedule = Schedule::new(&world.scene);
+    let mut schedule = Schedule::new(scene);
     // a copy that is stepped to the probe times between two host steps, so that probes change nothing
     let mut ahead: Option<World> = None;
     while let Some(event) = schedule.next_event() {
@@ -195,22 +161,75 @@ fn advance(
         };
         read.advance(event.time)?;
         for (probe, sample) in event.probes {
-            let every = read.scene.probes[probe].every.unwrap_or(read.scene.dt);
-            output.sample(probe, nominal(sample, every).min(duration), read)?;
+            let every = scene.probes[probe].every.unwrap_or(scene.dt);
+            output.sample(probe, nominal(sample, every).min(scene.duration), read)?;
         }
         if event.host {
             output.frame(world)?;
             watch.note(world)?;
-            note(record, world);
+            note(&mut record, world);
         }
-        if let Some(progress) = progress.as_mut().filter(|_| event.host) {
+        if let Some(progress) = options.progress.as_mut().filter(|_| event.host) {
             progress(event.time);
         }
-        if stop.load(Ordering::Relaxed) && event.time < duration {
+        if options.stop.load(Ordering::Relaxed) && event.time < scene.duration {
             return Err(Error::Interrupted { time: event.time });
         }
     }
     Ok(())
+}
+
+/// A run that ended, as it should or not.
+struct Recorded {
+    world: World,
+    summary: Summary,
+    kept: Result<Kept, Error>,
+    outcome: Result<(), Error>,
+}
+
+/// Runs a scene, and keeps its samples; `record` takes the positions at host times.
+///
+/// # Errors
+/// What hinders it before it begins; later errors are in [`Done`].
+fn simulate(
+    scene: &Scene,
+    open: Open<'_>,
+    purpose: Purpose,
+    options: &mut Options<'_>,
+    mut record: Option<&mut Record>,
+) -> Result<Done, Error> {
+    let mut output = open(scene)?;
+    let (cpu, wall) = (ProcessTime::now(), Instant::now());
+    let mut world = World::build(scene)?;
+    let mut watch = Watch::new(&world, purpose);
+    let mut told = 0;
+    let mut tell = |world: &World, options: &mut Options<'_>| {
+        // the runs of a study have the same warnings, and the last one's are told at its end
+        if let (Some(warn), None) = (&mut options.warn, options.error) {
+            world.warnings[told..].iter().for_each(&mut **warn);
+        }
+        told = world.warnings.len();
+    };
+    let outcome = world.start(purpose).and_then(|()| {
+        world.note_start();
+        if purpose == Purpose::Run {
+            watch = Watch::new(&world, purpose);
+        }
+        watch.note(&world)?;
+        tell(&world, options);
+        if purpose == Purpose::Run {
+            return advance(scene, &mut world, &mut output, &mut watch, options, record.take());
+        }
+        (0..scene.probes.len()).try_for_each(|probe| output.sample(probe, 0.0, &mut world))?;
+        note(&mut record, &world);
+        output.frame(&world)
+    });
+    world.warnings.extend(watch.warnings(scene, options.error));
+    tell(&world, options);
+    let (cpu, wall, spent) = (cpu.elapsed(), wall.elapsed(), output.spent());
+    let (cpu, wall) = (cpu.saturating_sub(spent.0), wall.saturating_sub(spent.1));
+    let balance = (purpose == Purpose::Run).then(|| watch.balance());
+    Ok(Done { world, output, cpu, wall, balance, outcome })
 }
 
 /// Records the cables, the points that probes read, and the dynamic bodies.
