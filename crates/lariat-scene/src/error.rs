@@ -150,6 +150,16 @@ pub enum Error {
         /// The nearest of them.
         suggestion: Option<String>,
     },
+    /// A model of another program that cannot be imported right.
+    #[error("{file}{}: {problem}", if *line > 0 { format!(":{line}") } else { String::new() })]
+    Import {
+        /// The name of the file.
+        file: String,
+        /// The line, from 1; 0 if it is not known.
+        line: u32,
+        /// What is wrong, and what is read.
+        problem: String,
+    },
     /// A file that cannot be read.
     #[error("cannot read {}: {source}", path.display())]
     Read {
@@ -175,6 +185,26 @@ pub enum Error {
         time: f64,
         /// Why.
         source: io::Error,
+    },
+    /// An error that was asked for and cannot be proven.
+    #[error(
+        "--error {error}: accepted: a finite number of at least {least:.1e} m, which {reason} allows in this scene"
+    )]
+    ErrorTooSmall {
+        /// The error in m.
+        error: f64,
+        /// Least error in m.
+        least: f64,
+        /// What allows no less.
+        reason: &'static str,
+    },
+    /// Runs that cannot be compared.
+    #[error("--error {error}: {problem}")]
+    Study {
+        /// The error in m.
+        error: f64,
+        /// Why.
+        problem: String,
     },
     /// A failed step, or a cable without equilibrium. Names the cable and the time.
     #[error("{}{source}", moment(source, *time))]
@@ -222,9 +252,15 @@ impl Error {
             | Error::Syntax { .. }
             | Error::Override { .. }
             | Error::NoSuchKey { .. }
+            | Error::Import { .. }
             | Error::Read { .. }
+            | Error::ErrorTooSmall { .. }
             | Error::Output { .. } => 2,
-            Error::Write { .. } | Error::Mechanics { .. } | Error::Body { .. } | Error::Coupling { .. } => 3,
+            Error::Study { .. }
+            | Error::Write { .. }
+            | Error::Mechanics { .. }
+            | Error::Body { .. }
+            | Error::Coupling { .. } => 3,
             Error::Interrupted { .. } => 130,
         }
     }

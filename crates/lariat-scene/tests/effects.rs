@@ -280,7 +280,9 @@ fn contact_of_a_scene_holds_a_cable_on_a_floor() {
     // the rest is numerical: the impact excites what the steps do not resolve
     assert!(end[5] > 0.3 * lost && end[5] < 1.001 * lost && end[1] < 1e-6, "{end:?}");
     assert!(summary.effect_evaluations["contact"] > 0);
-    assert_eq!(summary.warnings, []);
+    // an impact is not elastic: integration damps what it does not resolve, and may say so
+    let told = |warning: &lariat_scene::Warning| matches!(warning, lariat_scene::Warning::EnergyLost { .. });
+    assert!(summary.warnings.iter().all(told), "{:?}", summary.warnings);
 }
 
 /// Without contact the same cable passes through the floor, and with it through a dynamic body, and each is told once, with the time.
@@ -298,7 +300,8 @@ fn a_cable_that_passes_through_a_body_is_told_once() {
             CABLE.replace("duration = 2.0", "duration = 0.4")
         );
         let (summary, _) = results("passing", &text, Purpose::Run);
-        let [Warning::PassesThrough { cable, body, time_s, contact: has }] = &summary.warnings[..] else {
+        let passes: Vec<_> = summary.warnings.iter().filter(|w| matches!(w, Warning::PassesThrough { .. })).collect();
+        let [Warning::PassesThrough { cable, body, time_s, contact: has }] = passes[..] else {
             panic!("{:?}", summary.warnings)
         };
         assert_eq!((cable.as_str(), body.as_str(), *has), ("line", "floor", contact));

@@ -4,13 +4,16 @@ mod bench;
 mod describe;
 mod keys;
 mod progress;
+mod sweep;
 mod tables;
 
 use clap::{Args, Parser, Subcommand};
+use lariat_ancf::study::Resolution;
 use lariat_scene::run::{self, Options, Summary};
 use lariat_scene::{Error, Purpose, Scene, Warning};
+use std::cell::RefCell;
 use std::io::{self, Write};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -32,6 +35,16 @@ enum Command {
     Run(SceneArguments),
     /// Find the static equilibrium of a scene: prints it, and writes the same files, at t = 0
     Static(SceneArguments),
+    /// Run a scene over a grid of values, on all threads: writes DIR/rows.jsonl and DIR/table.csv
+    Sweep(sweep::SweepArguments),
+    /// Read the cables of a MuJoCo model (composite cable, flexcomp of dim 1) and print them as a scene
+    Import {
+        /// Model (MJCF, .xml)
+        model: PathBuf,
+        /// Write the scene to this file instead
+        #[arg(long, value_name = "FILE")]
+        out: Option<PathBuf>,
+    },
     /// List the keys of a scene file, with unit, range and default
     Keys {
         /// A table or key, such as cable.drag
@@ -58,6 +71,12 @@ struct SceneArguments {
     /// Override a key, such as cable.sling.elements=20; may be repeated
     #[arg(long, value_name = "KEY=VALUE")]
     set: Vec<String>,
+    /// Choose elements and integrator so that no position is off by more than this, in m, and prove it by runs with several meshes
+    #[arg(long, value_name = "METRES")]
+    error: Option<f64>,
+    /// Write DIR/run.usda, the motion as OpenUSD, too
+    #[arg(long)]
+    usd: bool,
 }
 
 fn main() -> ExitCode {
@@ -67,6 +86,8 @@ fn main() -> ExitCode {
         Command::Static(arguments) => {
             find_static(&arguments).map(|summary| describe::statics(&summary, &arguments.out))
         }
+        Command::Import { model, out } => import(&model, out.as_deref()),
+        Command::Sweep(arguments) => sweep::run(&arguments),
         Command::Keys { into: Some(file), .. } => keys::update(&file),
         Command::Keys { key, into: None } => keys::print(key.as_deref()),
         Command::Rules => Ok(tables::rules()),
@@ -99,17 +120,36 @@ fn run_scene(arguments: &SceneArguments) -> Result<Summary, Error> {
     if let Err(error) = handler {
         let _ = writeln!(io::stderr(), "warning: Ctrl-C will not leave a summary: {error}");
     }
-    let mut bar = progress::Bar::new(scene.duration);
-    let mut report = |time: f64| bar.advance(time);
-    let mut options = Options { stop, progress: Some(&mut report), warn: Some(&mut warn) };
+    let bar = RefCell::new(progress::Bar::new(scene.duration));
+    let mut report = |time: f64| bar.borrow_mut().advance(time);
+    let mut pilot = |resolution: &Resolution| bar.borrow_mut().begin_run(resolution.elements);
+    let mut options = Options {
+        stop,
+        progress: Some(&mut report),
+        warn: Some(&mut warn),
+        error: arguments.error,
+        pilot: Some(&mut pilot),
+        usd: arguments.usd,
+    };
     let outcome = run::run(&scene, &arguments.out, &mut options);
-    bar.finish();
+    bar.borrow().finish();
     outcome
 }
 
 fn find_static(arguments: &SceneArguments) -> Result<Summary, Error> {
     let scene = Scene::read(&arguments.scene, &arguments.set, Purpose::Static)?;
-    run::statics(&scene, &arguments.out, &mut Options { warn: Some(&mut warn), ..Options::default() })
+    let mut options =
+        Options { warn: Some(&mut warn), error: arguments.error, usd: arguments.usd, ..Options::default() };
+    run::statics(&scene, &arguments.out, &mut options)
+}
+
+fn import(model: &Path, out: Option<&Path>) -> Result<String, Error> {
+    let read = |source| Error::Read { path: model.to_path_buf(), source };
+    let text = std::fs::read_to_string(model).map_err(read)?;
+    let scene = lariat_scene::mjcf::import(&model.display().to_string(), &text)?;
+    let Some(out) = out else { return Ok(scene) };
+    std::fs::write(out, scene).map_err(|source| Error::Output { path: out.to_path_buf(), source })?;
+    Ok(format!("scene: {}\n", out.display()))
 }
 
 fn warn(warning: &Warning) {
