@@ -166,6 +166,8 @@ mod tests {
         for (name, shape) in shapes() {
             let surface = surface(&*shape).unwrap();
             let mut compared = 0;
+            // parry makes one face of a hull of triangles that are nearly in a plane
+            let rounding = if name.contains("hull") { 2e-4 } else { 2e-5 };
             for i in 0..1331 {
                 let y =
                     Vector3::new(f64::from(i % 11) - 5.05, f64::from(i / 11 % 11) - 4.95, f64::from(i / 121) - 5.02)
@@ -177,7 +179,11 @@ mod tests {
                 }
                 let exact = y - crate::convert::vector(projection.point);
                 let nearest = surface.nearest(&y);
-                assert!((nearest.distance - exact.norm()).abs() < 2e-5, "{name} {y:?} {nearest:?} {}", exact.norm());
+                assert!(
+                    (nearest.distance - exact.norm()).abs() < rounding,
+                    "{name} {y:?} {nearest:?} {}",
+                    exact.norm()
+                );
                 let z = match nearest.patch {
                     Patch::Plane { point, normal } => normal.dot(&(y - point)),
                     Patch::Line { point, direction, radius } => {
@@ -201,7 +207,7 @@ mod tests {
                         }
                         FeatureShape::Circle { .. } => return,
                     };
-                    assert!(distance - feature.radius > exact.norm() - 2e-5, "{name} {feature:?}");
+                    assert!(distance - feature.radius > exact.norm() - rounding, "{name} {feature:?}");
                 });
                 let [low, high] = surface.bounds().unwrap_or([Vector3::repeat(-9.0), Vector3::repeat(9.0)]);
                 let near = crate::convert::vector(projection.point);
