@@ -50,8 +50,6 @@ pub(crate) struct DragTable {
 }
 
 pub(super) type Lanes<S> = f64x8<S>;
-/// Blocks of the step matrix, one per pair of [`PAIRS`].
-type Blocks<S> = [[[Lanes<S>; 3]; 3]; PAIRS.len()];
 
 /// Forces on the four nodal vectors of elements, and the blocks of their derivative.
 type ForceAndBlocks<'a, S> = (&'a mut [[Lanes<S>; 3]; 4], &'a mut [[[Lanes<S>; 3]; 3]; PAIRS.len()]);
