@@ -99,7 +99,7 @@ def main() -> None:
     parser.add_argument("--wheel", type=Path, required=True)
     parser.add_argument("--into", type=Path, required=True)
     arguments = parser.parse_args()
-    about = machine()
+    about, busy = machine(), os.getloadavg()[0] > 0.5
     numpy, lariat = import_time()
     called, looped, overhead = step_overhead()
     times = sweep_times()
@@ -124,6 +124,8 @@ def main() -> None:
         "",
         about,
     ]
+    if busy:
+        lines.append("Other programs ran at the same time: walls are too long, and the scaling says nothing about this one.")
     page = arguments.into.read_text(encoding="utf-8")
     before, rest = page.split("<!-- measured -->\n", 1)
     _, after = rest.split("<!-- /measured -->", 1)
