@@ -63,7 +63,11 @@ fn the_discrete_gradient_makes_no_energy_and_knows_what_it_loses() {
     for name in ["falling_pendulum", "cantilever", "elastica", "towed_line", "dumbbell", "slung_load", "bridge"] {
         let mut scene = read(name, &["duration=1.0"]);
         scene.cables.iter_mut().for_each(|cable| cable.integrator = IntegratorChoice::from(Fidelity::Game));
-        let (_, balance) = execute(&scene);
+        let (summary, balance) = execute(&scene);
+        let gained = summary.energy_end_j.unwrap() - summary.energy_start_j.unwrap();
+        // the energy in store apart, which is the square of a step
+        let by_work = gained + balance.dissipated_j - balance.work_j;
+        assert!((by_work - balance.balance_j).abs() < 2e-2 * balance.scale_j, "{name}: {by_work:e}");
         assert!(balance.made() < 1e-6, "{name}: {:.1e}", balance.made());
     }
 }
