@@ -54,6 +54,7 @@ mod rule;
 mod section;
 mod simd;
 mod statics;
+mod strength;
 mod support;
 mod system;
 
@@ -79,5 +80,6 @@ pub use real::Real;
 pub use rule::{AxialRule, BendingRule, Rule};
 pub use section::{Element, Section, Shape};
 pub use statics::{EquilibriumOptions, EquilibriumReport};
+pub use strength::{Break, BreakCause, Strength};
 pub use support::{Motion, SlopeSupport, Support};
 pub use system::jacobian::Jacobians;

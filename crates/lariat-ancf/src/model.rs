@@ -6,6 +6,7 @@ use crate::error::{Error, require, require_finite};
 use crate::load::PointLoad;
 use crate::rule::Rule;
 use crate::section::Element;
+use crate::strength::Strength;
 use crate::support::Support;
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
@@ -27,6 +28,8 @@ pub struct Model {
     pub(crate) effects: Effects,
     #[serde(default)]
     pub(crate) force_densities: ForceDensities,
+    #[serde(default)]
+    pub(crate) strength: Strength,
 }
 
 impl Model {
@@ -57,6 +60,7 @@ impl Model {
             return Err(Error::SupportOrder { cable: cable(), node, nodes });
         }
         self.supports.iter().try_for_each(|(_, support)| support.check())?;
+        self.strength.check()?;
         self.check_effects()
     }
 

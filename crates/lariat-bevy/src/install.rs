@@ -77,6 +77,7 @@ fn add_prepare(schedule: &mut Schedule) {
     schedule.add_systems(
         (
             prepare::begin,
+            breaking::split_entities,
             removals::remove,
             prepare::build_cables,
             bodies::update,

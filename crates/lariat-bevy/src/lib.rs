@@ -40,7 +40,7 @@
 //! | attach it | [`Attachment`], [`OnCable`], [`ToBody`], [`AttachmentReading`] |
 //! | spawn the usual rope in one line | [`SpawnRope::spawn_rope`], [`Rope`] |
 //! | tie cables to each other | [`Junction`] |
-//! | let it break | [`BreakForce`], [`BreakTension`] |
+//! | let it break, cut it | [`BreakForce`], [`BreakTension`], [`BreakStrain`], [`Cables::cut`] |
 //! | make bodies | [`Body`], [`KinematicTarget`], [`BodyPose`], [`Bodies`] |
 //! | step | [`advance`], or [`CableStep`] in a schedule of your own; with feature `bevy_app` the plugin |
 //! | order systems against the stages of a step | [`CableSystems`] |
@@ -100,7 +100,7 @@ pub use attachment::{
     ToBodyBundle, ToWorldBundle,
 };
 pub use body::{Bodies, Body, BodyHandle, BodyPose, KinematicTarget};
-pub use breaking::BreakTension;
+pub use breaking::{BreakStrain, BreakTension};
 pub use cable::Cable;
 pub use cables::Cables;
 pub use clock::{FixedClock, advance};

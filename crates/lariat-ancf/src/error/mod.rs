@@ -67,6 +67,12 @@ pub enum Error {
         /// The largest accepted number.
         most: usize,
     },
+    /// A cable of one element that is to break: it has no inner node to break at.
+    #[error("cable {cable:?}: has one element, and breaks at inner nodes: give it 2 elements or more")]
+    OneElement {
+        /// Name of the cable.
+        cable: String,
+    },
     /// A cable without a section at its start.
     #[error("cable {cable:?}: needs a section from arc length 0 on")]
     NoSection {

@@ -34,6 +34,7 @@
 //! ```
 
 mod output;
+mod pieces;
 mod probe;
 pub mod schedule;
 mod statics;
@@ -41,6 +42,7 @@ mod summary;
 mod watch;
 mod world;
 
+pub use pieces::{Parted, Piece};
 pub(crate) use probe::columns;
 pub use statics::{BodyPlace, BodyStatics, CableStatics, StaticReaction};
 pub use summary::Summary;
@@ -85,7 +87,7 @@ pub fn run(scene: &Scene, out: &Path, options: &mut Options<'_>) -> Result<Summa
                 ahead = None;
                 &mut *world
             } else {
-                ahead.get_or_insert_with(|| world.clone())
+                ahead.get_or_insert_with(|| world.unbreakable())
             };
             read.advance(event.time)?;
             for (probe, sample) in event.probes {

@@ -26,7 +26,8 @@ pub(crate) fn columns(target: Target) -> &'static [&'static str] {
 pub(super) fn read(target: Target, world: &mut World, row: &mut Vec<f64>) -> Result<(), Error> {
     match target {
         Target::Point { cable, arc_length } => {
-            let sample = world.cables()[cable].sample(arc_length)?;
+            let (part, s) = world.part(cable, arc_length);
+            let sample = world.cables()[part].sample(s)?;
             for vector in [sample.position, sample.velocity, sample.slope] {
                 row.extend(vector.iter());
             }

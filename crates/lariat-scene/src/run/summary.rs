@@ -1,6 +1,6 @@
 //! `summary.json`: the results and costs of a run, in one object.
 
-use super::{BodyStatics, CableStatics, World};
+use super::{BodyStatics, CableStatics, Parted, World};
 use crate::error::Error;
 use crate::warning::Warning;
 use serde::{Deserialize, Serialize};
@@ -41,6 +41,9 @@ pub struct Summary {
     /// Warnings.
     #[serde(serialize_with = "crate::warning::with_texts")]
     pub warnings: Vec<Warning>,
+    /// Cables that broke or were cut, in their order; only if there are any.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub breaks: Vec<Parted>,
     /// Why the run failed; null if it did not.
     pub failed: Option<String>,
     /// The equilibrium of each cable; only for `lariat static`.
@@ -74,6 +77,7 @@ impl Summary {
             energy_start_j: finite(world.energy_start),
             energy_end_j: finite(world.energy(None).total()),
             warnings: world.warnings.clone(),
+            breaks: world.breaks.clone(),
             failed: failed.map(ToString::to_string),
             statics: world.statics.clone(),
             static_bodies: world.static_bodies.clone(),

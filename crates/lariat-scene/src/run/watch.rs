@@ -59,6 +59,8 @@ impl Watch {
             let shape = cable.mesh_indicator();
             worst.position = worst.position.max(shape.position);
             worst.turn = worst.turn.max(shape.turn);
+            // a part of a cable is another one, and its displacement that of its flight
+            worst.start = worst.start.take().filter(|start| start.len() == cable.positions().len());
             if let Some(start) = &worst.start {
                 let motion = cable.motion_indicator(start)?;
                 worst.motion = worst.motion.max(motion.error.min(shape.position));

@@ -30,7 +30,9 @@ impl Scene {
         for &(_, arc_length) in self.tied(index) {
             builder = builder.fix(At::ArcLength(arc_length));
         }
-        builder.build()
+        let mut cable = builder.build()?;
+        cable.set_strength(scene.breaking.strength)?;
+        Ok(cable)
     }
 
     /// Returns the points of a cable that junctions tie to others.

@@ -1,5 +1,6 @@
 //! `[[cable]]`: shape, section, rule and motion of a cable.
 
+use super::breaking::{self, BREAK, BreakScene};
 use super::effects::{self, EFFECTS};
 use super::integrator::{self, IntegratorTable};
 use crate::document::{Document, KeyPath};
@@ -58,13 +59,13 @@ table! {
     }
     rest effects;
     plus EFFECTS;
+    plus &[BREAK];
     plus NOT_BUILT;
 }
 
 /// Parts of the format that this version reads and does not compute.
 const NOT_BUILT: &[Key] = &[
     not_built("contact", "Contact with bodies and other cables."),
-    not_built("break", "Breaking at a tension."),
     not_built("reel", "Change of the unstretched length at one end."),
 ];
 
@@ -132,6 +133,8 @@ pub struct CableScene {
     pub rule: Rule,
     /// Effects.
     pub effects: Effects,
+    /// When it becomes two.
+    pub breaking: BreakScene,
     /// Time integrator.
     pub integrator: IntegratorChoice,
     /// Initial velocity in m/s.
@@ -141,7 +144,7 @@ pub struct CableScene {
 }
 
 /// Reads the cable at a path.
-pub(super) fn read(doc: &Document<'_>, at: &KeyPath, row: CableTable) -> Result<CableScene, Error> {
+pub(super) fn read(doc: &Document<'_>, at: &KeyPath, mut row: CableTable) -> Result<CableScene, Error> {
     if let Some(i) = row.points.windows(2).position(|p| p[0] == p[1]) {
         let problem = format!("points {i} and {} coincide at {:?}", i + 1, row.points[i].as_slice());
         return Err(doc.conflict(&at.key("points"), problem));
@@ -153,6 +156,7 @@ pub(super) fn read(doc: &Document<'_>, at: &KeyPath, row: CableTable) -> Result<
     }
     let rule = rule(doc, &at.key("rule"), &row)?;
     let section = section(doc, at, &row)?;
+    let breaking = breaking::read(doc, at, &mut row.effects, (length, row.elements))?;
     let effects = effects::read(doc, at, row.effects, &effects::Context { section: &section, rule, length })?;
     Ok(CableScene {
         points: row.points,
@@ -163,6 +167,7 @@ pub(super) fn read(doc: &Document<'_>, at: &KeyPath, row: CableTable) -> Result<
         youngs_modulus: row.youngs_modulus,
         rule,
         effects,
+        breaking,
         integrator: integrator::read(doc, &at.key("integrator"), &row.integrator)?,
         velocity: row.velocity,
         angular_velocity: row.angular_velocity,

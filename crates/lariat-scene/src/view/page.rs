@@ -1,7 +1,7 @@
 //! The page as text: the template of `assets/view` with its data.
 //!
-//! Frames are a sequence of little-endian `f32` in base64: for each frame, for each cable the number of nodes and for each node arc
-//! length, position, slope, tension there and half-way to the next node; then for each body position and quaternion. Times and
+//! Frames are a sequence of little-endian `f32` in base64: for each frame the number of parts of cables, for each part its cable, the
+//! number of nodes and for each node arc length on the cable, position, slope, tension there and half-way to the next node; then for each body position and quaternion. Times and
 //! rows of probes are `f64`.
 
 use super::{Decimator, Frame};

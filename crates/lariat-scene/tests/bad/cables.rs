@@ -138,7 +138,11 @@ const CASES: &[Case] = &[
         &["cable.sling.buoyancy.added_mass", ">= 0"],
     ),
     ("", "[cable.contact]\nradius = 0.01", 19, &["cable.sling.contact", "not built yet"]),
-    ("", "[cable.break]\ntension = 10.0", 19, &["cable.sling.break", "not built yet"]),
+    ("", "[cable.break]\ntension = -10.0", 20, &["cable.sling.break.tension", "> 0"]),
+    ("", "[cable.break]\nstrain = nan", 20, &["cable.sling.break.strain", "> 0"]),
+    ("", "[cable.break]", 19, &["cable.sling.break", "at least one"]),
+    ("", "[cable.break]\ntime = 1.0", 19, &["cable.sling.break.at"]),
+    ("", "[cable.break]\ntime = 1.0\nat = \"end\"", 21, &["cable.sling.break.at", "is an end of the cable"]),
     ("", "[cable.reel]\nend = \"start\"\nrate = [[0.0, 0.0]]", 19, &["cable.sling.reel", "not built yet"]),
     (
         "",
