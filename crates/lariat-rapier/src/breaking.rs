@@ -13,9 +13,8 @@ use lariat_ancf::Cable;
 pub(crate) fn break_overloaded(contents: &mut Contents, events: &mut Vec<Event>) {
     for i in 0..contents.cables.len() {
         // the load of a sleeping cable does not change
-        let compares = |slot: &&mut crate::contents::Slot| {
-            slot.cable.strength().is_limited() && !(slot.asleep && slot.compared)
-        };
+        let compares =
+            |slot: &&mut crate::contents::Slot| slot.cable.strength().is_limited() && !(slot.asleep && slot.compared);
         let Some(slot) = contents.cables.get_mut(i).filter(compares) else { continue };
         slot.compared = true;
         // a cable that was built can be cut at its nodes

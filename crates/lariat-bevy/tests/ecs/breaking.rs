@@ -6,7 +6,8 @@ use bevy_ecs::prelude::*;
 use lariat_bevy::event::{AttachmentEnded, CableBroken, CableFailed, StepFailed};
 use lariat_bevy::lariat_ancf::{BreakCause, Error, PointLoad, Vector3};
 use lariat_bevy::{
-    At, Attachment, AttachmentReading, Bending, BreakStrain, BreakTension, CableAttachments, Cables, Damping, PointLoads,
+    At, Attachment, AttachmentReading, Bending, BreakStrain, BreakTension, CableAttachments, Cables, Damping,
+    PointLoads,
 };
 
 /// A crate of 5 kg hangs on a cable that breaks at 80 N; then a force on the cable grows to 50 N

@@ -246,9 +246,12 @@ impl World {
         let slack = 1e-9 * self.scene.cables[cable].length;
         let parts = self.pieces.iter().enumerate().filter(|(_, piece)| piece.cable == cable);
         let before = parts.filter(|(_, piece)| piece.from < arc_length - slack);
-        let (part, from) = before.fold((cable, 0.0), |(part, from), (i, piece)| {
-            if piece.from > from { (i, piece.from) } else { (part, from) }
-        });
+        let (part, from) = before.fold(
+            (cable, 0.0),
+            |(part, from), (i, piece)| {
+                if piece.from > from { (i, piece.from) } else { (part, from) }
+            },
+        );
         (part, (arc_length - from).min(self.cables()[part].length()))
     }
 
