@@ -1,6 +1,7 @@
 //! Chains of ropes and bodies drawn by chance: balls and bricks, pinned off their centres, some clamped, slack or taut, thrown and disturbed.
 
 use crate::common::Random;
+use crate::law::{HEIGHT, energies};
 use crate::recipe::{choose, power};
 use lariat_ancf::island::{Island, PinConstraint, RigidBody};
 use lariat_ancf::{At, Cable, Integrator, Method, Rule, Section, StepControl, Vector3};
@@ -91,17 +92,17 @@ impl Chain {
         self.island.step(&mut cables, &mut self.bodies, &self.pins, self.integrator, dt)
     }
 
-    /// Mechanical energy and store, and kinetic and strain energy.
+    /// Mechanical energy and store, and kinetic and strain energy with the weight times 1 mm.
     pub fn energies(&self) -> [f64; 2] {
         let mut sum = [0.0; 2];
         for cable in &self.cables {
-            let energy = cable.energy();
-            sum[0] += energy.total() + cable.energy_in_store();
-            sum[1] += energy.kinetic + energy.axial + energy.bending;
+            let [energy, scale] = energies(cable);
+            sum[0] += energy;
+            sum[1] += scale;
         }
         for body in &self.bodies {
             sum[0] += body.kinetic_energy() + body.energy_in_store() - body.force.dot(&body.position);
-            sum[1] += body.kinetic_energy();
+            sum[1] += body.kinetic_energy() + 9.81 * HEIGHT * body.mass;
         }
         sum
     }

@@ -34,10 +34,15 @@ fn shake(cable: &mut Cable, random: &mut Random) {
     cable.set_coordinates(&q, &v).unwrap();
 }
 
-/// Mechanical energy and store, and kinetic and strain energy.
+/// Height in m by which the weight of what hardly moves is measured.
+pub const HEIGHT: f64 = 1e-3;
+
+/// Mechanical energy and store, and kinetic and strain energy with the weight times 1 mm.
 pub fn energies(cable: &Cable) -> [f64; 2] {
     let energy = cable.energy();
-    [energy.total() + cable.energy_in_store(), energy.kinetic + energy.axial + energy.bending]
+    let mass: f64 = cable.elements().iter().map(|e| e.length * e.section.mass_per_length).sum();
+    let weight = 9.81 * HEIGHT * mass;
+    [energy.total() + cable.energy_in_store(), energy.kinetic + energy.axial + energy.bending + weight]
 }
 
 /// Work of everything without potential that can give energy, as the cable accounts for it: all but internal damping.

@@ -78,6 +78,7 @@ pub(crate) fn prescribe(
                 (origin + arm, v + w.cross(&arm))
             });
         let from = cable.node_position(a.node);
+        let rests = start_velocity == Vector3::zeros() && end_velocity == Vector3::zeros() && start == end;
         let present = Vector3::from_column_slice(&cable.velocities()[6 * a.node..6 * a.node + 3]);
         let rounding = ROUNDING * f64::from(Real::EPSILON) * (start_velocity.norm() + start.norm().max(1.0) / step.h);
         let continues = (present - start_velocity).norm() <= rounding;
@@ -86,8 +87,7 @@ pub(crate) fn prescribe(
         let behind = from - start;
         let left = (1.0 - CLOSING_SPEED * step.h / (1.5 * behind.norm()).max(f64::MIN_POSITIVE)).max(0.0);
         let target = end + behind * left;
-        let rests = start_velocity == Vector3::zeros() && end_velocity == Vector3::zeros();
-        let motion = if rests && start == end && from == target {
+        let motion = if rests && from == target {
             Motion::fixed(end)
         } else {
             Motion::hermite(cable.time(), step.h, (from, start_velocity), (target, end_velocity))
