@@ -120,6 +120,7 @@ mod junction;
 mod ledger;
 mod mechanism;
 mod record;
+mod reels;
 mod rope;
 mod set;
 mod settings;

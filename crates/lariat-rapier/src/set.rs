@@ -25,8 +25,8 @@ use serde::{Deserialize, Serialize};
 ///
 /// # Limits
 /// - Cables do not collide: neither with colliders nor with each other.
-/// - A cable has a fixed natural length: there is no reel. [`cut`](Self::cut) and
-///   [`get_mut`](Self::get_mut) change it between steps.
+/// - A cable has a fixed natural length, but for [`cut`](Self::cut) and a reel
+///   ([`Cable::add_reel`](lariat_ancf::Cable::add_reel) by [`get_mut`](Self::get_mut)), whose eye is on a fixed or kinematic body.
 /// - All cables of a set share one number of Rapier steps per host step ([`Settings`]), which is
 ///   also that of the whole world: a pile of bodies costs as many Rapier steps as the cables need.
 /// - The bodies of a mechanism (a multibody, or bodies joined by impulse joints) are predicted

@@ -45,7 +45,13 @@ const ERRORS: [Column; 3] = [
 /// [`Error::Mechanics`] or [`Error::Coupling`] if a run of Lariat fails.
 pub fn measure(progress: &mut dyn FnMut(&str)) -> Result<(String, Table), Error> {
     let machine = machine::line();
-    if std::env::var_os("ONLYA").is_some() { let t = assemblies::table(progress)?; for r in &t.rows { println!("{r:?}"); } std::process::exit(0); }
+    if std::env::var_os("ONLYA").is_some() {
+        let t = assemblies::table(progress)?;
+        for r in &t.rows {
+            println!("{r:?}");
+        }
+        std::process::exit(0);
+    }
     let soft = Scene { name: "payload", material: SOFT, count: 1, mass: 50.0, swings: true };
     let steel = Scene { name: "payload, steel", material: STEEL, ..soft };
     let rest = Scene { name: "load at rest", mass: 10.0, swings: false, ..soft };

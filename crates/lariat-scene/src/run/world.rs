@@ -3,7 +3,7 @@
 use super::{BodyStatics, CableStatics, Parted, Piece};
 use crate::error::Error;
 use crate::physics::{BodyState, Physics};
-use crate::scene::{AttachmentScene, Engine, Purpose, Scene};
+use crate::scene::{AttachmentScene, CableScene, Engine, Purpose, Scene};
 use crate::warning::Warning;
 use lariat_ancf::{At, AxialRule, Break, Cable, Energy, EquilibriumReport, Momentum, Reaction, Support, Vector3};
 use std::collections::BTreeMap;
@@ -241,9 +241,12 @@ impl World {
     }
 
     /// Returns the position in [`cables`](Self::cables) of the part of a cable of the scene that holds an arc length (m), and the
-    /// arc length on it. A break belongs to the part before it.
+    /// arc length on it. A break belongs to the part before it; what a reel has taken in is at its eye, and so is its end.
     pub fn part(&self, cable: usize, arc_length: f64) -> (usize, f64) {
-        let slack = 1e-9 * self.scene.cables[cable].length;
+        let CableScene { length, reel, .. } = &self.scene.cables[cable];
+        let slack = 1e-9 * length;
+        let at_eye = reel.is_some() && arc_length >= length - slack;
+        let arc_length = if at_eye { f64::INFINITY } else { arc_length };
         let parts = self.pieces.iter().enumerate().filter(|(_, piece)| piece.cable == cable);
         let before = parts.filter(|(_, piece)| piece.from < arc_length - slack);
         let (part, from) = before.fold(

@@ -32,6 +32,9 @@ impl Scene {
         }
         let mut cable = builder.build()?;
         cable.set_strength(scene.breaking.strength)?;
+        if let Some(reel) = &scene.reel {
+            cable.add_reel(At::End, reel.clone())?;
+        }
         Ok(cable)
     }
 

@@ -3,10 +3,11 @@
 use super::breaking::{self, BREAK, BreakScene};
 use super::effects::{self, EFFECTS};
 use super::integrator::{self, IntegratorTable};
+use super::reel::{self, REEL};
 use crate::document::{Document, KeyPath};
 use crate::error::{Error, Problem};
 use crate::schema::{Choose, Default, Key, Kind, NOT_NEGATIVE, POSITIVE, VECTOR, choice, parse_as, table};
-use lariat_ancf::{AxialRule, BendingRule, Effects, IntegratorChoice, Rule, Section, Shape, Vector3};
+use lariat_ancf::{AxialRule, BendingRule, Effects, IntegratorChoice, Reel, Rule, Section, Shape, Vector3};
 use serde::Deserialize;
 
 choice! {
@@ -59,15 +60,12 @@ table! {
     }
     rest effects;
     plus EFFECTS;
-    plus &[BREAK];
+    plus &[BREAK, REEL];
     plus NOT_BUILT;
 }
 
 /// Parts of the format that this version reads and does not compute.
-const NOT_BUILT: &[Key] = &[
-    not_built("contact", "Contact with bodies and other cables."),
-    not_built("reel", "Change of the unstretched length at one end."),
-];
+const NOT_BUILT: &[Key] = &[not_built("contact", "Contact with bodies and other cables.")];
 
 const fn not_built(name: &'static str, meaning: &'static str) -> Key {
     Key { name, kind: Kind::NotBuilt, unit: "", default: Default::Absent("off"), meaning }
@@ -135,6 +133,8 @@ pub struct CableScene {
     pub effects: Effects,
     /// When it becomes two.
     pub breaking: BreakScene,
+    /// Reel at its end.
+    pub reel: Option<Reel>,
     /// Time integrator.
     pub integrator: IntegratorChoice,
     /// Initial velocity in m/s.
@@ -157,6 +157,7 @@ pub(super) fn read(doc: &Document<'_>, at: &KeyPath, mut row: CableTable) -> Res
     let rule = rule(doc, &at.key("rule"), &row)?;
     let section = section(doc, at, &row)?;
     let breaking = breaking::read(doc, at, &mut row.effects, (length, row.elements))?;
+    let reel = reel::read(doc, at, &mut row.effects)?;
     let effects = effects::read(doc, at, row.effects, &effects::Context { section: &section, rule, length })?;
     Ok(CableScene {
         points: row.points,
@@ -168,6 +169,7 @@ pub(super) fn read(doc: &Document<'_>, at: &KeyPath, mut row: CableTable) -> Res
         rule,
         effects,
         breaking,
+        reel,
         integrator: integrator::read(doc, &at.key("integrator"), &row.integrator)?,
         velocity: row.velocity,
         angular_velocity: row.angular_velocity,

@@ -143,7 +143,12 @@ const CASES: &[Case] = &[
     ("", "[cable.break]", 19, &["cable.sling.break", "at least one"]),
     ("", "[cable.break]\ntime = 1.0", 19, &["cable.sling.break.at"]),
     ("", "[cable.break]\ntime = 1.0\nat = \"end\"", 21, &["cable.sling.break.at", "is an end of the cable"]),
-    ("", "[cable.reel]\nend = \"start\"\nrate = [[0.0, 0.0]]", 19, &["cable.sling.reel", "not built yet"]),
+    ("", "[cable.reel]\nend = \"start\"\nrate = [[0.0, 0.0]]", 20, &["cable.sling.reel.end", "end"]),
+    ("", "[cable.reel]\nrate = [[0.0, nan]]", 20, &["cable.sling.reel.rate", "not finite"]),
+    ("", "[cable.reel]\nrate = [[1.0, 0.1], [0.5, 0.0]]", 20, &["cable.sling.reel.rate", "ascend"]),
+    ("", "[cable.reel]\nrate = [[0.0, 0.1]]\nmax_force = 10.0", 21, &["cable.sling.reel.max_force", "not built yet"]),
+    ("", "[cable.reel]\nrate = [[0.0, 0.1]]\nacceleration = 0.0", 21, &["cable.sling.reel.acceleration", "> 0"]),
+    ("", "[cable.reel]\nrate = [[0.0, 0.1]]\n[cable.drag]\nfluid_density = 1.2", 1, &["drag", "reel"]),
     (
         "",
         "[cable.drag]\nfluid_density = 1.2\nflow = [1.0, 2.0]",
