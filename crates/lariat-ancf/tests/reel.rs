@@ -3,7 +3,7 @@
 use approx::assert_relative_eq;
 use lariat_ancf::island::{Island, PinConstraint, RigidBody};
 use lariat_ancf::{
-    At, Cable, Damping, Drag, Energy, Error, Integrator, Method, PointLoad, Reel, Section, StepControl, Vector3,
+    At, Cable, Damping, Drag, Error, ErrorNorm, Integrator, Method, PointLoad, Reel, Section, StepControl, Vector3,
 };
 use nalgebra::Matrix3;
 
@@ -87,7 +87,7 @@ fn the_energy_of_a_swinging_rope_changes_by_the_work_of_its_winch() {
 #[test]
 fn a_minute_of_cycles_returns_to_the_length() {
     let integrator = Integrator { method: Method::DiscreteGradient, control: StepControl::MaxStep(1.0 / 240.0) };
-    let mut cable = rope(1.0, 5, integrator);
+    let mut cable = rope(4.0, 20, integrator);
     let mut effects = cable.effects().clone();
     effects.damping = Some(Damping { axial: 2e-3, bending: 2e-3 });
     cable.set_effects(effects).unwrap();
@@ -106,8 +106,8 @@ fn a_minute_of_cycles_returns_to_the_length() {
     (0..30).for_each(|_| cable.step(1.0 / 60.0).unwrap());
     let reel = cable.reel().unwrap();
     // from rest to 0.5 m/s at 2 m/s^2 at the beginning, and back at the end: 0.0625 m less out, and 0.0625 m more
-    println!("{:e} m, {reel:?}", reel.length_out - 1.0);
-    assert!((reel.length_out - 1.0).abs() < 1e-9 && reel.rate == 0.0, "{reel:?}");
+    println!("{:e} m, {reel:?}", reel.length_out - 4.0);
+    assert!((reel.length_out - 4.0).abs() < 1e-9 && reel.rate == 0.0, "{reel:?}");
     assert!(reel.splits > 50 && reel.merges == reel.splits, "{reel:?}");
     let change = cable.energy().total() - start.total();
     let lost = cable.effect_work().dissipated() + cable.energy_law().numerical + cable.energy_law().rescaled;
@@ -155,7 +155,7 @@ fn a_rope_paid_out_at_a_constant_rate_hangs_by_its_weight() {
 fn a_pendulum_of_variable_length_follows_its_equation() {
     for method in [Method::Esdirk4, Method::DiscreteGradient] {
         let control = match method {
-            Method::Esdirk4 => StepControl::Tolerance(1e-5),
+            Method::Esdirk4 => StepControl::ToleranceOf(1e-7, ErrorNorm::Bodies),
             _ => StepControl::MaxStep(1.0 / 480.0),
         };
         let integrator = Integrator { method, control };
@@ -163,7 +163,7 @@ fn a_pendulum_of_variable_length_follows_its_equation() {
         let start = 1.5 * Vector3::new(theta.sin(), -theta.cos(), 0.0);
         let mut cable = Cable::builder()
             .points([start, Vector3::zeros()])
-            .section(Section::from_stiffness(2.0e4, 1e-4, 1e-3).unwrap())
+            .section(Section::from_stiffness(2.0e4, 1e-4, 3e-4).unwrap())
             .elements(8)
             .integrator(integrator)
             .fix(At::End)
@@ -207,7 +207,7 @@ fn a_pendulum_of_variable_length_follows_its_equation() {
         let reel = cable.reel().unwrap();
         println!("{method:?}: {worst:.2e} of the length, {reel:?}");
         assert!(reel.splits >= 4 && reel.merges >= 1);
-        assert!(worst < 2e-3, "{method:?}: {worst:e}");
+        assert!(worst < 1e-3, "{method:?}: {worst:e}");
     }
 }
 
@@ -242,41 +242,58 @@ fn a_snapshot_in_the_middle_continues_bitwise() {
     }
 }
 
-/// A split keeps momentum, kinetic energy and shape of a swinging rope; a merge momentum but for the impulse on the eye, and the
-/// tension there, and makes no kinetic energy.
+/// A split of a swinging, damped rope keeps shape, momentum and kinetic energy. A merge keeps the outer nodes and so the slope at the eye,
+/// makes no kinetic energy, and changes the momentum by its impulse on the eye; readings of the tension hardly move.
 ///
-/// *Source.* Conservation; a projection in the norm of the mass.
+/// *Source.* A cubic is its own interpolant; a projection in the norm of the mass.
 #[test]
 fn splits_are_exact_and_merges_keep_tension_and_momentum() {
-    let integrator = Integrator::tolerance(Method::Esdirk4, 1e-7).unwrap();
+    let integrator = Integrator { method: Method::DiscreteGradient, control: StepControl::MaxStep(1.0 / 480.0) };
+    let mut island = Island::default();
     for rate in [0.5, -0.5] {
-        let mut cable = rope(1.5, 6, integrator);
+        let mut cable = rope(2.0, 8, integrator);
+        let mut effects = cable.effects().clone();
+        effects.damping = Some(Damping { axial: 1e-3, bending: 1e-3 });
+        cable.set_effects(effects).unwrap();
         cable.add_reel(At::End, Reel { rate: vec![[0.0, rate]], ..Reel::default() }).unwrap();
         let mut v = cable.velocities().to_vec();
-        v.chunks_exact_mut(6).enumerate().for_each(|(i, v)| v[0] = 0.1 * (6.0 - i as f64));
+        v.chunks_exact_mut(6).enumerate().for_each(|(i, v)| v[0] = 0.1 * (8.0 - i as f64));
         let q = cable.positions().to_vec();
         cable.set_coordinates(&q, &v).unwrap();
-        let (mut seen, mut before) = (0, cable.clone());
-        for _ in 0..700 {
-            let changes = |cable: &mut Cable| cable.reel().map_or(0, |reel| reel.splits + reel.merges);
-            let count = changes(&mut before);
-            // parts of steps small enough that each ends with one change at most
-            cable.step(1.0 / 1000.0).unwrap();
-            if changes(&mut cable) > count {
-                seen += 1;
-                let (was, is) = (before.reel().unwrap(), cable.reel().unwrap());
-                // smooth over the step, so what jumps is the remeshing
-                assert!((is.tension - was.tension).abs() < 0.1 * was.tension, "{was:?} {is:?}");
-                let (p0, p1) = (before.momentum().linear, cable.momentum().linear);
-                assert!((p1 - p0).norm() < 0.02 * p0.norm(), "{p0} {p1}");
+        let mut seen = 0;
+        for _ in 0..960 {
+            island.step(&mut [&mut cable], &mut [], &[], integrator, 1.0 / 480.0).unwrap();
+            let before = cable.clone();
+            cable.remesh_reel().unwrap();
+            let (was, is) = (before.reel().unwrap(), cable.reel().unwrap());
+            if was.splits + was.merges == is.splits + is.merges {
+                continue;
             }
-            before = cable.clone();
+            seen += 1;
+            let (p, kinetic) = (before.momentum(), before.energy().kinetic);
+            let (moved, made) = (cable.momentum().linear - p.linear, cable.energy().kinetic - kinetic);
+            assert_eq!(cable.length(), before.length());
+            if is.splits > was.splits {
+                assert!(moved.norm() < 1e-12 && made.abs() < 1e-12 * kinetic, "{moved} {made:e}");
+                for k in 0..=50 {
+                    let s = cable.length() * f64::from(k) / 50.0;
+                    let [a, b] = [&before, &cable].map(|cable| cable.sample(s).unwrap());
+                    assert_relative_eq!(a.position, b.position, epsilon = 1e-12);
+                    assert_relative_eq!(a.velocity, b.velocity, epsilon = 1e-11);
+                }
+            } else {
+                assert!(made <= 1e-12 * kinetic && moved.norm() < 1e-3 * p.linear.norm(), "{moved} {made:e} J");
+                let n = cable.positions().len();
+                assert_eq!(cable.positions()[n - 6..], before.positions()[n + 6 - 6..]);
+            }
+            // the finer mesh sees more of the strain: 3.5 % here, of a coarse mesh that swings
+            assert!(
+                (is.tension / was.tension - 1.0).abs() < 0.05 && (is.force / was.force - 1.0).abs() < 0.05,
+                "{was:?} {is:?}"
+            );
         }
-        let reel = cable.reel().unwrap();
-        println!("{seen} {reel:?}");
-        assert!(seen >= 1 && if rate > 0.0 { reel.splits > 0 } else { reel.merges > 0 });
-        let Energy { kinetic, axial, .. } = cable.energy();
-        assert!(reel.remeshed.abs() < 2e-2 * (kinetic + axial), "{reel:?} {kinetic} {axial}");
+        println!("{seen} changes, {:?}", cable.reel().unwrap());
+        assert!(seen >= 3);
     }
 }
 

@@ -55,8 +55,7 @@ use std::collections::{BTreeMap, HashMap};
 ///
 /// # Limits
 ///
-/// No contact of cables with bodies or with each other, and no change of length: see the
-/// [crate page](crate#limits).
+/// No contact of cables with bodies or with each other: see the [crate page](crate#limits).
 #[derive(Resource, Default)]
 pub struct Cables {
     pub(crate) set: CableSet,

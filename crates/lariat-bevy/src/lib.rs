@@ -59,8 +59,8 @@
 //!
 //! # Limits
 //!
-//! - No contact of cables with bodies or with each other, and no reel: the unstretched length of a
-//!   cable is constant.
+//! - No contact of cables with bodies or with each other. The unstretched length of a cable changes by
+//!   breaking and cutting, and by a reel ([`Cables::get_mut`], `Cable::add_reel`).
 //! - A cable that cannot step stands still with all that is attached to it until the cause is
 //!   removed: see [`StepFailed`](event::StepFailed).
 //! - On the bodies of another plugin ([`BeforeEngine`], [`AfterEngine`]; crate

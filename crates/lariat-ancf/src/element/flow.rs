@@ -23,8 +23,8 @@
 //!
 //! # References
 //!
-//! Own derivation, checked against differences of S(y; l) e and quadrature below. Configurational force of a sleeve: Bigoni et al.,
-//! J. Mech. Phys. Solids 2015. Elements with flowing material: Hong & Ren, Nonlinear Dyn. 65 (2011).
+//! Own derivation, checked against differences of S(y; l) e and quadrature below. Elements with flowing material: Peng, Wei & Zhou,
+//! Appl. Math. Mech. 38 (2017) 1785.
 //!
 //! # Alternatives considered
 //!

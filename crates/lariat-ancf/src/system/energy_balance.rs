@@ -83,6 +83,9 @@ impl Equations<'_> {
                 q[i] = mix(before.q[k], before.v[k], after.q[k], after.v[k]);
                 v[i] = mix(before.v[k], before.memory.acceleration[k], after.v[k], after.memory.acceleration[k]);
             }
+            if let Some(flow) = &system.flow {
+                flow.strain_velocity(before.time + share * h, q, v);
+            }
             let mut power = EffectWork::default();
             if let Some(effects) = in_element {
                 forces.elements.add_effect_power(effects, q, v, &mut power);

@@ -77,14 +77,21 @@ impl Flow {
 
     /// Returns velocities as internal damping of the element at the eye sees them.
     pub fn damping_velocity(&mut self, at: &ForceInput<'_>) -> &[f64] {
-        let Extent { length, rate, .. } = self.at(at.time);
-        self.velocity.clear();
-        self.velocity.extend_from_slice(at.v);
-        let eye = at.v.len() - 6;
-        for x in 0..3 {
-            self.velocity[eye + x] -= (at.q[eye + x] - at.q[eye - 6 + x]) * rate / length;
-        }
+        let mut velocity = core::mem::take(&mut self.velocity);
+        velocity.clear();
+        velocity.extend_from_slice(at.v);
+        self.strain_velocity(at.time, at.q, &mut velocity);
+        self.velocity = velocity;
         &self.velocity
+    }
+
+    /// Makes of velocities those that internal damping sees, at `time` (s).
+    pub fn strain_velocity(&self, time: f64, q: &[f64], v: &mut [f64]) {
+        let Extent { length, rate, .. } = self.at(time);
+        let eye = v.len() - 6;
+        for x in 0..3 {
+            v[eye + x] -= (q[eye + x] - q[eye - 6 + x]) * rate / length;
+        }
     }
 
     /// Adds the forces of the flow to `out`, and their negative derivatives to the matrix.

@@ -148,7 +148,7 @@ const CASES: &[Case] = &[
     ("", "[cable.reel]\nrate = [[1.0, 0.1], [0.5, 0.0]]", 20, &["cable.sling.reel.rate", "ascend"]),
     ("", "[cable.reel]\nrate = [[0.0, 0.1]]\nmax_force = 10.0", 21, &["cable.sling.reel.max_force", "not built yet"]),
     ("", "[cable.reel]\nrate = [[0.0, 0.1]]\nacceleration = 0.0", 21, &["cable.sling.reel.acceleration", "> 0"]),
-    ("", "[cable.reel]\nrate = [[0.0, 0.1]]\n[cable.drag]\nfluid_density = 1.2", 1, &["drag", "reel"]),
+    ("", "[cable.reel]\nrate = [[0.0, 0.1]]\n[cable.drag]\nfluid_density = 1.2", 6, &["drag", "reel"]),
     (
         "",
         "[cable.drag]\nfluid_density = 1.2\nflow = [1.0, 2.0]",

@@ -148,7 +148,8 @@ pub struct ReelReading {
     pub rate: f64,
     /// Pull of the winch on the cable along itself in N, at the present state and its known accelerations.
     pub force: f64,
-    /// Tension of the cable at the eye in N, from the slope there: it does not jump where elements are split or merged.
+    /// Tension of the cable at the eye in N, from the pull: `T f - u = pull + 1/2 rho A rate^2 (f^2 - 1)`, u the strain
+    /// energy per length. Smoother than what [`Cable::sample`] reads there, which depends on the length of the element.
     pub tension: f64,
     /// Work of the winch on the cable so far in J, with the kinetic and the potential energy of the material that entered: the energy
     /// of the cable changes by this, by the work of all else, and by `remeshed`.
@@ -242,12 +243,15 @@ impl Cable {
         let last = self.elements().len() - 1;
         let element = &self.elements()[last];
         let (q, v) = (&self.positions()[n - 12..], &self.velocities()[n - 12..]);
-        let square = q[9] * q[9] + q[10] * q[10] + q[11] * q[11];
-        let rest = self.effects().rest_shape.as_ref().map_or(1.0, |shape| shape.at(0.0).0);
-        let tension = 0.5 * element.section.axial_stiffness * (square - rest * rest) * square.sqrt();
         let inertia = self.model.inertia(element);
         let force = self.system.flow_force(&self.model, self.time(), [q, v, &acceleration]);
         let rate = winding.extent[1];
+        // T f - u0 = EA (eps + 3/2 eps^2) with the strain eps at the eye
+        let stiffness = element.section.axial_stiffness;
+        let square: f64 = (9..12).map(|i| q[i] * q[i]).sum();
+        let eye = force.pull + 0.5 * inertia * rate * rate * (square - 1.0);
+        let strain = ((1.0 + 6.0 * eye / stiffness).max(0.0).sqrt() - 1.0) / 3.0;
+        let tension = stiffness * strain * (1.0 + 2.0 * strain).max(0.0).sqrt();
         Some(ReelReading {
             length_out: self.length(),
             rate,

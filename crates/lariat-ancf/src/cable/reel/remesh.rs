@@ -5,7 +5,7 @@
 //! *Split* above 1.6 of its full length h: the node at y = h takes position, slope and velocities of the particle there,
 //! `r = S e`, `r' = S e' + l' w`, `t' = S_y e' + l' w_y`, so shape, mass, momentum and kinetic energy stay to rounding.
 //!
-//! *Merge* below 0.4 h with the element before: the outer nodes keep position and slope, so the tension at the eye does not jump; the
+//! *Merge* below 0.4 h with the element before: the outer nodes keep position and slope, so the pull at the eye does not jump; the
 //! slope there keeps the rate of its particle, `t' + l' (r''_new - r''_old)`. Then the velocities take the jump of the momentum,
 //!
 //! ```text
