@@ -15,7 +15,8 @@ use crate::table::Table;
 use ::nalgebra::Vector3;
 use lariat_ancf::island::PinConstraint;
 use lariat_ancf::{At, SlopeSupport};
-use rapier::dynamics::RigidBodyHandle;
+use rapier::dynamics::{RigidBodyHandle, RigidBodyType};
+use rapier::math::AngVector;
 use rapier::pipeline::PhysicsWorld;
 
 /// How the body of an attachment takes part.
@@ -23,7 +24,8 @@ use rapier::pipeline::PhysicsWorld;
 enum Role {
     /// It is integrated together with the cable.
     Integrated,
-    /// Its motion is prescribed, and rotates the tangent of a clamp.
+    /// Its motion is prescribed, and rotates: the node and the tangent of a clamp are moved as those of an
+    /// integrated body, along the arc.
     Driven,
     /// Its motion is prescribed: so is the position of the node.
     Support,
@@ -90,6 +92,7 @@ pub(crate) struct Islands {
 impl Islands {
     /// Finds the islands of a set, unless nothing changed since they were last found.
     pub fn update(&mut self, contents: &mut Contents, world: &PhysicsWorld) -> Result<(), Error> {
+        mark_rotating(contents, world);
         let unchanged = attached_nodes(contents, world).eq(self.nodes.iter().copied());
         let modified = contents.cables.values().any(|slot| slot.modified);
         if unchanged && !modified && !contents.changed && !self.list.is_empty() {
@@ -123,14 +126,32 @@ impl Islands {
 
 /// Returns all attachments as they are now.
 fn attached_nodes(contents: &Contents, world: &PhysicsWorld) -> impl Iterator<Item = AttachedNode> {
-    contents.attachments.iter().map(|(i, a)| attached_node(world, i, a))
+    contents.attachments.iter().map(|(i, a)| attached_node(contents, world, i, a))
 }
 
-fn attached_node(world: &PhysicsWorld, attachment: usize, a: &Attachment) -> AttachedNode {
-    let role = match (is_integrated(world, a.body), a.direction) {
-        (true, _) => Role::Integrated,
-        (false, Some(_)) => Role::Driven,
-        (false, None) => Role::Support,
+/// Remembers which kinematic bodies with attachments rotate.
+fn mark_rotating(contents: &mut Contents, world: &PhysicsWorld) {
+    for a in contents.attachments.values() {
+        let Some(body) = world.bodies.get(a.body).filter(|body| body.is_enabled()) else { continue };
+        let rotates = match body.body_type() {
+            RigidBodyType::KinematicPositionBased => body.next_position().rotation != body.position().rotation,
+            RigidBodyType::KinematicVelocityBased => body.angvel() != AngVector::default(),
+            _ => false,
+        };
+        if rotates {
+            contents.records.record_mut(a.body).rotates = true;
+        }
+    }
+}
+
+fn attached_node(contents: &Contents, world: &PhysicsWorld, attachment: usize, a: &Attachment) -> AttachedNode {
+    let rotates = || contents.records.get(a.body).is_some_and(|record| record.rotates);
+    let role = if is_integrated(world, a.body) {
+        Role::Integrated
+    } else if a.direction.is_some() || rotates() {
+        Role::Driven
+    } else {
+        Role::Support
     };
     let centre =
         if role == Role::Integrated { vector(world.bodies[a.body].local_center_of_mass()) } else { Vector3::zeros() };

@@ -22,12 +22,15 @@ pub(crate) struct BodyRecord {
     /// Of a kinematic body, its motion in the last host step.
     #[serde(default)]
     pub motion: Option<MotionMemory>,
+    /// Whether it is kinematic and has rotated: it then drives the cables on it.
+    #[serde(default)]
+    pub rotates: bool,
 }
 
 impl BodyRecord {
     /// A record of an unknown body.
     pub fn new(handle: RigidBodyHandle) -> Self {
-        BodyRecord { handle, reaction: Vector6::zeros(), exact: None, stepped: false, motion: None }
+        BodyRecord { handle, reaction: Vector6::zeros(), exact: None, stepped: false, motion: None, rotates: false }
     }
 }
 

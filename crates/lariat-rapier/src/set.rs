@@ -313,7 +313,7 @@ impl CableSet {
     /// which stay as they are.
     pub fn begin(&mut self, world: &mut PhysicsWorld) -> Result<HostStep, Error> {
         world_mark::check(&mut self.contents, world)?;
-        step::begin(&mut self.stepper, &self.contents, world, &self.settings)
+        step::begin(&mut self.stepper, &mut self.contents, world, &self.settings)
     }
 
     /// Predicts the next Rapier step of a host step: integrates cables and their bodies, and gives

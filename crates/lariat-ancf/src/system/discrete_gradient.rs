@@ -10,7 +10,7 @@ use crate::effect::acts::{ForceInput, PointForce, StepInput};
 use crate::error::StepFailure;
 use crate::integrate::State;
 use crate::integrate::discrete_gradient::{
-    ALPHA, BETA, Balance, Buffers, DiscreteGradientSystem, Event, share_to_take,
+    ALPHA, BETA, Balance, Buffers, DiscreteGradientSystem, Event, share_to_take, sum_of_forces,
 };
 use crate::support::{SlopeSupport, Support};
 use core::ops::Range;
@@ -169,11 +169,15 @@ impl Equations<'_> {
         let mut balance = Balance { numerical: loss.numerical, effects: loss.effects, ..Balance::default() };
         let system = &*self.system;
         let Buffers { h, velocity_before, velocity_change, change, rhs, external, product, .. } = b;
+        balance.impulse = sum_of_forces(product) + *h * sum_of_forces(external);
         if !self.model.loads.is_empty() {
             let dead = system.loads.gravity_work(change) + system.loads.effect_work(change);
             balance.loads = dot(external, change) - dead - (work.total() + loss.effects);
         }
         for (node, support) in &self.model.supports {
+            if support.position.is_some() {
+                balance.impulse += sum_of_forces(&rhs[6 * node..6 * node + 6]);
+            }
             for x in prescribed(support) {
                 balance.supports -= rhs[6 * node + x] * change[6 * node + x] / *h;
             }
@@ -258,6 +262,7 @@ impl DiscreteGradientSystem for CableStep<'_> {
         equations.system.meter.work_of_step = work;
         project_vector(equations.model, &mut b.rhs);
         balance.residual = -dot(&b.rhs, &b.change) / b.h;
+        balance.imbalance = sum_of_forces(&b.rhs);
         Ok(balance)
     }
 

@@ -45,13 +45,6 @@ const ERRORS: [Column; 3] = [
 /// [`Error::Mechanics`] or [`Error::Coupling`] if a run of Lariat fails.
 pub fn measure(progress: &mut dyn FnMut(&str)) -> Result<(String, Table), Error> {
     let machine = machine::line();
-    if std::env::var_os("ONLYA").is_some() {
-        let t = assemblies::table(progress)?;
-        for r in &t.rows {
-            println!("{r:?}");
-        }
-        std::process::exit(0);
-    }
     let soft = Scene { name: "payload", material: SOFT, count: 1, mass: 50.0, swings: true };
     let steel = Scene { name: "payload, steel", material: STEEL, ..soft };
     let rest = Scene { name: "load at rest", mass: 10.0, swings: false, ..soft };
@@ -107,7 +100,7 @@ pub fn measure(progress: &mut dyn FnMut(&str)) -> Result<(String, Table), Error>
     let mut assemblies = Section::new("Assemblies");
     assemblies.text(
         "*Bridge*: two ropes of 20 elements carry ten planks, each on 2 or 4 pins; a box of 60 kg falls on it from 2 m. *Boxes*: a pile of \
-         500 awake boxes that has settled; slack cables of 10 elements lead from fixed points to boxes on its top. The times are \
+         500 awake boxes of 10 kg that has settled; slack cables of 10 elements lead from fixed points to boxes on its top. The times are \
          the mean and the largest of host steps; of the pile, the run of three with the smallest mean. Counts are per host step, of all cables.",
     );
     assemblies.excerpt(assemblies::table(progress)?);
@@ -123,7 +116,7 @@ fn introduction(machine: &str) -> String {
          E = 1e9 Pa, 4000 kg/m^3, *steel* E = 2e11 Pa, 7850 kg/m^3. A host step is 1/60 s. *Time* is CPU time per host step on one \
          thread: the mean over 2 s, the smallest of 2 to 25 runs. *Rapier alone* is the time of the same world without cables, *per cable* \
          the difference. *Split* is the number of Rapier steps per host step, and of solver iterations in each: `1 x 4` is the default of \
-         Rapier, `4 x 4` that of Lariat. *Stretch* is the largest of the polyline from the fixed point through nodes, particles or joints \
+         Rapier and of Lariat. *Stretch* is the largest of the polyline from the fixed point through nodes, particles or joints \
          to the point of the box. A dash marks a run that flew apart. All columns, with counts of steps, Newton iterations, \
          factorisations and element evaluations: [coupling.csv](coupling.csv).\n\n\
          - **Lariat**: 10 elements, `CableSet`, one `AttachmentKind::Ball`.\n\
@@ -192,7 +185,7 @@ fn fine(scene: &Scene) -> Result<[Vector3<f64>; 2], Error> {
 
 /// Says whether the game fidelity with the default split is as fast as wanted.
 fn target(rows: &[Row]) -> String {
-    let game = rows.iter().find(|r| r.model == CableModel::Lariat(Fidelity::Game) && r.split == SPLITS[2]);
+    let game = rows.iter().find(|r| r.model == CableModel::Lariat(Fidelity::Game) && r.split == SPLITS[0]);
     let time = game.map_or(f64::NAN, |r| r.micros);
     let verdict = if time <= TARGET { "met" } else { "missed" };
     format!(

@@ -34,6 +34,7 @@ use crate::reels;
 use crate::settings::Settings;
 use crate::sleep;
 use lariat_ancf::Snapshot;
+use lariat_ancf::island::Impedance;
 use prediction::{Prediction, StepParameters};
 use prescribed_motion::PrescribedMotions;
 use rapier::dynamics::RigidBodyHandle;
@@ -80,12 +81,14 @@ pub(crate) struct Stepper {
     pub events: Vec<Event>,
     /// The islands that could not step in this host step.
     pub failures: Vec<Failure>,
+    /// A buffer.
+    impedance: Impedance,
 }
 
 /// Begins a host step of `world.integration_parameters.dt`, which becomes that of a Rapier step.
 pub(crate) fn begin(
     stepper: &mut Stepper,
-    contents: &Contents,
+    contents: &mut Contents,
     world: &mut PhysicsWorld,
     settings: &Settings,
 ) -> Result<HostStep, Error> {
@@ -97,7 +100,7 @@ pub(crate) fn begin(
     if dt > 0.0 {
         stepper.events.clear();
         stepper.failures.clear();
-        host.steps = substepping::count(contents, world, settings, f64::from(dt));
+        host.steps = substepping::count(contents, world, settings, f64::from(dt), &mut stepper.impedance);
         host.motions = PrescribedMotions::read(contents, world, f64::from(dt));
         if host.steps > 1 {
             host.motions.add_others(contents, world, f64::from(dt));
@@ -120,7 +123,7 @@ pub(crate) fn predict_next(
         return Ok(());
     }
     if host.done > 0 {
-        split_finer(contents, world, settings, host);
+        split_finer(contents, world, settings, host, &mut stepper.impedance);
     }
     host.done += 1;
     if host.dt == 0.0 {
@@ -134,9 +137,16 @@ pub(crate) fn predict_next(
 }
 
 /// Splits the rest of a host step finer, if a body met another since it began.
-fn split_finer(contents: &Contents, world: &mut PhysicsWorld, settings: &Settings, host: &mut HostStep) {
+fn split_finer(
+    contents: &mut Contents,
+    world: &mut PhysicsWorld,
+    settings: &Settings,
+    host: &mut HostStep,
+    impedance: &mut Impedance,
+) {
     let max = settings.max_rapier_steps / host.steps;
-    let finer = substepping::count(contents, world, settings, f64::from(host.dt)).div_ceil(host.steps).min(max);
+    let needed = substepping::count(contents, world, settings, f64::from(host.dt), impedance);
+    let finer = needed.div_ceil(host.steps).min(max);
     if finer > 1 {
         (host.steps, host.done) = (host.steps * finer, host.done * finer);
         world.integration_parameters.dt = host.dt / host.steps as Real;

@@ -11,7 +11,9 @@
 //! two jammed bodies of 1 kg under 1 kN oscillate by half of it, and a body that is released
 //! suddenly is thrown by the old estimate (a gap of F h^2/2m). Therefore the host step is split
 //! finer where a body that is near others, or has a reaction estimate, hangs on a taut cable. l is
-//! the length of the cable to its end, which gives an upper bound of its stiffness.
+//! the length of the cable to its end, which gives an upper bound of its stiffness. A cable that is
+//! pulled but not straight gives way by its sag: where the bound asks for a split, its own response
+//! over the host step decides ([`Impedance`]).
 //!
 //! *First contact.* A body that hits another at v deviates from its prediction by up to v h, and
 //! the cable, heavier than the body over the step, does not follow by the share g/(1 + g): its
@@ -39,6 +41,7 @@ use crate::step::apply::MAX_HALF_ROTATION;
 use crate::step::impedance::OWN_MOBILITY_SHARE;
 use crate::step::proximity;
 use ::nalgebra::Vector3;
+use lariat_ancf::island::Impedance;
 use lariat_ancf::{At, Cable};
 use rapier::pipeline::PhysicsWorld;
 
@@ -54,29 +57,57 @@ const JOINTED_STEPS: f64 = 4.0;
 /// Share of the force at an attachment from which a reaction estimate counts.
 const MIN_REACTION: f64 = 0.1;
 
-/// Returns the number of Rapier steps for a host step of `dt` (s).
-pub(crate) fn count(contents: &Contents, world: &PhysicsWorld, settings: &Settings, dt: f64) -> u32 {
+/// How a body may deviate from its prediction.
+struct Deviation {
+    /// Speed in m/s at which it may collide; 0 if it has a reaction estimate.
+    speed: f64,
+    /// Whether its cable is straight, or may become so.
+    tightens: bool,
+}
+
+/// Returns the number of Rapier steps for a host step of `dt` (s); `impedance` is a buffer.
+pub(crate) fn count(
+    contents: &mut Contents,
+    world: &PhysicsWorld,
+    settings: &Settings,
+    dt: f64,
+    impedance: &mut Impedance,
+) -> u32 {
     let min = settings.rapier_steps.max(1);
     let max = settings.max_rapier_steps;
     if max <= min {
         return min;
     }
     let mut fastest = None;
-    let needed = contents.attachments.values().map(|a| {
+    let mut needed: f64 = 0.0;
+    for i in 0..contents.attachments.len() {
+        let Some(a) = contents.attachments.get(i) else { continue };
         let mut fastest = || *fastest.get_or_insert_with(|| proximity::fastest(world));
-        let Some(speed) = deviation_speed(contents, world, a, dt, &mut fastest) else { return 0.0 };
-        let inverse_mass = f64::from(world.bodies[a.body].mass_properties().local_mprops.inv_mass);
-        let on_body = contents.attachments.values().filter(|b| b.body == a.body);
-        let stiffness: f64 = on_body.map(|b| stiffness(contents, b)).sum();
-        let vibration = dt * (stiffness * inverse_mass).sqrt() / MAX_PHASE;
-        let step = dt / f64::from(max);
-        let g = OWN_MOBILITY_SHARE * step * step * stiffness * inverse_mass;
-        let first_contact = dt * speed * g / (1.0 + g) / MAX_GAP;
-        vibration.max(first_contact)
-    });
+        let Some(deviation) = deviation(contents, world, a, dt, &mut fastest) else { continue };
+        let body = a.body;
+        let inverse_mass = f64::from(world.bodies[body].mass_properties().local_mprops.inv_mass);
+        let count = |stiffness: f64| {
+            let vibration = dt * (stiffness * inverse_mass).sqrt() / MAX_PHASE;
+            let step = dt / f64::from(max);
+            let g = OWN_MOBILITY_SHARE * step * step * stiffness * inverse_mass;
+            vibration.max(dt * deviation.speed * g / (1.0 + g) / MAX_GAP)
+        };
+        let on_body = |c: &Contents, k: usize| c.attachments.get(k).is_some_and(|b| b.body == body);
+        let others = 0..contents.attachments.len();
+        let largest = others.clone().filter(|&k| on_body(contents, k)).map(|k| stiffness(contents, k)).sum();
+        let mut own = count(largest);
+        if own > needed.max(f64::from(min)) && !deviation.tightens {
+            let mut response = 0.0;
+            for k in others {
+                response += if on_body(contents, k) { stiffness_over(contents, k, dt, impedance) } else { 0.0 };
+            }
+            own = count(response.min(largest));
+        }
+        needed = needed.max(own);
+    }
     let jointed = |a: &Attachment| is_integrated(world, a.body) && !proximity::is_unjointed(world, a.body);
     let joints = if contents.attachments.values().any(jointed) { JOINTED_STEPS } else { 1.0 };
-    let needed = needed.fold(rotation(contents, world, dt).max(joints), f64::max);
+    let needed = needed.max(rotation(contents, world, dt)).max(joints);
     // a value that is not a number, or too large, gives the maximum
     (needed.ceil().min(f64::from(max)) as u32).max(min)
 }
@@ -90,16 +121,15 @@ fn rotation(contents: &Contents, world: &PhysicsWorld, dt: f64) -> f64 {
     0.5 * fastest * dt / substeps / MAX_HALF_ROTATION
 }
 
-/// Returns the speed in m/s at which the body of an attachment may collide within `dt` (s), or 0 if
-/// it has a reaction estimate. `None` if it does not deviate, or hangs on no cable that is taut or
-/// becomes so.
-fn deviation_speed(
+/// Returns how the body of an attachment may deviate within `dt` (s). `None` if it does not, or hangs
+/// on no cable that is taut or becomes so.
+fn deviation(
     contents: &Contents,
     world: &PhysicsWorld,
     a: &Attachment,
     dt: f64,
     fastest: &mut impl FnMut() -> f64,
-) -> Option<f64> {
+) -> Option<Deviation> {
     let cable = &contents.slot(a.cable)?.cable;
     if !is_integrated(world, a.body) {
         return None;
@@ -108,16 +138,19 @@ fn deviation_speed(
     let section = &cable.elements()[a.node.min(cable.elements().len() - 1)].section;
     let taut = force > TAUT_STRAIN * section.axial_stiffness;
     let own = f64::from(world.bodies[a.body].linvel().length());
-    if !taut && !tightens(cable, a.node, dt, own + fastest()) {
+    let tightens = tightens(cable, a.node, dt, own + fastest());
+    if !taut && !tightens {
         return None;
     }
     let reacts = |reaction| split_spatial(reaction).0.norm() > MIN_REACTION * force;
     let reaction = taut && contents.records.get(a.body).is_some_and(|record| reacts(&record.reaction));
-    proximity::collision(world, a.body, (dt, fastest())).or(reaction.then_some(0.0))
+    let speed = proximity::collision(world, a.body, (dt, fastest())).or(reaction.then_some(0.0))?;
+    Some(Deviation { speed, tightens })
 }
 
-/// Returns the stiffness of the two parts of a cable at an attachment, in N/m.
-fn stiffness(contents: &Contents, a: &Attachment) -> f64 {
+/// Returns an upper bound in N/m of the stiffness of the two parts of a cable at an attachment.
+fn stiffness(contents: &Contents, attachment: usize) -> f64 {
+    let Some(a) = contents.attachments.get(attachment) else { return 0.0 };
     let Some(slot) = contents.slot(a.cable) else { return 0.0 };
     let elements = slot.cable.elements();
     let side = |range: core::ops::Range<usize>| {
@@ -128,11 +161,25 @@ fn stiffness(contents: &Contents, a: &Attachment) -> f64 {
     side(0..node) + side(node..elements.len())
 }
 
+/// Returns the stiffness in N/m that a cable shows at an attachment over a step of `dt` (s): the
+/// largest eigenvalue of its inverse compliance over the square of the step, the inertia of its sag
+/// included.
+fn stiffness_over(contents: &mut Contents, attachment: usize, dt: f64, impedance: &mut Impedance) -> f64 {
+    let Some((node, cable)) = contents.attachments.get(attachment).map(|a| (a.node, a.cable)) else { return 0.0 };
+    let Some(slot) = contents.cables.get_mut(cable.0 as usize) else { return 0.0 };
+    if impedance.update(&mut slot.cable, &[node], dt).is_err() {
+        return f64::INFINITY;
+    }
+    1.0 / (dt * dt * impedance.compliance(0, 0).symmetric_eigenvalues().min())
+}
+
 /// Returns whether a part of a cable between a node and a held end may become straight within `dt`
 /// (s), if the node's velocity changes by `change` (m/s).
 fn tightens(cable: &Cable, node: usize, dt: f64, change: f64) -> bool {
     let velocity = |n: usize| Vector3::from_column_slice(&cable.velocities()[6 * n..6 * n + 3]);
     let last = cable.elements().len();
+    // the number may be that of before a change of the cable
+    let node = node.min(last);
     let held = |end: usize| cable.support(At::Node(end)).is_ok_and(|s| s.attached || s.position.is_some());
     [0, last].into_iter().filter(|end| *end != node && held(*end)).any(|end| {
         let length: f64 = cable.elements()[node.min(end)..node.max(end)].iter().map(|e| e.length).sum();

@@ -50,9 +50,8 @@ fn pull_on_rotor(fidelity: Fidelity, by_pose: bool, clamp: bool, speed: f64, fre
 /// s: it hangs straight out in the rotating frame.
 ///
 /// Reference: the force of inertia, w^2 mu ((r + L)^2 - r^2)/2, plus 0.3 % for the stretch at 30
-/// rad/s. The chord in place of v + w x r read 4.96 N of 7 at 10 rad/s and 60 Hz. Fidelity game is
-/// within 5 % up to a sixth of a radian per host step: what it knows of the acceleration of an end
-/// is the mean over its last step.
+/// rad/s. The chord in place of v + w x r read 4.96 N of 7 at 10 rad/s and 60 Hz; the cubic through
+/// the ends of a host step, in fidelity game, 36.7 of 63 N at half a radian per host step.
 #[test]
 fn a_rope_on_a_rotor_pulls_with_its_force_of_inertia() {
     for (by_pose, clamp, speed, frequency) in [
@@ -66,6 +65,9 @@ fn a_rope_on_a_rotor_pulls_with_its_force_of_inertia() {
         (false, false, 30.0, 120.0),
         (true, false, 30.0, 60.0),
         (false, true, 30.0, 120.0),
+        (false, false, 15.0, 60.0),
+        (true, true, 20.0, 60.0),
+        (false, false, 30.0, 240.0),
     ] {
         let expected = speed * speed * 0.1 * (1.2f64.powi(2) - 0.04) / 2.0;
         let pull = pull_on_rotor(Fidelity::Engineering, by_pose, clamp, speed, frequency);
@@ -73,11 +75,9 @@ fn a_rope_on_a_rotor_pulls_with_its_force_of_inertia() {
             format!("by pose {by_pose}, clamp {clamp}, {speed} rad/s at {frequency} Hz: {pull:.4} N of {expected:.4}");
         println!("{case}");
         assert!((pull / expected - 1.0).abs() < 1e-2, "{case}");
-        if speed / frequency <= 10.0 / 60.0 {
-            let pull = pull_on_rotor(Fidelity::Game, by_pose, clamp, speed, frequency);
-            println!("game: {pull:.4} N");
-            assert!((pull / expected - 1.0).abs() < 5e-2, "game: {pull:.4} N; {case}");
-        }
+        let pull = pull_on_rotor(Fidelity::Game, by_pose, clamp, speed, frequency);
+        println!("game: {pull:.4} N");
+        assert!((pull / expected - 1.0).abs() < 5e-2, "game: {pull:.4} N; {case}");
     }
 }
 

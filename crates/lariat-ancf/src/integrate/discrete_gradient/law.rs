@@ -70,6 +70,10 @@ pub(crate) struct Balance {
     pub rescaled: f64,
     /// Kinetic and strain energy at the beginning, and the weight times 1 mm.
     pub held: f64,
+    /// Sum over nodes and bodies of the impulse in N s that the residual leaves unbalanced.
+    pub imbalance: f64,
+    /// Sum of the impulses in N s that must balance: of inertia, of external forces, of supports and pins.
+    pub impulse: f64,
 }
 
 impl Balance {
@@ -83,6 +87,8 @@ impl Balance {
         self.loads += other.loads;
         self.rescaled += other.rescaled;
         self.held += other.held;
+        self.imbalance += other.imbalance;
+        self.impulse += other.impulse;
     }
 
     /// Returns what energies are compared with: the energy held at the beginning, and the work of supports and loads.
@@ -94,6 +100,11 @@ impl Balance {
     pub fn excess(&self) -> f64 {
         self.residual - self.numerical - self.effects - self.rescaled
     }
+}
+
+/// Returns the sum of the magnitudes of the forces on positions in a nodal vector.
+pub(crate) fn sum_of_forces(x: &[f64]) -> f64 {
+    x.as_chunks::<6>().0.iter().map(|x| (x[0] * x[0] + x[1] * x[1] + x[2] * x[2]).sqrt()).sum()
 }
 
 /// A mechanical system with discrete gradients, at its present state.

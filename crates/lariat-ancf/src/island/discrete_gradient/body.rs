@@ -26,7 +26,7 @@
 //! The midpoint rule in the rotation vector of the [other integrators](super::rotation): it keeps neither energy nor angular momentum.
 
 use crate::cable::builder::STANDARD_GRAVITY;
-use crate::integrate::discrete_gradient::{ALPHA, BETA, Balance};
+use crate::integrate::discrete_gradient::{ALPHA, BETA, Balance, sum_of_forces};
 use crate::island::body::{BodyDifferences, RigidBody};
 use nalgebra::{Matrix3, Matrix6, Quaternion, UnitQuaternion, Vector3, Vector6};
 
@@ -199,6 +199,8 @@ impl BodyStep {
         total.residual -= power(row);
         // the locks take what is left
         total.supports -= all - power(row);
+        total.imbalance += sum_of_forces(row);
+        total.impulse += self.mass * self.change.fixed_rows::<3>(0).norm() + self.h * self.force.norm();
         let (second, start) = (self.change - self.before, self.velocity);
         total.numerical += 0.5 * ALPHA * second.dot(&(self.matrix * second));
         total.loads += self.h * (self.force.dot(&self.mean[0]) + self.torque.dot(&self.mean[1]));

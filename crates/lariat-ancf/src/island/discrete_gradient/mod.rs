@@ -30,7 +30,7 @@ use crate::cable::Cable;
 use crate::effect::EffectWork;
 use crate::error::StepFailure;
 use crate::integrate::State;
-use crate::integrate::discrete_gradient::{BETA, Balance, DiscreteGradientSystem, Event};
+use crate::integrate::discrete_gradient::{BETA, Balance, DiscreteGradientSystem, Event, sum_of_forces};
 use crate::support::SlopeSupport;
 use crate::system::{CableStep, Equations, dot, project_vector};
 use body::BodyStep;
@@ -235,10 +235,14 @@ impl IslandStep<'_, '_> {
             for hold in &own.holds {
                 total.residual += hold.residual(buffers.h);
                 total.closing += hold.work(buffers.h);
+                if !hold.slope {
+                    total.impulse += hold.impulse.norm();
+                }
                 buffers.rhs[hold.at..hold.at + 3].fill(0.0);
             }
             project_vector(equations.model, &mut buffers.rhs);
             total.residual -= dot(&buffers.rhs, &buffers.change) / buffers.h;
+            total.imbalance += sum_of_forces(&buffers.rhs);
             // the free direction of a slope, for another iteration with the same factors
             for hold in own.holds.iter().filter(|hold| hold.slope) {
                 buffers.rhs[hold.at..hold.at + 3].copy_from_slice(hold.impulse.as_slice());
