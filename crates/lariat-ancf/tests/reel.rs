@@ -96,7 +96,7 @@ fn a_minute_of_cycles_returns_to_the_length() {
     for step in 0..3600 {
         // half a ramp first and last, so that the length returns
         let t = f64::from(step) / 60.0 + 5.0;
-        cable.set_reel_rate(if (t / 10.0) as u32 % 2 == 0 { 0.5 } else { -0.5 }).unwrap();
+        cable.set_reel_rate(if ((t / 10.0) as u32).is_multiple_of(2) { 0.5 } else { -0.5 }).unwrap();
         cable.step(1.0 / 60.0).unwrap();
         let work = cable.reel().unwrap().work;
         moved += (work - before).abs();

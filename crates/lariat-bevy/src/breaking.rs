@@ -29,13 +29,16 @@ pub struct BreakTension(pub f64);
 #[derive(Component, Clone, Copy, Debug, PartialEq)]
 pub struct BreakStrain(pub f64);
 
+/// The limits of a cable.
+type Limits = (Option<&'static BreakTension>, Option<&'static BreakStrain>);
+
 /// Query filter: the strength of a cable was added or changed, or the cable was.
 type StrengthChanged = Or<(Changed<BreakTension>, Changed<BreakStrain>, Changed<Cable>)>;
 
 /// Tells the set which cables break, and at which load.
 pub(crate) fn set_strengths(
     mut cables: ResMut<Cables>,
-    limits: Query<(Option<&BreakTension>, Option<&BreakStrain>), (With<Cable>, Allow<Disabled>)>,
+    limits: Query<Limits, (With<Cable>, Allow<Disabled>)>,
     changed: Query<Entity, (StrengthChanged, Allow<Disabled>)>,
     mut tensions: RemovedComponents<BreakTension>,
     mut strains: RemovedComponents<BreakStrain>,
