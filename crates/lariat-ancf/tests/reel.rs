@@ -148,7 +148,7 @@ fn a_rope_paid_out_at_a_constant_rate_hangs_by_its_weight() {
     }
 }
 
-/// A mass on a light rope whose length changes, against its own equation: l = 1.5 + 0.1 t and a wave.
+/// A mass on a light, stiff rope whose length changes, against its own equation: l = 1.5 + 0.1 t and a wave.
 ///
 /// *Source.* `(l^2 theta')' = -g l sin theta`, by the classical Runge-Kutta method here, with the length that the reel has out.
 #[test]
@@ -163,7 +163,7 @@ fn a_pendulum_of_variable_length_follows_its_equation() {
         let start = 1.5 * Vector3::new(theta.sin(), -theta.cos(), 0.0);
         let mut cable = Cable::builder()
             .points([start, Vector3::zeros()])
-            .section(Section::from_stiffness(2.0e4, 1e-4, 3e-4).unwrap())
+            .section(Section::from_stiffness(1.0e6, 1e-4, 2e-4).unwrap())
             .elements(8)
             .integrator(integrator)
             .fix(At::End)
@@ -243,7 +243,7 @@ fn a_snapshot_in_the_middle_continues_bitwise() {
 }
 
 /// A split of a swinging, damped rope keeps shape, momentum and kinetic energy. A merge keeps the outer nodes and so the slope at the eye,
-/// makes no kinetic energy, and changes the momentum by its impulse on the eye; readings of the tension hardly move.
+/// changes kinetic energy and momentum (by its impulse on the eye) by less than 1e-4; readings of the tension hardly move.
 ///
 /// *Source.* A cubic is its own interpolant; a projection in the norm of the mass.
 #[test]
@@ -282,7 +282,10 @@ fn splits_are_exact_and_merges_keep_tension_and_momentum() {
                     assert_relative_eq!(a.velocity, b.velocity, epsilon = 1e-11);
                 }
             } else {
-                assert!(made <= 1e-12 * kinetic && moved.norm() < 1e-3 * p.linear.norm(), "{moved} {made:e} J");
+                assert!(
+                    made.abs() < 1e-4 * kinetic && moved.norm() < 1e-4 * p.linear.norm(),
+                    "{moved} {made:e} J of {kinetic}"
+                );
                 let n = cable.positions().len();
                 assert_eq!(cable.positions()[n - 6..], before.positions()[n + 6 - 6..]);
             }
@@ -294,6 +297,57 @@ fn splits_are_exact_and_merges_keep_tension_and_momentum() {
         }
         println!("{seen} changes, {:?}", cable.reel().unwrap());
         assert!(seen >= 3);
+    }
+}
+
+/// Hard reels: out and in at 5 m/s, a stiff rope (EA 1e6), the least length under 5 kN, all damped and in space, at the steps of games and
+/// with error control. No step fails, and the energy stays what winch, load and damping leave: the account never rises by more than
+/// 2 % of the energy that was moved.
+///
+/// *Source.* Conservation of energy; damping and numerical dissipation only lose.
+#[test]
+fn hard_reels_hold_and_make_no_energy() {
+    let game = Integrator { method: Method::DiscreteGradient, control: StepControl::MaxStep(1.0 / 240.0) };
+    for integrator in [game, Integrator::tolerance(Method::TrBdf2, 1e-4).unwrap()] {
+        for (name, stiffness, rate, pull) in
+            [("fast", 1e4, 5.0, 0.0), ("stiff", 1e6, 0.8, 0.0), ("loaded", 1e6, -0.8, 5e3)]
+        {
+            let mut cable = Cable::builder()
+                .points([Vector3::new(0.0, -4.0, 0.0), Vector3::zeros()])
+                .section(Section::from_stiffness(stiffness, 0.05, 0.4).unwrap())
+                .elements(10)
+                .damping(Damping { axial: 5e-3, bending: 5e-3 })
+                .integrator(integrator)
+                .fix(At::End)
+                .load(PointLoad::force(0.0, [0.0, -pull, 0.0]))
+                .build()
+                .unwrap();
+            cable.equilibrium().unwrap();
+            let mut v = cable.velocities().to_vec();
+            v.chunks_exact_mut(6).enumerate().for_each(|(i, v)| v[2] = 0.2 * (10.0 - i as f64));
+            let q = cable.positions().to_vec();
+            cable.set_coordinates(&q, &v).unwrap();
+            cable.add_reel(At::End, Reel { acceleration: 20.0, ..Reel::default() }).unwrap();
+            let total = |cable: &Cable| {
+                let reel = cable.reel().unwrap();
+                let height = cable.node_position(0).y;
+                cable.energy().total() + pull * height - reel.work - reel.remeshed + cable.effect_work().dissipated()
+            };
+            let (start, mut moved, mut before, mut most) = (total(&cable), cable.energy().kinetic, 0.0, 0.0f64);
+            for step in 0..240 {
+                let outwards = name == "loaded" || (step / 40) % 2 == 0;
+                cable.set_reel_rate(if outwards { rate } else { -rate }).unwrap();
+                cable.step(1.0 / 60.0).unwrap();
+                let work = cable.reel().unwrap().work;
+                moved += (work - before).abs();
+                before = work;
+                most = most.max(total(&cable) - start);
+            }
+            let reel = cable.reel().unwrap();
+            println!("{name} {:?}: {most:.2e} J of {moved:.1} J, {reel:?}", integrator.method);
+            assert!(most < 0.02 * moved, "{name} {:?}: {most} J of {moved} J", integrator.method);
+            assert!(name != "loaded" || reel.stopped && reel.length_out < 0.2, "{reel:?}");
+        }
     }
 }
 

@@ -222,6 +222,27 @@ impl Cable {
         self.set_reel(Reel { rate: Reel::with_rate(rate).rate, ..own })
     }
 
+    /// Takes the reel away: what is out stays, and nothing moves through the eye any more. Does nothing without a reel.
+    ///
+    /// # Errors
+    /// [`Error::StepFailed`] if the mass matrix cannot be factored; not for a cable that was built.
+    pub fn remove_reel(&mut self) -> Result<(), Error> {
+        if self.model.reel.is_some() {
+            let mut model = self.model.clone();
+            model.reel = None;
+            self.rebuild(model)?;
+            self.snapshot.winding = None;
+            self.disturb();
+            self.revise();
+        }
+        Ok(())
+    }
+
+    /// Returns the reel as it was described; `None` without one.
+    pub fn reel_description(&self) -> Option<&Reel> {
+        self.model.reel.as_ref().map(|own| &own.reel)
+    }
+
     /// Returns whether the cable has a reel.
     pub fn has_reel(&self) -> bool {
         self.model.reel.is_some()

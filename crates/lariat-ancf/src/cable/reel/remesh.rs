@@ -12,8 +12,9 @@
 //! v += M^-1 rho int S^T (v_old - S e' - l' w_new) dy          over all free coordinates
 //! ```
 //!
-//! which is a projection in the norm of the mass: momentum stays but for the impulse on supports, and kinetic energy never rises. The
-//! change of the whole energy is on the account [`remeshed`](super::ReelReading::remeshed).
+//! which is a projection in the norm of the mass: momentum stays but for the impulse on supports, and kinetic energy falls but for the
+//! product of `v_old - v_new` with l' w_new, of the order of the waves that the mesh does not resolve. The change of the whole energy is
+//! on the account [`remeshed`](super::ReelReading::remeshed).
 //!
 //! # Validity
 //!
