@@ -150,6 +150,16 @@ pub enum Error {
         /// The nearest of them.
         suggestion: Option<String>,
     },
+    /// A model of another program that cannot be imported right.
+    #[error("{file}{}: {problem}", if *line > 0 { format!(":{line}") } else { String::new() })]
+    Import {
+        /// The name of the file.
+        file: String,
+        /// The line, from 1; 0 if it is not known.
+        line: u32,
+        /// What is wrong, and what is read.
+        problem: String,
+    },
     /// A file that cannot be read.
     #[error("cannot read {}: {source}", path.display())]
     Read {
@@ -222,6 +232,7 @@ impl Error {
             | Error::Syntax { .. }
             | Error::Override { .. }
             | Error::NoSuchKey { .. }
+            | Error::Import { .. }
             | Error::Read { .. }
             | Error::Output { .. } => 2,
             Error::Write { .. } | Error::Mechanics { .. } | Error::Body { .. } | Error::Coupling { .. } => 3,

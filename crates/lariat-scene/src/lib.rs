@@ -7,12 +7,15 @@
 //! | [`scene`] | the tables of a scene, checked into a [`Scene`] |
 //! | [`run`] | headless runs: probes to CSV, a summary as JSON |
 //! | [`view`] | the run as an animated page |
+//! | [`mjcf`] | cables of MuJoCo models, as a scene |
+//! | [`sweep`] | runs of a scene over a grid of values, on all threads |
 //!
 //! Modules use those above them; `physics`, the Rapier side of a run, is between [`scene`] and [`run`]. The library prints
 //! nothing; the `lariat` command does.
 
 pub mod document;
 mod error;
+pub mod mjcf;
 mod physics;
 mod read;
 pub mod run;
@@ -20,6 +23,7 @@ pub mod scene;
 #[macro_use]
 pub mod schema;
 mod suggest;
+pub mod sweep;
 pub mod view;
 mod warning;
 

@@ -1,7 +1,7 @@
 //! The matrices of an island and its linear equations: see [`island`](super).
 
+use super::body_matrix::{BodyMatrix, Lever};
 use super::condense::Condensed;
-use super::dense::Dense;
 use super::hold::{Hold, direction_near, vector};
 use super::layout::{Layout, Part};
 use super::rotation::skew;
@@ -11,7 +11,7 @@ use crate::error::StepFailure;
 use crate::linalg::{Definiteness, Factorisation};
 use crate::support::SlopeSupport;
 use crate::system::{project_matrix, project_vector};
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::{Matrix6, Vector3};
 
 /// Which matrix of an island.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -55,8 +55,7 @@ impl CableBuffers {
 pub(super) struct Matrices {
     cables: Vec<CableBuffers>,
     /// The matrix of the bodies, and its factors.
-    bodies: Vec<f64>,
-    dense: Dense,
+    bodies: BodyMatrix,
     mass_is_factored: bool,
     /// c2 of the stage whose step matrix is factored; 0 = none.
     pub factored: f64,
@@ -160,71 +159,37 @@ impl IslandEquations<'_, '_> {
     /// geometric stiffness of the levers under the rows `rhs` of the held coordinates.
     pub fn factor_bodies(&mut self, kind: MatrixKind, q: &[f64], v: &[f64], rhs: &[f64]) -> Result<(), StepFailure> {
         let layout = self.layout;
-        let Matrices { cables, bodies: matrix, dense, .. } = &mut *self.matrices;
-        let n = 6 * layout.bodies.len();
-        matrix.clear();
-        matrix.resize(n * n, 0.0);
-        let mut add = |row: usize, column: usize, value: f64| matrix[row * n + column] += value;
+        let Matrices { cables, bodies: matrix, .. } = &mut *self.matrices;
+        matrix.begin(layout.bodies.len());
         for (i, body) in layout.bodies.iter().enumerate() {
             let at = layout.body_at(i);
             let motion = layout.motion(i, &q[at..at + 6], &v[at..at + 6]);
-            let inertia = body.world_inertia(&motion.rotation);
-            for r in 0..3 {
-                add(6 * i + r, 6 * i + r, body.mass);
-                for c in 0..3 {
-                    add(6 * i + 3 + r, 6 * i + 3 + c, inertia[(r, c)]);
-                }
+            let mut inertia = body.carried.unwrap_or_else(Matrix6::zeros);
+            for x in 0..3 {
+                inertia[(x, x)] += body.mass;
             }
-            if let Some(carried) = &body.carried {
-                for (r, c) in pairs(6) {
-                    add(6 * i + r, 6 * i + c, carried[(r, c)]);
-                }
-            }
+            let mut rotational = inertia.fixed_view_mut::<3, 3>(3, 3);
+            rotational += body.world_inertia(&motion.rotation);
+            matrix.add_inertia(i, &inertia);
         }
         for (buffers, part) in cables.iter().zip(&layout.parts) {
-            let w = &buffers.matrix(kind).condensed.w;
-            let count = 3 * part.holds.len();
-            for (a, hold) in part.holds.iter().enumerate() {
-                let (rotating, body) = (layout.rotating_vector(hold, q), 6 * layout.pins[hold.pin].body);
-                if kind == MatrixKind::Step {
-                    let geometric = -skew(&vector(&rhs[hold.at..])) * skew(&rotating);
-                    let symmetric = (geometric + geometric.transpose()) * 0.5;
-                    for (r, c) in pairs(3) {
-                        add(body + 3 + r, body + 3 + c, symmetric[(r, c)]);
-                    }
-                }
-                let ga = -skew(&rotating);
-                for (b, other) in part.holds.iter().enumerate() {
-                    let block = Matrix3::from_fn(|r, c| w[(3 * a + r) * count + 3 * b + c]);
-                    let gb = -skew(&layout.rotating_vector(other, q));
-                    let second = 6 * layout.pins[other.pin].body;
-                    let rotated = block * gb;
-                    for (r, c) in pairs(3) {
-                        add(body + 3 + r, second + 3 + c, (ga.transpose() * rotated)[(r, c)]);
-                        if !hold.slope {
-                            add(body + r, second + 3 + c, rotated[(r, c)]);
-                        }
-                        if !other.slope {
-                            add(body + 3 + r, second + c, (ga.transpose() * block)[(r, c)]);
-                        }
-                        if !hold.slope && !other.slope {
-                            add(body + r, second + c, block[(r, c)]);
-                        }
-                    }
+            let lever = |hold: &Hold| Lever {
+                body: layout.pins[hold.pin].body,
+                arm: layout.rotating_vector(hold, q),
+                slope: hold.slope,
+            };
+            if kind == MatrixKind::Step {
+                for hold in &part.holds {
+                    let geometric = -skew(&vector(&rhs[hold.at..])) * skew(&layout.rotating_vector(hold, q));
+                    matrix.add_rotational(layout.pins[hold.pin].body, &((geometric + geometric.transpose()) * 0.5));
                 }
             }
+            matrix.add_cable(&buffers.matrix(kind).condensed, part.holds.iter().map(lever));
         }
         for (i, body) in layout.bodies.iter().enumerate() {
-            for x in (0..6).filter(|&x| !body.free[x]) {
-                let row = 6 * i + x;
-                for j in 0..n {
-                    matrix[row * n + j] = 0.0;
-                    matrix[j * n + row] = 0.0;
-                }
-                matrix[row * n + row] = 1.0;
-            }
+            matrix.lock(i, &body.free);
         }
-        Ok(dense.factor(matrix, n)?)
+        matrix.factor()
     }
 
     /// Returns whether the step matrix at `at` is positive definite: those of the cables, condensed,
@@ -242,14 +207,14 @@ impl IslandEquations<'_, '_> {
         }
         self.cable_rows_and_matrices(at, &none, rhs)?;
         self.factor_bodies(MatrixKind::Step, at.q, at.v, rhs)?;
-        Ok(definite && self.matrices.dense.is_positive_definite())
+        Ok(definite && self.matrices.bodies.is_positive_definite())
     }
 
     /// Solves in place: rows in, increments out, those of pinned coordinates included. The
     /// increments of bodies are displacements and rotations in world axes.
     pub fn solve(&mut self, kind: MatrixKind, q: &[f64], rhs: &mut [f64]) {
         let layout = self.layout;
-        let Matrices { cables: buffers, dense, .. } = &mut *self.matrices;
+        let Matrices { cables: buffers, bodies: matrix, .. } = &mut *self.matrices;
         for ((cable, part), buffers) in self.cables.iter_mut().zip(&layout.parts).zip(buffers.iter()) {
             let cable = &mut **cable;
             let directions = &buffers.matrix(kind).directions;
@@ -284,7 +249,7 @@ impl IslandEquations<'_, '_> {
                 rhs[at + 6 * i + x] = 0.0;
             }
         }
-        dense.solve(&mut rhs[at..at + 6 * layout.bodies.len()]);
+        matrix.solve(&mut rhs[at..at + 6 * layout.bodies.len()]);
         for (part, buffers) in layout.parts.iter().zip(buffers.iter()) {
             let HeldMatrix { condensed, directions } = buffers.matrix(kind);
             let displacement = |hold: &Hold, rhs: &[f64]| {
@@ -362,8 +327,4 @@ fn subtract(x: &mut [f64], y: &[f64]) {
     for (x, y) in x.iter_mut().zip(y) {
         *x -= y;
     }
-}
-
-fn pairs(n: usize) -> impl Iterator<Item = (usize, usize)> {
-    (0..n).flat_map(move |r| (0..n).map(move |c| (r, c)))
 }

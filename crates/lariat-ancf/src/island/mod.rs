@@ -36,6 +36,7 @@
 
 mod attach;
 mod body;
+mod body_matrix;
 mod clamp;
 mod condense;
 mod dense;

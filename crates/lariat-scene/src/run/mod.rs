@@ -36,6 +36,7 @@
 mod output;
 mod pieces;
 mod probe;
+mod recording;
 pub mod schedule;
 mod statics;
 mod summary;
@@ -44,6 +45,7 @@ mod world;
 
 pub use pieces::{Parted, Piece};
 pub(crate) use probe::columns;
+pub use recording::{ProbeRecord, Recording, collect};
 pub use statics::{BodyPlace, BodyStatics, CableStatics, StaticReaction};
 pub use summary::Summary;
 pub use world::World;
@@ -52,7 +54,7 @@ use crate::error::Error;
 use crate::scene::{Purpose, Scene};
 use crate::warning::Warning;
 use cpu_time::ProcessTime;
-use output::Output;
+use output::{Kept, Output};
 use schedule::{Schedule, nominal};
 use std::path::Path;
 use std::sync::Arc;
@@ -69,6 +71,8 @@ pub struct Options<'a> {
     pub progress: Option<&'a mut dyn FnMut(f64)>,
     /// Called with each warning of [`Summary::warnings`], once, as soon as it is known.
     pub warn: Option<&'a mut dyn FnMut(&Warning)>,
+    /// Whether [`run`] and [`statics`] write `run.usda`, the motion as OpenUSD, too.
+    pub usd: bool,
 }
 
 /// Runs a scene for its duration and writes `summary.json`, `probes/*.csv` and [`view.html`](crate::view) to the folder `out`.
@@ -77,36 +81,7 @@ pub struct Options<'a> {
 /// [`Error::Output`] if the folder cannot be written (before anything runs); [`Error::Mechanics`], [`Error::Write`] or
 /// [`Error::Interrupted`] later: samples, page and summary are then on disk.
 pub fn run(scene: &Scene, out: &Path, options: &mut Options<'_>) -> Result<Summary, Error> {
-    let Options { stop, progress, warn } = options;
-    record(scene, out, Purpose::Run, warn, |world, output, watch| {
-        let mut schedule = Schedule::new(scene);
-        // a copy that is stepped to the probe times between two host steps, so that probes change nothing
-        let mut ahead: Option<World> = None;
-        while let Some(event) = schedule.next_event() {
-            let read = if event.host {
-                ahead = None;
-                &mut *world
-            } else {
-                ahead.get_or_insert_with(|| world.unbreakable())
-            };
-            read.advance(event.time)?;
-            for (probe, sample) in event.probes {
-                let every = scene.probes[probe].every.unwrap_or(scene.dt);
-                output.sample(probe, nominal(sample, every).min(scene.duration), read)?;
-            }
-            if event.host {
-                output.frame(world)?;
-                watch.note(world)?;
-            }
-            if let Some(progress) = progress.as_mut().filter(|_| event.host) {
-                progress(event.time);
-            }
-            if stop.load(Ordering::Relaxed) && event.time < scene.duration {
-                return Err(Error::Interrupted { time: event.time });
-            }
-        }
-        Ok(())
-    })
+    to_folder(scene, out, Purpose::Run, options)
 }
 
 /// Finds the static equilibrium of a scene and writes the same files as [`run`], at t = 0.
@@ -114,26 +89,67 @@ pub fn run(scene: &Scene, out: &Path, options: &mut Options<'_>) -> Result<Summa
 /// # Errors
 /// As [`run`]; [`Error::Mechanics`] if there is no equilibrium.
 pub fn statics(scene: &Scene, out: &Path, options: &mut Options<'_>) -> Result<Summary, Error> {
-    record(scene, out, Purpose::Static, &mut options.warn, |world, output, _| {
-        (0..scene.probes.len()).try_for_each(|probe| output.sample(probe, 0.0, world))?;
-        output.frame(world)
-    })
+    to_folder(scene, out, Purpose::Static, options)
 }
 
-fn record(
+fn to_folder(scene: &Scene, out: &Path, purpose: Purpose, options: &mut Options<'_>) -> Result<Summary, Error> {
+    let output = Output::create(scene, out, options.usd)?;
+    let Recorded { summary, kept, outcome, .. } = record(scene, output, purpose, options)?;
+    outcome.and(kept.map(|_| ())).map(|()| summary)
+}
+
+/// Advances a world to the end of its scene.
+fn advance(
     scene: &Scene,
-    out: &Path,
-    purpose: Purpose,
-    warn: &mut Option<&mut dyn FnMut(&Warning)>,
-    body: impl FnOnce(&mut World, &mut Output, &mut Watch) -> Result<(), Error>,
-) -> Result<Summary, Error> {
-    let mut output = Output::create(scene, out)?;
+    world: &mut World,
+    output: &mut Output,
+    watch: &mut Watch,
+    options: &mut Options<'_>,
+) -> Result<(), Error> {
+    let mut schedule = Schedule::new(scene);
+    // a copy that is stepped to the probe times between two host steps, so that probes change nothing
+    let mut ahead: Option<World> = None;
+    while let Some(event) = schedule.next_event() {
+        let read = if event.host {
+            ahead = None;
+            &mut *world
+        } else {
+            ahead.get_or_insert_with(|| world.unbreakable())
+        };
+        read.advance(event.time)?;
+        for (probe, sample) in event.probes {
+            let every = scene.probes[probe].every.unwrap_or(scene.dt);
+            output.sample(probe, nominal(sample, every).min(scene.duration), read)?;
+        }
+        if event.host {
+            output.frame(world)?;
+            watch.note(world)?;
+        }
+        if let Some(progress) = options.progress.as_mut().filter(|_| event.host) {
+            progress(event.time);
+        }
+        if options.stop.load(Ordering::Relaxed) && event.time < scene.duration {
+            return Err(Error::Interrupted { time: event.time });
+        }
+    }
+    Ok(())
+}
+
+/// A run that ended, as it should or not.
+struct Recorded {
+    world: World,
+    summary: Summary,
+    kept: Result<Kept, Error>,
+    outcome: Result<(), Error>,
+}
+
+fn record(scene: &Scene, mut output: Output, purpose: Purpose, options: &mut Options<'_>) -> Result<Recorded, Error> {
     let (cpu, wall) = (ProcessTime::now(), Instant::now());
     let mut world = World::build(scene)?;
     let mut watch = Watch::new(&world, purpose);
     let mut told = 0;
-    let mut tell = |world: &World| {
-        if let Some(warn) = warn {
+    let mut tell = |world: &World, options: &mut Options<'_>| {
+        if let Some(warn) = &mut options.warn {
             world.warnings[told..].iter().for_each(&mut **warn);
         }
         told = world.warnings.len();
@@ -144,14 +160,18 @@ fn record(
             watch = Watch::new(&world, purpose);
         }
         watch.note(&world)?;
-        tell(&world);
-        body(&mut world, &mut output, &mut watch)
+        tell(&world, options);
+        if purpose == Purpose::Run {
+            return advance(scene, &mut world, &mut output, &mut watch, options);
+        }
+        (0..scene.probes.len()).try_for_each(|probe| output.sample(probe, 0.0, &mut world))?;
+        output.frame(&world)
     });
     world.warnings.extend(watch.warnings(scene));
-    tell(&world);
+    tell(&world, options);
     let (cpu, wall, spent) = (cpu.elapsed(), wall.elapsed(), output.spent());
     let own = (cpu.saturating_sub(spent.0), wall.saturating_sub(spent.1));
     let summary = Summary::of(&world, own.0, own.1, outcome.as_ref().err());
-    let written = output.finish(&summary, &world);
-    outcome.and(written).map(|()| summary)
+    let kept = output.finish(&summary, &world);
+    Ok(Recorded { world, summary, kept, outcome })
 }

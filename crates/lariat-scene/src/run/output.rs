@@ -1,4 +1,4 @@
-//! The folder of a run: `probes/NAME.csv`, `view.html` and `summary.json`.
+//! Where the samples of a run go: to a folder, as `probes/NAME.csv`, `view.html` and `summary.json`, or to memory.
 //!
 //! Numbers are the shortest text that reads back to the same f64. Every row is written to the file at once. The names of all files
 //! of a run are kept in `.lariat-files`, so that the next run into the same folder removes these and no others.
@@ -16,6 +16,7 @@ use std::time::Duration;
 const SUMMARY: &str = "summary.json";
 const PAGE: &str = "view.html";
 const PROBES: &str = "probes";
+const USD: &str = "run.usda";
 const FILES: &str = ".lariat-files";
 
 /// The file of a probe.
@@ -26,18 +27,37 @@ struct ProbeFile {
     length: u64,
 }
 
-/// The open files of a run.
+/// Where rows are written.
+enum Sink {
+    Folder {
+        folder: PathBuf,
+        files: Vec<ProbeFile>,
+        text: String,
+        /// Whether `run.usda` is written.
+        usd: bool,
+    },
+    /// The rows of each probe, one after the other.
+    Memory(Vec<Vec<f64>>),
+}
+
+/// The samples of a run while it goes on.
 pub(super) struct Output {
-    folder: PathBuf,
-    files: Vec<ProbeFile>,
+    sink: Sink,
     view: Recorder,
     row: Vec<f64>,
-    text: String,
+}
+
+/// What remains of the samples when a run has ended.
+pub(super) struct Kept {
+    /// The rows of each probe, one after the other; empty if they went to a folder.
+    pub rows: Vec<Vec<f64>>,
+    /// The frames.
+    pub view: Recorder,
 }
 
 impl Output {
     /// Creates the folder and its files with their headers. Files that the last run wrote there are removed.
-    pub fn create(scene: &Scene, folder: &Path) -> Result<Self, Error> {
+    pub fn create(scene: &Scene, folder: &Path, usd: bool) -> Result<Self, Error> {
         let fail = |path: &Path| {
             let path = path.to_path_buf();
             move |source| Error::Output { path, source }
@@ -48,7 +68,8 @@ impl Output {
             fs::remove_file(&stale).map_err(fail(&stale))?;
         }
         let names = scene.probes.iter().map(|probe| format!("{PROBES}/{}.csv", probe.name));
-        let list: String = [SUMMARY, PAGE].map(String::from).into_iter().chain(names).map(|name| name + "\n").collect();
+        let own = [SUMMARY, PAGE].into_iter().chain(usd.then_some(USD)).map(String::from);
+        let list: String = own.chain(names).map(|name| name + "\n").collect();
         fs::write(folder.join(FILES), list).map_err(fail(&folder.join(FILES)))?;
         let mut files = Vec::new();
         for p in &scene.probes {
@@ -58,13 +79,14 @@ impl Output {
             file.write_all(header.as_bytes()).map_err(fail(&path))?;
             files.push(ProbeFile { path, file, length: header.len() as u64 });
         }
-        Ok(Output {
-            folder: folder.to_path_buf(),
-            files,
-            view: Recorder::new(scene),
-            row: Vec::new(),
-            text: String::new(),
-        })
+        let sink = Sink::Folder { folder: folder.to_path_buf(), files, text: String::new(), usd };
+        Ok(Output { sink, view: Recorder::new(scene), row: Vec::new() })
+    }
+
+    /// Keeps all samples in memory.
+    pub fn in_memory(scene: &Scene) -> Self {
+        let sink = Sink::Memory(vec![Vec::new(); scene.probes.len()]);
+        Output { sink, view: Recorder::new(scene), row: Vec::new() }
     }
 
     /// Writes one row of a probe.
@@ -72,13 +94,18 @@ impl Output {
         self.row.clear();
         self.row.push(time);
         probe::read(world.scene.probes[index].target, world, &mut self.row)?;
-        self.text.clear();
-        for (i, x) in self.row.iter().enumerate() {
-            // the shortest text that reads back to the same number; writing to a String cannot fail
-            let _ = write!(self.text, "{}{x:?}", if i > 0 { "," } else { "" });
+        match &mut self.sink {
+            Sink::Memory(rows) => rows[index].extend(&self.row),
+            Sink::Folder { files, text, .. } => {
+                text.clear();
+                for (i, x) in self.row.iter().enumerate() {
+                    // the shortest text that reads back to the same number; writing to a String cannot fail
+                    let _ = write!(text, "{}{x:?}", if i > 0 { "," } else { "" });
+                }
+                text.push('\n');
+                files[index].append(text, time)?;
+            }
         }
-        self.text.push('\n');
-        self.files[index].append(&self.text, time)?;
         self.view.row(index, &self.row);
         Ok(())
     }
@@ -93,9 +120,14 @@ impl Output {
         self.view.spent()
     }
 
-    /// Writes the summary and the page; each even if the other cannot be written.
-    pub fn finish(self, summary: &Summary, world: &World) -> Result<(), Error> {
-        let Output { folder, view, .. } = self;
+    /// Writes the summary, the page and the motion; each even if another cannot be written. Returns what is kept in memory.
+    pub fn finish(self, summary: &Summary, world: &World) -> Result<Kept, Error> {
+        let Output { sink, mut view, .. } = self;
+        view.close(world);
+        let (folder, usd) = match sink {
+            Sink::Memory(rows) => return Ok(Kept { rows, view }),
+            Sink::Folder { folder, usd, .. } => (folder, usd),
+        };
         let write = |name: &str, text: String| {
             let (path, time) = (folder.join(name), world.time());
             fs::write(&path, text).map_err(|source| {
@@ -105,7 +137,9 @@ impl Output {
             })
         };
         let written = write(SUMMARY, summary.to_json() + "\n");
-        write(PAGE, view.page(world, summary)).and(written)
+        let page = write(PAGE, view.page(world, summary));
+        let motion = if usd { write(USD, view.usd(world)) } else { Ok(()) };
+        page.and(motion).and(written).map(|()| Kept { rows: Vec::new(), view })
     }
 }
 
@@ -132,7 +166,7 @@ fn files_of_last_run(folder: &Path) -> io::Result<Vec<PathBuf>> {
     let ours = |name: &&str| {
         let probe =
             name.strip_prefix("probes/").is_some_and(|file| file.ends_with(".csv") && !file.contains(['/', '\\']));
-        probe || [SUMMARY, PAGE].contains(name)
+        probe || [SUMMARY, PAGE, USD].contains(name)
     };
     Ok(list.lines().filter(ours).map(|name| folder.join(name)).filter(|path| path.is_file()).collect())
 }

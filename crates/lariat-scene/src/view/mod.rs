@@ -24,6 +24,7 @@
 
 mod decimator;
 mod page;
+mod usd;
 
 use crate::error::Error;
 use crate::run::{Summary, World};
@@ -96,8 +97,8 @@ impl Recorder {
         (self.cpu, self.wall)
     }
 
-    /// Returns the page, with the present state as last frame if all cables have reached the same time.
-    pub fn page(mut self, world: &World, summary: &Summary) -> String {
+    /// Records the present state as last frame, if all cables have reached the same time.
+    pub fn close(&mut self, world: &World) {
         let time = world.time();
         let together =
             world.cables().iter().all(|cable| cable.time() == time || world.scene().engine == Engine::Rapier);
@@ -108,7 +109,16 @@ impl Recorder {
         {
             self.frames.append(frame);
         }
+    }
+
+    /// Returns the page.
+    pub fn page(&self, world: &World, summary: &Summary) -> String {
         page::write(world.scene(), summary, self.frames.kept(), &self.probes)
+    }
+
+    /// Returns the motion as OpenUSD.
+    pub fn usd(&self, world: &World) -> String {
+        usd::write(world.scene(), self.frames.kept())
     }
 }
 

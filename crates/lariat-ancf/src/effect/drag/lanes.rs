@@ -203,18 +203,31 @@ impl DragTable {
                     }
                 }
             }
-            for k in [1, 3] {
-                force[k] = force[k].map(|f| f * length);
-            }
-            self.scatter_force(first, &force, out);
-            if let Some(a) = &mut matrix {
-                for (block, (k, m)) in blocks.iter_mut().zip(PAIRS) {
-                    for _ in 0..k % 2 + m % 2 {
-                        *block = block.map(|row| row.map(|x| x * length));
-                    }
+            self.scatter_by_length(first, length, (&mut force, &mut blocks), out, matrix.as_deref_mut());
+        }
+    }
+
+    /// Adds forces and blocks of the matrix by length of the slopes' shape functions, which are multiples of the element's.
+    #[inline(always)]
+    pub(super) fn scatter_by_length<S: Simd>(
+        &self,
+        first: usize,
+        length: Lanes<S>,
+        (force, blocks): (&mut [[Lanes<S>; 3]; 4], &mut [[[Lanes<S>; 3]; 3]; PAIRS.len()]),
+        out: &mut [f64],
+        matrix: Option<&mut BlockTridiagonal>,
+    ) {
+        for k in [1, 3] {
+            force[k] = force[k].map(|f| f * length);
+        }
+        self.scatter_force(first, force, out);
+        if let Some(a) = matrix {
+            for (block, (k, m)) in blocks.iter_mut().zip(PAIRS) {
+                for _ in 0..k % 2 + m % 2 {
+                    *block = block.map(|row| row.map(|x| x * length));
                 }
-                self.scatter_matrix(first, &blocks, a);
             }
+            self.scatter_matrix(first, blocks, a);
         }
     }
 

@@ -65,18 +65,7 @@ impl DragTable {
                     }
                 }
             }
-            for k in [1, 3] {
-                force[k] = force[k].map(|f| f * length);
-            }
-            self.scatter_force(first, &force, out);
-            if let Some(a) = &mut matrix {
-                for (block, (k, m)) in blocks.iter_mut().zip(PAIRS) {
-                    for _ in 0..k % 2 + m % 2 {
-                        *block = block.map(|row| row.map(|x| x * length));
-                    }
-                }
-                self.scatter_matrix(first, &blocks, a);
-            }
+            self.scatter_by_length(first, length, (&mut force, &mut blocks), out, matrix.as_deref_mut());
         }
     }
 }

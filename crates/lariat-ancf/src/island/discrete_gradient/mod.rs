@@ -20,12 +20,11 @@ mod rescale;
 
 pub(super) use host_step::HostStep;
 
+use super::body_matrix::{BodyMatrix, Lever};
 use super::condense::Condensed;
-use super::dense::Dense;
 use super::hold::vector;
 use super::layout::Layout;
 use super::pin_accounts::PinAccounts;
-use super::rotation::skew;
 use crate::cable::Cable;
 use crate::effect::EffectWork;
 use crate::error::StepFailure;
@@ -35,7 +34,7 @@ use crate::support::SlopeSupport;
 use crate::system::{CableStep, Equations, dot, project_vector};
 use body::BodyStep;
 use holds::HoldStep;
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::Vector3;
 
 /// Length below which the free direction of a clamped slope has no direction.
 const MIN_DIRECTION: f64 = 1e-9;
@@ -45,9 +44,7 @@ const MIN_DIRECTION: f64 = 1e-9;
 pub(super) struct StepBuffers {
     pub bodies: Vec<BodyStep>,
     pub cables: Vec<CableBuffers>,
-    /// The matrix of the bodies, and its factors.
-    matrix: Vec<f64>,
-    dense: Dense,
+    matrix: BodyMatrix,
     /// Rows of the bodies, then their increments.
     rows: Vec<f64>,
     /// By pin, velocity of node and slope beside those of the body when the host step began.
@@ -126,62 +123,29 @@ impl IslandStep<'_, '_> {
 
     /// Factors the matrix of the bodies for steps of length `h` (s).
     fn factor_bodies(&mut self, h: f64) -> Result<(), StepFailure> {
-        let StepBuffers { bodies, cables, matrix, dense, .. } = &mut *self.buffers;
-        let n = 6 * bodies.len();
-        matrix.clear();
-        matrix.resize(n * n, 0.0);
-        let mut add = |row: usize, column: usize, block: &Matrix3<f64>| {
-            for r in 0..3 {
-                for c in 0..3 {
-                    matrix[(row + r) * n + column + c] += block[(r, c)];
-                }
-            }
-        };
+        let StepBuffers { bodies, cables, matrix, .. } = &mut *self.buffers;
+        matrix.begin(bodies.len());
         for (i, body) in bodies.iter().enumerate() {
-            let own = body.world_matrix();
-            for (r, c) in [(0, 0), (0, 3), (3, 0), (3, 3)] {
-                add(6 * i + r, 6 * i + c, &own.fixed_view::<3, 3>(r, c).into_owned());
-            }
+            matrix.add_inertia(i, &body.world_matrix());
         }
         for CableBuffers { holds, condensed, .. } in cables.iter() {
-            let count = 3 * holds.len();
-            for (a, hold) in holds.iter().enumerate() {
-                let first = 6 * hold.body;
-                add(first + 3, first + 3, &(hold.stiffening() * (0.5 * BETA * h)));
-                let ga = -skew(&hold.arm);
-                for (b, other) in holds.iter().enumerate() {
-                    let second = 6 * other.body;
-                    let block = Matrix3::from_fn(|r, c| condensed.w[(3 * a + r) * count + 3 * b + c]);
-                    let rotated = block * -skew(&other.arm);
-                    add(first + 3, second + 3, &(ga.transpose() * rotated));
-                    if !hold.slope {
-                        add(first, second + 3, &rotated);
-                    }
-                    if !other.slope {
-                        add(first + 3, second, &(ga.transpose() * block));
-                    }
-                    if !hold.slope && !other.slope {
-                        add(first, second, &block);
-                    }
-                }
+            for hold in holds {
+                matrix.add_rotational(hold.body, &(hold.stiffening() * (0.5 * BETA * h)));
             }
+            matrix.add_cable(
+                condensed,
+                holds.iter().map(|hold| Lever { body: hold.body, arm: hold.arm, slope: hold.slope }),
+            );
         }
         for (i, body) in bodies.iter().enumerate() {
-            for x in (0..6).filter(|&x| !body.free[x]) {
-                let row = 6 * i + x;
-                for j in 0..n {
-                    matrix[row * n + j] = 0.0;
-                    matrix[j * n + row] = 0.0;
-                }
-                matrix[row * n + row] = 1.0;
-            }
+            matrix.lock(i, &body.free);
         }
-        Ok(dense.factor(matrix, n)?)
+        matrix.factor()
     }
 
     /// Solves for the increments and adds them to the iterate.
     fn add_increment(&mut self) -> Result<(), StepFailure> {
-        let StepBuffers { bodies, cables: own, dense, rows, .. } = &mut *self.buffers;
+        let StepBuffers { bodies, cables: own, matrix, rows, .. } = &mut *self.buffers;
         for (cable, own) in self.cables.iter_mut().zip(own.iter()) {
             let CableStep { mut equations, buffers, .. } = cable.step_parts();
             equations.solve(&mut buffers.rhs);
@@ -193,7 +157,7 @@ impl IslandStep<'_, '_> {
         for (body, row) in bodies.iter().zip(rows.chunks_exact_mut(6)) {
             body.lock(row);
         }
-        dense.solve(rows);
+        matrix.solve(rows);
         for (cable, own) in self.cables.iter_mut().zip(own.iter()) {
             let CableStep { equations, buffers, .. } = cable.step_parts();
             for (h, hold) in own.holds.iter().enumerate() {

@@ -4,13 +4,14 @@ mod bench;
 mod describe;
 mod keys;
 mod progress;
+mod sweep;
 mod tables;
 
 use clap::{Args, Parser, Subcommand};
 use lariat_scene::run::{self, Options, Summary};
 use lariat_scene::{Error, Purpose, Scene, Warning};
 use std::io::{self, Write};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -32,6 +33,16 @@ enum Command {
     Run(SceneArguments),
     /// Find the static equilibrium of a scene: prints it, and writes the same files, at t = 0
     Static(SceneArguments),
+    /// Run a scene over a grid of values, on all threads: writes DIR/rows.jsonl and DIR/table.csv
+    Sweep(sweep::SweepArguments),
+    /// Read the cables of a MuJoCo model (composite cable, flexcomp of dim 1) and print them as a scene
+    Import {
+        /// Model (MJCF, .xml)
+        model: PathBuf,
+        /// Write the scene to this file instead
+        #[arg(long, value_name = "FILE")]
+        out: Option<PathBuf>,
+    },
     /// List the keys of a scene file, with unit, range and default
     Keys {
         /// A table or key, such as cable.drag
@@ -58,6 +69,9 @@ struct SceneArguments {
     /// Override a key, such as cable.sling.elements=20; may be repeated
     #[arg(long, value_name = "KEY=VALUE")]
     set: Vec<String>,
+    /// Write DIR/run.usda, the motion as OpenUSD, too
+    #[arg(long)]
+    usd: bool,
 }
 
 fn main() -> ExitCode {
@@ -67,6 +81,8 @@ fn main() -> ExitCode {
         Command::Static(arguments) => {
             find_static(&arguments).map(|summary| describe::statics(&summary, &arguments.out))
         }
+        Command::Import { model, out } => import(&model, out.as_deref()),
+        Command::Sweep(arguments) => sweep::run(&arguments),
         Command::Keys { into: Some(file), .. } => keys::update(&file),
         Command::Keys { key, into: None } => keys::print(key.as_deref()),
         Command::Rules => Ok(tables::rules()),
@@ -101,7 +117,7 @@ fn run_scene(arguments: &SceneArguments) -> Result<Summary, Error> {
     }
     let mut bar = progress::Bar::new(scene.duration);
     let mut report = |time: f64| bar.advance(time);
-    let mut options = Options { stop, progress: Some(&mut report), warn: Some(&mut warn) };
+    let mut options = Options { stop, progress: Some(&mut report), warn: Some(&mut warn), usd: arguments.usd };
     let outcome = run::run(&scene, &arguments.out, &mut options);
     bar.finish();
     outcome
@@ -109,7 +125,20 @@ fn run_scene(arguments: &SceneArguments) -> Result<Summary, Error> {
 
 fn find_static(arguments: &SceneArguments) -> Result<Summary, Error> {
     let scene = Scene::read(&arguments.scene, &arguments.set, Purpose::Static)?;
-    run::statics(&scene, &arguments.out, &mut Options { warn: Some(&mut warn), ..Options::default() })
+    run::statics(
+        &scene,
+        &arguments.out,
+        &mut Options { warn: Some(&mut warn), usd: arguments.usd, ..Options::default() },
+    )
+}
+
+fn import(model: &Path, out: Option<&Path>) -> Result<String, Error> {
+    let read = |source| Error::Read { path: model.to_path_buf(), source };
+    let text = std::fs::read_to_string(model).map_err(read)?;
+    let scene = lariat_scene::mjcf::import(&model.display().to_string(), &text)?;
+    let Some(out) = out else { return Ok(scene) };
+    std::fs::write(out, scene).map_err(|source| Error::Output { path: out.to_path_buf(), source })?;
+    Ok(format!("scene: {}\n", out.display()))
 }
 
 fn warn(warning: &Warning) {

@@ -1,0 +1,112 @@
+//! The matrix of an island's bodies: their inertia, and the cables condensed on the held coordinates.
+//!
+//! # Equation
+//!
+//! ```text
+//! B + sum G^T W G          G = (1, -[arm]x) of a held position, (0, -[arm]x) of a held slope
+//! ```
+
+use super::condense::Condensed;
+use super::dense::Dense;
+use super::rotation::skew;
+use crate::error::StepFailure;
+use nalgebra::{Matrix3, Matrix6, Vector3};
+
+/// The matrix, and its factors.
+#[derive(Clone, Debug, Default)]
+pub(super) struct BodyMatrix {
+    entries: Vec<f64>,
+    dense: Dense,
+    /// Number of rows.
+    n: usize,
+}
+
+/// Held coordinates: the body that holds them, their arm, and whether they are a slope.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Lever {
+    pub body: usize,
+    pub arm: Vector3<f64>,
+    pub slope: bool,
+}
+
+impl BodyMatrix {
+    /// Begins anew for a number of bodies.
+    pub fn begin(&mut self, bodies: usize) {
+        self.n = 6 * bodies;
+        self.entries.clear();
+        self.entries.resize(self.n * self.n, 0.0);
+    }
+
+    fn add(&mut self, row: usize, column: usize, block: &Matrix3<f64>) {
+        for r in 0..3 {
+            for c in 0..3 {
+                self.entries[(row + r) * self.n + column + c] += block[(r, c)];
+            }
+        }
+    }
+
+    /// Adds the inertia of a body in world axes.
+    pub fn add_inertia(&mut self, body: usize, inertia: &Matrix6<f64>) {
+        for (r, c) in [(0, 0), (0, 3), (3, 0), (3, 3)] {
+            self.add(6 * body + r, 6 * body + c, &inertia.fixed_view::<3, 3>(r, c).into_owned());
+        }
+    }
+
+    /// Adds a block to the rotations of a body.
+    pub fn add_rotational(&mut self, body: usize, block: &Matrix3<f64>) {
+        self.add(6 * body + 3, 6 * body + 3, block);
+    }
+
+    /// Adds a cable that is condensed on held coordinates.
+    pub fn add_cable(&mut self, condensed: &Condensed, levers: impl Iterator<Item = Lever> + Clone) {
+        let count = 3 * levers.clone().count();
+        for (a, hold) in levers.clone().enumerate() {
+            let (first, ga) = (6 * hold.body, -skew(&hold.arm));
+            for (b, other) in levers.clone().enumerate() {
+                let second = 6 * other.body;
+                let block = Matrix3::from_fn(|r, c| condensed.w[(3 * a + r) * count + 3 * b + c]);
+                let rotated = block * -skew(&other.arm);
+                self.add(first + 3, second + 3, &(ga.transpose() * rotated));
+                if !hold.slope {
+                    self.add(first, second + 3, &rotated);
+                }
+                if !other.slope {
+                    self.add(first + 3, second, &(ga.transpose() * block));
+                }
+                if !hold.slope && !other.slope {
+                    self.add(first, second, &block);
+                }
+            }
+        }
+    }
+
+    /// Locks the axes of a body that are not free.
+    pub fn lock(&mut self, body: usize, free: &[bool; 6]) {
+        for x in (0..6).filter(|&x| !free[x]) {
+            let row = 6 * body + x;
+            for j in 0..self.n {
+                self.entries[row * self.n + j] = 0.0;
+                self.entries[j * self.n + row] = 0.0;
+            }
+            self.entries[row * self.n + row] = 1.0;
+        }
+    }
+
+    /// Factors it.
+    ///
+    /// # Errors
+    /// If it is singular or not finite.
+    pub fn factor(&mut self) -> Result<(), StepFailure> {
+        Ok(self.dense.factor(&self.entries, self.n)?)
+    }
+
+    /// Solves in place.
+    pub fn solve(&mut self, rows: &mut [f64]) {
+        self.dense.solve(rows);
+    }
+
+    /// Returns whether it is positive definite.
+    pub fn is_positive_definite(&self) -> bool {
+        self.dense.is_positive_definite()
+    }
+}

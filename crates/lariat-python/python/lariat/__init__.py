@@ -1,0 +1,68 @@
+"""Lariat: cables computed as finite elements.
+
+You give Young's modulus, density and cross-section; Lariat computes motion, tension and bending moment.
+
+>>> import lariat
+>>> rope = lariat.Cable([[0, 0, 0], [2.5, 0, 0]], lariat.Section(1.6e6, 0.5, 0.14), length=3.0, elements=20, fix=["start", "end"])
+>>> report = rope.equilibrium()
+>>> round(-rope.sample(1.5).position[1], 2)
+0.74
+
+All numbers are in SI units. Arrays are NumPy's, of float64; they are copies, which a later step does not change.
+"""
+
+from lariat import bodies, effects, errors, results
+from lariat._lariat import VERSION as __version__
+from lariat._lariat import (
+    Cable,
+    CoSimulation,
+    Integrator,
+    Section,
+    World,
+    integrators,
+    recommended_elements,
+    rope_kinds,
+    step_all,
+)
+from lariat.bodies import Collider, ColliderBuilder, RigidBody, RigidBodyBuilder
+from lariat.effects import Buoyancy, Damping, Drag, Flow, GravityScale, LineLoad, RestPiece, RestShape
+from lariat.errors import Error
+from lariat.scenes import Probe, Run, import_mjcf, run, statics
+from lariat.sweeps import Sweep, sweep
+
+__all__ = [
+    "Buoyancy",
+    "Cable",
+    "CoSimulation",
+    "Collider",
+    "ColliderBuilder",
+    "Damping",
+    "Drag",
+    "Error",
+    "Flow",
+    "GravityScale",
+    "Integrator",
+    "LineLoad",
+    "Probe",
+    "RestPiece",
+    "RestShape",
+    "RigidBody",
+    "RigidBodyBuilder",
+    "Run",
+    "Section",
+    "Sweep",
+    "World",
+    "__version__",
+    "bodies",
+    "effects",
+    "errors",
+    "import_mjcf",
+    "integrators",
+    "recommended_elements",
+    "results",
+    "rope_kinds",
+    "run",
+    "statics",
+    "step_all",
+    "sweep",
+]

@@ -1,0 +1,528 @@
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from os import PathLike
+from typing import Any, Literal, final, overload
+
+from numpy.typing import ArrayLike
+from typing_extensions import Self
+
+from lariat.bodies import ColliderBuilder, RigidBodyBuilder, RigidBodySet
+from lariat.effects import Damping, Effects
+from lariat.results import (
+    Attachment,
+    EndForces,
+    Energy,
+    Equilibrium,
+    Event,
+    MeshIndicator,
+    Momentum,
+    Reaction,
+    RigidBodyHandle,
+    Sample,
+    Samples,
+    WorldEnergy,
+)
+from lariat.types import Array, Fidelity, Handle, Place
+
+VERSION: str
+
+@final
+class Section:
+    """Axial stiffness, bending stiffness and mass per length of a cable."""
+
+    def __new__(
+        cls,
+        axial_stiffness: float,
+        bending_stiffness: float,
+        mass_per_length: float,
+        *,
+        diameter: float | None = None,
+        outer_area: float | None = None,
+    ) -> Self:
+        """Measured stiffness: EA in N (> 0), EI in N m^2 (>= 0), mass per unstretched length in kg/m (> 0).
+
+        ``diameter`` (m) is for drag and drawing, ``outer_area`` (m^2) for buoyancy. Raises InvalidValueError.
+        """
+
+    @staticmethod
+    def round(diameter: float, youngs_modulus: float, density: float) -> Section:
+        """A solid round section: m, Pa, kg/m^3. Raises InvalidValueError."""
+
+    @staticmethod
+    def square(side: float, youngs_modulus: float, density: float) -> Section:
+        """A solid square section: m, Pa, kg/m^3. Raises InvalidValueError."""
+
+    @staticmethod
+    def tube(outer: float, inner: float, youngs_modulus: float, density: float) -> Section:
+        """A tube: outer and inner diameter in m, Pa, kg/m^3. Raises InvalidValueError."""
+
+    @staticmethod
+    def wire_rope(diameter: float) -> Section:
+        """A steel wire rope, 6x36WS with an independent wire rope core, of this nominal diameter in m. Raises InvalidValueError."""
+
+    @property
+    def axial_stiffness(self) -> float:
+        """EA in N."""
+
+    @property
+    def bending_stiffness(self) -> float:
+        """EI in N m^2."""
+
+    @property
+    def mass_per_length(self) -> float:
+        """Mass per unstretched length in kg/m."""
+
+    @property
+    def diameter(self) -> float | None:
+        """Outer diameter or side in m; None if no shape was given."""
+
+    @property
+    def outer_area(self) -> float | None:
+        """Area inside the outline in m^2; None if no shape was given."""
+
+@final
+class Integrator:
+    """A time integration method and how its steps are chosen."""
+
+    def __new__(
+        cls,
+        method: str = "esdirk4",
+        *,
+        tolerance: float | None = None,
+        norm: Literal["every", "motion", "bodies"] | None = None,
+        substeps: int | None = None,
+        max_step: float | None = None,
+        stable: float | None = None,
+    ) -> Self:
+        """A method by name (see ``integrators()``), and exactly one of: ``tolerance``, the error of position in m per host step (of the
+        errors that ``norm`` selects); ``substeps`` per host step; ``max_step`` in s; ``stable``, a share in (0, 1] of the stability limit
+        of an explicit method.
+
+        Raises UnknownIntegratorError, StepControlError, NoErrorEstimateError, NoStabilityLimitError, InvalidValueError.
+        """
+
+    @property
+    def method(self) -> str:
+        """The name of the method."""
+
+@final
+class Cable:
+    """A cable of ANCF elements with its rule, integrator and state.
+
+    A point of a cable is "start", "end", a node (int) or an arc length of the unstretched cable in m (float). Arrays are copies. Any
+    number of threads may use a cable: they wait for each other, and other threads run Python while it is stepped.
+    """
+
+    def __new__(
+        cls,
+        points: ArrayLike,
+        section: Section | Iterable[tuple[float, Section]],
+        *,
+        length: float | None = None,
+        elements: int | None = None,
+        name: str = "cable",
+        rule: str | None = None,
+        allow_rank_deficient: bool = False,
+        fidelity: Fidelity | None = None,
+        integrator: Integrator | Fidelity | None = None,
+        gravity: ArrayLike | None = None,
+        velocity: ArrayLike | None = None,
+        angular_velocity: ArrayLike | None = None,
+        fix: Place | Iterable[Place] | None = None,
+        clamp: Place | Iterable[Place] | None = None,
+        nodes_at: Sequence[float] | None = None,
+        effects: Effects = None,
+        damped_as: str | None = None,
+    ) -> Self:
+        """A cable through ``points`` (m, shape (n, 3), n >= 2) of one section, or of several: (arc length in m where it begins, section).
+
+        - ``length``: unstretched, in m; by default that of the polyline. Longer: it starts slack, in arcs that sag along gravity.
+        - ``elements``: default 10. ``nodes_at``: arc lengths in m that get a node.
+        - ``rule``: "projected-3" (default), "G5-3", "ST2", "L2T2" ...
+        - ``fidelity`` ("engineering" by default) or ``integrator``.
+        - ``gravity``: m/s^2, default (0, -9.81, 0). ``velocity`` (m/s) and ``angular_velocity`` (rad/s): a rigid motion of the start.
+        - ``fix``, ``clamp``: points held as they start; a clamp holds the tangent, too. A node is placed there.
+        - ``effects``: see lariat.effects. ``damped_as``: a kind of rope, see ``rope_kinds()``.
+
+        Raises InvalidValueError, ShapeError, TooFewPointsError, CoincidentPointsError, ElementCountError, NoSectionError,
+        RankDeficientError, OutOfRangeError, NodeBeforeMeshError, EffectsError, MissingForEffectError, ExplicitDampingError and those of
+        unknown names.
+        """
+
+    def step(self, dt: float, *, steps: int = 1) -> None:
+        """Advances the cable by ``steps`` steps of ``dt`` (s); 0 does nothing. Raises InvalidValueError, AttachedError, InWorldError, and
+        StepFailedError, after which the cable is as it was before the step that failed."""
+
+    def equilibrium(self, *, tolerance: float = 1e-9, iterations: int = 400) -> Equilibrium:
+        """Moves the cable to static equilibrium. ``tolerance``: largest residual force over the sum of the loads. Raises
+        NoEquilibriumError, after which the cable is as it was; AttachedError, InWorldError."""
+
+    def to_bytes(self) -> bytes:
+        """Returns description and state; ``from_bytes`` continues the run bitwise. Pickle uses it."""
+
+    @staticmethod
+    def from_bytes(bytes: bytes) -> Cable:
+        """Returns a saved cable of the same version. Raises FormatError."""
+
+    def snapshot(self) -> bytes:
+        """Returns the state alone, for ``restore``."""
+
+    def restore(self, snapshot: bytes) -> None:
+        """Restores a state of this cable; the run continues bitwise from there. Raises FormatError, WrongCountError."""
+
+    def copy(self) -> Cable:
+        """Returns a copy; that of a cable of a world belongs to no world."""
+
+    def __copy__(self) -> Cable: ...
+    def __deepcopy__(self, memo: dict[int, Any], /) -> Cable: ...
+    @property
+    def name(self) -> str:
+        """Name in errors."""
+
+    @property
+    def time(self) -> float:
+        """Time of the state in s. Set: prescribed motions and ramps keep their distance from it."""
+
+    @time.setter
+    def time(self, value: float) -> None: ...
+    @property
+    def length(self) -> float:
+        """Unstretched length in m."""
+
+    @property
+    def elements(self) -> int:
+        """Number of elements."""
+
+    @property
+    def nodes(self) -> int:
+        """Number of nodes: one more than elements."""
+
+    @property
+    def sections(self) -> list[Section]:
+        """Sections by element."""
+
+    @property
+    def arc_lengths(self) -> Array:
+        """Arc lengths of the nodes in m, shape (nodes,)."""
+
+    @property
+    def rule(self) -> str:
+        """Rule of the elastic forces. Set: raises UnknownRuleError, RankDeficientError, MissingForEffectError."""
+
+    @rule.setter
+    def rule(self, value: str) -> None: ...
+    @property
+    def integrator(self) -> Integrator:
+        """The time integrator. Set to an Integrator or the name of a fidelity: raises ExplicitDampingError."""
+
+    @integrator.setter
+    def integrator(self, value: Integrator | Fidelity) -> None: ...
+    @property
+    def gravity(self) -> Array:
+        """Gravity in m/s^2, shape (3,)."""
+
+    @gravity.setter
+    def gravity(self, value: ArrayLike) -> None: ...
+    @property
+    def effects(self) -> dict[str, Any]:
+        """Effects that are on, by key. Set to an effect, a list of them or a dict: replaces all."""
+
+    @effects.setter
+    def effects(self, value: Effects) -> None: ...
+    @property
+    def positions(self) -> Array:
+        """Positions of the nodes in m, shape (nodes, 3)."""
+
+    @property
+    def slopes(self) -> Array:
+        """Slope vectors dr/ds of the nodes, shape (nodes, 3)."""
+
+    @property
+    def velocities(self) -> Array:
+        """Velocities of the nodes in m/s, shape (nodes, 3)."""
+
+    @property
+    def coordinates(self) -> Array:
+        """Nodal coordinates, shape (nodes, 6): position in m and slope."""
+
+    @property
+    def rates(self) -> Array:
+        """Rates of the nodal coordinates, shape (nodes, 6): m/s and 1/s."""
+
+    def read_into(self, coordinates: Array) -> None:
+        """Copies the nodal coordinates into a contiguous array of shape (nodes, 6). Raises ShapeError."""
+
+    def set_state(self, coordinates: ArrayLike, rates: ArrayLike) -> None:
+        """Sets nodal coordinates and their rates, both of shape (nodes, 6). Raises ShapeError, InvalidValueError."""
+
+    def set_rigid_motion(self, velocity: ArrayLike, angular_velocity: ArrayLike | None = None) -> None:
+        """Sets the velocities of a rigid motion: ``velocity`` (m/s) of the start, ``angular_velocity`` (rad/s) about it."""
+
+    @overload
+    def sample(self, s: float) -> Sample: ...
+    @overload
+    def sample(self, s: ArrayLike) -> Samples:
+        """Reads the cable at one arc length (m), or at an array of shape (n,). Raises OutOfRangeError, ShapeError."""
+
+    def peak_tension(self) -> tuple[float, float]:
+        """Returns the arc length in m of the largest tension, and that tension in N."""
+
+    def reactions(self) -> list[Reaction]:
+        """Returns forces and moments of the supports on the cable, by ascending node. Raises StepFailedError."""
+
+    def energy(self) -> Energy:
+        """Returns kinetic, axial, bending and gravity energy in J."""
+
+    def momentum(self) -> Momentum:
+        """Returns linear momentum in kg m/s, and angular momentum about the origin in kg m^2/s."""
+
+    def mesh_indicator(self) -> MeshIndicator:
+        """Returns what the shape says about the error of the mesh."""
+
+    def natural_frequencies(self) -> Array:
+        """Returns the angular frequencies in rad/s of small motions about the present state, ascending. Dense: for hundreds of nodes."""
+
+    def damping_at_mode(self, ratio: float, mode: int) -> Damping:
+        """Returns the damping that damps the ``mode``-th frequency, from 1, by this ratio of critical. Raises OutOfRangeError."""
+
+    def diagnostics(self) -> dict[str, Any]:
+        """Returns counts of steps, iterations and evaluations."""
+
+    def node(self, at: Place) -> int:
+        """Returns the number of the node at a point. Raises OutOfRangeError, NoNodeError."""
+
+    def insert_node(self, at: Place) -> int:
+        """Returns the node at a point, and places one if there is none. Raises OutOfRangeError, InWorldError."""
+
+    def fix(self, at: Place) -> None:
+        """Holds the position of a node where it is. Raises OutOfRangeError, NoNodeError."""
+
+    def clamp(self, at: Place) -> None:
+        """Holds the position of a node and the direction of its tangent as they are. Raises as ``fix``, and NoTangentError."""
+
+    def release(self, at: Place) -> None:
+        """Frees a node. Raises as ``fix``."""
+
+    def prescribe(self, at: Place, position: ArrayLike, duration: float, velocity: ArrayLike | None = None) -> None:
+        """Prescribes the position of a node: the cubic from where it is, at its present velocity, to ``position`` (m) at ``velocity``
+        (m/s; default 0) a time ``duration`` (s) later. Prescribe the next piece, or fix the node, when that time is over: the cubic goes
+        on."""
+
+    def add_load(self, s: float, force: ArrayLike | None = None, *, moment: ArrayLike | None = None, ramp: float = 0.0) -> None:
+        """Adds a constant force (N) and moment (N m) in world axes at an arc length (m), ramped over ``ramp`` s. Raises OutOfRangeError,
+        InvalidValueError."""
+
+    def clear_loads(self) -> None:
+        """Removes all point loads."""
+
+    def sample_flow(self, velocities: ArrayLike) -> None:
+        """Samples a flow at the nodes, in m/s, shape (nodes, 3): valid until the next call, on top of that of the drag. Raises
+        MissingForEffectError, WrongCountError."""
+
+    def redefine(
+        self, *, rule: str | None = None, effects: Effects = None, integrator: Integrator | Fidelity | None = None
+    ) -> None:
+        """Replaces rule, effects and integrator together, where one needs the other."""
+
+    def cut(self, at: Place) -> Cable:
+        """Cuts the cable; this one keeps the part before the point, the other is returned. Raises OutOfRangeError, InWorldError."""
+
+def step_all(cables: Sequence[Cable], dt: float) -> None:
+    """Advances cables that nothing connects by ``dt`` (s), on all threads; raises the error of the first that cannot step, after all others
+    have advanced. Raises DuplicateCableError."""
+
+def integrators() -> list[str]:
+    """Returns the names of the integration methods."""
+
+def rope_kinds() -> list[str]:
+    """Returns the names of the kinds of rope, by which damping is named."""
+
+def recommended_elements(fidelity: Fidelity = "engineering") -> int:
+    """Returns the number of elements that a fidelity recommends."""
+
+@final
+class CoSimulation:
+    """A cable on bodies that another program moves: per step it takes their poses, and returns forces, moments and the impedance.
+
+    A body is known by a reference point, by convention its centre of mass. Rotations are quaternions x, y, z, w. The exchange is explicit:
+    stable where the impedance is small beside the mass matrix of the bodies.
+    """
+
+    def __new__(cls, cable: Cable) -> Self:
+        """A co-simulation of this cable, which is from now on stepped by it. Raises InWorldError."""
+
+    @property
+    def cable(self) -> Cable:
+        """The cable, to read it."""
+
+    def attach(self, at: Place, position: ArrayLike, rotation: ArrayLike | None = None, *, clamp: bool = False) -> int:
+        """Attaches a node to a body whose reference point is at ``position`` (m) with ``rotation``: where the node is now. A clamp holds the
+        direction of the tangent, too. Returns the index of the end. Raises OutOfRangeError, NoNodeError, AlreadyAttachedError."""
+
+    def step(
+        self,
+        dt: float,
+        positions: ArrayLike,
+        rotations: ArrayLike | None = None,
+        velocities: ArrayLike | None = None,
+        angular_velocities: ArrayLike | None = None,
+    ) -> EndForces:
+        """Advances the cable by ``dt`` (s) while the bodies move to ``positions`` (m, shape (ends, 3)), ``rotations`` (shape (ends, 4);
+        default: unchanged) with ``velocities`` (m/s) and ``angular_velocities`` (rad/s) at the end of the step (shape (ends, 3); default:
+        uniform motion over the step). Raises ShapeError, InvalidValueError, and StepFailedError, after which all is as before."""
+
+    def impedance(self, dt: float) -> Array:
+        """Returns Z, shape (6 ends, 6 ends), velocity before angular velocity of each end, about the reference points, in kg, kg m and
+        kg m^2: if the velocities at the end of a step of ``dt`` (s) differ by dv from the prescribed ones, the impulse on the bodies differs by
+        -Z dv."""
+
+    def to_bytes(self) -> bytes:
+        """Returns cable and ends; ``from_bytes`` continues the run bitwise. Pickle uses it."""
+
+    @staticmethod
+    def from_bytes(bytes: bytes) -> CoSimulation:
+        """Returns a saved co-simulation of the same version. Raises FormatError."""
+
+@final
+class World:
+    """rapier3d with cables on its bodies. Names are those of the ``rapier3d`` wheel where they overlap; bodies have single precision."""
+
+    def __new__(
+        cls,
+        gravity: ArrayLike | None = None,
+        *,
+        dt: float = ...,
+        fidelity: Fidelity = "game",
+        rapier_steps: int = 1,
+        max_rapier_steps: int = 32,
+        sleep_speed: float = 2e-3,
+    ) -> Self:
+        """A world of this gravity (m/s^2, default (0, -9.81, 0)) and host step (s, default 1/60). ``fidelity``: of cables whose
+        integrator nobody chose. ``rapier_steps``, ``max_rapier_steps``: Rapier's steps per host step. ``sleep_speed``: in m/s, below
+        which cables and bodies may fall asleep; 0 = never. Raises InvalidValueError, UnknownFidelityError."""
+
+    def step(self) -> None:
+        """Advances bodies and cables by ``dt``. Raises StepRefusedError if some cables cannot step; all others have advanced."""
+
+    def add_body(self, builder: RigidBodyBuilder, colliders: Sequence[ColliderBuilder] | None = None) -> RigidBodyHandle:
+        """Adds a body with its colliders. Raises InvalidValueError, BuilderError."""
+
+    def remove_body(self, handle: Handle) -> None:
+        """Removes a body with its colliders; attachments to it end at the next step. Raises NoBodyError."""
+
+    @property
+    def rigid_bodies(self) -> RigidBodySet:
+        """The bodies, by handle."""
+
+    def add_cable(self, cable: Cable) -> Cable:
+        """Adds a copy of a cable, and returns it as a part of this world."""
+
+    @property
+    def cables(self) -> list[Cable]:
+        """All cables."""
+
+    def remove_cable(self, cable: Cable) -> Cable:
+        """Removes a cable with its attachments, and returns it by itself. Raises NoCableError, OtherWorldError."""
+
+    def cut(self, cable: Cable, at: Place) -> Cable:
+        """Cuts a cable; it keeps the part before the point, the other is returned. Raises OutOfRangeError."""
+
+    def set_strength(self, cable: Cable, strength: float | None) -> None:
+        """Sets the tension in N above which a cable breaks; None: it does not."""
+
+    def attach(
+        self,
+        cable: Cable,
+        at: Place,
+        body: Handle,
+        anchor: ArrayLike | None = None,
+        *,
+        kind: Literal["ball", "clamp"] = "ball",
+        gap: float | None = 1e-3,
+    ) -> int:
+        """Attaches a point of a cable to a body: at ``anchor`` (m, body axes), by default where the point is now. ``gap``: the largest
+        distance in m that is closed; None: any. Returns the number of the attachment. Raises GapTooLongError, AlreadyAttachedError,
+        NoBodyError, NoCableError, OutOfRangeError."""
+
+    def detach(self, attachment: int) -> None:
+        """Ends an attachment. Raises NoAttachmentError."""
+
+    def attachment(self, attachment: int) -> Attachment:
+        """Returns what the cable does to the body, after the last step. Raises NoAttachmentError."""
+
+    def join(self, first: Cable, at: Place, second: Cable, second_at: Place) -> None:
+        """Ties a point of a cable to a point of another. Raises GapTooLongError, AlreadyAttachedError."""
+
+    def equilibrium(self) -> bool:
+        """Moves cables and the bodies on them to static equilibrium; returns whether all is stable. Raises NoEquilibriumError,
+        JointInStaticsError, ContactInStaticsError."""
+
+    def is_asleep(self, cable: Cable) -> bool:
+        """Returns whether a cable is asleep with the bodies attached to it."""
+
+    def events(self) -> list[Event]:
+        """Returns the events of the last step."""
+
+    def energy(self) -> WorldEnergy:
+        """Returns energies in J."""
+
+    def momentum(self) -> Momentum:
+        """Returns the momentum of cables and bodies."""
+
+    @property
+    def time(self) -> float:
+        """Simulated time in s."""
+
+    @property
+    def dt(self) -> float:
+        """The host step in s."""
+
+    @dt.setter
+    def dt(self, value: float) -> None: ...
+    @property
+    def gravity(self) -> Array:
+        """Gravity in m/s^2, shape (3,)."""
+
+    @gravity.setter
+    def gravity(self, value: ArrayLike) -> None: ...
+    def snapshot(self) -> bytes:
+        """Returns bodies and cables; ``restore`` continues the run bitwise. Pickle uses it."""
+
+    @staticmethod
+    def restore(bytes: bytes) -> World:
+        """Returns a saved world of the same version. Raises FormatError."""
+
+    def _add_body(self, body: dict[str, Any], colliders: Sequence[dict[str, Any]]) -> tuple[int, int]: ...
+    def _handles(self) -> list[tuple[int, int]]: ...
+    def _body(self, handle: Handle) -> tuple[Array, list[float], Array, Array, float, bool]: ...
+    def _set_body(self, handle: Handle, what: str, value: ArrayLike) -> None: ...
+    def _set_rotation(self, handle: Handle, q: Sequence[float], next: bool) -> None: ...
+    def _reset_forces(self, handle: Handle) -> None: ...
+
+@final
+class Recorded:
+    def page(self) -> str: ...
+    def usd(self) -> str: ...
+
+def import_mjcf(file: str, text: str) -> str: ...
+def to_toml(scene: dict[str, Any]) -> str: ...
+def run_scene(
+    file: str,
+    text: str,
+    overrides: list[str],
+    *,
+    statics: bool = False,
+    progress: Callable[[float], None] | None = None,
+) -> tuple[dict[str, Any], Mapping[str, tuple[list[str], Array]], Any, Recorded]: ...
+def sweep_row(file: str, text: str, settings: list[str]) -> str: ...
+def sweep_done(file: str, text: str, points: list[list[str]], out: str | PathLike[str]) -> list[str | None]: ...
+def sweep_append(file: str, text: str, row: str, out: str | PathLike[str]) -> None: ...
+def sweep_table(rows: list[str], out: str | PathLike[str]) -> None: ...
+def sweep_local(
+    file: str,
+    text: str,
+    points: list[list[str]],
+    out: str | PathLike[str] | None = None,
+    *,
+    threads: int = 0,
+    progress: Callable[[float], None] | None = None,
+) -> list[str]: ...

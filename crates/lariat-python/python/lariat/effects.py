@@ -1,0 +1,183 @@
+"""Effects of a cable beside inertia, elasticity and point loads; each is off unless given.
+
+A cable takes one effect, a list of them, or a dict by key as scene files have it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field, fields
+from typing import Any, ClassVar, Union
+
+Vector = Sequence[float]
+
+
+@dataclass(frozen=True)
+class GravityScale:
+    """Factor on gravity for this cable."""
+
+    factor: float
+    key: ClassVar[str] = "gravity_scale"
+
+
+@dataclass(frozen=True)
+class Buoyancy:
+    """Buoyancy and added mass."""
+
+    fluid_density: float
+    """In kg/m^3, > 0."""
+    added_mass: float = 1.0
+    """Coefficient of added mass, >= 0; 1 for a circle in ideal flow."""
+    area: float | None = None
+    """Displaced area in m^2; by default that inside the outline of the section."""
+    key: ClassVar[str] = "buoyancy"
+
+
+@dataclass(frozen=True)
+class Damping:
+    """Kelvin-Voigt damping: the times by which the rates of strain and curvature count."""
+
+    axial: float
+    """In s, >= 0."""
+    bending: float
+    """In s, >= 0."""
+    key: ClassVar[str] = "damping"
+
+    @classmethod
+    def from_ratio(cls, ratio: float, angular_frequency: float) -> Damping:
+        """The times that damp an elastic mode of this angular frequency (rad/s) with this ratio of critical damping."""
+        return cls(2.0 * ratio / angular_frequency, 2.0 * ratio / angular_frequency)
+
+
+@dataclass(frozen=True)
+class Flow:
+    """Velocity of a fluid: ``velocity`` (m/s), times a factor by height, times a factor by time."""
+
+    velocity: Vector = (0.0, 0.0, 0.0)
+    profile: Mapping[str, Any] | None = None
+    """``{"up": direction, "rows": [[height in m, factor], ...]}``, heights ascending."""
+    history: Sequence[Sequence[float]] = ()
+    """``[[time in s, factor], ...]``, times ascending."""
+    samples: Sequence[Vector] = ()
+    """Velocities in m/s at the nodes, on top of the rest."""
+
+
+@dataclass(frozen=True)
+class Drag:
+    """Drag of a fluid or wind."""
+
+    fluid_density: float
+    """In kg/m^3, > 0."""
+    normal: float = 1.2
+    """Coefficient across the cable, >= 0."""
+    tangential: float = 0.01
+    """Coefficient along the cable, >= 0."""
+    diameter: float | None = None
+    """In m; by default that of the section."""
+    flow: Flow = field(default_factory=Flow)
+    key: ClassVar[str] = "drag"
+
+
+@dataclass(frozen=True)
+class LineLoad:
+    """A constant force per length in world axes."""
+
+    force: Vector
+    """In N per m of unstretched cable."""
+    start: float = 0.0
+    """Arc length in m where it begins."""
+    end: float = 1.7976931348623157e308
+    """Arc length in m where it ends; beyond the cable's end = up to there."""
+    key: ClassVar[str] = "line_load"
+
+
+@dataclass(frozen=True)
+class RestPiece:
+    """A piece of the shape without stress, up to the next piece."""
+
+    start: float = 0.0
+    """Arc length in m where it begins."""
+    stretch: float = 1.0
+    """Stretch without stress, > 0."""
+    curvature: float = 0.0
+    """Curvature without stress in 1/m, >= 0."""
+
+
+@dataclass(frozen=True)
+class RestShape:
+    """The shape without stress; before the first piece, straight and unstretched."""
+
+    pieces: Sequence[RestPiece]
+    key: ClassVar[str] = "rest_shape"
+
+
+Effect = Union[GravityScale, Buoyancy, Damping, Drag, LineLoad, RestShape]
+Effects = Union[Effect, Iterable[Effect], Mapping[str, Any], None]
+
+
+def _plain(effect: Any) -> Any:
+    if isinstance(effect, GravityScale):
+        return effect.factor
+    if isinstance(effect, RestShape):
+        return [_plain(piece) for piece in effect.pieces]
+    values = {f.name: getattr(effect, f.name) for f in fields(effect)}
+    if isinstance(effect, Drag):
+        values["flow"] = {k: v for k, v in _plain(effect.flow).items() if k == "velocity" or (v is not None and len(v))}
+    for ours, theirs in (("start", "from"), ("end", "to")):
+        if ours in values:
+            values[theirs] = values.pop(ours)
+    return values
+
+
+def collect(effects: Effects) -> dict[str, Any]:
+    """Returns effects as plain data, by the keys of the mechanics."""
+    if effects is None:
+        return {}
+    if isinstance(effects, Mapping):
+        items: list[Any] = []
+        plain = {}
+        for key, value in effects.items():
+            if hasattr(value, "key"):
+                items.append(value)
+            elif isinstance(value, (list, tuple)) and any(hasattr(item, "key") for item in value):
+                items.extend(value)
+            else:
+                plain[key] = value
+    else:
+        items = [effects] if hasattr(effects, "key") else list(effects)
+        plain = {}
+    for effect in items:
+        if not hasattr(effect, "key"):
+            raise TypeError(f"expected an effect of lariat, got {effect!r}")
+        if effect.key == "line_load":
+            plain.setdefault("line_load", []).append(_plain(effect))
+        elif effect.key in plain:
+            from lariat.errors import EffectsError
+
+            raise EffectsError(f"effects: {effect.key} is given twice")
+        else:
+            plain[effect.key] = _plain(effect)
+    return plain
+
+
+def build(plain: Mapping[str, Any]) -> dict[str, Any]:
+    """Returns plain data as effects, by key; those that are off are left out."""
+    made: dict[str, Any] = {}
+    for key, value in plain.items():
+        if value is None:
+            continue
+        if key == "gravity_scale":
+            made[key] = GravityScale(value)
+        elif key == "damping":
+            made[key] = Damping(**value)
+        elif key == "buoyancy":
+            made[key] = Buoyancy(**value)
+        elif key == "drag":
+            made[key] = Drag(**{**value, "flow": Flow(**value["flow"])})
+        elif key == "line_load":
+            made[key] = [LineLoad(v["force"], v["from"], v["to"]) for v in value]
+        elif key == "rest_shape":
+            made[key] = RestShape([RestPiece(v["from"], v["stretch"], v["curvature"]) for v in value])
+        else:
+            made[key] = value
+    return made

@@ -1,0 +1,147 @@
+"""Writes docs/referee.md: the experiments of ``cosseratbench`` by Lariat, PyElastica and MuJoCo, in one run on one machine.
+
+    python -m lariat.referee_page --out docs/referee.md
+"""
+
+from __future__ import annotations
+
+import argparse
+import os
+import platform
+from importlib.metadata import version
+from pathlib import Path
+from typing import Any
+
+import lariat
+
+EXPERIMENTS = ("catenary", "cantilever", "pendulum")
+SOLVERS = ("lariat", "pyelastica", "mujoco")
+SHORT = 2.0
+"""Runs below this wall time in s are made three times, and the shortest counts."""
+MAIN = {"catenary": "sag_error", "cantilever": "tip_deflection_error", "pendulum": "period_error"}
+"""The metric by which solvers are compared."""
+
+
+def measure(experiment: Any, solver: Any, values: dict[str, float]) -> Any:
+    """Runs an experiment after a short one, which compiles what a solver compiles at its first run."""
+    from dataclasses import replace
+
+    from cosseratbench.experiment import run  # type: ignore[import-untyped, unused-ignore]
+
+    scenario = experiment.scenario_for(**values)
+    try:
+        solver.run(replace(scenario, duration=scenario.duration / 100), n_elements=experiment.n_elements, n_frames=2)
+    except Exception:  # noqa: BLE001 -- the run below reports it
+        pass
+    results = [run(experiment, solver, values=values)]
+    while results[0].wall_time is not None and results[0].wall_time < SHORT and len(results) < 3:
+        results.append(run(experiment, solver, values=values))
+    return min(results, key=lambda result: result.wall_time or 0.0)
+
+
+def solvers(names: list[str]) -> dict[str, Any]:
+    """Returns the solvers by the name of their row."""
+    from cosseratbench import registry  # type: ignore[import-untyped, unused-ignore]
+
+    from lariat.referee import PRESETS, LariatSolver
+
+    made: dict[str, Any] = {}
+    for name in names:
+        if name == "lariat":
+            made.update({f"lariat, {preset}": LariatSolver(preset=preset) for preset in PRESETS})
+        else:
+            made[name] = registry.load_solver(name)
+    return made
+
+
+def rows(experiment: Any, by_name: dict[str, Any], values: dict[str, float]) -> list[tuple[str, Any]]:
+    """Returns the result of each solver; statics do not depend on the preset, and have one row."""
+    found = []
+    for name, solver in by_name.items():
+        quasi_static = experiment.scenario_for(**values).quasi_static
+        if quasi_static and name.startswith("lariat"):
+            if name != "lariat, engineering":
+                continue
+            name = "lariat, statics"
+        result = measure(experiment, solver, values)
+        print(experiment.name, values, name, result.outcome, dict(result.metrics), result.wall_time, flush=True)
+        found.append((name, result))
+    return found
+
+
+def table(found: list[tuple[str, Any]], metrics: list[str]) -> str:
+    """Returns rows as a table."""
+    lines = ["| solver | " + " | ".join(m.replace("_", " ") for m in metrics) + " | wall s |", "|---" * (len(metrics) + 2) + "|"]
+    for name, result in found:
+        numbers = [f"{result.metrics[m]:.1e}" if m in result.metrics else result.outcome for m in metrics]
+        lines.append(f"| {name} | {' | '.join(numbers)} | {result.wall_time or float('nan'):.3g} |")
+    return "\n".join(lines)
+
+
+def verdict(found: list[tuple[str, Any]], metric: str) -> str:
+    """Returns a sentence about error and time of the most accurate row of Lariat beside the most accurate other solver."""
+    done = [(name, result) for name, result in found if metric in result.metrics]
+    ours = min((x for x in done if x[0].startswith("lariat")), key=lambda x: x[1].metrics[metric], default=None)
+    others = min((x for x in done if not x[0].startswith("lariat")), key=lambda x: x[1].metrics[metric], default=None)
+    if ours is None or others is None:
+        return "No comparison: a solver did not complete."
+    error, time = ours[1].metrics[metric] / others[1].metrics[metric], ours[1].wall_time / others[1].wall_time
+    return f"Beside {others[0]}, the most accurate other solver, {ours[0]} has {error:.2g} times its error in {time:.2g} times its time."
+
+
+def machine() -> str:
+    """Returns what the figures were measured on."""
+    cpu = platform.processor() or platform.machine()
+    if Path("/proc/cpuinfo").exists():
+        models = [line.split(":", 1)[1].strip() for line in Path("/proc/cpuinfo").read_text().splitlines() if line.startswith("model name")]
+        cpu = models[0] if models else cpu
+    packages = [f"{name} {version(name)}" for name in ("cosseratbench", "pyelastica", "mujoco", "numpy")]
+    return f"Machine: {cpu}, {os.cpu_count()} cores, load {os.getloadavg()[0]:.2f} at the start; Python {platform.python_version()}, lariat {lariat.__version__}, {', '.join(packages)}."
+
+
+TEXT = """# An outside referee
+
+[cosseratbench](https://pypi.org/project/cosseratbench/) is a benchmark of rods by others: they define the scenarios, the references and
+the metrics, and the adapters of PyElastica and MuJoCo are theirs. Solvers take part through an adapter; that of Lariat is
+`lariat.referee`. All rows of a table were made in the same run of
+
+```sh
+python -m lariat.referee_page --out docs/referee.md
+```
+
+after a short run of each, which compiles what is compiled at the first use; of runs below 2 s the shortest of three counts. The number of elements is
+that of the experiment, the same for all. Catenary and cantilever are quasi-static: Lariat solves them by statics, the others by damped
+motion, as their adapters choose. The other experiments (capstan, crossing, pile, twist) need contact or torsion, which the adapter does
+not offer.
+
+{machine}
+"""
+
+
+def main() -> None:
+    """Writes the page."""
+    from cosseratbench import registry
+
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--out", type=Path, required=True)
+    parser.add_argument("--solver", action="append", help="solvers to run (default: all three)")
+    parser.add_argument("--default-only", action="store_true", help="leave out the other parameters of the experiments")
+    arguments = parser.parse_args()
+    text = TEXT.format(machine=machine())
+    by_name = solvers(arguments.solver or list(SOLVERS))
+    for name in EXPERIMENTS:
+        experiment = registry.load_experiment(name)
+        text += f"\n## {name.capitalize()}\n\n{experiment.description}\n"
+        variants = [dict[str, float]()]
+        if not arguments.default_only:
+            variants += [{p.name: v} for p in experiment.parameters for v in p.values if v != p.default]
+        for values in variants:
+            title = ", ".join(f"{key} = {value:g}" for key, value in experiment.values(**values).items())
+            found = rows(experiment, by_name, values)
+            text += f"\n{f'**{title}**' if title else ''}\n\n{table(found, list(experiment.metrics))}\n".replace("\n\n\n", "\n\n")
+            text += f"\n{verdict(found, MAIN[name])}\n"
+    arguments.out.write_text(text, encoding="utf-8")
+
+
+if __name__ == "__main__":
+    main()

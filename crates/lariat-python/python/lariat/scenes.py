@@ -1,0 +1,230 @@
+"""Runs of scenes: a TOML file (docs/scene.md of the repository), its text, or a dict of the same keys."""
+
+from __future__ import annotations
+
+import html
+import json
+from collections.abc import Callable, Iterator, Mapping
+from os import PathLike, fspath
+from pathlib import Path
+from typing import Any, Union
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lariat import _lariat
+from lariat.errors import ReadError
+
+Array = NDArray[np.float64]
+SceneLike = Union[str, "PathLike[str]", Mapping[str, Any]]
+
+_VECTORS = {
+    "position": ("x", "y", "z"),
+    "velocity": ("vx", "vy", "vz"),
+    "slope": ("sx", "sy", "sz"),
+    "force": ("fx", "fy", "fz"),
+    "rotation": ("qx", "qy", "qz", "qw"),
+    "angular_velocity": ("wx", "wy", "wz"),
+    "linear": ("px", "py", "pz"),
+    "angular": ("lx", "ly", "lz"),
+}
+
+
+def source(scene: SceneLike) -> tuple[str, str]:
+    """Returns name and text of a scene."""
+    if isinstance(scene, Mapping):
+        return "scene", _lariat.to_toml(dict(scene))
+    path = fspath(scene)
+    if "\n" in path:
+        return "scene", path
+    try:
+        return path, Path(path).read_text(encoding="utf-8")
+    except (OSError, ValueError) as error:
+        raise ReadError(f"cannot read {path}: {error}") from error
+
+
+def overrides(settings: Mapping[str, Any] | None) -> list[str]:
+    """Returns settings as ``KEY=VALUE`` with values in TOML."""
+    return [setting(key, value) for key, value in (settings or {}).items()]
+
+
+def setting(key: str, value: Any) -> str:
+    """Returns one override, its value in TOML."""
+    text = _lariat.to_toml({"x": value if not isinstance(value, Mapping) else dict(value)})
+    if isinstance(value, Mapping):
+        pairs = (line.split(" = ", 1) for line in text.splitlines() if " = " in line)
+        return f"{key}={{ {', '.join(f'{k} = {v}' for k, v in pairs)} }}"
+    return f"{key}={' '.join(text.split(' = ', 1)[1].split())}"
+
+
+class Probe:
+    """The samples of a probe: columns by name (``probe.tension``) or index, vectors by theirs (``probe.force``)."""
+
+    def __init__(self, columns: list[str], rows: Array) -> None:
+        self.columns = columns
+        self.rows = rows
+        """All samples, shape (samples, columns)."""
+
+    @property
+    def t(self) -> Array:
+        """Times of the samples in s."""
+        return self.rows[:, 0]
+
+    def __getitem__(self, name: str) -> Array:
+        if name in self.columns:
+            column: Array = self.rows[:, self.columns.index(name)]
+            return column
+        vector = ("mx", "my", "mz") if name == "moment" else _VECTORS.get(name, ("",))
+        if all(column in self.columns for column in vector):
+            columns: Array = self.rows[:, [self.columns.index(column) for column in vector]]
+            return columns
+        raise KeyError(f"no column {name!r}; the probe has {', '.join(self.columns)}")
+
+    def __getattr__(self, name: str) -> Array:
+        if name.startswith("_") or name in ("columns", "rows"):
+            raise AttributeError(name)
+        try:
+            return self[name]
+        except KeyError as error:
+            raise AttributeError(error.args[0]) from None
+
+    def __len__(self) -> int:
+        return len(self.rows)
+
+    def __repr__(self) -> str:
+        return f"<Probe: {len(self)} samples of {', '.join(self.columns)}>"
+
+
+class Run:
+    """A run of a scene: ``probes`` by name, ``summary``, ``t``; in a notebook, the animated view."""
+
+    def __init__(self, summary: dict[str, Any], probes: dict[str, Probe], recorded: _lariat.Recorded) -> None:
+        self.summary = summary
+        """The results and costs, with the keys of summary.json."""
+        self.probes = probes
+        """Samples by the name of the probe."""
+        self._recorded = recorded
+
+    @property
+    def t(self) -> Array:
+        """Times in s of the samples of the first probe; empty without probes."""
+        return next((probe.t for probe in self.probes.values()), np.empty(0))
+
+    @property
+    def warnings(self) -> list[str]:
+        """The warnings of the run, as text."""
+        return [w.get("text", str(w)) if isinstance(w, Mapping) else str(w) for w in self.summary["warnings"]]
+
+    def page(self) -> str:
+        """Returns the page that plays the motion, as HTML that needs no network."""
+        return self._recorded.page()
+
+    def save(self, folder: str | PathLike[str]) -> None:
+        """Writes the files of ``lariat run``: probes/NAME.csv, summary.json and view.html, the page."""
+        (Path(folder) / "probes").mkdir(parents=True, exist_ok=True)
+        for name, probe in self.probes.items():
+            rows = [",".join(probe.columns), *(",".join(repr(float(x)) for x in row) for row in probe.rows)]
+            (Path(folder) / "probes" / f"{name}.csv").write_text("\n".join(rows) + "\n", encoding="utf-8")
+        (Path(folder) / "summary.json").write_text(json.dumps(self.summary, indent=2) + "\n", encoding="utf-8")
+        (Path(folder) / "view.html").write_text(self.page(), encoding="utf-8")
+
+    def usd(self) -> str:
+        """Returns the motion as OpenUSD (.usda): curves and bodies with time samples, and the stiffness of the cables."""
+        return self._recorded.usd()
+
+    def save_usd(self, path: str | PathLike[str]) -> None:
+        """Writes the motion as OpenUSD, for usdview, Blender and others."""
+        Path(path).write_text(self.usd(), encoding="utf-8")
+
+    def __repr__(self) -> str:
+        return f"<Run of {self.summary['name']!r}: {self.summary['simulated_s']} s, probes {', '.join(self.probes) or 'none'}>"
+
+    def _repr_html_(self) -> str:
+        page = html.escape(self.page(), quote=True)
+        return f'<iframe srcdoc="{page}" style="width: 100%; height: 600px; border: 0"></iframe>'
+
+
+class _Bar:
+    """A progress bar by tqdm, if it is installed."""
+
+    def __init__(self, wanted: bool, total: float, unit: str) -> None:
+        self._bar: Any = None
+        self._unit, self._total = unit, total
+        if wanted:
+            try:
+                from tqdm.auto import tqdm  # type: ignore[import-untyped, unused-ignore]
+            except ImportError:
+                return
+            self._bar = tqdm(total=total, unit=unit, delay=1.0)
+
+    def __enter__(self) -> Callable[[float], None] | None:
+        return self._to if self._bar is not None else None
+
+    def _to(self, value: float) -> None:
+        self._bar.update(value - self._bar.n)
+
+    def __exit__(self, *_: object) -> None:
+        if self._bar is not None:
+            self._bar.close()
+
+
+def _collect(scene: SceneLike, settings: Mapping[str, Any] | None, statics: bool, progress: bool) -> Run:
+    name, text = source(scene)
+    given = overrides(settings)
+    total = _duration(text, settings)
+    with _Bar(progress and total is not None, total or 0.0, "s") as bar:
+        summary, tables, failed, recorded = _lariat.run_scene(name, text, given, statics=statics, progress=bar)
+    run = Run(summary, {key: Probe(columns, rows) for key, (columns, rows) in tables.items()}, recorded)
+    if failed is not None:
+        failed.run = run
+        raise failed
+    return run
+
+
+def _duration(text: str, settings: Mapping[str, Any] | None) -> float | None:
+    if settings and isinstance(settings.get("duration"), (int, float)):
+        return float(settings["duration"])
+    lines: Iterator[str] = (line.split("#")[0] for line in text.splitlines())
+    for line in lines:
+        if line.strip().startswith("["):
+            break
+        key, _, value = line.partition("=")
+        if key.strip() == "duration":
+            try:
+                return float(value)
+            except ValueError:
+                return None
+    return None
+
+
+def run(
+    scene: SceneLike,
+    *,
+    set: Mapping[str, Any] | None = None,  # noqa: A002
+    progress: bool = True,
+) -> Run:
+    """Runs a scene for its duration.
+
+    ``set`` overrides keys, as ``{"cable.sling.elements": 20}``. Progress is shown by tqdm if it is installed and the run takes longer than a second.
+
+    Raises ``SceneError`` for a scene that is not accepted, and the error of the mechanics for a run that fails; its attribute ``run``
+    then has the samples until there.
+    """
+    return _collect(scene, set, False, progress)
+
+
+def statics(scene: SceneLike, *, set: Mapping[str, Any] | None = None) -> Run:  # noqa: A002
+    """Finds the static equilibrium of a scene; probes then have one sample each, at t = 0.
+
+    Raises ``NoEquilibriumError`` if there is none, and as ``run``.
+    """
+    return _collect(scene, set, True, False)
+
+
+def import_mjcf(model: str | PathLike[str]) -> str:
+    """Returns the cables of a MuJoCo model (``<composite type="cable">``, ``<flexcomp dim="1">``), a file or its text, as a scene in TOML.
+
+    Raises ``errors.ImportError`` for what cannot be imported right.
+    """
+    name, text = ("model", fspath(model)) if fspath(model).lstrip().startswith("<") else source(model)
+    return _lariat.import_mjcf(name, text)

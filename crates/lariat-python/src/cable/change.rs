@@ -1,0 +1,186 @@
+//! Changing a cable between steps.
+
+use super::{Cable, effects};
+use crate::convert::{Array, Place, Vector};
+use crate::error::{Raise, raise};
+use crate::integrator::Choice;
+use lariat_ancf::{At, Error, Motion, PointLoad, SlopeSupport, Support, Vector3};
+use pyo3::prelude::*;
+use pyo3::types::PyBytes;
+use std::borrow::Cow;
+
+const SNAPSHOT: &str = concat!("lariat snapshot ", env!("CARGO_PKG_VERSION"), "\n");
+
+#[pymethods]
+impl Cable {
+    /// Holds the position of a node where it is.
+    fn fix(&self, py: Python<'_>, at: Place) -> PyResult<()> {
+        self.change(py, |cable| cable.fix(at.0))
+    }
+
+    /// Holds the position of a node and the direction of its tangent as they are.
+    fn clamp(&self, py: Python<'_>, at: Place) -> PyResult<()> {
+        self.change(py, |cable| {
+            let node = cable.node(at.0)?;
+            let slope = Vector3::from_column_slice(&cable.positions()[6 * node + 3..6 * node + 6]);
+            let Some(direction) = slope.try_normalize(1e-9) else {
+                return Err(Error::NoTangent { cable: cable.name().to_string(), node });
+            };
+            let position = Some(Motion::fixed(cable.node_position(node)));
+            let slope = SlopeSupport::Direction(direction);
+            cable.set_support(At::Node(node), Support { position, slope, attached: false })
+        })
+    }
+
+    /// Frees a node.
+    fn release(&self, py: Python<'_>, at: Place) -> PyResult<()> {
+        self.change(py, |cable| cable.release(at.0))
+    }
+
+    /// Prescribes the position of a node: the cubic from where it is, at its present velocity, to `position` (m) at `velocity` (m/s) a
+    /// time `duration` (s) later. Prescribe the next piece, or fix the node, when the time is over.
+    #[pyo3(signature = (at, position, duration, velocity=None))]
+    fn prescribe(
+        &self,
+        py: Python<'_>,
+        at: Place,
+        position: Vector,
+        duration: f64,
+        velocity: Option<Vector>,
+    ) -> PyResult<()> {
+        let velocity = velocity.map_or(Vector3::zeros(), |v| v.0);
+        self.change(py, |cable| {
+            if !(duration.is_finite() && duration > 0.0) {
+                let (cable, what) = (Some(cable.name().to_string()), "duration (s)".to_string());
+                return Err(Error::InvalidValue { cable, what, value: duration, expected: "> 0" });
+            }
+            let node = cable.node(at.0)?;
+            let from =
+                (cable.node_position(node), Vector3::from_column_slice(&cable.velocities()[6 * node..6 * node + 3]));
+            let motion = Motion::hermite(cable.time(), duration, from, (position.0, velocity));
+            cable.set_motion(node, motion)
+        })
+    }
+
+    /// Adds a constant force (N) and moment (N m) in world axes at an arc length (m), ramped over `ramp` s.
+    #[pyo3(signature = (s, force=None, *, moment=None, ramp=0.0))]
+    fn add_load(
+        &self,
+        py: Python<'_>,
+        s: f64,
+        force: Option<Vector>,
+        moment: Option<Vector>,
+        ramp: f64,
+    ) -> PyResult<()> {
+        let [force, moment] = [force, moment].map(|v| v.map_or(Vector3::zeros(), |v| v.0));
+        self.change(py, |cable| cable.add_load(PointLoad { arc_length: s, force, moment, ramp, start: 0.0 }))
+    }
+
+    /// Removes all point loads.
+    fn clear_loads(&self, py: Python<'_>) -> PyResult<()> {
+        self.change(py, |cable| {
+            cable.clear_loads();
+            Ok(())
+        })
+    }
+
+    #[setter]
+    fn set_effects(&self, py: Python<'_>, value: &Bound<'_, PyAny>) -> PyResult<()> {
+        let effects = effects(value)?;
+        self.change(py, |cable| cable.set_effects(effects))
+    }
+
+    #[setter]
+    fn set_gravity(&self, py: Python<'_>, value: Vector) -> PyResult<()> {
+        self.change(py, |cable| cable.set_gravity(value.0))
+    }
+
+    #[setter]
+    fn set_time(&self, py: Python<'_>, value: f64) -> PyResult<()> {
+        self.own("change its clock")?;
+        self.change(py, |cable| cable.set_time(value))
+    }
+
+    #[setter]
+    fn set_integrator(&self, py: Python<'_>, value: Choice) -> PyResult<()> {
+        self.change(py, |cable| cable.set_integrator(cable.integrator_for(value.0)))
+    }
+
+    #[setter]
+    fn set_rule(&self, py: Python<'_>, value: &str) -> PyResult<()> {
+        let rule = value.parse().map_err(raise::<Error>)?;
+        self.change(py, |cable| cable.set_rule(rule))
+    }
+
+    /// Sets nodal coordinates and their rates, both of shape (nodes, 6).
+    fn set_state(&self, py: Python<'_>, coordinates: Array, rates: Array) -> PyResult<()> {
+        let nodes = self.read(py, |cable| Ok(cable.nodes()))?;
+        for given in [&coordinates, &rates] {
+            if given.shape != [nodes, 6] {
+                return Err(given.wrong_shape(&format!("({nodes}, 6)")));
+            }
+        }
+        self.change(py, |cable| cable.set_coordinates(&coordinates.values, &rates.values))
+    }
+
+    /// Sets the velocities of a rigid motion: `velocity` (m/s) of the start, `angular_velocity` (rad/s) about it.
+    #[pyo3(signature = (velocity, angular_velocity=None))]
+    fn set_rigid_motion(&self, py: Python<'_>, velocity: Vector, angular_velocity: Option<Vector>) -> PyResult<()> {
+        let spin = angular_velocity.map_or(Vector3::zeros(), |v| v.0);
+        self.change(py, |cable| cable.set_rigid_motion(velocity.0, spin))
+    }
+
+    /// Returns the node at a point, and places one if there is none.
+    fn insert_node(&self, py: Python<'_>, at: Place) -> PyResult<usize> {
+        self.own("be divided")?;
+        self.change(py, |cable| cable.insert_node(at.0))
+    }
+
+    /// Samples a flow at the nodes: `velocities` in m/s of shape (nodes, 3), valid until the next call; needs drag.
+    fn sample_flow(&self, py: Python<'_>, velocities: Array) -> PyResult<()> {
+        let rows = velocities.vectors()?;
+        self.change(py, |cable| {
+            if rows.len() != cable.nodes() {
+                let (cable, expected) = (cable.name().to_string(), cable.nodes());
+                return Err(Error::WrongCount { cable, what: "samples of the flow", count: rows.len(), expected });
+            }
+            let mut rows = rows.iter();
+            cable.sample_flow(|_| rows.next().copied().unwrap_or_default())
+        })
+    }
+
+    /// Returns the state as bytes, for `restore`.
+    fn snapshot<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyBytes>> {
+        let bytes = self.read(py, |cable| Ok(rmp_serde::to_vec_named(cable.snapshot())))?;
+        let bytes = bytes.map_err(|error| raise(Raise::new("FormatError", error.to_string())))?;
+        Ok(PyBytes::new(py, &[SNAPSHOT.as_bytes(), &bytes].concat()))
+    }
+
+    /// Restores a state of this cable; the run continues bitwise from there.
+    fn restore(&self, py: Python<'_>, snapshot: Cow<'_, [u8]>) -> PyResult<()> {
+        let wrong = |problem: String| raise(Raise::new("FormatError", format!("not a snapshot of a cable: {problem}")));
+        let Some(body) = snapshot.strip_prefix(SNAPSHOT.as_bytes()) else {
+            return Err(wrong(format!("it does not begin with {SNAPSHOT:?}")));
+        };
+        let snapshot = rmp_serde::from_slice(body).map_err(|error| wrong(error.to_string()))?;
+        self.change(py, |cable| cable.restore(snapshot))
+    }
+
+    /// Replaces rule, effects and integrator together, where one needs the other.
+    #[pyo3(signature = (*, rule=None, effects=None, integrator=None))]
+    fn redefine(
+        &self,
+        py: Python<'_>,
+        rule: Option<&str>,
+        effects: Option<&Bound<'_, PyAny>>,
+        integrator: Option<Choice>,
+    ) -> PyResult<()> {
+        let rule = rule.map(|rule| rule.parse().map_err(raise::<Error>)).transpose()?;
+        let effects = effects.map(self::effects).transpose()?;
+        self.change(py, |cable| {
+            let effects = effects.unwrap_or_else(|| cable.effects().clone());
+            let chosen = integrator.map_or(cable.integrator(), |choice| cable.integrator_for(choice.0));
+            cable.redefine(rule.unwrap_or_else(|| cable.rule()), effects, chosen)
+        })
+    }
+}

@@ -1,0 +1,277 @@
+//! `Cable`: built, stepped, saved; `read` and `change` hold the rest of its methods.
+
+mod change;
+mod read;
+
+use crate::convert::{Array, Place, Places, Vector, data};
+use crate::error::{Raise, raise};
+use crate::integrator::{Choice, fidelity};
+use crate::section::Section;
+use crate::shared::Shared;
+use crate::world::Contents;
+use lariat_ancf as ancf;
+use lariat_ancf::{EquilibriumOptions, Error};
+use lariat_rapier::CableHandle;
+use pyo3::exceptions::PyTypeError;
+use pyo3::marker::Ungil;
+use pyo3::prelude::*;
+use pyo3::types::{PyBytes, PyDict};
+use std::borrow::Cow;
+
+/// What the bytes of a saved cable begin with; the version of the crate follows.
+const MAGIC: &str = concat!("lariat cable ", env!("CARGO_PKG_VERSION"), "\n");
+
+/// Where the cable is.
+#[derive(Clone)]
+enum Home {
+    Own(Shared<ancf::Cable>),
+    World(Shared<Contents>, CableHandle),
+}
+
+/// A cable of ANCF elements with its rule, integrator and state. See `lariat.Cable` in the stubs for all arguments.
+#[pyclass(frozen, module = "lariat")]
+pub struct Cable(Home);
+
+impl Cable {
+    /// Makes the Python object of a cable.
+    pub fn new(cable: ancf::Cable) -> Self {
+        Cable(Home::Own(Shared::new(cable)))
+    }
+
+    /// Makes the Python object of a cable of a world.
+    pub fn of_world(contents: Shared<Contents>, handle: CableHandle) -> Self {
+        Cable(Home::World(contents, handle))
+    }
+
+    /// Returns a copy of the cable.
+    pub fn copied(&self, py: Python<'_>) -> PyResult<ancf::Cable> {
+        self.read(py, |cable| Ok(cable.clone()))
+    }
+
+    /// Reads the cable.
+    fn read<R: Ungil + Send>(
+        &self,
+        py: Python<'_>,
+        f: impl FnOnce(&ancf::Cable) -> Result<R, Error> + Ungil + Send,
+    ) -> PyResult<R> {
+        match &self.0 {
+            Home::Own(cable) => cable.with(py, |cable| f(cable)).map_err(raise),
+            Home::World(contents, handle) => {
+                contents.with(py, |contents| Ok(f(contents.set.get(*handle)?)?)).map_err(raise::<lariat_rapier::Error>)
+            }
+        }
+    }
+
+    /// Changes the cable; one that sleeps in a world wakes up. Other threads run Python meanwhile.
+    fn change<R: Ungil + Send>(
+        &self,
+        py: Python<'_>,
+        f: impl FnOnce(&mut ancf::Cable) -> Result<R, Error> + Ungil + Send,
+    ) -> PyResult<R> {
+        match &self.0 {
+            Home::Own(cable) => cable.compute(py, f).map_err(raise),
+            Home::World(contents, handle) => contents
+                .compute(py, |contents| Ok(f(contents.set.get_mut(*handle)?)?))
+                .map_err(raise::<lariat_rapier::Error>),
+        }
+    }
+
+    /// Returns the cable, if it belongs to no world.
+    pub fn own(&self, what: &str) -> PyResult<&Shared<ancf::Cable>> {
+        match &self.0 {
+            Home::Own(cable) => Ok(cable),
+            Home::World(..) => {
+                let message = format!("the cable belongs to a world, and cannot {what}: step the world");
+                Err(raise(Raise::new("InWorldError", message)))
+            }
+        }
+    }
+
+    /// Returns the handle, if it belongs to this world.
+    pub fn handle_in(&self, contents: &Shared<Contents>) -> PyResult<CableHandle> {
+        match &self.0 {
+            Home::World(home, handle) if home.address() == contents.address() => Ok(*handle),
+            _ => Err(raise(Raise::new("OtherWorldError", "the cable is not in this world: add it with add_cable"))),
+        }
+    }
+}
+
+/// One section, or several with the arc length at which each begins.
+fn sections(section: &Bound<'_, PyAny>) -> PyResult<Vec<(f64, ancf::Section)>> {
+    if let Ok(section) = section.cast::<Section>() {
+        return Ok(vec![(0.0, section.get().0)]);
+    }
+    let wrong = || PyTypeError::new_err("expected a Section, or a list of (arc length, Section)");
+    let items = section.try_iter().map_err(|_| wrong())?;
+    items
+        .map(|item| {
+            let (from, section): (f64, Bound<'_, PyAny>) = item?.extract().map_err(|_| wrong())?;
+            Ok((from, section.cast::<Section>().map_err(|_| wrong())?.get().0))
+        })
+        .collect()
+}
+
+/// Returns effects from what `lariat.effects.collect` makes of them.
+fn effects(effects: &Bound<'_, PyAny>) -> PyResult<ancf::Effects> {
+    let dict = effects.py().import("lariat.effects")?.getattr("collect")?.call1((effects,))?;
+    serde_json::from_value(data(&dict)?).map_err(|error| raise(Raise::new("EffectsError", format!("effects: {error}"))))
+}
+
+#[pymethods]
+impl Cable {
+    #[new]
+    #[pyo3(signature = (points, section, *, length=None, elements=None, name="cable", rule=None, allow_rank_deficient=false,
+        fidelity=None, integrator=None, gravity=None, velocity=None, angular_velocity=None, fix=None, clamp=None,
+        nodes_at=None, effects=None, damped_as=None))]
+    fn py_new(
+        points: Array,
+        section: &Bound<'_, PyAny>,
+        length: Option<f64>,
+        elements: Option<usize>,
+        name: &str,
+        rule: Option<&str>,
+        allow_rank_deficient: bool,
+        fidelity: Option<&str>,
+        integrator: Option<Choice>,
+        gravity: Option<Vector>,
+        velocity: Option<Vector>,
+        angular_velocity: Option<Vector>,
+        fix: Option<Places>,
+        clamp: Option<Places>,
+        nodes_at: Option<Vec<f64>>,
+        effects: Option<&Bound<'_, PyAny>>,
+        damped_as: Option<&str>,
+    ) -> PyResult<Self> {
+        if fidelity.is_some() && integrator.is_some() {
+            return Err(raise(Raise::new("StepControlError", "give fidelity or integrator, not both")));
+        }
+        let mut builder = ancf::Cable::builder().name(name).points(points.vectors()?);
+        for (from, section) in sections(section)? {
+            builder = builder.section_from(from, section);
+        }
+        if let Some(length) = length {
+            builder = builder.length(length);
+        }
+        if let Some(elements) = elements {
+            builder = builder.elements(elements);
+        }
+        if let Some(rule) = rule {
+            builder = builder.rule(rule.parse().map_err(raise::<Error>)?);
+        }
+        if allow_rank_deficient {
+            builder = builder.allow_rank_deficient();
+        }
+        if let Some(fidelity) = fidelity {
+            builder = builder.fidelity(self::fidelity(fidelity)?);
+        }
+        if let Some(Choice(choice)) = integrator {
+            builder = builder.integrator(choice);
+        }
+        if let Some(Vector(gravity)) = gravity {
+            builder = builder.gravity(gravity);
+        }
+        if let Some(Vector(velocity)) = velocity {
+            builder = builder.velocity(velocity);
+        }
+        if let Some(Vector(angular_velocity)) = angular_velocity {
+            builder = builder.angular_velocity(angular_velocity);
+        }
+        builder = fix.unwrap_or_default().0.into_iter().fold(builder, |builder, at| builder.fix(at));
+        builder = clamp.unwrap_or_default().0.into_iter().fold(builder, |builder, at| builder.clamp(at));
+        builder = nodes_at.unwrap_or_default().into_iter().fold(builder, |builder, s| builder.node_at(s));
+        if let Some(effects) = effects {
+            builder = builder.effects(self::effects(effects)?);
+        }
+        if let Some(kind) = damped_as {
+            builder = builder.damped_as(kind.parse().map_err(raise::<Error>)?);
+        }
+        builder.build().map(Cable::new).map_err(raise)
+    }
+
+    /// Advances the cable by `steps` steps of `dt` (s).
+    #[pyo3(signature = (dt, *, steps=1))]
+    fn step(&self, py: Python<'_>, dt: f64, steps: usize) -> PyResult<()> {
+        let own = self.own("step by itself")?;
+        own.compute(py, |cable| (0..steps).try_for_each(|_| cable.step(dt))).map_err(raise)
+    }
+
+    /// Moves the cable to static equilibrium.
+    #[pyo3(signature = (*, tolerance=1e-9, iterations=400))]
+    fn equilibrium<'py>(&self, py: Python<'py>, tolerance: f64, iterations: usize) -> PyResult<Bound<'py, PyAny>> {
+        let options = EquilibriumOptions { tolerance, iterations };
+        let own = self.own("find its equilibrium by itself")?;
+        let report = own.compute(py, |cable| cable.equilibrium_with(options)).map_err(raise)?;
+        crate::convert::result(py, "Equilibrium", (report.iterations, report.residual, report.stable))
+    }
+
+    /// Returns description and state as bytes; `from_bytes` continues the run bitwise.
+    fn to_bytes<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyBytes>> {
+        let bytes = self.read(py, |cable| Ok(rmp_serde::to_vec_named(cable)))?;
+        let bytes = bytes.map_err(|error| raise(Raise::new("FormatError", error.to_string())))?;
+        Ok(PyBytes::new(py, &[MAGIC.as_bytes(), &bytes].concat()))
+    }
+
+    /// Returns a cable from the bytes of `to_bytes`, of the same version.
+    #[staticmethod]
+    fn from_bytes(bytes: Cow<'_, [u8]>) -> PyResult<Self> {
+        let wrong = |problem: String| raise(Raise::new("FormatError", format!("not a saved cable: {problem}")));
+        let Some(body) = bytes.strip_prefix(MAGIC.as_bytes()) else {
+            return Err(wrong(format!("it does not begin with {MAGIC:?}")));
+        };
+        rmp_serde::from_slice(body).map(Cable::new).map_err(|error| wrong(error.to_string()))
+    }
+
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, (Bound<'py, PyBytes>,))> {
+        let restore = slf.get_type().getattr("from_bytes")?;
+        Ok((restore, (slf.get().to_bytes(slf.py())?,)))
+    }
+
+    /// Returns a copy; that of a cable of a world belongs to no world.
+    fn copy(&self, py: Python<'_>) -> PyResult<Self> {
+        self.copied(py).map(Cable::new)
+    }
+
+    fn __copy__(&self, py: Python<'_>) -> PyResult<Self> {
+        self.copy(py)
+    }
+
+    fn __deepcopy__(&self, py: Python<'_>, _memo: &Bound<'_, PyDict>) -> PyResult<Self> {
+        self.copy(py)
+    }
+
+    fn __repr__(&self, py: Python<'_>) -> PyResult<String> {
+        self.read(py, |cable| {
+            let (name, elements, length, time) = (cable.name(), cable.elements().len(), cable.length(), cable.time());
+            Ok(format!("<Cable {name:?}: {elements} elements, {length} m, t = {time} s>"))
+        })
+    }
+
+    /// Cuts the cable; this one keeps the part before the point, the other is returned.
+    fn cut(&self, py: Python<'_>, at: Place) -> PyResult<Self> {
+        self.own("be cut by itself")?.compute(py, |cable| cable.cut(at.0)).map(Cable::new).map_err(raise)
+    }
+}
+
+/// Advances cables that nothing connects by `dt` (s), on all threads.
+#[pyfunction]
+pub fn step_all(py: Python<'_>, cables: Vec<Bound<'_, Cable>>, dt: f64) -> PyResult<()> {
+    let mut own = Vec::new();
+    for (index, cable) in cables.iter().enumerate() {
+        own.push((cable.get().own("step by itself")?.clone(), index));
+    }
+    // in one order for all threads, so that none waits for one that waits for it
+    own.sort_by_key(|(cable, _)| cable.address());
+    if own.windows(2).any(|pair| pair[0].0.address() == pair[1].0.address()) {
+        return Err(raise(Raise::new("DuplicateCableError", "the same cable is given twice")));
+    }
+    let outcome = py.detach(|| {
+        let mut guards: Vec<_> = own.iter().map(|(cable, _)| cable.lock()).collect();
+        let mut cables: Vec<&mut ancf::Cable> = guards.iter_mut().map(|guard| &mut **guard).collect();
+        ancf::step_all(&mut cables, dt)
+    });
+    outcome.map_err(|error| {
+        let mut failures: Vec<_> = error.failures.into_iter().map(|(i, error)| (own[i].1, error)).collect();
+        failures.sort_by_key(|(index, _)| *index);
+        raise(failures.swap_remove(0).1)
+    })
+}

@@ -1,0 +1,178 @@
+//! Arguments from Python, and results to it.
+
+use crate::error::{Raise, raise};
+use lariat_ancf::{At, Vector3};
+use numpy::{AllowTypeChange, PyArray1, PyArray2, PyArrayLikeDyn, PyArrayMethods, PyUntypedArrayMethods};
+use pyo3::exceptions::PyTypeError;
+use pyo3::prelude::*;
+use pyo3::types::{PyBool, PyDict, PyString};
+use serde_json::{Map, Number, Value};
+
+/// A vector of three numbers, from any sequence or array.
+#[derive(Clone, Copy, Debug)]
+pub struct Vector(pub Vector3<f64>);
+
+impl<'a, 'py> FromPyObject<'a, 'py> for Vector {
+    type Error = PyErr;
+    fn extract(object: Borrowed<'a, 'py, PyAny>) -> PyResult<Self> {
+        let numbers = Array::extract(object)?;
+        match numbers.values[..] {
+            [x, y, z] if numbers.shape.len() == 1 => Ok(Vector(Vector3::new(x, y, z))),
+            _ => Err(numbers.wrong_shape("(3,)")),
+        }
+    }
+}
+
+/// Numbers of any shape, in row-major order.
+#[derive(Clone, Debug)]
+pub struct Array {
+    pub values: Vec<f64>,
+    pub shape: Vec<usize>,
+}
+
+impl<'a, 'py> FromPyObject<'a, 'py> for Array {
+    type Error = PyErr;
+    fn extract(object: Borrowed<'a, 'py, PyAny>) -> PyResult<Self> {
+        let array = object.py().import("numpy")?.call_method1("asarray", (object,))?;
+        let kind: String = array.getattr("dtype")?.getattr("kind")?.extract()?;
+        // NumPy makes NaN of None, and drops imaginary parts
+        let empty = array.len().is_ok_and(|length| length == 0);
+        if !["b", "i", "u", "f"].contains(&kind.as_str()) && !empty {
+            return Err(PyTypeError::new_err(format!("expected numbers, got {}", object.get_type().name()?)));
+        }
+        let array: PyArrayLikeDyn<'py, f64, AllowTypeChange> = array.extract()?;
+        Ok(Array { values: array.as_array().iter().copied().collect(), shape: array.shape().to_vec() })
+    }
+}
+
+impl Array {
+    /// Returns the exception that the shape is another than `expected`.
+    pub fn wrong_shape(&self, expected: &str) -> PyErr {
+        let shape = format!("({})", self.shape.iter().map(|n| format!("{n},")).collect::<String>());
+        raise(
+            Raise::new("ShapeError", format!("expected an array of shape {expected}, got {shape}"))
+                .with("shape", shape),
+        )
+    }
+
+    /// Returns the rows of an array of shape (n, 3).
+    pub fn vectors(&self) -> PyResult<Vec<Vector3<f64>>> {
+        match self.shape[..] {
+            [_, 3] => Ok(self.values.chunks_exact(3).map(Vector3::from_column_slice).collect()),
+            _ => Err(self.wrong_shape("(n, 3)")),
+        }
+    }
+}
+
+/// A point of a cable: "start", "end", a node (int) or an arc length (float).
+#[derive(Clone, Copy, Debug)]
+pub struct Place(pub At);
+
+impl<'a, 'py> FromPyObject<'a, 'py> for Place {
+    type Error = PyErr;
+    fn extract(object: Borrowed<'a, 'py, PyAny>) -> PyResult<Self> {
+        const EXPECTED: &str = "expected \"start\", \"end\", a node number (int) or an arc length in m (float)";
+        if let Ok(text) = object.extract::<String>() {
+            return match text.as_str() {
+                "start" => Ok(Place(At::Start)),
+                "end" => Ok(Place(At::End)),
+                _ => Err(raise(Raise::new("UnknownPlaceError", format!("{EXPECTED}, got {text:?}")))),
+            };
+        }
+        if object.is_instance_of::<PyBool>() {
+            return Err(PyTypeError::new_err(format!("{EXPECTED}, got a bool")));
+        }
+        if object.hasattr("__index__")? && !object.hasattr("__len__")? {
+            return Ok(Place(At::Node(object.extract()?)));
+        }
+        match object.extract::<f64>() {
+            Ok(s) => Ok(Place(At::ArcLength(s))),
+            Err(_) => Err(PyTypeError::new_err(EXPECTED)),
+        }
+    }
+}
+
+/// One place, or several.
+#[derive(Clone, Debug, Default)]
+pub struct Places(pub Vec<At>);
+
+impl<'a, 'py> FromPyObject<'a, 'py> for Places {
+    type Error = PyErr;
+    fn extract(object: Borrowed<'a, 'py, PyAny>) -> PyResult<Self> {
+        if object.is_instance_of::<PyString>() || !object.hasattr("__iter__")? {
+            return Ok(Places(vec![Place::extract(object)?.0]));
+        }
+        let places = object.try_iter()?.map(|item| Ok(item?.extract::<Place>()?.0));
+        places.collect::<PyResult<_>>().map(Places)
+    }
+}
+
+/// Returns an array of three numbers.
+pub fn vector<'py>(py: Python<'py>, v: &Vector3<f64>) -> Bound<'py, PyArray1<f64>> {
+    PyArray1::from_slice(py, v.as_slice())
+}
+
+/// Hands numbers to NumPy as an array of this many columns, without a copy.
+pub fn table<'py>(py: Python<'py>, values: Vec<f64>, columns: usize) -> PyResult<Bound<'py, PyArray2<f64>>> {
+    let rows = values.len() / columns.max(1);
+    PyArray1::from_vec(py, values).reshape([rows, columns])
+}
+
+/// Returns vectors as an array of shape (n, 3).
+pub fn vectors<'py>(py: Python<'py>, rows: &[Vector3<f64>]) -> PyResult<Bound<'py, PyArray2<f64>>> {
+    table(py, rows.iter().flat_map(|v| [v.x, v.y, v.z]).collect(), 3)
+}
+
+/// Makes a named tuple of `lariat.results`.
+pub fn result<'py>(
+    py: Python<'py>,
+    class: &str,
+    values: impl pyo3::call::PyCallArgs<'py>,
+) -> PyResult<Bound<'py, PyAny>> {
+    py.import("lariat.results")?.getattr(class)?.call1(values)
+}
+
+/// Returns dicts, sequences, arrays, paths, numbers and texts as plain data.
+///
+/// # Errors
+/// `InvalidValueError` for a number that is not finite, `TypeError` for anything else.
+pub fn data(object: &Bound<'_, PyAny>) -> PyResult<Value> {
+    if object.is_none() {
+        return Ok(Value::Null);
+    }
+    if let Ok(x) = object.cast::<PyBool>() {
+        return Ok(Value::Bool(x.is_true()));
+    }
+    if let Ok(text) = object.extract::<String>() {
+        return Ok(Value::String(text));
+    }
+    if let Ok(dict) = object.cast::<PyDict>() {
+        let mut map = Map::new();
+        for (key, value) in dict {
+            map.insert(key.extract()?, data(&value)?);
+        }
+        return Ok(Value::Object(map));
+    }
+    if object.hasattr("tolist")? {
+        return data(&object.call_method0("tolist")?);
+    }
+    if object.hasattr("__fspath__")? {
+        return data(&object.call_method0("__fspath__")?);
+    }
+    if object.hasattr("__iter__")? {
+        return object.try_iter()?.map(|item| data(&item?)).collect::<PyResult<Vec<_>>>().map(Value::Array);
+    }
+    if object.hasattr("__index__")? {
+        return Ok(Value::Number(object.extract::<i64>()?.into()));
+    }
+    let x: f64 = object.extract()?;
+    let number = Number::from_f64(x);
+    number.map(Value::Number).ok_or_else(|| {
+        raise(Raise::new("InvalidValueError", format!("a value is {x}: must be finite")).with("value", x))
+    })
+}
+
+/// Returns plain data as Python's objects.
+pub fn object<'py>(py: Python<'py>, value: &Value) -> PyResult<Bound<'py, PyAny>> {
+    py.import("json")?.call_method1("loads", (value.to_string(),))
+}

@@ -1,0 +1,107 @@
+//! `Integrator`: a method with its step control; names of methods and kinds of rope.
+
+use crate::error::{Raise, raise};
+use lariat_ancf::{self as ancf, ErrorNorm, Fidelity, IntegratorChoice, Method, RopeKind, StepControl};
+use pyo3::exceptions::PyTypeError;
+use pyo3::prelude::*;
+use pyo3::types::PyString;
+
+/// A time integration method and how its steps are chosen.
+#[pyclass(frozen, module = "lariat")]
+#[derive(Clone)]
+pub struct Integrator(pub ancf::Integrator);
+
+#[pymethods]
+impl Integrator {
+    /// A method by its name, with one of: `tolerance` in m per host step (of the errors that `norm` selects: "every", "motion" or
+    /// "bodies"), `substeps` per host step, `max_step` in s, or `stable`, a share of the stability limit of an explicit method.
+    #[new]
+    #[pyo3(signature = (method="esdirk4", *, tolerance=None, norm=None, substeps=None, max_step=None, stable=None))]
+    fn new(
+        method: &str,
+        tolerance: Option<f64>,
+        norm: Option<&str>,
+        substeps: Option<u32>,
+        max_step: Option<f64>,
+        stable: Option<f64>,
+    ) -> PyResult<Self> {
+        let method: Method = method.parse().map_err(raise::<ancf::Error>)?;
+        let norm = norm.map(|name| name.parse::<ErrorNorm>().map_err(raise)).transpose()?;
+        let controls = [
+            tolerance.map(|x| norm.map_or(StepControl::Tolerance(x), |norm| StepControl::ToleranceOf(x, norm))),
+            substeps.map(StepControl::Substeps),
+            max_step.map(StepControl::MaxStep),
+            stable.map(StepControl::Stable),
+        ];
+        let mut given = controls.into_iter().flatten();
+        let (Some(control), None) = (given.next(), given.next()) else {
+            let message = "give exactly one of tolerance, substeps, max_step and stable";
+            return Err(raise(Raise::new("StepControlError", message)));
+        };
+        if norm.is_some() && tolerance.is_none() {
+            return Err(raise(Raise::new("StepControlError", "norm belongs to a tolerance")));
+        }
+        ancf::Integrator { method, control }.checked().map(Integrator).map_err(raise)
+    }
+
+    /// The name of the method.
+    #[getter]
+    fn method(&self) -> String {
+        self.0.method.to_string()
+    }
+
+    fn __repr__(&self) -> String {
+        let control = match self.0.control {
+            StepControl::Tolerance(x) => format!("tolerance={x:?}"),
+            StepControl::ToleranceOf(x, norm) => format!("tolerance={x:?}, norm={:?}", norm.name()),
+            StepControl::Substeps(n) => format!("substeps={n}"),
+            StepControl::MaxStep(h) => format!("max_step={h:?}"),
+            StepControl::Stable(share) => format!("stable={share:?}"),
+        };
+        format!("Integrator({:?}, {control})", self.0.method.to_string())
+    }
+
+    fn __eq__(&self, other: &Self) -> bool {
+        self.0 == other.0
+    }
+}
+
+/// An `Integrator`, or the name of a fidelity.
+pub struct Choice(pub IntegratorChoice);
+
+impl<'a, 'py> FromPyObject<'a, 'py> for Choice {
+    type Error = PyErr;
+    fn extract(object: Borrowed<'a, 'py, PyAny>) -> PyResult<Self> {
+        if let Ok(integrator) = object.cast::<Integrator>() {
+            return Ok(Choice(integrator.get().0.into()));
+        }
+        if object.is_instance_of::<PyString>() {
+            return Ok(Choice(fidelity(&object.extract::<String>()?)?.into()));
+        }
+        Err(PyTypeError::new_err("expected an Integrator, or \"game\", \"engineering\" or \"reference\""))
+    }
+}
+
+/// Returns a fidelity by its name.
+pub fn fidelity(name: &str) -> PyResult<Fidelity> {
+    name.parse().map_err(raise::<ancf::Error>)
+}
+
+/// Returns the names of the integration methods.
+#[pyfunction]
+pub fn integrators() -> Vec<String> {
+    Method::ALL.map(|method| method.to_string()).to_vec()
+}
+
+/// Returns the names of the kinds of rope, by which damping is named.
+#[pyfunction]
+pub fn rope_kinds() -> Vec<&'static str> {
+    RopeKind::ALL.map(RopeKind::name).to_vec()
+}
+
+/// Returns the number of elements that a fidelity recommends.
+#[pyfunction]
+#[pyo3(signature = (fidelity="engineering"))]
+pub fn recommended_elements(fidelity: &str) -> PyResult<usize> {
+    self::fidelity(fidelity).map(Fidelity::elements)
+}

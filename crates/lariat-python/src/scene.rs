@@ -1,0 +1,191 @@
+//! Runs of scenes, and sweeps over them. Tables, progress and clusters are in `lariat.run` and `lariat.sweep`.
+
+use crate::convert::{data, object, table};
+use crate::error::{Raise, raise};
+use lariat_scene::run::{self, Options, Recording};
+use lariat_scene::sweep::{self, Row, Source, Store};
+use lariat_scene::{Error, Purpose, Scene};
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::{Duration, Instant};
+
+/// Shortest wall time between two calls into Python.
+const TELL_EVERY: Duration = Duration::from_millis(100);
+
+/// What a run in memory leaves: summary, probes, page, motion.
+type Run<'py> = (Bound<'py, PyAny>, Bound<'py, PyDict>, Option<Bound<'py, PyAny>>, Recorded);
+
+/// A run that is kept, for its page and its motion.
+#[pyclass(frozen, module = "lariat._lariat")]
+pub struct Recorded(Mutex<Recording>);
+
+#[pymethods]
+impl Recorded {
+    /// The page that plays the motion.
+    fn page(&self, py: Python<'_>) -> String {
+        py.detach(|| self.0.lock().unwrap_or_else(|poisoned| poisoned.into_inner()).page())
+    }
+
+    /// The motion as OpenUSD.
+    fn usd(&self, py: Python<'_>) -> String {
+        py.detach(|| self.0.lock().unwrap_or_else(|poisoned| poisoned.into_inner()).usd())
+    }
+}
+
+/// Calls into Python from a computation, not too often.
+struct Teller {
+    function: Option<Py<PyAny>>,
+    last: Option<Instant>,
+    failed: Option<PyErr>,
+}
+
+impl Teller {
+    fn new(function: Option<Py<PyAny>>) -> Self {
+        Teller { function, last: None, failed: None }
+    }
+
+    /// Tells a number and looks for signals; returns whether to go on.
+    fn tell(&mut self, number: f64) -> bool {
+        if self.last.is_some_and(|last| last.elapsed() < TELL_EVERY) {
+            return self.failed.is_none();
+        }
+        self.last = Some(Instant::now());
+        let outcome = Python::attach(|py| {
+            py.check_signals()?;
+            match &self.function {
+                Some(function) => function.call1(py, (number,)).map(|_| ()),
+                None => Ok(()),
+            }
+        });
+        self.failed = self.failed.take().or(outcome.err());
+        self.failed.is_none()
+    }
+}
+
+/// Returns a scene as TOML.
+#[pyfunction]
+pub fn to_toml(scene: &Bound<'_, PyDict>) -> PyResult<String> {
+    let wrong = |problem: String| raise(Raise::new("SceneError", format!("not a scene: {problem}")));
+    let value: toml::Table = serde_json::from_value(data(scene)?).map_err(|error| wrong(error.to_string()))?;
+    toml::to_string(&value).map_err(|error| wrong(error.to_string()))
+}
+
+/// Returns the cables of a MuJoCo model as a scene in TOML.
+#[pyfunction]
+pub fn import_mjcf(file: &str, text: &str) -> PyResult<String> {
+    lariat_scene::mjcf::import(file, text).map_err(raise)
+}
+
+/// Runs a scene, or finds its equilibrium. Returns the summary, the rows of the probes, the exception of a
+/// run that failed, and the run.
+#[pyfunction]
+#[pyo3(signature = (file, text, overrides, *, statics=false, progress=None))]
+pub fn run_scene<'py>(
+    py: Python<'py>,
+    file: &str,
+    text: &str,
+    overrides: Vec<String>,
+    statics: bool,
+    progress: Option<Py<PyAny>>,
+) -> PyResult<Run<'py>> {
+    let purpose = if statics { Purpose::Static } else { Purpose::Run };
+    let stop = Arc::new(AtomicBool::new(false));
+    let mut teller = Teller::new(progress);
+    let recording = py.detach(|| {
+        let scene = Scene::parse(file, text, &overrides, purpose)?;
+        let flag = Arc::clone(&stop);
+        let mut report = |time: f64| {
+            if !teller.tell(time) {
+                flag.store(true, Ordering::Relaxed);
+            }
+        };
+        run::collect(&scene, purpose, &mut Options { stop, progress: Some(&mut report), ..Options::default() })
+    });
+    if let Some(error) = teller.failed {
+        return Err(error);
+    }
+    let mut recording: Recording = recording.map_err(raise::<Error>)?;
+    let summary = object(py, &serde_json::to_value(&recording.summary).unwrap_or_default())?;
+    let probes = PyDict::new(py);
+    for probe in &mut recording.probes {
+        let rows = table(py, core::mem::take(&mut probe.rows), probe.columns.len())?;
+        probes.set_item(&probe.name, (probe.columns, rows))?;
+    }
+    let failed = recording.failed.take().map(|error| raise(error).into_value(py).into_bound(py).into_any());
+    Ok((summary, probes, failed, Recorded(Mutex::new(recording))))
+}
+
+fn line(row: &Row) -> String {
+    serde_json::to_string(row).unwrap_or_default()
+}
+
+/// Runs a scene with overrides and returns its row, as JSON.
+#[pyfunction]
+pub fn sweep_row(py: Python<'_>, file: &str, text: &str, settings: Vec<String>) -> String {
+    py.detach(|| line(&Source { file, text }.row(&settings)))
+}
+
+/// Returns the rows of a folder that are done, as JSON; None for the others.
+#[pyfunction]
+pub fn sweep_done(file: &str, text: &str, points: Vec<Vec<String>>, out: PathBuf) -> PyResult<Vec<Option<String>>> {
+    let store = Store::open(&out, &Source { file, text }).map_err(raise)?;
+    Ok(points.iter().map(|point| store.done(point).map(line)).collect())
+}
+
+/// Appends a row to the rows of a folder.
+#[pyfunction]
+pub fn sweep_append(file: &str, text: &str, row: &str, out: PathBuf) -> PyResult<()> {
+    let row: Row = serde_json::from_str(row).map_err(|e| raise(Raise::new("FormatError", e.to_string())))?;
+    Store::open(&out, &Source { file, text }).and_then(|store| store.append(&row)).map_err(raise)
+}
+
+/// Writes `table.csv`.
+#[pyfunction]
+pub fn sweep_table(rows: Vec<String>, out: PathBuf) -> PyResult<()> {
+    let rows = rows.iter().map(|row| serde_json::from_str(row)).collect::<Result<Vec<Row>, _>>();
+    let rows = rows.map_err(|e| raise(Raise::new("FormatError", e.to_string())))?;
+    sweep::write_table(&out, &rows).map(|_| ()).map_err(raise)
+}
+
+/// Runs a scene with each of these settings on `threads` threads (0: all), and returns the rows as JSON.
+#[pyfunction]
+#[pyo3(signature = (file, text, points, out=None, *, threads=0, progress=None))]
+pub fn sweep_local(
+    py: Python<'_>,
+    file: &str,
+    text: &str,
+    points: Vec<Vec<String>>,
+    out: Option<PathBuf>,
+    threads: usize,
+    progress: Option<Py<PyAny>>,
+) -> PyResult<Vec<String>> {
+    let teller = Mutex::new((Teller::new(progress), 0usize));
+    let rows = py.detach(|| {
+        let source = Source { file, text };
+        let store = out.as_deref().map(|out: &Path| Store::open(out, &source)).transpose()?;
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
+        let each = |_: &Row, _: bool| {
+            let mut teller = teller.lock().unwrap_or_else(|poisoned| poisoned.into_inner());
+            teller.1 += 1;
+            let done = teller.1;
+            if done == points.len() {
+                teller.0.last = None;
+            }
+            teller.0.tell(done as f64)
+        };
+        let run = || sweep::sweep(&source, &points, store.as_ref(), &each);
+        match pool {
+            Ok(pool) => pool.install(run),
+            Err(_) => run(),
+        }
+    });
+    let rows = rows.map_err(raise::<Error>);
+    if let Some(error) = teller.into_inner().unwrap_or_else(|poisoned| poisoned.into_inner()).0.failed {
+        return Err(error);
+    }
+    Ok(rows?.iter().map(line).collect())
+}

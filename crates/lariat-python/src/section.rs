@@ -1,0 +1,114 @@
+//! `Section`: stiffness and mass of a cable.
+
+use crate::error::raise;
+use lariat_ancf as ancf;
+use pyo3::prelude::*;
+use pyo3::types::PyTuple;
+
+/// Axial stiffness, bending stiffness and mass per length of a cable.
+#[pyclass(frozen, module = "lariat")]
+#[derive(Clone)]
+pub struct Section(pub ancf::Section);
+
+fn made(section: Result<ancf::Section, ancf::Error>) -> PyResult<Section> {
+    section.map(Section).map_err(raise)
+}
+
+#[pymethods]
+impl Section {
+    /// Measured stiffness: EA in N, EI in N m^2, mass per unstretched length in kg/m; optionally the diameter in m (for drag and drawing)
+    /// and the area in m^2 inside its outline (for buoyancy).
+    #[new]
+    #[pyo3(signature = (axial_stiffness, bending_stiffness, mass_per_length, *, diameter=None, outer_area=None))]
+    fn new(
+        axial_stiffness: f64,
+        bending_stiffness: f64,
+        mass_per_length: f64,
+        diameter: Option<f64>,
+        outer_area: Option<f64>,
+    ) -> PyResult<Self> {
+        for (what, value) in [("diameter (m)", diameter), ("outer area (m^2)", outer_area)] {
+            if let Some(value) = value.filter(|x| !(x.is_finite() && *x > 0.0)) {
+                let (cable, what, expected) = (None, what.to_string(), "> 0");
+                return Err(raise(ancf::Error::InvalidValue { cable, what, value, expected }));
+            }
+        }
+        let section = made(ancf::Section::from_stiffness(axial_stiffness, bending_stiffness, mass_per_length))?.0;
+        Ok(Section(ancf::Section { diameter, outer_area, ..section }))
+    }
+
+    /// A solid round section: diameter in m, Young's modulus in Pa, density in kg/m^3.
+    #[staticmethod]
+    fn round(diameter: f64, youngs_modulus: f64, density: f64) -> PyResult<Self> {
+        made(ancf::Section::round(diameter, youngs_modulus, density))
+    }
+
+    /// A solid square section: side in m, Young's modulus in Pa, density in kg/m^3.
+    #[staticmethod]
+    fn square(side: f64, youngs_modulus: f64, density: f64) -> PyResult<Self> {
+        made(ancf::Section::square(side, youngs_modulus, density))
+    }
+
+    /// A tube: outer and inner diameter in m, Young's modulus in Pa, density in kg/m^3.
+    #[staticmethod]
+    fn tube(outer: f64, inner: f64, youngs_modulus: f64, density: f64) -> PyResult<Self> {
+        made(ancf::Section::tube(outer, inner, youngs_modulus, density))
+    }
+
+    /// A steel wire rope, 6x36WS with an independent wire rope core, of this nominal diameter in m.
+    #[staticmethod]
+    fn wire_rope(diameter: f64) -> PyResult<Self> {
+        made(ancf::Section::wire_rope(diameter))
+    }
+
+    /// EA in N.
+    #[getter]
+    fn axial_stiffness(&self) -> f64 {
+        self.0.axial_stiffness
+    }
+
+    /// EI in N m^2.
+    #[getter]
+    fn bending_stiffness(&self) -> f64 {
+        self.0.bending_stiffness
+    }
+
+    /// Mass per unstretched length in kg/m.
+    #[getter]
+    fn mass_per_length(&self) -> f64 {
+        self.0.mass_per_length
+    }
+
+    /// Outer diameter or side in m; None if no shape was given.
+    #[getter]
+    fn diameter(&self) -> Option<f64> {
+        self.0.diameter
+    }
+
+    /// Area inside the outline in m^2; None if no shape was given.
+    #[getter]
+    fn outer_area(&self) -> Option<f64> {
+        self.0.outer_area
+    }
+
+    fn __repr__(&self) -> String {
+        let ancf::Section { axial_stiffness, bending_stiffness, mass_per_length, diameter, outer_area } = self.0;
+        let option = |x: Option<f64>| x.map_or("None".to_string(), |x| format!("{x:?}"));
+        format!(
+            "Section({axial_stiffness:?}, {bending_stiffness:?}, {mass_per_length:?}, diameter={}, outer_area={})",
+            option(diameter),
+            option(outer_area)
+        )
+    }
+
+    fn __eq__(&self, other: &Self) -> bool {
+        self.0 == other.0
+    }
+
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyTuple>)> {
+        let ancf::Section { axial_stiffness, bending_stiffness, mass_per_length, diameter, outer_area } = slf.get().0;
+        let numbers = (axial_stiffness, bending_stiffness, mass_per_length, diameter, outer_area);
+        let restore = slf.py().import("lariat.results")?.getattr("section")?;
+        Ok((restore, numbers.into_pyobject(slf.py())?))
+    }
+}

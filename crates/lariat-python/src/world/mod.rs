@@ -1,0 +1,289 @@
+//! `World`: rapier3d with cables on its bodies. Bodies are in `bodies`.
+
+mod bodies;
+
+use crate::cable::Cable;
+use crate::convert::{Place, Vector, result, vector};
+use crate::error::{Raise, raise};
+use crate::integrator::fidelity;
+use crate::shared::Shared;
+use bodies::{Handle, single};
+use lariat_rapier::rapier::dynamics::RigidBodyHandle;
+use lariat_rapier::rapier::pipeline::PhysicsWorld;
+use lariat_rapier::{AttachmentHandle, AttachmentKind, CableHandle, CableSet, Error, Event, Gap, Settings};
+use pyo3::prelude::*;
+use pyo3::types::{PyBytes, PyList};
+use serde::{Deserialize, Serialize};
+use std::borrow::Cow;
+
+const MAGIC: &str = concat!("lariat world ", env!("CARGO_PKG_VERSION"), "\n");
+
+/// Bodies and cables.
+#[derive(Serialize, Deserialize)]
+pub struct Contents {
+    pub world: PhysicsWorld,
+    pub set: CableSet,
+    /// Simulated time in s.
+    pub time: f64,
+    /// Bodies of the user, in the order in which they were added.
+    pub bodies: Vec<RigidBodyHandle>,
+    /// Attachments in the order of their numbers.
+    pub attachments: Vec<AttachmentHandle>,
+}
+
+/// A world of rigid bodies and cables.
+#[pyclass(frozen, module = "lariat")]
+pub struct World(pub Shared<Contents>);
+
+/// Returns the kind of an attachment by its name.
+fn kind(name: &str) -> PyResult<AttachmentKind> {
+    match name {
+        "ball" => Ok(AttachmentKind::Ball),
+        "clamp" => Ok(AttachmentKind::Clamp),
+        _ => Err(raise(Raise::new("UnknownKindError", format!("expected \"ball\" or \"clamp\", got {name:?}")))),
+    }
+}
+
+impl Contents {
+    fn attachment(&self, number: usize) -> Result<AttachmentHandle, Raise> {
+        let none = || Raise::new("NoAttachmentError", format!("no attachment {number} in this world"));
+        self.attachments.get(number).copied().ok_or_else(none)
+    }
+
+    fn add_attachment(&mut self, handle: AttachmentHandle) -> usize {
+        self.attachments.push(handle);
+        self.attachments.len() - 1
+    }
+}
+
+#[pymethods]
+impl World {
+    #[new]
+    #[pyo3(signature = (gravity=None, *, dt=1.0/60.0, fidelity="game", rapier_steps=1, max_rapier_steps=32, sleep_speed=2e-3))]
+    fn new(
+        gravity: Option<Vector>,
+        dt: f64,
+        fidelity: &str,
+        rapier_steps: u32,
+        max_rapier_steps: u32,
+        sleep_speed: f64,
+    ) -> PyResult<Self> {
+        let mut world = PhysicsWorld::new();
+        world.gravity = single("gravity (m/s^2)", gravity.map_or(lariat_ancf::STANDARD_GRAVITY, |v| v.0))?;
+        world.integration_parameters.dt = bodies::positive("dt (s)", dt)?;
+        let mut set = CableSet::new();
+        if !(sleep_speed.is_finite() && sleep_speed >= 0.0) {
+            return Err(bodies::invalid("sleep_speed (m/s)", sleep_speed, ">= 0"));
+        }
+        if rapier_steps == 0 {
+            return Err(bodies::invalid("rapier_steps", 0.0, "> 0"));
+        }
+        set.settings = Settings { rapier_steps, max_rapier_steps, sleep_speed, fidelity: self::fidelity(fidelity)? };
+        Ok(World(Shared::new(Contents { world, set, time: 0.0, bodies: Vec::new(), attachments: Vec::new() })))
+    }
+
+    /// Advances bodies and cables by `dt`.
+    fn step(&self, py: Python<'_>) -> PyResult<()> {
+        let outcome = self.0.compute(py, |Contents { world, set, time, .. }| {
+            let outcome = set.step(world);
+            if matches!(outcome, Ok(()) | Err(Error::StepRefused { .. })) {
+                *time += f64::from(world.integration_parameters.dt);
+            }
+            outcome
+        });
+        outcome.map_err(raise)
+    }
+
+    /// Adds a copy of a cable, and returns it as a part of this world.
+    fn add_cable(&self, py: Python<'_>, cable: &Cable) -> PyResult<Cable> {
+        let cable = cable.copied(py)?;
+        let handle = self.0.compute(py, |contents| contents.set.insert(cable));
+        Ok(Cable::of_world(self.0.clone(), handle))
+    }
+
+    /// All cables.
+    #[getter]
+    fn cables(&self, py: Python<'_>) -> Vec<Cable> {
+        let handles: Vec<CableHandle> = self.0.with(py, |contents| contents.set.iter().map(|(h, _)| h).collect());
+        handles.into_iter().map(|handle| Cable::of_world(self.0.clone(), handle)).collect()
+    }
+
+    /// Removes a cable with its attachments, and returns it by itself.
+    fn remove_cable(&self, py: Python<'_>, cable: &Cable) -> PyResult<Cable> {
+        let handle = cable.handle_in(&self.0)?;
+        let removed = self.0.compute(py, |Contents { world, set, .. }| set.remove(world, handle));
+        removed.map(Cable::new).map_err(raise)
+    }
+
+    /// Cuts a cable; it keeps the part before the point, the other is returned.
+    fn cut(&self, py: Python<'_>, cable: &Cable, at: Place) -> PyResult<Cable> {
+        let handle = cable.handle_in(&self.0)?;
+        let rest = self.0.compute(py, |contents| contents.set.cut(handle, at.0)).map_err(raise)?;
+        Ok(Cable::of_world(self.0.clone(), rest))
+    }
+
+    /// Sets the tension in N above which a cable breaks; None: it does not.
+    #[pyo3(signature = (cable, strength))]
+    fn set_strength(&self, py: Python<'_>, cable: &Cable, strength: Option<f64>) -> PyResult<()> {
+        if let Some(value) = strength.filter(|x| !(x.is_finite() && *x > 0.0)) {
+            return Err(bodies::invalid("strength (N)", value, "> 0"));
+        }
+        let handle = cable.handle_in(&self.0)?;
+        self.0.with(py, |contents| contents.set.set_strength(handle, strength)).map_err(raise)
+    }
+
+    /// Attaches a point of a cable to a body: at `anchor` (m, body axes), by default where the point is now.
+    #[pyo3(signature = (cable, at, body, anchor=None, *, kind="ball", gap=1e-3))]
+    fn attach(
+        &self,
+        py: Python<'_>,
+        cable: &Cable,
+        at: Place,
+        body: Handle,
+        anchor: Option<Vector>,
+        kind: &str,
+        gap: Option<f64>,
+    ) -> PyResult<usize> {
+        let (handle, kind) = (cable.handle_in(&self.0)?, self::kind(kind)?);
+        let attached = self.0.compute(py, |contents| {
+            let Contents { world, set, .. } = contents;
+            let attachment = match anchor {
+                None => set.attach_here(world, handle, at.0, body.0, kind),
+                Some(Vector(anchor)) => {
+                    let options = kind.with_gap(gap.map_or(Gap::Close, Gap::Refuse));
+                    set.attach(world, handle, at.0, body.0, anchor, options)
+                }
+            };
+            attachment.map(|attachment| contents.add_attachment(attachment))
+        });
+        attached.map_err(raise)
+    }
+
+    /// Ends an attachment.
+    fn detach(&self, py: Python<'_>, attachment: usize) -> PyResult<()> {
+        let outcome = self.0.compute(py, |contents| {
+            let handle = contents.attachment(attachment)?;
+            contents.set.detach(&mut contents.world, handle).map_err(Raise::from)
+        });
+        outcome.map_err(raise)
+    }
+
+    /// What a cable does to its body at an attachment, after the last step.
+    fn attachment<'py>(&self, py: Python<'py>, attachment: usize) -> PyResult<Bound<'py, PyAny>> {
+        let reading = self.0.with(py, |contents| {
+            let handle = contents.attachment(attachment)?;
+            contents.set.attachment(handle).map(|attachment| *attachment.reading()).map_err(Raise::from)
+        });
+        let reading = reading.map_err(raise)?;
+        let [force, moment, gap] = [reading.force, reading.moment, reading.gap].map(|v| vector(py, &v));
+        result(py, "Attachment", (force, moment, gap, reading.work))
+    }
+
+    /// Ties a point of a cable to a point of another.
+    fn join(&self, py: Python<'_>, first: &Cable, at: Place, second: &Cable, second_at: Place) -> PyResult<()> {
+        let ends = ((first.handle_in(&self.0)?, at.0), (second.handle_in(&self.0)?, second_at.0));
+        self.0.compute(py, |contents| contents.set.join(ends.0, ends.1)).map(|_| ()).map_err(raise)
+    }
+
+    /// Moves cables and the bodies on them to static equilibrium; returns whether all of it is stable.
+    fn equilibrium(&self, py: Python<'_>) -> PyResult<bool> {
+        let found = self.0.compute(py, |Contents { world, set, .. }| set.equilibrium(world));
+        found.map(|found| found.is_stable()).map_err(raise)
+    }
+
+    /// Whether a cable is asleep with the bodies attached to it.
+    fn is_asleep(&self, py: Python<'_>, cable: &Cable) -> PyResult<bool> {
+        let handle = cable.handle_in(&self.0)?;
+        self.0.with(py, |contents| contents.set.is_asleep(handle)).map_err(raise)
+    }
+
+    /// Events of the last step.
+    fn events<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyList>> {
+        let events = self.0.with(py, |contents| contents.set.events().to_vec());
+        let list = PyList::empty(py);
+        for event in events {
+            let cable = |handle: CableHandle| Cable::of_world(self.0.clone(), handle);
+            let none = || (None::<Cable>, None::<Cable>, None::<f64>, None::<f64>);
+            let (kind, (first, rest, s, tension)) = match event {
+                Event::Asleep(handle) => ("asleep".to_string(), (Some(cable(handle)), None, None, None)),
+                Event::Awake(handle) => ("awake".to_string(), (Some(cable(handle)), None, None, None)),
+                Event::Broken { cable: handle, rest, arc_length, tension } => {
+                    ("broken".to_string(), (Some(cable(handle)), Some(cable(rest)), Some(arc_length), Some(tension)))
+                }
+                Event::AttachmentEnded { .. } => ("attachment ended".to_string(), none()),
+                other => (format!("{other:?}"), none()),
+            };
+            list.append(result(py, "Event", (kind, first, rest, s, tension))?)?;
+        }
+        Ok(list)
+    }
+
+    /// Energies of cables and bodies in J.
+    fn energy<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        let energy = self.0.with(py, |contents| contents.set.energy(&contents.world)).map_err(raise)?;
+        let cables = energy.cables;
+        let cables = result(py, "Energy", (cables.kinetic, cables.axial, cables.bending, cables.gravity))?;
+        result(py, "WorldEnergy", (cables, energy.bodies_kinetic, energy.bodies_gravity))
+    }
+
+    /// Momentum of cables and bodies.
+    fn momentum<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        let momentum = self.0.with(py, |contents| contents.set.momentum(&contents.world)).map_err(raise)?;
+        result(py, "Momentum", (vector(py, &momentum.linear), vector(py, &momentum.angular)))
+    }
+
+    /// Simulated time in s.
+    #[getter]
+    fn time(&self, py: Python<'_>) -> f64 {
+        self.0.with(py, |contents| contents.time)
+    }
+
+    /// The host step in s.
+    #[getter]
+    fn dt(&self, py: Python<'_>) -> f64 {
+        self.0.with(py, |contents| f64::from(contents.world.integration_parameters.dt))
+    }
+
+    #[setter]
+    fn set_dt(&self, py: Python<'_>, value: f64) -> PyResult<()> {
+        let dt = bodies::positive("dt (s)", value)?;
+        self.0.with(py, |contents| contents.world.integration_parameters.dt = dt);
+        Ok(())
+    }
+
+    /// Gravity in m/s^2, shape (3,).
+    #[getter]
+    fn gravity<'py>(&self, py: Python<'py>) -> Bound<'py, numpy::PyArray1<f64>> {
+        vector(py, &lariat_rapier::convert::vector(self.0.with(py, |contents| contents.world.gravity)))
+    }
+
+    #[setter]
+    fn set_gravity(&self, py: Python<'_>, value: Vector) -> PyResult<()> {
+        let gravity = single("gravity (m/s^2)", value.0)?;
+        self.0.with(py, |contents| contents.world.gravity = gravity);
+        Ok(())
+    }
+
+    /// Returns bodies and cables as bytes; `restore` continues the run bitwise.
+    fn snapshot<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyBytes>> {
+        let bytes = self.0.compute(py, |contents| rmp_serde::to_vec_named(contents));
+        let bytes = bytes.map_err(|error| raise(Raise::new("FormatError", error.to_string())))?;
+        Ok(PyBytes::new(py, &[MAGIC.as_bytes(), &bytes].concat()))
+    }
+
+    /// Returns a world from the bytes of `snapshot`, of the same version.
+    #[staticmethod]
+    fn restore(bytes: Cow<'_, [u8]>) -> PyResult<Self> {
+        let wrong = |problem: String| raise(Raise::new("FormatError", format!("not a saved world: {problem}")));
+        let Some(body) = bytes.strip_prefix(MAGIC.as_bytes()) else {
+            return Err(wrong(format!("it does not begin with {MAGIC:?}")));
+        };
+        let contents = rmp_serde::from_slice(body).map_err(|error| wrong(error.to_string()))?;
+        Ok(World(Shared::new(contents)))
+    }
+
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, (Bound<'py, PyBytes>,))> {
+        let restore = slf.get_type().getattr("restore")?;
+        Ok((restore, (slf.get().snapshot(slf.py())?,)))
+    }
+}

@@ -1,0 +1,155 @@
+"""Co-simulation: forces on prescribed ends, momentum, impedance against beam theory, MuJoCo."""
+
+from __future__ import annotations
+
+import pickle
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import lariat
+from lariat import errors
+from lariat.types import Fidelity
+
+sys.path.insert(0, str(Path(__file__).parents[1] / "examples"))
+
+EA, EI, MASS, LENGTH = 1e5, 40.0, 0.5, 2.0
+
+
+def straight(**arguments: object) -> lariat.Cable:
+    section = lariat.Section(EA, EI, MASS)
+    return lariat.Cable([[0, 0, 0], [LENGTH, 0, 0]], section, elements=8, **arguments)  # type: ignore[arg-type]
+
+
+def test_an_end_at_rest_carries_half_of_a_hanging_cable() -> None:
+    """After it has settled, the forces of both ends add up to the weight (statics)."""
+    cable = lariat.Cable([[0, 0, 0], [1.5, 0, 0]], lariat.Section(1e4, 0.01, 0.3), length=2.0, fix="start", effects=lariat.Damping(0.05, 0.05))
+    coupling = lariat.CoSimulation(cable)
+    coupling.attach("end", [1.5, 0.2, 0])
+    for _ in range(600):
+        forces = coupling.step(1 / 60, [[1.5, 0.2, 0]])
+    assert forces.force[0, 1] == pytest.approx(-0.5 * 0.3 * 2.0 * 9.81, rel=1e-3)
+    assert forces.moment[0] == pytest.approx(np.cross([0, -0.2, 0], forces.force[0]), abs=1e-12)
+    assert abs(forces.work[0]) < 1e-12
+
+
+def defect(fidelity: Fidelity, moving: float) -> float:
+    """Returns the momentum in shares of weight x time that is in neither the bodies nor the cable, for ends that accelerate smoothly."""
+    cable = straight(fidelity=fidelity)
+    coupling = lariat.CoSimulation(cable)
+    coupling.attach("start", [0, 0, 0])
+    coupling.attach("end", [2.0, 0, 0], clamp=True)
+    dt, steps, before, impulse = 1 / 400, 80, cable.momentum().linear, np.zeros(3)
+    for k in range(1, steps + 1):
+        t = k * dt
+        a = moving * 0.2 * np.sin(3 * t) ** 2
+        forces = coupling.step(
+            dt,
+            [[moving * 0.1 * np.sin(5 * t) ** 2, 0, 0], [2.0 - moving * 0.2 * t**2, moving * 0.2 * t**2, moving * 0.1 * t**2]],
+            [[0, 0, 0, 1], [0, 0, np.sin(a / 2), np.cos(a / 2)]],
+            [[moving * 0.5 * np.sin(10 * t), 0, 0], [-moving * 0.4 * t, moving * 0.4 * t, moving * 0.2 * t]],
+            [[0, 0, 0], [0, 0, moving * 0.6 * np.sin(6 * t)]],
+        )
+        impulse += dt * forces.force.sum(axis=0)
+    weight = MASS * LENGTH * 9.81 * steps * dt
+    lost = impulse - [0, -weight, 0] + cable.momentum().linear - before
+    return float(np.abs(lost).max()) / weight
+
+
+def test_impulses_are_what_the_cable_loses() -> None:
+    """Momentum: J on the bodies = weight x time - change of the cable's momentum (Newton). At ends at rest within the tolerance of
+    Newton's iteration (game) or of the trapezoidal rule (engineering); at ends that accelerate, within 2 % of the weight."""
+    assert defect("game", 0.0) < 1e-4
+    assert defect("engineering", 0.0) < 1e-3
+    assert defect("game", 1.0) < 2e-2
+    assert defect("engineering", 1.0) < 2e-2
+
+
+def test_ends_follow_their_bodies_exactly() -> None:
+    cable = straight()
+    coupling = lariat.CoSimulation(cable)
+    coupling.attach("end", [2.0, 0.3, 0.0], [0, 0, 0, 1])
+    turn = 0.4
+    coupling.step(0.05, [[1.9, 0.2, 0.1]], [[0, 0, np.sin(turn / 2), np.cos(turn / 2)]])
+    arm = np.array([0.3 * np.sin(turn), -0.3 * np.cos(turn), 0.0])
+    assert cable.positions[-1] == pytest.approx(np.array([1.9, 0.2, 0.1]) + arm, abs=1e-9)
+
+
+def test_impedance_of_long_steps_is_the_stiffness_of_a_beam() -> None:
+    """Z/h^2 of a clamped straight beam for h so long that inertia vanishes: EA/L, 12 EI/L^3, 6 EI/L^2, 4 EI/L (Euler-Bernoulli)."""
+    coupling = lariat.CoSimulation(straight(clamp="start", gravity=[0, 0, 0]))
+    coupling.attach("end", [LENGTH, 0, 0], clamp=True)
+    h = 1e3
+    z = coupling.impedance(h) / h**2
+    assert z == pytest.approx(z.T, rel=1e-9, abs=1e-6)
+    assert z[0, 0] == pytest.approx(EA / LENGTH, rel=1e-6)
+    for across, about, sign in ((1, 5, -1), (2, 4, 1)):
+        assert z[across, across] == pytest.approx(12 * EI / LENGTH**3, rel=1e-4)
+        assert z[about, about] == pytest.approx(4 * EI / LENGTH, rel=1e-4)
+        assert z[across, about] == pytest.approx(sign * 6 * EI / LENGTH**2, rel=1e-4)
+    assert z[3] == pytest.approx(np.zeros(6), abs=1e-9)
+
+
+def test_impedance_of_short_steps_is_inertia() -> None:
+    """Both ends of a free cable that move together as h goes to 0: no more than its mass, and positive definite."""
+    coupling = lariat.CoSimulation(straight())
+    for at in ("start", "end"):
+        coupling.attach(at, [0.0 if at == "start" else LENGTH, 0, 0])  # type: ignore[arg-type]
+    z = coupling.impedance(1e-6)
+    together = np.zeros(12)
+    together[[0, 6]] = 1.0
+    assert 0.0 < together @ z @ together < MASS * LENGTH
+    assert np.linalg.eigvalsh(z).min() > -1e-12
+
+
+def test_impedance_predicts_how_impulses_change() -> None:
+    """dJ = -Z dv, against the difference of two steps of one implicit Euler-like step (TR-BDF2, one step), along the cable: within the
+    difference of the two methods, a third."""
+    h, dv = 1 / 500, 1e-3
+    integrator = lariat.Integrator("tr-bdf2", substeps=1)
+    coupling = lariat.CoSimulation(straight(fix="start", integrator=integrator, gravity=[0, 0, 0]))
+    coupling.attach("end", [LENGTH, 0, 0])
+    z = coupling.impedance(h)
+    saved = coupling.to_bytes()
+    impulse = []
+    for v in (0.0, dv):
+        other = lariat.CoSimulation.from_bytes(saved)
+        forces = other.step(h, [[LENGTH + h * v, 0, 0]], velocities=[[v, 0, 0]])
+        impulse.append(h * forces.end_force[0, 0])
+    assert impulse[1] - impulse[0] == pytest.approx(-z[0, 0] * dv, rel=0.5)
+
+
+def test_a_saved_co_simulation_continues_bitwise() -> None:
+    coupling = lariat.CoSimulation(straight(fix="start"))
+    coupling.attach("end", [2.0, 0.1, 0.0], clamp=True)
+    coupling.step(0.01, [[2.0, 0.11, 0.0]])
+    other = pickle.loads(pickle.dumps(coupling))
+    for c in (coupling, other):
+        c.step(0.01, [[2.0, 0.12, 0.0]])
+    assert coupling.to_bytes() == other.to_bytes()
+
+
+def test_a_failed_step_leaves_all_as_before() -> None:
+    coupling = lariat.CoSimulation(straight(fix="start", integrator=lariat.Integrator("verlet", substeps=1)))
+    coupling.attach("end", [2.0, 0.0, 0.0])
+    cable = coupling.cable
+    before = (cable.coordinates, cable.rates, cable.time)
+    with pytest.raises(errors.StepFailedError):
+        coupling.step(1.0, [[2.0, 0.0, 0.0]])
+    with pytest.raises(errors.ShapeError):
+        coupling.step(0.01, [2.0, 0.0, 0.0])
+    with pytest.raises(errors.AttachedError):
+        coupling.cable.step(0.01)
+    assert (cable.coordinates == before[0]).all() and (cable.rates == before[1]).all() and cable.time == before[2]
+
+
+def test_a_body_of_mujoco_swings_as_the_reference_does() -> None:
+    """50 kg on the cable, an independent monolithic code (assets/scenes/payload_pendulum.toml): within 1e-2 m at steps of 1/500 s."""
+    pytest.importorskip("mujoco")
+    import mujoco_payload  # type: ignore[import-not-found]
+
+    for fidelity in ("engineering", "game"):
+        errors_at, _ = mujoco_payload.on_lariat(fidelity=fidelity)
+        assert max(errors_at.values()) < 1e-2, (fidelity, errors_at)

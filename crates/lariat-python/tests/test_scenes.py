@@ -1,0 +1,110 @@
+"""Runs of scenes: files, dicts, probes, failures, pages, OpenUSD."""
+
+from __future__ import annotations
+
+import builtins
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+from common import SCENES
+
+import lariat
+from lariat import errors
+
+ROPE = {
+    "duration": 0.1,
+    "dt": 0.01,
+    "cable": [{"name": "rope", "points": [[0, 0, 0], [2, 0, 0]], "section": {"square": 0.01}, "density": 4000.0, "youngs_modulus": 1e8}],
+    "attachment": [{"cable": "rope", "at": "start", "body": "world"}],
+    "probe": [{"name": "tip", "cable": "rope", "at": "end"}],
+}  # fmt: skip
+
+
+def test_a_file_runs_and_its_probes_are_arrays() -> None:
+    """The crate after 0.5 s is at (1.70292, -1.21801) m: an independent monolithic code."""
+    run = lariat.run(SCENES / "payload_pendulum.toml", set={"duration": 0.5}, progress=False)
+    hook, crate = run.probes["hook"], run.probes["crate"]
+    assert hook.force.shape == (len(run.t), 3) and run.t[-1] == 0.5
+    assert np.linalg.norm(crate.position[-1, :2] - [1.70292, -1.21801]) < 6e-3
+    assert hook.gap is not None and (hook["fx"] == hook.force[:, 0]).all() and hook.moment.shape == hook.force.shape
+    assert run.summary["simulated_s"] == 0.5 and run.summary["failed"] is None
+
+
+def test_a_dict_is_the_same_scene_as_its_text() -> None:
+    run = lariat.run(ROPE)
+    text = lariat._lariat.to_toml(ROPE)  # type: ignore[arg-type]
+    assert (lariat.run(text).probes["tip"].rows == run.probes["tip"].rows).all()
+    arrays = {**ROPE, "cable": [{**ROPE["cable"][0], "points": np.array([[0.0, 0, 0], [2, 0, 0]])}]}  # type: ignore[index]
+    assert (lariat.run(arrays).probes["tip"].rows == run.probes["tip"].rows).all()
+
+
+def test_statics_have_one_sample() -> None:
+    """The tip of a rope that hangs from its start is its length below it."""
+    run = lariat.statics(ROPE)
+    assert len(run.probes["tip"]) == 1
+    assert run.probes["tip"].position[0] == pytest.approx([0, -2, 0], abs=1e-2)
+
+
+def test_a_scene_that_is_not_accepted_says_where() -> None:
+    with pytest.raises(errors.SceneError) as error:
+        lariat.run(ROPE, set={"cable.rope.elements": 0})
+    assert error.value.__dict__["key"] == "cable.rope.elements" and error.value.__dict__["accepted"]
+    with pytest.raises(errors.ReadError):
+        lariat.run("no such file.toml")
+    with pytest.raises(errors.OverrideError):
+        lariat.run(ROPE, set={"cable.slin.elements": 3})
+    with pytest.raises(errors.SceneError):
+        lariat.run({"cable": [{"name": None}]})
+
+
+def test_a_run_that_fails_keeps_its_samples() -> None:
+    stiff = {**ROPE, "cable": [{**ROPE["cable"][0], "youngs_modulus": 1e12, "integrator": {"method": "verlet", "substeps": 1}}]}  # type: ignore[index]
+    with pytest.raises(lariat.Error) as error:
+        lariat.run(stiff)
+    run = error.value.__dict__["run"]
+    assert len(run.probes["tip"]) >= 1 and run.summary["failed"]
+
+
+def test_a_notebook_shows_the_page(tmp_path: Path) -> None:
+    run = lariat.run(ROPE)
+    shown = run._repr_html_()
+    assert shown.startswith("<iframe srcdoc=") and "&lt;html" in shown and "<html" not in shown
+    run.save(tmp_path)
+    assert (tmp_path / "view.html").read_text(encoding="utf-8") == run.page()
+    rows = np.loadtxt(tmp_path / "probes" / "tip.csv", delimiter=",", skiprows=1)
+    assert (rows == run.probes["tip"].rows).all()
+
+
+def test_progress_is_told_without_tqdm(monkeypatch: pytest.MonkeyPatch) -> None:
+    real = builtins.__import__
+
+    def without(name: str, *rest: object) -> object:
+        if name.startswith("tqdm"):
+            raise ImportError(name)
+        return real(name, *rest)  # type: ignore[arg-type]
+
+    monkeypatch.setattr(builtins, "__import__", without)
+    monkeypatch.delitem(sys.modules, "tqdm.auto", raising=False)
+    assert len(lariat.run(ROPE).probes["tip"]) == 11
+
+
+def test_the_motion_is_opened_by_openusd(tmp_path: Path) -> None:
+    """Positions in the file are those of the probes, in single precision."""
+    pxr = pytest.importorskip("pxr")
+    from pxr import Usd, UsdGeom
+
+    assert pxr
+    run = lariat.run(SCENES / "payload_pendulum.toml", set={"duration": 0.5}, progress=False)
+    run.save_usd(tmp_path / "run.usda")
+    stage = Usd.Stage.Open(str(tmp_path / "run.usda"))
+    sling = UsdGeom.BasisCurves(stage.GetPrimAtPath("/World/sling"))
+    points = np.array(sling.GetPointsAttr().Get(500.0))
+    assert len(points) == 3 * 10 + 1 and list(sling.GetCurveVertexCountsAttr().Get()) == [31]
+    crate = UsdGeom.Xformable(stage.GetPrimAtPath("/World/crate")).ComputeLocalToWorldTransform(500.0)
+    assert list(crate.ExtractTranslation()) == pytest.approx(run.probes["crate"].position[-1], abs=1e-6)
+    top = np.array(crate.Transform((0.0, 0.1, 0.0)))
+    assert points[-1] == pytest.approx(top, abs=1e-4)
+    stiffness = stage.GetPrimAtPath("/World/sling").GetAttribute("lariat:axialStiffness").Get()
+    assert stiffness == pytest.approx(1e9 * 1e-4)

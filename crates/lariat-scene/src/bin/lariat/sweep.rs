@@ -1,0 +1,70 @@
+//! `lariat sweep`: runs of a scene over a grid of values.
+
+use clap::Args;
+use indicatif::{ProgressBar, ProgressStyle};
+use lariat_scene::sweep::{self, Row, Source, Store};
+use lariat_scene::{Error, Purpose, Scene};
+use std::path::PathBuf;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+#[derive(Args)]
+pub struct SweepArguments {
+    /// Scene file (TOML)
+    scene: PathBuf,
+    /// Folder for the results; what is done there is not run again
+    #[arg(long, value_name = "DIR")]
+    out: PathBuf,
+    /// Values of a key, such as cable.sling.elements=10,20; may be repeated: all combinations are run
+    #[arg(long, value_name = "KEY=A,B,C", required = true)]
+    vary: Vec<String>,
+    /// Override a key in all runs
+    #[arg(long, value_name = "KEY=VALUE")]
+    set: Vec<String>,
+}
+
+/// Runs the sweep, and returns what to print.
+pub fn run(arguments: &SweepArguments) -> Result<String, Error> {
+    let file = arguments.scene.display().to_string();
+    let read = |source| Error::Read { path: arguments.scene.clone(), source };
+    let text = std::fs::read_to_string(&arguments.scene).map_err(read)?;
+    let source = Source { file: &file, text: &text };
+    let points = sweep::grid(&arguments.vary)?;
+    let points: Vec<Vec<String>> = points.into_iter().map(|point| [&arguments.set[..], &point].concat()).collect();
+    // a key that does not exist is an error of all runs
+    if let Some(first) = points.first() {
+        Scene::parse(&file, &text, first, Purpose::Run)?;
+    }
+    let store = Store::open(&arguments.out, &source)?;
+    let stop = Arc::new(AtomicBool::new(false));
+    let flag = Arc::clone(&stop);
+    let _ = ctrlc::set_handler(move || {
+        if flag.swap(true, Ordering::Relaxed) {
+            std::process::exit(130);
+        }
+    });
+    let style = ProgressStyle::with_template("{wide_bar} {pos}/{len} {msg} (ETA {eta})");
+    let bar = ProgressBar::new(points.len() as u64);
+    if let Ok(style) = style {
+        bar.set_style(style);
+    }
+    let each = |row: &Row, _: bool| {
+        if let Some(error) = &row.error {
+            bar.println(format!("failed: {}: {error}", row.settings.join(" ")));
+        }
+        bar.inc(1);
+        !stop.load(Ordering::Relaxed)
+    };
+    let rows = sweep::sweep(&source, &points, Some(&store), &each)?;
+    bar.finish_and_clear();
+    let table = sweep::write_table(&arguments.out, &rows)?;
+    let failed = rows.iter().filter(|row| row.error.is_some()).count();
+    let known = points.iter().filter(|point| store.done(point).is_some()).count();
+    let missing = points.len() - rows.len();
+    let mut text =
+        format!("{} runs: {failed} failed, {known} were done before\ntable: {}\n", rows.len(), table.display());
+    if missing > 0 {
+        text += &format!("interrupted: {missing} runs are missing; run the same command to continue\n");
+    }
+    Ok(text)
+}

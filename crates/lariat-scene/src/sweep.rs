@@ -1,0 +1,245 @@
+//! Runs of one scene over a grid of values, on all threads: one row of results per run.
+//!
+//! A run that fails is a row with its error, and no other run is lost. With a folder every row is appended to `rows.jsonl` as soon as its
+//! run ends, and a later sweep into the same folder takes from there what was done, failed runs included: a run is deterministic. Rows
+//! belong to the text of the scene and the version of the program; files that a scene names are not compared.
+//!
+//! Results do not depend on the number of threads, but for the times `cpu_s`, `wall_s` and `real_time_factor`.
+
+use crate::error::Error;
+use crate::run::{self, Options, ProbeRecord, Summary};
+use crate::scene::{Purpose, Scene};
+use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
+use std::collections::{BTreeMap, HashMap};
+use std::fs::{self, File, OpenOptions};
+use std::io::{self, Write as _};
+use std::path::{Path, PathBuf};
+use std::sync::Mutex;
+
+/// The file of the rows.
+const ROWS: &str = "rows.jsonl";
+/// The table of a whole sweep.
+const TABLE: &str = "table.csv";
+/// Columns that differ between two runs of the same.
+pub const TIMES: [&str; 3] = ["cpu_s", "wall_s", "real_time_factor"];
+
+/// A scene by its text.
+#[derive(Clone, Copy, Debug)]
+pub struct Source<'a> {
+    /// The name of its file, in errors; meshes are looked for in its folder.
+    pub file: &'a str,
+    /// The text.
+    pub text: &'a str,
+}
+
+/// The result of one run.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Row {
+    /// What the run was of: a checksum of the scene and the version of the program.
+    pub of: String,
+    /// Overrides `KEY=VALUE`.
+    pub settings: Vec<String>,
+    /// Results by name: the numbers of the summary, and `PROBE.COLUMN.last`, `.min` and `.max` of each probe.
+    pub results: BTreeMap<String, Option<f64>>,
+    /// Warnings.
+    pub warnings: Vec<String>,
+    /// Why the run failed, if it did.
+    pub error: Option<String>,
+}
+
+/// Returns all combinations of `KEY=A,B,C`, as overrides; the last key varies fastest.
+///
+/// # Errors
+/// [`Error::Override`] for an argument without a key or values.
+pub fn grid(arguments: &[String]) -> Result<Vec<Vec<String>>, Error> {
+    let mut points = vec![Vec::new()];
+    for argument in arguments {
+        let fail = || Error::Override {
+            argument: argument.clone(),
+            problem: "no values; accepted: KEY=A,B,C, such as cable.sling.elements=10,20".to_string(),
+        };
+        let (key, list) = argument.split_once('=').ok_or_else(fail)?;
+        let values = values_of(list);
+        if values.is_empty() || key.trim().is_empty() {
+            return Err(fail());
+        }
+        points = points
+            .iter()
+            .flat_map(|point| {
+                values.iter().map(move |value| [&point[..], &[format!("{}={value}", key.trim())]].concat())
+            })
+            .collect();
+    }
+    Ok(points)
+}
+
+/// Returns the values of a list: those of a TOML array, else texts between commas.
+fn values_of(list: &str) -> Vec<String> {
+    let table = format!("x = [{list}]").parse::<toml::Table>();
+    match table.ok().and_then(|mut table| table.remove("x")) {
+        Some(toml::Value::Array(items)) => items.iter().map(toml::Value::to_string).collect(),
+        _ => list.split(',').map(|text| text.trim().to_string()).filter(|text| !text.is_empty()).collect(),
+    }
+}
+
+impl Source<'_> {
+    /// Returns what rows of this scene are of: the FNV-1a checksum of its text, and the version.
+    fn checksum(&self) -> String {
+        let step = |hash: u64, byte: &u8| (hash ^ u64::from(*byte)).wrapping_mul(0x0000_0100_0000_01b3);
+        let hash = self.text.as_bytes().iter().fold(0xcbf2_9ce4_8422_2325, step);
+        format!("{hash:016x} {}", env!("CARGO_PKG_VERSION"))
+    }
+
+    /// Runs the scene with overrides.
+    pub fn row(&self, settings: &[String]) -> Row {
+        let mut row = Row {
+            of: self.checksum(),
+            settings: settings.to_vec(),
+            results: BTreeMap::new(),
+            warnings: Vec::new(),
+            error: None,
+        };
+        let recording = Scene::parse(self.file, self.text, settings, Purpose::Run)
+            .and_then(|scene| run::collect(&scene, Purpose::Run, &mut Options::default()));
+        match recording {
+            Err(error) => row.error = Some(error.to_string()),
+            Ok(recording) => {
+                row.results = results(&recording.summary, &recording.probes);
+                row.warnings = recording.summary.warnings.iter().map(ToString::to_string).collect();
+                row.error = recording.failed.map(|error| error.to_string());
+            }
+        }
+        row
+    }
+}
+
+fn results(summary: &Summary, probes: &[ProbeRecord]) -> BTreeMap<String, Option<f64>> {
+    let mut results = BTreeMap::new();
+    if let Ok(serde_json::Value::Object(fields)) = serde_json::to_value(summary) {
+        results.extend(fields.into_iter().filter_map(|(key, value)| value.as_f64().map(|x| (key, Some(x)))));
+    }
+    let finite = |x: f64| Some(x).filter(|x| x.is_finite());
+    for probe in probes {
+        let columns = probe.columns.len();
+        for (c, column) in probe.columns.iter().enumerate().skip(1) {
+            let values = || probe.rows.iter().skip(c).step_by(columns).copied();
+            let (Some(last), name) = (values().last(), format!("{}.{column}", probe.name)) else { continue };
+            results.insert(format!("{name}.last"), finite(last));
+            results.insert(format!("{name}.min"), finite(values().fold(f64::INFINITY, f64::min)));
+            results.insert(format!("{name}.max"), finite(values().fold(f64::NEG_INFINITY, f64::max)));
+        }
+    }
+    results
+}
+
+/// The rows of a sweep in a folder.
+pub struct Store {
+    path: PathBuf,
+    file: Mutex<File>,
+    done: HashMap<Vec<String>, Row>,
+}
+
+impl Store {
+    /// Opens the rows of a scene in a folder, which is created if it does not exist. A line that was not written to its end is ignored.
+    ///
+    /// # Errors
+    /// [`Error::Output`].
+    pub fn open(folder: &Path, source: &Source<'_>) -> Result<Self, Error> {
+        let path = folder.join(ROWS);
+        let fail = |source: io::Error| Error::Output { path: path.clone(), source };
+        fs::create_dir_all(folder).map_err(fail)?;
+        let text = match fs::read_to_string(&path) {
+            Ok(text) => text,
+            Err(error) if error.kind() == io::ErrorKind::NotFound => String::new(),
+            Err(error) => return Err(fail(error)),
+        };
+        let checksum = source.checksum();
+        let rows = text.lines().filter_map(|line| serde_json::from_str::<Row>(line).ok());
+        let done = rows.filter(|row| row.of == checksum).map(|row| (row.settings.clone(), row)).collect();
+        let mut file = OpenOptions::new().create(true).append(true).open(&path).map_err(fail)?;
+        if !text.is_empty() && !text.ends_with('\n') {
+            file.write_all(b"\n").map_err(fail)?;
+        }
+        Ok(Store { path: path.clone(), file: Mutex::new(file), done })
+    }
+
+    /// Returns the row of these settings, if it was done before the store was opened.
+    pub fn done(&self, settings: &[String]) -> Option<&Row> {
+        self.done.get(settings)
+    }
+
+    /// Appends a row.
+    ///
+    /// # Errors
+    /// [`Error::Output`].
+    pub fn append(&self, row: &Row) -> Result<(), Error> {
+        let line = serde_json::to_string(row).unwrap_or_default() + "\n";
+        let mut file = self.file.lock().unwrap_or_else(|poisoned| poisoned.into_inner());
+        file.write_all(line.as_bytes()).map_err(|source| Error::Output { path: self.path.clone(), source })
+    }
+}
+
+/// Runs a scene with each of these settings on the threads of rayon's present pool, and returns the rows in their order. `each` is called
+/// when a row is there, with whether it was done before; false from it stops the sweep, and the rows that are missing are left out.
+///
+/// # Errors
+/// [`Error::Output`] if a row cannot be written; those before are kept.
+pub fn sweep(
+    source: &Source<'_>,
+    points: &[Vec<String>],
+    store: Option<&Store>,
+    each: &(dyn Fn(&Row, bool) -> bool + Sync),
+) -> Result<Vec<Row>, Error> {
+    let run = |settings: &Vec<String>| {
+        let before = store.and_then(|store| store.done(settings)).cloned();
+        let known = before.is_some();
+        let row = before.unwrap_or_else(|| source.row(settings));
+        if let (Some(store), false) = (store, known) {
+            store.append(&row)?;
+        }
+        Ok((each(&row, known), row))
+    };
+    // one by one, so that a thread is never left with a run of several
+    let rows: Vec<Option<Result<(bool, Row), Error>>> = {
+        let stopped = std::sync::atomic::AtomicBool::new(false);
+        let relaxed = std::sync::atomic::Ordering::Relaxed;
+        let guarded = |settings| {
+            if stopped.load(relaxed) {
+                return None;
+            }
+            let outcome = run(settings);
+            stopped.fetch_or(!matches!(outcome, Ok((true, _))), relaxed);
+            Some(outcome)
+        };
+        points.par_iter().with_max_len(1).map(guarded).collect()
+    };
+    rows.into_iter().flatten().map(|row| row.map(|(_, row)| row)).collect()
+}
+
+/// Writes rows as one table, `table.csv`: settings, results, number of warnings, error.
+///
+/// # Errors
+/// [`Error::Output`].
+pub fn write_table(folder: &Path, rows: &[Row]) -> Result<PathBuf, Error> {
+    let path = folder.join(TABLE);
+    let key = |setting: &String| setting.split_once('=').map_or("", |(key, _)| key).to_string();
+    let keys: Vec<String> = rows.first().map(|row| row.settings.iter().map(key).collect()).unwrap_or_default();
+    let names: std::collections::BTreeSet<&String> = rows.iter().flat_map(|row| row.results.keys()).collect();
+    let write = || -> Result<(), csv::Error> {
+        let mut table = csv::Writer::from_path(&path)?;
+        let own = ["warnings".to_string(), "error".to_string()];
+        table.write_record(keys.iter().chain(names.iter().copied()).chain(&own))?;
+        for row in rows {
+            let settings = row.settings.iter().map(|s| s.split_once('=').map_or("", |(_, value)| value).to_string());
+            let number =
+                |name: &&String| row.results.get(*name).copied().flatten().map_or(String::new(), |x| format!("{x:?}"));
+            let own = [row.warnings.len().to_string(), row.error.clone().unwrap_or_default()];
+            table.write_record(settings.chain(names.iter().map(number)).chain(own))?;
+        }
+        table.flush()?;
+        Ok(())
+    };
+    write().map_err(|error| Error::Output { path: path.clone(), source: io::Error::other(error) })?;
+    Ok(path)
+}

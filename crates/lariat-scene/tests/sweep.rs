@@ -1,0 +1,146 @@
+//! Sweeps and runs in memory: every combination is a row, a failure loses no other run, a restart skips what is done.
+
+use lariat_scene::run::{self, Options};
+use lariat_scene::sweep::{self, Row, Source, Store, TIMES};
+use lariat_scene::{Purpose, Scene};
+use std::fs;
+use std::process::Command;
+
+const TEXT: &str = r#"
+duration = 0.1
+dt = 0.01
+[[cable]]
+name = "rope"
+points = [[0.0, 0.0, 0.0], [2.0, 0.0, 0.0]]
+elements = 4
+section = { square = 0.01 }
+density = 4000.0
+youngs_modulus = 1.0e8
+[[attachment]]
+cable = "rope"
+at = "start"
+body = "world"
+[[probe]]
+name = "tip"
+cable = "rope"
+at = "end"
+"#;
+const SOURCE: Source<'_> = Source { file: "rope.toml", text: TEXT };
+
+fn grid() -> Vec<Vec<String>> {
+    sweep::grid(&["cable.rope.elements=2,3".to_string(), "duration=0.05,-1,0.1".to_string()]).unwrap()
+}
+
+fn swept(points: &[Vec<String>], store: Option<&Store>) -> Vec<Row> {
+    sweep::sweep(&SOURCE, points, store, &|_, _| true).unwrap()
+}
+
+/// Without the times, which differ from run to run.
+fn results(rows: &[Row]) -> Vec<Row> {
+    let mut rows = rows.to_vec();
+    rows.iter_mut().for_each(|row| row.results.retain(|name, _| !TIMES.contains(&name.as_str())));
+    rows
+}
+
+#[test]
+fn a_grid_has_all_combinations_in_order() {
+    let points = grid();
+    assert_eq!(points.len(), 6);
+    assert_eq!(points[0], ["cable.rope.elements=2", "duration=0.05"]);
+    assert_eq!(points[5], ["cable.rope.elements=3", "duration=0.1"]);
+    let names = sweep::grid(&[
+        "fidelity=game,engineering".to_string(),
+        "gravity=[0.0, -1.0, 0.0],[0.0, -9.81, 0.0]".to_string(),
+    ]);
+    let names = names.unwrap();
+    assert_eq!(names.len(), 4);
+    assert_eq!(names[1], ["fidelity=game", "gravity=[0.0, -9.81, 0.0]"]);
+    assert!(sweep::grid(&["duration".to_string()]).is_err() && sweep::grid(&["duration=".to_string()]).is_err());
+}
+
+/// A row is what a run by itself writes; the runs of duration -1 fail, and no other.
+#[test]
+fn rows_are_those_of_single_runs_and_failures_lose_none() {
+    let rows = swept(&grid(), None);
+    assert_eq!(
+        rows.iter().map(|row| row.error.is_some()).collect::<Vec<_>>(),
+        [false, true, false, false, true, false]
+    );
+    for row in rows.iter().filter(|row| row.error.is_none()) {
+        let scene = Scene::parse("rope.toml", TEXT, &row.settings, Purpose::Run).unwrap();
+        let folder = tempfile::tempdir().unwrap();
+        let summary = run::run(&scene, folder.path(), &mut Options::default()).unwrap();
+        assert_eq!(row.results["steps"], Some(summary.steps as f64));
+        let file = fs::read_to_string(folder.path().join("probes/tip.csv")).unwrap();
+        let columns: Vec<&str> = file.lines().next().unwrap().split(',').collect();
+        let last: Vec<f64> = file.lines().last().unwrap().split(',').map(|x| x.parse().unwrap()).collect();
+        for (column, last) in columns.iter().zip(last).skip(1) {
+            assert_eq!(row.results[&format!("tip.{column}.last")], Some(last), "{column}");
+        }
+    }
+}
+
+#[test]
+fn a_restart_runs_only_what_is_missing() {
+    let folder = tempfile::tempdir().unwrap();
+    let points = grid();
+    let first = swept(&points[..2], Some(&Store::open(folder.path(), &SOURCE).unwrap()));
+    // a line that was not written to its end
+    let path = folder.path().join("rows.jsonl");
+    fs::write(&path, fs::read_to_string(&path).unwrap() + "{\"of\": \"").unwrap();
+    let store = Store::open(folder.path(), &SOURCE).unwrap();
+    let known = std::sync::Mutex::new(0);
+    let count = |_: &Row, before: bool| {
+        *known.lock().unwrap() += usize::from(before);
+        true
+    };
+    let rows = sweep::sweep(&SOURCE, &points, Some(&store), &count).unwrap();
+    assert_eq!(*known.lock().unwrap(), 2);
+    // with the times of the first run: it was not run again
+    assert_eq!(rows[..2], first);
+    assert_eq!(results(&rows), results(&swept(&points, None)));
+    let other = Source { text: &TEXT.replace("elements = 4", "elements = 5"), ..SOURCE };
+    assert!(Store::open(folder.path(), &other).unwrap().done(&points[0]).is_none());
+}
+
+#[test]
+fn the_command_writes_one_table() {
+    let folder = tempfile::tempdir().unwrap();
+    let (scene, out) = (folder.path().join("rope.toml"), folder.path().join("out"));
+    fs::write(&scene, TEXT).unwrap();
+    let sweep = || {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_lariat"));
+        command.arg("sweep").arg(&scene).arg("--out").arg(&out);
+        command.args(["--vary", "cable.rope.elements=2,3", "--vary", "duration=0.05,0.1"]).output().unwrap()
+    };
+    let printed = String::from_utf8(sweep().stdout).unwrap();
+    assert!(printed.starts_with("4 runs: 0 failed, 0 were done before"), "{printed}");
+    assert!(String::from_utf8(sweep().stdout).unwrap().starts_with("4 runs: 0 failed, 4 were done before"));
+    let table = fs::read_to_string(out.join("table.csv")).unwrap();
+    assert_eq!(table.lines().count(), 5);
+    assert!(table.starts_with("cable.rope.elements,duration,"), "{table}");
+    let mut wrong = Command::new(env!("CARGO_BIN_EXE_lariat"));
+    let wrong =
+        wrong.arg("sweep").arg(&scene).arg("--out").arg(&out).args(["--vary", "cable.rope.element=2,3"]).output();
+    assert_eq!(wrong.unwrap().status.code(), Some(2));
+}
+
+/// The curve of a cable in the file begins at its support, and ends where the probe of its end is.
+#[test]
+fn a_run_is_written_as_openusd() {
+    let scene = Scene::parse("rope.toml", TEXT, &[], Purpose::Run).unwrap();
+    let folder = tempfile::tempdir().unwrap();
+    run::run(&scene, folder.path(), &mut Options { usd: true, ..Options::default() }).unwrap();
+    let text = fs::read_to_string(folder.path().join("run.usda")).unwrap();
+    assert!(text.starts_with("#usda 1.0") && text.contains("def BasisCurves \"rope\""), "{text}");
+    assert!(text.contains("curveVertexCounts = [13]") && text.contains("custom double lariat:axialStiffness = 10000"));
+    let recording = run::collect(&scene, Purpose::Run, &mut Options::default()).unwrap();
+    assert_eq!(recording.usd(), text);
+    let tip = &recording.probes[0];
+    let last: Vec<f32> = tip.rows[tip.rows.len() - tip.columns.len() + 1..][..3].iter().map(|&x| x as f32).collect();
+    let end = format!("({}, {}, {})],\n        }}", last[0], last[1], last[2]);
+    assert!(text.contains(&end), "{end}");
+    // a run without it removes the file of the last
+    run::run(&scene, folder.path(), &mut Options::default()).unwrap();
+    assert!(!folder.path().join("run.usda").exists());
+}
