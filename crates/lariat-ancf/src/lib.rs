@@ -28,6 +28,7 @@
 //! | [`effect`] | one file per effect: damping, drag, buoyancy, rest shape ..., and forces per length of your own |
 //! | [`integrate`] | one file per time integrator, over one trait, which other crates can implement |
 //! | `statics` | static equilibrium: [`Cable::equilibrium`] |
+//! | [`study`] | runs to a given error: mesh and tolerance chosen, and the error proven |
 //! | [`island`] | cables and rigid bodies pinned together, as one system, for couplings to physics engines |
 //!
 //! Public for tests and benchmarks of the numerics, and for the matrices that [`Cable`] returns; no rope needs them, and they may change
@@ -55,6 +56,7 @@ mod section;
 mod simd;
 mod statics;
 mod strength;
+pub mod study;
 mod support;
 mod system;
 

@@ -186,6 +186,26 @@ pub enum Error {
         /// Why.
         source: io::Error,
     },
+    /// An error that was asked for and cannot be proven.
+    #[error(
+        "--error {error}: accepted: a finite number of at least {least:.1e} m, which {reason} allows in this scene"
+    )]
+    ErrorTooSmall {
+        /// The error in m.
+        error: f64,
+        /// Least error in m.
+        least: f64,
+        /// What allows no less.
+        reason: &'static str,
+    },
+    /// Runs that cannot be compared.
+    #[error("--error {error}: {problem}")]
+    Study {
+        /// The error in m.
+        error: f64,
+        /// Why.
+        problem: String,
+    },
     /// A failed step, or a cable without equilibrium. Names the cable and the time.
     #[error("{}{source}", moment(source, *time))]
     Mechanics {
@@ -234,8 +254,13 @@ impl Error {
             | Error::NoSuchKey { .. }
             | Error::Import { .. }
             | Error::Read { .. }
+            | Error::ErrorTooSmall { .. }
             | Error::Output { .. } => 2,
-            Error::Write { .. } | Error::Mechanics { .. } | Error::Body { .. } | Error::Coupling { .. } => 3,
+            Error::Study { .. }
+            | Error::Write { .. }
+            | Error::Mechanics { .. }
+            | Error::Body { .. }
+            | Error::Coupling { .. } => 3,
             Error::Interrupted { .. } => 130,
         }
     }

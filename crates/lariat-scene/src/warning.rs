@@ -145,6 +145,65 @@ pub enum Warning {
         /// Its distance from the surface in m.
         depth_m: f64,
     },
+    /// Integration makes energy.
+    #[error(
+        "the run makes energy: {made_j:.1e} J until {time_s:.4} s, {percent:.2} % of the largest energy or work ({scale_j:.3e} J): take a smaller tolerance, \
+         shorter steps, or the discrete gradient (fidelity = \"game\"), which makes none", percent = 100.0 * .made_j / .scale_j
+    )]
+    EnergyMade {
+        /// Time in s.
+        time_s: f64,
+        /// Energy made in J.
+        made_j: f64,
+        /// Largest energy or work so far in J.
+        scale_j: f64,
+    },
+    /// Integration takes energy.
+    #[error(
+        "integration takes {lost_j:.1e} J until {time_s:.4} s, {percent:.1} % of the largest energy or work ({scale_j:.3e} J), besides damping and drag: the \
+         motion is damped that much; take a smaller tolerance or shorter steps", percent = 100.0 * .lost_j / .scale_j
+    )]
+    EnergyLost {
+        /// Time in s.
+        time_s: f64,
+        /// Energy lost in J.
+        lost_j: f64,
+        /// Largest energy or work so far in J.
+        scale_j: f64,
+    },
+    /// An error that was asked for is not proven, because refining does not help.
+    #[error(
+        "the error of {asked_m:e} m is not proven{}: meshes up to elements = {elements} do not come closer{}", until(*.horizon_s, *.estimate_m),
+        branches(*.other_branch)
+    )]
+    NoConvergence {
+        /// Error that was asked for in m.
+        asked_m: f64,
+        /// Estimate of the error in m, if the meshes could be compared.
+        estimate_m: Option<f64>,
+        /// Elements of the cable that has most.
+        elements: usize,
+        /// First host time in s at which the error is not proven.
+        horizon_s: Option<f64>,
+        /// True if the runs are apart by more than a tenth of the longest cable.
+        other_branch: bool,
+    },
+    /// An error that was asked for is not proven with as many elements as are tried.
+    #[error("the error of {asked_m:e} m is not proven{} with elements = {elements}, the most that are tried{}", until(*.horizon_s, *.estimate_m),
+        branches(*.other_branch)
+    )]
+    ErrorNotReached {
+        /// Error that was asked for in m.
+        asked_m: f64,
+        /// Estimate of the error in m, if the meshes could be compared.
+        estimate_m: Option<f64>,
+        /// Elements of the cable that has most.
+        elements: usize,
+        /// First host time in s at which the error is not proven.
+        horizon_s: Option<f64>,
+        /// True if the runs are apart by more than a tenth of the longest cable.
+        other_branch: bool,
+    },
     /// A rule with zero-energy modes, as the scene allows.
     #[error("cable {cable:?}: rule {rule} has zero-energy modes, as allowed: {reason}")]
     RankDeficient {
@@ -182,6 +241,19 @@ pub enum Warning {
         /// Difference of the velocities in m/s.
         difference_m_s: f64,
     },
+}
+
+fn until(horizon: Option<f64>, estimate: Option<f64>) -> String {
+    let horizon = horizon.map_or(String::new(), |time| format!(" from {time:.4} s on"));
+    estimate.map_or(horizon.clone(), |estimate| format!("{horizon} (estimate {estimate:.1e} m)"))
+}
+
+fn branches(other: bool) -> &'static str {
+    if other {
+        "; the runs follow different branches: several equilibria, or a motion that its start does not determine"
+    } else {
+        ""
+    }
 }
 
 fn compressed(rule: &str, compression: Option<f64>) -> String {

@@ -58,6 +58,7 @@ fn a_run_writes_its_probes_and_a_summary_with_every_key() {
         "max_gap_m",
         "energy_start_j",
         "energy_end_j",
+        "energy_balance",
         "warnings",
         "failed",
     ];
@@ -101,6 +102,27 @@ fn warnings_go_to_stderr_once_and_change_no_exit_code() {
     assert!(page.contains("falls_freely") && page.contains("coarse_mesh"));
 }
 
+/// What `--error` claims is printed and in summary.json; what cannot be proven is a warning, and no failure.
+#[test]
+fn an_error_that_is_asked_for_is_claimed_or_told_to_be_out_of_reach() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("out");
+    let to = out.to_str().unwrap();
+    let output = lariat(&["static", &scene("cantilever"), "--out", to, "--error", "1e-3"]);
+    let printed = String::from_utf8_lossy(&output.stdout).into_owned();
+    assert!(output.status.success() && stderr(&output).is_empty(), "{}", stderr(&output));
+    let error = summary(&out).error.unwrap();
+    let claimed = format!("error of positions at most {:.1e} m", error.claim.claimed_m.unwrap());
+    assert!(printed.contains(&claimed) && printed.contains("not covered: the model"), "{printed}");
+    assert!(printed.contains(&format!("elements \"beam\" {}", error.claim.elements)), "{printed}");
+    let rest = ["--out", to, "--error", "1e-2", "--set", "duration=4.5"];
+    let output = lariat(&[&["run", &scene("falling_pendulum")], &rest[..]].concat());
+    let (told, printed) = (stderr(&output), String::from_utf8_lossy(&output.stdout).into_owned());
+    let horizon = summary(&out).error.unwrap().claim.horizon_s.unwrap();
+    assert!(output.status.success() && told.contains(&format!("not proven from {horizon:.4} s on")), "{told}");
+    assert!(printed.contains("at most 1e-2 m before"), "{printed}");
+}
+
 #[test]
 fn bad_input_exits_with_2_and_writes_nothing() {
     let folder = tempfile::tempdir().unwrap();
@@ -109,6 +131,7 @@ fn bad_input_exits_with_2_and_writes_nothing() {
     let file = scene("falling_pendulum");
     for (arguments, fragment) in [
         (vec!["run", &file, "--out", to, "--set", "cable.pendulum.elements=0"], "elements"),
+        (vec!["run", &file, "--out", to, "--error", "1e-12"], "--error"),
         (vec!["run", "no/such/scene.toml", "--out", to], "no/such/scene.toml"),
         (vec!["run", &file], "--out"),
         (vec!["fly"], "fly"),

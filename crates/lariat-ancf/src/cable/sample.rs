@@ -58,6 +58,12 @@ impl Cable {
         Ok(self.sample_in(e, xi))
     }
 
+    /// Returns the position at an arc length in m, which is on the cable.
+    pub(crate) fn position_at(&self, arc_length: f64) -> Vector3<f64> {
+        let (e, xi) = self.model.locate(arc_length);
+        combine(self.positions(), e, shape::position(xi, self.model.elements[e].length))
+    }
+
     /// Returns the state at a local coordinate of an element.
     pub(crate) fn sample_in(&self, e: usize, xi: f64) -> Sample {
         let element = &self.model.elements[e];

@@ -66,7 +66,8 @@ impl Cable {
         &self.snapshot.state.v
     }
 
-    /// Returns the terms of the energy law of the method `discrete-gradient`, since the cable was built.
+    /// Returns the terms of the energy law since the cable was built: of an island that steps by `discrete-gradient`, its first cable has those of
+    /// all.
     pub fn energy_law(&self) -> &EnergyLaw {
         &self.snapshot.law
     }

@@ -31,6 +31,12 @@ pub trait Dynamics {
     /// Overwrites prescribed coordinates and velocities by their values at `time`.
     fn prescribe(&self, time: f64, q: &mut [f64], v: &mut [f64]);
 
+    /// Puts prescribed coordinates and velocities in place at the beginning of a host step. What that does to kinetic energy is work of the
+    /// supports.
+    fn place(&mut self, state: &mut State) {
+        self.prescribe(state.time, &mut state.q, &mut state.v);
+    }
+
     /// Computes the acceleration at a state, prescribed components included.
     ///
     /// # Errors

@@ -189,7 +189,7 @@ fn prepare(system: &mut dyn Dynamics, state: &mut State, algorithmic: bool) -> R
         return Ok(());
     }
     state.memory.acceleration.resize(n, 0.0);
-    system.prescribe(state.time, &mut state.q, &mut state.v);
+    system.place(state);
     system
         .acceleration(state.time, &state.q, &state.v, &mut state.memory.acceleration)
         .map_err(|failure| FailedStep { time: state.time, step: 0.0, failure })?;

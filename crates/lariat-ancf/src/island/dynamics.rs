@@ -129,6 +129,15 @@ impl Dynamics for IslandDynamics<'_, '_> {
         self.equations.layout.size()
     }
 
+    fn place(&mut self, state: &mut State) {
+        let time = state.time;
+        for (cable, part) in self.equations.cables.iter_mut().zip(&self.equations.layout.parts) {
+            let (q, v) = (&mut state.q[part.range()], &mut state.v[part.range()]);
+            cable.equations().0.place_supports(time, q, v);
+        }
+        self.prescribe(time, &mut state.q, &mut state.v);
+    }
+
     fn prescribe(&self, time: f64, q: &mut [f64], v: &mut [f64]) {
         for (cable, part) in self.equations.parts() {
             for (node, support) in &cable.model.supports {
@@ -279,7 +288,7 @@ impl Dynamics for IslandDynamics<'_, '_> {
 
     fn step_accepted(&mut self, before: &State, after: &State, h: f64) {
         for (cable, part) in self.equations.cables.iter_mut().zip(&self.equations.layout.parts) {
-            cable.equations().0.add_effect_work(before, after, h, part.range());
+            cable.equations().0.add_work(before, after, h, part.range());
         }
     }
 

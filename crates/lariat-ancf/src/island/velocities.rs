@@ -23,9 +23,9 @@ const JUMP_ROUNDING: f64 = 1e-10;
 impl IslandDynamics<'_, '_> {
     /// Gives pinned nodes the velocity of their bodies, by an inelastic impact.
     pub(super) fn match_velocities(&mut self, state: &mut State) -> Result<(), StepFailure> {
+        self.vectors.jump.copy_from_slice(&state.v);
+        self.place(state);
         let State { time, q, v, memory } = state;
-        self.vectors.jump.copy_from_slice(v);
-        self.prescribe(*time, q, v);
         let layout = self.equations.layout;
         let jump = &mut self.vectors.jump;
         for (jump, v) in jump.iter_mut().zip(v.iter()) {

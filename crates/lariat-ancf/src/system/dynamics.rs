@@ -82,6 +82,10 @@ impl Dynamics for CableDynamics<'_> {
         self.equations.prescribe(time, q, v);
     }
 
+    fn place(&mut self, state: &mut State) {
+        self.equations.place_supports(state.time, &mut state.q, &mut state.v);
+    }
+
     fn acceleration(&mut self, time: f64, q: &[f64], v: &[f64], acceleration: &mut [f64]) -> Result<(), StepFailure> {
         let CableDynamics { equations, buffers: Buffers { rhs, z, .. } } = self;
         equations.begin_acceleration(time)?;
@@ -163,7 +167,7 @@ impl Dynamics for CableDynamics<'_> {
     }
 
     fn step_accepted(&mut self, before: &State, after: &State, h: f64) {
-        self.equations.add_effect_work(before, after, h, 0..after.q.len());
+        self.equations.add_work(before, after, h, 0..after.q.len());
     }
 
     fn spurious_energy(&mut self, before: &State, after: &State, h: f64) -> Option<(f64, f64)> {

@@ -1,6 +1,18 @@
-//! Work of effects and change of energy over a step of one cable.
+//! Work of effects, loads and supports, and change of energy, over a step of one cable.
 //!
 //! # Equation
+//!
+//! The work of a force over a step is that along the cubic `q(s)` through positions and velocities at both ends of the step:
+//!
+//! ```text
+//! effects, loads   int F(q(s), q'(s), t) . q'(s) ds                     2 Gauss points
+//! effects          h F(q(1/2), dq/h, t) . dq/h                          if the step is not resolved
+//! supports         int ((1 - s) R0 + s R1) . q'(s) ds                   R = M q'' - F of prescribed coordinates
+//! ```
+//!
+//! A step is not resolved if the power along the cubic is more than twice that of the mean velocity `dq/h`: velocities at its ends are then
+//! transients that the method damps. Accelerations are not used, because `h q''` is no velocity that the cable has.
+//! Spurious energy is
 //!
 //! ```text
 //! spurious = T + U + V (after) - T + U + V (before) - external work
@@ -21,6 +33,7 @@ use crate::effect::acts::{ForceInput, PointForce};
 use crate::effect::work::{POINTS, hermite};
 use crate::integrate::{EnergyLaw, State};
 use crate::load::PointLoad;
+use crate::support::Support;
 use core::ops::Range;
 use nalgebra::Vector3;
 
@@ -32,7 +45,7 @@ pub(crate) struct EnergyMeter {
     pub work_of_step: EffectWork,
     /// Work of a reel and of the material that enters in the present host step, in J.
     pub reel_work: f64,
-    /// The energy law of the discrete gradient in the present host step.
+    /// The energy law of the present host step.
     pub law: EnergyLaw,
     q: Vec<f64>,
     v: Vec<f64>,
@@ -46,6 +59,11 @@ impl EnergyMeter {
         self.reel_work = 0.0;
         self.law = EnergyLaw::default();
     }
+}
+
+/// Returns whether a support does work: it moves, and is none of an island's.
+fn moves((_, support): &(usize, Support)) -> bool {
+    !support.attached && !support.is_still()
 }
 
 /// Rounding error of the total energy, as a share of it.
@@ -62,43 +80,120 @@ pub(crate) struct EnergyChange {
 }
 
 impl Equations<'_> {
-    /// Adds the work of effects in a step of length `h` (s); `range` is the cable's part of the states.
-    pub fn add_effect_work(&mut self, before: &State, after: &State, h: f64, range: Range<usize>) {
+    /// Adds the work of effects, point loads and moving supports in a step of length `h` (s); `range` is the cable's part of the states.
+    pub fn add_work(&mut self, before: &State, after: &State, h: f64, range: Range<usize>) {
         if self.system.flow.is_some() {
             self.system.meter.reel_work += self.flow_work(before, after, h, range.end);
         }
-        let system = &mut *self.system;
-        let (forces, meter) = (&mut system.forces, &mut system.meter);
-        let in_element = forces.in_element.as_ref().filter(|effects| effects.dissipates());
-        if in_element.is_none() && !forces.at_points.any() && forces.densities.is_none() {
+        self.add_effect_work(before, after, h, range.clone());
+        if self.model.supports.iter().any(moves) {
+            self.add_support_work(before, after, h, range);
+        }
+    }
+
+    fn add_effect_work(&mut self, before: &State, after: &State, h: f64, range: Range<usize>) {
+        let forces = &self.system.forces;
+        let dissipates = forces.in_element.as_ref().is_some_and(|effects| effects.dissipates());
+        let effects = dissipates || forces.at_points.any() || forces.densities.is_some();
+        if !effects && self.model.loads.is_empty() {
             return;
         }
-        let EnergyMeter { work, q, v, force, .. } = meter;
-        [&mut *q, &mut *v, &mut *force].into_iter().for_each(|x| x.resize(range.len(), 0.0));
-        for (weights, share) in hermite().into_iter().zip(POINTS) {
-            for (i, k) in range.clone().enumerate() {
-                let mix = |x0: f64, d0: f64, x1: f64, d1: f64| {
-                    weights[0] * x0 + weights[1] * h * d0 + weights[2] * x1 + weights[3] * h * d1
-                };
-                q[i] = mix(before.q[k], before.v[k], after.q[k], after.v[k]);
-                v[i] = mix(before.v[k], before.memory.acceleration[k], after.v[k], after.memory.acceleration[k]);
+        let (mut along, mut loads) = (EffectWork::default(), 0.0);
+        for s in POINTS {
+            self.read_cubic(s, (before, after, h), range.clone());
+            let time = before.time + s * h;
+            if effects {
+                along.add_scaled(0.5 * h, &self.effect_power(time));
             }
-            if let Some(flow) = &system.flow {
-                flow.strain_velocity(before.time + share * h, q, v);
-            }
-            let mut power = EffectWork::default();
-            if let Some(effects) = in_element {
-                forces.elements.add_effect_power(effects, q, v, &mut power);
-            }
-            let input = ForceInput { time: before.time + share * h, q, v, dv_dq: 0.0, scale: 1.0 };
-            forces.at_points.add_power(system.level, input, force, &mut power);
-            if let Some(densities) = &mut forces.densities {
-                force.fill(0.0);
-                densities.add(system.level, input, force, None);
-                power.force_densities = force.iter().zip(v.iter()).map(|(f, v)| f * v).sum();
-            }
-            work.add_scaled(0.5 * h, &power);
+            let EnergyMeter { q, v, .. } = &self.system.meter;
+            loads += 0.5 * h * self.system.loads.point_power(&self.model.loads, time, q, v);
         }
+        let meter = &mut self.system.meter;
+        meter.law.loads += loads;
+        if !effects {
+            return;
+        }
+        self.read_cubic(0.5, (before, after, h), range.clone());
+        for (v, k) in self.system.meter.v.iter_mut().zip(range) {
+            *v = (after.q[k] - before.q[k]) / h;
+        }
+        let mut mean = EffectWork::default();
+        mean.add_scaled(h, &self.effect_power(before.time + 0.5 * h));
+        let resolved = (along.total() - mean.total()).abs() <= mean.total().abs();
+        self.system.meter.work += if resolved { along } else { mean };
+    }
+
+    /// Reads positions and velocities at the share `s` of a step into the meter.
+    fn read_cubic(&mut self, s: f64, (before, after, h): (&State, &State, f64), range: Range<usize>) {
+        let EnergyMeter { q, v, force, .. } = &mut self.system.meter;
+        [&mut *q, &mut *v, &mut *force].into_iter().for_each(|x| x.resize(range.len(), 0.0));
+        let (positions, velocities) = hermite(s);
+        for (i, k) in range.enumerate() {
+            let ends = [before.q[k], h * before.v[k], after.q[k], h * after.v[k]];
+            let at = |weights: [f64; 4]| (0..4).map(|j| weights[j] * ends[j]).sum::<f64>();
+            (q[i], v[i]) = (at(positions), at(velocities) / h);
+        }
+    }
+
+    /// Returns the power of effects that have no energy, at positions and velocities of the meter.
+    fn effect_power(&mut self, time: f64) -> EffectWork {
+        let system = &mut *self.system;
+        let (forces, EnergyMeter { q, v, force, .. }) = (&mut system.forces, &mut system.meter);
+        if let Some(flow) = &system.flow {
+            flow.strain_velocity(time, q, v);
+        }
+        let mut power = EffectWork::default();
+        if let Some(effects) = forces.in_element.as_ref().filter(|effects| effects.dissipates()) {
+            forces.elements.add_effect_power(effects, q, v, &mut power);
+        }
+        let input = ForceInput { time, q, v, dv_dq: 0.0, scale: 1.0 };
+        forces.at_points.add_power(system.level, input, force, &mut power);
+        if let Some(densities) = &mut forces.densities {
+            force.fill(0.0);
+            densities.add(system.level, input, force, None);
+            power.force_densities = force.iter().zip(v.iter()).map(|(f, v)| f * v).sum();
+        }
+        power
+    }
+
+    /// Puts supports in place, and adds the work by which one that starts at once does so.
+    pub fn place_supports(&mut self, time: f64, q: &mut [f64], v: &mut [f64]) {
+        if !self.model.supports.iter().any(moves) {
+            self.prescribe(time, q, v);
+            return;
+        }
+        let mut momentum = core::mem::take(&mut self.system.meter.force);
+        momentum.resize(v.len(), 0.0);
+        let before = self.system.mass_square(v, &mut momentum);
+        self.prescribe(time, q, v);
+        let gained = self.system.mass_square(v, &mut momentum) - before;
+        let meter = &mut self.system.meter;
+        meter.law.supports += 0.5 * gained;
+        meter.force = momentum;
+    }
+
+    /// Adds the work of supports that move.
+    fn add_support_work(&mut self, before: &State, after: &State, h: f64, range: Range<usize>) {
+        let [mut force, mut inertia] = [0, 1].map(|_| Vec::new());
+        core::mem::swap(&mut force, &mut self.system.meter.force);
+        core::mem::swap(&mut inertia, &mut self.system.meter.v);
+        [&mut force, &mut inertia].into_iter().for_each(|x| x.resize(range.len(), 0.0));
+        let mut work = 0.0;
+        for (state, sign) in [(before, 1.0), (after, -1.0)] {
+            let [q, v, a] = [&state.q, &state.v, &state.memory.acceleration].map(|x| &x[range.clone()]);
+            self.force(ForceInput { time: state.time, q, v, dv_dq: 0.0, scale: 1.0 }, &mut force);
+            self.system.mass.multiply(self.system.level, a, &mut inertia);
+            for (node, _) in self.model.supports.iter().filter(|support| moves(support)) {
+                for i in 6 * node..6 * node + 6 {
+                    let k = range.start + i;
+                    let way = 0.5 * (after.q[k] - before.q[k]) + sign * h / 12.0 * (before.v[k] - after.v[k]);
+                    work += (inertia[i] - force[i]) * way;
+                }
+            }
+        }
+        let meter = &mut self.system.meter;
+        meter.law.supports += work;
+        (meter.force, meter.v) = (force, inertia);
     }
 
     /// Returns whether the external work is known by energies. Nodes that are attached to bodies are left to the island.

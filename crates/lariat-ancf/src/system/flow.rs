@@ -259,9 +259,8 @@ impl Equations<'_> {
     pub fn flow_work(&self, before: &State, after: &State, h: f64, end: usize) -> f64 {
         let range = end - 12..end;
         let mut work = 0.0;
-        for (cubic, s) in hermite().into_iter().zip(POINTS) {
-            let u = 1.0 - s;
-            let slope = [-6.0 * s * u / h, u * (1.0 - 3.0 * s) / h, 6.0 * s * u / h, s * (3.0 * s - 2.0) / h];
+        for s in POINTS {
+            let (cubic, slope) = hermite(s);
             let mix = |w: [f64; 4], [x0, d0, x1, d1]: [&[f64]; 4]| -> [f64; 12] {
                 let of = |k: usize| w[0] * x0[k] + h * w[1] * d0[k] + w[2] * x1[k] + h * w[3] * d1[k];
                 core::array::from_fn(|i| of(range.start + i))
@@ -269,7 +268,7 @@ impl Equations<'_> {
             let (a0, a1) = (&before.memory.acceleration[..], &after.memory.acceleration[..]);
             let q = mix(cubic, [&before.q, &before.v, &after.q, &after.v]);
             let velocities = [&before.v[..], a0, &after.v[..], a1];
-            let (v, a) = (mix(cubic, velocities), mix(slope, velocities));
+            let (v, a) = (mix(cubic, velocities), mix(slope, velocities).map(|x| x / h));
             work += 0.5 * h * self.system.flow_force(self.model, before.time + s * h, [&q, &v, &a]).power;
         }
         work

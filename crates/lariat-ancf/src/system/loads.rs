@@ -102,6 +102,22 @@ impl Loads {
         model.loads.iter().map(|load| share * work(load)).sum()
     }
 
+    /// Returns the power of the point loads in W at positions `q` and velocities `v`.
+    pub fn point_power(&self, loads: &[PointLoad], time: f64, q: &[f64], v: &[f64]) -> f64 {
+        let power = |(load, at): (&PointLoad, &Located)| {
+            let sum = |weights: &[f64; 4], x: &[f64]| -> Vector3<f64> {
+                let n = &x[6 * at.element..6 * at.element + 12];
+                (0..4).map(|k| weights[k] * Vector3::from_column_slice(&n[3 * k..3 * k + 3])).sum()
+            };
+            let mut power = load.force.dot(&sum(&at.position, v));
+            if load.moment != Vector3::zeros() {
+                power += moment_on_slope(&load.moment, &sum(&at.slope, q)).0.dot(&sum(&at.slope, v));
+            }
+            load.factor(time) * power
+        };
+        loads.iter().zip(&self.located).map(power).sum()
+    }
+
     /// Adds all loads to `out`, and their negative derivative to `matrix` if that is asked for.
     pub fn add(
         &self,

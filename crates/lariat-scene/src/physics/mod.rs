@@ -5,12 +5,14 @@
 //! their value at the middle of the step, and act at the point of the body where it is at the beginning of the step.
 
 mod build;
+mod energy;
 mod joints;
 mod overlap;
 mod reading;
 mod statics;
 
 pub use build::collider;
+pub use energy::BodyTerms;
 pub use reading::BodyState;
 pub use statics::Settled;
 
@@ -47,6 +49,8 @@ pub struct Physics {
     reached: f64,
     /// Largest gap so far in m.
     max_gap: f64,
+    /// By body, work of the loads on it in J.
+    load_work: Vec<f64>,
 }
 
 impl Clone for Physics {
@@ -76,6 +80,7 @@ impl Clone for Physics {
             rapier_steps: self.rapier_steps,
             reached: self.reached,
             max_gap: self.max_gap,
+            load_work: self.load_work.clone(),
         }
     }
 }
@@ -104,7 +109,7 @@ impl Physics {
             problem,
         })?;
         let cables = CableSet::new();
-        let rapier_steps = RAPIER_STEPS;
+        let (rapier_steps, load_work) = (RAPIER_STEPS, vec![0.0; bodies.len()]);
         Ok(Physics {
             world,
             bodies,
@@ -115,6 +120,7 @@ impl Physics {
             rapier_steps,
             reached: 0.0,
             max_gap: 0.0,
+            load_work,
         })
     }
 
@@ -194,7 +200,9 @@ impl Physics {
         let steps = (share - 1e-3).ceil().clamp(1.0, f64::from(self.rapier_steps)) as u32;
         self.cables.settings.rapier_steps = steps;
         self.world.integration_parameters.dt = dt;
+        let before = self.places(scene);
         self.cables.step(&mut self.world).map_err(|error| self.explain(scene, from, error))?;
+        self.add_load_work(scene, &before);
         self.reached += f64::from(dt / steps as Real) * f64::from(steps);
         for (_, attachment) in self.cables.attachments() {
             self.max_gap = self.max_gap.max(attachment.gap());

@@ -33,6 +33,8 @@
 //! # Ok::<(), lariat_scene::Error>(())
 //! ```
 
+mod balance;
+mod error_target;
 mod output;
 mod pieces;
 mod probe;
@@ -43,6 +45,8 @@ mod summary;
 mod watch;
 mod world;
 
+pub use balance::EnergyBalance;
+pub use error_target::ErrorClaim;
 pub use pieces::{Parted, Piece};
 pub(crate) use probe::columns;
 pub use recording::{ProbeRecord, Recording, collect};
@@ -51,15 +55,17 @@ pub use summary::Summary;
 pub use world::World;
 
 use crate::error::Error;
-use crate::scene::{Purpose, Scene};
+use crate::scene::body::BodyKind;
+use crate::scene::{Purpose, Scene, Target};
 use crate::warning::Warning;
 use cpu_time::ProcessTime;
+use lariat_ancf::study::{Record, Resolution};
 use output::{Kept, Output};
 use schedule::{Schedule, nominal};
 use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::time::Instant;
+use std::time::{Duration, Instant};
 use watch::Watch;
 
 /// Options of a run.
@@ -71,6 +77,11 @@ pub struct Options<'a> {
     pub progress: Option<&'a mut dyn FnMut(f64)>,
     /// Called with each warning of [`Summary::warnings`], once, as soon as it is known.
     pub warn: Option<&'a mut dyn FnMut(&Warning)>,
+    /// Error in m of all positions that is asked for: the scene is run with several meshes and tolerances, in place of its own `elements` and
+    /// `integrator`, until two agree, and the results are those of the finest. See [`lariat_ancf::study`].
+    pub error: Option<f64>,
+    /// Called before each run of a scene that an error is asked of.
+    pub pilot: Option<&'a mut dyn FnMut(&Resolution)>,
     /// Whether [`run`] and [`statics`] write `run.usda`, the motion as OpenUSD, too.
     pub usd: bool,
 }
@@ -78,8 +89,8 @@ pub struct Options<'a> {
 /// Runs a scene for its duration and writes `summary.json`, `probes/*.csv` and [`view.html`](crate::view) to the folder `out`.
 ///
 /// # Errors
-/// [`Error::Output`] if the folder cannot be written (before anything runs); [`Error::Mechanics`], [`Error::Write`] or
-/// [`Error::Interrupted`] later: samples, page and summary are then on disk.
+/// [`Error::Output`] if the folder cannot be written, [`Error::ErrorTooSmall`] for an error that cannot be proven (both before anything
+/// runs); [`Error::Mechanics`], [`Error::Write`] or [`Error::Interrupted`] later: samples, page and summary are then on disk.
 pub fn run(scene: &Scene, out: &Path, options: &mut Options<'_>) -> Result<Summary, Error> {
     to_folder(scene, out, Purpose::Run, options)
 }
@@ -93,9 +104,42 @@ pub fn statics(scene: &Scene, out: &Path, options: &mut Options<'_>) -> Result<S
 }
 
 fn to_folder(scene: &Scene, out: &Path, purpose: Purpose, options: &mut Options<'_>) -> Result<Summary, Error> {
-    let output = Output::create(scene, out, options.usd)?;
-    let Recorded { summary, kept, outcome, .. } = record(scene, output, purpose, options)?;
+    let usd = options.usd;
+    let open = |scene: &Scene| Output::create(scene, out, usd);
+    let Recorded { summary, kept, outcome, .. } = conduct(scene, &open, purpose, options)?;
     outcome.and(kept.map(|_| ())).map(|()| summary)
+}
+
+/// Opens what the samples of a run go to.
+type Open<'a> = &'a dyn Fn(&Scene) -> Result<Output, Error>;
+
+/// Runs a scene once, or to the error that is asked for.
+fn conduct(scene: &Scene, open: Open<'_>, purpose: Purpose, options: &mut Options<'_>) -> Result<Recorded, Error> {
+    match options.error {
+        Some(error) => error_target::conduct(scene, open, purpose, error, options),
+        None => Ok(simulate(scene, open, purpose, options, None)?.finish(None)),
+    }
+}
+
+/// A run that has ended, or failed, with its samples; the summary is still to be written.
+struct Done {
+    world: World,
+    output: Output,
+    cpu: Duration,
+    wall: Duration,
+    balance: Option<EnergyBalance>,
+    outcome: Result<(), Error>,
+}
+
+impl Done {
+    /// Writes the summary and the page.
+    fn finish(self, claim: Option<ErrorClaim>) -> Recorded {
+        let Done { world, output, cpu, wall, balance, outcome } = self;
+        let summary = Summary::of(&world, cpu, wall, outcome.as_ref().err());
+        let summary = Summary { error: claim, energy_balance: balance, ..summary };
+        let kept = output.finish(&summary, &world);
+        Recorded { world, summary, kept, outcome }
+    }
 }
 
 /// Advances a world to the end of its scene.
@@ -105,6 +149,7 @@ fn advance(
     output: &mut Output,
     watch: &mut Watch,
     options: &mut Options<'_>,
+    mut record: Option<&mut Record>,
 ) -> Result<(), Error> {
     let mut schedule = Schedule::new(scene);
     // a copy that is stepped to the probe times between two host steps, so that probes change nothing
@@ -124,6 +169,7 @@ fn advance(
         if event.host {
             output.frame(world)?;
             watch.note(world)?;
+            note(&mut record, world);
         }
         if let Some(progress) = options.progress.as_mut().filter(|_| event.host) {
             progress(event.time);
@@ -143,13 +189,25 @@ struct Recorded {
     outcome: Result<(), Error>,
 }
 
-fn record(scene: &Scene, mut output: Output, purpose: Purpose, options: &mut Options<'_>) -> Result<Recorded, Error> {
+/// Runs a scene, and keeps its samples; `record` takes the positions at host times.
+///
+/// # Errors
+/// What hinders it before it begins; later errors are in [`Done`].
+fn simulate(
+    scene: &Scene,
+    open: Open<'_>,
+    purpose: Purpose,
+    options: &mut Options<'_>,
+    mut record: Option<&mut Record>,
+) -> Result<Done, Error> {
+    let mut output = open(scene)?;
     let (cpu, wall) = (ProcessTime::now(), Instant::now());
     let mut world = World::build(scene)?;
     let mut watch = Watch::new(&world, purpose);
     let mut told = 0;
     let mut tell = |world: &World, options: &mut Options<'_>| {
-        if let Some(warn) = &mut options.warn {
+        // the runs of a study have the same warnings, and the last one's are told at its end
+        if let (Some(warn), None) = (&mut options.warn, options.error) {
             world.warnings[told..].iter().for_each(&mut **warn);
         }
         told = world.warnings.len();
@@ -162,16 +220,38 @@ fn record(scene: &Scene, mut output: Output, purpose: Purpose, options: &mut Opt
         watch.note(&world)?;
         tell(&world, options);
         if purpose == Purpose::Run {
-            return advance(scene, &mut world, &mut output, &mut watch, options);
+            return advance(scene, &mut world, &mut output, &mut watch, options, record.take());
         }
         (0..scene.probes.len()).try_for_each(|probe| output.sample(probe, 0.0, &mut world))?;
+        note(&mut record, &world);
         output.frame(&world)
     });
-    world.warnings.extend(watch.warnings(scene));
+    world.warnings.extend(watch.warnings(scene, options.error));
     tell(&world, options);
     let (cpu, wall, spent) = (cpu.elapsed(), wall.elapsed(), output.spent());
-    let own = (cpu.saturating_sub(spent.0), wall.saturating_sub(spent.1));
-    let summary = Summary::of(&world, own.0, own.1, outcome.as_ref().err());
-    let kept = output.finish(&summary, &world);
-    Ok(Recorded { world, summary, kept, outcome })
+    let (cpu, wall) = (cpu.saturating_sub(spent.0), wall.saturating_sub(spent.1));
+    let balance = (purpose == Purpose::Run).then(|| watch.balance());
+    Ok(Done { world, output, cpu, wall, balance, outcome })
+}
+
+/// Records the cables, the points that probes read, and the dynamic bodies.
+fn note(record: &mut Option<&mut Record>, world: &World) {
+    let Some(record) = record else { return };
+    record.frame(world.time());
+    let cables = world.cables();
+    for cable in &cables {
+        record.cable(cable);
+    }
+    for probe in &world.scene.probes {
+        if let Target::Point { cable, arc_length } = probe.target
+            && let Ok(sample) = cables[cable].sample(arc_length)
+        {
+            record.point(sample.position);
+        }
+    }
+    for (index, body) in world.scene.bodies.iter().enumerate() {
+        if let Some(state) = world.body(index).filter(|_| body.kind == BodyKind::Dynamic) {
+            record.point(state.position);
+        }
+    }
 }

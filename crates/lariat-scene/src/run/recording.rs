@@ -1,7 +1,7 @@
 //! A run that is kept in memory, for programs that read its results at once.
 
 use super::output::{Kept, Output};
-use super::{Options, Recorded, Summary, World, columns, record};
+use super::{Options, Recorded, Summary, World, columns, conduct};
 use crate::error::Error;
 use crate::scene::{Purpose, Scene};
 use crate::view::Recorder;
@@ -47,7 +47,8 @@ impl Recording {
 /// # Errors
 /// As [`World::build`]; not for a checked scene. A run that fails later is a [`Recording`] with its error.
 pub fn collect(scene: &Scene, purpose: Purpose, options: &mut Options<'_>) -> Result<Recording, Error> {
-    let Recorded { world, summary, kept, outcome } = record(scene, Output::in_memory(scene), purpose, options)?;
+    let open = |scene: &Scene| Ok(Output::in_memory(scene));
+    let Recorded { world, summary, kept, outcome } = conduct(scene, &open, purpose, options)?;
     let Kept { rows, view } = kept?;
     let probes = scene.probes.iter().zip(rows).map(|(probe, rows)| ProbeRecord {
         name: probe.name.clone(),

@@ -1,6 +1,6 @@
 //! `summary.json`: the results and costs of a run, in one object.
 
-use super::{BodyStatics, CableStatics, Parted, World};
+use super::{BodyStatics, CableStatics, EnergyBalance, ErrorClaim, Parted, World};
 use crate::error::Error;
 use crate::warning::Warning;
 use serde::{Deserialize, Serialize};
@@ -38,6 +38,9 @@ pub struct Summary {
     pub energy_start_j: Option<f64>,
     /// Total energy at the end in J; null if it is not finite.
     pub energy_end_j: Option<f64>,
+    /// The energy balance; only of a run in time.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub energy_balance: Option<EnergyBalance>,
     /// Warnings.
     #[serde(serialize_with = "crate::warning::with_texts")]
     pub warnings: Vec<Warning>,
@@ -46,6 +49,9 @@ pub struct Summary {
     pub breaks: Vec<Parted>,
     /// Why the run failed; null if it did not.
     pub failed: Option<String>,
+    /// What is claimed about the error that was asked for; only with `--error`. Counts and times above are those of the last run.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub error: Option<ErrorClaim>,
     /// The equilibrium of each cable; only for `lariat static`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub statics: Option<Vec<CableStatics>>,
@@ -76,9 +82,11 @@ impl Summary {
             max_gap_m: world.max_gap(),
             energy_start_j: finite(world.energy_start),
             energy_end_j: finite(world.energy(None).total()),
+            energy_balance: None,
             warnings: world.warnings.clone(),
             breaks: world.breaks.clone(),
             failed: failed.map(ToString::to_string),
+            error: None,
             statics: world.statics.clone(),
             static_bodies: world.static_bodies.clone(),
         }

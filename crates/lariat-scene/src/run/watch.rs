@@ -1,6 +1,7 @@
-//! What a run says about itself: the mesh and the tension at all host times.
+//! What a run says about itself: the mesh, the tension and the energy at all host times.
 
 use super::World;
+use super::balance::{Account, EnergyBalance, LOST, MADE};
 use crate::error::Error;
 use crate::scene::{Purpose, Scene};
 use crate::warning::Warning;
@@ -21,8 +22,11 @@ const REEL: f64 = 0.3;
 /// Largest number of elements that is advised.
 const MOST: f64 = 1e6;
 
-/// The worst readings of the cables of a run so far.
-pub(super) struct Watch(Vec<Worst>);
+/// The worst readings of the cables of a run so far, and its energy balance.
+pub(super) struct Watch {
+    cables: Vec<Worst>,
+    account: Account,
+}
 
 #[derive(Default)]
 struct Worst {
@@ -51,7 +55,7 @@ impl Watch {
             start: known.then(|| cable.positions().to_vec()),
             ..Worst::default()
         };
-        Watch(world.cables().into_iter().zip(drawn).map(worst).collect())
+        Watch { cables: world.cables().into_iter().zip(drawn).map(worst).collect(), account: Account::default() }
     }
 
     /// Reads the cables at a host time.
@@ -59,7 +63,8 @@ impl Watch {
     /// # Errors
     /// [`Error::Mechanics`]; not for cables that keep their meshes.
     pub fn note(&mut self, world: &World) -> Result<(), Error> {
-        for (worst, cable) in self.0.iter_mut().zip(world.cables()) {
+        self.account.note(world)?;
+        for (worst, cable) in self.cables.iter_mut().zip(world.cables()) {
             let shape = cable.mesh_indicator();
             worst.position = worst.position.max(shape.position);
             worst.turn = worst.turn.max(shape.turn);
@@ -82,25 +87,41 @@ impl Watch {
         Ok(())
     }
 
-    /// Returns the warnings about the cables.
-    pub fn warnings(&self, scene: &Scene) -> Vec<Warning> {
-        self.0
+    /// Returns the energy balance.
+    pub fn balance(&self) -> EnergyBalance {
+        self.account.balance
+    }
+
+    fn energy_warning(&self) -> Option<Warning> {
+        let balance = self.account.balance;
+        let EnergyBalance { made_j, made_at_s, lost_j, lost_at_s, scale_j, .. } = balance;
+        if balance.made() > MADE {
+            return Some(Warning::EnergyMade { time_s: made_at_s, made_j, scale_j });
+        }
+        (balance.lost() > LOST).then_some(Warning::EnergyLost { time_s: lost_at_s, lost_j, scale_j })
+    }
+
+    /// Returns the warnings about the energy and the cables. If an error is asked for, that is the limit of the mesh, and only of its indicator: the runs
+    /// judge what nodes cannot.
+    pub fn warnings(&self, scene: &Scene, error: Option<f64>) -> Vec<Warning> {
+        self.cables
             .iter()
             .zip(&scene.cables)
             .flat_map(|(worst, cable)| {
                 let (elements, name) = (cable.elements, || cable.name.clone());
                 let (position, motion) = (worst.position, worst.motion);
-                let mesh = if position > MESH * cable.length {
-                    let enough = more(elements, position / (0.5 * MESH * cable.length));
+                let limit = error.unwrap_or(MESH * cable.length);
+                let mesh = if position > limit {
+                    let enough = more(elements, position / (0.5 * limit));
                     Some(Warning::CoarseMesh { cable: name(), error_m: position, elements, enough })
-                } else if motion > MOTION * worst.displacement && motion > ROUNDING * cable.length {
+                } else if error.is_none() && motion > MOTION * worst.displacement && motion > ROUNDING * cable.length {
                     let enough = more(elements, motion / (0.5 * MOTION * worst.displacement));
                     let displacement_m = worst.displacement;
                     Some(Warning::CoarseMotion { cable: name(), error_m: motion, displacement_m, elements, enough })
                 } else {
                     None
                 };
-                let turn = (worst.turn > TURN).then(|| {
+                let turn = (error.is_none() && worst.turn > TURN).then(|| {
                     // an arc of this angle, divided into k elements, has the indicator h turn^3/(96 k^4), h its length
                     let parts = (worst.turn.powi(3) / (96.0 * 0.5 * MESH)).powf(0.25).max(2.0);
                     let enough = (elements as f64 * parts).ceil().clamp(4.0, MOST) as usize;
@@ -115,6 +136,7 @@ impl Watch {
                 let reel = (ratio > REEL).then(|| Warning::FastReel { cable: name(), time_s, ratio });
                 [strain, mesh, turn, reel].into_iter().flatten()
             })
+            .chain(self.energy_warning())
             .collect()
     }
 }

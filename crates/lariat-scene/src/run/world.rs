@@ -1,11 +1,14 @@
 //! The cables and bodies of a scene while it runs.
 
+use super::balance::Terms;
 use super::{BodyStatics, CableStatics, Parted, Piece};
 use crate::error::Error;
 use crate::physics::{BodyState, Physics};
 use crate::scene::{AttachmentScene, CableScene, Engine, Purpose, Scene};
 use crate::warning::Warning;
-use lariat_ancf::{At, AxialRule, Break, Cable, Energy, EquilibriumReport, Momentum, Reaction, Support, Vector3};
+use lariat_ancf::{
+    At, AxialRule, Break, Cable, Energy, EquilibriumReport, Method, Momentum, Reaction, Support, Vector3,
+};
 use std::collections::BTreeMap;
 
 /// The cables and bodies of a scene in their present state.
@@ -327,6 +330,38 @@ impl World {
             sum += physics.reading(k, self.time)?.map_or(0.0, |reading| reading.work);
         }
         Ok(sum)
+    }
+
+    /// Returns the energies and works of the energy balance.
+    ///
+    /// # Errors
+    /// [`Error::Coupling`]; not for a running scene.
+    pub(super) fn terms(&self) -> Result<Terms, Error> {
+        let mut terms = Terms::default();
+        let (mut by_law, mut all_by_law) = (0.0, true);
+        for cable in self.cables() {
+            let (energy, effects, law) = (cable.energy(), cable.effect_work(), cable.energy_law());
+            terms.kinetic += energy.kinetic;
+            terms.strain += energy.axial + energy.bending;
+            terms.gravity += energy.gravity;
+            terms.dissipated += effects.dissipated();
+            terms.work += effects.total() + effects.dissipated() + law.loads + law.supports + cable.inserted_energy();
+            // the energy law of a step knows no winch
+            all_by_law &= !cable.has_reel();
+            terms.work += cable.reel().map_or(0.0, |reel| reel.work + reel.remeshed);
+            by_law += law.residual - law.numerical - law.rescaled;
+            all_by_law &= cable.integrator().method == Method::DiscreteGradient;
+        }
+        if let Some(physics) = &self.physics {
+            let (work, rounding) = physics.bodies_balance(&self.scene, self.time, &mut terms.bodies)?;
+            terms.work -= work;
+            terms.rounding = rounding;
+            terms.weight = physics.weight(&self.scene);
+        }
+        let masses = self.scene.cables.iter().map(|cable| cable.section.mass_per_length * cable.length);
+        terms.weight += self.scene.gravity.norm() * masses.sum::<f64>();
+        terms.by_law = all_by_law.then_some(by_law);
+        Ok(terms)
     }
 
     /// Returns the momentum of a cable, or of all cables and dynamic bodies.

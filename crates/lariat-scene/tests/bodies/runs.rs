@@ -179,7 +179,8 @@ fn an_end_that_starts_at_another_velocity_than_its_body_is_a_warning() {
     );
     for name in ["payload_pendulum", "dumbbell", "hoist"] {
         let warnings = Results::of("run", &asset(name), &["duration=0.1"]).done().summary().warnings;
-        assert!(warnings.is_empty(), "{name}: {warnings:?}");
+        let jump = |w: &Warning| matches!(w, Warning::VelocityJump { .. });
+        assert!(!warnings.iter().any(jump), "{name}: {warnings:?}");
     }
 }
 

@@ -51,6 +51,9 @@ pub(crate) struct DragTable {
 
 pub(super) type Lanes<S> = f64x8<S>;
 
+/// Forces on the four nodal vectors of elements, and the blocks of their derivative.
+type ForceAndBlocks<'a, S> = (&'a mut [[Lanes<S>; 3]; 4], &'a mut [[[Lanes<S>; 3]; 3]; PAIRS.len()]);
+
 impl DragTable {
     pub fn new(drag: &Drag, cable: &Target<'_>) -> Self {
         let diameter = |e: &Element| drag.diameter.or(e.section.diameter).unwrap_or(0.0);
@@ -213,7 +216,7 @@ impl DragTable {
         &self,
         first: usize,
         length: Lanes<S>,
-        (force, blocks): (&mut [[Lanes<S>; 3]; 4], &mut [[[Lanes<S>; 3]; 3]; PAIRS.len()]),
+        (force, blocks): ForceAndBlocks<'_, S>,
         out: &mut [f64],
         matrix: Option<&mut BlockTridiagonal>,
     ) {

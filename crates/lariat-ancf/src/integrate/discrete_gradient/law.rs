@@ -3,8 +3,9 @@
 use crate::error::StepFailure;
 use serde::{Deserialize, Serialize};
 
-/// Terms of the energy law `D H = work - losses + residual` of the [discrete gradient](crate::integrate::discrete_gradient) since the
-/// cable was built, in J. The work of effects, internal damping among them, is in [`EffectWork`](crate::EffectWork).
+/// Terms of the energy law `D H = work - losses + residual` since the cable was built, in J. The
+/// [discrete gradient](crate::integrate::discrete_gradient) knows them all; the other methods know the work of supports and loads by a
+/// quadrature of the step. The work of effects, internal damping among them, is in [`EffectWork`](crate::EffectWork).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct EnergyLaw {

@@ -8,7 +8,7 @@ use std::path::Path;
 pub fn run(summary: &Summary, folder: &Path) -> String {
     let energy = |x: Option<f64>| x.map_or("not finite".to_string(), |x| format!("{x:.6} J"));
     format!(
-        "{}: {} s in {:.3} s ({:.1} times real time), {} steps, {} rejected, {} Newton iterations, energy {} -> {}\n{}",
+        "{}: {} s in {:.3} s ({:.1} times real time), {} steps, {} rejected, {} Newton iterations, energy {} -> {}\n{}{}",
         summary.name,
         summary.simulated_s,
         summary.wall_s,
@@ -18,6 +18,7 @@ pub fn run(summary: &Summary, folder: &Path) -> String {
         summary.newton_iterations,
         energy(summary.energy_start_j),
         energy(summary.energy_end_j),
+        claim(summary),
         results(folder)
     )
 }
@@ -26,7 +27,40 @@ pub fn run(summary: &Summary, folder: &Path) -> String {
 pub fn statics(summary: &Summary, folder: &Path) -> String {
     let cables: String = summary.statics.iter().flatten().map(cable).collect();
     let bodies = summary.static_bodies.as_ref().map_or(String::new(), bodies);
-    format!("{}: static equilibrium in {:.3} s\n{cables}{bodies}{}", summary.name, summary.wall_s, results(folder))
+    format!(
+        "{}: static equilibrium in {:.3} s\n{cables}{bodies}{}{}",
+        summary.name,
+        summary.wall_s,
+        claim(summary),
+        results(folder)
+    )
+}
+
+/// Describes what is claimed about the error that was asked for.
+fn claim(summary: &Summary) -> String {
+    let Some(error) = &summary.error else { return String::new() };
+    let claim = &error.claim;
+    let verdict = match (claim.claimed_m, claim.horizon_s) {
+        (Some(claimed), _) => format!("error of positions at most {claimed:.1e} m"),
+        (None, Some(time)) => format!(
+            "error of positions at most {:e} m before {} s, not proven from then on",
+            claim.asked_m,
+            short(time)
+        ),
+        (None, None) => format!("error of {:e} m not proven", claim.asked_m),
+    };
+    let mesh = claim.mesh_m.map_or("not known".to_string(), |mesh| format!("{mesh:.1e} m"));
+    let elements: Vec<String> = error.elements_of.iter().map(|(name, n)| format!("{name:?} {n}")).collect();
+    let tolerance = claim.tolerance_m.map_or(String::new(), |tolerance| format!(", tolerance {tolerance:.1e} m"));
+    format!(
+        "{verdict} (mesh {mesh}, time {:.1e} m{})\n  elements {}{tolerance}; {} runs, {:.1} times the cost of the last\n  not covered: {}\n",
+        claim.time_m,
+        if claim.host_step_limits { ", from the tolerance: the host step limits the steps" } else { "" },
+        elements.join(", "),
+        claim.runs,
+        claim.cost,
+        error.not_covered.join("; ")
+    )
 }
 
 fn cable(statics: &CableStatics) -> String {

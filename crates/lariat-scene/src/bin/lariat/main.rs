@@ -8,8 +8,10 @@ mod sweep;
 mod tables;
 
 use clap::{Args, Parser, Subcommand};
+use lariat_ancf::study::Resolution;
 use lariat_scene::run::{self, Options, Summary};
 use lariat_scene::{Error, Purpose, Scene, Warning};
+use std::cell::RefCell;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -69,6 +71,9 @@ struct SceneArguments {
     /// Override a key, such as cable.sling.elements=20; may be repeated
     #[arg(long, value_name = "KEY=VALUE")]
     set: Vec<String>,
+    /// Choose elements and integrator so that no position is off by more than this, in m, and prove it by runs with several meshes
+    #[arg(long, value_name = "METRES")]
+    error: Option<f64>,
     /// Write DIR/run.usda, the motion as OpenUSD, too
     #[arg(long)]
     usd: bool,
@@ -115,21 +120,27 @@ fn run_scene(arguments: &SceneArguments) -> Result<Summary, Error> {
     if let Err(error) = handler {
         let _ = writeln!(io::stderr(), "warning: Ctrl-C will not leave a summary: {error}");
     }
-    let mut bar = progress::Bar::new(scene.duration);
-    let mut report = |time: f64| bar.advance(time);
-    let mut options = Options { stop, progress: Some(&mut report), warn: Some(&mut warn), usd: arguments.usd };
+    let bar = RefCell::new(progress::Bar::new(scene.duration));
+    let mut report = |time: f64| bar.borrow_mut().advance(time);
+    let mut pilot = |resolution: &Resolution| bar.borrow_mut().begin_run(resolution.elements);
+    let mut options = Options {
+        stop,
+        progress: Some(&mut report),
+        warn: Some(&mut warn),
+        error: arguments.error,
+        pilot: Some(&mut pilot),
+        usd: arguments.usd,
+    };
     let outcome = run::run(&scene, &arguments.out, &mut options);
-    bar.finish();
+    bar.borrow().finish();
     outcome
 }
 
 fn find_static(arguments: &SceneArguments) -> Result<Summary, Error> {
     let scene = Scene::read(&arguments.scene, &arguments.set, Purpose::Static)?;
-    run::statics(
-        &scene,
-        &arguments.out,
-        &mut Options { warn: Some(&mut warn), usd: arguments.usd, ..Options::default() },
-    )
+    let mut options =
+        Options { warn: Some(&mut warn), error: arguments.error, usd: arguments.usd, ..Options::default() };
+    run::statics(&scene, &arguments.out, &mut options)
 }
 
 fn import(model: &Path, out: Option<&Path>) -> Result<String, Error> {

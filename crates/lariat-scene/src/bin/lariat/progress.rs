@@ -12,11 +12,18 @@ pub struct Bar {
     start: Instant,
     terminal: bool,
     bar: Option<ProgressBar>,
+    /// Number and elements of the present run, if there are several.
+    run: Option<(u32, usize)>,
 }
 
 impl Bar {
     pub fn new(duration: f64) -> Self {
-        Bar { duration, start: Instant::now(), terminal: stderr().is_terminal(), bar: None }
+        Bar { duration, start: Instant::now(), terminal: stderr().is_terminal(), bar: None, run: None }
+    }
+
+    /// Begins the next of several runs.
+    pub fn begin_run(&mut self, elements: usize) {
+        self.run = Some((self.run.map_or(1, |(number, _)| number + 1), elements));
     }
 
     pub fn advance(&mut self, time: f64) {
@@ -31,7 +38,8 @@ impl Bar {
             }
         });
         bar.set_position((TICKS * time / self.duration) as u64);
-        bar.set_message(format!("{time:.2} of {} s", self.duration));
+        let run = self.run.map_or(String::new(), |(number, n)| format!("run {number}, elements = {n}: "));
+        bar.set_message(format!("{run}{time:.2} of {} s", self.duration));
     }
 
     pub fn finish(&self) {

@@ -1,0 +1,101 @@
+//! What a study returns.
+
+use serde::{Deserialize, Serialize};
+
+/// How a study ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Outcome {
+    /// The error is proven.
+    Proven,
+    /// Refining does not bring the runs together: a chaotic motion, or several equilibria.
+    NoConvergence,
+    /// The limit of elements was reached before the error.
+    ElementLimit,
+}
+
+/// What is claimed about the last run of a study.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Claim {
+    /// Error that was asked for in m.
+    pub asked_m: f64,
+    /// Bound of the error of all recorded positions at all recorded times in m; `None` if none is proven.
+    pub claimed_m: Option<f64>,
+    /// Estimate of the error of the mesh in m; `None` if the last meshes could not be compared.
+    pub mesh_m: Option<f64>,
+    /// Estimate of the error in time in m; 0 for an equilibrium.
+    pub time_m: f64,
+    /// How the study ended.
+    pub outcome: Outcome,
+    /// If no error is proven for the whole motion: first recorded time in s at which the asked one is not proven.
+    pub horizon_s: Option<f64>,
+    /// True if the last two runs are apart by more than a tenth of the longest cable: they follow different branches.
+    pub other_branch: bool,
+    /// True if the steps are limited by the host step rather than the tolerance, so that runs at two tolerances cannot judge the error in
+    /// time: it is taken from the tolerance.
+    pub host_step_limits: bool,
+    /// Elements of the cable that has most, in the last run.
+    pub elements: usize,
+    /// Error of position per host step of the last run in m; `None` for an equilibrium.
+    pub tolerance_m: Option<f64>,
+    /// Number of runs.
+    pub runs: usize,
+    /// Elements evaluated in all runs over those in the last.
+    pub cost: f64,
+}
+
+/// The last run of a study, and what is claimed about it.
+#[derive(Clone, Debug)]
+pub struct Proof<W> {
+    /// What the program returned for it.
+    pub world: W,
+    /// What is claimed about it.
+    pub claim: Claim,
+}
+
+/// Why a study has no result.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum StudyError<E> {
+    /// An error that cannot be asked for.
+    #[error("error {value} m; accepted: a finite number > 0")]
+    InvalidError {
+        /// The value in m.
+        value: f64,
+    },
+    /// Duration and host step that give no number of host steps.
+    #[error("{steps} host steps of {host_step} s; accepted: finite numbers > 0")]
+    InvalidSpan {
+        /// Duration over host step.
+        steps: f64,
+        /// Host step in s.
+        host_step: f64,
+    },
+    /// A run failed.
+    #[error("run with {elements} elements{}: {source}", at(*.tolerance))]
+    Run {
+        /// Elements of the cable that has most.
+        elements: usize,
+        /// Tolerance in m.
+        tolerance: Option<f64>,
+        /// Why.
+        source: E,
+    },
+    /// A run that recorded no position.
+    #[error("the run recorded no position: call Record::frame and Record::cable or Record::point at host times")]
+    NothingRecorded,
+    /// Two runs recorded different times.
+    #[error(
+        "a run recorded the time {time} s where another recorded {other} s: record the same host times in all runs"
+    )]
+    DifferentTimes {
+        /// Time in s.
+        time: f64,
+        /// Time of the other run in s.
+        other: f64,
+    },
+}
+
+fn at(tolerance: Option<f64>) -> String {
+    tolerance.map_or(String::new(), |tolerance| format!(" and tolerance {tolerance:.2e} m"))
+}

@@ -1,0 +1,161 @@
+//! What a run of a study records: positions by time, and the meshes and the work of its cables.
+
+use super::StudyError;
+use crate::cable::Cable;
+use crate::point::Point;
+use nalgebra::Vector3;
+
+/// Points of a cable at equal distances; more than the elements of the first runs have nodes.
+const POINTS: usize = 33;
+
+/// The positions that a run recorded.
+#[derive(Clone, Debug, Default)]
+pub struct Record {
+    /// Recorded times in s.
+    times: Vec<f64>,
+    /// By time, the number of points up to it.
+    ends: Vec<usize>,
+    points: Vec<Vector3<f64>>,
+    cables: Vec<CableRecord>,
+    /// Cables of the present frame.
+    present: usize,
+}
+
+/// Mesh and work of a cable.
+#[derive(Clone, Debug)]
+struct CableRecord {
+    /// Arc lengths of the nodes in m, as first recorded.
+    nodes: Vec<f64>,
+    steps: u64,
+    evaluations: u64,
+}
+
+impl Record {
+    /// Begins a frame at a time in s; what is recorded next belongs to it.
+    pub fn frame(&mut self, time: f64) -> &mut Self {
+        self.times.push(time);
+        self.ends.push(self.points.len());
+        self.present = 0;
+        self
+    }
+
+    /// Records 33 points of a cable. Cables are recorded in the same order in each frame.
+    pub fn cable(&mut self, cable: &Cable) -> &mut Self {
+        let diagnostics = cable.diagnostics();
+        let (steps, evaluations) = (diagnostics.steps, diagnostics.element_evaluations());
+        match self.cables.get_mut(self.present) {
+            Some(known) => (known.steps, known.evaluations) = (steps, evaluations),
+            None => self.cables.push(CableRecord { nodes: cable.node_arc_lengths(), steps, evaluations }),
+        }
+        self.present += 1;
+        for k in 0..POINTS {
+            self.push(cable.position_at(cable.length() * k as f64 / (POINTS - 1) as f64));
+        }
+        self
+    }
+
+    /// Records a point, such as the centre of a body, in m.
+    pub fn point(&mut self, position: impl Into<Point>) -> &mut Self {
+        self.push(position.into().0);
+        self
+    }
+
+    fn push(&mut self, position: Vector3<f64>) {
+        self.points.push(position);
+        if let Some(end) = self.ends.last_mut() {
+            *end = self.points.len();
+        }
+    }
+
+    /// Returns whether nothing is recorded.
+    pub(super) fn is_empty(&self) -> bool {
+        self.times.is_empty() || self.points.is_empty()
+    }
+
+    /// Returns the number of integration steps, all cables together.
+    pub(super) fn steps(&self) -> u64 {
+        self.cables.iter().map(|cable| cable.steps).sum()
+    }
+
+    /// Returns the number of elements evaluated.
+    pub(super) fn evaluations(&self) -> u64 {
+        self.cables.iter().map(|cable| cable.evaluations).sum()
+    }
+
+    /// Returns the length of the longest cable in m.
+    pub(super) fn longest(&self) -> f64 {
+        self.cables.iter().filter_map(|cable| cable.nodes.last()).fold(0.0, |longest, &s| longest.max(s))
+    }
+
+    /// Returns the largest distance between the points of two runs at a frame in m; infinite if they have not the same parts, or are not
+    /// numbers.
+    fn apart(&self, other: &Record, frame: usize) -> f64 {
+        let points = |record: &Record| {
+            let start = frame.checked_sub(1).map_or(0, |before| record.ends[before]);
+            start..record.ends[frame]
+        };
+        let (a, b) = (&self.points[points(self)], &other.points[points(other)]);
+        if a.len() != b.len() {
+            return f64::INFINITY;
+        }
+        let distances = a.iter().zip(b).map(|(a, b)| (a - b).norm());
+        distances.fold(0.0, |largest, x| {
+            if x <= largest {
+                largest
+            } else if x.is_nan() {
+                f64::INFINITY
+            } else {
+                x
+            }
+        })
+    }
+
+    /// Returns the largest distance between two runs in m.
+    ///
+    /// # Errors
+    /// [`StudyError::DifferentTimes`].
+    pub(super) fn distance<E>(&self, other: &Record) -> Result<f64, StudyError<E>> {
+        let frames = self.times.len().max(other.times.len());
+        let mut largest: f64 = 0.0;
+        for frame in 0..frames {
+            let [time, there] = [self, other].map(|record| record.times.get(frame).copied().unwrap_or(f64::NAN));
+            let same = (time - there).abs() <= 1e-9 * (1.0 + time.abs());
+            if !same {
+                return Err(StudyError::DifferentTimes { time, other: there });
+            }
+            largest = largest.max(self.apart(other, frame));
+        }
+        Ok(largest)
+    }
+
+    /// Returns the first time in s at which two runs are further apart than a distance in m.
+    pub(super) fn first_beyond(&self, other: &Record, distance: f64) -> Option<f64> {
+        let frames = 0..self.times.len().min(other.times.len());
+        frames.into_iter().find(|&frame| self.apart(other, frame) > distance).map(|frame| self.times[frame])
+    }
+
+    /// Returns the least ratio of the element lengths of this mesh to those of a finer one of `elements` elements, over all places whose
+    /// elements are not as short as the finer mesh would have them already; 1 for other cables. Infinite without cables.
+    pub(super) fn refinement(&self, finer: &Record, elements: usize) -> f64 {
+        if self.cables.len() != finer.cables.len() {
+            return 1.0;
+        }
+        let mut least = f64::INFINITY;
+        for (coarse, fine) in self.cables.iter().zip(&finer.cables) {
+            let length = coarse.nodes.last().copied().unwrap_or(0.0);
+            let short = length / elements as f64 * (1.0 + 1e-9);
+            let mut k = 1;
+            for ends in fine.nodes.windows(2) {
+                let middle = 0.5 * (ends[0] + ends[1]);
+                while k + 1 < coarse.nodes.len() && coarse.nodes[k] < middle {
+                    k += 1;
+                }
+                let here = coarse.nodes[k] - coarse.nodes[k - 1];
+                if here > short {
+                    least = least.min(here / (ends[1] - ends[0]));
+                }
+            }
+        }
+        least
+    }
+}

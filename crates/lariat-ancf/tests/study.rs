@@ -1,0 +1,139 @@
+//! Studies of programs whose error is known in closed form, and of those that cannot be studied.
+
+use lariat_ancf::study::{Outcome, Record, Resolution, Study, StudyError};
+use lariat_ancf::{At, Cable, Error, PointLoad, Section, Vector3};
+
+/// Positions with the error `size n^-order + share tolerance` per step, over a second in a hundred steps.
+fn model(size: f64, order: f64, share: f64) -> impl FnMut(&Resolution, &mut Record) -> Result<f64, String> {
+    move |resolution, record| {
+        let mut off = 0.0;
+        for k in 0..=100 {
+            let t = 0.01 * f64::from(k);
+            off = t * size * (resolution.elements as f64).powf(-order);
+            off += share * f64::from(k) * resolution.tolerance.unwrap();
+            record.frame(t).point([t + off, 0.0, 0.0]);
+        }
+        Ok(off)
+    }
+}
+
+#[test]
+fn the_claim_holds_for_every_order_from_two_on_and_every_share_of_the_tolerance() {
+    for order in [2.0, 2.5, 3.0, 4.0] {
+        for size in [1e-3, 0.3, 20.0] {
+            for share in [0.0, 0.5, 1.0] {
+                for error in [1e-2, 1e-3, 1e-4] {
+                    let proof =
+                        Study::new(1.0, 0.01, model(size, order, share)).error(error).limit(5000).run().unwrap();
+                    let (claim, off) = (proof.claim, proof.world);
+                    let claimed = claim.claimed_m.unwrap();
+                    assert!(
+                        claim.outcome == Outcome::Proven && off <= claimed && claimed <= error,
+                        "{claim:?}: {off:.2e}"
+                    );
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn runs_that_do_not_converge_or_would_need_too_many_elements_are_told() {
+    // each mesh goes elsewhere after half a second
+    let chaotic = |resolution: &Resolution, record: &mut Record| {
+        for k in 0..=100 {
+            let t = 0.01 * f64::from(k);
+            let far = if t > 0.5 { (37.0 * resolution.elements as f64).sin() } else { 0.0 };
+            record.frame(t).point([t, far, 0.0]);
+        }
+        Ok::<_, String>(())
+    };
+    let claim = Study::new(1.0, 0.01, chaotic).error(1e-3).run().unwrap().claim;
+    assert_eq!((claim.outcome, claim.claimed_m), (Outcome::NoConvergence, None));
+    assert!((claim.horizon_s.unwrap() - 0.51).abs() < 1e-9);
+    let claim = Study::new(1.0, 0.01, model(50.0, 2.0, 0.0)).error(1e-5).run().unwrap().claim;
+    assert_eq!((claim.outcome, claim.claimed_m), (Outcome::ElementLimit, None));
+    assert!(claim.elements <= 160 && claim.horizon_s.is_some());
+    // parts that only one mesh has
+    let breaks = |resolution: &Resolution, record: &mut Record| {
+        record.frame(0.0).point([0.0; 3]);
+        record.frame(0.5).point([0.0; 3]);
+        if resolution.elements % 3 == 2 {
+            record.point([0.0; 3]);
+        }
+        Ok::<_, String>(())
+    };
+    let claim = Study::new(0.5, 0.5, breaks).error(1e-3).limit(12).run().unwrap().claim;
+    assert_eq!((claim.outcome, claim.mesh_m, claim.horizon_s), (Outcome::ElementLimit, None, Some(0.5)));
+    let nan = |_: &Resolution, record: &mut Record| {
+        record.frame(0.0).point([f64::NAN; 3]);
+        Ok::<_, String>(())
+    };
+    let claim = Study::of_equilibrium(nan).error(1e-3).run().unwrap().claim;
+    assert_ne!(claim.outcome, Outcome::Proven);
+}
+
+/// The first runs fail with fewer than ten elements: 8 and 16 are tried after 4 and 8, and 16 and 32 after these.
+#[test]
+fn coarse_meshes_that_fail_are_left_out_and_other_failures_are_errors() {
+    let least = |least: usize| {
+        move |resolution: &Resolution, record: &mut Record| {
+            if resolution.elements < least {
+                return Err(format!("{} elements are too few", resolution.elements));
+            }
+            record.frame(0.0).point([0.0; 3]);
+            Ok(resolution.elements)
+        }
+    };
+    assert_eq!(Study::of_equilibrium(least(10)).run().unwrap().world, 32);
+    let error = Study::of_equilibrium(least(20)).run().unwrap_err();
+    assert_eq!(error.to_string(), "run with 16 elements: 16 elements are too few");
+    let refused = |error: f64| Study::of_equilibrium(least(0)).error(error).run().unwrap_err();
+    for error in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+        assert!(matches!(refused(error), StudyError::InvalidError { .. }));
+    }
+    for (duration, step) in [(1.0, 0.0), (f64::NAN, 0.1), (1.0, -0.1), (f64::INFINITY, 0.1)] {
+        let error = Study::new(duration, step, least(0)).run().unwrap_err();
+        assert!(matches!(error, StudyError::InvalidSpan { .. }), "{duration}, {step}: {error:?}");
+    }
+    let nothing = |_: &Resolution, _: &mut Record| Ok::<_, String>(());
+    assert_eq!(Study::of_equilibrium(nothing).run().unwrap_err(), StudyError::NothingRecorded);
+    let times = |resolution: &Resolution, record: &mut Record| {
+        record.frame(resolution.elements as f64).point([0.0; 3]);
+        Ok::<_, String>(())
+    };
+    let error = Study::of_equilibrium(times).run().unwrap_err();
+    assert!(matches!(error, StudyError::DifferentTimes { time: 4.0, other: 8.0 }), "{error:?}");
+}
+
+/// A cantilever under an end moment M = m EI becomes an arc of a circle.
+///
+/// *Source.* Analytic, as in `end_moment.rs`: stretch `f^2 = 1 + 2 m^2 EI/EA`, angle `m f^2 L`, radius `f L/angle`.
+#[test]
+fn the_claim_for_an_arc_of_a_circle_holds() {
+    let (axial, bending) = (1e6, 2.0);
+    for m in [0.4_f64, 1.5, 3.0] {
+        let (stretch, angle) =
+            ((1.0 + 2.0 * m * m * bending / axial).sqrt(), m * (1.0 + 2.0 * m * m * bending / axial));
+        let tip = Vector3::new(angle.sin(), 1.0 - angle.cos(), 0.0) * stretch / angle;
+        for error in [1e-3, 1e-5] {
+            let study = Study::of_equilibrium(|resolution, record| {
+                let mut cable = Cable::builder()
+                    .points([Vector3::zeros(), Vector3::x()])
+                    .section(Section::from_stiffness(axial, bending, 0.4)?)
+                    .gravity([0.0; 3])
+                    .clamp(At::Start)
+                    .load(PointLoad::moment(1.0, [0.0, 0.0, m * bending]))
+                    .elements(resolution.elements)
+                    .build()?;
+                cable.equilibrium()?;
+                record.frame(0.0).cable(&cable);
+                Ok::<_, Error>(cable)
+            });
+            let proof = study.error(error).run().unwrap();
+            let off = (proof.world.sample(1.0).unwrap().position - tip).norm();
+            println!("m = {m}, asked {error:.0e}: off {off:.1e}, {:?}", proof.claim);
+            assert!(off <= proof.claim.claimed_m.unwrap());
+        }
+    }
+}

@@ -1,0 +1,112 @@
+//! Energy of bodies, and the work on them.
+
+use super::{Physics, RAPIER_STEPS};
+use crate::error::Error;
+use crate::scene::Scene;
+use crate::scene::body::BodyKind;
+use lariat_ancf::Vector3;
+use lariat_rapier::convert::{rotation, vector};
+use lariat_rapier::rapier::dynamics::RigidBodyHandle;
+use nalgebra::UnitQuaternion;
+
+/// Energy of a dynamic body and work on it, in J.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct BodyTerms {
+    /// Kinetic energy.
+    pub kinetic: f64,
+    /// Potential of gravity.
+    pub gravity: f64,
+    /// Work of loads on it.
+    pub loads: f64,
+    /// Work of its cables on it.
+    pub cables: f64,
+    /// True if nothing but cables, gravity and loads moves it.
+    pub free: bool,
+}
+
+/// Centre of mass (m), rotation, and force (N) and moment (N m) of the loads on a body.
+pub struct Place {
+    centre: Vector3<f64>,
+    rotation: UnitQuaternion<f64>,
+    force: Vector3<f64>,
+    moment: Vector3<f64>,
+}
+
+impl Physics {
+    /// Returns the places of the bodies that the scene loads, with the loads of the coming step.
+    pub(super) fn places(&self, scene: &Scene) -> Vec<(usize, Place)> {
+        let mut places: Vec<(usize, Place)> = Vec::new();
+        for load in &scene.body_loads {
+            if places.iter().any(|(body, _)| *body == load.body) {
+                continue;
+            }
+            let body = &self.world.bodies[self.bodies[load.body]];
+            let place = Place {
+                centre: vector(body.center_of_mass()),
+                rotation: rotation(*body.rotation()),
+                force: vector(body.user_force()),
+                moment: vector(body.user_torque()),
+            };
+            places.push((load.body, place));
+        }
+        places
+    }
+
+    /// Adds the work of the loads over a step that began with `before`.
+    pub(super) fn add_load_work(&mut self, scene: &Scene, before: &[(usize, Place)]) {
+        for ((index, start), (_, end)) in before.iter().zip(self.places(scene)) {
+            let turned = (end.rotation * start.rotation.inverse()).scaled_axis();
+            self.load_work[*index] += start.force.dot(&(end.centre - start.centre)) + start.moment.dot(&turned);
+        }
+    }
+
+    /// Appends the terms of the dynamic bodies, and returns the work of cables on all other bodies in J, and that of their present forces over
+    /// the rounding errors of a host step. Where the energy law of a cable has the work of a kinematic body that moves a node as a support does, that is none of it.
+    ///
+    /// # Errors
+    /// [`Error::Coupling`]; not for an attachment of the scene.
+    pub fn bodies_balance(&self, scene: &Scene, time: f64, terms: &mut Vec<BodyTerms>) -> Result<(f64, f64), Error> {
+        let mut on_body = vec![(0.0, 0.0); scene.bodies.len()];
+        let (mut on_others, mut rounding) = (0.0, 0.0);
+        for (k, attachment) in scene.attachments.iter().enumerate() {
+            let (Some(body), Some(reading)) = (attachment.body, self.reading(k, time)?) else { continue };
+            match scene.bodies[body].kind {
+                BodyKind::Dynamic => {
+                    on_body[body].0 += reading.work;
+                    let origin = vector(self.world.bodies[self.bodies[body]].translation()).norm();
+                    let place = origin + attachment.anchor.map_or(0.0, |anchor| anchor.norm());
+                    on_body[body].1 += reading.force.norm() * place * f64::from(RAPIER_STEPS) * f64::from(f32::EPSILON);
+                }
+                _ if attachment.clamp => on_others += reading.work,
+                _ => {}
+            }
+        }
+        for (index, _) in scene.bodies.iter().enumerate().filter(|(_, body)| body.kind == BodyKind::Dynamic) {
+            let handle = self.bodies[index];
+            let Some(rigid) = lariat_rapier::rigid_body(&self.world, handle) else { continue };
+            let joined = scene.joints.iter().any(|joint| joint.body == index || joint.to == Some(index));
+            let free = !joined && !self.is_near_another(handle);
+            let (cables, of_rounding) = on_body[index];
+            rounding += if free { 0.0 } else { of_rounding };
+            terms.push(BodyTerms {
+                kinetic: rigid.kinetic_energy(),
+                gravity: -rigid.mass * scene.gravity.dot(&rigid.position),
+                loads: self.load_work[index],
+                cables,
+                free,
+            });
+        }
+        Ok((on_others, rounding))
+    }
+
+    /// Returns the weight of the dynamic bodies in N.
+    pub fn weight(&self, scene: &Scene) -> f64 {
+        scene.gravity.norm() * self.dynamic(scene).map(|body| body.mass).sum::<f64>()
+    }
+
+    /// Returns whether the box around a collider of a body overlaps that of another body's.
+    fn is_near_another(&self, body: RigidBodyHandle) -> bool {
+        let colliders = self.world.bodies[body].colliders();
+        colliders.iter().any(|collider| self.world.narrow_phase.contact_pairs_with(*collider).next().is_some())
+    }
+}

@@ -1,0 +1,140 @@
+//! Runs of a scene to a given error.
+
+use super::{Done, Open, Options, Recorded, simulate};
+use crate::error::Error;
+use crate::scene::body::{BodyKind, BodyScene};
+use crate::scene::{Engine, Purpose, Scene};
+use crate::warning::Warning;
+use lariat_ancf::Vector3;
+use lariat_ancf::study::{Claim, Outcome, Proof, Resolution, Study, StudyError};
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+
+/// Elements that a cable gets at most, unless the scene has a quarter as many itself.
+const LIMIT: usize = 160;
+/// Least error over the length of the longest cable: beyond, statics and steps are rounding errors.
+const LEAST: f64 = 1e-8;
+/// Least error with Rapier's bodies, over their distance from the origin, which is counted as at least 1 m: 84 units in the last place of
+/// single precision.
+const LEAST_SINGLE: f64 = 1e-5;
+
+/// What `summary.json` says about the error that was asked for.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ErrorClaim {
+    /// What is claimed.
+    #[serde(flatten)]
+    pub claim: Claim,
+    /// Number of elements of each cable.
+    pub elements_of: BTreeMap<String, usize>,
+    /// What the claim does not cover.
+    pub not_covered: Vec<String>,
+}
+
+impl ErrorClaim {
+    fn of(scene: &Scene, claim: Claim, purpose: Purpose) -> Self {
+        let mut not_covered = vec!["the model: theory of thin rods, rule, law and effects, measured data"];
+        if scene.engine == Engine::Rapier {
+            not_covered.push("single precision of bodies");
+            if purpose == Purpose::Run {
+                not_covered.push("the host step of Rapier: its contacts, joints and free bodies");
+            }
+        }
+        let kinematic = scene.bodies.iter().any(|body| body.kind == BodyKind::Kinematic);
+        if kinematic && purpose == Purpose::Run {
+            not_covered.push("motion of kinematic bodies within a host step");
+        }
+        if purpose == Purpose::Static {
+            not_covered.push("equilibria other than the one that all meshes found");
+        }
+        let elements_of = scene.cables.iter().map(|cable| (cable.name.clone(), cable.elements)).collect();
+        ErrorClaim { claim, elements_of, not_covered: not_covered.into_iter().map(String::from).collect() }
+    }
+
+    fn warning(&self) -> Option<Warning> {
+        let Claim { asked_m, outcome, horizon_s, other_branch, elements, .. } = self.claim;
+        let estimate_m = self.claim.mesh_m.map(|mesh| mesh + self.claim.time_m);
+        match outcome {
+            Outcome::Proven => None,
+            Outcome::NoConvergence => {
+                Some(Warning::NoConvergence { asked_m, estimate_m, elements, horizon_s, other_branch })
+            }
+            Outcome::ElementLimit => {
+                Some(Warning::ErrorNotReached { asked_m, estimate_m, elements, horizon_s, other_branch })
+            }
+        }
+    }
+}
+
+/// Why a run of a study stopped: before it began, or with samples on disk.
+enum Stopped {
+    Before(Error),
+    During(Box<Done>),
+}
+
+/// Runs a scene until its error is proven, and writes the results of the last run.
+pub(super) fn conduct(
+    scene: &Scene,
+    open: Open<'_>,
+    purpose: Purpose,
+    error: f64,
+    options: &mut Options<'_>,
+) -> Result<Recorded, Error> {
+    check(scene, error)?;
+    let largest = scene.cables.iter().map(|cable| cable.elements).max().unwrap_or(1);
+    let each = |resolution: &Resolution, record: &mut _| -> Result<(Scene, Done), Stopped> {
+        if let Some(pilot) = &mut options.pilot {
+            pilot(resolution);
+        }
+        let mut scene = scene.clone();
+        for cable in &mut scene.cables {
+            cable.elements = resolution.elements_of(cable.elements, largest);
+            if purpose == Purpose::Run {
+                cable.integrator = resolution.integrator().into();
+            }
+        }
+        let done = simulate(&scene, open, purpose, options, Some(record)).map_err(Stopped::Before)?;
+        if done.outcome.is_err() { Err(Stopped::During(Box::new(done))) } else { Ok((scene, done)) }
+    };
+    let study = match purpose {
+        Purpose::Run => Study::new(scene.duration, scene.dt, each),
+        Purpose::Static => Study::of_equilibrium(each),
+    };
+    let limit = LIMIT.max(4 * largest);
+    match study.error(error).limit(limit).run() {
+        Ok(Proof { world: (scene, mut done), claim }) => {
+            let claim = ErrorClaim::of(&scene, claim, purpose);
+            done.world.warnings.extend(claim.warning());
+            if let Some(warn) = &mut options.warn {
+                done.world.warnings.iter().for_each(&mut **warn);
+            }
+            Ok(done.finish(Some(claim)))
+        }
+        Err(StudyError::Run { source: Stopped::During(done), .. }) => Ok(done.finish(None)),
+        Err(StudyError::Run { source: Stopped::Before(error), .. }) => Err(error),
+        Err(other) => Err(Error::Study { error, problem: described(&other) }),
+    }
+}
+
+fn described(error: &StudyError<Stopped>) -> String {
+    match error {
+        StudyError::DifferentTimes { time, other } => format!("runs at {time} s and {other} s"),
+        _ => "nothing to compare".to_string(),
+    }
+}
+
+/// Refuses an error that rounding does not allow to prove.
+fn check(scene: &Scene, error: f64) -> Result<(), Error> {
+    let longest = scene.cables.iter().fold(0.0, |longest: f64, cable| longest.max(cable.length));
+    let mut least = (LEAST * longest, "double precision");
+    if scene.engine == Engine::Rapier {
+        let path = |body: &BodyScene| body.path.iter().map(|(_, p)| *p).chain([body.position]).collect::<Vec<_>>();
+        let bodies = scene.bodies.iter().flat_map(path);
+        let cables = scene.cables.iter().flat_map(|cable| cable.points.iter().copied());
+        let far = bodies.chain(cables).fold(1.0, |far: f64, p: Vector3<f64>| far.max(p.norm()));
+        least = (least.0.max(LEAST_SINGLE * far), "the single precision of bodies");
+    }
+    if error >= least.0 && error.is_finite() {
+        return Ok(());
+    }
+    Err(Error::ErrorTooSmall { error, least: least.0, reason: least.1 })
+}

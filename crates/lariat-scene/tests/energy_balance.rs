@@ -1,0 +1,103 @@
+//! The energy balance of runs: closed with error control, and a warning where integration makes or takes energy.
+
+use lariat_ancf::{Fidelity, Integrator, IntegratorChoice, Method};
+use lariat_scene::run::{self, EnergyBalance, Options, Summary};
+use lariat_scene::{Purpose, Scene, Warning};
+use std::path::Path;
+
+fn read(name: &str, overrides: &[&str]) -> Scene {
+    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("../../assets/scenes/{name}.toml"));
+    let overrides: Vec<String> = overrides.iter().map(ToString::to_string).collect();
+    Scene::read(&file, &overrides, Purpose::Run).unwrap()
+}
+
+fn execute(scene: &Scene) -> (Summary, EnergyBalance) {
+    let folder = tempfile::tempdir().unwrap();
+    let summary = run::run(scene, folder.path(), &mut Options::default()).unwrap();
+    let balance = summary.energy_balance.unwrap();
+    println!("{}: {:.1e}, {balance:?}, {} steps", scene.name, share(&balance), summary.steps);
+    (summary, balance)
+}
+
+fn with(mut scene: Scene, integrator: Integrator) -> Scene {
+    scene.cables.iter_mut().for_each(|cable| cable.integrator = integrator.into());
+    scene
+}
+
+fn share(balance: &EnergyBalance) -> f64 {
+    balance.made().max(balance.lost())
+}
+
+/// *Source.* The work-energy theorem. Among the works are those of a ramped force (cantilever, elastica) and moment (elastica), of winch and
+/// helicopter (hoist, slung load), of a flow (towed line), and of damping in a transient of milliseconds (bridge).
+#[test]
+fn the_balance_of_every_scene_closes_with_error_control() {
+    for (name, tolerance, duration) in [
+        ("falling_pendulum", 1e-6, 2.0),
+        ("catenary", 1e-6, 1.0),
+        ("cantilever", 1e-7, 2.0),
+        ("elastica", 1e-6, 3.0),
+        ("towed_line", 1e-6, 5.0),
+        ("dumbbell", 1e-6, 3.0),
+        ("payload_pendulum", 1e-6, 1.0),
+        ("hoist", 1e-7, 14.0),
+        ("slung_load", 1e-6, 10.0),
+        ("tether_multibody", 1e-6, 6.0),
+        ("cable_stayed", 1e-7, 2.0),
+        ("bridge", 1e-7, 1.0),
+    ] {
+        let scene = with(
+            read(name, &[&format!("duration={duration:?}")]),
+            Integrator::tolerance(Method::Esdirk4, tolerance).unwrap(),
+        );
+        let (_, balance) = execute(&scene);
+        assert!(share(&balance) < 1e-4, "{name}: {:.1e}", share(&balance));
+    }
+}
+
+/// The discrete gradient has a law of its own: it makes no energy in any scene, and what it loses is its numerical dissipation.
+///
+/// *Source.* The law, `docs/theory.md`.
+#[test]
+fn the_discrete_gradient_makes_no_energy_and_knows_what_it_loses() {
+    for name in ["falling_pendulum", "cantilever", "elastica", "towed_line", "dumbbell", "slung_load", "bridge"] {
+        let mut scene = read(name, &["duration=1.0"]);
+        scene.cables.iter_mut().for_each(|cable| cable.integrator = IntegratorChoice::from(Fidelity::Game));
+        let (_, balance) = execute(&scene);
+        assert!(balance.made() < 1e-6, "{name}: {:.1e}", balance.made());
+    }
+}
+
+/// Steps of 0.01 s of a pendulum by the alpha method with the strongest damping take 9 % of its energy; the trapezoidal rule with steps of
+/// 0.02 s makes energy, less than the check of single steps refuses.
+///
+/// *Source.* The energy at the start and the end, of a system without work.
+#[test]
+fn energy_that_integration_takes_is_told() {
+    let scene =
+        with(read("falling_pendulum", &[]), Integrator::substeps(Method::GeneralisedAlpha { rho: 0.0 }, 1).unwrap());
+    let (summary, balance) = execute(&scene);
+    let lost = summary.energy_start_j.unwrap() - summary.energy_end_j.unwrap();
+    assert!((balance.balance_j + lost).abs() < 1e-9 * balance.scale_j && lost > 0.0);
+    let told = |w: &Warning| matches!(w, Warning::EnergyLost { lost_j, .. } if *lost_j >= lost);
+    assert!(summary.warnings.iter().any(told), "{:?}", summary.warnings);
+}
+
+/// A kinematic body that starts at once, with a velocity that no cable had, pulls a cable with a body: the impact and the pull do work.
+///
+/// *Source.* The work-energy theorem.
+#[test]
+fn the_work_of_a_kinematic_body_that_starts_at_once_is_known() {
+    for (speed, mass, stiffness) in [(3.0, 5.0, 1e5), (0.5, 0.2, 1e4), (6.0, 40.0, 1e6)] {
+        let text = format!(
+            "duration = 1.0\n[[body]]\nname = \"top\"\nkind = \"kinematic\"\nshape = \"none\"\npath = [[0.2, 0.0, 0.0, 0.0], [3.2, {:?}, 0.0, 0.0]]\n\
+             [[body]]\nname = \"load\"\nshape = {{ ball = 0.1 }}\nmass = {mass:?}\nposition = [0.0, -3.0, 0.0]\n[[cable]]\nname = \"line\"\n\
+             points = [[0.0, 0.0, 0.0], [0.0, -3.0, 0.0]]\naxial_stiffness = {stiffness:?}\nbending_stiffness = 0.1\nmass_per_length = 0.5\n\
+             integrator = {{ tolerance = 1e-7 }}\n[[attachment]]\ncable = \"line\"\nat = \"start\"\nbody = \"top\"\n[[attachment]]\n\
+             cable = \"line\"\nat = \"end\"\nbody = \"load\"\n",
+            3.0 * speed
+        );
+        let (_, balance) = execute(&Scene::parse("pulled.toml", &text, &[], Purpose::Run).unwrap());
+        assert!(share(&balance) < 1e-4 && balance.work_j > 0.0, "{speed} m/s, {mass} kg: {:.1e}", share(&balance));
+    }
+}

@@ -1,0 +1,258 @@
+//! `lariat run --error` and `lariat static --error`: the true error is at most the claimed one.
+
+use lariat_ancf::study::{Claim, Outcome};
+use lariat_scene::run::{self, Options, Summary};
+use lariat_scene::{Error, Purpose, Scene, Warning};
+use std::fs;
+use std::path::{Path, PathBuf};
+use tempfile::TempDir;
+
+fn assets(path: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../assets").join(path)
+}
+
+fn read(name: &str, overrides: &[&str], purpose: Purpose) -> Scene {
+    let overrides: Vec<String> = overrides.iter().map(ToString::to_string).collect();
+    Scene::read(&assets(&format!("scenes/{name}.toml")), &overrides, purpose).unwrap()
+}
+
+fn parse(text: &str, purpose: Purpose) -> Scene {
+    Scene::parse("scene.toml", text, &[], purpose).unwrap()
+}
+
+fn execute(scene: &Scene, error: Option<f64>, purpose: Purpose) -> (Summary, TempDir) {
+    let folder = tempfile::tempdir().unwrap();
+    let mut options = Options { error, ..Options::default() };
+    let summary = match purpose {
+        Purpose::Run => run::run(scene, folder.path(), &mut options),
+        Purpose::Static => run::statics(scene, folder.path(), &mut options),
+    };
+    (summary.unwrap(), folder)
+}
+
+fn claim(summary: &Summary) -> &Claim {
+    let claim = &summary.error.as_ref().unwrap().claim;
+    println!("{}: {claim:?}", summary.name);
+    claim
+}
+
+fn rows(folder: &Path, probe: &str) -> Vec<Vec<f64>> {
+    csv(&folder.join(format!("probes/{probe}.csv")))
+}
+
+fn csv(file: &Path) -> Vec<Vec<f64>> {
+    let text = fs::read_to_string(file).unwrap();
+    text.lines().skip(1).map(|line| line.split(',').map(|x| x.parse().unwrap()).collect()).collect()
+}
+
+fn distance(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| (a - b).powi(2)).sum::<f64>().sqrt()
+}
+
+/// Largest distance of the points of all point probes of two runs.
+fn apart(scene: &Scene, a: &Path, b: &Path) -> f64 {
+    let mut largest: f64 = 0.0;
+    for probe in &scene.probes {
+        let (a, b) = (rows(a, &probe.name), rows(b, &probe.name));
+        assert_eq!(a.len(), b.len());
+        for (a, b) in a.iter().zip(&b) {
+            largest = largest.max(distance(&a[1..4], &b[1..4]));
+        }
+    }
+    largest
+}
+
+/// *Source.* The tip of the falling pendulum by an independent solver with Richardson extrapolation, `pendulum_converged_tip.csv`.
+#[test]
+fn the_claim_for_the_pendulum_holds_against_the_independent_solver() {
+    let scene = read("falling_pendulum", &[], Purpose::Run);
+    let beam = csv(&assets("reference/pendulum_converged_tip.csv"));
+    for error in [1e-1, 1e-2, 1e-3, 1e-4] {
+        let (summary, folder) = execute(&scene, Some(error), Purpose::Run);
+        let claim = claim(&summary);
+        let tip = rows(folder.path(), "tip");
+        assert_eq!(tip.len(), 201);
+        let error_of_tip =
+            tip.iter().zip(&beam).map(|(tip, beam)| distance(&tip[1..4], &beam[4..7])).fold(0.0, f64::max);
+        let claimed = claim.claimed_m.unwrap();
+        println!("asked {error:.0e}, claimed {claimed:.1e}, true {error_of_tip:.1e}, cost {:.1}", claim.cost);
+        assert!(claim.outcome == Outcome::Proven && claimed <= error && error_of_tip <= claimed && claim.cost < 4.0);
+        let coarse = |w: &Warning| matches!(w, Warning::CoarseMesh { .. });
+        assert!(summary.warnings.iter().all(coarse), "{:?}", summary.warnings);
+    }
+}
+
+/// *Source.* Mattiasson 1981, elliptic integrals: P L^2/EI = 10 gives u/L = 0.55500, w/L = 0.81061 for the inextensible elastica; the strain
+/// of the axis, at most P/EA = 1e-5, moves the tip by less than 1e-5 m. An end moment of EI pi/2 bends the cantilever to a quarter of a
+/// circle with the tip at 2/pi, 2/pi.
+#[test]
+fn the_claim_for_the_elastica_holds_against_elliptic_integrals() {
+    let scene = read("elastica", &[], Purpose::Static);
+    for error in [1e-2, 1e-3, 1e-4] {
+        let (summary, folder) = execute(&scene, Some(error), Purpose::Static);
+        let claim = claim(&summary);
+        assert_eq!((claim.tolerance_m, claim.time_m, claim.horizon_s), (None, 0.0, None));
+        let two_over_pi = std::f64::consts::FRAC_2_PI;
+        for (probe, tip) in [
+            ("force", [1.0 - 0.5549955977537551, -0.8106090248802974, 0.0]),
+            ("moment", [two_over_pi, -two_over_pi, 0.5]),
+        ] {
+            let off = distance(&rows(folder.path(), probe)[0][1..4], &tip);
+            println!("{probe}: asked {error:.0e}, off {off:.1e}");
+            assert!(off <= claim.claimed_m.unwrap() + 1e-5, "{probe}: {off:.1e} m");
+        }
+    }
+}
+
+/// A slack cable that hangs from both ends and gets a jump of a force in its middle: waves accumulate errors of the mesh.
+fn kicked(mass: f64, force: f64, tension: f64) -> String {
+    format!(
+        "duration = 1.0\ndt = 0.01\n[[cable]]\nname = \"line\"\npoints = [[0.0, 0.0, 0.0], [2.0, 0.0, 0.0]]\nlength = 2.2\ninitial = \
+         \"equilibrium\"\naxial_stiffness = {tension:?}\nbending_stiffness = 0.01\nmass_per_length = {mass:?}\n[[attachment]]\ncable = \"line\"\nat = \
+         \"start\"\nbody = \"world\"\n[[attachment]]\ncable = \"line\"\nat = \"end\"\nbody = \"world\"\n[[load]]\ncable = \"line\"\nat = 0.8\n\
+         force = [0.0, 0.0, {force:?}]\nramp = 0.05\n[[probe]]\nname = \"a\"\ncable = \"line\"\nat = 0.5\n[[probe]]\nname = \"b\"\ncable = \"line\"\n\
+         at = 1.37\n"
+    )
+}
+
+/// *Source.* The same scene with twice as many elements and a tolerance ten times tighter.
+#[test]
+fn the_claim_holds_where_waves_accumulate_errors() {
+    for (mass, force, stiffness, error) in [(0.5, 6.0, 1e4, 3e-3), (0.5, 6.0, 1e4, 3e-4), (0.2, 3.0, 1e5, 1e-3)] {
+        let text = kicked(mass, force, stiffness);
+        let scene = parse(&text, Purpose::Run);
+        let (summary, folder) = execute(&scene, Some(error), Purpose::Run);
+        let claim = claim(&summary);
+        let (n, tolerance) = (2 * claim.elements, claim.tolerance_m.unwrap() / 10.0);
+        let finer = format!("name = \"line\"\nelements = {n}\nintegrator = {{ tolerance = {tolerance:?} }}");
+        let (_, finer) = execute(&parse(&text.replace("name = \"line\"", &finer), Purpose::Run), None, Purpose::Run);
+        let off = apart(&scene, folder.path(), finer.path());
+        println!("asked {error:.0e}, claimed {:.1e}, off {off:.1e}", claim.claimed_m.unwrap());
+        assert!(off <= claim.claimed_m.unwrap());
+    }
+}
+
+/// After 3.5 s the pendulum is chaotic: independent runs of 8 to 64 elements agree to 3e-4 m at 3 s, and differ by 5e-2 m at 4 s whatever
+/// the mesh.
+#[test]
+fn a_chaotic_motion_is_proven_up_to_its_horizon() {
+    let scene = read("falling_pendulum", &["duration=5.0"], Purpose::Run);
+    let (summary, _) = execute(&scene, Some(1e-2), Purpose::Run);
+    let claim = claim(&summary);
+    let horizon = claim.horizon_s.unwrap();
+    assert!(claim.outcome == Outcome::NoConvergence && claim.claimed_m.is_none() && 3.0 < horizon && horizon < 4.0);
+    let told = |w: &Warning| matches!(w, Warning::NoConvergence { horizon_s: Some(t), .. } if *t == horizon);
+    assert!(summary.warnings.iter().any(told), "{:?}", summary.warnings);
+}
+
+/// With a host step so short that one step per host step passes both tolerances, their difference is zero: the error in time is not.
+#[test]
+fn a_tolerance_that_the_host_step_hides_is_flagged() {
+    let scene = read("falling_pendulum", &["duration=0.5"], Purpose::Run);
+    let (summary, _) = execute(&scene, Some(5e-2), Purpose::Run);
+    let claim = claim(&summary);
+    assert!(claim.host_step_limits && claim.time_m > 49.9 * claim.tolerance_m.unwrap());
+    let (summary, _) = execute(&scene, Some(1e-4), Purpose::Run);
+    let claim = self::claim(&summary);
+    assert!(!claim.host_step_limits && claim.time_m > 0.0);
+}
+
+/// Long host steps, of which each is one integration step: two tolerances give the same motion, which is not the true one.
+///
+/// *Source.* The same scene with twice as many elements and a tolerance a hundred times tighter.
+#[test]
+fn the_claim_holds_where_the_host_step_limits_the_steps() {
+    for (dt, bending, error) in [(0.05, 0.3, 0.3), (0.05, 2.0, 0.1), (0.02, 0.3, 0.03)] {
+        let text = format!(
+            "duration = 1.5\ndt = {dt:?}\n[[cable]]\nname = \"rod\"\npoints = [[0.0, 0.0, 0.0], [1.5, 0.4, 0.0]]\naxial_stiffness = 3.0e4\n\
+             bending_stiffness = {bending:?}\nmass_per_length = 0.4\n[[attachment]]\ncable = \"rod\"\nat = \"start\"\nbody = \"world\"\n\
+             [[probe]]\nname = \"tip\"\ncable = \"rod\"\nat = \"end\"\n"
+        );
+        let scene = parse(&text, Purpose::Run);
+        let (summary, folder) = execute(&scene, Some(error), Purpose::Run);
+        let claim = claim(&summary);
+        let (n, tolerance) = (2 * claim.elements, claim.tolerance_m.unwrap() / 100.0);
+        let finer = format!("name = \"rod\"\nelements = {n}\nintegrator = {{ tolerance = {tolerance:?} }}");
+        let (_, finer) = execute(&parse(&text.replace("name = \"rod\"", &finer), Purpose::Run), None, Purpose::Run);
+        let off = apart(&scene, folder.path(), finer.path());
+        println!("dt {dt}, asked {error:.0e}, claimed {:.1e}, off {off:.1e}", claim.claimed_m.unwrap());
+        assert!(off <= claim.claimed_m.unwrap());
+    }
+}
+
+/// A cable held at seven points, between which four and eight elements are the same mesh: that they agree proves nothing.
+///
+/// *Source.* The same scene with three times as many elements.
+#[test]
+fn meshes_that_are_not_refined_prove_nothing() {
+    let mut text = "gravity = [0.0, -9.81, 0.0]\n[[cable]]\nname = \"line\"\npoints = [[0.0, 0.0, 0.0], [6.0, 0.0, 0.0]]\nlength = 6.6\n\
+                    axial_stiffness = 1.0e5\nbending_stiffness = 1.0e-2\nmass_per_length = 0.5\n"
+        .to_string();
+    for k in 0..7 {
+        let (x, s) = (k as f64, 1.1 * k as f64);
+        let at = if k < 6 { format!("{s:?}") } else { "\"end\"".to_string() };
+        text += &format!("[[attachment]]\ncable = \"line\"\nat = {at}\nbody = \"world\"\nanchor = [{x:?}, 0.0, 0.0]\n");
+        if k < 6 {
+            text += &format!("[[probe]]\nname = \"p{k}\"\ncable = \"line\"\nat = {:?}\n", s + 0.4);
+        }
+    }
+    let scene = parse(&text, Purpose::Static);
+    let (summary, folder) = execute(&scene, Some(1e-3), Purpose::Static);
+    let claim = claim(&summary);
+    assert!(claim.elements > 12 && claim.outcome == Outcome::Proven);
+    let finer = text.replace("name = \"line\"", &format!("name = \"line\"\nelements = {}", 3 * claim.elements));
+    let (_, finer) = execute(&parse(&finer, Purpose::Static), None, Purpose::Static);
+    let off = apart(&scene, folder.path(), finer.path());
+    println!("off {off:.1e}");
+    assert!(off <= claim.claimed_m.unwrap());
+}
+
+/// Bodies in single precision: a body 2 m away is known to 1e-7 m, one 2 km away to 1e-4 m.
+#[test]
+fn an_error_below_the_precision_is_refused_before_anything_is_written() {
+    let scene = read("payload_pendulum", &["duration=0.1"], Purpose::Run);
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("out");
+    let refused = |scene: &Scene, error: f64| {
+        let options = &mut Options { error: Some(error), ..Options::default() };
+        match run::run(scene, &out, options) {
+            Err(Error::ErrorTooSmall { least, .. }) => least,
+            other => panic!("{other:?}"),
+        }
+    };
+    assert!((refused(&scene, 1e-6) - 2e-5).abs() < 1e-6);
+    for error in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+        refused(&scene, error);
+    }
+    let mut far = scene.clone();
+    far.bodies[0].position.x += 2000.0;
+    assert!(refused(&far, 1e-3) > 1e-2);
+    refused(&read("falling_pendulum", &[], Purpose::Run), 1e-9);
+    assert!(!out.exists());
+}
+
+/// A crate of 50 kg on a sling; the claim is the same in two runs, and is in summary.json.
+///
+/// *Source.* The same scene with twice as many elements and a tolerance ten times tighter.
+#[test]
+fn the_claim_for_a_body_on_a_cable_holds_and_is_deterministic() {
+    let scene = read("payload_pendulum", &["duration=0.5", "cable.sling.damping={ axial = 1e-3 }"], Purpose::Run);
+    let (first, folder) = execute(&scene, Some(1e-2), Purpose::Run);
+    let (second, _) = execute(&scene, Some(1e-2), Purpose::Run);
+    assert_eq!(first.error, second.error);
+    let text = fs::read_to_string(folder.path().join("summary.json")).unwrap();
+    assert_eq!(serde_json::from_str::<Summary>(&text).unwrap().error, first.error);
+    let claim = claim(&first);
+    let error = first.error.as_ref().unwrap();
+    assert_eq!(error.elements_of["sling"], claim.elements);
+    assert!(error.not_covered.iter().any(|text| text.contains("single precision")));
+    let mut finer = scene.clone();
+    finer.cables[0].elements = 2 * claim.elements;
+    let resolution = lariat_ancf::study::Resolution { elements: 0, tolerance: claim.tolerance_m.map(|x| x / 10.0) };
+    finer.cables[0].integrator = resolution.integrator().into();
+    let (_, there) = execute(&finer, None, Purpose::Run);
+    let (a, b) = (rows(folder.path(), "crate"), rows(there.path(), "crate"));
+    let off = a.iter().zip(&b).map(|(a, b)| distance(&a[1..4], &b[1..4])).fold(0.0, f64::max);
+    println!("off {off:.1e}");
+    assert!(off <= claim.claimed_m.unwrap());
+}
