@@ -9,7 +9,9 @@
 //! # Validity
 //!
 //! The rate is prescribed: the winch is as strong as it must be, and [`ReelReading::force`] says how strong that is. Stock leaves a drum
-//! that runs with the rate. A rate above 0.3 of the speed of transverse waves, `sqrt(T/rho A)`, needs internal damping. The node at
+//! that runs with the rate. A rate above 0.3 of the speed of transverse waves, `sqrt(T/rho A)`, needs internal damping. A rope
+//! that is paid out faster than it falls crumples at the eye, and splitting crumpled elements adds strain energy:
+//! [`ReelReading::remeshed`] says how much. The node at
 //! the eye is held by a support, or by an attachment to a body that is not moved by the cable: the stock's momentum is not accounted
 //! on a free body. Implicit methods only. Gravity, internal damping and a uniform rest stretch act on the element at the eye; other
 //! effects are refused ([`Error::NotWithReel`]).
