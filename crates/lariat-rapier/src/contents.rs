@@ -1,7 +1,6 @@
 //! The contents of a set: cables, attachments, junctions and records of bodies.
 
 use crate::attachment::Attachment;
-use crate::breaking::Strength;
 use crate::convert;
 use crate::error::Error;
 use crate::handle::{AttachmentHandle, CableHandle, JunctionHandle};
@@ -26,9 +25,9 @@ pub(crate) struct Slot {
     pub gravity: ::nalgebra::Vector3<f64>,
     /// Positions of both ends and the length when it was inserted, in m.
     pub sort_key: [f64; 7],
-    /// `None`: it does not break.
+    /// Whether its load was compared with its strength since that was set.
     #[serde(default)]
-    pub strength: Option<Strength>,
+    pub compared: bool,
 }
 
 impl Slot {
@@ -68,7 +67,7 @@ impl Contents {
         let sort_key = [start.x, start.y, start.z, end.x, end.y, end.z, cable.length()];
         let gravity = cable.gravity();
         let follows_gravity = gravity == lariat_ancf::STANDARD_GRAVITY;
-        let slot = Slot { asleep: false, modified: true, follows_gravity, gravity, sort_key, strength: None, cable };
+        let slot = Slot { asleep: false, modified: true, follows_gravity, gravity, sort_key, compared: false, cable };
         let index = self.cables.push(slot);
         self.changed = true;
         self.gravity = None;

@@ -286,6 +286,8 @@ impl CableBuilder {
             loads: Vec::new(),
             effects: self.effects,
             force_densities: self.force_densities,
+            strength: Default::default(),
+            reel: None,
         };
         let mut cable = Cable::from_parts(model, snapshot, Integrator::default())?;
         for (at, hold) in self.holds {
