@@ -44,7 +44,7 @@
 //!
 //! # Limits
 //!
-//! Cables do not collide, with colliders or with each other; their length does not change in time (no reel); they have no torsion, no
+//! Cables do not collide, with colliders or with each other; a reel is at the last node and its rate is prescribed; there is no torsion, no
 //! shear and no plasticity. The material law is linear in the Green strain. JSON snapshots need `serde_json` with feature `float_roundtrip`.
 //!
 //! The equations, their validity and their sources are in `docs/theory.md` of the repository, recipes in `docs/cookbook.md`, error against

@@ -57,6 +57,7 @@ mod rule;
 mod section;
 mod simd;
 mod statics;
+mod strength;
 pub mod study;
 mod support;
 mod system;
@@ -68,6 +69,7 @@ pub use cable::mesh::{MeshIndicator, MotionIndicator};
 pub use cable::reactions::Reaction;
 pub use cable::sample::Sample;
 pub use cable::{At, Cable, Snapshot};
+pub use cable::{Reel, ReelReading};
 pub use diagnostics::Diagnostics;
 pub use effect::{
     Buoyancy, CablePoint, Contact, Damping, Drag, EffectCounts, EffectWork, Effects, Flow, ForceDensity,
@@ -83,5 +85,6 @@ pub use real::Real;
 pub use rule::{AxialRule, BendingRule, Rule};
 pub use section::{Element, Section, Shape};
 pub use statics::{EquilibriumOptions, EquilibriumReport};
+pub use strength::{Break, BreakCause, Strength};
 pub use support::{Motion, SlopeSupport, Support};
 pub use system::jacobian::Jacobians;

@@ -1,5 +1,6 @@
 //! What a cable is made of: plain data from which everything else is rebuilt.
 
+use crate::cable::ReelModel;
 use crate::contact::Obstacles;
 use crate::effect::force_density::ForceDensities;
 use crate::effect::{Effects, Target};
@@ -7,6 +8,7 @@ use crate::error::{Error, require, require_finite};
 use crate::load::PointLoad;
 use crate::rule::Rule;
 use crate::section::Element;
+use crate::strength::Strength;
 use crate::support::Support;
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
@@ -31,6 +33,10 @@ pub struct Model {
     /// What it can touch; set by the host, no part of a file.
     #[serde(skip)]
     pub(crate) obstacles: Obstacles,
+    #[serde(default)]
+    pub(crate) strength: Strength,
+    #[serde(default)]
+    pub(crate) reel: Option<ReelModel>,
 }
 
 impl Model {
@@ -61,6 +67,7 @@ impl Model {
             return Err(Error::SupportOrder { cable: cable(), node, nodes });
         }
         self.supports.iter().try_for_each(|(_, support)| support.check())?;
+        self.strength.check()?;
         self.check_effects()
     }
 
@@ -116,17 +123,18 @@ impl Model {
 
     /// Rejects effects that are out of range or that the cable has no numbers for.
     pub(crate) fn check_effects(&self) -> Result<(), Error> {
-        self.effects.check(&self.target())
+        self.effects.check(&self.target())?;
+        self.reel.as_ref().map_or(Ok(()), |_| self.check_with_reel())
     }
 
     /// Returns whether a force depends on velocity.
     pub(crate) fn depends_on_velocity(&self) -> bool {
-        self.effects.depends_on_velocity() || self.force_densities.depend_on_velocity()
+        self.effects.depends_on_velocity() || self.force_densities.depend_on_velocity() || self.reel.is_some()
     }
 
     /// Returns whether the step matrix holds the exact tangent of the force.
     pub(crate) fn has_exact_tangent(&self) -> bool {
-        self.effects.has_exact_tangent() && self.force_densities.is_empty()
+        self.effects.has_exact_tangent() && self.force_densities.is_empty() && self.reel.is_none()
     }
 
     /// Returns the mass per length in kg/m that resists acceleration, added mass included.

@@ -1,45 +1,53 @@
-//! Cables that break where their tension is too large.
+//! Cables that break where their load is too large, or are cut.
 
 use crate::attachment::{Attachment, OnCable};
 use crate::cable::Cable;
-use crate::cables::{Break, Cables};
+use crate::cables::{Cables, Parting};
 use crate::components::{CableComponents, put};
-use crate::event::CableBroken;
+use crate::event::{CableBroken, CableFailed};
 use crate::interpolate::Interpolate;
 use crate::junction::Junction;
 use bevy_ecs::component::Component;
 use bevy_ecs::entity::Entity;
 use bevy_ecs::entity_disabling::Disabled;
 use bevy_ecs::name::Name;
-use bevy_ecs::prelude::{Query, RemovedComponents, ResMut, World};
+use bevy_ecs::prelude::{Changed, Or, Query, RemovedComponents, ResMut, With, World};
 use bevy_ecs::query::Allow;
-use lariat_ancf::At;
+use lariat_ancf::{At, Strength};
 use lariat_rapier::CableHandle;
 
 /// The tension in N above which a cable breaks, compared after each host step; without it nothing
 /// is compared.
 ///
-/// The cable breaks at the inner node nearest to the largest tension, so that a cable of one
-/// element does not break. The part behind the break is a new entity with the same components, and
-/// takes the attachments behind the break.
+/// The cable breaks at the inner node nearest to the largest tension. The part behind the break is a
+/// new entity with the same components, and takes the attachments behind the break. A limit that is
+/// not positive, or on a cable of one element, is an error: [`CableFailed`](crate::event::CableFailed).
 #[derive(Component, Clone, Copy, Debug, PartialEq)]
 pub struct BreakTension(pub f64);
 
-/// Tells the set which cables break, and at which tension.
+/// The strain (stretch over rest stretch less 1) above which a cable breaks, as [`BreakTension`] says.
+#[derive(Component, Clone, Copy, Debug, PartialEq)]
+pub struct BreakStrain(pub f64);
+
+/// The limits of a cable.
+type Limits = (Option<&'static BreakTension>, Option<&'static BreakStrain>);
+
+/// Query filter: the strength of a cable was added or changed, or the cable was.
+type StrengthChanged = Or<(Changed<BreakTension>, Changed<BreakStrain>, Changed<Cable>)>;
+
+/// Tells the set which cables break, and at which load.
 pub(crate) fn set_strengths(
     mut cables: ResMut<Cables>,
-    limits: Query<(Entity, &BreakTension), Allow<Disabled>>,
-    mut removed: RemovedComponents<BreakTension>,
+    limits: Query<Limits, (With<Cable>, Allow<Disabled>)>,
+    changed: Query<Entity, (StrengthChanged, Allow<Disabled>)>,
+    mut tensions: RemovedComponents<BreakTension>,
+    mut strains: RemovedComponents<BreakStrain>,
 ) {
-    for entity in removed.read() {
-        if let Ok(handle) = cables.handle(entity) {
-            // a cable with an entity is in the set
-            let _ = cables.set.set_strength(handle, None);
-        }
-    }
-    for (entity, limit) in &limits {
-        if let Ok(handle) = cables.handle(entity) {
-            let _ = cables.set.set_strength(handle, Some(limit.0));
+    for entity in changed.iter().chain(tensions.read()).chain(strains.read()) {
+        let (Ok(handle), Ok((tension, strain))) = (cables.handle(entity), limits.get(entity)) else { continue };
+        let strength = Strength { tension: tension.map(|t| t.0), strain: strain.map(|s| s.0) };
+        if let Err(lariat_rapier::Error::Cable(error)) = cables.set.set_strength(handle, strength) {
+            cables.events.push(CableFailed { entity, error }.into());
         }
     }
 }
@@ -47,11 +55,11 @@ pub(crate) fn set_strengths(
 /// Makes an entity of the part behind each break, with the same components.
 pub(crate) fn split_entities(world: &mut World) {
     for broken in core::mem::take(&mut world.resource_mut::<Cables>().broken) {
-        let Break { cable, rest: tail, arc_length, tension } = broken;
+        let Parting { cable, rest: tail, how } = broken;
         let link = world.resource::<Cables>().links.cables.get(&cable).copied();
         let Some(rest) = link.and_then(|link| split_entity(world, link.entity, cable, tail)) else { continue };
         let entity = link.map_or(Entity::PLACEHOLDER, |link| link.entity);
-        let event = CableBroken { entity, rest, arc_length, tension };
+        let event = CableBroken { entity, rest, how };
         world.resource_mut::<Cables>().events.push(event.into());
     }
 }
@@ -72,10 +80,9 @@ fn split_entity(world: &mut World, entity: Entity, cable: CableHandle, tail: Cab
     let tied = move_junctions(&mut cables, tail, length, rest);
     before.put(&mut world.entity_mut(entity));
     behind.put(&mut world.entity_mut(rest));
-    let (limit, name) = (world.get::<BreakTension>(entity).copied(), world.get::<Name>(entity).cloned());
+    let name = world.get::<Name>(entity).cloned();
     let drawn = world.get::<Interpolate>(entity).map(|_| Interpolate::default());
     let mut part = world.entity_mut(rest);
-    put(&mut part, limit);
     put(&mut part, name);
     put(&mut part, drawn);
     part.insert(description);

@@ -31,8 +31,9 @@ use crate::event::{QueuedEvent, StepFailed};
 use crate::junction::Junction;
 use bevy_ecs::entity::{Entity, EntityHashMap};
 use bevy_ecs::resource::Resource;
+use lariat_ancf::{At, Break};
 use lariat_rapier::rapier::dynamics::RigidBodyHandle;
-use lariat_rapier::{AttachmentHandle, CableHandle, CableSet, HostStep, JunctionHandle, Settings};
+use lariat_rapier::{AttachmentHandle, CableHandle, CableSet, Event, HostStep, JunctionHandle, Settings};
 use std::collections::{BTreeMap, HashMap};
 
 /// The cables of a world: a resource to read with `Res<Cables>` and to change with
@@ -54,15 +55,14 @@ use std::collections::{BTreeMap, HashMap};
 ///
 /// # Limits
 ///
-/// No contact of cables with dynamic bodies or with each other, and no change of length: see the
-/// [crate page](crate#limits).
+/// No contact of cables with dynamic bodies or with each other: see the [crate page](crate#limits).
 #[derive(Resource, Default)]
 pub struct Cables {
     pub(crate) set: CableSet,
     pub(crate) links: Links,
     pub(crate) events: Vec<QueuedEvent>,
-    /// Cables that broke in the host step.
-    pub(crate) broken: Vec<Break>,
+    /// Cables that broke in the host step, or were cut since.
+    pub(crate) broken: Vec<Parting>,
     /// The host step that is under way.
     pub(crate) host: Option<HostStep>,
     /// Whether a snapshot is being restored, with the cables of all components: those that are
@@ -88,6 +88,30 @@ impl Cables {
     pub fn get_mut(&mut self, entity: Entity) -> Result<&mut lariat_ancf::Cable, Error> {
         let handle = self.handle(entity)?;
         Ok(self.set.get_mut(handle)?)
+    }
+
+    /// Cuts the cable of an entity at a point between its ends. The entity keeps the part before the
+    /// cut; the part behind it becomes an entity with the same components before the next host step,
+    /// and the event is [`CableBroken`](crate::event::CableBroken). Attachments and junctions go with
+    /// their part.
+    ///
+    /// # Errors
+    /// [`Error::NotACable`]; [`Error::NotBuilt`] with the reason; [`Error::Coupling`] for a point that is
+    /// not between the ends.
+    pub fn cut(&mut self, entity: Entity, at: impl Into<At>) -> Result<(), Error> {
+        let handle = self.handle(entity)?;
+        self.set.cut(handle, at)?;
+        self.take_partings();
+        Ok(())
+    }
+
+    /// Takes the events of cables that broke or were cut from the set.
+    fn take_partings(&mut self) {
+        let parting = |event| match event {
+            Event::Broken { cable, rest, how } => Some(Parting { cable, rest, how }),
+            _ => None,
+        };
+        self.broken.extend(self.set.take_events().into_iter().filter_map(parting));
     }
 
     /// Iterates over all cables with their entities, those of disabled entities included.
@@ -145,16 +169,14 @@ impl Cables {
     }
 }
 
-/// A cable of the set that broke.
+/// A cable of the set that broke or was cut.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Break {
+pub(crate) struct Parting {
     pub cable: CableHandle,
     /// The part behind the break.
     pub rest: CableHandle,
-    /// Arc length of the break in m.
-    pub arc_length: f64,
-    /// Tension in N.
-    pub tension: f64,
+    /// Why, where and under which load.
+    pub how: Break,
 }
 
 /// Which entity stands for which object of the set and of Rapier's world.

@@ -1,11 +1,13 @@
 //! The components that together say what a cable does, in one list.
 //!
 //! The list is that of [`for_each_effect`](lariat_ancf::for_each_effect), and before it [`Rule`],
-//! [`Bending`] and [`PointLoads`]. Building, updating, breaking, snapshots, change detection and
+//! [`Bending`], [`PointLoads`], [`Reel`], [`BreakTension`] and [`BreakStrain`]. Building, updating, breaking, snapshots, change detection and
 //! reflection all use [`CableComponents`], so a new effect needs no further line in this crate.
 
+use crate::breaking::{BreakStrain, BreakTension};
 use crate::description::Description;
 use crate::effects::*;
+use crate::reel::Reel;
 use bevy_ecs::component::Component;
 use bevy_ecs::query::{Changed, Or};
 use bevy_ecs::world::{EntityRef, EntityWorldMut};
@@ -19,6 +21,9 @@ macro_rules! components {
             rule: Option<Rule>,
             bending: Option<Bending>,
             point_loads: Option<PointLoads>,
+            reel: Option<Reel>,
+            break_tension: Option<BreakTension>,
+            break_strain: Option<BreakStrain>,
             $($field: Option<$type>,)*
         }
 
@@ -33,6 +38,9 @@ macro_rules! components {
                     rule: entity.get().copied(),
                     bending: entity.get().copied(),
                     point_loads: entity.get().cloned(),
+                    reel: entity.get().cloned(),
+                    break_tension: entity.get().copied(),
+                    break_strain: entity.get().copied(),
                     $($field: entity.get().cloned(),)*
                 }
             }
@@ -42,6 +50,9 @@ macro_rules! components {
                 put(entity, self.rule);
                 put(entity, self.bending);
                 put(entity, self.point_loads);
+                put(entity, self.reel);
+                put(entity, self.break_tension);
+                put(entity, self.break_strain);
                 $(put(entity, self.$field);)*
             }
 
@@ -52,6 +63,9 @@ macro_rules! components {
                     rule: self.rule,
                     bending: self.bending,
                     point_loads: self.point_loads.as_ref().map(|_| PointLoads(part.loads().to_vec())),
+                    reel: self.reel.clone().filter(|_| part.has_reel()),
+                    break_tension: self.break_tension,
+                    break_strain: self.break_strain,
                     $($field: self.$field.as_ref().zip(effects.$field.as_ref()).map(|(c, effect)| c.of_part(effect)),)*
                 }
             }

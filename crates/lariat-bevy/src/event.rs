@@ -6,6 +6,7 @@ use bevy_ecs::entity::Entity;
 use bevy_ecs::event::EntityEvent;
 use bevy_ecs::message::{Message, Messages};
 use bevy_ecs::world::World;
+use lariat_ancf::Break;
 use lariat_rapier::rapier::geometry::ColliderHandle;
 
 /// The description of a cable, or a change of its effects, is not possible. A cable that was built
@@ -44,17 +45,16 @@ pub struct CableAwake {
     pub entity: Entity,
 }
 
-/// A cable broke because its tension exceeded [`BreakTension`](crate::BreakTension).
+/// A cable broke because its load exceeded [`BreakTension`](crate::BreakTension) or
+/// [`BreakStrain`](crate::BreakStrain), or was [cut](crate::Cables::cut).
 #[derive(EntityEvent, Message, Clone, Debug, PartialEq)]
 pub struct CableBroken {
     /// The cable, which is now the part before the break.
     pub entity: Entity,
     /// A new entity: the part behind the break.
     pub rest: Entity,
-    /// Arc length of the break in m, unstretched: the new length of the cable.
-    pub arc_length: f64,
-    /// The tension in N at which it broke.
-    pub tension: f64,
+    /// Why, where and under which load.
+    pub how: Break,
 }
 
 /// A cable with [`Contact`](crate::Contact) began to touch a collider.

@@ -9,6 +9,7 @@ use crate::pending::Pending;
 use crate::physics::Physics;
 use crate::prepare::{self, attachments, bodies, effects, junctions, removals};
 use crate::publish;
+use crate::reel;
 use crate::schedule::{AfterEngine, BeforeEngine, CableStep, CableSystems, RapierStep};
 use crate::step;
 use bevy_ecs::schedule::{IntoScheduleConfigs, Schedule, Schedules};
@@ -77,6 +78,7 @@ fn add_prepare(schedule: &mut Schedule) {
     schedule.add_systems(
         (
             prepare::begin,
+            breaking::split_entities,
             removals::remove,
             prepare::build_cables,
             bodies::update,
@@ -84,6 +86,7 @@ fn add_prepare(schedule: &mut Schedule) {
             effects::update,
             junctions::update,
             attachments::update,
+            reel::set_reels,
             breaking::set_strengths,
             prepare::copy_coordinates,
             prepare::end,

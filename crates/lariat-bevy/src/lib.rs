@@ -40,7 +40,8 @@
 //! | attach it | [`Attachment`], [`OnCable`], [`ToBody`], [`AttachmentReading`] |
 //! | spawn the usual rope in one line | [`SpawnRope::spawn_rope`], [`Rope`] |
 //! | tie cables to each other | [`Junction`] |
-//! | let it break | [`BreakForce`], [`BreakTension`] |
+//! | pay it out, take it in | [`Reel`] |
+//! | let it break, cut it | [`BreakForce`], [`BreakTension`], [`BreakStrain`], [`Cables::cut`] |
 //! | make bodies | [`Body`], [`KinematicTarget`], [`BodyPose`], [`Bodies`] |
 //! | step | [`advance`], or [`CableStep`] in a schedule of your own; with feature `bevy_app` the plugin |
 //! | order systems against the stages of a step | [`CableSystems`] |
@@ -60,8 +61,8 @@
 //! # Limits
 //!
 //! - Cables touch fixed and kinematic bodies if they have [`Contact`], neither dynamic bodies, which
-//!   [`ContactIgnored`](event::ContactIgnored) says, nor each other. No reel: the unstretched length of a cable is
-//!   constant.
+//!   [`ContactIgnored`](event::ContactIgnored) says, nor each other. The unstretched length of a cable changes by
+//!   breaking and cutting, and by a [`Reel`].
 //! - A cable that cannot step stands still with all that is attached to it until the cause is
 //!   removed: see [`StepFailed`](event::StepFailed).
 //! - On the bodies of another plugin ([`BeforeEngine`], [`AfterEngine`]; crate
@@ -91,6 +92,7 @@ mod physics;
 mod plugin;
 mod prepare;
 mod publish;
+mod reel;
 mod rope;
 mod schedule;
 mod snapshot;
@@ -101,7 +103,7 @@ pub use attachment::{
     ToBodyBundle, ToWorldBundle,
 };
 pub use body::{Bodies, Body, BodyHandle, BodyPose, KinematicTarget};
-pub use breaking::BreakTension;
+pub use breaking::{BreakStrain, BreakTension};
 pub use cable::Cable;
 pub use cables::Cables;
 pub use clock::{FixedClock, advance};
@@ -116,6 +118,7 @@ pub use lariat_rapier::{self, AttachmentKind, Gap, Rope, RopeEnd, Settings, rapi
 pub use physics::Physics;
 #[cfg(feature = "bevy_app")]
 pub use plugin::{LariatPlugin, install_in};
+pub use reel::Reel;
 pub use rope::SpawnRope;
 pub use schedule::{AfterEngine, BeforeEngine, CableStep, CableSystems, RapierStep};
 pub use snapshot::Snapshot;

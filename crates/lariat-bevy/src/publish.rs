@@ -2,7 +2,7 @@
 
 use crate::attachment::{Attached, AttachmentReading, BreakForce};
 use crate::body::{BodyHandle, BodyPose};
-use crate::cables::{Break, Cables};
+use crate::cables::{Cables, Parting};
 use crate::diagnostics::{Diagnostics, Stage};
 use crate::event::{
     AttachmentEnded, CableAsleep, CableAwake, ContactEnded, ContactIgnored, ContactStarted, EndReason, QueuedEvent,
@@ -24,8 +24,8 @@ pub(crate) fn read_events(mut cables: ResMut<Cables>, physics: Res<Physics>) {
                 let (entity, cable, body) = (link.entity, link.cable, link.body);
                 AttachmentEnded { entity, cable, body, reason: EndReason::BodyGone }.into()
             }),
-            Event::Broken { cable, rest, arc_length, tension } => {
-                broken.push(Break { cable, rest, arc_length, tension });
+            Event::Broken { cable, rest, how } => {
+                broken.push(Parting { cable, rest, how });
                 None
             }
             Event::ContactStarted { cable, collider, arc_length, force } => links.cables.get(&cable).map(|link| {

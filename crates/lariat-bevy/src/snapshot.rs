@@ -7,7 +7,6 @@
 
 use crate::attachment::{Attached, Attachment, AttachmentReading, BreakForce, NotAttachable, OnCable, ToBody};
 use crate::body::{Body, BodyHandle, BodyPose, KinematicTarget};
-use crate::breaking::BreakTension;
 use crate::cable::Cable;
 use crate::cables::{AttachmentLink, Cables, Links};
 use crate::clock::FixedClock;
@@ -223,7 +222,7 @@ macro_rules! plain {
 
 // in this order: `Attachment` and `Body` remove handles, which are the last
 plain! {
-    name: Name, cable: Cable, interpolate: Interpolate, break_tension: BreakTension, break_force: BreakForce,
+    name: Name, cable: Cable, interpolate: Interpolate, break_force: BreakForce,
     attachment: Attachment, reading: AttachmentReading, not_attachable: NotAttachable, target: KinematicTarget, pose: BodyPose,
     body_handle: BodyHandle, attached: Attached, joined: Joined, not_joinable: NotJoinable,
 }

@@ -115,6 +115,14 @@ pub fn raise<E: Into<Raise>>(error: E) -> PyErr {
     error.into().into()
 }
 
+fn text(x: &impl std::fmt::Display) -> String {
+    x.to_string()
+}
+
+fn debug(x: &impl std::fmt::Debug) -> String {
+    format!("{x:?}")
+}
+
 /// Lists the fields of the variants of an error; those that need a conversion have one.
 macro_rules! fields {
     ($error:expr, $type:path; $($variant:ident { $($field:ident $(: $convert:expr)?),* })*) => {{
@@ -130,7 +138,6 @@ macro_rules! fields {
 
 impl From<lariat_ancf::Error> for Raise {
     fn from(error: lariat_ancf::Error) -> Self {
-        let text = |x: &dyn std::fmt::Display| x.to_string();
         let fields = fields!(&error, lariat_ancf::Error;
             InvalidValue { cable, what, value, expected: |x: &&'static str| *x }
             WrongCount { cable, what: |x: &&'static str| *x, count, expected }
@@ -140,7 +147,7 @@ impl From<lariat_ancf::Error> for Raise {
             NoSection { cable }
             NodeBeforeMesh { cable, node }
             SupportOrder { cable, node, nodes }
-            MissingForEffect { cable, effect: |x: &&'static str| *x, requirement: |x| text(x) }
+            MissingForEffect { cable, effect: |x: &&'static str| *x, requirement: text }
             MissingForceDensities { cable, count }
             EmptyRestPiece { cable, from }
             UnknownRule { rule, expected: |x: &&'static str| *x, suggestion }
@@ -156,11 +163,11 @@ impl From<lariat_ancf::Error> for Raise {
             NoNode { cable, arc_length, nearest }
             Attached { cable, node }
             NoTangent { cable, node }
-            Pin { cable, node, problem: |x| text(x) }
+            Pin { cable, node, problem: text }
             NotInIsland { pin, what: |x: &&'static str| *x, index, count }
             TimeMismatch { cable, time, expected }
-            StepFailed { cable, time, at, step, failure: |x| text(x) }
-            NoEquilibrium { cable, time, failure: |x| text(x), residual, iterations }
+            StepFailed { cable, time, at, step, failure: text }
+            NoEquilibrium { cable, time, failure: text, residual, iterations }
         );
         Raise::of(&error, fields)
     }
@@ -171,17 +178,16 @@ impl From<lariat_rapier::Error> for Raise {
         if let lariat_rapier::Error::Cable(error) = error {
             return error.into();
         }
-        let debug = |x: &dyn std::fmt::Debug| format!("{x:?}");
         let fields = fields!(&error, lariat_rapier::Error;
             StepRefused { cables, time, cause: |x: &lariat_rapier::Error| x.to_string() }
             GapTooLong { cable, gap, limit }
             TimeStep { dt }
-            AnchorNotFinite { body: |x| debug(x), anchor }
+            AnchorNotFinite { body: debug, anchor }
             AlreadyAttached { cable, node }
-            LinkLost { cable, body: |x| debug(x), gap }
-            JointInStatics { body: |x| debug(x) }
-            ContactInStatics { body: |x| debug(x) }
-            BodyNotFinite { body: |x| debug(x), time }
+            LinkLost { cable, body: debug, gap }
+            JointInStatics { body: debug }
+            ContactInStatics { body: debug }
+            BodyNotFinite { body: debug, time }
         );
         Raise::of(&error, fields)
     }
@@ -190,7 +196,6 @@ impl From<lariat_rapier::Error> for Raise {
 impl From<lariat_scene::Error> for Raise {
     fn from(error: lariat_scene::Error) -> Self {
         use lariat_scene::Error as E;
-        let text = |x: &dyn std::fmt::Display| x.to_string();
         match error {
             E::Scene(error) => Raise::new("SceneError", error.to_string())
                 .with("place", text(&error.place))

@@ -92,13 +92,10 @@ impl Section {
     }
 
     fn __repr__(&self) -> String {
-        let ancf::Section { axial_stiffness, bending_stiffness, mass_per_length, diameter, outer_area } = self.0;
+        let s = &self.0;
         let option = |x: Option<f64>| x.map_or("None".to_string(), |x| format!("{x:?}"));
-        format!(
-            "Section({axial_stiffness:?}, {bending_stiffness:?}, {mass_per_length:?}, diameter={}, outer_area={})",
-            option(diameter),
-            option(outer_area)
-        )
+        let stiffness = format!("{:?}, {:?}, {:?}", s.axial_stiffness, s.bending_stiffness, s.mass_per_length);
+        format!("Section({stiffness}, diameter={}, outer_area={})", option(s.diameter), option(s.outer_area))
     }
 
     fn __eq__(&self, other: &Self) -> bool {
@@ -106,8 +103,8 @@ impl Section {
     }
 
     fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyTuple>)> {
-        let ancf::Section { axial_stiffness, bending_stiffness, mass_per_length, diameter, outer_area } = slf.get().0;
-        let numbers = (axial_stiffness, bending_stiffness, mass_per_length, diameter, outer_area);
+        let s = &slf.get().0;
+        let numbers = (s.axial_stiffness, s.bending_stiffness, s.mass_per_length, s.diameter, s.outer_area);
         let restore = slf.py().import("lariat.results")?.getattr("section")?;
         Ok((restore, numbers.into_pyobject(slf.py())?))
     }

@@ -38,6 +38,8 @@ def model(curve: str, initial: str, geom: str = 'type="capsule" size=".005" dens
 @pytest.mark.parametrize(("curve", "initial"), CURVES)
 def test_a_composite_is_the_cable_that_mujoco_reads(curve: str, initial: str) -> None:
     text = model(curve, initial)
+    if initial == "free":  # which MuJoCo takes on the world alone
+        text = text.replace('<body pos="0 0 1" quat="0.8 0 0 0.6"><body pos="0.3 0 0">', "").replace("</body></body>", "")
     scene: dict[str, Any] = tomllib.loads(lariat.import_mjcf(text))
     cable = scene["cable"][0]
     theirs = mujoco.MjModel.from_xml_string(text)

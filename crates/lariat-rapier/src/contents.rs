@@ -1,7 +1,6 @@
 //! The contents of a set: cables, attachments, junctions and records of bodies.
 
 use crate::attachment::Attachment;
-use crate::breaking::Strength;
 use crate::contact::ContactRules;
 use crate::convert;
 use crate::error::Error;
@@ -27,9 +26,9 @@ pub(crate) struct Slot {
     pub gravity: ::nalgebra::Vector3<f64>,
     /// Positions of both ends and the length when it was inserted, in m.
     pub sort_key: [f64; 7],
-    /// `None`: it does not break.
+    /// Whether its load was compared with its strength since that was set.
     #[serde(default)]
-    pub strength: Option<Strength>,
+    pub compared: bool,
     /// What it may touch.
     #[serde(default)]
     pub rules: ContactRules,
@@ -84,7 +83,7 @@ impl Contents {
             follows_gravity,
             gravity,
             sort_key,
-            strength: None,
+            compared: false,
             rules: ContactRules::default(),
             touched: Vec::new(),
             ignored: Vec::new(),

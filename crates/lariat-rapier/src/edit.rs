@@ -3,9 +3,10 @@
 use crate::attach::detach;
 use crate::contents::Contents;
 use crate::error::Error;
+use crate::events::Event;
 use crate::handle::{AttachmentHandle, CableHandle, JunctionHandle};
 use crate::join::leave;
-use lariat_ancf::{At, Cable};
+use lariat_ancf::{Break, Cable};
 use rapier::pipeline::PhysicsWorld;
 
 /// Removes a cable with its attachments, and takes it out of its junctions.
@@ -25,16 +26,21 @@ pub(crate) fn remove(contents: &mut Contents, world: &mut PhysicsWorld, cable: C
     contents.cables.remove(cable.0 as usize).map(|slot| slot.cable).ok_or(Error::NoCable(cable))
 }
 
-/// Cuts a cable in two; `cable` keeps the part before the cut. Returns the handle of the other
-/// part.
-pub(crate) fn cut(contents: &mut Contents, cable: CableHandle, at: At) -> Result<CableHandle, Error> {
-    let kept = contents.cable_mut(cable)?;
-    let rest = kept.cut(at)?;
-    let length = kept.length();
-    let inherited = contents.slot(cable).map(|slot| (slot.follows_gravity, slot.strength, slot.rules));
+/// Makes two cables of one, if `how` does; `cable` keeps the part before the break. Returns the handle of
+/// the other part.
+pub(crate) fn part(
+    contents: &mut Contents,
+    cable: CableHandle,
+    how: impl FnOnce(&mut Cable) -> Result<Option<(Cable, Break)>, lariat_ancf::Error>,
+    events: &mut Vec<Event>,
+) -> Result<Option<CableHandle>, Error> {
+    let slot = contents.cables.get_mut(cable.0 as usize).ok_or(Error::NoCable(cable))?;
+    let Some((rest, how)) = how(&mut slot.cable)? else { return Ok(None) };
+    slot.modified = true;
+    let (length, follows_gravity, rules) = (slot.cable.length(), slot.follows_gravity, slot.rules);
     let tail = contents.insert(rest);
-    if let (Some(slot), Some(inherited)) = (contents.cables.get_mut(tail.0 as usize), inherited) {
-        (slot.follows_gravity, slot.strength, slot.rules) = inherited;
+    if let Some(slot) = contents.cables.get_mut(tail.0 as usize) {
+        (slot.follows_gravity, slot.rules) = (follows_gravity, rules);
     }
     let held = contents.attachments.values_mut().map(|a| (&mut a.cable, &mut a.arc_length));
     let tied = contents.junctions.values_mut().flat_map(|j| j.nodes.iter_mut().zip(&mut j.arc_lengths));
@@ -43,5 +49,6 @@ pub(crate) fn cut(contents: &mut Contents, cable: CableHandle, at: At) -> Result
             (*of, *s) = (tail, *s - length);
         }
     }
-    Ok(tail)
+    events.push(Event::Broken { cable, rest: tail, how });
+    Ok(Some(tail))
 }

@@ -1,6 +1,7 @@
 //! Events of a host step.
 
 use crate::handle::{AttachmentHandle, CableHandle};
+use lariat_ancf::Break;
 use rapier::dynamics::RigidBodyHandle;
 use rapier::geometry::ColliderHandle;
 
@@ -18,16 +19,15 @@ pub enum Event {
     },
     /// A cable and the bodies attached to it came to rest and fell asleep.
     Asleep(CableHandle),
-    /// The tension of a cable exceeded its [strength](crate::CableSet::set_strength), and it broke.
+    /// A cable carried more than its [strength](crate::CableSet::set_strength) and broke, or was
+    /// [cut](crate::CableSet::cut) since the last host step.
     Broken {
         /// The cable, which is now the part before the break.
         cable: CableHandle,
         /// A new cable: the part behind the break.
         rest: CableHandle,
-        /// Arc length of the break in m, unstretched: the new length of the cable.
-        arc_length: f64,
-        /// The tension in N at which it broke.
-        tension: f64,
+        /// Why, where and under which load.
+        how: Break,
     },
     /// A cable began to touch a collider.
     ContactStarted {

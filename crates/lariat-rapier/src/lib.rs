@@ -68,7 +68,7 @@
 //! ([`Attachment`]).
 //!
 //! # Validity
-//! - See the limits of [`CableSet`]: no contact with dynamic bodies, no reel, one number of Rapier steps for
+//! - See the limits of [`CableSet`]: no contact with dynamic bodies, no reel on free bodies, one number of Rapier steps for
 //!   the whole world, and what is predicted of mechanisms.
 //! - An undamped cable oscillates for ever, and so does the force at its end: a rope that was slack
 //!   and bowed has a tension ripple of 1 % when it is taut, with any integrator. Give it damping
@@ -122,6 +122,7 @@ mod junction;
 mod ledger;
 mod mechanism;
 mod record;
+mod reels;
 mod rope;
 mod set;
 mod settings;

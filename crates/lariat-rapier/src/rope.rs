@@ -163,12 +163,13 @@ pub(crate) fn add(
             builder = builder.fix(at);
         }
     }
-    let cable = set.insert(builder.build()?);
+    let mut cable = builder.build()?;
+    cable.set_strength(rope.strength)?;
+    let cable = set.insert(cable);
     let mut attach = |at, end: &RopeEnd<RigidBodyHandle>| {
         end.body.map(|body| set.attach_here(world, cable, at, body, AttachmentKind::Ball)).transpose()
     };
     // the bodies exist and the ends are free: neither fails
     let (start, end) = (attach(At::Start, &from)?, attach(At::End, &to)?);
-    set.set_strength(cable, rope.strength)?;
     Ok(RopeHandles { cable, start, end })
 }

@@ -1,7 +1,6 @@
 //! The set of cables of a world: the interface of this crate.
 
 use crate::attachment::{Attachment, AttachmentKind, AttachmentOptions, Gap};
-use crate::breaking::Strength;
 use crate::contact::{self, ContactFilter, ContactRules};
 use crate::contents::Contents;
 #[cfg(feature = "debug-render")]
@@ -17,7 +16,7 @@ use crate::step::{self, HostStep, Stepper};
 use crate::totals::{self, WorldEnergy};
 use crate::{attach, breaking, edit, join, world_mark};
 use lariat_ancf::contact::Touch;
-use lariat_ancf::{At, Cable, Contact, EquilibriumOptions, Momentum, Point};
+use lariat_ancf::{At, Cable, Contact, EquilibriumOptions, Momentum, Point, Strength};
 use rapier::dynamics::RigidBodyHandle;
 use rapier::geometry::ColliderHandle;
 #[cfg(feature = "debug-render")]
@@ -30,8 +29,8 @@ use serde::{Deserialize, Serialize};
 /// # Limits
 /// - Cables touch fixed and kinematic colliders, if they are told to
 ///   ([`set_contact`](Self::set_contact)); neither dynamic bodies, which an event says, nor each other.
-/// - A cable has a fixed natural length: there is no reel. [`cut`](Self::cut) and
-///   [`get_mut`](Self::get_mut) change it between steps.
+/// - A cable has a fixed natural length, but for [`cut`](Self::cut) and a reel
+///   ([`Cable::add_reel`](lariat_ancf::Cable::add_reel) by [`get_mut`](Self::get_mut)), whose eye is on a fixed or kinematic body.
 /// - All cables of a set share one number of Rapier steps per host step ([`Settings`]), which is
 ///   also that of the whole world: a pile of bodies costs as many Rapier steps as the cables need.
 /// - The bodies of a mechanism (a multibody, or bodies joined by impulse joints) are predicted
@@ -105,17 +104,19 @@ impl CableSet {
         rope::add(self, world, [from.into(), to.into()], &rope)
     }
 
-    /// Sets the tension in N above which a cable breaks, at the inner node nearest to its largest
-    /// tension, compared after each host step; `None` and it does not break. The event is
-    /// [`Event::Broken`]; the parts have the same strength.
+    /// Sets what a cable withstands: a [`Strength`] or a tension in N, compared after each host step;
+    /// `None` and it does not break. It breaks at the inner node nearest to its largest load. The
+    /// event is [`Event::Broken`]; the parts have the same strength. A sleeping cable sleeps on unless
+    /// it breaks.
     ///
     /// # Errors
-    /// [`Error::NoCable`].
-    pub fn set_strength(&mut self, cable: CableHandle, strength: Option<f64>) -> Result<(), Error> {
+    /// [`Error::NoCable`], or [`Error::Cable`] for a limit that is not positive or a cable of one
+    /// element.
+    pub fn set_strength(&mut self, cable: CableHandle, strength: impl Into<Strength>) -> Result<(), Error> {
         let slot = self.contents.cables.get_mut(cable.0 as usize).ok_or(Error::NoCable(cable))?;
-        if slot.strength.map(|strength| strength.limit) != strength {
-            slot.strength = strength.map(|limit| Strength { limit, compared: false });
-        }
+        let before = slot.cable.strength();
+        slot.cable.set_strength(strength)?;
+        slot.compared &= slot.cable.strength() == before;
         Ok(())
     }
 
@@ -165,12 +166,13 @@ impl CableSet {
 
     /// Cuts a cable at a point between its ends; `cable` keeps the part before it. Returns the
     /// handle of the other part. Attachments and junctions go with their part; those at the cut
-    /// stay with `cable`.
+    /// stay with `cable`. The event is [`Event::Broken`].
     ///
     /// # Errors
     /// [`Error::NoCable`], or [`Error::Cable`] for a point that is not between the ends.
     pub fn cut(&mut self, cable: CableHandle, at: impl Into<At>) -> Result<CableHandle, Error> {
-        edit::cut(&mut self.contents, cable, at.into())
+        let cut = |cable: &mut Cable| cable.break_at(at).map(Some);
+        edit::part(&mut self.contents, cable, cut, &mut self.stepper.events)?.ok_or(Error::NoCable(cable))
     }
 
     /// Returns a cable.

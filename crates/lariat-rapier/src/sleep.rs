@@ -115,6 +115,7 @@ fn is_quiet(contents: &Contents, world: &PhysicsWorld, island: &Island, speed: f
     };
     island.members.iter().enumerate().all(|(i, member)| slow(i, member))
         && island.cables.iter().filter_map(|&c| contents.cables.get(c)).all(|slot| {
-            slot.asleep || slot.cable.speed() < speed && slot.cable.is_loaded_steadily() && slot.cable.is_held_still()
+            let still = || slot.cable.speed() < speed && slot.cable.is_loaded_steadily() && slot.cable.is_held_still();
+            slot.cable.is_reel_still() && (slot.asleep || still())
         })
 }

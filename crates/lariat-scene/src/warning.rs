@@ -70,6 +70,19 @@ pub enum Warning {
         /// Axial stiffness EA in N.
         axial_stiffness_n: f64,
     },
+    /// A reel whose rate comes near the speed of waves.
+    #[error(
+        "cable {cable:?}: at {time_s:.3} s its reel turns with {ratio:.2} of the speed of transverse waves: above 0.3 waves of the mesh may \
+         grow; give the cable damping, or a slower rate"
+    )]
+    FastReel {
+        /// Name of the cable.
+        cable: String,
+        /// Time of the largest ratio in s.
+        time_s: f64,
+        /// Rate over the speed of transverse waves.
+        ratio: f64,
+    },
     /// Too short for its thickness.
     #[error(
         "cable {cable:?}: it is {ratio:.3} times as long as thick ({length_m:.4} m, {diameter_m:.3e} m): below 10 its shear is not small, \

@@ -288,6 +288,8 @@ impl CableBuilder {
             effects: self.effects,
             force_densities: self.force_densities,
             obstacles: Obstacles::default(),
+            strength: Default::default(),
+            reel: None,
         };
         // contact has one method that can step it
         let default = match &model.effects.contact {

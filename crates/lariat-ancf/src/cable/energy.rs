@@ -46,8 +46,10 @@ impl Cable {
     /// Returns kinetic, strain and gravity energy of the present state.
     pub fn energy(&self) -> Energy {
         let (axial, bending) = self.system.forces.strain_energy(self.positions());
-        let momentum = self.generalised_momentum();
-        let kinetic = 0.5 * momentum.iter().zip(self.velocities()).map(|(p, v)| p * v).sum::<f64>();
+        let momentum = self.mass_times_velocity();
+        let (time, q, v) = (self.time(), self.positions(), self.velocities());
+        let kinetic = 0.5 * momentum.iter().zip(v).map(|(p, v)| p * v).sum::<f64>()
+            + self.system.flow_kinetic(&self.model, time, q, v);
         let gravity = -self.system.loads.gravity_work(self.positions());
         Energy { kinetic, axial, bending, gravity }
     }
@@ -66,6 +68,12 @@ impl Cable {
     }
 
     fn generalised_momentum(&self) -> Vec<f64> {
+        let mut p = self.mass_times_velocity();
+        self.system.add_flow_momentum(&self.model, self.time(), self.positions(), &mut p);
+        p
+    }
+
+    fn mass_times_velocity(&self) -> Vec<f64> {
         let mut p = vec![0.0; self.velocities().len()];
         self.system.mass.multiply(self.system.level, self.velocities(), &mut p);
         p

@@ -5,7 +5,8 @@
 //! | [`builder`], `layout` | building a cable |
 //! | `state` | reading and changing the state; snapshots |
 //! | `supports`, `loads`, `effects` | what acts on it, changed between steps |
-//! | `edit` | cutting, refining, changing the rule |
+//! | `edit` | breaking, cutting, refining, changing the rule |
+//! | `reel` | a reel at the end, which changes the length |
 //! | [`sample`], [`reactions`], [`energy`] | reading results |
 //! | [`mesh`] | how far the mesh resolves the shape |
 //! | [`linearise`] | matrices at the present state |
@@ -22,6 +23,7 @@ pub mod linearise;
 mod loads;
 pub mod mesh;
 pub mod reactions;
+mod reel;
 pub mod sample;
 mod saved;
 mod state;
@@ -41,6 +43,7 @@ use builder::CableBuilder;
 use fearless_simd::Level;
 pub(crate) use layout::along_polyline;
 use nalgebra::Vector3;
+pub use reel::{Reel, ReelModel, ReelReading};
 use serde::{Deserialize, Serialize};
 pub use state::Snapshot;
 
@@ -78,7 +81,7 @@ impl From<f64> for At {
 ///   few percent of stretch f = 1, too stiff in large extension, too soft in large compression (its stiffness vanishes at f = 0.577).
 /// - No torsion: the section rotates freely about the axis, and no moment about it is transmitted.
 /// - [Contact](crate::contact) with obstacles, fixed or moving as prescribed; not with other cables or with itself.
-/// - No reel: the unstretched length is constant, but for [`cut`](Self::cut).
+/// - The unstretched length is constant, but for [`cut`](Self::cut) and a [reel](Self::add_reel).
 #[derive(Clone, Debug, Serialize, Deserialize)]
 #[serde(try_from = "saved::Saved", into = "saved::Saved")]
 pub struct Cable {
@@ -116,7 +119,7 @@ impl Cable {
             failure,
         })?;
         check_integrator(&model, &integrator.method)?;
-        Ok(Cable {
+        let mut cable = Cable {
             integrator: integrator.checked()?,
             default_integrator: false,
             diagnostics: Diagnostics::default(),
@@ -128,7 +131,9 @@ impl Cable {
             revision: 0,
             model,
             snapshot,
-        })
+        };
+        cable.sync_reel();
+        Ok(cable)
     }
 
     /// Replaces the description, and builds everything anew that is derived from it.
@@ -136,6 +141,7 @@ impl Cable {
         let system = System::with_level(&model, self.system.level);
         self.system = system.map_err(|failure| self.step_failed(self.time(), 0.0, failure))?;
         self.model = model;
+        self.sync_reel();
         Ok(())
     }
 
@@ -165,6 +171,9 @@ impl Cable {
             return Ok(());
         }
         self.check_complete()?;
+        if self.has_reel() {
+            return self.step_with_reel(dt, integrator);
+        }
         self.with_workspace(|cable| cable.step_in_workspace(dt, integrator))
     }
 
@@ -370,13 +379,16 @@ impl Cable {
     }
 }
 
-/// Checks that a cable has an implicit method where an effect needs one, and the discrete gradient for contact.
+/// Checks that a cable has an implicit method where an effect or a reel needs one, and the discrete gradient for contact.
 pub(crate) fn check_integrator(model: &Model, method: &dyn OneStep) -> Result<(), Error> {
     if model.effects.contact.is_some() && !method.uses_discrete_gradients() {
         return Err(Error::ContactMethod { cable: model.name.clone(), method: method.name() });
     }
     if model.effects.needs_implicit_integrator() && method.stability_limit().is_some() {
         return Err(Error::ExplicitDamping { cable: model.name.clone(), method: method.name() });
+    }
+    if model.reel.is_some() && method.stability_limit().is_some() {
+        return Err(Error::ExplicitReel { cable: model.name.clone(), method: method.name() });
     }
     Ok(())
 }

@@ -15,6 +15,8 @@ use super::Cable;
 use crate::axial::projected;
 use crate::bending::regularisation::RegularisedPower;
 use crate::effect::acts::SampledPoint;
+use crate::element::flow::flow_weights;
+use crate::element::kernel::gram_rates;
 use crate::element::shape;
 use crate::error::Error;
 use nalgebra::Vector3;
@@ -40,7 +42,7 @@ pub struct Sample {
 }
 
 /// A nodal quantity inside element `e`, by the weights of its four node vectors.
-pub(super) fn combine(x: &[f64], e: usize, weights: [f64; 4]) -> Vector3<f64> {
+pub(in crate::cable) fn combine(x: &[f64], e: usize, weights: [f64; 4]) -> Vector3<f64> {
     let n = &x[6 * e..6 * e + 12];
     (0..4).map(|k| weights[k] * Vector3::new(n[3 * k], n[3 * k + 1], n[3 * k + 2])).sum()
 }
@@ -72,7 +74,18 @@ impl Cable {
         let second = combine(q, e, shape::second_derivative(xi, length));
         let stretch = slope.norm();
         let forces = &self.system.forces;
-        let at = forces.elements.gram_state(e, q, v);
+        let mut at = forces.elements.gram_state(e, q, v);
+        let mut velocity = combine(v, e, position);
+        if e + 1 == self.elements().len()
+            && let Some(extent) = self.reel_extent()
+        {
+            velocity += extent.rate * combine(q, e, flow_weights(xi, length)[0]);
+            // the control vector of the chord changes with the length, too
+            let d = forces.elements.control(e, q);
+            let chord = d[1].map(|x| -x * extent.rate / length);
+            let change = gram_rates(&d, &[[0.0; 3], chord, [0.0; 3]]);
+            at.rates.iter_mut().flatten().zip(change).for_each(|(rate, change)| *rate += change);
+        }
         let green_strain = projected::strain(&at.g, xi);
         // a collapsed element has no curvature
         let curvature = if stretch > 0.0 { slope.cross(&second) / stretch.powi(3) } else { Vector3::zeros() };
@@ -89,7 +102,7 @@ impl Cable {
         };
         Sample {
             position: combine(q, e, position),
-            velocity: combine(v, e, position),
+            velocity,
             slope,
             green_strain,
             tension: element.section.axial_stiffness

@@ -1,6 +1,7 @@
 //! The state of a cable: read, put back, changed between steps.
 
 use super::Cable;
+use super::reel::Winding;
 use crate::effect::EffectWork;
 use crate::error::{Error, require, require_finite};
 use crate::integrate::{EnergyLaw, State};
@@ -24,6 +25,9 @@ pub struct Snapshot {
     /// Elastic energy in J that inserted nodes added so far.
     #[serde(default)]
     pub(crate) inserted_energy: f64,
+    /// The reel, if there is one.
+    #[serde(default)]
+    pub(crate) winding: Option<Winding>,
 }
 
 impl Clone for Snapshot {
@@ -33,9 +37,9 @@ impl Clone for Snapshot {
 
     /// Copies `other` into the existing vectors.
     fn clone_from(&mut self, other: &Self) {
-        let Snapshot { state, work, law, inserted_energy } = other;
+        let Snapshot { state, work, law, inserted_energy, winding } = other;
         self.state.copy_from(state);
-        (self.work, self.law, self.inserted_energy) = (*work, *law, *inserted_energy);
+        (self.work, self.law, self.inserted_energy, self.winding) = (*work, *law, *inserted_energy, *winding);
     }
 }
 
@@ -44,6 +48,9 @@ impl Snapshot {
     pub(crate) fn add_work_of_step(&mut self, system: &mut System, before: &[f64]) {
         self.work += core::mem::take(&mut system.meter.work);
         self.law.merge(&core::mem::take(&mut system.meter.law));
+        if let Some(winding) = &mut self.winding {
+            winding.add_work(core::mem::take(&mut system.meter.reel_work));
+        }
         system.loads.of_effects.add_work(before, &self.state.q, &mut self.work);
     }
 }
@@ -77,7 +84,9 @@ impl Cable {
     /// [`Error::WrongCount`] if the state is of a cable with another number of nodes, [`Error::InvalidValue`] if it is not
     /// finite.
     pub fn restore(&mut self, snapshot: Snapshot) -> Result<(), Error> {
-        snapshot.state.check(self.name(), self.positions().len())?;
+        let nodes = snapshot.nodes_with_reel(self.has_reel(), self.nodes());
+        snapshot.state.check(self.name(), 6 * nodes)?;
+        snapshot.winding.map_or(Ok(()), |winding| winding.check()).map_err(|e| e.of_cable(self.name()))?;
         let mut works = snapshot.work.by_key();
         works
             .try_for_each(|(_, x)| require("work of effects (J)", x, true, "a number"))
@@ -86,7 +95,9 @@ impl Cable {
         terms
             .try_for_each(|x| require("term of the energy law (J)", x, true, "a number"))
             .map_err(|e| e.of_cable(self.name()))?;
+        self.mesh_of_reel(snapshot.winding, nodes)?;
         self.snapshot = snapshot;
+        self.sync_reel();
         Ok(())
     }
 
@@ -180,6 +191,7 @@ impl Cable {
             support.position.iter_mut().chain(slope).for_each(|motion| motion.start += later);
         }
         self.snapshot.state.time = time;
+        self.sync_reel();
         self.revise();
         Ok(())
     }

@@ -4,7 +4,9 @@
 //! - [`kernel`]: energy, force and tangent of an element for any pair of rules, over any [`Real`](crate::Real)
 //! - [`shape`]: shape functions and their derivatives
 //! - [`mass`]: the consistent mass matrix in closed form
+//! - `flow`: the element into which material flows from a reel
 
+pub(crate) mod flow;
 pub mod gram;
 pub mod kernel;
 pub mod mass;

@@ -67,6 +67,38 @@ pub enum Error {
         /// The largest accepted number.
         most: usize,
     },
+    /// A cable of one element that is to break: it has no inner node to break at.
+    #[error("cable {cable:?}: has one element, and breaks at inner nodes: give it 2 elements or more")]
+    OneElement {
+        /// Name of the cable.
+        cable: String,
+    },
+    /// An explicit method for a cable with a reel.
+    #[error(
+        "cable {cable:?}: the mass of a reeled cable changes in a step, which the explicit integrator {method} does not carry; use an implicit one"
+    )]
+    ExplicitReel {
+        /// Name of the cable.
+        cable: String,
+        /// Name of the method.
+        method: String,
+    },
+    /// A reel where none can be.
+    #[error("cable {cable:?}: reel: {reason}")]
+    ReelPlace {
+        /// Name of the cable.
+        cable: String,
+        /// Why not.
+        reason: &'static str,
+    },
+    /// Something that a cable with a reel does not carry.
+    #[error("cable {cable:?}: {what} and a reel do not go together yet")]
+    NotWithReel {
+        /// Name of the cable.
+        cable: String,
+        /// What is refused.
+        what: &'static str,
+    },
     /// A cable without a section at its start.
     #[error("cable {cable:?}: needs a section from arc length 0 on")]
     NoSection {

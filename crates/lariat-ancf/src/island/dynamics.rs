@@ -175,6 +175,9 @@ impl Dynamics for IslandDynamics<'_, '_> {
             k[at + 3..at + 6].copy_from_slice(k0.as_slice());
         }
         layout.follow_acceleration(time, 1.0, q, v, k);
+        for cable in equations.cables.iter_mut() {
+            cable.equations().0.begin_acceleration(time)?;
+        }
         equations.factor_mass(q, v)?;
         equations.cable_rows(&ForceInput { time, scale: 1.0, q, v, dv_dq: 0.0 }, k, rhs);
         layout.body_rows(1.0, q, v, k, rhs);

@@ -62,9 +62,16 @@ impl Island {
         if dt == 0.0 {
             return Ok(());
         }
+        for (i, cable) in cables.iter().enumerate().filter(|(_, cable)| cable.has_reel()) {
+            let at_eye = |pin: &&PinConstraint| pin.cable == i && pin.node + 1 == cable.nodes();
+            let moved = pins.iter().filter(at_eye).any(|pin| bodies[pin.body].free.contains(&true));
+            cable.check_reel_in_island(moved, dt)?;
+        }
+        cables.iter_mut().for_each(|cable| cable.begin_reel(dt));
         cables.iter_mut().for_each(|cable| cable.take_workspace());
         let outcome = self.step_in_workspaces(cables, bodies, pins, integrator, dt);
         cables.iter_mut().rev().for_each(|cable| cable.return_workspace());
+        cables.iter_mut().for_each(|cable| cable.end_reel(outcome.is_ok()));
         outcome
     }
 

@@ -108,8 +108,11 @@ impl Equations<'_> {
         matrix: bool,
         work: &mut EffectWork,
     ) -> ElementLoss {
+        let eye = self.begin_flow_step(state, b);
         let loss = self.step_elements(state, b, matrix);
+        self.end_flow_step(state, b, eye);
         self.external_forces(state, b, matrix, work);
+        self.add_flow_over_step(state, b, matrix);
         if let Some(effects) = &self.system.forces.in_element {
             effects.add_dissipated(loss.effects, work);
         }
@@ -231,6 +234,10 @@ impl Equations<'_> {
 
     /// Makes the end of the step the state.
     pub fn accept_step(&mut self, state: &mut State, b: &Buffers) {
+        if self.system.flow.is_some() {
+            self.system.meter.reel_work += self.flow_work_of_step(state, b);
+            self.system.end_flow_step_at(state.time);
+        }
         for i in 0..b.change.len() {
             state.q[i] += b.change[i];
             state.v[i] += b.velocity_change[i];

@@ -88,6 +88,7 @@ impl Dynamics for CableDynamics<'_> {
 
     fn acceleration(&mut self, time: f64, q: &[f64], v: &[f64], acceleration: &mut [f64]) -> Result<(), StepFailure> {
         let CableDynamics { equations, buffers: Buffers { rhs, z, .. } } = self;
+        equations.begin_acceleration(time)?;
         equations.force(ForceInput { time, q, v, dv_dq: 0.0, scale: 1.0 }, rhs);
         acceleration.fill(0.0);
         let mut moving = false;

@@ -77,6 +77,14 @@ impl Elements {
         }
     }
 
+    /// Sets the mass of element `e` to that of a length in m.
+    pub fn set_mass(&mut self, e: usize, inertia: f64, length: f64) {
+        let m = mass::consistent(inertia, length);
+        for (list, (row, column)) in self.mass.iter_mut().zip(MASS_ENTRIES) {
+            list[e] = m[row][column];
+        }
+    }
+
     /// Returns the number of elements.
     pub fn count(&self) -> usize {
         self.count

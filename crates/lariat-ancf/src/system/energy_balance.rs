@@ -24,7 +24,7 @@
 //!
 //! # Validity
 //!
-//! Supports that stand still, loads at their full value without moments, no force of the user's own: elsewhere the external work is not
+//! Supports and reels that stand still, loads at their full value without moments, no force of the user's own: elsewhere the external work is not
 //! known well enough.
 
 use super::Equations;
@@ -43,6 +43,8 @@ pub(crate) struct EnergyMeter {
     pub work: EffectWork,
     /// The work of effects in a step of the discrete gradient.
     pub work_of_step: EffectWork,
+    /// Work of a reel and of the material that enters in the present host step, in J.
+    pub reel_work: f64,
     /// The energy law of the present host step.
     pub law: EnergyLaw,
     q: Vec<f64>,
@@ -54,6 +56,7 @@ impl EnergyMeter {
     /// Begins a host step.
     pub fn begin(&mut self) {
         self.work = EffectWork::default();
+        self.reel_work = 0.0;
         self.law = EnergyLaw::default();
     }
 }
@@ -79,6 +82,9 @@ pub(crate) struct EnergyChange {
 impl Equations<'_> {
     /// Adds the work of effects, point loads and moving supports in a step of length `h` (s); `range` is the cable's part of the states.
     pub fn add_work(&mut self, before: &State, after: &State, h: f64, range: Range<usize>) {
+        if self.system.flow.is_some() {
+            self.system.meter.reel_work += self.flow_work(before, after, h, range.end);
+        }
         self.add_effect_work(before, after, h, range.clone());
         if self.model.supports.iter().any(moves) {
             self.add_support_work(before, after, h, range);
@@ -133,6 +139,9 @@ impl Equations<'_> {
     fn effect_power(&mut self, time: f64) -> EffectWork {
         let system = &mut *self.system;
         let (forces, EnergyMeter { q, v, force, .. }) = (&mut system.forces, &mut system.meter);
+        if let Some(flow) = &system.flow {
+            flow.strain_velocity(time, q, v);
+        }
         let mut power = EffectWork::default();
         if let Some(effects) = forces.in_element.as_ref().filter(|effects| effects.dissipates()) {
             forces.elements.add_effect_power(effects, q, v, &mut power);
@@ -193,15 +202,18 @@ impl Equations<'_> {
         self.model.supports.iter().all(|(_, support)| support.is_still())
             && self.model.loads.iter().all(steady)
             && self.system.forces.densities.is_none()
+            && self.system.flow.as_ref().is_none_or(|flow| flow.extent.rate == 0.0 && flow.extent.acceleration == 0.0)
     }
 
     /// Returns kinetic and strain energy, and their sum with the potential of gravity and loads, in J.
-    fn mechanical_energy(&mut self, q: &[f64], v: &[f64]) -> (f64, f64) {
+    fn mechanical_energy(&mut self, time: f64, q: &[f64], v: &[f64]) -> (f64, f64) {
         let system = &mut *self.system;
+        system.set_flow(self.model, time);
         let momentum = &mut system.meter.force;
         momentum.resize(v.len(), 0.0);
         system.mass.multiply(system.level, v, momentum);
-        let kinetic = 0.5 * momentum.iter().zip(v).map(|(p, v)| p * v).sum::<f64>();
+        let kinetic =
+            0.5 * momentum.iter().zip(v).map(|(p, v)| p * v).sum::<f64>() + system.flow_kinetic(self.model, time, q, v);
         let (axial, bending) = system.forces.strain_energy(q);
         let own = kinetic + axial + bending;
         let loads = &system.loads;
@@ -231,8 +243,8 @@ impl Equations<'_> {
             return None;
         }
         let [first, last] = [before, after].map(|p| (p.time, &p.q[range.clone()], &p.v[range.clone()]));
-        let (own_before, total_before) = self.mechanical_energy(first.1, first.2);
-        let (own_after, total_after) = self.mechanical_energy(last.1, last.2);
+        let (own_before, total_before) = self.mechanical_energy(first.0, first.1, first.2);
+        let (own_after, total_after) = self.mechanical_energy(last.0, last.1, last.2);
         // the work that the cable does on a fluid
         let on_fluid = h * (-self.point_power(first)).min(-self.point_power(last));
         // the totals are differences of larger numbers

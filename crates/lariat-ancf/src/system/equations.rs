@@ -49,6 +49,12 @@ impl Equations<'_> {
 
     fn evaluate(&mut self, load_time: f64, input: ForceInput<'_>, out: &mut [f64], mass_scale: Option<f64>) {
         out.fill(0.0);
+        let mut flow = self.system.flow.take();
+        if let Some(flow) = &flow {
+            // statics know no time, and nothing flows
+            let time = if input.v.is_empty() { flow.start } else { input.time };
+            self.system.set_lengths(self.model, flow.at(time));
+        }
         let (system, diagnostics) = (&mut *self.system, &mut *self.diagnostics);
         let matrix = &mut system.step.matrix;
         if mass_scale.is_some() {
@@ -57,7 +63,11 @@ impl Equations<'_> {
         }
         let n = self.model.elements.len() as u64;
         let to = mass_scale.map(|mass_scale| MatrixOutput { matrix: &mut *matrix, mass_scale });
-        system.forces.add(system.level, input, out, to, diagnostics);
+        let strained = match &mut flow {
+            Some(flow) if !input.v.is_empty() => ForceInput { v: flow.damping_velocity(&input), ..input },
+            _ => input,
+        };
+        system.forces.add(system.level, strained, out, to, diagnostics);
         match mass_scale {
             None => diagnostics.force_evaluations += n,
             Some(_) => diagnostics.tangent_evaluations += n,
@@ -66,7 +76,11 @@ impl Equations<'_> {
             diagnostics.bending_evaluations += n;
         }
         let loads = ForceInput { time: load_time, ..input };
-        system.loads.add(&self.model.loads, loads, out, mass_scale.map(|_| matrix), diagnostics);
+        system.loads.add(&self.model.loads, loads, out, mass_scale.map(|_| &mut *matrix), diagnostics);
+        if let Some(flow) = flow {
+            flow.add(self.model, &input, out, mass_scale.map(|_| matrix));
+            system.flow = Some(flow);
+        }
     }
 
     /// Overwrites prescribed coordinates and velocities by their values at `time`.
@@ -75,6 +89,15 @@ impl Equations<'_> {
             let range = 6 * node..6 * node + 6;
             support.prescribe(time, &mut q[range.clone()], &mut v[range]);
         }
+    }
+
+    /// Factors the mass matrix at `time` (s) if it depends on time.
+    pub fn begin_acceleration(&mut self, time: f64) -> Result<(), StepFailure> {
+        if self.system.flow.is_none() {
+            return Ok(());
+        }
+        self.system.set_flow(self.model, time);
+        self.system.factor_mass(self.model)
     }
 
     /// Projects and factors the step matrix, and returns whether it is positive definite.

@@ -54,6 +54,24 @@ impl Loads {
         self.of_effects.add(&mut self.dead_force);
     }
 
+    /// Sets the weight of the last element to that of a length in m, of a cable without constant forces of effects.
+    pub fn weigh_last(&mut self, model: &Model, length: f64) {
+        let last = model.elements.len() - 1;
+        let from = 6 * last;
+        self.gravity_force[from..].fill(0.0);
+        for e in last.saturating_sub(1)..=last {
+            let element = &model.elements[e];
+            let (weight, l) = (model.weight(element), if e == last { length } else { element.length });
+            for (k, share) in mass::load_weights(l).iter().enumerate() {
+                // of the element before, the share of its last node
+                for x in (0..3).filter(|_| 6 * e + 3 * k >= from) {
+                    self.gravity_force[6 * e + 3 * k + x] += share * weight[x];
+                }
+            }
+        }
+        self.dead_force[from..].copy_from_slice(&self.gravity_force[from..]);
+    }
+
     /// Finds the elements of the point loads.
     pub fn locate(&mut self, model: &Model) {
         self.located.clear();

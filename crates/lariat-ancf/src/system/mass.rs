@@ -43,6 +43,17 @@ impl Mass {
         Ok(mass)
     }
 
+    /// Sets the mass of the last element to that of a length in m; the factors stay.
+    pub fn set_last(&mut self, model: &Model, length: f64) {
+        let e = model.elements.len() - 1;
+        let m = mass::consistent(model.inertia(&model.elements[e]), length);
+        let before = e.checked_sub(1).map(|k| &model.elements[k]);
+        let n = before.map_or([[0.0; 4]; 4], |element| mass::consistent(model.inertia(element), element.length));
+        self.matrix.diag[e] = [n[2][2] + m[0][0], n[2][3] + m[0][1], n[3][3] + m[1][1]];
+        self.matrix.diag[e + 1] = [m[2][2], m[2][3], m[3][3]];
+        self.matrix.lower[e] = [m[2][0], m[2][1], m[3][0], m[3][1]];
+    }
+
     /// Factors the matrix with the present supports.
     pub fn factor(&mut self, level: Level, model: &Model) -> Result<(), StepFailure> {
         let directed = model.supports.iter().any(|(_, s)| s.slope.is_direction());

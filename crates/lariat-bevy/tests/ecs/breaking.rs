@@ -3,10 +3,11 @@
 use super::common::{cable_of, cube, height, pin, soft, steps, world};
 use approx::assert_relative_eq;
 use bevy_ecs::prelude::*;
-use lariat_bevy::event::{AttachmentEnded, CableBroken, StepFailed};
-use lariat_bevy::lariat_ancf::{PointLoad, Vector3};
+use lariat_bevy::event::{AttachmentEnded, CableBroken, CableFailed, StepFailed};
+use lariat_bevy::lariat_ancf::{BreakCause, Error, PointLoad, Vector3};
 use lariat_bevy::{
-    At, Attachment, AttachmentReading, Bending, BreakTension, CableAttachments, Cables, Damping, PointLoads,
+    At, Attachment, AttachmentReading, Bending, BreakStrain, BreakTension, CableAttachments, Cables, Damping,
+    PointLoads, Reel,
 };
 
 /// A crate of 5 kg hangs on a cable that breaks at 80 N; then a force on the cable grows to 50 N
@@ -41,7 +42,8 @@ fn a_cable_breaks_at_its_peak_tension_and_the_rest_falls_with_its_load() {
             break;
         }
     }
-    let [CableBroken { entity, rest, arc_length, tension }] = broken[..] else { panic!("{broken:?}") };
+    let [CableBroken { entity, rest, how }] = broken[..] else { panic!("{broken:?}") };
+    let (arc_length, tension) = (how.arc_length, how.tension);
     assert_eq!(entity, cable);
     assert_relative_eq!(arc_length, 0.2, epsilon = 1e-9);
     assert!(tension > 80.0 && tension < 82.0, "{tension}");
@@ -83,10 +85,80 @@ fn a_limit_that_is_put_on_a_sleeping_cable_breaks_it() {
     let broken: Vec<CableBroken> = world.resource_mut::<Messages<CableBroken>>().drain().collect();
     assert_eq!(broken.len(), 1);
     let weight = 9.81 * (5.0 + cable_mass(0.01, 4000.0, 2.0));
-    assert!((broken[0].tension - weight).abs() < 1.0, "{broken:?} {weight} N");
+    assert!((broken[0].how.tension - weight).abs() < 1.0, "{broken:?} {weight} N");
     let before = height(&world, load);
     steps(&mut world, 30);
     assert!(before - height(&world, load) > 1.0);
+}
+
+/// A hanging cable is cut by hand: the part behind is an entity with the same components, takes the crate, and falls freely. A limit
+/// that makes no sense, or on a cable of one element, is an event.
+#[test]
+fn a_cable_is_cut_by_hand_and_limits_without_sense_are_events() {
+    let mut world = world();
+    let load = world.spawn(cube(0.1, 5.0, [0.0, -2.1, 0.0])).id();
+    let components = (Bending, Damping::critical_fraction(1.0), BreakStrain(0.5));
+    let cable = world.spawn((soft([0.0; 3], [0.0, -2.0, 0.0]), components)).id();
+    world.spawn(pin(cable));
+    let hook = world.spawn(Attachment::ball(cable, At::End).to(load).at([0.0, 0.1, 0.0])).id();
+    steps(&mut world, 60);
+    assert!(world.resource_mut::<Cables>().cut(cable, 2.0).is_err());
+    world.resource_mut::<Cables>().cut(cable, 1.13).unwrap();
+    let before = height(&world, load);
+    steps(&mut world, 30);
+    let broken: Vec<CableBroken> = world.resource_mut::<Messages<CableBroken>>().drain().collect();
+    let [CableBroken { entity, rest, how }] = broken[..] else { panic!("{broken:?}") };
+    assert_eq!((entity, how.cause), (cable, BreakCause::Cut));
+    assert_relative_eq!(how.arc_length, 1.13, epsilon = 1e-9);
+    assert_eq!(world.get::<CableAttachments>(rest).unwrap().iter().collect::<Vec<_>>(), [hook]);
+    assert_eq!(world.get::<BreakStrain>(rest), Some(&BreakStrain(0.5)));
+    assert!(world.get::<Damping>(rest).is_some());
+    let fallen = before - height(&world, load);
+    assert!((fallen - 0.5 * 9.81 * 0.25).abs() < 0.1, "{fallen}");
+    let one = world.spawn((soft([3.0, 0.0, 0.0], [4.0, 0.0, 0.0]).elements(1), BreakTension(1e3))).id();
+    world.entity_mut(rest).insert(BreakTension(-1.0));
+    steps(&mut world, 1);
+    let failed: Vec<CableFailed> = world.resource_mut::<Messages<CableFailed>>().drain().collect();
+    assert_eq!(failed.len(), 2, "{failed:?}");
+    assert!(failed.iter().any(|f| f.entity == one && matches!(f.error, Error::OneElement { .. })), "{failed:?}");
+    assert!(failed.iter().any(|f| f.entity == rest && matches!(f.error, Error::InvalidValue { .. })), "{failed:?}");
+}
+
+/// A crate hangs from a reel that is a component: it is hoisted, the reel stays with the part at its end when the cable is cut, and the
+/// rest keeps its length when the component is removed. A reel that the cable cannot carry is an event.
+///
+/// *Source.* 1 s at 0.4 m/s, reached with 2 m/s^2.
+#[test]
+fn a_reel_is_a_component_that_stays_with_its_part() {
+    let mut world = world();
+    let load = world.spawn(cube(0.1, 5.0, [0.0, -2.1, 0.0])).id();
+    let cable = soft([0.0, -2.0, 0.0], [0.0; 3]);
+    let cable = world.spawn((cable, Bending, Damping::critical_fraction(1.0), Reel::default())).id();
+    world.spawn(Attachment::ball(cable, At::End).to_world());
+    world.spawn(Attachment::ball(cable, At::Start).to(load).at([0.0, 0.1, 0.0]));
+    steps(&mut world, 60);
+    let before = height(&world, load);
+    *world.get_mut::<Reel>(cable).unwrap() = Reel::with_rate(-0.4);
+    steps(&mut world, 60);
+    let expected = 0.4 - 0.5 * 0.4 * 0.2;
+    assert_relative_eq!(cable_of(&world, cable).length(), 2.0 - expected, epsilon = 1e-6);
+    assert!((height(&world, load) - before - expected).abs() < 0.03);
+    world.resource_mut::<Cables>().cut(cable, 0.8).unwrap();
+    steps(&mut world, 60);
+    let broken: Vec<CableBroken> = world.resource_mut::<Messages<CableBroken>>().drain().collect();
+    let rest = broken[0].rest;
+    assert!(world.get::<Reel>(cable).is_none() && world.get::<Reel>(rest).is_some());
+    let length = cable_of(&world, rest).length();
+    assert!(length < 0.6 && cable_of(&world, cable).length() == 0.8);
+    world.entity_mut(rest).remove::<Reel>();
+    steps(&mut world, 1);
+    let length = cable_of(&world, rest).length();
+    steps(&mut world, 30);
+    assert_eq!(cable_of(&world, rest).length(), length);
+    world.entity_mut(rest).insert(Reel::with_rate(f64::NAN));
+    steps(&mut world, 1);
+    let failed: Vec<CableFailed> = world.resource_mut::<Messages<CableFailed>>().drain().collect();
+    assert!(matches!(failed[..], [CableFailed { error: Error::InvalidValue { .. }, .. }]), "{failed:?}");
 }
 
 /// Mass in kg of a round cable: diameter in m, density in kg/m^3, length in m.

@@ -9,7 +9,7 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-from cosseratbench.scenario import End, EndCondition, Rod, Scenario, parallel_transport  # type: ignore[import-untyped, unused-ignore]
+from cosseratbench.scenario import End, EndCondition, Rod, Scenario  # type: ignore[import-untyped, unused-ignore]
 from cosseratbench.solver import Diverged  # type: ignore[import-untyped, unused-ignore]
 from cosseratbench.trajectory import Trajectory  # type: ignore[import-untyped, unused-ignore]
 
@@ -19,7 +19,7 @@ from lariat.types import Array, Fidelity
 PRESETS: dict[str, lariat.Integrator | Fidelity] = {
     "engineering": "engineering",
     "game": "game",
-    "tr-bdf2": lariat.Integrator("tr-bdf2", tolerance=1e-5, norm="motion"),
+    "tr-bdf2": lariat.Integrator("tr-bdf2", tolerance=1e-5),
 }
 
 
@@ -64,17 +64,15 @@ class LariatSolver:
             for _ in range(n_frames - 1):
                 for cable, path in zip(cables, frames):
                     if not scenario.quasi_static:
-                        for _ in range(steps):
-                            cable.step(step)
+                        cable.step(step, steps=steps)
                     elif len(path) == 1:
                         cable.equilibrium()
                     path.append(cable.positions)
         except lariat.Error as error:
             raise Diverged(str(error), error.time) from error
-        directors = [np.stack([parallel_transport(p, np.asarray(rod.normal, float)) for p in path])
-                     for rod, path in zip(scenario.rods, frames)]  # fmt: skip
-        times = np.linspace(0.0, scenario.duration, n_frames)
-        return Trajectory(times, tuple(np.stack(path) for path in frames), tuple(directors))
+        paths = [np.stack(path) for path in frames]
+        directors = [_directors(path, np.asarray(rod.normal, float)) for rod, path in zip(scenario.rods, paths)]
+        return Trajectory(np.linspace(0.0, scenario.duration, n_frames), tuple(paths), tuple(directors))
 
     def _cable(self, rod: Rod, scenario: Scenario, n_elements: int) -> lariat.Cable:
         if rod.start_motion is not None or rod.end_motion is not None:
@@ -103,3 +101,17 @@ def _slopes(rod: Rod, n_elements: int) -> Array:
     h = rod.length / fine
     gradient: Array = np.gradient(points, h, axis=0, edge_order=2 if fine > 1 else 1)
     return gradient[:: fine // n_elements]
+
+
+def _directors(path: Array, normal: Array) -> Array:
+    """Returns the normal, carried along the elements of each frame by the smallest rotation from one tangent to the next: untwisted."""
+    tangents = np.diff(path, axis=1)
+    tangents /= np.linalg.norm(tangents, axis=2, keepdims=True)
+    directors = np.empty_like(tangents)
+    first = normal - (tangents[:, 0] @ normal)[:, None] * tangents[:, 0]
+    directors[:, 0] = first / np.linalg.norm(first, axis=1, keepdims=True)
+    for i in range(1, tangents.shape[1]):
+        a, b, d = tangents[:, i - 1], tangents[:, i], directors[:, i - 1]
+        share = np.sum(b * d, axis=1) / (1.0 + np.sum(a * b, axis=1))
+        directors[:, i] = d - share[:, None] * (a + b)
+    return directors

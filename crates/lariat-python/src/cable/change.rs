@@ -28,7 +28,7 @@ impl Cable {
             };
             let position = Some(Motion::fixed(cable.node_position(node)));
             let slope = SlopeSupport::Direction(direction);
-            cable.set_support(At::Node(node), Support { position, slope, attached: false })
+            cable.set_support(At::Node(node), Support { position, slope, ..Support::default() })
         })
     }
 
@@ -73,7 +73,7 @@ impl Cable {
         ramp: f64,
     ) -> PyResult<()> {
         let [force, moment] = [force, moment].map(|v| v.map_or(Vector3::zeros(), |v| v.0));
-        self.change(py, |cable| cable.add_load(PointLoad { arc_length: s, force, moment, ramp, start: 0.0 }))
+        self.change(py, |cable| cable.add_load(PointLoad { moment, ramp, ..PointLoad::force(s, force) }))
     }
 
     /// Removes all point loads.

@@ -261,7 +261,7 @@ impl World {
     fn _set_rotation(&self, py: Python<'_>, handle: Handle, q: [f64; 4], next: bool) -> PyResult<()> {
         let quaternion = Quaternion::new(q[3], q[0], q[1], q[2]);
         let norm = quaternion.norm();
-        if !((norm - 1.0).abs() < 1e-3) {
+        if norm.is_nan() || (norm - 1.0).abs() >= 1e-3 {
             return Err(invalid("length of the quaternion", norm, "1"));
         }
         let rotation = UnitQuaternion::from_quaternion(quaternion).to_rapier();

@@ -10,7 +10,7 @@ use crate::shared::Shared;
 use bodies::{Handle, single};
 use lariat_rapier::rapier::dynamics::RigidBodyHandle;
 use lariat_rapier::rapier::pipeline::PhysicsWorld;
-use lariat_rapier::{AttachmentHandle, AttachmentKind, CableHandle, CableSet, Error, Event, Gap, Settings};
+use lariat_rapier::{AttachmentHandle, AttachmentKind, CableHandle, CableSet, Error, Event, Gap};
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyList};
 use serde::{Deserialize, Serialize};
@@ -78,7 +78,10 @@ impl World {
         if rapier_steps == 0 {
             return Err(bodies::invalid("rapier_steps", 0.0, "> 0"));
         }
-        set.settings = Settings { rapier_steps, max_rapier_steps, sleep_speed, fidelity: self::fidelity(fidelity)? };
+        set.settings.rapier_steps = rapier_steps;
+        set.settings.max_rapier_steps = max_rapier_steps;
+        set.settings.sleep_speed = sleep_speed;
+        set.settings.fidelity = self::fidelity(fidelity)?;
         Ok(World(Shared::new(Contents { world, set, time: 0.0, bodies: Vec::new(), attachments: Vec::new() })))
     }
 

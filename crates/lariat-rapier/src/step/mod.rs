@@ -31,6 +31,7 @@ use crate::contents::Contents;
 use crate::error::{Error, Failure};
 use crate::events::Event;
 use crate::islands::{Island, Islands};
+use crate::reels;
 use crate::settings::Settings;
 use crate::sleep;
 use lariat_ancf::Snapshot;
@@ -131,6 +132,7 @@ pub(crate) fn predict_next(
     if host.dt == 0.0 {
         return Ok(());
     }
+    reels::remesh(contents)?;
     host.motions.advance(world, host.done, host.steps);
     let outcome = predict_islands(stepper, contents, world, settings, host);
     host.failed = outcome.is_err();
@@ -206,6 +208,7 @@ fn predict_islands(
         }
     }
     integrate::integrate(contents, &islands.list, predictions, step.h);
+    reels::follow(contents);
     for (island, prediction) in islands.list.iter().zip(predictions.iter_mut()) {
         if prediction.integrator.is_some() && prediction.error.is_none() {
             prediction.error = complete_island(contents, world, island, prediction, &step).err();

@@ -16,6 +16,7 @@ mod joints;
 mod moving_ends;
 mod payload;
 mod prescribed_motion;
+mod reels;
 mod refused;
 mod ropes;
 mod sleep;

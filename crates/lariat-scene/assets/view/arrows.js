@@ -22,13 +22,13 @@ function loadArrows(frame, time) {
       for (let i = 0; i < ROW; i++) {
         const s = load.from + ((load.to - load.from) * i) / (ROW - 1);
         const unit = i === ROW >> 1 ? "N/m" : "";
-        put(onCable(frame.cables[load.cable], s), load, "perLength", 1, ROW_LENGTH, 1, unit);
+        put(onCable(frame, load.cable, s), load, "perLength", 1, ROW_LENGTH, 1, unit);
       }
       continue;
     }
     const share = load.ramp > 0 ? Math.min(1, Math.max(0, time / load.ramp)) : 1;
     let from;
-    if (load.body === undefined) from = onCable(frame.cables[load.cable], load.at);
+    if (load.body === undefined) from = onCable(frame, load.cable, load.at);
     else {
       const { place, attitude } = poseOf(frame, load.body);
       from = add(place, turn(attitude, load.point));

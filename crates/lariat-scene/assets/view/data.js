@@ -14,14 +14,15 @@ const numbers = new Float32Array(bytesOf(data.frames));
 // A node of a cable: arc length, position, slope, tension there and half-way to the next node.
 const NODE = 9;
 
-// frames[k] = { cables: [first number, nodes], bodies: first number }
+// frames[k] = { cables: [first number, nodes, cable] of each part of a cable, bodies: first number }
 const frames = [];
 for (let k = 0, at = 0; k < times.length; k++) {
   const frame = { cables: [], bodies: 0 };
-  for (let c = 0; c < data.cables.length; c++) {
-    const nodes = numbers[at];
-    frame.cables.push([at + 1, nodes]);
-    at += 1 + NODE * nodes;
+  const parts = numbers[at++];
+  for (let c = 0; c < parts; c++) {
+    const nodes = numbers[at + 1];
+    frame.cables.push([at + 2, nodes, numbers[at]]);
+    at += 2 + NODE * nodes;
   }
   frame.bodies = at;
   at += 7 * data.bodies.length;
@@ -51,8 +52,12 @@ function onElement(a, b, x) {
   return [at(1), at(2), at(3)];
 }
 
-// The point of a cable at an arc length.
-function onCable([first, nodes], s) {
+// The point of a cable at an arc length; a break belongs to the part before it.
+function onCable(frame, cable, s) {
+  let [first, nodes] = frame.cables[cable];
+  for (const [start, count, of] of frame.cables) {
+    if (of === cable && numbers[start] < s - 1e-5 * Math.abs(s) && numbers[start] > numbers[first]) [first, nodes] = [start, count];
+  }
   for (let i = 0; i + 1 < nodes; i++) {
     const a = first + NODE * i, b = a + NODE;
     if (s <= numbers[b] || i + 2 === nodes) {

@@ -131,8 +131,8 @@ function drawFace(g, flat, fill, edges) {
 }
 
 function cableItems(items, frame) {
-  data.cables.forEach((cable, c) => {
-    const [first, nodes] = frame.cables[c];
+  frame.cables.forEach(([first, nodes, c]) => {
+    const cable = data.cables[c];
     // smooth at 100 pieces and more per cable
     const pieces = Math.max(2, Math.min(16, Math.ceil(160 / nodes)));
     for (let i = 0; i + 1 < nodes; i++) {
@@ -175,7 +175,7 @@ function drawMarks(g, frame, time, names) {
   };
   for (const arrow of loadArrows(frame, time)) drawArrow(g, arrow, names, label);
   for (const hold of data.attachments) {
-    const p = project(onCable(frame.cables[hold.cable], hold.at));
+    const p = project(onCable(frame, hold.cable, hold.at));
     if (!p) continue;
     g.beginPath();
     if (hold.world) g.rect(p[0] - 3.5, p[1] - 3.5, 7, 7);
@@ -187,7 +187,7 @@ function drawMarks(g, frame, time, names) {
     g.stroke();
   }
   for (const tie of data.junctions) {
-    const p = project(onCable(frame.cables[tie.cable], tie.at));
+    const p = project(onCable(frame, tie.cable, tie.at));
     if (!p) continue;
     g.beginPath();
     g.arc(p[0], p[1], 2.5, 0, 7);
@@ -212,7 +212,7 @@ function drawMarks(g, frame, time, names) {
   if (names) {
     data.cables.forEach((cable, c) => {
       const [first, nodes] = frame.cables[c];
-      const p = project(onCable(frame.cables[c], 0.5 * numbers[first + NODE * (nodes - 1)]));
+      const p = project(onCable(frame, c, 0.5 * (numbers[first] + numbers[first + NODE * (nodes - 1)])));
       if (p) label(cable.name, p);
     });
   }

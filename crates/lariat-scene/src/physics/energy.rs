@@ -20,6 +20,8 @@ pub struct BodyTerms {
     pub loads: f64,
     /// Work of its cables on it.
     pub cables: f64,
+    /// True if a cable is attached to it.
+    pub attached: bool,
     /// True if nothing but cables, gravity and loads moves it.
     pub free: bool,
 }
@@ -93,6 +95,7 @@ impl Physics {
                 gravity: -rigid.mass * scene.gravity.dot(&rigid.position),
                 loads: self.load_work[index],
                 cables,
+                attached: scene.attachments.iter().any(|attachment| attachment.body == Some(index)),
                 free,
             });
         }

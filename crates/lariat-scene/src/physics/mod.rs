@@ -21,12 +21,12 @@ use crate::scene::Scene;
 use crate::scene::body::BodyKind;
 use crate::warning::Warning;
 use lariat_ancf::island::RigidBody;
-use lariat_ancf::{At, Cable, Momentum, Vector3};
+use lariat_ancf::{At, Break, Cable, Momentum, Vector3};
 use lariat_rapier::convert::{to_pose, to_vector};
 use lariat_rapier::rapier::dynamics::RigidBodyHandle;
 use lariat_rapier::rapier::math::Real;
 use lariat_rapier::rapier::prelude::PhysicsWorld;
-use lariat_rapier::{AttachmentHandle, AttachmentKind, AttachmentReading, CableHandle, CableSet, Gap};
+use lariat_rapier::{AttachmentHandle, AttachmentKind, AttachmentReading, CableHandle, CableSet, Event, Gap};
 
 /// Rapier steps of a host step: a run is for accuracy, in contacts too, and its cost is that of the cables.
 const RAPIER_STEPS: u32 = 4;
@@ -280,7 +280,39 @@ impl Physics {
         }
     }
 
-    /// Returns the cables, in the order of the scene.
+    /// Cuts a cable at an arc length in m.
+    ///
+    /// # Errors
+    /// [`Error::Mechanics`] for a point that is not between the ends.
+    pub fn cut(&mut self, scene: &Scene, time: f64, cable: usize, arc_length: f64) -> Result<(), Error> {
+        let cut = self.cables.cut(self.handles[cable], arc_length);
+        cut.map(|_| ()).map_err(|error| self.explain(scene, time, error))
+    }
+
+    /// Returns the cables that broke or were cut since the last call, by their position, with what they carried. The rest of
+    /// each is the next of all cables.
+    pub fn take_breaks(&mut self) -> Vec<(usize, Break)> {
+        let mut breaks = Vec::new();
+        for event in self.cables.take_events() {
+            if let Event::Broken { cable, rest, how } = event
+                && let Some(part) = self.handles.iter().position(|handle| *handle == cable)
+            {
+                self.handles.push(rest);
+                breaks.push((part, how));
+            }
+        }
+        breaks
+    }
+
+    /// Lets no cable break any more.
+    pub fn withstand_all(&mut self) {
+        for handle in &self.handles {
+            // no limit is a strength that every cable takes
+            let _ = self.cables.set_strength(*handle, None);
+        }
+    }
+
+    /// Returns the cables, in the order of the scene, and after them the parts of those that broke.
     pub fn cables(&self) -> Vec<&Cable> {
         self.cables.iter().map(|(_, cable)| cable).collect()
     }

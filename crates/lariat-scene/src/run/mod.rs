@@ -36,6 +36,7 @@
 mod balance;
 mod error_target;
 mod output;
+mod pieces;
 mod probe;
 mod recording;
 pub mod schedule;
@@ -46,6 +47,7 @@ mod world;
 
 pub use balance::EnergyBalance;
 pub use error_target::ErrorClaim;
+pub use pieces::{Parted, Piece};
 pub(crate) use probe::columns;
 pub use recording::{ProbeRecord, Recording, collect};
 pub use statics::{BodyPlace, BodyStatics, CableStatics, StaticReaction};
@@ -157,7 +159,7 @@ fn advance(
             ahead = None;
             &mut *world
         } else {
-            ahead.get_or_insert_with(|| world.clone())
+            ahead.get_or_insert_with(|| world.unbreakable())
         };
         read.advance(event.time)?;
         for (probe, sample) in event.probes {

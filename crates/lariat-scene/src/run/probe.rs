@@ -17,6 +17,7 @@ pub(crate) fn columns(target: Target) -> &'static [&'static str] {
         }
         Target::Body(_) => &["t", "x", "y", "z", "qx", "qy", "qz", "qw", "vx", "vy", "vz", "wx", "wy", "wz"],
         Target::Attachment(_) => &["t", "fx", "fy", "fz", "mx", "my", "mz", "gap"],
+        Target::Reel(_) => &["t", "length_out", "rate", "force", "tension", "work"],
         Target::Energy(_) => &["t", "kinetic", "axial", "bending", "gravity", "dissipated", "interface_work", "total"],
         Target::Momentum(_) => &["t", "px", "py", "pz", "lx", "ly", "lz"],
     }
@@ -26,7 +27,8 @@ pub(crate) fn columns(target: Target) -> &'static [&'static str] {
 pub(super) fn read(target: Target, world: &mut World, row: &mut Vec<f64>) -> Result<(), Error> {
     match target {
         Target::Point { cable, arc_length } => {
-            let sample = world.cables()[cable].sample(arc_length)?;
+            let (part, s) = world.part(cable, arc_length);
+            let sample = world.cables()[part].sample(s)?;
             for vector in [sample.position, sample.velocity, sample.slope] {
                 row.extend(vector.iter());
             }
@@ -42,6 +44,13 @@ pub(super) fn read(target: Target, world: &mut World, row: &mut Vec<f64>) -> Res
         Target::Attachment(index) => {
             let (force, moment, gap) = world.attachment(index)?;
             row.extend(force.iter().chain(moment.iter()).chain(&[gap]));
+        }
+        Target::Reel(cable) => {
+            let (part, _) = world.part(cable, f64::INFINITY);
+            // the reel is at the last part of its cable
+            if let Some(reel) = world.cables()[part].reel() {
+                row.extend([reel.length_out, reel.rate, reel.force, reel.tension, reel.work]);
+            }
         }
         Target::Energy(cable) => {
             let energy = world.energy(cable);

@@ -1,6 +1,6 @@
 //! `summary.json`: the results and costs of a run, in one object.
 
-use super::{BodyStatics, CableStatics, EnergyBalance, ErrorClaim, World};
+use super::{BodyStatics, CableStatics, EnergyBalance, ErrorClaim, Parted, World};
 use crate::error::Error;
 use crate::warning::Warning;
 use serde::{Deserialize, Serialize};
@@ -44,6 +44,9 @@ pub struct Summary {
     /// Warnings.
     #[serde(serialize_with = "crate::warning::with_texts")]
     pub warnings: Vec<Warning>,
+    /// Cables that broke or were cut, in their order; only if there are any.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub breaks: Vec<Parted>,
     /// Why the run failed; null if it did not.
     pub failed: Option<String>,
     /// What is claimed about the error that was asked for; only with `--error`. Counts and times above are those of the last run.
@@ -81,6 +84,7 @@ impl Summary {
             energy_end_j: finite(world.energy(None).total()),
             energy_balance: None,
             warnings: world.warnings.clone(),
+            breaks: world.breaks.clone(),
             failed: failed.map(ToString::to_string),
             error: None,
             statics: world.statics.clone(),

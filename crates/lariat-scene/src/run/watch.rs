@@ -17,6 +17,8 @@ const ROUNDING: f64 = 1e-5;
 const TURN: f64 = 0.2;
 /// Largest tension over EA.
 const STRAIN: f64 = 0.05;
+/// Largest rate of a reel over the speed of transverse waves.
+const REEL: f64 = 0.3;
 /// Largest number of elements that is advised.
 const MOST: f64 = 1e6;
 
@@ -40,6 +42,8 @@ struct Worst {
     turn: f64,
     /// Largest tension in N, and its time in s.
     tension: (f64, f64),
+    /// Largest rate of a reel over the speed of transverse waves, and its time in s.
+    reel: (f64, f64),
 }
 
 impl Watch {
@@ -64,10 +68,16 @@ impl Watch {
             let shape = cable.mesh_indicator();
             worst.position = worst.position.max(shape.position);
             worst.turn = worst.turn.max(shape.turn);
+            // a part of a cable is another one, and its displacement that of its flight
+            worst.start = worst.start.take().filter(|start| start.len() == cable.positions().len());
             if let Some(start) = &worst.start {
                 let motion = cable.motion_indicator(start)?;
                 worst.motion = worst.motion.max(motion.error.min(shape.position));
                 worst.displacement = worst.displacement.max(motion.displacement);
+            }
+            let ratio = cable.reel().map_or(0.0, |reel| reel.speed_ratio);
+            if ratio.is_finite() && ratio > worst.reel.0 && cable.effects().damping.is_none() {
+                worst.reel = (ratio, cable.time());
             }
             let (_, tension) = cable.peak_tension();
             if tension > worst.tension.0 {
@@ -122,7 +132,9 @@ impl Watch {
                     let (tension_n, time_s) = worst.tension;
                     Warning::LargeStrain { cable: name(), time_s, tension_n, axial_stiffness_n: ea }
                 });
-                [strain, mesh, turn].into_iter().flatten()
+                let (ratio, time_s) = worst.reel;
+                let reel = (ratio > REEL).then(|| Warning::FastReel { cable: name(), time_s, ratio });
+                [strain, mesh, turn, reel].into_iter().flatten()
             })
             .chain(self.energy_warning())
             .collect()

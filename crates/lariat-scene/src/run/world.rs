@@ -1,12 +1,14 @@
 //! The cables and bodies of a scene while it runs.
 
 use super::balance::Terms;
-use super::{BodyStatics, CableStatics};
+use super::{BodyStatics, CableStatics, Parted, Piece};
 use crate::error::Error;
 use crate::physics::{BodyState, Physics};
-use crate::scene::{AttachmentScene, Engine, Purpose, Scene};
+use crate::scene::{AttachmentScene, CableScene, Engine, Purpose, Scene};
 use crate::warning::Warning;
-use lariat_ancf::{At, AxialRule, Cable, Energy, EquilibriumReport, Method, Momentum, Reaction, Support, Vector3};
+use lariat_ancf::{
+    At, AxialRule, Break, Cable, Energy, EquilibriumReport, Method, Momentum, Reaction, Support, Vector3,
+};
 use std::collections::BTreeMap;
 
 /// The cables and bodies of a scene in their present state.
@@ -19,6 +21,11 @@ pub struct World {
     physics: Option<Box<Physics>>,
     /// Common time of cables and bodies in s.
     time: f64,
+    /// What each cable of [`cables`](Self::cables) is part of.
+    pieces: Vec<Piece>,
+    /// By cable of the scene, whether its cut is done.
+    cut: Vec<bool>,
+    pub(super) breaks: Vec<Parted>,
     pub(super) warnings: Vec<Warning>,
     /// Iterations of the statics, which are Newton iterations too.
     pub(super) static_iterations: u64,
@@ -45,6 +52,9 @@ impl World {
             alone: cables,
             physics,
             time: 0.0,
+            pieces: (0..scene.cables.len()).map(|cable| Piece { cable, from: 0.0 }).collect(),
+            cut: vec![false; scene.cables.len()],
+            breaks: Vec::new(),
             warnings: Vec::new(),
             static_iterations: 0,
             energy_start: 0.0,
@@ -151,7 +161,7 @@ impl World {
         self.energy_start = self.energy(None).total();
     }
 
-    /// Advances all cables and bodies to a time in s.
+    /// Advances all cables and bodies to a time in s, a host time: cables that are overloaded then break, and cuts that are due are made.
     ///
     /// # Errors
     /// [`Error::Mechanics`] names the cable and the time; that cable is then at the last good state. [`Error::Body`] names the body.
@@ -160,15 +170,96 @@ impl World {
             physics.advance(&self.scene, self.time, time)?;
             self.warnings.extend(physics.passing(&self.scene, time));
             self.time = time;
-            return Ok(());
+        } else {
+            for i in 0..self.alone.len() {
+                let dt = time - self.alone[i].time();
+                if dt > 0.0 {
+                    self.alone[i].step(dt)?;
+                }
+                if let Some((rest, how)) = self.alone[i].break_overloaded()? {
+                    self.alone.push(rest);
+                    self.note_break(i, &how);
+                }
+            }
         }
-        for cable in &mut self.alone {
-            let dt = time - cable.time();
-            if dt > 0.0 {
-                cable.step(dt)?;
+        self.note_breaks();
+        for cable in 0..self.cut.len() {
+            if let Some((_, s)) = self.scene.cables[cable].breaking.cut.filter(|(t, _)| *t <= time)
+                && !core::mem::replace(&mut self.cut[cable], true)
+            {
+                self.cut(cable, s)?;
             }
         }
         Ok(())
+    }
+
+    /// Cuts a cable at an arc length in m, unless it broke there before.
+    fn cut(&mut self, cable: usize, arc_length: f64) -> Result<(), Error> {
+        let (part, s) = self.part(cable, arc_length);
+        let length = self.cables()[part].length();
+        if s <= 1e-9 * length || s >= length * (1.0 - 1e-9) {
+            return Ok(());
+        }
+        if let Some(physics) = self.physics.as_mut().filter(|_| self.alone.is_empty()) {
+            physics.cut(&self.scene, self.time, part, s)?;
+            self.note_breaks();
+        } else {
+            let (rest, how) = self.alone[part].break_at(s)?;
+            self.alone.push(rest);
+            self.note_break(part, &how);
+        }
+        Ok(())
+    }
+
+    /// Notes the breaks of cables with bodies.
+    fn note_breaks(&mut self) {
+        let parted = self.physics.as_mut().map_or(Vec::new(), |physics| physics.take_breaks());
+        for (part, how) in parted {
+            self.note_break(part, &how);
+        }
+    }
+
+    /// Notes that a cable became two; the rest is the last of all cables.
+    fn note_break(&mut self, part: usize, how: &Break) {
+        let piece = self.pieces[part];
+        let name = self.scene.cables[piece.cable].name.as_str();
+        self.breaks.push(Parted::new(name, &piece, self.time(), how));
+        self.pieces.push(Piece { from: piece.from + how.arc_length, ..piece });
+    }
+
+    /// Returns a copy whose cables do not break, for times between host times.
+    pub(super) fn unbreakable(&self) -> World {
+        let mut copy = self.clone();
+        copy.cut.fill(true);
+        // no limit is a strength that every cable takes
+        copy.alone.iter_mut().for_each(|cable| drop(cable.set_strength(None)));
+        if let Some(physics) = &mut copy.physics {
+            physics.withstand_all();
+        }
+        copy
+    }
+
+    /// Returns what each of the [cables](Self::cables) is part of.
+    pub fn pieces(&self) -> &[Piece] {
+        &self.pieces
+    }
+
+    /// Returns the position in [`cables`](Self::cables) of the part of a cable of the scene that holds an arc length (m), and the
+    /// arc length on it. A break belongs to the part before it; what a reel has taken in is at its eye, and so is its end.
+    pub fn part(&self, cable: usize, arc_length: f64) -> (usize, f64) {
+        let CableScene { length, reel, .. } = &self.scene.cables[cable];
+        let slack = 1e-9 * length;
+        let at_eye = reel.is_some() && arc_length >= length - slack;
+        let arc_length = if at_eye { f64::INFINITY } else { arc_length };
+        let parts = self.pieces.iter().enumerate().filter(|(_, piece)| piece.cable == cable);
+        let before = parts.filter(|(_, piece)| piece.from < arc_length - slack);
+        let (part, from) = before.fold(
+            (cable, 0.0),
+            |(part, from), (i, piece)| {
+                if piece.from > from { (i, piece.from) } else { (part, from) }
+            },
+        );
+        (part, (arc_length - from).min(self.cables()[part].length()))
     }
 
     /// Returns the scene.
@@ -176,7 +267,7 @@ impl World {
         &self.scene
     }
 
-    /// Returns the cables, in the order of the scene.
+    /// Returns the cables, in the order of the scene, and after them the [parts](Self::pieces) of those that broke.
     pub fn cables(&self) -> Vec<&Cable> {
         match &self.physics {
             Some(physics) if self.alone.is_empty() => physics.cables(),
@@ -193,12 +284,8 @@ impl World {
     }
 
     fn chosen(&self, cable: Option<usize>) -> Vec<&Cable> {
-        let mut cables = self.cables();
-        if let Some(index) = cable {
-            cables = cables.split_off(index);
-            cables.truncate(1);
-        }
-        cables
+        let all = self.cables().into_iter().zip(&self.pieces);
+        all.filter(|(_, piece)| cable.is_none_or(|cable| cable == piece.cable)).map(|(cable, _)| cable).collect()
     }
 
     /// Returns the energy of a cable, or of all cables and dynamic bodies.
@@ -260,6 +347,9 @@ impl World {
             terms.gravity += energy.gravity;
             terms.dissipated += effects.dissipated();
             terms.work += effects.total() + effects.dissipated() + law.loads + law.supports + cable.inserted_energy();
+            // the energy law of a step knows no winch
+            all_by_law &= !cable.has_reel();
+            terms.work += cable.reel().map_or(0.0, |reel| reel.work + reel.remeshed);
             by_law += law.residual - law.numerical - law.rescaled;
             all_by_law &= cable.integrator().method == Method::DiscreteGradient;
         }
@@ -271,6 +361,11 @@ impl World {
         }
         let masses = self.scene.cables.iter().map(|cable| cable.section.mass_per_length * cable.length);
         terms.weight += self.scene.gravity.norm() * masses.sum::<f64>();
+        if all_by_law {
+            // the law counts all forces on bodies as loads
+            let attached = terms.bodies.iter().filter(|body| body.attached);
+            terms.work += attached.map(|body| body.gravity - body.loads).sum::<f64>();
+        }
         terms.by_law = all_by_law.then_some(by_law);
         Ok(terms)
     }
@@ -310,9 +405,10 @@ impl World {
         let AttachmentScene { cable, arc_length, .. } = self.scene.attachments[index];
         // a copy, because reading reactions modifies a cable, which wakes it
         let mut coupled = None;
-        let cable = match self.alone.get_mut(cable) {
+        let (part, arc_length) = self.part(cable, arc_length);
+        let cable = match self.alone.get_mut(part) {
             Some(cable) => cable,
-            None => coupled.insert(self.cables()[cable].clone()),
+            None => coupled.insert(self.cables()[part].clone()),
         };
         let (force, moment) = pull(cable, arc_length)?;
         Ok((force, moment, 0.0))

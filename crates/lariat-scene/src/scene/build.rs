@@ -30,7 +30,12 @@ impl Scene {
         for &(_, arc_length) in self.tied(index) {
             builder = builder.fix(At::ArcLength(arc_length));
         }
-        builder.build()
+        let mut cable = builder.build()?;
+        cable.set_strength(scene.breaking.strength)?;
+        if let Some(reel) = &scene.reel {
+            cable.add_reel(At::End, reel.clone())?;
+        }
+        Ok(cable)
     }
 
     /// Returns the points of a cable that junctions tie to others.

@@ -1,11 +1,13 @@
 //! `[[cable]]`: shape, section, rule and motion of a cable.
 
+use super::breaking::{self, BREAK, BreakScene};
 use super::effects::{self, EFFECTS};
 use super::integrator::{self, IntegratorTable};
+use super::reel::{self, REEL};
 use crate::document::{Document, KeyPath};
 use crate::error::{Error, Problem};
-use crate::schema::{Choose, Default, Key, Kind, NOT_NEGATIVE, POSITIVE, VECTOR, choice, parse_as, table};
-use lariat_ancf::{AxialRule, BendingRule, Effects, IntegratorChoice, Rule, Section, Shape, Vector3};
+use crate::schema::{Choose, Kind, NOT_NEGATIVE, POSITIVE, VECTOR, choice, parse_as, table};
+use lariat_ancf::{AxialRule, BendingRule, Effects, IntegratorChoice, Reel, Rule, Section, Shape, Vector3};
 use serde::Deserialize;
 
 choice! {
@@ -59,15 +61,7 @@ table! {
     }
     rest effects;
     plus EFFECTS;
-    plus NOT_BUILT;
-}
-
-/// Parts of the format that this version reads and does not compute.
-const NOT_BUILT: &[Key] =
-    &[not_built("break", "Breaking at a tension."), not_built("reel", "Change of the unstretched length at one end.")];
-
-const fn not_built(name: &'static str, meaning: &'static str) -> Key {
-    Key { name, kind: Kind::NotBuilt, unit: "", default: Default::Absent("off"), meaning }
+    plus &[BREAK, REEL];
 }
 
 table! {
@@ -130,6 +124,10 @@ pub struct CableScene {
     pub rule: Rule,
     /// Effects.
     pub effects: Effects,
+    /// When it becomes two.
+    pub breaking: BreakScene,
+    /// Reel at its end.
+    pub reel: Option<Reel>,
     /// Time integrator.
     pub integrator: IntegratorChoice,
     /// Initial velocity in m/s.
@@ -139,7 +137,7 @@ pub struct CableScene {
 }
 
 /// Reads the cable at a path.
-pub(super) fn read(doc: &Document<'_>, at: &KeyPath, row: CableTable) -> Result<CableScene, Error> {
+pub(super) fn read(doc: &Document<'_>, at: &KeyPath, mut row: CableTable) -> Result<CableScene, Error> {
     if let Some(i) = row.points.windows(2).position(|p| p[0] == p[1]) {
         let problem = format!("points {i} and {} coincide at {:?}", i + 1, row.points[i].as_slice());
         return Err(doc.conflict(&at.key("points"), problem));
@@ -151,6 +149,8 @@ pub(super) fn read(doc: &Document<'_>, at: &KeyPath, row: CableTable) -> Result<
     }
     let rule = rule(doc, &at.key("rule"), &row)?;
     let section = section(doc, at, &row)?;
+    let breaking = breaking::read(doc, at, &mut row.effects, (length, row.elements))?;
+    let reel = reel::read(doc, at, &mut row.effects)?;
     let effects = effects::read(doc, at, row.effects, &effects::Context { section: &section, rule, length })?;
     let mut integrator = integrator::read(doc, &at.key("integrator"), &row.integrator)?;
     if effects.contact.is_some() {
@@ -165,6 +165,8 @@ pub(super) fn read(doc: &Document<'_>, at: &KeyPath, row: CableTable) -> Result<
         youngs_modulus: row.youngs_modulus,
         rule,
         effects,
+        breaking,
+        reel,
         integrator,
         velocity: row.velocity,
         angular_velocity: row.angular_velocity,

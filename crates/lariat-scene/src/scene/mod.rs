@@ -7,7 +7,7 @@
 //! | file | table |
 //! |---|---|
 //! | `mod`: [`SceneTable`] | the scene itself |
-//! | [`cable`], [`integrator`], [`effects`], [`flow`] | `[[cable]]` |
+//! | [`cable`], [`integrator`], [`effects`], [`flow`], [`breaking`], [`reel`] | `[[cable]]` |
 //! | [`body`], `mesh` | `[[body]]` |
 //! | [`joint`], [`attachment`], [`junction`], [`load`], [`probe`] | the tables of these names |
 //! | `references` | names and points that tables refer to |
@@ -16,6 +16,7 @@
 
 pub mod attachment;
 pub mod body;
+pub mod breaking;
 mod build;
 pub mod cable;
 pub mod effects;
@@ -27,6 +28,7 @@ pub mod load;
 mod mesh;
 mod plausibility;
 pub mod probe;
+pub mod reel;
 mod references;
 
 pub use attachment::AttachmentScene;

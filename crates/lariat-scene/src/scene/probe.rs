@@ -21,12 +21,14 @@ table! {
         body: Option<String> = (), Kind::Text;
         /// Name of an attachment.
         attachment: Option<String> = (), Kind::Text;
+        /// Name of a cable with a reel.
+        reel: Option<String> = (), Kind::Text;
         /// Name of a cable, or `"all"` for cables and dynamic bodies.
         energy: Option<String> = (), Kind::Text;
         /// Name of a cable, or `"all"` for cables and dynamic bodies.
         momentum: Option<String> = (), Kind::Text;
     }
-    choose Choose::ExactlyOne(&["cable", "body", "attachment", "energy", "momentum"]);
+    choose Choose::ExactlyOne(&["cable", "body", "attachment", "reel", "energy", "momentum"]);
 }
 
 /// A checked probe.
@@ -54,6 +56,8 @@ pub enum Target {
     Body(usize),
     /// Force, moment and gap of an attachment.
     Attachment(usize),
+    /// Reel of a cable.
+    Reel(usize),
     /// Energy of a cable, or of all.
     Energy(Option<usize>),
     /// Momentum of a cable, or of all.
@@ -97,6 +101,12 @@ pub(super) fn read(doc: &Document<'_>, scene: &Scene, i: usize, row: ProbeTable)
         let known = || scene.attachments.iter().map(|a| a.name.as_str());
         let unknown = || doc.unknown_name(&at.key("attachment"), "attachment", name, known());
         Target::Attachment(known().position(|n| n == name).ok_or_else(unknown)?)
+    } else if let Some(name) = &row.reel {
+        let cable = cable(doc, &at.key("reel"), scene, name)?;
+        if scene.cables[cable].reel.is_none() {
+            return Err(doc.conflict(&at.key("reel"), format!("cable {name:?} has no reel")));
+        }
+        Target::Reel(cable)
     } else if let Some(name) = &row.energy {
         Target::Energy(cable_or_all("energy", name)?)
     } else {

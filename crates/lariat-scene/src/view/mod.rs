@@ -60,7 +60,7 @@ struct Frame {
 impl Recorder {
     /// Returns an empty recorder.
     pub fn new(scene: &Scene) -> Self {
-        let nodes: usize = scene.cables.iter().map(|cable| 1 + 9 * (cable.elements + 1).min(NODES)).sum();
+        let nodes: usize = scene.cables.iter().map(|cable| 2 + 9 * (cable.elements + 1).min(NODES)).sum();
         let limit = (NUMBERS / (nodes + 7 * scene.bodies.len()).max(1)).clamp(2, FRAMES);
         Recorder {
             frames: Decimator::new(limit),
@@ -125,17 +125,18 @@ impl Recorder {
 impl Frame {
     fn of(world: &World) -> Result<Self, Error> {
         let mut numbers = Vec::new();
-        for cable in world.cables() {
+        numbers.push(world.pieces().len() as f32);
+        for (cable, piece) in world.cables().into_iter().zip(world.pieces()) {
             let mut places = cable.node_arc_lengths();
             if places.len() > NODES {
                 let step = cable.length() / (NODES - 1) as f64;
                 places = (0..NODES).map(|k| (k as f64 * step).min(cable.length())).collect();
             }
-            numbers.push(places.len() as f32);
+            numbers.extend([piece.cable as f32, places.len() as f32]);
             for (i, &s) in places.iter().enumerate() {
                 let here = cable.sample(s)?;
                 let next = places.get(i + 1).map(|next| cable.sample(0.5 * (s + next))).transpose()?;
-                numbers.push(s as f32);
+                numbers.push((piece.from + s) as f32);
                 numbers.extend(here.position.iter().chain(here.slope.iter()).map(|&x| x as f32));
                 numbers.extend([here.tension as f32, next.unwrap_or(here).tension as f32]);
             }

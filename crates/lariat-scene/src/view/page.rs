@@ -1,13 +1,13 @@
 //! The page as text: the template of `assets/view` with its data.
 //!
-//! Frames are a sequence of little-endian `f32` in base64: for each frame, for each cable the number of nodes and for each node arc
-//! length, position, slope, tension there and half-way to the next node; then for each body position and quaternion. Times and
+//! Frames are a sequence of little-endian `f32` in base64: for each frame the number of parts of cables, for each part its cable, the
+//! number of nodes and for each node arc length on the cable, position, slope, tension there and half-way to the next node; then for each body position and quaternion. Times and
 //! rows of probes are `f64`.
 
 use super::{Decimator, Frame};
 use crate::run::{Summary, columns};
 use crate::scene::body::BodyShape;
-use crate::scene::{Scene, Target};
+use crate::scene::{CableScene, Scene, Target};
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
 use serde_json::{Value, json};
@@ -46,7 +46,7 @@ pub fn write(scene: &Scene, summary: &Summary, frames: &[Frame], probes: &[Decim
             "shape": shape(&b.shape),
         })).collect::<Vec<_>>(),
         "attachments": scene.attachments.iter().map(|a| json!({
-            "cable": a.cable, "at": a.arc_length, "world": a.body.is_none(), "clamp": a.clamp,
+            "cable": a.cable, "at": on_page(scene, a.cable, a.arc_length), "world": a.body.is_none(), "clamp": a.clamp,
         })).collect::<Vec<_>>(),
         "junctions": scene.junctions.iter().map(|j| json!({ "cable": j.points[0].0, "at": j.points[0].1 })).collect::<Vec<_>>(),
         "times": base64(frames.iter().flat_map(|f| f.time.to_le_bytes())),
@@ -120,6 +120,12 @@ fn loads(scene: &Scene, statics: bool) -> Value {
     Value::Array(loads)
 }
 
+/// Returns the arc length of a point on the page: the eye of a reel is at the end, whatever is out.
+fn on_page(scene: &Scene, cable: usize, arc_length: f64) -> f64 {
+    let CableScene { length, reel, .. } = &scene.cables[cable];
+    if reel.is_some() && arc_length >= length * (1.0 - 1e-9) { 1e9 } else { arc_length }
+}
+
 /// Returns what a probe reads, in words.
 fn about(scene: &Scene, target: Target) -> String {
     let whose = |cable: Option<usize>| cable.map_or("all".to_string(), |c| format!("cable {}", scene.cables[c].name));
@@ -127,6 +133,7 @@ fn about(scene: &Scene, target: Target) -> String {
         Target::Point { cable, arc_length } => format!("cable {} at {arc_length} m", scene.cables[cable].name),
         Target::Body(i) => format!("body {}", scene.bodies[i].name),
         Target::Attachment(k) => format!("attachment {}", scene.attachments[k].name),
+        Target::Reel(cable) => format!("reel of cable {}", scene.cables[cable].name),
         Target::Energy(cable) => format!("energy of {}", whose(cable)),
         Target::Momentum(cable) => format!("momentum of {}", whose(cable)),
     }

@@ -59,16 +59,16 @@ fn the_page_has_what_the_run_wrote() {
     assert_eq!(data.times().len(), 31);
     assert_eq!((data.times()[0], data.times()[30]), (0.0, 0.5));
     let numbers = data.frames();
-    // one cable of 11 nodes with 9 numbers each, one body with 7
-    let frame = 1 + 11 * 9 + 7;
+    // one part: its cable, its number of nodes, 11 nodes with 9 numbers each; one body with 7
+    let frame = 3 + 11 * 9 + 7;
     assert_eq!(numbers.len(), 31 * frame);
     assert!(numbers.iter().all(|x| x.is_finite()));
     let last = &numbers[30 * frame..];
     let body: Vec<f32> = last_row(&probes.join("crate.csv"))[1..8].iter().map(|&x| x as f32).collect();
-    assert_eq!((last[0], &last[100..]), (11.0, &body[..]));
+    assert_eq!((&last[..3], &last[102..]), (&[1.0, 0.0, 11.0][..], &body[..]));
     let pull = last_row(&probes.join("hook.csv"));
     let pull = pull[1].hypot(pull[2]) as f32;
-    let tension = last[1 + 10 * 9 + 7];
+    let tension = last[3 + 10 * 9 + 7];
     assert!((tension / pull - 1.0).abs() < 0.1, "{tension} N at the end, {pull} N at the hook");
     for probe in data.0["probes"].as_array().unwrap() {
         let rows = Data::doubles(&probe["rows"]);

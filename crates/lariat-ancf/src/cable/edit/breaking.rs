@@ -1,0 +1,116 @@
+//! Breaking a cable where its tension or strain exceeds what it withstands.
+//!
+//! # Equation
+//!
+//! Tension and strain are read at both ends of every element, as [`Cable::sample`] reads them; the strain is `f/f_0 - 1`, f the stretch of
+//! the projected Green strain and f_0 the rest stretch. The cable breaks at the inner node nearest to the reading that exceeds its
+//! limit most.
+//!
+//! # Validity
+//!
+//! Compared when the caller asks, usually after each host step: a peak between is not seen. Breaking at a node changes neither shape
+//! nor motion, so mass, momenta and energy of the parts are those of the whole to rounding ([`Break`]); the strain energy becomes motion
+//! in the steps that follow. A cable of one element has no inner node: [`Cable::set_strength`] refuses it, and a part of one element
+//! stays whole.
+//!
+//! # References
+//!
+//! Conservation; `cut` for the parts.
+//!
+//! # Alternatives considered
+//!
+//! Splitting the element at the reading: it is at a node already, since readings are largest at the ends of elements, and next to a
+//! support the part would be too short to step.
+
+use crate::cable::{At, Cable};
+use crate::error::Error;
+use crate::strength::{Break, BreakCause, Strength};
+
+impl Cable {
+    /// Returns what the cable withstands.
+    pub fn strength(&self) -> Strength {
+        self.model.strength
+    }
+
+    /// Sets what the cable withstands: a [`Strength`], or a tension in N. Nothing is compared until
+    /// [`break_overloaded`](Self::break_overloaded) is called; a `CableSet` of lariat-rapier does so after each host step.
+    ///
+    /// # Errors
+    /// [`Error::InvalidValue`] for a limit that is not positive, [`Error::OneElement`] for a limit on a cable of one element.
+    pub fn set_strength(&mut self, strength: impl Into<Strength>) -> Result<(), Error> {
+        let strength = strength.into();
+        strength.check().map_err(|e| e.of_cable(self.name()))?;
+        if strength.is_limited() && self.elements().len() < 2 {
+            return Err(Error::OneElement { cable: self.name().to_string() });
+        }
+        self.model.strength = strength;
+        Ok(())
+    }
+
+    /// Breaks the cable if it is overloaded: this one keeps the part before the break, the rest is returned, and both keep the
+    /// [strength](Self::strength). Loads, effects and supports stay with their part.
+    ///
+    /// # Errors
+    /// As [`cut`](Self::cut); not for a cable that was built.
+    pub fn break_overloaded(&mut self) -> Result<Option<(Cable, Break)>, Error> {
+        let strength = self.strength();
+        if !strength.is_limited() {
+            return Ok(None);
+        }
+        let (mut worst, mut from) = (None::<(f64, BreakCause, f64, f64, f64)>, 0.0);
+        for (e, element) in self.elements().iter().enumerate() {
+            for xi in [0.0, 1.0] {
+                let s = from + xi * element.length;
+                let (tension, strain) = self.load_in(e, xi);
+                let (share, cause) = strength.share(tension, strain);
+                if share > 1.0 && worst.is_none_or(|(most, ..)| share > most) {
+                    worst = Some((share, cause, s, tension, strain));
+                }
+            }
+            from += element.length;
+        }
+        let Some((_, cause, s, tension, strain)) = worst else { return Ok(None) };
+        let Some(arc_length) = self.inner_node(s) else { return Ok(None) };
+        self.part(arc_length, |cable| Break { cause, tension, strain, ..cable }).map(Some)
+    }
+
+    /// Cuts the cable at a point as [`cut`](Self::cut) does, and returns beside the rest what it carried there.
+    ///
+    /// # Errors
+    /// As [`cut`](Self::cut).
+    pub fn break_at(&mut self, at: impl Into<At>) -> Result<(Cable, Break), Error> {
+        let s = self.arc_length(at)?;
+        self.part(s, |cut| cut)
+    }
+
+    fn part(&mut self, arc_length: f64, told: impl FnOnce(Break) -> Break) -> Result<(Cable, Break), Error> {
+        let (e, xi) = self.model.locate(arc_length);
+        let (tension, strain) = self.load_in(e, xi);
+        let (energy, inserted) = (self.energy(), self.inserted_energy());
+        let rest = self.cut(At::ArcLength(arc_length))?;
+        let cut = Break {
+            cause: BreakCause::Cut,
+            arc_length: self.length(),
+            tension,
+            strain,
+            strain_energy: energy.axial + energy.bending,
+            inserted_energy: self.inserted_energy() - inserted,
+        };
+        Ok((rest, told(cut)))
+    }
+
+    /// Returns tension (N) and strain at a local coordinate of an element.
+    fn load_in(&self, e: usize, xi: f64) -> (f64, f64) {
+        let sample = self.sample_in(e, xi);
+        let middle = || self.node_arc_lengths()[e] + 0.5 * self.elements()[e].length;
+        let rest = self.effects().rest_shape.as_ref().map_or(1.0, |shape| shape.at(middle()).0);
+        (sample.tension, (1.0 + 2.0 * sample.green_strain).max(0.0).sqrt() / rest - 1.0)
+    }
+
+    /// Returns the arc length in m of the inner node nearest to another; a cable of one element has none.
+    fn inner_node(&self, arc_length: f64) -> Option<f64> {
+        let nodes = self.node_arc_lengths();
+        let distance = |node: &f64| (node - arc_length).abs();
+        nodes[1..nodes.len() - 1].iter().copied().min_by(|a, b| distance(a).total_cmp(&distance(b)))
+    }
+}

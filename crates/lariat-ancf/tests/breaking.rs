@@ -1,0 +1,144 @@
+//! A cable that breaks by its load, and what its parts keep.
+
+use approx::assert_relative_eq;
+use lariat_ancf::{
+    At, Break, BreakCause, Cable, Damping, Energy, Error, Fidelity, PointLoad, RestPiece, RestShape, Section, Strength,
+    Vector3,
+};
+
+const STEP: f64 = 1.0 / 240.0;
+
+/// A cable of `mass` (kg/m) and 2 m that hangs at rest, pulled at its end by a force that grows by `rate` (N/s).
+fn pulled(mass: f64, rate: f64, elements: usize) -> Cable {
+    let mut cable = Cable::builder()
+        .points([Vector3::zeros(), Vector3::new(0.0, -2.0, 0.0)])
+        .section(Section::from_stiffness(2.0e4, 0.01, mass).unwrap())
+        .elements(elements)
+        .damping(Damping { axial: 2e-3, bending: 0.0 })
+        .fidelity(Fidelity::Engineering)
+        .fix(At::Start)
+        .build()
+        .unwrap();
+    cable.equilibrium().unwrap();
+    cable.add_load(PointLoad { ramp: 100.0, ..PointLoad::force(2.0, [0.0, -100.0 * rate, 0.0]) }).unwrap();
+    cable
+}
+
+/// Steps a cable until it breaks; returns the rest, the break and the time.
+fn break_it(cable: &mut Cable) -> (Cable, Break, f64) {
+    for _ in 0..4000 {
+        cable.step(STEP).unwrap();
+        if let Some((rest, how)) = cable.break_overloaded().unwrap() {
+            return (rest, how, cable.time());
+        }
+    }
+    panic!("it did not break");
+}
+
+/// *Source.* Statics: the tension at the top is the pull and the weight below, T = F + rho A L g; the pull is slow beside the wave speed.
+/// The strain of the material law is that of T = EA (f^2 - 1)/2 f. The top is held, so the cable breaks at the next node.
+#[test]
+fn a_pulled_cable_breaks_at_its_limit_at_the_node_next_to_the_largest_load() {
+    for (mass, rate, limit, elements) in [(0.4, 20.0, 40.0, 10), (0.05, 100.0, 90.0, 7), (1.0, 40.0, 60.0, 16)] {
+        for by_strain in [false, true] {
+            let mut cable = pulled(mass, rate, elements);
+            // T = EA e (1 + e)(1 + e/2) with the stretch 1 + e, solved by Newton's iteration
+            let mut e = limit / 2.0e4;
+            for _ in 0..20 {
+                e -= (2.0e4 * e * (1.0 + e) * (1.0 + 0.5 * e) - limit) / (2.0e4 * (1.0 + 3.0 * e));
+            }
+            let strength = if by_strain { Strength::strain(e) } else { Strength::tension(limit) };
+            cable.set_strength(strength).unwrap();
+            let (rest, how, time) = break_it(&mut cable);
+            let load = rate * time + mass * 9.81 * 2.0;
+            assert!((load / limit - 1.0).abs() < 0.02, "{load} N of {limit} N");
+            assert!((how.tension / limit - 1.0).abs() < 0.02, "{how:?}");
+            assert_eq!(how.cause, if by_strain { BreakCause::Strain } else { BreakCause::Tension });
+            assert_relative_eq!(how.arc_length, 2.0 / elements as f64, epsilon = 1e-12);
+            assert_relative_eq!(cable.length(), how.arc_length, epsilon = 1e-12);
+            assert_eq!((cable.loads().len(), rest.loads().len()), (0, 1));
+            assert_eq!(rest.strength(), strength);
+        }
+    }
+}
+
+fn total(parts: &[&Cable]) -> (Energy, Vector3<f64>, Vector3<f64>, f64) {
+    let mut sum = (Energy::default(), Vector3::zeros(), Vector3::zeros(), 0.0);
+    for part in parts {
+        let momentum = part.momentum();
+        sum.0 += part.energy();
+        sum.1 += momentum.linear;
+        sum.2 += momentum.angular;
+        sum.3 += part.length();
+    }
+    sum
+}
+
+/// A swinging, damped, pre-curved cable breaks or is cut anywhere: momentum, length and energy of the parts are those of the whole,
+/// but for the energy that is reported. Then the parts move on, and their momentum changes by weight and support alone.
+///
+/// *Source.* Conservation.
+#[test]
+fn momentum_and_energy_of_the_parts_are_those_of_the_whole() {
+    let mut whole = Cable::builder()
+        .points([Vector3::zeros(), Vector3::new(1.0, 0.4, 0.0), Vector3::new(2.0, 0.0, 0.3)])
+        .section(Section::square(0.01, 1.0e8, 4000.0).unwrap())
+        .damping(Damping { axial: 1e-4, bending: 1e-4 })
+        .fix(At::Start)
+        .build()
+        .unwrap();
+    let mut effects = whole.effects().clone();
+    effects.rest_shape = Some(RestShape { pieces: vec![RestPiece { from: 0.0, stretch: 1.01, curvature: 0.2 }] });
+    whole.set_effects(effects).unwrap();
+    for _ in 0..40 {
+        whole.step(STEP).unwrap();
+    }
+    let before = total(&[&whole]);
+    let size = before.0.kinetic + before.0.axial + before.0.bending;
+    for place in [None, Some(0.2), Some(0.61), Some(1.97)] {
+        let mut head = whole.clone();
+        let (mut tail, how) = match place {
+            None => {
+                // above every strain of the present state
+                head.set_strength(Strength::strain(1e-9)).unwrap();
+                head.break_overloaded().unwrap().unwrap()
+            }
+            Some(s) => head.break_at(s).unwrap(),
+        };
+        let after = total(&[&head, &tail]);
+        assert!((after.0.total() - before.0.total() - how.inserted_energy).abs() < 1e-9 * size, "{place:?} {how:?}");
+        assert!(place.is_some() || how.inserted_energy == 0.0);
+        assert_relative_eq!(how.strain_energy, before.0.axial + before.0.bending, max_relative = 1e-12);
+        assert_relative_eq!(after.1, before.1, epsilon = 1e-11);
+        assert_relative_eq!(after.2, before.2, epsilon = 1e-11);
+        assert_relative_eq!(after.3, before.3, epsilon = 1e-12);
+        let (free, steps) = (tail.momentum().linear, 30);
+        for _ in 0..steps {
+            head.step(STEP).unwrap();
+            tail.step(STEP).unwrap();
+        }
+        let fallen = 0.4 * tail.length() * 9.81 * STEP * f64::from(steps);
+        assert_relative_eq!(tail.momentum().linear, free - Vector3::new(0.0, fallen, 0.0), epsilon = 1e-9);
+    }
+}
+
+#[test]
+fn limits_that_make_no_sense_are_typed_errors_and_change_nothing() {
+    let mut cable = pulled(0.4, 10.0, 4);
+    for limit in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+        for strength in [Strength::tension(limit), Strength::strain(limit)] {
+            assert!(matches!(cable.set_strength(strength), Err(Error::InvalidValue { .. })), "{limit}");
+        }
+    }
+    assert_eq!(cable.strength(), Strength::default());
+    assert!(cable.break_overloaded().unwrap().is_none());
+    let mut one = pulled(0.4, 10.0, 1);
+    assert_eq!(one.set_strength(10.0), Err(Error::OneElement { cable: "cable".to_string() }));
+    one.set_strength(None).unwrap();
+    // parts of one element bear everything
+    cable.set_strength(1e-3).unwrap();
+    let (mut rest, how) = cable.break_overloaded().unwrap().unwrap();
+    assert_relative_eq!(how.arc_length, 0.5, epsilon = 1e-12);
+    assert!(cable.break_overloaded().unwrap().is_none());
+    assert_relative_eq!(rest.break_overloaded().unwrap().unwrap().1.arc_length, 0.5, epsilon = 1e-12);
+}

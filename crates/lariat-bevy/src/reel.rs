@@ -1,0 +1,67 @@
+//! Reels at the ends of cables.
+
+use crate::cable::Cable;
+use crate::cables::Cables;
+use crate::event::CableFailed;
+use bevy_ecs::component::Component;
+use bevy_ecs::entity::Entity;
+use bevy_ecs::entity_disabling::Disabled;
+use bevy_ecs::prelude::{Changed, Or, Query, RemovedComponents, ResMut, With};
+use bevy_ecs::query::Allow;
+use lariat_ancf::At;
+
+/// A reel at the end of a cable: change its rates as you like. `cables.get(entity)?.reel()` reads it. One that the cable cannot carry
+/// is an error: [`CableFailed`].
+///
+/// ```
+/// use bevy_ecs::prelude::*;
+/// use lariat_bevy::{Attachment, At, Cable, Cables, Reel};
+/// # use lariat_bevy::CableStep;
+///
+/// let mut world = World::new();
+/// lariat_bevy::install(&mut world);
+/// let rope = Cable::steel_rope(0.012).between([0.0, -4.0, 0.0], [0.0, 0.0, 0.0]);
+/// let rope = world.spawn((rope, Reel::with_rate(-0.5))).id(); // m/s: takes in
+/// world.spawn(Attachment::ball(rope, At::End).to_world());
+/// for _ in 0..60 {
+///     world.run_schedule(CableStep);
+/// }
+/// assert!(world.resource::<Cables>().get(rope).unwrap().length() < 3.7);
+/// ```
+#[derive(Component, Clone, Debug, Default, PartialEq)]
+pub struct Reel(pub lariat_ancf::Reel);
+
+impl Reel {
+    /// A reel with a constant rate in m/s: positive pays out.
+    pub fn with_rate(rate: f64) -> Self {
+        Reel(lariat_ancf::Reel::with_rate(rate))
+    }
+}
+
+/// Query filter: the reel of a cable was added or changed, or the cable was.
+type ReelChanged = Or<(Changed<Reel>, Changed<Cable>)>;
+
+/// Gives cables their reels, changes and removes them.
+pub(crate) fn set_reels(
+    mut cables: ResMut<Cables>,
+    reels: Query<&Reel, (With<Cable>, Allow<Disabled>)>,
+    changed: Query<Entity, (ReelChanged, Allow<Disabled>)>,
+    mut removed: RemovedComponents<Reel>,
+) {
+    for entity in changed.iter().chain(removed.read()) {
+        let Ok(now) = cables.get(entity).map(|cable| cable.reel_description().cloned()) else { continue };
+        let wanted = reels.get(entity).ok().map(|reel| reel.0.clone());
+        if now == wanted {
+            continue;
+        }
+        let Ok(cable) = cables.get_mut(entity) else { continue };
+        let outcome = match (now, wanted) {
+            (_, None) => cable.remove_reel(),
+            (None, Some(reel)) => cable.add_reel(At::End, reel),
+            (Some(_), Some(reel)) => cable.set_reel(reel),
+        };
+        if let Err(error) = outcome {
+            cables.events.push(CableFailed { entity, error }.into());
+        }
+    }
+}

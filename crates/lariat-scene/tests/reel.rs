@@ -1,0 +1,37 @@
+//! A winch in a scene.
+
+use lariat_scene::run::{self, Options};
+use lariat_scene::{Purpose, Scene};
+use std::path::Path;
+
+/// Crate and winch of the scene, hoisted: the probe of the reel has what is out, the pull is the weight, and the total energy rises by the
+/// work of the winch less what damping takes. A load and a probe below stay with their material.
+///
+/// *Source.* Statics and conservation of energy; 50 kg + 0.3 kg/m of rope.
+#[test]
+fn a_winch_of_a_scene_lifts_its_crate() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../assets/scenes/winch.toml");
+    for method in ["{ method = \"discrete-gradient\", max_step = 0.0041666 }", "{ tolerance = 1e-5 }"] {
+        let overrides = ["duration=4.0".to_string(), format!("cable.rope.integrator={method}")];
+        let scene = Scene::read(&path, &overrides, Purpose::Run).unwrap();
+        let folder = tempfile::tempdir().unwrap();
+        let summary = run::run(&scene, folder.path(), &mut Options::default()).unwrap();
+        assert!(summary.failed.is_none(), "{summary:?}");
+        let rows = |name: &str| -> Vec<Vec<f64>> {
+            let text = std::fs::read_to_string(folder.path().join(format!("probes/{name}.csv"))).unwrap();
+            text.lines().skip(1).map(|line| line.split(',').map(|x| x.parse().unwrap()).collect()).collect()
+        };
+        let (reel, energy, body) = (rows("reel"), rows("energy"), rows("crate"));
+        let (first, last) = (&reel[60], &reel[240]);
+        // 0.5 m/s from 1 s on, reached within 0.5 s
+        assert!((last[1] - (4.0 - 0.5 * 2.75)).abs() < 1e-6 && (last[2] + 0.5).abs() < 1e-9, "{last:?}");
+        let weight: f64 = reel[180..].iter().map(|row| row[3] / ((50.0 + 0.3 * row[1]) * 9.81) / 61.0).sum();
+        assert!((weight - 1.0).abs() < 5e-3, "{method}: {weight}");
+        let rise = body[240][2] - body[60][2];
+        assert!((rise - 0.5 * 2.75).abs() < 6e-3, "{rise} m");
+        let gained = energy[240][7] - energy[60][7] + energy[240][5] - energy[60][5];
+        let work = last[5] - first[5];
+        println!("{method}: {gained} J of {work} J, pull over weight {weight}");
+        assert!((gained - work).abs() < 5e-3 * work.abs(), "{method}: {gained} J of {work} J");
+    }
+}
