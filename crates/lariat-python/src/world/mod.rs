@@ -210,8 +210,9 @@ impl World {
             let (kind, (first, rest, s, tension)) = match event {
                 Event::Asleep(handle) => ("asleep".to_string(), (Some(cable(handle)), None, None, None)),
                 Event::Awake(handle) => ("awake".to_string(), (Some(cable(handle)), None, None, None)),
-                Event::Broken { cable: handle, rest, arc_length, tension } => {
-                    ("broken".to_string(), (Some(cable(handle)), Some(cable(rest)), Some(arc_length), Some(tension)))
+                Event::Broken { cable: handle, rest, how } => {
+                    let (s, tension) = (Some(how.arc_length), Some(how.tension));
+                    ("broken".to_string(), (Some(cable(handle)), Some(cable(rest)), s, tension))
                 }
                 Event::AttachmentEnded { .. } => ("attachment ended".to_string(), none()),
                 other => (format!("{other:?}"), none()),
