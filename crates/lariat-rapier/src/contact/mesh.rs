@@ -25,8 +25,6 @@ pub(super) struct Mesh {
     normals: Vec<Vector3<f64>>,
     /// Whether each triangle has an inside, behind it.
     solid: bool,
-    /// By edge between two vertices in ascending order, whether it is sharp.
-    sharp: BTreeMap<(u32, u32), bool>,
     /// Features by the triangle that owns them: the first of those that share them.
     owned: Vec<(u32, Feature)>,
     tree: TriMesh,
@@ -58,12 +56,10 @@ impl Mesh {
                 edges.entry((t[i].min(t[j]), t[i].max(t[j]))).or_default().push(number as u32);
             }
         }
-        let mut mesh =
-            Mesh { vertices: points, triangles, normals, solid, sharp: BTreeMap::new(), owned: Vec::new(), tree };
+        let mut mesh = Mesh { vertices: points, triangles, normals, solid, owned: Vec::new(), tree };
         let mut ends: BTreeMap<u32, u32> = BTreeMap::new();
         for (edge, of) in &edges {
             let sharp = mesh.is_sharp(*edge, of);
-            mesh.sharp.insert(*edge, sharp);
             if sharp {
                 let [a, b] = [edge.0, edge.1].map(|i| mesh.vertices[i as usize]);
                 mesh.own(of[0], FeatureShape::Segment(a, b));
@@ -114,6 +110,11 @@ impl Mesh {
     }
 }
 
+/// Returns whether a place at a distance (m) that is on the border of a triangle is within its face: the way there is along the normal.
+fn is_within(face: &Nearest, distance: f64) -> bool {
+    (face.distance.abs() - distance).abs() <= FLAT * FLAT * distance
+}
+
 impl Surface for Mesh {
     fn nearest(&self, y: &Vector3<f64>) -> Nearest {
         let (_, (triangle, location)) = self.tree.project_local_point_and_get_location(to_vector(y), false);
@@ -121,21 +122,21 @@ impl Surface for Mesh {
         match location {
             TrianglePointLocation::OnEdge(edge, _) => {
                 let edge = self.edge(corners, edge);
-                if !self.sharp.get(&edge).copied().unwrap_or(true) {
-                    return self.face(number, y);
-                }
                 let [a, b] = [edge.0, edge.1].map(|i| self.vertices[i as usize]);
                 let direction = (b - a).normalize();
                 let z = y - a;
                 let distance = (z - direction * direction.dot(&z)).norm();
+                let face = self.face(number, y);
+                if is_within(&face, distance) {
+                    return face;
+                }
                 Nearest { patch: Patch::Line { point: a, direction, radius: 0.0 }, distance, feature: true }
             }
             TrianglePointLocation::OnVertex(i) => {
                 let point = self.vertices[corners[i.min(2) as usize] as usize];
                 let face = self.face(number, y);
                 let distance = (y - point).norm();
-                // in the middle of a face, or behind it
-                if face.distance < 0.0 || distance - face.distance <= 1e-9 * distance {
+                if is_within(&face, distance) {
                     return face;
                 }
                 Nearest { patch: Patch::Point { point, radius: 0.0 }, distance, feature: true }
