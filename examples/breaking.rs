@@ -1,6 +1,6 @@
 //! A bridge loses a cable: `cargo run --release --example breaking`.
 //!
-//! The suspension bridge of assets/scenes/bridge.toml; after 3 s its north cable is cut in the middle. Writes out/breaking/view.html, a
+//! The suspension bridge of assets/scenes/bridge.toml; after 2 s its north cable is cut in the middle. Writes out/breaking/view.html, a
 //! page that plays the motion.
 //!
 //! # References
@@ -16,8 +16,13 @@ use std::path::Path;
 const G: f64 = 9.81; // m/s^2
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
-    let overrides = ["duration=5.0", "cable.north.break={ time = 3.0, at = 6.0 }"].map(String::from);
-    let scene = Scene::read(Path::new("assets/scenes/bridge.toml"), &overrides, Purpose::Run)?;
+    let file = Path::new("assets/scenes/bridge.toml");
+    let mut overrides = ["duration=3.0", "cable.north.break={ time = 2.0, at = 6.0 }"].map(String::from).to_vec();
+    // the ends whip: a step that is controlled by its error follows every crack
+    for cable in &Scene::read(file, &[], Purpose::Run)?.cables {
+        overrides.push(format!("cable.{}.integrator={{ fidelity = \"game\" }}", cable.name));
+    }
+    let scene = Scene::read(file, &overrides, Purpose::Run)?;
     let out = Path::new("out/breaking");
     let summary = run(&scene, out, &mut Options::default())?;
     println!("{} s in {:.2} s; open {}", summary.simulated_s, summary.wall_s, out.join("view.html").display());
@@ -34,9 +39,9 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     world.start(Purpose::Run)?;
     let plate = scene.bodies.iter().position(|body| body.name == "deck 3").ok_or("no deck 3")?;
     let height = |world: &World| world.body(plate).map_or(f64::NAN, |body| body.position.y);
-    (1..=180).try_for_each(|step| world.advance(f64::from(step) / 60.0))?;
+    (1..=120).try_for_each(|step| world.advance(f64::from(step) / 60.0))?;
     let (before, time) = (height(&world), 12.0 / 60.0);
-    (181..=192).try_for_each(|step| world.advance(f64::from(step) / 60.0))?;
+    (121..=132).try_for_each(|step| world.advance(f64::from(step) / 60.0))?;
     let (fallen, hinged) = (before - height(&world), 0.5 * G * time * time / (1.0 + 1.1 * 1.1 / 3.0));
     println!("the middle plate falls {:.1} mm in {time} s, a hinged bar {:.1} mm", 1e3 * fallen, 1e3 * hinged);
     let fine = world.cables().len() == scene.cables.len() + 1 && (fallen / hinged - 1.0).abs() < 0.05;
