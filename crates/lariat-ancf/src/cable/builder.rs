@@ -128,8 +128,8 @@ impl CableBuilder {
         self
     }
 
-    /// Time integrator: an [`Integrator`], or a [`Fidelity`] that chooses one by the cable's frequencies. Default:
-    /// [`Fidelity::Engineering`] for a cable by itself; in a set of cables beside Rapier, the set's.
+    /// Time integrator: an [`Integrator`](crate::Integrator), or a [`Fidelity`] that chooses one by the cable's
+    /// frequencies. Default: [`Fidelity::Engineering`] for a cable by itself; in a set of cables beside Rapier, the set's.
     pub fn integrator(mut self, integrator: impl Into<IntegratorChoice>) -> Self {
         self.integrator = Some(integrator.into());
         self
