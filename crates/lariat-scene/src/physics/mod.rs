@@ -39,6 +39,8 @@ pub struct Physics {
     bodies: Vec<RigidBodyHandle>,
     cables: CableSet,
     handles: Vec<CableHandle>,
+    /// By cable, that of the scene of which it is a part.
+    sources: Vec<usize>,
     /// By attachment of the scene; `None` for one to the world, which is a support of the cable.
     attachments: Vec<Option<AttachmentHandle>>,
     /// By attachment, force and moment of the cable at t = 0, with the body still held.
@@ -77,6 +79,7 @@ impl Clone for Physics {
             bodies: self.bodies.clone(),
             cables: self.cables.clone(),
             handles: self.handles.clone(),
+            sources: self.sources.clone(),
             attachments: self.attachments.clone(),
             held_by: self.held_by.clone(),
             rapier_steps: self.rapier_steps,
@@ -118,6 +121,7 @@ impl Physics {
             bodies,
             cables,
             handles: Vec::new(),
+            sources: Vec::new(),
             attachments: Vec::new(),
             held_by: Vec::new(),
             rapier_steps,
@@ -140,6 +144,7 @@ impl Physics {
         held_by: &[(Vector3<f64>, Vector3<f64>)],
     ) -> Result<(), Error> {
         self.handles = cables.into_iter().map(|cable| self.cables.insert(cable)).collect();
+        self.sources = (0..self.handles.len()).collect();
         self.held_by = held_by.to_vec();
         for attachment in &scene.attachments {
             let Some(body) = attachment.body else {
@@ -298,6 +303,7 @@ impl Physics {
                 && let Some(part) = self.handles.iter().position(|handle| *handle == cable)
             {
                 self.handles.push(rest);
+                self.sources.push(self.sources[part]);
                 breaks.push((part, how));
             }
         }

@@ -47,7 +47,8 @@ impl Physics {
     /// a cable without contact, or a dynamic body. Once for each; a cable that starts inside has its own warning.
     pub fn passing(&mut self, scene: &Scene, time: f64) -> Vec<Warning> {
         let mut found = Vec::new();
-        for (c, (_, cable)) in self.cables.iter().enumerate() {
+        for (part, (_, cable)) in self.cables.iter().enumerate() {
+            let Some(&c) = self.sources.get(part) else { continue };
             let radius = cable.contact_radius().max(0.5 * scene.cables[c].section.diameter.unwrap_or(0.0));
             let contact = cable.effects().contact.is_some();
             let places = || (0..cable.nodes()).map(|node| to_vector(&cable.node_position(node)));
@@ -67,7 +68,7 @@ impl Physics {
                             depth > TOUCHING.max(radius)
                         })
                 });
-                if inside {
+                if inside && !found.contains(&(c, b)) {
                     found.push((c, b));
                 }
             }

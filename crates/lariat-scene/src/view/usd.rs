@@ -1,6 +1,7 @@
 //! The motion as OpenUSD (`.usda`, text), for usdview, Blender, Isaac Sim and others.
 //!
-//! A cable is a `BasisCurves` prim of cubic Bezier pieces, one per element: those are the cubics of the elements. A body is an `Xform` with its
+//! A cable is a `BasisCurves` prim of cubic Bezier pieces, one per element: those are the cubics of the elements. After it broke it has
+//! a curve for each of its parts. A body is an `Xform` with its
 //! shape. Positions have a time sample per frame of the page; a second has [`RATE`] time codes.
 //!
 //! The prims of cables carry their stiffness as custom attributes `lariat:*`: EA in N, EI in N m^2, mass per length in kg/m, unstretched
@@ -25,10 +26,10 @@ pub fn write(scene: &Scene, frames: &[Frame]) -> String {
          startTimeCode = 0\n    endTimeCode = {end}\n    timeCodesPerSecond = {RATE}\n)\n\ndef Xform \"World\"\n{{\n"
     );
     let mut names = Vec::new();
-    let mut at = vec![0; frames.len()];
-    for cable in &scene.cables {
+    let (pieces, mut at): (Vec<_>, Vec<_>) = frames.iter().map(|frame| places(frame, scene.cables.len())).unzip();
+    for (i, cable) in scene.cables.iter().enumerate() {
         let name = unique(&cable.name, &mut names);
-        curve(&mut text, &name, cable, frames, &mut at);
+        curve(&mut text, &name, cable, frames.iter().zip(pieces.iter().map(|of| &of[i][..])));
     }
     for body in &scene.bodies {
         let name = unique(&body.name, &mut names);
@@ -52,13 +53,23 @@ fn unique(name: &str, names: &mut Vec<String>) -> String {
     plain
 }
 
-/// Writes the vertices of the Bezier pieces of a cable in a frame, and moves `at` behind its numbers.
-fn vertices(text: &mut String, frame: &Frame, at: &mut usize) -> usize {
-    let nodes = frame.numbers[*at] as usize;
-    let node = |i: usize| &frame.numbers[*at + 1 + 9 * i..*at + 10 + 9 * i];
+/// Returns where the numbers of the pieces of each cable begin in a frame, and where those of the bodies do.
+fn places(frame: &Frame, cables: usize) -> (Vec<Vec<usize>>, usize) {
+    let (mut pieces, mut at) = (vec![Vec::new(); cables], 1);
+    for _ in 0..frame.numbers[0] as usize {
+        pieces[frame.numbers[at] as usize].push(at + 1);
+        at += 2 + 9 * frame.numbers[at + 1] as usize;
+    }
+    (pieces, at)
+}
+
+/// Writes the vertices of the Bezier pieces of a cable, or of a piece of it, in a frame; returns their number.
+fn vertices(text: &mut String, frame: &Frame, at: usize) -> usize {
+    let nodes = frame.numbers[at] as usize;
+    let node = |i: usize| &frame.numbers[at + 1 + 9 * i..at + 10 + 9 * i];
     let mut count = 0;
     let mut point = |text: &mut String, p: [f32; 3]| {
-        let _ = write!(text, "{}({}, {}, {})", if count > 0 { ", " } else { "" }, p[0], p[1], p[2]);
+        let _ = write!(text, "{}({}, {}, {})", if text.ends_with('[') { "" } else { ", " }, p[0], p[1], p[2]);
         count += 1;
     };
     for i in 0..nodes {
@@ -73,24 +84,39 @@ fn vertices(text: &mut String, frame: &Frame, at: &mut usize) -> usize {
             point(text, beside(third(i, i + 1)));
         }
     }
-    *at += 1 + 9 * nodes;
     count
 }
 
-fn curve(text: &mut String, name: &str, cable: &CableScene, frames: &[Frame], at: &mut [usize]) {
+/// Writes a cable from its frames, each with the places of its pieces.
+fn curve<'a>(
+    text: &mut String,
+    name: &str,
+    cable: &CableScene,
+    frames: impl Iterator<Item = (&'a Frame, &'a [usize])>,
+) {
     let mut samples = String::new();
-    let mut count = 0;
-    for (frame, at) in frames.iter().zip(at) {
-        let _ = write!(samples, "            {}: [", frame.time * RATE);
-        count = vertices(&mut samples, frame, at);
+    let mut counts: Vec<(f64, String)> = Vec::new();
+    for (frame, pieces) in frames {
+        let time = frame.time * RATE;
+        let _ = write!(samples, "            {time}: [");
+        let of_pieces = pieces.iter().map(|&at| vertices(&mut samples, frame, at).to_string());
+        counts.push((time, of_pieces.collect::<Vec<_>>().join(", ")));
         samples.push_str("],\n");
     }
+    counts.dedup_by(|(_, later), (_, earlier)| later == earlier);
+    let counts = match &counts[..] {
+        [(_, count)] => format!(" = [{count}]"),
+        several => {
+            let lines = several.iter().map(|(time, count)| format!("            {time}: [{count}],\n"));
+            format!(".timeSamples = {{\n{}        }}", lines.collect::<String>())
+        }
+    };
     let section = &cable.section;
     let width = section.diameter.unwrap_or(WIDTH);
     let _ = write!(
         text,
         "    def BasisCurves \"{name}\"\n    {{\n        uniform token type = \"cubic\"\n        uniform token basis = \"bezier\"\n        \
-         uniform token wrap = \"nonperiodic\"\n        int[] curveVertexCounts = [{count}]\n        float[] widths = [{width}] (\n            \
+         uniform token wrap = \"nonperiodic\"\n        int[] curveVertexCounts{counts}\n        float[] widths = [{width}] (\n            \
          interpolation = \"constant\"\n        )\n        point3f[] points.timeSamples = {{\n{samples}        }}\n        \
          custom double lariat:axialStiffness = {}\n        custom double lariat:bendingStiffness = {}\n        \
          custom double lariat:massPerLength = {}\n        custom double lariat:length = {}\n    }}\n",
