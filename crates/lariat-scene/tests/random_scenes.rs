@@ -39,6 +39,8 @@ fn scene(random: &mut Random, kind: usize, elements: usize) -> Scene {
     let (x, y) = (length * random.between(0.6, 0.95), -length * random.between(0.0, 0.3));
     let mut text = format!("duration = {:?}\ndt = {:?}\n", 0.4 * period, period / random.between(100.0, 400.0));
     let line = |points: &str, bending: f64, rest: &str| {
+        // no thicker than a twentieth of the length
+        let bending = bending.min(stiffness * (length / 80.0).powi(2));
         format!(
             "[[cable]]\nname = \"line\"\nelements = {elements}\npoints = [[0.0, 0.0, 0.0], {points}]\naxial_stiffness = {stiffness:?}\n\
              bending_stiffness = {bending:?}\nmass_per_length = {mass:?}\n{rest}"
@@ -113,7 +115,7 @@ fn exact(scene: &Scene, elements: usize, tolerance: f64) -> Vec<Vec<[f64; 3]>> {
 fn no_random_scene_is_wrong_without_a_warning_and_none_that_is_right_has_one() {
     let mut random = Random(11);
     let (mut silent, mut false_alarms, mut wrong) = (Vec::new(), Vec::new(), 0);
-    for case in 0..40 {
+    for case in 0..80 {
         let elements = [2, 3, 4, 6, 8, 12, 20, 30][(8.0 * random.next()) as usize];
         let mut scene = scene(&mut random, case, elements);
         if case % 2 == 1 {
@@ -123,14 +125,14 @@ fn no_random_scene_is_wrong_without_a_warning_and_none_that_is_right_has_one() {
         let summary = run::collect(&scene, Purpose::Run, &mut Options::default()).unwrap().summary;
         let truth = exact(&scene, 60.max(3 * elements), 1e-7 * length);
         let off = apart(&trace(&scene), &truth) / length;
-        wrong += usize::from(off > 0.02);
+        wrong += usize::from(off > 0.01);
         let texts: Vec<String> = summary.warnings.iter().map(ToString::to_string).collect();
         println!(
             "{case} (kind {}), {length:.2} m, {elements} elements, game {}: off by {off:.1e} L; {texts:?}",
             case % 5,
             case % 2 == 1
         );
-        if off > 0.02 && texts.is_empty() {
+        if off > 0.01 && texts.is_empty() {
             silent.push((case, off));
         }
         if off < 2e-4 && !texts.is_empty() {
@@ -145,7 +147,7 @@ fn no_random_scene_is_wrong_without_a_warning_and_none_that_is_right_has_one() {
 #[test]
 fn what_is_claimed_for_random_scenes_holds_and_is_not_far_from_the_truth() {
     let mut random = Random(5);
-    let mut ratios = Vec::new();
+    let (mut ratios, mut costs) = (Vec::new(), Vec::new());
     for case in 0..12 {
         let scene = scene(&mut random, case, 10);
         let length = scene.cables[0].length;
@@ -156,7 +158,7 @@ fn what_is_claimed_for_random_scenes_holds_and_is_not_far_from_the_truth() {
         let finer = exact(&scene, 2 * claim.elements, 0.1 * claim.tolerance_m.unwrap());
         let off = apart(&exact(&scene, claim.elements, claim.tolerance_m.unwrap()), &finer);
         println!("{case} (kind {}), asked {:.1e} L, off {:.1e} L: {claim:?}", case % 5, error / length, off / length);
-        assert!(claim.cost <= 4.0, "{case}: {}", claim.cost);
+        costs.push(claim.cost);
         match claim.claimed_m {
             Some(claimed) => {
                 assert!(off <= claimed && claimed <= error, "{case}: {off:e} m, claimed {claimed:e} m");
@@ -166,6 +168,8 @@ fn what_is_claimed_for_random_scenes_holds_and_is_not_far_from_the_truth() {
         }
     }
     ratios.sort_by(f64::total_cmp);
-    println!("claimed over true: {ratios:.2?}");
+    costs.sort_by(f64::total_cmp);
+    println!("claimed over true: {ratios:.2?}; all runs over the last: {costs:.2?}");
+    assert!(costs[costs.len() - 1] <= 4.0);
     assert!(ratios.len() >= 10 && ratios[ratios.len() / 2] < 10.0);
 }

@@ -10,8 +10,7 @@
 //! | [`sample`], [`reactions`], [`energy`] | reading results |
 //! | [`mesh`] | how far the mesh resolves the shape |
 //! | [`linearise`] | matrices at the present state |
-//! | `workspace` | buffers of a step, shared by cables |
-//! | [`fleet`] | a step of many cables |
+//! | `workspace`, [`fleet`] | buffers of a step, shared by cables; a step of many |
 
 pub mod builder;
 mod edit;
@@ -180,7 +179,7 @@ impl Cable {
         } else {
             self.with_workspace(|cable| cable.step_in_workspace(dt, integrator))?;
         }
-        self.note_host_step(drop);
+        self.note_step();
         Ok(())
     }
 

@@ -9,9 +9,9 @@
 //!
 //! At the nodes between elements N jumps by its error, which is of first order under bending, antisymmetric about the middle of each element,
 //! and in proportion to the element's length. The tension that is read is averaged there, with weights that make this error vanish,
-//! `(h_2 N_1 + h_1 N_2)/(h_1 + h_2)`, and what is added at the two nodes of an element to reach the averages is linear between them; at an
-//! end, and at a node where the tension itself jumps (a support, a point load, another section), the opposite of what is added at the other
-//! node, so that the middle keeps its value. That makes it second order (`tests/tension.rs`); the jump is given as its uncertainty.
+//! `(h_2 N_1 + h_1 N_2)/(h_1 + h_2)`, and what is added to reach the averages is quadratic in the element and vanishes in its middle, which is
+//! right already; at an end, and at a node where the tension itself jumps (a support, a point load, another section), it is the opposite of
+//! what is added at the other node. That makes it second order (`tests/tension.rs`); the jump is given as its uncertainty.
 //!
 //! # References
 //!
@@ -83,7 +83,8 @@ impl Cable {
         let [start, end] = [from.map(|node| node.missing[1]), to.map(|node| node.missing[0])];
         let start = start.or(end.map(|end| -end)).unwrap_or(0.0);
         let end = end.unwrap_or(-start);
-        Sample { tension: raw.tension + (1.0 - xi) * start + xi * end, tension_uncertainty, ..raw }
+        let missing = (1.0 - xi) * (1.0 - 2.0 * xi) * start + xi * (2.0 * xi - 1.0) * end;
+        Sample { tension: raw.tension + missing, tension_uncertainty, ..raw }
     }
 
     /// Returns the tension at a node between two elements, if it is continuous there.

@@ -20,7 +20,7 @@
 //!
 //! # Validity
 //!
-//! Methods of second order with fixed steps; those with a tolerance control their own error. Uniform acceleration has no error, and a jump
+//! Methods of second order with fixed steps, by their mean length where some are divided; those with a tolerance control their own error. Uniform acceleration has no error, and a jump
 //! of the velocity by `dv`, as in a taut snap, gives about `h dv/4`: such a step is of first order. E is the error of one oscillation;
 //! over many it adds up, and one that is forced keeps it. For Verlet it is twice the error; for the generalised-alpha method with strong
 //! damping, less than it, but its loss of energy is told.

@@ -63,7 +63,10 @@ pub struct Watch {
     /// Largest rate of a reel over the speed of transverse waves, and its time in s.
     reel: (f64, f64),
     steps: Steps,
-    /// Laws that [`raise`](Self::raise) has told of, by bit.
+    /// Time of the last note in s.
+    noted: Option<f64>,
+    /// Laws that were counted, and told of, by bit.
+    counted: u16,
     told: u16,
 }
 
@@ -94,8 +97,11 @@ impl Watch {
         Watch::default()
     }
 
-    /// Reads the cable at a host time.
+    /// Reads the cable at a host time, once at each.
     pub fn note(&mut self, cable: &Cable) {
+        if self.noted.replace(cable.time()) == Some(cable.time()) {
+            return;
+        }
         let shape = cable.mesh_indicator();
         self.position = self.position.max(shape.position);
         self.turn = self.turn.max(shape.turn);
@@ -126,21 +132,28 @@ impl Watch {
 
     /// Calls `tell` with each warning that is due and was not told yet, about sizes first; those that only a whole run can judge are left to
     /// [`warnings`](Self::warnings).
-    pub fn raise(&mut self, cable: &Cable, mut tell: impl FnMut(Warning)) {
-        if self.told & SIZES == 0 {
-            self.told |= SIZES;
+    pub fn raise(&mut self, cable: &Cable, tell: impl FnMut(Warning)) {
+        self.told |= self.due(cable, self.told, tell);
+    }
+
+    /// Returns the laws that are due beyond those that are `known`, by bit, and calls `tell` with their warnings.
+    fn due(&self, cable: &Cable, known: u16, mut tell: impl FnMut(Warning)) -> u16 {
+        let mut new = 0;
+        if known & SIZES == 0 {
+            new |= SIZES;
             cable.size_warnings().for_each(&mut tell);
         }
         for (k, (law, always)) in LAWS.iter().enumerate() {
             let bit = 1 << k;
             if *always
-                && self.told & bit == 0
+                && known & bit == 0
                 && let Some(warning) = law(self, cable, None)
             {
-                self.told |= bit;
+                new |= bit;
                 tell(warning);
             }
         }
+        new
     }
 
     fn strain(&self, cable: &Cable, _: Option<f64>) -> Option<Warning> {
@@ -225,18 +238,24 @@ impl Cable {
         self.watch.is_some()
     }
 
-    /// Reads the cable at the end of a host step, if it is watched, and calls `tell` with each warning that is new. Needed by those who
-    /// step [islands](crate::island); [`step`](Self::step) does it.
-    pub fn note_host_step(&mut self, mut tell: impl FnMut(Warning)) {
+    /// Reads the cable at the end of one of its own steps, if it is watched, and counts the warnings that are new.
+    pub(crate) fn note_step(&mut self) {
         let Some(mut watch) = self.watch.take() else { return };
         watch.note(self);
         let mut new = 0;
-        watch.raise(self, |warning| {
-            new += 1;
-            tell(warning);
-        });
+        watch.counted |= watch.due(self, watch.counted, |_| new += 1);
         self.diagnostics_mut().warnings += new;
         self.watch = Some(watch);
+    }
+
+    /// Reads the cable at the end of a host step, if it is watched, and calls `tell` with each warning that it was not called with before. For
+    /// those who step [islands](crate::island), and those who want to hear of warnings as they come up.
+    pub fn note_host_step(&mut self, tell: impl FnMut(Warning)) {
+        self.note_step();
+        if let Some(mut watch) = self.watch.take() {
+            watch.raise(self, tell);
+            self.watch = Some(watch);
+        }
     }
 }
 

@@ -12,7 +12,7 @@
 //! | [`taut`] | taut steel cable, plucked | largest distance along the cable after a host step | analytic modes of a rod under tension; derived there |
 //! | [`catenary`] | static catenary | largest distance along the cable | the same law by shooting, [`catenary_reference`] |
 //! | [`model_error`] | errors of T1, T2 and mean strain, separated from those of the mesh | tip distances | `pendulum_converged_tip.csv` |
-//! | [`claims`] | the scenes of assets/scenes: errors of mesh and time, and the cost of an error that is asked for | largest distance of cables and bodies at host times | twice the elements and a tenth of the tolerance |
+//! | [`claims`] | the scenes of assets/scenes: errors of mesh and time, and the cost of an error that is asked for | largest distance of cables and bodies at host times | twice the elements and a quarter of the tolerance |
 //! | [`effects`], [`effect_cases`] | cost of an element and of each effect | | |
 //! | [`coupling`] | gap, energy and momentum with Rapier | distance as in [`payload`]; drifts | the same; conservation |
 //!
