@@ -23,7 +23,7 @@ pub struct Settings {
     #[serde(default = "fidelity")]
     pub fidelity: Fidelity,
     /// Whether cables that are inserted from now on are [watched](lariat_ancf::Cable::set_watched): each warning
-    /// is an event. Default true; it costs some per cent of a host step.
+    /// is an event. Default true; each cable is then read once per host step.
     #[serde(default = "watch")]
     pub watch: bool,
 }

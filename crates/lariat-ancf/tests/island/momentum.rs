@@ -160,7 +160,7 @@ fn impulses_at_driven_ends_are_what_the_cable_loses() {
     let game = Integrator { method: Method::DiscreteGradient, control: StepControl::MaxStep(1.0 / 240.0) };
     let tight = Integrator::tolerance(Method::Esdirk4, 1e-9).unwrap();
     for (integrator, dt, moving) in [
-        (game, 1.0 / 400.0, 0.0),
+        (game, 1.0 / 400.0_f64, 0.0),
         (game, 1.0 / 400.0, 1.0),
         (game, 1.0 / 1600.0, 1.0),
         (Integrator::default(), 1.0 / 400.0, 1.0),
@@ -173,7 +173,8 @@ fn impulses_at_driven_ends_are_what_the_cable_loses() {
             .elements(8)
             .build()
             .unwrap();
-        let paths: [fn(f64) -> (Vector3<f64>, Vector3<f64>); 2] = [
+        type Path = fn(f64) -> (Vector3<f64>, Vector3<f64>);
+        let paths: [Path; 2] = [
             |t| (Vector3::x() * (0.1 * (5.0 * t).sin().powi(2)), Vector3::x() * (0.5 * (10.0 * t).sin())),
             |t| (Vector3::new(-0.2, 0.2, 0.1) * (t * t), Vector3::new(-0.4, 0.4, 0.2) * t),
         ];
