@@ -12,8 +12,8 @@
 //!
 //! # Validity
 //!
-//! In statics the indicator is within 0.25 to 4.1 of the largest error of position, for cantilevers, catenaries and clamped boundary
-//! layers (`tests/mesh_indicator.rs`); near the limit point of a column it is up to 20 times too small. In dynamics it is no bound: waves
+//! In statics the indicator is within 0.25 to 4.1 of the largest error of position, for cantilevers, arcs, catenaries and clamped
+//! boundary layers (`tests/mesh_indicator.rs`), and up to ten times too large for a stiff catenary; near the limit point of a column it is up to 20 times too small. In dynamics it is no bound: waves
 //! accumulate errors which it does not see, and it is blind to axial waves.
 //!
 //! # References
