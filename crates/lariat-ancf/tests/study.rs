@@ -37,6 +37,18 @@ fn the_claim_holds_for_every_order_from_two_on_and_every_share_of_the_tolerance(
     }
 }
 
+/// The first order is that of cables which a load bends within less than an element.
+#[test]
+fn the_claim_holds_for_the_first_order() {
+    for order in [1.0, 1.5] {
+        for (size, error) in [(1e-3, 1e-4), (0.3, 1e-2), (0.3, 1e-3), (2.0, 1e-2)] {
+            let proof = Study::new(1.0, 0.01, model(size, order, 0.5)).error(error).limit(9000).run().unwrap();
+            let (claim, off) = (proof.claim, proof.world);
+            assert!(claim.outcome == Outcome::Proven && off <= claim.claimed_m.unwrap(), "{claim:?}: {off:.2e}");
+        }
+    }
+}
+
 #[test]
 fn runs_that_do_not_converge_or_would_need_too_many_elements_are_told() {
     // each mesh goes elsewhere after half a second

@@ -134,28 +134,35 @@ impl Record {
         frames.into_iter().find(|&frame| self.apart(other, frame) > distance).map(|frame| self.times[frame])
     }
 
-    /// Returns the least ratio of the element lengths of this mesh to those of a finer one of `elements` elements, over all places whose
-    /// elements are not as short as the finer mesh would have them already; 1 for other cables. Infinite without cables.
-    pub(super) fn refinement(&self, finer: &Record, elements: usize) -> f64 {
+    /// Returns the least ratio of the element lengths of this mesh to those of a finer one, of `elements` and `finer_elements` elements, over
+    /// all places whose elements are not as short as the finer mesh would have them already; 1 for other cables, and if a cable has no such
+    /// place, because it is the same in both. Without cables, the ratio of the numbers of elements.
+    pub(super) fn refinement(&self, finer: &Record, elements: usize, finer_elements: usize) -> f64 {
         if self.cables.len() != finer.cables.len() {
             return 1.0;
         }
+        let ratios =
+            self.cables.iter().zip(&finer.cables).map(|(coarse, fine)| coarse.refinement(fine, finer_elements));
+        ratios.reduce(f64::min).unwrap_or(finer_elements as f64 / elements as f64)
+    }
+}
+
+impl CableRecord {
+    fn refinement(&self, finer: &CableRecord, elements: usize) -> f64 {
+        let length = self.nodes.last().copied().unwrap_or(0.0);
+        let short = length / elements as f64 * (1.0 + 1e-9);
         let mut least = f64::INFINITY;
-        for (coarse, fine) in self.cables.iter().zip(&finer.cables) {
-            let length = coarse.nodes.last().copied().unwrap_or(0.0);
-            let short = length / elements as f64 * (1.0 + 1e-9);
-            let mut k = 1;
-            for ends in fine.nodes.windows(2) {
-                let middle = 0.5 * (ends[0] + ends[1]);
-                while k + 1 < coarse.nodes.len() && coarse.nodes[k] < middle {
-                    k += 1;
-                }
-                let here = coarse.nodes[k] - coarse.nodes[k - 1];
-                if here > short {
-                    least = least.min(here / (ends[1] - ends[0]));
-                }
+        let mut k = 1;
+        for ends in finer.nodes.windows(2) {
+            let middle = 0.5 * (ends[0] + ends[1]);
+            while k + 1 < self.nodes.len() && self.nodes[k] < middle {
+                k += 1;
+            }
+            let here = self.nodes[k] - self.nodes[k - 1];
+            if here > short {
+                least = least.min(here / (ends[1] - ends[0]));
             }
         }
-        least
+        if least.is_finite() { least } else { 1.0 }
     }
 }
