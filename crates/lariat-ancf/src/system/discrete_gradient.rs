@@ -310,11 +310,11 @@ impl DiscreteGradientSystem for CableStep<'_> {
         taken.clone_from(rhs);
         relative_velocities(equations.model, equations.system, product, taken, external, linearised);
         let energy = 0.5 * equations.system.mass_square(taken, external);
-        let share = share_to_take(energy, dot(rhs, external), balance.excess());
+        let share = share_to_take(energy, dot(rhs, external), balance.to_take());
         match share {
             Some(share) => {
                 taken.iter_mut().for_each(|x| *x *= share);
-                balance.rescaled += balance.excess();
+                balance.rescaled += balance.to_take();
                 true
             }
             None => {

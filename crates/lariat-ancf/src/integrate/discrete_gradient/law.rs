@@ -3,6 +3,9 @@
 use crate::error::StepFailure;
 use serde::{Deserialize, Serialize};
 
+/// Share of what damping, friction and impact take that the residual of a step may make.
+pub(super) const CLOSURE: f64 = 1e-2;
+
 /// Terms of the energy law `D H = work - losses + residual` since the cable was built, in J. The
 /// [discrete gradient](crate::integrate::discrete_gradient) knows them all; the other methods know the work of supports and loads by a
 /// quadrature of the step. The work of effects, internal damping among them, is in [`EffectWork`](crate::EffectWork).
@@ -130,6 +133,12 @@ impl Balance {
     /// Returns the energy that the step makes.
     pub fn excess(&self) -> f64 {
         self.residual - self.losses() - self.rescaled
+    }
+
+    /// Returns the energy that is to be taken from velocities: what the step makes, and away from obstacles also what damping hides of it.
+    pub fn to_take(&self) -> f64 {
+        let hidden = if self.near { 0.0 } else { (1.0 - CLOSURE) * self.effects };
+        self.excess() + hidden
     }
 }
 
