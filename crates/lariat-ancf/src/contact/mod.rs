@@ -11,7 +11,7 @@
 //!            f_t = -k_t u1
 //! ```
 //!
-//! y is the place relative to the obstacle, N the normal force of the last accepted step. W is convex, so `f_n . D y <= -D W`; return
+//! y is the place relative to the obstacle (path.rs says what that is for one that turns), N the normal force of the last accepted step. W is convex, so `f_n . D y <= -D W`; return
 //! mapping loses energy for any bound; so with H of the method plus W + k_t u^2/2 no contact can make energy, at any step. Sticking is a
 //! spring, so it does not creep.
 //!
@@ -41,25 +41,31 @@
 //! Impulses on the Delassus operator (its cost, and divergence on thin cables), barriers with smoothed friction (creep), the secant
 //! instead of the end-point derivative (rings), Hunt-Crossley damping (no gain).
 
+mod border;
 mod find;
 mod law;
 mod memory;
 mod obstacle;
 mod overlap;
+mod pair;
 mod patch;
+mod path;
 mod point;
 mod shapes;
 mod step;
 mod surface;
+mod trace;
 
+pub(crate) use border::Border;
 pub(crate) use find::Motion;
 pub(crate) use law::NormalLaw;
 pub(crate) use memory::split_element;
 pub use memory::{ContactMemory, Touch};
 pub(crate) use obstacle::Obstacles;
-pub use obstacle::{Obstacle, RigidMotion};
+pub use obstacle::{Mount, Obstacle, RigidMotion};
 pub use overlap::Overlap;
 pub use patch::Patch;
+pub(crate) use path::BodyPath;
 pub use shapes::{Ball, Capsule, Cuboid, Cylinder, HalfSpace};
 pub(crate) use step::{ContactBalance, ContactStep};
 pub use surface::{Feature, FeatureShape, Nearest, Surface};

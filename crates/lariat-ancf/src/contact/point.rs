@@ -2,8 +2,8 @@
 
 use super::law::{NormalLaw, friction, spring_energy};
 use super::memory::{ContactMemory, Key};
-use super::obstacle::ObstacleStep;
 use super::patch::Patch;
+use super::path::ObstacleStep;
 use nalgebra::{Matrix3, Vector3};
 
 /// A material point that can touch an obstacle in the present step.
@@ -46,8 +46,10 @@ pub(super) struct ContactPoint {
 pub(super) struct Linear {
     pub force: Vector3<f64>,
     pub tangent: Matrix3<f64>,
-    /// Change of the position of that iterate.
-    pub change: Vector3<f64>,
+    /// Motion beside the obstacle of that iterate.
+    slip: Vector3<f64>,
+    /// Arm of the force about the centre of the body that carries the obstacle.
+    pub arm: Vector3<f64>,
     pressure: f64,
     slope: f64,
     depth: f64,
@@ -79,6 +81,10 @@ pub(super) struct Evaluation {
     /// Spring of friction in the obstacle's axes half way.
     pub spring: Vector3<f64>,
     pub slides: Option<Vector3<f64>>,
+    /// Motion beside the obstacle.
+    slip: Vector3<f64>,
+    /// Arm of the force about the centre of the body that carries the obstacle.
+    pub arm: Vector3<f64>,
     /// Energy in J that it stores.
     pub energy: f64,
     /// Energy in J that it lost.
@@ -121,7 +127,8 @@ impl ContactPoint {
         let before = self.weight * self.law.at(self.reach - gap.start - self.offset).energy;
         if depth <= 0.0 && about.depth.is_none() {
             let loss = before + spring_energy(stiffness, &u0);
-            return Evaluation { depth, normal: gap.normal, loss, ..Evaluation::default() };
+            let slip = obstacle.slip(&self.start, change);
+            return Evaluation { depth, normal: gap.normal, slip, loss, ..Evaluation::default() };
         }
         let end = self.law.at(depth);
         let (mut pressure, mut slope) = (end.force, end.slope);
@@ -131,21 +138,22 @@ impl ContactPoint {
         }
         let normal_force = self.weight * pressure;
         let after = self.weight * end.energy;
+        let slip = obstacle.slip(&self.start, change);
         let mut out = Evaluation {
             force: gap.mean * normal_force,
+            arm: obstacle.arm(&self.start, change),
+            slip,
             tangent: gap.normal * gap.normal.transpose() * (self.weight * slope),
             normal_force,
             normal: gap.normal,
             depth,
             energy: after,
-            loss: before - after - normal_force * (gap.end - gap.start),
+            loss: before - after - normal_force * gap.mean.dot(&slip),
             pressure,
             slope,
             ..Evaluation::default()
         };
-        let mut relative = normal_force * (gap.end - gap.start);
         if self.friction > 0.0 {
-            let slip = obstacle.slip(&self.start, change);
             let mean = gap.mean.try_normalize(0.0).unwrap_or(gap.normal);
             let friction = friction(stiffness, self.bound, &mean, &u0, &slip, about.sticks);
             out.friction = friction.spring * -friction.stiffness;
@@ -155,10 +163,9 @@ impl ContactPoint {
             out.slides = friction.slides;
             out.energy += spring_energy(stiffness, &friction.spring);
             out.loss += friction.loss;
-            relative += out.friction.dot(&slip);
         }
-        if obstacle.moves {
-            out.work = out.force.dot(change) - relative;
+        if obstacle.driven {
+            out.work = out.force.dot(&(change - slip));
         }
         out
     }
@@ -166,8 +173,8 @@ impl ContactPoint {
     /// Makes it linear at a change of its position.
     pub fn linearise(&mut self, obstacle: &ObstacleStep, change: Vector3<f64>) {
         let at = self.evaluate(obstacle, &change, self.about);
-        let Evaluation { force, tangent, pressure, slope, depth, slides, .. } = at;
-        self.linear = Linear { force, tangent, change, pressure, slope, depth, slides };
+        let Evaluation { force, tangent, slip, arm, pressure, slope, depth, slides, .. } = at;
+        self.linear = Linear { force, tangent, slip, arm, pressure, slope, depth, slides };
     }
 
     /// Evaluates it at the result of the linear solve, and returns how far that was off in N.
@@ -178,7 +185,7 @@ impl ContactPoint {
         let turned = linear.slides.zip(self.now.slides).is_some_and(|(a, b)| a.dot(&b) < 0.0);
         let pushes = linear.slope > 0.0 && pressure > 0.0;
         self.about = About { depth: pushes.then(|| self.law.depth_of(pressure)), sticks: turned };
-        let believed = linear.force - linear.tangent * (change - linear.change);
+        let believed = linear.force - linear.tangent * (self.now.slip - linear.slip);
         (self.now.force - believed).norm()
     }
 }
@@ -192,8 +199,10 @@ pub(super) fn combine(q: &[f64], element: usize, shape: &[f64; 4]) -> Vector3<f6
 
 #[cfg(test)]
 mod tests {
-    use super::super::obstacle::RigidMotion;
+    use super::super::obstacle::{Mount, RigidMotion};
+    use super::super::path::BodyPath;
     use super::*;
+    use nalgebra::UnitQuaternion;
 
     fn point(patch: Patch, friction: f64) -> ContactPoint {
         let law = NormalLaw::new(1e9, 5e-3);
@@ -236,8 +245,14 @@ mod tests {
             Patch::Point { point: Vector3::zeros(), radius: 0.1 },
         ];
         for patch in patches {
-            for motion in [RigidMotion::default(), turning] {
-                let step = ObstacleStep::new(&motion, 0.0, 1.0 / 240.0);
+            let (origin, spin) = (Vector3::zeros(), UnitQuaternion::identity());
+            let mount = Mount { body: 0, position: origin, rotation: spin };
+            let half = Vector3::new(0.05, -0.1, 0.2);
+            let path = BodyPath { centre: origin, displacement: 3e-5 * half, rotation: spin, half };
+            let h = 1.0 / 240.0;
+            let still = ObstacleStep::new(&RigidMotion::default(), 0.0, h);
+            let carried = ObstacleStep::carried(&mount, &path);
+            for step in [still, ObstacleStep::new(&turning, 0.0, h), carried] {
                 for i in 0..64 {
                     let way = |k: i32, n: i32| f64::from((i * n + k * 5) % 11 - 5) * 4e-5;
                     let mut p = point(patch, 0.4);
@@ -248,11 +263,12 @@ mod tests {
                     let before = p.energy_before(&p.start);
                     let change = Vector3::new(way(1, 3), way(2, 7), way(3, 2));
                     let now = p.evaluate(&step, &change, About::default());
-                    let made = now.force.dot(&change) - now.work + now.energy - before + now.loss;
+                    let way = step.slip(&p.start, &change);
+                    let made = now.force.dot(&way) + now.energy - before + now.loss;
+                    let work = if step.driven { now.force.dot(&(change - way)) } else { 0.0 };
+                    assert_eq!(now.work, work);
                     assert!(made.abs() < 1e-12, "{patch:?} {i} {made:e}");
-                    if !step.turns {
-                        assert!(now.loss > -1e-13, "{patch:?} {i} {:e}", now.loss);
-                    }
+                    assert!(now.loss > -1e-13, "{patch:?} {i} {:e}", now.loss);
                 }
             }
         }

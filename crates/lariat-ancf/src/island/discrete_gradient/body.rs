@@ -26,6 +26,7 @@
 //! The midpoint rule in the rotation vector of the [other integrators](super::rotation): it keeps neither energy nor angular momentum.
 
 use crate::cable::builder::STANDARD_GRAVITY;
+use crate::contact::BodyPath;
 use crate::integrate::discrete_gradient::{ALPHA, BETA, Balance, sum_of_forces};
 use crate::island::body::{BodyDifferences, RigidBody};
 use nalgebra::{Matrix3, Matrix6, Quaternion, UnitQuaternion, Vector3, Vector6};
@@ -158,6 +159,12 @@ impl BodyStep {
         let half = spin * (0.5 * self.h);
         let cayley = UnitQuaternion::new_normalize(Quaternion::from_parts(1.0, half));
         self.end = cayley * self.rotation;
+    }
+
+    /// Returns its motion as the contacts of cables see it.
+    pub fn path(&self) -> BodyPath {
+        let half = self.mean[1] * (0.5 * self.h);
+        BodyPath { centre: self.position, displacement: self.displacement(), rotation: self.rotation, half }
     }
 
     /// Returns the change of position.
