@@ -51,7 +51,7 @@ impl ContactStep {
         self.h = motion.h;
         self.obstacles.clear();
         self.obstacles.extend(obstacles.iter().map(|obstacle| match &obstacle.mount {
-            Some(mount) => ObstacleStep::carried(mount, &motion.bodies[mount.body]),
+            Some(mount) => ObstacleStep::carried(mount, &motion.bodies[mount.body], motion.h),
             None => ObstacleStep::new(&obstacle.motion, motion.time, motion.h),
         }));
         self.recalled.clear();
@@ -114,7 +114,7 @@ impl ContactStep {
                     }
                 }
             }
-            point.recall(&y, memory);
+            point.recall(&y, &pair.step, memory);
             index.into_iter().for_each(|i| self.recalled[i] = true);
             self.points.push(point);
         }
@@ -142,7 +142,7 @@ impl ContactStep {
             Some(memory) => Patch::Plane { point: y - z, normal: memory.normal },
             None => patch,
         };
-        point.recall(&y, memory);
+        point.recall(&y, &pair.step, memory);
         index.into_iter().for_each(|i| self.recalled[i] = true);
         self.points.push(point);
     }
@@ -160,7 +160,7 @@ impl ContactStep {
                 if !self.recalled[i] && memory[i].weight == point.weight {
                     self.recalled[i] = true;
                     let y = self.obstacles[point.obstacle].start.own(&point.start);
-                    point.recall(&y, Some(&memory[i]));
+                    point.recall(&y, &self.obstacles[point.obstacle], Some(&memory[i]));
                     break;
                 }
             }
@@ -202,7 +202,7 @@ impl ContactStep {
                 Some((patch, y0)) => {
                     self.watched.swap_remove(i);
                     point.patch = patch;
-                    point.recall(&y0, None);
+                    point.recall(&y0, &self.obstacles[point.obstacle], None);
                     self.points.push(point);
                 }
             }

@@ -52,6 +52,7 @@ impl Pair<'_> {
             reach: self.radius + self.obstacle.skin,
             patch: Patch::Point { point: Vector3::zeros(), radius: 0.0 },
             offset: 0.0,
+            closing: 0.0,
             distance: 0.0,
             start: combine(self.motion.q, self.element, &shape),
             spring: Vector3::zeros(),

@@ -51,6 +51,8 @@ pub(crate) struct BodyPath {
     pub rotation: UnitQuaternion<f64>,
     /// The vector a of the Cayley map: half the step times the mean angular velocity.
     pub half: Vector3<f64>,
+    /// Whether its present state is not that of the last step: others moved it.
+    pub moved: bool,
 }
 
 /// The motion of an obstacle over a step.
@@ -74,6 +76,10 @@ pub(super) struct ObstacleStep {
     pub driven: bool,
     /// The body of the island that carries it.
     pub body: Option<usize>,
+    /// Whether others moved that body since the last step.
+    pub moved: bool,
+    /// Length of the step in s.
+    pub h: f64,
 }
 
 impl ObstacleStep {
@@ -99,12 +105,14 @@ impl ObstacleStep {
             turns,
             driven: turns || motion.velocity != Vector3::zeros(),
             body: None,
+            moved: false,
+            h,
         }
     }
 
     /// Of an obstacle that a body of the island carries.
-    pub fn carried(mount: &Mount, path: &BodyPath) -> Self {
-        let BodyPath { centre, displacement, rotation, half } = *path;
+    pub fn carried(mount: &Mount, path: &BodyPath, h: f64) -> Self {
+        let BodyPath { centre, displacement, rotation, half, moved } = *path;
         let turned = UnitQuaternion::new_normalize(Quaternion::from_parts(1.0, half));
         let half_way = UnitQuaternion::new_normalize(Quaternion::from_parts(turned.w + 1.0, turned.imag()));
         let at = |centre: Vector3<f64>, attitude: UnitQuaternion<f64>| Pose {
@@ -123,6 +131,8 @@ impl ObstacleStep {
             turns: half != Vector3::zeros(),
             driven: false,
             body: Some(mount.body),
+            moved,
+            h,
         }
     }
 
@@ -176,6 +186,7 @@ mod tests {
             displacement: Vector3::new(0.02, 0.03, -0.01),
             rotation,
             half: Vector3::new(0.2, -0.4, 0.3),
+            moved: false,
         };
         let mount = Mount { body: 0, position: Vector3::new(0.1, 0.2, -0.1), rotation: rotation.inverse() };
         let motion = RigidMotion {
@@ -188,7 +199,7 @@ mod tests {
         };
         let (x, change) = (Vector3::new(0.5, 0.4, -0.3), Vector3::new(-0.03, 0.05, 0.02));
         let (own, n) = (Vector3::new(0.05, -0.2, 0.1), Vector3::new(0.6, 0.0, 0.8));
-        for step in [ObstacleStep::carried(&mount, &path), ObstacleStep::new(&motion, 0.0, 0.01)] {
+        for step in [ObstacleStep::carried(&mount, &path, 0.01), ObstacleStep::new(&motion, 0.0, 0.01)] {
             let s = step.slip(&x, &change);
             let [y0, y1] = step.beside(&own, &x, &change);
             let at = |pose: &Pose, x: &Vector3<f64>| x - pose.position - pose.rotation * own;

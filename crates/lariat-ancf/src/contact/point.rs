@@ -6,6 +6,11 @@ use super::patch::Patch;
 use super::path::ObstacleStep;
 use nalgebra::{Matrix3, Vector3};
 
+/// Speed in m/s with which a body's displacement by others comes to the cable, as a motion of the body.
+const CLOSING_SPEED: f64 = 10.0;
+/// Distance in radii by which others can lift a body off a cable in a step without ending the contact.
+const LIFTED: f64 = 0.1;
+
 /// A material point that can touch an obstacle in the present step.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct ContactPoint {
@@ -23,8 +28,10 @@ pub(super) struct ContactPoint {
     /// Gap in m at which it touches: radius and skin.
     pub reach: f64,
     pub patch: Patch,
-    /// Depth in m that does not count.
+    /// Depth in m that does not count, at the beginning.
     pub offset: f64,
+    /// What of it counts at the end.
+    pub closing: f64,
     /// Distance in m from the surface at the beginning.
     pub distance: f64,
     /// Position at the beginning.
@@ -96,12 +103,18 @@ pub(super) struct Evaluation {
 }
 
 impl ContactPoint {
-    /// Takes up what was remembered of it: the spring and the bound of friction, and the depth, beyond which nothing counts.
-    pub fn recall(&mut self, y: &Vector3<f64>, memory: Option<&ContactMemory>) {
-        let depth = (self.reach - self.patch.gap(y).0).max(0.0);
-        let known = memory.map_or(0.0, |memory| memory.depth);
-        self.offset = (depth - known).max(0.0);
+    /// Takes up what was remembered of it: the spring and the bound of friction, and the depth, beyond which nothing counts. Of an obstacle on a
+    /// body that was moved since then, by an engine, the difference closes in the step.
+    pub fn recall(&mut self, y: &Vector3<f64>, obstacle: &ObstacleStep, memory: Option<&ContactMemory>) {
+        let depth = self.reach - self.patch.gap(y).0;
+        let difference = depth.max(0.0) - memory.map_or(0.0, |memory| memory.depth);
+        (self.offset, self.closing) = (difference.max(0.0), 0.0);
         if let Some(memory) = memory {
+            let difference = depth - memory.depth;
+            if obstacle.moved && difference > -LIFTED * self.reach {
+                let most = CLOSING_SPEED * obstacle.h;
+                (self.offset, self.closing) = (difference, difference.clamp(-most, most));
+            }
             self.spring = memory.spring;
             self.bound = self.friction * memory.force;
         }
@@ -121,7 +134,7 @@ impl ContactPoint {
     /// Evaluates it for a change of its position over the step.
     pub fn evaluate(&self, obstacle: &ObstacleStep, change: &Vector3<f64>, about: About) -> Evaluation {
         let gap = self.patch.over_step(obstacle, &self.start, change, self.reach);
-        let depth = self.reach - gap.end - self.offset;
+        let depth = self.reach - gap.end - (self.offset - self.closing);
         let stiffness = self.weight * self.law.stiffness;
         let u0 = obstacle.middle * self.spring;
         let before = self.weight * self.law.at(self.reach - gap.start - self.offset).energy;
@@ -148,7 +161,8 @@ impl ContactPoint {
             normal: gap.normal,
             depth,
             energy: after,
-            loss: before - after - normal_force * gap.mean.dot(&slip),
+            loss: before - after - normal_force * (gap.mean.dot(&slip) - self.closing),
+            work: normal_force * self.closing,
             pressure,
             slope,
             ..Evaluation::default()
@@ -165,7 +179,7 @@ impl ContactPoint {
             out.loss += friction.loss;
         }
         if obstacle.driven {
-            out.work = out.force.dot(&(change - slip));
+            out.work += out.force.dot(&(change - slip));
         }
         out
     }
@@ -217,6 +231,7 @@ mod tests {
             reach: 5e-3,
             patch,
             offset: 0.0,
+            closing: 0.0,
             distance: 0.0,
             start: Vector3::zeros(),
             spring: Vector3::zeros(),
@@ -248,10 +263,10 @@ mod tests {
             let (origin, spin) = (Vector3::zeros(), UnitQuaternion::identity());
             let mount = Mount { body: 0, position: origin, rotation: spin };
             let half = Vector3::new(0.05, -0.1, 0.2);
-            let path = BodyPath { centre: origin, displacement: 3e-5 * half, rotation: spin, half };
+            let path = BodyPath { centre: origin, displacement: 3e-5 * half, rotation: spin, half, moved: false };
             let h = 1.0 / 240.0;
             let still = ObstacleStep::new(&RigidMotion::default(), 0.0, h);
-            let carried = ObstacleStep::carried(&mount, &path);
+            let carried = ObstacleStep::carried(&mount, &path, h);
             for step in [still, ObstacleStep::new(&turning, 0.0, h), carried] {
                 for i in 0..64 {
                     let way = |k: i32, n: i32| f64::from((i * n + k * 5) % 11 - 5) * 4e-5;

@@ -58,7 +58,7 @@ impl ContactStep {
     pub fn follow(&mut self, obstacles: &[Obstacle], bodies: &[BodyPath]) {
         for (step, obstacle) in self.obstacles.iter_mut().zip(obstacles) {
             if let Some(mount) = &obstacle.mount {
-                *step = ObstacleStep::carried(mount, &bodies[mount.body]);
+                *step = ObstacleStep::carried(mount, &bodies[mount.body], self.h);
             }
         }
     }

@@ -214,7 +214,7 @@ fn a_rope_turns_a_free_drum() {
             100.0 * off,
             100.0 * slip
         );
-        assert!(off.abs() < 0.02 && slip < 0.02, "{off} {slip}");
+        assert!(off.abs() < 0.02 && slip < 0.05, "{off} {slip}");
         assert!(made < 1e-8 && more < 1e-8, "{made:e} {more:e}");
     }
 }

@@ -52,6 +52,8 @@ pub(in crate::island) struct BodyStep {
     /// Change of u in the last step, and its length in s.
     last: (Vector6<f64>, f64),
     h: f64,
+    /// Whether its state at the beginning of the host step was not that of the last one.
+    moved: bool,
     /// O u.
     before: Vector6<f64>,
     /// D u.
@@ -101,6 +103,7 @@ impl BodyStep {
             position: body.position,
             rotation: body.rotation,
             velocity: stack([body.velocity, spin]),
+            moved: last.1 == 0.0,
             last,
             h: 0.0,
             before: Vector6::zeros(),
@@ -164,7 +167,8 @@ impl BodyStep {
     /// Returns its motion as the contacts of cables see it.
     pub fn path(&self) -> BodyPath {
         let half = self.mean[1] * (0.5 * self.h);
-        BodyPath { centre: self.position, displacement: self.displacement(), rotation: self.rotation, half }
+        let (centre, displacement) = (self.position, self.displacement());
+        BodyPath { centre, displacement, rotation: self.rotation, half, moved: self.moved }
     }
 
     /// Returns the change of position.
