@@ -24,8 +24,8 @@
 //!
 //! A contact that is deeper when a step begins than it was when the last one ended (a new one that is born deep, an obstacle that was put
 //! elsewhere, another patch) gets an offset of the difference, so that no energy comes from it. If a body of the island was moved by others
-//! since its last step, by the contacts that an engine computes, the difference closes within the step, at no more than 10 m/s: that
-//! is work of the others, `N` times what closes.
+//! since its last step, by the contacts that an engine computes, the offset has either sign, so that the force goes on, and closes in a
+//! quarter of a second: that is work of the others, `N` times what closes.
 //!
 //! # Bodies
 //!

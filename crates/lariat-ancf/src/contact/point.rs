@@ -6,8 +6,9 @@ use super::patch::Patch;
 use super::path::ObstacleStep;
 use nalgebra::{Matrix3, Vector3};
 
-/// Speed in m/s with which a body's displacement by others comes to the cable, as a motion of the body.
-const CLOSING_SPEED: f64 = 10.0;
+/// Time in s in which a body's displacement by others comes to the cable, as a motion of the body. An engine's contact and the cable would
+/// pump energy through each other if it came at once: each answers to what the other did a step before.
+const CLOSING_TIME: f64 = 0.25;
 /// Distance in radii by which others can lift a body off a cable in a step without ending the contact.
 const LIFTED: f64 = 0.1;
 
@@ -104,7 +105,7 @@ pub(super) struct Evaluation {
 
 impl ContactPoint {
     /// Takes up what was remembered of it: the spring and the bound of friction, and the depth, beyond which nothing counts. Of an obstacle on a
-    /// body that was moved since then, by an engine, the difference closes in the step.
+    /// body that was moved since then, by an engine, the difference has either sign, and closes slowly.
     pub fn recall(&mut self, y: &Vector3<f64>, obstacle: &ObstacleStep, memory: Option<&ContactMemory>) {
         let depth = self.reach - self.patch.gap(y).0;
         let difference = depth.max(0.0) - memory.map_or(0.0, |memory| memory.depth);
@@ -112,8 +113,7 @@ impl ContactPoint {
         if let Some(memory) = memory {
             let difference = depth - memory.depth;
             if obstacle.moved && difference > -LIFTED * self.reach {
-                let most = CLOSING_SPEED * obstacle.h;
-                (self.offset, self.closing) = (difference, difference.clamp(-most, most));
+                (self.offset, self.closing) = (difference, difference * (obstacle.h / CLOSING_TIME).min(1.0));
             }
             self.spring = memory.spring;
             self.bound = self.friction * memory.force;
