@@ -285,7 +285,7 @@ fn contact_of_a_scene_holds_a_cable_on_a_floor() {
     assert!(summary.warnings.iter().all(told), "{:?}", summary.warnings);
 }
 
-/// Without contact the same cable passes through the floor, also if that is a dynamic body, and is told once, with the time.
+/// Without contact the same cable passes through the floor, and is told once, with the time; with it, it rests on one that is a dynamic body.
 ///
 /// *Source.* Free fall of 0.3 m takes 0.247 s, and a radius more 0.25 s.
 #[test]
@@ -293,8 +293,7 @@ fn a_cable_that_passes_through_a_body_is_told_once() {
     use lariat_scene::Warning;
     let dynamic = FLOOR.replace("kind = \"fixed\"", "mass = 1.0\nangular_velocity = [0.0, 0.0, 0.0]");
     let resting = "[[body]]\nname = \"ground\"\nkind = \"fixed\"\nshape = { cuboid = [2.0, 0.1, 2.0] }\nposition = [1.0, -0.6, 0.0]\n";
-    for (contact, bodies) in [(false, FLOOR.to_string()), (false, dynamic.clone() + resting), (true, dynamic + resting)]
-    {
+    for (contact, bodies) in [(false, FLOOR.to_string()), (true, dynamic + resting)] {
         let table = if contact { "[cable.contact]\n" } else { "" };
         let text = format!(
             "{}{table}{bodies}[[probe]]\nname = \"p\"\ncable = \"line\"\nat = \"end\"\n",

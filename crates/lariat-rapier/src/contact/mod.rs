@@ -17,6 +17,9 @@
 //! unknown, and leaves it when it is far; a body that sleeps wakes up when a cable that moves comes near. Within four radii of an
 //! attachment, and as much further as its anchor is inside, a cable does not touch the body that holds it.
 //!
+//! A body that cables press on another one feels them in Rapier's step by the estimate of its reactions alone, without the motors of attachments:
+//! a load that is lashed to a vehicle slides too easily.
+//!
 //! Restitution of colliders does not count: impacts of cables have none.
 //!
 //! Rapier's tree holds the boxes of its last step. A fixed collider that is moved by hand is found a step later; a cable that is in
