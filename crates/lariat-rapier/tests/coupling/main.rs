@@ -24,4 +24,5 @@ mod sleep;
 mod statics;
 mod substepping;
 mod user_changes;
+mod warnings;
 mod worlds;

@@ -58,9 +58,11 @@ impl Cable {
             Snapshot { state: part(&state.q[..end], &state.v[..end]), winding: None, ..self.snapshot.clone() };
         let winding = self.snapshot.winding;
         let tail_state = Snapshot { state: part(&state.q[begin..], &state.v[begin..]), winding, ..Snapshot::default() };
-        let tail = Cable::from_parts(tail, tail_state, self.integrator)?;
+        let mut tail = Cable::from_parts(tail, tail_state, self.integrator)?;
+        tail.set_watched(self.is_watched());
         let mut head = Cable::from_parts(head, head_state, self.integrator)?;
         head.diagnostics = self.diagnostics;
+        head.watch = self.watch.take();
         head.revision = self.revision;
         head.revise();
         *self = head;
