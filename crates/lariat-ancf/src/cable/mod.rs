@@ -174,6 +174,7 @@ impl Cable {
             return Ok(());
         }
         self.check_complete()?;
+        self.model.obstacles.check_bodies(self.name(), 0)?;
         if self.has_reel() {
             self.step_with_reel(dt, integrator)?;
         } else {

@@ -150,6 +150,20 @@ pub enum Error {
         /// The key.
         key: u64,
     },
+    /// An obstacle on a body that the island does not have, or outside an island.
+    #[error(
+        "cable {cable:?}: its obstacle {key} is carried by body {body}, but {bodies} bodies step with the cable; use Island::step"
+    )]
+    ObstacleBody {
+        /// Name of the cable.
+        cable: String,
+        /// Key of the obstacle.
+        key: u64,
+        /// Index of its body.
+        body: usize,
+        /// Number of bodies in the island.
+        bodies: usize,
+    },
     /// Contact with a method that does not carry it.
     #[error("cable {cable:?}: {method} cannot step contact: use discrete-gradient")]
     ContactMethod {

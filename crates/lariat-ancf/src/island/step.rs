@@ -25,12 +25,13 @@ pub struct Island {
 }
 
 impl Island {
-    /// Advances `cables` and `bodies`, held together by `pins`, by `dt` (s) with `integrator`.
+    /// Advances `cables` and `bodies`, held together by `pins`, by `dt` (s) with `integrator`. Cables touch bodies that carry their
+    /// [obstacles](crate::contact::Obstacle::on).
     ///
     /// # Errors
     /// [`Error::StepFailed`] if the step fails; [`Error::Pin`], [`Error::NotInIsland`] or
     /// [`Error::OutOfRange`] for a pin that fits no attached node, cable or body;
-    /// [`Error::EmptyIsland`] and [`Error::TimeMismatch`]; and as
+    /// [`Error::EmptyIsland`] and [`Error::TimeMismatch`]; [`Error::ObstacleBody`] for an obstacle on a body that is not there; and as
     /// [`Cable::step_with`](Cable::step_with). Cables and bodies are then exactly as before.
     pub fn step(
         &mut self,
@@ -59,6 +60,7 @@ impl Island {
         integrator.check()?;
         check(cables, bodies, pins)?;
         cables.iter().try_for_each(|cable| check_integrator(&cable.model, integrator.method))?;
+        cables.iter().try_for_each(|cable| cable.model.obstacles.check_bodies(cable.name(), bodies.len()))?;
         if dt == 0.0 {
             return Ok(());
         }

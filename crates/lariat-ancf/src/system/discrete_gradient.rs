@@ -5,7 +5,7 @@ use super::lanes::discrete_gradient::{CoordinateStep, ElementLoss};
 use super::rigid_motion::relative_velocities;
 use super::{Equations, System, project_vector};
 use crate::cable::Cable;
-use crate::contact::{ContactBalance, Motion};
+use crate::contact::{BodyPath, ContactBalance, Motion};
 use crate::effect::EffectWork;
 use crate::effect::acts::{ForceInput, PointForce, StepInput};
 use crate::error::StepFailure;
@@ -78,11 +78,11 @@ impl Equations<'_> {
         }
     }
 
-    /// Finds the contacts of a step, if the cable can have any.
-    pub fn find_contacts(&self, state: &State, b: &mut Buffers) {
+    /// Finds the contacts of a step, if the cable can have any, with obstacles and with `bodies` of an island.
+    pub fn find_contacts(&self, state: &State, b: &mut Buffers, bodies: &[BodyPath]) {
         let Buffers { contact, change, h, .. } = b;
         let memory = &state.memory.contacts;
-        contact.begin(&Motion { model: self.model, time: state.time, h: *h, q: &state.q, change, memory });
+        contact.begin(&Motion { model: self.model, time: state.time, h: *h, q: &state.q, change, memory, bodies });
     }
 
     /// Adds contact forces to the residual of the present iterate, and what they do to its balance.
@@ -275,7 +275,7 @@ impl DiscreteGradientSystem for CableStep<'_> {
     fn predict(&mut self, h: f64) {
         self.buffers.recall(self.state, h);
         self.equations.prescribe_change(self.state, self.buffers);
-        self.equations.find_contacts(self.state, self.buffers);
+        self.equations.find_contacts(self.state, self.buffers, &[]);
     }
 
     fn iterate(&mut self, fresh: bool) -> Result<Balance, StepFailure> {

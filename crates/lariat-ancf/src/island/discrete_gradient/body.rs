@@ -27,6 +27,7 @@
 
 use super::rescale::RigidMotion;
 use crate::cable::builder::STANDARD_GRAVITY;
+use crate::contact::BodyPath;
 use crate::integrate::discrete_gradient::{ALPHA, BETA, Balance, sum_of_forces};
 use crate::island::body::{BodyDifferences, RigidBody};
 use nalgebra::{Matrix3, Matrix6, Quaternion, UnitQuaternion, Vector3, Vector6};
@@ -52,6 +53,8 @@ pub(in crate::island) struct BodyStep {
     /// Change of u in the last step, and its length in s.
     last: (Vector6<f64>, f64),
     h: f64,
+    /// Whether its state at the beginning of the host step was not that of the last one.
+    moved: bool,
     /// O u.
     before: Vector6<f64>,
     /// D u.
@@ -101,6 +104,7 @@ impl BodyStep {
             position: body.position,
             rotation: body.rotation,
             velocity: stack([body.velocity, spin]),
+            moved: last.1 == 0.0,
             last,
             h: 0.0,
             before: Vector6::zeros(),
@@ -159,6 +163,13 @@ impl BodyStep {
         let half = spin * (0.5 * self.h);
         let cayley = UnitQuaternion::new_normalize(Quaternion::from_parts(1.0, half));
         self.end = cayley * self.rotation;
+    }
+
+    /// Returns its motion as the contacts of cables see it.
+    pub fn path(&self) -> BodyPath {
+        let half = self.mean[1] * (0.5 * self.h);
+        let (centre, displacement) = (self.position, self.displacement());
+        BodyPath { centre, displacement, rotation: self.rotation, half, moved: self.moved }
     }
 
     /// Returns the change of position.

@@ -10,8 +10,8 @@
 //! ```
 //!
 //! with the condensed matrices W and the stiffening part of the levers under the impulses p of the pins. It is positive definite if the
-//! step matrices of the cables are. The energy law is that of the whole: forces and torques on the bodies do work, as do gaps that close
-//! and the axes along which a body is locked.
+//! step matrices of the cables are. A body that a cable touches has columns of its own beside the held coordinates, and G = 1. The energy law
+//! is that of the whole: forces and torques on the bodies do work, as do gaps that close and the axes along which a body is locked.
 
 mod body;
 mod holds;
@@ -26,10 +26,11 @@ use super::hold::vector;
 use super::layout::Layout;
 use super::pin_accounts::PinAccounts;
 use crate::cable::Cable;
+use crate::contact::BodyPath;
 use crate::effect::EffectWork;
 use crate::error::StepFailure;
 use crate::integrate::State;
-use crate::integrate::discrete_gradient::{BETA, Balance, DiscreteGradientSystem, Event, sum_of_forces};
+use crate::integrate::discrete_gradient::{BETA, Balance, Buffers, DiscreteGradientSystem, Event, sum_of_forces};
 use crate::support::SlopeSupport;
 use crate::system::{CableStep, Equations, dot, project_vector};
 use body::BodyStep;
@@ -47,6 +48,8 @@ pub(super) struct StepBuffers {
     matrix: BodyMatrix,
     /// Rows of the bodies, then their increments.
     rows: Vec<f64>,
+    /// The bodies as the contacts see them.
+    paths: Vec<BodyPath>,
     /// By pin, velocity of node and slope beside those of the body when the host step began.
     pub deviations: Vec<[Vector3<f64>; 2]>,
 }
@@ -84,9 +87,11 @@ impl StepBuffers {
 }
 
 impl IslandStep<'_, '_> {
-    /// Sets held coordinates of the iterate to where their bodies are, and the free directions of clamped slopes.
+    /// Sets held coordinates of the iterate and obstacles to where their bodies are, and the free directions of clamped slopes.
     fn follow(&mut self) {
-        let StepBuffers { bodies, cables: own, .. } = &mut *self.buffers;
+        let StepBuffers { bodies, cables: own, paths, .. } = &mut *self.buffers;
+        paths.clear();
+        paths.extend(bodies.iter().map(BodyStep::path));
         for (cable, own) in self.cables.iter_mut().zip(own) {
             for hold in &mut own.holds {
                 let CableStep { state, buffers, .. } = cable.step_parts();
@@ -98,6 +103,7 @@ impl IslandStep<'_, '_> {
                     support.slope = SlopeSupport::Attached(along);
                 }
             }
+            cable.step_buffers.contact.follow(&cable.model.obstacles.0, paths);
         }
     }
 
@@ -109,11 +115,13 @@ impl IslandStep<'_, '_> {
             let CableStep { mut equations, state, buffers } = cable.step_parts();
             equations.step_residual(state, buffers, true, &mut EffectWork::default());
             own.pass_impulses(&buffers.rhs, rows);
-            own.condensed.read(&equations.system.step.matrix, &part.holds);
+            buffers.contact.pass_impulses(true, rows);
+            let borders = buffers.contact.borders();
+            own.condensed.read(&equations.system.step.matrix, &part.holds, borders);
             equations.factor_to_solve()?;
             let (level, model) = (equations.system.level, equations.model);
             let factors = &equations.system.step.factorisation;
-            own.condensed.complete(level, factors, &part.holds, |x| project_vector(model, x));
+            own.condensed.complete(level, factors, (&part.holds, borders), |x| project_vector(model, x));
         }
         for (body, row) in bodies.iter().zip(rows.chunks_exact_mut(6)) {
             body.complete_row(row);
@@ -123,19 +131,18 @@ impl IslandStep<'_, '_> {
 
     /// Factors the matrix of the bodies for steps of length `h` (s).
     fn factor_bodies(&mut self, h: f64) -> Result<(), StepFailure> {
-        let StepBuffers { bodies, cables, matrix, .. } = &mut *self.buffers;
+        let StepBuffers { bodies, cables: own, matrix, .. } = &mut *self.buffers;
         matrix.begin(bodies.len());
         for (i, body) in bodies.iter().enumerate() {
             matrix.add_inertia(i, &body.world_matrix());
         }
-        for CableBuffers { holds, condensed, .. } in cables.iter() {
+        for (cable, CableBuffers { holds, condensed, .. }) in self.cables.iter().zip(own.iter()) {
             for hold in holds {
                 matrix.add_rotational(hold.body, &(hold.stiffening() * (0.5 * BETA * h)));
             }
-            matrix.add_cable(
-                condensed,
-                holds.iter().map(|hold| Lever { body: hold.body, arm: hold.arm, slope: hold.slope }),
-            );
+            let held = holds.iter().map(|hold| Lever::held(hold.body, &hold.arm, hold.slope));
+            let touched = cable.step_buffers.contact.borders().iter().flat_map(|border| Lever::own(border.body));
+            matrix.add_cable(condensed, held.chain(touched));
         }
         for (i, body) in bodies.iter().enumerate() {
             matrix.lock(i, &body.free);
@@ -153,6 +160,12 @@ impl IslandStep<'_, '_> {
                 let impulse = Vector3::from_fn(|x, _| -own.condensed.border(3 * h + x, &buffers.rhs));
                 hold.pass(&impulse, rows);
             }
+            let first = 3 * own.holds.len();
+            for (k, border) in buffers.contact.borders().iter().enumerate() {
+                for x in 0..6 {
+                    rows[6 * border.body + x] -= own.condensed.border(first + 6 * k + x, &buffers.rhs);
+                }
+            }
         }
         for (body, row) in bodies.iter().zip(rows.chunks_exact_mut(6)) {
             body.lock(row);
@@ -164,6 +177,13 @@ impl IslandStep<'_, '_> {
                 let moved = hold.moved(rows);
                 for x in 0..3 {
                     own.condensed.spread(3 * h + x, moved[x], &mut buffers.rhs);
+                }
+            }
+            let first = 3 * own.holds.len();
+            let Buffers { contact, rhs, .. } = &mut *buffers;
+            for (k, border) in contact.borders().iter().enumerate() {
+                for x in 0..6 {
+                    own.condensed.spread(first + 6 * k + x, rows[6 * border.body + x], rhs);
                 }
             }
             for hold in &own.holds {
@@ -196,6 +216,7 @@ impl IslandStep<'_, '_> {
             total.add(&equations.step_balance(state, buffers, &mut work));
             equations.system.meter.work_of_step = work;
             own.pass_impulses(&buffers.rhs, rows);
+            buffers.contact.pass_impulses(false, rows);
             for hold in &own.holds {
                 total.residual += hold.residual(buffers.h);
                 total.closing += hold.work(buffers.h);
@@ -256,7 +277,7 @@ impl DiscreteGradientSystem for IslandStep<'_, '_> {
         self.follow();
         for cable in self.cables.iter_mut() {
             let CableStep { equations, state, buffers } = cable.step_parts();
-            equations.find_contacts(state, buffers);
+            equations.find_contacts(state, buffers, &self.buffers.paths);
         }
     }
 
