@@ -57,7 +57,6 @@ pub(crate) fn attach(
         last_anchor: None,
         reading: AttachmentReading::default(),
         lost_link: false,
-        at_eye: false,
         steady_force: Vector3::zeros(),
         predicted: PinAccount::default(),
     });

@@ -1,7 +1,9 @@
-//! The eyes of reels: attachments and junctions there follow the last node of the cable, whose number and arc length change.
+//! Reels: attachments and junctions follow the nodes of a cable, whose numbers and arc lengths change.
 
 use crate::contents::Contents;
 use crate::error::Error;
+use crate::handle::CableHandle;
+use lariat_ancf::At;
 
 /// Splits and merges elements at the eyes of all reels, before a step.
 pub(crate) fn remesh(contents: &mut Contents) -> Result<(), Error> {
@@ -10,23 +12,37 @@ pub(crate) fn remesh(contents: &mut Contents) -> Result<(), Error> {
         else {
             continue;
         };
-        let eye = cable.nodes() - 1;
+        let (last, from_start) = (cable.nodes() - 1, cable.nodes_from_start());
         cable.remesh_reel()?;
-        for attachment in contents.attachments.values_mut().filter(|a| a.cable.0 as usize == i) {
-            attachment.at_eye = attachment.node == eye;
+        let (end, added) = (cable.nodes() - 1, cable.nodes_from_start() - from_start);
+        if end == last && added == 0 {
+            continue;
         }
+        let eyes = [At::Start, At::End].map(|at| cable.reel_description(at).is_some());
+        let renumbered = |node: usize| match node {
+            0 if eyes[0] => 0,
+            node if eyes[1] && node == last => end,
+            inner => inner.saturating_add_signed(added as isize),
+        };
+        let attached = contents.attachments.values_mut().map(|a| (a.cable, &mut a.node));
+        let tied = contents.junctions.values_mut().flat_map(|j| &mut j.nodes).map(|(c, n)| (*c, n));
+        attached.chain(tied).filter(|(c, _)| c.0 as usize == i).for_each(|(_, node)| *node = renumbered(*node));
+        contents.changed = true;
     }
     follow(contents);
     Ok(())
 }
 
-/// Moves the attachments at eyes to the last node of their cables.
+/// Moves the arc lengths of attachments and junctions to those of their nodes.
 pub(crate) fn follow(contents: &mut Contents) {
-    let Contents { cables, attachments, changed, .. } = contents;
-    for attachment in attachments.values_mut().filter(|a| a.at_eye) {
-        let Some(slot) = cables.get(attachment.cable.0 as usize).filter(|slot| slot.cable.has_reel()) else { continue };
-        let eye = slot.cable.nodes() - 1;
-        *changed |= attachment.node != eye;
-        (attachment.node, attachment.arc_length) = (eye, slot.cable.length());
+    let Contents { cables, attachments, junctions, .. } = contents;
+    let arc_length = |cable: CableHandle, node: usize| {
+        let cable = &cables.get(cable.0 as usize)?.cable;
+        cable.has_reel().then(|| cable.elements()[..node].iter().map(|element| element.length).sum())
+    };
+    let attached = attachments.values_mut().map(|a| (a.cable, a.node, &mut a.arc_length));
+    let tied = junctions.values_mut().flat_map(|j| j.nodes.iter().zip(&mut j.arc_lengths));
+    for (cable, node, at) in attached.chain(tied.map(|((cable, node), at)| (*cable, *node, at))) {
+        *at = arc_length(cable, node).unwrap_or(*at);
     }
 }

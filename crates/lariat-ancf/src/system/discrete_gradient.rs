@@ -108,11 +108,11 @@ impl Equations<'_> {
         matrix: bool,
         work: &mut EffectWork,
     ) -> ElementLoss {
-        let eye = self.begin_flow_step(state, b);
+        let eyes = self.begin_flow_step(state, b);
         let loss = self.step_elements(state, b, matrix);
-        self.end_flow_step(state, b, eye);
+        self.end_flow_step(state, b, eyes);
         self.external_forces(state, b, matrix, work);
-        self.add_flow_over_step(state, b, matrix);
+        self.add_flows_over_step(state, b, matrix);
         if let Some(effects) = &self.system.forces.in_element {
             effects.add_dissipated(loss.effects, work);
         }
@@ -234,10 +234,7 @@ impl Equations<'_> {
 
     /// Makes the end of the step the state.
     pub fn accept_step(&mut self, state: &mut State, b: &Buffers) {
-        if self.system.flow.is_some() {
-            self.system.meter.reel_work += self.flow_work_of_step(state, b);
-            self.system.end_flow_step_at(state.time);
-        }
+        self.end_flows_of_step(state, b);
         for i in 0..b.change.len() {
             state.q[i] += b.change[i];
             state.v[i] += b.velocity_change[i];

@@ -32,11 +32,11 @@ fn a_reel_on_a_fixed_or_moving_body_lifts_its_load() {
         set.get_mut(rope).unwrap().add_reel(At::End, Reel::default()).unwrap();
         let mut seconds = 0.0;
         for (rate, steps) in [(0.0, 60), (-0.4, 180), (0.4, 120), (0.0, 240)] {
-            set.get_mut(rope).unwrap().set_reel_rate(rate).unwrap();
+            set.get_mut(rope).unwrap().set_reel_rate(At::End, rate).unwrap();
             run(&mut world, &mut set, steps);
             seconds += f64::from(steps as u32) / 60.0;
         }
-        let reel = set.get(rope).unwrap().reel().unwrap();
+        let reel = set.get(rope).unwrap().reel(At::End).unwrap();
         assert!(reel.merges >= 3 && reel.splits >= 2 && reel.rate == 0.0, "{reel:?}");
         let top = if kinematic { 0.1 * seconds } else { 0.0 };
         let stretch = 20.0 * 9.81 * reel.length_out / 1e5;

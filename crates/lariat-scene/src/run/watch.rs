@@ -75,7 +75,7 @@ impl Watch {
                 worst.motion = worst.motion.max(motion.error.min(shape.position));
                 worst.displacement = worst.displacement.max(motion.displacement);
             }
-            let ratio = cable.reel().map_or(0.0, |reel| reel.speed_ratio);
+            let ratio = cable.reels().map(|reel| reel.speed_ratio).fold(0.0, f64::max);
             if ratio.is_finite() && ratio > worst.reel.0 && cable.effects().damping.is_none() {
                 worst.reel = (ratio, cable.time());
             }

@@ -1,0 +1,7 @@
+//! Reels at the ends of a cable.
+
+mod both_ends;
+mod common;
+mod energy;
+mod motion;
+mod state;
