@@ -43,7 +43,7 @@ use builder::CableBuilder;
 use fearless_simd::Level;
 pub(crate) use layout::along_polyline;
 use nalgebra::Vector3;
-pub use reel::{Reel, ReelReading, Reels};
+pub use reel::{Feed, Reel, ReelReading, Reels};
 use serde::{Deserialize, Serialize};
 pub use state::Snapshot;
 
@@ -389,6 +389,9 @@ pub(crate) fn check_integrator(model: &Model, method: &dyn OneStep) -> Result<()
     }
     if !model.reels.is_empty() && method.stability_limit().is_some() {
         return Err(Error::ExplicitReel { cable: model.name.clone(), method: method.name() });
+    }
+    if model.reels.have_laws() && !method.uses_discrete_gradients() {
+        return Err(Error::ReelMethod { cable: model.name.clone(), method: method.name() });
     }
     Ok(())
 }

@@ -202,6 +202,7 @@ impl Equations<'_> {
         if !b.contact.is_empty() {
             self.balance_contacts(b, &mut balance, work);
         }
+        self.balance_motors(state, b, &mut balance);
         let system = &*self.system;
         let Buffers { h, velocity_before, velocity_change, change, rhs, external, product, .. } = b;
         for (node, support) in &self.model.supports {
@@ -256,6 +257,31 @@ impl Equations<'_> {
     }
 }
 
+/// Linearises the laws of reels whose rate is unknown, and solves for their columns.
+fn linearise_laws(equations: &mut Equations<'_>, state: &State, b: &mut Buffers) {
+    let mut unknowns = core::mem::take(&mut b.unknowns);
+    unknowns.begin([&equations.system.flows].into_iter());
+    equations.read_motors(state, b);
+    for (&(_, k), columns) in unknowns.reels.iter().zip(&mut unknowns.columns) {
+        equations.linearise_law(k, state, b, &mut columns[0]);
+        equations.solve(&mut columns[0]);
+    }
+    b.unknowns = unknowns;
+}
+
+/// Solves for the rates of reels that are unknown, and completes the increment in `rhs`.
+fn add_to_laws(equations: &mut Equations<'_>, b: &mut Buffers) {
+    let Buffers { unknowns, rhs, .. } = b;
+    if unknowns.reels.is_empty() {
+        return;
+    }
+    unknowns.solve(|_| &equations.system.flows, |_| rhs);
+    for ((&(_, k), columns), &increment) in unknowns.reels.iter().zip(&unknowns.columns).zip(&unknowns.increments) {
+        equations.add_to_law(k, increment);
+        rhs.iter_mut().zip(&columns[0]).for_each(|(x, y)| *x -= increment * y);
+    }
+}
+
 impl DiscreteGradientSystem for CableStep<'_> {
     fn time(&self) -> f64 {
         self.state.time
@@ -270,6 +296,7 @@ impl DiscreteGradientSystem for CableStep<'_> {
     }
 
     fn predict(&mut self, h: f64) {
+        self.equations.begin_laws(self.state.time, h);
         self.buffers.recall(self.state, h);
         self.equations.prescribe_change(self.state, self.buffers);
         self.equations.find_contacts(self.state, self.buffers);
@@ -281,8 +308,10 @@ impl DiscreteGradientSystem for CableStep<'_> {
         if fresh {
             equations.step_residual(state, b, true, &mut EffectWork::default());
             equations.factor_to_solve()?;
+            linearise_laws(equations, state, b);
         }
         equations.solve(&mut b.rhs);
+        add_to_laws(equations, b);
         if !b.rhs.iter().all(|x| x.is_finite()) {
             return Err(equations.not_finite("Newton increment", &b.rhs));
         }

@@ -3,5 +3,6 @@
 mod both_ends;
 mod common;
 mod energy;
+mod laws;
 mod motion;
 mod state;

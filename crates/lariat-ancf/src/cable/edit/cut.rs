@@ -54,10 +54,14 @@ impl Cable {
             |q: &[f64], v: &[f64]| State { time: state.time, q: q.to_vec(), v: v.to_vec(), memory: Memory::default() };
         let (end, begin) = (6 * node + 6, 6 * node);
         let [at_start, at_end] = self.snapshot.windings;
-        let head_state =
-            Snapshot { state: part(&state.q[..end], &state.v[..end]), windings: [at_start, None], ..self.snapshot.clone() };
+        let head_state = Snapshot {
+            state: part(&state.q[..end], &state.v[..end]),
+            windings: [at_start, None],
+            ..self.snapshot.clone()
+        };
         let windings = [None, at_end];
-        let tail_state = Snapshot { state: part(&state.q[begin..], &state.v[begin..]), windings, ..Snapshot::default() };
+        let tail_state =
+            Snapshot { state: part(&state.q[begin..], &state.v[begin..]), windings, ..Snapshot::default() };
         let tail = Cable::from_parts(tail, tail_state, self.integrator)?;
         let mut head = Cable::from_parts(head, head_state, self.integrator)?;
         head.diagnostics = self.diagnostics;

@@ -13,13 +13,36 @@ pub struct Reel {
     pub rate: Vec<[f64; 2]>,
     /// Largest acceleration of the rate in m/s^2. Default 2: a jump of the rate by dv is one of the tension by dv sqrt(EA rho A).
     pub acceleration: f64,
-    /// Largest length of cable in m that can be out: the reel stops there. Default: no limit.
+    /// Largest length of cable in m that can be out: the reel stops there, as softly as `acceleration` says, whatever `max_force`
+    /// is. Default: no limit.
     pub stock: Option<f64>,
+    /// Largest force of the motor in N. The reel slips where the cable pulls more, and follows its rate again where it pulls less:
+    /// a clutch; with a rate of zero a brake; 0 is a free spool. Needs the integrator `discrete-gradient`. Default: as
+    /// strong as it must be.
+    pub max_force: Option<f64>,
+    /// Inertia of the wheel over the square of its radius in kg; the stock on a drum is added, if `stock` says how much. It counts
+    /// where the reel slips. Default 0.
+    pub inertia: f64,
+    /// How material comes to the eye. Default: from a drum.
+    pub feed: Feed,
+}
+
+/// How material comes to the eye of a reel while cable is paid out: the same rope falls at different speeds from each.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Feed {
+    /// From a drum that turns with the rate.
+    #[default]
+    Drum,
+    /// From a coil that lies still, picked up inelastically: `m g = d(m v)/dt` for a falling chain.
+    Coil,
+    /// From a bag in which it lies still, without loss.
+    Bag,
 }
 
 impl Default for Reel {
     fn default() -> Self {
-        Reel { rate: Vec::new(), acceleration: 2.0, stock: None }
+        Reel { rate: Vec::new(), acceleration: 2.0, stock: None, max_force: None, inertia: 0.0, feed: Feed::Drum }
     }
 }
 
@@ -29,12 +52,30 @@ impl Reel {
         Reel { rate: vec![[f64::MIN, rate]], ..Self::default() }
     }
 
+    /// A reel that turns freely: no motor, no brake.
+    pub fn free_spool() -> Self {
+        Reel { max_force: Some(0.0), ..Self::default() }
+    }
+
+    /// A brake that slips above a force in N.
+    pub fn brake(force: f64) -> Self {
+        Reel { max_force: Some(force), ..Self::default() }
+    }
+
+    /// Returns whether the rate is an unknown.
+    pub(crate) fn has_law(&self) -> bool {
+        self.max_force.is_some()
+    }
+
     /// Refuses numbers that make no reel.
     pub(super) fn check(&self) -> Result<(), Error> {
         require("acceleration of a reel (m/s^2)", self.acceleration, self.acceleration > 0.0, "> 0")?;
         if let Some(stock) = self.stock {
             require("stock of a reel (m)", stock, stock > 0.0, "> 0")?;
         }
+        let force = self.max_force.unwrap_or(0.0);
+        require("largest force of a reel (N)", force, force >= 0.0, ">= 0")?;
+        require("inertia of a reel (kg)", self.inertia, self.inertia >= 0.0, ">= 0")?;
         let mut before = f64::NEG_INFINITY;
         for &[time, rate] in &self.rate {
             require("rate of a reel (m/s)", rate, true, "a number")?;
@@ -79,6 +120,11 @@ impl Reels {
         self.at.iter().all(Option::is_none)
     }
 
+    /// Returns whether the rate of one is an unknown.
+    pub(crate) fn have_laws(&self) -> bool {
+        self.at.iter().flatten().any(|own| own.reel.has_law())
+    }
+
     /// Returns the ends that have one.
     pub(crate) fn sides(&self) -> impl Iterator<Item = Side> {
         Side::BOTH.into_iter().filter(|&side| self.at[side as usize].is_some())
@@ -120,7 +166,9 @@ impl Reels {
         let side = if at < 0 { Side::Start } else { Side::End };
         let stock = |side: Side| self.at[side as usize].as_ref().map(|own| own.stock);
         let wound = usize::try_from(at).ok().and_then(|at| self.mesh.get(at).copied());
-        let Some(element) = wound.or_else(|| stock(side)) else { unreachable!("elements come from an end with a reel") };
+        let Some(element) = wound.or_else(|| stock(side)) else {
+            unreachable!("elements come from an end with a reel")
+        };
         element
     }
 
@@ -153,6 +201,9 @@ impl Reels {
 
     /// Returns the reels of the parts of the cable before and behind a node; `number` is that of the element behind it.
     pub(crate) fn cut(&self, number: i64) -> [Reels; 2] {
+        if self.is_empty() {
+            return [Reels::default(), Reels::default()];
+        }
         let (mut head, mut tail) = (self.clone(), self.clone());
         let at = tail.reach(number);
         (_, tail.origin) = (tail.mesh.drain(..at), 0);

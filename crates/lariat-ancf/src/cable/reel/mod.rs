@@ -4,13 +4,13 @@
 //!
 //! Only the element at the eye, the last one of that end, is of changing material ([`element::flow`](crate::element)): its length l is a
 //! function of time, given by the rate of the reel. All others are made of the same particles for ever, so supports and loads keep
-//! their material. Arc lengths count from the first node as it is: those of all material grow with what a reel at the start pays out.
+//! their material (those at a reel at the start to rounding, also from a snapshot). Arc lengths count from the first node as it is: those of all material grow with what a reel at the start pays out.
 //! [`remesh`] keeps l near the length of the elements, and [`plan`] chooses the rate.
 //!
 //! # Validity
 //!
-//! The rate is prescribed: the winch is as strong as it must be, and [`ReelReading::force`] says how strong that is. Stock leaves a drum
-//! that runs with the rate. A rate above 0.3 of the speed of transverse waves, `sqrt(T/rho A)`, needs internal damping. A rope
+//! The rate is prescribed, and the winch as strong as it must be: [`ReelReading::force`] says how strong that is; or the motor slips above
+//! a [largest force](Reel::max_force), and the rate is an unknown of the discrete gradient (system/flow/law.rs). A rate above 0.3 of the speed of transverse waves, `sqrt(T/rho A)`, needs internal damping. A rope
 //! that is paid out faster than it falls crumples at the eye, and splitting crumpled elements adds strain energy:
 //! [`ReelReading::remeshed`] says how much. The node at
 //! the eye is held by a support, or by an attachment to a body that is not moved by the cable: the stock's momentum is not accounted
@@ -27,9 +27,9 @@ mod remesh;
 mod step;
 mod winding;
 
-pub use description::{Reel, Reels};
-pub(crate) use winding::Winding;
+pub use description::{Feed, Reel, Reels};
 pub use winding::ReelReading;
+pub(crate) use winding::Winding;
 
 use super::{At, Cable, Snapshot};
 use crate::effect::RestShape;
@@ -61,7 +61,8 @@ impl Cable {
     ///
     /// # Errors
     /// [`Error::InvalidValue`] for numbers out of range, [`Error::ReelPlace`] for another place than an end, for a second reel there, or
-    /// for two reels on one element, [`Error::ExplicitReel`] for an explicit integrator, [`Error::NotWithReel`] for effects that the
+    /// for two reels on one element, [`Error::ExplicitReel`] for an explicit integrator, [`Error::ReelMethod`] for a largest force under
+    /// another integrator than the discrete gradient, [`Error::NotWithReel`] for effects that the
     /// flowing element does not carry. The cable is then as before.
     pub fn add_reel(&mut self, at: impl Into<At>, reel: Reel) -> Result<(), Error> {
         reel.check().map_err(|e| e.of_cable(self.name()))?;
@@ -88,14 +89,20 @@ impl Cable {
     /// Changes what the reel at an end does from now on. The rate follows with the acceleration of the reel.
     ///
     /// # Errors
-    /// [`Error::InvalidValue`] for numbers out of range, [`Error::ReelPlace`] for an end without a reel.
+    /// [`Error::InvalidValue`] for numbers out of range, [`Error::ReelPlace`] for an end without a reel, [`Error::ReelMethod`] for a
+    /// largest force under another integrator than the discrete gradient.
     pub fn set_reel(&mut self, at: impl Into<At>, reel: Reel) -> Result<(), Error> {
         reel.check().map_err(|e| e.of_cable(self.name()))?;
-        match self.side(at.into()).and_then(|side| self.model.reels.get_mut(side)) {
-            Some(own) => *own = reel,
-            None => return Err(Error::ReelPlace { cable: self.name().to_string(), reason: "it has none there" }),
+        let Some(side) = self.side(at.into()).filter(|&side| self.model.reels.get(side).is_some()) else {
+            return Err(Error::ReelPlace { cable: self.name().to_string(), reason: "it has none there" });
+        };
+        let Some(own) = self.model.reels.get_mut(side) else { return Ok(()) };
+        let before = core::mem::replace(own, reel);
+        let outcome = super::check_integrator(&self.model, &self.integrator().method);
+        if let (Err(_), Some(own)) = (&outcome, self.model.reels.get_mut(side)) {
+            *own = before;
         }
-        Ok(())
+        outcome
     }
 
     /// Changes the rate of the reel at an end in m/s: positive pays out.

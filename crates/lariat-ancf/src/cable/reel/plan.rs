@@ -2,12 +2,12 @@
 //!
 //! # Equation
 //!
-//! The rate is linear within a step of length h. It may end at r if it can still stop within what is left of the cable:
-//! `r^2/(2 a) <= left - h (r_0 + r)/2`.
+//! The rate is linear within a step of length h; its bounds are those of [`rates`].
 
 use super::{Reel, Winding};
 use crate::cable::Cable;
 use crate::element::side::Side;
+use crate::system::{Law, Motor, rates};
 
 /// Least length of the element at the eye, as a share of its full length.
 pub(super) const LEAST: f64 = 0.4;
@@ -45,16 +45,27 @@ impl Cable {
 
     /// Returns the rate of a reel for a step of length `h` (s).
     pub(super) fn plan(&self, side: Side, reel: &Reel, winding: &Winding, h: f64) -> Plan {
-        let (a, rate) = (reel.acceleration, winding.extent[1]);
-        let wanted = reel.asked(self.time()).clamp(rate - a * h, rate + a * h);
-        // towards an end that is `left` away, at the present rate r towards it
-        let bound = |left: f64, r: f64| {
-            let left = left - 0.5 * h * r;
-            if left <= 0.0 { 0.0 } else { a * ((0.25 * h * h + 2.0 * left / a).sqrt() - 0.5 * h) }
-        };
-        let highest = reel.stock.map_or(f64::INFINITY, |stock| bound(stock - self.length(), rate));
-        let lowest = -bound(self.left(side), -rate);
-        let end = wanted.clamp(lowest, highest.max(lowest));
+        let rate = winding.extent[1];
+        let left = [self.left(side), self.left_of_stock(reel)];
+        let [lowest, wanted, highest] = rates(reel.asked(self.time()), reel.acceleration, rate, left, h);
+        let end = wanted.clamp(lowest, highest);
         Plan { acceleration: (end - rate) / h, stopped: end != wanted }
+    }
+
+    /// Returns the length in m that is left of the stock.
+    fn left_of_stock(&self, reel: &Reel) -> f64 {
+        reel.stock.map_or(f64::INFINITY, |stock| stock - self.length())
+    }
+
+    /// Returns what drives a reel whose rate is an unknown, for a part of a host step.
+    pub(super) fn law(&self, side: Side, reel: &Reel, winding: &Winding) -> Option<Law> {
+        let length = winding.extent[0];
+        Some(Law::new(Motor {
+            limit: reel.max_force?,
+            wheel: reel.inertia,
+            asked: reel.asked(self.time()),
+            acceleration: reel.acceleration,
+            bounds: [length - self.left(side), length + self.left_of_stock(reel)],
+        }))
     }
 }

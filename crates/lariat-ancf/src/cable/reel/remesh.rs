@@ -112,12 +112,7 @@ impl Cable {
     }
 
     /// Replaces the last `removed` elements before the eye by `elements`, ordered towards it, with the turned state that goes with them.
-    fn replace_elements(
-        &mut self,
-        turned: Turned,
-        removed: usize,
-        elements: &[Element],
-    ) -> Result<(), Error> {
+    fn replace_elements(&mut self, turned: Turned, removed: usize, elements: &[Element]) -> Result<(), Error> {
         let Turned { side, mut q, mut v, .. } = turned;
         let (before, added) = (self.nodes(), elements.len() as i64 - removed as i64);
         let mut model = self.model.clone();

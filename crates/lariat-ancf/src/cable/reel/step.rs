@@ -42,10 +42,13 @@ impl Cable {
             else {
                 continue;
             };
-            let plan = self.plan(side, reel, winding, h);
+            let (plan, law) = (self.plan(side, reel, winding, h), self.law(side, reel, winding));
             let flow = &mut self.system.flows.list[k];
-            flow.extent.acceleration = plan.acceleration;
-            flow.stopped = plan.stopped;
+            (flow.feed, flow.law, flow.pull) = (reel.feed, law, None);
+            if law.is_none() {
+                flow.extent.acceleration = plan.acceleration;
+                flow.stopped = plan.stopped;
+            }
         }
     }
 
@@ -63,7 +66,7 @@ impl Cable {
             winding.passed += passed;
             winding.extent = [length, rate, acceleration];
             winding.length_before = flow.length_before;
-            winding.stopped = flow.stopped;
+            (winding.stopped, winding.pull) = (flow.stopped, flow.pull);
             let e = flow.side.element(self.model.elements.len());
             self.model.elements[e].length = length;
             if flow.side == Side::Start {
@@ -99,7 +102,12 @@ impl Cable {
                 "<= 0.5",
             )
             .and_then(|()| {
-                require("length of the element at the eye over its full one", length / full, length < 2.5 * full, "< 2.5")
+                require(
+                    "length of the element at the eye over its full one",
+                    length / full,
+                    length < 2.5 * full,
+                    "< 2.5",
+                )
             })
             .map_err(|e| e.of_cable(self.name()))?;
         }
@@ -113,8 +121,9 @@ impl Cable {
         };
         let rate = winding.extent[1].abs();
         let rows = reel.rate.iter().filter(|row| row[0] > self.time() && row[0] < self.time() + dt);
+        let gained = if reel.has_law() { f64::INFINITY } else { 0.0 };
         let asked = rows.map(|row| row[1].abs()).fold(reel.asked(self.time()).abs(), f64::max);
-        rate.max(asked.min(rate + reel.acceleration * dt))
+        rate.max(asked.max(gained).min(rate + reel.acceleration * dt))
     }
 
     /// Advances a cable with a reel by `dt` (s).

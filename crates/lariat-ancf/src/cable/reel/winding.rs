@@ -23,6 +23,8 @@ pub(crate) struct Winding {
     pub splits: u64,
     pub merges: u64,
     pub stopped: bool,
+    /// Mean pull in N over the last step of the discrete gradient.
+    pub pull: Option<f64>,
 }
 
 impl Winding {
@@ -41,7 +43,9 @@ impl Winding {
     pub fn check(&self) -> Result<(), Error> {
         let [length, rate, acceleration] = self.extent;
         require("length of the element at the eye (m)", length, length > 0.0, "> 0")?;
-        for x in [rate, acceleration, self.length_before, self.passed, self.work, self.remeshed] {
+        for x in
+            [rate, acceleration, self.length_before, self.passed, self.work, self.remeshed, self.pull.unwrap_or(0.0)]
+        {
             require("number of a reel", x, true, "a number")?;
         }
         Ok(())
@@ -55,7 +59,8 @@ pub struct ReelReading {
     pub length_out: f64,
     /// Rate in m/s: positive pays out.
     pub rate: f64,
-    /// Pull of the winch on the cable along itself in N, at the present state and its known accelerations.
+    /// Pull of the winch on the cable along itself in N: with the discrete gradient the mean over its last step, else that at the
+    /// present state.
     pub force: f64,
     /// Tension of the cable at the eye in N, from the pull: `T f - u = pull + 1/2 rho A rate^2 (f^2 - 1)`, u the strain
     /// energy per length. Smoother than what [`Cable::sample`] reads there, which depends on the length of the element.
@@ -82,29 +87,23 @@ impl Cable {
         let winding = self.snapshot.windings[side as usize]?;
         let flow = self.system.flows.list.iter().find(|flow| flow.side == side)?;
         let memory = &self.snapshot.state.memory;
-        let mut acceleration = [0.0; 12];
-        let differences = &memory.differences;
-        if memory.valid {
-            acceleration = side.gather(&memory.acceleration);
-        } else if !differences.is_empty() && differences.step > 0.0 {
-            // the discrete gradient knows the mean ones of its last step
-            acceleration = side.gather(&differences.velocity).map(|x| x / differences.step);
-        }
+        let acceleration = if memory.valid { side.gather(&memory.acceleration) } else { [0.0; 12] };
         let element = &self.elements()[side.element(self.elements().len())];
         let (q, v) = (side.gather(self.positions()), side.gather(self.velocities()));
         let inertia = self.model.inertia(element);
-        let force = self.system.flow_force(&self.model, flow, self.time(), [&q, &v, &acceleration]);
+        let present = || self.system.flow_force(&self.model, flow, self.time(), [&q, &v, &acceleration]).pull;
+        let force = winding.pull.unwrap_or_else(present);
         let rate = winding.extent[1];
         // T f - u0 = EA (eps + 3/2 eps^2) with the strain eps at the eye
         let stiffness = element.section.axial_stiffness;
         let square: f64 = (9..12).map(|i| q[i] * q[i]).sum();
-        let eye = force.pull + 0.5 * inertia * rate * rate * (square - 1.0);
+        let eye = force + 0.5 * inertia * rate * rate * (square - 1.0);
         let strain = ((1.0 + 6.0 * eye / stiffness).max(0.0).sqrt() - 1.0) / 3.0;
         let tension = stiffness * strain * (1.0 + 2.0 * strain).max(0.0).sqrt();
         Some(ReelReading {
             length_out: self.length(),
             rate,
-            force: force.pull,
+            force,
             tension,
             work: winding.work,
             remeshed: winding.remeshed,

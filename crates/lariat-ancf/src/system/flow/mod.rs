@@ -20,11 +20,15 @@
 //! Elastic work is exact for any step; kinetic energy to the second order of the step. The tangent takes the symmetric part of the
 //! forces of the flow.
 
+mod law;
 mod step;
 mod work;
 
+pub(crate) use law::{Law, Motor, Unknowns, rates};
+
 use super::System;
 use super::elements::with_bending;
+use crate::cable::Feed;
 use crate::effect::acts::{ForceInput, Single};
 use crate::element::flow::{Extent, FlowElement};
 use crate::element::gram::{Control, gram};
@@ -50,6 +54,12 @@ pub(crate) struct Flow {
     pub length_before: f64,
     /// Whether an end of the cable stops it.
     pub stopped: bool,
+    /// How material comes to the eye.
+    pub feed: Feed,
+    /// What drives it, if its rate is an unknown.
+    pub law: Option<Law>,
+    /// Mean pull of the winch over the last step of the discrete gradient in N.
+    pub pull: Option<f64>,
 }
 
 /// The elements at eyes.
@@ -64,8 +74,18 @@ impl Flow {
     /// A flow at rest.
     pub fn new(side: Side, length: f64) -> Self {
         let extent = Extent { length, ..Extent::default() };
-        let eye_force = [0.0; 3];
-        Flow { side, start: 0.0, extent, weighed: length, eye_force, length_before: length, stopped: false }
+        Flow {
+            side,
+            start: 0.0,
+            extent,
+            weighed: length,
+            eye_force: [0.0; 3],
+            length_before: length,
+            stopped: false,
+            feed: Feed::Drum,
+            law: None,
+            pull: None,
+        }
     }
 
     /// Returns the extent at a time in s.
@@ -228,8 +248,7 @@ impl System {
 
     /// Returns the kinetic energy in J that the flows add to that of the mass matrix.
     pub fn flow_kinetic(&self, model: &Model, time: f64, q: &[f64], v: &[f64]) -> f64 {
-        let kinetic =
-            |f: &Flow| f.with(model, f.at(time)).kinetic_energy(&f.side.gather(q), &f.side.gather(v));
+        let kinetic = |f: &Flow| f.with(model, f.at(time)).kinetic_energy(&f.side.gather(q), &f.side.gather(v));
         self.flows.list.iter().map(kinetic).sum()
     }
 

@@ -6,8 +6,17 @@
 //! the eye r:
 //!
 //! ```text
-//! pull = -B - 1/2 rho l'^2 (f^2 - 1)        power = l' (B + 1/2 rho v.v - w.r) = -l' pull + energy that enters
+//! drum      pull = -B - 1/2 rho l'^2 (f^2 - 1)        power = l' (B + 1/2 rho v.v - w.r)
+//! bag       pull = -B - 1/2 rho l'^2 f^2
+//! coil      pull = -B - rho l'^2 f^2 + u_0            u_0 the strain energy per length at the eye
 //! ```
+//!
+//! Stock leaves a drum with the rate of the reel. In a bag it lies at rest and is set in motion without loss; in a coil by an inelastic
+//! impact, so that a falling chain obeys `m g = d(m v)/dt`. Both differ from a drum while cable is paid out.
+//!
+//! # References
+//!
+//! Cayley, Proc. R. Soc. 8 (1857) 506 (the coil); Irschik & Holl, Appl. Mech. Rev. 57 (2004) 145 (variable mass).
 //!
 //! # Validity
 //!
@@ -15,6 +24,7 @@
 //! to the order of two points of Gauss.
 
 use super::{Flow, System, control};
+use crate::cable::Feed;
 use crate::effect::work::{POINTS, hermite};
 use crate::element::flow::{Extent, FlowElement};
 use crate::integrate::State;
@@ -37,10 +47,9 @@ impl System {
         let extent = flow.at(time);
         let (element, weight) = (flow.with(model, extent), flow.weight(model));
         let [q, v, _] = motion;
-        let on_length =
-            element.length_force(motion, &weight) + self.strain_length_force(model, flow, q, extent.length);
+        let on_length = element.length_force(motion, &weight) + self.strain_length_force(model, flow, q, extent.length);
         FlowForce {
-            pull: -on_length - 0.5 * element.inertia * extent.rate * extent.rate * (square_of_stretch(q) - 1.0),
+            pull: flow.feed.pull(&element, q, on_length) + flow.lost(model, q, extent.rate),
             power: extent.rate * (on_length + entering(&element, &weight, q, v)),
         }
     }
@@ -76,8 +85,7 @@ impl Equations<'_> {
         let [u0, u1] = [(&start, l0), (&end, l1)].map(|(q, l)| system.flow_energy(model, flow, &control(q, l), l));
         let of_eye: f64 = (0..3).map(|x| flow.eye_force[x] * (middle[6 + x] - middle[x])).sum();
         // D U at fixed coordinates over D l, for (1/l1 - 1/l0)/(l1 - l0) = -1/(l0 l1)
-        let elastic =
-            0.5 * (u0.0 / l0 + u1.0 / l1) - (0.5 * (u0.1 * l0 + u1.1 * l1) - l0 * of_eye) / (l0 * l1);
+        let elastic = 0.5 * (u0.0 / l0 + u1.0 / l1) - (0.5 * (u0.1 * l0 + u1.1 * l1) - l0 * of_eye) / (l0 * l1);
         let (element, weight) = (flow.with(model, mean), flow.weight(model));
         let velocity = change.map(|x| x / b.h);
         let acceleration = flow.side.gather(&b.velocity_change).map(|x| x / b.h);
@@ -89,16 +97,52 @@ impl Equations<'_> {
     pub fn end_flows_of_step(&mut self, state: &State, b: &Buffers) {
         for k in 0..self.system.flows.list.len() {
             let flow = self.system.flows.list[k];
-            let (_, [l0, l1]) = flow.over(state.time, b.h);
-            let work = (l1 - l0) * self.flow_force_of_step(&flow, state, b).iter().sum::<f64>();
+            let (mean, [l0, l1]) = flow.over(state.time, b.h);
+            let forces = self.flow_force_of_step(&flow, state, b);
+            let work = (l1 - l0) * (forces[0] + forces[1]);
             self.system.meter.reel_work[flow.side as usize] += work;
-            self.system.flows.list[k].length_before = l0;
+            let (element, q) = (flow.with(self.model, mean), self.middle_of_step(&flow, state, b));
+            let pull = flow.feed.pull(&element, &q, forces[0]) + flow.lost(self.model, &q, mean.rate);
+            let own = &mut self.system.flows.list[k];
+            (own.length_before, own.pull) = (l0, Some(pull));
         }
     }
 }
 
+impl Equations<'_> {
+    /// Returns the middle of the coordinates of the element at an eye over a step of the discrete gradient.
+    pub fn middle_of_step(&self, flow: &Flow, state: &State, b: &Buffers) -> [f64; 12] {
+        let (q, change) = (flow.side.gather(&state.q), flow.side.gather(&b.change));
+        core::array::from_fn(|i| q[i] + 0.5 * change[i])
+    }
+}
+
+impl Feed {
+    /// Returns the pull of the winch from the force on the length, without the energy that is lost.
+    pub(super) fn pull(self, element: &FlowElement, q: &[f64; 12], on_length: f64) -> f64 {
+        let (rate, square) = (element.extent.rate, square_of_stretch(q));
+        let momentum = match self {
+            Feed::Bag if rate > 0.0 => 0.5 * square,
+            Feed::Coil if rate > 0.0 => square,
+            _ => 0.5 * (square - 1.0),
+        };
+        -on_length - element.inertia * rate * rate * momentum
+    }
+}
+
+impl Flow {
+    /// Returns the strain energy per length at the eye, if stock from a coil loses it, in N.
+    pub(super) fn lost(&self, model: &Model, q: &[f64; 12], rate: f64) -> f64 {
+        if self.feed != Feed::Coil || rate <= 0.0 {
+            return 0.0;
+        }
+        let strain = 0.5 * (square_of_stretch(q) - 1.0);
+        0.5 * model.elements[self.element(model)].section.axial_stiffness * strain * strain
+    }
+}
+
 /// Returns the square of the stretch at the eye.
-pub(super) fn square_of_stretch(q: &[f64; 12]) -> f64 {
+fn square_of_stretch(q: &[f64; 12]) -> f64 {
     q[9] * q[9] + q[10] * q[10] + q[11] * q[11]
 }
 
