@@ -3,7 +3,7 @@
 use super::lanes::MatrixOutput;
 use super::lanes::discrete_gradient::{CoordinateStep, ElementLoss};
 use super::rigid_motion::relative_velocities;
-use super::{Equations, System, project_vector};
+use super::{Equations, System, Unknowns, project_vector};
 use crate::cable::Cable;
 use crate::contact::{ContactBalance, Motion};
 use crate::effect::EffectWork;
@@ -261,9 +261,10 @@ impl Equations<'_> {
 fn linearise_laws(equations: &mut Equations<'_>, state: &State, b: &mut Buffers) {
     let mut unknowns = core::mem::take(&mut b.unknowns);
     unknowns.begin([&equations.system.flows].into_iter());
+    let Unknowns { reels, columns, saved, .. } = &mut unknowns;
     equations.read_motors(state, b);
-    for (&(_, k), columns) in unknowns.reels.iter().zip(&mut unknowns.columns) {
-        equations.linearise_law(k, state, b, &mut columns[0]);
+    for (&(_, k), columns) in reels.iter().zip(columns) {
+        equations.linearise_law(k, state, b, &mut columns[0], saved);
         equations.solve(&mut columns[0]);
     }
     b.unknowns = unknowns;

@@ -83,18 +83,15 @@ impl Cable {
     /// pass the eye.
     pub(crate) fn check_reel_in_island(&self, moves: impl Fn(usize) -> bool, dt: f64) -> Result<(), Error> {
         for side in self.model.reels.sides() {
-            let (Some(reel), Some(winding)) = (self.model.reels.get(side), &self.snapshot.windings[side as usize])
-            else {
-                continue;
-            };
+            let Some(winding) = &self.snapshot.windings[side as usize] else { continue };
             if moves(side.nodes(self.nodes())[1]) {
                 let reason = "its eye is on a body that moves freely, whose change of mass is not accounted for: \
                     use a fixed or kinematic body";
                 return Err(Error::ReelPlace { cable: self.name().to_string(), reason });
             }
             let full = self.model.reels.element(self.number(side.element(self.elements().len()))).length;
-            let [length, rate, _] = winding.extent;
-            let passing = (rate.abs() + reel.acceleration * dt).min(self.fastest_rate(side, dt)) * dt;
+            let [length, ..] = winding.extent;
+            let passing = self.fastest_rate(side, dt) * dt;
             require(
                 "share of an element that its reel moves in a step of an island",
                 passing / full,
@@ -120,10 +117,12 @@ impl Cable {
             return 0.0;
         };
         let rate = winding.extent[1].abs();
+        if reel.has_law() {
+            return rate + winding.extent[2].abs() * dt;
+        }
         let rows = reel.rate.iter().filter(|row| row[0] > self.time() && row[0] < self.time() + dt);
-        let gained = if reel.has_law() { f64::INFINITY } else { 0.0 };
         let asked = rows.map(|row| row[1].abs()).fold(reel.asked(self.time()).abs(), f64::max);
-        rate.max(asked.max(gained).min(rate + reel.acceleration * dt))
+        rate.max(asked.min(rate + reel.acceleration * dt))
     }
 
     /// Advances a cable with a reel by `dt` (s).

@@ -183,14 +183,15 @@ impl IslandStep<'_, '_> {
     fn linearise_laws(&mut self) {
         let mut unknowns = core::mem::take(&mut self.buffers.unknowns);
         unknowns.begin(self.cables.iter().map(|cable| &cable.system.flows));
-        for ((&(c, k), columns), rows) in unknowns.reels.iter().zip(&mut unknowns.columns).zip(&mut unknowns.rows) {
+        let Unknowns { reels, columns, rows, saved, .. } = &mut unknowns;
+        for ((&(c, k), columns), rows) in reels.iter().zip(columns).zip(rows) {
             for (cable, column) in self.cables.iter().zip(columns.iter_mut()) {
                 column.clear();
                 column.resize(cable.positions().len(), 0.0);
             }
             let CableStep { mut equations, state, buffers } = self.cables[c].step_parts();
             equations.read_motors(state, buffers);
-            equations.linearise_law(k, state, buffers, &mut columns[c]);
+            equations.linearise_law(k, state, buffers, &mut columns[c], saved);
             rows.clear();
             rows.resize(self.buffers.rows.len(), 0.0);
             for hold in &self.buffers.cables[c].holds {

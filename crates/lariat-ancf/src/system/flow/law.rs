@@ -25,16 +25,17 @@
 //!
 //! # Validity
 //!
-//! The discrete gradient. Forces are means of a step. Tangents leave the change of the mass matrix out: of the order of the passing length
-//! over that of the element.
+//! The discrete gradient. Forces are means of a step. The linear solution must meet the law to 1e-3 of the forces of all motors, else the step is
+//! iterated further.
 //!
 //! # Alternatives considered
 //!
 //! An elastic clutch with a slip as state: stiff, and its constant is arbitrary. Stages of other methods: the reel would be one more
 //! coordinate of every integrator.
 
-use super::{Flow, Flows, control};
+use super::{Flow, Flows};
 use crate::cable::Feed;
+use crate::effect::EffectWork;
 use crate::element::flow::Extent;
 use crate::integrate::State;
 use crate::integrate::discrete_gradient::{BETA, Balance, Buffers};
@@ -45,6 +46,8 @@ use crate::system::{Equations, System};
 const REACH: [f64; 2] = [0.5, 1.5];
 /// Increment by which tangents of quadratic functions are read, in m/s^2 or m/s.
 const PROBE: f64 = 1e-3;
+/// Share of the length of the element by which an increment changes it, where strains are read.
+const STRAIN_PROBE: f64 = 1e-7;
 /// Most sweeps over several reels.
 const SWEEPS: usize = 100;
 
@@ -95,6 +98,8 @@ pub(crate) struct Unknowns {
     /// By reel and cable, c and then y; by reel, the rows of bodies.
     pub columns: Vec<Vec<Vec<f64>>>,
     pub rows: Vec<Vec<f64>>,
+    /// A buffer.
+    pub saved: Vec<f64>,
     list: Vec<Unknown>,
     stiffness: Vec<f64>,
     /// Increments of the accelerations.
@@ -286,8 +291,8 @@ impl Equations<'_> {
         for flow in &self.system.flows.list {
             if let Some(law) = &flow.law {
                 let acceleration = flow.extent.acceleration;
-                balance.missed += law.violation(acceleration);
-                balance.forces += law.force.abs();
+                balance.slip[0] += law.violation(acceleration);
+                balance.slip[1] += law.force.abs();
                 if law.reach.contains(&acceleration) {
                     // no law of energy: the step is divided
                     balance.residual = f64::NAN;
@@ -296,58 +301,58 @@ impl Equations<'_> {
         }
     }
 
-    /// Linearises flow `k` about the present iterate, and writes the column c to `out`.
-    pub fn linearise_law(&mut self, k: usize, state: &State, b: &Buffers, out: &mut Vec<f64>) {
+    /// Linearises flow `k` about the present iterate, and writes the column c to `out`; `saved` is a buffer.
+    ///
+    /// The column and T_a are differences of whole residuals. Forces with a potential, of strains or of their rates, are symmetric: in the
+    /// row they are -2 b/h^2 times the column, b the coefficient of the one-leg formula. Inertia is not, and is read by itself.
+    pub fn linearise_law(
+        &mut self,
+        k: usize,
+        state: &State,
+        b: &mut Buffers,
+        out: &mut Vec<f64>,
+        saved: &mut Vec<f64>,
+    ) {
         let (flow, h) = (self.system.flows.list[k], b.h);
         let Some(mut law) = flow.law else { return };
+        saved.clone_from(&b.rhs);
+        let probe = 2.0 * STRAIN_PROBE * flow.extent.length / (h * h);
+        let base = self.residual_at(k, flow.extent.acceleration, state, b);
+        out.clone_from(&b.rhs);
+        let moved = self.residual_at(k, flow.extent.acceleration + probe, state, b);
+        out.iter_mut().zip(&b.rhs).for_each(|(before, after)| *before = (*before - after) / probe);
+        law.own = (moved - base) / probe;
+        b.rhs.clone_from(saved);
         let (model, system) = (self.model, &*self.system);
         let (mean, _) = flow.over(state.time, h);
         let [q, v, a] = self.motion_of_step(&flow, state, b);
         let element = |probe: f64| {
             let Extent { length, rate, acceleration } = mean;
-            let extent = Extent {
-                length: length + 0.25 * h * h * probe,
-                rate: rate + 0.5 * h * probe,
-                acceleration: acceleration + probe,
-            };
-            flow.with(model, extent)
+            let length = length + 0.25 * h * h * probe;
+            flow.with(model, Extent { length, rate: rate + 0.5 * h * probe, acceleration: acceleration + probe })
         };
-        // strain energy: its derivatives by the length, and by length and coordinates
-        let nudge = 1e-6 * mean.length;
-        let at = |sign: f64| {
-            let l = mean.length + sign * nudge;
-            let (g, s) = (system.flow_gradient(model, &flow, control(&q, l), l), 3.0 / l);
-            let force: [f64; 12] = core::array::from_fn(|i| match i / 3 {
-                0 => -s * g[1][i % 3],
-                1 => g[0][i % 3],
-                2 => s * g[1][i % 3],
-                _ => g[2][i % 3],
-            });
-            (system.strain_length_force(model, &flow, &q, l), force)
-        };
-        let ((up, force_up), (down, force_down)) = (at(1.0), at(-1.0));
-        let mixed: [f64; 12] = core::array::from_fn(|i| (force_up[i] - force_down[i]) / (2.0 * nudge));
-        let stiffness = (up - down) / (2.0 * nudge);
-        // inertia: by differences of quadratic functions
         let (mut before, mut after) = ([0.0; 12], [0.0; 12]);
-        element(0.0).add_force(1.0, &q, &v, &mut before);
-        element(PROBE).add_force(1.0, &q, &v, &mut after);
-        let column: [f64; 12] =
-            core::array::from_fn(|i| h * (0.25 * h * h * mixed[i] - (after[i] - before[i]) / PROBE));
-        let motor = |extent: Extent, motion: [&[f64; 12]; 3]| system.motor_of_inertia(model, &flow, extent, motion);
-        let present = motor(mean, [&q, &v, &a]);
-        law.own = (motor(element(PROBE).extent, [&q, &v, &a]) - present) / PROBE - 0.25 * h * h * stiffness;
+        element(0.0).add_force(h, &q, &v, &mut before);
+        element(PROBE).add_force(h, &q, &v, &mut after);
+        let motor = |motion: [&[f64; 12]; 3]| system.motor_of_inertia(model, &flow, mean, motion);
+        let (present, column) = (motor([&q, &v, &a]), flow.side.gather(out));
         for i in 0..12 {
             let (mut q, mut v, mut a) = (q, v, a);
             q[i] += 0.5 * BETA * h * PROBE;
             v[i] += BETA * PROBE;
             a[i] += PROBE / h;
-            law.row[i] = (motor(mean, [&q, &v, &a]) - present) / PROBE - 0.5 * BETA * h * mixed[i];
+            let of_inertia = (before[i] - after[i]) / PROBE;
+            law.row[i] = (motor([&q, &v, &a]) - present) / PROBE - 2.0 * BETA / (h * h) * (column[i] - of_inertia);
         }
-        out.clear();
-        out.resize(state.q.len(), 0.0);
-        flow.side.add(&column, out);
-        self.system.flows.list[k].law = Some(law);
+        self.system.flows.list[k] = Flow { law: Some(law), ..flow };
+    }
+
+    /// Computes the residual of the present iterate with another acceleration of flow `k`, and returns the force of its motor in N.
+    fn residual_at(&mut self, k: usize, acceleration: f64, state: &State, b: &mut Buffers) -> f64 {
+        self.system.flows.list[k].extent.acceleration = acceleration;
+        self.step_residual(state, b, false, &mut EffectWork::default());
+        self.read_motors(state, b);
+        self.system.flows.list[k].law.map_or(0.0, |law| law.force)
     }
 
     /// Adds an increment to the acceleration of the iterate.

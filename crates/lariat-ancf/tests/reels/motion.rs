@@ -17,7 +17,9 @@ fn a_rope_paid_out_at_a_constant_rate_hangs_by_its_weight() {
         let mut effects = cable.effects().clone();
         effects.damping = Some(Damping { axial: 5e-3, bending: 0.0 });
         cable.set_effects(effects).unwrap();
-        cable.add_reel(At::End, Reel { rate: vec![[0.0, 0.4]], acceleration: 1.0, stock: Some(4.0) }).unwrap();
+        cable
+            .add_reel(At::End, Reel { rate: vec![[0.0, 0.4]], acceleration: 1.0, stock: Some(4.0), ..Reel::default() })
+            .unwrap();
         (0..180).for_each(|_| cable.step(1.0 / 60.0).unwrap());
         let reel = cable.reel(At::End).unwrap();
         let weight = 0.4 * G * reel.length_out;
@@ -43,11 +45,13 @@ fn a_rope_paid_out_at_a_constant_rate_hangs_by_its_weight() {
 /// *Source.* `(l^2 theta')' = -g l sin theta`, by the classical Runge-Kutta method here, with the length that the reel has out.
 #[test]
 fn a_pendulum_of_variable_length_follows_its_equation() {
-    for method in [Method::Esdirk4, Method::DiscreteGradient] {
-        let control = match method {
-            Method::Esdirk4 => StepControl::ToleranceOf(1e-7, ErrorNorm::Bodies),
-            _ => StepControl::MaxStep(1.0 / 480.0),
-        };
+    let tolerance = StepControl::ToleranceOf(1e-7, ErrorNorm::Bodies);
+    for (method, control, swing) in [
+        (Method::Esdirk4, tolerance, 0.6),
+        (Method::DiscreteGradient, StepControl::Substeps(1), 0.6),
+        (Method::DiscreteGradient, StepControl::Substeps(3), 0.6),
+        (Method::DiscreteGradient, StepControl::Substeps(1), -0.4),
+    ] {
         let integrator = Integrator { method, control };
         let (mut theta, mut omega) = (0.6f64, 0.0f64);
         let start = 1.5 * Vector3::new(theta.sin(), -theta.cos(), 0.0);
@@ -60,7 +64,8 @@ fn a_pendulum_of_variable_length_follows_its_equation() {
             .build()
             .unwrap();
         cable.attach(At::Start).unwrap();
-        cable.add_reel(At::End, Reel { acceleration: 50.0, ..Reel::default() }).unwrap();
+        // slower than free fall: a rope does not push
+        cable.add_reel(At::End, Reel { acceleration: 4.0, ..Reel::default() }).unwrap();
         let mut bodies = [RigidBody::new(1.0, Matrix3::identity() * 1e-3, start).unwrap()];
         bodies[0].force = Vector3::new(0.0, -G, 0.0);
         let pin = PinConstraint { cable: 0, node: 0, body: 0, anchor: Vector3::zeros(), direction: None };
@@ -70,7 +75,7 @@ fn a_pendulum_of_variable_length_follows_its_equation() {
         let mut rate_before = 0.0;
         for step in 0..2400 {
             let t = f64::from(step) * dt;
-            let rate = if t < 4.0 { 0.1 } else { 0.6 * (2.0 * (t - 4.0)).sin() };
+            let rate = if t < 4.0 { 0.1 } else { swing * (2.0 * (t - 4.0)).sin() };
             cable.set_reel_rate(At::End, rate).unwrap();
             cable.remesh_reel().unwrap();
             let l0 = cable.length();
@@ -96,9 +101,7 @@ fn a_pendulum_of_variable_length_follows_its_equation() {
         }
         let reel = cable.reel(At::End).unwrap();
         println!("{method:?}: {worst:.2e} of the length, {reel:?}");
-        assert!(reel.splits >= 4 && reel.merges >= 1);
-        // the discrete gradient has no control of its error
-        let allowed = if method == Method::Esdirk4 { 1e-3 } else { 1e-2 };
-        assert!(worst < allowed, "{method:?}: {worst:e}");
+        assert!(reel.splits >= 2 && reel.merges >= 1);
+        assert!(worst < 1e-3, "{method:?}: {worst:e}");
     }
 }

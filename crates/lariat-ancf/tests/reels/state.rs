@@ -123,7 +123,7 @@ fn what_makes_no_reel_is_a_typed_error_and_changes_nothing() {
     assert!(matches!(cable.insert_node(0.9), Err(Error::NotWithReel { .. })));
     assert!(matches!(cable.cut(0.9), Err(Error::NotWithReel { .. })));
     cable.set_reel_rate(At::End, 1e9).unwrap();
-    cable.set_reel(At::End, Reel { rate: vec![[0.0, 1e9]], acceleration: 1e12, stock: None }).unwrap();
+    cable.set_reel(At::End, Reel { rate: vec![[0.0, 1e9]], acceleration: 1e12, ..Reel::default() }).unwrap();
     assert!(cable.step(1.0 / 60.0).is_err());
     assert_eq!(cable.length(), 1.0);
 }

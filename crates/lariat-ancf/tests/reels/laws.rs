@@ -210,7 +210,9 @@ fn two_clutches_on_a_swinging_rope_keep_the_account() {
             }
         }
         println!("{worst:.1e} J, {pulled:?} N, {:?}", cable.reels().collect::<Vec<_>>());
-        assert!(worst < 5e-3, "{worst} J");
+        // of the second order of the step, as the kinetic energy of what flows is
+        let moved: f64 = cable.reels().map(|reel| reel.work.abs()).sum();
+        assert!(worst < 0.02 * (240.0 * dt).powi(2) / 16.0 * moved + 2e-3 * moved, "{worst} J of {moved} J");
         // the wheel takes 0.05 kg times its acceleration beside the clutch
         assert!(pulled[0] < 6.0 * 1.02 + 0.05 * 20.0 && pulled[1] < 8.0 * 1.02 + 0.05 * 20.0, "{pulled:?}");
     }
