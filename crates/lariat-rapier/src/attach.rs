@@ -57,6 +57,8 @@ pub(crate) fn attach(
         last_anchor: None,
         reading: AttachmentReading::default(),
         lost_link: false,
+        at_eye: false,
+        from_start: 0,
         steady_force: Vector3::zeros(),
         predicted: PinAccount::default(),
     });

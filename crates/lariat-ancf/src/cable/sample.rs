@@ -79,7 +79,7 @@ impl Cable {
         for flow in self.system.flows.list.iter().filter(|flow| flow.side.element(self.elements().len()) == e) {
             let extent = flow.extent;
             let local = flow.side.gather(q);
-            velocity += extent.rate * combine(&local, 0, flow_weights(flow.side.from_far(xi), length)[0]);
+            velocity += extent.rate * combine(&local, 0, flow_weights(flow.side.local(xi), length)[0]);
             // the control vector of the chord changes with the length, too
             let d = forces.elements.control(e, q);
             let chord = d[1].map(|x| -x * extent.rate / length);

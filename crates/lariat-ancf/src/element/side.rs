@@ -76,7 +76,7 @@ impl Side {
     }
 
     /// Returns the local coordinate, counted from the far node, of one of the element.
-    pub fn from_far(self, xi: f64) -> f64 {
+    pub fn local(self, xi: f64) -> f64 {
         if self == Side::End { xi } else { 1.0 - xi }
     }
 

@@ -18,10 +18,14 @@ struct Hoist {
 
 impl Hoist {
     fn new(mass: f64, density: f64, dt: f64, reel: Reel) -> Self {
+        Self::with_stiffness(1.0e5, mass, density, dt, reel)
+    }
+
+    fn with_stiffness(stiffness: f64, mass: f64, density: f64, dt: f64, reel: Reel) -> Self {
         let start = Vector3::new(0.0, -1.0, 0.0);
         let mut cable = Cable::builder()
             .points([start, Vector3::zeros()])
-            .section(Section::from_stiffness(1.0e5, 1e-3, density).unwrap())
+            .section(Section::from_stiffness(stiffness, 1e-3, density).unwrap())
             .elements(5)
             .damping(Damping { axial: 2e-3, bending: 2e-3 })
             .integrator(GAME)
@@ -215,6 +219,46 @@ fn two_clutches_on_a_swinging_rope_keep_the_account() {
         assert!(worst < 0.02 * (240.0 * dt).powi(2) / 16.0 * moved + 2e-3 * moved, "{worst} J of {moved} J");
         // the wheel takes 0.05 kg times its acceleration beside the clutch
         assert!(pulled[0] < 6.0 * 1.02 + 0.05 * 20.0 && pulled[1] < 8.0 * 1.02 + 0.05 * 20.0, "{pulled:?}");
+    }
+}
+
+/// Violent starts against a clutch, of stiff ropes at the steps of games: a load falls into a rope that is slack or thrown upwards first; a
+/// rope of EA 1e6 N with 5 kN on it runs out, and is braked. No step fails, and no clutch pulls more than it holds.
+///
+/// *Source.* `max_force` is the largest pull.
+#[test]
+fn clutches_hold_their_force_when_ropes_snatch() {
+    for (stiffness, mass, force, upwards) in
+        [(1e6, 20.0, 600.0, 2.0), (1e6, 500.0, 8e3, 1.0), (1e5, 5.0, 60.0, 3.0), (1e6, 510.0, 4.5e3, 0.0)]
+    {
+        for dt in [1.0 / 60.0, 1.0 / 240.0] {
+            let reel = Reel { max_force: Some(force), acceleration: 100.0, ..Reel::default() };
+            let mut hoist = Hoist::with_stiffness(stiffness, mass, 0.3, dt, reel);
+            hoist.bodies[0].velocity.y = upwards;
+            let (mut most, mut slips) = (0.0f64, 0);
+            for _ in 0..(1.2 / dt) as usize {
+                hoist.step();
+                let reel = hoist.cable.reel(At::End).unwrap();
+                most = most.max(reel.force);
+                slips += usize::from(reel.rate > 0.0);
+            }
+            let reel = hoist.cable.reel(At::End).unwrap();
+            let speed = hoist.bodies[0].velocity.y;
+            println!(
+                "{mass} kg at 1/{:.0} s: peak {:.5}, slipped in {slips}, {speed} m/s, {reel:?}",
+                1.0 / dt,
+                most / force
+            );
+            assert!(most < 1.02 * force && slips > 0, "{most} N of {force} N, {slips}");
+            if mass * G > force {
+                let expected = -1.2 * (G - force / mass);
+                assert!((speed / expected - 1.0).abs() < 0.03, "{speed} m/s of {expected} m/s");
+                hoist.cable.set_reel(At::End, Reel { acceleration: 1e4, ..Reel::brake(1.4 * mass * G) }).unwrap();
+                (0..(1.0 / dt) as usize).for_each(|_| hoist.step());
+            }
+            let reel = hoist.cable.reel(At::End).unwrap();
+            assert!(reel.rate.abs() < 1e-6 && hoist.bodies[0].velocity.norm() < 0.1, "{reel:?}");
+        }
     }
 }
 

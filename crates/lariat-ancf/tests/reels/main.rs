@@ -5,4 +5,5 @@ mod common;
 mod energy;
 mod laws;
 mod motion;
+mod remesh;
 mod state;

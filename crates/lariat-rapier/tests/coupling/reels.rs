@@ -57,6 +57,48 @@ fn a_reel_on_a_fixed_or_moving_body_lifts_its_load() {
     }
 }
 
+/// A cable between fixed bodies, with a reel at its start or end: attachments stay with their nodes over splits and merges within steps,
+/// and after a cut.
+#[test]
+fn attachments_of_a_cable_without_a_load_follow_its_reel() {
+    for eye_at in [At::Start, At::End] {
+        let mut world = PhysicsWorld::new();
+        let mut set = CableSet::new();
+        let rope =
+            cable([0.0; 3], [2.0, 0.0, 0.0], section()).length(2.4).damping(Damping { axial: 0.01, bending: 0.01 });
+        let rope = set.insert(rope.build().unwrap());
+        let posts = [(At::Start, 0.0), (At::ArcLength(1.2), 1.0), (At::End, 2.0)].map(|(at, x)| {
+            let post = world.insert_body(RigidBodyBuilder::fixed().translation(Vector::new(x, 0.0, 0.0)));
+            set.attach(&world, rope, at, post, Vector::ZERO, AttachmentKind::Ball.with_gap(lariat_rapier::Gap::Close))
+                .unwrap()
+        });
+        set.get_mut(rope).unwrap().add_reel(eye_at, Reel::default()).unwrap();
+        for (rate, steps) in [(0.5, 90), (-0.4, 60)] {
+            set.get_mut(rope).unwrap().set_reel_rate(eye_at, rate).unwrap();
+            for _ in 0..steps {
+                run(&mut world, &mut set, 1);
+                let cable = set.get(rope).unwrap();
+                let arcs = cable.node_arc_lengths();
+                let passed = cable.length() - 2.4;
+                let middle = if eye_at == At::Start { 1.2 + passed } else { 1.2 };
+                for (post, s) in posts.iter().zip([0.0, middle, cable.length()]) {
+                    let at = set.attachment(*post).unwrap();
+                    assert!((at.arc_length() - s).abs() < 1e-9 && (arcs[at.node()] - s).abs() < 1e-9, "{at:?} {s}");
+                    assert!(at.gap() < 1e-3, "{at:?}");
+                }
+            }
+        }
+        let reel = set.get(rope).unwrap().reel(eye_at).unwrap();
+        assert!(reel.splits >= 2 && reel.merges >= 1, "{reel:?}");
+        let middle = set.attachment(posts[1]).unwrap().arc_length();
+        let rest = set.cut(rope, middle + if eye_at == At::Start { 0.3 } else { -0.3 }).unwrap();
+        run(&mut world, &mut set, 30);
+        let keeps = if eye_at == At::Start { rope } else { rest };
+        assert!(set.get(keeps).unwrap().reel(eye_at).is_some());
+        assert_eq!(set.attachment(posts[1]).unwrap().cable(), keeps);
+    }
+}
+
 /// A winch with a clutch lifts a crate and never pulls more than the clutch holds; of two crates on two such winches, the one that is too
 /// heavy runs out.
 ///
@@ -77,18 +119,22 @@ fn clutches_of_a_world_slip_at_their_force() {
         set.get_mut(rope).unwrap().add_reel(At::End, reel).unwrap();
         (rope, load)
     });
-    let mut most = 0.0f64;
-    for _ in 0..60 {
+    let (mut most, mut before) = (0.0f64, [0.0; 2]);
+    for step in 0..70 {
+        if step == 30 {
+            before = hoists.map(|(_, load)| f64::from(world.bodies[load].linvel().y));
+        }
         run(&mut world, &mut set, 1);
         for (rope, _) in hoists {
             most = most.max(set.get(rope).unwrap().reel(At::End).unwrap().force);
         }
     }
     let speeds = hoists.map(|(_, load)| f64::from(world.bodies[load].linvel().y));
-    let fall = 9.81 * (1.0 - 240.0 / (28.3 * 9.81));
+    // over 40 steps, without the first ones in which the rope is stretched
+    let fall = 9.81 * (1.0 - 240.0 / (28.5 * 9.81)) * 40.0 / 60.0;
     println!("{most} N, {speeds:?} m/s, not {}", -fall);
     assert!(most < 240.0 * 1.02, "{most} N");
-    assert!((speeds[0] - 0.3).abs() < 0.01 && (speeds[1] / -fall - 1.0).abs() < 0.05, "{speeds:?}");
+    assert!((speeds[0] - 0.3).abs() < 0.01 && ((speeds[1] - before[1]) / -fall - 1.0).abs() < 0.05, "{speeds:?}");
 }
 
 /// The eye on a body that the cable moves is refused by name, because the stock's momentum is not accounted for.

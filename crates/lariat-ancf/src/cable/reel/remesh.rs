@@ -83,7 +83,8 @@ impl Cable {
             let can_merge = !held && count > reels.sides().count();
             let length = self.elements()[e].length;
             let splits = length > MOST * full.length;
-            if !splits && !(can_merge && length < LEAST * full.length.min(full_before)) {
+            let merges = can_merge && length < LEAST * full.length.min(full_before);
+            if !splits && !merges {
                 return Ok(());
             }
             let energy = self.energy().total();
