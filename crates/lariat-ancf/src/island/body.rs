@@ -143,6 +143,12 @@ impl RigidBody {
         self.free == [false; 6]
     }
 
+    /// Returns whether it moves when the step begins, or is prescribed to.
+    pub(super) fn moves(&self) -> bool {
+        let rates = [[self.velocity, self.angular_velocity], self.unsteadiness[0], self.unsteadiness[1]];
+        rates.as_flattened().iter().any(|rate| *rate != Vector3::zeros())
+    }
+
     /// Returns the inertia about the centre of mass in world axes, at attitude `rotation`.
     pub fn world_inertia(&self, rotation: &UnitQuaternion<f64>) -> Matrix3<f64> {
         let r = rotation.to_rotation_matrix();

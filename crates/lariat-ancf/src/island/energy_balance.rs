@@ -15,7 +15,6 @@
 //! No result where a driven body moves, a gap closes fast, a clamp rotates a slope into place, or a cable does not know the work of its
 //! loads.
 
-use super::body::RigidBody;
 use super::equations::IslandEquations;
 use super::hold::vector;
 use super::layout::Motion;
@@ -41,8 +40,7 @@ pub(super) fn spurious_energy(
     if layout.clamp_rotates() {
         return None;
     }
-    let moves = |body: &RigidBody| body.velocity != Vector3::zeros() || body.angular_velocity != Vector3::zeros();
-    if layout.bodies.iter().any(|body| body.is_driven() && moves(body)) {
+    if layout.bodies.iter().any(|body| body.is_driven() && body.moves()) {
         return None;
     }
     let closing = |pin: usize, time: f64| layout.gap(pin, time).1;

@@ -53,6 +53,27 @@ impl Impedance {
     /// # Errors
     /// [`Error::StepFailed`] if the matrix is singular or not finite.
     pub fn update(&mut self, cable: &mut Cable, nodes: &[usize], h: f64) -> Result<(), Error> {
+        self.update_freed(cable, nodes, h, |_| true)
+    }
+
+    /// Returns the largest stiffness in N/m that `cable` shows at a node over a step of `h` (s), its
+    /// inertia included: the largest eigenvalue of C^-1/h^2. All other attached nodes are held.
+    ///
+    /// # Errors
+    /// [`Error::StepFailed`] if the matrix is singular or not finite.
+    pub fn stiffness(&mut self, cable: &mut Cable, node: usize, h: f64) -> Result<f64, Error> {
+        self.update_freed(cable, &[node], h, |attached| attached == node)?;
+        Ok(1.0 / (h * h * self.compliance(0, 0).symmetric_eigenvalues().min()))
+    }
+
+    /// Linearises `cable` with those of its attached nodes free that `is_free` names.
+    fn update_freed(
+        &mut self,
+        cable: &mut Cable,
+        nodes: &[usize],
+        h: f64,
+        is_free: impl Fn(usize) -> bool,
+    ) -> Result<(), Error> {
         let size = cable.positions().len();
         self.step = h;
         self.nodes.clear();
@@ -61,7 +82,7 @@ impl Impedance {
         self.columns.resize(3 * nodes.len() * size, 0.0);
         // with its pins free a cable has other supports; they are restored below
         let supports = cable.model.supports.clone();
-        cable.model.supports.iter_mut().for_each(|(_, s)| s.attached = false);
+        cable.model.supports.iter_mut().filter(|(n, _)| is_free(*n)).for_each(|(_, s)| s.attached = false);
         let outcome = cable.with_workspace(|cable| self.linearise(cable, h));
         cable.model.supports = supports;
         outcome.map_err(|failure| cable.step_failed(cable.time(), h, failure))

@@ -30,6 +30,8 @@ pub(super) struct Part {
     pub size: usize,
     /// Those that follow bodies.
     pub holds: Vec<Hold>,
+    /// Nodes on bodies with prescribed motion, which do work on the cable.
+    pub driven: Vec<usize>,
 }
 
 impl Part {
@@ -83,7 +85,11 @@ impl Layout {
             part.size = cable.positions().len();
             at += part.size;
             part.holds.clear();
+            part.driven.clear();
             for (i, pin) in pins.iter().enumerate().filter(|(_, p)| p.cable == c) {
+                if bodies[pin.body].is_driven() && bodies[pin.body].moves() {
+                    part.driven.push(pin.node);
+                }
                 let position = Hold { pin: i, node: pin.node, at: part.at + 6 * pin.node, slope: false };
                 part.holds.push(position);
                 if pin.direction.is_some() {

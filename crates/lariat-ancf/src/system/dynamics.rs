@@ -167,7 +167,7 @@ impl Dynamics for CableDynamics<'_> {
     }
 
     fn step_accepted(&mut self, before: &State, after: &State, h: f64) {
-        self.equations.add_work(before, after, h, 0..after.q.len());
+        self.equations.add_work(before, after, h, 0..after.q.len(), &[]);
     }
 
     fn spurious_energy(&mut self, before: &State, after: &State, h: f64) -> Option<(f64, f64)> {

@@ -80,15 +80,16 @@ pub(crate) struct EnergyChange {
 }
 
 impl Equations<'_> {
-    /// Adds the work of effects, point loads and moving supports in a step of length `h` (s); `range` is the cable's part of the states.
-    pub fn add_work(&mut self, before: &State, after: &State, h: f64, range: Range<usize>) {
+    /// Adds the work of effects, point loads, moving supports and nodes `driven` by an island in a step of length `h` (s); `range` is the
+    /// cable's part of the states.
+    pub fn add_work(&mut self, before: &State, after: &State, h: f64, range: Range<usize>, driven: &[usize]) {
         for k in 0..self.system.flows.list.len() {
             let flow = self.system.flows.list[k];
             self.system.meter.reel_work[flow.side as usize] += self.flow_work(&flow, before, after, h, range.clone());
         }
         self.add_effect_work(before, after, h, range.clone());
-        if self.model.supports.iter().any(moves) {
-            self.add_support_work(before, after, h, range);
+        if !driven.is_empty() || self.model.supports.iter().any(moves) {
+            self.add_support_work(before, after, h, range, driven);
         }
     }
 
@@ -171,8 +172,8 @@ impl Equations<'_> {
         meter.force = momentum;
     }
 
-    /// Adds the work of supports that move.
-    fn add_support_work(&mut self, before: &State, after: &State, h: f64, range: Range<usize>) {
+    /// Adds the work of supports that move, and of driven nodes.
+    fn add_support_work(&mut self, before: &State, after: &State, h: f64, range: Range<usize>, driven: &[usize]) {
         let [mut force, mut inertia] = [0, 1].map(|_| Vec::new());
         core::mem::swap(&mut force, &mut self.system.meter.force);
         core::mem::swap(&mut inertia, &mut self.system.meter.v);
@@ -182,7 +183,8 @@ impl Equations<'_> {
             let [q, v, a] = [&state.q, &state.v, &state.memory.acceleration].map(|x| &x[range.clone()]);
             self.force(ForceInput { time: state.time, q, v, dv_dq: 0.0, scale: 1.0 }, &mut force);
             self.system.mass.multiply(self.system.level, a, &mut inertia);
-            for (node, _) in self.model.supports.iter().filter(|support| moves(support)) {
+            let supports = self.model.supports.iter().filter(|support| moves(support)).map(|(node, _)| node);
+            for node in supports.chain(driven) {
                 for i in 6 * node..6 * node + 6 {
                     let k = range.start + i;
                     let way = 0.5 * (after.q[k] - before.q[k]) + sign * h / 12.0 * (before.v[k] - after.v[k]);

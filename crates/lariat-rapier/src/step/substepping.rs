@@ -13,7 +13,9 @@
 //! finer where a body that is near others, or has a reaction estimate, hangs on a taut cable. l is
 //! the length of the cable to its end, which gives an upper bound of its stiffness. A cable that is
 //! pulled but not straight gives way by its sag: where the bound asks for a split, its own response
-//! over the host step decides ([`Impedance`]).
+//! over the host step decides ([`Impedance`]). The response is linear, and may not follow a large
+//! deviation; therefore no body may then deviate by more than 1 mm, at its speed v of collision
+//! (h v) or by a reaction estimate that is wrong altogether (F h^2/2m).
 //!
 //! *First contact.* A body that hits another at v deviates from its prediction by up to v h, and
 //! the cable, heavier than the body over the step, does not follow by the share g/(1 + g): its
@@ -43,6 +45,7 @@ use crate::step::proximity;
 use ::nalgebra::Vector3;
 use lariat_ancf::island::Impedance;
 use lariat_ancf::{At, Cable};
+use rapier::dynamics::RigidBodyHandle;
 use rapier::pipeline::PhysicsWorld;
 
 /// Strain from which a cable counts as taut.
@@ -56,14 +59,6 @@ const MAX_GAP: f64 = 1e-3;
 const JOINTED_STEPS: f64 = 4.0;
 /// Share of the force at an attachment from which a reaction estimate counts.
 const MIN_REACTION: f64 = 0.1;
-
-/// How a body may deviate from its prediction.
-struct Deviation {
-    /// Speed in m/s at which it may collide; 0 if it has a reaction estimate.
-    speed: f64,
-    /// Whether its cable is straight, or may become so.
-    tightens: bool,
-}
 
 /// Returns the number of Rapier steps for a host step of `dt` (s); `impedance` is a buffer.
 pub(crate) fn count(
@@ -79,29 +74,27 @@ pub(crate) fn count(
         return min;
     }
     let mut fastest = None;
-    let mut needed: f64 = 0.0;
+    let mut needed = f64::from(min);
     for i in 0..contents.attachments.len() {
         let Some(a) = contents.attachments.get(i) else { continue };
         let mut fastest = || *fastest.get_or_insert_with(|| proximity::fastest(world));
-        let Some(deviation) = deviation(contents, world, a, dt, &mut fastest) else { continue };
-        let body = a.body;
-        let inverse_mass = f64::from(world.bodies[body].mass_properties().local_mprops.inv_mass);
+        let Some(speed) = deviation_speed(contents, world, a, dt, &mut fastest) else { continue };
+        let inverse_mass = f64::from(world.bodies[a.body].mass_properties().local_mprops.inv_mass);
         let count = |stiffness: f64| {
             let vibration = dt * (stiffness * inverse_mass).sqrt() / MAX_PHASE;
             let step = dt / f64::from(max);
             let g = OWN_MOBILITY_SHARE * step * step * stiffness * inverse_mass;
-            vibration.max(dt * deviation.speed * g / (1.0 + g) / MAX_GAP)
+            vibration.max(dt * speed * g / (1.0 + g) / MAX_GAP)
         };
-        let on_body = |c: &Contents, k: usize| c.attachments.get(k).is_some_and(|b| b.body == body);
-        let others = 0..contents.attachments.len();
-        let largest = others.clone().filter(|&k| on_body(contents, k)).map(|k| stiffness(contents, k)).sum();
+        let on_body = contents.attachments.values().filter(|b| b.body == a.body);
+        let largest: f64 = on_body.map(|b| stiffness(contents, b)).sum();
         let mut own = count(largest);
-        if own > needed.max(f64::from(min)) && !deviation.tightens {
-            let mut response = 0.0;
-            for k in others {
-                response += if on_body(contents, k) { stiffness_over(contents, k, dt, impedance) } else { 0.0 };
+        if own > needed && !may_tighten(contents, world, a, dt, &mut fastest) {
+            let reaction = contents.records.get(a.body).map_or(0.0, |r| split_spatial(&r.reaction).0.norm());
+            let followed = (dt * speed / MAX_GAP).max(dt * (0.5 * reaction * inverse_mass / MAX_GAP).sqrt());
+            if followed < own {
+                own = own.min(followed.max(count(stiffness_over(contents, a.body, dt, impedance))));
             }
-            own = count(response.min(largest));
         }
         needed = needed.max(own);
     }
@@ -121,15 +114,16 @@ fn rotation(contents: &Contents, world: &PhysicsWorld, dt: f64) -> f64 {
     0.5 * fastest * dt / substeps / MAX_HALF_ROTATION
 }
 
-/// Returns how the body of an attachment may deviate within `dt` (s). `None` if it does not, or hangs
-/// on no cable that is taut or becomes so.
-fn deviation(
+/// Returns the speed in m/s at which the body of an attachment may collide within `dt` (s), or 0 if
+/// it has a reaction estimate. `None` if it does not deviate, or hangs on no cable that is taut or
+/// becomes so.
+fn deviation_speed(
     contents: &Contents,
     world: &PhysicsWorld,
     a: &Attachment,
     dt: f64,
     fastest: &mut impl FnMut() -> f64,
-) -> Option<Deviation> {
+) -> Option<f64> {
     let cable = &contents.slot(a.cable)?.cable;
     if !is_integrated(world, a.body) {
         return None;
@@ -137,20 +131,16 @@ fn deviation(
     let force = a.reading.force.norm();
     let section = &cable.elements()[a.node.min(cable.elements().len() - 1)].section;
     let taut = force > TAUT_STRAIN * section.axial_stiffness;
-    let own = f64::from(world.bodies[a.body].linvel().length());
-    let tightens = tightens(cable, a.node, dt, own + fastest());
-    if !taut && !tightens {
+    if !taut && !may_tighten(contents, world, a, dt, fastest) {
         return None;
     }
     let reacts = |reaction| split_spatial(reaction).0.norm() > MIN_REACTION * force;
     let reaction = taut && contents.records.get(a.body).is_some_and(|record| reacts(&record.reaction));
-    let speed = proximity::collision(world, a.body, (dt, fastest())).or(reaction.then_some(0.0))?;
-    Some(Deviation { speed, tightens })
+    proximity::collision(world, a.body, (dt, fastest())).or(reaction.then_some(0.0))
 }
 
 /// Returns an upper bound in N/m of the stiffness of the two parts of a cable at an attachment.
-fn stiffness(contents: &Contents, attachment: usize) -> f64 {
-    let Some(a) = contents.attachments.get(attachment) else { return 0.0 };
+fn stiffness(contents: &Contents, a: &Attachment) -> f64 {
     let Some(slot) = contents.slot(a.cable) else { return 0.0 };
     let elements = slot.cable.elements();
     let side = |range: core::ops::Range<usize>| {
@@ -161,16 +151,29 @@ fn stiffness(contents: &Contents, attachment: usize) -> f64 {
     side(0..node) + side(node..elements.len())
 }
 
-/// Returns the stiffness in N/m that a cable shows at an attachment over a step of `dt` (s): the
-/// largest eigenvalue of its inverse compliance over the square of the step, the inertia of its sag
-/// included.
-fn stiffness_over(contents: &mut Contents, attachment: usize, dt: f64, impedance: &mut Impedance) -> f64 {
-    let Some((node, cable)) = contents.attachments.get(attachment).map(|a| (a.node, a.cable)) else { return 0.0 };
-    let Some(slot) = contents.cables.get_mut(cable.0 as usize) else { return 0.0 };
-    if impedance.update(&mut slot.cable, &[node], dt).is_err() {
-        return f64::INFINITY;
-    }
-    1.0 / (dt * dt * impedance.compliance(0, 0).symmetric_eigenvalues().min())
+/// Returns the stiffness in N/m that the cables of a body show over a step of `dt` (s).
+fn stiffness_over(contents: &mut Contents, body: RigidBodyHandle, dt: f64, impedance: &mut Impedance) -> f64 {
+    let of_body = contents.attachments.values().filter(|a| a.body == body);
+    let own = of_body.map(|a| {
+        let Some(slot) = contents.cables.get_mut(a.cable.0 as usize) else { return 0.0 };
+        // the number may be that of before a change of the cable
+        let node = a.node.min(slot.cable.elements().len());
+        impedance.stiffness(&mut slot.cable, node, dt).unwrap_or(f64::INFINITY)
+    });
+    own.sum()
+}
+
+/// Returns whether the cable of an attachment is straight, or may become so within `dt` (s).
+fn may_tighten(
+    contents: &Contents,
+    world: &PhysicsWorld,
+    a: &Attachment,
+    dt: f64,
+    fastest: &mut impl FnMut() -> f64,
+) -> bool {
+    let Some(slot) = contents.slot(a.cable) else { return false };
+    let own = f64::from(world.bodies[a.body].linvel().length());
+    tightens(&slot.cable, a.node, dt, own + fastest())
 }
 
 /// Returns whether a part of a cable between a node and a held end may become straight within `dt`
