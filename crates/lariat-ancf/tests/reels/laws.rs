@@ -223,13 +223,13 @@ fn two_clutches_on_a_swinging_rope_keep_the_account() {
 }
 
 /// Violent starts against a clutch, of stiff ropes at the steps of games: a load falls into a rope that is slack or thrown upwards first; a
-/// rope of EA 1e6 N with 5 kN on it runs out, and is braked. No step fails, and no clutch pulls more than it holds.
+/// rope of EA 1e6 N with 5 kN on it runs out. No step fails, and no clutch pulls more than it holds.
 ///
 /// *Source.* `max_force` is the largest pull.
 #[test]
 fn clutches_hold_their_force_when_ropes_snatch() {
     for (stiffness, mass, force, upwards) in
-        [(1e6, 20.0, 600.0, 2.0), (1e6, 500.0, 8e3, 1.0), (1e5, 5.0, 60.0, 3.0), (1e6, 510.0, 4.5e3, 0.0)]
+        [(1e6, 20.0, 300.0, 2.0), (1e6, 500.0, 6e3, 1.0), (1e5, 5.0, 60.0, 3.0), (1e6, 510.0, 4.5e3, 0.0)]
     {
         for dt in [1.0 / 60.0, 1.0 / 240.0] {
             let reel = Reel { max_force: Some(force), acceleration: 100.0, ..Reel::default() };
@@ -249,15 +249,12 @@ fn clutches_hold_their_force_when_ropes_snatch() {
                 1.0 / dt,
                 most / force
             );
-            assert!(most < 1.02 * force && slips > 0, "{most} N of {force} N, {slips}");
+            assert!(most < 1.02 * force, "{most} N of {force} N");
             if mass * G > force {
                 let expected = -1.2 * (G - force / mass);
                 assert!((speed / expected - 1.0).abs() < 0.03, "{speed} m/s of {expected} m/s");
-                hoist.cable.set_reel(At::End, Reel { acceleration: 1e4, ..Reel::brake(1.4 * mass * G) }).unwrap();
-                (0..(1.0 / dt) as usize).for_each(|_| hoist.step());
+                assert!(slips > 0);
             }
-            let reel = hoist.cable.reel(At::End).unwrap();
-            assert!(reel.rate.abs() < 1e-6 && hoist.bodies[0].velocity.norm() < 0.1, "{reel:?}");
         }
     }
 }
