@@ -84,9 +84,11 @@ fn attachments_of_a_cable_without_a_load_follow_its_reel() {
                 for (post, s) in posts.iter().zip([0.0, middle, cable.length()]) {
                     let at = set.attachment(*post).unwrap();
                     assert!((at.arc_length() - s).abs() < 1e-9 && (arcs[at.node()] - s).abs() < 1e-9, "{at:?} {s}");
-                    assert!(at.gap() < 1e-3, "{at:?}");
                 }
             }
+        }
+        for post in posts {
+            assert!(set.attachment(post).unwrap().gap() < 1e-5);
         }
         let reel = set.get(rope).unwrap().reel(eye_at).unwrap();
         assert!(reel.splits >= 2 && reel.merges >= 1, "{reel:?}");
@@ -119,10 +121,11 @@ fn clutches_of_a_world_slip_at_their_force() {
         set.get_mut(rope).unwrap().add_reel(At::End, reel).unwrap();
         (rope, load)
     });
-    let (mut most, mut before) = (0.0f64, [0.0; 2]);
+    let (mut most, mut before, mut out) = (0.0f64, [0.0; 2], 0.0);
     for step in 0..70 {
         if step == 30 {
             before = hoists.map(|(_, load)| f64::from(world.bodies[load].linvel().y));
+            out = set.get(hoists[1].0).unwrap().length();
         }
         run(&mut world, &mut set, 1);
         for (rope, _) in hoists {
@@ -130,8 +133,9 @@ fn clutches_of_a_world_slip_at_their_force() {
         }
     }
     let speeds = hoists.map(|(_, load)| f64::from(world.bodies[load].linvel().y));
-    // over 40 steps, without the first ones in which the rope is stretched
-    let fall = 9.81 * (1.0 - 240.0 / (28.5 * 9.81)) * 40.0 / 60.0;
+    // over 40 steps, without the first ones in which the rope is stretched; with the rope that is out in the mean
+    let out = 0.5 * (out + set.get(hoists[1].0).unwrap().length());
+    let fall = (9.81 - 240.0 / (28.0 + 0.3 * out)) * 40.0 / 60.0;
     println!("{most} N, {speeds:?} m/s, not {}", -fall);
     assert!(most < 240.0 * 1.02, "{most} N");
     assert!((speeds[0] - 0.3).abs() < 0.01 && ((speeds[1] - before[1]) / -fall - 1.0).abs() < 0.05, "{speeds:?}");
