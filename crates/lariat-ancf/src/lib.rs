@@ -29,6 +29,7 @@
 //! | [`effect`] | one file per effect: damping, drag, buoyancy, rest shape ..., and forces per length of your own |
 //! | [`integrate`] | one file per time integrator, over one trait, which other crates can implement |
 //! | `statics` | static equilibrium: [`Cable::equilibrium`] |
+//! | [`warning`] | what a cable says about its own mesh, steps, law and sizes |
 //! | [`study`] | runs to a given error: mesh and tolerance chosen, and the error proven |
 //! | [`island`] | cables and rigid bodies pinned together, as one system, for couplings to physics engines |
 //!
@@ -61,6 +62,7 @@ mod strength;
 pub mod study;
 mod support;
 mod system;
+pub mod warning;
 
 pub use cable::builder::{CableBuilder, STANDARD_GRAVITY};
 pub use cable::energy::{Energy, Momentum};
@@ -88,3 +90,4 @@ pub use statics::{EquilibriumOptions, EquilibriumReport};
 pub use strength::{Break, BreakCause, Strength};
 pub use support::{Motion, SlopeSupport, Support};
 pub use system::jacobian::Jacobians;
+pub use warning::{Warning, Watch};

@@ -27,6 +27,9 @@ pub struct Section {
     /// Area inside the outer outline in m^2, if a shape was given: for buoyancy.
     #[serde(default)]
     pub outer_area: Option<f64>,
+    /// Young's modulus in Pa, if a shape was given: for [warnings](crate::warning).
+    #[serde(default)]
+    pub youngs_modulus: Option<f64>,
 }
 
 /// One element: unstretched length in m and section.
@@ -107,6 +110,7 @@ impl Section {
         )?;
         section.diameter = Some(shape.outer());
         section.outer_area = Some(shape.outer_area());
+        section.youngs_modulus = Some(youngs_modulus);
         Ok(section)
     }
 
@@ -176,6 +180,7 @@ impl Section {
             mass_per_length,
             diameter: None,
             outer_area: None,
+            youngs_modulus: None,
         }
         .checked()
     }

@@ -115,6 +115,14 @@ pub fn markdown<'a>(title: &str, introduction: &str, sections: impl IntoIterator
     format!("# {title}\n\n{}\n\n{sections}", introduction.trim_end()).trim_end().to_string() + "\n"
 }
 
+/// Returns a page with a section in place of the one with the same title, or at its end.
+pub fn replaced(page: &str, section: &Section) -> String {
+    let heading = format!("## {}\n", section.title);
+    let (before, rest) = page.split_once(&heading).unwrap_or((page, ""));
+    let after = rest.find("\n## ").map_or("", |i| &rest[i + 1..]);
+    format!("{}\n\n{}{after}", before.trim_end(), section.markdown()).trim_end().to_string() + "\n"
+}
+
 /// Writes a text file.
 ///
 /// # Errors

@@ -97,6 +97,16 @@ pub struct ContactIgnored {
     pub collider: ColliderHandle,
 }
 
+/// The mesh, the steps, the law or the sizes of a cable are probably not good enough. Sent once for each kind; the text of the
+/// warning says what to do.
+#[derive(EntityEvent, Message, Clone, Debug, PartialEq)]
+pub struct CableWarning {
+    /// The cable.
+    pub entity: Entity,
+    /// What it says about itself.
+    pub warning: lariat_ancf::Warning,
+}
+
 /// Reason why an attachment ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum EndReason {
@@ -159,6 +169,7 @@ macro_rules! for_each_event {
             CableAsleep,
             CableAwake,
             CableBroken,
+            CableWarning,
             ContactStarted,
             ContactEnded,
             ContactIgnored,

@@ -46,6 +46,7 @@
 //! | step | [`advance`], or [`CableStep`] in a schedule of your own; with feature `bevy_app` the plugin |
 //! | order systems against the stages of a step | [`CableSystems`] |
 //! | react to events | [`event`] |
+//! | hear where meshes, steps, laws and sizes are not good enough | [`CableWarning`](event::CableWarning) |
 //! | draw | [`curve()`], [`Interpolate`] |
 //! | measure the cost | [`Diagnostics`] |
 //! | roll back | [`Snapshot`] |

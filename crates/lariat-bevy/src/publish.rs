@@ -5,7 +5,8 @@ use crate::body::{BodyHandle, BodyPose};
 use crate::cables::{Cables, Parting};
 use crate::diagnostics::{Diagnostics, Stage};
 use crate::event::{
-    AttachmentEnded, CableAsleep, CableAwake, ContactEnded, ContactIgnored, ContactStarted, EndReason, QueuedEvent,
+    AttachmentEnded, CableAsleep, CableAwake, CableWarning, ContactEnded, ContactIgnored, ContactStarted, EndReason,
+    QueuedEvent,
 };
 use crate::physics::Physics;
 use bevy_ecs::prelude::{DetectChangesMut, Query, Res, ResMut};
@@ -39,6 +40,9 @@ pub(crate) fn read_events(mut cables: ResMut<Cables>, physics: Res<Physics>) {
                 .cables
                 .get(&cable)
                 .map(|link| ContactIgnored { entity: link.entity, body: parent(collider), collider }.into()),
+            Event::Warning { cable, warning } => {
+                links.cables.get(&cable).map(|link| CableWarning { entity: link.entity, warning }.into())
+            }
             _ => None,
         };
         events.extend(translated);

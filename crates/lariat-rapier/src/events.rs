@@ -1,7 +1,7 @@
 //! Events of a host step.
 
 use crate::handle::{AttachmentHandle, CableHandle};
-use lariat_ancf::Break;
+use lariat_ancf::{Break, Warning};
 use rapier::dynamics::RigidBodyHandle;
 use rapier::geometry::ColliderHandle;
 
@@ -59,4 +59,11 @@ pub enum Event {
     },
     /// A cable woke up.
     Awake(CableHandle),
+    /// The mesh, the steps, the law or the sizes of a cable are probably not good enough. Each kind once for each cable.
+    Warning {
+        /// The cable.
+        cable: CableHandle,
+        /// What it says about itself, and what to do.
+        warning: Warning,
+    },
 }

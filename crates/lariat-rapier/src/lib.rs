@@ -33,6 +33,7 @@
 //! | let a cable touch colliders | [`CableSet::set_contact`], [`ContactRules`], [`CableSet::contacts`] |
 //! | let a cable break | [`CableSet::set_strength`] |
 //! | read forces, gaps and work | [`Attachment`], [`AttachmentReading`], [`WorldEnergy`] |
+//! | hear where meshes, steps, laws and sizes are not good enough | [`Event::Warning`], [`CableSet::warnings`] |
 //! | tie cables to each other | [`CableSet::join`], [`Junction`] |
 //! | step Rapier yourself | [`CableSet::begin`], [`HostStep`] |
 //! | convert numbers | [`convert`] |
@@ -132,6 +133,7 @@ mod statics;
 mod step;
 mod table;
 mod totals;
+mod warnings;
 mod world_mark;
 
 pub use attachment::{Attachment, AttachmentKind, AttachmentOptions, AttachmentReading, Gap};
@@ -151,3 +153,4 @@ pub use settings::Settings;
 pub use statics::Equilibrium;
 pub use step::HostStep;
 pub use totals::WorldEnergy;
+pub use warnings::Warning;

@@ -14,7 +14,7 @@ use crate::settings::Settings;
 use crate::statics::{self, Equilibrium};
 use crate::step::{self, HostStep, Stepper};
 use crate::totals::{self, WorldEnergy};
-use crate::{attach, breaking, edit, join, world_mark};
+use crate::{attach, breaking, edit, join, warnings, world_mark};
 use lariat_ancf::contact::Touch;
 use lariat_ancf::{At, Cable, Contact, EquilibriumOptions, Momentum, Point, Strength};
 use rapier::dynamics::RigidBodyHandle;
@@ -66,6 +66,9 @@ impl CableSet {
         if cable.has_default_integrator() {
             // the integrator of a fidelity fits every cable, but one with contact keeps the one that can step it
             let _ = cable.set_integrator(cable.integrator_for(self.settings.fidelity));
+        }
+        if self.settings.watch && !cable.is_watched() {
+            cable.set_watched(true);
         }
         self.contents.insert(cable)
     }
@@ -379,6 +382,7 @@ impl CableSet {
         step::finish(&mut self.contents, world, &host);
         if host.is_complete() {
             contact::events::compare(&mut self.contents, &mut self.stepper.events);
+            warnings::note(&mut self.contents, &mut self.stepper.events);
             breaking::break_overloaded(&mut self.contents, &mut self.stepper.events);
         }
         self.failures().first().map_or(Ok(()), |failure| Err(failure.error.clone()))

@@ -22,6 +22,14 @@ pub struct Settings {
     /// cost per step is bounded and which cannot make energy.
     #[serde(default = "fidelity")]
     pub fidelity: Fidelity,
+    /// Whether cables that are inserted from now on are [watched](lariat_ancf::Cable::set_watched): each warning
+    /// is an event. Default true; each cable is then read once per host step.
+    #[serde(default = "watch")]
+    pub watch: bool,
+}
+
+fn watch() -> bool {
+    true
 }
 
 fn fidelity() -> Fidelity {
@@ -34,6 +42,12 @@ fn max_rapier_steps() -> u32 {
 
 impl Default for Settings {
     fn default() -> Self {
-        Settings { rapier_steps: 1, max_rapier_steps: max_rapier_steps(), sleep_speed: 2e-3, fidelity: fidelity() }
+        Settings {
+            rapier_steps: 1,
+            max_rapier_steps: max_rapier_steps(),
+            sleep_speed: 2e-3,
+            fidelity: fidelity(),
+            watch: watch(),
+        }
     }
 }

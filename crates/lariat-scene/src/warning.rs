@@ -8,115 +8,6 @@ use serde::{Deserialize, Serialize, Serializer};
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, thiserror::Error)]
 #[serde(tag = "kind", rename_all = "snake_case")]
 pub enum Warning {
-    /// The elements are too long for the shape.
-    #[error(
-        "cable {cable:?}: the mesh with elements = {elements} puts points probably more than {error_m:.1e} m off: try elements = {enough}"
-    )]
-    CoarseMesh {
-        /// Name of the cable.
-        cable: String,
-        /// Estimate of the largest error of position in m.
-        error_m: f64,
-        /// Number of elements.
-        elements: usize,
-        /// Number of elements that would do.
-        enough: usize,
-    },
-    /// The elements are too long for a small motion of a cable whose shape is resolved.
-    #[error(
-        "cable {cable:?}: the mesh with elements = {elements} is probably off by {error_m:.1e} m, where the largest displacement is \
-         {displacement_m:.1e} m: try elements = {enough}"
-    )]
-    CoarseMotion {
-        /// Name of the cable.
-        cable: String,
-        /// Estimate of the error of the displacement in m.
-        error_m: f64,
-        /// Largest displacement of a node in m.
-        displacement_m: f64,
-        /// Number of elements.
-        elements: usize,
-        /// Number of elements that would do.
-        enough: usize,
-    },
-    /// An element between points that are held or loaded turns too much.
-    #[error(
-        "cable {cable:?}: an element turns by {turn_rad:.2} rad from end to end: try elements = {enough} instead of {elements}"
-    )]
-    CoarseElement {
-        /// Name of the cable.
-        cable: String,
-        /// Angle between the slopes at the ends of the element in rad.
-        turn_rad: f64,
-        /// Number of elements.
-        elements: usize,
-        /// Number of elements that would do.
-        enough: usize,
-    },
-    /// The tension is beyond the range of the law.
-    #[error(
-        "cable {cable:?}: at {time_s:.4} s its tension is {tension_n:.3e} N, {percent:.1} % of EA = {axial_stiffness_n:.3e} N: the law (Green's strain) \
-         holds for small strain and is stiffer than Hooke's beyond; check Young's modulus (Pa), section (m), masses (kg) and length, or \
-         add to EA",
-        percent = 100.0 * .tension_n / .axial_stiffness_n
-    )]
-    LargeStrain {
-        /// Name of the cable.
-        cable: String,
-        /// Time of the largest tension in s.
-        time_s: f64,
-        /// Largest tension in N.
-        tension_n: f64,
-        /// Axial stiffness EA in N.
-        axial_stiffness_n: f64,
-    },
-    /// A reel whose rate comes near the speed of waves.
-    #[error(
-        "cable {cable:?}: at {time_s:.3} s its reel turns with {ratio:.2} of the speed of transverse waves: above 0.3 waves of the mesh may \
-         grow; give the cable damping, or a slower rate"
-    )]
-    FastReel {
-        /// Name of the cable.
-        cable: String,
-        /// Time of the largest ratio in s.
-        time_s: f64,
-        /// Rate over the speed of transverse waves.
-        ratio: f64,
-    },
-    /// Too short for its thickness.
-    #[error(
-        "cable {cable:?}: it is {ratio:.3} times as long as thick ({length_m:.4} m, {diameter_m:.3e} m): below 10 its shear is not small, \
-         and it has none; check the section, in m"
-    )]
-    Stubby {
-        /// Name of the cable.
-        cable: String,
-        /// Unstretched length over thickness.
-        ratio: f64,
-        /// Unstretched length in m.
-        length_m: f64,
-        /// Outer diameter or side in m; without a section that of the solid round one with the same EI/EA.
-        diameter_m: f64,
-    },
-    /// Thicker than any cable.
-    #[error("cable {cable:?}: it is {diameter_m} m thick: the section is in m; was {diameter_m} mm meant?")]
-    Thick {
-        /// Name of the cable.
-        cable: String,
-        /// Outer diameter or side in m.
-        diameter_m: f64,
-    },
-    /// Softer than any rope.
-    #[error(
-        "cable {cable:?}: Young's modulus is {youngs_modulus_pa} Pa, softer than any rope or rubber: it is in Pa (steel 2.1e11, rubber \
-         1e6 to 1e8); was {youngs_modulus_pa} GPa meant?"
-    )]
-    SoftMaterial {
-        /// Name of the cable.
-        cable: String,
-        /// Young's modulus in Pa.
-        youngs_modulus_pa: f64,
-    },
     /// A dynamic body that nothing holds and nothing stops.
     #[error(
         "body {body:?}: nothing holds it, and no body is under it: it falls freely, {fall_m:.3e} m in the {duration_s} s of the run; \
@@ -255,6 +146,10 @@ pub enum Warning {
         /// Difference of the velocities in m/s.
         difference_m_s: f64,
     },
+    /// What a cable says about its own mesh, steps, law and sizes.
+    #[error(transparent)]
+    #[serde(untagged)]
+    Cable(#[from] lariat_ancf::Warning),
 }
 
 fn because(contact: bool) -> &'static str {

@@ -68,7 +68,7 @@ fn a_run_writes_its_probes_and_a_summary_with_every_key() {
     assert_eq!((json["simulated_s"].as_f64(), json["failed"].is_null()), (Some(0.1), true));
     assert!(json["effect_evaluations"].as_object().unwrap().is_empty());
     for (name, header, columns) in [
-        ("tip", "t,x,y,z,vx,vy,vz,sx,sy,sz,tension,curvature,moment", 13),
+        ("tip", "t,x,y,z,vx,vy,vz,sx,sy,sz,tension,curvature,moment,tension_uncertainty", 14),
         ("pin", "t,fx,fy,fz,mx,my,mz,gap", 8),
         ("energy", "t,kinetic,axial,bending,gravity,dissipated,interface_work,total", 8),
         ("momentum", "t,px,py,pz,lx,ly,lz", 7),
@@ -325,7 +325,7 @@ fn a_disk_that_fills_up_during_a_run_leaves_whole_rows() {
     let text = fs::read_to_string(folder.path().join("probes/tip.csv")).unwrap();
     assert!(text.ends_with('\n') && text.len() <= 8192);
     let (_, rows) = rows(folder.path().join("probes/tip.csv"));
-    assert!(rows.len() > 20 && rows.iter().all(|row| row.len() == 13 && row.iter().all(|x| x.is_finite())));
+    assert!(rows.len() > 20 && rows.iter().all(|row| row.len() == 14 && row.iter().all(|x| x.is_finite())));
     // the page does not fit either and is removed
     assert!(!folder.path().join("view.html").exists());
 }

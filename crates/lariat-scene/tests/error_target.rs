@@ -77,7 +77,7 @@ fn the_claim_for_the_pendulum_holds_against_the_independent_solver() {
         let claimed = claim.claimed_m.unwrap();
         println!("asked {error:.0e}, claimed {claimed:.1e}, true {error_of_tip:.1e}, cost {:.1}", claim.cost);
         assert!(claim.outcome == Outcome::Proven && claimed <= error && error_of_tip <= claimed && claim.cost < 4.0);
-        let coarse = |w: &Warning| matches!(w, Warning::CoarseMesh { .. });
+        let coarse = |w: &Warning| matches!(w, Warning::Cable(lariat_ancf::Warning::CoarseMesh { .. }));
         assert!(summary.warnings.iter().all(coarse), "{:?}", summary.warnings);
     }
 }

@@ -1,5 +1,6 @@
 //! Warnings: each kind where it is due, none in the scenes of assets/scenes that are resolved.
 
+use lariat_ancf::Warning as CableWarning;
 use lariat_scene::run::{self, Options, Summary};
 use lariat_scene::{Error, Purpose, Scene, Warning};
 use std::path::Path;
@@ -50,7 +51,7 @@ fn a_pendulum_in_si_units_has_no_warning() {
 fn a_modulus_in_gpa_is_told() {
     for (modulus, mass) in [(210.0, 20.0), (70.0, 0.5), (3.5, 1.0)] {
         let warnings = warned(&pendulum([3.0, 0.004, modulus], mass, 0.1, "bob"), Purpose::Run);
-        let soft = Warning::SoftMaterial { cable: "wire".to_string(), youngs_modulus_pa: modulus };
+        let soft = CableWarning::SoftMaterial { cable: "wire".to_string(), youngs_modulus_pa: modulus }.into();
         assert!(warnings.contains(&soft), "{warnings:?}");
         assert!(warnings[0].to_string().contains("in Pa"), "{}", warnings[0]);
     }
@@ -62,7 +63,7 @@ fn a_tension_beyond_the_law_is_told_in_runs_and_in_statics() {
     let beyond = |text: &str, purpose| {
         let warnings = warned(text, purpose);
         let found = warnings.iter().any(|w| {
-            matches!(w, Warning::LargeStrain { cable, tension_n, axial_stiffness_n, .. }
+            matches!(w, Warning::Cable(CableWarning::LargeStrain { cable, tension_n, axial_stiffness_n, .. })
                 if cable == "wire" && *tension_n > 0.05 * axial_stiffness_n)
         });
         assert!(found, "{purpose:?} {warnings:?}");
@@ -84,17 +85,19 @@ fn a_tension_beyond_the_law_is_told_in_runs_and_in_statics() {
 fn a_section_in_mm_is_told() {
     for (length, diameter) in [(5.0, 4.0), (0.3, 2.0), (2.0, 0.5)] {
         let warnings = warned(&pendulum([length, diameter, 2.1e11], 20.0, 0.1, "bob"), Purpose::Run);
-        let stubby =
-            |w: &Warning| matches!(w, Warning::Stubby { ratio, .. } if (ratio * diameter / length - 1.0).abs() < 1e-12);
+        let stubby = |w: &Warning| matches!(w, Warning::Cable(CableWarning::Stubby { ratio, .. }) if (ratio * diameter / length - 1.0).abs() < 1e-12);
         assert!(warnings.iter().any(stubby), "{warnings:?}");
     }
     let long = warned(&pendulum([60.0, 4.0, 2.1e11], 20.0, 0.1, "bob"), Purpose::Run);
-    assert!(long.contains(&Warning::Thick { cable: "wire".to_string(), diameter_m: 4.0 }), "{long:?}");
+    assert!(long.contains(&CableWarning::Thick { cable: "wire".to_string(), diameter_m: 4.0 }.into()), "{long:?}");
     // by its stiffnesses, a round rod of 0.1 m
     let rod = "[[cable]]\nname = \"rod\"\npoints = [[0.0, 0.0, 9.0], [0.8, 0.0, 9.0]]\naxial_stiffness = 1.0e8\n\
                bending_stiffness = 6.25e4\nmass_per_length = 60.0\n[[attachment]]\ncable = \"rod\"\nat = \"start\"\nbody = \"world\"\nkind = \"clamp\"\n";
     let warnings = warned(&format!("duration = 0.02\n{rod}"), Purpose::Run);
-    assert!(matches!(&warnings[..], [Warning::Stubby { ratio, .. }] if (ratio - 8.0).abs() < 1e-9), "{warnings:?}");
+    assert!(
+        matches!(&warnings[..], [Warning::Cable(CableWarning::Stubby { ratio, .. })] if (ratio - 8.0).abs() < 1e-9),
+        "{warnings:?}"
+    );
 }
 
 #[test]
@@ -165,7 +168,9 @@ fn coarse_meshes_are_told_and_the_advice_leads_to_one_that_does() {
         let text = |n: usize| scene.replace(&format!("elements = {own}"), &format!("elements = {n}"));
         let advice = |n: usize| match &warned(&text(n), purpose)[..] {
             [] => None,
-            [Warning::CoarseMesh { enough, .. } | Warning::CoarseElement { enough, .. }] => Some(*enough),
+            [Warning::Cable(CableWarning::CoarseMesh { enough, .. } | CableWarning::CoarseElement { enough, .. })] => {
+                Some(*enough)
+            }
             others => panic!("{name}, {n} elements: {others:?}"),
         };
         let first = advice(elements).unwrap_or_else(|| panic!("{name}, {elements} elements: no warning"));
@@ -189,7 +194,10 @@ fn a_small_motion_on_a_coarse_mesh_is_told() {
     };
     for n in [2, 4] {
         let coarse = warned(&wire(n), Purpose::Run);
-        assert!(matches!(&coarse[..], [Warning::CoarseMotion { elements, .. }] if *elements == n), "{coarse:?}");
+        assert!(
+            matches!(&coarse[..], [Warning::Cable(CableWarning::CoarseMotion { elements, .. })] if *elements == n),
+            "{coarse:?}"
+        );
     }
     assert_eq!(warned(&wire(30), Purpose::Run), []);
 }
@@ -208,5 +216,5 @@ fn scenes_that_are_resolved_have_no_warning() {
         assert_eq!(warned(&asset(name), Purpose::Static), [], "{name}");
     }
     let payload = warned(&asset("payload_pendulum"), Purpose::Run);
-    assert!(matches!(&payload[..], [Warning::CoarseMesh { elements: 10, .. }]), "{payload:?}");
+    assert!(matches!(&payload[..], [Warning::Cable(CableWarning::CoarseMesh { elements: 10, .. })]), "{payload:?}");
 }

@@ -12,8 +12,8 @@
 //!
 //! # Validity
 //!
-//! In statics the indicator is within 0.25 to 4.1 of the largest error of position, for cantilevers, catenaries and clamped boundary
-//! layers (`tests/mesh_indicator.rs`); near the limit point of a column it is up to 20 times too small. In dynamics it is no bound: waves
+//! In statics the indicator is within 0.25 to 4.1 of the largest error of position, for cantilevers, arcs, catenaries and clamped
+//! boundary layers (`tests/mesh_indicator.rs`), and up to ten times too large for a stiff catenary; near the limit point of a column it is up to 20 times too small. In dynamics it is no bound: waves
 //! accumulate errors which it does not see, and it is blind to axial waves.
 //!
 //! # References
@@ -29,6 +29,7 @@
 
 use super::Cable;
 use super::sample::combine;
+use crate::axial::projected;
 use crate::error::Error;
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
@@ -95,8 +96,8 @@ impl Cable {
         Ok(indicator)
     }
 
-    /// Returns the largest jump of the tension between neighbouring elements, in N: about the error of the tension, which converges
-    /// with the first order under bending. `None` if no node can judge.
+    /// Returns the largest jump of the tension between neighbouring elements before it is averaged, in N: a bound of its error that converges
+    /// with the first order under bending, where the average that is read has the second. `None` if no node can judge.
     pub fn tension_jump(&self) -> Option<f64> {
         let mut largest: Option<f64> = None;
         self.visit_elements(|e, judged| {
@@ -105,6 +106,40 @@ impl Cable {
                 largest = Some(largest.map_or(jump, |x| x.max(jump)));
             }
         });
+        largest
+    }
+
+    /// Returns whether tension and shape have no reason to jump at a node between two elements: neither support, load nor another section.
+    pub(super) fn is_smooth_at(&self, node: usize) -> bool {
+        let [a, b] = [&self.elements()[node - 1], &self.elements()[node]];
+        if a.section != b.section || self.model.supports.iter().any(|(held, _)| *held == node) {
+            return false;
+        }
+        if self.model.loads.is_empty() {
+            return true;
+        }
+        let s: f64 = self.elements()[..node].iter().map(|element| element.length).sum();
+        self.model.loads.iter().all(|load| (load.arc_length - s).abs() > 1e-9 * self.length())
+    }
+
+    /// Returns the elastic tension that is the largest share of EA, read at both ends of every element: the share, the tension in N, and
+    /// EA in N there.
+    pub(crate) fn largest_strain(&self) -> (f64, f64, f64) {
+        let (q, mut largest, mut s) = (self.positions(), (0.0, 0.0, 0.0), 0.0);
+        let rest = self.effects().rest_shape.as_ref();
+        for (e, element) in self.elements().iter().enumerate() {
+            let stretch = rest.map_or(1.0, |rest| rest.at(s + 0.5 * element.length).0);
+            s += element.length;
+            let at = self.system.forces.elements.gram_state(e, q, &[]);
+            for xi in [0.0, 1.0] {
+                let strain = projected::strain(&at.g, xi);
+                let share = (strain - 0.5 * (stretch * stretch - 1.0)) * (1.0 + 2.0 * strain).max(0.0).sqrt();
+                if share > largest.0 {
+                    let stiffness = element.section.axial_stiffness;
+                    largest = (share, share * stiffness, stiffness);
+                }
+            }
+        }
         largest
     }
 

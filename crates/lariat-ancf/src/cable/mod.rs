@@ -10,8 +10,7 @@
 //! | [`sample`], [`reactions`], [`energy`] | reading results |
 //! | [`mesh`] | how far the mesh resolves the shape |
 //! | [`linearise`] | matrices at the present state |
-//! | `workspace` | the buffers of a step, which cables share |
-//! | [`fleet`] | a step of many cables |
+//! | `workspace`, [`fleet`] | buffers of a step, shared by cables; a step of many |
 
 pub mod builder;
 mod edit;
@@ -39,6 +38,7 @@ use crate::model::Model;
 use crate::rule::Rule;
 use crate::section::Element;
 use crate::system::{Buffers, CableDynamics, CableStep, Equations, System};
+use crate::warning::Watch;
 use builder::CableBuilder;
 use fearless_simd::Level;
 pub(crate) use layout::along_polyline;
@@ -98,6 +98,8 @@ pub struct Cable {
     scratch: Scratch,
     /// State at the beginning of the host step, restored if it fails.
     before: State,
+    /// Readings of the host steps, if they are asked for.
+    pub(crate) watch: Option<Box<Watch>>,
     /// Counts changes of supports, loads, effects and integrator.
     pub(crate) revision: u64,
 }
@@ -128,6 +130,7 @@ impl Cable {
             step_buffers: discrete_gradient::Buffers::default(),
             scratch: Scratch::default(),
             before: State::default(),
+            watch: None,
             revision: 0,
             model,
             snapshot,
@@ -172,9 +175,12 @@ impl Cable {
         }
         self.check_complete()?;
         if self.has_reel() {
-            return self.step_with_reel(dt, integrator);
+            self.step_with_reel(dt, integrator)?;
+        } else {
+            self.with_workspace(|cable| cable.step_in_workspace(dt, integrator))?;
         }
-        self.with_workspace(|cable| cable.step_in_workspace(dt, integrator))
+        self.note_step();
+        Ok(())
     }
 
     fn step_in_workspace(&mut self, dt: f64, integrator: IntegratorRef<'_>) -> Result<(), Error> {
@@ -361,8 +367,8 @@ impl Cable {
     }
 
     fn no_node(&self, value: f64) -> Error {
-        let limit = self.model.elements.len() as f64;
-        Error::OutOfRange { cable: self.name().to_string(), what: "node", value, limit }
+        let (cable, limit) = (self.name().to_string(), self.model.elements.len() as f64);
+        Error::OutOfRange { cable, what: "node", value, limit }
     }
 
     /// Returns the number of the node at a point.

@@ -7,9 +7,15 @@
 //! oscillation leaves unchanged, and converges one order faster. Curvature is `|r' x r''|/|r'|^3`, moment `EI kappa` about the binormal;
 //! they are read raw. A rest shape and damping change both: `N = EA (eps - eps_0 + tau eps') f`, `EI (kappa - kappa_0 + tau kappa')`.
 //!
+//! At the nodes between elements N jumps by its error, which is of first order under bending, antisymmetric about the middle of each element,
+//! and in proportion to the element's length. The tension that is read is averaged there, with weights that make this error vanish,
+//! `(h_2 N_1 + h_1 N_2)/(h_1 + h_2)`, and what is added to reach the averages is quadratic in the element and vanishes in its middle, which is
+//! right already; at an end, and at a node where the tension itself jumps (a support, a point load, another section), it is the opposite of
+//! what is added at the other node. That makes it second order (`tests/tension.rs`); the jump is given as its uncertainty.
+//!
 //! # References
 //!
-//! Barlow 1976 (superconvergent points).
+//! Barlow 1976 (superconvergent points). Averages at nodes: Hinton and Campbell 1974.
 
 use super::Cable;
 use crate::axial::projected;
@@ -33,12 +39,22 @@ pub struct Sample {
     pub slope: Vector3<f64>,
     /// Green strain (r'.r' - 1)/2, projected on linear functions inside the element.
     pub green_strain: f64,
-    /// Tension EA eps f in N; negative = compression.
+    /// Tension EA eps f in N, averaged at nodes; negative = compression.
     pub tension: f64,
     /// Curvature vector (r' x r'')/|r'|^3 in 1/m: along the binormal.
     pub curvature: Vector3<f64>,
     /// Bending moment EI kappa in N m: along the binormal. Where |r'| < 1/2, the continued power of the bending rule.
     pub moment: Vector3<f64>,
+    /// Uncertainty of the tension in N: the larger of its jumps at the nodes of the element before averaging; all of the tension where no
+    /// node can judge.
+    pub tension_uncertainty: f64,
+}
+
+/// Tension at a node in N: what the elements before and behind it miss to the average, and the jump between them.
+#[derive(Clone, Copy)]
+struct NodeTension {
+    missing: [f64; 2],
+    jump: f64,
 }
 
 /// A nodal quantity inside element `e`, by the weights of its four node vectors.
@@ -48,14 +64,38 @@ pub(in crate::cable) fn combine(x: &[f64], e: usize, weights: [f64; 4]) -> Vecto
 }
 
 impl Cable {
-    /// State of the cable at an arc length of the unstretched cable, in m.
+    /// Returns the state of the cable at an arc length of the unstretched cable, in m.
     ///
     /// # Errors
     /// [`Error::OutOfRange`] if `arc_length` is not in `[0, length]`.
     pub fn sample(&self, arc_length: f64) -> Result<Sample, Error> {
         self.check_arc_length(arc_length)?;
         let (e, xi) = self.model.locate(arc_length);
-        Ok(self.sample_in(e, xi))
+        Ok(self.smooth_in(e, xi))
+    }
+
+    /// Returns the state at a local coordinate of an element, with the tension averaged at nodes.
+    pub(crate) fn smooth_in(&self, e: usize, xi: f64) -> Sample {
+        let raw = self.sample_in(e, xi);
+        let (from, to) = (self.node_tension(e), self.node_tension(e + 1));
+        let jumps = from.into_iter().chain(to).map(|node| node.jump);
+        let Some(tension_uncertainty) = jumps.reduce(f64::max) else { return raw };
+        let [start, end] = [from.map(|node| node.missing[1]), to.map(|node| node.missing[0])];
+        let start = start.or(end.map(|end| -end)).unwrap_or(0.0);
+        let end = end.unwrap_or(-start);
+        let missing = (1.0 - xi) * (1.0 - 2.0 * xi) * start + xi * (2.0 * xi - 1.0) * end;
+        Sample { tension: raw.tension + missing, tension_uncertainty, ..raw }
+    }
+
+    /// Returns the tension at a node between two elements, if it is continuous there.
+    fn node_tension(&self, node: usize) -> Option<NodeTension> {
+        if node == 0 || node == self.elements().len() || !self.is_smooth_at(node) {
+            return None;
+        }
+        let [a, b] = [node - 1, node].map(|e| self.elements()[e].length);
+        let (before, behind) = (self.sample_in(node - 1, 1.0).tension, self.sample_in(node, 0.0).tension);
+        let average = (b * before + a * behind) / (a + b);
+        Some(NodeTension { missing: [average - before, average - behind], jump: (before - behind).abs() })
     }
 
     /// Returns the position at an arc length in m, which is on the cable.
@@ -100,28 +140,28 @@ impl Cable {
             vector_rate: slope.cross(&combine(v, e, shape::second_derivative(xi, length))),
             power: RegularisedPower::new(slope.norm_squared()).cube().sqrt(),
         };
+        let stress = (green_strain + forces.strain_of_effects(&sampled)) * (1.0 + 2.0 * green_strain).max(0.0).sqrt();
+        let tension = element.section.axial_stiffness * stress;
         Sample {
             position: combine(q, e, position),
             velocity,
             slope,
             green_strain,
-            tension: element.section.axial_stiffness
-                * (green_strain + forces.strain_of_effects(&sampled))
-                * (1.0 + 2.0 * green_strain).max(0.0).sqrt(),
+            tension,
+            tension_uncertainty: tension.abs(),
             curvature,
             moment: (regular + forces.curvature_of_effects(&sampled)) * element.section.bending_stiffness,
         }
     }
 
     /// Returns the arc length in m where the tension is largest, and the tension there in N: read at both ends of every element, between
-    /// which it is linear but for the stretch. A point load inside an element makes the reading overshoot at its ends: place a node
-    /// there.
+    /// which it is linear but for the stretch. A point load inside an element makes the reading overshoot at its ends: place a node there.
     pub fn peak_tension(&self) -> (f64, f64) {
         let mut peak = (0.0, f64::NEG_INFINITY);
         let mut from = 0.0;
         for (e, element) in self.elements().iter().enumerate() {
             for xi in [0.0, 1.0] {
-                let tension = self.sample_in(e, xi).tension;
+                let tension = self.smooth_in(e, xi).tension;
                 if tension > peak.1 {
                     peak = (from + xi * element.length, tension);
                 }

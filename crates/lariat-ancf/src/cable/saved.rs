@@ -5,6 +5,7 @@ use crate::diagnostics::Diagnostics;
 use crate::error::Error;
 use crate::integrate::Integrator;
 use crate::model::Model;
+use crate::warning::Watch;
 use serde::{Deserialize, Serialize};
 
 /// A cable as it is serialised.
@@ -19,12 +20,14 @@ pub(super) struct Saved {
     diagnostics: Diagnostics,
     #[serde(default)]
     revision: u64,
+    #[serde(default)]
+    watch: Option<Box<Watch>>,
 }
 
 impl From<Cable> for Saved {
     fn from(cable: Cable) -> Self {
-        let Cable { model, snapshot, integrator, default_integrator, diagnostics, revision, .. } = cable;
-        Saved { model, snapshot, integrator, default_integrator, diagnostics, revision }
+        let Cable { model, snapshot, integrator, default_integrator, diagnostics, revision, watch, .. } = cable;
+        Saved { model, snapshot, integrator, default_integrator, diagnostics, revision, watch }
     }
 }
 
@@ -35,6 +38,7 @@ impl TryFrom<Saved> for Cable {
         cable.default_integrator = saved.default_integrator;
         cable.diagnostics = saved.diagnostics;
         cable.revision = saved.revision;
+        cable.watch = saved.watch;
         Ok(cable)
     }
 }

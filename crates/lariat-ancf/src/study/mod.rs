@@ -267,7 +267,6 @@ impl<F> Runs<F> {
         };
         let at = |elements, tolerance| Resolution { elements, tolerance: Some(tolerance) };
         let tau = self.error / (4.0 * steps);
-        let coarse = self.run(at(first, tau))?;
         let loose = self.run(at(2 * first, 8.0 * tau))?;
         let fine = self.run(at(2 * first, tau))?;
         let saturated = loose.record.steps() as f64 > 0.8 * fine.record.steps() as f64;
@@ -276,7 +275,7 @@ impl<F> Runs<F> {
         let time = Time { error, saturated, tolerance: Some(tau) };
         // a difference that is not finite says nothing about the tolerance: the meshes are compared, and do not agree
         if error <= 0.4 * self.error || !error.is_finite() {
-            return Ok((coarse, fine, time));
+            return Ok((self.run(at(first, tau))?, fine, time));
         }
         let tighter = (tau * 0.3 * self.error / error).max(TIGHTEST * fine.record.longest());
         let time = Time { error: error * tighter / tau, tolerance: Some(tighter), ..time };

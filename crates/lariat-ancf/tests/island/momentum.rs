@@ -149,3 +149,66 @@ fn a_change_of_a_bodys_velocity_is_shared_with_its_cable() {
     assert!((after - linear).norm() < 1e-9 * linear.norm(), "{linear} {after}");
     assert!((angular_after - angular).norm() < 1e-7 * angular.norm(), "{angular} {angular_after}");
 }
+
+/// A cable with both ends on bodies that are driven along smooth paths, as in a co-simulation: what the impulses on the bodies leave of weight
+/// times time is the change of the cable's momentum.
+///
+/// *Source.* Newton: J = weight x time - change of momentum.
+#[test]
+fn impulses_at_driven_ends_are_what_the_cable_loses() {
+    let section = lariat_ancf::Section::from_stiffness(1e5, 40.0, 0.5).unwrap();
+    let game = Integrator { method: Method::DiscreteGradient, control: StepControl::MaxStep(1.0 / 240.0) };
+    let tight = Integrator::tolerance(Method::Esdirk4, 1e-9).unwrap();
+    for (integrator, dt, moving, within) in [
+        (game, 1.0 / 400.0_f64, 0.0, 1e-4),
+        (game, 1.0 / 400.0, 1.0, 2e-2),
+        (game, 1.0 / 1600.0, 1.0, 1e-3),
+        (Integrator::default(), 1.0 / 400.0, 1.0, 2e-2),
+        (tight, 1.0 / 400.0, 1.0, 1e-3),
+        (tight, 1.0 / 1600.0, 1.0, 1e-3),
+    ] {
+        let cable = Cable::builder()
+            .points([Vector3::zeros(), Vector3::new(2.0, 0.0, 0.0)])
+            .section(section)
+            .elements(8)
+            .build()
+            .unwrap();
+        type Path = fn(f64) -> (Vector3<f64>, Vector3<f64>);
+        let paths: [Path; 2] = [
+            |t| (Vector3::x() * (0.1 * (5.0 * t).sin().powi(2)), Vector3::x() * (0.5 * (10.0 * t).sin())),
+            |t| (Vector3::new(-0.2, 0.2, 0.1) * (t * t), Vector3::new(-0.4, 0.4, 0.2) * t),
+        ];
+        let at = |k: usize, t: f64| {
+            let (moved, velocity) = paths[k](t);
+            (Vector3::x() * (2.0 * k as f64) + moved * moving, velocity * moving)
+        };
+        let body = |k: usize| {
+            let mut body = RigidBody::new(1.0, Matrix3::identity(), at(k, 0.0).0).unwrap();
+            body.free = [false; 6];
+            body
+        };
+        let mut scene = Scene::new(vec![cable], vec![body(0), body(1)], integrator)
+            .pin(0, At::Start, 0, Vector3::zeros())
+            .pin(0, At::End, 1, Vector3::zeros());
+        let steps = (0.2 / dt).round() as usize;
+        let (before, mut impulse) = (scene.cables[0].momentum().linear, Vector3::zeros());
+        for step in 0..steps {
+            let (from, to) = (step as f64 * dt, (step + 1) as f64 * dt);
+            for k in 0..2 {
+                let ((x0, v0), (x1, v1)) = (at(k, from), at(k, to));
+                let mut driven = RigidBody::new(1.0, Matrix3::identity(), x0).unwrap();
+                driven.free = [false; 6];
+                driven.velocity = (x1 - x0) / dt;
+                driven.unsteadiness = [v0, v1].map(|v| [v - driven.velocity, Vector3::zeros()]);
+                scene.bodies[k] = driven;
+            }
+            scene.run(dt, 1);
+            impulse += scene.accounts().iter().map(|account| account.impulse).sum::<Vector3<f64>>();
+        }
+        let weight = 0.5 * 2.0 * 9.81 * dt * steps as f64;
+        let lost = impulse + Vector3::y() * weight + scene.cables[0].momentum().linear - before;
+        let share = lost.amax() / weight;
+        println!("{:?}, dt {dt}, moving {moving}: {share:.1e} {lost:?}", integrator.method);
+        assert!(share < within, "{share}");
+    }
+}

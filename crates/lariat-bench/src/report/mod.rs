@@ -12,6 +12,7 @@
 //! | [`taut`] | taut steel cable, plucked | largest distance along the cable after a host step | analytic modes of a rod under tension; derived there |
 //! | [`catenary`] | static catenary | largest distance along the cable | the same law by shooting, [`catenary_reference`] |
 //! | [`model_error`] | errors of T1, T2 and mean strain, separated from those of the mesh | tip distances | `pendulum_converged_tip.csv` |
+//! | [`claims`] | the scenes of assets/scenes: errors of mesh and time, and the cost of an error that is asked for | largest distance of cables and bodies at host times | twice the elements and a quarter of the tolerance |
 //! | [`effects`], [`effect_cases`] | cost of an element and of each effect | | |
 //! | [`coupling`] | gap, energy and momentum with Rapier | distance as in [`payload`]; drifts | the same; conservation |
 //!
@@ -22,6 +23,7 @@
 pub mod catenary;
 pub mod catenary_reference;
 pub mod cheapest;
+pub mod claims;
 pub mod coupling;
 pub mod effect_cases;
 pub mod effects;
@@ -153,7 +155,20 @@ pub fn run(out: &Path, options: &Options, progress: &mut dyn FnMut(Progress<'_>)
     ];
     recorder.record(0, cheapest::TITLE, |o| plain(cheapest::section(o, &scenes)))?;
     recorder.record(last, model_error::TITLE, |o| plain(model_error::section(o)))?;
+    recorder.record(last, claims::TITLE, |o| plain(claims::section(o)))?;
     recorder.record(last, effects::TITLE, |o| plain(effects::section(o)))?;
     recorder.record(last, coupling::TITLE, |o| plain(coupling::section(o)))?;
     Ok(recorder.report)
+}
+
+/// Measures the section of [`claims`] alone, which needs no quiet machine, and replaces it in the page of a report that was made before.
+///
+/// # Errors
+/// [`Error::Read`] without a page; [`Error::Output`]; as [`claims::section`].
+pub fn renew_claims(out: &Path, options: &Options) -> Result<(), Error> {
+    let path = out.join("README.md");
+    let page = std::fs::read_to_string(&path).map_err(|source| Error::Read { path: path.clone(), source })?;
+    let section = claims::section(options)?;
+    section.save(out)?;
+    page::write(&path, &page::replaced(&page, &section))
 }

@@ -2,7 +2,7 @@
 
 use super::common::{bits, cable_of, cube, pin, soft, steps, world};
 use bevy_ecs::prelude::*;
-use lariat_bevy::event::{AttachmentEnded, CableAsleep, CableAwake, StepFailed};
+use lariat_bevy::event::{AttachmentEnded, CableAsleep, CableAwake, CableWarning, StepFailed};
 use lariat_bevy::lariat_rapier::BodyQuantity;
 use lariat_bevy::{At, Attachment, Bending, BodyPose, Cables, Damping, Diagnostics, Error, Physics, lariat_rapier};
 
@@ -29,6 +29,29 @@ fn sleeping_and_waking_send_events() {
     world.resource_mut::<Physics>().bodies[handle].apply_impulse(push, true);
     steps(&mut world, 2);
     assert_eq!(world.resource::<Log>().0, [("asleep", cable), ("awake", cable)]);
+}
+
+/// Young's modulus in GPa, read as Pa: told once, to observers and as a message, and counted.
+#[test]
+fn a_warning_of_a_cable_is_an_event_once() {
+    let mut world = world();
+    world.init_resource::<Log>();
+    world.add_observer(|event: On<CableWarning>, mut log: ResMut<Log>| log.0.push(("warning", event.entity)));
+    let soft = lariat_bevy::Cable::round(0.01, 210.0, 1.0).between([0.0; 3], [0.0, -2.0, 0.0]);
+    let cable = world.spawn((soft, Bending)).id();
+    let good = world.spawn(super::common::soft([5.0, 0.0, 0.0], [5.0, -2.0, 0.0])).id();
+    world.spawn(pin(cable));
+    world.spawn(pin(good));
+    let mut messages: Vec<CableWarning> = Vec::new();
+    for _ in 0..30 {
+        steps(&mut world, 1);
+        messages.extend(world.resource_mut::<Messages<CableWarning>>().drain());
+    }
+    let told = |warning: &CableWarning| warning.entity == cable && warning.warning.to_string().contains("in Pa");
+    assert!(messages.iter().any(told), "{messages:?}");
+    assert!(messages.iter().all(|warning| warning.entity == cable), "{messages:?}");
+    assert_eq!(world.resource::<Log>().0.len(), messages.len());
+    assert_eq!(world.resource::<Diagnostics>().cables.warnings, messages.len() as u64);
 }
 
 /// A body whose velocity is not a number: the step fails with the name of the cable, whose time

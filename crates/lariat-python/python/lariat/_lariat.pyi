@@ -263,6 +263,9 @@ class Cable:
     def sample(self, s: ArrayLike) -> Samples:
         """Reads the cable at one arc length (m), or at an array of shape (n,). Raises OutOfRangeError, ShapeError."""
 
+    def warnings(self) -> list[str]:
+        """Returns what the cable says about its mesh, steps, law and sizes: of all steps in a world, else of the present state."""
+
     def peak_tension(self) -> tuple[float, float]:
         """Returns the arc length in m of the largest tension, and that tension in N."""
 

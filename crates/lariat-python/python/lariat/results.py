@@ -25,13 +25,15 @@ class Sample(NamedTuple):
     slope: Array
     """Slope vector dr/ds; its length is the stretch."""
     tension: float
-    """Tension in N; negative = compression."""
+    """Tension in N, averaged at nodes; negative = compression."""
     curvature: Array
     """Curvature vector in 1/m, along the binormal."""
     moment: Array
     """Bending moment in N m, along the binormal."""
     green_strain: float
     """Green strain, projected on linear functions inside the element."""
+    tension_uncertainty: float
+    """The larger jump of the tension in N at the nodes of the element before averaging; all of it if no node can judge."""
 
 
 class Samples(NamedTuple):
@@ -45,6 +47,7 @@ class Samples(NamedTuple):
     curvature: Array
     moment: Array
     green_strain: Array
+    tension_uncertainty: Array
 
 
 class Reaction(NamedTuple):
@@ -138,7 +141,7 @@ class Attachment(NamedTuple):
 
 
 class Event(NamedTuple):
-    """An event of a step of a world: "asleep", "awake", "broken", "attachment ended"."""
+    """An event of a step of a world: "asleep", "awake", "broken", "attachment ended", or "warning: " and its text."""
 
     kind: str
     cable: Cable | None

@@ -120,7 +120,17 @@ impl Cable {
             return result(
                 py,
                 "Sample",
-                (values[0], position, velocity, slope, at.tension, curvature, moment, at.green_strain),
+                (
+                    values[0],
+                    position,
+                    velocity,
+                    slope,
+                    at.tension,
+                    curvature,
+                    moment,
+                    at.green_strain,
+                    at.tension_uncertainty,
+                ),
             );
         }
         let numbers = |read: fn(&Sample) -> f64| PyArray1::from_iter(py, samples.iter().map(read));
@@ -134,8 +144,14 @@ impl Cable {
             rows(|at| at.curvature)?,
             rows(|at| at.moment)?,
             numbers(|at| at.green_strain),
+            numbers(|at| at.tension_uncertainty),
         );
         result(py, "Samples", values)
+    }
+
+    /// Warnings about the cable.
+    fn warnings(&self, py: Python<'_>) -> PyResult<Vec<String>> {
+        self.read(py, |cable| Ok(cable.warnings().iter().map(ToString::to_string).collect()))
     }
 
     /// Arc length in m of the largest tension, and that tension in N.

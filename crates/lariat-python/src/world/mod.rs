@@ -215,6 +215,9 @@ impl World {
                     ("broken".to_string(), (Some(cable(handle)), Some(cable(rest)), s, tension))
                 }
                 Event::AttachmentEnded { .. } => ("attachment ended".to_string(), none()),
+                Event::Warning { cable: handle, warning } => {
+                    (format!("warning: {warning}"), (Some(cable(handle)), None, None, None))
+                }
                 other => (format!("{other:?}"), none()),
             };
             list.append(result(py, "Event", (kind, first, rest, s, tension))?)?;

@@ -23,4 +23,5 @@ mod sleep;
 mod statics;
 mod substepping;
 mod user_changes;
+mod warnings;
 mod worlds;

@@ -14,6 +14,7 @@ fn rope(from: [f64; 3], to: [f64; 3]) -> CableBuilder {
         mass_per_length: 0.1,
         diameter: None,
         outer_area: None,
+        youngs_modulus: None,
     };
     cable(from, to, section).damping(Damping { axial: 1e-3, bending: 1e-3 })
 }

@@ -114,7 +114,9 @@ impl Physics {
             body,
             problem,
         })?;
-        let cables = CableSet::new();
+        // runs watch the cables themselves
+        let mut cables = CableSet::new();
+        cables.settings.watch = false;
         let (rapier_steps, load_work) = (RAPIER_STEPS, vec![0.0; bodies.len()]);
         Ok(Physics {
             world,

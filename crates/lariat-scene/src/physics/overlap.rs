@@ -4,7 +4,7 @@ use super::Physics;
 use crate::scene::Scene;
 use crate::scene::body::BodyKind;
 use crate::warning::Warning;
-use lariat_rapier::convert::{to_vector, vector};
+use lariat_rapier::convert::to_vector;
 use lariat_rapier::rapier::geometry::{Aabb, BoundingVolume};
 
 /// Depth in m, besides half the thickness of the cable, that is not taken for touching.
@@ -13,34 +13,26 @@ const TOUCHING: f64 = 1e-3;
 impl Physics {
     /// Returns a warning for each cable and body, not attached to each other, with a node of the cable inside the body.
     pub fn inside(&mut self, scene: &Scene) -> Vec<Warning> {
-        let mut warnings = Vec::new();
-        for (c, (_, cable)) in self.cables.iter().enumerate() {
-            let thick = 0.5 * scene.cables[c].section.diameter.unwrap_or(0.0);
-            let arc_lengths = cable.node_arc_lengths();
-            for (b, body) in scene.bodies.iter().enumerate() {
-                if scene.attachments.iter().any(|a| a.cable == c && a.body == Some(b)) {
-                    continue;
-                }
-                let mut deepest = (0.0, TOUCHING.max(thick));
-                for &collider in self.world.bodies[self.bodies[b]].colliders() {
-                    let collider = &self.world.colliders[collider];
-                    for (node, &s) in arc_lengths.iter().enumerate() {
-                        let point = cable.node_position(node);
-                        let surface = collider.shape().project_point(collider.position(), to_vector(&point), false);
-                        let depth = (vector(surface.point) - point).norm();
-                        if surface.is_inside && depth > deepest.1 {
-                            deepest = (s, depth);
-                        }
-                    }
-                }
-                if deepest.1 > TOUCHING.max(thick) {
-                    self.passed.push((c, b));
-                    let (cable, body) = (scene.cables[c].name.clone(), body.name.clone());
-                    warnings.push(Warning::StartsInside { cable, body, at_m: deepest.0, depth_m: deepest.1 });
+        let mut deepest: Vec<(usize, usize, f64, f64)> = Vec::new();
+        for warning in self.cables.warnings(&self.world) {
+            if let lariat_rapier::Warning::InCollider { cable, collider, arc_length, depth, .. } = warning
+                && let Some(c) = self.handles.iter().position(|handle| *handle == cable)
+                && let Some(parent) = self.world.colliders.get(collider).and_then(|collider| collider.parent())
+                && let Some(b) = self.bodies.iter().position(|body| *body == parent)
+            {
+                match deepest.iter_mut().find(|found| (found.0, found.1) == (c, b)) {
+                    Some(found) if found.3 < depth => (found.2, found.3) = (arc_length, depth),
+                    Some(_) => {}
+                    None => deepest.push((c, b, arc_length, depth)),
                 }
             }
         }
-        warnings
+        self.passed.extend(deepest.iter().map(|&(c, b, ..)| (c, b)));
+        let name = |(c, b, at_m, depth_m): (usize, usize, f64, f64)| {
+            let (cable, body) = (scene.cables[c].name.clone(), scene.bodies[b].name.clone());
+            Warning::StartsInside { cable, body, at_m, depth_m }
+        };
+        deepest.into_iter().map(name).collect()
     }
 
     /// Returns a warning for each cable and body, not attached to each other, when the cable is first found in the body although it does not touch it:

@@ -38,6 +38,7 @@ mod error_target;
 mod output;
 mod pieces;
 mod probe;
+mod readings;
 mod recording;
 pub mod schedule;
 mod statics;
@@ -226,7 +227,8 @@ fn simulate(
         note(&mut record, &world);
         output.frame(&world)
     });
-    world.warnings.extend(watch.warnings(scene, options.error));
+    let noted = watch.warnings(&world, options.error);
+    world.warnings.extend(noted);
     tell(&world, options);
     let (cpu, wall, spent) = (cpu.elapsed(), wall.elapsed(), output.spent());
     let (cpu, wall) = (cpu.saturating_sub(spent.0), wall.saturating_sub(spent.1));

@@ -13,9 +13,22 @@ use lariat_ancf::At;
 /// Returns the columns of a probe.
 pub(crate) fn columns(target: Target) -> &'static [&'static str] {
     match target {
-        Target::Point { .. } => {
-            &["t", "x", "y", "z", "vx", "vy", "vz", "sx", "sy", "sz", "tension", "curvature", "moment"]
-        }
+        Target::Point { .. } => &[
+            "t",
+            "x",
+            "y",
+            "z",
+            "vx",
+            "vy",
+            "vz",
+            "sx",
+            "sy",
+            "sz",
+            "tension",
+            "curvature",
+            "moment",
+            "tension_uncertainty",
+        ],
         Target::Body(_) => &["t", "x", "y", "z", "qx", "qy", "qz", "qw", "vx", "vy", "vz", "wx", "wy", "wz"],
         Target::Attachment(_) => &["t", "fx", "fy", "fz", "mx", "my", "mz", "gap"],
         Target::Reel(_) => &["t", "length_out", "rate", "force", "tension", "work"],
@@ -34,6 +47,7 @@ pub(super) fn read(target: Target, world: &mut World, row: &mut Vec<f64>) -> Res
                 row.extend(vector.iter());
             }
             row.extend([sample.tension, sample.curvature.norm(), sample.moment.norm()]);
+            row.push(sample.tension_uncertainty);
         }
         Target::Body(index) => {
             if let Some(body) = world.body(index) {

@@ -109,7 +109,7 @@ impl CableStatics {
         let sag_m = sag(cable, &supports, &scene.gravity)?;
         let mut reactions = Vec::new();
         for (name, at_m) in held {
-            let (force, moment) = super::world::pull(cable, at_m)?;
+            let (force, moment) = super::readings::pull(cable, at_m)?;
             reactions.push(StaticReaction { name, at_m, force_n: force.into(), moment_nm: moment.into() });
         }
         Ok(CableStatics {

@@ -118,8 +118,6 @@ pub struct CableScene {
     pub elements: usize,
     /// Section.
     pub section: Section,
-    /// Young's modulus in Pa, if the section was given by its shape.
-    pub youngs_modulus: Option<f64>,
     /// Force strategy.
     pub rule: Rule,
     /// Effects.
@@ -165,7 +163,6 @@ pub(super) fn read(doc: &Document<'_>, at: &KeyPath, mut row: CableTable) -> Res
         equilibrium: row.initial == Initial::Equilibrium,
         elements: row.elements as usize,
         section,
-        youngs_modulus: row.youngs_modulus,
         rule,
         effects,
         breaking,

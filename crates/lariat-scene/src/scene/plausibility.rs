@@ -1,24 +1,14 @@
 //! What is probably not meant in a scene: sizes and materials that no cable has, bodies that nothing holds.
-//!
-//! Sources of the limits: below ten times its thickness a rod shears visibly (the deflection of a Timoshenko cantilever, nu = 0.3, is 0.8 %
-//! above Euler's at 10, 3 % at 5); the softest technical elastomers have 1e5 Pa; the thickest cables are those of suspension
-//! bridges (Akashi Kaikyo: 1.12 m) and the thickest pipelines 1.42 m (56 inches).
 
 use super::body::{BodyKind, BodyScene, BodyShape};
 use super::{CableScene, Purpose, Scene};
 use crate::warning::Warning;
-
-/// Least length over thickness.
-const SLENDERNESS: f64 = 10.0;
-/// Least Young's modulus in Pa.
-const SOFTEST: f64 = 1e5;
-/// Largest thickness in m.
-const THICKEST: f64 = 1.5;
+use lariat_ancf::warning::sizes;
 
 impl Scene {
     /// Returns warnings about what is probably not meant, as the scene is written.
     pub fn warnings(&self, purpose: Purpose) -> Vec<Warning> {
-        let mut warnings: Vec<Warning> = self.cables.iter().flat_map(of_cable).collect();
+        let mut warnings: Vec<Warning> = self.cables.iter().flat_map(of_cable).map(Warning::Cable).collect();
         if purpose == Purpose::Run {
             warnings.extend(self.falling());
         }
@@ -110,20 +100,6 @@ fn radius(body: &BodyScene) -> f64 {
     }
 }
 
-fn of_cable(cable: &CableScene) -> Vec<Warning> {
-    let mut warnings = Vec::new();
-    let (section, name) = (&cable.section, || cable.name.clone());
-    // a solid round section has EI/EA = (d/4)^2
-    let diameter_m =
-        section.diameter.unwrap_or_else(|| 4.0 * (section.bending_stiffness / section.axial_stiffness).sqrt());
-    let ratio = cable.length / diameter_m;
-    if ratio < SLENDERNESS {
-        warnings.push(Warning::Stubby { cable: name(), ratio, length_m: cable.length, diameter_m });
-    } else if diameter_m > THICKEST && section.diameter.is_some() {
-        warnings.push(Warning::Thick { cable: name(), diameter_m });
-    }
-    if let Some(youngs_modulus_pa) = cable.youngs_modulus.filter(|modulus| *modulus < SOFTEST) {
-        warnings.push(Warning::SoftMaterial { cable: name(), youngs_modulus_pa });
-    }
-    warnings
+fn of_cable(cable: &CableScene) -> impl Iterator<Item = lariat_ancf::Warning> {
+    sizes::warnings(&cable.name, &cable.section, cable.length)
 }

@@ -101,7 +101,7 @@ impl Cable {
 
     /// Returns tension (N) and strain at a local coordinate of an element.
     fn load_in(&self, e: usize, xi: f64) -> (f64, f64) {
-        let sample = self.sample_in(e, xi);
+        let sample = self.smooth_in(e, xi);
         let middle = || self.node_arc_lengths()[e] + 0.5 * self.elements()[e].length;
         let rest = self.effects().rest_shape.as_ref().map_or(1.0, |shape| shape.at(middle()).0);
         (sample.tension, (1.0 + 2.0 * sample.green_strain).max(0.0).sqrt() / rest - 1.0)

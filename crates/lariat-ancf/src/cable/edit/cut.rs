@@ -62,9 +62,11 @@ impl Cable {
         let windings = [None, at_end];
         let tail_state =
             Snapshot { state: part(&state.q[begin..], &state.v[begin..]), windings, ..Snapshot::default() };
-        let tail = Cable::from_parts(tail, tail_state, self.integrator)?;
+        let mut tail = Cable::from_parts(tail, tail_state, self.integrator)?;
+        tail.set_watched(self.is_watched());
         let mut head = Cable::from_parts(head, head_state, self.integrator)?;
         head.diagnostics = self.diagnostics;
+        head.watch = self.watch.take();
         head.revision = self.revision;
         head.revise();
         *self = head;

@@ -87,6 +87,7 @@ impl Cable {
         }
         let mut cable = Cable::from_parts(model, snapshot, self.integrator)?;
         cable.diagnostics = self.diagnostics;
+        cable.watch = self.watch.take();
         cable.default_integrator = self.default_integrator;
         cable.revision = self.revision;
         cable.snapshot.inserted_energy += strain_energy(&cable) - before;

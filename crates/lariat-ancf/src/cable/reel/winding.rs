@@ -83,7 +83,10 @@ pub struct ReelReading {
 impl Cable {
     /// Returns what the reel at an end does now; `None` without one.
     pub fn reel(&self, at: impl Into<At>) -> Option<ReelReading> {
-        let side = self.side(at.into())?;
+        self.reel_at(self.side(at.into())?)
+    }
+
+    fn reel_at(&self, side: Side) -> Option<ReelReading> {
         let winding = self.snapshot.windings[side as usize]?;
         let flow = self.system.flows.list.iter().find(|flow| flow.side == side)?;
         let memory = &self.snapshot.state.memory;
@@ -116,7 +119,7 @@ impl Cable {
 
     /// Returns what the reels of the cable do now.
     pub fn reels(&self) -> impl Iterator<Item = ReelReading> {
-        [At::Start, At::End].into_iter().filter_map(|at| self.reel(at))
+        self.model.reels.sides().filter_map(|side| self.reel_at(side))
     }
 
     /// Returns the reel of an end as it was described; `None` without one.

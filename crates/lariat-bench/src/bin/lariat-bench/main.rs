@@ -49,6 +49,9 @@ enum Command {
         /// Measure the coarsest settings with few runs: below a minute
         #[arg(long)]
         quick: bool,
+        /// Measure the errors of the scenes alone, which are counts, and replace that section of a page made before
+        #[arg(long, conflicts_with_all = ["quick", "readme"])]
+        claims: bool,
         /// Put the tables of a README between their marks in this file too
         #[arg(long, value_name = "FILE")]
         readme: Option<PathBuf>,
@@ -61,7 +64,10 @@ fn main() -> ExitCode {
         Command::Stability(arguments) => stability::measure(&arguments),
         Command::Coupling { out } => measure_coupling(&out),
         Command::Table1 { csv } => measure_table1(csv.as_deref()),
-        Command::Report { out, quick, readme } => make_report(&out, quick, readme.as_deref()),
+        Command::Report { out, claims: true, .. } => {
+            report::renew_claims(&out, &report::Options::full()).map(|()| String::new())
+        }
+        Command::Report { out, quick, readme, .. } => make_report(&out, quick, readme.as_deref()),
     };
     match outcome {
         Ok(text) => {

@@ -1,0 +1,34 @@
+//! Sections and materials that no cable has: probably another unit was meant.
+//!
+//! # Validity
+//!
+//! Sources of the limits: below ten times its thickness a rod shears visibly (the deflection of a Timoshenko cantilever, nu = 0.3, is 0.8 %
+//! above Euler's at 10, 3 % at 5); the softest technical elastomers have 1e5 Pa; the thickest cables are those of suspension
+//! bridges (Akashi Kaikyo: 1.12 m) and the thickest pipelines 1.42 m (56 inches).
+
+use super::Warning;
+use crate::section::Section;
+
+/// Least length over thickness.
+const SLENDERNESS: f64 = 10.0;
+/// Least Young's modulus in Pa.
+const SOFTEST: f64 = 1e5;
+/// Largest thickness in m.
+const THICKEST: f64 = 1.5;
+
+/// Returns the warnings about the section and the unstretched length (m) of a cable.
+pub fn warnings(cable: &str, section: &Section, length_m: f64) -> impl Iterator<Item = Warning> {
+    // a solid round section has EI/EA = (d/4)^2
+    let solid = || 4.0 * (section.bending_stiffness / section.axial_stiffness).sqrt();
+    let diameter_m = section.diameter.unwrap_or_else(solid);
+    let (ratio, name) = (length_m / diameter_m, || cable.to_string());
+    let shape = if ratio < SLENDERNESS {
+        Some(Warning::Stubby { cable: name(), ratio, length_m, diameter_m })
+    } else {
+        let thick = section.diameter.is_some_and(|diameter| diameter > THICKEST);
+        thick.then(|| Warning::Thick { cable: name(), diameter_m })
+    };
+    let soft = section.youngs_modulus.filter(|modulus| *modulus < SOFTEST);
+    let material = soft.map(|youngs_modulus_pa| Warning::SoftMaterial { cable: name(), youngs_modulus_pa });
+    shape.into_iter().chain(material)
+}

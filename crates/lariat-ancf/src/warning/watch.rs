@@ -1,0 +1,266 @@
+//! The worst readings of a cable over a run, and what they are worth a warning for.
+//!
+//! # Validity
+//!
+//! Limits of the error of position: 2e-3 of the length, and a tenth of the largest displacement. Both were found on 30 scenes: what exceeds
+//! them was off by 0.2 to 11 % of the length, what does not by less than 0.25 %. A mesh is judged as
+//! [`Cable::mesh_indicator`] says, steps as `steps` says; the strain by the law of the material, which is 7.5 % above Hooke's at 5 %.
+
+use super::steps::{Estimate, Steps};
+use super::{Warning, sizes};
+use crate::cable::Cable;
+use serde::{Deserialize, Serialize};
+
+/// Largest estimate of an error of position without a warning, as a share of the length.
+const ERROR: f64 = 2e-3;
+/// Largest estimate of the error of a displacement without a warning, as a share of the largest displacement.
+const MOTION: f64 = 0.1;
+/// Errors of a displacement below this share of the length are those of integrators and statics.
+const ROUNDING: f64 = 1e-5;
+/// Largest angle in rad between the end slopes of an element that no node judges.
+const TURN: f64 = 0.2;
+/// Largest tension over EA.
+const STRAIN: f64 = 0.05;
+/// Largest rate of a reel over the speed of transverse waves.
+const REEL: f64 = 0.3;
+/// Largest number of elements that is advised.
+const MOST: f64 = 1e6;
+
+/// The worst readings of a cable so far.
+///
+/// ```
+/// use lariat_ancf::{At, Cable, Section, Vector3, Warning, Watch};
+///
+/// let mut cable = Cable::builder()
+///     .points([Vector3::zeros(), Vector3::new(2.0, 0.0, 0.0)])
+///     .section(Section::square(0.01, 1.0e8, 4000.0)?)
+///     .fix(At::Start)
+///     .elements(3)
+///     .build()?;
+/// let mut watch = Watch::new(&cable);
+/// for _ in 0..100 {
+///     cable.step(0.01)?;
+///     watch.note(&cable);
+/// }
+/// let warnings = watch.warnings(&cable, None);
+/// assert!(matches!(&warnings[..], [Warning::CoarseMesh { elements: 3, enough, .. }] if *enough > 6));
+/// # Ok::<(), lariat_ancf::Error>(())
+/// ```
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Watch {
+    /// Positions that displacements are counted from; `None` if they are a guess of the shape.
+    start: Option<Vec<f64>>,
+    /// Estimate of the error of position in m.
+    position: f64,
+    /// Estimate of the error of the displacement in m: the less of those of the shape and of its change.
+    motion: f64,
+    /// Largest displacement in m.
+    displacement: f64,
+    /// Angle in rad between the end slopes of an element.
+    turn: f64,
+    /// Largest tension over EA, the tension in N, EA in N, and its time in s.
+    tension: [f64; 4],
+    /// Largest rate of a reel over the speed of transverse waves, and its time in s.
+    reel: (f64, f64),
+    steps: Steps,
+    /// Time of the last note in s.
+    noted: Option<f64>,
+    /// Laws that were counted, and told of, by bit.
+    counted: u16,
+    told: u16,
+}
+
+/// A law that judges the readings; the error (m) that is asked for takes the place of its limit.
+type Law = fn(&Watch, &Cable, Option<f64>) -> Option<Warning>;
+
+/// Laws in the order of warnings; the flag says that one holds at every time, not for the whole run only.
+const LAWS: [(Law, bool); 6] = [
+    (Watch::strain, true),
+    (Watch::mesh, true),
+    (Watch::small_motion, false),
+    (Watch::single_elements, true),
+    (Watch::long_steps, true),
+    (Watch::fast_reel, true),
+];
+
+/// The bit of warnings about sizes.
+const SIZES: u16 = 1 << 15;
+
+impl Watch {
+    /// Begins with a cable as it is: displacements are counted from there.
+    pub fn new(cable: &Cable) -> Self {
+        Watch { start: Some(cable.positions().to_vec()), ..Watch::default() }
+    }
+
+    /// Begins with a cable whose shape is a guess, as that of a cable before statics: its displacement says nothing.
+    pub fn from_guess() -> Self {
+        Watch::default()
+    }
+
+    /// Reads the cable at a host time, once at each.
+    pub fn note(&mut self, cable: &Cable) {
+        if self.noted.replace(cable.time()) == Some(cable.time()) {
+            return;
+        }
+        let shape = cable.mesh_indicator();
+        self.position = self.position.max(shape.position);
+        self.turn = self.turn.max(shape.turn);
+        // a cable that was cut or has another mesh is another one
+        if self.start.as_ref().is_some_and(|start| start.len() != cable.positions().len()) {
+            self.start = None;
+        }
+        if let Some(Ok(motion)) = self.start.as_ref().map(|start| cable.motion_indicator(start)) {
+            self.motion = self.motion.max(motion.error.min(shape.position));
+            self.displacement = self.displacement.max(motion.displacement);
+        }
+        let ratio = cable.reels().map(|reel| reel.speed_ratio).fold(0.0, f64::max);
+        if ratio.is_finite() && ratio > self.reel.0 && cable.effects().damping.is_none() {
+            self.reel = (ratio, cable.time());
+        }
+        let (share, tension, stiffness) = cable.largest_strain();
+        if share > self.tension[0] {
+            self.tension = [share, tension, stiffness, cable.time()];
+        }
+        self.steps.note(cable);
+    }
+
+    /// Returns the warnings about what was noted. If an error of positions (m) is asked for, that is the limit of the mesh, and only of its
+    /// indicator: a [study](crate::study) judges what nodes cannot, and chooses the steps.
+    pub fn warnings(&self, cable: &Cable, error: Option<f64>) -> Vec<Warning> {
+        LAWS.iter().filter_map(|(law, _)| law(self, cable, error)).collect()
+    }
+
+    /// Calls `tell` with each warning that is due and was not told yet, about sizes first; those that only a whole run can judge are left to
+    /// [`warnings`](Self::warnings).
+    pub fn raise(&mut self, cable: &Cable, tell: impl FnMut(Warning)) {
+        self.told |= self.due(cable, self.told, tell);
+    }
+
+    /// Returns the laws that are due beyond those that are `known`, by bit, and calls `tell` with their warnings.
+    fn due(&self, cable: &Cable, known: u16, mut tell: impl FnMut(Warning)) -> u16 {
+        let mut new = 0;
+        if known & SIZES == 0 {
+            new |= SIZES;
+            cable.size_warnings().for_each(&mut tell);
+        }
+        for (k, (law, always)) in LAWS.iter().enumerate() {
+            let bit = 1 << k;
+            if *always
+                && known & bit == 0
+                && let Some(warning) = law(self, cable, None)
+            {
+                new |= bit;
+                tell(warning);
+            }
+        }
+        new
+    }
+
+    fn strain(&self, cable: &Cable, _: Option<f64>) -> Option<Warning> {
+        let [share, tension_n, axial_stiffness_n, time_s] = self.tension;
+        let cable = || cable.name().to_string();
+        (share > STRAIN).then(|| Warning::LargeStrain { cable: cable(), time_s, tension_n, axial_stiffness_n })
+    }
+
+    fn mesh(&self, cable: &Cable, error: Option<f64>) -> Option<Warning> {
+        let (elements, limit) = (cable.elements().len(), error.unwrap_or(ERROR * cable.length()));
+        (self.position > limit).then(|| {
+            let enough = more(elements, self.position / (0.5 * limit));
+            Warning::CoarseMesh { cable: cable.name().to_string(), error_m: self.position, elements, enough }
+        })
+    }
+
+    fn small_motion(&self, cable: &Cable, error: Option<f64>) -> Option<Warning> {
+        let (elements, limit) = (cable.elements().len(), MOTION * self.displacement);
+        let judged = error.is_none() && self.position <= ERROR * cable.length();
+        (judged && self.motion > limit && self.motion > ROUNDING * cable.length()).then(|| {
+            let enough = more(elements, self.motion / (0.5 * limit));
+            let (cable, displacement_m) = (cable.name().to_string(), self.displacement);
+            Warning::CoarseMotion { cable, error_m: self.motion, displacement_m, elements, enough }
+        })
+    }
+
+    fn single_elements(&self, cable: &Cable, error: Option<f64>) -> Option<Warning> {
+        (error.is_none() && self.turn > TURN).then(|| {
+            // an arc of this angle, divided into k elements, has the indicator h turn^3/(96 k^4), h its length
+            let parts = (self.turn.powi(3) / (96.0 * 0.5 * ERROR)).powf(0.25).max(2.0);
+            let elements = cable.elements().len();
+            let enough = (elements as f64 * parts).ceil().clamp(4.0, MOST) as usize;
+            Warning::CoarseElement { cable: cable.name().to_string(), turn_rad: self.turn, elements, enough }
+        })
+    }
+
+    fn long_steps(&self, cable: &Cable, error: Option<f64>) -> Option<Warning> {
+        let Estimate { error: error_m, time: time_s, step: step_s } = self.steps.worst;
+        let limit = ERROR * cable.length();
+        (error.is_none() && error_m > limit).then(|| {
+            let enough_s = step_s * (0.5 * limit / error_m).sqrt();
+            Warning::LongSteps { cable: cable.name().to_string(), time_s, error_m, step_s, enough_s }
+        })
+    }
+
+    fn fast_reel(&self, cable: &Cable, _: Option<f64>) -> Option<Warning> {
+        let (ratio, time_s) = self.reel;
+        (ratio > REEL).then(|| Warning::FastReel { cable: cable.name().to_string(), time_s, ratio })
+    }
+}
+
+impl Cable {
+    /// Returns the warnings about the cable: those of all host steps since it is [watched](Self::set_watched); else those of its present
+    /// shape and tension. Warnings about section and material are always among them.
+    pub fn warnings(&self) -> Vec<Warning> {
+        let noted = self.watch.as_deref().map(|watch| watch.warnings(self, None));
+        let noted = noted.unwrap_or_else(|| {
+            let mut watch = Watch::from_guess();
+            watch.note(self);
+            watch.warnings(self, None)
+        });
+        self.size_warnings().chain(noted).collect()
+    }
+
+    /// Returns the warnings about sections and materials.
+    fn size_warnings(&self) -> impl Iterator<Item = Warning> {
+        let mut last = None;
+        let other = move |element: &&crate::Element| last.replace(element.section) != Some(element.section);
+        let sections = self.elements().iter().filter(other);
+        sections.flat_map(|element| sizes::warnings(self.name(), &element.section, self.length()))
+    }
+
+    /// Lets the cable read itself after each of its host steps, or no longer: [`warnings`](Self::warnings) are then those of all of them, and
+    /// [`Diagnostics::warnings`](crate::Diagnostics::warnings) counts them. Displacements are counted from now. Default: not, which costs
+    /// nothing; a `CableSet` of lariat-rapier watches its cables.
+    pub fn set_watched(&mut self, watched: bool) {
+        self.watch = watched.then(|| Box::new(Watch::new(self)));
+    }
+
+    /// Returns whether the cable reads itself.
+    pub fn is_watched(&self) -> bool {
+        self.watch.is_some()
+    }
+
+    /// Reads the cable at the end of one of its own steps, if it is watched, and counts the warnings that are new.
+    pub(crate) fn note_step(&mut self) {
+        let Some(mut watch) = self.watch.take() else { return };
+        watch.note(self);
+        let mut new = 0;
+        watch.counted |= watch.due(self, watch.counted, |_| new += 1);
+        self.diagnostics_mut().warnings += new;
+        self.watch = Some(watch);
+    }
+
+    /// Reads the cable at the end of a host step, if it is watched, and calls `tell` with each warning that it was not called with before. For
+    /// those who step [islands](crate::island), and those who want to hear of warnings as they come up.
+    pub fn note_host_step(&mut self, tell: impl FnMut(Warning)) {
+        self.note_step();
+        if let Some(mut watch) = self.watch.take() {
+            watch.raise(self, tell);
+            self.watch = Some(watch);
+        }
+    }
+}
+
+/// Returns a number of elements that makes an error `factor` times smaller, if it falls with the power 2.5 of the element length: smooth
+/// shapes that are resolved converge with 3 to 4, the falling pendulum from 2 to 8 elements with 2 to 3.
+fn more(elements: usize, factor: f64) -> usize {
+    (elements as f64 * factor.powf(0.4)).ceil().min(MOST) as usize
+}

@@ -1,0 +1,141 @@
+//! Warnings of a cable about itself: by its sizes, its present state, and the host steps that it has made.
+
+mod common;
+
+use common::Random;
+use lariat_ancf::{At, Cable, CableBuilder, Integrator, Method, Section, StepControl, Vector3, Warning};
+use std::f64::consts::PI;
+
+const GRAVITY: f64 = 9.81;
+
+/// A rope that hangs from the origin, `angle` rad from the vertical, and its small-angle frequency as a rigid body in rad/s. The last tenth is
+/// `heavy` times as heavy as the rest.
+fn swing(length: f64, heavy: f64, angle: f64) -> (CableBuilder, f64) {
+    let end = Vector3::new(angle.sin(), -angle.cos(), 0.0) * length;
+    let rope = Section::from_stiffness(1e5, 1e-3, 0.2).unwrap();
+    let weight = Section { mass_per_length: 0.02 * heavy + 0.2, ..rope };
+    let line = Cable::builder().points([Vector3::zeros(), end]).section(rope).section_from(0.9 * length, weight);
+    let share = 0.1 * heavy;
+    let moment = 0.2 * length * length * (0.5 + 0.5 * share * (1.0 - 0.81));
+    let inertia = 0.2 * length.powi(3) / 3.0 * (1.0 + share * (1.0 - 0.729));
+    (line.fix(At::Start).elements(10), (GRAVITY * moment / inertia).sqrt())
+}
+
+fn watched(builder: CableBuilder, integrator: Integrator) -> Cable {
+    let mut cable = builder.integrator(integrator).build().unwrap();
+    cable.set_watched(true);
+    cable
+}
+
+fn long_steps(cable: &Cable) -> Option<(f64, f64, f64)> {
+    cable.warnings().into_iter().find_map(|warning| match warning {
+        Warning::LongSteps { error_m, step_s, enough_s, .. } => Some((error_m, step_s, enough_s)),
+        _ => None,
+    })
+}
+
+/// Swings of lengths from 0.1 to 50 m, light and heavy at the end, of small and large angles, with the three methods of second order: the
+/// error of one oscillation is within a factor of five of what is told, steps as long as is advised have no warning, and a tolerance has none.
+///
+/// *Source.* The same mesh with error control at 1e-8 of the length.
+#[test]
+fn steps_that_are_too_long_for_a_swing_are_told_with_its_error() {
+    let mut random = Random::new(3);
+    let mut ratios = Vec::new();
+    for case in 0..24 {
+        let length = 10f64.powf(0.35 + 1.35 * random.next());
+        let heavy = [0.0, 20.0, 300.0][case % 3];
+        let angle = 0.6 + 0.4 * random.next();
+        let method = [Method::DiscreteGradient, Method::Midpoint, Method::Trapezoid][case / 3 % 3];
+        let (builder, omega) = swing(length, heavy, angle);
+        let turn = 0.5 + 0.2 * random.next(); // omega h
+        let dt = turn / omega;
+        let steps = (2.5 * PI / turn).ceil() as usize;
+        let fixed = Integrator { method, control: StepControl::Substeps(1) };
+        let mut coarse = watched(builder.clone(), fixed);
+        let fine = Integrator::tolerance(Method::Esdirk4, 1e-8 * length).unwrap();
+        let mut fine = watched(builder.clone(), fine);
+        let mut off: f64 = 0.0;
+        let failed = (0..steps).any(|_| {
+            fine.step(dt).unwrap();
+            let failed = coarse.step(dt).is_err();
+            for node in 0..coarse.nodes() {
+                off = off.max((coarse.node_position(node) - fine.node_position(node)).norm());
+            }
+            failed
+        });
+        assert_eq!(long_steps(&fine), None);
+        let told = long_steps(&coarse);
+        let (share, error) = (off / length, told.map_or(0.0, |(error, ..)| error / length));
+        println!(
+            "{method:?}: {length:.2} m, {heavy}, {angle:.2} rad, omega h = {turn:.2}: off by {share:.4} L, told {error:.4} L"
+        );
+        // the check of the energy divides steps, and refuses those that it cannot
+        if failed || coarse.diagnostics().steps > steps as u64 {
+            assert_ne!(method, Method::DiscreteGradient);
+            continue;
+        }
+        let Some((_, _, enough)) = told else {
+            assert!(share < 4e-3, "{share}");
+            continue;
+        };
+        ratios.push(error / share);
+        let mut enough_steps = watched(builder, Integrator { method, control: StepControl::MaxStep(enough) });
+        (0..steps).for_each(|_| enough_steps.step(dt).unwrap());
+        assert_eq!(long_steps(&enough_steps), None, "{:?}", enough_steps.warnings());
+    }
+    ratios.sort_by(f64::total_cmp);
+    println!("told over true: {ratios:.2?}");
+    assert!(ratios.len() >= 8 && ratios[0] > 0.2 && ratios[ratios.len() - 1] < 5.0, "{ratios:?}");
+}
+
+/// A watched cable counts its warnings once each, and goes on doing so after it was saved; one that is not costs nothing and judges the
+/// present.
+#[test]
+fn warnings_are_counted_once_and_saved_with_the_cable() {
+    let build = || {
+        Cable::builder()
+            .points([Vector3::zeros(), Vector3::new(2.0, 0.0, 0.0)])
+            .section(Section::square(0.01, 1.0e8, 4000.0).unwrap())
+            .fix(At::Start)
+            .elements(3)
+            .build()
+            .unwrap()
+    };
+    let (mut watched, mut plain) = (build(), build());
+    watched.set_watched(true);
+    assert!(watched.warnings().is_empty() && plain.warnings().is_empty());
+    for step in 0..200 {
+        watched.step(0.01).unwrap();
+        plain.step(0.01).unwrap();
+        if step == 60 {
+            let saved = serde_json::to_string(&watched).unwrap();
+            let read: Cable = serde_json::from_str(&saved).unwrap();
+            assert_eq!((read.warnings(), read.diagnostics()), (watched.warnings(), watched.diagnostics()));
+            watched = read;
+        }
+    }
+    assert_eq!(watched.positions(), plain.positions());
+    assert!(matches!(&watched.warnings()[..], [Warning::CoarseMesh { elements: 3, .. }]), "{:?}", watched.warnings());
+    assert_eq!((watched.diagnostics().warnings, plain.diagnostics().warnings), (1, 0));
+    // a part is watched, too, and follows its own readings
+    let rest = watched.cut(At::Node(1)).unwrap();
+    assert!(rest.is_watched() && watched.is_watched());
+    watched.set_watched(false);
+    assert_eq!(plain.is_watched(), watched.is_watched());
+}
+
+/// Sizes and materials in other units, by the section alone.
+#[test]
+fn sizes_in_other_units_are_told() {
+    let told = |section: Section, length: f64| {
+        let line = Cable::builder().points([Vector3::zeros(), Vector3::x() * length]).section(section).fix(At::Start);
+        line.build().unwrap().warnings()
+    };
+    assert!(matches!(&told(Section::round(4.0, 2e11, 7850.0).unwrap(), 5.0)[..], [Warning::Stubby { .. }]));
+    assert!(matches!(&told(Section::square(3.0, 2e11, 7850.0).unwrap(), 50.0)[..], [Warning::Thick { .. }]));
+    let soft = Section::tube(0.02, 0.01, 210.0, 7850.0).unwrap();
+    assert!(matches!(&told(soft, 5.0)[..], [Warning::SoftMaterial { youngs_modulus_pa: 210.0, .. }]));
+    assert_eq!(told(Section::tube(0.02, 0.01, 2.1e11, 7850.0).unwrap(), 5.0), []);
+    assert_eq!(told(Section::wire_rope(0.02).unwrap(), 5.0), []);
+}

@@ -1,0 +1,95 @@
+//! Warnings about cables in their world, beside those that a cable has by itself.
+//!
+//! Cables of a set are watched ([`Settings::watch`](crate::Settings::watch)): each warning of [`lariat_ancf::warning`] is an
+//! [`Event::Warning`] once, after the host step in which it came up. [`CableSet::warnings`] returns all at any time.
+
+use crate::contents::Contents;
+use crate::convert::{to_vector, vector};
+use crate::events::Event;
+use crate::handle::CableHandle;
+use crate::set::CableSet;
+use rapier::geometry::{Collider, ColliderHandle};
+use rapier::pipeline::PhysicsWorld;
+
+/// Depth in m, besides half the thickness of the cable, that is not taken for touching.
+const TOUCHING: f64 = 1e-3;
+
+/// A warning about a cable of a set; its text says what to do.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum Warning {
+    /// What the cable says about itself.
+    #[error("{warning}")]
+    Cable {
+        /// The cable.
+        cable: CableHandle,
+        /// Its warning.
+        warning: lariat_ancf::Warning,
+    },
+    /// A node of a cable is inside a collider of a body that it is not attached to.
+    #[error(
+        "cable {name:?}: at {arc_length:.4} m it is {depth:.2e} m inside a collider: contact does not push it out, and without contact it \
+         passes through; check the points of the cable and the place of the collider"
+    )]
+    InCollider {
+        /// The cable.
+        cable: CableHandle,
+        /// Its name.
+        name: String,
+        /// The collider.
+        collider: ColliderHandle,
+        /// Arc length of the deepest node in m.
+        arc_length: f64,
+        /// Its distance from the surface in m.
+        depth: f64,
+    },
+}
+
+impl CableSet {
+    /// Returns the warnings about all cables: those that the cables have
+    /// ([`Cable::warnings`](lariat_ancf::Cable::warnings)), and nodes inside colliders. Worth a look when a world has been
+    /// built.
+    pub fn warnings(&self, world: &PhysicsWorld) -> Vec<Warning> {
+        let mut warnings = Vec::new();
+        for (cable, slot) in self.contents.cables.iter() {
+            let handle = CableHandle(cable as u32);
+            warnings.extend(slot.cable.warnings().into_iter().map(|warning| Warning::Cable { cable: handle, warning }));
+            for (collider, shape) in world.colliders.iter().filter(|(_, collider)| !collider.is_sensor()) {
+                let attached = self.contents.attachments.values();
+                if attached.into_iter().any(|a| a.cable == handle && Some(a.body) == shape.parent()) {
+                    continue;
+                }
+                if let Some((arc_length, depth)) = deepest(&slot.cable, shape) {
+                    let name = slot.cable.name().to_string();
+                    warnings.push(Warning::InCollider { cable: handle, name, collider, arc_length, depth });
+                }
+            }
+        }
+        warnings
+    }
+}
+
+/// Returns arc length and depth in m of the node that is deepest in a collider, if one is in it.
+fn deepest(cable: &lariat_ancf::Cable, collider: &Collider) -> Option<(f64, f64)> {
+    let diameter = |element: &lariat_ancf::Element| element.section.diameter.unwrap_or(0.0);
+    let thickness = cable.elements().iter().map(diameter).fold(0.0, f64::max);
+    let mut deepest = (0.0, TOUCHING.max(0.5 * thickness));
+    for (node, s) in cable.node_arc_lengths().into_iter().enumerate() {
+        let point = cable.node_position(node);
+        let surface = collider.shape().project_point(collider.position(), to_vector(&point), false);
+        let depth = (vector(surface.point) - point).norm();
+        if surface.is_inside && depth > deepest.1 {
+            deepest = (s, depth);
+        }
+    }
+    (deepest.1 > TOUCHING.max(0.5 * thickness)).then_some(deepest)
+}
+
+/// Reads the cables at the end of a host step; what is new is an event.
+pub(crate) fn note(contents: &mut Contents, events: &mut Vec<Event>) {
+    for index in 0..contents.cables.len() {
+        let Some(slot) = contents.cables.get_mut(index).filter(|slot| !slot.asleep) else { continue };
+        let cable = CableHandle(index as u32);
+        slot.cable.note_host_step(|warning| events.push(Event::Warning { cable, warning }));
+    }
+}

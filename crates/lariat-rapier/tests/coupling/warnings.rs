@@ -1,0 +1,95 @@
+//! Warnings of a set: as events, once each, and when asked for.
+
+use super::common::{add_cube, cable, run, soft};
+use lariat_rapier::lariat_ancf::{At, Section, Warning as CableWarning};
+use lariat_rapier::rapier::prelude::*;
+use lariat_rapier::{AttachmentKind, CableHandle, CableSet, Event, Warning};
+
+fn told(set: &mut CableSet, world: &mut PhysicsWorld, steps: usize) -> Vec<(CableHandle, CableWarning)> {
+    let mut told = Vec::new();
+    for _ in 0..steps {
+        run(world, set, 1);
+        told.extend(set.take_events().into_iter().filter_map(|event| match event {
+            Event::Warning { cable, warning } => Some((cable, warning)),
+            _ => None,
+        }));
+    }
+    told
+}
+
+/// A load of 50 kg that swings on two elements and on twelve, on a cable that the load stretches by a tenth, and on one as thick as
+/// long: each has its warning once, at a host step, and a good one has none.
+#[test]
+fn warnings_are_events_once_for_each_cable() {
+    let mut world = PhysicsWorld::new();
+    let mut set = CableSet::new();
+    let load = 50.0 * 9.81;
+    let sections = [
+        (2, soft()),
+        (12, soft()),
+        (12, Section::from_stiffness(10.0 * load, 1e-4, 0.4).unwrap()),
+        (12, Section::round(0.5, 2e11, 10.0).unwrap()),
+    ];
+    let mut cables = Vec::new();
+    for (i, (elements, section)) in sections.into_iter().enumerate() {
+        let z = 3.0 * i as f64;
+        // slack: it drops, bends and is pulled taut; the stretched and the thick one only hang
+        let across = if i < 2 { 1.2 } else { 0.0 };
+        let down = if i < 2 { 0.3 } else { -2.0 };
+        let builder = cable([0.0, 0.0, z], [across, down, z], section).elements(elements).fix(At::Start);
+        let rope = set.insert(builder.build().unwrap());
+        let cube = add_cube(&mut world, 50.0, 0.1, [across as Real, down as Real - 0.1, z as Real]);
+        set.attach(&world, rope, At::End, cube, Vector::new(0.0, 0.1, 0.0), AttachmentKind::Ball).unwrap();
+        cables.push(rope);
+    }
+    let told = told(&mut set, &mut world, 90);
+    let of = |cable: CableHandle| told.iter().filter(|(c, _)| *c == cable).map(|(_, w)| w).collect::<Vec<_>>();
+    let coarse = |w: &&CableWarning| {
+        matches!(w, CableWarning::CoarseMesh { elements: 2, .. } | CableWarning::CoarseElement { .. })
+    };
+    assert!(of(cables[0]).iter().any(coarse), "{told:?}");
+    assert!(matches!(&of(cables[2])[..], [CableWarning::LargeStrain { .. }, ..]), "{told:?}");
+    assert!(matches!(&of(cables[3])[..], [CableWarning::Stubby { .. }, ..]), "{told:?}");
+    for rope in cables {
+        let mut kinds: Vec<_> = of(rope).into_iter().map(std::mem::discriminant).collect();
+        let count = kinds.len();
+        kinds.dedup();
+        assert_eq!(count, kinds.len(), "{told:?}");
+        assert_eq!(set.get(rope).unwrap().diagnostics().warnings, count as u64);
+    }
+}
+
+/// A load that hangs on a straight cable has no warning; a set that does not watch has none at all.
+#[test]
+fn a_cable_that_is_good_enough_and_a_set_that_does_not_watch_have_no_warning() {
+    for (watch, elements, length) in [(true, 10, 2.0), (true, 4, 0.5), (false, 1, 2.0)] {
+        let mut world = PhysicsWorld::new();
+        let mut set = CableSet::new();
+        set.settings.watch = watch;
+        let rope = cable([0.0; 3], [0.0, -length, 0.0], soft()).elements(elements).fix(At::Start);
+        let rope = set.insert(rope.build().unwrap());
+        let cube = add_cube(&mut world, 10.0, 0.1, [0.0, -length as Real - 0.1, 0.0]);
+        set.attach(&world, rope, At::End, cube, Vector::new(0.0, 0.1, 0.0), AttachmentKind::Ball).unwrap();
+        assert_eq!(told(&mut set, &mut world, 120), []);
+        assert_eq!(set.get(rope).unwrap().is_watched(), watch);
+    }
+}
+
+/// A cable through a wall is told when asked for, by its deepest node; not one that is attached to the wall, nor a sensor.
+#[test]
+fn a_cable_inside_a_collider_is_told() {
+    let mut world = PhysicsWorld::new();
+    let wall = RigidBodyBuilder::fixed().translation(Vector::new(1.0, 0.1, 0.0));
+    let (wall, collider) = world.insert(wall, ColliderBuilder::cuboid(0.3, 0.5, 0.5));
+    let sensor = RigidBodyBuilder::fixed().translation(Vector::new(3.0, 0.0, 0.0));
+    world.insert(sensor, ColliderBuilder::cuboid(0.3, 0.5, 0.5).sensor(true));
+    let mut set = CableSet::new();
+    let through = set.insert(cable([0.0; 3], [4.0, 0.0, 0.0], soft()).elements(8).build().unwrap());
+    let [Warning::InCollider { cable: found, collider: there, arc_length, depth, .. }] = set.warnings(&world)[..]
+    else {
+        panic!("{:?}", set.warnings(&world))
+    };
+    assert!(found == through && there == collider && (arc_length - 1.0).abs() < 1e-9 && (depth - 0.3).abs() < 1e-6);
+    set.attach_here(&world, through, 1.0, wall, AttachmentKind::Ball).unwrap();
+    assert!(set.warnings(&world).is_empty());
+}

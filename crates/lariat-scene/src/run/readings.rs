@@ -1,0 +1,152 @@
+//! Energies, works, momenta and forces of the cables and bodies of a scene.
+
+use super::World;
+use super::balance::Terms;
+use crate::error::Error;
+use crate::physics::BodyState;
+use crate::scene::AttachmentScene;
+use lariat_ancf::{Cable, Energy, Method, Momentum, Reaction, Vector3};
+use std::collections::BTreeMap;
+
+impl World {
+    fn chosen(&self, cable: Option<usize>) -> Vec<&Cable> {
+        let all = self.cables().into_iter().zip(self.pieces());
+        all.filter(|(_, piece)| cable.is_none_or(|cable| cable == piece.cable)).map(|(cable, _)| cable).collect()
+    }
+
+    /// Returns the energy of a cable, or of all cables and dynamic bodies.
+    pub fn energy(&self, cable: Option<usize>) -> Energy {
+        let mut sum = Energy::default();
+        for e in self.chosen(cable).into_iter().map(Cable::energy) {
+            sum += e;
+        }
+        if let (None, Some(physics)) = (cable, &self.physics) {
+            let (kinetic, gravity) = physics.energy(&self.scene);
+            sum.kinetic += kinetic;
+            sum.gravity += gravity;
+        }
+        sum
+    }
+
+    /// Returns the energy in J that damping and drag have taken from a cable, or from all.
+    pub fn dissipated(&self, cable: Option<usize>) -> f64 {
+        self.chosen(cable).into_iter().map(|cable| cable.effect_work().dissipated()).sum()
+    }
+
+    /// Returns the number of elements evaluated by effect, summed over the cables that have it; zero for effects that act by
+    /// constant vectors or the mass matrix.
+    pub fn effect_evaluations(&self) -> BTreeMap<String, u64> {
+        let mut counts = BTreeMap::new();
+        for cable in self.cables() {
+            for key in cable.effects().present() {
+                let count = cable.diagnostics().effects.by_key().find(|(k, _)| *k == key).map_or(0, |(_, count)| count);
+                *counts.entry(key.to_string()).or_insert(0) += count;
+            }
+        }
+        counts
+    }
+
+    /// Returns the work in J that a cable, or all, have done on the bodies that they are attached to.
+    ///
+    /// # Errors
+    /// [`Error::Coupling`]; not for a running scene.
+    pub fn interface_work(&self, cable: Option<usize>) -> Result<f64, Error> {
+        let Some(physics) = &self.physics else { return Ok(0.0) };
+        let mut sum = 0.0;
+        for (k, _) in self.scene.attachments.iter().enumerate().filter(|(_, a)| cable.is_none_or(|c| c == a.cable)) {
+            sum += physics.reading(k, self.time)?.map_or(0.0, |reading| reading.work);
+        }
+        Ok(sum)
+    }
+
+    /// Returns the energies and works of the energy balance.
+    ///
+    /// # Errors
+    /// [`Error::Coupling`]; not for a running scene.
+    pub(super) fn terms(&self) -> Result<Terms, Error> {
+        let mut terms = Terms::default();
+        let (mut by_law, mut all_by_law) = (0.0, true);
+        for cable in self.cables() {
+            let (energy, effects, law) = (cable.energy(), cable.effect_work(), cable.energy_law());
+            terms.kinetic += energy.kinetic;
+            terms.strain += energy.axial + energy.bending;
+            terms.gravity += energy.gravity;
+            terms.dissipated += effects.dissipated();
+            terms.work += effects.total() + effects.dissipated() + law.loads + law.supports + cable.inserted_energy();
+            // the energy law of a step knows no winch
+            all_by_law &= !cable.has_reel();
+            terms.work += cable.reels().map(|reel| reel.work + reel.remeshed).sum::<f64>();
+            by_law += law.residual - law.numerical - law.rescaled;
+            all_by_law &= cable.integrator().method == Method::DiscreteGradient;
+        }
+        if let Some(physics) = &self.physics {
+            let (work, rounding) = physics.bodies_balance(&self.scene, self.time, &mut terms.bodies)?;
+            terms.work -= work;
+            terms.rounding = rounding;
+            terms.weight = physics.weight(&self.scene);
+        }
+        let masses = self.scene.cables.iter().map(|cable| cable.section.mass_per_length * cable.length);
+        terms.weight += self.scene.gravity.norm() * masses.sum::<f64>();
+        if all_by_law {
+            // the law counts all forces on bodies as loads
+            let attached = terms.bodies.iter().filter(|body| body.attached);
+            terms.work += attached.map(|body| body.gravity - body.loads).sum::<f64>();
+        }
+        terms.by_law = all_by_law.then_some(by_law);
+        Ok(terms)
+    }
+
+    /// Returns the momentum of a cable, or of all cables and dynamic bodies.
+    pub fn momentum(&self, cable: Option<usize>) -> Momentum {
+        let zero = Momentum { linear: Vector3::zeros(), angular: Vector3::zeros() };
+        let bodies = self.physics.as_ref().filter(|_| cable.is_none()).map(|physics| physics.momentum(&self.scene));
+        self.chosen(cable)
+            .into_iter()
+            .map(Cable::momentum)
+            .chain(bodies)
+            .fold(zero, |sum, p| Momentum { linear: sum.linear + p.linear, angular: sum.angular + p.angular })
+    }
+
+    /// Returns the state of a body; `None` without bodies.
+    pub fn body(&self, index: usize) -> Option<BodyState> {
+        self.physics.as_ref().map(|physics| physics.body(&self.scene, index, self.time))
+    }
+
+    /// Returns the largest distance so far between the two sides of an attachment, in m.
+    pub fn max_gap(&self) -> f64 {
+        self.physics.as_ref().map_or(0.0, |physics| physics.max_gap())
+    }
+
+    /// Returns force (N) and moment (N m) of the cable on the body or world that an attachment holds it to, and the gap (m)
+    /// between the two.
+    ///
+    /// # Errors
+    /// [`Error::Mechanics`] if the present state has no finite acceleration.
+    pub fn attachment(&mut self, index: usize) -> Result<(Vector3<f64>, Vector3<f64>, f64), Error> {
+        if let Some(physics) = &self.physics
+            && let Some(reading) = physics.reading(index, self.time)?
+        {
+            return Ok((reading.force, reading.moment, reading.gap.norm()));
+        }
+        let AttachmentScene { cable, arc_length, .. } = self.scene.attachments[index];
+        // a copy, because reading reactions modifies a cable, which wakes it
+        let mut coupled = None;
+        let (part, arc_length) = self.part(cable, arc_length);
+        let cable = match self.alone.get_mut(part) {
+            Some(cable) => cable,
+            None => coupled.insert(self.cables()[part].clone()),
+        };
+        let (force, moment) = pull(cable, arc_length)?;
+        Ok((force, moment, 0.0))
+    }
+}
+
+/// Returns force (N) and moment (N m) of a cable on its support at an arc length; zero without one.
+pub(super) fn pull(cable: &mut Cable, arc_length: f64) -> Result<(Vector3<f64>, Vector3<f64>), Error> {
+    let node = cable.node(arc_length)?;
+    let held = |reaction: &&Reaction| reaction.node == node;
+    let on_cable = cable.reactions()?.iter().find(held).map(|r| (r.force, r.moment));
+    let (force, moment) = on_cable.unwrap_or_default();
+    // 0 - 0 is 0, not -0
+    Ok((Vector3::zeros() - force, Vector3::zeros() - moment))
+}
