@@ -83,6 +83,16 @@ pub enum Error {
         /// Name of the method.
         method: String,
     },
+    /// A reel with a largest force under a method that does not solve for its rate.
+    #[error(
+        "cable {cable:?}: the rate of a reel with max_force is an unknown, which {method} does not solve for; use discrete-gradient"
+    )]
+    ReelMethod {
+        /// Name of the cable.
+        cable: String,
+        /// Name of the method.
+        method: String,
+    },
     /// A reel where none can be.
     #[error("cable {cable:?}: reel: {reason}")]
     ReelPlace {

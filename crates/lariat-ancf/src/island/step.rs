@@ -65,9 +65,8 @@ impl Island {
             return Ok(());
         }
         for (i, cable) in cables.iter().enumerate().filter(|(_, cable)| cable.has_reel()) {
-            let at_eye = |pin: &&PinConstraint| pin.cable == i && pin.node + 1 == cable.nodes();
-            let moved = pins.iter().filter(at_eye).any(|pin| bodies[pin.body].free.contains(&true));
-            cable.check_reel_in_island(moved, dt)?;
+            let held = |node: usize| pins.iter().filter(move |pin| pin.cable == i && pin.node == node);
+            cable.check_reel_in_island(|node| held(node).any(|pin| bodies[pin.body].free.contains(&true)), dt)?;
         }
         cables.iter_mut().for_each(|cable| cable.begin_reel(dt));
         cables.iter_mut().for_each(|cable| cable.take_workspace());

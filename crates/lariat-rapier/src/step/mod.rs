@@ -208,6 +208,7 @@ fn predict_islands(
             prediction.error = outcome.err();
         }
     }
+    reels::mark(contents);
     integrate::integrate(contents, &islands.list, predictions, step.h);
     reels::follow(contents);
     for (island, prediction) in islands.list.iter().zip(predictions.iter_mut()) {

@@ -102,13 +102,7 @@ fn a_damped_rope_on_a_rotor_pulls_with_its_force_of_inertia() {
         let rotor = RigidBodyBuilder::kinematic_velocity_based().angvel(Vector::new(0.0, 0.0, speed as Real));
         let rotor = world.insert_body(rotor);
         let mut set = CableSet::new();
-        let section = Section {
-            axial_stiffness: stiffness,
-            bending_stiffness: 1e-7 * stiffness,
-            mass_per_length: mass,
-            diameter: None,
-            outer_area: None,
-        };
+        let section = Section::from_stiffness(stiffness, 1e-7 * stiffness, mass).unwrap();
         let lash = cable([radius, 0.0, 0.0], [radius + length, 0.0, 0.0], section)
             .damping(Damping { axial: damping, bending: damping })
             .gravity(Vector3::zeros())

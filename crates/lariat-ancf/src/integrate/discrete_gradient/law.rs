@@ -93,6 +93,8 @@ pub(crate) struct Balance {
     /// Sum in N of contact forces, and of what the linear solve missed of them.
     pub forces: f64,
     pub missed: f64,
+    /// Sum in N by which motors of reels break their laws, and that of their forces.
+    pub slip: [f64; 2],
     /// Sum over nodes and bodies of the impulse in N s that the residual leaves unbalanced.
     pub imbalance: f64,
     /// Sum of the impulses in N s that must balance: of inertia, of external forces, of supports and pins.
@@ -116,6 +118,7 @@ impl Balance {
         self.near |= other.near;
         self.forces += other.forces;
         self.missed += other.missed;
+        (0..2).for_each(|i| self.slip[i] += other.slip[i]);
         self.imbalance += other.imbalance;
         self.impulse += other.impulse;
     }

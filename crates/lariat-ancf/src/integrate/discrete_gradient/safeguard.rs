@@ -11,7 +11,8 @@
 //! the tension grow to a thousand times the tension. A step is therefore accepted only if its energy balance *closes*, to 1 % of what
 //! they lose. Near an obstacle it must close to 1 % of all that the step loses, and the contact forces must be those of the linear solve, to
 //! 1e-3 in sum; every iteration has a new tangent, and up to 20 are taken. After those the balance alone must close; and in the last
-//! division the energy law alone must hold.
+//! division the energy law alone must hold. Motors of reels must have the forces of their laws likewise, to 1e-3, with a new
+//! tangent in every iteration that is needed for them.
 
 use super::law::{Balance, CLOSURE, DiscreteGradientSystem, Event};
 use crate::error::StepFailure;
@@ -68,6 +69,12 @@ fn is_consistent(balance: &Balance) -> bool {
     balance.missed <= CONSISTENCY * balance.forces + balance.weight
 }
 
+/// Returns whether motors of reels have the forces of their laws.
+fn are_motors_right(balance: &Balance) -> bool {
+    let [missed, forces] = balance.slip;
+    missed <= CONSISTENCY * forces + balance.weight
+}
+
 /// Returns whether the residual leaves a small share of the impulses unbalanced.
 fn are_forces_right(balance: &Balance) -> bool {
     balance.imbalance <= FORCE_TOLERANCE * balance.impulse
@@ -93,29 +100,30 @@ pub(super) fn step(system: &mut dyn DiscreteGradientSystem, h: f64, depth: usize
         match &last {
             Ok(balance) if keeps_law(balance) => {
                 let forces = iteration >= MAX_FOR_FORCES || are_forces_right(balance);
-                if is_dissipation_right(balance) && forces && closes(balance) && is_consistent(balance) {
+                let motors = are_motors_right(balance);
+                if is_dissipation_right(balance) && forces && closes(balance) && is_consistent(balance) && motors {
                     break;
                 }
-                fresh = balance.near || !closes(balance) || balance.imbalance > MAX_LEFT * imbalance;
+                fresh = balance.near || !closes(balance) || !motors || balance.imbalance > MAX_LEFT * imbalance;
                 imbalance = balance.imbalance;
             }
             Ok(balance) if balance.excess().is_finite() => fresh = true,
             _ => break,
         }
-        if last.as_ref().is_ok_and(|balance| balance.near) {
+        if last.as_ref().is_ok_and(|balance| balance.near || balance.slip[1] > 0.0) {
             most = MAX_ITERATIONS_NEAR;
         }
     }
     if let Ok(balance) = &last
         && keeps_law(balance)
-        && (is_dissipation_right(balance) && closes(balance) || depth == MAX_DEPTH)
+        && (is_dissipation_right(balance) && closes(balance) && are_motors_right(balance) || depth == MAX_DEPTH)
     {
         system.accept(balance);
         return Ok(());
     }
     if let Ok(balance) = &mut last
         && is_certain(balance)
-        && (is_consistent(balance) || depth == MAX_DEPTH)
+        && (is_consistent(balance) && are_motors_right(balance) || depth == MAX_DEPTH)
         && balance.to_take() > 0.0
         && system.rescale(balance)
     {

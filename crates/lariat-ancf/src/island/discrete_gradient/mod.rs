@@ -32,7 +32,7 @@ use crate::error::StepFailure;
 use crate::integrate::State;
 use crate::integrate::discrete_gradient::{BETA, Balance, Buffers, DiscreteGradientSystem, Event, sum_of_forces};
 use crate::support::SlopeSupport;
-use crate::system::{CableStep, Equations, dot, project_vector};
+use crate::system::{CableStep, Equations, Unknowns, dot, project_vector};
 use body::BodyStep;
 use holds::HoldStep;
 use nalgebra::Vector3;
@@ -50,6 +50,8 @@ pub(super) struct StepBuffers {
     rows: Vec<f64>,
     /// The bodies as the contacts see them.
     paths: Vec<BodyPath>,
+    /// Rates of reels that are unknown.
+    unknowns: Unknowns,
     /// By pin, velocity of node and slope beside those of the body when the host step began.
     pub deviations: Vec<[Vector3<f64>; 2]>,
 }
@@ -150,8 +152,8 @@ impl IslandStep<'_, '_> {
         matrix.factor()
     }
 
-    /// Solves for the increments and adds them to the iterate.
-    fn add_increment(&mut self) -> Result<(), StepFailure> {
+    /// Solves the linear equations in place: the residuals of cables and the rows of bodies become their increments.
+    fn solve(&mut self) {
         let StepBuffers { bodies, cables: own, matrix, rows, .. } = &mut *self.buffers;
         for (cable, own) in self.cables.iter_mut().zip(own.iter()) {
             let CableStep { mut equations, buffers, .. } = cable.step_parts();
@@ -172,7 +174,7 @@ impl IslandStep<'_, '_> {
         }
         matrix.solve(rows);
         for (cable, own) in self.cables.iter_mut().zip(own.iter()) {
-            let CableStep { equations, buffers, .. } = cable.step_parts();
+            let CableStep { buffers, .. } = cable.step_parts();
             for (h, hold) in own.holds.iter().enumerate() {
                 let moved = hold.moved(rows);
                 for x in 0..3 {
@@ -194,6 +196,66 @@ impl IslandStep<'_, '_> {
                     buffers.rhs[hold.at + x] = along + moved[x];
                 }
             }
+        }
+    }
+
+    /// Linearises the laws of reels whose rate is unknown, and solves for their columns.
+    fn linearise_laws(&mut self) {
+        let mut unknowns = core::mem::take(&mut self.buffers.unknowns);
+        unknowns.begin(self.cables.iter().map(|cable| &cable.system.flows));
+        let Unknowns { reels, columns, rows, saved, .. } = &mut unknowns;
+        for ((&(c, k), columns), rows) in reels.iter().zip(columns).zip(rows) {
+            for (cable, column) in self.cables.iter().zip(columns.iter_mut()) {
+                column.clear();
+                column.resize(cable.positions().len(), 0.0);
+            }
+            let CableStep { mut equations, state, buffers } = self.cables[c].step_parts();
+            equations.read_motors(state, buffers);
+            equations.linearise_law(k, state, buffers, &mut columns[c], saved);
+            rows.clear();
+            rows.resize(self.buffers.rows.len(), 0.0);
+            for hold in &self.buffers.cables[c].holds {
+                hold.pass(&vector(&columns[c][hold.at..]), rows);
+            }
+            self.swap(columns, rows);
+            self.solve();
+            self.swap(columns, rows);
+        }
+        self.buffers.unknowns = unknowns;
+    }
+
+    /// Exchanges the right-hand sides of cables and bodies with others.
+    fn swap(&mut self, columns: &mut [Vec<f64>], rows: &mut Vec<f64>) {
+        for (cable, column) in self.cables.iter_mut().zip(columns) {
+            core::mem::swap(&mut cable.step_buffers.rhs, column);
+        }
+        core::mem::swap(&mut self.buffers.rows, rows);
+    }
+
+    /// Solves for the rates of reels that are unknown, and completes the increments.
+    fn add_to_laws(&mut self) {
+        let (cables, StepBuffers { unknowns, rows, .. }) = (&mut *self.cables, &mut *self.buffers);
+        if unknowns.reels.is_empty() {
+            return;
+        }
+        unknowns.solve(|c| &cables[c].system.flows, |c| &cables[c].step_buffers.rhs);
+        for (i, &(c, k)) in unknowns.reels.iter().enumerate() {
+            let increment = unknowns.increments[i];
+            cables[c].step_parts().equations.add_to_law(k, increment);
+            let own = cables.iter_mut().map(|cable| &mut cable.step_buffers.rhs);
+            for (x, y) in own.zip(&unknowns.columns[i]).chain(core::iter::once((&mut *rows, &unknowns.rows[i]))) {
+                x.iter_mut().zip(y).for_each(|(x, y)| *x -= increment * y);
+            }
+        }
+    }
+
+    /// Solves for the increments and adds them to the iterate.
+    fn add_increment(&mut self) -> Result<(), StepFailure> {
+        self.solve();
+        self.add_to_laws();
+        let StepBuffers { bodies, rows, .. } = &mut *self.buffers;
+        for cable in self.cables.iter_mut() {
+            let CableStep { equations, buffers, .. } = cable.step_parts();
             if !buffers.rhs.iter().all(|x| x.is_finite()) {
                 return Err(equations.not_finite("Newton increment", &buffers.rhs));
             }
@@ -269,7 +331,8 @@ impl DiscreteGradientSystem for IslandStep<'_, '_> {
 
     fn predict(&mut self, h: f64) {
         for cable in self.cables.iter_mut() {
-            let CableStep { equations, state, buffers } = cable.step_parts();
+            let CableStep { mut equations, state, buffers } = cable.step_parts();
+            equations.begin_laws(state.time, h);
             buffers.recall(state, h);
             equations.prescribe_change(state, buffers);
         }
@@ -286,6 +349,7 @@ impl DiscreteGradientSystem for IslandStep<'_, '_> {
         if fresh {
             self.linearise()?;
             self.factor_bodies(self.cables[0].step_buffers.h)?;
+            self.linearise_laws();
         }
         self.add_increment()?;
         self.follow();

@@ -6,17 +6,19 @@
 //! w = v - (V + W x (x - c))          a velocity beside a rigid motion; a slope's: t' - W x t
 //! ```
 //!
-//! Of an island that nothing holds, the rigid motion is the translation of its centre of mass, so its momentum stays. Of one that is held by
-//! nothing but one driven body, it is the motion of that body. Of any other there is none, and all velocities that nothing prescribes are
-//! scaled. Scaling those of cables and bodies together keeps pinned points on their bodies.
+//! Of an island that nothing holds, the rigid motion is the translation of its centre of mass, so its momentum stays. Of one whose driven
+//! bodies and supports all move as one rigid body, it is their motion. Of any other there is none, and all velocities that nothing
+//! prescribes are scaled. Scaling those of cables and bodies together keeps pinned points on their bodies.
 
 use super::IslandStep;
 use super::body::BodyStep;
-use crate::cable::Cable;
 use crate::integrate::discrete_gradient::{Balance, share_to_take};
 use crate::island::hold::vector;
 use crate::system::{CableStep, dot};
 use nalgebra::Vector3;
+
+/// Share of a velocity by which two that are the same may differ: bodies of an engine in single precision.
+const ROUNDING: f64 = 1e-6;
 
 /// A rigid motion.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -30,6 +32,12 @@ impl RigidMotion {
     /// Returns the velocity in m/s at a point.
     pub fn at(&self, point: &Vector3<f64>) -> Vector3<f64> {
         self.velocity + self.spin.cross(&(point - self.centre))
+    }
+
+    /// Returns whether it is that of another, but for rounding: what holds a node is prescribed in any case.
+    fn agrees_with(&self, other: &RigidMotion) -> bool {
+        let same = |a: Vector3<f64>, b: Vector3<f64>| (a - b).norm() <= ROUNDING * a.norm().max(b.norm());
+        same(self.spin, other.spin) && same(self.at(&self.centre), other.at(&self.centre))
     }
 
     /// Returns that of a body at the end of the step.
@@ -86,19 +94,25 @@ pub(in crate::island) fn rescale(island: &mut IslandStep<'_, '_>, balance: &mut 
 
 /// Returns the rigid motion that an island may keep, at the end of the step.
 fn rigid_motion(island: &mut IslandStep<'_, '_>) -> RigidMotion {
-    let supported = |cable: &Cable| cable.model.supports.iter().any(|(_, support)| !support.attached);
-    if island.cables.iter().any(|cable| supported(cable)) {
-        return RigidMotion::default();
+    let mut common = None;
+    for cable in island.cables.iter_mut() {
+        let CableStep { equations, state, buffers: b } = cable.step_parts();
+        for (_, support) in equations.model.supports.iter().filter(|(_, support)| !support.attached) {
+            let (mut q, mut v) = ([0.0; 6], [0.0; 6]);
+            support.prescribe(state.time + b.h, &mut q, &mut v);
+            let translation = RigidMotion { velocity: vector(&v), ..RigidMotion::default() };
+            if vector(&v[3..]) != Vector3::zeros() || !translation.agrees_with(common.get_or_insert(translation)) {
+                return RigidMotion::default();
+            }
+        }
     }
-    let mut held = island.buffers.bodies.iter().filter(|body| body.free != [true; 6]);
-    let Some(first) = held.next() else { return RigidMotion { velocity: mean_velocity(island), ..Default::default() } };
-    let motion = RigidMotion::of(first);
-    // attachments to one body with prescribed motion have members of their own
-    if first.is_driven() && held.all(|body| body.is_driven() && RigidMotion::of(body) == motion) {
-        motion
-    } else {
-        RigidMotion::default()
+    for body in island.buffers.bodies.iter().filter(|body| body.free != [true; 6]) {
+        let motion = RigidMotion::of(body);
+        if !body.is_driven() || !motion.agrees_with(common.get_or_insert(motion)) {
+            return RigidMotion::default();
+        }
     }
+    common.unwrap_or_else(|| RigidMotion { velocity: mean_velocity(island), ..RigidMotion::default() })
 }
 
 /// Returns the velocity of the centre of mass of an island at the end of the step.
