@@ -9,6 +9,7 @@
 //! | [`rules`] | which of them it touches, and with which friction, as Rapier decides it |
 //! | [`shape`], [`mesh`], [`compound`], [`cone`] | the surface of a collider in `f64`, from the exact numbers of its shape |
 //! | [`events`] | contacts that began and ended |
+//! | [`set`] | the calls of [`CableSet`](crate::CableSet) |
 //!
 //! # Validity
 //!
@@ -31,6 +32,7 @@ mod cone;
 pub(crate) mod events;
 mod mesh;
 pub(crate) mod rules;
+mod set;
 mod shape;
 
 pub use rules::{ContactFilter, ContactRules};
