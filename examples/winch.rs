@@ -7,6 +7,7 @@
 //! At a constant rate the winch pulls with the weight of crate and rope. The crate rises by what is wound up, and by the change of the
 //! stretch (M + rho A L/2) g L/EA. What the winch works raises the crate and the rope.
 
+use lariat_ancf::At;
 use lariat_scene::run::{Options, World, run};
 use lariat_scene::{Purpose, Scene};
 use std::path::Path;
@@ -26,7 +27,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let (start, mut pull, mut top, mut highest) = (height(&world), 0.0, f64::NAN, 0.0f64);
     for step in 1..=900 {
         world.advance(f64::from(step) / 60.0)?;
-        let Some(reel) = world.cables()[0].reel() else { continue };
+        let Some(reel) = world.cables()[0].reel(At::End) else { continue };
         if (240..300).contains(&step) {
             // mean over a second of hoisting, of the pull beside the weight
             pull += reel.force / ((50.0 + 0.3 * reel.length_out) * G) / 60.0;

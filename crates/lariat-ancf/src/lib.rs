@@ -71,7 +71,7 @@ pub use cable::mesh::{MeshIndicator, MotionIndicator};
 pub use cable::reactions::Reaction;
 pub use cable::sample::Sample;
 pub use cable::{At, Cable, Snapshot};
-pub use cable::{Reel, ReelReading};
+pub use cable::{Feed, Reel, ReelReading};
 pub use diagnostics::Diagnostics;
 pub use effect::{
     Buoyancy, CablePoint, Contact, Damping, Drag, EffectCounts, EffectWork, Effects, Flow, ForceDensity,

@@ -1,6 +1,6 @@
 //! What a cable is made of: plain data from which everything else is rebuilt.
 
-use crate::cable::ReelModel;
+use crate::cable::Reels;
 use crate::contact::Obstacles;
 use crate::effect::force_density::ForceDensities;
 use crate::effect::{Effects, Target};
@@ -36,7 +36,7 @@ pub struct Model {
     #[serde(default)]
     pub(crate) strength: Strength,
     #[serde(default)]
-    pub(crate) reel: Option<ReelModel>,
+    pub(crate) reels: Reels,
 }
 
 impl Model {
@@ -124,17 +124,17 @@ impl Model {
     /// Rejects effects that are out of range or that the cable has no numbers for.
     pub(crate) fn check_effects(&self) -> Result<(), Error> {
         self.effects.check(&self.target())?;
-        self.reel.as_ref().map_or(Ok(()), |_| self.check_with_reel())
+        if self.reels.is_empty() { Ok(()) } else { self.check_with_reel() }
     }
 
     /// Returns whether a force depends on velocity.
     pub(crate) fn depends_on_velocity(&self) -> bool {
-        self.effects.depends_on_velocity() || self.force_densities.depend_on_velocity() || self.reel.is_some()
+        self.effects.depends_on_velocity() || self.force_densities.depend_on_velocity() || !self.reels.is_empty()
     }
 
     /// Returns whether the step matrix holds the exact tangent of the force.
     pub(crate) fn has_exact_tangent(&self) -> bool {
-        self.effects.has_exact_tangent() && self.force_densities.is_empty() && self.reel.is_none()
+        self.effects.has_exact_tangent() && self.force_densities.is_empty() && self.reels.is_empty()
     }
 
     /// Returns the mass per length in kg/m that resists acceleration, added mass included.

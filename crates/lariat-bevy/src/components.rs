@@ -11,7 +11,7 @@ use crate::reel::Reel;
 use bevy_ecs::component::Component;
 use bevy_ecs::query::{Changed, Or};
 use bevy_ecs::world::{EntityRef, EntityWorldMut};
-use lariat_ancf::{BendingRule, Effects, Error, PointLoad, Section};
+use lariat_ancf::{At, BendingRule, Effects, Error, PointLoad, Section};
 
 macro_rules! components {
     ($({ field: $field:ident, type: $type:ident, set: $set:ident, key: $key:literal, summary: $summary:literal })*) => {
@@ -63,7 +63,7 @@ macro_rules! components {
                     rule: self.rule,
                     bending: self.bending,
                     point_loads: self.point_loads.as_ref().map(|_| PointLoads(part.loads().to_vec())),
-                    reel: self.reel.clone().filter(|_| part.has_reel()),
+                    reel: self.reel.clone().filter(|_| part.reel_description(At::End).is_some()),
                     break_tension: self.break_tension,
                     break_strain: self.break_strain,
                     $($field: self.$field.as_ref().zip(effects.$field.as_ref()).map(|(c, effect)| c.of_part(effect)),)*

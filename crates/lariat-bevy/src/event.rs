@@ -85,8 +85,8 @@ pub struct ContactEnded {
     pub arc_length: f64,
 }
 
-/// A cable with [`Contact`](crate::Contact) is in a collider that it cannot touch, that of a dynamic body. Sent once for
-/// each.
+/// A cable with [`Contact`](crate::Contact) is in a collider that it cannot touch, one with a shape of the program's own.
+/// Sent once for each.
 #[derive(EntityEvent, Message, Clone, Debug, PartialEq)]
 pub struct ContactIgnored {
     /// The cable.

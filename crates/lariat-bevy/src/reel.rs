@@ -10,7 +10,7 @@ use bevy_ecs::prelude::{Changed, Or, Query, RemovedComponents, ResMut, With};
 use bevy_ecs::query::Allow;
 use lariat_ancf::At;
 
-/// A reel at the end of a cable: change its rates as you like. `cables.get(entity)?.reel()` reads it. One that the cable cannot carry
+/// A reel at the end of a cable: change its rates as you like. `cables.get(entity)?.reel(At::End)` reads it. One that the cable cannot carry
 /// is an error: [`CableFailed`].
 ///
 /// ```
@@ -49,16 +49,16 @@ pub(crate) fn set_reels(
     mut removed: RemovedComponents<Reel>,
 ) {
     for entity in changed.iter().chain(removed.read()) {
-        let Ok(now) = cables.get(entity).map(|cable| cable.reel_description().cloned()) else { continue };
+        let Ok(now) = cables.get(entity).map(|cable| cable.reel_description(At::End).cloned()) else { continue };
         let wanted = reels.get(entity).ok().map(|reel| reel.0.clone());
         if now == wanted {
             continue;
         }
         let Ok(cable) = cables.get_mut(entity) else { continue };
         let outcome = match (now, wanted) {
-            (_, None) => cable.remove_reel(),
+            (_, None) => cable.remove_reel(At::End),
             (None, Some(reel)) => cable.add_reel(At::End, reel),
-            (Some(_), Some(reel)) => cable.set_reel(reel),
+            (Some(_), Some(reel)) => cable.set_reel(At::End, reel),
         };
         if let Err(error) = outcome {
             cables.events.push(CableFailed { entity, error }.into());

@@ -58,6 +58,7 @@ pub(crate) fn attach(
         reading: AttachmentReading::default(),
         lost_link: false,
         at_eye: false,
+        from_start: 0,
         steady_force: Vector3::zeros(),
         predicted: PinAccount::default(),
     });

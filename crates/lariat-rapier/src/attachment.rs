@@ -100,9 +100,11 @@ pub struct Attachment {
     /// Whether a gap has opened in a step although the body is a link of a multibody: its motion was not the predicted one.
     #[serde(default)]
     pub(crate) lost_link: bool,
-    /// Whether it is at the eye of a reel.
+    /// Whether it is at the last node of a cable with a reel, and how many elements had come from one at the start.
     #[serde(default)]
     pub(crate) at_eye: bool,
+    #[serde(default)]
+    pub(crate) from_start: i64,
     /// Force in N when the time until sleep last began to count.
     pub(crate) steady_force: Vector3<f64>,
     /// Exchange between cable and body in the Rapier step that was predicted.

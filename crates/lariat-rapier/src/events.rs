@@ -49,8 +49,8 @@ pub enum Event {
         /// Arc length in m where it was last touched.
         arc_length: f64,
     },
-    /// A cable with contact is in a collider that it cannot touch: that of a dynamic body, or one with a shape of the
-    /// program's own. Said once for each.
+    /// A cable with contact is in a collider that it cannot touch, one with a shape of the program's own. Said once for
+    /// each.
     ContactIgnored {
         /// The cable.
         cable: CableHandle,

@@ -1,4 +1,4 @@
-//! Islands: sets of cables, bodies and junctions that are connected by attachments.
+//! Islands: sets of cables, bodies and junctions that are connected by attachments, or by contacts that are near.
 //!
 //! Order within and among islands follows the names of the cables and the positions at which they
 //! were inserted, not their handles: a run does not depend on the order of insertion, to the bit.
@@ -87,13 +87,21 @@ pub(crate) struct Islands {
     pub list: Vec<Island>,
     /// The attachments that they were found with.
     nodes: Vec<AttachedNode>,
+    /// Cables and the integrated bodies that they can touch.
+    touching: Vec<(usize, RigidBodyHandle)>,
 }
 
 impl Islands {
-    /// Finds the islands of a set, unless nothing changed since they were last found.
-    pub fn update(&mut self, contents: &mut Contents, world: &PhysicsWorld) -> Result<(), Error> {
+    /// Finds the islands of a set, unless nothing changed since they were last found; `touching` are cables and the integrated bodies that they can
+    /// touch.
+    pub fn update(
+        &mut self,
+        contents: &mut Contents,
+        world: &PhysicsWorld,
+        touching: &[(usize, RigidBodyHandle)],
+    ) -> Result<(), Error> {
         mark_rotating(contents, world);
-        let unchanged = attached_nodes(contents, world).eq(self.nodes.iter().copied());
+        let unchanged = attached_nodes(contents, world).eq(self.nodes.iter().copied()) && self.touching == touching;
         let modified = contents.cables.values().any(|slot| slot.modified);
         if unchanged && !modified && !contents.changed && !self.list.is_empty() {
             return Ok(());
@@ -102,6 +110,8 @@ impl Islands {
         renumber(contents)?;
         self.nodes.clear();
         self.nodes.extend(attached_nodes(contents, world));
+        self.touching.clear();
+        self.touching.extend_from_slice(touching);
         let mut order: Vec<(usize, &Slot)> = contents.cables.iter().collect();
         order.sort_by(|(a, one), (b, two)| one.order(two).then(a.cmp(b)));
         let order: Vec<usize> = order.into_iter().map(|(c, _)| c).collect();
@@ -115,9 +125,9 @@ impl Islands {
         self.list.clear();
         for &first in &order {
             if !seen[first] {
-                let mut cables = connected(contents, first, &nodes, &mut seen);
+                let mut cables = connected(contents, first, (&nodes, touching), &mut seen);
                 cables.sort_by_key(|&c| rank(c));
-                self.list.push(connect(contents, cables, &nodes));
+                self.list.push(connect(contents, cables, (&nodes, touching)));
             }
         }
         Ok(())
@@ -204,16 +214,22 @@ fn set_supports(contents: &mut Contents, nodes: &[AttachedNode]) -> Result<(), E
 }
 
 /// Returns the cables that are connected to `first`, and marks them as seen.
-fn connected(contents: &Contents, first: usize, nodes: &[AttachedNode], seen: &mut [bool]) -> Vec<usize> {
+fn connected(
+    contents: &Contents,
+    first: usize,
+    (nodes, touching): (&[AttachedNode], &[(usize, RigidBodyHandle)]),
+    seen: &mut [bool],
+) -> Vec<usize> {
     let mut cables = vec![first];
     seen[first] = true;
     let mut next = 0;
     while next < cables.len() {
         let cable = cables[next];
         next += 1;
-        let integrated = || nodes.iter().filter(|n| n.role == Role::Integrated);
-        let bodies = integrated().filter(|n| n.cable == cable).map(|n| n.body);
-        let over_bodies = bodies.flat_map(|b| integrated().filter(move |n| n.body == b).map(|n| n.cable));
+        let pinned = || nodes.iter().filter(|n| n.role == Role::Integrated).map(|n| (n.cable, n.body));
+        let integrated = || pinned().chain(touching.iter().copied());
+        let bodies = integrated().filter(|(c, _)| *c == cable).map(|(_, body)| body);
+        let over_bodies = bodies.flat_map(|b| integrated().filter(move |(_, body)| *body == b).map(|(c, _)| c));
         let handle = CableHandle(cable as u32);
         let tied = contents.junctions.values().filter(|j| j.nodes.iter().any(|(c, _)| *c == handle));
         let over_junctions = tied.flat_map(|j| j.nodes.iter().map(|(c, _)| c.0 as usize));
@@ -228,7 +244,11 @@ fn connected(contents: &Contents, first: usize, nodes: &[AttachedNode], seen: &m
 }
 
 /// Returns the island of `cables`, its members and pins in the order of cables and nodes.
-fn connect(contents: &Contents, cables: Vec<usize>, nodes: &[AttachedNode]) -> Island {
+fn connect(
+    contents: &Contents,
+    cables: Vec<usize>,
+    (nodes, touching): (&[AttachedNode], &[(usize, RigidBodyHandle)]),
+) -> Island {
     let mut island = Island { cables, ..Island::default() };
     let mut add = |cable: usize, node: usize, member: Member, attached: Option<&AttachedNode>| {
         // each attachment to a body with prescribed motion has a member of its own
@@ -253,6 +273,14 @@ fn connect(contents: &Contents, cables: Vec<usize>, nodes: &[AttachedNode]) -> I
         for (j, junction) in contents.junctions.iter() {
             for (_, node) in junction.nodes.iter().filter(|(c, _)| c.0 as usize == cable) {
                 add(c, *node, Member::Junction(j), None);
+            }
+        }
+    }
+    for &cable in &island.cables {
+        for (_, body) in touching.iter().filter(|(c, _)| *c == cable) {
+            let member = Member::Body(*body);
+            if !island.members.contains(&member) {
+                island.members.push(member);
             }
         }
     }

@@ -1,7 +1,7 @@
 //! The set of cables of a world: the interface of this crate.
 
 use crate::attachment::{Attachment, AttachmentKind, AttachmentOptions, Gap};
-use crate::contact::{self, ContactFilter, ContactRules};
+use crate::contact;
 use crate::contents::Contents;
 #[cfg(feature = "debug-render")]
 use crate::draw::{self, DrawStyle};
@@ -15,10 +15,8 @@ use crate::statics::{self, Equilibrium};
 use crate::step::{self, HostStep, Stepper};
 use crate::totals::{self, WorldEnergy};
 use crate::{attach, breaking, edit, join, warnings, world_mark};
-use lariat_ancf::contact::Touch;
-use lariat_ancf::{At, Cable, Contact, EquilibriumOptions, Momentum, Point, Strength};
+use lariat_ancf::{At, Cable, EquilibriumOptions, Momentum, Point, Strength};
 use rapier::dynamics::RigidBodyHandle;
-use rapier::geometry::ColliderHandle;
 #[cfg(feature = "debug-render")]
 use rapier::pipeline::DebugRenderBackend;
 use rapier::pipeline::{EventHandler, PhysicsHooks, PhysicsWorld};
@@ -27,8 +25,7 @@ use serde::{Deserialize, Serialize};
 /// The cables of a world, attached to its bodies and to each other.
 ///
 /// # Limits
-/// - Cables touch fixed and kinematic colliders, if they are told to
-///   ([`set_contact`](Self::set_contact)); neither dynamic bodies, which an event says, nor each other.
+/// - Cables touch colliders, if they are told to ([`set_contact`](Self::set_contact)), but not each other.
 /// - A cable has a fixed natural length, but for [`cut`](Self::cut) and a reel
 ///   ([`Cable::add_reel`](lariat_ancf::Cable::add_reel) by [`get_mut`](Self::get_mut)), whose eye is on a fixed or kinematic body.
 /// - All cables of a set share one number of Rapier steps per host step ([`Settings`]), which is
@@ -50,7 +47,7 @@ pub struct CableSet {
     pub settings: Settings,
     pub(crate) contents: Contents,
     #[serde(skip)]
-    stepper: Stepper,
+    pub(crate) stepper: Stepper,
 }
 
 impl CableSet {
@@ -121,42 +118,6 @@ impl CableSet {
         slot.cable.set_strength(strength)?;
         slot.compared &= slot.cable.strength() == before;
         Ok(())
-    }
-
-    /// Lets a cable touch the colliders of fixed and kinematic bodies, or no longer with `None`. Needs the method
-    /// `discrete-gradient`, which a cable gets if nobody chose its integrator. The cable's own friction is combined
-    /// with that of a collider as [`set_contact_rules`](Self::set_contact_rules) say.
-    ///
-    /// # Errors
-    /// [`Error::NoCable`]; [`Error::Cable`] for numbers out of range, for a cable without a diameter or a radius, and
-    /// for another method.
-    pub fn set_contact(&mut self, cable: CableHandle, contact: impl Into<Option<Contact>>) -> Result<(), Error> {
-        Ok(self.contents.cable_mut(cable)?.set_contact(contact)?)
-    }
-
-    /// Sets the groups of a cable, and how its friction is combined, for its contacts.
-    ///
-    /// # Errors
-    /// [`Error::NoCable`].
-    pub fn set_contact_rules(&mut self, cable: CableHandle, rules: ContactRules) -> Result<(), Error> {
-        let slot = self.contents.cables.get_mut(cable.0 as usize).ok_or(Error::NoCable(cable))?;
-        (slot.rules, slot.modified) = (rules, true);
-        Ok(())
-    }
-
-    /// Sets a function that decides which colliders cables may touch, beyond their groups; it is no part of a
-    /// snapshot.
-    pub fn set_contact_filter(&mut self, filter: Option<ContactFilter>) {
-        self.stepper.finder.filter = filter;
-        self.contents.cables.values_mut().for_each(|slot| slot.modified = true);
-    }
-
-    /// Returns the contacts of a cable at the end of the last step, each with its collider.
-    ///
-    /// # Errors
-    /// [`Error::NoCable`].
-    pub fn contacts(&self, cable: CableHandle) -> Result<impl Iterator<Item = (ColliderHandle, Touch)>, Error> {
-        Ok(self.get(cable)?.contacts().map(|touch| (contact::collider(touch.obstacle), touch)))
     }
 
     /// Removes a cable with its attachments, and takes it out of its junctions.

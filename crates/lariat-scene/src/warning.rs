@@ -38,7 +38,7 @@ pub enum Warning {
     },
     /// A cable that passes through a body.
     #[error(
-        "cable {cable:?}: from {time_s:.3} s on it passes through body {body:?}{}", because(*.contact)
+        "cable {cable:?}: from {time_s:.3} s on it passes through body {body:?}: without [cable.contact] cables touch nothing"
     )]
     PassesThrough {
         /// Name of the cable.
@@ -47,8 +47,6 @@ pub enum Warning {
         body: String,
         /// Time in s at which it was first found in it.
         time_s: f64,
-        /// Whether the cable has contact, which dynamic bodies do not take part in.
-        contact: bool,
     },
     /// Integration makes energy.
     #[error(
@@ -150,14 +148,6 @@ pub enum Warning {
     #[error(transparent)]
     #[serde(untagged)]
     Cable(#[from] lariat_ancf::Warning),
-}
-
-fn because(contact: bool) -> &'static str {
-    if contact {
-        ": cables touch fixed and kinematic bodies only"
-    } else {
-        ": without [cable.contact] cables touch nothing"
-    }
 }
 
 fn until(horizon: Option<f64>, estimate: Option<f64>) -> String {

@@ -35,3 +35,25 @@ fn a_winch_of_a_scene_lifts_its_crate() {
         assert!((gained - work).abs() < 5e-3 * work.abs(), "{method}: {gained} J of {work} J");
     }
 }
+
+/// The same winch with a clutch that is weaker than its acceleration asks for: it slips, never pulls more, and lifts the crate later.
+///
+/// *Source.* `m a = F - m g` for crate and rope.
+#[test]
+fn a_clutch_of_a_scene_slips() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../assets/scenes/winch.toml");
+    let overrides = ["duration=4.0".to_string(), "cable.rope.reel.max_force=530.0".to_string()];
+    let scene = Scene::read(&path, &overrides, Purpose::Run).unwrap();
+    let folder = tempfile::tempdir().unwrap();
+    let summary = run::run(&scene, folder.path(), &mut Options::default()).unwrap();
+    assert!(summary.failed.is_none(), "{summary:?}");
+    let text = std::fs::read_to_string(folder.path().join("probes/reel.csv")).unwrap();
+    let rows: Vec<Vec<f64>> =
+        text.lines().skip(1).map(|line| line.split(',').map(|x| x.parse().unwrap()).collect()).collect();
+    let most = rows.iter().map(|row| row[3]).fold(0.0, f64::max);
+    let last = &rows[240];
+    // (530 N - 502 N)/51 kg is below the 1 m/s^2 of the table: out is more than without a clutch
+    println!("{most} N, {last:?}");
+    assert!(most < 530.0 * 1.02 && most > 529.0, "{most} N");
+    assert!((last[2] + 0.5).abs() < 1e-6 && last[1] > 4.0 - 0.5 * 2.75 + 0.05, "{last:?}");
+}

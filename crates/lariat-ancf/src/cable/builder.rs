@@ -1,6 +1,6 @@
 //! Building a cable.
 
-use super::{At, Cable, Snapshot, layout};
+use super::{At, Cable, Reels, Snapshot, layout};
 use crate::contact::Obstacles;
 use crate::effect::force_density::ForceDensities;
 use crate::effect::{Damping, Effects, ForceDensity, RopeKind};
@@ -289,7 +289,7 @@ impl CableBuilder {
             force_densities: self.force_densities,
             obstacles: Obstacles::default(),
             strength: Default::default(),
-            reel: None,
+            reels: Reels::default(),
         };
         // contact has one method that can step it
         let default = match &model.effects.contact {

@@ -6,7 +6,7 @@
 //! | `state` | reading and changing the state; snapshots |
 //! | `supports`, `loads`, `effects` | what acts on it, changed between steps |
 //! | `edit` | breaking, cutting, refining, changing the rule |
-//! | `reel` | a reel at the end, which changes the length |
+//! | `reel` | reels at the ends, which change the length |
 //! | [`sample`], [`reactions`], [`energy`] | reading results |
 //! | [`mesh`] | how far the mesh resolves the shape |
 //! | [`linearise`] | matrices at the present state |
@@ -43,7 +43,7 @@ use builder::CableBuilder;
 use fearless_simd::Level;
 pub(crate) use layout::along_polyline;
 use nalgebra::Vector3;
-pub use reel::{Reel, ReelModel, ReelReading};
+pub use reel::{Feed, Reel, ReelReading, Reels};
 use serde::{Deserialize, Serialize};
 pub use state::Snapshot;
 
@@ -174,6 +174,7 @@ impl Cable {
             return Ok(());
         }
         self.check_complete()?;
+        self.model.obstacles.check_bodies(self.name(), 0)?;
         if self.has_reel() {
             self.step_with_reel(dt, integrator)?;
         } else {
@@ -393,8 +394,11 @@ pub(crate) fn check_integrator(model: &Model, method: &dyn OneStep) -> Result<()
     if model.effects.needs_implicit_integrator() && method.stability_limit().is_some() {
         return Err(Error::ExplicitDamping { cable: model.name.clone(), method: method.name() });
     }
-    if model.reel.is_some() && method.stability_limit().is_some() {
+    if !model.reels.is_empty() && method.stability_limit().is_some() {
         return Err(Error::ExplicitReel { cable: model.name.clone(), method: method.name() });
+    }
+    if model.reels.have_laws() && !method.uses_discrete_gradients() {
+        return Err(Error::ReelMethod { cable: model.name.clone(), method: method.name() });
     }
     Ok(())
 }

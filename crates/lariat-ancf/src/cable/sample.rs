@@ -116,10 +116,10 @@ impl Cable {
         let forces = &self.system.forces;
         let mut at = forces.elements.gram_state(e, q, v);
         let mut velocity = combine(v, e, position);
-        if e + 1 == self.elements().len()
-            && let Some(extent) = self.reel_extent()
-        {
-            velocity += extent.rate * combine(q, e, flow_weights(xi, length)[0]);
+        for flow in self.system.flows.list.iter().filter(|flow| flow.side.element(self.elements().len()) == e) {
+            let extent = flow.extent;
+            let local = flow.side.gather(q);
+            velocity += extent.rate * combine(&local, 0, flow_weights(flow.side.local(xi), length)[0]);
             // the control vector of the chord changes with the length, too
             let d = forces.elements.control(e, q);
             let chord = d[1].map(|x| -x * extent.rate / length);

@@ -25,9 +25,9 @@ pub struct Snapshot {
     /// Elastic energy in J that inserted nodes added so far.
     #[serde(default)]
     pub(crate) inserted_energy: f64,
-    /// The reel, if there is one.
+    /// The reels, by end.
     #[serde(default)]
-    pub(crate) winding: Option<Winding>,
+    pub(crate) windings: [Option<Winding>; 2],
 }
 
 impl Clone for Snapshot {
@@ -37,9 +37,9 @@ impl Clone for Snapshot {
 
     /// Copies `other` into the existing vectors.
     fn clone_from(&mut self, other: &Self) {
-        let Snapshot { state, work, law, inserted_energy, winding } = other;
+        let Snapshot { state, work, law, inserted_energy, windings } = other;
         self.state.copy_from(state);
-        (self.work, self.law, self.inserted_energy, self.winding) = (*work, *law, *inserted_energy, *winding);
+        (self.work, self.law, self.inserted_energy, self.windings) = (*work, *law, *inserted_energy, *windings);
     }
 }
 
@@ -48,8 +48,8 @@ impl Snapshot {
     pub(crate) fn add_work_of_step(&mut self, system: &mut System, before: &[f64]) {
         self.work += core::mem::take(&mut system.meter.work);
         self.law.merge(&core::mem::take(&mut system.meter.law));
-        if let Some(winding) = &mut self.winding {
-            winding.add_work(core::mem::take(&mut system.meter.reel_work));
+        for (winding, work) in self.windings.iter_mut().zip(core::mem::take(&mut system.meter.reel_work)) {
+            winding.iter_mut().for_each(|winding| winding.work += work);
         }
         system.loads.of_effects.add_work(before, &self.state.q, &mut self.work);
     }
@@ -86,7 +86,8 @@ impl Cable {
     pub fn restore(&mut self, snapshot: Snapshot) -> Result<(), Error> {
         let nodes = snapshot.nodes_with_reel(self.has_reel(), self.nodes());
         snapshot.state.check(self.name(), 6 * nodes)?;
-        snapshot.winding.map_or(Ok(()), |winding| winding.check()).map_err(|e| e.of_cable(self.name()))?;
+        let mut windings = snapshot.windings.iter().flatten();
+        windings.try_for_each(Winding::check).map_err(|e| e.of_cable(self.name()))?;
         let mut works = snapshot.work.by_key();
         works
             .try_for_each(|(_, x)| require("work of effects (J)", x, true, "a number"))
@@ -95,7 +96,7 @@ impl Cable {
         terms
             .try_for_each(|x| require("term of the energy law (J)", x, true, "a number"))
             .map_err(|e| e.of_cable(self.name()))?;
-        self.mesh_of_reel(snapshot.winding, nodes)?;
+        self.mesh_of_reel(&snapshot, nodes)?;
         self.snapshot = snapshot;
         self.sync_reel();
         Ok(())

@@ -11,7 +11,7 @@
 //!            f_t = -k_t u1
 //! ```
 //!
-//! y is the place relative to the obstacle, N the normal force of the last accepted step. W is convex, so `f_n . D y <= -D W`; return
+//! y is the place relative to the obstacle (path.rs says what that is for one that turns), N the normal force of the last accepted step. W is convex, so `f_n . D y <= -D W`; return
 //! mapping loses energy for any bound; so with H of the method plus W + k_t u^2/2 no contact can make energy, at any step. Sticking is a
 //! spring, so it does not creep.
 //!
@@ -23,9 +23,20 @@
 //! kept. It is swept: where the predicted way of a point meets the surface, the patch is that of the meeting point.
 //!
 //! A contact that is deeper when a step begins than it was when the last one ended (a new one that is born deep, an obstacle that was put
-//! elsewhere, another patch) gets an offset of the difference, so that no energy comes from it.
+//! elsewhere, another patch) gets an offset of the difference, so that no energy comes from it. If a body of the island was moved by others
+//! since its last step, by the contacts that an engine computes, the offset has either sign, so that the force goes on, and closes in a
+//! quarter of a second: that is work of the others, `N` times what closes.
+//!
+//! # Bodies
+//!
+//! An obstacle may ride on a body of the island ([`Obstacle::on`]). It moves with the iterate; the body takes the opposite force on the line
+//! through the point of the centre line, so linear and angular momentum are kept. All contacts with one body add six columns to the cable's
+//! matrix, and a block to the body's (border.rs).
 //!
 //! # Validity
+//!
+//! A body whose edges, or whose radius, are small beside the spacing of the samples and that passes more than its own size in a step can slip
+//! through: the closest point is chosen from the predicted end.
 //!
 //! `k = EA/(40 r^2)` per length: under the tension T around a radius R the depth is 40 (r/R) (T/EA) of the radius. First touch is of order
 //! 1 in the step, and so is friction, whose bound lags by a step. Restitution is zero where the step does not resolve the contact. The
@@ -41,25 +52,31 @@
 //! Impulses on the Delassus operator (its cost, and divergence on thin cables), barriers with smoothed friction (creep), the secant
 //! instead of the end-point derivative (rings), Hunt-Crossley damping (no gain).
 
+mod border;
 mod find;
 mod law;
 mod memory;
 mod obstacle;
 mod overlap;
+mod pair;
 mod patch;
+mod path;
 mod point;
 mod shapes;
 mod step;
 mod surface;
+mod trace;
 
+pub(crate) use border::Border;
 pub(crate) use find::Motion;
 pub(crate) use law::NormalLaw;
 pub(crate) use memory::split_element;
 pub use memory::{ContactMemory, Touch};
 pub(crate) use obstacle::Obstacles;
-pub use obstacle::{Obstacle, RigidMotion};
+pub use obstacle::{Mount, Obstacle, RigidMotion};
 pub use overlap::Overlap;
 pub use patch::Patch;
+pub(crate) use path::BodyPath;
 pub use shapes::{Ball, Capsule, Cuboid, Cylinder, HalfSpace};
 pub(crate) use step::{ContactBalance, ContactStep};
 pub use surface::{Feature, FeatureShape, Nearest, Surface};

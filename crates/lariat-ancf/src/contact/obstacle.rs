@@ -1,9 +1,10 @@
 //! Obstacles: surfaces and how they move.
 
+use super::path::Pose;
 use super::surface::Surface;
 use crate::cable::Cable;
 use crate::error::{Error, require, require_finite};
-use nalgebra::{Matrix3, UnitQuaternion, Vector3};
+use nalgebra::{UnitQuaternion, Vector3};
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
@@ -44,7 +45,7 @@ impl RigidMotion {
         RigidMotion { position: position.into(), ..Self::default() }
     }
 
-    fn pose(&self, time: f64) -> Pose {
+    pub(super) fn pose(&self, time: f64) -> Pose {
         let t = time - self.start;
         let turned = if self.angular_velocity == Vector3::zeros() {
             self.rotation
@@ -56,30 +57,57 @@ impl RigidMotion {
     }
 }
 
-/// Something that a cable can touch, but does not move: fixed, or moving as prescribed.
+/// Where an obstacle is on a body of the island.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Mount {
+    /// Index of the body among those of [`Island::step`](crate::island::Island::step).
+    pub body: usize,
+    /// The obstacle's origin from the centre of mass, in the body's axes, in m.
+    pub position: Vector3<f64>,
+    /// Rotation from the obstacle's axes to the body's.
+    pub rotation: UnitQuaternion<f64>,
+}
+
+/// Something that a cable can touch: fixed, moving as prescribed, or carried by a body that the cable moves in turn.
 #[derive(Clone, Debug)]
 pub struct Obstacle {
     /// Its number, by which contacts remember it from step to step; no two of a cable may share one.
     pub key: u64,
     /// Its shape.
     pub surface: Arc<dyn Surface>,
-    /// Its motion.
+    /// Its motion; of one that a body carries only where it is now.
     pub motion: RigidMotion,
+    /// The body of the island that carries it. Default: none, its motion is prescribed.
+    pub mount: Option<Mount>,
     /// Coefficient of friction between it and the cable, >= 0.
     pub friction: f64,
     /// Distance in m that the cable keeps from it, >= 0.
     pub skin: f64,
+    /// Pieces of the cable, by their arc lengths in m, that do not touch it: where it holds the cable. Default: none.
+    pub except: Vec<[f64; 2]>,
 }
 
 impl Obstacle {
     /// Creates an obstacle at rest, without skin.
     pub fn new(key: u64, surface: impl Surface + 'static, position: impl Into<Vector3<f64>>, friction: f64) -> Self {
-        Obstacle { key, surface: Arc::new(surface), motion: RigidMotion::at(position), friction, skin: 0.0 }
+        let motion = RigidMotion::at(position);
+        Obstacle { key, surface: Arc::new(surface), motion, mount: None, friction, skin: 0.0, except: Vec::new() }
     }
 
     /// Returns it with a motion.
     pub fn moving(self, motion: RigidMotion) -> Self {
         Obstacle { motion, ..self }
+    }
+
+    /// Returns it carried by a body of the island, which is where the obstacle should be on it. The cable then steps only in an
+    /// [`Island`](crate::island::Island) with that body.
+    pub fn on(self, mount: Mount) -> Self {
+        Obstacle { mount: Some(mount), ..self }
+    }
+
+    /// Returns whether a piece at an arc length (m) does not touch it.
+    pub(super) fn excepts(&self, arc_length: f64) -> bool {
+        self.except.iter().any(|[from, to]| (*from..=*to).contains(&arc_length))
     }
 
     fn check(&self) -> Result<(), Error> {
@@ -91,8 +119,17 @@ impl Obstacle {
         require_finite("position of an obstacle (m)", position)?;
         require_finite("velocity of an obstacle (m/s)", velocity)?;
         require_finite("angular velocity of an obstacle (rad/s)", angular_velocity)?;
-        let norm = rotation.as_ref().norm();
-        require("length of an obstacle's quaternion", norm, (norm - 1.0).abs() < 1e-6, "1")
+        let unit = |rotation: &UnitQuaternion<f64>| {
+            let norm = rotation.as_ref().norm();
+            require("length of an obstacle's quaternion", norm, (norm - 1.0).abs() < 1e-6, "1")
+        };
+        unit(rotation)?;
+        if let Some(Mount { position, rotation, .. }) = &self.mount {
+            require_finite("position of an obstacle on its body (m)", position)?;
+            unit(rotation)?;
+        }
+        let numbers = self.except.iter().flatten();
+        numbers.into_iter().try_for_each(|s| require("arc length that touches nothing (m)", *s, true, "a number"))
     }
 }
 
@@ -100,14 +137,25 @@ impl Obstacle {
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Obstacles(pub Vec<Obstacle>);
 
+impl Obstacles {
+    /// Checks that a step has the bodies that carry obstacles of a cable.
+    pub fn check_bodies(&self, cable: &str, bodies: usize) -> Result<(), Error> {
+        let missing = self.0.iter().find_map(|o| o.mount.filter(|mount| mount.body >= bodies).map(|m| (o.key, m.body)));
+        match missing {
+            Some((key, body)) => Err(Error::ObstacleBody { cable: cable.to_string(), key, body, bodies }),
+            None => Ok(()),
+        }
+    }
+}
+
 impl PartialEq for Obstacles {
     fn eq(&self, other: &Self) -> bool {
         self.0.len() == other.0.len()
             && self.0.iter().zip(&other.0).all(|(a, b)| {
                 a.key == b.key
                     && Arc::ptr_eq(&a.surface, &b.surface)
-                    && a.motion == b.motion
-                    && (a.friction, a.skin) == (b.friction, b.skin)
+                    && (a.motion, a.mount, a.friction, a.skin) == (b.motion, b.mount, b.friction, b.skin)
+                    && a.except == b.except
             })
     }
 }
@@ -141,94 +189,5 @@ impl Cable {
             Err(_) => own.truncate(before),
         }
         outcome
-    }
-}
-
-/// Place and axes at a time.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Pose {
-    pub position: Vector3<f64>,
-    pub rotation: Matrix3<f64>,
-}
-
-impl Pose {
-    /// Returns a point of the world in the body's axes.
-    pub fn own(&self, x: &Vector3<f64>) -> Vector3<f64> {
-        self.rotation.tr_mul(&(x - self.position))
-    }
-}
-
-/// The motion of an obstacle over a step.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct ObstacleStep {
-    pub start: Pose,
-    pub end: Pose,
-    /// Axes half way.
-    pub middle: Matrix3<f64>,
-    /// Displacement of the origin over the step.
-    shift: Vector3<f64>,
-    /// Whether the axes turn.
-    pub turns: bool,
-    /// Whether it moves at all.
-    pub moves: bool,
-    /// Direction of the angular velocity.
-    pub axis: Vector3<f64>,
-    velocity: Vector3<f64>,
-    angular_velocity: Vector3<f64>,
-}
-
-impl ObstacleStep {
-    /// Over a step of length `h` (s) from a time (s) on.
-    pub fn new(motion: &RigidMotion, time: f64, h: f64) -> Self {
-        let turns = motion.angular_velocity != Vector3::zeros();
-        let start = motion.pose(time);
-        let (end, middle) = if turns {
-            (motion.pose(time + h), motion.pose(time + 0.5 * h).rotation)
-        } else {
-            (Pose { position: start.position + motion.velocity * h, ..start }, start.rotation)
-        };
-        ObstacleStep {
-            start,
-            end,
-            middle,
-            shift: end.position - start.position,
-            turns,
-            moves: turns || motion.velocity != Vector3::zeros(),
-            axis: motion.angular_velocity.try_normalize(0.0).unwrap_or_default(),
-            velocity: motion.velocity,
-            angular_velocity: motion.angular_velocity,
-        }
-    }
-
-    /// Returns the speed of its fastest point within `distance` (m) of a point.
-    pub fn speed(&self, x: &Vector3<f64>, distance: f64) -> f64 {
-        self.velocity.norm() + self.angular_velocity.norm() * ((x - self.start.position).norm() + distance)
-    }
-
-    /// Returns vectors from one of its points to a point of the cable at both ends, in the axes half way.
-    pub fn beside(&self, own: &Vector3<f64>, x: &Vector3<f64>, change: &Vector3<f64>) -> (Vector3<f64>, Vector3<f64>) {
-        if self.turns {
-            let (y0, y1) = (self.start.own(x), self.end.own(&(x + change)));
-            (self.middle * (y0 - own), self.middle * (y1 - own))
-        } else {
-            self.translated(own, x, change)
-        }
-    }
-
-    /// Returns the same vectors in the world's axes.
-    pub fn translated(
-        &self,
-        own: &Vector3<f64>,
-        x: &Vector3<f64>,
-        change: &Vector3<f64>,
-    ) -> (Vector3<f64>, Vector3<f64>) {
-        let z0 = x - self.start.position - self.start.rotation * own;
-        let moved = if self.turns { (self.end.rotation - self.start.rotation) * own } else { Vector3::zeros() };
-        (z0, z0 + (change - self.shift - moved))
-    }
-
-    /// Returns the motion of a point of the cable beside its material, in the axes half way.
-    pub fn slip(&self, x: &Vector3<f64>, change: &Vector3<f64>) -> Vector3<f64> {
-        if self.turns { self.middle * (self.end.own(&(x + change)) - self.start.own(x)) } else { change - self.shift }
     }
 }

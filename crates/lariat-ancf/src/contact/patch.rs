@@ -3,24 +3,21 @@
 //! # Equation
 //!
 //! ```text
-//! plane         g = n . z                  gbar = n
-//! line, point   g = |z| - R                gbar = (z0 + z1)/(|z0| + |z1|)        z = y - p, of a line less its part along it
+//! plane         g = n . y                  gbar = n_m
+//! point         g = |y| - R                gbar = 2 y_m/(|y0| + |y1|)
+//! line          g = |z| - R                gbar = 2 (y_m - s_m a_m)/(|z0| + |z1|)       z = y - s a, s = a . y
 //! ```
 //!
-//! so `gbar . (y1 - y0) = g1 - g0` exactly. If z turns by more than 20 degrees in a step, the patch is for this step the plane that touches it
+//! with y from a point of the patch, its axis a, and means over both ends; so `gbar . s = g1 - g0` exactly, s the motion beside the
+//! obstacle ([`path`](super::path)), which may turn. If z turns by more than 20 degrees in a step, the patch is for this step the plane that touches it
 //! where the way of the point meets it: the distance from a line alone would let a point pass through it.
-//!
-//! A patch belongs to the axes of its obstacle. If these turn, z0 and z1 are those in the axes half way, but for points and for lines
-//! about which they turn, whose distance does not depend on the turn.
 
-use super::obstacle::ObstacleStep;
+use super::path::ObstacleStep;
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
 /// Cosine of the angle by which z may turn in a step.
 const MAX_TURN: f64 = 0.94;
-/// Square of the sine of the angle between a line and the axis about which it turns, below which it is that axis.
-const PARALLEL: f64 = 1e-12;
 
 /// A part of a surface, in the obstacle's axes; lengths in m, unit directions.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -94,23 +91,21 @@ impl Patch {
     ) -> GapStep {
         match *self {
             Patch::Plane { point, normal } => {
-                let (z0, z1) = obstacle.beside(&point, x, change);
-                let n = obstacle.middle * normal;
-                GapStep { start: n.dot(&z0), end: n.dot(&z1), mean: n, normal: n }
+                let [y0, y1] = obstacle.beside(&point, x, change);
+                let [n0, n1] = obstacle.ends(&normal);
+                GapStep { start: n0.dot(&y0), end: n1.dot(&y1), mean: 0.5 * (n0 + n1), normal: n1 }
             }
             Patch::Line { point, direction, radius } => {
-                let spins = obstacle.turns && {
-                    let a = obstacle.start.rotation * direction;
-                    a.cross(&obstacle.axis).norm_squared() < PARALLEL
-                };
-                let (z0, z1) =
-                    if spins { obstacle.translated(&point, x, change) } else { obstacle.beside(&point, x, change) };
-                let a = obstacle.middle * direction;
-                radial(z0 - a * a.dot(&z0), z1 - a * a.dot(&z1), radius, reach)
+                let [y0, y1] = obstacle.beside(&point, x, change);
+                let [a0, a1] = obstacle.ends(&direction);
+                let (s0, s1) = (a0.dot(&y0), a1.dot(&y1));
+                // half the gradient of |z|^2
+                let half = 0.5 * (y0 + y1) - 0.25 * (s0 + s1) * (a0 + a1);
+                radial([y0 - a0 * s0, y1 - a1 * s1], half, obstacle, radius, reach)
             }
             Patch::Point { point, radius } => {
-                let (z0, z1) = obstacle.translated(&point, x, change);
-                radial(z0, z1, radius, reach)
+                let [z0, z1] = obstacle.beside(&point, x, change);
+                radial([z0, z1], 0.5 * (z0 + z1), obstacle, radius, reach)
             }
         }
     }
@@ -122,20 +117,27 @@ fn away(z: &Vector3<f64>, radius: f64) -> (f64, Vector3<f64>) {
     (l - radius, if l > 0.0 { z / l } else { Vector3::x() })
 }
 
-/// Returns the gap |z| - R over a step.
-fn radial(z0: Vector3<f64>, z1: Vector3<f64>, radius: f64, reach: f64) -> GapStep {
+/// Returns the gap |z| - R over a step; `half` times the relative motion is half the change of |z|^2.
+fn radial(
+    [z0, z1]: [Vector3<f64>; 2],
+    half: Vector3<f64>,
+    obstacle: &ObstacleStep,
+    radius: f64,
+    reach: f64,
+) -> GapStep {
     let (l0, l1) = (z0.norm(), z1.norm());
     if z0.dot(&z1) < MAX_TURN * l0 * l1
         && let Some(n) = meets(&z0, &z1, l0, radius + reach)
     {
-        return GapStep { start: n.dot(&z0) - radius, end: n.dot(&z1) - radius, mean: n, normal: n };
+        let end = obstacle.carry(&n);
+        return GapStep { start: n.dot(&z0) - radius, end: end.dot(&z1) - radius, mean: 0.5 * (n + end), normal: end };
     }
     let sum = l0 + l1;
     if sum <= 0.0 {
         return GapStep { start: -radius, end: -radius, mean: Vector3::x(), normal: Vector3::x() };
     }
     let normal = if l1 > 0.0 { z1 / l1 } else { z0 / l0 };
-    GapStep { start: l0 - radius, end: l1 - radius, mean: (z0 + z1) / sum, normal }
+    GapStep { start: l0 - radius, end: l1 - radius, mean: half * (2.0 / sum), normal }
 }
 
 /// Returns the normal where the way from z0 to z1 meets the distance `reach`, that at z0 if it begins within; `None` if it passes by.

@@ -2,9 +2,15 @@
 
 use super::law::{NormalLaw, friction, spring_energy};
 use super::memory::{ContactMemory, Key};
-use super::obstacle::ObstacleStep;
 use super::patch::Patch;
+use super::path::ObstacleStep;
 use nalgebra::{Matrix3, Vector3};
+
+/// Time in s in which a body's displacement by others comes to the cable, as a motion of the body. An engine's contact and the cable would
+/// pump energy through each other if it came at once: each answers to what the other did a step before.
+const CLOSING_TIME: f64 = 0.25;
+/// Distance in radii by which others can lift a body off a cable in a step without ending the contact.
+const LIFTED: f64 = 0.1;
 
 /// A material point that can touch an obstacle in the present step.
 #[derive(Clone, Copy, Debug)]
@@ -23,8 +29,10 @@ pub(super) struct ContactPoint {
     /// Gap in m at which it touches: radius and skin.
     pub reach: f64,
     pub patch: Patch,
-    /// Depth in m that does not count.
+    /// Depth in m that does not count, at the beginning.
     pub offset: f64,
+    /// What of it counts at the end.
+    pub closing: f64,
     /// Distance in m from the surface at the beginning.
     pub distance: f64,
     /// Position at the beginning.
@@ -46,8 +54,10 @@ pub(super) struct ContactPoint {
 pub(super) struct Linear {
     pub force: Vector3<f64>,
     pub tangent: Matrix3<f64>,
-    /// Change of the position of that iterate.
-    pub change: Vector3<f64>,
+    /// Motion beside the obstacle of that iterate.
+    slip: Vector3<f64>,
+    /// Arm of the force about the centre of the body that carries the obstacle.
+    pub arm: Vector3<f64>,
     pressure: f64,
     slope: f64,
     depth: f64,
@@ -79,6 +89,10 @@ pub(super) struct Evaluation {
     /// Spring of friction in the obstacle's axes half way.
     pub spring: Vector3<f64>,
     pub slides: Option<Vector3<f64>>,
+    /// Motion beside the obstacle.
+    slip: Vector3<f64>,
+    /// Arm of the force about the centre of the body that carries the obstacle.
+    pub arm: Vector3<f64>,
     /// Energy in J that it stores.
     pub energy: f64,
     /// Energy in J that it lost.
@@ -90,12 +104,17 @@ pub(super) struct Evaluation {
 }
 
 impl ContactPoint {
-    /// Takes up what was remembered of it: the spring and the bound of friction, and the depth, beyond which nothing counts.
-    pub fn recall(&mut self, y: &Vector3<f64>, memory: Option<&ContactMemory>) {
-        let depth = (self.reach - self.patch.gap(y).0).max(0.0);
-        let known = memory.map_or(0.0, |memory| memory.depth);
-        self.offset = (depth - known).max(0.0);
+    /// Takes up what was remembered of it: the spring and the bound of friction, and the depth, beyond which nothing counts. Of an obstacle on a
+    /// body that was moved since then, by an engine, the difference has either sign, and closes slowly.
+    pub fn recall(&mut self, y: &Vector3<f64>, obstacle: &ObstacleStep, memory: Option<&ContactMemory>) {
+        let depth = self.reach - self.patch.gap(y).0;
+        let difference = depth.max(0.0) - memory.map_or(0.0, |memory| memory.depth);
+        (self.offset, self.closing) = (difference.max(0.0), 0.0);
         if let Some(memory) = memory {
+            let difference = depth - memory.depth;
+            if obstacle.moved && difference > -LIFTED * self.reach {
+                (self.offset, self.closing) = (difference, difference * (obstacle.h / CLOSING_TIME).min(1.0));
+            }
             self.spring = memory.spring;
             self.bound = self.friction * memory.force;
         }
@@ -115,13 +134,14 @@ impl ContactPoint {
     /// Evaluates it for a change of its position over the step.
     pub fn evaluate(&self, obstacle: &ObstacleStep, change: &Vector3<f64>, about: About) -> Evaluation {
         let gap = self.patch.over_step(obstacle, &self.start, change, self.reach);
-        let depth = self.reach - gap.end - self.offset;
+        let depth = self.reach - gap.end - (self.offset - self.closing);
         let stiffness = self.weight * self.law.stiffness;
         let u0 = obstacle.middle * self.spring;
         let before = self.weight * self.law.at(self.reach - gap.start - self.offset).energy;
         if depth <= 0.0 && about.depth.is_none() {
             let loss = before + spring_energy(stiffness, &u0);
-            return Evaluation { depth, normal: gap.normal, loss, ..Evaluation::default() };
+            let slip = obstacle.slip(&self.start, change);
+            return Evaluation { depth, normal: gap.normal, slip, loss, ..Evaluation::default() };
         }
         let end = self.law.at(depth);
         let (mut pressure, mut slope) = (end.force, end.slope);
@@ -131,21 +151,23 @@ impl ContactPoint {
         }
         let normal_force = self.weight * pressure;
         let after = self.weight * end.energy;
+        let slip = obstacle.slip(&self.start, change);
         let mut out = Evaluation {
             force: gap.mean * normal_force,
+            arm: obstacle.arm(&self.start, change),
+            slip,
             tangent: gap.normal * gap.normal.transpose() * (self.weight * slope),
             normal_force,
             normal: gap.normal,
             depth,
             energy: after,
-            loss: before - after - normal_force * (gap.end - gap.start),
+            loss: before - after - normal_force * (gap.mean.dot(&slip) - self.closing),
+            work: normal_force * self.closing,
             pressure,
             slope,
             ..Evaluation::default()
         };
-        let mut relative = normal_force * (gap.end - gap.start);
         if self.friction > 0.0 {
-            let slip = obstacle.slip(&self.start, change);
             let mean = gap.mean.try_normalize(0.0).unwrap_or(gap.normal);
             let friction = friction(stiffness, self.bound, &mean, &u0, &slip, about.sticks);
             out.friction = friction.spring * -friction.stiffness;
@@ -155,10 +177,9 @@ impl ContactPoint {
             out.slides = friction.slides;
             out.energy += spring_energy(stiffness, &friction.spring);
             out.loss += friction.loss;
-            relative += out.friction.dot(&slip);
         }
-        if obstacle.moves {
-            out.work = out.force.dot(change) - relative;
+        if obstacle.driven {
+            out.work += out.force.dot(&(change - slip));
         }
         out
     }
@@ -166,8 +187,8 @@ impl ContactPoint {
     /// Makes it linear at a change of its position.
     pub fn linearise(&mut self, obstacle: &ObstacleStep, change: Vector3<f64>) {
         let at = self.evaluate(obstacle, &change, self.about);
-        let Evaluation { force, tangent, pressure, slope, depth, slides, .. } = at;
-        self.linear = Linear { force, tangent, change, pressure, slope, depth, slides };
+        let Evaluation { force, tangent, slip, arm, pressure, slope, depth, slides, .. } = at;
+        self.linear = Linear { force, tangent, slip, arm, pressure, slope, depth, slides };
     }
 
     /// Evaluates it at the result of the linear solve, and returns how far that was off in N.
@@ -178,7 +199,7 @@ impl ContactPoint {
         let turned = linear.slides.zip(self.now.slides).is_some_and(|(a, b)| a.dot(&b) < 0.0);
         let pushes = linear.slope > 0.0 && pressure > 0.0;
         self.about = About { depth: pushes.then(|| self.law.depth_of(pressure)), sticks: turned };
-        let believed = linear.force - linear.tangent * (change - linear.change);
+        let believed = linear.force - linear.tangent * (self.now.slip - linear.slip);
         (self.now.force - believed).norm()
     }
 }
@@ -192,8 +213,10 @@ pub(super) fn combine(q: &[f64], element: usize, shape: &[f64; 4]) -> Vector3<f6
 
 #[cfg(test)]
 mod tests {
-    use super::super::obstacle::RigidMotion;
+    use super::super::obstacle::{Mount, RigidMotion};
+    use super::super::path::BodyPath;
     use super::*;
+    use nalgebra::UnitQuaternion;
 
     fn point(patch: Patch, friction: f64) -> ContactPoint {
         let law = NormalLaw::new(1e9, 5e-3);
@@ -208,6 +231,7 @@ mod tests {
             reach: 5e-3,
             patch,
             offset: 0.0,
+            closing: 0.0,
             distance: 0.0,
             start: Vector3::zeros(),
             spring: Vector3::zeros(),
@@ -236,8 +260,14 @@ mod tests {
             Patch::Point { point: Vector3::zeros(), radius: 0.1 },
         ];
         for patch in patches {
-            for motion in [RigidMotion::default(), turning] {
-                let step = ObstacleStep::new(&motion, 0.0, 1.0 / 240.0);
+            let (origin, spin) = (Vector3::zeros(), UnitQuaternion::identity());
+            let mount = Mount { body: 0, position: origin, rotation: spin };
+            let half = Vector3::new(0.05, -0.1, 0.2);
+            let path = BodyPath { centre: origin, displacement: 3e-5 * half, rotation: spin, half, moved: false };
+            let h = 1.0 / 240.0;
+            let still = ObstacleStep::new(&RigidMotion::default(), 0.0, h);
+            let carried = ObstacleStep::carried(&mount, &path, h);
+            for step in [still, ObstacleStep::new(&turning, 0.0, h), carried] {
                 for i in 0..64 {
                     let way = |k: i32, n: i32| f64::from((i * n + k * 5) % 11 - 5) * 4e-5;
                     let mut p = point(patch, 0.4);
@@ -248,11 +278,12 @@ mod tests {
                     let before = p.energy_before(&p.start);
                     let change = Vector3::new(way(1, 3), way(2, 7), way(3, 2));
                     let now = p.evaluate(&step, &change, About::default());
-                    let made = now.force.dot(&change) - now.work + now.energy - before + now.loss;
+                    let way = step.slip(&p.start, &change);
+                    let made = now.force.dot(&way) + now.energy - before + now.loss;
+                    let work = if step.driven { now.force.dot(&(change - way)) } else { 0.0 };
+                    assert_eq!(now.work, work);
                     assert!(made.abs() < 1e-12, "{patch:?} {i} {made:e}");
-                    if !step.turns {
-                        assert!(now.loss > -1e-13, "{patch:?} {i} {:e}", now.loss);
-                    }
+                    assert!(now.loss > -1e-13, "{patch:?} {i} {:e}", now.loss);
                 }
             }
         }

@@ -1,7 +1,9 @@
 //! All contacts of a cable over a step.
 
+use super::border::{Border, Borders};
 use super::memory::{ContactMemory, Key};
-use super::obstacle::ObstacleStep;
+use super::obstacle::Obstacle;
+use super::path::{BodyPath, ObstacleStep};
 use super::point::ContactPoint;
 use crate::integrate::discrete_gradient::BETA;
 use crate::linalg::BlockTridiagonal;
@@ -18,6 +20,8 @@ pub(crate) struct ContactStep {
     pub(super) recalled: Vec<bool>,
     /// Length of the step in s.
     pub(super) h: f64,
+    /// Columns of the bodies that are touched, as the last linear solve sees them.
+    borders: Borders,
     /// Energy in J that the contacts store at the beginning.
     pub(super) before: f64,
 }
@@ -50,9 +54,40 @@ impl ContactStep {
         self.points.len() as u64
     }
 
-    /// Adds h times the forces, linear about an iterate, to `rhs`, and `b h^2` times their tangents to the matrix.
+    /// Moves the obstacles that bodies of the island carry with these.
+    pub fn follow(&mut self, obstacles: &[Obstacle], bodies: &[BodyPath]) {
+        for (step, obstacle) in self.obstacles.iter_mut().zip(obstacles) {
+            if let Some(mount) = &obstacle.mount {
+                *step = ObstacleStep::carried(mount, &bodies[mount.body], self.h);
+            }
+        }
+    }
+
+    /// Returns the bodies that are touched as the last linear solve sees them.
+    pub fn borders(&self) -> &[Border] {
+        if self.points.is_empty() { &[] } else { self.borders.get() }
+    }
+
+    /// Adds the impulses on bodies to their rows, about their centres: those at the iterate, or those about which the next solve is linear.
+    pub fn pass_impulses(&self, linear: bool, rows: &mut [f64]) {
+        for point in &self.points {
+            let Some(body) = self.obstacles[point.obstacle].body else { continue };
+            let (force, arm) =
+                if linear { (point.linear.force, point.linear.arm) } else { (point.now.force, point.now.arm) };
+            let impulse = force * -self.h;
+            let angular = arm.cross(&impulse);
+            for x in 0..3 {
+                rows[6 * body + x] += impulse[x];
+                rows[6 * body + 3 + x] += angular[x];
+            }
+        }
+    }
+
+    /// Adds h times the forces, linear about an iterate, to `rhs`, and `b h^2` times their tangents to the matrix and to the columns of the
+    /// bodies that carry obstacles.
     pub fn linearise(&mut self, change: &[f64], rhs: &mut [f64], matrix: &mut BlockTridiagonal) {
         let h = self.h;
+        self.borders.begin(rhs.len());
         for point in &mut self.points {
             point.linearise(&self.obstacles[point.obstacle], point.change(change));
             let linear = &point.linear;
@@ -62,6 +97,9 @@ impl ContactStep {
             add_force(point, &(linear.force * h), rhs);
             let tangent = linear.tangent * (BETA * h * h);
             let element = point.key.0 as usize;
+            if let Some(body) = self.obstacles[point.obstacle].body {
+                self.borders.add(body, element, &point.shape, &tangent, &linear.arm);
+            }
             for (p, left) in point.shape.iter().enumerate() {
                 for (q, right) in point.shape.iter().enumerate() {
                     let block = match (p / 2, q / 2) {

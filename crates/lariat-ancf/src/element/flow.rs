@@ -1,4 +1,5 @@
-//! The element at the eye of a reel: material enters it at its last node, and its length is a coordinate.
+//! The element at the eye of a reel: material enters it at its last node, and its length is a coordinate. At the start of a cable it is
+//! [mirrored](super::side).
 //!
 //! # Equation
 //!
@@ -92,7 +93,7 @@ impl FlowElement {
     }
 
     /// Adds `scale` times the force `-(2 l' G v + (l'' G + l'^2 H) q)` of the flow on the element's 12 coordinates.
-    pub fn add_force(&self, scale: f64, q: &[f64], v: &[f64], out: &mut [f64]) {
+    pub fn add_force(&self, scale: f64, q: &[f64; 12], v: &[f64; 12], out: &mut [f64; 12]) {
         let [by_velocity, by_position] = self.matrices();
         for a in 0..4 {
             for b in 0..4 {
@@ -104,7 +105,7 @@ impl FlowElement {
     }
 
     /// Adds the momentum `l' G q`.
-    pub fn add_momentum(&self, q: &[f64], out: &mut [f64]) {
+    pub fn add_momentum(&self, q: &[f64; 12], out: &mut [f64; 12]) {
         for a in 0..4 {
             for b in 0..4 {
                 let g = self.entry(&G, self.extent.rate * self.inertia, a, b);
@@ -116,13 +117,13 @@ impl FlowElement {
     }
 
     /// Returns the kinetic energy beyond that of the mass matrix, `l' v.G q + 1/2 l'^2 q.K q`, in J.
-    pub fn kinetic_energy(&self, q: &[f64], v: &[f64]) -> f64 {
+    pub fn kinetic_energy(&self, q: &[f64; 12], v: &[f64; 12]) -> f64 {
         let Extent { length, rate, .. } = self.extent;
         self.product(&G, rate * self.inertia, v, q) + 0.5 * self.product(&K, rate * rate * self.inertia / length, q, q)
     }
 
     /// Returns B without the strain energy, in N: inertia and weight, with accelerations `a` of the coordinates.
-    pub fn length_force(&self, q: &[f64], v: &[f64], a: &[f64], weight: &[f64; 3]) -> f64 {
+    pub fn length_force(&self, [q, v, a]: [&[f64; 12]; 3], weight: &[f64; 3]) -> f64 {
         let Extent { length, rate, acceleration } = self.extent;
         let rho = self.inertia;
         let mut sum = self.product(&G, rho, a, q)
@@ -138,7 +139,7 @@ impl FlowElement {
         sum
     }
 
-    fn product(&self, table: &Table, factor: f64, x: &[f64], y: &[f64]) -> f64 {
+    fn product(&self, table: &Table, factor: f64, x: &[f64; 12], y: &[f64; 12]) -> f64 {
         let mut sum = 0.0;
         for a in 0..4 {
             for b in 0..4 {
@@ -233,7 +234,7 @@ mod tests {
         }
         let own: f64 = (0..12).map(|i| 0.5 * v[i] * product(&v, i)).sum();
         assert_relative_eq!(own + element.kinetic_energy(&q, &v), kinetic, epsilon = 1e-9);
-        assert_relative_eq!(element.length_force(&q, &v, &a, &weight), on_length, epsilon = 1e-6);
+        assert_relative_eq!(element.length_force([&q, &v, &a], &weight), on_length, epsilon = 1e-6);
     }
 
     /// w is the derivative of S(y; l) e by l at a fixed particle, and dw/dy that along the cable; w = -t at the eye.

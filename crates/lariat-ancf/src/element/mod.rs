@@ -5,10 +5,12 @@
 //! - [`shape`]: shape functions and their derivatives
 //! - [`mass`]: the consistent mass matrix in closed form
 //! - `flow`: the element into which material flows from a reel
+//! - `side`: the end of the cable at which it is
 
 pub(crate) mod flow;
 pub mod gram;
 pub mod kernel;
 pub mod mass;
 pub mod shape;
+pub(crate) mod side;
 pub mod step;

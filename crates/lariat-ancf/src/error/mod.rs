@@ -83,6 +83,16 @@ pub enum Error {
         /// Name of the method.
         method: String,
     },
+    /// A reel with a largest force under a method that does not solve for its rate.
+    #[error(
+        "cable {cable:?}: the rate of a reel with max_force is an unknown, which {method} does not solve for; use discrete-gradient"
+    )]
+    ReelMethod {
+        /// Name of the cable.
+        cable: String,
+        /// Name of the method.
+        method: String,
+    },
     /// A reel where none can be.
     #[error("cable {cable:?}: reel: {reason}")]
     ReelPlace {
@@ -149,6 +159,20 @@ pub enum Error {
         cable: String,
         /// The key.
         key: u64,
+    },
+    /// An obstacle on a body that the island does not have, or outside an island.
+    #[error(
+        "cable {cable:?}: its obstacle {key} is carried by body {body}, but {bodies} bodies step with the cable; use Island::step"
+    )]
+    ObstacleBody {
+        /// Name of the cable.
+        cable: String,
+        /// Key of the obstacle.
+        key: u64,
+        /// Index of its body.
+        body: usize,
+        /// Number of bodies in the island.
+        bodies: usize,
     },
     /// Contact with a method that does not carry it.
     #[error("cable {cable:?}: {method} cannot step contact: use discrete-gradient")]

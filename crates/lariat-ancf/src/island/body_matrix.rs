@@ -3,7 +3,7 @@
 //! # Equation
 //!
 //! ```text
-//! B + sum G^T W G          G = (1, -[arm]x) of a held position, (0, -[arm]x) of a held slope
+//! B + sum G^T W G          G = (1, -[arm]x) of a held position, (0, -[arm]x) of a held slope, 1 of a touched body
 //! ```
 
 use super::condense::Condensed;
@@ -21,12 +21,27 @@ pub(super) struct BodyMatrix {
     n: usize,
 }
 
-/// Held coordinates: the body that holds them, their arm, and whether they are a slope.
+/// Three coordinates that follow a body, by `G = (linear 1, angular)`.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Lever {
     pub body: usize,
-    pub arm: Vector3<f64>,
-    pub slope: bool,
+    pub linear: bool,
+    pub angular: Matrix3<f64>,
+}
+
+impl Lever {
+    /// Of held coordinates with an arm; those of a slope only turn.
+    pub fn held(body: usize, arm: &Vector3<f64>, slope: bool) -> Self {
+        Lever { body, linear: !slope, angular: -skew(arm) }
+    }
+
+    /// Of a body's own velocity and angular velocity.
+    pub fn own(body: usize) -> [Self; 2] {
+        [
+            Lever { body, linear: true, angular: Matrix3::zeros() },
+            Lever { body, linear: false, angular: Matrix3::identity() },
+        ]
+    }
 }
 
 impl BodyMatrix {
@@ -60,20 +75,20 @@ impl BodyMatrix {
     /// Adds a cable that is condensed on held coordinates.
     pub fn add_cable(&mut self, condensed: &Condensed, levers: impl Iterator<Item = Lever> + Clone) {
         let count = 3 * levers.clone().count();
-        for (a, hold) in levers.clone().enumerate() {
-            let (first, ga) = (6 * hold.body, -skew(&hold.arm));
+        for (a, one) in levers.clone().enumerate() {
+            let (first, turned) = (6 * one.body, one.angular.transpose());
             for (b, other) in levers.clone().enumerate() {
                 let second = 6 * other.body;
                 let block = Matrix3::from_fn(|r, c| condensed.w[(3 * a + r) * count + 3 * b + c]);
-                let rotated = block * -skew(&other.arm);
-                self.add(first + 3, second + 3, &(ga.transpose() * rotated));
-                if !hold.slope {
+                let rotated = block * other.angular;
+                self.add(first + 3, second + 3, &(turned * rotated));
+                if one.linear {
                     self.add(first, second + 3, &rotated);
                 }
-                if !other.slope {
-                    self.add(first + 3, second, &(ga.transpose() * block));
+                if other.linear {
+                    self.add(first + 3, second, &(turned * block));
                 }
-                if !hold.slope && !other.slope {
+                if one.linear && other.linear {
                     self.add(first, second, &block);
                 }
             }

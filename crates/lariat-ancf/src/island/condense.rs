@@ -9,7 +9,10 @@
 //! Y = A_ff^-1 A_fp        W = A_pp - A_pf Y        r_p - A_pf A_ff^-1 r_f
 //! ```
 //!
-//! W (3 rows per pin, 6 per clamp) is the dynamic stiffness of the cable at the bodies; Y gives the
+//! Bodies that the cable touches stand beside the held coordinates, with columns and blocks of their own
+//! ([`contact`](crate::contact)).
+//!
+//! W (3 rows per pin, 6 per clamp or touched body) is the dynamic stiffness of the cable at the bodies; Y gives the
 //! increments of the cable from those of the bodies.
 //!
 //! # References
@@ -21,6 +24,7 @@
 //! Lagrange multipliers: the same solves, and an indefinite matrix in addition.
 
 use super::hold::Hold;
+use crate::contact::Border;
 use crate::linalg::{BlockTridiagonal, Factorisation};
 use fearless_simd::Level;
 
@@ -42,13 +46,17 @@ pub(super) struct Condensed {
     /// W, row-major.
     pub w: Vec<f64>,
     size: usize,
+    /// Columns of touched bodies, six each, before and after projection.
+    borders: Vec<f64>,
 }
 
 impl Condensed {
-    /// Reads the columns of the held coordinates from `a`, before it is projected.
-    pub fn read(&mut self, a: &BlockTridiagonal, holds: &[Hold]) {
+    /// Reads the columns of the held coordinates from `a`, before it is projected, and those of touched bodies.
+    pub fn read(&mut self, a: &BlockTridiagonal, holds: &[Hold], borders: &[Border]) {
         self.size = 6 * a.nodes();
         self.columns.clear();
+        self.borders.clear();
+        borders.iter().for_each(|border| self.borders.extend_from_slice(&border.columns));
         for &Hold { node, slope, .. } in holds {
             let offset = if slope { 3 } else { 0 };
             for x in offset..offset + 3 {
@@ -75,10 +83,11 @@ impl Condensed {
         &mut self,
         level: Level,
         factorisation: &Factorisation,
-        holds: &[Hold],
+        (holds, borders): (&[Hold], &[Border]),
         project: impl Fn(&mut [f64]),
     ) {
-        let (count, size) = (self.columns.len(), self.size);
+        let (held, size) = (self.columns.len(), self.size);
+        let count = held + 6 * borders.len();
         self.y.clear();
         self.y.resize(count * size, 0.0);
         self.w.clear();
@@ -97,19 +106,39 @@ impl Condensed {
             project(y);
             column.rows[..6 * column.nodes].copy_from_slice(&y[6 * column.first..6 * (column.first + column.nodes)]);
         }
+        for (k, column) in self.borders.chunks_exact_mut(size.max(1)).enumerate() {
+            for (q, &Hold { node, slope, .. }) in holds.iter().enumerate() {
+                for x in 0..3 {
+                    let value = column[6 * node + if slope { 3 } else { 0 } + x];
+                    self.w[(3 * q + x) * count + held + k] = value;
+                    self.w[(held + k) * count + 3 * q + x] = value;
+                }
+            }
+            for x in 0..6 {
+                self.w[(held + k) * count + held + k / 6 * 6 + x] = borders[k / 6].block[(k % 6, x)];
+            }
+            project(column);
+            self.y[(held + k) * size..][..size].copy_from_slice(column);
+        }
         if count > 0 {
             factorisation.solve_many(level, &mut self.y, count);
         }
         for i in 0..count {
             for j in 0..count {
-                self.w[i * count + j] -= self.columns[i].dot(&self.y[j * size..(j + 1) * size]);
+                self.w[i * count + j] -= self.border(i, &self.y[j * size..(j + 1) * size]);
             }
         }
     }
 
-    /// Returns `A_pf u` for held coordinate `i`.
+    /// Returns `A_pf u` for held coordinate `i`; those of touched bodies come after the others.
     pub fn border(&self, i: usize, u: &[f64]) -> f64 {
-        self.columns[i].dot(u)
+        match self.columns.get(i) {
+            Some(column) => column.dot(u),
+            None => {
+                let column = &self.borders[(i - self.columns.len()) * self.size..][..self.size];
+                column.iter().zip(u).map(|(a, b)| a * b).sum()
+            }
+        }
     }
 
     /// Computes `u -= Y_i displacement`.

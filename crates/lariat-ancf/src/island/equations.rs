@@ -121,11 +121,11 @@ impl IslandEquations<'_, '_> {
             let (mut equations, _) = cable.equations();
             let input = ForceInput { q: &at.q[range.clone()], v: &at.v[range.clone()], ..*at };
             equations.force_and_matrix(input, 1.0, rows);
-            step.condensed.read(&equations.system.step.matrix, &part.holds);
+            step.condensed.read(&equations.system.step.matrix, &part.holds, &[]);
             equations.factor_to_solve()?;
             let (level, model) = (equations.system.level, equations.model);
             let factorisation = &equations.system.step.factorisation;
-            step.condensed.complete(level, factorisation, &part.holds, |x| project_vector(model, x));
+            step.condensed.complete(level, factorisation, (&part.holds, &[]), |x| project_vector(model, x));
             equations.system.mass.multiply(equations.system.level, &z[range], product);
             subtract(rows, product);
         }
@@ -145,10 +145,11 @@ impl IslandEquations<'_, '_> {
                 let matrix = &mut system.step.matrix;
                 matrix.clear();
                 system.mass.add_to(matrix, 1.0);
-                mass.condensed.read(matrix, &part.holds);
+                mass.condensed.read(matrix, &part.holds, &[]);
                 project_matrix(model, matrix);
                 mass_factorisation.factor(system.level, matrix)?;
-                mass.condensed.complete(system.level, mass_factorisation, &part.holds, |x| project_vector(model, x));
+                let parts = (&part.holds[..], &[][..]);
+                mass.condensed.complete(system.level, mass_factorisation, parts, |x| project_vector(model, x));
             }
             self.matrices.mass_is_factored = true;
         }
@@ -173,11 +174,8 @@ impl IslandEquations<'_, '_> {
             matrix.add_inertia(i, &inertia);
         }
         for (buffers, part) in cables.iter().zip(&layout.parts) {
-            let lever = |hold: &Hold| Lever {
-                body: layout.pins[hold.pin].body,
-                arm: layout.rotating_vector(hold, q),
-                slope: hold.slope,
-            };
+            let lever =
+                |hold: &Hold| Lever::held(layout.pins[hold.pin].body, &layout.rotating_vector(hold, q), hold.slope);
             if kind == MatrixKind::Step {
                 for hold in &part.holds {
                     let geometric = -skew(&vector(&rhs[hold.at..])) * skew(&layout.rotating_vector(hold, q));

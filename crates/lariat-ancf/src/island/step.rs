@@ -25,12 +25,13 @@ pub struct Island {
 }
 
 impl Island {
-    /// Advances `cables` and `bodies`, held together by `pins`, by `dt` (s) with `integrator`.
+    /// Advances `cables` and `bodies`, held together by `pins`, by `dt` (s) with `integrator`. Cables touch bodies that carry their
+    /// [obstacles](crate::contact::Obstacle::on).
     ///
     /// # Errors
     /// [`Error::StepFailed`] if the step fails; [`Error::Pin`], [`Error::NotInIsland`] or
     /// [`Error::OutOfRange`] for a pin that fits no attached node, cable or body;
-    /// [`Error::EmptyIsland`] and [`Error::TimeMismatch`]; and as
+    /// [`Error::EmptyIsland`] and [`Error::TimeMismatch`]; [`Error::ObstacleBody`] for an obstacle on a body that is not there; and as
     /// [`Cable::step_with`](Cable::step_with). Cables and bodies are then exactly as before.
     pub fn step(
         &mut self,
@@ -59,13 +60,13 @@ impl Island {
         integrator.check()?;
         check(cables, bodies, pins)?;
         cables.iter().try_for_each(|cable| check_integrator(&cable.model, integrator.method))?;
+        cables.iter().try_for_each(|cable| cable.model.obstacles.check_bodies(cable.name(), bodies.len()))?;
         if dt == 0.0 {
             return Ok(());
         }
         for (i, cable) in cables.iter().enumerate().filter(|(_, cable)| cable.has_reel()) {
-            let at_eye = |pin: &&PinConstraint| pin.cable == i && pin.node + 1 == cable.nodes();
-            let moved = pins.iter().filter(at_eye).any(|pin| bodies[pin.body].free.contains(&true));
-            cable.check_reel_in_island(moved, dt)?;
+            let held = |node: usize| pins.iter().filter(move |pin| pin.cable == i && pin.node == node);
+            cable.check_reel_in_island(|node| held(node).any(|pin| bodies[pin.body].free.contains(&true)), dt)?;
         }
         cables.iter_mut().for_each(|cable| cable.begin_reel(dt));
         cables.iter_mut().for_each(|cable| cable.take_workspace());

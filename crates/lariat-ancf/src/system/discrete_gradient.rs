@@ -3,9 +3,9 @@
 use super::lanes::MatrixOutput;
 use super::lanes::discrete_gradient::{CoordinateStep, ElementLoss};
 use super::rigid_motion::relative_velocities;
-use super::{Equations, System, project_vector};
+use super::{Equations, System, Unknowns, project_vector};
 use crate::cable::Cable;
-use crate::contact::{ContactBalance, Motion};
+use crate::contact::{BodyPath, ContactBalance, Motion};
 use crate::effect::EffectWork;
 use crate::effect::acts::{ForceInput, PointForce, StepInput};
 use crate::error::StepFailure;
@@ -78,11 +78,11 @@ impl Equations<'_> {
         }
     }
 
-    /// Finds the contacts of a step, if the cable can have any.
-    pub fn find_contacts(&self, state: &State, b: &mut Buffers) {
+    /// Finds the contacts of a step, if the cable can have any, with obstacles and with `bodies` of an island.
+    pub fn find_contacts(&self, state: &State, b: &mut Buffers, bodies: &[BodyPath]) {
         let Buffers { contact, change, h, .. } = b;
         let memory = &state.memory.contacts;
-        contact.begin(&Motion { model: self.model, time: state.time, h: *h, q: &state.q, change, memory });
+        contact.begin(&Motion { model: self.model, time: state.time, h: *h, q: &state.q, change, memory, bodies });
     }
 
     /// Adds contact forces to the residual of the present iterate, and what they do to its balance.
@@ -108,11 +108,11 @@ impl Equations<'_> {
         matrix: bool,
         work: &mut EffectWork,
     ) -> ElementLoss {
-        let eye = self.begin_flow_step(state, b);
+        let eyes = self.begin_flow_step(state, b);
         let loss = self.step_elements(state, b, matrix);
-        self.end_flow_step(state, b, eye);
+        self.end_flow_step(state, b, eyes);
         self.external_forces(state, b, matrix, work);
-        self.add_flow_over_step(state, b, matrix);
+        self.add_flows_over_step(state, b, matrix);
         if let Some(effects) = &self.system.forces.in_element {
             effects.add_dissipated(loss.effects, work);
         }
@@ -202,6 +202,7 @@ impl Equations<'_> {
         if !b.contact.is_empty() {
             self.balance_contacts(b, &mut balance, work);
         }
+        self.balance_motors(state, b, &mut balance);
         let system = &*self.system;
         let Buffers { h, velocity_before, velocity_change, change, rhs, external, product, .. } = b;
         for (node, support) in &self.model.supports {
@@ -234,10 +235,7 @@ impl Equations<'_> {
 
     /// Makes the end of the step the state.
     pub fn accept_step(&mut self, state: &mut State, b: &Buffers) {
-        if self.system.flow.is_some() {
-            self.system.meter.reel_work += self.flow_work_of_step(state, b);
-            self.system.end_flow_step_at(state.time);
-        }
+        self.end_flows_of_step(state, b);
         for i in 0..b.change.len() {
             state.q[i] += b.change[i];
             state.v[i] += b.velocity_change[i];
@@ -259,6 +257,32 @@ impl Equations<'_> {
     }
 }
 
+/// Linearises the laws of reels whose rate is unknown, and solves for their columns.
+fn linearise_laws(equations: &mut Equations<'_>, state: &State, b: &mut Buffers) {
+    let mut unknowns = core::mem::take(&mut b.unknowns);
+    unknowns.begin([&equations.system.flows].into_iter());
+    let Unknowns { reels, columns, saved, .. } = &mut unknowns;
+    equations.read_motors(state, b);
+    for (&(_, k), columns) in reels.iter().zip(columns) {
+        equations.linearise_law(k, state, b, &mut columns[0], saved);
+        equations.solve(&mut columns[0]);
+    }
+    b.unknowns = unknowns;
+}
+
+/// Solves for the rates of reels that are unknown, and completes the increment in `rhs`.
+fn add_to_laws(equations: &mut Equations<'_>, b: &mut Buffers) {
+    let Buffers { unknowns, rhs, .. } = b;
+    if unknowns.reels.is_empty() {
+        return;
+    }
+    unknowns.solve(|_| &equations.system.flows, |_| rhs);
+    for ((&(_, k), columns), &increment) in unknowns.reels.iter().zip(&unknowns.columns).zip(&unknowns.increments) {
+        equations.add_to_law(k, increment);
+        rhs.iter_mut().zip(&columns[0]).for_each(|(x, y)| *x -= increment * y);
+    }
+}
+
 impl DiscreteGradientSystem for CableStep<'_> {
     fn time(&self) -> f64 {
         self.state.time
@@ -273,9 +297,10 @@ impl DiscreteGradientSystem for CableStep<'_> {
     }
 
     fn predict(&mut self, h: f64) {
+        self.equations.begin_laws(self.state.time, h);
         self.buffers.recall(self.state, h);
         self.equations.prescribe_change(self.state, self.buffers);
-        self.equations.find_contacts(self.state, self.buffers);
+        self.equations.find_contacts(self.state, self.buffers, &[]);
     }
 
     fn iterate(&mut self, fresh: bool) -> Result<Balance, StepFailure> {
@@ -284,8 +309,10 @@ impl DiscreteGradientSystem for CableStep<'_> {
         if fresh {
             equations.step_residual(state, b, true, &mut EffectWork::default());
             equations.factor_to_solve()?;
+            linearise_laws(equations, state, b);
         }
         equations.solve(&mut b.rhs);
+        add_to_laws(equations, b);
         if !b.rhs.iter().all(|x| x.is_finite()) {
             return Err(equations.not_finite("Newton increment", &b.rhs));
         }
@@ -310,11 +337,11 @@ impl DiscreteGradientSystem for CableStep<'_> {
         taken.clone_from(rhs);
         relative_velocities(equations.model, equations.system, product, taken, external, linearised);
         let energy = 0.5 * equations.system.mass_square(taken, external);
-        let share = share_to_take(energy, dot(rhs, external), balance.excess());
+        let share = share_to_take(energy, dot(rhs, external), balance.to_take());
         match share {
             Some(share) => {
                 taken.iter_mut().for_each(|x| *x *= share);
-                balance.rescaled += balance.excess();
+                balance.rescaled += balance.to_take();
                 true
             }
             None => {

@@ -43,8 +43,8 @@ pub(crate) struct EnergyMeter {
     pub work: EffectWork,
     /// The work of effects in a step of the discrete gradient.
     pub work_of_step: EffectWork,
-    /// Work of a reel and of the material that enters in the present host step, in J.
-    pub reel_work: f64,
+    /// By end, work of a reel and of the material that enters in the present host step, in J.
+    pub reel_work: [f64; 2],
     /// The energy law of the present host step.
     pub law: EnergyLaw,
     q: Vec<f64>,
@@ -56,7 +56,7 @@ impl EnergyMeter {
     /// Begins a host step.
     pub fn begin(&mut self) {
         self.work = EffectWork::default();
-        self.reel_work = 0.0;
+        self.reel_work = [0.0; 2];
         self.law = EnergyLaw::default();
     }
 }
@@ -83,8 +83,9 @@ impl Equations<'_> {
     /// Adds the work of effects, point loads, moving supports and nodes `driven` by an island in a step of length `h` (s); `range` is the
     /// cable's part of the states.
     pub fn add_work(&mut self, before: &State, after: &State, h: f64, range: Range<usize>, driven: &[usize]) {
-        if self.system.flow.is_some() {
-            self.system.meter.reel_work += self.flow_work(before, after, h, range.end);
+        for k in 0..self.system.flows.list.len() {
+            let flow = self.system.flows.list[k];
+            self.system.meter.reel_work[flow.side as usize] += self.flow_work(&flow, before, after, h, range.clone());
         }
         self.add_effect_work(before, after, h, range.clone());
         if !driven.is_empty() || self.model.supports.iter().any(moves) {
@@ -140,9 +141,7 @@ impl Equations<'_> {
     fn effect_power(&mut self, time: f64) -> EffectWork {
         let system = &mut *self.system;
         let (forces, EnergyMeter { q, v, force, .. }) = (&mut system.forces, &mut system.meter);
-        if let Some(flow) = &system.flow {
-            flow.strain_velocity(time, q, v);
-        }
+        system.flows.strain_velocity(time, q, v);
         let mut power = EffectWork::default();
         if let Some(effects) = forces.in_element.as_ref().filter(|effects| effects.dissipates()) {
             forces.elements.add_effect_power(effects, q, v, &mut power);
@@ -204,13 +203,13 @@ impl Equations<'_> {
         self.model.supports.iter().all(|(_, support)| support.is_still())
             && self.model.loads.iter().all(steady)
             && self.system.forces.densities.is_none()
-            && self.system.flow.as_ref().is_none_or(|flow| flow.extent.rate == 0.0 && flow.extent.acceleration == 0.0)
+            && self.system.flows.are_still()
     }
 
     /// Returns kinetic and strain energy, and their sum with the potential of gravity and loads, in J.
     fn mechanical_energy(&mut self, time: f64, q: &[f64], v: &[f64]) -> (f64, f64) {
         let system = &mut *self.system;
-        system.set_flow(self.model, time);
+        system.set_flows(self.model, time);
         let momentum = &mut system.meter.force;
         momentum.resize(v.len(), 0.0);
         system.mass.multiply(system.level, v, momentum);

@@ -49,11 +49,11 @@ impl Equations<'_> {
 
     fn evaluate(&mut self, load_time: f64, input: ForceInput<'_>, out: &mut [f64], mass_scale: Option<f64>) {
         out.fill(0.0);
-        let mut flow = self.system.flow.take();
-        if let Some(flow) = &flow {
+        if input.v.is_empty() {
             // statics know no time, and nothing flows
-            let time = if input.v.is_empty() { flow.start } else { input.time };
-            self.system.set_lengths(self.model, flow.at(time));
+            self.system.set_flows_at_start(self.model);
+        } else {
+            self.system.set_flows(self.model, input.time);
         }
         let (system, diagnostics) = (&mut *self.system, &mut *self.diagnostics);
         let matrix = &mut system.step.matrix;
@@ -63,11 +63,7 @@ impl Equations<'_> {
         }
         let n = self.model.elements.len() as u64;
         let to = mass_scale.map(|mass_scale| MatrixOutput { matrix: &mut *matrix, mass_scale });
-        let strained = match &mut flow {
-            Some(flow) if !input.v.is_empty() => ForceInput { v: flow.damping_velocity(&input), ..input },
-            _ => input,
-        };
-        system.forces.add(system.level, strained, out, to, diagnostics);
+        system.forces.add(system.level, system.flows.for_damping(input), out, to, diagnostics);
         match mass_scale {
             None => diagnostics.force_evaluations += n,
             Some(_) => diagnostics.tangent_evaluations += n,
@@ -77,10 +73,7 @@ impl Equations<'_> {
         }
         let loads = ForceInput { time: load_time, ..input };
         system.loads.add(&self.model.loads, loads, out, mass_scale.map(|_| &mut *matrix), diagnostics);
-        if let Some(flow) = flow {
-            flow.add(self.model, &input, out, mass_scale.map(|_| matrix));
-            system.flow = Some(flow);
-        }
+        system.flows.add(self.model, &input, out, mass_scale.map(|_| matrix));
     }
 
     /// Overwrites prescribed coordinates and velocities by their values at `time`.
@@ -93,10 +86,10 @@ impl Equations<'_> {
 
     /// Factors the mass matrix at `time` (s) if it depends on time.
     pub fn begin_acceleration(&mut self, time: f64) -> Result<(), StepFailure> {
-        if self.system.flow.is_none() {
+        if self.system.flows.is_empty() {
             return Ok(());
         }
-        self.system.set_flow(self.model, time);
+        self.system.set_flows(self.model, time);
         self.system.factor_mass(self.model)
     }
 

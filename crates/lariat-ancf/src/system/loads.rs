@@ -54,22 +54,20 @@ impl Loads {
         self.of_effects.add(&mut self.dead_force);
     }
 
-    /// Sets the weight of the last element to that of a length in m, of a cable without constant forces of effects.
-    pub fn weigh_last(&mut self, model: &Model, length: f64) {
-        let last = model.elements.len() - 1;
-        let from = 6 * last;
-        self.gravity_force[from..].fill(0.0);
-        for e in last.saturating_sub(1)..=last {
-            let element = &model.elements[e];
-            let (weight, l) = (model.weight(element), if e == last { length } else { element.length });
-            for (k, share) in mass::load_weights(l).iter().enumerate() {
-                // of the element before, the share of its last node
-                for x in (0..3).filter(|_| 6 * e + 3 * k >= from) {
-                    self.gravity_force[6 * e + 3 * k + x] += share * weight[x];
+    /// Sets the weight of element `e` to that of its length in m, of a cable without constant forces of effects.
+    pub fn weigh_element(&mut self, model: &Model, e: usize, length: impl Fn(usize) -> f64) {
+        let own = 6 * e..6 * e + 12;
+        self.gravity_force[own.clone()].fill(0.0);
+        // of the neighbours, the shares of its own nodes
+        for i in e.saturating_sub(1)..(e + 2).min(model.elements.len()) {
+            let weight = model.weight(&model.elements[i]);
+            for (k, share) in mass::load_weights(length(i)).iter().enumerate() {
+                for at in (6 * i + 3 * k..6 * i + 3 * k + 3).filter(|at| own.contains(at)) {
+                    self.gravity_force[at] += share * weight[at % 3];
                 }
             }
         }
-        self.dead_force[from..].copy_from_slice(&self.gravity_force[from..]);
+        self.dead_force[own.clone()].copy_from_slice(&self.gravity_force[own]);
     }
 
     /// Finds the elements of the point loads.

@@ -43,14 +43,16 @@ impl Mass {
         Ok(mass)
     }
 
-    /// Sets the mass of the last element to that of a length in m; the factors stay.
-    pub fn set_last(&mut self, model: &Model, length: f64) {
-        let e = model.elements.len() - 1;
-        let m = mass::consistent(model.inertia(&model.elements[e]), length);
-        let before = e.checked_sub(1).map(|k| &model.elements[k]);
-        let n = before.map_or([[0.0; 4]; 4], |element| mass::consistent(model.inertia(element), element.length));
-        self.matrix.diag[e] = [n[2][2] + m[0][0], n[2][3] + m[0][1], n[3][3] + m[1][1]];
-        self.matrix.diag[e + 1] = [m[2][2], m[2][3], m[3][3]];
+    /// Sets the mass of element `e` to that of its length in m; the factors stay.
+    pub fn set_element(&mut self, model: &Model, e: usize, length: impl Fn(usize) -> f64) {
+        let of = |e: Option<usize>| match e.filter(|&e| e < model.elements.len()) {
+            Some(e) => mass::consistent(model.inertia(&model.elements[e]), length(e)),
+            None => [[0.0; 4]; 4],
+        };
+        let [before, m, after] = [e.checked_sub(1), Some(e), Some(e + 1)].map(of);
+        for (node, [i, j]) in [(e, [&before, &m]), (e + 1, [&m, &after])] {
+            self.matrix.diag[node] = [i[2][2] + j[0][0], i[2][3] + j[0][1], i[3][3] + j[1][1]];
+        }
         self.matrix.lower[e] = [m[2][0], m[2][1], m[3][0], m[3][1]];
     }
 

@@ -13,7 +13,7 @@
 //! | [`equations`] | one evaluation of everything, factorisation, solution |
 //! | [`dynamics`] | the equations as integrators see them |
 //! | [`energy_balance`] | work of effects and change of energy over a step |
-//! | [`flow`] | the element at the eye of a reel |
+//! | [`flow`] | the elements at the eyes of reels |
 //! | [`jacobian`] | exact derivatives |
 //! | [`frequency`] | a bound of the frequencies |
 //! | [`projection`] | supports in vectors and matrices |
@@ -36,6 +36,7 @@ mod rigid_motion;
 pub(crate) use discrete_gradient::{CableStep, dot};
 pub(crate) use dynamics::CableDynamics;
 pub(crate) use equations::Equations;
+pub(crate) use flow::{Law, Motor, Unknowns, rates};
 pub(crate) use projection::{project_matrix, project_vector};
 
 use crate::cable::builder::STANDARD_GRAVITY;
@@ -44,7 +45,7 @@ use crate::linalg::{BlockTridiagonal, Factorisation};
 use crate::model::Model;
 use energy_balance::EnergyMeter;
 use fearless_simd::Level;
-use flow::Flow;
+use flow::Flows;
 use forces::Forces;
 use loads::Loads;
 use mass::Mass;
@@ -59,8 +60,8 @@ pub(crate) struct System {
     pub step: StepMatrix,
     pub scales: Scales,
     pub meter: EnergyMeter,
-    /// The element at the eye, if the cable has a reel.
-    pub flow: Option<Flow>,
+    /// The elements at the eyes of reels.
+    pub flows: Flows,
     /// Time in s at which statics evaluate forces that depend on it.
     pub static_time: f64,
 }
@@ -116,7 +117,7 @@ impl System {
             step: StepMatrix::default(),
             scales: Scales::new(model),
             meter: EnergyMeter::default(),
-            flow: model.reel.as_ref().map(|_| Flow::new(model.elements[model.elements.len() - 1].length)),
+            flows: Flows::new(model),
             static_time: 0.0,
         })
     }

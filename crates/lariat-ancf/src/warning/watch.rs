@@ -113,7 +113,7 @@ impl Watch {
             self.motion = self.motion.max(motion.error.min(shape.position));
             self.displacement = self.displacement.max(motion.displacement);
         }
-        let ratio = cable.reel().map_or(0.0, |reel| reel.speed_ratio);
+        let ratio = cable.reels().map(|reel| reel.speed_ratio).fold(0.0, f64::max);
         if ratio.is_finite() && ratio > self.reel.0 && cable.effects().damping.is_none() {
             self.reel = (ratio, cable.time());
         }

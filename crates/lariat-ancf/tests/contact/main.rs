@@ -1,6 +1,7 @@
 //! Contact and friction with obstacles.
 
 mod bench;
+mod bodies;
 mod capstan;
 #[path = "../common/mod.rs"]
 mod common;

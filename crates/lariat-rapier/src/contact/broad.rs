@@ -2,21 +2,24 @@
 //!
 //! # Validity
 //!
-//! A cable is boxed by eight elements at a time, each box grown by its way in the step, the radius and Rapier's prediction distance. The tree holds
-//! the boxes of Rapier's last step: kinematic bodies that move are looked up besides, with the box that they sweep. Before Rapier's first step,
+//! A cable is boxed by eight elements at a time, each box grown by its way in the step and by that of the fastest dynamic body, the radius and
+//! Rapier's prediction distance. The tree holds the boxes of Rapier's last step: kinematic bodies that move are looked up besides, with the box that they sweep. Before Rapier's first step,
 //! and while it does not know all colliders, every one of them is looked at.
 
-use super::{Surfaces, key, rules::ContactFilter};
+use super::rules::{ContactFilter, ContactRules};
+use super::{Surfaces, key};
 use crate::contents::Contents;
 use crate::convert::{rotation, to_vector, vector};
 use crate::error::Error;
 use crate::events::Event;
 use crate::handle::CableHandle;
+use crate::islands::{Island, Member};
 use crate::step::prediction::StepParameters;
 use crate::step::prescribed_motion::{PrescribedMotions, reference};
 use ::nalgebra::{UnitQuaternion, Vector3};
 use lariat_ancf::Cable;
-use lariat_ancf::contact::{Obstacle, Overlap, RigidMotion};
+use lariat_ancf::contact::{Mount, Obstacle, Overlap, RigidMotion, Surface};
+use rapier::dynamics::{RigidBody, RigidBodyHandle};
 use rapier::geometry::{Aabb, BoundingVolume, Collider, ColliderHandle};
 use rapier::math::Real;
 use rapier::pipeline::{PhysicsWorld, QueryFilter};
@@ -25,6 +28,8 @@ use rapier::pipeline::{PhysicsWorld, QueryFilter};
 const CHUNK: usize = 8;
 /// Radii of a cable by which its boxes are grown: features are looked for from four on.
 const MARGIN: f64 = 6.0;
+/// Radii of a cable beside an attachment that do not touch the body.
+const HELD: f64 = 4.0;
 /// Factor on the way of a cable in a step.
 const SWEEP: f64 = 2.0;
 
@@ -40,18 +45,25 @@ pub(crate) struct Finder {
     known: Option<usize>,
     /// Whether these are all.
     listed: bool,
+    /// Largest speed in m/s of a point of a dynamic body that is awake.
+    fastest: f64,
+    /// Cables and the dynamic bodies that they can reach in the present Rapier step, in ascending order.
+    pub touching: Vec<(usize, RigidBodyHandle)>,
     pub filter: Option<ContactFilter>,
 }
 
 impl Finder {
-    /// Begins a Rapier step: finds the colliders that move as prescribed. Does nothing if no cable has contact.
+    /// Begins a Rapier step: finds the colliders that move as prescribed, and the dynamic bodies that cables can reach. Does nothing if no cable
+    /// has contact.
     pub fn begin(&mut self, contents: &Contents, world: &PhysicsWorld, h: f64) {
         self.moving.clear();
+        self.touching.clear();
         if contents.cables.values().all(|slot| slot.cable.effects().contact.is_none()) {
             return;
         }
         self.surfaces.retain(|collider| world.colliders.contains(collider));
         self.listed = self.known == Some(world.colliders.len());
+        self.fastest = fastest(world);
         for (_, body) in world.bodies.iter().filter(|(_, body)| body.is_kinematic() && body.is_enabled()) {
             let still = body.next_position() == body.position()
                 && body.linvel() == Default::default()
@@ -65,6 +77,34 @@ impl Finder {
                 self.moving.push((handle, now.loosened(reach as Real)));
             }
         }
+        for (index, slot) in contents.cables.iter().filter(|(_, slot)| slot.cable.effects().contact.is_some()) {
+            self.find(world, &slot.cable, h);
+            for i in 0..self.found.len() {
+                let handle = self.found[i];
+                let Some(collider) = self.touched(world, CableHandle(index as u32), &slot.rules, handle) else {
+                    continue;
+                };
+                let body = collider.parent().filter(|body| crate::body::is_integrated(world, *body));
+                let Some(body) = body else { continue };
+                let own = collider.shared_shape();
+                if !self.touching.contains(&(index, body)) && self.surfaces.of(handle, own).is_some() {
+                    self.touching.push((index, body));
+                }
+            }
+        }
+        self.touching.sort_unstable_by_key(|(cable, body)| (*cable, body.into_raw_parts()));
+    }
+
+    /// Returns a collider if a cable may touch it.
+    fn touched<'a>(
+        &self,
+        world: &'a PhysicsWorld,
+        cable: CableHandle,
+        rules: &ContactRules,
+        handle: ColliderHandle,
+    ) -> Option<&'a Collider> {
+        let filtered = self.filter.as_ref().is_some_and(|filter| !filter.allows(cable, handle));
+        world.colliders.get(handle).filter(|collider| !filtered && rules.allow(collider))
     }
 
     /// Ends a Rapier step: its tree knows all colliders.
@@ -72,13 +112,13 @@ impl Finder {
         self.known = Some(world.colliders.len());
     }
 
-    /// Gives a cable the colliders that it can reach as obstacles, and returns whether one moves, or one that it touched is gone. A dynamic body in
-    /// which the cable is found is an event, once.
+    /// Gives a cable of an island the colliders that it can reach as obstacles, and returns whether one moves, or one that it touched is gone. A
+    /// collider with a shape of the program's own in which the cable is found is an event, once.
     pub fn gather(
         &mut self,
         contents: &mut Contents,
         world: &PhysicsWorld,
-        index: usize,
+        (index, island): (usize, &Island),
         (motions, step): (&PrescribedMotions, &StepParameters),
         events: &mut Vec<Event>,
     ) -> Result<bool, lariat_ancf::Error> {
@@ -86,36 +126,31 @@ impl Finder {
         let Some(contact) = slot.cable.effects().contact else { return Ok(false) };
         self.find(world, &slot.cable, step.h);
         let (cable, time) = (CableHandle(index as u32), slot.cable.time());
-        let own = |body| contents.attachments.values().any(|a| a.cable == cable && a.body == body);
-        let (rules, mut obstacles, mut ignored) = (slot.rules, Vec::new(), Vec::new());
-        for &handle in &self.found {
-            let Some(collider) = world.colliders.get(handle).filter(|collider| rules.allow(collider)) else { continue };
-            if self.filter.as_ref().is_some_and(|filter| !filter.allows(cable, handle)) {
-                continue;
-            }
-            let dynamic = collider.parent().filter(|b| crate::body::is_integrated(world, *b));
-            let surface = self.surfaces.of(handle, collider.shared_shape());
-            let (Some(surface), None) = (surface, dynamic) else {
-                let known = slot.ignored.contains(&key(handle)) || dynamic.is_some_and(own);
-                if !known && is_inside(&slot.cable, collider) {
+        let (mut obstacles, mut ignored) = (Vec::new(), Vec::new());
+        for i in 0..self.found.len() {
+            let handle = self.found[i];
+            let Some(collider) = self.touched(world, cable, &slot.rules, handle) else { continue };
+            let Some(surface) = self.surfaces.of(handle, collider.shared_shape()) else {
+                if !slot.ignored.contains(&key(handle)) && is_inside(&slot.cable, collider) {
                     ignored.push(handle);
                 }
                 continue;
             };
+            let except = held_pieces(contents, cable, collider, &*surface, slot.cable.contact_radius());
             obstacles.push(Obstacle {
                 key: key(handle),
                 surface,
                 motion: motion(world, collider, motions, step, time),
-                friction: rules.friction(contact.friction, collider),
+                mount: collider.parent().and_then(|body| mount(world, collider, island, body)),
+                friction: slot.rules.friction(contact.friction, collider),
                 skin: f64::from(collider.contact_skin()),
+                except,
             });
         }
         let Some(slot) = contents.cables.get_mut(index) else { return Ok(false) };
         for collider in ignored {
             let name = slot.cable.name();
-            log::warn!(
-                "cable {name:?} passes through collider {collider:?}: cables touch fixed and kinematic colliders only"
-            );
+            log::warn!("cable {name:?} passes through collider {collider:?}, whose shape is the program's own");
             slot.ignored.push(key(collider));
             events.push(Event::ContactIgnored { cable, collider });
         }
@@ -141,22 +176,25 @@ impl Finder {
         self.find(world, cable, 0.0);
         let handle = CableHandle(index as u32);
         let mut obstacles = Vec::new();
-        for &found in &self.found {
-            let Some(collider) = world.colliders.get(found).filter(|collider| slot.rules.allow(collider)) else {
+        for i in 0..self.found.len() {
+            let found = self.found[i];
+            let Some(collider) = self.touched(world, handle, &slot.rules, found) else { continue };
+            // the body moves with its cables to a place that the world does not know yet
+            let moves =
+                |body| crate::body::is_integrated(world, body) && contents.attachments.values().any(|a| a.body == body);
+            if collider.parent().is_some_and(moves) {
                 continue;
-            };
-            let filtered = self.filter.as_ref().is_some_and(|filter| !filter.allows(handle, found));
-            let dynamic = collider.parent().is_some_and(|b| crate::body::is_integrated(world, b));
-            if let (false, false, Some(surface)) = (filtered, dynamic, self.surfaces.of(found, collider.shared_shape()))
-            {
-                obstacles.push(Obstacle {
-                    key: key(found),
-                    surface,
-                    motion: still(collider, cable.time()),
-                    friction: 0.0,
-                    skin: f64::from(collider.contact_skin()),
-                });
             }
+            let Some(surface) = self.surfaces.of(found, collider.shared_shape()) else { continue };
+            obstacles.push(Obstacle {
+                key: key(found),
+                except: held_pieces(contents, handle, collider, &*surface, cable.contact_radius()),
+                surface,
+                motion: still(collider, cable.time()),
+                mount: None,
+                friction: 0.0,
+                skin: f64::from(collider.contact_skin()),
+            });
         }
         cable.set_obstacles(obstacles)?;
         match cable.overlap() {
@@ -172,10 +210,12 @@ impl Finder {
 
     /// Finds the colliders that a cable can reach in a step of `h` (s).
     fn find(&mut self, world: &PhysicsWorld, cable: &Cable, h: f64) {
-        let Finder { boxes, found, moving, listed, .. } = self;
+        let Finder { boxes, found, moving, listed, fastest, .. } = self;
         found.clear();
         boxes.clear();
-        let margin = f64::from(world.integration_parameters.prediction_distance()) + MARGIN * cable.contact_radius();
+        let margin = f64::from(world.integration_parameters.prediction_distance())
+            + MARGIN * cable.contact_radius()
+            + SWEEP * h * *fastest;
         let (q, v, elements) = (cable.positions(), cable.velocities(), cable.elements());
         for first in (0..elements.len()).step_by(CHUNK) {
             let last = (first + CHUNK).min(elements.len());
@@ -246,6 +286,52 @@ fn motion(
         out.velocity = Vector3::zeros();
     }
     out
+}
+
+/// Returns where a collider is on an integrated body of an island.
+fn mount(world: &PhysicsWorld, collider: &Collider, island: &Island, parent: RigidBodyHandle) -> Option<Mount> {
+    let body = island.members.iter().position(|member| *member == Member::Body(parent))?;
+    let local = collider.position_wrt_parent()?;
+    let centre = vector(world.bodies[parent].local_center_of_mass());
+    Some(Mount { body, position: vector(local.translation) - centre, rotation: rotation(local.rotation) })
+}
+
+/// Returns the pieces of a cable at its attachments to the body of a collider, which do not touch it: four radii on both sides, and as much more
+/// as an anchor is deep inside.
+fn held_pieces(
+    contents: &Contents,
+    cable: CableHandle,
+    collider: &Collider,
+    surface: &dyn Surface,
+    radius: f64,
+) -> Vec<[f64; 2]> {
+    let (Some(parent), Some(local)) = (collider.parent(), collider.position_wrt_parent()) else { return Vec::new() };
+    let own = contents.attachments.values().filter(|a| a.cable == cable && a.body == parent);
+    own.map(|a| {
+        let anchor = rotation(local.rotation).inverse() * (a.anchor - vector(local.translation));
+        let reach = HELD * radius + (-surface.nearest(&anchor).distance).max(0.0);
+        [a.arc_length - reach, a.arc_length + reach]
+    })
+    .collect()
+}
+
+/// Returns the largest speed in m/s of a point of a collider of a dynamic body that is awake.
+fn fastest(world: &PhysicsWorld) -> f64 {
+    let awake = world.bodies.iter().filter(|(_, body)| body.is_dynamic() && body.is_enabled() && !body.is_sleeping());
+    let speed = |body: &RigidBody| {
+        let spin = f64::from(body.angvel().length());
+        let extent = |handle: &ColliderHandle| {
+            let size = world
+                .colliders
+                .get(*handle)
+                .map_or(0.0, |c| f64::from(c.shape().compute_local_bounding_sphere().radius));
+            let local = world.colliders.get(*handle).and_then(|c| c.position_wrt_parent());
+            size + local.map_or(0.0, |p| f64::from((p.translation - body.local_center_of_mass()).length()))
+        };
+        let size = if spin > 0.0 { body.colliders().iter().map(extent).fold(0.0, f64::max) } else { 0.0 };
+        f64::from(body.linvel().length()) + if size.is_finite() { spin * size } else { 0.0 }
+    };
+    awake.map(|(_, body)| speed(body)).fold(0.0, f64::max)
 }
 
 /// Returns no motion.

@@ -9,11 +9,19 @@
 //! | [`rules`] | which of them it touches, and with which friction, as Rapier decides it |
 //! | [`shape`], [`mesh`], [`compound`], [`cone`] | the surface of a collider in `f64`, from the exact numbers of its shape |
 //! | [`events`] | contacts that began and ended |
+//! | [`set`] | the calls of [`CableSet`](crate::CableSet) |
 //!
 //! # Validity
 //!
-//! Fixed and kinematic colliders, and those of disabled bodies that stay. Dynamic bodies are not touched: a cable that is found in one
-//! says so by [`Event::ContactIgnored`](crate::Event), once for each.
+//! All colliders but those with a shape of the program's own: a cable that is found in one says so by
+//! [`Event::ContactIgnored`](crate::Event), once for each. A dynamic body joins the island of the cables that can reach it in a step, as an
+//! unknown, and leaves it when it is far; a body that sleeps wakes up when a cable that moves comes near. Within four radii of an
+//! attachment, and as much further as its anchor is inside, a cable does not touch the body that holds it.
+//!
+//! A body that cables press on another one feels them in Rapier's step by the estimate of its reactions alone, without the motors of attachments:
+//! a load that is lashed to a vehicle slides too easily.
+//!
+//! Restitution of colliders does not count: impacts of cables have none.
 //!
 //! Rapier's tree holds the boxes of its last step. A fixed collider that is moved by hand is found a step later; a cable that is in
 //! it by then gets no energy from it, but stays as deep as it was found.
@@ -24,6 +32,7 @@ mod cone;
 pub(crate) mod events;
 mod mesh;
 pub(crate) mod rules;
+mod set;
 mod shape;
 
 pub use rules::{ContactFilter, ContactRules};

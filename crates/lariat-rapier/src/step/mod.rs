@@ -184,20 +184,21 @@ fn predict_islands(
     attach::end_lost(contents, world, &mut stepper.events)?;
     contents.follow_gravity(world)?;
     contents.attachments.values().for_each(|a| body::update_mass(world, a.body));
-    stepper.islands.update(contents, world)?;
+    let h = f64::from(world.integration_parameters.dt);
+    stepper.finder.begin(contents, world, h);
+    stepper.islands.update(contents, world, &stepper.finder.touching)?;
     stepper.predictions.resize_with(stepper.islands.list.len(), Default::default);
     stepper.predictions.iter_mut().for_each(|prediction| prediction.applied.clear());
     let is_awake = |body: RigidBodyHandle| !world.bodies[body].is_sleeping();
     let needs_speeds = stepper.islands.list.iter().any(|island| island.bodies().any(is_awake));
     let step = StepParameters {
-        h: f64::from(world.integration_parameters.dt),
+        h,
         rapier_steps: host.steps,
         share: (f64::from(host.done - 1) / f64::from(host.steps), f64::from(host.done) / f64::from(host.steps)),
         fastest: if needs_speeds { proximity::fastest(world) } else { 0.0 },
         sleep_speed: settings.sleep_speed,
     };
     let Stepper { islands, predictions, events, failures, finder, .. } = &mut *stepper;
-    finder.begin(contents, world, step.h);
     for (island, prediction) in islands.list.iter().zip(predictions.iter_mut()) {
         let failed = |failure: &Failure| failure.cables.iter().any(|c| island.cables.contains(&(c.0 as usize)));
         prediction.refused = failures.iter().any(failed);
@@ -207,6 +208,7 @@ fn predict_islands(
             prediction.error = outcome.err();
         }
     }
+    reels::mark(contents);
     integrate::integrate(contents, &islands.list, predictions, step.h);
     reels::follow(contents);
     for (island, prediction) in islands.list.iter().zip(predictions.iter_mut()) {
@@ -248,7 +250,7 @@ fn prepare_island(
     let ends_moved = island.bodies().next().is_some() && kinematic_ends::have_moved(contents, world, island, step.h);
     let mut moved = ends_moved;
     for &cable in &island.cables {
-        moved |= finder.gather(contents, world, cable, (motions, step), events)?;
+        moved |= finder.gather(contents, world, (cable, island), (motions, step), events)?;
     }
     prediction.sleep = sleep::update(contents, world, island, moved, step.sleep_speed, events);
     if prediction.sleep.asleep {

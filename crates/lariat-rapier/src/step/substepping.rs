@@ -36,13 +36,14 @@
 
 use crate::attachment::Attachment;
 use crate::body::is_integrated;
+use crate::contact;
 use crate::contents::Contents;
 use crate::settings::Settings;
 use crate::spatial::split_spatial;
 use crate::step::apply::MAX_HALF_ROTATION;
 use crate::step::impedance::OWN_MOBILITY_SHARE;
 use crate::step::proximity;
-use ::nalgebra::Vector3;
+use ::nalgebra::{Vector3, Vector6};
 use lariat_ancf::island::Impedance;
 use lariat_ancf::{At, Cable};
 use rapier::dynamics::RigidBodyHandle;
@@ -100,9 +101,36 @@ pub(crate) fn count(
     }
     let jointed = |a: &Attachment| is_integrated(world, a.body) && !proximity::is_unjointed(world, a.body);
     let joints = if contents.attachments.values().any(jointed) { JOINTED_STEPS } else { 1.0 };
-    let needed = needed.max(rotation(contents, world, dt)).max(joints);
+    let needed = needed.max(rotation(contents, world, dt)).max(joints).max(pressed(contents, world, dt));
     // a value that is not a number, or too large, gives the maximum
     (needed.ceil().min(f64::from(max)) as u32).max(min)
+}
+
+/// Returns the number of steps of `dt` (s) that bodies need which cables press on others, so that none vibrates between them. A cable that touches
+/// a body is as stiff as one that is attached to it in the middle.
+fn pressed(contents: &Contents, world: &PhysicsWorld, dt: f64) -> f64 {
+    let mut stiffnesses: Vec<(RigidBodyHandle, f64)> = Vec::new();
+    for slot in contents.cables.values() {
+        let compliance: f64 = slot.cable.elements().iter().map(|e| e.length / e.section.axial_stiffness).sum();
+        let mut last = None;
+        for touch in slot.cable.contacts() {
+            let body = world.colliders.get(contact::collider(touch.obstacle)).and_then(|c| c.parent());
+            let Some(body) = body.filter(|body| is_integrated(world, *body) && last != Some(*body)) else { continue };
+            last = Some(body);
+            match stiffnesses.iter_mut().find(|(known, _)| *known == body) {
+                Some((_, sum)) => *sum += 4.0 / compliance,
+                None => stiffnesses.push((body, 4.0 / compliance)),
+            }
+        }
+    }
+    let count = |(body, stiffness): &(RigidBodyHandle, f64)| {
+        let reacts = contents.records.get(*body).is_some_and(|record| record.reaction != Vector6::zeros());
+        if !reacts && !proximity::may_deviate(world, *body) {
+            return 0.0;
+        }
+        dt * (stiffness * f64::from(world.bodies[*body].mass_properties().local_mprops.inv_mass)).sqrt() / MAX_PHASE
+    };
+    stiffnesses.iter().map(count).fold(0.0, f64::max)
 }
 
 /// Returns the number of steps of `dt` (s) that attached bodies need so that none rotates by more

@@ -294,26 +294,6 @@ fn contacts_begin_and_end_with_events() {
     assert!(matches!(ended[..], [Event::ContactEnded { collider, .. }] if collider == floor), "{ended:?}");
 }
 
-/// A dynamic body is not touched, and that is said once.
-///
-/// *Source.* The contract.
-#[test]
-fn a_dynamic_body_is_ignored_by_name() {
-    let mut world = PhysicsWorld::new();
-    world.gravity = RVector::ZERO;
-    let (_, collider) = world.insert(RigidBodyBuilder::dynamic(), ColliderBuilder::ball(0.1));
-    let mut cables = CableSet::new();
-    let cable = rope(Vector3::new(-0.5, 0.3, 0.0), Vector3::new(0.5, 0.3, 0.0), 16);
-    let cable = touching(&mut cables, cable, 0.5);
-    cables.get_mut(cable).unwrap().set_gravity(Vector3::new(0.0, -9.81, 0.01)).unwrap();
-    let mut events = Vec::new();
-    for _ in 0..60 {
-        cables.step(&mut world).unwrap();
-        events.extend(cables.take_events());
-    }
-    assert_eq!(events, [Event::ContactIgnored { cable, collider }]);
-}
-
 /// A snapshot of world and set taken while a rope slips continues bitwise, and so does the set that was never saved.
 ///
 /// *Source.* Equality.

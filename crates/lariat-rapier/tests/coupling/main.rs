@@ -5,6 +5,7 @@ mod assemblies;
 mod attachment_points;
 mod blows;
 mod cable_contact;
+mod cable_contact_bodies;
 mod clamps;
 mod common;
 mod contact;

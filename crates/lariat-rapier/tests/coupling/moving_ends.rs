@@ -78,7 +78,50 @@ fn a_rope_on_a_rotor_pulls_with_its_force_of_inertia() {
         assert!((pull / expected - 1.0).abs() < 1e-2, "{case}");
         let pull = pull_on_rotor(Fidelity::Game, by_pose, clamp, speed, frequency);
         println!("game: {pull:.4} N");
-        assert!((pull / expected - 1.0).abs() < 5e-2, "game: {pull:.4} N; {case}");
+        assert!((pull / expected - 1.0).abs() < 2e-2, "game: {pull:.4} N; {case}");
+    }
+}
+
+/// Ropes with strong internal friction, on the rims of rotors of any size and speed: what friction takes must not hide the errors of the
+/// iteration. Undetected they grow to a thousand times the force.
+///
+/// Reference: the force of inertia, as above.
+#[test]
+fn a_damped_rope_on_a_rotor_pulls_with_its_force_of_inertia() {
+    for (radius, length, mass, stiffness, damping, clamp, speed, frequency) in [
+        (0.42, 0.59, 0.109, 1.5e6, 0.01, true, 25.9, 30.0),
+        (0.42, 0.59, 0.109, 1.5e6, 0.01, false, 20.0, 60.0),
+        (0.42, 0.59, 0.109, 1.5e6, 0.01, false, 25.0, 30.0),
+        (0.42, 0.59, 0.109, 1.5e6, 0.01, false, 30.0, 60.0),
+        (0.1, 1.0, 0.02, 3e5, 0.05, false, 12.0, 60.0),
+        (1.0, 0.4, 0.4, 4e6, 0.003, true, 18.0, 120.0),
+        (0.05, 2.0, 0.05, 1e6, 0.02, false, 7.0, 240.0),
+    ] {
+        let mut world = weightless();
+        world.integration_parameters.dt = 1.0 / frequency as Real;
+        let rotor = RigidBodyBuilder::kinematic_velocity_based().angvel(Vector::new(0.0, 0.0, speed as Real));
+        let rotor = world.insert_body(rotor);
+        let mut set = CableSet::new();
+        let section = Section::from_stiffness(stiffness, 1e-7 * stiffness, mass).unwrap();
+        let lash = cable([radius, 0.0, 0.0], [radius + length, 0.0, 0.0], section)
+            .damping(Damping { axial: damping, bending: damping })
+            .gravity(Vector3::zeros())
+            .fidelity(Fidelity::Game);
+        let lash = set.insert(lash.build().unwrap());
+        let spin = Vector3::new(0.0, 0.0, speed);
+        set.get_mut(lash).unwrap().set_rigid_motion(spin.cross(&Vector3::new(radius, 0.0, 0.0)), spin).unwrap();
+        let kind = if clamp { AttachmentKind::Clamp } else { AttachmentKind::Ball };
+        let end = set.attach(&world, lash, At::Start, rotor, Vector::new(radius as Real, 0.0, 0.0), kind).unwrap();
+        let expected = speed * speed * mass * length * (radius + 0.5 * length);
+        for step in 0..2 * frequency as usize {
+            set.step(&mut world).unwrap();
+            let pull = set.attachment(end).unwrap().force().norm();
+            let case = format!(
+                "{radius} m, {length} m, {speed} rad/s at {frequency} Hz, step {step}: {pull:.3} of {expected:.3} N"
+            );
+            // the rope is set to its stretch by a jerk, which friction takes
+            assert!(step < frequency as usize / 2 || (pull / expected - 1.0).abs() < 0.12, "{case}");
+        }
     }
 }
 

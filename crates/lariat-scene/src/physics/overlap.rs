@@ -2,7 +2,6 @@
 
 use super::Physics;
 use crate::scene::Scene;
-use crate::scene::body::BodyKind;
 use crate::warning::Warning;
 use lariat_rapier::convert::to_vector;
 use lariat_rapier::rapier::geometry::{Aabb, BoundingVolume};
@@ -35,21 +34,22 @@ impl Physics {
         deepest.into_iter().map(name).collect()
     }
 
-    /// Returns a warning for each cable and body, not attached to each other, when the cable is first found in the body although it does not touch it:
-    /// a cable without contact, or a dynamic body. Once for each; a cable that starts inside has its own warning.
+    /// Returns a warning for each cable and body, not attached to each other, when a cable without contact is first found in the body. Once for each;
+    /// a cable that starts inside has its own warning.
     pub fn passing(&mut self, scene: &Scene, time: f64) -> Vec<Warning> {
         let mut found = Vec::new();
         for (part, (_, cable)) in self.cables.iter().enumerate() {
             let Some(&c) = self.sources.get(part) else { continue };
             let radius = cable.contact_radius().max(0.5 * scene.cables[c].section.diameter.unwrap_or(0.0));
-            let contact = cable.effects().contact.is_some();
+            if cable.effects().contact.is_some() {
+                continue;
+            }
             let places = || (0..cable.nodes()).map(|node| to_vector(&cable.node_position(node)));
             let mut around = Aabb::new_invalid();
             places().for_each(|x| around.take_point(x));
-            for (b, body) in scene.bodies.iter().enumerate() {
+            for b in 0..scene.bodies.len() {
                 let attached = scene.attachments.iter().any(|a| a.cable == c && a.body == Some(b));
-                let touched = contact && body.kind != BodyKind::Dynamic;
-                if attached || touched || self.passed.contains(&(c, b)) {
+                if attached || self.passed.contains(&(c, b)) {
                     continue;
                 }
                 let colliders = self.world.bodies[self.bodies[b]].colliders().iter();
@@ -70,7 +70,6 @@ impl Physics {
             cable: scene.cables[c].name.clone(),
             body: scene.bodies[b].name.clone(),
             time_s: time,
-            contact: scene.cables[c].effects.contact.is_some(),
         };
         found.into_iter().map(warn).collect()
     }

@@ -8,6 +8,7 @@
 use super::World;
 use crate::error::Error;
 use crate::scene::Target;
+use lariat_ancf::At;
 
 /// Returns the columns of a probe.
 pub(crate) fn columns(target: Target) -> &'static [&'static str] {
@@ -62,7 +63,7 @@ pub(super) fn read(target: Target, world: &mut World, row: &mut Vec<f64>) -> Res
         Target::Reel(cable) => {
             let (part, _) = world.part(cable, f64::INFINITY);
             // the reel is at the last part of its cable
-            if let Some(reel) = world.cables()[part].reel() {
+            if let Some(reel) = world.cables()[part].reel(At::End) {
                 row.extend([reel.length_out, reel.rate, reel.force, reel.tension, reel.work]);
             }
         }

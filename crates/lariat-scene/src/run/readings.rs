@@ -75,7 +75,7 @@ impl World {
             terms.work += effects.total() + effects.dissipated() + law.loads + law.supports + cable.inserted_energy();
             // the energy law of a step knows no winch
             all_by_law &= !cable.has_reel();
-            terms.work += cable.reel().map_or(0.0, |reel| reel.work + reel.remeshed);
+            terms.work += cable.reels().map(|reel| reel.work + reel.remeshed).sum::<f64>();
             by_law += law.residual - law.numerical - law.rescaled;
             all_by_law &= cable.integrator().method == Method::DiscreteGradient;
         }

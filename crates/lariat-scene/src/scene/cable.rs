@@ -151,8 +151,11 @@ pub(super) fn read(doc: &Document<'_>, at: &KeyPath, mut row: CableTable) -> Res
     let reel = reel::read(doc, at, &mut row.effects)?;
     let effects = effects::read(doc, at, row.effects, &effects::Context { section: &section, rule, length })?;
     let mut integrator = integrator::read(doc, &at.key("integrator"), &row.integrator)?;
-    if effects.contact.is_some() {
-        integrator = integrator::with_contact(doc, &at.key("integrator"), integrator)?;
+    let slips = reel.as_ref().is_some_and(|reel| reel.max_force.is_some());
+    for (what, _) in
+        [("contact", effects.contact.is_some()), ("a reel with a clutch", slips)].iter().filter(|(_, is)| *is)
+    {
+        integrator = integrator::by_discrete_gradient(doc, &at.key("integrator"), integrator, what)?;
     }
     Ok(CableScene {
         points: row.points,

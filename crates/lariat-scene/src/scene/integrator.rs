@@ -62,11 +62,13 @@ pub(super) fn read(doc: &Document<'_>, at: &KeyPath, row: &IntegratorTable) -> R
     checked.map(IntegratorChoice::from).map_err(|error| doc.conflict(&at.key(key), error.to_string()))
 }
 
-/// Returns the integrator of a cable with contact: the one at a path if it can step contact, and the default if none is written there.
-pub(super) fn with_contact(
+/// Returns the integrator of a cable with something that only the discrete gradient steps: the one at a path if it is that, and the
+/// default if none is written there.
+pub(super) fn by_discrete_gradient(
     doc: &Document<'_>,
     at: &KeyPath,
     written: IntegratorChoice,
+    what: &str,
 ) -> Result<IntegratorChoice, Error> {
     let method = written.integrator(f64::INFINITY).method;
     match method {
@@ -74,7 +76,7 @@ pub(super) fn with_contact(
         _ if !doc.contains(at) => Ok(Fidelity::Game.into()),
         _ => Err(doc.error_accepting(
             at,
-            Problem::Conflict(format!("{method} cannot step contact")),
+            Problem::Conflict(format!("{method} cannot step {what}")),
             "{ fidelity = \"game\" }, or the method \"discrete-gradient\" with substeps or max_step",
         )),
     }

@@ -3,14 +3,26 @@
 use super::effects::typed;
 use crate::document::{Document, KeyPath};
 use crate::error::Error;
-use crate::schema::{Default, Key, Kind, POSITIVE, choice, table};
-use lariat_ancf::Reel;
+use crate::schema::{Default, Key, Kind, NOT_NEGATIVE, POSITIVE, choice, table};
+use lariat_ancf::{Feed, Reel};
 
 choice! {
     /// Where a reel is.
     enum ReelEnd {
         /// At the last point.
         End = "end",
+    }
+}
+
+choice! {
+    /// How cable comes to the eye.
+    enum Feeding {
+        /// From a drum that turns with the rate.
+        Drum = "drum",
+        /// From a coil at rest, picked up inelastically: `m g = d(m v)/dt`.
+        Coil = "coil",
+        /// From a bag at rest, without loss.
+        Bag = "bag",
     }
 }
 
@@ -27,14 +39,14 @@ table! {
         acceleration: f64 = 2.0, Kind::Number(POSITIVE), "m/s^2";
         /// Largest length of cable that can be out: the reel stops there.
         stock: Option<f64> = ("no limit"), Kind::Number(POSITIVE), "m";
+        /// Largest force of the motor: the reel slips where the cable pulls more. A clutch; with a rate of 0 a brake; 0 is a free
+        /// spool. Needs the integrator `discrete-gradient`.
+        max_force: Option<f64> = ("as strong as it must be"), Kind::Number(NOT_NEGATIVE), "N";
+        /// Inertia of the wheel over the square of its radius, where the reel slips; the stock on a drum is added, if `stock` is given.
+        inertia: f64 = 0.0, Kind::Number(NOT_NEGATIVE), "kg";
+        /// How cable comes to the eye while it is paid out.
+        feed: Feeding = "drum", Kind::Choice(Feeding::names);
     }
-    plus &[Key {
-        name: "max_force",
-        kind: Kind::NotBuilt,
-        unit: "N",
-        default: Default::Absent("as strong as it must be"),
-        meaning: "A clutch that slips.",
-    }];
 }
 
 /// The key of the table.
@@ -49,6 +61,12 @@ pub(super) const REEL: Key = Key {
 /// Reads the table at a path from the keys of its cable.
 pub(super) fn read(doc: &Document<'_>, at: &KeyPath, rows: &mut toml::Table) -> Result<Option<Reel>, Error> {
     let Some(value) = rows.remove(REEL.name) else { return Ok(None) };
-    let ReelTable { end: ReelEnd::End, rate, acceleration, stock } = typed(doc, &at.key(REEL.name), value)?;
-    Ok(Some(Reel { rate, acceleration, stock }))
+    let ReelTable { end: ReelEnd::End, rate, acceleration, stock, max_force, inertia, feed } =
+        typed(doc, &at.key(REEL.name), value)?;
+    let feed = match feed {
+        Feeding::Drum => Feed::Drum,
+        Feeding::Coil => Feed::Coil,
+        Feeding::Bag => Feed::Bag,
+    };
+    Ok(Some(Reel { rate, acceleration, stock, max_force, inertia, feed }))
 }

@@ -147,7 +147,9 @@ const CASES: &[Case] = &[
     ("", "[cable.reel]\nend = \"start\"\nrate = [[0.0, 0.0]]", 20, &["cable.sling.reel.end", "end"]),
     ("", "[cable.reel]\nrate = [[0.0, nan]]", 20, &["cable.sling.reel.rate", "not finite"]),
     ("", "[cable.reel]\nrate = [[1.0, 0.1], [0.5, 0.0]]", 20, &["cable.sling.reel.rate", "ascend"]),
-    ("", "[cable.reel]\nrate = [[0.0, 0.1]]\nmax_force = 10.0", 21, &["cable.sling.reel.max_force", "not built yet"]),
+    ("", "[cable.reel]\nrate = [[0.0, 0.1]]\nmax_force = 10.0", 15, &["cable.sling.integrator", "clutch", "game"]),
+    ("", "[cable.reel]\nrate = [[0.0, 0.1]]\nmax_force = -1.0", 21, &["cable.sling.reel.max_force", ">= 0"]),
+    ("", "[cable.reel]\nrate = [[0.0, 0.1]]\nfeed = \"box\"", 21, &["cable.sling.reel.feed", "coil"]),
     ("", "[cable.reel]\nrate = [[0.0, 0.1]]\nacceleration = 0.0", 21, &["cable.sling.reel.acceleration", "> 0"]),
     ("", "[cable.reel]\nrate = [[0.0, 0.1]]\n[cable.drag]\nfluid_density = 1.2", 6, &["drag", "reel"]),
     (

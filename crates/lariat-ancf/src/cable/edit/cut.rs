@@ -18,11 +18,11 @@ use crate::integrate::{Memory, State};
 
 impl Cable {
     /// Cuts the cable at a point: this one keeps the part before it, the rest is returned. A support or load at the point itself stays with
-    /// this one. Effects act on both parts; their work so far, and the counters, stay with this one, a reel with the rest.
+    /// this one. Effects act on both parts; their work so far, and the counters, stay with this one, reels with their ends.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] if the point is not on the cable, or at one of its ends; [`Error::NotWithReel`] if it is between a reel and
-    /// the last node.
+    /// [`Error::OutOfRange`] if the point is not on the cable, or at one of its ends; [`Error::NotWithReel`] if it is in
+    /// the element at a reel.
     pub fn cut(&mut self, at: impl Into<At>) -> Result<Cable, Error> {
         let s = self.arc_length(at)?;
         let length = self.length();
@@ -47,17 +47,21 @@ impl Cable {
         tail.loads.retain(|load| load.arc_length > s);
         tail.loads.iter_mut().for_each(|load| load.arc_length = (load.arc_length - s).min(length - s));
         [head.effects, tail.effects] = self.model.effects.cut(Cut { node, elements: &self.model.elements });
-        head.reel = None;
-        tail.reel = self.model.reel.as_ref().map(|reel| reel.behind(node));
+        [head.reels, tail.reels] = self.model.reels.cut(self.number(node));
         tail.force_densities = self.model.force_densities.behind(s);
         let state = &self.snapshot.state;
         let part =
             |q: &[f64], v: &[f64]| State { time: state.time, q: q.to_vec(), v: v.to_vec(), memory: Memory::default() };
         let (end, begin) = (6 * node + 6, 6 * node);
-        let head_state =
-            Snapshot { state: part(&state.q[..end], &state.v[..end]), winding: None, ..self.snapshot.clone() };
-        let winding = self.snapshot.winding;
-        let tail_state = Snapshot { state: part(&state.q[begin..], &state.v[begin..]), winding, ..Snapshot::default() };
+        let [at_start, at_end] = self.snapshot.windings;
+        let head_state = Snapshot {
+            state: part(&state.q[..end], &state.v[..end]),
+            windings: [at_start, None],
+            ..self.snapshot.clone()
+        };
+        let windings = [None, at_end];
+        let tail_state =
+            Snapshot { state: part(&state.q[begin..], &state.v[begin..]), windings, ..Snapshot::default() };
         let mut tail = Cable::from_parts(tail, tail_state, self.integrator)?;
         tail.set_watched(self.is_watched());
         let mut head = Cable::from_parts(head, head_state, self.integrator)?;

@@ -38,7 +38,7 @@ impl Cable {
     /// Returns the node at a point, and places one if none is within 1e-9 of the length. Nodes behind it move up by one.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] if the point is not on the cable, [`Error::NotWithReel`] if it is between a reel and the last node.
+    /// [`Error::OutOfRange`] if the point is not on the cable, [`Error::NotWithReel`] if it is in the element at a reel.
     pub fn insert_node(&mut self, at: impl Into<At>) -> Result<usize, Error> {
         let s = self.arc_length(at)?;
         if let Ok(node) = self.node(At::ArcLength(s)) {
@@ -46,7 +46,7 @@ impl Cable {
         }
         let (e, xi) = self.model.locate(s);
         let node = e + 1;
-        if self.has_reel() && node == self.elements().len() {
+        if self.model.reels.sides().any(|side| side.element(self.elements().len()) == e) {
             return Err(Error::NotWithReel {
                 cable: self.name().to_string(),
                 what: "a new node in the element at the eye",
@@ -56,8 +56,8 @@ impl Cable {
         let whole = model.elements[e];
         model.elements[e] = Element { length: xi * whole.length, ..whole };
         model.elements.insert(node, Element { length: (1.0 - xi) * whole.length, ..whole });
-        if let Some(reel) = &mut model.reel {
-            reel.refine(e, [model.elements[e], model.elements[node]]);
+        if self.has_reel() {
+            model.reels.refine(self.number(e), [model.elements[e], model.elements[node]]);
         }
         model.supports.iter_mut().filter(|(n, _)| *n >= node).for_each(|(n, _)| *n += 1);
         model.effects.refine(e, xi);

@@ -2,11 +2,12 @@
 //!
 //! # Equation
 //!
-//! The rate is linear within a step of length h. It may end at r if it can still stop within what is left of the cable:
-//! `r^2/(2 a) <= left - h (r_0 + r)/2`.
+//! The rate is linear within a step of length h; its bounds are those of [`rates`].
 
 use super::{Reel, Winding};
-use crate::model::Model;
+use crate::cable::Cable;
+use crate::element::side::Side;
+use crate::system::{Law, Motor, rates};
 
 /// Least length of the element at the eye, as a share of its full length.
 pub(super) const LEAST: f64 = 0.4;
@@ -20,38 +21,51 @@ pub(super) struct Plan {
     pub stopped: bool,
 }
 
-/// Returns the rate in m/s that a table asks for at a time in s.
-pub(super) fn asked(reel: &Reel, time: f64) -> f64 {
-    let rows = reel.rate.partition_point(|row| row[0] <= time);
-    if rows == 0 { 0.0 } else { reel.rate[rows - 1][1] }
-}
-
-/// Returns the smallest length of cable in m that can be out: up to the last held node or load, and the least element.
-fn least(model: &Model) -> f64 {
-    let (mut s, mut held, eye) = (0.0, 0.0f64, model.nodes() - 1);
-    for node in 0..eye {
-        if model.support(node).is_some() {
-            held = s;
+impl Cable {
+    /// Returns the length in m that the reel of an end can take in: up to the next held node, load or element at another eye, less the
+    /// least element.
+    fn left(&self, side: Side) -> f64 {
+        let (model, count) = (&self.model, self.elements().len());
+        let element = |k: usize| if side == Side::End { count - 1 - k } else { k };
+        let two = model.reels.sides().count() > 1;
+        let (mut left, mut last) = (0.0, 0);
+        for k in 0..count {
+            last = element(k);
+            left += model.elements[last].length;
+            let far = if side == Side::End { last } else { last + 1 };
+            if model.support(far).is_some() || two && k + 2 == count {
+                break;
+            }
         }
-        s += model.elements[node].length;
+        let length = self.length();
+        let from_eye = |s: f64| if side == Side::End { length - s } else { s };
+        let load = model.loads.iter().map(|load| from_eye(load.arc_length)).fold(left, f64::min);
+        load - LEAST * model.reels.element(self.number(last)).length
     }
-    let load = model.loads.iter().map(|load| load.arc_length).fold(0.0, f64::max);
-    let regular = model.reel.as_ref().map_or(0.0, |own| own.element(0).length);
-    held.max(load) + LEAST * regular
-}
 
-/// Returns the rate for a step of length `h` (s) from `time` (s).
-pub(super) fn plan(model: &Model, reel: &Reel, winding: &Winding, time: f64, h: f64) -> Plan {
-    let (a, rate) = (reel.acceleration, winding.extent[1]);
-    let wanted = asked(reel, time).clamp(rate - a * h, rate + a * h);
-    let out = model.length();
-    // towards an end that is `left` away, at the present rate r towards it
-    let bound = |left: f64, r: f64| {
-        let left = left - 0.5 * h * r;
-        if left <= 0.0 { 0.0 } else { a * ((0.25 * h * h + 2.0 * left / a).sqrt() - 0.5 * h) }
-    };
-    let highest = reel.stock.map_or(f64::INFINITY, |stock| bound(stock - out, rate));
-    let lowest = -bound(out - least(model), -rate);
-    let end = wanted.clamp(lowest, highest.max(lowest));
-    Plan { acceleration: (end - rate) / h, stopped: end != wanted }
+    /// Returns the rate of a reel for a step of length `h` (s).
+    pub(super) fn plan(&self, side: Side, reel: &Reel, winding: &Winding, h: f64) -> Plan {
+        let rate = winding.extent[1];
+        let left = [self.left(side), self.left_of_stock(reel)];
+        let [lowest, wanted, highest] = rates(reel.asked(self.time()), reel.acceleration, rate, left, h);
+        let end = wanted.clamp(lowest, highest);
+        Plan { acceleration: (end - rate) / h, stopped: end != wanted }
+    }
+
+    /// Returns the length in m that is left of the stock.
+    fn left_of_stock(&self, reel: &Reel) -> f64 {
+        reel.stock.map_or(f64::INFINITY, |stock| stock - self.length())
+    }
+
+    /// Returns what drives a reel whose rate is an unknown, for a part of a host step.
+    pub(super) fn law(&self, side: Side, reel: &Reel, winding: &Winding) -> Option<Law> {
+        let length = winding.extent[0];
+        Some(Law::new(Motor {
+            limit: reel.max_force?,
+            wheel: reel.inertia,
+            asked: reel.asked(self.time()),
+            acceleration: reel.acceleration,
+            bounds: [length - self.left(side), length + self.left_of_stock(reel)],
+        }))
+    }
 }

@@ -1,8 +1,8 @@
 //! A host step of a cable with a reel: in parts in which little material passes the eye.
 
-use super::plan::{asked, plan};
 use crate::cable::Cable;
 use crate::element::flow::Extent;
+use crate::element::side::Side;
 use crate::error::{Error, require};
 use crate::integrate::IntegratorRef;
 
@@ -18,77 +18,111 @@ impl Cable {
     ///
     /// # Errors
     /// [`Error::InvalidValue`] for a rate that needs more than 1e5.
-    pub(crate) fn reel_parts(&self, dt: f64) -> Result<usize, Error> {
-        let Some(own) = &self.model.reel else { return Ok(1) };
-        let element = own.mesh.iter().map(|element| element.length).fold(own.stock.length, f64::min);
-        let parts = (self.fastest_rate(dt) * dt / (PASSING * element)).ceil().max(1.0);
-        require("parts of a host step for the rate of its reel", parts, parts <= MOST_PARTS, "<= 1e5")
-            .map_err(|e| e.of_cable(self.name()))?;
-        Ok(parts as usize)
+    fn reel_parts(&self, dt: f64) -> Result<usize, Error> {
+        let mut most = 1.0;
+        for side in self.model.reels.sides() {
+            let full = self.model.reels.least_length();
+            let parts = (self.fastest_rate(side, dt) * dt / (PASSING * full)).ceil();
+            require("parts of a host step for the rate of its reel", parts, parts <= MOST_PARTS, "<= 1e5")
+                .map_err(|e| e.of_cable(self.name()))?;
+            most = f64::max(most, parts);
+        }
+        Ok(most as usize)
     }
 
-    /// Sets the rate of the reel for a part of length `h` (s).
+    /// Sets the rates of the reels for a part of length `h` (s).
     pub(crate) fn begin_reel(&mut self, h: f64) {
-        let (Some(own), Some(winding)) = (&self.model.reel, &self.snapshot.winding) else { return };
-        let plan = plan(&self.model, &own.reel, winding, self.snapshot.state.time, h);
+        if !self.has_reel() {
+            return;
+        }
         self.sync_reel();
-        if let Some(flow) = &mut self.system.flow {
-            flow.extent.acceleration = plan.acceleration;
-            flow.stopped = plan.stopped;
+        for k in 0..self.system.flows.list.len() {
+            let side = self.system.flows.list[k].side;
+            let (Some(reel), Some(winding)) = (self.model.reels.get(side), &self.snapshot.windings[side as usize])
+            else {
+                continue;
+            };
+            let (plan, law) = (self.plan(side, reel, winding, h), self.law(side, reel, winding));
+            let flow = &mut self.system.flows.list[k];
+            (flow.feed, flow.law, flow.pull) = (reel.feed, law, None);
+            if law.is_none() {
+                flow.extent.acceleration = plan.acceleration;
+                flow.stopped = plan.stopped;
+            }
         }
     }
 
-    /// Takes over what the reel did in a part, if that succeeded.
+    /// Takes over what the reels did in a part, if that succeeded.
     pub(crate) fn end_reel(&mut self, succeeded: bool) {
-        let (Some(flow), Some(winding)) = (&self.system.flow, &mut self.snapshot.winding) else { return };
-        if succeeded {
+        if !self.has_reel() {
+            return;
+        }
+        for flow in self.system.flows.list.iter().filter(|_| succeeded) {
+            let Some(winding) = &mut self.snapshot.windings[flow.side as usize] else { continue };
             let Extent { length, rate, acceleration } = flow.at(self.snapshot.state.time);
             // braking to rest ends at rest
             let rate = if rate.abs() < LEAST_RATE { 0.0 } else { rate };
+            let passed = length - winding.extent[0];
+            winding.passed += passed;
             winding.extent = [length, rate, acceleration];
             winding.length_before = flow.length_before;
-            winding.stopped = flow.stopped;
-            if let Some(last) = self.model.elements.last_mut() {
-                last.length = length;
+            (winding.stopped, winding.pull) = (flow.stopped, flow.pull);
+            let e = flow.side.element(self.model.elements.len());
+            self.model.elements[e].length = length;
+            if flow.side == Side::Start {
+                self.model.move_loads(passed);
             }
         }
         self.sync_reel();
     }
 
-    /// Checks that an island can step a cable with a reel by `dt` (s).
+    /// Checks that an island can step a cable with reels by `dt` (s); `moves` says of a node whether a body holds it that moves freely.
     ///
     /// # Errors
     /// [`Error::ReelPlace`] for an eye on a body that the cable moves; [`Error::InvalidValue`] if more than half of an element would
     /// pass the eye.
-    pub(crate) fn check_reel_in_island(&self, held_by_free_body: bool, dt: f64) -> Result<(), Error> {
-        let (Some(own), Some(winding)) = (&self.model.reel, &self.snapshot.winding) else { return Ok(()) };
-        if held_by_free_body {
-            let reason = "its eye is on a body that moves freely, whose change of mass is not accounted for: \
-                use a fixed or kinematic body";
-            return Err(Error::ReelPlace { cable: self.name().to_string(), reason });
+    pub(crate) fn check_reel_in_island(&self, moves: impl Fn(usize) -> bool, dt: f64) -> Result<(), Error> {
+        for side in self.model.reels.sides() {
+            let Some(winding) = &self.snapshot.windings[side as usize] else { continue };
+            if moves(side.nodes(self.nodes())[1]) {
+                let reason = "its eye is on a body that moves freely, whose change of mass is not accounted for: \
+                    use a fixed or kinematic body";
+                return Err(Error::ReelPlace { cable: self.name().to_string(), reason });
+            }
+            let full = self.model.reels.element(self.number(side.element(self.elements().len()))).length;
+            let [length, ..] = winding.extent;
+            let passing = self.fastest_rate(side, dt) * dt;
+            require(
+                "share of an element that its reel moves in a step of an island",
+                passing / full,
+                passing <= 0.5 * full,
+                "<= 0.5",
+            )
+            .and_then(|()| {
+                require(
+                    "length of the element at the eye over its full one",
+                    length / full,
+                    length < 2.5 * full,
+                    "< 2.5",
+                )
+            })
+            .map_err(|e| e.of_cable(self.name()))?;
         }
-        let full = own.element(self.elements().len() - 1).length;
-        let [length, rate, _] = winding.extent;
-        let passing = (rate.abs() + own.reel.acceleration * dt).min(self.fastest_rate(dt)) * dt;
-        require(
-            "share of an element that its reel moves in a step of an island",
-            passing / full,
-            passing <= 0.5 * full,
-            "<= 0.5",
-        )
-        .and_then(|()| {
-            require("length of the element at the eye over its full one", length / full, length < 2.5 * full, "< 2.5")
-        })
-        .map_err(|e| e.of_cable(self.name()))
+        Ok(())
     }
 
-    /// Returns the largest rate in m/s in the coming `dt` (s).
-    fn fastest_rate(&self, dt: f64) -> f64 {
-        let (Some(own), Some(winding)) = (&self.model.reel, &self.snapshot.winding) else { return 0.0 };
+    /// Returns the largest rate in m/s of a reel in the coming `dt` (s).
+    fn fastest_rate(&self, side: Side, dt: f64) -> f64 {
+        let (Some(reel), Some(winding)) = (self.model.reels.get(side), &self.snapshot.windings[side as usize]) else {
+            return 0.0;
+        };
         let rate = winding.extent[1].abs();
-        let rows = own.reel.rate.iter().filter(|row| row[0] > self.time() && row[0] < self.time() + dt);
-        let asked = rows.map(|row| row[1].abs()).fold(asked(&own.reel, self.time()).abs(), f64::max);
-        rate.max(asked.min(rate + own.reel.acceleration * dt))
+        if reel.has_law() {
+            return rate + winding.extent[2].abs() * dt;
+        }
+        let rows = reel.rate.iter().filter(|row| row[0] > self.time() && row[0] < self.time() + dt);
+        let asked = rows.map(|row| row[1].abs()).fold(reel.asked(self.time()).abs(), f64::max);
+        rate.max(asked.min(rate + reel.acceleration * dt))
     }
 
     /// Advances a cable with a reel by `dt` (s).

@@ -2,6 +2,7 @@
 
 use crate::contact::ContactStep;
 use crate::integrate::State;
+use crate::system::Unknowns;
 use serde::{Deserialize, Serialize};
 
 /// Changes of velocities and coordinates over the last step: what the discrete gradient carries to the next one. Plain data, part of a
@@ -71,6 +72,8 @@ pub(crate) struct Buffers {
     pub product: Vec<f64>,
     /// Contacts.
     pub contact: ContactStep,
+    /// Rates of reels that are unknown.
+    pub unknowns: Unknowns,
 }
 
 impl Buffers {

@@ -3,6 +3,9 @@
 use crate::error::StepFailure;
 use serde::{Deserialize, Serialize};
 
+/// Share of what damping, friction and impact take that the residual of a step may make.
+pub(super) const CLOSURE: f64 = 1e-2;
+
 /// Terms of the energy law `D H = work - losses + residual` since the cable was built, in J. The
 /// [discrete gradient](crate::integrate::discrete_gradient) knows them all; the other methods know the work of supports and loads by a
 /// quadrature of the step. The work of effects, internal damping among them, is in [`EffectWork`](crate::EffectWork).
@@ -90,6 +93,8 @@ pub(crate) struct Balance {
     /// Sum in N of contact forces, and of what the linear solve missed of them.
     pub forces: f64,
     pub missed: f64,
+    /// Sum in N by which motors of reels break their laws, and that of their forces.
+    pub slip: [f64; 2],
     /// Sum over nodes and bodies of the impulse in N s that the residual leaves unbalanced.
     pub imbalance: f64,
     /// Sum of the impulses in N s that must balance: of inertia, of external forces, of supports and pins.
@@ -113,6 +118,7 @@ impl Balance {
         self.near |= other.near;
         self.forces += other.forces;
         self.missed += other.missed;
+        (0..2).for_each(|i| self.slip[i] += other.slip[i]);
         self.imbalance += other.imbalance;
         self.impulse += other.impulse;
     }
@@ -130,6 +136,12 @@ impl Balance {
     /// Returns the energy that the step makes.
     pub fn excess(&self) -> f64 {
         self.residual - self.losses() - self.rescaled
+    }
+
+    /// Returns the energy that is to be taken from velocities: what the step makes, and away from obstacles also what damping hides of it.
+    pub fn to_take(&self) -> f64 {
+        let hidden = if self.near { 0.0 } else { (1.0 - CLOSURE) * self.effects };
+        self.excess() + hidden
     }
 }
 

@@ -25,7 +25,9 @@
 //!
 //! The midpoint rule in the rotation vector of the [other integrators](super::rotation): it keeps neither energy nor angular momentum.
 
+use super::rescale::RigidMotion;
 use crate::cable::builder::STANDARD_GRAVITY;
+use crate::contact::BodyPath;
 use crate::integrate::discrete_gradient::{ALPHA, BETA, Balance, sum_of_forces};
 use crate::island::body::{BodyDifferences, RigidBody};
 use nalgebra::{Matrix3, Matrix6, Quaternion, UnitQuaternion, Vector3, Vector6};
@@ -51,6 +53,8 @@ pub(in crate::island) struct BodyStep {
     /// Change of u in the last step, and its length in s.
     last: (Vector6<f64>, f64),
     h: f64,
+    /// Whether its state at the beginning of the host step was not that of the last one.
+    moved: bool,
     /// O u.
     before: Vector6<f64>,
     /// D u.
@@ -100,6 +104,7 @@ impl BodyStep {
             position: body.position,
             rotation: body.rotation,
             velocity: stack([body.velocity, spin]),
+            moved: last.1 == 0.0,
             last,
             h: 0.0,
             before: Vector6::zeros(),
@@ -160,6 +165,13 @@ impl BodyStep {
         self.end = cayley * self.rotation;
     }
 
+    /// Returns its motion as the contacts of cables see it.
+    pub fn path(&self) -> BodyPath {
+        let half = self.mean[1] * (0.5 * self.h);
+        let (centre, displacement) = (self.position, self.displacement());
+        BodyPath { centre, displacement, rotation: self.rotation, half, moved: self.moved }
+    }
+
     /// Returns the change of position.
     pub fn displacement(&self) -> Vector3<f64> {
         self.mean[0] * self.h
@@ -207,15 +219,27 @@ impl BodyStep {
         total.held += 0.5 * start.dot(&(self.matrix * start)) + self.mass * STANDARD_GRAVITY.norm() * HEIGHT;
     }
 
-    /// Takes all free velocities beside `velocity` (m/s) from the end of the step; returns their kinetic energy in J, and their product with
+    /// Returns whether its motion is prescribed.
+    pub fn is_driven(&self) -> bool {
+        self.free == [false; 6]
+    }
+
+    /// Returns velocity and spin at the end of the step, in world axes.
+    pub fn end_velocity(&self) -> [Vector3<f64>; 2] {
+        let [velocity, spin] = split(&(self.velocity + self.change));
+        [velocity, self.end * spin]
+    }
+
+    /// Takes all free velocities beside a rigid motion from the end of the step; returns their kinetic energy in J, and their product with
     /// all velocities.
-    pub fn take_relative(&mut self, velocity: &Vector3<f64>) -> (f64, f64) {
+    pub fn take_relative(&mut self, rigid: &RigidMotion) -> (f64, f64) {
         let end = self.velocity + self.change;
         let [v, spin] = split(&end);
-        let mut relative = v - velocity;
+        let mut relative = v - rigid.at(&(self.position + self.displacement()));
         (0..3).filter(|&x| !self.free[x]).for_each(|x| relative[x] = 0.0);
-        let spin = if self.free[3..] == [true; 3] { spin } else { Vector3::zeros() };
-        self.taken = stack([relative, spin]);
+        let relative_spin = spin - self.end.inverse() * rigid.spin;
+        let relative_spin = if self.free[3..] == [true; 3] { relative_spin } else { Vector3::zeros() };
+        self.taken = stack([relative, relative_spin]);
         let momentum = self.matrix * self.taken;
         (0.5 * self.taken.dot(&momentum), end.dot(&momentum))
     }

@@ -10,8 +10,8 @@
 //! ```
 //!
 //! with the condensed matrices W and the stiffening part of the levers under the impulses p of the pins. It is positive definite if the
-//! step matrices of the cables are. The energy law is that of the whole: forces and torques on the bodies do work, as do gaps that close
-//! and the axes along which a body is locked.
+//! step matrices of the cables are. A body that a cable touches has columns of its own beside the held coordinates, and G = 1. The energy law
+//! is that of the whole: forces and torques on the bodies do work, as do gaps that close and the axes along which a body is locked.
 
 mod body;
 mod holds;
@@ -26,12 +26,13 @@ use super::hold::vector;
 use super::layout::Layout;
 use super::pin_accounts::PinAccounts;
 use crate::cable::Cable;
+use crate::contact::BodyPath;
 use crate::effect::EffectWork;
 use crate::error::StepFailure;
 use crate::integrate::State;
-use crate::integrate::discrete_gradient::{BETA, Balance, DiscreteGradientSystem, Event, sum_of_forces};
+use crate::integrate::discrete_gradient::{BETA, Balance, Buffers, DiscreteGradientSystem, Event, sum_of_forces};
 use crate::support::SlopeSupport;
-use crate::system::{CableStep, Equations, dot, project_vector};
+use crate::system::{CableStep, Equations, Unknowns, dot, project_vector};
 use body::BodyStep;
 use holds::HoldStep;
 use nalgebra::Vector3;
@@ -47,6 +48,10 @@ pub(super) struct StepBuffers {
     matrix: BodyMatrix,
     /// Rows of the bodies, then their increments.
     rows: Vec<f64>,
+    /// The bodies as the contacts see them.
+    paths: Vec<BodyPath>,
+    /// Rates of reels that are unknown.
+    unknowns: Unknowns,
     /// By pin, velocity of node and slope beside those of the body when the host step began.
     pub deviations: Vec<[Vector3<f64>; 2]>,
 }
@@ -84,9 +89,11 @@ impl StepBuffers {
 }
 
 impl IslandStep<'_, '_> {
-    /// Sets held coordinates of the iterate to where their bodies are, and the free directions of clamped slopes.
+    /// Sets held coordinates of the iterate and obstacles to where their bodies are, and the free directions of clamped slopes.
     fn follow(&mut self) {
-        let StepBuffers { bodies, cables: own, .. } = &mut *self.buffers;
+        let StepBuffers { bodies, cables: own, paths, .. } = &mut *self.buffers;
+        paths.clear();
+        paths.extend(bodies.iter().map(BodyStep::path));
         for (cable, own) in self.cables.iter_mut().zip(own) {
             for hold in &mut own.holds {
                 let CableStep { state, buffers, .. } = cable.step_parts();
@@ -98,6 +105,7 @@ impl IslandStep<'_, '_> {
                     support.slope = SlopeSupport::Attached(along);
                 }
             }
+            cable.step_buffers.contact.follow(&cable.model.obstacles.0, paths);
         }
     }
 
@@ -109,11 +117,13 @@ impl IslandStep<'_, '_> {
             let CableStep { mut equations, state, buffers } = cable.step_parts();
             equations.step_residual(state, buffers, true, &mut EffectWork::default());
             own.pass_impulses(&buffers.rhs, rows);
-            own.condensed.read(&equations.system.step.matrix, &part.holds);
+            buffers.contact.pass_impulses(true, rows);
+            let borders = buffers.contact.borders();
+            own.condensed.read(&equations.system.step.matrix, &part.holds, borders);
             equations.factor_to_solve()?;
             let (level, model) = (equations.system.level, equations.model);
             let factors = &equations.system.step.factorisation;
-            own.condensed.complete(level, factors, &part.holds, |x| project_vector(model, x));
+            own.condensed.complete(level, factors, (&part.holds, borders), |x| project_vector(model, x));
         }
         for (body, row) in bodies.iter().zip(rows.chunks_exact_mut(6)) {
             body.complete_row(row);
@@ -123,19 +133,18 @@ impl IslandStep<'_, '_> {
 
     /// Factors the matrix of the bodies for steps of length `h` (s).
     fn factor_bodies(&mut self, h: f64) -> Result<(), StepFailure> {
-        let StepBuffers { bodies, cables, matrix, .. } = &mut *self.buffers;
+        let StepBuffers { bodies, cables: own, matrix, .. } = &mut *self.buffers;
         matrix.begin(bodies.len());
         for (i, body) in bodies.iter().enumerate() {
             matrix.add_inertia(i, &body.world_matrix());
         }
-        for CableBuffers { holds, condensed, .. } in cables.iter() {
+        for (cable, CableBuffers { holds, condensed, .. }) in self.cables.iter().zip(own.iter()) {
             for hold in holds {
                 matrix.add_rotational(hold.body, &(hold.stiffening() * (0.5 * BETA * h)));
             }
-            matrix.add_cable(
-                condensed,
-                holds.iter().map(|hold| Lever { body: hold.body, arm: hold.arm, slope: hold.slope }),
-            );
+            let held = holds.iter().map(|hold| Lever::held(hold.body, &hold.arm, hold.slope));
+            let touched = cable.step_buffers.contact.borders().iter().flat_map(|border| Lever::own(border.body));
+            matrix.add_cable(condensed, held.chain(touched));
         }
         for (i, body) in bodies.iter().enumerate() {
             matrix.lock(i, &body.free);
@@ -143,8 +152,8 @@ impl IslandStep<'_, '_> {
         matrix.factor()
     }
 
-    /// Solves for the increments and adds them to the iterate.
-    fn add_increment(&mut self) -> Result<(), StepFailure> {
+    /// Solves the linear equations in place: the residuals of cables and the rows of bodies become their increments.
+    fn solve(&mut self) {
         let StepBuffers { bodies, cables: own, matrix, rows, .. } = &mut *self.buffers;
         for (cable, own) in self.cables.iter_mut().zip(own.iter()) {
             let CableStep { mut equations, buffers, .. } = cable.step_parts();
@@ -153,17 +162,30 @@ impl IslandStep<'_, '_> {
                 let impulse = Vector3::from_fn(|x, _| -own.condensed.border(3 * h + x, &buffers.rhs));
                 hold.pass(&impulse, rows);
             }
+            let first = 3 * own.holds.len();
+            for (k, border) in buffers.contact.borders().iter().enumerate() {
+                for x in 0..6 {
+                    rows[6 * border.body + x] -= own.condensed.border(first + 6 * k + x, &buffers.rhs);
+                }
+            }
         }
         for (body, row) in bodies.iter().zip(rows.chunks_exact_mut(6)) {
             body.lock(row);
         }
         matrix.solve(rows);
         for (cable, own) in self.cables.iter_mut().zip(own.iter()) {
-            let CableStep { equations, buffers, .. } = cable.step_parts();
+            let CableStep { buffers, .. } = cable.step_parts();
             for (h, hold) in own.holds.iter().enumerate() {
                 let moved = hold.moved(rows);
                 for x in 0..3 {
                     own.condensed.spread(3 * h + x, moved[x], &mut buffers.rhs);
+                }
+            }
+            let first = 3 * own.holds.len();
+            let Buffers { contact, rhs, .. } = &mut *buffers;
+            for (k, border) in contact.borders().iter().enumerate() {
+                for x in 0..6 {
+                    own.condensed.spread(first + 6 * k + x, rows[6 * border.body + x], rhs);
                 }
             }
             for hold in &own.holds {
@@ -174,6 +196,66 @@ impl IslandStep<'_, '_> {
                     buffers.rhs[hold.at + x] = along + moved[x];
                 }
             }
+        }
+    }
+
+    /// Linearises the laws of reels whose rate is unknown, and solves for their columns.
+    fn linearise_laws(&mut self) {
+        let mut unknowns = core::mem::take(&mut self.buffers.unknowns);
+        unknowns.begin(self.cables.iter().map(|cable| &cable.system.flows));
+        let Unknowns { reels, columns, rows, saved, .. } = &mut unknowns;
+        for ((&(c, k), columns), rows) in reels.iter().zip(columns).zip(rows) {
+            for (cable, column) in self.cables.iter().zip(columns.iter_mut()) {
+                column.clear();
+                column.resize(cable.positions().len(), 0.0);
+            }
+            let CableStep { mut equations, state, buffers } = self.cables[c].step_parts();
+            equations.read_motors(state, buffers);
+            equations.linearise_law(k, state, buffers, &mut columns[c], saved);
+            rows.clear();
+            rows.resize(self.buffers.rows.len(), 0.0);
+            for hold in &self.buffers.cables[c].holds {
+                hold.pass(&vector(&columns[c][hold.at..]), rows);
+            }
+            self.swap(columns, rows);
+            self.solve();
+            self.swap(columns, rows);
+        }
+        self.buffers.unknowns = unknowns;
+    }
+
+    /// Exchanges the right-hand sides of cables and bodies with others.
+    fn swap(&mut self, columns: &mut [Vec<f64>], rows: &mut Vec<f64>) {
+        for (cable, column) in self.cables.iter_mut().zip(columns) {
+            core::mem::swap(&mut cable.step_buffers.rhs, column);
+        }
+        core::mem::swap(&mut self.buffers.rows, rows);
+    }
+
+    /// Solves for the rates of reels that are unknown, and completes the increments.
+    fn add_to_laws(&mut self) {
+        let (cables, StepBuffers { unknowns, rows, .. }) = (&mut *self.cables, &mut *self.buffers);
+        if unknowns.reels.is_empty() {
+            return;
+        }
+        unknowns.solve(|c| &cables[c].system.flows, |c| &cables[c].step_buffers.rhs);
+        for (i, &(c, k)) in unknowns.reels.iter().enumerate() {
+            let increment = unknowns.increments[i];
+            cables[c].step_parts().equations.add_to_law(k, increment);
+            let own = cables.iter_mut().map(|cable| &mut cable.step_buffers.rhs);
+            for (x, y) in own.zip(&unknowns.columns[i]).chain(core::iter::once((&mut *rows, &unknowns.rows[i]))) {
+                x.iter_mut().zip(y).for_each(|(x, y)| *x -= increment * y);
+            }
+        }
+    }
+
+    /// Solves for the increments and adds them to the iterate.
+    fn add_increment(&mut self) -> Result<(), StepFailure> {
+        self.solve();
+        self.add_to_laws();
+        let StepBuffers { bodies, rows, .. } = &mut *self.buffers;
+        for cable in self.cables.iter_mut() {
+            let CableStep { equations, buffers, .. } = cable.step_parts();
             if !buffers.rhs.iter().all(|x| x.is_finite()) {
                 return Err(equations.not_finite("Newton increment", &buffers.rhs));
             }
@@ -196,6 +278,7 @@ impl IslandStep<'_, '_> {
             total.add(&equations.step_balance(state, buffers, &mut work));
             equations.system.meter.work_of_step = work;
             own.pass_impulses(&buffers.rhs, rows);
+            buffers.contact.pass_impulses(false, rows);
             for hold in &own.holds {
                 total.residual += hold.residual(buffers.h);
                 total.closing += hold.work(buffers.h);
@@ -248,7 +331,8 @@ impl DiscreteGradientSystem for IslandStep<'_, '_> {
 
     fn predict(&mut self, h: f64) {
         for cable in self.cables.iter_mut() {
-            let CableStep { equations, state, buffers } = cable.step_parts();
+            let CableStep { mut equations, state, buffers } = cable.step_parts();
+            equations.begin_laws(state.time, h);
             buffers.recall(state, h);
             equations.prescribe_change(state, buffers);
         }
@@ -256,7 +340,7 @@ impl DiscreteGradientSystem for IslandStep<'_, '_> {
         self.follow();
         for cable in self.cables.iter_mut() {
             let CableStep { equations, state, buffers } = cable.step_parts();
-            equations.find_contacts(state, buffers);
+            equations.find_contacts(state, buffers, &self.buffers.paths);
         }
     }
 
@@ -265,6 +349,7 @@ impl DiscreteGradientSystem for IslandStep<'_, '_> {
         if fresh {
             self.linearise()?;
             self.factor_bodies(self.cables[0].step_buffers.h)?;
+            self.linearise_laws();
         }
         self.add_increment()?;
         self.follow();

@@ -2,57 +2,121 @@
 //!
 //! # Equation
 //!
-//! Of an island that nothing holds, the relative velocities are those beside the translation of its centre of mass, so its momentum stays;
-//! of any other, all velocities that nothing prescribes. Scaling those of cables and bodies together keeps pinned points on their bodies.
+//! ```text
+//! w = v - (V + W x (x - c))          a velocity beside a rigid motion; a slope's: t' - W x t
+//! ```
+//!
+//! Of an island that nothing holds, the rigid motion is the translation of its centre of mass, so its momentum stays. Of one whose driven
+//! bodies and supports all move as one rigid body, it is their motion. Of any other there is none, and all velocities that nothing
+//! prescribes are scaled. Scaling those of cables and bodies together keeps pinned points on their bodies.
 
 use super::IslandStep;
+use super::body::BodyStep;
 use crate::integrate::discrete_gradient::{Balance, share_to_take};
+use crate::island::hold::vector;
 use crate::system::{CableStep, dot};
 use nalgebra::Vector3;
 
+/// Share of a velocity by which two that are the same may differ: bodies of an engine in single precision.
+const ROUNDING: f64 = 1e-6;
+
+/// A rigid motion.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(in crate::island) struct RigidMotion {
+    centre: Vector3<f64>,
+    velocity: Vector3<f64>,
+    pub spin: Vector3<f64>,
+}
+
+impl RigidMotion {
+    /// Returns the velocity in m/s at a point.
+    pub fn at(&self, point: &Vector3<f64>) -> Vector3<f64> {
+        self.velocity + self.spin.cross(&(point - self.centre))
+    }
+
+    /// Returns whether it is that of another, but for rounding: what holds a node is prescribed in any case.
+    fn agrees_with(&self, other: &RigidMotion) -> bool {
+        let same = |a: Vector3<f64>, b: Vector3<f64>| (a - b).norm() <= ROUNDING * a.norm().max(b.norm());
+        same(self.spin, other.spin) && same(self.at(&self.centre), other.at(&self.centre))
+    }
+
+    /// Returns that of a body at the end of the step.
+    fn of(body: &BodyStep) -> Self {
+        let [velocity, spin] = body.end_velocity();
+        RigidMotion { centre: body.position + body.displacement(), velocity, spin }
+    }
+}
+
 /// See [`DiscreteGradientSystem::rescale`](crate::integrate::discrete_gradient::DiscreteGradientSystem::rescale).
 pub(in crate::island) fn rescale(island: &mut IslandStep<'_, '_>, balance: &mut Balance) -> bool {
-    let velocity = mean_velocity(island);
+    let rigid = rigid_motion(island);
     let (mut energy, mut product) = (0.0, 0.0);
-    for cable in island.cables.iter_mut() {
+    for (cable, own) in island.cables.iter_mut().zip(&island.buffers.cables) {
         let CableStep { equations, state, buffers: b } = cable.step_parts();
         for i in 0..b.change.len() {
             b.external[i] = state.v[i] + b.velocity_change[i];
         }
         b.taken.clone_from(&b.external);
-        for w in b.taken.chunks_exact_mut(6) {
-            (0..3).for_each(|x| w[x] -= velocity[x]);
+        for (at, w) in b.taken.chunks_exact_mut(6).enumerate() {
+            let (q, change) = (&state.q[6 * at..], &b.change[6 * at..]);
+            let (position, slope) = (rigid.at(&(vector(q) + vector(change))), vector(&q[3..]) + vector(&change[3..]));
+            let slope = rigid.spin.cross(&slope);
+            for x in 0..3 {
+                w[x] -= position[x];
+                w[3 + x] -= slope[x];
+            }
         }
         for (node, support) in equations.model.supports.iter().filter(|(_, support)| !support.attached) {
             support.project(&mut b.taken[6 * node..6 * node + 6]);
+        }
+        for hold in own.holds.iter().filter(|hold| island.buffers.bodies[hold.body].is_driven()) {
+            b.taken[hold.at..hold.at + 3].fill(0.0);
         }
         energy += 0.5 * equations.system.mass_square(&b.taken, &mut b.product);
         product += dot(&b.external, &b.product);
     }
     for body in &mut island.buffers.bodies {
-        let (own, with_all) = body.take_relative(&velocity);
+        let (own, with_all) = body.take_relative(&rigid);
         energy += own;
         product += with_all;
     }
-    let share = share_to_take(energy, product, balance.excess());
+    let share = share_to_take(energy, product, balance.to_take());
     let factor = share.unwrap_or(0.0);
     for cable in island.cables.iter_mut() {
         cable.step_buffers.taken.iter_mut().for_each(|w| *w *= factor);
     }
     island.buffers.bodies.iter_mut().for_each(|body| body.taken *= factor);
     if share.is_some() {
-        balance.rescaled += balance.excess();
+        balance.rescaled += balance.to_take();
     }
     share.is_some()
 }
 
-/// Returns the velocity of the centre of mass of an island that nothing holds, at the end of the step; else zero.
-fn mean_velocity(island: &mut IslandStep<'_, '_>) -> Vector3<f64> {
-    let held = island.cables.iter().any(|cable| cable.model.supports.iter().any(|(_, support)| !support.attached))
-        || island.buffers.bodies.iter().any(|body| body.free != [true; 6]);
-    if held {
-        return Vector3::zeros();
+/// Returns the rigid motion that an island may keep, at the end of the step.
+fn rigid_motion(island: &mut IslandStep<'_, '_>) -> RigidMotion {
+    let mut common = None;
+    for cable in island.cables.iter_mut() {
+        let CableStep { equations, state, buffers: b } = cable.step_parts();
+        for (_, support) in equations.model.supports.iter().filter(|(_, support)| !support.attached) {
+            let (mut q, mut v) = ([0.0; 6], [0.0; 6]);
+            support.prescribe(state.time + b.h, &mut q, &mut v);
+            let translation = RigidMotion { velocity: vector(&v), ..RigidMotion::default() };
+            if vector(&v[3..]) != Vector3::zeros() || !translation.agrees_with(common.get_or_insert(translation)) {
+                return RigidMotion::default();
+            }
+        }
     }
+    for body in island.buffers.bodies.iter().filter(|body| body.free != [true; 6]) {
+        let motion = RigidMotion::of(body);
+        if !body.is_driven() || !motion.agrees_with(common.get_or_insert(motion)) {
+            return RigidMotion::default();
+        }
+    }
+    common.unwrap_or_else(|| RigidMotion { velocity: mean_velocity(island), ..RigidMotion::default() })
+}
+
+/// Returns the velocity of the centre of mass of an island at the end of the step.
+fn mean_velocity(island: &mut IslandStep<'_, '_>) -> Vector3<f64> {
     let (mut momentum, mut mass) = (Vector3::zeros(), 0.0);
     for cable in island.cables.iter_mut() {
         let CableStep { equations, state, buffers: b } = cable.step_parts();

@@ -1,0 +1,214 @@
+//! Reels as their users describe them, and the mesh that they wind up.
+
+use crate::element::side::Side;
+use crate::error::{Error, require};
+use crate::section::Element;
+use serde::{Deserialize, Serialize};
+
+/// A reel as its user describes it.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Reel {
+    /// Rate in m/s by time in s, ascending: positive pays out; a rate holds until the next row. Default: no rows, at rest.
+    pub rate: Vec<[f64; 2]>,
+    /// Largest acceleration of the rate in m/s^2. Default 2: a jump of the rate by dv is one of the tension by dv sqrt(EA rho A).
+    pub acceleration: f64,
+    /// Largest length of cable in m that can be out: the reel stops there, as softly as `acceleration` says, whatever `max_force`
+    /// is. Default: no limit.
+    pub stock: Option<f64>,
+    /// Largest force of the motor in N. The reel slips where the cable pulls more, and follows its rate again where it pulls less:
+    /// a clutch; with a rate of zero a brake; 0 is a free spool. Needs the integrator `discrete-gradient`. Default: as
+    /// strong as it must be.
+    pub max_force: Option<f64>,
+    /// Inertia of the wheel over the square of its radius in kg; the stock on a drum is added, if `stock` says how much. It counts
+    /// where the reel slips. Default 0.
+    pub inertia: f64,
+    /// How material comes to the eye. Default: from a drum.
+    pub feed: Feed,
+}
+
+/// How material comes to the eye of a reel while cable is paid out: the same rope falls at different speeds from each.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Feed {
+    /// From a drum that turns with the rate.
+    #[default]
+    Drum,
+    /// From a coil that lies still, picked up inelastically: `m g = d(m v)/dt` for a falling chain.
+    Coil,
+    /// From a bag in which it lies still, without loss.
+    Bag,
+}
+
+impl Default for Reel {
+    fn default() -> Self {
+        Reel { rate: Vec::new(), acceleration: 2.0, stock: None, max_force: None, inertia: 0.0, feed: Feed::Drum }
+    }
+}
+
+impl Reel {
+    /// A reel with a constant rate in m/s.
+    pub fn with_rate(rate: f64) -> Self {
+        Reel { rate: vec![[f64::MIN, rate]], ..Self::default() }
+    }
+
+    /// A reel that turns freely: no motor, no brake.
+    pub fn free_spool() -> Self {
+        Reel { max_force: Some(0.0), ..Self::default() }
+    }
+
+    /// A brake that slips above a force in N.
+    pub fn brake(force: f64) -> Self {
+        Reel { max_force: Some(force), ..Self::default() }
+    }
+
+    /// Returns whether the rate is an unknown.
+    pub(crate) fn has_law(&self) -> bool {
+        self.max_force.is_some()
+    }
+
+    /// Refuses numbers that make no reel.
+    pub(super) fn check(&self) -> Result<(), Error> {
+        require("acceleration of a reel (m/s^2)", self.acceleration, self.acceleration > 0.0, "> 0")?;
+        if let Some(stock) = self.stock {
+            require("stock of a reel (m)", stock, stock > 0.0, "> 0")?;
+        }
+        let force = self.max_force.unwrap_or(0.0);
+        require("largest force of a reel (N)", force, force >= 0.0, ">= 0")?;
+        require("inertia of a reel (kg)", self.inertia, self.inertia >= 0.0, ">= 0")?;
+        let mut before = f64::NEG_INFINITY;
+        for &[time, rate] in &self.rate {
+            require("rate of a reel (m/s)", rate, true, "a number")?;
+            require("time of a rate of a reel (s)", time, time > before, "ascending")?;
+            before = time;
+        }
+        Ok(())
+    }
+
+    /// Returns the rate in m/s that the table asks for at a time in s.
+    pub(super) fn asked(&self, time: f64) -> f64 {
+        let rows = self.rate.partition_point(|row| row[0] <= time);
+        if rows == 0 { 0.0 } else { self.rate[rows - 1][1] }
+    }
+}
+
+/// The reel of one end.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+struct Wound {
+    reel: Reel,
+    /// An element of the stock.
+    stock: Element,
+}
+
+/// The reels in the description of a cable, by end, and the mesh that they wind up.
+///
+/// Elements are numbered by material: with n elements that came through the eye at the start on balance, the element e of the cable has
+/// the number e - n.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Reels {
+    at: [Option<Wound>; 2],
+    /// As far as the cable is out, its mesh is this.
+    mesh: Vec<Element>,
+    /// Position in it of the element 0.
+    origin: i64,
+}
+
+impl Reels {
+    /// Returns whether there are none.
+    pub(crate) fn is_empty(&self) -> bool {
+        self.at.iter().all(Option::is_none)
+    }
+
+    /// Returns whether the rate of one is an unknown.
+    pub(crate) fn have_laws(&self) -> bool {
+        self.at.iter().flatten().any(|own| own.reel.has_law())
+    }
+
+    /// Returns the ends that have one.
+    pub(crate) fn sides(&self) -> impl Iterator<Item = Side> {
+        Side::BOTH.into_iter().filter(|&side| self.at[side as usize].is_some())
+    }
+
+    /// Returns the reel at an end.
+    pub(crate) fn get(&self, side: Side) -> Option<&Reel> {
+        self.at[side as usize].as_ref().map(|own| &own.reel)
+    }
+
+    /// Returns the reel at an end, to change it.
+    pub(super) fn get_mut(&mut self, side: Side) -> Option<&mut Reel> {
+        self.at[side as usize].as_mut().map(|own| &mut own.reel)
+    }
+
+    /// Adds a reel to a cable with these elements, whose last number is `last`.
+    pub(super) fn add(&mut self, side: Side, reel: Reel, elements: &[Element], last: i64) {
+        if self.is_empty() {
+            *self = Reels { mesh: elements.to_vec(), ..Reels::default() };
+        }
+        let stock = self.element(if side == Side::End { last } else { last + 1 - elements.len() as i64 });
+        self.at[side as usize] = Some(Wound { reel, stock });
+    }
+
+    /// Removes a reel; the element `number` at its eye keeps its present length, and is 0 if the eye is at the start.
+    pub(super) fn remove(&mut self, side: Side, number: i64, element: Element) {
+        let at = self.reach(number);
+        self.mesh[at] = element;
+        self.at[side as usize] = None;
+        match side {
+            Side::Start => (_, self.origin) = (self.mesh.drain(..at), 0),
+            Side::End => self.mesh.truncate(at + 1),
+        }
+    }
+
+    /// Returns an element by its number, at its full length.
+    pub(super) fn element(&self, number: i64) -> Element {
+        let at = number + self.origin;
+        let side = if at < 0 { Side::Start } else { Side::End };
+        let stock = |side: Side| self.at[side as usize].as_ref().map(|own| own.stock);
+        let wound = usize::try_from(at).ok().and_then(|at| self.mesh.get(at).copied());
+        let Some(element) = wound.or_else(|| stock(side)) else {
+            unreachable!("elements come from an end with a reel")
+        };
+        element
+    }
+
+    /// Returns the least length of an element in m.
+    pub(super) fn least_length(&self) -> f64 {
+        let stocks = self.at.iter().flatten().map(|own| own.stock);
+        self.mesh.iter().copied().chain(stocks).map(|element| element.length).fold(f64::INFINITY, f64::min)
+    }
+
+    /// Extends the mesh by elements of the stocks to the element `number`, and returns its position.
+    fn reach(&mut self, number: i64) -> usize {
+        while number + self.origin < 0 {
+            let next = self.element(-self.origin - 1);
+            self.mesh.insert(0, next);
+            self.origin += 1;
+        }
+        let at = (number + self.origin) as usize;
+        while self.mesh.len() <= at {
+            let next = self.element(self.mesh.len() as i64 - self.origin);
+            self.mesh.push(next);
+        }
+        at
+    }
+
+    /// Adapts the mesh to the element `number`, which is split in two.
+    pub(crate) fn refine(&mut self, number: i64, parts: [Element; 2]) {
+        let at = self.reach(number);
+        self.mesh.splice(at..=at, parts);
+    }
+
+    /// Returns the reels of the parts of the cable before and behind a node; `number` is that of the element behind it.
+    pub(crate) fn cut(&self, number: i64) -> [Reels; 2] {
+        if self.is_empty() {
+            return [Reels::default(), Reels::default()];
+        }
+        let (mut head, mut tail) = (self.clone(), self.clone());
+        let at = tail.reach(number);
+        (_, tail.origin) = (tail.mesh.drain(..at), 0);
+        head.mesh.truncate(usize::try_from(number + head.origin).unwrap_or(0));
+        (head.at[Side::End as usize], tail.at[Side::Start as usize]) = (None, None);
+        [head, tail].map(|part| if part.is_empty() { Reels::default() } else { part })
+    }
+}

@@ -1,0 +1,362 @@
+//! A reel whose rate is an unknown: a motor of limited force turns a wheel that the cable pulls.
+//!
+//! # Equation
+//!
+//! The acceleration a of the length over a step of the discrete gradient is unknown, `l' = l'0 + a t`. With F the
+//! [pull](super::work) of the winch, m the inertia of the wheel and of the stock on it, and T the force of the motor,
+//!
+//! ```text
+//! m a = F - T        a = a_0 and |T| <= T_max,   or   T = T_max and a > a_0,   or   T = -T_max and a < a_0
+//! ```
+//!
+//! a_0 is what the rate asked for needs, within the limit on acceleration. At the end of the stock and at the least length the
+//! acceleration is bounded whatever T is. A slipping motor opposes the slip, so it only dissipates.
+//!
+//! # Solution
+//!
+//! With `A dv + c da = r` the linear equations of a Newton iteration and `T + row.dv + T_a da` the force,
+//!
+//! ```text
+//! dv = A^-1 r - y da,  y = A^-1 c        T(da) = T + row.(A^-1 r) - S da        S = row.y - T_a
+//! ```
+//!
+//! S > 0 is the apparent stiffness of all cables and bodies to the flow, so the alternative is decided by `T(a_0 - a)` exactly; several reels
+//! by projected Gauss-Seidel iteration.
+//!
+//! # Validity
+//!
+//! The discrete gradient. Forces are means of a step. The linear solution must meet the law to 1e-3 of the forces of all motors, else the step is
+//! iterated further.
+//!
+//! # Alternatives considered
+//!
+//! An elastic clutch with a slip as state: stiff, and its constant is arbitrary. Stages of other methods: the reel would be one more
+//! coordinate of every integrator.
+
+use super::{Flow, Flows};
+use crate::cable::Feed;
+use crate::effect::EffectWork;
+use crate::element::flow::Extent;
+use crate::integrate::State;
+use crate::integrate::discrete_gradient::{BETA, Balance, Buffers};
+use crate::model::Model;
+use crate::system::{Equations, System};
+
+/// Least and largest length of an element at the end of an iterate, as a multiple of that at the beginning.
+const REACH: [f64; 2] = [0.5, 1.5];
+/// Increment by which tangents of quadratic functions are read, in m/s^2 or m/s.
+const PROBE: f64 = 1e-3;
+/// Share of the length of the element by which an increment changes it, where strains are read.
+const STRAIN_PROBE: f64 = 1e-7;
+/// Most sweeps over several reels.
+const SWEEPS: usize = 100;
+
+/// What drives a reel during a host step.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Motor {
+    /// Largest force of the motor in N.
+    pub limit: f64,
+    /// Inertia of the wheel in kg.
+    pub wheel: f64,
+    /// Rate in m/s asked for, and largest acceleration to it in m/s^2.
+    pub asked: f64,
+    pub acceleration: f64,
+    /// Least and largest length in m that the element may have.
+    pub bounds: [f64; 2],
+}
+
+/// A motor, and the unknown over a step of the integrator.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Law {
+    motor: Motor,
+    /// Accelerations of the step: least, wanted, largest.
+    planned: [f64; 3],
+    /// Accelerations beyond which no iterate goes.
+    reach: [f64; 2],
+    /// Derivatives of the force of the motor by the velocity changes of the element, and by the acceleration.
+    row: [f64; 12],
+    own: f64,
+    /// Force of the motor in the last iterate, in N.
+    force: f64,
+}
+
+/// A reel in the linear equations of an iteration.
+#[derive(Clone, Copy, Debug)]
+struct Unknown {
+    law: Law,
+    /// Acceleration of the iterate.
+    acceleration: f64,
+    /// Force of the motor after the increment of all velocities.
+    force: f64,
+}
+
+/// The unknown rates of a system of cables, and the columns of its linear equations.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Unknowns {
+    /// Cable and flow of each.
+    pub reels: Vec<(usize, usize)>,
+    /// By reel and cable, c and then y; by reel, the rows of bodies.
+    pub columns: Vec<Vec<Vec<f64>>>,
+    pub rows: Vec<Vec<f64>>,
+    /// A buffer.
+    pub saved: Vec<f64>,
+    list: Vec<Unknown>,
+    stiffness: Vec<f64>,
+    /// Increments of the accelerations.
+    pub increments: Vec<f64>,
+}
+
+impl Unknowns {
+    /// Lists the unknowns of cables, each with its equations.
+    pub fn begin<'a>(&mut self, cables: impl ExactSizeIterator<Item = &'a Flows>) {
+        self.reels.clear();
+        let count = cables.len();
+        for (c, flows) in cables.enumerate() {
+            let own = flows.list.iter().enumerate().filter(|(_, flow)| flow.law.is_some());
+            self.reels.extend(own.map(|(k, _)| (c, k)));
+        }
+        self.columns.resize_with(self.reels.len(), Vec::new);
+        self.columns.iter_mut().for_each(|column| column.resize_with(count, Vec::new));
+        self.rows.resize_with(self.reels.len(), Vec::new);
+    }
+
+    /// Solves for the increments of all accelerations and adds them to the iterate. `flows` and `increment` return those of a cable,
+    /// the increments of its velocity changes with all rates as they are.
+    pub fn solve<'a>(&mut self, flows: impl Fn(usize) -> &'a Flows, increment: impl Fn(usize) -> &'a [f64]) {
+        let count = self.reels.len();
+        self.list.clear();
+        self.stiffness.clear();
+        for (i, &(c, k)) in self.reels.iter().enumerate() {
+            let flow = &flows(c).list[k];
+            let Some(law) = flow.law else { continue };
+            let force = law.force + law.along_row(flow, increment(c));
+            self.list.push(Unknown { law, acceleration: flow.extent.acceleration, force });
+            for (j, columns) in self.columns.iter().enumerate() {
+                let own = if i == j { -law.own } else { 0.0 };
+                self.stiffness.push(law.along_row(flow, &columns[c]) + own);
+            }
+        }
+        self.increments.clear();
+        self.increments.resize(count, 0.0);
+        solve_unknowns(&self.list, |i, j| self.stiffness[i * count + j], &mut self.increments);
+    }
+}
+
+/// Returns the least, the wanted and the largest rate in m/s after a step of length `h` (s): what is asked for within the limit on
+/// acceleration, and from where a reel can still stop within what is `left` of the cable, in and out: `r^2/(2 a) <= left - h (r_0 + r)/2`.
+pub(crate) fn rates(asked: f64, acceleration: f64, rate: f64, left: [f64; 2], h: f64) -> [f64; 3] {
+    let a = acceleration;
+    // towards an end that is `left` away, at the present rate r towards it
+    let bound = |left: f64, r: f64| {
+        let left = left - 0.5 * h * r;
+        if left <= 0.0 { 0.0 } else { a * ((0.25 * h * h + 2.0 * left / a).sqrt() - 0.5 * h) }
+    };
+    let [least, largest] = [-bound(left[0], -rate), bound(left[1], rate)];
+    [least, asked.clamp(rate - a * h, rate + a * h), largest.max(least)]
+}
+
+impl Law {
+    /// Creates the law of a motor for a host step.
+    pub fn new(motor: Motor) -> Self {
+        Law { motor, ..Law::default() }
+    }
+
+    /// Begins a step of length `h` (s) from an extent.
+    fn begin(&mut self, flow: &Extent, h: f64) {
+        let Extent { length, rate, .. } = *flow;
+        let Motor { asked, acceleration, bounds, .. } = self.motor;
+        let left = [length - bounds[0], bounds[1] - length];
+        let rates = rates(asked, acceleration, rate, left, h);
+        self.planned = [rates[0], rates[1].clamp(rates[0], rates[2]), rates[2]].map(|end| (end - rate) / h);
+        self.reach = REACH.map(|share| 2.0 * ((share - 1.0) * length - h * rate) / (h * h));
+    }
+
+    /// Returns the acceleration that is nearest to one, within the stops and the reach of an iterate.
+    fn bounded(&self, acceleration: f64) -> f64 {
+        let [least, _, largest] = self.planned;
+        acceleration.max(least).min(largest).max(self.reach[0]).min(self.reach[1])
+    }
+
+    /// Returns the acceleration of an iterate at which the motor would have the force `at(a)`, which falls with the slope `-stiffness`.
+    fn acceleration_for(&self, present: f64, force: f64, stiffness: f64) -> f64 {
+        let wanted = self.planned[1];
+        let stuck = force - stiffness * (wanted - present);
+        let slipping = present + (force - self.motor.limit.copysign(stuck)) / stiffness;
+        let wished = if stuck.abs() <= self.motor.limit { wanted } else { slipping };
+        self.bounded(wished)
+    }
+
+    /// Returns the product of the row of a flow and the increments of the velocity changes of its cable.
+    fn along_row(&self, flow: &Flow, increment: &[f64]) -> f64 {
+        self.row.iter().zip(flow.side.gather(increment)).map(|(a, b)| a * b).sum()
+    }
+
+    /// Returns by how much the force of the motor in N breaks the law at an acceleration.
+    fn violation(&self, acceleration: f64) -> f64 {
+        let [least, wanted, largest] = self.planned;
+        let rounding = 1e-12 * (1.0 + acceleration.abs());
+        let beyond = (self.force.abs() - self.motor.limit).max(0.0);
+        if (acceleration - wanted).abs() <= rounding {
+            beyond
+        } else if acceleration >= largest - rounding {
+            // a stop pulls as it must
+            (self.motor.limit - self.force).max(0.0)
+        } else if acceleration <= least + rounding {
+            (self.motor.limit + self.force).max(0.0)
+        } else {
+            (self.force - self.motor.limit.copysign(acceleration - wanted)).abs()
+        }
+    }
+}
+
+/// Solves for the increments of the accelerations; `stiffness` is S.
+fn solve_unknowns(unknowns: &[Unknown], stiffness: impl Fn(usize, usize) -> f64, increments: &mut [f64]) {
+    increments.fill(0.0);
+    let sweeps = if unknowns.len() > 1 { SWEEPS } else { 1 };
+    for _ in 0..sweeps {
+        let mut moved = 0.0f64;
+        for (i, unknown) in unknowns.iter().enumerate() {
+            let others = (0..unknowns.len()).filter(|&j| j != i);
+            let force = unknown.force - others.map(|j| stiffness(i, j) * increments[j]).sum::<f64>();
+            let own = stiffness(i, i);
+            let own = if own > 0.0 { own } else { f64::MIN_POSITIVE };
+            let new = unknown.law.acceleration_for(unknown.acceleration, force, own) - unknown.acceleration;
+            moved = moved.max((new - increments[i]).abs());
+            increments[i] = new;
+        }
+        if moved <= 1e-12 {
+            break;
+        }
+    }
+}
+
+impl System {
+    /// Returns the force of the motor, or of a prescribed winch, less the part of the strain energy, at an extent.
+    fn motor_of_inertia(&self, model: &Model, flow: &Flow, extent: Extent, motion: [&[f64; 12]; 3]) -> f64 {
+        let (element, weight) = (flow.with(model, extent), flow.weight(model));
+        let wheel = flow.law.map_or(0.0, |law| {
+            let stock = (law.motor.bounds[1] - extent.length).max(0.0);
+            let wound = flow.feed == Feed::Drum && stock.is_finite();
+            law.motor.wheel + if wound { element.inertia * stock } else { 0.0 }
+        });
+        flow.feed.pull(&element, motion[0], element.length_force(motion, &weight)) - wheel * extent.acceleration
+    }
+}
+
+impl Equations<'_> {
+    /// Begins a step of length `h` (s) for reels whose rate is unknown: sets the first iterate.
+    pub fn begin_laws(&mut self, time: f64, h: f64) {
+        for flow in self.system.flows.list.iter_mut() {
+            let extent = flow.at(time);
+            let Some(law) = &mut flow.law else { continue };
+            let slipped = flow.extent.acceleration != law.planned[1];
+            (flow.start, flow.extent) = (time, extent);
+            law.begin(&extent, h);
+            let [least, wanted, largest] = law.planned;
+            flow.extent.acceleration = law.bounded(if slipped { extent.acceleration } else { wanted });
+            flow.stopped = wanted == least || wanted == largest;
+        }
+    }
+
+    /// Returns the middle and the mean rates of the element at an eye over the present iterate.
+    fn motion_of_step(&self, flow: &Flow, state: &State, b: &Buffers) -> [[f64; 12]; 3] {
+        let change = flow.side.gather(&b.change);
+        [
+            self.middle_of_step(flow, state, b),
+            change.map(|x| x / b.h),
+            flow.side.gather(&b.velocity_change).map(|x| x / b.h),
+        ]
+    }
+
+    /// Computes the forces of the motors of the present iterate.
+    pub fn read_motors(&mut self, state: &State, b: &Buffers) {
+        for k in 0..self.system.flows.list.len() {
+            let flow = self.system.flows.list[k];
+            let Some(mut law) = flow.law else { continue };
+            let [on_length, _] = self.flow_force_of_step(&flow, state, b);
+            let (mean, _) = flow.over(state.time, b.h);
+            let [q, v, a] = self.motion_of_step(&flow, state, b);
+            let element = flow.with(self.model, mean);
+            let inertial = element.length_force([&q, &v, &a], &flow.weight(self.model));
+            // the pull is linear in the force on the length
+            law.force = self.system.motor_of_inertia(self.model, &flow, mean, [&q, &v, &a]) + inertial - on_length
+                + flow.lost(self.model, &q, mean.rate);
+            self.system.flows.list[k].law = Some(law);
+        }
+    }
+
+    /// Adds to a balance by how much the motors break their laws.
+    pub fn balance_motors(&mut self, state: &State, b: &Buffers, balance: &mut Balance) {
+        self.read_motors(state, b);
+        for flow in &self.system.flows.list {
+            if let Some(law) = &flow.law {
+                let acceleration = flow.extent.acceleration;
+                balance.slip[0] += law.violation(acceleration);
+                balance.slip[1] += law.force.abs();
+                if law.reach.contains(&acceleration) {
+                    // no law of energy: the step is divided
+                    balance.residual = f64::NAN;
+                }
+            }
+        }
+    }
+
+    /// Linearises flow `k` about the present iterate, and writes the column c to `out`; `saved` is a buffer.
+    ///
+    /// The column and T_a are differences of whole residuals. Forces with a potential, of strains or of their rates, are symmetric: in the
+    /// row they are -2 b/h^2 times the column, b the coefficient of the one-leg formula. Inertia is not, and is read by itself.
+    pub fn linearise_law(
+        &mut self,
+        k: usize,
+        state: &State,
+        b: &mut Buffers,
+        out: &mut Vec<f64>,
+        saved: &mut Vec<f64>,
+    ) {
+        let (flow, h) = (self.system.flows.list[k], b.h);
+        let Some(mut law) = flow.law else { return };
+        saved.clone_from(&b.rhs);
+        let probe = 2.0 * STRAIN_PROBE * flow.extent.length / (h * h);
+        let base = self.residual_at(k, flow.extent.acceleration, state, b);
+        out.clone_from(&b.rhs);
+        let moved = self.residual_at(k, flow.extent.acceleration + probe, state, b);
+        out.iter_mut().zip(&b.rhs).for_each(|(before, after)| *before = (*before - after) / probe);
+        law.own = (moved - base) / probe;
+        b.rhs.clone_from(saved);
+        let (model, system) = (self.model, &*self.system);
+        let (mean, _) = flow.over(state.time, h);
+        let [q, v, a] = self.motion_of_step(&flow, state, b);
+        let element = |probe: f64| {
+            let Extent { length, rate, acceleration } = mean;
+            let length = length + 0.25 * h * h * probe;
+            flow.with(model, Extent { length, rate: rate + 0.5 * h * probe, acceleration: acceleration + probe })
+        };
+        let (mut before, mut after) = ([0.0; 12], [0.0; 12]);
+        element(0.0).add_force(h, &q, &v, &mut before);
+        element(PROBE).add_force(h, &q, &v, &mut after);
+        let motor = |motion: [&[f64; 12]; 3]| system.motor_of_inertia(model, &flow, mean, motion);
+        let (present, column) = (motor([&q, &v, &a]), flow.side.gather(out));
+        for i in 0..12 {
+            let (mut q, mut v, mut a) = (q, v, a);
+            q[i] += 0.5 * BETA * h * PROBE;
+            v[i] += BETA * PROBE;
+            a[i] += PROBE / h;
+            let of_inertia = (before[i] - after[i]) / PROBE;
+            law.row[i] = (motor([&q, &v, &a]) - present) / PROBE - 2.0 * BETA / (h * h) * (column[i] - of_inertia);
+        }
+        self.system.flows.list[k] = Flow { law: Some(law), ..flow };
+    }
+
+    /// Computes the residual of the present iterate with another acceleration of flow `k`, and returns the force of its motor in N.
+    fn residual_at(&mut self, k: usize, acceleration: f64, state: &State, b: &mut Buffers) -> f64 {
+        self.system.flows.list[k].extent.acceleration = acceleration;
+        self.step_residual(state, b, false, &mut EffectWork::default());
+        self.read_motors(state, b);
+        self.system.flows.list[k].law.map_or(0.0, |law| law.force)
+    }
+
+    /// Adds an increment to the acceleration of the iterate.
+    pub fn add_to_law(&mut self, k: usize, increment: f64) {
+        self.system.flows.list[k].extent.acceleration += increment;
+    }
+}

@@ -1,0 +1,298 @@
+//! The element at the eye of a reel within the equations of its cable.
+//!
+//! # Equation
+//!
+//! Implicit stages evaluate the element at its length l(t): its stiffness, mass and weight are those of l, and the
+//! [forces of the flow](crate::element::flow) are added. Internal damping sees the rates of the control vectors, of which
+//! `d1 = 3 (r_j - r_i)/l` changes with l, too.
+//!
+//! In a step of the discrete gradient from l0 to l1 the strain energy is `U = l C_a u_a(g) + C_b u_b(g)/l`. With the means over the step
+//!
+//! ```text
+//! D d1 = 3 [D(r_j - r_i) (1/l)_m + (r_j - r_i)_m D(1/l)]      D U = f . D q + Y D l to rounding
+//! ```
+//!
+//! The loop over the elements keeps its form: it is given the eye where it would be on an element of the length l0 with the same control
+//! vectors, and its force is scaled by `l0 (1/l)_m`. Inertia, forces of the flow and weight are those of the mean length ([`step`]).
+//!
+//! # Validity
+//!
+//! Elastic work is exact for any step; kinetic energy to the second order of the step. The tangent takes the symmetric part of the
+//! forces of the flow.
+
+mod law;
+mod step;
+mod work;
+
+pub(crate) use law::{Law, Motor, Unknowns, rates};
+
+use super::System;
+use super::elements::with_bending;
+use crate::cable::Feed;
+use crate::effect::acts::{ForceInput, Single};
+use crate::element::flow::{Extent, FlowElement};
+use crate::element::gram::{Control, gram};
+use crate::element::kernel::{ElementState, GramState, Kernel, NoEffects, Stiffness, energy};
+use crate::element::side::Side;
+use crate::linalg::BlockTridiagonal;
+use crate::model::Model;
+
+/// The element at the eye of a reel during a step.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Flow {
+    /// The end of the cable at which it is.
+    pub side: Side,
+    /// Time in s at which the extent is.
+    pub start: f64,
+    /// Extent at that time; the acceleration stays.
+    pub extent: Extent,
+    /// Length in m of its mass and weight in the equations as they are set.
+    weighed: f64,
+    /// Force of the loop over the elements on the eye in the last iterate of the discrete gradient, in N.
+    eye_force: [f64; 3],
+    /// Length in m at the beginning of the last step.
+    pub length_before: f64,
+    /// Whether an end of the cable stops it.
+    pub stopped: bool,
+    /// How material comes to the eye.
+    pub feed: Feed,
+    /// What drives it, if its rate is an unknown.
+    pub law: Option<Law>,
+    /// Mean pull of the winch over the last step of the discrete gradient in N.
+    pub pull: Option<f64>,
+}
+
+/// The elements at eyes.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Flows {
+    pub list: Vec<Flow>,
+    /// Velocities as internal damping sees them.
+    velocity: Vec<f64>,
+}
+
+impl Flow {
+    /// A flow at rest.
+    pub fn new(side: Side, length: f64) -> Self {
+        let extent = Extent { length, ..Extent::default() };
+        Flow {
+            side,
+            start: 0.0,
+            extent,
+            weighed: length,
+            eye_force: [0.0; 3],
+            length_before: length,
+            stopped: false,
+            feed: Feed::Drum,
+            law: None,
+            pull: None,
+        }
+    }
+
+    /// Returns the extent at a time in s.
+    pub fn at(&self, time: f64) -> Extent {
+        let Extent { length, rate, acceleration } = self.extent;
+        let t = time - self.start;
+        Extent { length: length + t * (rate + 0.5 * t * acceleration), rate: rate + t * acceleration, acceleration }
+    }
+
+    /// Returns the mean of a step from `time` of length `h` (s), and the lengths at both ends.
+    fn over(&self, time: f64, h: f64) -> (Extent, [f64; 2]) {
+        let [first, last] = [self.at(time), self.at(time + h)];
+        let mean = Extent {
+            length: 0.5 * (first.length + last.length),
+            rate: (last.length - first.length) / h,
+            acceleration: first.acceleration,
+        };
+        (mean, [first.length, last.length])
+    }
+
+    /// Returns the number of the element.
+    fn element(&self, model: &Model) -> usize {
+        self.side.element(model.elements.len())
+    }
+
+    /// Returns the element with an extent.
+    fn with(&self, model: &Model, extent: Extent) -> FlowElement {
+        FlowElement { inertia: model.inertia(&model.elements[self.element(model)]), extent }
+    }
+
+    /// Returns the weight per length of the element in N/m.
+    fn weight(&self, model: &Model) -> [f64; 3] {
+        model.weight(&model.elements[self.element(model)]).into()
+    }
+
+    /// Returns the stiffness of the element at a length in m.
+    fn stiffness(&self, model: &Model, length: f64) -> Stiffness<f64> {
+        let section = &model.elements[self.element(model)].section;
+        Stiffness { axial: 0.25 * section.axial_stiffness * length, bending: 2.0 * section.bending_stiffness / length }
+    }
+
+    /// Adds the forces of the flow to `out`, and their negative derivatives to the matrix.
+    fn add(&self, model: &Model, at: &ForceInput<'_>, out: &mut [f64], matrix: Option<&mut BlockTridiagonal>) {
+        let element = self.with(model, self.at(at.time));
+        let mut force = [0.0; 12];
+        element.add_force(at.scale, &self.side.gather(at.q), &self.side.gather(at.v), &mut force);
+        self.side.add(&force, out);
+        if let Some(matrix) = matrix {
+            let [by_velocity, by_position] = element.matrices();
+            let entry = |r: usize, c: usize| at.scale * (at.dv_dq * by_velocity[r][c] + by_position[r][c]);
+            self.add_symmetric(model, matrix, entry);
+        }
+    }
+
+    /// Adds the symmetric part of a 4x4 table to the blocks of the element.
+    fn add_symmetric(&self, model: &Model, matrix: &mut BlockTridiagonal, local: impl Fn(usize, usize) -> f64) {
+        let e = self.element(model);
+        for (a, b) in (0..4).flat_map(|a| (0..4).map(move |b| (a, b))) {
+            let value = 0.5 * (self.side.entry(&local, a, b) + self.side.entry(&local, b, a));
+            // rows of coordinate a, columns of coordinate b; only one triangle of blocks is stored
+            let block = match (a / 2, b / 2) {
+                (0, 0) => &mut matrix.diag[e],
+                (1, 1) => &mut matrix.diag[e + 1],
+                (1, 0) => &mut matrix.lower[e],
+                _ => continue,
+            };
+            for x in 0..3 {
+                block.0[3 * (b % 2) + x][3 * (a % 2) + x] += value;
+            }
+        }
+    }
+}
+
+impl Flows {
+    /// The flows of the reels of a cable, at rest.
+    pub fn new(model: &Model) -> Self {
+        let length = |side: Side| model.elements[side.element(model.elements.len())].length;
+        let list = model.reels.sides().map(|side| Flow::new(side, length(side))).collect();
+        Flows { list, velocity: Vec::new() }
+    }
+
+    /// Returns whether there are none.
+    pub fn is_empty(&self) -> bool {
+        self.list.is_empty()
+    }
+
+    /// Returns whether all stand still.
+    pub fn are_still(&self) -> bool {
+        self.list.iter().all(|flow| flow.extent.rate == 0.0 && flow.extent.acceleration == 0.0)
+    }
+
+    /// Returns an evaluation with velocities as internal damping of the elements at the eyes sees them.
+    pub fn for_damping<'a>(&'a mut self, at: ForceInput<'a>) -> ForceInput<'a> {
+        if self.list.is_empty() || at.v.is_empty() {
+            return at;
+        }
+        let mut velocity = core::mem::take(&mut self.velocity);
+        velocity.clear();
+        velocity.extend_from_slice(at.v);
+        self.strain_velocity(at.time, at.q, &mut velocity);
+        self.velocity = velocity;
+        ForceInput { v: &self.velocity, ..at }
+    }
+
+    /// Makes of velocities those that internal damping sees, at `time` (s).
+    pub fn strain_velocity(&self, time: f64, q: &[f64], v: &mut [f64]) {
+        for flow in &self.list {
+            let Extent { length, rate, .. } = flow.at(time);
+            let [far, eye] = flow.side.nodes(v.len() / 6);
+            for x in 0..3 {
+                v[6 * eye + x] -= (q[6 * eye + x] - q[6 * far + x]) * rate / length;
+            }
+        }
+    }
+
+    /// Adds the forces of all flows to `out`, and their negative derivatives to the matrix; at rest there are none.
+    pub fn add(&self, model: &Model, at: &ForceInput<'_>, out: &mut [f64], mut matrix: Option<&mut BlockTridiagonal>) {
+        for flow in self.list.iter().filter(|_| !at.v.is_empty()) {
+            flow.add(model, at, out, matrix.as_deref_mut());
+        }
+    }
+}
+
+impl System {
+    /// Sets what depends on the lengths of the elements at eyes to `time` (s).
+    pub fn set_flows(&mut self, model: &Model, time: f64) {
+        for k in 0..self.flows.list.len() {
+            let length = self.flows.list[k].at(time).length;
+            self.set_each_length(model, k, [length, length, 1.0 / length]);
+        }
+    }
+
+    /// Sets what depends on the lengths of the elements at eyes to those at the beginning of the host step.
+    pub fn set_flows_at_start(&mut self, model: &Model) {
+        for k in 0..self.flows.list.len() {
+            let length = self.flows.list[k].extent.length;
+            self.set_each_length(model, k, [length, length, 1.0 / length]);
+        }
+    }
+
+    /// Sets the lengths of an element at an eye: that of its control vectors, that of axial stiffness and mass, and the inverse of that
+    /// of bending.
+    fn set_each_length(&mut self, model: &Model, k: usize, [shape, mean, inverse]: [f64; 3]) {
+        let System { flows, forces, mass, loads, .. } = self;
+        flows.list[k].weighed = mean;
+        let e = flows.list[k].element(model);
+        let element = &model.elements[e];
+        let elements = &mut forces.elements;
+        elements.scale[e] = 3.0 / shape;
+        elements.axial[e] = 0.25 * element.section.axial_stiffness * mean;
+        elements.flexural[e] = 2.0 * element.section.bending_stiffness * inverse;
+        elements.set_mass(e, model.inertia(element), mean);
+        let length = |e: usize| {
+            let flow = flows.list.iter().find(|flow| flow.element(model) == e);
+            flow.map_or(model.elements[e].length, |flow| flow.weighed)
+        };
+        mass.set_element(model, e, length);
+        loads.weigh_element(model, e, length);
+    }
+
+    /// Returns the kinetic energy in J that the flows add to that of the mass matrix.
+    pub fn flow_kinetic(&self, model: &Model, time: f64, q: &[f64], v: &[f64]) -> f64 {
+        let kinetic = |f: &Flow| f.with(model, f.at(time)).kinetic_energy(&f.side.gather(q), &f.side.gather(v));
+        self.flows.list.iter().map(kinetic).sum()
+    }
+
+    /// Adds the momentum of the flows at `time` (s) to `p`.
+    pub fn add_flow_momentum(&self, model: &Model, time: f64, q: &[f64], p: &mut [f64]) {
+        for flow in &self.flows.list {
+            let mut own = [0.0; 12];
+            flow.with(model, flow.at(time)).add_momentum(&flow.side.gather(q), &mut own);
+            flow.side.add(&own, p);
+        }
+    }
+
+    /// Returns the strain energy in J of an element at an eye, axial and bending, at a length and control vectors.
+    fn flow_energy(&self, model: &Model, flow: &Flow, d: &Control<f64>, length: f64) -> (f64, f64) {
+        let stiffness = flow.stiffness(model, length);
+        let elements = &self.forces.elements;
+        let own = with_bending!(&elements.bending, bending => energy(&elements.table, bending, stiffness, d));
+        let state = GramState { table: &elements.table, stiffness, g: gram(d), rates: None };
+        let e = flow.element(model);
+        let of_effects = self.forces.in_element.as_ref().map_or((0.0, 0.0), |effects| effects.energy(e, &state));
+        (own.0 + of_effects.0, own.1 + of_effects.1)
+    }
+
+    /// Returns the gradient of the strain energy by the control vectors.
+    fn flow_gradient(&self, model: &Model, flow: &Flow, d: Control<f64>, length: f64) -> Control<f64> {
+        let state = ElementState { stiffness: flow.stiffness(model, length), d, velocity: None };
+        let table = &self.forces.elements.table;
+        with_bending!(&self.forces.elements.bending, bending => match &self.forces.in_element {
+            None => Kernel { table, bending, effects: &NoEffects }.force(&state, &NoEffects),
+            Some(effects) => Kernel { table, bending, effects }.force(&state, &Single(flow.element(model))),
+        })
+    }
+
+    /// Returns dU/dl at fixed coordinates of an element at an eye, in N.
+    fn strain_length_force(&self, model: &Model, flow: &Flow, q: &[f64; 12], length: f64) -> f64 {
+        let d = control(q, length);
+        let gradient = self.flow_gradient(model, flow, d, length);
+        let (axial, bending) = self.flow_energy(model, flow, &d, length);
+        (axial - bending - (0..3).map(|x| d[1][x] * gradient[1][x]).sum::<f64>()) / length
+    }
+}
+
+/// Control vectors of an element with 12 coordinates.
+fn control(q: &[f64; 12], length: f64) -> Control<f64> {
+    let s = 3.0 / length;
+    [[q[3], q[4], q[5]], core::array::from_fn(|x| s * (q[6 + x] - q[x])), [q[9], q[10], q[11]]]
+}

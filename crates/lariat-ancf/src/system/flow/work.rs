@@ -1,0 +1,158 @@
+//! What winch and entering material do: pull, power, and work over a step.
+//!
+//! # Equation
+//!
+//! With B the [force on the length](crate::element::flow), w the weight per length, f the stretch and v the velocity of the material at
+//! the eye r:
+//!
+//! ```text
+//! drum      pull = -B - 1/2 rho l'^2 (f^2 - 1)        power = l' (B + 1/2 rho v.v - w.r)
+//! bag       pull = -B - 1/2 rho l'^2 f^2
+//! coil      pull = -B - rho l'^2 f^2 + u_0            u_0 the strain energy per length at the eye
+//! ```
+//!
+//! Stock leaves a drum with the rate of the reel. In a bag it lies at rest and is set in motion without loss; in a coil by an inelastic
+//! impact, so that a falling chain obeys `m g = d(m v)/dt`. Both differ from a drum while cable is paid out.
+//!
+//! # References
+//!
+//! Cayley, Proc. R. Soc. 8 (1857) 506 (the coil); Irschik & Holl, Appl. Mech. Rev. 57 (2004) 145 (variable mass).
+//!
+//! # Validity
+//!
+//! The account of energy is exact for any step of the discrete gradient but for its kinetic part, of the second order; for other methods
+//! to the order of two points of Gauss.
+
+use super::{Flow, System, control};
+use crate::cable::Feed;
+use crate::effect::work::{POINTS, hermite};
+use crate::element::flow::{Extent, FlowElement};
+use crate::integrate::State;
+use crate::integrate::discrete_gradient::Buffers;
+use crate::model::Model;
+use crate::system::Equations;
+
+/// What a reel does, at an instant.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct FlowForce {
+    /// Pull of the winch on the cable in N.
+    pub pull: f64,
+    /// Power in W that winch and entering material bring.
+    pub power: f64,
+}
+
+impl System {
+    /// Returns pull and power of a winch at the coordinates, velocities and accelerations of its element.
+    pub fn flow_force(&self, model: &Model, flow: &Flow, time: f64, motion: [&[f64; 12]; 3]) -> FlowForce {
+        let extent = flow.at(time);
+        let (element, weight) = (flow.with(model, extent), flow.weight(model));
+        let [q, v, _] = motion;
+        let on_length = element.length_force(motion, &weight) + self.strain_length_force(model, flow, q, extent.length);
+        FlowForce {
+            pull: flow.feed.pull(&element, q, on_length) + flow.lost(model, q, extent.rate),
+            power: extent.rate * (on_length + entering(&element, &weight, q, v)),
+        }
+    }
+}
+
+impl Equations<'_> {
+    /// Returns the work of winch and entering material over a step of a method with accelerations, by the two points of Gauss on
+    /// the cubics of velocity; `range` is the cable's part of the states.
+    pub fn flow_work(&self, flow: &Flow, before: &State, after: &State, h: f64, range: core::ops::Range<usize>) -> f64 {
+        let of = |x: &[f64]| flow.side.gather(&x[range.clone()]);
+        let [q0, v0, a0] = [&before.q, &before.v, &before.memory.acceleration].map(|x| of(x));
+        let [q1, v1, a1] = [&after.q, &after.v, &after.memory.acceleration].map(|x| of(x));
+        let mut work = 0.0;
+        for s in POINTS {
+            let (cubic, slope) = hermite(s);
+            let mix = |w: [f64; 4], x0: &[f64; 12], d0: &[f64; 12], x1: &[f64; 12], d1: &[f64; 12]| -> [f64; 12] {
+                core::array::from_fn(|k| w[0] * x0[k] + h * w[1] * d0[k] + w[2] * x1[k] + h * w[3] * d1[k])
+            };
+            let q = mix(cubic, &q0, &v0, &q1, &v1);
+            let (v, a) = (mix(cubic, &v0, &a0, &v1, &a1), mix(slope, &v0, &a0, &v1, &a1).map(|x| x / h));
+            work += 0.5 * h * self.system.flow_force(self.model, flow, before.time + s * h, [&q, &v, &a]).power;
+        }
+        work
+    }
+
+    /// Returns the mean force B on the length over a step of the discrete gradient, and what entering material brings beside it, in N.
+    pub fn flow_force_of_step(&self, flow: &Flow, state: &State, b: &Buffers) -> [f64; 2] {
+        let (model, system) = (self.model, &*self.system);
+        let (mean, [l0, l1]) = flow.over(state.time, b.h);
+        let (q, change) = (flow.side.gather(&state.q), flow.side.gather(&b.change));
+        let at = |share: f64| -> [f64; 12] { core::array::from_fn(|i| q[i] + share * change[i]) };
+        let (start, middle, end) = (at(0.0), at(0.5), at(1.0));
+        let [u0, u1] = [(&start, l0), (&end, l1)].map(|(q, l)| system.flow_energy(model, flow, &control(q, l), l));
+        let of_eye: f64 = (0..3).map(|x| flow.eye_force[x] * (middle[6 + x] - middle[x])).sum();
+        // D U at fixed coordinates over D l, for (1/l1 - 1/l0)/(l1 - l0) = -1/(l0 l1)
+        let elastic = 0.5 * (u0.0 / l0 + u1.0 / l1) - (0.5 * (u0.1 * l0 + u1.1 * l1) - l0 * of_eye) / (l0 * l1);
+        let (element, weight) = (flow.with(model, mean), flow.weight(model));
+        let velocity = change.map(|x| x / b.h);
+        let acceleration = flow.side.gather(&b.velocity_change).map(|x| x / b.h);
+        let inertial = element.length_force([&middle, &velocity, &acceleration], &weight);
+        [elastic + inertial, entering(&element, &weight, &middle, &velocity)]
+    }
+
+    /// Adds the work of winches and entering material over a step of the discrete gradient, and notes its lengths for the next one.
+    pub fn end_flows_of_step(&mut self, state: &State, b: &Buffers) {
+        for k in 0..self.system.flows.list.len() {
+            let flow = self.system.flows.list[k];
+            let (mean, [l0, l1]) = flow.over(state.time, b.h);
+            let forces = self.flow_force_of_step(&flow, state, b);
+            let work = (l1 - l0) * (forces[0] + forces[1]);
+            self.system.meter.reel_work[flow.side as usize] += work;
+            let (element, q) = (flow.with(self.model, mean), self.middle_of_step(&flow, state, b));
+            let pull = flow.feed.pull(&element, &q, forces[0]) + flow.lost(self.model, &q, mean.rate);
+            let own = &mut self.system.flows.list[k];
+            (own.length_before, own.pull) = (l0, Some(pull));
+        }
+    }
+}
+
+impl Equations<'_> {
+    /// Returns the middle of the coordinates of the element at an eye over a step of the discrete gradient.
+    pub fn middle_of_step(&self, flow: &Flow, state: &State, b: &Buffers) -> [f64; 12] {
+        let (q, change) = (flow.side.gather(&state.q), flow.side.gather(&b.change));
+        core::array::from_fn(|i| q[i] + 0.5 * change[i])
+    }
+}
+
+impl Feed {
+    /// Returns the pull of the winch from the force on the length, without the energy that is lost.
+    pub(super) fn pull(self, element: &FlowElement, q: &[f64; 12], on_length: f64) -> f64 {
+        let (rate, square) = (element.extent.rate, square_of_stretch(q));
+        let momentum = match self {
+            Feed::Bag if rate > 0.0 => 0.5 * square,
+            Feed::Coil if rate > 0.0 => square,
+            _ => 0.5 * (square - 1.0),
+        };
+        -on_length - element.inertia * rate * rate * momentum
+    }
+}
+
+impl Flow {
+    /// Returns the strain energy per length at the eye, if stock from a coil loses it, in N.
+    pub(super) fn lost(&self, model: &Model, q: &[f64; 12], rate: f64) -> f64 {
+        if self.feed != Feed::Coil || rate <= 0.0 {
+            return 0.0;
+        }
+        let strain = 0.5 * (square_of_stretch(q) - 1.0);
+        0.5 * model.elements[self.element(model)].section.axial_stiffness * strain * strain
+    }
+}
+
+/// Returns the square of the stretch at the eye.
+fn square_of_stretch(q: &[f64; 12]) -> f64 {
+    q[9] * q[9] + q[10] * q[10] + q[11] * q[11]
+}
+
+/// Returns what entering material brings beside the force on the length, in N: its kinetic energy and its weight at the eye.
+fn entering(element: &FlowElement, weight: &[f64; 3], q: &[f64; 12], v: &[f64; 12]) -> f64 {
+    let Extent { rate, .. } = element.extent;
+    let mut sum = 0.0;
+    for x in 0..3 {
+        let speed = v[6 + x] - rate * q[9 + x];
+        sum += element.inertia * (-rate * speed * q[9 + x] - 0.5 * speed * speed) - weight[x] * q[6 + x];
+    }
+    sum
+}

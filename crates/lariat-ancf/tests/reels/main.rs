@@ -1,0 +1,9 @@
+//! Reels at the ends of a cable.
+
+mod both_ends;
+mod common;
+mod energy;
+mod laws;
+mod motion;
+mod remesh;
+mod state;

@@ -1,0 +1,107 @@
+//! Motions that are known.
+
+use super::common::{G, implicit, rope};
+use approx::assert_relative_eq;
+use lariat_ancf::island::{Island, PinConstraint, RigidBody};
+use lariat_ancf::{At, Cable, Damping, ErrorNorm, Integrator, Method, Reel, Section, StepControl, Vector3};
+use nalgebra::Matrix3;
+
+/// The momentum of a rope changes by its weight and the force on the eye: with a reel that pays out at a constant rate, a rope that
+/// hangs at rest moves down as a whole, and its tension at the eye is its weight.
+///
+/// *Source.* Newton's second law of the rope that is out: d(m v)/dt = m g - T with v constant and mass m = rho A l entering with v.
+#[test]
+fn a_rope_paid_out_at_a_constant_rate_hangs_by_its_weight() {
+    for integrator in implicit() {
+        let mut cable = rope(1.0, 6, integrator);
+        let mut effects = cable.effects().clone();
+        effects.damping = Some(Damping { axial: 5e-3, bending: 0.0 });
+        cable.set_effects(effects).unwrap();
+        cable
+            .add_reel(At::End, Reel { rate: vec![[0.0, 0.4]], acceleration: 1.0, stock: Some(4.0), ..Reel::default() })
+            .unwrap();
+        (0..180).for_each(|_| cable.step(1.0 / 60.0).unwrap());
+        let reel = cable.reel(At::End).unwrap();
+        let weight = 0.4 * G * reel.length_out;
+        assert_relative_eq!(reel.length_out, 1.0 + 0.4 * 3.0 - 0.5 * 0.4 * 0.4, epsilon = 1e-6);
+        assert!((reel.tension / weight - 1.0).abs() < 0.01, "{:?}: {reel:?} {weight} N", integrator.method);
+        // the free end moves with the rate
+        let speed = cable.sample(0.0).unwrap().velocity;
+        assert!((speed.y + 0.4).abs() < 5e-3, "{:?}: {speed:?}", integrator.method);
+        // the configurational force: T f less the strain energy per length
+        let f = 1.0 + weight / 1.0e4;
+        assert!((reel.force - reel.tension * f).abs() < 0.02 * weight, "{:?}: {reel:?}", integrator.method);
+        (0..600).for_each(|_| cable.step(1.0 / 60.0).unwrap());
+        let reel = cable.reel(At::End).unwrap();
+        assert!(
+            reel.stopped && reel.rate == 0.0 && reel.length_out <= 4.0 + 1e-9 && reel.length_out > 3.99,
+            "{reel:?}"
+        );
+    }
+}
+
+/// A mass on a light, stiff rope whose length changes, against its own equation: l = 1.5 + 0.1 t and a wave.
+///
+/// *Source.* `(l^2 theta')' = -g l sin theta`, by the classical Runge-Kutta method here, with the length that the reel has out.
+#[test]
+fn a_pendulum_of_variable_length_follows_its_equation() {
+    let tolerance = StepControl::ToleranceOf(1e-7, ErrorNorm::Bodies);
+    for (method, control, swing) in [
+        (Method::Esdirk4, tolerance, 0.6),
+        (Method::DiscreteGradient, StepControl::Substeps(1), 0.6),
+        (Method::DiscreteGradient, StepControl::Substeps(3), 0.6),
+        (Method::DiscreteGradient, StepControl::Substeps(1), -0.4),
+    ] {
+        let integrator = Integrator { method, control };
+        let (mut theta, mut omega) = (0.6f64, 0.0f64);
+        let start = 1.5 * Vector3::new(theta.sin(), -theta.cos(), 0.0);
+        let mut cable = Cable::builder()
+            .points([start, Vector3::zeros()])
+            .section(Section::from_stiffness(1.0e6, 1e-4, 2e-4).unwrap())
+            .elements(8)
+            .integrator(integrator)
+            .fix(At::End)
+            .build()
+            .unwrap();
+        cable.attach(At::Start).unwrap();
+        // slower than free fall: a rope does not push
+        cable.add_reel(At::End, Reel { acceleration: 4.0, ..Reel::default() }).unwrap();
+        let mut bodies = [RigidBody::new(1.0, Matrix3::identity() * 1e-3, start).unwrap()];
+        bodies[0].force = Vector3::new(0.0, -G, 0.0);
+        let pin = PinConstraint { cable: 0, node: 0, body: 0, anchor: Vector3::zeros(), direction: None };
+        let mut island = Island::default();
+        let dt = 1.0 / 240.0;
+        let mut worst: f64 = 0.0;
+        let mut rate_before = 0.0;
+        for step in 0..2400 {
+            let t = f64::from(step) * dt;
+            let rate = if t < 4.0 { 0.1 } else { swing * (2.0 * (t - 4.0)).sin() };
+            cable.set_reel_rate(At::End, rate).unwrap();
+            cable.remesh_reel().unwrap();
+            let l0 = cable.length();
+            island.step(&mut [&mut cable], &mut bodies, &[pin], integrator, dt).unwrap();
+            let acceleration = (cable.reel(At::End).unwrap().rate - rate_before) / dt;
+            let (r0, n) = (rate_before, 20);
+            rate_before = cable.reel(At::End).unwrap().rate;
+            let slope = |s: f64, th: f64, om: f64| {
+                let (l, r) = (l0 + s * (r0 + 0.5 * s * acceleration), r0 + s * acceleration);
+                (om, (-G * th.sin() - 2.0 * r * om) / l)
+            };
+            for k in 0..n {
+                let (h, s) = (dt / f64::from(n), dt * f64::from(k) / f64::from(n));
+                let a = slope(s, theta, omega);
+                let b = slope(s + 0.5 * h, theta + 0.5 * h * a.0, omega + 0.5 * h * a.1);
+                let c = slope(s + 0.5 * h, theta + 0.5 * h * b.0, omega + 0.5 * h * b.1);
+                let d = slope(s + h, theta + h * c.0, omega + h * c.1);
+                theta += h / 6.0 * (a.0 + 2.0 * b.0 + 2.0 * c.0 + d.0);
+                omega += h / 6.0 * (a.1 + 2.0 * b.1 + 2.0 * c.1 + d.1);
+            }
+            let expected = cable.length() * Vector3::new(theta.sin(), -theta.cos(), 0.0);
+            worst = worst.max((bodies[0].position - expected).norm() / cable.length());
+        }
+        let reel = cable.reel(At::End).unwrap();
+        println!("{method:?}: {worst:.2e} of the length, {reel:?}");
+        assert!(reel.splits >= 2 && reel.merges >= 1);
+        assert!(worst < 1e-3, "{method:?}: {worst:e}");
+    }
+}

@@ -1,0 +1,48 @@
+//! The contacts of the cables of a set.
+
+use super::collider;
+use super::rules::{ContactFilter, ContactRules};
+use crate::error::Error;
+use crate::handle::CableHandle;
+use crate::set::CableSet;
+use lariat_ancf::Contact;
+use lariat_ancf::contact::Touch;
+use rapier::geometry::ColliderHandle;
+
+impl CableSet {
+    /// Lets a cable touch the colliders of the world, or no longer with `None`. Needs the method
+    /// `discrete-gradient`, which a cable gets if nobody chose its integrator. The cable's own friction is combined
+    /// with that of a collider as [`set_contact_rules`](Self::set_contact_rules) say.
+    ///
+    /// # Errors
+    /// [`Error::NoCable`]; [`Error::Cable`] for numbers out of range, for a cable without a diameter or a radius, and
+    /// for another method.
+    pub fn set_contact(&mut self, cable: CableHandle, contact: impl Into<Option<Contact>>) -> Result<(), Error> {
+        Ok(self.contents.cable_mut(cable)?.set_contact(contact)?)
+    }
+
+    /// Sets the groups of a cable, and how its friction is combined, for its contacts.
+    ///
+    /// # Errors
+    /// [`Error::NoCable`].
+    pub fn set_contact_rules(&mut self, cable: CableHandle, rules: ContactRules) -> Result<(), Error> {
+        let slot = self.contents.cables.get_mut(cable.0 as usize).ok_or(Error::NoCable(cable))?;
+        (slot.rules, slot.modified) = (rules, true);
+        Ok(())
+    }
+
+    /// Sets a function that decides which colliders cables may touch, beyond their groups; it is no part of a
+    /// snapshot.
+    pub fn set_contact_filter(&mut self, filter: Option<ContactFilter>) {
+        self.stepper.finder.filter = filter;
+        self.contents.cables.values_mut().for_each(|slot| slot.modified = true);
+    }
+
+    /// Returns the contacts of a cable at the end of the last step, each with its collider.
+    ///
+    /// # Errors
+    /// [`Error::NoCable`].
+    pub fn contacts(&self, cable: CableHandle) -> Result<impl Iterator<Item = (ColliderHandle, Touch)>, Error> {
+        Ok(self.get(cable)?.contacts().map(|touch| (collider(touch.obstacle), touch)))
+    }
+}
