@@ -139,7 +139,7 @@ impl Balance {
     }
 
     /// Returns the energy that is to be taken from velocities: what the step makes, and away from obstacles also what damping hides of it.
-    pub fn to_take(&self) -> f64 {
+    pub fn to_take(self) -> f64 {
         let hidden = if self.near { 0.0 } else { (1.0 - CLOSURE) * self.effects };
         self.excess() + hidden
     }
