@@ -85,7 +85,7 @@ fn a_rope_on_a_rotor_pulls_with_its_force_of_inertia() {
 /// Ropes with strong internal friction, on the rims of rotors of any size and speed: what friction takes must not hide the errors of the
 /// iteration. Undetected they grow to a thousand times the force.
 ///
-/// Reference: the force of inertia, as above.
+/// Reference: the mean over a second of the force of inertia, as above; a rope in the plane of the rotor may swing.
 #[test]
 fn a_damped_rope_on_a_rotor_pulls_with_its_force_of_inertia() {
     for (radius, length, mass, stiffness, damping, clamp, speed, frequency) in [
@@ -99,7 +99,8 @@ fn a_damped_rope_on_a_rotor_pulls_with_its_force_of_inertia() {
     ] {
         let mut world = weightless();
         world.integration_parameters.dt = 1.0 / frequency as Real;
-        let rotor = RigidBodyBuilder::kinematic_velocity_based().angvel(Vector::new(0.0, 0.0, speed as Real));
+        // by poses: Rapier rotates by less than the velocity says, 6 % at 0.86 rad per step
+        let rotor = RigidBodyBuilder::kinematic_position_based().angvel(Vector::new(0.0, 0.0, speed as Real));
         let rotor = world.insert_body(rotor);
         let mut set = CableSet::new();
         let section = Section::from_stiffness(stiffness, 1e-7 * stiffness, mass).unwrap();
@@ -113,15 +114,23 @@ fn a_damped_rope_on_a_rotor_pulls_with_its_force_of_inertia() {
         let kind = if clamp { AttachmentKind::Clamp } else { AttachmentKind::Ball };
         let end = set.attach(&world, lash, At::Start, rotor, Vector::new(radius as Real, 0.0, 0.0), kind).unwrap();
         let expected = speed * speed * mass * length * (radius + 0.5 * length);
-        for step in 0..2 * frequency as usize {
+        let (steps, mut sum, mut largest) = (2 * frequency as usize, 0.0, 0.0_f64);
+        for step in 0..steps {
+            let angle = (speed * (step + 1) as f64 / frequency) as Real;
+            let pose = Pose::new(Vector::ZERO, Vector::new(0.0, 0.0, angle));
+            world.bodies[rotor].set_next_kinematic_position(pose);
             set.step(&mut world).unwrap();
             let pull = set.attachment(end).unwrap().force().norm();
-            let case = format!(
-                "{radius} m, {length} m, {speed} rad/s at {frequency} Hz, step {step}: {pull:.3} of {expected:.3} N"
-            );
-            // the rope is set to its stretch by a jerk, which friction takes
-            assert!(step < frequency as usize / 2 || (pull / expected - 1.0).abs() < 0.12, "{case}");
+            // friction takes the jerk with which the rope gets its stretch
+            if 2 * step >= steps {
+                sum += pull;
+                largest = largest.max(pull);
+            }
         }
+        let (mean, largest) = (sum / frequency / expected, largest / expected);
+        let case = format!("{radius} m, {length} m, {speed} rad/s at {frequency} Hz: {mean:.4}, at most {largest:.4}");
+        println!("{case}");
+        assert!((mean - 1.0).abs() < 1e-2 && largest < 1.1, "{case}");
     }
 }
 
