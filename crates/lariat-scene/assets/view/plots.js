@@ -2,7 +2,7 @@
 
 // Quantity and unit by first column; the next columns belong to it up to the next first column.
 const QUANTITIES = {
-  x: ["position", "m"], vx: ["velocity", "m/s"], sx: ["slope", "1"], tension: ["tension", "N"], curvature: ["curvature", "1/m"],
+  x: ["position", "m"], vx: ["velocity", "m/s"], sx: ["slope", "1"], tension: ["tension", "N"], tension_uncertainty: ["uncertainty of the tension", "N"], curvature: ["curvature", "1/m"],
   moment: ["bending moment", "N m"], qx: ["rotation (quaternion)", "1"], wx: ["angular velocity", "rad/s"], fx: ["force on what holds the cable", "N"],
   mx: ["moment on what holds the cable", "N m"], gap: ["gap", "m"], kinetic: ["energy", "J"], dissipated: ["dissipated, interface work, total", "J"],
   px: ["momentum", "kg m/s"], lx: ["angular momentum about the origin", "kg m²/s"],
@@ -31,6 +31,7 @@ function scalesOf(probe) {
   const duration = times[times.length - 1] || 1, tension = Math.max(Math.abs(lowest), Math.abs(highest));
   return {
     position: size, gap: 1e-3 * size, velocity: size / duration, slope: 1, "rotation (quaternion)": 1, "angular velocity": 1 / duration, tension,
+    "uncertainty of the tension": tension,
     curvature: 1 / size, "bending moment": 1e-3 * tension * size, "force on what holds the cable": tension,
     "moment on what holds the cable": Math.max(tension, largest(["fx", "fy", "fz"])) * size,
     energy: largest(probe.columns.slice(1)), "dissipated, interface work, total": largest(probe.columns.slice(1)),

@@ -57,7 +57,7 @@ fn the_page_shows_the_run_and_its_controls_work() {
     assert_eq!(page.ask(FRAME), "60");
     // two sections are open: 6 plots of the tip and of the middle; the motion is in a plane, and z is not a curve
     assert!(page.ask("document.querySelector('.constant').textContent").contains("z = 0"));
-    assert_eq!(page.ask("document.querySelectorAll('.uplot').length"), "12");
+    assert_eq!(page.ask("document.querySelectorAll('.uplot').length"), "14");
     page.ask("document.querySelector('.u-over').id = 'over'");
     page.click("over");
     let there = page.ask("times[current]").parse::<f64>().unwrap();
