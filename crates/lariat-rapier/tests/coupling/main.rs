@@ -4,6 +4,7 @@
 mod assemblies;
 mod attachment_points;
 mod blows;
+mod budget;
 mod cable_contact;
 mod cable_contact_bodies;
 mod clamps;
