@@ -1,6 +1,7 @@
 //! Cables on Rapier's bodies: statics, a monolithic code, conservation laws, and changes by the
 //! user.
 
+mod arms;
 mod assemblies;
 mod attachment_points;
 mod blows;
