@@ -33,6 +33,9 @@ pub struct Model {
     /// What it can touch; set by the host, no part of a file.
     #[serde(skip)]
     pub(crate) obstacles: Obstacles,
+    /// By which other cables remember contacts with it.
+    #[serde(default)]
+    pub(crate) contact_key: u64,
     #[serde(default)]
     pub(crate) strength: Strength,
     #[serde(default)]

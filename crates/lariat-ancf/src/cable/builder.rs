@@ -288,6 +288,7 @@ impl CableBuilder {
             effects: self.effects,
             force_densities: self.force_densities,
             obstacles: Obstacles::default(),
+            contact_key: 0,
             strength: Default::default(),
             reels: Reels::default(),
         };

@@ -127,6 +127,7 @@ impl Cable {
         self.snapshot.state.memory.step = 0.0;
         self.snapshot.state.memory.differences.clear();
         self.snapshot.state.memory.contacts.clear();
+        self.snapshot.state.memory.pairs.clear();
     }
 
     /// Marks a change of supports, loads, effects or integrator: states from before keep their positions and velocities only.

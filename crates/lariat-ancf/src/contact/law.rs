@@ -21,14 +21,14 @@ const RAMP: f64 = 0.02;
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct NormalLaw {
     /// Stiffness k in N/m^2.
-    pub(super) stiffness: f64,
+    pub(in crate::contact) stiffness: f64,
     /// Depth delta in m of its start.
     ramp: f64,
 }
 
 /// Force per length in N/m, its derivative by the depth in N/m^2, and the energy per length in J/m.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Pressure {
+pub(in crate::contact) struct Pressure {
     pub force: f64,
     pub slope: f64,
     pub energy: f64,
@@ -40,8 +40,14 @@ impl NormalLaw {
         NormalLaw { stiffness, ramp: RAMP * radius }
     }
 
+    /// Returns the law of two cables that touch each other.
+    pub(in crate::contact) fn in_series(one: NormalLaw, other: NormalLaw) -> Self {
+        let (a, b) = (one.stiffness, other.stiffness);
+        NormalLaw { stiffness: a * b / (a + b), ramp: 0.5 * (one.ramp + other.ramp) }
+    }
+
     /// Returns the force at a depth (m).
-    pub(super) fn at(&self, depth: f64) -> Pressure {
+    pub(in crate::contact) fn at(&self, depth: f64) -> Pressure {
         let NormalLaw { stiffness: k, ramp: delta } = *self;
         if depth <= 0.0 {
             Pressure { force: 0.0, slope: 0.0, energy: 0.0 }
@@ -56,7 +62,7 @@ impl NormalLaw {
     }
 
     /// Returns the depth at which the force per length is `force` > 0 (N/m).
-    pub(super) fn depth_of(&self, force: f64) -> f64 {
+    pub(in crate::contact) fn depth_of(&self, force: f64) -> f64 {
         let NormalLaw { stiffness: k, ramp: delta } = *self;
         if force < 0.5 * k * delta { (2.0 * delta * force / k).sqrt() } else { 0.5 * delta + force / k }
     }
@@ -64,7 +70,7 @@ impl NormalLaw {
 
 /// Friction over a step.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Friction {
+pub(in crate::contact) struct Friction {
     /// Spring at the end in m.
     pub spring: Vector3<f64>,
     /// Stiffness k_t in N/m.
@@ -79,7 +85,7 @@ pub(super) struct Friction {
 
 /// Returns friction with the bound `bound` (N) on a surface with the unit normal `normal`, for a contact of the normal stiffness `stiffness` (N/m);
 /// `before` is the spring at the beginning (m), `slip` the motion beside the surface. With `sticks` the bound is ignored.
-pub(super) fn friction(
+pub(in crate::contact) fn friction(
     stiffness: f64,
     bound: f64,
     normal: &Vector3<f64>,
@@ -103,7 +109,7 @@ pub(super) fn friction(
 }
 
 /// Returns the energy in J of a spring of friction (m).
-pub(super) fn spring_energy(stiffness: f64, spring: &Vector3<f64>) -> f64 {
+pub(in crate::contact) fn spring_energy(stiffness: f64, spring: &Vector3<f64>) -> f64 {
     0.5 * TANGENTIAL * stiffness * spring.norm_squared()
 }
 

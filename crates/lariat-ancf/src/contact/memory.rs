@@ -1,5 +1,6 @@
 //! What contacts carry from step to step, and what is read of them.
 
+use super::pairs::PairMemory;
 use super::patch::Patch;
 use crate::cable::Cable;
 use crate::error::{Error, require};
@@ -10,40 +11,40 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ContactMemory {
     /// Element of the cable.
-    pub(super) element: u32,
+    pub(in crate::contact) element: u32,
     /// Number of the sample, or of the feature behind the samples.
-    pub(super) place: u32,
+    pub(in crate::contact) place: u32,
     /// Key of the obstacle.
-    pub(super) obstacle: u64,
+    pub(in crate::contact) obstacle: u64,
     /// Local coordinate in the element.
-    pub(super) xi: f64,
+    pub(in crate::contact) xi: f64,
     /// Weight in m.
-    pub(super) weight: f64,
+    pub(in crate::contact) weight: f64,
     /// The patch, in the obstacle's axes.
-    pub(super) patch: Patch,
+    pub(in crate::contact) patch: Patch,
     /// Outward normal, in the obstacle's axes.
-    pub(super) normal: Vector3<f64>,
+    pub(in crate::contact) normal: Vector3<f64>,
     /// Depth in m, less the offset.
-    pub(super) depth: f64,
+    pub(in crate::contact) depth: f64,
     /// Spring of friction in m, in the obstacle's axes.
-    pub(super) spring: Vector3<f64>,
+    pub(in crate::contact) spring: Vector3<f64>,
     /// Normal force in N.
-    pub(super) force: f64,
+    pub(in crate::contact) force: f64,
     /// Energy in J.
-    pub(super) energy: f64,
+    pub(in crate::contact) energy: f64,
     /// Outward normal, world axes.
-    pub(super) direction: Vector3<f64>,
+    pub(in crate::contact) direction: Vector3<f64>,
     /// Friction in N, world axes.
-    pub(super) friction: Vector3<f64>,
+    pub(in crate::contact) friction: Vector3<f64>,
     /// Whether it slips.
-    pub(super) slips: bool,
+    pub(in crate::contact) slips: bool,
 }
 
 /// Element, obstacle and place: no two contacts share them.
-pub(super) type Key = (u32, u64, u32);
+pub(in crate::contact) type Key = (u32, u64, u32);
 
 impl ContactMemory {
-    pub(super) fn key(&self) -> Key {
+    pub(in crate::contact) fn key(&self) -> Key {
         (self.element, self.obstacle, self.place)
     }
 
@@ -111,6 +112,8 @@ impl Cable {
 
     /// Returns the energy in J that contacts store.
     pub fn contact_energy(&self) -> f64 {
-        self.snapshot.state.memory.contacts.iter().map(|contact| contact.energy).sum()
+        let memory = &self.snapshot.state.memory;
+        let pairs = memory.pairs.iter().map(PairMemory::energy);
+        memory.contacts.iter().map(|contact| contact.energy).chain(pairs).sum()
     }
 }

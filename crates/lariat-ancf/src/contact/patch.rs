@@ -49,7 +49,7 @@ pub enum Patch {
 
 /// The gap between a point of the centre line and a patch over a step.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct GapStep {
+pub(in crate::contact) struct GapStep {
     /// At the beginning, in m.
     pub start: f64,
     /// At the end, in m.
@@ -62,7 +62,7 @@ pub(super) struct GapStep {
 
 impl Patch {
     /// Returns the gap and the outward normal at a point in the obstacle's axes.
-    pub(super) fn gap(&self, y: &Vector3<f64>) -> (f64, Vector3<f64>) {
+    pub(in crate::contact) fn gap(&self, y: &Vector3<f64>) -> (f64, Vector3<f64>) {
         match *self {
             Patch::Plane { point, normal } => (normal.dot(&(y - point)), normal),
             Patch::Line { point, direction, radius } => {
@@ -74,7 +74,7 @@ impl Patch {
     }
 
     /// Returns its radius in m; `None` for a plane.
-    pub(super) fn radius(&self) -> Option<f64> {
+    pub(in crate::contact) fn radius(&self) -> Option<f64> {
         match *self {
             Patch::Plane { .. } => None,
             Patch::Line { radius, .. } | Patch::Point { radius, .. } => Some(radius),
@@ -82,7 +82,7 @@ impl Patch {
     }
 
     /// Returns the gap over a step in which the point at `x` moves by `change`; the surface is met at the gap `reach`.
-    pub(super) fn over_step(
+    pub(in crate::contact) fn over_step(
         &self,
         obstacle: &ObstacleStep,
         x: &Vector3<f64>,

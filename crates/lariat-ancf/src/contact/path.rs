@@ -28,7 +28,7 @@ const MAX_HALF_TURN: f64 = 1.2;
 
 /// Place and axes at a time.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Pose {
+pub(in crate::contact) struct Pose {
     pub position: Vector3<f64>,
     pub rotation: Matrix3<f64>,
 }
@@ -57,7 +57,7 @@ pub(crate) struct BodyPath {
 
 /// The motion of an obstacle over a step.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct ObstacleStep {
+pub(in crate::contact) struct ObstacleStep {
     pub start: Pose,
     pub end: Pose,
     /// Axes half way.

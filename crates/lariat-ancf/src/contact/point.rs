@@ -14,7 +14,7 @@ const LIFTED: f64 = 0.1;
 
 /// A material point that can touch an obstacle in the present step.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct ContactPoint {
+pub(in crate::contact) struct ContactPoint {
     pub key: Key,
     /// Number of the obstacle.
     pub obstacle: usize,
@@ -51,7 +51,7 @@ pub(super) struct ContactPoint {
 
 /// A contact as a linear solve sees it.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Linear {
+pub(in crate::contact) struct Linear {
     pub force: Vector3<f64>,
     pub tangent: Matrix3<f64>,
     /// Motion beside the obstacle of that iterate.
@@ -66,7 +66,7 @@ pub(super) struct Linear {
 
 /// How a contact is made linear.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct About {
+pub(in crate::contact) struct About {
     /// The depth that belongs to the force that the last linear solve gave: on the quadratic start of the law, Newton's iteration about the
     /// depth itself only halves it.
     pub depth: Option<f64>,
@@ -76,7 +76,7 @@ pub(super) struct About {
 
 /// A contact at the end of an iterate.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Evaluation {
+pub(in crate::contact) struct Evaluation {
     /// Force on the cable in N.
     pub force: Vector3<f64>,
     /// Friction alone.
@@ -184,6 +184,27 @@ impl ContactPoint {
         out
     }
 
+    /// Returns what is remembered of it at the end of the step.
+    pub fn memory(&self, obstacle: &ObstacleStep) -> ContactMemory {
+        let (now, (element, key, place)) = (&self.now, self.key);
+        ContactMemory {
+            element,
+            place,
+            obstacle: key,
+            xi: self.xi,
+            weight: self.weight,
+            patch: self.patch,
+            normal: obstacle.end.rotation.tr_mul(&now.normal),
+            depth: now.depth,
+            spring: obstacle.middle.tr_mul(&now.spring),
+            force: now.normal_force,
+            energy: now.energy,
+            direction: now.normal,
+            friction: now.friction,
+            slips: now.slides.is_some(),
+        }
+    }
+
     /// Makes it linear at a change of its position.
     pub fn linearise(&mut self, obstacle: &ObstacleStep, change: Vector3<f64>) {
         let at = self.evaluate(obstacle, &change, self.about);
@@ -205,7 +226,7 @@ impl ContactPoint {
 }
 
 /// Returns a nodal vector at a point of an element.
-pub(super) fn combine(q: &[f64], element: usize, shape: &[f64; 4]) -> Vector3<f64> {
+pub(in crate::contact) fn combine(q: &[f64], element: usize, shape: &[f64; 4]) -> Vector3<f64> {
     let d = &q[6 * element..6 * element + 12];
     let part = |x: usize| shape[0] * d[x] + shape[1] * d[3 + x] + shape[2] * d[6 + x] + shape[3] * d[9 + x];
     Vector3::new(part(0), part(1), part(2))

@@ -142,24 +142,7 @@ impl ContactStep {
     pub fn remember(&self, memory: &mut Vec<ContactMemory>) {
         memory.clear();
         for point in self.points.iter().filter(|point| point.now.normal_force > 0.0) {
-            let (obstacle, now) = (&self.obstacles[point.obstacle], &point.now);
-            let (element, key, place) = point.key;
-            memory.push(ContactMemory {
-                element,
-                place,
-                obstacle: key,
-                xi: point.xi,
-                weight: point.weight,
-                patch: point.patch,
-                normal: obstacle.end.rotation.tr_mul(&now.normal),
-                depth: now.depth,
-                spring: obstacle.middle.tr_mul(&now.spring),
-                force: now.normal_force,
-                energy: now.energy,
-                direction: now.normal,
-                friction: now.friction,
-                slips: now.slides.is_some(),
-            });
+            memory.push(point.memory(&self.obstacles[point.obstacle]));
         }
         memory.sort_unstable_by_key(|contact| contact.key());
     }

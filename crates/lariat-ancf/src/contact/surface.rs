@@ -62,7 +62,7 @@ pub trait Surface: Debug + Send + Sync {
 impl Feature {
     /// Returns the patch that a point nearest to the core sees, and the vector from the core to it; `None` if the nearest point of a
     /// segment is an end, which belongs to another feature.
-    pub(super) fn patch(&self, point: &Vector3<f64>) -> Option<(Patch, Vector3<f64>)> {
+    pub(in crate::contact) fn patch(&self, point: &Vector3<f64>) -> Option<(Patch, Vector3<f64>)> {
         let radius = self.radius;
         match self.shape {
             FeatureShape::Point(p) => Some((Patch::Point { point: p, radius }, point - p)),
@@ -82,7 +82,7 @@ impl Feature {
     }
 
     /// Returns the point of the core that is nearest to a point, ends included.
-    pub(super) fn core(&self, point: &Vector3<f64>) -> Vector3<f64> {
+    pub(in crate::contact) fn core(&self, point: &Vector3<f64>) -> Vector3<f64> {
         match self.shape {
             FeatureShape::Point(p) => p,
             FeatureShape::Segment(a, b) => {
@@ -97,7 +97,7 @@ impl Feature {
     }
 
     /// Returns the square of the distance of a point from the core, ends included.
-    pub(super) fn distance_squared(&self, point: &Vector3<f64>) -> f64 {
+    pub(in crate::contact) fn distance_squared(&self, point: &Vector3<f64>) -> f64 {
         (point - self.core(point)).norm_squared()
     }
 }

@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 /// Stiffness of contact: EA over this many squares of the radius.
 const SOFTNESS: f64 = 40.0;
 
-/// Contact with the [obstacles](crate::Cable::set_obstacles) of a cable. Needs the method `discrete-gradient`.
+/// Contact with the [obstacles](crate::Cable::set_obstacles) of a cable, and with other cables and itself if it is asked for. Needs the method `discrete-gradient`.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Contact {
@@ -20,11 +20,15 @@ pub struct Contact {
     pub stiffness: Option<f64>,
     /// Coefficient of friction of the cable, >= 0, which a host combines with that of what it touches. Default: 0.5.
     pub friction: f64,
+    /// Whether it touches other cables that have this too. Default: false.
+    pub cables: bool,
+    /// Whether it touches itself. Default: false.
+    pub itself: bool,
 }
 
 impl Default for Contact {
     fn default() -> Self {
-        Contact { radius: None, stiffness: None, friction: 0.5 }
+        Contact { radius: None, stiffness: None, friction: 0.5, cables: false, itself: false }
     }
 }
 
@@ -37,6 +41,11 @@ impl Contact {
     /// Returns it for a cable of this radius (m).
     pub fn with_radius(self, radius: f64) -> Self {
         Contact { radius: Some(radius), ..self }
+    }
+
+    /// Returns it for a cable that touches other cables and itself.
+    pub fn with_cables(self) -> Self {
+        Contact { cables: true, itself: true, ..self }
     }
 
     pub(crate) fn radius_of(&self, section: &Section) -> f64 {
@@ -53,7 +62,7 @@ impl Effect for Contact {
     const DISSIPATIVE: bool = true;
 
     fn check(&self, cable: &Target<'_>) -> Result<(), Error> {
-        let Contact { radius, stiffness, friction } = *self;
+        let Contact { radius, stiffness, friction, .. } = *self;
         require("radius of contact (m)", radius.unwrap_or(1.0), radius.is_none_or(|r| r > 0.0), "> 0")?;
         require("stiffness of contact (N/m^2)", stiffness.unwrap_or(1.0), stiffness.is_none_or(|k| k > 0.0), "> 0")?;
         require("coefficient of friction", friction, friction >= 0.0, ">= 0")?;

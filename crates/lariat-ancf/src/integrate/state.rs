@@ -2,7 +2,7 @@
 //! carries from step to step.
 
 use super::discrete_gradient::Differences;
-use crate::contact::ContactMemory;
+use crate::contact::{ContactMemory, PairMemory};
 use crate::error::{Error, require};
 use serde::{Deserialize, Serialize};
 
@@ -39,6 +39,9 @@ pub struct Memory {
     /// Contacts at the end of the last step of the discrete gradient.
     #[serde(default)]
     pub contacts: Vec<ContactMemory>,
+    /// Contacts with other cables and with itself, likewise.
+    #[serde(default)]
+    pub pairs: Vec<PairMemory>,
 }
 
 fn coherent() -> f64 {
@@ -58,6 +61,7 @@ impl Default for Memory {
             largest_energy: 0.0,
             differences: Differences::default(),
             contacts: Vec::new(),
+            pairs: Vec::new(),
         }
     }
 }
@@ -90,6 +94,7 @@ impl State {
             largest_energy,
             differences,
             contacts,
+            pairs,
         } = memory;
         self.time = *time;
         self.q.clone_from(q);
@@ -104,6 +109,7 @@ impl State {
         self.memory.largest_energy = *largest_energy;
         self.memory.differences.copy_from(differences);
         self.memory.contacts.clone_from(contacts);
+        self.memory.pairs.clone_from(pairs);
     }
 
     /// Checks that this is a finite state of `size` coordinates; `cable` is the name for the error.
@@ -140,6 +146,7 @@ impl State {
                 all.try_for_each(|&x| finite("change of the last step", x))
             })
             .and_then(|()| self.memory.contacts.iter().try_for_each(|contact| contact.check(size / 6 - 1)))
+            .and_then(|()| self.memory.pairs.iter().try_for_each(|contact| contact.check(size / 6 - 1)))
             .map_err(|error| error.of_cable(cable))
     }
 }

@@ -7,8 +7,8 @@
 //! ```
 
 use super::condense::Condensed;
-use super::dense::Dense;
 use super::rotation::skew;
+use crate::linalg::Dense;
 use crate::error::StepFailure;
 use nalgebra::{Matrix3, Matrix6, Vector3};
 

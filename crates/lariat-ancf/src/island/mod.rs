@@ -18,14 +18,14 @@
 //! By virtual work the cable's residual at a pin acts on the body as the force f_p and the torque
 //! rho x f_p (`rows.rs`): there is no multiplier, no penalty and no drift. In Newton's iteration
 //! each cable is condensed on its held coordinates (`condense.rs`), the bodies are solved together
-//! (`dense.rs`), and the increments of the cables follow (`equations.rs`). The tangent includes the
+//! ([`Dense`](crate::linalg)), and the increments of the cables follow (`equations.rs`). The tangent includes the
 //! geometric stiffness of the lever, `-[f_p]x [rho]x`, without which the iteration converges slowly
 //! for light bodies on taut cables.
 //!
 //! # Validity
 //!
 //! Bodies that rotate by less than a full revolution in a step; tens of bodies (the cost of
-//! `dense.rs` is cubic).
+//! the dense matrix of bodies is cubic).
 //!
 //! # Alternatives considered
 //!
@@ -39,7 +39,6 @@ mod body;
 mod body_matrix;
 mod clamp;
 mod condense;
-mod dense;
 mod discrete_gradient;
 mod dynamics;
 mod energy_balance;

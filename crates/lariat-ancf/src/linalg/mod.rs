@@ -31,6 +31,7 @@
 
 mod banded;
 mod block;
+mod dense;
 mod equilibrate;
 mod factorisation;
 mod inertia;
@@ -42,6 +43,7 @@ mod substitution;
 mod twisted;
 
 pub use block::{Block, BlockTridiagonal};
+pub(crate) use dense::Dense;
 pub use factorisation::Factorisation;
 pub use mass::{MassFactorisation, MassMatrix};
 pub use outcome::{Definiteness, Reason, SingularMatrix};

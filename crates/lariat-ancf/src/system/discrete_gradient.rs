@@ -5,7 +5,7 @@ use super::lanes::discrete_gradient::{CoordinateStep, ElementLoss};
 use super::rigid_motion::relative_velocities;
 use super::{Equations, System, Unknowns, project_vector};
 use crate::cable::Cable;
-use crate::contact::{BodyPath, ContactBalance, Motion};
+use crate::contact::{BodyPath, Motion};
 use crate::effect::EffectWork;
 use crate::effect::acts::{ForceInput, PointForce, StepInput};
 use crate::error::StepFailure;
@@ -88,15 +88,10 @@ impl Equations<'_> {
     /// Adds contact forces to the residual of the present iterate, and what they do to its balance.
     fn balance_contacts(&mut self, b: &mut Buffers, balance: &mut Balance, work: &mut EffectWork) {
         b.contact.complete(self.model, &b.change);
-        let ContactBalance { loss, obstacles, work: own, before, missed, forces } =
-            b.contact.balance(&b.change, &mut b.rhs);
+        let contacts = b.contact.balance(&b.change, &mut b.rhs);
         self.diagnostics.effects.contact += b.contact.count();
-        work.contact += own;
-        balance.near = true;
-        balance.held += before;
-        (balance.contacts, balance.obstacles) = (loss, obstacles);
-        (balance.missed, balance.forces) = (missed, forces);
-        balance.impulse += b.h * forces;
+        work.contact += contacts.work;
+        balance.add_contacts(&contacts, b.h);
     }
 
     /// Computes `h (G + F - f) - M D v` of the present iterate into `rhs`, and the step matrix if asked. Without it, returns what the
@@ -121,6 +116,7 @@ impl Equations<'_> {
         for i in 0..rhs.len() {
             rhs[i] += *h * external[i] - product[i];
         }
+        rhs.iter_mut().zip(&b.pair_impulses).for_each(|(rhs, impulse)| *rhs += impulse);
         if matrix && !b.contact.is_empty() {
             self.diagnostics.effects.contact += b.contact.count();
             b.contact.linearise(&b.change, &mut b.rhs, &mut self.system.step.matrix);
@@ -265,7 +261,7 @@ fn linearise_laws(equations: &mut Equations<'_>, state: &State, b: &mut Buffers)
     equations.read_motors(state, b);
     for (&(_, k), columns) in reels.iter().zip(columns) {
         equations.linearise_law(k, state, b, &mut columns[0], saved);
-        equations.solve(&mut columns[0]);
+        equations.solve_with_pairs(&mut b.pairs.low_rank, &mut columns[0], &mut b.product);
     }
     b.unknowns = unknowns;
 }
@@ -301,24 +297,29 @@ impl DiscreteGradientSystem for CableStep<'_> {
         self.buffers.recall(self.state, h);
         self.equations.prescribe_change(self.state, self.buffers);
         self.equations.find_contacts(self.state, self.buffers, &[]);
+        self.equations.find_pairs(self.state, self.buffers);
     }
 
     fn iterate(&mut self, fresh: bool) -> Result<Balance, StepFailure> {
         let CableStep { equations, state, buffers: b } = self;
         equations.diagnostics.newton_iterations += 1;
         if fresh {
+            equations.linearise_pairs(state, b);
             equations.step_residual(state, b, true, &mut EffectWork::default());
             equations.factor_to_solve()?;
+            equations.factor_pairs(b)?;
             linearise_laws(equations, state, b);
         }
-        equations.solve(&mut b.rhs);
+        equations.solve_with_pairs(&mut b.pairs.low_rank, &mut b.rhs, &mut b.product);
         add_to_laws(equations, b);
         if !b.rhs.iter().all(|x| x.is_finite()) {
             return Err(equations.not_finite("Newton increment", &b.rhs));
         }
         Equations::apply_increment(b);
         let mut work = EffectWork::default();
+        let pairs = equations.balance_pairs(state, b, &mut work);
         let mut balance = equations.step_balance(state, b, &mut work);
+        pairs.iter().for_each(|pairs| balance.add_contacts(pairs, b.h));
         equations.system.meter.work_of_step = work;
         project_vector(equations.model, &mut b.rhs);
         balance.residual = -dot(&b.rhs, &b.change) / b.h;
@@ -353,6 +354,7 @@ impl DiscreteGradientSystem for CableStep<'_> {
 
     fn accept(&mut self, balance: &Balance) {
         self.equations.accept_step(self.state, self.buffers);
+        self.buffers.pairs.remember(0, &mut self.state.memory.pairs);
         self.equations.system.meter.law.add(balance);
     }
 

@@ -30,6 +30,7 @@ pub(crate) mod jacobian;
 mod lanes;
 pub(crate) mod loads;
 pub(crate) mod mass;
+mod pairs;
 mod projection;
 mod rigid_motion;
 

@@ -9,8 +9,8 @@ use nalgebra::{Matrix3, UnitQuaternion};
 use std::f64::consts::{FRAC_PI_2, PI};
 
 /// Cables and the bodies that they touch.
-struct World {
-    cables: Vec<Cable>,
+pub struct World {
+    pub cables: Vec<Cable>,
     bodies: Vec<RigidBody>,
     island: Island,
     integrator: Integrator,
@@ -18,12 +18,12 @@ struct World {
 }
 
 impl World {
-    fn new(cables: Vec<Cable>, bodies: Vec<RigidBody>) -> Self {
+    pub fn new(cables: Vec<Cable>, bodies: Vec<RigidBody>) -> Self {
         World { cables, bodies, island: Island::default(), integrator: steps(240.0), largest: 1e-12 }
     }
 
     /// A host step of 1/60 s; returns by how much its energy grew.
-    fn step(&mut self) -> f64 {
+    pub fn step(&mut self) -> f64 {
         let before = self.energy();
         let mut cables: Vec<&mut Cable> = self.cables.iter_mut().collect();
         self.island.step(&mut cables, &mut self.bodies, &[], self.integrator, 1.0 / 60.0).unwrap();
@@ -31,7 +31,7 @@ impl World {
     }
 
     /// Returns the largest growth of energy as a share of the largest energy of motion, strain and contacts.
-    fn run(&mut self, hosts: usize, mut each: impl FnMut(&World)) -> f64 {
+    pub fn run(&mut self, hosts: usize, mut each: impl FnMut(&World)) -> f64 {
         let mut worst = 0.0f64;
         for _ in 0..hosts {
             worst = worst.max(self.step());
@@ -50,7 +50,7 @@ impl World {
         self.cables.iter().map(|c| energies(c)[0]).sum::<f64>() + bodies + potential
     }
 
-    fn momentum(&self) -> (Vector3<f64>, Vector3<f64>) {
+    pub fn momentum(&self) -> (Vector3<f64>, Vector3<f64>) {
         let cables = self.cables.iter().map(|c| (c.momentum().linear, c.momentum().angular));
         let zero = (Vector3::zeros(), Vector3::zeros());
         cables.chain(self.bodies.iter().map(RigidBody::momentum)).fold(zero, |a, b| (a.0 + b.0, a.1 + b.1))

@@ -8,5 +8,6 @@ mod common;
 mod energy;
 mod features;
 mod floor;
+mod pairs;
 mod state;
 mod wall;

@@ -1,6 +1,6 @@
 //! The memory of the method, and the buffers of a step.
 
-use crate::contact::ContactStep;
+use crate::contact::{ContactStep, PairStep};
 use crate::integrate::State;
 use crate::system::Unknowns;
 use serde::{Deserialize, Serialize};
@@ -72,6 +72,10 @@ pub(crate) struct Buffers {
     pub product: Vec<f64>,
     /// Contacts.
     pub contact: ContactStep,
+    /// Contacts of the cable with itself.
+    pub pairs: PairStep,
+    /// Impulses of contacts with cables; empty without any.
+    pub pair_impulses: Vec<f64>,
     /// Rates of reels that are unknown.
     pub unknowns: Unknowns,
 }
@@ -95,6 +99,7 @@ impl Buffers {
             own.resize(size, 0.0);
         }
         self.linearised.clear();
+        self.pair_impulses.clear();
         self.taken.clear();
         self.velocity_change.clone_from(&self.velocity_before);
         self.change.clear();

@@ -1,5 +1,6 @@
 //! The energy law of a step by its terms, and what a system must be able to do.
 
+use crate::contact::ContactBalance;
 use crate::error::StepFailure;
 use serde::{Deserialize, Serialize};
 
@@ -121,6 +122,17 @@ impl Balance {
         (0..2).for_each(|i| self.slip[i] += other.slip[i]);
         self.imbalance += other.imbalance;
         self.impulse += other.impulse;
+    }
+
+    /// Adds what contacts do in a step of length `h` (s).
+    pub fn add_contacts(&mut self, contacts: &ContactBalance, h: f64) {
+        self.near = true;
+        self.held += contacts.before;
+        self.contacts += contacts.loss;
+        self.obstacles += contacts.obstacles;
+        self.missed += contacts.missed;
+        self.forces += contacts.forces;
+        self.impulse += h * contacts.forces;
     }
 
     /// Returns what the method itself loses.

@@ -16,6 +16,7 @@
 mod body;
 mod holds;
 mod host_step;
+mod pairs;
 mod rescale;
 
 pub(super) use host_step::HostStep;
@@ -26,7 +27,7 @@ use super::hold::vector;
 use super::layout::Layout;
 use super::pin_accounts::PinAccounts;
 use crate::cable::Cable;
-use crate::contact::BodyPath;
+use crate::contact::{BodyPath, PairStep};
 use crate::effect::EffectWork;
 use crate::error::StepFailure;
 use crate::integrate::State;
@@ -50,6 +51,9 @@ pub(super) struct StepBuffers {
     rows: Vec<f64>,
     /// The bodies as the contacts see them.
     paths: Vec<BodyPath>,
+    /// Contacts between the cables.
+    pairs: PairStep,
+    aside: pairs::Aside,
     /// Rates of reels that are unknown.
     unknowns: Unknowns,
     /// By pin, velocity of node and slope beside those of the body when the host step began.
@@ -152,8 +156,8 @@ impl IslandStep<'_, '_> {
         matrix.factor()
     }
 
-    /// Solves the linear equations in place: the residuals of cables and the rows of bodies become their increments.
-    fn solve(&mut self) {
+    /// Solves the linear equations without contacts between cables in place.
+    fn solve_apart(&mut self) {
         let StepBuffers { bodies, cables: own, matrix, rows, .. } = &mut *self.buffers;
         for (cable, own) in self.cables.iter_mut().zip(own.iter()) {
             let CableStep { mut equations, buffers, .. } = cable.step_parts();
@@ -269,6 +273,7 @@ impl IslandStep<'_, '_> {
 
     /// Returns what the present iterate does to the energy.
     fn balance(&mut self) -> Balance {
+        let pairs = self.balance_pairs();
         let StepBuffers { bodies, cables: own, rows, .. } = &mut *self.buffers;
         rows.fill(0.0);
         let mut total = Balance::default();
@@ -298,6 +303,10 @@ impl IslandStep<'_, '_> {
         for (body, row) in bodies.iter().zip(rows.chunks_exact_mut(6)) {
             body.complete_row(row);
             body.add_balance(row, &mut total);
+        }
+        if let Some(pairs) = pairs {
+            total.add_contacts(&pairs, self.cables[0].step_buffers.h);
+            self.cables[0].system.meter.work_of_step.contact += pairs.work;
         }
         total
     }
@@ -342,13 +351,16 @@ impl DiscreteGradientSystem for IslandStep<'_, '_> {
             let CableStep { equations, state, buffers } = cable.step_parts();
             equations.find_contacts(state, buffers, &self.buffers.paths);
         }
+        self.find_pairs(h);
     }
 
     fn iterate(&mut self, fresh: bool) -> Result<Balance, StepFailure> {
         self.cables.iter_mut().for_each(|cable| cable.diagnostics_mut().newton_iterations += 1);
         if fresh {
+            self.linearise_pairs();
             self.linearise()?;
             self.factor_bodies(self.cables[0].step_buffers.h)?;
+            self.factor_pairs()?;
             self.linearise_laws();
         }
         self.add_increment()?;
@@ -368,6 +380,9 @@ impl DiscreteGradientSystem for IslandStep<'_, '_> {
                 self.accounts.pins[hold.pin].add_mean(buffers.h, hold.slope, action);
             }
             equations.accept_step(state, buffers);
+        }
+        for (c, cable) in self.cables.iter_mut().enumerate() {
+            self.buffers.pairs.remember(c, &mut cable.snapshot.state.memory.pairs);
         }
         self.buffers.bodies.iter_mut().for_each(BodyStep::accept);
         // the law is that of the whole: the first cable keeps it

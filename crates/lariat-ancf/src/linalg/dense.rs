@@ -1,4 +1,4 @@
-//! The small dense symmetric system of an island's bodies: L D L^T with diagonal pivoting.
+//! Small dense symmetric systems, of the bodies of an island and of contacts: L D L^T with diagonal pivoting.
 //!
 //! # Validity
 //!
@@ -15,14 +15,14 @@
 //!
 //! nalgebra's Cholesky: its products choose kernels at run time, with other bits on other machines.
 
-use crate::linalg::{Reason, SingularMatrix};
+use super::outcome::{Reason, SingularMatrix};
 
 /// Share of its diagonal entry above which a pivot needs no exchange.
 const MIN_PIVOT_SHARE: f64 = 1e-3;
 
 /// A factored symmetric matrix.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Dense {
+pub(crate) struct Dense {
     n: usize,
     factors: Vec<f64>,
     order: Vec<usize>,

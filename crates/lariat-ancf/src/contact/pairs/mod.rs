@@ -1,0 +1,42 @@
+//! Contact of cables with each other and with themselves.
+//!
+//! # Equation
+//!
+//! A contact joins a material point of one centre line to one of another, with `y = xa - xb` and the tangents ta, tb. Between them is
+//! the plane through the closest points, with the normal n = y/|y|; the laws are those of an obstacle ([`contact`](super)), with the reach `ra + rb`
+//! and both stiffnesses in series. The frame of the plane turns with the pair, by the mean rotation of ta, tb and y:
+//!
+//! ```text
+//! K w = ta x D ta + tb x D tb + e y x D y        K = sum (|v|^2 - v v^T), v = ta, tb, sqrt(e) y, means over the step
+//! s = D y - w x y                                slip: zero in any rigid motion of the pair
+//! ```
+//!
+//! The force f on the slip acts on the coordinates by virtual work, `f . s`: on both places, and on both slopes as the couple by which friction,
+//! which acts on the surfaces, turns the cables. So momentum and the torque of both cables balance exactly, as does the energy.
+//!
+//! # Validity
+//!
+//! The element has no torsion: cables that are parallel, to `sqrt(e)` = 0.03 rad, roll on each other without friction. Points of one cable nearer
+//! than eight radii along it do not touch, nor do points so near to a body that holds both. Cables that bend to less than some radii are not resolved.
+//!
+//! # References
+//!
+//! As [`contact`](super); Wriggers & Zavarise, Comm. Numer. Meth. Eng. 13 (1997) 429 (beams that touch).
+//!
+//! # Alternatives considered
+//!
+//! Forces on the centre lines alone (friction has a couple that is lost: angular momentum, and a knot that turns rigidly brakes itself). The distance of
+//! the material points instead of a plane (it grows as they slide along the cables).
+
+mod chords;
+mod memory;
+mod point;
+mod search;
+mod solve;
+mod step;
+
+pub(crate) use chords::Strand;
+pub use memory::{PairMemory, PairTouch};
+pub(crate) use search::Strands;
+pub(crate) use solve::{LowRank, PairSystem, Row};
+pub(crate) use step::PairStep;

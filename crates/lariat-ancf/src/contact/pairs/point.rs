@@ -1,0 +1,103 @@
+//! One contact of two cables over a step: its frame, its slip, and its forces on both.
+
+use super::super::path::{BodyPath, ObstacleStep};
+use super::super::point::{ContactPoint, combine};
+use super::super::obstacle::Mount;
+use super::Strand;
+use nalgebra::{Matrix3, UnitQuaternion, Vector3};
+
+/// Weight e of the direction of y beside those of the tangents.
+const ROLLING: f64 = 1e-3;
+
+/// A place of a strand that touches.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct End {
+    /// Number of the strand.
+    pub strand: usize,
+    pub element: usize,
+    /// Chord of the element.
+    pub chord: usize,
+    /// Shape functions, and their derivatives by arc length.
+    pub shape: [f64; 4],
+    pub slope: [f64; 4],
+    /// Arc length in m.
+    pub arc: f64,
+}
+
+/// A contact of two strands. Its obstacle is the second one; `point` is about y.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct PairPoint {
+    pub ends: [End; 2],
+    pub point: ContactPoint,
+    /// Tangents at the beginning.
+    pub tangents: [Vector3<f64>; 2],
+    /// How the frame turns.
+    pub frame: ObstacleStep,
+    /// What a force on the slip is on y and on the tangents.
+    spread: [Matrix3<f64>; 3],
+}
+
+/// The frame of a pair that turns by twice the vector `half`, by the Cayley map.
+pub(super) fn frame(half: Vector3<f64>, h: f64) -> ObstacleStep {
+    let (origin, still) = (Vector3::zeros(), UnitQuaternion::identity());
+    let path = BodyPath { centre: origin, displacement: origin, rotation: still, half, moved: false };
+    ObstacleStep::carried(&Mount { body: 0, position: origin, rotation: still }, &path, h)
+}
+
+impl PairPoint {
+    pub fn new(ends: [End; 2], point: ContactPoint, tangents: [Vector3<f64>; 2], h: f64) -> Self {
+        let spread = [Matrix3::identity(), Matrix3::zeros(), Matrix3::zeros()];
+        PairPoint { ends, point, tangents, frame: frame(Vector3::zeros(), h), spread }
+    }
+
+    /// Moves the frame with an iterate, and returns the change of y.
+    fn turn(&mut self, strands: [&Strand<'_>; 2]) -> Vector3<f64> {
+        let change = |k: usize, shape: &[f64; 4]| combine(strands[k].change, self.ends[k].element, shape);
+        let moved = change(0, &self.ends[0].shape) - change(1, &self.ends[1].shape);
+        let turned = [change(0, &self.ends[0].slope), change(1, &self.ends[1].slope)];
+        let y = self.point.start + 0.5 * moved;
+        let tangents = [0, 1].map(|k| self.tangents[k] + 0.5 * turned[k]);
+        let weight = ROLLING / (self.point.reach * self.point.reach);
+        let square = |v: &Vector3<f64>| Matrix3::identity() * v.norm_squared() - v * v.transpose();
+        let sum = square(&tangents[0]) + square(&tangents[1]) + square(&y) * weight;
+        let inverse = sum.try_inverse().unwrap_or_default();
+        let turn = inverse
+            * (tangents[0].cross(&turned[0]) + tangents[1].cross(&turned[1]) + y.cross(&moved) * weight);
+        self.frame = frame(0.5 * turn, self.frame.h);
+        let couple = inverse * y.cross_matrix();
+        self.spread = [
+            Matrix3::identity() + y.cross_matrix() * couple * weight,
+            tangents[0].cross_matrix() * couple,
+            tangents[1].cross_matrix() * couple,
+        ];
+        moved
+    }
+
+    /// Makes it linear at an iterate.
+    pub fn linearise(&mut self, strands: [&Strand<'_>; 2]) {
+        let moved = self.turn(strands);
+        self.point.linearise(&self.frame, moved);
+    }
+
+    /// Evaluates it at the result of the linear solve, and returns how far that was off in N, and the work of its force in J.
+    pub fn follow(&mut self, strands: [&Strand<'_>; 2]) -> [f64; 2] {
+        let moved = self.turn(strands);
+        let missed = self.point.follow(&self.frame, moved);
+        [missed, self.point.now.force.dot(&self.frame.slip(&self.point.start, &moved))]
+    }
+
+    /// Returns a force on the slip as forces on the coordinates of both elements.
+    pub fn forces(&self, force: &Vector3<f64>) -> [[f64; 12]; 2] {
+        let [place, first, second] = self.spread.map(|part| part * force);
+        let nodal = |end: &End, place: Vector3<f64>, slope: Vector3<f64>| {
+            let mut out = [0.0; 12];
+            for k in 0..4 {
+                for x in 0..3 {
+                    out[3 * k + x] = end.shape[k] * place[x] + end.slope[k] * slope[x];
+                }
+            }
+            out
+        };
+        [nodal(&self.ends[0], place, first), nodal(&self.ends[1], -place, second)]
+    }
+}

@@ -1,0 +1,246 @@
+//! Which chords of cables can touch each other in a step: boxes of elements, then chords, then the time at which they meet.
+//!
+//! # Validity
+//!
+//! The box of an element holds it over the whole step, so that a fast one is not missed. Where chords pass more than half their reach in the step, the closest points
+//! are those when they first touch, by conservative advancement; else those at the predicted end.
+//!
+//! # References
+//!
+//! Mirtich, Impulse-based Dynamic Simulation of Rigid Body Systems, 1996 (conservative advancement).
+
+use super::chords::{Piece, Strand, closest, refine};
+use core::cmp::Ordering;
+use nalgebra::Vector3;
+
+/// Gap in reaches below which a pair is a contact: what an iterate may still bring near.
+pub(super) const NEAR: f64 = 1.0;
+/// Way in reaches from which on the time of touch is looked for.
+const FAST: f64 = 0.5;
+/// Steps of the advancement.
+const ADVANCES: usize = 64;
+/// Least of these in reaches.
+const LEAST_ADVANCE: f64 = 0.02;
+/// Distance along a cable, or over a body, in reaches, within which its points do not touch each other.
+pub(super) const APART: f64 = 4.0;
+
+/// The cables of a step.
+pub(crate) struct Strands<'s, 'a> {
+    pub count: usize,
+    pub get: &'s dyn Fn(usize) -> Strand<'a>,
+    /// Returns the distance in m between points of two cables, by arc length, over a body that holds both.
+    pub over_bodies: &'s dyn Fn([usize; 2], [f64; 2]) -> f64,
+}
+
+/// An element with the box that it is in over the step.
+#[derive(Clone, Copy, Debug)]
+struct Boxed {
+    low: Vector3<f64>,
+    high: Vector3<f64>,
+    strand: usize,
+    element: usize,
+    /// Arc length in m at which it begins.
+    from: f64,
+    radius: f64,
+}
+
+/// Chords that can touch, with the closest points.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Candidate {
+    pub strands: [usize; 2],
+    pub elements: [usize; 2],
+    pub chords: [usize; 2],
+    pub xi: [f64; 2],
+    pub arcs: [f64; 2],
+    /// Sum of the radii in m.
+    pub reach: f64,
+    /// From the second to the first when they are closest.
+    pub normal: Vector3<f64>,
+}
+
+/// Buffers of the search.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Search {
+    boxes: Vec<Boxed>,
+    active: Vec<usize>,
+    /// Elements whose boxes meet.
+    near: Vec<[usize; 2]>,
+    nodes: [Vec<[Vector3<f64>; 2]>; 2],
+    pub found: Vec<Candidate>,
+}
+
+impl Search {
+    /// Finds all candidates at the present iterate.
+    pub fn run(&mut self, strands: &Strands<'_, '_>) {
+        self.found.clear();
+        self.collect(strands);
+        self.sweep(strands);
+        for i in 0..self.near.len() {
+            let [a, b] = self.near[i].map(|k| self.boxes[k]);
+            self.compare(strands, a, b);
+        }
+    }
+
+    /// Collects the boxes of all elements that can touch others.
+    fn collect(&mut self, strands: &Strands<'_, '_>) {
+        self.boxes.clear();
+        for c in 0..strands.count {
+            let strand = (strands.get)(c);
+            let Some(contact) = strand.model.effects.contact.filter(|own| own.cables || own.itself) else { continue };
+            let mut from = 0.0;
+            for (e, element) in strand.model.elements.iter().enumerate() {
+                let radius = contact.radius_of(&element.section);
+                let third = element.length / 3.0;
+                let corners = |start: bool| {
+                    let d: [Vector3<f64>; 4] = core::array::from_fn(|k| {
+                        let at = 6 * e + 3 * k;
+                        let change = if start { Vector3::zeros() } else { Vector3::from_column_slice(&strand.change[at..at + 3]) };
+                        Vector3::from_column_slice(&strand.q[at..at + 3]) + change
+                    });
+                    [d[0], d[0] + d[1] * third, d[2] - d[3] * third, d[2]]
+                };
+                let all = [corners(true), corners(false)];
+                let (mut low, mut high) = (all[0][0], all[0][0]);
+                for x in all.iter().flatten() {
+                    (low, high) = (low.inf(x), high.sup(x));
+                }
+                let margin = Vector3::repeat(radius * (1.0 + NEAR));
+                let (low, high) = (low - margin, high + margin);
+                self.boxes.push(Boxed { low, high, strand: c, element: e, from, radius });
+                from += element.length;
+            }
+        }
+    }
+
+    /// Finds the boxes that meet, by sweeping along the longest axis.
+    fn sweep(&mut self, strands: &Strands<'_, '_>) {
+        self.near.clear();
+        let Some(first) = self.boxes.first() else { return };
+        let spread = self.boxes.iter().fold([first.low, first.low], |[low, high], b| [low.inf(&b.low), high.sup(&b.low)]);
+        let axis = (spread[1] - spread[0]).imax();
+        self.boxes.sort_unstable_by(|a, b| {
+            let order = a.low[axis].partial_cmp(&b.low[axis]).unwrap_or(Ordering::Equal);
+            order.then((a.strand, a.element).cmp(&(b.strand, b.element)))
+        });
+        self.active.clear();
+        for i in 0..self.boxes.len() {
+            let own = self.boxes[i];
+            self.active.retain(|&k| self.boxes[k].high[axis] >= own.low[axis]);
+            for &k in &self.active {
+                let other = self.boxes[k];
+                let apart = (0..3).any(|x| other.high[x] < own.low[x] || own.high[x] < other.low[x]);
+                if !apart && may_touch(strands, &own, &other) {
+                    self.near.push(if is_first(strands, &own, &other) { [i, k] } else { [k, i] });
+                }
+            }
+            self.active.push(i);
+        }
+        let boxes = &self.boxes;
+        let name = |i: usize| (boxes[i].strand, boxes[i].element);
+        self.near.sort_unstable_by_key(|[a, b]| (name(*a), name(*b)));
+    }
+
+    /// Finds the chords of two elements that can touch.
+    fn compare(&mut self, strands: &Strands<'_, '_>, first: Boxed, second: Boxed) {
+        let (a, b) = (
+            Piece::new((strands.get)(first.strand), first.element),
+            Piece::new((strands.get)(second.strand), second.element),
+        );
+        let reach = first.radius + second.radius;
+        for (nodes, piece) in self.nodes.iter_mut().zip([&a, &b]) {
+            nodes.clear();
+            nodes.extend((0..=piece.chords).map(|i| piece.place(i as f64 / piece.chords as f64)));
+        }
+        // where the chord before the first one of b begins
+        let before = (second.element > 0).then(|| {
+            let piece = Piece::new(b.strand, b.element - 1);
+            piece.place((piece.chords - 1) as f64 / piece.chords as f64)
+        });
+        let [ones, others] = &self.nodes;
+        let at = |[x, change]: [Vector3<f64>; 2], share: f64| x + change * share;
+        for i in 0..a.chords {
+            for j in 0..b.chords {
+                let [a0, a1, b0, b1] = [ones[i], ones[i + 1], others[j], others[j + 1]];
+                let relative = |p: [Vector3<f64>; 2], q: [Vector3<f64>; 2]| (p[1] - q[1]).norm();
+                let way = relative(a0, b0).max(relative(a0, b1)).max(relative(a1, b0)).max(relative(a1, b1));
+                let size = 0.5 * ((a1[0] - a0[0]).norm() + (b1[0] - b0[0]).norm());
+                let middles = 0.5 * (a0[0] + a1[0] - b0[0] - b1[0]);
+                if middles.norm() > size + way + reach * (1.0 + NEAR) {
+                    continue;
+                }
+                let segments = |share: f64| {
+                    ([at(a0, share), at(a1, share)], [at(b0, share), at(b1, share)])
+                };
+                let between = |share: f64| {
+                    let (one, other) = segments(share);
+                    let (s, t) = closest(one, other);
+                    (s, t, one[0] + (one[1] - one[0]) * s - other[0] - (other[1] - other[0]) * t)
+                };
+                let share = if way < FAST * reach { 1.0 } else { touch(|share| between(share).2.norm(), reach, way) };
+                let (s, t, y) = between(share);
+                if y.norm() > reach * (1.0 + NEAR) {
+                    continue;
+                }
+                // of two chords that share the closest point on b, one has it
+                let last = second.element + 1 == b.strand.model.elements.len() && j + 1 == b.chords;
+                if t >= 1.0 && !last {
+                    continue;
+                }
+                let previous = if j > 0 { Some(others[j - 1]) } else { before };
+                if t <= 0.0
+                    && let Some(previous) = previous
+                    && y.dot(&(at(b0, share) - at(previous, share))) < 0.0
+                {
+                    continue;
+                }
+                let from = [(i as f64 + s) / a.chords as f64, (j as f64 + t) / b.chords as f64];
+                let xi = refine(&a, i, &b, from, share);
+                let arcs = [first.from + xi[0] * a.length, second.from + xi[1] * b.length];
+                let along = if first.strand == second.strand { (arcs[0] - arcs[1]).abs() } else { f64::INFINITY };
+                let over_bodies = (strands.over_bodies)([first.strand, second.strand], arcs);
+                if along.min(over_bodies) < APART * reach {
+                    continue;
+                }
+                let normal = (a.at(xi[0], share) - b.at(xi[1], share)).try_normalize(1e-9 * reach);
+                self.found.push(Candidate {
+                    strands: [first.strand, second.strand],
+                    elements: [first.element, second.element],
+                    chords: [i, j],
+                    xi,
+                    arcs,
+                    reach,
+                    normal: normal.unwrap_or_else(|| y.try_normalize(0.0).unwrap_or(Vector3::y())),
+                });
+            }
+        }
+    }
+}
+
+/// Returns the share of a step at which chords that move by at most `way` come within `reach`; 1 if they do not.
+fn touch(distance: impl Fn(f64) -> f64, reach: f64, way: f64) -> f64 {
+    let mut share = 0.0;
+    for _ in 0..ADVANCES {
+        let gap = distance(share) - reach;
+        if gap <= LEAST_ADVANCE * reach {
+            return share;
+        }
+        share += gap / way;
+        if share >= 1.0 {
+            return 1.0;
+        }
+    }
+    share
+}
+
+/// Returns whether two elements may touch.
+fn may_touch(strands: &Strands<'_, '_>, a: &Boxed, b: &Boxed) -> bool {
+    let contact = |own: &Boxed| (strands.get)(own.strand).model.effects.contact;
+    let (Some(one), Some(other)) = (contact(a), contact(b)) else { return false };
+    if a.strand == b.strand { one.itself && a.element != b.element } else { one.cables && other.cables }
+}
+
+/// Returns whether the first of two elements is the one that keeps their contacts.
+fn is_first(strands: &Strands<'_, '_>, a: &Boxed, b: &Boxed) -> bool {
+    let key = |own: &Boxed| ((strands.get)(own.strand).key, own.strand, own.element);
+    key(a) < key(b)
+}

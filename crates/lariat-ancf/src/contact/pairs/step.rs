@@ -1,0 +1,239 @@
+//! All contacts between the cables of a system over a step.
+
+use super::super::ContactBalance;
+use super::super::law::NormalLaw;
+use super::super::memory::ContactMemory;
+use super::super::patch::Patch;
+use super::super::point::{About, ContactPoint, Evaluation, Linear, combine};
+use super::chords::{Piece, Strand};
+use super::memory::PairMemory;
+use super::point::{End, PairPoint, frame};
+use super::search::{Candidate, Search, Strands};
+use super::solve::LowRank;
+use crate::element::shape;
+use crate::integrate::discrete_gradient::BETA;
+use nalgebra::Vector3;
+
+/// Distance in reaches along both cables over which a contact hands on what it remembers, beside the way of the step.
+const HAND_ON: f64 = 4.0;
+/// Deviation in radii of an iterate from that of the search, from which on it is made anew.
+const DEVIATION: f64 = 0.5;
+
+/// The contacts between cables in a step; empty where none are near.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct PairStep {
+    points: Vec<PairPoint>,
+    search: Search,
+    /// By strand, the change of its coordinates with which the search was made.
+    searched: Vec<Vec<f64>>,
+    /// By strand, what of its memory was taken up.
+    taken: Vec<Vec<bool>>,
+    /// Length of the step in s.
+    h: f64,
+    /// Energy in J that the contacts store at the beginning.
+    before: f64,
+    /// Whether any cable can touch another or itself.
+    on: bool,
+    pub low_rank: LowRank,
+}
+
+impl PairStep {
+    /// Returns whether nothing is near.
+    pub fn is_empty(&self) -> bool {
+        self.points.is_empty()
+    }
+
+    /// Returns the number of contacts that are evaluated.
+    pub fn count(&self) -> u64 {
+        self.points.len() as u64
+    }
+
+    /// Begins a step of length `h` (s).
+    pub fn begin(&mut self, h: f64, strands: &Strands<'_, '_>) {
+        self.points.clear();
+        (self.h, self.before) = (h, 0.0);
+        let touches = |c: usize| (strands.get)(c).model.effects.contact;
+        let among = (0..strands.count).filter(|&c| touches(c).is_some_and(|own| own.cables)).count() > 1;
+        self.on = among || (0..strands.count).any(|c| touches(c).is_some_and(|own| own.itself));
+        self.low_rank.clear();
+        if !self.on {
+            return;
+        }
+        self.taken.resize_with(strands.count, Vec::new);
+        for (c, taken) in self.taken.iter_mut().enumerate() {
+            taken.clear();
+            taken.resize((strands.get)(c).memory.len(), false);
+        }
+        self.look(strands);
+    }
+
+    /// Searches again if an iterate is far from that of the last search, and adds what it finds.
+    pub fn complete(&mut self, strands: &Strands<'_, '_>) {
+        if self.on && (0..strands.count).any(|c| deviates(&(strands.get)(c), &self.searched[c])) {
+            self.look(strands);
+        }
+    }
+
+    fn look(&mut self, strands: &Strands<'_, '_>) {
+        self.searched.resize_with(strands.count, Vec::new);
+        for (c, searched) in self.searched.iter_mut().enumerate() {
+            searched.clear();
+            searched.extend_from_slice((strands.get)(c).change);
+        }
+        let mut search = core::mem::take(&mut self.search);
+        search.run(strands);
+        let known = self.points.len();
+        for candidate in &search.found {
+            let same = |point: &PairPoint| {
+                let [one, other] = &point.ends;
+                [one.strand, other.strand] == candidate.strands
+                    && (one.element, one.chord) == (candidate.elements[0], candidate.chords[0])
+                    && (other.arc - candidate.arcs[1]).abs() < candidate.reach
+            };
+            if !self.points[..known].iter().any(same) {
+                self.add(strands, candidate);
+            }
+        }
+        self.search = search;
+    }
+
+    fn add(&mut self, strands: &Strands<'_, '_>, candidate: &Candidate) {
+        let own = candidate.strands.map(|c| (strands.get)(c));
+        let sections = [0, 1].map(|k| &own[k].model.elements[candidate.elements[k]]);
+        let (Some(one), Some(other)) = (own[0].model.effects.contact, own[1].model.effects.contact) else { return };
+        let ends = [0, 1].map(|k| End {
+            strand: candidate.strands[k],
+            element: candidate.elements[k],
+            chord: candidate.chords[k],
+            shape: shape::position(candidate.xi[k], sections[k].length),
+            slope: shape::slope(candidate.xi[k], sections[k].length),
+            arc: candidate.arcs[k],
+        });
+        let at = |k: usize, shape: &[f64; 4]| combine(own[k].q, candidate.elements[k], shape);
+        let start = at(0, &ends[0].shape) - at(1, &ends[1].shape);
+        let moved = [0, 1].map(|k| combine(own[k].change, candidate.elements[k], &ends[k].shape));
+        let way = (moved[0] - moved[1]).norm();
+        let memory = self.recall(strands, candidate, way);
+        // the side on which they are: that of the memory, else of the beginning
+        let side = memory.map_or(start, |memory| memory.normal);
+        let normal = if candidate.normal.dot(&side) < 0.0 { -candidate.normal } else { candidate.normal };
+        let chords = Piece::new(own[0], candidate.elements[0]).chords;
+        let mut point = ContactPoint {
+            key: (candidate.elements[0] as u32, own[1].key, candidate.elements[1] as u32),
+            obstacle: 0,
+            xi: candidate.xi[0],
+            shape: ends[0].shape,
+            weight: sections[0].length / chords as f64,
+            law: NormalLaw::in_series(one.law_of(&sections[0].section), other.law_of(&sections[1].section)),
+            friction: 0.5 * (one.friction + other.friction),
+            reach: candidate.reach,
+            patch: Patch::Plane { point: Vector3::zeros(), normal },
+            offset: 0.0,
+            closing: 0.0,
+            distance: 0.0,
+            start,
+            spring: Vector3::zeros(),
+            bound: 0.0,
+            linear: Linear::default(),
+            about: About::default(),
+            now: Evaluation::default(),
+        };
+        let still = frame(Vector3::zeros(), self.h);
+        point.recall(&start, &still, memory.as_ref());
+        self.before += point.energy_before(&start);
+        let tangents = [at(0, &ends[0].slope), at(1, &ends[1].slope)];
+        self.points.push(PairPoint::new(ends, point, tangents, self.h));
+    }
+
+    /// Returns the nearest contact that the cables remember and that none took up.
+    fn recall(&mut self, strands: &Strands<'_, '_>, candidate: &Candidate, way: f64) -> Option<ContactMemory> {
+        let [a, b] = candidate.strands;
+        let key = (strands.get)(b).key;
+        let limit = HAND_ON * candidate.reach + 2.0 * way;
+        let mut best: Option<(f64, usize)> = None;
+        for (i, memory) in (strands.get)(a).memory.iter().enumerate() {
+            let apart = (memory.arcs[0] - candidate.arcs[0]).abs() + (memory.arcs[1] - candidate.arcs[1]).abs();
+            let may = memory.contact.obstacle == key && !self.taken[a][i] && apart < limit;
+            if may && best.is_none_or(|(least, _)| apart < least) {
+                best = Some((apart, i));
+            }
+        }
+        let (_, i) = best?;
+        self.taken[a][i] = true;
+        Some((strands.get)(a).memory[i].contact)
+    }
+
+    /// Makes the contacts linear at the present iterate, as the rows of the matrix that they add.
+    pub fn linearise(&mut self, strands: &Strands<'_, '_>) {
+        self.low_rank.clear();
+        for pair in &mut self.points {
+            pair.linearise(pair.ends.map(|end| (strands.get)(end.strand)).each_ref());
+            let tangent = pair.point.linear.tangent * (BETA * self.h * self.h);
+            let eigen = tangent.symmetric_eigen();
+            let most = eigen.eigenvalues.amax();
+            for k in 0..3 {
+                let value = eigen.eigenvalues[k];
+                if value > 1e-12 * most {
+                    let forces = pair.forces(&(eigen.eigenvectors.column(k) * value.sqrt()));
+                    let [one, other] = pair.ends;
+                    self.low_rank.push([(one.strand, one.element, forces[0]), (other.strand, other.element, forces[1])]);
+                }
+            }
+        }
+    }
+
+    /// Passes h times the forces to `add`, by strand and element: those at the iterate, or those about which the next solve is linear.
+    pub fn pass_impulses(&self, linear: bool, mut add: impl FnMut(usize, usize, &[f64; 12])) {
+        for pair in &self.points {
+            let force = if linear { pair.point.linear.force } else { pair.point.now.force };
+            if force != Vector3::zeros() {
+                let forces = pair.forces(&(force * self.h));
+                for (end, force) in pair.ends.iter().zip(&forces) {
+                    add(end.strand, end.element, force);
+                }
+            }
+        }
+    }
+
+    /// Evaluates the contacts at the present iterate, and returns what they do.
+    pub fn balance(&mut self, strands: &Strands<'_, '_>) -> ContactBalance {
+        let mut sum = ContactBalance { before: self.before, ..ContactBalance::default() };
+        for pair in &mut self.points {
+            let [missed, work] = pair.follow(pair.ends.map(|end| (strands.get)(end.strand)).each_ref());
+            let now = &pair.point.now;
+            sum.missed += missed;
+            sum.work += work;
+            sum.forces += now.force.norm();
+            sum.loss += now.loss;
+            sum.obstacles += now.work;
+        }
+        sum
+    }
+
+    /// Remembers the contacts of a strand that touch at the end of the step.
+    pub fn remember(&self, strand: usize, memory: &mut Vec<PairMemory>) {
+        memory.clear();
+        let touching = self.points.iter().filter(|pair| pair.ends[0].strand == strand && pair.point.now.normal_force > 0.0);
+        memory.extend(touching.map(|pair| PairMemory {
+            contact: in_world_axes(pair),
+            arcs: pair.ends.map(|end| end.arc),
+        }));
+    }
+}
+
+/// Returns whether an iterate is far from another change of coordinates.
+fn deviates(strand: &Strand<'_>, searched: &[f64]) -> bool {
+    let Some(contact) = strand.model.effects.contact else { return false };
+    let elements = &strand.model.elements;
+    strand.change.chunks_exact(6).zip(searched.chunks_exact(6)).enumerate().any(|(node, (now, then))| {
+        let element = &elements[node.min(elements.len() - 1)];
+        let apart = |x: usize| Vector3::from_fn(|k, _| now[x + k] - then[x + k]).norm();
+        apart(0) + apart(3) * element.length / 3.0 > DEVIATION * contact.radius_of(&element.section)
+    })
+}
+
+/// Returns what is remembered of a contact, in world axes: those of the next frame.
+fn in_world_axes(pair: &PairPoint) -> ContactMemory {
+    let contact = pair.point.memory(&pair.frame);
+    ContactMemory { normal: contact.direction, spring: pair.frame.end.rotation * contact.spring, ..contact }
+}
