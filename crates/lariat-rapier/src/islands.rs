@@ -106,6 +106,10 @@ impl Islands {
         if unchanged && !modified && !contents.changed && !self.list.is_empty() {
             return Ok(());
         }
+        let refused = contents.cables.values().find(|s| s.cable.effects().contact.is_some_and(|own| own.cables));
+        if let Some(slot) = refused {
+            return Err(Error::CablesTouch { cable: slot.cable.name().to_string() });
+        }
         contents.changed = false;
         renumber(contents)?;
         self.nodes.clear();

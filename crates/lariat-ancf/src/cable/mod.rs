@@ -80,7 +80,7 @@ impl From<f64> for At {
 /// - "Linear elastic" is the St Venant-Kirchhoff law on the Green strain, N = EA (f^2 - 1)/2 f per unstretched length: a good law within a
 ///   few percent of stretch f = 1, too stiff in large extension, too soft in large compression (its stiffness vanishes at f = 0.577).
 /// - No torsion: the section rotates freely about the axis, and no moment about it is transmitted.
-/// - [Contact](crate::contact) with obstacles, fixed or moving as prescribed; not with other cables or with itself.
+/// - [Contact](crate::contact) with obstacles, fixed or moving as prescribed, and with itself.
 /// - The unstretched length is constant, but for [`cut`](Self::cut) and a [reel](Self::add_reel).
 #[derive(Clone, Debug, Serialize, Deserialize)]
 #[serde(try_from = "saved::Saved", into = "saved::Saved")]

@@ -8,8 +8,8 @@
 
 use super::condense::Condensed;
 use super::rotation::skew;
-use crate::linalg::Dense;
 use crate::error::StepFailure;
+use crate::linalg::Dense;
 use nalgebra::{Matrix3, Matrix6, Vector3};
 
 /// The matrix, and its factors.

@@ -44,15 +44,11 @@ impl PairSystem for OnCable<'_, '_> {
 
 impl<'b> Equations<'b> {
     /// Calls `f` with the contacts of the cable with itself, and the cable.
-    fn with_pairs<T>(
-        &self,
-        state: &State,
-        b: &mut Buffers,
-        f: impl FnOnce(&mut PairStep, &Strands<'_, '_>) -> T,
-    ) -> T {
+    fn with_pairs<T>(&self, state: &State, b: &mut Buffers, f: impl FnOnce(&mut PairStep, &Strands<'_, '_>) -> T) -> T {
         let mut pairs = core::mem::take(&mut b.pairs);
         let model = self.model;
-        let strand = Strand { key: model.contact_key, model, q: &state.q, change: &b.change, memory: &state.memory.pairs };
+        let strand =
+            Strand { key: model.contact_key, model, q: &state.q, change: &b.change, memory: &state.memory.pairs };
         let out = f(&mut pairs, &Strands { count: 1, get: &|_| strand, over_bodies: &|_, _| f64::INFINITY });
         b.pairs = pairs;
         out

@@ -13,7 +13,7 @@ pub struct World {
     pub cables: Vec<Cable>,
     bodies: Vec<RigidBody>,
     island: Island,
-    integrator: Integrator,
+    pub integrator: Integrator,
     largest: f64,
 }
 

@@ -4,7 +4,15 @@ use crate::bench::{GRAVITY, MASS, RADIUS, rope, run, steps, up};
 use crate::bodies::World;
 use crate::common::Random;
 use lariat_ancf::contact::{HalfSpace, Obstacle};
-use lariat_ancf::{At, Cable, CableBuilder, Contact, Damping, PointLoad, Section, Vector3};
+use lariat_ancf::{At, Cable, CableBuilder, Contact, Damping, Motion, PointLoad, Section, Vector3};
+
+/// Gives it contact with other cables.
+fn beside(builder: CableBuilder, friction: f64) -> Cable {
+    let mut cable = builder.build().unwrap();
+    let contact = Contact { cables: true, ..Contact::with_friction(friction).with_radius(RADIUS) };
+    cable.set_contact(contact).unwrap();
+    cable
+}
 
 /// Gives it contact with cables and with itself.
 fn touching(builder: CableBuilder, friction: f64) -> Cable {
@@ -17,9 +25,9 @@ fn weightless(ei: f64, points: &[Vector3<f64>], elements: usize) -> CableBuilder
     rope(ei, points, elements).gravity(Vector3::zeros()).damping(Damping { axial: 1e-2, bending: 1e-2 })
 }
 
-/// Sum of the normal forces on a cable by its list of contacts.
-fn normal_force(cable: &Cable) -> f64 {
-    cable.cable_contacts().map(|touch| touch.normal_force).sum()
+/// Sum of the vertical forces on a cable by its list of contacts.
+fn vertical_force(cable: &Cable) -> f64 {
+    cable.cable_contacts().map(|touch| (touch.normal * touch.normal_force + touch.friction).y).sum()
 }
 
 /// Largest depth in m of contacts between cables.
@@ -38,45 +46,59 @@ fn crossing_ropes_press_with_the_force_of_beams() {
         let rope = |side: f64, along: Vector3<f64>| {
             let (end, middle) = (up() * (d * side), up() * (-1.05 * RADIUS * side));
             let points = [end - along * half, middle, end + along * half];
-            touching(weightless(ei, &points, 20).fix(At::Start).fix(At::End), 0.0)
+            let mut cable = beside(weightless(ei, &points, 20).fix(At::Start).fix(At::End), 0.3);
+            // taut: beams in compression are soft
+            let last = cable.nodes() - 1;
+            cable.set_motion(last, Motion::fixed(end + along * (half + 2e-4))).unwrap();
+            cable
         };
         let other = Vector3::new(f64::cos(angle), 0.0, f64::sin(angle));
         let mut world = World::new(vec![rope(1.0, Vector3::x()), rope(-1.0, other)], vec![]);
-        world.run(180, |_| {});
-        let [force, deep] = [normal_force(&world.cables[0]), deepest(&world.cables)];
+        world.run(600, |_| {});
+        let [force, deep] = [-vertical_force(&world.cables[0]), deepest(&world.cables)];
         let cable = &world.cables[0];
         let tension = cable.sample(0.25 * cable.length()).unwrap().tension;
-        let u = half * (tension / ei).sqrt();
-        let exact = (d + RADIUS - 0.5 * deep) * 4.0 * tension / (2.0 * half) / (1.0 - u.tanh() / u);
-        println!("{d} {angle}: {force:.4} N for {exact:.4}, tension {tension:.3}, deep {:.2} %", 100.0 * deep / RADIUS);
+        let u = half * (tension.abs() / ei).sqrt();
+        // a compressed beam has tan for tanh
+        let share = if tension > 0.0 { 1.0 - u.tanh() / u } else { u.tan() / u - 1.0 };
+        let exact = (d + RADIUS - 0.5 * deep) * 4.0 * tension.abs() / (2.0 * half) / share;
+        println!(
+            "{d} {angle}: {force:.4} N for {exact:.4}, tension {tension:.3}, kin {:.1e}, n {}, deep {:.2} %",
+            world.cables[0].energy().kinetic,
+            cable.cable_contacts().count(),
+            100.0 * deep / RADIUS
+        );
         assert!((force / exact - 1.0).abs() < 0.02, "{force} {exact}");
     }
 }
 
-/// A rope that falls over another one which is held hangs on it, with its weight; no energy is made, and what is not near does no work.
+/// A bent rope that falls over another one which is held hangs on it, with its weight; no energy is made, and what is not near does no work.
 ///
 /// *Source.* Statics: the vertical forces of the contacts are the weight.
 #[test]
 fn a_rope_falls_over_another_and_hangs_on_it() {
     let held = rope(1e-2, &[Vector3::x() * -0.5, Vector3::x() * 0.5], 20).fix(At::Start).fix(At::End);
-    let high = up() * 0.1;
-    let falling = rope(1e-3, &[high - Vector3::z() * 0.6, high + Vector3::z() * 0.6], 30);
-    let mut world = World::new(vec![touching(held, 0.5), touching(falling, 0.5)], vec![]);
+    let legs = [-1.0, 1.0].map(|side| Vector3::new(0.0, -0.53, 0.03 * side));
+    let falling = rope(1e-2, &[legs[0], up() * 0.08, legs[1]], 30).damping(Damping { axial: 1e-2, bending: 2e-2 });
+    let mut world = World::new(vec![beside(held, 0.5), beside(falling, 0.5)], vec![]);
     let calls = |world: &World| world.cables[0].diagnostics().effects.contact;
     world.step();
     assert_eq!(calls(&world), 0);
     let made = world.run(359, |_| {});
     assert!(calls(&world) > 0);
-    let up_force: f64 = world.cables[0].cable_contacts().map(|t| (t.normal * t.normal_force + t.friction).y).sum();
-    let weight = MASS * 1.2 * GRAVITY;
+    let up_force = vertical_force(&world.cables[0]);
+    let weight = MASS * world.cables[1].length() * GRAVITY;
     let speed = world.cables.iter().flat_map(|c| c.velocities()).fold(0.0f64, |most, v| most.max(v.abs()));
-    println!("hangs with {up_force:.4} N of {weight:.4}, made {made:.1e}, speed {speed:.1e}, deep {:.1e}", deepest(&world.cables));
-    println!("{:?}", world.cables[0].diagnostics());
+    println!(
+        "hangs with {up_force:.4} N of {weight:.4}, made {made:.1e}, speed {speed:.1e}, deep {:.1e}",
+        deepest(&world.cables)
+    );
     assert!(made < 1e-8, "{made:e}");
     assert!((-up_force / weight - 1.0).abs() < 0.02, "{up_force}");
 }
 
-/// Two free ropes that collide keep their momentum and their angular momentum, with friction.
+/// Two free ropes that collide keep their momentum to rounding, with friction. Of the angular momentum the numerical dissipation of the method takes a
+/// share, which vanishes with the step.
 ///
 /// *Source.* The laws of conservation, in units of the mass, the speed and the length.
 #[test]
@@ -84,21 +106,25 @@ fn free_ropes_that_collide_keep_their_momenta() {
     for friction in [0.0, 0.4] {
         let rope = |middle: Vector3<f64>, along: Vector3<f64>, velocity: Vector3<f64>| {
             let points = [middle - along * 0.5, middle + along * 0.5];
-            touching(rope(1e-2, &points, 12).gravity(Vector3::zeros()).velocity(velocity), friction)
+            beside(rope(1e-2, &points, 12).gravity(Vector3::zeros()).velocity(velocity), friction)
         };
-        let one = rope(Vector3::zeros(), Vector3::x(), Vector3::zeros());
-        let other =
-            rope(Vector3::new(0.13, 0.04, 0.05), Vector3::new(0.3, 0.0, 0.95).normalize(), Vector3::new(0.3, -2.0, 0.1));
-        let mut world = World::new(vec![one, other], vec![]);
-        let (linear, angular) = world.momentum();
-        let mut touched = false;
-        let made = world.run(30, |world| touched |= world.cables[0].cable_contacts().next().is_some());
-        let (after, turned) = world.momentum();
-        let (p, l) = ((after - linear).norm() / (MASS * 2.0), (turned - angular).norm() / (MASS * 2.0));
-        println!("mu {friction}: momentum off by {p:.1e}, angular {l:.1e}, made {made:.1e}");
-        assert!(touched);
-        assert!(p < 1e-12 && made < 1e-8, "{p:e} {made:e}");
-        assert!(l < 1e-6, "{l:e}");
+        let along = Vector3::new(0.3, 0.0, 0.95).normalize();
+        let run = |rate: f64| {
+            let one = rope(Vector3::zeros(), Vector3::x(), Vector3::zeros());
+            let other = rope(Vector3::new(0.13, 0.04, 0.05), along, Vector3::new(0.3, -2.0, 0.1));
+            let mut world = World::new(vec![one, other], vec![]);
+            world.integrator = steps(rate);
+            let (linear, angular) = world.momentum();
+            let mut touched = false;
+            let made = world.run(15, |world| touched |= world.cables[0].cable_contacts().next().is_some());
+            let (after, turned) = world.momentum();
+            let (p, l) = ((after - linear).norm() / (MASS * 2.0), (turned - angular).norm() / (MASS * 2.0));
+            println!("mu {friction}, 1/{rate} s: momentum off by {p:.1e}, angular {l:.1e}, made {made:.1e}");
+            assert!(touched && p < 1e-12 && made < 1e-8, "{touched} {p:e} {made:e}");
+            l
+        };
+        let (coarse, fine) = (run(240.0), run(1920.0));
+        assert!(coarse < 1e-4 && fine < 1e-6, "{coarse:e} {fine:e}");
     }
 }
 
@@ -132,7 +158,8 @@ fn thrown_ropes_do_not_pass_each_other() {
             touching(builder, friction)
         };
         let along = Vector3::new(angle.cos(), 0.0, angle.sin());
-        let at = up() * (2.0 * RADIUS + 0.1 * speed.min(1.0)) + (Vector3::x() + along) * 0.2 * (0.5 - (seed % 7) as f64 / 6.0);
+        let at = up() * (2.0 * RADIUS + 0.1 * speed.min(1.0))
+            + (Vector3::x() + along) * 0.2 * (0.5 - (seed % 7) as f64 / 6.0);
         let below = rope(Vector3::x(), Vector3::zeros(), Vector3::zeros());
         let above = rope(along, at, -up() * speed);
         let mut world = World::new(vec![below, above], vec![]);
@@ -148,7 +175,11 @@ fn thrown_ropes_do_not_pass_each_other() {
         passed += usize::from(!ok);
         sweeps += world.cables[0].diagnostics().newton_iterations;
     }
-    println!("{seeds} seeds: made {worst:.1e}, {passed} passed, {:.2} r deep, {:.1} sweeps/host", deep / RADIUS, sweeps as f64 / (30 * seeds) as f64);
+    println!(
+        "{seeds} seeds: made {worst:.1e}, {passed} passed, {:.2} r deep, {:.1} sweeps/host",
+        deep / RADIUS,
+        sweeps as f64 / (30 * seeds) as f64
+    );
     assert!(worst < 1e-7, "{worst:e}");
     assert_eq!(passed, 0);
 }
@@ -176,18 +207,16 @@ fn is_above(one: &Cable, other: &Cable) -> bool {
 #[test]
 fn a_heap_comes_to_rest() {
     let points = [Vector3::new(0.0, 0.05, 0.0), Vector3::new(0.01, 1.05, 0.0)];
-    let mut cable = touching(rope(1e-3, &points, 40), 0.5);
+    let mut cable = touching(rope(1e-2, &points, 40), 0.5);
     cable.set_obstacles([Obstacle::new(1, HalfSpace { normal: up() }, Vector3::zeros(), 0.5)]).unwrap();
     let mut most = 0;
     let mut deep = 0.0f64;
-    let begin = std::time::Instant::now();
     let made = run(&mut cable, 300, |cable| {
         most = most.max(cable.cable_contacts().count());
         deep = deep.max(cable.cable_contacts().fold(0.0, |most, touch| most.max(touch.depth)));
     });
     let kinetic = cable.energy().kinetic;
-    println!("heap: made {made:.1e}, kinetic {kinetic:.1e} J, {most} contacts, {:.2} r deep, {:?}", deep / RADIUS, begin.elapsed());
-    println!("{:?}", cable.diagnostics());
+    println!("heap: made {made:.1e}, kinetic {kinetic:.1e} J, {most} contacts, {:.2} r deep", deep / RADIUS);
     assert!(most > 3);
     assert!(made < 1e-7, "{made:e}");
     assert!(kinetic < 1e-6, "{kinetic:e}");
@@ -200,17 +229,20 @@ fn a_heap_comes_to_rest() {
 fn an_overhand_knot_holds() {
     // an open trefoil, with its ends drawn out
     let size = 0.06;
-    let knot = |t: f64| Vector3::new(t.sin() + 2.0 * (2.0 * t).sin(), t.cos() - 2.0 * (2.0 * t).cos(), -0.7 * (3.0 * t).sin()) * size;
+    let knot = |t: f64| {
+        Vector3::new(t.sin() + 2.0 * (2.0 * t).sin(), t.cos() - 2.0 * (2.0 * t).cos(), -0.7 * (3.0 * t).sin()) * size
+    };
     let count = 48;
     let (from, to) = (0.35, std::f64::consts::TAU - 0.35);
-    let mut points: Vec<Vector3<f64>> = (0..=count).map(|i| knot(from + (to - from) * f64::from(i) / f64::from(count))).collect();
+    let mut points: Vec<Vector3<f64>> =
+        (0..=count).map(|i| knot(from + (to - from) * f64::from(i) / f64::from(count))).collect();
     let (first, last) = (points[0], points[points.len() - 1]);
     let out = |x: Vector3<f64>, y: Vector3<f64>| x + (x - y).normalize() * 0.5;
     points.insert(0, out(first, points[1]));
     points.push(out(last, points[points.len() - 2]));
     let n = points.len();
     let away = points[n - 1];
-    let builder = rope(1e-3, &points, 80).gravity(Vector3::zeros()).fix(At::Start);
+    let builder = rope(1e-2, &points, 80).gravity(Vector3::zeros()).fix(At::Start);
     let mut cable = touching(builder, 0.4);
     let towards = (away - points[0]).normalize();
     let pull = |cable: &mut Cable, force: f64| {
@@ -222,9 +254,6 @@ fn an_overhand_knot_holds() {
         pull(&mut cable, 100.0 * f64::from(i + 1) / 240.0);
         cable.step(1.0 / 60.0).unwrap();
         deep = deep.max(cable.cable_contacts().fold(0.0, |most, touch| most.max(touch.depth)));
-        if i % 20 == 0 {
-            println!("{i}: span {:.4} of {:.4}, {} contacts {:.2} r", (cable.sample(cable.length()).unwrap().position - points[0]).norm(), cable.length(), cable.cable_contacts().count(), deep / RADIUS);
-        }
     }
     let span = |cable: &Cable| (cable.sample(cable.length()).unwrap().position - points[0]).norm();
     let before = span(&cable);
@@ -233,8 +262,12 @@ fn an_overhand_knot_holds() {
     }
     let after = span(&cable);
     let kinetic = cable.energy().kinetic;
-    println!("knot: span {before:.5} {after:.5} of {:.4}, kinetic {kinetic:.1e}, {} contacts, {:.2} r deep", cable.length(), cable.cable_contacts().count(), deep / RADIUS);
-    println!("{:?}", cable.diagnostics());
+    println!(
+        "knot: span {before:.5} {after:.5} of {:.4}, kinetic {kinetic:.1e}, {} contacts, {:.2} r deep",
+        cable.length(),
+        cable.cable_contacts().count(),
+        deep / RADIUS
+    );
     assert!(after < cable.length() - 0.05, "no knot");
     assert!((after - before).abs() < 1e-3 && kinetic < 1e-6);
 }

@@ -298,7 +298,10 @@ table! {
         stiffness = ("EA/(40 radius^2)"), Kind::Number(POSITIVE), "N/m^2";
         /// Coefficient of friction of the cable; that of a contact is the mean of both.
         friction = 0.5, Kind::Number(NOT_NEGATIVE);
+        /// Whether the cable touches itself.
+        itself = false, Kind::Flag;
     }
+    without cables;
 }
 
 impl SceneEffect for Contact {

@@ -71,7 +71,7 @@ impl<'a> Piece<'a> {
     }
 
     /// Returns the derivative of the place by the local coordinate at a share of the step.
-    fn slope(&self, xi: f64, share: f64) -> Vector3<f64> {
+    pub fn slope(&self, xi: f64, share: f64) -> Vector3<f64> {
         let shape = shape::slope(xi, self.length);
         let Strand { q, change, .. } = self.strand;
         (combine(q, self.element, &shape) + combine(change, self.element, &shape) * share) * self.length

@@ -68,8 +68,8 @@ impl Cable {
         self.model.contact_key
     }
 
-    /// Sets the key by which other cables remember their contacts with this one, unique among cables that can touch. Default: 0; cables of an island with the
-    /// same key are told apart by their order, which must then stay the same.
+    /// Sets the key by which other cables remember their contacts with this one, unique among cables that can touch. Default: 0, which stands for
+    /// the place of the cable in its island.
     pub fn set_contact_key(&mut self, key: u64) {
         self.model.contact_key = key;
     }

@@ -1,8 +1,8 @@
 //! One contact of two cables over a step: its frame, its slip, and its forces on both.
 
+use super::super::obstacle::Mount;
 use super::super::path::{BodyPath, ObstacleStep};
 use super::super::point::{ContactPoint, combine};
-use super::super::obstacle::Mount;
 use super::Strand;
 use nalgebra::{Matrix3, UnitQuaternion, Vector3};
 
@@ -61,8 +61,7 @@ impl PairPoint {
         let square = |v: &Vector3<f64>| Matrix3::identity() * v.norm_squared() - v * v.transpose();
         let sum = square(&tangents[0]) + square(&tangents[1]) + square(&y) * weight;
         let inverse = sum.try_inverse().unwrap_or_default();
-        let turn = inverse
-            * (tangents[0].cross(&turned[0]) + tangents[1].cross(&turned[1]) + y.cross(&moved) * weight);
+        let turn = inverse * (tangents[0].cross(&turned[0]) + tangents[1].cross(&turned[1]) + y.cross(&moved) * weight);
         self.frame = frame(0.5 * turn, self.frame.h);
         let couple = inverse * y.cross_matrix();
         self.spread = [

@@ -21,6 +21,10 @@ const FAST: f64 = 0.5;
 const ADVANCES: usize = 64;
 /// Least of these in reaches.
 const LEAST_ADVANCE: f64 = 0.02;
+/// Largest cosine between the tangent of the first cable and the direction to the second one.
+const TILT: f64 = 0.2;
+/// Distance along both cables, in reaches, below which two contacts are one.
+const SAME: f64 = 0.3;
 /// Distance along a cable, or over a body, in reaches, within which its points do not touch each other.
 pub(super) const APART: f64 = 4.0;
 
@@ -70,14 +74,14 @@ pub(super) struct Search {
 }
 
 impl Search {
-    /// Finds all candidates at the present iterate.
-    pub fn run(&mut self, strands: &Strands<'_, '_>) {
+    /// Finds all candidates at the present iterate with a gap of at most `near` reaches.
+    pub fn run(&mut self, strands: &Strands<'_, '_>, near: f64) {
         self.found.clear();
         self.collect(strands);
         self.sweep(strands);
         for i in 0..self.near.len() {
             let [a, b] = self.near[i].map(|k| self.boxes[k]);
-            self.compare(strands, a, b);
+            self.compare(strands, a, b, near);
         }
     }
 
@@ -94,7 +98,11 @@ impl Search {
                 let corners = |start: bool| {
                     let d: [Vector3<f64>; 4] = core::array::from_fn(|k| {
                         let at = 6 * e + 3 * k;
-                        let change = if start { Vector3::zeros() } else { Vector3::from_column_slice(&strand.change[at..at + 3]) };
+                        let change = if start {
+                            Vector3::zeros()
+                        } else {
+                            Vector3::from_column_slice(&strand.change[at..at + 3])
+                        };
                         Vector3::from_column_slice(&strand.q[at..at + 3]) + change
                     });
                     [d[0], d[0] + d[1] * third, d[2] - d[3] * third, d[2]]
@@ -116,7 +124,8 @@ impl Search {
     fn sweep(&mut self, strands: &Strands<'_, '_>) {
         self.near.clear();
         let Some(first) = self.boxes.first() else { return };
-        let spread = self.boxes.iter().fold([first.low, first.low], |[low, high], b| [low.inf(&b.low), high.sup(&b.low)]);
+        let spread =
+            self.boxes.iter().fold([first.low, first.low], |[low, high], b| [low.inf(&b.low), high.sup(&b.low)]);
         let axis = (spread[1] - spread[0]).imax();
         self.boxes.sort_unstable_by(|a, b| {
             let order = a.low[axis].partial_cmp(&b.low[axis]).unwrap_or(Ordering::Equal);
@@ -141,7 +150,7 @@ impl Search {
     }
 
     /// Finds the chords of two elements that can touch.
-    fn compare(&mut self, strands: &Strands<'_, '_>, first: Boxed, second: Boxed) {
+    fn compare(&mut self, strands: &Strands<'_, '_>, first: Boxed, second: Boxed, near: f64) {
         let (a, b) = (
             Piece::new((strands.get)(first.strand), first.element),
             Piece::new((strands.get)(second.strand), second.element),
@@ -168,9 +177,15 @@ impl Search {
                 if middles.norm() > size + way + reach * (1.0 + NEAR) {
                     continue;
                 }
-                let segments = |share: f64| {
-                    ([at(a0, share), at(a1, share)], [at(b0, share), at(b1, share)])
-                };
+                if first.strand == second.strand {
+                    let arc = |own: &Boxed, piece: &Piece<'_>, k: usize| {
+                        own.from + (k as f64 + 0.5) * piece.length / piece.chords as f64
+                    };
+                    if (arc(&first, &a, i) - arc(&second, &b, j)).abs() + 2.0 * size < APART * reach {
+                        continue;
+                    }
+                }
+                let segments = |share: f64| ([at(a0, share), at(a1, share)], [at(b0, share), at(b1, share)]);
                 let between = |share: f64| {
                     let (one, other) = segments(share);
                     let (s, t) = closest(one, other);
@@ -178,7 +193,7 @@ impl Search {
                 };
                 let share = if way < FAST * reach { 1.0 } else { touch(|share| between(share).2.norm(), reach, way) };
                 let (s, t, y) = between(share);
-                if y.norm() > reach * (1.0 + NEAR) {
+                if y.norm() > reach * (1.0 + near) {
                     continue;
                 }
                 // of two chords that share the closest point on b, one has it
@@ -201,9 +216,25 @@ impl Search {
                 if along.min(over_bodies) < APART * reach {
                     continue;
                 }
-                let normal = (a.at(xi[0], share) - b.at(xi[1], share)).try_normalize(1e-9 * reach);
+                let strands = [first.strand, second.strand];
+                // chords that meet in the closest point are one contact
+                let same = |other: &Candidate| {
+                    other.strands == strands
+                        && (other.arcs[0] - arcs[0]).abs() + (other.arcs[1] - arcs[1]).abs() < SAME * reach
+                };
+                if self.found.iter().any(same) {
+                    continue;
+                }
+                let y = a.at(xi[0], share) - b.at(xi[1], share);
+                // beside a crossing the end of a chord is no place of contact
+                let slope = a.slope(xi[0], share);
+                let is_tip = arcs[0] <= 0.0 || xi[0] >= 1.0 && first.element + 1 == a.strand.model.elements.len();
+                if !is_tip && y.dot(&slope).abs() > TILT * y.norm() * slope.norm() {
+                    continue;
+                }
+                let normal = y.try_normalize(1e-9 * reach);
                 self.found.push(Candidate {
-                    strands: [first.strand, second.strand],
+                    strands,
                     elements: [first.element, second.element],
                     chords: [i, j],
                     xi,

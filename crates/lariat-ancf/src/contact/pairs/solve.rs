@@ -20,10 +20,10 @@
 use crate::error::StepFailure;
 use crate::linalg::Dense;
 
-/// Largest number of rows with which S is factored: those of 100 contacts.
-const MOST_FACTORED: usize = 300;
+/// Largest number of rows with which S is factored.
+const MOST_FACTORED: usize = 100;
 /// Share of its start to which conjugate gradients reduce the residual.
-const TOLERANCE: f64 = 1e-10;
+const TOLERANCE: f64 = 1e-7;
 /// Iterations of these per row.
 const MOST_ITERATIONS: usize = 2;
 

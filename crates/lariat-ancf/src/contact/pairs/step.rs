@@ -8,7 +8,7 @@ use super::super::point::{About, ContactPoint, Evaluation, Linear, combine};
 use super::chords::{Piece, Strand};
 use super::memory::PairMemory;
 use super::point::{End, PairPoint, frame};
-use super::search::{Candidate, Search, Strands};
+use super::search::{Candidate, NEAR, Search, Strands};
 use super::solve::LowRank;
 use crate::element::shape;
 use crate::integrate::discrete_gradient::BETA;
@@ -16,6 +16,8 @@ use nalgebra::Vector3;
 
 /// Distance in reaches along both cables over which a contact hands on what it remembers, beside the way of the step.
 const HAND_ON: f64 = 4.0;
+/// Largest number of searches in a step.
+const MOST_SEARCHES: usize = 3;
 /// Deviation in radii of an iterate from that of the search, from which on it is made anew.
 const DEVIATION: f64 = 0.5;
 
@@ -32,6 +34,8 @@ pub(crate) struct PairStep {
     h: f64,
     /// Energy in J that the contacts store at the beginning.
     before: f64,
+    /// Number of searches.
+    searches: usize,
     /// Whether any cable can touch another or itself.
     on: bool,
     pub low_rank: LowRank,
@@ -51,7 +55,7 @@ impl PairStep {
     /// Begins a step of length `h` (s).
     pub fn begin(&mut self, h: f64, strands: &Strands<'_, '_>) {
         self.points.clear();
-        (self.h, self.before) = (h, 0.0);
+        (self.h, self.before, self.searches) = (h, 0.0, 0);
         let touches = |c: usize| (strands.get)(c).model.effects.contact;
         let among = (0..strands.count).filter(|&c| touches(c).is_some_and(|own| own.cables)).count() > 1;
         self.on = among || (0..strands.count).any(|c| touches(c).is_some_and(|own| own.itself));
@@ -64,24 +68,28 @@ impl PairStep {
             taken.clear();
             taken.resize((strands.get)(c).memory.len(), false);
         }
-        self.look(strands);
+        self.look(strands, NEAR);
     }
 
     /// Searches again if an iterate is far from that of the last search, and adds what it finds.
     pub fn complete(&mut self, strands: &Strands<'_, '_>) {
-        if self.on && (0..strands.count).any(|c| deviates(&(strands.get)(c), &self.searched[c])) {
-            self.look(strands);
+        if self.on
+            && self.searches < MOST_SEARCHES
+            && (0..strands.count).any(|c| deviates(&(strands.get)(c), &self.searched[c]))
+        {
+            self.look(strands, 0.0);
         }
     }
 
-    fn look(&mut self, strands: &Strands<'_, '_>) {
+    fn look(&mut self, strands: &Strands<'_, '_>, near: f64) {
         self.searched.resize_with(strands.count, Vec::new);
         for (c, searched) in self.searched.iter_mut().enumerate() {
             searched.clear();
             searched.extend_from_slice((strands.get)(c).change);
         }
+        self.searches += 1;
         let mut search = core::mem::take(&mut self.search);
-        search.run(strands);
+        search.run(strands, near);
         let known = self.points.len();
         for candidate in &search.found {
             let same = |point: &PairPoint| {
@@ -176,7 +184,8 @@ impl PairStep {
                 if value > 1e-12 * most {
                     let forces = pair.forces(&(eigen.eigenvectors.column(k) * value.sqrt()));
                     let [one, other] = pair.ends;
-                    self.low_rank.push([(one.strand, one.element, forces[0]), (other.strand, other.element, forces[1])]);
+                    self.low_rank
+                        .push([(one.strand, one.element, forces[0]), (other.strand, other.element, forces[1])]);
                 }
             }
         }
@@ -213,11 +222,11 @@ impl PairStep {
     /// Remembers the contacts of a strand that touch at the end of the step.
     pub fn remember(&self, strand: usize, memory: &mut Vec<PairMemory>) {
         memory.clear();
-        let touching = self.points.iter().filter(|pair| pair.ends[0].strand == strand && pair.point.now.normal_force > 0.0);
-        memory.extend(touching.map(|pair| PairMemory {
-            contact: in_world_axes(pair),
-            arcs: pair.ends.map(|end| end.arc),
-        }));
+        let touching =
+            self.points.iter().filter(|pair| pair.ends[0].strand == strand && pair.point.now.normal_force > 0.0);
+        memory.extend(
+            touching.map(|pair| PairMemory { contact: in_world_axes(pair), arcs: pair.ends.map(|end| end.arc) }),
+        );
     }
 }
 

@@ -39,7 +39,10 @@ impl PairSystem for OnIsland<'_, '_, '_> {
         let IslandStep { cables, buffers, .. } = &mut *self.island;
         for (cable, element, part) in row {
             let range = 6 * element..6 * element + 12;
-            cables[*cable].step_buffers.rhs[range.clone()].iter_mut().zip(part).for_each(|(x, part)| *x += scale * part);
+            cables[*cable].step_buffers.rhs[range.clone()]
+                .iter_mut()
+                .zip(part)
+                .for_each(|(x, part)| *x += scale * part);
             for hold in buffers.cables[*cable].holds.iter().filter(|hold| range.contains(&hold.at)) {
                 hold.pass(&(vector(&part[hold.at - range.start..]) * scale), &mut buffers.rows);
             }
@@ -77,7 +80,8 @@ fn with_strands<T>(cables: &[&mut Cable], layout: &Layout, f: impl FnOnce(&Stran
     let get = |c: usize| {
         let Cable { model, snapshot, step_buffers, .. } = &*cables[c];
         let state = &snapshot.state;
-        Strand { key: model.contact_key, model, q: &state.q, change: &step_buffers.change, memory: &state.memory.pairs }
+        let key = if model.contact_key == 0 { c as u64 } else { model.contact_key };
+        Strand { key, model, q: &state.q, change: &step_buffers.change, memory: &state.memory.pairs }
     };
     let over_bodies = |strands: [usize; 2], arcs: [f64; 2]| {
         let on = |k: usize| {
