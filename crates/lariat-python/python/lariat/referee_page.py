@@ -95,6 +95,19 @@ def verdict(found: list[tuple[str, Any]], metric: str) -> str:
     return f"Beside {others[0]}, the most accurate other solver, `{ours[0]}` has {error:.2g} times its error in {time:.1e} of its time."
 
 
+def exudyn_section() -> str:
+    """Returns the section beside Exudyn; empty where that is not installed."""
+    from importlib.util import find_spec
+
+    if find_spec("exudyn") is None:
+        print("no comparison with exudyn: pip install exudyn==1.13.6", flush=True)
+        return ""
+    from lariat.referee_exudyn import section
+
+    print("falling pendulum beside exudyn", flush=True)
+    return section()
+
+
 def machine() -> str:
     """Returns what the figures were measured on."""
     cpu = platform.processor() or platform.machine()
@@ -148,6 +161,8 @@ def main() -> None:
             found = rows(experiment, by_name, values)
             text += (f"\n**{title}**\n" if title else "") + f"\n{table(found, list(experiment.metrics))}\n"
             text += f"\n{verdict(found, MAIN[name])}\n"
+    if not arguments.default_only:
+        text += exudyn_section()
     arguments.out.write_text(text, encoding="utf-8")
 
 
