@@ -66,7 +66,12 @@ impl Island {
         }
         for (i, cable) in cables.iter().enumerate().filter(|(_, cable)| cable.has_reel()) {
             let held = |node: usize| pins.iter().filter(move |pin| pin.cable == i && pin.node == node);
-            cable.check_reel_in_island(|node| held(node).any(|pin| bodies[pin.body].free.contains(&true)), dt)?;
+            let moves = |node: usize| held(node).any(|pin| bodies[pin.body].free.contains(&true));
+            cable.check_reel_in_island(moves, integrator.method, dt)?;
+        }
+        for (i, cable) in cables.iter_mut().enumerate().filter(|(_, cable)| cable.has_reel()) {
+            let held = |node: usize| pins.iter().filter(move |pin| pin.cable == i && pin.node == node);
+            cable.set_riding_stock(|node| held(node).any(|pin| bodies[pin.body].free.contains(&true)));
         }
         cables.iter_mut().for_each(|cable| cable.begin_reel(dt));
         cables.iter_mut().for_each(|cable| cable.take_workspace());

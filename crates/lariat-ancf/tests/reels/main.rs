@@ -5,5 +5,6 @@ mod common;
 mod energy;
 mod laws;
 mod motion;
+mod on_bodies;
 mod remesh;
 mod state;

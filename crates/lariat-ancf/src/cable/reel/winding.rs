@@ -25,6 +25,9 @@ pub(crate) struct Winding {
     pub stopped: bool,
     /// Mean pull in N over the last step of the discrete gradient.
     pub pull: Option<f64>,
+    /// Whether the stock rides with the body at the eye.
+    #[serde(default)]
+    pub rides: bool,
 }
 
 impl Winding {

@@ -272,6 +272,7 @@ impl IslandStep<'_, '_> {
         let StepBuffers { bodies, cables: own, rows, .. } = &mut *self.buffers;
         rows.fill(0.0);
         let mut total = Balance::default();
+        let rides = self.cables.iter().any(|cable| cable.system.flows.ride());
         for (cable, own) in self.cables.iter_mut().zip(own) {
             let CableStep { mut equations, state, buffers } = cable.step_parts();
             let mut work = EffectWork::default();
@@ -290,6 +291,9 @@ impl IslandStep<'_, '_> {
             project_vector(equations.model, &mut buffers.rhs);
             total.residual -= dot(&buffers.rhs, &buffers.change) / buffers.h;
             total.imbalance += sum_of_forces(&buffers.rhs);
+            if rides {
+                buffers.rhs.chunks_exact(6).for_each(|row| (0..3).for_each(|x| total.drift[x] += row[x]));
+            }
             // the free direction of a slope, for another iteration with the same factors
             for hold in own.holds.iter().filter(|hold| hold.slope) {
                 buffers.rhs[hold.at..hold.at + 3].copy_from_slice(hold.impulse.as_slice());
@@ -298,6 +302,9 @@ impl IslandStep<'_, '_> {
         for (body, row) in bodies.iter().zip(rows.chunks_exact_mut(6)) {
             body.complete_row(row);
             body.add_balance(row, &mut total);
+            if rides {
+                (0..3).for_each(|x| total.drift[x] += row[x]);
+            }
         }
         total
     }

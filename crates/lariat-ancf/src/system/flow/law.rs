@@ -33,6 +33,7 @@
 //! An elastic clutch with a slip as state: stiff, and its constant is arbitrary. Stages of other methods: the reel would be one more
 //! coordinate of every integrator.
 
+use super::step::StepMotion;
 use super::{Flow, Flows};
 use crate::cable::Feed;
 use crate::effect::EffectWork;
@@ -326,14 +327,13 @@ impl Equations<'_> {
         let (model, system) = (self.model, &*self.system);
         let (mean, _) = flow.over(state.time, h);
         let [q, v, a] = self.motion_of_step(&flow, state, b);
-        let element = |probe: f64| {
-            let Extent { length, rate, acceleration } = mean;
-            let length = length + 0.25 * h * h * probe;
-            flow.with(model, Extent { length, rate: rate + 0.5 * h * probe, acceleration: acceleration + probe })
+        let motion = StepMotion::of(&flow, state, b);
+        let impulse = |probe: f64| {
+            let mut other = flow;
+            other.extent.acceleration += probe;
+            other.impulse(model, &motion, true)
         };
-        let (mut before, mut after) = ([0.0; 12], [0.0; 12]);
-        element(0.0).add_force(h, &q, &v, &mut before);
-        element(PROBE).add_force(h, &q, &v, &mut after);
+        let (before, after) = (impulse(0.0), impulse(PROBE));
         let motor = |motion: [&[f64; 12]; 3]| system.motor_of_inertia(model, &flow, mean, motion);
         let (present, column) = (motor([&q, &v, &a]), flow.side.gather(out));
         for i in 0..12 {

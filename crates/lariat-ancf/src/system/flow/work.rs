@@ -11,6 +11,8 @@
 //! coil      pull = -B - rho l'^2 f^2 + u_0            u_0 the strain energy per length at the eye
 //! ```
 //!
+//! With stock that rides with the body at the eye, which is a part of the system, the power is `l' (B + 1/2 rho l'^2 f^2)`.
+//!
 //! Stock leaves a drum with the rate of the reel. In a bag it lies at rest and is set in motion without loss; in a coil by an inelastic
 //! impact, so that a falling chain obeys `m g = d(m v)/dt`. Both differ from a drum while cable is paid out.
 //!
@@ -90,7 +92,12 @@ impl Equations<'_> {
         let velocity = change.map(|x| x / b.h);
         let acceleration = flow.side.gather(&b.velocity_change).map(|x| x / b.h);
         let inertial = element.length_force([&middle, &velocity, &acceleration], &weight);
-        [elastic + inertial, entering(&element, &weight, &middle, &velocity)]
+        let entering = match flow.riding {
+            None => entering(&element, &weight, &middle, &velocity),
+            // the stock is a part of the system
+            Some(_) => 0.5 * element.inertia * mean.rate * mean.rate * square_of_stretch(&middle),
+        };
+        [elastic + inertial, entering]
     }
 
     /// Adds the work of winches and entering material over a step of the discrete gradient, and notes its lengths for the next one.
