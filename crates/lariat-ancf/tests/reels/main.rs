@@ -7,4 +7,5 @@ mod laws;
 mod motion;
 mod on_bodies;
 mod remesh;
+mod sheaves;
 mod state;

@@ -38,6 +38,9 @@ pub enum Feed {
     Coil,
     /// From a bag in which it lies still, without loss.
     Bag,
+    /// From another cable, over a [`Sheave`](crate::island::Sheave) of the island that steps both. Rate and force are those of the
+    /// sheave; `stock` is not used.
+    Sheave,
 }
 
 impl Default for Reel {
@@ -62,9 +65,14 @@ impl Reel {
         Reel { max_force: Some(force), ..Self::default() }
     }
 
+    /// The end of a cable at a sheave.
+    pub fn over_sheave() -> Self {
+        Reel { feed: Feed::Sheave, ..Self::default() }
+    }
+
     /// Returns whether the rate is an unknown.
     pub(crate) fn has_law(&self) -> bool {
-        self.max_force.is_some()
+        self.max_force.is_some() || self.feed == Feed::Sheave
     }
 
     /// Refuses numbers that make no reel.

@@ -1,6 +1,6 @@
 //! A host step of a cable with a reel: in parts in which little material passes the eye.
 
-use crate::cable::Cable;
+use crate::cable::{Cable, Feed};
 use crate::element::flow::Extent;
 use crate::element::side::Side;
 use crate::error::{Error, require};
@@ -96,7 +96,7 @@ impl Cable {
                         "its eye is on a body that moves freely, whose momentum only discrete-gradient keeps",
                     );
                 }
-                if self.model.reels.get(side).is_some_and(|reel| reel.stock.is_none()) {
+                if self.model.reels.get(side).is_some_and(|reel| reel.stock.is_none() && reel.feed != Feed::Sheave) {
                     return refused(
                         "its eye is on a body that moves freely, whose mass changes with what is on the reel: \
                         say by `stock` how much cable there is",

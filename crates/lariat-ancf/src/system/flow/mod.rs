@@ -27,9 +27,13 @@
 
 mod law;
 mod step;
+mod unknowns;
+mod wheel;
 mod work;
 
-pub(crate) use law::{Law, Motor, Unknowns, rates};
+pub(crate) use law::{Law, Motor, rates};
+pub(crate) use unknowns::Unknowns;
+pub(crate) use wheel::Wheel;
 
 use super::System;
 use super::elements::with_bending;
@@ -65,8 +69,20 @@ pub(crate) struct Flow {
     pub law: Option<Law>,
     /// Mean pull of the winch over the last step of the discrete gradient in N.
     pub pull: Option<f64>,
-    /// Length in m of the stock and the element together, if the stock rides with the body at the eye.
-    pub riding: Option<f64>,
+    /// Where the material at the eye comes from and goes to.
+    pub source: Source,
+}
+
+/// What is behind an eye.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) enum Source {
+    /// Stock that is no part of the system.
+    #[default]
+    Outside,
+    /// Stock that rides with the body at the eye; length in m of stock and element together.
+    Stock(f64),
+    /// Another cable, over a sheave.
+    Cable,
 }
 
 /// The elements at eyes.
@@ -92,13 +108,13 @@ impl Flow {
             feed: Feed::Drum,
             law: None,
             pull: None,
-            riding: None,
+            source: Source::Outside,
         }
     }
 
     /// Returns the length in m of the stock that rides with the body at the eye, when the element has this length.
     fn stock(&self, length: f64) -> f64 {
-        self.riding.map_or(0.0, |both| both - length)
+        if let Source::Stock(both) = self.source { both - length } else { 0.0 }
     }
 
     /// Returns the extent at a time in s.
@@ -185,9 +201,9 @@ impl Flows {
         self.list.is_empty()
     }
 
-    /// Returns whether stock of one rides with a body.
-    pub fn ride(&self) -> bool {
-        self.list.iter().any(|flow| flow.riding.is_some())
+    /// Returns whether what is behind an eye is a part of the system.
+    pub fn are_closed(&self) -> bool {
+        self.list.iter().any(|flow| flow.source != Source::Outside)
     }
 
     /// Returns whether all stand still.

@@ -1,6 +1,6 @@
 //! Elements at eyes over a step of the [discrete gradient](crate::integrate::discrete_gradient): see [`flow`](super).
 
-use super::Flow;
+use super::{Flow, Flows, Source};
 use crate::element::flow::{Table, add_product};
 use crate::element::mass;
 use crate::integrate::State;
@@ -72,6 +72,20 @@ impl Equations<'_> {
     }
 }
 
+impl Flows {
+    /// Moves the eyes in the change of coordinates over the last step to where they would be on elements of the present lengths.
+    pub fn shift_eyes_before(&self, q: &[f64], change: &mut [f64]) {
+        for flow in &self.list {
+            let [far, eye] = flow.side.nodes(q.len() / 6).map(|node| 6 * node);
+            let ratio = flow.extent.length / flow.length_before;
+            for x in 0..3 {
+                let [at_far, at_eye] = [far, eye].map(|node| q[node + x] - change[node + x]);
+                change[eye + x] = q[eye + x] - at_far - ratio * (at_eye - at_far);
+            }
+        }
+    }
+}
+
 /// Coordinates and velocities of the element at an eye at both ends of a step.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct StepMotion {
@@ -118,7 +132,7 @@ impl Flow {
         let [by_velocity, by_position] = self.with(model, mean).gradient_matrices();
         add_product(&by_velocity, h, &velocity, &mut out);
         add_product(&by_position, h, &middle, &mut out);
-        if self.riding.is_none() {
+        if self.source == Source::Outside {
             for x in 6..9 {
                 out[x] += inertia * h * mean.rate * (velocity[x] - mean.rate * middle[3 + x]);
             }
@@ -127,7 +141,7 @@ impl Flow {
     }
 
     /// Returns the negative derivatives of the [impulse](Self::impulse), without the part of the mass matrix, by the changes of velocity. With
-    /// riding stock it is changed to a table whose symmetric part has the same sums over the rows of positions: one linear solve
+    /// riding stock or a sheave it is changed to a table whose symmetric part has the same sums over the rows of positions: one linear solve
     /// then keeps the momentum.
     fn impulse_table(&self, model: &Model, time: f64, h: f64) -> Table {
         let (mean, [_, last]) = self.over(time, h);
@@ -141,7 +155,7 @@ impl Flow {
                 BETA * h * (momentum[a][b] - by_velocity[a][b] - 0.5 * h * by_position[a][b]) - of_mean[a][b];
         }
         let entering = inertia * h * mean.rate;
-        if self.riding.is_none() {
+        if self.source == Source::Outside {
             table[2][2] -= entering * BETA;
             table[2][3] += entering * 0.5 * BETA * h * mean.rate;
             return table;

@@ -25,7 +25,7 @@
 //! The account of energy is exact for any step of the discrete gradient but for its kinetic part, of the second order; for other methods
 //! to the order of two points of Gauss.
 
-use super::{Flow, System, control};
+use super::{Flow, Source, System, control};
 use crate::cable::Feed;
 use crate::effect::work::{POINTS, hermite};
 use crate::element::flow::{Extent, FlowElement};
@@ -92,10 +92,12 @@ impl Equations<'_> {
         let velocity = change.map(|x| x / b.h);
         let acceleration = flow.side.gather(&b.velocity_change).map(|x| x / b.h);
         let inertial = element.length_force([&middle, &velocity, &acceleration], &weight);
-        let entering = match flow.riding {
-            None => entering(&element, &weight, &middle, &velocity),
-            // the stock is a part of the system
-            Some(_) => 0.5 * element.inertia * mean.rate * mean.rate * square_of_stretch(&middle),
+        let entering = match flow.source {
+            Source::Outside => entering(&element, &weight, &middle, &velocity),
+            // the stock, or the other cable, is a part of the system
+            Source::Stock(_) | Source::Cable => {
+                0.5 * element.inertia * mean.rate * mean.rate * square_of_stretch(&middle)
+            }
         };
         [elastic + inertial, entering]
     }
