@@ -70,7 +70,7 @@ fn swinging() -> Cable {
 /// Positions and velocities after 0.25 s in `steps` steps.
 fn end(method: &dyn OneStep, steps: u32) -> Vec<f64> {
     let mut cable = swinging();
-    cable.step_with(0.25, IntegratorRef { method, control: StepControl::Substeps(steps) }).unwrap();
+    cable.step_with(0.25, IntegratorRef::new(method, StepControl::Substeps(steps))).unwrap();
     cable.positions().iter().chain(cable.velocities()).copied().collect()
 }
 
@@ -113,7 +113,7 @@ fn error_control_works_with_an_estimate_from_outside() {
     let mut counts = Vec::new();
     for tolerance in [1e-5, 1e-7] {
         let mut cable = swinging();
-        let integrator = IntegratorRef { method: &Newmark, control: StepControl::Tolerance(tolerance) };
+        let integrator = IntegratorRef::new(&Newmark, StepControl::Tolerance(tolerance));
         (0..30).for_each(|_| cable.step_with(0.01, integrator).unwrap());
         let error = (0..cable.nodes()).map(|i| (cable.node_position(i) - exact.node_position(i)).norm());
         let error = error.fold(0.0, f64::max);
@@ -133,7 +133,7 @@ fn error_control_works_with_an_estimate_from_outside() {
 fn an_unsupported_step_control_is_an_error_with_the_methods_name() {
     let mut cable = swinging();
     let before = cable.snapshot().clone();
-    let mut step = |control| cable.step_with(0.01, IntegratorRef { method: &ALEXANDER, control });
+    let mut step = |control| cable.step_with(0.01, IntegratorRef::new(&ALEXANDER, control));
     let method = || "alexander-2".to_string();
     assert_eq!(step(StepControl::Tolerance(1e-6)), Err(Error::NoErrorEstimate { method: method() }));
     assert_eq!(step(StepControl::Stable(0.5)), Err(Error::NoStabilityLimit { method: method() }));
@@ -146,7 +146,7 @@ fn an_unsupported_step_control_is_an_error_with_the_methods_name() {
 /// *Source.* Bitwise equality: all that the method carries from step to step is in the state.
 #[test]
 fn a_run_with_a_method_of_another_crate_replays_bitwise() {
-    let integrator = IntegratorRef { method: &Newmark, control: StepControl::Tolerance(1e-6) };
+    let integrator = IntegratorRef::new(&Newmark, StepControl::Tolerance(1e-6));
     let mut cable = swinging();
     let run = |cable: &mut Cable| (0..10).for_each(|_| cable.step_with(0.01, integrator).unwrap());
     run(&mut cable);
@@ -166,7 +166,7 @@ fn a_run_with_a_method_of_another_crate_replays_bitwise() {
 #[test]
 fn algorithmic_accelerations_are_not_taken_from_an_earlier_state() {
     let alpha = Integrator::substeps("generalised-alpha-0.5".parse().unwrap(), 4).unwrap();
-    let newmark = IntegratorRef { method: &Newmark, control: StepControl::Substeps(4) };
+    let newmark = IntegratorRef::new(&Newmark, StepControl::Substeps(4));
     let mut cable = swinging();
     cable.step_with(0.01, &alpha).unwrap();
     cable.step_with(0.01, newmark).unwrap();
@@ -201,6 +201,6 @@ fn an_island_steps_with_a_method_of_another_crate() {
     };
     let control = StepControl::Substeps(4);
     let (outside, inside) =
-        (end(IntegratorRef { method: &Newmark, control }), end(IntegratorRef { method: &Method::Trapezoid, control }));
+        (end(IntegratorRef::new(&Newmark, control)), end(IntegratorRef::new(&Method::Trapezoid, control)));
     assert!((outside - inside).norm() < 1e-9 && inside.y < -0.05, "{outside:?} {inside:?}");
 }

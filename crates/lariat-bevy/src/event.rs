@@ -45,6 +45,13 @@ pub struct CableAwake {
     pub entity: Entity,
 }
 
+/// The [budget](lariat_rapier::Budget) of a host step was spent, and the accuracy of the cable was reduced.
+#[derive(EntityEvent, Message, Clone, Debug, PartialEq)]
+pub struct CableDegraded {
+    /// The cable.
+    pub entity: Entity,
+}
+
 /// A cable broke because its load exceeded [`BreakTension`](crate::BreakTension) or
 /// [`BreakStrain`](crate::BreakStrain), or was [cut](crate::Cables::cut).
 #[derive(EntityEvent, Message, Clone, Debug, PartialEq)]
@@ -168,6 +175,7 @@ macro_rules! for_each_event {
             StepFailed,
             CableAsleep,
             CableAwake,
+            CableDegraded,
             CableBroken,
             CableWarning,
             ContactStarted,

@@ -41,6 +41,7 @@
 //! | spawn the usual rope in one line | [`SpawnRope::spawn_rope`], [`Rope`] |
 //! | tie cables to each other | [`Junction`] |
 //! | pay it out, take it in | [`Reel`] |
+//! | bound the work of a host step | [`Budget`] in [`Settings`], [`CableDegraded`](event::CableDegraded) |
 //! | let it break, cut it | [`BreakForce`], [`BreakTension`], [`BreakStrain`], [`Cables::cut`] |
 //! | make bodies | [`Body`], [`KinematicTarget`], [`BodyPose`], [`Bodies`] |
 //! | step | [`advance`], or [`CableStep`] in a schedule of your own; with feature `bevy_app` the plugin |
@@ -114,7 +115,7 @@ pub use install::install;
 pub use interpolate::{Interpolate, curve};
 pub use junction::Junction;
 pub use lariat_ancf::{self, At, Fidelity, Point};
-pub use lariat_rapier::{self, AttachmentKind, Gap, Rope, RopeEnd, Settings, rapier};
+pub use lariat_rapier::{self, AttachmentKind, Budget, Gap, Rope, RopeEnd, Settings, rapier};
 pub use physics::Physics;
 #[cfg(feature = "bevy_app")]
 pub use plugin::{LariatPlugin, install_in};

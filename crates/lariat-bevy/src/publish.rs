@@ -5,8 +5,8 @@ use crate::body::{BodyHandle, BodyPose};
 use crate::cables::{Cables, Parting};
 use crate::diagnostics::{Diagnostics, Stage};
 use crate::event::{
-    AttachmentEnded, CableAsleep, CableAwake, CableWarning, ContactEnded, ContactIgnored, ContactStarted, EndReason,
-    QueuedEvent,
+    AttachmentEnded, CableAsleep, CableAwake, CableDegraded, CableWarning, ContactEnded, ContactIgnored,
+    ContactStarted, EndReason, QueuedEvent,
 };
 use crate::physics::Physics;
 use bevy_ecs::prelude::{DetectChangesMut, Query, Res, ResMut};
@@ -21,6 +21,7 @@ pub(crate) fn read_events(mut cables: ResMut<Cables>, physics: Res<Physics>) {
         let translated: Option<QueuedEvent> = match event {
             Event::Asleep(cable) => links.cables.get(&cable).map(|link| CableAsleep { entity: link.entity }.into()),
             Event::Awake(cable) => links.cables.get(&cable).map(|link| CableAwake { entity: link.entity }.into()),
+            Event::Degraded(cable) => links.cables.get(&cable).map(|link| CableDegraded { entity: link.entity }.into()),
             Event::AttachmentEnded { attachment, .. } => links.attachments.remove(&attachment).map(|link| {
                 let (entity, cable, body) = (link.entity, link.cable, link.body);
                 AttachmentEnded { entity, cable, body, reason: EndReason::BodyGone }.into()

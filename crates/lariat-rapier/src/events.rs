@@ -57,6 +57,8 @@ pub enum Event {
         /// The collider.
         collider: ColliderHandle,
     },
+    /// The [budget](crate::Budget) of the host step was spent, and accuracy was reduced.
+    Degraded(CableHandle),
     /// A cable woke up.
     Awake(CableHandle),
     /// The mesh, the steps, the law or the sizes of a cable are probably not good enough. Each kind once for each cable.

@@ -31,6 +31,7 @@
 //! | attach cables and step | [`CableSet`], [`Settings`] |
 //! | make the usual rope in one line | [`CableSet::add_rope`], [`Rope`] |
 //! | let a cable touch colliders | [`CableSet::set_contact`], [`ContactRules`], [`CableSet::contacts`] |
+//! | bound the work of a host step | [`Settings::budget`] |
 //! | let a cable break | [`CableSet::set_strength`] |
 //! | read forces, gaps and work | [`Attachment`], [`AttachmentReading`], [`WorldEnergy`] |
 //! | hear where meshes, steps, laws and sizes are not good enough | [`Event::Warning`], [`CableSet::warnings`] |
@@ -108,6 +109,7 @@ mod attach;
 mod attachment;
 mod body;
 mod breaking;
+mod budget;
 mod contact;
 mod contents;
 pub mod convert;
@@ -138,6 +140,7 @@ mod world_mark;
 
 pub use attachment::{Attachment, AttachmentKind, AttachmentOptions, AttachmentReading, Gap};
 pub use body::rigid_body;
+pub use budget::Budget;
 pub use contact::{ContactFilter, ContactRules};
 #[cfg(feature = "debug-render")]
 pub use draw::DrawStyle;

@@ -1,5 +1,6 @@
 //! Settings of a set.
 
+use crate::budget::Budget;
 use lariat_ancf::Fidelity;
 use serde::{Deserialize, Serialize};
 
@@ -26,6 +27,9 @@ pub struct Settings {
     /// is an event. Default true; each cable is then read once per host step.
     #[serde(default = "watch")]
     pub watch: bool,
+    /// The largest amount of work in a host step. Default: no limit.
+    #[serde(default)]
+    pub budget: Option<Budget>,
 }
 
 fn watch() -> bool {
@@ -48,6 +52,7 @@ impl Default for Settings {
             sleep_speed: 2e-3,
             fidelity: fidelity(),
             watch: watch(),
+            budget: None,
         }
     }
 }

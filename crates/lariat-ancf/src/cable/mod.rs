@@ -192,7 +192,7 @@ impl Cable {
         let state = &mut self.snapshot.state;
         let (counts, outcome) = if integrator.method.uses_discrete_gradients() {
             let mut cable = CableStep { equations, state, buffers: &mut self.step_buffers };
-            discrete_gradient::advance(&mut cable, integrator.control, dt)
+            discrete_gradient::advance(&mut cable, integrator, dt)
         } else {
             state.memory.differences.clear();
             let mut dynamics = CableDynamics { equations, buffers: &mut self.buffers };

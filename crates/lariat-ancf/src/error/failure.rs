@@ -58,6 +58,9 @@ pub enum StepFailure {
         /// Energy of the system in J.
         scale: f64,
     },
+    /// The [limit](crate::integrate::WorkLimit) of its work was reached.
+    #[error("the limit of its work was reached")]
+    WorkLimit,
     /// A method that the system cannot take.
     #[error("the system has no discrete gradients: use another method")]
     NoDiscreteGradient,

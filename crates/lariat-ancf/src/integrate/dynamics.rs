@@ -87,6 +87,11 @@ pub trait Dynamics {
         true
     }
 
+    /// Returns the number of Newton iterations so far, to limit the work of a step. Default 0: they are not counted.
+    fn newton_iterations(&self) -> u64 {
+        0
+    }
+
     /// Returns whether accelerations depend on velocities.
     fn depends_on_velocity(&self) -> bool {
         false

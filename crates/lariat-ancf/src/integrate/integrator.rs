@@ -3,6 +3,7 @@
 use super::error_norm::ErrorNorm;
 use super::method::Method;
 use super::one_step::OneStep;
+use super::work_limit::WorkLimit;
 use crate::error::{Error, require};
 use serde::{Deserialize, Serialize};
 
@@ -84,11 +85,25 @@ pub struct IntegratorRef<'a> {
     pub method: &'a dyn OneStep,
     /// How steps are chosen.
     pub control: StepControl,
+    /// The largest amount of work, if there is a limit.
+    pub limit: Option<&'a WorkLimit>,
 }
 
 impl<'a> From<&'a Integrator> for IntegratorRef<'a> {
     fn from(integrator: &'a Integrator) -> Self {
-        IntegratorRef { method: &integrator.method, control: integrator.control }
+        IntegratorRef::new(&integrator.method, integrator.control)
+    }
+}
+
+impl<'a> IntegratorRef<'a> {
+    /// Returns a method with a step control, without a limit.
+    pub fn new(method: &'a dyn OneStep, control: StepControl) -> Self {
+        IntegratorRef { method, control, limit: None }
+    }
+
+    /// Returns the same with this limit to its work.
+    pub fn within(self, limit: Option<&'a WorkLimit>) -> Self {
+        IntegratorRef { limit, ..self }
     }
 }
 

@@ -56,6 +56,7 @@ pub mod step_control;
 pub mod tr_bdf2;
 pub mod trapezoid;
 pub mod verlet;
+mod work_limit;
 
 pub use discrete_gradient::{Differences, EnergyLaw};
 pub use dynamics::{Dynamics, Stage};
@@ -66,3 +67,4 @@ pub use method::{Method, Properties};
 pub(crate) use one_step::add_scaled;
 pub use one_step::{OneStep, Scratch, StepRequest};
 pub use state::{Memory, State};
+pub use work_limit::WorkLimit;

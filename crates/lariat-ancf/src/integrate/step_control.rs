@@ -117,6 +117,12 @@ fn run(
         let (h, last) = fit(proposal, horizon - done, budget.is_some());
         let newton_tolerance = budget.as_ref().map_or(FIXED_STEP_NEWTON_TOLERANCE, |b| b.newton_tolerance(h));
         let request = StepRequest { h, newton_tolerance, estimate: budget.is_some() };
+        if let Some(limit) = integrator.limit
+            && limit.reduces()
+        {
+            return Err(FailedStep { time: state.time, step: h, failure: StepFailure::WorkLimit });
+        }
+        let iterations = system.newton_iterations();
         let outcome = method
             .step(system, state, request, scratch)
             .and_then(|estimate| check_finite(&scratch.next, estimate).map(|()| estimate))
@@ -125,6 +131,10 @@ fn run(
                 checked = energy.after(system, state, &scratch.next, h)?;
                 Ok(estimate)
             });
+        if let Some(limit) = integrator.limit {
+            // a method without iterations is counted by its steps
+            limit.spend((system.newton_iterations() - iterations).max(1));
+        }
         let failed = |failure| Err(FailedStep { time: state.time, step: h, failure });
         match (outcome, &mut budget) {
             (Err(failure), _) => {

@@ -304,6 +304,10 @@ impl Dynamics for IslandDynamics<'_, '_> {
         false
     }
 
+    fn newton_iterations(&self) -> u64 {
+        self.equations.cables[0].diagnostics().newton_iterations
+    }
+
     fn depends_on_velocity(&self) -> bool {
         true
     }

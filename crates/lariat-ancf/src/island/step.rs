@@ -123,7 +123,7 @@ impl Island {
         gather(cables, bodies, state);
         if integrator.method.uses_discrete_gradients() {
             return HostStep { cables, bodies, layout, matrices, accounts, vectors, buffers, state }
-                .run(integrator.control, dt);
+                .run(integrator, dt);
         }
         memory::recall(cables, bodies, layout, state);
         let equations = IslandEquations { cables: &mut *cables, layout, matrices };

@@ -326,7 +326,7 @@ impl DiscreteGradientSystem for CableStep<'_> {
         Ok(balance)
     }
 
-    fn rescale(&mut self, balance: &mut Balance) -> bool {
+    fn rescale(&mut self, balance: &mut Balance, largest_share: f64) -> bool {
         let CableStep { equations, state, buffers } = self;
         // the other buffers are free now
         let Buffers { velocity_change, change, rhs, external, product, taken, linearised, .. } = &mut **buffers;
@@ -337,7 +337,7 @@ impl DiscreteGradientSystem for CableStep<'_> {
         taken.clone_from(rhs);
         relative_velocities(equations.model, equations.system, product, taken, external, linearised);
         let energy = 0.5 * equations.system.mass_square(taken, external);
-        let share = share_to_take(energy, dot(rhs, external), balance.to_take());
+        let share = share_to_take(energy, dot(rhs, external), balance.to_take(), largest_share);
         match share {
             Some(share) => {
                 taken.iter_mut().for_each(|x| *x *= share);

@@ -158,6 +158,10 @@ impl Dynamics for CableDynamics<'_> {
         self.equations.system.scales.extent(error).0
     }
 
+    fn newton_iterations(&self) -> u64 {
+        self.equations.diagnostics.newton_iterations
+    }
+
     fn depends_on_velocity(&self) -> bool {
         self.equations.model.depends_on_velocity()
     }

@@ -153,7 +153,8 @@ fn constraint_rows(
                     rows[(row, 6 * index + 3 + x)] = sign * angular[x];
                 }
             }
-            let limited = joint.data.locked_axes.bits() & (1 << axis) == 0;
+            let limited =
+                joint.data.locked_axes.bits() & (1 << axis) == 0 && !limits::hold_both_sides(&joint.data.limits[axis]);
             found.push(limited.then(|| {
                 if predicts_loads {
                     Limit { side: limits::nearest_side(world, joint, axis), impulse: 0.0 }

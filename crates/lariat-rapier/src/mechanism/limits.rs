@@ -3,7 +3,7 @@
 //! A limit counts as reached within [`LIMIT_DISTANCE`], unless the joint leaves it faster than
 //! [`OPENING_RATE`]. Rapier enforces a limit only in substeps that begin at it or beyond, so the
 //! coordinate of the joint decides; the limit force is not needed, since the predicted loads
-//! already balance it.
+//! already balance it. An axis that is at both of its limits is held like a locked one.
 //!
 //! # Validity
 //! Measured with an arm of three links of 1 kg on a soft rope, struck with 0.5 N s, host steps of
@@ -57,6 +57,11 @@ pub(super) fn nearest_side(world: &PhysicsWorld, joint: &ImpulseJoint, axis: usi
     coordinate(world, joint, axis).map_or(1.0, |at| nearer(at, &joint.data.limits[axis]))
 }
 
+/// Returns whether a coordinate that is at one of its limits is at the other too.
+pub(super) fn hold_both_sides(limits: &JointLimits<Real>) -> bool {
+    f64::from(limits.max) - f64::from(limits.min) < LIMIT_DISTANCE
+}
+
 /// Returns -1 nearer to the upper limit, 1 nearer to the lower.
 fn nearer(at: f64, limits: &JointLimits<Real>) -> f64 {
     if at - f64::from(limits.min) < f64::from(limits.max) - at { 1.0 } else { -1.0 }
@@ -66,7 +71,7 @@ fn nearer(at: f64, limits: &JointLimits<Real>) -> f64 {
 pub(super) fn active_side(at: f64, limits: &JointLimits<Real>, rate: f64) -> Option<f64> {
     let side = nearer(at, limits);
     let beyond = if side > 0.0 { f64::from(limits.min) - at } else { at - f64::from(limits.max) };
-    (beyond > -LIMIT_DISTANCE && side * rate < OPENING_RATE).then_some(side)
+    (beyond > -LIMIT_DISTANCE && (side * rate < OPENING_RATE || hold_both_sides(limits))).then_some(side)
 }
 
 /// Returns the axes at whose limits a joint is, as bits.
@@ -79,7 +84,8 @@ pub(super) fn reached(world: &PhysicsWorld, joint: &ImpulseJoint) -> u8 {
 
 /// Returns the axes whose limits pushed in Rapier's last substep, as bits.
 pub(super) fn pushing(joint: &ImpulseJoint) -> u8 {
-    limited_axes(joint, |axis| joint.data.limits[axis].impulse != 0.0)
+    let both = |axis: usize| hold_both_sides(&joint.data.limits[axis]);
+    limited_axes(joint, |axis| joint.data.limits[axis].impulse != 0.0 || both(axis))
 }
 
 /// Returns the axes with limits, neither locked nor coupled, that fulfil a condition, as bits.

@@ -90,7 +90,7 @@ pub(super) fn find(world: &PhysicsWorld, request: &Request) -> Option<(Multibody
     let columns = inverse(&DMatrix::from_iterator(n, 6, own.transpose().iter().copied()))?;
     let free = inverse(&DMatrix::from_column_slice(n, 1, forces.as_slice()))?;
     let all = &free + &columns * DMatrix::from_column_slice(6, 1, request.load.as_slice());
-    let limits = active.into_iter().map(|(_, limit)| Some(limit)).collect();
+    let limits = active.into_iter().map(|(_, limit)| limit).collect();
     let (response, free) = Constraints { rows, spread, limits, substep: 1.0 }.project(&columns, &free, &all)?;
     let mobility = Matrix6::from_iterator((&own * &response).iter().copied());
     loads.of_body = Vector6::from_iterator((&own * &free).iter().copied());
@@ -100,8 +100,8 @@ pub(super) fn find(world: &PhysicsWorld, request: &Request) -> Option<(Multibody
     Some((MultibodyLink { response: response.map(|x| x as Real), velocity_before }, loads, mobility))
 }
 
-/// Returns the limits at which the joints of a multibody are, by degree of freedom.
-fn active_limits(multibody: &Multibody) -> Vec<(usize, Limit)> {
+/// Returns the limits at which the joints of a multibody are, by degree of freedom; `None` for a joint that is at both.
+fn active_limits(multibody: &Multibody) -> Vec<(usize, Option<Limit>)> {
     let velocity = multibody.generalized_velocity();
     let mut active = Vec::new();
     for link in multibody.links() {
@@ -113,7 +113,8 @@ fn active_limits(multibody: &Multibody) -> Vec<(usize, Limit)> {
             if limited & (1 << axis) != 0 && (axis < 3 || turns == 1) {
                 let at = f64::from(link.joint.coords()[axis]);
                 if let Some(side) = limits::active_side(at, &data.limits[axis], f64::from(velocity[dof])) {
-                    active.push((dof, Limit { side, impulse: 0.0 }));
+                    let one = !limits::hold_both_sides(&data.limits[axis]);
+                    active.push((dof, one.then_some(Limit { side, impulse: 0.0 })));
                 }
             }
         }

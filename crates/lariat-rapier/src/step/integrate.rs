@@ -5,11 +5,13 @@
 //! reads and writes nothing of another, nor of Rapier's world, so results are bitwise the same for
 //! any number of threads.
 
+use crate::budget::step_within;
 use crate::contents::Contents;
 use crate::error::Error;
 use crate::islands::Island;
 use crate::step::prediction::Prediction;
 use core::cell::RefCell;
+use lariat_ancf::integrate::WorkLimit;
 use lariat_ancf::island::Island as IslandSolver;
 use lariat_ancf::{Cable, Integrator};
 
@@ -34,19 +36,27 @@ struct Job<'a> {
 
 impl Job<'_> {
     fn run(&mut self) {
+        let limit = self.prediction.budget.limit();
         let outcome = if self.island.members.is_empty() {
-            self.cables.iter_mut().try_for_each(|cable| cable.step_with(self.h, &self.integrator))
+            let (h, integrator) = (self.h, &self.integrator);
+            self.cables.iter_mut().try_for_each(|cable| {
+                step_within(limit.as_ref(), integrator, |integrator| cable.step_with(h, integrator))
+            })
         } else {
             let mut solver = SOLVERS.with_borrow_mut(Vec::pop).unwrap_or_default();
-            let outcome = self.step_island(&mut solver);
+            let outcome = self.step_island(&mut solver, limit.as_ref());
             SOLVERS.with_borrow_mut(|solvers| solvers.push(solver));
             outcome
         };
+        if let Some(limit) = &limit {
+            self.prediction.budget.update(limit);
+            self.prediction.degraded |= limit.has_reduced();
+        }
         self.prediction.error = outcome.err().map(Error::from);
     }
 
     /// Steps cables and members in equal parts, and adds up the accounts of the pins.
-    fn step_island(&mut self, solver: &mut IslandSolver) -> Result<(), lariat_ancf::Error> {
+    fn step_island(&mut self, solver: &mut IslandSolver, limit: Option<&WorkLimit>) -> Result<(), lariat_ancf::Error> {
         let Job { island, cables, prediction, integrator, h } = self;
         let Prediction { start, end, accounts, parts, .. } = &mut **prediction;
         for part in 0..*parts {
@@ -55,7 +65,8 @@ impl Job<'_> {
                 let first = if part == 0 { first } else { Default::default() };
                 body.unsteadiness = [first, if part + 1 == *parts { last } else { Default::default() }];
             }
-            solver.step(cables, end, &island.pins, *integrator, *h / f64::from(*parts))?;
+            let h = *h / f64::from(*parts);
+            step_within(limit, integrator, |integrator| solver.step_with(cables, end, &island.pins, integrator, h))?;
             if part == 0 {
                 accounts.clear();
                 accounts.extend_from_slice(solver.accounts());

@@ -26,10 +26,12 @@ pub(crate) mod substepping;
 
 use crate::attach;
 use crate::body;
+use crate::budget::Remaining;
 use crate::contact::broad::Finder;
 use crate::contents::Contents;
 use crate::error::{Error, Failure};
 use crate::events::Event;
+use crate::handle::CableHandle;
 use crate::islands::{Island, Islands};
 use crate::reels;
 use crate::settings::Settings;
@@ -84,6 +86,8 @@ pub(crate) struct Stepper {
     pub finder: Finder,
     /// The islands that could not step in this host step.
     pub failures: Vec<Failure>,
+    /// Of the present host step.
+    budget: Remaining,
     /// A buffer.
     impedance: Impedance,
 }
@@ -103,6 +107,8 @@ pub(crate) fn begin(
     if dt > 0.0 {
         stepper.events.clear();
         stepper.failures.clear();
+        stepper.budget = Remaining::new(settings.budget);
+        stepper.predictions.iter_mut().for_each(|p| (p.budget, p.degraded) = (stepper.budget, false));
         host.steps = substepping::count(contents, world, settings, f64::from(dt), &mut stepper.impedance);
         host.motions = PrescribedMotions::read(contents, world, f64::from(dt));
         if host.steps > 1 {
@@ -187,7 +193,8 @@ fn predict_islands(
     let h = f64::from(world.integration_parameters.dt);
     stepper.finder.begin(contents, world, h);
     stepper.islands.update(contents, world, &stepper.finder.touching)?;
-    stepper.predictions.resize_with(stepper.islands.list.len(), Default::default);
+    let budget = stepper.budget;
+    stepper.predictions.resize_with(stepper.islands.list.len(), || Prediction { budget, ..Prediction::default() });
     stepper.predictions.iter_mut().for_each(|prediction| prediction.applied.clear());
     let is_awake = |body: RigidBodyHandle| !world.bodies[body].is_sleeping();
     let needs_speeds = stepper.islands.list.iter().any(|island| island.bodies().any(is_awake));
@@ -212,6 +219,10 @@ fn predict_islands(
     integrate::integrate(contents, &islands.list, predictions, step.h);
     reels::follow(contents);
     for (island, prediction) in islands.list.iter().zip(predictions.iter_mut()) {
+        if core::mem::take(&mut prediction.degraded) {
+            let named = |&c: &usize| Event::Degraded(CableHandle(c as u32));
+            events.extend(island.cables.iter().map(named).filter(|event| !events.contains(event)).collect::<Vec<_>>());
+        }
         if prediction.integrator.is_some() && prediction.error.is_none() {
             prediction.error = complete_island(contents, world, island, prediction, &step).err();
         }

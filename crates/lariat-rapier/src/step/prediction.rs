@@ -2,6 +2,7 @@
 //! reconciliation.
 
 use crate::body::SavedBody;
+use crate::budget::Remaining;
 use crate::error::Error;
 use crate::mechanism::Mechanism;
 use crate::sleep::SleepState;
@@ -46,6 +47,9 @@ pub(crate) struct Prediction {
     pub integrator: Option<Integrator>,
     /// Number of equal parts in which it is integrated.
     pub parts: u32,
+    /// What is left of the budget, and whether accuracy was reduced because nothing was.
+    pub budget: Remaining,
+    pub degraded: bool,
     /// Why the island cannot step.
     pub error: Option<Error>,
     /// By pin, what it transmitted in the predicted step.

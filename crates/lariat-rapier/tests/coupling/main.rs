@@ -1,9 +1,11 @@
 //! Cables on Rapier's bodies: statics, a monolithic code, conservation laws, and changes by the
 //! user.
 
+mod arms;
 mod assemblies;
 mod attachment_points;
 mod blows;
+mod budget;
 mod cable_contact;
 mod cable_contact_bodies;
 mod clamps;

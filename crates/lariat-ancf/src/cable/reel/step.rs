@@ -4,7 +4,7 @@ use crate::cable::{Cable, Feed};
 use crate::element::flow::Extent;
 use crate::element::side::Side;
 use crate::error::{Error, require};
-use crate::integrate::{IntegratorRef, OneStep};
+use crate::integrate::{IntegratorRef, OneStep, WorkLimit};
 
 /// Largest length of material that passes the eye in a part of a host step, as a share of an element.
 const PASSING: f64 = 0.15;
@@ -165,6 +165,10 @@ impl Cable {
                     *self = *before;
                 }
                 return Err(error);
+            }
+            if integrator.limit.is_some_and(WorkLimit::has_stopped) {
+                self.sync_reel();
+                return Ok(());
             }
         }
         self.snapshot.state.time = end;

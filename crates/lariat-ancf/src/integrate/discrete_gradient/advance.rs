@@ -2,18 +2,18 @@
 
 use super::{DiscreteGradientSystem, safeguard};
 use crate::error::StepFailure;
-use crate::integrate::StepControl;
 use crate::integrate::step_control::{Counts, FailedStep, MIN_STEP_SHARE, SINGLE_PRECISION_ROUNDING};
+use crate::integrate::{IntegratorRef, StepControl};
 
 /// Advances the system by `horizon` (s), and returns the numbers of steps with the outcome. After a failure the state is the last accepted
 /// one.
 pub(crate) fn advance(
     system: &mut dyn DiscreteGradientSystem,
-    control: StepControl,
+    integrator: IntegratorRef<'_>,
     horizon: f64,
 ) -> (Counts, Result<(), FailedStep>) {
     let mut counts = Counts::default();
-    let longest = match control {
+    let longest = match integrator.control {
         StepControl::Substeps(substeps) => horizon / f64::from(substeps),
         StepControl::MaxStep(longest) => longest * (1.0 + SINGLE_PRECISION_ROUNDING),
         // rejected by `IntegratorRef::check`
@@ -30,8 +30,10 @@ pub(crate) fn advance(
     let steps = steps as u64;
     for i in 1..=steps {
         let time = system.time();
-        if let Err(failure) = safeguard::step(system, h, 0) {
-            return (counts, Err(failed(time, failure)));
+        match safeguard::step(system, h, 0, integrator.limit) {
+            Ok(true) => {}
+            Ok(false) => break,
+            Err(failure) => return (counts, Err(failed(time, failure))),
         }
         // the sum of the parts of a step is off by rounding
         system.set_time(if i == steps { end } else { end - (steps - i) as f64 * h });

@@ -175,8 +175,8 @@ pub(crate) trait DiscreteGradientSystem {
     fn iterate(&mut self, fresh: bool) -> Result<Balance, StepFailure>;
 
     /// Scales velocities relative to rigid motion down until the step makes no energy; returns false, and changes nothing, if that
-    /// would take more than half of their energy.
-    fn rescale(&mut self, balance: &mut Balance) -> bool;
+    /// would take a larger share of them than `largest_share` (0 to 1).
+    fn rescale(&mut self, balance: &mut Balance, largest_share: f64) -> bool;
 
     /// Makes the end of the step the present state.
     fn accept(&mut self, balance: &Balance);
@@ -194,13 +194,10 @@ pub(crate) enum Event {
     Split,
 }
 
-/// Share of the velocities relative to rigid motion that a step may lose by rescaling: that of half of their energy.
-const MAX_TAKEN_SHARE: f64 = 0.292_893_218_813_452_5;
-
 /// Returns the smaller share u for which v - u w has less kinetic energy than v by the excess, from `1/2 w.M w` and `v.M w`; `None` if
-/// there is none that is small enough.
-pub(crate) fn share_to_take(energy: f64, product: f64, excess: f64) -> Option<f64> {
+/// there is none up to `largest_share`.
+pub(crate) fn share_to_take(energy: f64, product: f64, excess: f64, largest_share: f64) -> Option<f64> {
     let root = product * product - 4.0 * energy * excess;
     let share = (product - root.max(0.0).sqrt()) / (2.0 * energy);
-    (root >= 0.0 && (0.0..=MAX_TAKEN_SHARE).contains(&share)).then_some(share)
+    (root >= 0.0 && (0.0..=largest_share).contains(&share)).then_some(share)
 }

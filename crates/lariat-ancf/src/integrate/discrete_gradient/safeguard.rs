@@ -7,6 +7,9 @@
 //! 3. Velocities relative to rigid motion are scaled down, if that takes at most half of their energy; momenta stay.
 //! 4. Four steps of a quarter, each by the same means.
 //!
+//! With a [limit](WorkLimit) to the work that is spent, one iteration is taken, rescaling may take all of that energy, and instead of a
+//! division the step ends.
+//!
 //! Damping, friction and impact lose so much that any error of the iteration hides behind them: on a rotor whose rope is damped, errors of
 //! the tension grow to a thousand times the tension. A step is therefore accepted only if its energy balance *closes*, to 1 % of what
 //! they lose. Near an obstacle it must close to 1 % of all that the step loses, and the contact forces must be those of the linear solve, to
@@ -17,6 +20,7 @@
 
 use super::law::{Balance, CLOSURE, DiscreteGradientSystem, Event};
 use crate::error::StepFailure;
+use crate::integrate::WorkLimit;
 
 /// Share of the energy of the system that a step may make.
 const TOLERANCE: f64 = 1e-9;
@@ -39,6 +43,8 @@ const MAX_ITERATIONS_NEAR: usize = 20;
 const CLOSURE_OF_WEIGHT: f64 = 1e-6;
 /// Share of the contact forces that the linear solve may miss.
 const CONSISTENCY: f64 = 1e-3;
+/// Share of the velocities relative to rigid motion that rescaling may take: that of half of their energy.
+const SHARE_OF_HALF_THE_ENERGY: f64 = 0.292_893_218_813_452_5;
 /// Number of parts into which a step is divided.
 const PARTS: usize = 4;
 /// Largest number of divisions of divisions.
@@ -93,18 +99,28 @@ fn is_certain(balance: &Balance) -> bool {
     ROUNDING * (balance.numerical + balance.contacts + balance.residual.abs()) <= TOLERANCE * balance.scale()
 }
 
-/// Advances the system by `h` (s).
+/// Advances the system by `h` (s); returns false if the limit ended the step before.
 ///
 /// # Errors
 /// If a step of h/4^6 neither keeps its energy law nor can be made to.
-pub(super) fn step(system: &mut dyn DiscreteGradientSystem, h: f64, depth: usize) -> Result<(), StepFailure> {
+pub(super) fn step(
+    system: &mut dyn DiscreteGradientSystem,
+    h: f64,
+    depth: usize,
+    limit: Option<&WorkLimit>,
+) -> Result<bool, StepFailure> {
+    let note_progress = || limit.into_iter().for_each(WorkLimit::note_progress);
     system.predict(h);
     let mut last = Err(StepFailure::NotConverged { iterations: 0, increment: 0.0 });
     let (mut fresh, mut most) = (true, MAX_ITERATIONS);
     let (mut iteration, mut imbalance) = (0, f64::INFINITY);
-    while iteration < most {
+    let is_spent = || limit.is_some_and(WorkLimit::is_spent);
+    while iteration < most && !(iteration > 0 && is_spent()) {
         iteration += 1;
         last = system.iterate(fresh);
+        if let Some(limit) = limit {
+            limit.spend(1);
+        }
         match &last {
             Ok(balance) if keeps_law(balance) => {
                 let forces = iteration >= MAX_FOR_FORCES || are_forces_right(balance);
@@ -128,17 +144,32 @@ pub(super) fn step(system: &mut dyn DiscreteGradientSystem, h: f64, depth: usize
         && (is_dissipation_right(balance) && closes(balance) && are_motors_right(balance) || depth == MAX_DEPTH)
     {
         system.accept(balance);
-        return Ok(());
+        note_progress();
+        return Ok(true);
     }
+    let reduced = limit.is_some_and(WorkLimit::reduces);
+    let largest_share = if reduced { 1.0 } else { SHARE_OF_HALF_THE_ENERGY };
     if let Ok(balance) = &mut last
         && is_certain(balance)
-        && (is_consistent(balance) && are_motors_right(balance) || depth == MAX_DEPTH)
+        && (is_consistent(balance) && are_motors_right(balance) || depth == MAX_DEPTH || reduced)
         && balance.to_take() > 0.0
-        && system.rescale(balance)
+        && system.rescale(balance, largest_share)
     {
         system.count(Event::Rescaled);
         system.accept(balance);
-        return Ok(());
+        note_progress();
+        return Ok(true);
+    }
+    if reduced
+        && let Ok(balance) = &last
+        && keeps_law(balance)
+    {
+        system.accept(balance);
+        note_progress();
+        return Ok(true);
+    }
+    if reduced && limit.is_some_and(WorkLimit::stops) {
+        return Ok(false);
     }
     if depth == MAX_DEPTH {
         let balance = last?;
@@ -146,7 +177,9 @@ pub(super) fn step(system: &mut dyn DiscreteGradientSystem, h: f64, depth: usize
     }
     system.count(Event::Split);
     for _ in 0..PARTS {
-        step(system, h / PARTS as f64, depth + 1)?;
+        if !step(system, h / PARTS as f64, depth + 1, limit)? {
+            return Ok(false);
+        }
     }
-    Ok(())
+    Ok(true)
 }

@@ -7,7 +7,7 @@
 use super::{IslandStep, StepBuffers};
 use crate::cable::Cable;
 use crate::error::{Error, StepFailure};
-use crate::integrate::{ErrorNorm, State, StepControl, discrete_gradient};
+use crate::integrate::{ErrorNorm, IntegratorRef, State, discrete_gradient};
 use crate::island::body::{BodyMemory, RigidBody};
 use crate::island::dynamics::{IslandDynamics, Vectors};
 use crate::island::equations::{IslandEquations, Matrices};
@@ -31,7 +31,7 @@ pub(in crate::island) struct HostStep<'a, 'b> {
 
 impl HostStep<'_, '_> {
     /// Advances by `dt` (s). Cables and bodies are as before if it fails.
-    pub fn run(mut self, control: StepControl, dt: f64) -> Result<(), Error> {
+    pub fn run(mut self, integrator: IntegratorRef<'_>, dt: f64) -> Result<(), Error> {
         self.buffers.begin(self.cables, self.layout);
         self.cables.iter_mut().for_each(|cable| cable.refresh_memory());
         let time = self.cables[0].time();
@@ -41,7 +41,7 @@ impl HostStep<'_, '_> {
         }
         let HostStep { cables, layout, accounts, buffers, .. } = &mut self;
         let mut island = IslandStep { cables, layout, accounts, buffers };
-        let (counts, outcome) = discrete_gradient::advance(&mut island, control, dt);
+        let (counts, outcome) = discrete_gradient::advance(&mut island, integrator, dt);
         for cable in self.cables.iter_mut() {
             let diagnostics = cable.diagnostics_mut();
             diagnostics.steps += counts.steps;

@@ -401,8 +401,8 @@ impl DiscreteGradientSystem for IslandStep<'_, '_> {
         Ok(self.balance())
     }
 
-    fn rescale(&mut self, balance: &mut Balance) -> bool {
-        rescale::rescale(self, balance)
+    fn rescale(&mut self, balance: &mut Balance, largest_share: f64) -> bool {
+        rescale::rescale(self, balance, largest_share)
     }
 
     fn accept(&mut self, balance: &Balance) {

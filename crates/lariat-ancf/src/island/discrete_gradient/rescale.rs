@@ -48,7 +48,7 @@ impl RigidMotion {
 }
 
 /// See [`DiscreteGradientSystem::rescale`](crate::integrate::discrete_gradient::DiscreteGradientSystem::rescale).
-pub(in crate::island) fn rescale(island: &mut IslandStep<'_, '_>, balance: &mut Balance) -> bool {
+pub(in crate::island) fn rescale(island: &mut IslandStep<'_, '_>, balance: &mut Balance, largest_share: f64) -> bool {
     let rigid = rigid_motion(island);
     let (mut energy, mut product) = (0.0, 0.0);
     for (cable, own) in island.cables.iter_mut().zip(&island.buffers.cables) {
@@ -80,7 +80,7 @@ pub(in crate::island) fn rescale(island: &mut IslandStep<'_, '_>, balance: &mut 
         energy += own;
         product += with_all;
     }
-    let share = share_to_take(energy, product, balance.to_take());
+    let share = share_to_take(energy, product, balance.to_take(), largest_share);
     let factor = share.unwrap_or(0.0);
     for cable in island.cables.iter_mut() {
         cable.step_buffers.taken.iter_mut().for_each(|w| *w *= factor);
