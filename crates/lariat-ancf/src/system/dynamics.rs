@@ -51,9 +51,10 @@ impl Linearised for CableStage<'_, '_> {
             equations.factor_to_solve()?;
             equations.system.step.factored = stage.c2;
         }
+        let [unbalanced, impulse] = equations.unbalanced(stage.c2, rhs, product);
         equations.solve(rhs);
         let (displacement, slope) = equations.system.scales.extent(rhs);
-        Ok(Increment { displacement, rotation: slope })
+        Ok(Increment { displacement, rotation: slope, imbalance: unbalanced / impulse })
     }
 
     fn apply(&mut self, share: f64) {
