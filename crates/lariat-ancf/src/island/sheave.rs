@@ -106,7 +106,7 @@ pub(super) fn check(cables: &[&mut Cable], sheaves: &[Sheave]) -> Result<(), Err
             }
         }
         let [p, q] = ends.map(|(cable, side)| cables[cable].node_position(side.nodes(cables[cable].nodes())[1]));
-        if !((p - q).norm() <= GAP) {
+        if (p - q).norm() > GAP {
             return refused(a, "the two ends at a sheave are not at one point");
         }
         let [m, n] = ends.map(|(cable, side)| {
