@@ -27,7 +27,8 @@ use serde::{Deserialize, Serialize};
 /// # Limits
 /// - Cables touch colliders, if they are told to ([`set_contact`](Self::set_contact)), but not each other.
 /// - A cable has a fixed natural length, but for [`cut`](Self::cut) and a reel
-///   ([`Cable::add_reel`](lariat_ancf::Cable::add_reel) by [`get_mut`](Self::get_mut)), whose eye is on a fixed or kinematic body.
+///   ([`Cable::add_reel`](lariat_ancf::Cable::add_reel) by [`get_mut`](Self::get_mut)). On a dynamic
+///   body its stock rides along as a point mass at the eye, beside the mass that Rapier knows: contacts of the body see that alone.
 /// - All cables of a set share one number of Rapier steps per host step ([`Settings`]), which is
 ///   also that of the whole world: a pile of bodies costs as many Rapier steps as the cables need.
 /// - The bodies of a mechanism (a multibody, or bodies joined by impulse joints) are predicted

@@ -221,6 +221,10 @@ impl Cable {
     /// Rejects a cable that cannot be stepped by itself.
     pub(crate) fn check_complete(&self) -> Result<(), Error> {
         self.check_forces()?;
+        if self.model.reels.sides().any(|side| self.is_over_sheave(side)) {
+            let reason = "its end is at a sheave: only an island with that sheave steps it";
+            return Err(Error::ReelPlace { cable: self.name().to_string(), reason });
+        }
         match self.model.supports.iter().find(|(_, s)| s.attached) {
             None => Ok(()),
             Some((node, _)) => Err(Error::Attached { cable: self.name().to_string(), node: *node }),

@@ -10,7 +10,8 @@
 //! r(y, t) = S(y; l(t)) e(t)      S = N D      S_l = (1/l) (N P - xi N') D      S_ll = (1/l^2) (2 xi N' + xi^2 N'' - 2 xi N' P) D
 //! v = S e' + l' w,  w = S_l e    (0 at the first node, -t at the eye)          a = S e'' + 2 l' S_l e' + (l'' S_l + l'^2 S_ll) e
 //! M e'' + 2 l' G e' + (l'' G + l'^2 H) e = F          G = rho D G^ D    H = (rho/l) D H^ D
-//! T = 1/2 e'.M e' + l' e'.G e + 1/2 l'^2 e.K e        K = (rho/l) D K^ D
+//! T = 1/2 e'.M e' + l' e'.G e + 1/2 l'^2 e.K e        K = (rho/l) D K^ D        p = M e' + l' G e
+//! p' - l' (G^T e' + l' K e) - rho l' v_eye on r_eye = F                            the same with the momentum p
 //! B = e.[G^T e'' + 2 l' K e' + (l'' K + l'^2 J) e] + dU/dl - rho (w^ D e).g      J = (rho/l^2) D J^ D
 //! ```
 //!
@@ -35,8 +36,8 @@
 
 use super::shape;
 
-/// A table over (r_i, t_i, r_j, t_j), times 420.
-type Table = [[f64; 4]; 4];
+/// A table over (r_i, t_i, r_j, t_j); those of integers are times 420.
+pub(crate) type Table = [[f64; 4]; 4];
 
 const G: Table =
     [[78.0, 26.0, -78.0, -2.0], [18.0, 6.0, -18.0, -1.0], [132.0, 44.0, -132.0, -68.0], [-24.0, -8.0, 24.0, 6.0]];
@@ -106,14 +107,23 @@ impl FlowElement {
 
     /// Adds the momentum `l' G q`.
     pub fn add_momentum(&self, q: &[f64; 12], out: &mut [f64; 12]) {
-        for a in 0..4 {
-            for b in 0..4 {
-                let g = self.entry(&G, self.extent.rate * self.inertia, a, b);
-                for x in 0..3 {
-                    out[3 * a + x] += g * q[3 * b + x];
-                }
-            }
-        }
+        add_product(&self.momentum_matrix(), 1.0, q, out);
+    }
+
+    /// Returns `l' G`.
+    pub fn momentum_matrix(&self) -> Table {
+        let factor = self.extent.rate * self.inertia;
+        core::array::from_fn(|a| core::array::from_fn(|b| self.entry(&G, factor, a, b)))
+    }
+
+    /// Returns `l' G^T` and `l'^2 K`, which give the derivative of the kinetic energy by the coordinates.
+    pub fn gradient_matrices(&self) -> [Table; 2] {
+        let Extent { length, rate, .. } = self.extent;
+        let of = |entry: &dyn Fn(usize, usize) -> f64| core::array::from_fn(|a| core::array::from_fn(|b| entry(a, b)));
+        [
+            of(&|a, b| self.entry(&G, rate * self.inertia, b, a)),
+            of(&|a, b| self.entry(&K, rate * rate * self.inertia / length, a, b)),
+        ]
     }
 
     /// Returns the kinetic energy beyond that of the mass matrix, `l' v.G q + 1/2 l'^2 q.K q`, in J.
@@ -150,6 +160,17 @@ impl FlowElement {
             }
         }
         sum
+    }
+}
+
+/// Adds `scale` times the product of a table and 12 coordinates.
+pub(crate) fn add_product(table: &Table, scale: f64, x: &[f64; 12], out: &mut [f64; 12]) {
+    for a in 0..4 {
+        for b in 0..4 {
+            for i in 0..3 {
+                out[3 * a + i] += scale * table[a][b] * x[3 * b + i];
+            }
+        }
     }
 }
 

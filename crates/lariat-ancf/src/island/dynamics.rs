@@ -81,8 +81,9 @@ impl Linearised for IslandStage<'_, '_, '_> {
             equations.cable_rows(&at, z, rhs);
         }
         equations.layout.body_rows(stage.c2, y, v, z, rhs);
+        let imbalance = equations.imbalance(stage.c2, rhs);
         equations.solve(MatrixKind::Step, y, rhs);
-        let mut size = Increment { displacement: equations.norm(rhs), rotation: 0.0 };
+        let mut size = Increment { displacement: equations.norm(rhs), rotation: 0.0, imbalance };
         for (cable, part) in equations.parts() {
             let (_, slope) = cable.system.scales.extent(&rhs[part.range()]);
             size.rotation = size.rotation.max(slope);

@@ -104,6 +104,26 @@ impl IslandEquations<'_, '_> {
         }
     }
 
+    /// Returns the share of the impulses that rows, `scale F - M z`, leave unbalanced; 0 if no force on a cable depends on velocities.
+    pub fn imbalance(&mut self, scale: f64, rows: &[f64]) -> f64 {
+        let layout = self.layout;
+        if !self.cables.iter().any(|cable| cable.model.depends_on_velocity()) {
+            return 0.0;
+        }
+        let (mut unbalanced, mut impulse) = (0.0, 0.0);
+        for ((cable, part), buffers) in self.cables.iter_mut().zip(&layout.parts).zip(&self.matrices.cables) {
+            let own = cable.equations().0.unbalanced(scale, &rows[part.range()], &buffers.product);
+            unbalanced += own[0];
+            impulse += own[1];
+        }
+        for (i, body) in layout.bodies.iter().enumerate() {
+            let at = layout.body_at(i);
+            unbalanced += vector(&rows[at..]).norm();
+            impulse += scale * body.force.norm();
+        }
+        unbalanced / impulse
+    }
+
     /// Computes the rows as [`cable_rows`](Self::cable_rows), and factors and condenses the step
     /// matrices of all cables.
     pub fn cable_rows_and_matrices(

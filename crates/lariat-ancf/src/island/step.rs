@@ -8,6 +8,7 @@ use super::layout::Layout;
 use super::memory;
 use super::pin::{PinConstraint, check};
 use super::pin_accounts::{PinAccount, PinAccounts};
+use super::sheave::{self, Sheave};
 use crate::cable::{Cable, SHORTEST_STEP, check_integrator};
 use crate::error::{Error, require};
 use crate::integrate::{Integrator, IntegratorRef, Scratch, State, step_control};
@@ -56,23 +57,52 @@ impl Island {
         integrator: IntegratorRef<'_>,
         dt: f64,
     ) -> Result<(), Error> {
+        self.step_with_sheaves(cables, bodies, pins, &mut [], integrator, dt)
+    }
+
+    /// Advances as [`step_with`](Self::step_with) does, with cables that run over sheaves.
+    ///
+    /// # Errors
+    /// As [`step`](Self::step), and [`Error::ReelPlace`] for a sheave that does not fit the cables; sheaves are then as before, too.
+    pub fn step_with_sheaves(
+        &mut self,
+        cables: &mut [&mut Cable],
+        bodies: &mut [RigidBody],
+        pins: &[PinConstraint],
+        sheaves: &mut [Sheave],
+        integrator: IntegratorRef<'_>,
+        dt: f64,
+    ) -> Result<(), Error> {
         require("dt (s)", dt, dt == 0.0 || dt >= SHORTEST_STEP, "0, or >= 1e-100")?;
         integrator.check()?;
         check(cables, bodies, pins)?;
         cables.iter().try_for_each(|cable| check_integrator(&cable.model, integrator.method))?;
         cables.iter().try_for_each(|cable| cable.model.obstacles.check_bodies(cable.name(), bodies.len()))?;
+        sheave::check(cables, sheaves)?;
         if dt == 0.0 {
             return Ok(());
         }
         for (i, cable) in cables.iter().enumerate().filter(|(_, cable)| cable.has_reel()) {
             let held = |node: usize| pins.iter().filter(move |pin| pin.cable == i && pin.node == node);
-            cable.check_reel_in_island(|node| held(node).any(|pin| bodies[pin.body].free.contains(&true)), dt)?;
+            let moves = |node: usize| held(node).any(|pin| bodies[pin.body].free.contains(&true));
+            cable.check_reel_in_island(moves, integrator.method, dt)?;
+        }
+        for (i, cable) in cables.iter_mut().enumerate().filter(|(_, cable)| cable.has_reel()) {
+            let held = |node: usize| pins.iter().filter(move |pin| pin.cable == i && pin.node == node);
+            cable.set_riding_stock(|node| held(node).any(|pin| bodies[pin.body].free.contains(&true)));
         }
         cables.iter_mut().for_each(|cable| cable.begin_reel(dt));
+        let wheels = &mut self.by_discrete_gradient.unknowns.wheels;
+        wheels.clear();
+        wheels.extend(sheaves.iter().map(Sheave::wheel));
         cables.iter_mut().for_each(|cable| cable.take_workspace());
         let outcome = self.step_in_workspaces(cables, bodies, pins, integrator, dt);
         cables.iter_mut().rev().for_each(|cable| cable.return_workspace());
         cables.iter_mut().for_each(|cable| cable.end_reel(outcome.is_ok()));
+        if outcome.is_ok() {
+            let wheels = &self.by_discrete_gradient.unknowns.wheels;
+            sheaves.iter_mut().zip(wheels).for_each(|(sheave, wheel)| sheave.follow(wheel));
+        }
         outcome
     }
 

@@ -6,8 +6,10 @@ use crate::diagnostics::Diagnostics;
 use crate::effect::acts::ForceInput;
 use crate::error::StepFailure;
 use crate::integrate::Stage;
+use crate::integrate::discrete_gradient::sum_of_forces;
 use crate::linalg::Definiteness;
 use crate::model::Model;
+use crate::support::Support;
 
 /// Newton's tolerance is at most this share of the displacement that the acceleration makes in the stage, and of the strain
 /// that it makes in the cable (a hundred times more, and steel gains energy and shows spurious tension at coarse tolerances).
@@ -45,6 +47,16 @@ impl Equations<'_> {
 
     fn static_input<'a>(&self, q: &'a [f64], scale: f64) -> ForceInput<'a> {
         ForceInput { time: self.system.static_time, q, v: &[], dv_dq: 0.0, scale }
+    }
+
+    /// Returns the sum of the impulses that the rows `scale F - M z` of a cable leave unbalanced, and of those that must balance: of
+    /// `inertia`, M z, of the weight, and of what holds nodes.
+    pub fn unbalanced(&self, scale: f64, rows: &[f64], inertia: &[f64]) -> [f64; 2] {
+        let holds = |support: &Support| support.position.is_some() || support.attached;
+        let held = self.model.supports.iter().filter(|(_, support)| holds(support));
+        let held: f64 = held.map(|(node, _)| sum_of_forces(&rows[6 * node..6 * node + 6])).sum();
+        let weight = 1e3 * self.system.scales.weight_energy;
+        [sum_of_forces(rows) - held, sum_of_forces(inertia) + held + scale * weight]
     }
 
     fn evaluate(&mut self, load_time: f64, input: ForceInput<'_>, out: &mut [f64], mass_scale: Option<f64>) {

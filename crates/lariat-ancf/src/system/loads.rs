@@ -54,8 +54,9 @@ impl Loads {
         self.of_effects.add(&mut self.dead_force);
     }
 
-    /// Sets the weight of element `e` to that of its length in m, of a cable without constant forces of effects.
-    pub fn weigh_element(&mut self, model: &Model, e: usize, length: impl Fn(usize) -> f64) {
+    /// Sets the weight of element `e` to that of its length in m, of a cable without constant forces of effects, with that of stock of
+    /// a length in m at each end.
+    pub fn weigh_element(&mut self, model: &Model, e: usize, length: impl Fn(usize) -> f64, at_ends: [f64; 2]) {
         let own = 6 * e..6 * e + 12;
         self.gravity_force[own.clone()].fill(0.0);
         // of the neighbours, the shares of its own nodes
@@ -66,6 +67,13 @@ impl Loads {
                     self.gravity_force[at] += share * weight[at % 3];
                 }
             }
+        }
+        let last = model.elements.len();
+        for (node, stock) in
+            [(0, at_ends[0]), (last, at_ends[1])].into_iter().filter(|(node, _)| (e..=e + 1).contains(node))
+        {
+            let weight = model.weight(&model.elements[node.min(last - 1)]);
+            (0..3).for_each(|x| self.gravity_force[6 * node + x] += stock * weight[x]);
         }
         self.dead_force[own.clone()].copy_from_slice(&self.gravity_force[own]);
     }

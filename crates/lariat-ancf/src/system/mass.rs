@@ -43,15 +43,17 @@ impl Mass {
         Ok(mass)
     }
 
-    /// Sets the mass of element `e` to that of its length in m; the factors stay.
-    pub fn set_element(&mut self, model: &Model, e: usize, length: impl Fn(usize) -> f64) {
+    /// Sets the mass of element `e` to that of its length in m, with a mass in kg at each end of the cable; the factors stay.
+    pub fn set_element(&mut self, model: &Model, e: usize, length: impl Fn(usize) -> f64, at_ends: [f64; 2]) {
         let of = |e: Option<usize>| match e.filter(|&e| e < model.elements.len()) {
             Some(e) => mass::consistent(model.inertia(&model.elements[e]), length(e)),
             None => [[0.0; 4]; 4],
         };
         let [before, m, after] = [e.checked_sub(1), Some(e), Some(e + 1)].map(of);
         for (node, [i, j]) in [(e, [&before, &m]), (e + 1, [&m, &after])] {
-            self.matrix.diag[node] = [i[2][2] + j[0][0], i[2][3] + j[0][1], i[3][3] + j[1][1]];
+            let first = if node == 0 { at_ends[0] } else { 0.0 };
+            let last = if node == model.elements.len() { at_ends[1] } else { 0.0 };
+            self.matrix.diag[node] = [i[2][2] + j[0][0] + first + last, i[2][3] + j[0][1], i[3][3] + j[1][1]];
         }
         self.matrix.lower[e] = [m[2][0], m[2][1], m[3][0], m[3][1]];
     }

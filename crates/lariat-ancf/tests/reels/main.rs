@@ -5,5 +5,7 @@ mod common;
 mod energy;
 mod laws;
 mod motion;
+mod on_bodies;
 mod remesh;
+mod sheaves;
 mod state;

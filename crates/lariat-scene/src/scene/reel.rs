@@ -29,7 +29,8 @@ choice! {
 table! {
     /// A reel through which cable is paid out and taken in. Only the element at the eye, the point of the reel, changes its length; arc
     /// lengths count from the other end, so attachments, loads and probes stay with their material. Hold the eye by an
-    /// attachment at `"end"`, to the world or to a fixed or kinematic body.
+    /// attachment at `"end"`. On a dynamic body what is not out of the `stock` rides along, beside the body's own mass; that needs the
+    /// integrator `discrete-gradient`.
     struct ReelTable("[cable.reel]") {
         /// The end that it is at: draw the cable towards it.
         end: ReelEnd = "end", Kind::Choice(ReelEnd::names);
@@ -37,7 +38,7 @@ table! {
         rate: Vec<[f64; 2]> = required, Kind::Ascending(&["t", "rate"]), "s, m/s";
         /// Largest acceleration of the rate.
         acceleration: f64 = 2.0, Kind::Number(POSITIVE), "m/s^2";
-        /// Largest length of cable that can be out: the reel stops there.
+        /// Largest length of cable that can be out: the reel stops there. Needed on a dynamic body.
         stock: Option<f64> = ("no limit"), Kind::Number(POSITIVE), "m";
         /// Largest force of the motor: the reel slips where the cable pulls more. A clutch; with a rate of 0 a brake; 0 is a free
         /// spool. Needs the integrator `discrete-gradient`.

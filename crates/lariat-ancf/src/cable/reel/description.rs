@@ -14,7 +14,7 @@ pub struct Reel {
     /// Largest acceleration of the rate in m/s^2. Default 2: a jump of the rate by dv is one of the tension by dv sqrt(EA rho A).
     pub acceleration: f64,
     /// Largest length of cable in m that can be out: the reel stops there, as softly as `acceleration` says, whatever `max_force`
-    /// is. Default: no limit.
+    /// is. On a body that moves freely, what is not out rides with it, so it must be given there. Default: no limit.
     pub stock: Option<f64>,
     /// Largest force of the motor in N. The reel slips where the cable pulls more, and follows its rate again where it pulls less:
     /// a clutch; with a rate of zero a brake; 0 is a free spool. Needs the integrator `discrete-gradient`. Default: as
@@ -38,6 +38,9 @@ pub enum Feed {
     Coil,
     /// From a bag in which it lies still, without loss.
     Bag,
+    /// From another cable, over a [`Sheave`](crate::island::Sheave) of the island that steps both. Rate and force are those of the
+    /// sheave; `stock` is not used.
+    Sheave,
 }
 
 impl Default for Reel {
@@ -62,9 +65,14 @@ impl Reel {
         Reel { max_force: Some(force), ..Self::default() }
     }
 
+    /// The end of a cable at a sheave.
+    pub fn over_sheave() -> Self {
+        Reel { feed: Feed::Sheave, ..Self::default() }
+    }
+
     /// Returns whether the rate is an unknown.
     pub(crate) fn has_law(&self) -> bool {
-        self.max_force.is_some()
+        self.max_force.is_some() || self.feed == Feed::Sheave
     }
 
     /// Refuses numbers that make no reel.

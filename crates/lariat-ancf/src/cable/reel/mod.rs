@@ -13,8 +13,9 @@
 //! a [largest force](Reel::max_force), and the rate is an unknown of the discrete gradient (system/flow/law.rs). A rate above 0.3 of the speed of transverse waves, `sqrt(T/rho A)`, needs internal damping. A rope
 //! that is paid out faster than it falls crumples at the eye, and splitting crumpled elements adds strain energy:
 //! [`ReelReading::remeshed`] says how much. The node at
-//! the eye is held by a support, or by an attachment to a body that is not moved by the cable: the stock's momentum is not accounted
-//! on a free body. Implicit methods only. Gravity, internal damping and a uniform rest stretch act on the element at the eye; other
+//! the eye is held by a support, or by an attachment to a body. On a body that moves freely the stock rides with it, as a point mass at the
+//! eye beside the body's own mass; [`Reel::stock`] says how much there is, and energy and momentum of the cable include it. That takes
+//! the discrete gradient. Implicit methods only. Gravity, internal damping and a uniform rest stretch act on the element at the eye; other
 //! effects are refused ([`Error::NotWithReel`]).
 //!
 //! # Alternatives considered
@@ -36,6 +37,7 @@ use crate::effect::RestShape;
 use crate::element::side::Side;
 use crate::error::Error;
 use crate::model::Model;
+use crate::system::Source;
 
 impl Snapshot {
     /// Returns the number of nodes that the state must have: its own with a reel, else that of the cable.
@@ -143,11 +145,20 @@ impl Cable {
 
     /// Sets the equations to the present state of the reels.
     pub(crate) fn sync_reel(&mut self) {
+        let length = self.model.length();
+        let forgotten = self.snapshot.state.memory.differences.is_empty();
         for flow in &mut self.system.flows.list {
             let Some(winding) = &self.snapshot.windings[flow.side as usize] else { continue };
             flow.start = self.snapshot.state.time;
             flow.extent = winding.extent();
-            flow.length_before = winding.length_before;
+            // without memory of coordinates there is none of lengths: at a split at the other end
+            flow.length_before = if forgotten { flow.extent.length } else { winding.length_before };
+            let stock = self.model.reels.get(flow.side).and_then(|reel| reel.stock).filter(|_| winding.rides);
+            // what came from the other end is none of this reel
+            let passed = self.snapshot.windings[1 - flow.side as usize].map_or(0.0, |other| other.passed);
+            let both = stock.map(|stock| (stock + passed - length).max(0.0) + flow.extent.length);
+            let over_sheave = self.model.reels.get(flow.side).is_some_and(|reel| reel.feed == Feed::Sheave);
+            flow.source = if over_sheave { Source::Cable } else { both.map_or(Source::Outside, Source::Stock) };
         }
         self.system.set_flows(&self.model, self.snapshot.state.time);
     }

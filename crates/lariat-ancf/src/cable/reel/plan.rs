@@ -4,7 +4,7 @@
 //!
 //! The rate is linear within a step of length h; its bounds are those of [`rates`].
 
-use super::{Reel, Winding};
+use super::{Feed, Reel, Winding};
 use crate::cable::Cable;
 use crate::element::side::Side;
 use crate::system::{Law, Motor, rates};
@@ -54,15 +54,17 @@ impl Cable {
 
     /// Returns the length in m that is left of the stock.
     fn left_of_stock(&self, reel: &Reel) -> f64 {
-        reel.stock.map_or(f64::INFINITY, |stock| stock - self.length())
+        let stock = reel.stock.filter(|_| reel.feed != Feed::Sheave);
+        stock.map_or(f64::INFINITY, |stock| stock - self.length())
     }
 
     /// Returns what drives a reel whose rate is an unknown, for a part of a host step.
     pub(super) fn law(&self, side: Side, reel: &Reel, winding: &Winding) -> Option<Law> {
         let length = winding.extent[0];
+        let over_sheave = reel.feed == Feed::Sheave;
         Some(Law::new(Motor {
-            limit: reel.max_force?,
-            wheel: reel.inertia,
+            limit: reel.max_force.or(over_sheave.then_some(0.0))?,
+            wheel: if over_sheave { 0.0 } else { reel.inertia },
             asked: reel.asked(self.time()),
             acceleration: reel.acceleration,
             bounds: [length - self.left(side), length + self.left_of_stock(reel)],

@@ -191,11 +191,15 @@ impl Cable {
         }
         side.turn(&mut missed);
         self.replace_elements(turned, 2, &[whole])?;
-        if let Err(failure) = self.system.factor_mass(&self.model) {
-            return Err(self.step_failed(self.time(), 0.0, failure));
-        }
-        project_vector(&self.model, &mut missed);
-        self.system.mass.solve(self.system.level, &mut missed);
+        // nodes on bodies move with them: the next step of the island shares their jump with the bodies
+        let mut free = self.model.clone();
+        free.supports.retain(|(_, support)| !support.attached);
+        let outcome = self.system.factor_mass(&free).and_then(|()| {
+            project_vector(&free, &mut missed);
+            self.system.mass.solve(self.system.level, &mut missed);
+            self.system.factor_mass(&self.model)
+        });
+        outcome.map_err(|failure| self.step_failed(self.time(), 0.0, failure))?;
         self.snapshot.state.v.iter_mut().zip(&missed).for_each(|(v, d)| *v += d);
         Ok(())
     }

@@ -1,10 +1,10 @@
 //! A host step of a cable with a reel: in parts in which little material passes the eye.
 
-use crate::cable::Cable;
+use crate::cable::{Cable, Feed};
 use crate::element::flow::Extent;
 use crate::element::side::Side;
 use crate::error::{Error, require};
-use crate::integrate::{IntegratorRef, WorkLimit};
+use crate::integrate::{IntegratorRef, OneStep, WorkLimit};
 
 /// Largest length of material that passes the eye in a part of a host step, as a share of an element.
 const PASSING: f64 = 0.15;
@@ -79,15 +79,29 @@ impl Cable {
     /// Checks that an island can step a cable with reels by `dt` (s); `moves` says of a node whether a body holds it that moves freely.
     ///
     /// # Errors
-    /// [`Error::ReelPlace`] for an eye on a body that the cable moves; [`Error::InvalidValue`] if more than half of an element would
-    /// pass the eye.
-    pub(crate) fn check_reel_in_island(&self, moves: impl Fn(usize) -> bool, dt: f64) -> Result<(), Error> {
+    /// [`Error::ReelPlace`] for an eye on a body that the cable moves, without a stock or without the discrete gradient;
+    /// [`Error::InvalidValue`] if more than half of an element would pass the eye.
+    pub(crate) fn check_reel_in_island(
+        &self,
+        moves: impl Fn(usize) -> bool,
+        method: &dyn OneStep,
+        dt: f64,
+    ) -> Result<(), Error> {
         for side in self.model.reels.sides() {
             let Some(winding) = &self.snapshot.windings[side as usize] else { continue };
             if moves(side.nodes(self.nodes())[1]) {
-                let reason = "its eye is on a body that moves freely, whose change of mass is not accounted for: \
-                    use a fixed or kinematic body";
-                return Err(Error::ReelPlace { cable: self.name().to_string(), reason });
+                let refused = |reason| Err(Error::ReelPlace { cable: self.name().to_string(), reason });
+                if !method.uses_discrete_gradients() {
+                    return refused(
+                        "its eye is on a body that moves freely, whose momentum only discrete-gradient keeps",
+                    );
+                }
+                if self.model.reels.get(side).is_some_and(|reel| reel.stock.is_none() && reel.feed != Feed::Sheave) {
+                    return refused(
+                        "its eye is on a body that moves freely, whose mass changes with what is on the reel: \
+                        say by `stock` how much cable there is",
+                    );
+                }
             }
             let full = self.model.reels.element(self.number(side.element(self.elements().len()))).length;
             let [length, ..] = winding.extent;
@@ -111,6 +125,16 @@ impl Cable {
         Ok(())
     }
 
+    /// Notes at which eyes the stock rides with a body; `moves` as above.
+    pub(crate) fn set_riding_stock(&mut self, moves: impl Fn(usize) -> bool) {
+        let nodes = self.nodes();
+        for side in Side::BOTH {
+            if let Some(winding) = &mut self.snapshot.windings[side as usize] {
+                winding.rides = moves(side.nodes(nodes)[1]);
+            }
+        }
+    }
+
     /// Returns the largest rate in m/s of a reel in the coming `dt` (s).
     fn fastest_rate(&self, side: Side, dt: f64) -> f64 {
         let (Some(reel), Some(winding)) = (self.model.reels.get(side), &self.snapshot.windings[side as usize]) else {
@@ -128,6 +152,7 @@ impl Cable {
     /// Advances a cable with a reel by `dt` (s).
     pub(crate) fn step_with_reel(&mut self, dt: f64, integrator: IntegratorRef<'_>) -> Result<(), Error> {
         let parts = self.reel_parts(dt)?;
+        self.set_riding_stock(|_| false);
         let end = self.time() + dt;
         let before = (parts > 1).then(|| Box::new(self.clone()));
         for part in 0..parts {

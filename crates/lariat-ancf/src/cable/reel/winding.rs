@@ -1,6 +1,6 @@
 //! The state of a reel, and what it does now.
 
-use super::description::Reel;
+use super::description::{Feed, Reel};
 use crate::cable::{At, Cable};
 use crate::element::flow::Extent;
 use crate::element::side::Side;
@@ -25,6 +25,9 @@ pub(crate) struct Winding {
     pub stopped: bool,
     /// Mean pull in N over the last step of the discrete gradient.
     pub pull: Option<f64>,
+    /// Whether the stock rides with the body at the eye.
+    #[serde(default)]
+    pub rides: bool,
 }
 
 impl Winding {
@@ -145,6 +148,11 @@ impl Cable {
             let (Some(reel), Some(winding)) = (reel, winding) else { return true };
             winding.extent[1] == 0.0 && (reel.asked(self.time()) == 0.0 || winding.stopped)
         })
+    }
+
+    /// Returns whether an end is at a sheave.
+    pub(crate) fn is_over_sheave(&self, side: Side) -> bool {
+        self.model.reels.get(side).is_some_and(|reel| reel.feed == Feed::Sheave)
     }
 
     /// Returns the end at a point.

@@ -98,6 +98,8 @@ pub(crate) struct Balance {
     pub slip: [f64; 2],
     /// Sum over nodes and bodies of the impulse in N s that the residual leaves unbalanced.
     pub imbalance: f64,
+    /// By axis, the impulse in N s that the residual leaves unbalanced in all; only with stock of a reel on a body that moves freely.
+    pub drift: [f64; 3],
     /// Sum of the impulses in N s that must balance: of inertia, of external forces, of supports and pins.
     pub impulse: f64,
 }
@@ -121,6 +123,7 @@ impl Balance {
         self.missed += other.missed;
         (0..2).for_each(|i| self.slip[i] += other.slip[i]);
         self.imbalance += other.imbalance;
+        (0..3).for_each(|i| self.drift[i] += other.drift[i]);
         self.impulse += other.impulse;
     }
 

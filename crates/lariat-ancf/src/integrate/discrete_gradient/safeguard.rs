@@ -15,7 +15,8 @@
 //! they lose. Near an obstacle it must close to 1 % of all that the step loses, and the contact forces must be those of the linear solve, to
 //! 1e-3 in sum; every iteration has a new tangent, and up to 20 are taken. After those the balance alone must close; and in the last
 //! division the energy law alone must hold. Motors of reels must have the forces of their laws likewise, to 1e-3, with a new
-//! tangent in every iteration that is needed for them.
+//! tangent in every iteration that is needed for them. With stock of a reel on a body that moves freely the sum of all impulses must balance, to 1e-9
+//! of them.
 
 use super::law::{Balance, CLOSURE, DiscreteGradientSystem, Event};
 use crate::error::StepFailure;
@@ -26,6 +27,8 @@ const TOLERANCE: f64 = 1e-9;
 /// Share of the impulses of a step that may be unbalanced. The energy law alone lets errors of tension pass where the motion turns fast:
 /// on a rotor, 0.13 rad per step, 20 N of 63.
 const FORCE_TOLERANCE: f64 = 0.01;
+/// The same for the sum of all impulses, where stock of a reel rides with a body that moves freely.
+const DRIFT_TOLERANCE: f64 = 1e-9;
 /// Number of iterations after which the balance of impulses is no longer asked for: a slack cable has hardly any.
 const MAX_FOR_FORCES: usize = 4;
 /// Share of the imbalance that an iteration with the factors of an earlier one may leave; if it leaves more the next has a new tangent.
@@ -86,6 +89,11 @@ fn are_forces_right(balance: &Balance) -> bool {
     balance.imbalance <= FORCE_TOLERANCE * balance.impulse
 }
 
+/// Returns whether the residual keeps the momentum of all.
+fn is_momentum_right(balance: &Balance) -> bool {
+    balance.drift.iter().map(|x| x.abs()).sum::<f64>() <= DRIFT_TOLERANCE * balance.impulse
+}
+
 /// Returns whether the terms of the law are small enough for their sum to be known to the tolerance.
 fn is_certain(balance: &Balance) -> bool {
     ROUNDING * (balance.numerical + balance.contacts + balance.residual.abs()) <= TOLERANCE * balance.scale()
@@ -116,6 +124,7 @@ pub(super) fn step(
         match &last {
             Ok(balance) if keeps_law(balance) => {
                 let forces = iteration >= MAX_FOR_FORCES || are_forces_right(balance);
+                let forces = forces && is_momentum_right(balance);
                 let motors = are_motors_right(balance);
                 if is_dissipation_right(balance) && forces && closes(balance) && is_consistent(balance) && motors {
                     break;

@@ -29,11 +29,12 @@ use super::pin_accounts::PinAccounts;
 use crate::cable::Cable;
 use crate::contact::{BodyPath, PairStep};
 use crate::effect::EffectWork;
+use crate::element::side::Side;
 use crate::error::StepFailure;
 use crate::integrate::State;
 use crate::integrate::discrete_gradient::{BETA, Balance, Buffers, DiscreteGradientSystem, Event, sum_of_forces};
 use crate::support::SlopeSupport;
-use crate::system::{CableStep, Equations, Unknowns, dot, project_vector};
+use crate::system::{CableStep, Equations, Flow, Unknowns, Wheel, dot, project_vector};
 use body::BodyStep;
 use holds::HoldStep;
 use nalgebra::Vector3;
@@ -54,8 +55,8 @@ pub(super) struct StepBuffers {
     /// Contacts between the cables.
     pairs: PairStep,
     aside: pairs::Aside,
-    /// Rates of reels that are unknown.
-    unknowns: Unknowns,
+    /// Rates of reels that are unknown, and sheaves.
+    pub unknowns: Unknowns,
     /// By pin, velocity of node and slope beside those of the body when the host step began.
     pub deviations: Vec<[Vector3<f64>; 2]>,
 }
@@ -203,6 +204,37 @@ impl IslandStep<'_, '_> {
         }
     }
 
+    /// Returns the flows at a sheave.
+    fn flows(&self, wheel: &Wheel) -> Option<[Flow; 2]> {
+        let of = |(cable, side): (usize, Side)| self.cables[cable].system.flows.at_side(side).copied();
+        let [a, b] = wheel.ends;
+        Some([of(a)?, of(b)?])
+    }
+
+    /// Begins a step of length `h` (s) for sheaves: both flows at one have opposite rates.
+    fn begin_wheels(&mut self, h: f64) {
+        for w in 0..self.buffers.unknowns.wheels.len() {
+            let mut wheel = self.buffers.unknowns.wheels[w];
+            let Some([a, b]) = self.flows(&wheel) else { continue };
+            let tangents = wheel.ends.map(|(cable, side)| {
+                let local = side.gather(self.cables[cable].positions());
+                [local[9], local[10], local[11]]
+            });
+            let (cable, side) = wheel.ends[1];
+            let model = &self.cables[cable].model;
+            let inertia = model.inertia(&model.elements[side.element(model.elements.len())]);
+            let acceleration = wheel.begin([&a, &b], tangents, inertia, h);
+            let rate = b.extent.rate;
+            for ((cable, side), sign) in wheel.ends.into_iter().zip([-1.0, 1.0]) {
+                let flows = &mut self.cables[cable].system.flows.list;
+                if let Some(flow) = flows.iter_mut().find(|flow| flow.side == side) {
+                    (flow.extent.rate, flow.extent.acceleration) = (sign * rate, sign * acceleration);
+                }
+            }
+            self.buffers.unknowns.wheels[w] = wheel;
+        }
+    }
+
     /// Linearises the laws of reels whose rate is unknown, and solves for their columns.
     fn linearise_laws(&mut self) {
         let mut unknowns = core::mem::take(&mut self.buffers.unknowns);
@@ -277,6 +309,7 @@ impl IslandStep<'_, '_> {
         let StepBuffers { bodies, cables: own, rows, .. } = &mut *self.buffers;
         rows.fill(0.0);
         let mut total = Balance::default();
+        let closed = self.cables.iter().any(|cable| cable.system.flows.are_closed());
         for (cable, own) in self.cables.iter_mut().zip(own) {
             let CableStep { mut equations, state, buffers } = cable.step_parts();
             let mut work = EffectWork::default();
@@ -295,6 +328,9 @@ impl IslandStep<'_, '_> {
             project_vector(equations.model, &mut buffers.rhs);
             total.residual -= dot(&buffers.rhs, &buffers.change) / buffers.h;
             total.imbalance += sum_of_forces(&buffers.rhs);
+            if closed {
+                buffers.rhs.chunks_exact(6).for_each(|row| (0..3).for_each(|x| total.drift[x] += row[x]));
+            }
             // the free direction of a slope, for another iteration with the same factors
             for hold in own.holds.iter().filter(|hold| hold.slope) {
                 buffers.rhs[hold.at..hold.at + 3].copy_from_slice(hold.impulse.as_slice());
@@ -303,6 +339,14 @@ impl IslandStep<'_, '_> {
         for (body, row) in bodies.iter().zip(rows.chunks_exact_mut(6)) {
             body.complete_row(row);
             body.add_balance(row, &mut total);
+            if closed {
+                (0..3).for_each(|x| total.drift[x] += row[x]);
+            }
+        }
+        for wheel in &self.buffers.unknowns.wheels {
+            if let Some([a, b]) = self.flows(wheel) {
+                wheel.add_balance([&a, &b], &mut total);
+            }
         }
         if let Some(pairs) = pairs {
             total.add_contacts(&pairs, self.cables[0].step_buffers.h);
@@ -345,6 +389,7 @@ impl DiscreteGradientSystem for IslandStep<'_, '_> {
             buffers.recall(state, h);
             equations.prescribe_change(state, buffers);
         }
+        self.begin_wheels(h);
         self.buffers.bodies.iter_mut().for_each(|body| body.predict(h));
         self.follow();
         for cable in self.cables.iter_mut() {
@@ -373,6 +418,13 @@ impl DiscreteGradientSystem for IslandStep<'_, '_> {
     }
 
     fn accept(&mut self, balance: &Balance) {
+        for w in 0..self.buffers.unknowns.wheels.len() {
+            let mut wheel = self.buffers.unknowns.wheels[w];
+            if let Some([a, b]) = self.flows(&wheel) {
+                wheel.accept([&a, &b], self.time(), self.cables[0].step_buffers.h);
+            }
+            self.buffers.unknowns.wheels[w] = wheel;
+        }
         for (cable, own) in self.cables.iter_mut().zip(&self.buffers.cables) {
             let CableStep { mut equations, state, buffers } = cable.step_parts();
             for hold in &own.holds {

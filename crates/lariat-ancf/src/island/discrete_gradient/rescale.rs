@@ -128,7 +128,12 @@ fn mean_velocity(island: &mut IslandStep<'_, '_>) -> Vector3<f64> {
         for p in b.product.chunks_exact(6) {
             momentum += Vector3::new(p[0], p[1], p[2]);
         }
-        mass += system.scales.mass;
+        mass += if system.flows.is_empty() {
+            system.scales.mass
+        } else {
+            b.external.iter_mut().enumerate().for_each(|(i, x)| *x = if i % 6 == 0 { 1.0 } else { 0.0 });
+            system.mass_square(&b.external, &mut b.product)
+        };
     }
     for body in &island.buffers.bodies {
         let (of_body, own) = body.momentum();

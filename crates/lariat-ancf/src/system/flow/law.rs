@@ -21,7 +21,7 @@
 //! ```
 //!
 //! S > 0 is the apparent stiffness of all cables and bodies to the flow, so the alternative is decided by `T(a_0 - a)` exactly; several reels
-//! by projected Gauss-Seidel iteration.
+//! one after the other ([`unknowns`](super::unknowns)).
 //!
 //! # Validity
 //!
@@ -33,7 +33,8 @@
 //! An elastic clutch with a slip as state: stiff, and its constant is arbitrary. Stages of other methods: the reel would be one more
 //! coordinate of every integrator.
 
-use super::{Flow, Flows};
+use super::Flow;
+use super::step::StepMotion;
 use crate::cable::Feed;
 use crate::effect::EffectWork;
 use crate::element::flow::Extent;
@@ -48,8 +49,6 @@ const REACH: [f64; 2] = [0.5, 1.5];
 const PROBE: f64 = 1e-3;
 /// Share of the length of the element by which an increment changes it, where strains are read.
 const STRAIN_PROBE: f64 = 1e-7;
-/// Most sweeps over several reels.
-const SWEEPS: usize = 100;
 
 /// What drives a reel during a host step.
 #[derive(Clone, Copy, Debug, Default)]
@@ -75,70 +74,25 @@ pub(crate) struct Law {
     reach: [f64; 2],
     /// Derivatives of the force of the motor by the velocity changes of the element, and by the acceleration.
     row: [f64; 12],
-    own: f64,
-    /// Force of the motor in the last iterate, in N.
-    force: f64,
+    pub(super) own: f64,
+    /// Force of the motor in the last iterate, in N; at a sheave the pull.
+    pub(super) force: f64,
 }
 
-/// A reel in the linear equations of an iteration.
-#[derive(Clone, Copy, Debug)]
-struct Unknown {
-    law: Law,
-    /// Acceleration of the iterate.
-    acceleration: f64,
-    /// Force of the motor after the increment of all velocities.
-    force: f64,
-}
-
-/// The unknown rates of a system of cables, and the columns of its linear equations.
-#[derive(Clone, Debug, Default)]
-pub(crate) struct Unknowns {
-    /// Cable and flow of each.
-    pub reels: Vec<(usize, usize)>,
-    /// By reel and cable, c and then y; by reel, the rows of bodies.
-    pub columns: Vec<Vec<Vec<f64>>>,
-    pub rows: Vec<Vec<f64>>,
-    /// A buffer.
-    pub saved: Vec<f64>,
-    list: Vec<Unknown>,
-    stiffness: Vec<f64>,
-    /// Increments of the accelerations.
-    pub increments: Vec<f64>,
-}
-
-impl Unknowns {
-    /// Lists the unknowns of cables, each with its equations.
-    pub fn begin<'a>(&mut self, cables: impl ExactSizeIterator<Item = &'a Flows>) {
-        self.reels.clear();
-        let count = cables.len();
-        for (c, flows) in cables.enumerate() {
-            let own = flows.list.iter().enumerate().filter(|(_, flow)| flow.law.is_some());
-            self.reels.extend(own.map(|(k, _)| (c, k)));
-        }
-        self.columns.resize_with(self.reels.len(), Vec::new);
-        self.columns.iter_mut().for_each(|column| column.resize_with(count, Vec::new));
-        self.rows.resize_with(self.reels.len(), Vec::new);
+impl Flow {
+    /// Returns the pull in N in the last iterate, at a sheave.
+    pub(super) fn pull_of_iterate(&self) -> f64 {
+        self.law.map_or(0.0, |law| law.force)
     }
 
-    /// Solves for the increments of all accelerations and adds them to the iterate. `flows` and `increment` return those of a cable,
-    /// the increments of its velocity changes with all rates as they are.
-    pub fn solve<'a>(&mut self, flows: impl Fn(usize) -> &'a Flows, increment: impl Fn(usize) -> &'a [f64]) {
-        let count = self.reels.len();
-        self.list.clear();
-        self.stiffness.clear();
-        for (i, &(c, k)) in self.reels.iter().enumerate() {
-            let flow = &flows(c).list[k];
-            let Some(law) = flow.law else { continue };
-            let force = law.force + law.along_row(flow, increment(c));
-            self.list.push(Unknown { law, acceleration: flow.extent.acceleration, force });
-            for (j, columns) in self.columns.iter().enumerate() {
-                let own = if i == j { -law.own } else { 0.0 };
-                self.stiffness.push(law.along_row(flow, &columns[c]) + own);
-            }
-        }
-        self.increments.clear();
-        self.increments.resize(count, 0.0);
-        solve_unknowns(&self.list, |i, j| self.stiffness[i * count + j], &mut self.increments);
+    /// Returns the length in m that it can still take in.
+    pub(super) fn left(&self) -> f64 {
+        self.law.map_or(0.0, |law| self.extent.length - law.motor.bounds[0])
+    }
+
+    /// Returns the accelerations beyond which no iterate goes.
+    pub(super) fn reach(&self) -> [f64; 2] {
+        self.law.map_or([0.0; 2], |law| law.reach)
     }
 }
 
@@ -178,7 +132,7 @@ impl Law {
     }
 
     /// Returns the acceleration of an iterate at which the motor would have the force `at(a)`, which falls with the slope `-stiffness`.
-    fn acceleration_for(&self, present: f64, force: f64, stiffness: f64) -> f64 {
+    pub(super) fn acceleration_for(&self, present: f64, force: f64, stiffness: f64) -> f64 {
         let wanted = self.planned[1];
         let stuck = force - stiffness * (wanted - present);
         let slipping = present + (force - self.motor.limit.copysign(stuck)) / stiffness;
@@ -187,7 +141,7 @@ impl Law {
     }
 
     /// Returns the product of the row of a flow and the increments of the velocity changes of its cable.
-    fn along_row(&self, flow: &Flow, increment: &[f64]) -> f64 {
+    pub(super) fn along_row(&self, flow: &Flow, increment: &[f64]) -> f64 {
         self.row.iter().zip(flow.side.gather(increment)).map(|(a, b)| a * b).sum()
     }
 
@@ -205,27 +159,6 @@ impl Law {
             (self.motor.limit + self.force).max(0.0)
         } else {
             (self.force - self.motor.limit.copysign(acceleration - wanted)).abs()
-        }
-    }
-}
-
-/// Solves for the increments of the accelerations; `stiffness` is S.
-fn solve_unknowns(unknowns: &[Unknown], stiffness: impl Fn(usize, usize) -> f64, increments: &mut [f64]) {
-    increments.fill(0.0);
-    let sweeps = if unknowns.len() > 1 { SWEEPS } else { 1 };
-    for _ in 0..sweeps {
-        let mut moved = 0.0f64;
-        for (i, unknown) in unknowns.iter().enumerate() {
-            let others = (0..unknowns.len()).filter(|&j| j != i);
-            let force = unknown.force - others.map(|j| stiffness(i, j) * increments[j]).sum::<f64>();
-            let own = stiffness(i, i);
-            let own = if own > 0.0 { own } else { f64::MIN_POSITIVE };
-            let new = unknown.law.acceleration_for(unknown.acceleration, force, own) - unknown.acceleration;
-            moved = moved.max((new - increments[i]).abs());
-            increments[i] = new;
-        }
-        if moved <= 1e-12 {
-            break;
         }
     }
 }
@@ -291,8 +224,11 @@ impl Equations<'_> {
         for flow in &self.system.flows.list {
             if let Some(law) = &flow.law {
                 let acceleration = flow.extent.acceleration;
-                balance.slip[0] += law.violation(acceleration);
-                balance.slip[1] += law.force.abs();
+                // a sheave has one law for both of its flows
+                if flow.feed != Feed::Sheave {
+                    balance.slip[0] += law.violation(acceleration);
+                    balance.slip[1] += law.force.abs();
+                }
                 if law.reach.contains(&acceleration) {
                     // no law of energy: the step is divided
                     balance.residual = f64::NAN;
@@ -326,14 +262,13 @@ impl Equations<'_> {
         let (model, system) = (self.model, &*self.system);
         let (mean, _) = flow.over(state.time, h);
         let [q, v, a] = self.motion_of_step(&flow, state, b);
-        let element = |probe: f64| {
-            let Extent { length, rate, acceleration } = mean;
-            let length = length + 0.25 * h * h * probe;
-            flow.with(model, Extent { length, rate: rate + 0.5 * h * probe, acceleration: acceleration + probe })
+        let motion = StepMotion::of(&flow, state, b);
+        let impulse = |probe: f64| {
+            let mut other = flow;
+            other.extent.acceleration += probe;
+            other.impulse(model, &motion, true)
         };
-        let (mut before, mut after) = ([0.0; 12], [0.0; 12]);
-        element(0.0).add_force(h, &q, &v, &mut before);
-        element(PROBE).add_force(h, &q, &v, &mut after);
+        let (before, after) = (impulse(0.0), impulse(PROBE));
         let motor = |motion: [&[f64; 12]; 3]| system.motor_of_inertia(model, &flow, mean, motion);
         let (present, column) = (motor([&q, &v, &a]), flow.side.gather(out));
         for i in 0..12 {

@@ -13,18 +13,27 @@
 //! ```
 //!
 //! The loop over the elements keeps its form: it is given the eye where it would be on an element of the length l0 with the same control
-//! vectors, and its force is scaled by `l0 (1/l)_m`. Inertia, forces of the flow and weight are those of the mean length ([`step`]).
+//! vectors, and its force is scaled by `l0 (1/l)_m`. Weight is that of the mean length. Inertia
+//! is the change of the momentum p = M v + l' G q over the step, from one length to the other ([`step`]), so its sum over a cable is the
+//! change of the cable's momentum, less what flows in with the material.
+//!
+//! Where the eye is on a body that moves freely, the stock rides with it: as a mass point m at the eye, whose momentum and weight are
+//! those of the node there. What leaves the stock enters the element, so the momentum of cable, stock and body stays to rounding.
 //!
 //! # Validity
 //!
-//! Elastic work is exact for any step; kinetic energy to the second order of the step. The tangent takes the symmetric part of the
-//! forces of the flow.
+//! Elastic work and momentum are exact for any step; kinetic energy to the second order of the step. The tangent takes the symmetric part
+//! of the forces of the flow, and with riding stock its sums over rows are exact. Stock has no inertia about the eye.
 
 mod law;
 mod step;
+mod unknowns;
+mod wheel;
 mod work;
 
-pub(crate) use law::{Law, Motor, Unknowns, rates};
+pub(crate) use law::{Law, Motor, rates};
+pub(crate) use unknowns::Unknowns;
+pub(crate) use wheel::Wheel;
 
 use super::System;
 use super::elements::with_bending;
@@ -60,6 +69,20 @@ pub(crate) struct Flow {
     pub law: Option<Law>,
     /// Mean pull of the winch over the last step of the discrete gradient in N.
     pub pull: Option<f64>,
+    /// Where the material at the eye comes from and goes to.
+    pub source: Source,
+}
+
+/// What is behind an eye.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) enum Source {
+    /// Stock that is no part of the system.
+    #[default]
+    Outside,
+    /// Stock that rides with the body at the eye; length in m of stock and element together.
+    Stock(f64),
+    /// Another cable, over a sheave.
+    Cable,
 }
 
 /// The elements at eyes.
@@ -85,7 +108,13 @@ impl Flow {
             feed: Feed::Drum,
             law: None,
             pull: None,
+            source: Source::Outside,
         }
+    }
+
+    /// Returns the length in m of the stock that rides with the body at the eye, when the element has this length.
+    fn stock(&self, length: f64) -> f64 {
+        if let Source::Stock(both) = self.source { both - length } else { 0.0 }
     }
 
     /// Returns the extent at a time in s.
@@ -172,6 +201,11 @@ impl Flows {
         self.list.is_empty()
     }
 
+    /// Returns whether what is behind an eye is a part of the system.
+    pub fn are_closed(&self) -> bool {
+        self.list.iter().any(|flow| flow.source != Source::Outside)
+    }
+
     /// Returns whether all stand still.
     pub fn are_still(&self) -> bool {
         self.list.iter().all(|flow| flow.extent.rate == 0.0 && flow.extent.acceleration == 0.0)
@@ -242,8 +276,13 @@ impl System {
             let flow = flows.list.iter().find(|flow| flow.element(model) == e);
             flow.map_or(model.elements[e].length, |flow| flow.weighed)
         };
-        mass.set_element(model, e, length);
-        loads.weigh_element(model, e, length);
+        let stock = Side::BOTH.map(|side| {
+            let flow = flows.list.iter().find(|flow| flow.side == side);
+            flow.map_or(0.0, |flow| flow.stock(flow.weighed))
+        });
+        let inertia = |side: Side| model.inertia(&model.elements[side.element(model.elements.len())]);
+        mass.set_element(model, e, length, Side::BOTH.map(|side| stock[side as usize] * inertia(side)));
+        loads.weigh_element(model, e, length, stock);
     }
 
     /// Returns the kinetic energy in J that the flows add to that of the mass matrix.

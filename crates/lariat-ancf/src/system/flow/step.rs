@@ -1,7 +1,11 @@
 //! Elements at eyes over a step of the [discrete gradient](crate::integrate::discrete_gradient): see [`flow`](super).
 
+use super::{Flow, Flows, Source};
+use crate::element::flow::{Table, add_product};
+use crate::element::mass;
 use crate::integrate::State;
 use crate::integrate::discrete_gradient::{BETA, Buffers};
+use crate::model::Model;
 use crate::system::Equations;
 
 /// True iterates of an eye: change, linearised, change of the step before.
@@ -58,18 +62,115 @@ impl Equations<'_> {
     pub fn add_flows_over_step(&mut self, state: &State, b: &mut Buffers, matrix: bool) {
         let (model, system) = (self.model, &mut *self.system);
         for flow in &system.flows.list {
-            let (mean, _) = flow.over(state.time, b.h);
-            let element = flow.with(model, mean);
-            let (q, change) = (flow.side.gather(&state.q), flow.side.gather(&b.change));
-            let middle = core::array::from_fn(|i| q[i] + 0.5 * change[i]);
-            let mut force = [0.0; 12];
-            element.add_force(1.0, &middle, &change.map(|x| x / b.h), &mut force);
-            flow.side.add(&force, &mut b.external);
+            let impulse = flow.impulse(model, &StepMotion::of(flow, state, b), false);
+            flow.side.add(&impulse.map(|x| x / b.h), &mut b.external);
             if matrix {
-                let [by_velocity, by_position] = element.matrices();
-                let entry = |r: usize, c: usize| BETA * b.h * (by_velocity[r][c] + 0.5 * b.h * by_position[r][c]);
-                flow.add_symmetric(model, &mut system.step.matrix, entry);
+                let table = flow.impulse_table(model, state.time, b.h);
+                flow.add_symmetric(model, &mut system.step.matrix, |r, c| table[r][c]);
             }
         }
+    }
+}
+
+impl Flows {
+    /// Moves the eyes in the change of coordinates over the last step to where they would be on elements of the present lengths.
+    pub fn shift_eyes_before(&self, q: &[f64], change: &mut [f64]) {
+        for flow in &self.list {
+            let [far, eye] = flow.side.nodes(q.len() / 6).map(|node| 6 * node);
+            let ratio = flow.extent.length / flow.length_before;
+            for x in 0..3 {
+                let [at_far, at_eye] = [far, eye].map(|node| q[node + x] - change[node + x]);
+                change[eye + x] = q[eye + x] - at_far - ratio * (at_eye - at_far);
+            }
+        }
+    }
+}
+
+/// Coordinates and velocities of the element at an eye at both ends of a step.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct StepMotion {
+    pub time: f64,
+    pub h: f64,
+    pub q: [[f64; 12]; 2],
+    pub v: [[f64; 12]; 2],
+}
+
+impl StepMotion {
+    /// Returns that of the present iterate.
+    pub fn of(flow: &Flow, state: &State, b: &Buffers) -> Self {
+        let of = |x: &[f64]| flow.side.gather(x);
+        let (q, v, change, velocity_change) = (of(&state.q), of(&state.v), of(&b.change), of(&b.velocity_change));
+        let sum = |x: [f64; 12], d: [f64; 12]| core::array::from_fn(|i| x[i] + d[i]);
+        StepMotion { time: state.time, h: b.h, q: [q, sum(q, change)], v: [v, sum(v, velocity_change)] }
+    }
+}
+
+impl Flow {
+    /// Returns the impulse of the inertia of the element over a step, `-D p + h l' (G^T v^ + l' K q_m)` and the momentum of the material that
+    /// enters at the eye; that of riding stock is a part of p, and what enters comes from it. Without `all` it is less the part
+    /// `-M_m D v`, which the mass matrix has.
+    pub(super) fn impulse(&self, model: &Model, motion: &StepMotion, all: bool) -> [f64; 12] {
+        let StepMotion { time, h, q, v } = *motion;
+        let (mean, lengths) = self.over(time, h);
+        let mut out = [0.0; 12];
+        let inertia = self.with(model, mean).inertia;
+        let of_mean = mass::consistent(inertia, mean.length);
+        for (end, sign) in [(0, 1.0), (1, -1.0)] {
+            let at = self.with(model, self.at(time + h * end as f64));
+            let mut table = mass::consistent(inertia, lengths[end]);
+            let mut point = self.stock(lengths[end]) * inertia;
+            if !all {
+                (0..16).for_each(|i| table[i / 4][i % 4] -= of_mean[i / 4][i % 4]);
+                point -= self.stock(mean.length) * inertia;
+            }
+            table[2][2] += point;
+            add_product(&table, sign, &v[end], &mut out);
+            add_product(&at.momentum_matrix(), sign, &q[end], &mut out);
+        }
+        let middle = core::array::from_fn(|i| 0.5 * (q[0][i] + q[1][i]));
+        let velocity = core::array::from_fn(|i| (q[1][i] - q[0][i]) / h);
+        let [by_velocity, by_position] = self.with(model, mean).gradient_matrices();
+        add_product(&by_velocity, h, &velocity, &mut out);
+        add_product(&by_position, h, &middle, &mut out);
+        if self.source == Source::Outside {
+            for x in 6..9 {
+                out[x] += inertia * h * mean.rate * (velocity[x] - mean.rate * middle[3 + x]);
+            }
+        }
+        out
+    }
+
+    /// Returns the negative derivatives of the [impulse](Self::impulse), without the part of the mass matrix, by the changes of velocity. With
+    /// riding stock or a sheave it is changed to a table whose symmetric part has the same sums over the rows of positions: one linear solve
+    /// then keeps the momentum.
+    fn impulse_table(&self, model: &Model, time: f64, h: f64) -> Table {
+        let (mean, [_, last]) = self.over(time, h);
+        let [end, middle] = [self.at(time + h), mean].map(|extent| self.with(model, extent));
+        let inertia = middle.inertia;
+        let (mut table, of_mean) = (mass::consistent(inertia, last), mass::consistent(inertia, mean.length));
+        let momentum = end.momentum_matrix();
+        let [by_velocity, by_position] = middle.gradient_matrices();
+        for (a, b) in (0..4).flat_map(|a| (0..4).map(move |b| (a, b))) {
+            table[a][b] +=
+                BETA * h * (momentum[a][b] - by_velocity[a][b] - 0.5 * h * by_position[a][b]) - of_mean[a][b];
+        }
+        let entering = inertia * h * mean.rate;
+        if self.source == Source::Outside {
+            table[2][2] -= entering * BETA;
+            table[2][3] += entering * 0.5 * BETA * h * mean.rate;
+            return table;
+        }
+        // the elements put their own mass into the matrix, not that of the stock
+        table[2][2] += inertia * self.stock(last);
+        let symmetric: Table = core::array::from_fn(|a| core::array::from_fn(|b| 0.5 * (table[a][b] + table[b][a])));
+        let missed: [f64; 4] = core::array::from_fn(|b| table[0][b] + table[2][b] - symmetric[0][b] - symmetric[2][b]);
+        let mut table = symmetric;
+        table[0][0] += missed[0];
+        table[2][2] += missed[2];
+        for b in [1, 3] {
+            table[2][b] += missed[b];
+            table[b][2] += missed[b];
+        }
+        table
     }
 }

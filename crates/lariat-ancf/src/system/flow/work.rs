@@ -11,6 +11,8 @@
 //! coil      pull = -B - rho l'^2 f^2 + u_0            u_0 the strain energy per length at the eye
 //! ```
 //!
+//! With stock that rides with the body at the eye, which is a part of the system, the power is `l' (B + 1/2 rho l'^2 f^2)`.
+//!
 //! Stock leaves a drum with the rate of the reel. In a bag it lies at rest and is set in motion without loss; in a coil by an inelastic
 //! impact, so that a falling chain obeys `m g = d(m v)/dt`. Both differ from a drum while cable is paid out.
 //!
@@ -23,7 +25,7 @@
 //! The account of energy is exact for any step of the discrete gradient but for its kinetic part, of the second order; for other methods
 //! to the order of two points of Gauss.
 
-use super::{Flow, System, control};
+use super::{Flow, Source, System, control};
 use crate::cable::Feed;
 use crate::effect::work::{POINTS, hermite};
 use crate::element::flow::{Extent, FlowElement};
@@ -90,7 +92,14 @@ impl Equations<'_> {
         let velocity = change.map(|x| x / b.h);
         let acceleration = flow.side.gather(&b.velocity_change).map(|x| x / b.h);
         let inertial = element.length_force([&middle, &velocity, &acceleration], &weight);
-        [elastic + inertial, entering(&element, &weight, &middle, &velocity)]
+        let entering = match flow.source {
+            Source::Outside => entering(&element, &weight, &middle, &velocity),
+            // the stock, or the other cable, is a part of the system
+            Source::Stock(_) | Source::Cable => {
+                0.5 * element.inertia * mean.rate * mean.rate * square_of_stretch(&middle)
+            }
+        };
+        [elastic + inertial, entering]
     }
 
     /// Adds the work of winches and entering material over a step of the discrete gradient, and notes its lengths for the next one.

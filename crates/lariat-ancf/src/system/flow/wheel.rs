@@ -1,0 +1,191 @@
+//! A sheave: two reels at one point with opposite flow, and one law for both.
+//!
+//! # Equation
+//!
+//! Material runs from the end of one cable, whose element has the length `l_a - u`, to that of another, `l_b + u`. The acceleration of u over
+//! a step of the discrete gradient is unknown, as that of a [reel with a motor](super::law). With the pulls F of both, the inertia m of the
+//! wheel over the square of its radius, and the friction P
+//!
+//! ```text
+//! m u'' = F_b - F_a - P          u' = 0 and |P| <= b,   or   u' != 0 and P = b sign(u')
+//! b = (exp(mu theta) - 1) max(0, min(F_a, F_b) - rho u'^2) + brake
+//! ```
+//!
+//! theta is the angle between the tangents of both cables at the sheave when the step begins, with whole turns added; `rho u'^2` is what the
+//! running rope takes off the pressure. Whether it slips is decided by the friction that u' = 0 at the end of the step needs; of a slipping
+//! one, b is that of the unknown pulls, not of the iterate before. Near the end of a cable u'' is bounded, as for a reel.
+//!
+//! What leaves one cable enters the other at the same point, so neither row of an eye has an inflow of momentum: the sum of both is the
+//! force on what holds the sheave.
+//!
+//! # Validity
+//!
+//! A wheel without extent, one density on both sides. Friction is that of a rope on a wheel that stands, or of a bearing: with it, the inertia
+//! is that of what turns with the rope.
+//!
+//! # References
+//!
+//! Euler 1769 (the capstan); Peng, Wei & Zhou, Appl. Math. Mech. 38 (2017) 1785 (cables that flow over pulleys).
+//!
+//! # Alternatives considered
+//!
+//! The bound from the pulls of the iterate before: the iteration contracts with (exp(mu theta) - 1)/2 and diverges for large angles.
+
+use super::law::rates;
+use super::{Flow, Flows};
+use crate::element::flow::Extent;
+use crate::element::side::Side;
+use crate::integrate::discrete_gradient::Balance;
+
+/// Deceleration in m/s^2 with which a cable stops before its end reaches a sheave.
+const STOP: f64 = 100.0;
+
+/// A sheave in a step.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Wheel {
+    /// Cable and end, from which and to which material runs for positive rates.
+    pub ends: [(usize, Side); 2],
+    /// In kg.
+    pub inertia: f64,
+    /// Coefficient mu.
+    pub friction: f64,
+    /// Angle in rad beyond that between the tangents.
+    pub turns: f64,
+    /// In N.
+    pub brake: f64,
+    /// Length in m that ran over it, and energy in J that friction took, so far.
+    pub passed: f64,
+    pub lost: f64,
+    /// Friction in N over the last step.
+    pub force: f64,
+    /// exp(mu theta) - 1.
+    grip: f64,
+    /// Mass per length in kg/m times the square of the rate, in N.
+    lift: f64,
+    /// Accelerations: least, that which stops it, largest.
+    planned: [f64; 3],
+    /// Unknowns of its flows.
+    pub flows: [usize; 2],
+}
+
+/// Pulls in N of both cables at a sheave, linear in the increment x of the acceleration: `F - k x`, and the acceleration of the iterate.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Pulls {
+    pub force: [f64; 2],
+    pub stiffness: [f64; 2],
+    pub acceleration: f64,
+}
+
+impl Wheel {
+    /// Creates a sheave of no inertia, without friction.
+    pub fn new(ends: [(usize, Side); 2]) -> Self {
+        Wheel {
+            ends,
+            inertia: 0.0,
+            friction: 0.0,
+            turns: 0.0,
+            brake: 0.0,
+            passed: 0.0,
+            lost: 0.0,
+            force: 0.0,
+            grip: 0.0,
+            lift: 0.0,
+            planned: [0.0; 3],
+            flows: [0; 2],
+        }
+    }
+
+    /// Begins a step of length `h` (s): `flows` are those of its cables, `tangents` their tangents there, away from the cables, and
+    /// `inertia` the mass per length in kg/m. Returns the acceleration of the first iterate.
+    pub fn begin(&mut self, flows: [&Flow; 2], tangents: [[f64; 3]; 2], inertia: f64, h: f64) -> f64 {
+        let rate = flows[1].extent.rate;
+        let left = flows.map(|flow| flow.left());
+        let [least, _, largest] = rates(0.0, STOP, rate, [left[1], left[0]], h);
+        let reach = [flows[1].reach()[0].max(-flows[0].reach()[1]), flows[1].reach()[1].min(-flows[0].reach()[0])];
+        self.planned = [least, 0.0f64.clamp(least, largest), largest].map(|end| (end - rate) / h);
+        let planned = self.planned;
+        self.planned[0] = planned[0].max(reach[0]).min(reach[1]);
+        self.planned[2] = planned[2].min(reach[1]).max(reach[0]);
+        let [a, b] = tangents;
+        let dot: f64 = (0..3).map(|x| -a[x] * b[x]).sum();
+        let norm = |t: [f64; 3]| t.iter().map(|x| x * x).sum::<f64>().sqrt();
+        let cosine = dot / (norm(a) * norm(b)).max(f64::MIN_POSITIVE);
+        let angle = cosine.clamp(-1.0, 1.0).acos() + self.turns;
+        self.grip = if self.friction > 0.0 { (self.friction * angle).exp() - 1.0 } else { 0.0 };
+        self.lift = inertia * rate * rate;
+        let present = if rate == 0.0 { self.planned[1] } else { flows[1].extent.acceleration };
+        self.bounded(present)
+    }
+
+    fn bounded(&self, acceleration: f64) -> f64 {
+        acceleration.max(self.planned[0]).min(self.planned[2])
+    }
+
+    /// Returns the largest friction in N under these pulls.
+    fn bound(&self, [a, b]: [f64; 2]) -> f64 {
+        self.grip * (a.min(b) - self.lift).max(0.0) + self.brake
+    }
+
+    /// Returns the acceleration that meets the law.
+    pub(super) fn acceleration_for(&self, pulls: &Pulls) -> f64 {
+        let Pulls { force: [a, b], stiffness: [ka, kb], acceleration: present } = *pulls;
+        let wanted = self.planned[1];
+        let x = wanted - present;
+        let at_rest = [a - ka * x, b - kb * x];
+        let needed = at_rest[1] - at_rest[0] - self.inertia * wanted;
+        let bound = self.bound(at_rest);
+        if needed.abs() <= bound && bound > 0.0 {
+            return self.bounded(wanted);
+        }
+        let sign = 1.0f64.copysign(needed);
+        // F_b - F_a - m A - sign (grip (F_low - lift) + brake) = 0; the cable that brakes has the lower pull
+        let slip = |grip: f64| {
+            let (of_a, of_b) = if sign > 0.0 { (1.0 + grip, 1.0) } else { (1.0, 1.0 + grip) };
+            let force = of_b * b - of_a * a - self.inertia * present + sign * (grip * self.lift - self.brake);
+            let stiffness = of_b * kb - of_a * ka + self.inertia;
+            (force / stiffness.max(f64::MIN_POSITIVE), if sign > 0.0 { (a, ka) } else { (b, kb) })
+        };
+        let (x, (low, k)) = slip(self.grip);
+        let x = if low - k * x >= self.lift { x } else { slip(0.0).0 };
+        self.bounded(present + x)
+    }
+
+    /// Returns the friction in N of an iterate, and by how much it breaks the law.
+    fn violation(&self, force: [f64; 2], acceleration: f64) -> (f64, f64) {
+        let [least, wanted, largest] = self.planned;
+        let friction = force[1] - force[0] - self.inertia * acceleration;
+        let (bound, rounding) = (self.bound(force), 1e-12 * (1.0 + acceleration.abs()));
+        let missed = if (acceleration - wanted).abs() <= rounding {
+            (friction.abs() - bound).max(0.0)
+        } else if acceleration >= largest - rounding {
+            (bound - friction).max(0.0)
+        } else if acceleration <= least + rounding {
+            (bound + friction).max(0.0)
+        } else {
+            (friction - bound.copysign(acceleration - wanted)).abs()
+        };
+        (friction, missed)
+    }
+
+    /// Adds to a balance by how much the iterate breaks the law; the flows hold its pulls.
+    pub fn add_balance(&self, flows: [&Flow; 2], balance: &mut Balance) {
+        let (_, missed) = self.violation(flows.map(Flow::pull_of_iterate), flows[1].extent.acceleration);
+        balance.slip[0] += missed;
+        balance.slip[1] += flows.iter().map(|flow| flow.pull_of_iterate().abs()).sum::<f64>();
+    }
+
+    /// Adds an accepted step of length `h` (s) from `time` to what passed and was lost.
+    pub fn accept(&mut self, flows: [&Flow; 2], time: f64, h: f64) {
+        let Extent { rate, .. } = flows[1].over(time, h).0;
+        self.force = self.violation(flows.map(Flow::pull_of_iterate), flows[1].extent.acceleration).0;
+        self.passed += rate * h;
+        self.lost += self.force * rate * h;
+    }
+}
+
+impl Flows {
+    /// Returns the flow at an end.
+    pub fn at_side(&self, side: Side) -> Option<&Flow> {
+        self.list.iter().find(|flow| flow.side == side)
+    }
+}
