@@ -10,9 +10,9 @@
 //! The error after increment d_k is predicted as 2 d_k^2/d_{k-1} with a kept tangent,
 //! d_k^3/d_{k-1}^2 with a fresh one; the iteration ends when that, or d_k itself, is below the
 //! tolerance, and the residual, which shrinks as the increments do, leaves at most 1e-3 of the
-//! impulses unbalanced. Strong damping makes forces of velocities: without the second condition a
-//! rope that carries an arm reads 2 % less than it carries, steadily. After four iterations it is no
-//! longer asked for: a slack cable has hardly any impulses.
+//! impulses unbalanced. The second condition is asked for where forces depend on velocities, which
+//! no tolerance of positions bounds (without it a damped rope that carries an arm reads 2 % less than
+//! it carries, steadily), and in the first four iterations: a slack cable has hardly any impulses.
 //!
 //! # References
 //!
@@ -48,7 +48,7 @@ pub struct Increment {
     pub displacement: f64,
     /// Largest change of a slope, or rotation in rad.
     pub rotation: f64,
-    /// Share of the impulses that the residual before the increment leaves unbalanced.
+    /// Share of the impulses that the residual before the increment leaves unbalanced; 0 if forces do not depend on velocities.
     pub imbalance: f64,
 }
 

@@ -104,9 +104,12 @@ impl IslandEquations<'_, '_> {
         }
     }
 
-    /// Returns the share of the impulses that rows, `scale F - M z`, leave unbalanced.
+    /// Returns the share of the impulses that rows, `scale F - M z`, leave unbalanced; 0 if no force on a cable depends on velocities.
     pub fn imbalance(&mut self, scale: f64, rows: &[f64]) -> f64 {
         let layout = self.layout;
+        if !self.cables.iter().any(|cable| cable.model.depends_on_velocity()) {
+            return 0.0;
+        }
         let (mut unbalanced, mut impulse) = (0.0, 0.0);
         for ((cable, part), buffers) in self.cables.iter_mut().zip(&layout.parts).zip(&self.matrices.cables) {
             let own = cable.equations().0.unbalanced(scale, &rows[part.range()], &buffers.product);

@@ -51,10 +51,14 @@ impl Linearised for CableStage<'_, '_> {
             equations.factor_to_solve()?;
             equations.system.step.factored = stage.c2;
         }
-        let [unbalanced, impulse] = equations.unbalanced(stage.c2, rhs, product);
+        let mut imbalance = 0.0;
+        if equations.model.depends_on_velocity() {
+            let [unbalanced, impulse] = equations.unbalanced(stage.c2, rhs, product);
+            imbalance = unbalanced / impulse;
+        }
         equations.solve(rhs);
         let (displacement, slope) = equations.system.scales.extent(rhs);
-        Ok(Increment { displacement, rotation: slope, imbalance: unbalanced / impulse })
+        Ok(Increment { displacement, rotation: slope, imbalance })
     }
 
     fn apply(&mut self, share: f64) {

@@ -13,8 +13,8 @@
 //!
 //! # Validity
 //! Stiff joints. Motors, contacts and centripetal forces enter by the reaction estimate. Two
-//! attached bodies of one mechanism know of each other only by that estimate: on impulse joints the
-//! forces of their ropes ripple, by up to 0.39 of their sum about the right mean (tests, arms.rs).
+//! attached bodies of one mechanism know of each other only by that estimate: the forces
+//! of their ropes ripple, by up to 0.39 of their sum about the right mean (tests, arms.rs).
 //!
 //! # References
 //! Khatib 1987, the operational space inertia.
