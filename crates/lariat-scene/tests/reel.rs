@@ -103,8 +103,9 @@ fn sheaves_that_do_not_fit_are_refused() {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../assets/scenes/tackle.toml");
     for (change, words) in [
         ("sheave.sheave-0.from=\"part-7\"", "part-7"),
-        ("sheave.sheave-0.from=\"part-1\"", "at a sheave"),
-        ("sheave.sheave-0.to=\"part-4\"", "at a sheave"),
+        ("sheave.sheave-0.from=\"part-1\"", "different bodies"),
+        ("sheave.sheave-0.from=\"part-2\"", "at a sheave"),
+        ("sheave.sheave-0.to=\"part-3\"", "at a sheave"),
         ("sheave.sheave-0.friction=-0.1", "friction"),
         ("cable.part-0.integrator={ tolerance = 1e-5 }", "a cable over a sheave"),
     ] {
