@@ -150,6 +150,14 @@ impl From<lariat_ancf::Error> for Raise {
             MissingForEffect { cable, effect: |x: &&'static str| *x, requirement: text }
             MissingForceDensities { cable, count }
             EmptyRestPiece { cable, from }
+            ObstacleKey { cable, key: |x: &u64| *x as usize }
+            ObstacleBody { cable, key: |x: &u64| *x as usize, body, bodies }
+            ContactMethod { cable, method }
+            OneElement { cable }
+            ExplicitReel { cable, method }
+            ReelMethod { cable, method }
+            ReelPlace { cable, reason: |x: &&'static str| *x }
+            NotWithReel { cable, what: |x: &&'static str| *x }
             UnknownRule { rule, expected: |x: &&'static str| *x, suggestion }
             UnknownIntegrator { name, expected, suggestion }
             UnknownRopeKind { name, expected, suggestion }
@@ -187,6 +195,7 @@ impl From<lariat_rapier::Error> for Raise {
             LinkLost { cable, body: debug, gap }
             JointInStatics { body: debug }
             ContactInStatics { body: debug }
+            CableTouchesInStatics { cable, collider: debug, arc_length, depth }
             BodyNotFinite { body: debug, time }
         );
         Raise::of(&error, fields)

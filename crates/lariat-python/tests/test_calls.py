@@ -49,7 +49,27 @@ def effects(r: random.Random) -> Any:
     return r.choice(
         [None, [], lariat.Damping(1e-3, 1e-3), lariat.Damping(-1.0, 0.0), lariat.Drag(1.2), lariat.Drag(float("nan")), {"drag": 3}, 7,
          [lariat.Buoyancy(1000.0), lariat.Buoyancy(1.0)], lariat.LineLoad((0, 0, 1), 3.0, 2.0), lariat.RestShape([]),
-         lariat.RestShape([lariat.RestPiece(0.9, 0.5, 2.0)]), lariat.GravityScale(1e300), {"nothing": {}}, "drag"]
+         lariat.RestShape([lariat.RestPiece(0.9, 0.5, 2.0)]), lariat.GravityScale(1e300), lariat.Contact(0.3, radius=0.01), lariat.Contact(number(r)), {"nothing": {}}, "drag"]
+    )  # fmt: skip
+
+
+def obstacle(r: random.Random) -> Any:
+    make: list[Callable[[], Any]] = [
+        lambda: lariat.Obstacle.half_space([0, 1, 0], position=[0, -0.2, 0]),
+        lambda: lariat.Obstacle.half_space([number(r), number(r), 0]),
+        lambda: lariat.Obstacle.ball(number(r), position=array(r)),
+        lambda: lariat.Obstacle.cylinder(0.5, 0.1, rotation=r.choice([[0, 0, 0, 1], array(r)]), friction=number(r)),
+        lambda: lariat.Obstacle.capsule([0, 0, 0], [number(r), 0, 0], 0.1, velocity=array(r), skin=number(r)),
+        lambda: lariat.Obstacle.cuboid(0.1, number(r), 0.1, angular_velocity=[0, 0, 3], except_at=[(number(r), 1.0)]),
+        lambda: None,
+    ]
+    return r.choice(make)()
+
+
+def reel(r: random.Random) -> Any:
+    return r.choice(
+        [lariat.Reel(), lariat.Reel(0.3), lariat.Reel(number(r)), lariat.Reel([[0.0, number(r)], [1.0, 0.1]]), lariat.Reel(-0.3, stock=number(r)),
+         lariat.Reel.brake(number(r)), lariat.Reel.free_spool(inertia=number(r)), lariat.Reel(feed=r.choice(["coil", "bag", "x"])), None, 3]
     )  # fmt: skip
 
 
@@ -101,6 +121,15 @@ def call_cable(r: random.Random, c: lariat.Cable) -> Any:
         lambda: c.sample_flow(array(r)),
         lambda: c.insert_node(place(r)),
         lambda: c.cut(place(r)),
+        lambda: c.set_obstacles(r.choice([[], [obstacle(r)], [obstacle(r), obstacle(r)], None])),
+        lambda: (c.contacts(), c.contact_energy()),
+        lambda: c.redefine(effects=lariat.Contact(0.3, radius=0.01), integrator="game"),
+        lambda: c.add_reel(place(r), reel(r)),
+        lambda: c.set_reel(place(r), reel(r)),
+        lambda: c.set_reel_rate(place(r), number(r)),
+        lambda: (c.reel(place(r)), c.reel_description(place(r))),
+        lambda: c.remove_reel(place(r)),
+        lambda: (c.set_strength(number(r), strain=number(r)), c.break_overloaded()),
         lambda: c.natural_frequencies(),
         lambda: c.damping_at_mode(number(r), r.choice([1, 0, -1, 10**6])),
         lambda: c.reactions(),
@@ -143,7 +172,42 @@ def call_world(r: random.Random, w: lariat.World, things: dict[str, list[Any]]) 
     def attach() -> None:
         things["attachments"].append(w.attach(rope(), place(r), body(), r.choice([None, array(r)]), kind=r.choice(["ball", "clamp", "glue"]), gap=r.choice([None, 1e-3, number(r)])))  # fmt: skip
 
+    def collider() -> Any:
+        make: list[Callable[[], Any]] = [
+            lambda: lariat.Collider.halfspace([0, 1, number(r)], translation=[0, -1, 0]),
+            lambda: lariat.Collider.cone(number(r), 0.1, collision_groups=r.choice([(1, 1), (number(r), 2)])),
+            lambda: lariat.Collider.capsule_x(0.1, 0.1, friction_combine_rule=r.choice(["max", "most"])),
+            lambda: lariat.Collider.convex_hull(array(r)),
+            lambda: lariat.Collider.trimesh(array(r), [[0, 1, r.choice([2, 3, 1, -1])]]),
+        ]
+        return r.choice(make)()
+
+    def joint() -> None:
+        make: list[Callable[[], Any]] = [
+            lambda: lariat.FixedJoint.builder(local_anchor1=array(r)),
+            lambda: lariat.SphericalJoint.builder(),
+            lambda: lariat.RevoluteJoint.builder(r.choice([[0, 0, 1], array(r)]), limits=[number(r), 1.0]),
+            lambda: lariat.PrismaticJoint.builder([1, 0, 0]).motor(number(r), 0.1, number(r), 1.0).motor_max_force(number(r)),
+            lambda: lariat.RopeJoint.builder(number(r)),
+            lambda: lariat.SpringJoint.builder(number(r), 10.0, number(r)),
+            lambda: None,
+        ]
+        joints = r.choice([w.impulse_joints, w.multibody_joints])
+        things.setdefault("joints", []).append(joints.insert(body(), body(), r.choice(make)()))
+
     calls: list[Callable[[], Any]] = [
+        lambda: things.setdefault("colliders", []).append(w.add_collider(collider(), r.choice([None, body()]))),
+        lambda: w.remove_collider(r.choice([*things.get("colliders", []), (99, 0), None])),
+        lambda: w.collider_parent(r.choice([*things.get("colliders", []), (99, 0), "x"])),
+        joint,
+        lambda: r.choice([w.impulse_joints, w.multibody_joints]).remove(r.choice([*things.get("joints", []), (99, 0), None])),
+        lambda: (list(w.impulse_joints), list(w.multibody_joints), len(w.impulse_joints)),
+        lambda: w.cast_ray(array(r), array(r), number(r)),
+        lambda: w.cast_ray_and_get_normal([0, 1, 0], array(r), number(r), exclude_rigid_body=body()),
+        lambda: (w.project_point(array(r), max_dist=number(r)), w.intersect_point(array(r))),
+        lambda: w.set_contact(rope(), r.choice([lariat.Contact(0.3, radius=0.01), lariat.Contact(number(r)), None, 3])),
+        lambda: w.set_contact_rules(rope(), collision_groups=r.choice([(1, 1), (number(r), 1)])),
+        lambda: w.contacts(rope()),
         add_body,
         attach,
         lambda: things["cables"].append(w.add_cable(rope())),

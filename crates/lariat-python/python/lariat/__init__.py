@@ -25,8 +25,11 @@ from lariat._lariat import (
     step_all,
 )
 from lariat.bodies import Collider, ColliderBuilder, RigidBody, RigidBodyBuilder
-from lariat.effects import Buoyancy, Damping, Drag, Flow, GravityScale, LineLoad, RestPiece, RestShape
+from lariat.contact import Obstacle
+from lariat.effects import Buoyancy, Contact, Damping, Drag, Flow, GravityScale, LineLoad, RestPiece, RestShape
 from lariat.errors import Error
+from lariat.joints import FixedJoint, PrismaticJoint, RevoluteJoint, RopeJoint, SphericalJoint, SpringJoint
+from lariat.reel import Reel
 from lariat.scenes import Probe, Run, import_mjcf, run, statics
 from lariat.sweeps import Sweep, sweep
 
@@ -36,20 +39,29 @@ __all__ = [
     "CoSimulation",
     "Collider",
     "ColliderBuilder",
+    "Contact",
     "Damping",
     "Drag",
     "Error",
+    "FixedJoint",
     "Flow",
     "GravityScale",
     "Integrator",
     "LineLoad",
+    "Obstacle",
+    "PrismaticJoint",
     "Probe",
+    "Reel",
     "RestPiece",
     "RestShape",
+    "RevoluteJoint",
     "RigidBody",
     "RigidBodyBuilder",
+    "RopeJoint",
     "Run",
     "Section",
+    "SphericalJoint",
+    "SpringJoint",
     "Sweep",
     "World",
     "__version__",

@@ -6,19 +6,28 @@ from numpy.typing import ArrayLike
 from typing_extensions import Self
 
 from lariat.bodies import ColliderBuilder, RigidBodyBuilder, RigidBodySet
-from lariat.effects import Damping, Effects
+from lariat.contact import Obstacle
+from lariat.effects import Contact, Damping, Effects
+from lariat.joints import ImpulseJointSet, MultibodyJointSet
+from lariat.reel import Reel
 from lariat.results import (
     Attachment,
+    Break,
+    ColliderHandle,
     EndForces,
     Energy,
     Equilibrium,
     Event,
     MeshIndicator,
     Momentum,
+    PointProjection,
+    RayIntersection,
     Reaction,
+    ReelReading,
     RigidBodyHandle,
     Sample,
     Samples,
+    Touch,
     WorldEnergy,
 )
 from lariat.types import Array, Fidelity, Handle, Place
@@ -329,6 +338,45 @@ class Cable:
     def cut(self, at: Place) -> Cable:
         """Cuts the cable; this one keeps the part before the point, the other is returned. Raises OutOfRangeError, InWorldError."""
 
+    def set_obstacles(self, obstacles: Iterable[Obstacle]) -> None:
+        """Sets what the cable can touch from the next step on, in place of the obstacles it had; their velocities count from now. It touches
+        them if it has the effect Contact. Obstacles are no part of ``to_bytes``: set them again. Raises InWorldError, InvalidValueError,
+        BuilderError."""
+
+    def contacts(self) -> list[Touch]:
+        """Returns what the cable touched at the end of the last step, by the index of the obstacle. Raises InWorldError."""
+
+    def contact_energy(self) -> float:
+        """Returns the energy in J that contacts store."""
+
+    def add_reel(self, at: Place, reel: Reel) -> None:
+        """Puts a reel at an end: from the next step on it pays cable out and takes it in through that node, which a support or an
+        attachment must hold. Raises ReelPlaceError, ExplicitReelError, ReelMethodError, NotWithReelError, InvalidValueError,
+        BuilderError."""
+
+    def set_reel(self, at: Place, reel: Reel) -> None:
+        """Changes what the reel at an end does from now on. Raises ReelPlaceError, ReelMethodError, InvalidValueError, BuilderError."""
+
+    def set_reel_rate(self, at: Place, rate: float) -> None:
+        """Changes the rate of the reel at an end in m/s: positive pays out. Raises as ``set_reel``."""
+
+    def remove_reel(self, at: Place) -> None:
+        """Takes the reel at an end away; what is out stays. Does nothing without a reel."""
+
+    def reel(self, at: Place) -> ReelReading | None:
+        """Returns what the reel at an end does now; None without one."""
+
+    def reel_description(self, at: Place) -> Reel | None:
+        """Returns the reel at an end as it was described; None without one."""
+
+    def set_strength(self, tension: float | None = None, *, strain: float | None = None) -> None:
+        """Sets the tension in N and the strain above which ``break_overloaded`` breaks the cable; None: no limit. Raises InvalidValueError,
+        OneElementError, InWorldError."""
+
+    def break_overloaded(self) -> tuple[Cable, Break] | None:
+        """Breaks the cable at the inner node that exceeds its strength most; this one keeps the part before it. Returns the part behind it
+        and why it broke, or None if it holds. Raises InWorldError."""
+
 def step_all(cables: Sequence[Cable], dt: float) -> None:
     """Advances cables that nothing connects by ``dt`` (s), on all threads; raises the error of the first that cannot step, after all others
     have advanced. Raises DuplicateCableError."""
@@ -416,6 +464,74 @@ class World:
     def rigid_bodies(self) -> RigidBodySet:
         """The bodies, by handle."""
 
+    def add_collider(self, builder: ColliderBuilder, parent: Handle | None = None) -> ColliderHandle:
+        """Adds a collider to a body, or one fixed in the world. Raises NoBodyError, BuilderError, InvalidValueError."""
+
+    def remove_collider(self, handle: Handle) -> None:
+        """Removes a collider. Raises NoColliderError."""
+
+    def collider_parent(self, collider: Handle) -> RigidBodyHandle | None:
+        """Returns the body of a collider; None for one without. Raises NoColliderError."""
+
+    @property
+    def impulse_joints(self) -> ImpulseJointSet:
+        """The impulse joints, by handle."""
+
+    @property
+    def multibody_joints(self) -> MultibodyJointSet:
+        """The multibody joints, by handle."""
+
+    def cast_ray(
+        self,
+        origin: ArrayLike,
+        direction: ArrayLike,
+        max_toi: float,
+        solid: bool = True,
+        *,
+        exclude_rigid_body: Handle | None = None,
+    ) -> tuple[ColliderHandle, float] | None:
+        """Returns the first collider on the ray ``origin + t direction`` (m), and its t up to ``max_toi``; None if there is none. With
+        ``solid`` a ray from inside meets it at 0, else its far side. Queries see colliders as of the last step. Raises
+        InvalidValueError."""
+
+    def cast_ray_and_get_normal(
+        self,
+        origin: ArrayLike,
+        direction: ArrayLike,
+        max_toi: float,
+        solid: bool = True,
+        *,
+        exclude_rigid_body: Handle | None = None,
+    ) -> tuple[ColliderHandle, RayIntersection] | None:
+        """As ``cast_ray``, with the normal."""
+
+    def project_point(
+        self, point: ArrayLike, solid: bool = True, *, max_dist: float = 1e15, exclude_rigid_body: Handle | None = None
+    ) -> tuple[ColliderHandle, PointProjection] | None:
+        """Returns the collider nearest to a point (m) within ``max_dist``, and its nearest point; None if there is none. With ``solid`` a
+        point inside is its own projection."""
+
+    def intersect_point(self, point: ArrayLike, *, exclude_rigid_body: Handle | None = None) -> list[ColliderHandle]:
+        """Returns the colliders that contain a point (m)."""
+
+    def set_contact(self, cable: Cable, contact: Contact | None) -> None:
+        """Lets a cable touch the colliders, or no longer with None; it gets the integrator "discrete-gradient" if nobody chose one. Raises
+        InvalidValueError, MissingForEffectError (no diameter and no radius), ContactMethodError, NoCableError."""
+
+    def set_contact_rules(
+        self,
+        cable: Cable,
+        *,
+        collision_groups: tuple[int, int] | None = None,
+        solver_groups: tuple[int, int] | None = None,
+        friction_combine_rule: Literal["average", "min", "multiply", "max"] = "average",
+    ) -> None:
+        """Sets the groups of a cable as bits (memberships, filter), None: all; and how its friction is combined with that of
+        colliders."""
+
+    def contacts(self, cable: Cable) -> list[Touch]:
+        """Returns what a cable touched at the end of the last step, each with its collider."""
+
     def add_cable(self, cable: Cable) -> Cable:
         """Adds a copy of a cable, and returns it as a part of this world."""
 
@@ -495,6 +611,10 @@ class World:
         """Returns a saved world of the same version. Raises FormatError."""
 
     def _add_body(self, body: dict[str, Any], colliders: Sequence[dict[str, Any]]) -> tuple[int, int]: ...
+    def _add_collider(self, collider: dict[str, Any], body: Handle | None) -> tuple[int, int]: ...
+    def _insert_joint(self, first: Handle, second: Handle, joint: dict[str, Any], multibody: bool) -> tuple[int, int]: ...
+    def _remove_joint(self, handle: Handle, multibody: bool) -> None: ...
+    def _joints(self, multibody: bool) -> list[tuple[tuple[int, int], tuple[int, int], tuple[int, int]]]: ...
     def _handles(self) -> list[tuple[int, int]]: ...
     def _body(self, handle: Handle) -> tuple[Array, list[float], Array, Array, float, bool]: ...
     def _set_body(self, handle: Handle, what: str, value: ArrayLike) -> None: ...

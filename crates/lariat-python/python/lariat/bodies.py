@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from lariat.errors import BuilderError
-from lariat.results import RigidBodyHandle
+from lariat.results import ColliderHandle, RigidBodyHandle
 
 if TYPE_CHECKING:
     from lariat import World
@@ -84,7 +84,10 @@ class RigidBodyBuilder(_Builder):
 class ColliderBuilder(_Builder):
     """Collects what a collider is; made by ``Collider.cuboid`` and its like."""
 
-    _methods = frozenset(["translation", "rotation", "density", "mass", "friction", "restitution", "sensor"])
+    _methods = frozenset(
+        ["translation", "rotation", "density", "mass", "friction", "restitution", "sensor", "friction_combine_rule", "collision_groups",
+         "solver_groups"]
+    )  # fmt: skip
 
     def translation(self, v: ArrayLike) -> ColliderBuilder:
         """Sets the position on the body in m."""
@@ -114,6 +117,25 @@ class ColliderBuilder(_Builder):
         """Sets whether it only detects."""
         return self._with("sensor", b)  # type: ignore[no-any-return]
 
+    def friction_combine_rule(self, rule: Literal["average", "min", "multiply", "max"]) -> ColliderBuilder:
+        """Sets how its friction is combined with that of what it touches, bodies and cables."""
+        return self._with("friction_combine_rule", rule)  # type: ignore[no-any-return]
+
+    def collision_groups(self, memberships: int, filter: int) -> ColliderBuilder:  # noqa: A002
+        """Sets its groups and those that it touches, as bits. By name: ``collision_groups=(memberships, filter)``."""
+        return self._with("collision_groups", (memberships, filter))  # type: ignore[no-any-return]
+
+    def solver_groups(self, memberships: int, filter: int) -> ColliderBuilder:  # noqa: A002
+        """Sets its groups and those that it pushes, as bits. By name: ``solver_groups=(memberships, filter)``."""
+        return self._with("solver_groups", (memberships, filter))  # type: ignore[no-any-return]
+
+
+def _rows(points: ArrayLike) -> Array:
+    rows = np.asarray(points, dtype=np.float64)
+    if rows.ndim != 2 or rows.shape[1] != 3:
+        raise BuilderError(f"expected points of shape (n, 3), got {rows.shape}")
+    return rows
+
 
 class Collider:
     """Makes builders of colliders."""
@@ -137,6 +159,37 @@ class Collider:
     def capsule_y(half_height: float, radius: float, **kwargs: Any) -> ColliderBuilder:
         """A capsule along y, in m."""
         return ColliderBuilder({"shape": "capsule_y", "size": [half_height, radius]}, kwargs)
+
+    @staticmethod
+    def capsule_x(half_height: float, radius: float, **kwargs: Any) -> ColliderBuilder:
+        """A capsule along x, in m."""
+        return ColliderBuilder({"shape": "capsule_x", "size": [half_height, radius]}, kwargs)
+
+    @staticmethod
+    def capsule_z(half_height: float, radius: float, **kwargs: Any) -> ColliderBuilder:
+        """A capsule along z, in m."""
+        return ColliderBuilder({"shape": "capsule_z", "size": [half_height, radius]}, kwargs)
+
+    @staticmethod
+    def cone(half_height: float, radius: float, **kwargs: Any) -> ColliderBuilder:
+        """A cone along y, in m, with its tip up."""
+        return ColliderBuilder({"shape": "cone", "size": [half_height, radius]}, kwargs)
+
+    @staticmethod
+    def halfspace(outward_normal: Sequence[float], **kwargs: Any) -> ColliderBuilder:
+        """Everything below the plane through the origin with this normal."""
+        return ColliderBuilder({"shape": "halfspace", "size": list(outward_normal)}, kwargs)
+
+    @staticmethod
+    def convex_hull(points: ArrayLike, **kwargs: Any) -> ColliderBuilder:
+        """The convex hull of points in m, shape (n, 3)."""
+        return ColliderBuilder({"shape": "convex_hull", "size": _rows(points).ravel().tolist()}, kwargs)
+
+    @staticmethod
+    def trimesh(vertices: ArrayLike, indices: ArrayLike, **kwargs: Any) -> ColliderBuilder:
+        """Triangles: vertices in m, shape (n, 3), and their indices, shape (m, 3)."""
+        flat = _rows(vertices).ravel().tolist()
+        return ColliderBuilder({"shape": "trimesh", "size": flat, "indices": np.asarray(indices).tolist()}, kwargs)
 
 
 class RigidBody:
@@ -270,3 +323,8 @@ class RigidBodySet:
 def add(world: World, builder: RigidBodyBuilder, colliders: Sequence[ColliderBuilder]) -> RigidBodyHandle:
     """Adds a body with its colliders to a world."""
     return RigidBodyHandle(*world._add_body(builder._parameters, [c._parameters for c in colliders]))
+
+
+def add_collider(world: World, builder: ColliderBuilder, parent: RigidBodyHandle | None) -> ColliderHandle:
+    """Adds a collider to a body, or one fixed in the world."""
+    return ColliderHandle(*world._add_collider(builder._parameters, parent))

@@ -50,6 +50,19 @@ class Damping:
 
 
 @dataclass(frozen=True)
+class Contact:
+    """Contact with the obstacles of a cable, or with the colliders of its world. Needs the integrator "discrete-gradient"."""
+
+    friction: float = 0.5
+    """Coefficient of friction of the cable, >= 0, combined with that of a collider; obstacles have their own."""
+    radius: float | None = None
+    """In m, > 0; None: half the diameter of the section."""
+    stiffness: float | None = None
+    """Normal force per length and depth in N/m^2, > 0; None: EA/(40 r^2)."""
+    key: ClassVar[str] = "contact"
+
+
+@dataclass(frozen=True)
 class Flow:
     """Velocity of a fluid: ``velocity`` (m/s), times a factor by height, times a factor by time."""
 
@@ -170,6 +183,8 @@ def build(plain: Mapping[str, Any]) -> dict[str, Any]:
             made[key] = GravityScale(value)
         elif key == "damping":
             made[key] = Damping(**value)
+        elif key == "contact":
+            made[key] = Contact(**value)
         elif key == "buoyancy":
             made[key] = Buoyancy(**value)
         elif key == "drag":

@@ -52,6 +52,38 @@ class ElementCountError(Error, ValueError):
     """No elements, or too many: count, most."""
 
 
+class ObstacleKeyError(Error, ValueError):
+    """Two obstacles with the same key: key."""
+
+
+class ObstacleBodyError(Error):
+    """An obstacle on a body that does not step with the cable: key, body, bodies."""
+
+
+class ContactMethodError(Error, ValueError):
+    """Contact with another method than "discrete-gradient": method."""
+
+
+class OneElementError(Error, ValueError):
+    """A limit of the strength of a cable of one element, which has no inner node to break at."""
+
+
+class ExplicitReelError(Error, ValueError):
+    """A reel with an explicit method: method."""
+
+
+class ReelMethodError(Error, ValueError):
+    """A reel with ``max_force`` under another method than "discrete-gradient": method."""
+
+
+class ReelPlaceError(Error, ValueError):
+    """A reel where none can be, or none where one was named: reason."""
+
+
+class NotWithReelError(Error, ValueError):
+    """Something that a cable with a reel does not carry: what."""
+
+
 class NoSectionError(Error, ValueError):
     """A cable without a section at its start."""
 
@@ -232,12 +264,24 @@ class ContactInStaticsError(Error):
     """A contact of a body whose equilibrium is asked for: body."""
 
 
+class CableTouchesInStaticsError(Error):
+    """A cable that touches a collider whose equilibrium is asked for: collider, arc_length, depth."""
+
+
+class NoColliderError(Error):
+    """A collider that is not, or no longer, in the world."""
+
+
+class NoJointError(Error):
+    """A joint that is not, or no longer, in the world."""
+
+
 class BodyNotFiniteError(Error):
     """A body whose state is not finite: body, time."""
 
 
 class BuilderError(Error, ValueError):
-    """A body or a collider that cannot be built."""
+    """A body, a collider, a joint, an obstacle or a reel that cannot be built."""
 
 
 class FormatError(Error, ValueError):

@@ -2,6 +2,9 @@
 
 Quasi-static scenarios are solved by statics, without time steps: all frames but the first are the equilibrium. Others are stepped from
 frame to frame; the integrator controls its error. ``preset`` chooses the fidelity and the tolerance.
+
+Scenarios with obstacles are stepped by fidelity game, which is the one that has contact, whatever the preset; quasi-static ones with internal
+damping, critical at the lowest axial mode, which cannot hold a rope that slides.
 """
 
 from __future__ import annotations
@@ -24,7 +27,8 @@ PRESETS: dict[str, lariat.Integrator | Fidelity] = {
 
 
 class LariatSolver:
-    """A solver of ``cosseratbench``: stretch and bending of cables without twist, shear or contact."""
+    """A solver of ``cosseratbench``: stretch and bending of cables, and contact with cylinders and planes; without torsion, shear and contact
+    of rods with rods."""
 
     name = "lariat"
     backend_version = lariat.__version__
@@ -40,11 +44,13 @@ class LariatSolver:
         """What the solver models."""
         from cosseratbench.solver import Capability  # type: ignore[import-untyped, unused-ignore]
 
-        return frozenset({Capability.STRETCH})
+        return frozenset({Capability.STRETCH, Capability.CYLINDER_CONTACT, Capability.PLANE_CONTACT})
 
     def settings(self, scenario: Scenario, *, n_elements: int, n_frames: int) -> dict[str, Any]:
         """The numerical choices for a run."""
         method = "statics" if scenario.quasi_static else repr(PRESETS[self.preset])
+        if scenario.obstacles:
+            method = "discrete-gradient"
         return {"method": method, "host_step": self._step(scenario, n_frames)[0]}
 
     def _step(self, scenario: Scenario, n_frames: int) -> tuple[float, int]:
@@ -55,15 +61,15 @@ class LariatSolver:
 
     def run(self, scenario: Scenario, *, n_elements: int, n_frames: int) -> Trajectory:
         """Computes a scenario with this many elements per rod."""
-        if scenario.obstacles or scenario.self_contact:
-            raise NotImplementedError("contact of rods")
+        if scenario.self_contact or (len(scenario.rods) > 1 and scenario.obstacles):
+            raise NotImplementedError("contact of rods with rods")
         cables = [self._cable(rod, scenario, n_elements) for rod in scenario.rods]
         frames = [[cable.positions] for cable in cables]
         step, steps = self._step(scenario, n_frames)
         try:
             for _ in range(n_frames - 1):
                 for cable, path in zip(cables, frames):
-                    if not scenario.quasi_static:
+                    if scenario.obstacles or not scenario.quasi_static:
                         cable.step(step, steps=steps)
                     elif len(path) == 1:
                         cable.equilibrium()
@@ -76,13 +82,18 @@ class LariatSolver:
 
     def _cable(self, rod: Rod, scenario: Scenario, n_elements: int) -> lariat.Cable:
         if rod.start_motion is not None or rod.end_motion is not None:
-            raise NotImplementedError("ends with prescribed motion: they twist")
+            raise NotImplementedError("ends with prescribed motion twist, and this element has no torsion")
         section = lariat.Section.round(2.0 * rod.radius, rod.material.youngs_modulus, rod.material.density)
         nodes: Array = rod.nodes(n_elements)
-        preset = PRESETS[self.preset]
+        preset = "game" if scenario.obstacles else PRESETS[self.preset]
+        effects: list[Any] = [lariat.Contact()] if scenario.obstacles else []
+        if scenario.obstacles and scenario.quasi_static:
+            wave_speed = float(np.sqrt(section.axial_stiffness / section.mass_per_length))
+            effects.append(lariat.Damping.from_ratio(1.0, np.pi * wave_speed / rod.length))
         cable = lariat.Cable(
-            nodes, section, length=rod.length, elements=n_elements, gravity=scenario.gravity, integrator=preset, name="rod"
+            nodes, section, length=rod.length, elements=n_elements, gravity=scenario.gravity, integrator=preset, effects=effects, name="rod"
         )
+        cable.set_obstacles([_obstacle(obstacle, rod) for obstacle in scenario.obstacles])
         cable.set_state(np.hstack([nodes, _slopes(rod, n_elements)]), np.zeros((n_elements + 1, 6)))
         for end, at in ((End.START, "start"), (End.END, "end")):
             if rod.condition(end) is EndCondition.PINNED:
@@ -92,6 +103,20 @@ class LariatSolver:
         for load in rod.loads:
             cable.add_load(0.0 if load.at is End.START else rod.length, load.force)
         return cable
+
+
+def _obstacle(obstacle: Any, rod: Rod) -> lariat.Obstacle:
+    """Returns an obstacle; of the friction of two things that touch the larger applies."""
+    friction = max(obstacle.friction, rod.friction)
+    if obstacle.kind == "plane":
+        return lariat.Obstacle.half_space(obstacle.unit_normal, position=obstacle.point, friction=friction)
+    if obstacle.kind != "cylinder":
+        raise NotImplementedError(f"contact with a {obstacle.kind}")
+    # the smallest rotation that takes y to the axis, of which either direction will do
+    x, y, z = obstacle.unit_axis * (1.0 if obstacle.unit_axis[1] >= 0.0 else -1.0)
+    rotation = np.array([z, 0.0, -x, 1.0 + y])
+    half, at = obstacle.length / 2, obstacle.center
+    return lariat.Obstacle.cylinder(half, obstacle.radius, position=at, rotation=rotation / np.linalg.norm(rotation), friction=friction)
 
 
 def _slopes(rod: Rod, n_elements: int) -> Array:

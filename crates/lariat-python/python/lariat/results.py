@@ -141,16 +141,121 @@ class Attachment(NamedTuple):
 
 
 class Event(NamedTuple):
-    """An event of a step of a world: "asleep", "awake", "broken", "attachment ended", or "warning: " and its text."""
+    """An event of a step of a world: "asleep", "awake", "broken", "contact started", "contact ended", "attachment ended", or "warning: " and
+    its text."""
 
     kind: str
     cable: Cable | None
     rest: Cable | None
     """The part behind a break."""
     arc_length: float | None
-    """Arc length of a break in m."""
+    """Arc length of a break or of a contact in m."""
     tension: float | None
     """Tension in N at which it broke."""
+    collider: ColliderHandle | None = None
+    """The collider of a contact."""
+    force: float | None = None
+    """Normal force in N of a contact that started."""
+
+
+class Touch(NamedTuple):
+    """A contact of a cable, at the end of a step."""
+
+    obstacle: int | ColliderHandle
+    """Index of the obstacle, or handle of the collider of a world."""
+    arc_length: float
+    """Of the point that touches, in m."""
+    normal: Array
+    """Outward normal of the obstacle."""
+    normal_force: float
+    """In N, > 0: the obstacle pushes the cable along the normal."""
+    friction: Array
+    """Friction on the cable in N."""
+    depth: float
+    """Depth in m by which the surface of the cable is in the obstacle."""
+    slips: bool
+    """Whether it slips."""
+
+
+class ReelReading(NamedTuple):
+    """What a reel does now."""
+
+    length_out: float
+    """Unstretched length that is out, in m."""
+    rate: float
+    """In m/s: positive pays out."""
+    force: float
+    """Pull of the winch along the cable in N."""
+    tension: float
+    """Tension of the cable at the eye in N."""
+    work: float
+    """Work of the winch on the cable so far in J, with the energy of the material that entered."""
+    remeshed: float
+    """Energy in J that merging and splitting elements added so far."""
+    splits: int
+    """Elements split so far."""
+    merges: int
+    """Elements merged so far."""
+    stopped: bool
+    """Whether it slows down or stands at the end of its stock, at a held node or a load."""
+    speed_ratio: float
+    """Rate over the speed of transverse waves at the eye; infinite without tension."""
+
+
+class Break(NamedTuple):
+    """Where, why and under which load a cable became two."""
+
+    cause: str
+    """ "tension", "strain" or "cut"."""
+    arc_length: float
+    """Of the break in m: the new length of the part before it."""
+    tension: float
+    """Largest tension in N just before."""
+    strain: float
+    """Strain there."""
+    strain_energy: float
+    """Strain energy of both parts in J."""
+    inserted_energy: float
+    """Change of the total energy in J by the edit itself."""
+
+
+class ColliderHandle(NamedTuple):
+    """Names a collider of a world."""
+
+    index: int  # type: ignore[assignment]
+    generation: int
+
+
+class ImpulseJointHandle(NamedTuple):
+    """Names an impulse joint of a world."""
+
+    index: int  # type: ignore[assignment]
+    generation: int
+
+
+class MultibodyJointHandle(NamedTuple):
+    """Names a multibody joint of a world."""
+
+    index: int  # type: ignore[assignment]
+    generation: int
+
+
+class RayIntersection(NamedTuple):
+    """Where a ray meets a collider."""
+
+    time_of_impact: float
+    """In lengths of the ray's direction."""
+    normal: Array
+    """Outward normal of the collider."""
+
+
+class PointProjection(NamedTuple):
+    """The point of a collider nearest to another."""
+
+    is_inside: bool
+    """Whether the point was in the collider."""
+    point: Array
+    """In m."""
 
 
 class RigidBodyHandle(NamedTuple):

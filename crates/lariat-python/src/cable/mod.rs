@@ -1,7 +1,9 @@
-//! `Cable`: built, stepped, saved; `read` and `change` hold the rest of its methods.
+//! `Cable`: built, stepped, saved; `read`, `change`, `contact` and `reel` hold the rest of its methods.
 
 mod change;
+pub mod contact;
 mod read;
+mod reel;
 
 use crate::convert::{Array, Place, Places, Vector, data};
 use crate::error::{Raise, raise};

@@ -1,12 +1,13 @@
 //! Bodies of a world. The builders and views of `lariat.bodies`, which have the names of the `rapier3d` wheel, call these.
 
+use super::colliders::ColliderParameters;
 use super::{Contents, World};
 use crate::convert::{Vector, data, vector};
 use crate::error::{Raise, raise};
 use lariat_ancf::{Error as CableError, Vector3};
 use lariat_rapier::convert::{ToRapier, to_vector};
 use lariat_rapier::rapier::dynamics::{RigidBodyBuilder, RigidBodyHandle, RigidBodyType};
-use lariat_rapier::rapier::geometry::ColliderBuilder;
+use lariat_rapier::rapier::geometry::ColliderHandle;
 use lariat_rapier::rapier::math::Vector as Single;
 use lariat_rapier::{Error, convert};
 use nalgebra::{Quaternion, UnitQuaternion};
@@ -29,6 +30,11 @@ impl<'a, 'py> FromPyObject<'a, 'py> for Handle {
     }
 }
 
+/// Returns the handle of a collider from (index, generation).
+pub fn collider_handle((index, generation): (u32, u32)) -> ColliderHandle {
+    ColliderHandle::from_raw_parts(index, generation)
+}
+
 /// Returns the exception of a number that is out of range.
 pub fn invalid(what: &str, value: f64, expected: &'static str) -> PyErr {
     raise(CableError::InvalidValue { cable: None, what: what.to_string(), value, expected })
@@ -40,7 +46,8 @@ pub fn positive(what: &str, value: f64) -> PyResult<f32> {
     if value <= LARGEST && single > 0.0 && single.is_normal() { Ok(single) } else { Err(invalid(what, value, "> 0")) }
 }
 
-fn not_negative(what: &str, value: f64) -> PyResult<f32> {
+/// Returns a number that is not negative, in single precision.
+pub fn not_negative(what: &str, value: f64) -> PyResult<f32> {
     if (0.0..=LARGEST).contains(&value) { Ok(value as f32) } else { Err(invalid(what, value, ">= 0")) }
 }
 
@@ -69,25 +76,8 @@ struct BodyParameters {
     ccd_enabled: bool,
 }
 
-/// What a builder of a collider collects.
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct ColliderParameters {
-    shape: String,
-    size: Vec<f64>,
-    #[serde(default)]
-    translation: [f64; 3],
-    #[serde(default)]
-    rotation: [f64; 3],
-    mass: Option<f64>,
-    density: Option<f64>,
-    friction: Option<f64>,
-    restitution: Option<f64>,
-    #[serde(default)]
-    sensor: bool,
-}
-
-fn parameters<T: for<'de> Deserialize<'de>>(dict: &Bound<'_, PyDict>) -> PyResult<T> {
+/// Returns what a builder collected.
+pub fn parameters<T: for<'de> Deserialize<'de>>(dict: &Bound<'_, PyDict>) -> PyResult<T> {
     serde_json::from_value(data(dict)?).map_err(|error| raise(Raise::new("BuilderError", error.to_string())))
 }
 
@@ -114,36 +104,6 @@ impl BodyParameters {
         }
         if let Some(mass) = self.additional_mass {
             builder = builder.additional_mass(positive("additional_mass (kg)", mass)?);
-        }
-        Ok(builder)
-    }
-}
-
-impl ColliderParameters {
-    fn builder(&self) -> PyResult<ColliderBuilder> {
-        let size = self.size.iter().map(|&x| positive("size of the collider (m)", x)).collect::<PyResult<Vec<_>>>()?;
-        let mut builder = match (self.shape.as_str(), &size[..]) {
-            ("cuboid", &[x, y, z]) => ColliderBuilder::cuboid(x, y, z),
-            ("ball", &[radius]) => ColliderBuilder::ball(radius),
-            ("cylinder", &[half, radius]) => ColliderBuilder::cylinder(half, radius),
-            ("capsule_y", &[half, radius]) => ColliderBuilder::capsule_y(half, radius),
-            (shape, _) => return Err(raise(Raise::new("BuilderError", format!("unknown shape {shape:?}")))),
-        };
-        builder = builder
-            .translation(single("translation (m)", self.translation.into())?)
-            .rotation(single("rotation (rad)", self.rotation.into())?)
-            .sensor(self.sensor);
-        if let Some(density) = self.density {
-            builder = builder.density(not_negative("density (kg/m^3)", density)?);
-        }
-        if let Some(mass) = self.mass {
-            builder = builder.mass(not_negative("mass (kg)", mass)?);
-        }
-        if let Some(friction) = self.friction {
-            builder = builder.friction(not_negative("friction", friction)?);
-        }
-        if let Some(restitution) = self.restitution {
-            builder = builder.restitution(not_negative("restitution", restitution)?);
         }
         Ok(builder)
     }

@@ -1,6 +1,9 @@
-//! `World`: rapier3d with cables on its bodies. Bodies are in `bodies`.
+//! `World`: rapier3d with cables on its bodies. `bodies`, `colliders`, `joints` and `queries` hold what their names say.
 
 mod bodies;
+mod colliders;
+mod joints;
+mod queries;
 
 use crate::cable::Cable;
 use crate::convert::{Place, Vector, result, vector};
@@ -207,6 +210,18 @@ impl World {
         for event in events {
             let cable = |handle: CableHandle| Cable::of_world(self.0.clone(), handle);
             let none = || (None::<Cable>, None::<Cable>, None::<f64>, None::<f64>);
+            if let Event::ContactStarted { cable: of, collider, arc_length, .. }
+            | Event::ContactEnded { cable: of, collider, arc_length } = event
+            {
+                let (kind, force) = match event {
+                    Event::ContactStarted { force, .. } => ("contact started", Some(force)),
+                    _ => ("contact ended", None),
+                };
+                let collider = result(py, "ColliderHandle", collider.into_raw_parts())?;
+                let values = (kind, cable(of), None::<Cable>, arc_length, None::<f64>, collider, force);
+                list.append(result(py, "Event", values)?)?;
+                continue;
+            }
             let (kind, (first, rest, s, tension)) = match event {
                 Event::Asleep(handle) => ("asleep".to_string(), (Some(cable(handle)), None, None, None)),
                 Event::Awake(handle) => ("awake".to_string(), (Some(cable(handle)), None, None, None)),

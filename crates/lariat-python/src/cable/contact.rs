@@ -1,0 +1,121 @@
+//! Contact of a cable by itself: its obstacles, and what it touches. The colliders of a world are its obstacles there.
+
+use super::Cable;
+use crate::convert::{data, result, vector};
+use crate::error::{Raise, raise};
+use lariat_ancf::contact::{Ball, Capsule, Cuboid, Cylinder, HalfSpace, Obstacle, RigidMotion, Surface, Touch};
+use lariat_ancf::{Contact, Error, Vector3};
+use nalgebra::{Quaternion, UnitQuaternion};
+use pyo3::prelude::*;
+use serde::Deserialize;
+use std::sync::Arc;
+
+/// What `lariat.contact.Obstacle` holds.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Parameters {
+    shape: String,
+    size: Vec<f64>,
+    position: [f64; 3],
+    rotation: [f64; 4],
+    velocity: [f64; 3],
+    angular_velocity: [f64; 3],
+    friction: f64,
+    skin: f64,
+    except_at: Vec<[f64; 2]>,
+}
+
+fn invalid(what: &str, value: f64, expected: &'static str) -> Error {
+    Error::InvalidValue { cable: None, what: what.to_string(), value, expected }
+}
+
+impl Parameters {
+    fn surface(&self) -> Result<Arc<dyn Surface>, Raise> {
+        let positive = |sizes: &[f64]| match sizes.iter().find(|x| !(x.is_finite() && **x > 0.0)) {
+            Some(&x) => Err(Raise::from(invalid("size of an obstacle (m)", x, "> 0"))),
+            None => Ok(()),
+        };
+        Ok(match (self.shape.as_str(), &self.size[..]) {
+            ("half_space", &[x, y, z]) => {
+                let normal = Vector3::new(x, y, z);
+                let normal = normal.try_normalize(1e-9).filter(|n| n.iter().all(|x| x.is_finite()));
+                let length = || Raise::from(invalid("length of the normal", self.size[0].hypot(y).hypot(z), "> 0"));
+                Arc::new(HalfSpace { normal: normal.ok_or_else(length)? })
+            }
+            ("ball", &[radius]) => positive(&self.size).map(|()| Arc::new(Ball { radius }))?,
+            ("cylinder", &[half_height, radius]) => {
+                positive(&self.size).map(|()| Arc::new(Cylinder { half_height, radius }))?
+            }
+            ("cuboid", &[x, y, z]) => {
+                positive(&self.size).map(|()| Arc::new(Cuboid { half_extents: Vector3::new(x, y, z) }))?
+            }
+            ("capsule", &[ax, ay, az, bx, by, bz, radius]) => {
+                positive(&[radius])?;
+                Arc::new(Capsule { ends: [Vector3::new(ax, ay, az), Vector3::new(bx, by, bz)], radius })
+            }
+            (shape, _) => return Err(Raise::new("BuilderError", format!("unknown shape of an obstacle: {shape:?}"))),
+        })
+    }
+
+    fn obstacle(self, key: u64, time: f64) -> Result<Obstacle, Raise> {
+        let [x, y, z, w] = self.rotation;
+        let quaternion = Quaternion::new(w, x, y, z);
+        let norm = quaternion.norm();
+        if norm.is_nan() || (norm - 1.0).abs() >= 1e-3 {
+            return Err(invalid("length of the quaternion", norm, "1").into());
+        }
+        let motion = RigidMotion {
+            start: time,
+            centre: Vector3::zeros(),
+            position: self.position.into(),
+            rotation: UnitQuaternion::from_quaternion(quaternion),
+            velocity: self.velocity.into(),
+            angular_velocity: self.angular_velocity.into(),
+        };
+        let surface = self.surface()?;
+        let Parameters { friction, skin, except_at: except, .. } = self;
+        Ok(Obstacle { key, surface, motion, mount: None, friction, skin, except })
+    }
+}
+
+/// Returns the effect of an object of `lariat.Contact`.
+pub fn effect(object: &Bound<'_, PyAny>) -> PyResult<Option<Contact>> {
+    if object.is_none() { Ok(None) } else { super::effects(object).map(|effects| effects.contact) }
+}
+
+/// Makes the Python object of a contact, with what is touched.
+pub fn touch<'py>(py: Python<'py>, touch: &Touch, obstacle: Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
+    let Touch { arc_length, normal, normal_force, friction, depth, slips, .. } = *touch;
+    let values = (obstacle, arc_length, vector(py, &normal), normal_force, vector(py, &friction), depth, slips);
+    result(py, "Touch", values)
+}
+
+#[pymethods]
+impl Cable {
+    /// Sets what the cable can touch from the next step on, in place of the obstacles it had.
+    fn set_obstacles(&self, py: Python<'_>, obstacles: &Bound<'_, PyAny>) -> PyResult<()> {
+        self.own("take obstacles of its own: the colliders of the world are its obstacles")?;
+        let wrong = |error: serde_json::Error| raise(Raise::new("BuilderError", error.to_string()));
+        let parameters = obstacles.try_iter()?.map(|item| {
+            let plain = py.import("lariat.contact")?.getattr("plain")?.call1((item?,))?;
+            serde_json::from_value::<Parameters>(data(&plain)?).map_err(wrong)
+        });
+        let parameters = parameters.collect::<PyResult<Vec<_>>>()?;
+        let time = self.read(py, |cable| Ok(cable.time()))?;
+        let made = parameters.into_iter().enumerate().map(|(key, p)| p.obstacle(key as u64, time));
+        let made = made.collect::<Result<Vec<_>, Raise>>().map_err(raise)?;
+        self.change(py, |cable| cable.set_obstacles(made))
+    }
+
+    /// What the cable touched at the end of the last step, by the index of the obstacle.
+    fn contacts<'py>(&self, py: Python<'py>) -> PyResult<Vec<Bound<'py, PyAny>>> {
+        self.own("read its contacts by itself: see World.contacts")?;
+        let touches = self.read(py, |cable| Ok(cable.contacts().collect::<Vec<_>>()))?;
+        touches.iter().map(|t| touch(py, t, t.obstacle.into_pyobject(py)?.into_any())).collect()
+    }
+
+    /// Energy in J that contacts store.
+    fn contact_energy(&self, py: Python<'_>) -> PyResult<f64> {
+        self.read(py, |cable| Ok(cable.contact_energy()))
+    }
+}
