@@ -145,6 +145,9 @@ impl Cable {
 
     /// Sets the equations to the present state of the reels.
     pub(crate) fn sync_reel(&mut self) {
+        if self.has_reel() {
+            self.system.scales.measure(&self.model);
+        }
         let length = self.model.length();
         let forgotten = self.snapshot.state.memory.differences.is_empty();
         for flow in &mut self.system.flows.list {
