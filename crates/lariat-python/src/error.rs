@@ -227,7 +227,7 @@ impl From<lariat_scene::Error> for Raise {
                 Raise { message, ..raise.with("time", time) }
             }
             E::Import { line, .. } => Raise::of(&error, vec![("line", line.into())]),
-            E::NotBuilt { ref key, .. } | E::NoSuchKey { ref key, .. } => {
+            E::NoSuchKey { ref key, .. } => {
                 let key = key.clone();
                 Raise::of(&error, vec![("key", key.into())])
             }

@@ -68,6 +68,18 @@ def test_a_reel_is_read_back_changed_and_saved() -> None:
     assert rope.to_bytes() == other.to_bytes()
 
 
+def test_a_rest_shape_without_pieces_is_none() -> None:
+    """Straight and unstretched before the first piece: a cable whose rest shape has none steps as one without."""
+    plain, empty = hanging(), hanging(effects=lariat.RestShape([]))
+    for rope in (plain, empty):
+        rope.add_reel("start", Reel(0.3))
+        rope.step(1 / 60, steps=30)
+    assert plain.positions == pytest.approx(empty.positions, abs=1e-9)
+    curved = hanging(effects=lariat.RestShape([lariat.RestPiece(0.0, 1.0, 0.5)]))
+    with pytest.raises(errors.NotWithReelError):
+        curved.add_reel("start", Reel())
+
+
 def test_reels_that_cannot_be_are_named() -> None:
     rope = hanging()
     with pytest.raises(errors.ReelPlaceError):

@@ -6,6 +6,7 @@ use crate::convert::{rotation, vector};
 use crate::error::Error;
 use crate::events::Event;
 use crate::handle::{AttachmentHandle, CableHandle};
+use crate::sheave;
 use crate::world_mark;
 use ::nalgebra::{Vector3, Vector6};
 use lariat_ancf::At;
@@ -88,6 +89,10 @@ pub(crate) fn detach(
     let removed = contents.attachments.remove(attachment.0 as usize);
     let Attachment { cable, node, body, ledger, .. } = removed.ok_or(Error::NoAttachment(attachment))?;
     contents.changed = true;
+    let held = contents.cable(cable)?;
+    if node == 0 || node + 1 == held.nodes() {
+        sheave::remove_at(contents, cable, Some(node == 0))?;
+    }
     // the reaction estimate is invalid without this cable
     contents.records.record_mut(body).reaction = Vector6::zeros();
     if world_mark::is_own(contents, world) {

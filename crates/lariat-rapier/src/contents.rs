@@ -7,6 +7,7 @@ use crate::error::Error;
 use crate::handle::{AttachmentHandle, CableHandle, JunctionHandle};
 use crate::junction::Junction;
 use crate::record::Records;
+use crate::sheave::Sheave;
 use crate::table::Table;
 use crate::world_mark::WorldMark;
 use lariat_ancf::Cable;
@@ -55,6 +56,8 @@ pub(crate) struct Contents {
     pub cables: Table<Slot>,
     pub attachments: Table<Attachment>,
     pub junctions: Table<Junction>,
+    #[serde(default)]
+    pub sheaves: Table<Sheave>,
     pub records: Records,
     /// The mark of the world that the attachments belong to.
     #[serde(default)]

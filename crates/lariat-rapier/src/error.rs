@@ -1,7 +1,7 @@
 //! The error type of this crate.
 
 use crate::contents::Contents;
-use crate::handle::{AttachmentHandle, CableHandle, JunctionHandle};
+use crate::handle::{AttachmentHandle, CableHandle, JunctionHandle, SheaveHandle};
 use crate::islands::Island;
 use rapier::dynamics::RigidBodyHandle;
 use rapier::geometry::ColliderHandle;
@@ -42,6 +42,9 @@ pub enum Error {
     /// The handle of a junction that is not, or no longer, in the set.
     #[error("no junction {0:?} in this set")]
     NoJunction(JunctionHandle),
+    /// The handle of a sheave that is not, or no longer, in the set.
+    #[error("no sheave {0:?} in this set")]
+    NoSheave(SheaveHandle),
     /// The handle of a body that is not in the world.
     #[error("no body {0:?} in this world")]
     NoBody(RigidBodyHandle),

@@ -1,4 +1,4 @@
-//! Handles of the cables, attachments and junctions of a [`CableSet`](crate::CableSet).
+//! Handles of the cables, attachments, junctions and sheaves of a [`CableSet`](crate::CableSet).
 //!
 //! A handle is an index that is never given out twice; a removed item leaves its index unused.
 
@@ -15,3 +15,7 @@ pub struct AttachmentHandle(pub(crate) u32);
 /// Handle of a junction of a [`CableSet`](crate::CableSet).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 pub struct JunctionHandle(pub(crate) u32);
+
+/// Handle of a sheave of a [`CableSet`](crate::CableSet).
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+pub struct SheaveHandle(pub(crate) u32);

@@ -67,6 +67,8 @@ pub(crate) struct Island {
     pub attachments: Vec<Option<usize>>,
     /// Attachments whose nodes have a prescribed position.
     pub supports: Vec<usize>,
+    /// Indices of its sheaves.
+    pub sheaves: Vec<usize>,
 }
 
 impl Island {
@@ -237,7 +239,9 @@ fn connected(
         let handle = CableHandle(cable as u32);
         let tied = contents.junctions.values().filter(|j| j.nodes.iter().any(|(c, _)| *c == handle));
         let over_junctions = tied.flat_map(|j| j.nodes.iter().map(|(c, _)| c.0 as usize));
-        for other in over_bodies.chain(over_junctions) {
+        let sheaves = contents.sheaves.values().filter(|s| s.ends.iter().any(|(c, _)| *c == handle));
+        let over_sheaves = sheaves.flat_map(|s| s.ends.iter().map(|(c, _)| c.0 as usize));
+        for other in over_bodies.chain(over_junctions).chain(over_sheaves) {
             if !seen[other] {
                 seen[other] = true;
                 cables.push(other);
@@ -253,7 +257,9 @@ fn connect(
     cables: Vec<usize>,
     (nodes, touching): (&[AttachedNode], &[(usize, RigidBodyHandle)]),
 ) -> Island {
-    let mut island = Island { cables, ..Island::default() };
+    let sheaves = contents.sheaves.iter().filter(|(_, sheave)| sheave.within(&cables).is_some());
+    let sheaves = sheaves.map(|(i, _)| i).collect();
+    let mut island = Island { cables, sheaves, ..Island::default() };
     let mut add = |cable: usize, node: usize, member: Member, attached: Option<&AttachedNode>| {
         // each attachment to a body with prescribed motion has a member of its own
         let shared = !matches!(member, Member::Driven(_));

@@ -116,14 +116,6 @@ pub enum Error {
     /// A value of a scene that is not accepted.
     #[error(transparent)]
     Scene(Box<SceneError>),
-    /// A part of the scene format that this version does not compute.
-    #[error("{place}: {key} is not built yet: take it out of the scene, nothing is ignored silently")]
-    NotBuilt {
-        /// Where it was written.
-        place: Place,
-        /// Dotted path of the key.
-        key: String,
-    },
     /// A file that is not TOML.
     #[error("{place}: not TOML: {problem}")]
     Syntax {
@@ -248,7 +240,6 @@ impl Error {
     pub fn exit_code(&self) -> u8 {
         match self {
             Error::Scene(_)
-            | Error::NotBuilt { .. }
             | Error::Syntax { .. }
             | Error::Override { .. }
             | Error::NoSuchKey { .. }

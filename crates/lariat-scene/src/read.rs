@@ -10,7 +10,7 @@ impl Scene {
     /// Reads and checks a scene file, with overrides `KEY=VALUE`.
     ///
     /// # Errors
-    /// [`Error::Read`], [`Error::Syntax`], [`Error::Override`], [`Error::Scene`], [`Error::NotBuilt`].
+    /// [`Error::Read`], [`Error::Syntax`], [`Error::Override`], [`Error::Scene`].
     pub fn read(path: &Path, overrides: &[String], purpose: Purpose) -> Result<Self, Error> {
         let text = std::fs::read_to_string(path).map_err(|source| Error::Read { path: path.to_path_buf(), source })?;
         let stem = path.file_stem().map_or_else(|| "scene".to_string(), |s| s.to_string_lossy().into_owned());

@@ -57,3 +57,59 @@ fn a_clutch_of_a_scene_slips() {
     assert!(most < 530.0 * 1.02 && most > 529.0, "{most} N");
     assert!((last[2] + 0.5).abs() < 1e-6 && last[1] > 4.0 - 0.5 * 2.75 + 0.05, "{last:?}");
 }
+
+/// The same winch with its reel at the first point of the rope, drawn downwards: the crate moves as before, and a probe below the winch stays
+/// with its material.
+///
+/// *Source.* The scene with the reel at the end.
+#[test]
+fn a_reel_at_the_first_point_is_one_at_the_last_of_the_rope_drawn_the_other_way() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../assets/scenes/winch.toml");
+    let text = std::fs::read_to_string(path).unwrap();
+    let probe = |at: f64| format!("\n[[probe]]\nname = \"point\"\ncable = \"rope\"\nat = {at}\n");
+    let reversed = text
+        .replace("points = [[0.0, 0.99, 0.0], [0.0, 5.0, 0.0]]", "points = [[0.0, 5.0, 0.0], [0.0, 0.99, 0.0]]")
+        .replace("[cable.reel]", "[cable.reel]\nend = \"start\"")
+        .replace("at = \"end\"", "at = \"START\"")
+        .replace("at = \"start\"", "at = \"end\"")
+        .replace("at = \"START\"", "at = \"start\"")
+        .replace("end = \"end\"", "end = \"start\"");
+    let rows = [text + &probe(0.75), reversed + &probe(3.25)].map(|text| {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("scene.toml");
+        std::fs::write(&path, text).unwrap();
+        let scene = Scene::read(&path, &["duration=3.0".to_string()], Purpose::Run).unwrap();
+        let out = folder.path().join("out");
+        let summary = run::run(&scene, &out, &mut Options::default()).unwrap();
+        assert!(summary.failed.is_none(), "{summary:?}");
+        ["crate", "reel", "point"].map(|name| {
+            let text = std::fs::read_to_string(out.join(format!("probes/{name}.csv"))).unwrap();
+            let last = text.lines().last().unwrap();
+            last.split(',').map(|x| x.parse::<f64>().unwrap()).collect::<Vec<_>>()
+        })
+    });
+    let [one, other] = rows;
+    assert!(one[1][1] < 3.3 && (one[1][1] - other[1][1]).abs() < 1e-9, "{:?} {:?}", one[1], other[1]);
+    for (k, columns) in [(0, 1..4), (1, 3..6), (2, 1..4)] {
+        for i in columns {
+            assert!((one[k][i] - other[k][i]).abs() < 1e-3 * one[k][i].abs().max(1.0), "{:?} {:?}", one[k], other[k]);
+        }
+    }
+}
+
+/// Tables that make no sheave are refused with the key that is wrong.
+#[test]
+fn sheaves_that_do_not_fit_are_refused() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../assets/scenes/tackle.toml");
+    for (change, words) in [
+        ("sheave.sheave-0.from=\"part-7\"", "part-7"),
+        ("sheave.sheave-0.from=\"part-1\"", "different bodies"),
+        ("sheave.sheave-0.from=\"part-2\"", "at a sheave"),
+        ("sheave.sheave-0.to=\"part-3\"", "at a sheave"),
+        ("sheave.sheave-0.friction=-0.1", "friction"),
+        ("cable.part-0.integrator={ tolerance = 1e-5 }", "a cable over a sheave"),
+    ] {
+        let error = Scene::read(&path, &[change.to_string()], Purpose::Run).unwrap_err().to_string();
+        assert!(error.contains(words), "{change}: {error}");
+    }
+}

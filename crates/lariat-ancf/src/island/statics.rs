@@ -35,6 +35,7 @@ use super::pin::{PinConstraint, check};
 use super::rotation::{exponential, jacobian_inverse};
 use crate::cable::Cable;
 use crate::effect::acts::ForceInput;
+use crate::element::side::Side;
 use crate::error::{EquilibriumFailure, Error, StepFailure, require};
 use crate::load::PointLoad;
 use crate::statics::{EquilibriumOptions, EquilibriumReport, LoadScale};
@@ -77,6 +78,16 @@ pub fn equilibrium(
 ) -> Result<EquilibriumReport, Error> {
     require("equilibrium tolerance", options.tolerance, options.tolerance > 0.0, "> 0")?;
     check(cables, bodies, pins)?;
+    if let Some(cable) = cables.iter().find(|cable| Side::BOTH.iter().any(|&side| cable.is_over_sheave(side))) {
+        let reason = "its end is at a sheave, whose equilibrium is not computed";
+        return Err(Error::ReelPlace { cable: cable.name().to_string(), reason });
+    }
+    let windings: Vec<_> = cables.iter().map(|cable| cable.snapshot.windings).collect();
+    for (i, cable) in cables.iter_mut().enumerate().filter(|(_, cable)| cable.has_reel()) {
+        let held = |node: usize| pins.iter().filter(move |pin| pin.cable == i && pin.node == node);
+        cable.set_riding_stock(|node| held(node).any(|pin| bodies[pin.body].free.contains(&true)));
+        cable.sync_reel();
+    }
     let mut still = bodies.to_vec();
     for body in &mut still {
         (body.velocity, body.angular_velocity, body.memory) = (Vector3::zeros(), Vector3::zeros(), None);
@@ -87,10 +98,12 @@ pub fn equilibrium(
     let mut search = Search::new(cables, &still, pins, options.tolerance);
     let outcome = search.run(cables, options.iterations);
     let (steps, residual) = (search.steps, search.residual);
-    for ((cable, loads), supports) in cables.iter_mut().zip(loads).zip(supports) {
+    for (((cable, loads), supports), windings) in cables.iter_mut().zip(loads).zip(supports).zip(windings) {
         cable.model.loads = loads;
         if outcome.is_err() {
             cable.model.supports = supports;
+            cable.snapshot.windings = windings;
+            cable.sync_reel();
         }
     }
     let stable = outcome.map_err(|failure| Error::NoEquilibrium {

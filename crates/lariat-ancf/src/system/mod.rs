@@ -150,18 +150,32 @@ impl Buffers {
 
 impl Scales {
     fn new(model: &Model) -> Self {
-        let mut slope_lever = vec![0.0f64; model.nodes()];
+        let mut scales = Scales {
+            slope_lever: Vec::new(),
+            weight_energy: 0.0,
+            mass: 0.0,
+            frequency_bound: frequency::bound(model),
+            stiff_time_squared: 0.0,
+        };
+        scales.measure(model);
+        scales
+    }
+
+    /// Sets all but the bound of the frequencies to the present lengths of the elements: reels change them between two meshes.
+    pub fn measure(&mut self, model: &Model) {
+        self.slope_lever.clear();
+        self.slope_lever.resize(model.nodes(), 0.0);
         for (e, element) in model.elements.iter().enumerate() {
             for node in [e, e + 1] {
-                slope_lever[node] = slope_lever[node].max(element.length / 8.0);
+                self.slope_lever[node] = self.slope_lever[node].max(element.length / 8.0);
             }
         }
-        let stiff = model.elements.iter().fold(f64::INFINITY, |least, e| {
-            least.min(model.length() * e.length * model.inertia(e) / e.section.axial_stiffness)
+        let length = model.length();
+        self.stiff_time_squared = model.elements.iter().fold(f64::INFINITY, |least, e| {
+            least.min(length * e.length * model.inertia(e) / e.section.axial_stiffness)
         });
-        let mass: f64 = model.elements.iter().map(|e| model.inertia(e) * e.length).sum();
-        let weight_energy = mass * STANDARD_GRAVITY.norm() * 1e-3;
-        Scales { slope_lever, weight_energy, mass, frequency_bound: frequency::bound(model), stiff_time_squared: stiff }
+        self.mass = model.elements.iter().map(|e| model.inertia(e) * e.length).sum();
+        self.weight_energy = self.mass * STANDARD_GRAVITY.norm() * 1e-3;
     }
 
     /// Returns the largest component of a nodal vector as a displacement in m (of r, and of t over l/8), and the largest |t|.

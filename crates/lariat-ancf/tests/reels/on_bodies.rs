@@ -167,3 +167,38 @@ fn what_a_free_body_does_not_carry_is_refused_by_name() {
         assert!(before == (tow.cable.snapshot().clone(), tow.bodies.clone()));
     }
 }
+
+/// A crate with a winch hangs on its rope from the ceiling: at rest the rope bears the crate, what hangs, and the stock that is not out; and so it
+/// does while it moves slowly.
+///
+/// *Source.* Statics: `T = (M + rho S) g` at the ceiling.
+#[test]
+fn a_hanging_winch_weighs_its_stock() {
+    let (mass, density, stock, gravity) = (4.0, 0.5, 6.0, 9.81);
+    let mut cable = Cable::builder()
+        .points([Vector3::zeros(), Vector3::new(0.0, -2.0, 0.0)])
+        .section(Section::from_stiffness(1e5, 1e-2, density).unwrap())
+        .elements(6)
+        .damping(Damping { axial: 5e-3, bending: 5e-3 })
+        .integrator(GAME)
+        .fix(At::Start)
+        .build()
+        .unwrap();
+    cable.attach(At::End).unwrap();
+    cable.add_reel(At::End, Reel { stock: Some(stock), ..Reel::default() }).unwrap();
+    let mut body = RigidBody::new(mass, Matrix3::identity() * 0.1, Vector3::new(0.0, -2.0, 0.0)).unwrap();
+    body.force = Vector3::new(0.0, -gravity * mass, 0.0);
+    let (mut bodies, node) = ([body], cable.nodes() - 1);
+    let pins = [PinConstraint { cable: 0, node, body: 0, anchor: Vector3::zeros(), direction: None }];
+    let options = lariat_ancf::EquilibriumOptions::default();
+    lariat_ancf::island::equilibrium(&mut [&mut cable], &mut bodies, &pins, options).unwrap();
+    let weight = (mass + density * stock) * gravity;
+    let pull = |cable: &Cable| cable.sample(0.0).unwrap().tension;
+    println!("{} N of {weight} N", pull(&cable));
+    assert!((pull(&cable) / weight - 1.0).abs() < 2e-3, "{} N of {weight} N", pull(&cable));
+    let (start, mut island) = (bodies[0].position.y, Island::default());
+    for _ in 0..60 {
+        island.step(&mut [&mut cable], &mut bodies, &pins, GAME, 1.0 / 240.0).unwrap();
+    }
+    assert!((bodies[0].position.y - start).abs() < 1e-6, "{} m", bodies[0].position.y - start);
+}

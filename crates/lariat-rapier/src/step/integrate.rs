@@ -37,7 +37,7 @@ struct Job<'a> {
 impl Job<'_> {
     fn run(&mut self) {
         let limit = self.prediction.budget.limit();
-        let outcome = if self.island.members.is_empty() {
+        let outcome = if self.island.members.is_empty() && self.island.sheaves.is_empty() {
             let (h, integrator) = (self.h, &self.integrator);
             self.cables.iter_mut().try_for_each(|cable| {
                 step_within(limit.as_ref(), integrator, |integrator| cable.step_with(h, integrator))
@@ -58,7 +58,7 @@ impl Job<'_> {
     /// Steps cables and members in equal parts, and adds up the accounts of the pins.
     fn step_island(&mut self, solver: &mut IslandSolver, limit: Option<&WorkLimit>) -> Result<(), lariat_ancf::Error> {
         let Job { island, cables, prediction, integrator, h } = self;
-        let Prediction { start, end, accounts, parts, .. } = &mut **prediction;
+        let Prediction { start, end, accounts, parts, sheaves, .. } = &mut **prediction;
         for part in 0..*parts {
             for (body, start) in end.iter_mut().zip(&*start) {
                 let [first, last] = start.unsteadiness;
@@ -66,7 +66,9 @@ impl Job<'_> {
                 body.unsteadiness = [first, if part + 1 == *parts { last } else { Default::default() }];
             }
             let h = *h / f64::from(*parts);
-            step_within(limit, integrator, |integrator| solver.step_with(cables, end, &island.pins, integrator, h))?;
+            step_within(limit, integrator, |integrator| {
+                solver.step_with_sheaves(cables, end, &island.pins, sheaves, integrator, h)
+            })?;
             if part == 0 {
                 accounts.clear();
                 accounts.extend_from_slice(solver.accounts());

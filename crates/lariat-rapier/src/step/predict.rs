@@ -36,6 +36,9 @@ pub(crate) fn prepare(
 ) -> Result<(), Error> {
     let mut integrator = share_of(integrator(contents, island), step.rapier_steps);
     prediction.parts = 1;
+    prediction.sheaves.clear();
+    let sheaves = island.sheaves.iter().filter_map(|&i| contents.sheaves.get(i));
+    prediction.sheaves.extend(sheaves.filter_map(|sheave| sheave.within(&island.cables)));
     if !island.members.is_empty() {
         read_members(contents, world, motions, island, prediction, step)?;
         if island.bodies().next().is_some() {

@@ -22,6 +22,7 @@ mod prescribed_motion;
 mod reels;
 mod refused;
 mod ropes;
+mod sheaves;
 mod sleep;
 mod statics;
 mod substepping;

@@ -141,11 +141,6 @@ impl<'t> Document<'t> {
         let (place, key) = (self.place_of(path), self.display(path));
         Error::Scene(Box::new(SceneError { place, key, problem, accepted, suggestion }))
     }
-
-    /// Returns the error that the format has what the path names and this version has not.
-    fn not_built(&self, path: &KeyPath) -> Error {
-        Error::NotBuilt { place: self.place_of(path), key: self.display(path) }
-    }
 }
 
 /// Returns the name of a table.

@@ -21,8 +21,7 @@ impl Document<'_> {
     /// Returns the values of the scene with all defaults.
     ///
     /// # Errors
-    /// [`Error::Scene`] for the first key or value that the schema does not accept, [`Error::NotBuilt`] for a part of the format
-    /// that this version does not compute.
+    /// [`Error::Scene`] for the first key or value that the schema does not accept.
     pub fn resolve(&self) -> Result<toml::Table, Error> {
         self.table(self.schema, self.root.get_ref(), &KeyPath::default())
     }
@@ -119,7 +118,6 @@ impl Document<'_> {
                 Some(kind) => self.value(kind, value, path),
                 None => Err(self.wrong_type(path, value)),
             },
-            (Kind::NotBuilt, _) => Err(self.not_built(path)),
             _ => Err(self.wrong_type(path, value)),
         }
     }
@@ -202,7 +200,7 @@ impl Kind {
             Kind::Flag => Form::Flag,
             Kind::Whole(..) | Kind::Number(_) => Form::Number,
             Kind::Numbers(..) | Kind::Rows(..) | Kind::Ascending(_) | Kind::Tables(_) => Form::Array,
-            Kind::Table(_) | Kind::Either(_) | Kind::NotBuilt => Form::Table,
+            Kind::Table(_) | Kind::Either(_) => Form::Table,
         }
     }
 }

@@ -17,8 +17,8 @@ pub use reading::BodyState;
 pub use statics::Settled;
 
 use crate::error::Error;
-use crate::scene::Scene;
 use crate::scene::body::BodyKind;
+use crate::scene::{Scene, SheaveScene};
 use crate::warning::Warning;
 use lariat_ancf::island::RigidBody;
 use lariat_ancf::{At, Break, Cable, Momentum, Vector3};
@@ -26,7 +26,9 @@ use lariat_rapier::convert::{to_pose, to_vector};
 use lariat_rapier::rapier::dynamics::RigidBodyHandle;
 use lariat_rapier::rapier::math::Real;
 use lariat_rapier::rapier::prelude::PhysicsWorld;
-use lariat_rapier::{AttachmentHandle, AttachmentKind, AttachmentReading, CableHandle, CableSet, Event, Gap};
+use lariat_rapier::{
+    AttachmentHandle, AttachmentKind, AttachmentReading, CableHandle, CableSet, Event, Gap, SheaveHandle, SheaveOptions,
+};
 
 /// Rapier steps of a host step: a run is for accuracy, in contacts too, and its cost is that of the cables.
 const RAPIER_STEPS: u32 = 4;
@@ -43,6 +45,7 @@ pub struct Physics {
     sources: Vec<usize>,
     /// By attachment of the scene; `None` for one to the world, which is a support of the cable.
     attachments: Vec<Option<AttachmentHandle>>,
+    sheaves: Vec<SheaveHandle>,
     /// By attachment, force and moment of the cable at t = 0, with the body still held.
     held_by: Vec<(Vector3<f64>, Vector3<f64>)>,
     /// Rapier steps per host step.
@@ -81,6 +84,7 @@ impl Clone for Physics {
             handles: self.handles.clone(),
             sources: self.sources.clone(),
             attachments: self.attachments.clone(),
+            sheaves: self.sheaves.clone(),
             held_by: self.held_by.clone(),
             rapier_steps: self.rapier_steps,
             reached: self.reached,
@@ -125,6 +129,7 @@ impl Physics {
             handles: Vec::new(),
             sources: Vec::new(),
             attachments: Vec::new(),
+            sheaves: Vec::new(),
             held_by: Vec::new(),
             rapier_steps,
             reached: 0.0,
@@ -172,7 +177,22 @@ impl Physics {
             let [a, b] = junction.points.map(|(cable, s)| (self.handles[cable], At::ArcLength(s)));
             self.cables.join(a, b).map_err(|error| self.explain(scene, 0.0, error))?;
         }
+        for sheave in &scene.sheaves {
+            let SheaveScene { friction, turns, inertia, brake, .. } = *sheave;
+            let [from, to] = sheave.cables.map(|cable| self.handles[cable]);
+            let options = SheaveOptions { inertia, friction, turns, brake };
+            let added = self.cables.add_sheave((from, At::End), (to, At::Start), options);
+            self.sheaves.push(added.map_err(|error| self.explain(scene, 0.0, error))?);
+        }
         Ok(())
+    }
+
+    /// Returns the readings of a sheave, as [`World::sheave`](crate::run::World::sheave).
+    pub fn sheave(&self, sheave: usize) -> Option<[f64; 6]> {
+        let sheave = self.cables.sheave(*self.sheaves.get(sheave)?).ok()?;
+        let [from, to] = sheave.ends().map(|(cable, at)| self.cables.get(cable).ok()?.reel(at));
+        let (from, to) = (from?, to?);
+        Some([sheave.passed(), to.rate, from.tension, to.tension, sheave.force(), sheave.lost()])
     }
 
     /// Returns a warning for each attachment whose two sides start at different velocities.

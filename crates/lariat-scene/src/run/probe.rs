@@ -32,6 +32,7 @@ pub(crate) fn columns(target: Target) -> &'static [&'static str] {
         Target::Body(_) => &["t", "x", "y", "z", "qx", "qy", "qz", "qw", "vx", "vy", "vz", "wx", "wy", "wz"],
         Target::Attachment(_) => &["t", "fx", "fy", "fz", "mx", "my", "mz", "gap"],
         Target::Reel(_) => &["t", "length_out", "rate", "force", "tension", "work"],
+        Target::Sheave(_) => &["t", "passed", "rate", "from_tension", "to_tension", "friction", "lost"],
         Target::Energy(_) => &["t", "kinetic", "axial", "bending", "gravity", "dissipated", "interface_work", "total"],
         Target::Momentum(_) => &["t", "px", "py", "pz", "lx", "ly", "lz"],
     }
@@ -62,11 +63,14 @@ pub(super) fn read(target: Target, world: &mut World, row: &mut Vec<f64>) -> Res
         }
         Target::Reel(cable) => {
             let (part, _) = world.part(cable, f64::INFINITY);
-            // the reel is at the last part of its cable
-            if let Some(reel) = world.cables()[part].reel(At::End) {
+            // a reel at the end is at the last part of its cable
+            let (part, end) =
+                if world.scene().cables[cable].reel_at_start { (cable, At::Start) } else { (part, At::End) };
+            if let Some(reel) = world.cables()[part].reel(end) {
                 row.extend([reel.length_out, reel.rate, reel.force, reel.tension, reel.work]);
             }
         }
+        Target::Sheave(sheave) => row.extend(world.sheave(sheave).unwrap_or([f64::NAN; 6])),
         Target::Energy(cable) => {
             let energy = world.energy(cable);
             let work = world.interface_work(cable)?;

@@ -4,7 +4,7 @@ use super::readings::pull;
 use super::{BodyStatics, CableStatics, Parted, Piece};
 use crate::error::Error;
 use crate::physics::Physics;
-use crate::scene::{CableScene, Engine, Purpose, Scene};
+use crate::scene::{Engine, Purpose, Scene};
 use crate::warning::Warning;
 use lariat_ancf::{At, AxialRule, Break, Cable, EquilibriumReport, Support};
 
@@ -244,10 +244,13 @@ impl World {
     /// Returns the position in [`cables`](Self::cables) of the part of a cable of the scene that holds an arc length (m), and the
     /// arc length on it. A break belongs to the part before it; what a reel has taken in is at its eye, and so is its end.
     pub fn part(&self, cable: usize, arc_length: f64) -> (usize, f64) {
-        let CableScene { length, reel, .. } = &self.scene.cables[cable];
+        let length = self.scene.cables[cable].length;
         let slack = 1e-9 * length;
-        let at_eye = reel.is_some() && arc_length >= length - slack;
-        let arc_length = if at_eye { f64::INFINITY } else { arc_length };
+        let [at_start, at_end] = self.scene.eyes(cable);
+        // what came through an eye at the start is before all other material
+        let passed = if at_start && arc_length > slack { self.cables()[cable].length_from_start() } else { 0.0 };
+        let at_eye = at_end && arc_length >= length - slack;
+        let arc_length = if at_eye { f64::INFINITY } else { (arc_length + passed).max(0.0) };
         let parts = self.pieces.iter().enumerate().filter(|(_, piece)| piece.cable == cable);
         let before = parts.filter(|(_, piece)| piece.from < arc_length - slack);
         let (part, from) = before.fold(
@@ -257,6 +260,11 @@ impl World {
             },
         );
         (part, (arc_length - from).min(self.cables()[part].length()))
+    }
+
+    /// Returns of a sheave: length passed in m, rate in m/s, tensions at its cables in N, friction in N, energy lost in J; `None` if it ended.
+    pub fn sheave(&self, sheave: usize) -> Option<[f64; 6]> {
+        self.physics.as_ref()?.sheave(sheave)
     }
 
     /// Returns the scene.

@@ -33,9 +33,17 @@ impl Scene {
         let mut cable = builder.build()?;
         cable.set_strength(scene.breaking.strength)?;
         if let Some(reel) = &scene.reel {
-            cable.add_reel(At::End, reel.clone())?;
+            cable.add_reel(if scene.reel_at_start { At::Start } else { At::End }, reel.clone())?;
         }
         Ok(cable)
+    }
+
+    /// Returns whether material runs through the first and the last point of a cable: at a reel or a sheave.
+    pub fn eyes(&self, index: usize) -> [bool; 2] {
+        let cable = &self.cables[index];
+        let at_sheave = |k: usize| self.sheaves.iter().any(|sheave| sheave.cables[k] == index);
+        let reel = |at_start: bool| cable.reel.is_some() && cable.reel_at_start == at_start;
+        [reel(true) || at_sheave(1), reel(false) || at_sheave(0)]
     }
 
     /// Returns the points of a cable that junctions tie to others.

@@ -124,8 +124,10 @@ pub struct CableScene {
     pub effects: Effects,
     /// When it becomes two.
     pub breaking: BreakScene,
-    /// Reel at its end.
+    /// Reel at an end.
     pub reel: Option<Reel>,
+    /// Whether that is the first point.
+    pub reel_at_start: bool,
     /// Time integrator.
     pub integrator: IntegratorChoice,
     /// Initial velocity in m/s.
@@ -148,7 +150,13 @@ pub(super) fn read(doc: &Document<'_>, at: &KeyPath, mut row: CableTable) -> Res
     let rule = rule(doc, &at.key("rule"), &row)?;
     let section = section(doc, at, &row)?;
     let breaking = breaking::read(doc, at, &mut row.effects, (length, row.elements))?;
-    let reel = reel::read(doc, at, &mut row.effects)?;
+    let (reel, reel_at_start) = match reel::read(doc, at, &mut row.effects)? {
+        Some((reel, at_start)) => (Some(reel), at_start),
+        None => (None, false),
+    };
+    if reel_at_start && breaking != BreakScene::default() {
+        return Err(doc.conflict(&at.key(REEL.name), "a cable that breaks cannot have its reel at the first point"));
+    }
     let effects = effects::read(doc, at, row.effects, &effects::Context { section: &section, rule, length })?;
     let mut integrator = integrator::read(doc, &at.key("integrator"), &row.integrator)?;
     let slips = reel.as_ref().is_some_and(|reel| reel.max_force.is_some());
@@ -167,6 +175,7 @@ pub(super) fn read(doc: &Document<'_>, at: &KeyPath, mut row: CableTable) -> Res
         effects,
         breaking,
         reel,
+        reel_at_start,
         integrator,
         velocity: row.velocity,
         angular_velocity: row.angular_velocity,

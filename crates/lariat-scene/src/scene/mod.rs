@@ -9,7 +9,7 @@
 //! | `mod`: [`SceneTable`] | the scene itself |
 //! | [`cable`], [`integrator`], [`effects`], [`flow`], [`breaking`], [`reel`] | `[[cable]]` |
 //! | [`body`], `mesh` | `[[body]]` |
-//! | [`joint`], [`attachment`], [`junction`], [`load`], [`probe`] | the tables of these names |
+//! | [`joint`], [`attachment`], [`junction`], [`sheave`], [`load`], [`probe`] | the tables of these names |
 //! | `references` | names and points that tables refer to |
 //! | `build` | from a scene to cables |
 //! | `plausibility` | warnings about what is probably not meant |
@@ -30,6 +30,7 @@ mod plausibility;
 pub mod probe;
 pub mod reel;
 mod references;
+pub mod sheave;
 
 pub use attachment::AttachmentScene;
 pub use cable::CableScene;
@@ -38,10 +39,11 @@ pub use junction::JunctionScene;
 pub use load::{BodyLoadScene, LoadScene};
 pub use mesh::Mesh;
 pub use probe::{ProbeScene, Target};
+pub use sheave::SheaveScene;
 
 use crate::document::{Document, KeyPath};
 use crate::error::{Error, Problem};
-use crate::schema::{Default, Key, Kind, MANY, POSITIVE, VECTOR, choice, table};
+use crate::schema::{Kind, MANY, POSITIVE, VECTOR, choice, table};
 use body::BodyScene;
 use lariat_ancf::Vector3;
 use std::path::Path;
@@ -79,8 +81,8 @@ table! {
         dt: f64 = 0.016666666666666666, Kind::Number(POSITIVE), "s";
         /// Gravity.
         gravity: Vector3<f64> = [0.0, -9.81, 0.0], VECTOR, "m/s^2";
-        /// Computes the bodies, and the junctions of cables.
-        engine: Option<Engine> = ("`\"rapier\"` with bodies or junctions, else `\"none\"`"), Kind::Choice(Engine::names);
+        /// Computes the bodies, and the junctions and sheaves of cables.
+        engine: Option<Engine> = ("`\"rapier\"` with bodies, junctions or sheaves, else `\"none\"`"), Kind::Choice(Engine::names);
         /// Rapier's `num_solver_iterations`, with `engine = "rapier"`.
         solver_iterations: Option<u32> = ("Rapier's"), Kind::Whole(1, MANY);
         /// Rigid bodies.
@@ -93,18 +95,13 @@ table! {
         attachment: Vec<attachment::AttachmentTable> = ("none"), Kind::Tables(&attachment::AttachmentTable::TABLE);
         /// Cables tied to each other.
         junction: Vec<junction::JunctionTable> = ("none"), Kind::Tables(&junction::JunctionTable::TABLE);
+        /// Wheels over which one cable runs into another.
+        sheave: Vec<sheave::SheaveTable> = ("none"), Kind::Tables(&sheave::SheaveTable::TABLE);
         /// Point forces and moments.
         load: Vec<load::LoadTable> = ("none"), Kind::Tables(&load::LoadTable::TABLE);
         /// What a run writes down.
         probe: Vec<probe::ProbeTable> = ("none"), Kind::Tables(&probe::ProbeTable::TABLE);
     }
-    plus &[Key {
-        name: "sheave",
-        kind: Kind::NotBuilt,
-        unit: "",
-        default: Default::Absent("none"),
-        meaning: "Wheels and eyes that cables pass over.",
-    }];
 }
 
 /// A checked scene.
@@ -132,6 +129,8 @@ pub struct Scene {
     pub joints: Vec<JointScene>,
     /// Cables tied to each other.
     pub junctions: Vec<JunctionScene>,
+    /// Sheaves.
+    pub sheaves: Vec<SheaveScene>,
     /// Point loads on cables.
     pub loads: Vec<LoadScene>,
     /// Loads on bodies.
@@ -175,6 +174,7 @@ pub(crate) fn check(doc: &Document<'_>, fallback: &str, folder: &Path, purpose: 
         attachments: Vec::new(),
         joints: Vec::new(),
         junctions: Vec::new(),
+        sheaves: Vec::new(),
         loads: Vec::new(),
         body_loads: Vec::new(),
         probes: Vec::new(),
@@ -205,6 +205,10 @@ pub(crate) fn check(doc: &Document<'_>, fallback: &str, folder: &Path, purpose: 
         let row = junction::read(doc, &scene, i, row)?;
         scene.junctions.push(row);
     }
+    for (i, row) in table.sheave.into_iter().enumerate() {
+        let row = sheave::read(doc, &mut scene, i, row)?;
+        scene.sheaves.push(row);
+    }
     for (i, row) in table.load.into_iter().enumerate() {
         load::read(doc, &mut scene, i, row)?;
     }
@@ -216,15 +220,20 @@ pub(crate) fn check(doc: &Document<'_>, fallback: &str, folder: &Path, purpose: 
     Ok(scene)
 }
 
-/// Returns the engine; without the key, bodies and junctions choose Rapier.
+/// Returns the engine; without the key, bodies, junctions and sheaves choose Rapier.
 fn engine(doc: &Document<'_>, table: &SceneTable) -> Result<Engine, Error> {
     let engine = match table.engine {
-        None if table.body.is_empty() && table.junction.is_empty() => Engine::None,
+        None if table.body.is_empty() && table.junction.is_empty() && table.sheave.is_empty() => Engine::None,
         None => Engine::Rapier,
         Some(engine) => engine,
     };
     if engine == Engine::None {
-        for (key, given) in [("body", !table.body.is_empty()), ("junction", !table.junction.is_empty())] {
+        let given = [
+            ("body", !table.body.is_empty()),
+            ("junction", !table.junction.is_empty()),
+            ("sheave", !table.sheave.is_empty()),
+        ];
+        for (key, given) in given {
             if given {
                 let problem = Problem::Conflict(format!("engine = \"none\" computes no {key}"));
                 let accepted = "engine = \"rapier\", or no engine";
@@ -253,5 +262,6 @@ fn check_start(doc: &Document<'_>, scene: &Scene, purpose: Purpose) -> Result<()
         cables.push(scene.build_cable(i).map_err(failed)?);
     }
     attachment::check_start(doc, scene, &cables, purpose)?;
-    junction::check_start(doc, scene, &cables)
+    junction::check_start(doc, scene, &cables)?;
+    sheave::check_start(doc, scene, &cables)
 }

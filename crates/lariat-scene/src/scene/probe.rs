@@ -23,12 +23,14 @@ table! {
         attachment: Option<String> = (), Kind::Text;
         /// Name of a cable with a reel.
         reel: Option<String> = (), Kind::Text;
+        /// Name of a sheave.
+        sheave: Option<String> = (), Kind::Text;
         /// Name of a cable, or `"all"` for cables and dynamic bodies.
         energy: Option<String> = (), Kind::Text;
         /// Name of a cable, or `"all"` for cables and dynamic bodies.
         momentum: Option<String> = (), Kind::Text;
     }
-    choose Choose::ExactlyOne(&["cable", "body", "attachment", "reel", "energy", "momentum"]);
+    choose Choose::ExactlyOne(&["cable", "body", "attachment", "reel", "sheave", "energy", "momentum"]);
 }
 
 /// A checked probe.
@@ -58,6 +60,8 @@ pub enum Target {
     Attachment(usize),
     /// Reel of a cable.
     Reel(usize),
+    /// Sheave.
+    Sheave(usize),
     /// Energy of a cable, or of all.
     Energy(Option<usize>),
     /// Momentum of a cable, or of all.
@@ -107,6 +111,10 @@ pub(super) fn read(doc: &Document<'_>, scene: &Scene, i: usize, row: ProbeTable)
             return Err(doc.conflict(&at.key("reel"), format!("cable {name:?} has no reel")));
         }
         Target::Reel(cable)
+    } else if let Some(name) = &row.sheave {
+        let known = || scene.sheaves.iter().map(|s| s.name.as_str());
+        let unknown = || doc.unknown_name(&at.key("sheave"), "sheave", name, known());
+        Target::Sheave(known().position(|n| n == name).ok_or_else(unknown)?)
     } else if let Some(name) = &row.energy {
         Target::Energy(cable_or_all("energy", name)?)
     } else {

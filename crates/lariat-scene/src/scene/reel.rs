@@ -9,6 +9,8 @@ use lariat_ancf::{Feed, Reel};
 choice! {
     /// Where a reel is.
     enum ReelEnd {
+        /// At the first point.
+        Start = "start",
         /// At the last point.
         End = "end",
     }
@@ -27,12 +29,12 @@ choice! {
 }
 
 table! {
-    /// A reel through which cable is paid out and taken in. Only the element at the eye, the point of the reel, changes its length; arc
-    /// lengths count from the other end, so attachments, loads and probes stay with their material. Hold the eye by an
-    /// attachment at `"end"`. On a dynamic body what is not out of the `stock` rides along, beside the body's own mass; that needs the
+    /// A reel through which cable is paid out and taken in. Only the element at the eye, the point of the reel, changes its length; attachments,
+    /// loads and probes stay with their material, wherever its arc length is then. Hold the eye by an
+    /// attachment at that end. On a dynamic body what is not out of the `stock` rides along, beside the body's own mass; that needs the
     /// integrator `discrete-gradient`.
     struct ReelTable("[cable.reel]") {
-        /// The end that it is at: draw the cable towards it.
+        /// The end that it is at.
         end: ReelEnd = "end", Kind::Choice(ReelEnd::names);
         /// Rate from a time on: positive pays out.
         rate: Vec<[f64; 2]> = required, Kind::Ascending(&["t", "rate"]), "s, m/s";
@@ -56,18 +58,17 @@ pub(super) const REEL: Key = Key {
     kind: Kind::Table(&ReelTable::TABLE),
     unit: "",
     default: Default::Absent("none"),
-    meaning: "Change of the unstretched length at the last point.",
+    meaning: "Change of the unstretched length at an end.",
 };
 
-/// Reads the table at a path from the keys of its cable.
-pub(super) fn read(doc: &Document<'_>, at: &KeyPath, rows: &mut toml::Table) -> Result<Option<Reel>, Error> {
+/// Reads the table at a path from the keys of its cable; with the reel, whether it is at the first point.
+pub(super) fn read(doc: &Document<'_>, at: &KeyPath, rows: &mut toml::Table) -> Result<Option<(Reel, bool)>, Error> {
     let Some(value) = rows.remove(REEL.name) else { return Ok(None) };
-    let ReelTable { end: ReelEnd::End, rate, acceleration, stock, max_force, inertia, feed } =
-        typed(doc, &at.key(REEL.name), value)?;
+    let ReelTable { end, rate, acceleration, stock, max_force, inertia, feed } = typed(doc, &at.key(REEL.name), value)?;
     let feed = match feed {
         Feeding::Drum => Feed::Drum,
         Feeding::Coil => Feed::Coil,
         Feeding::Bag => Feed::Bag,
     };
-    Ok(Some(Reel { rate, acceleration, stock, max_force, inertia, feed }))
+    Ok(Some((Reel { rate, acceleration, stock, max_force, inertia, feed }, end == ReelEnd::Start)))
 }

@@ -102,8 +102,6 @@ pub enum Kind {
     Tables(&'static Table),
     /// A value of one of these kinds, which are told apart by their form.
     Either(&'static [Kind]),
-    /// A part of the format that this version does not compute: every value is an error that says so.
-    NotBuilt,
 }
 
 /// No limit of a whole number.

@@ -67,7 +67,6 @@ impl Kind {
             },
             Kind::Tables(table) => format!("tables {}", table.header),
             Kind::Either(kinds) => kinds.iter().map(Kind::phrase).collect::<Vec<_>>().join(" | "),
-            Kind::NotBuilt => "not built yet".to_string(),
         }
     }
 

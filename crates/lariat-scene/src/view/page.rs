@@ -7,7 +7,7 @@
 use super::{Decimator, Frame};
 use crate::run::{Summary, columns};
 use crate::scene::body::BodyShape;
-use crate::scene::{CableScene, Scene, Target};
+use crate::scene::{Scene, Target};
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
 use serde_json::{Value, json};
@@ -122,8 +122,8 @@ fn loads(scene: &Scene, statics: bool) -> Value {
 
 /// Returns the arc length of a point on the page: the eye of a reel is at the end, whatever is out.
 fn on_page(scene: &Scene, cable: usize, arc_length: f64) -> f64 {
-    let CableScene { length, reel, .. } = &scene.cables[cable];
-    if reel.is_some() && arc_length >= length * (1.0 - 1e-9) { 1e9 } else { arc_length }
+    let [_, at_end] = scene.eyes(cable);
+    if at_end && arc_length >= scene.cables[cable].length * (1.0 - 1e-9) { 1e9 } else { arc_length }
 }
 
 /// Returns what a probe reads, in words.
@@ -134,6 +134,7 @@ fn about(scene: &Scene, target: Target) -> String {
         Target::Body(i) => format!("body {}", scene.bodies[i].name),
         Target::Attachment(k) => format!("attachment {}", scene.attachments[k].name),
         Target::Reel(cable) => format!("reel of cable {}", scene.cables[cable].name),
+        Target::Sheave(i) => format!("sheave {}", scene.sheaves[i].name),
         Target::Energy(cable) => format!("energy of {}", whose(cable)),
         Target::Momentum(cable) => format!("momentum of {}", whose(cable)),
     }

@@ -145,6 +145,9 @@ impl Cable {
 
     /// Sets the equations to the present state of the reels.
     pub(crate) fn sync_reel(&mut self) {
+        if self.has_reel() {
+            self.system.scales.measure(&self.model);
+        }
         let length = self.model.length();
         let forgotten = self.snapshot.state.memory.differences.is_empty();
         for flow in &mut self.system.flows.list {
@@ -207,7 +210,11 @@ impl Model {
 
     /// Refuses effects that the element at the eye of a reel does not carry.
     pub(crate) fn check_with_reel(&self) -> Result<(), Error> {
-        let curved = |shape: &RestShape| shape.pieces.len() > 1 || shape.at(0.0).1 > 0.0 || shape.pieces[0].from > 0.0;
+        let curved = |shape: &RestShape| {
+            shape.pieces.len() > 1
+                || shape.at(0.0).1 > 0.0
+                || shape.pieces.first().is_some_and(|piece| piece.from > 0.0)
+        };
         let refused = [
             ("drag", self.effects.drag.is_some()),
             ("buoyancy", self.effects.buoyancy.is_some()),

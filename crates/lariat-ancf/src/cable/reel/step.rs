@@ -1,6 +1,6 @@
 //! A host step of a cable with a reel: in parts in which little material passes the eye.
 
-use crate::cable::{Cable, Feed};
+use crate::cable::{Cable, Feed, Reel};
 use crate::element::flow::Extent;
 use crate::element::side::Side;
 use crate::error::{Error, require};
@@ -105,7 +105,13 @@ impl Cable {
             }
             let full = self.model.reels.element(self.number(side.element(self.elements().len()))).length;
             let [length, ..] = winding.extent;
-            let passing = self.fastest_rate(side, dt) * dt;
+            // the acceleration of an unknown rate may be that of a wave, which is over soon
+            let rate = if self.model.reels.get(side).is_some_and(Reel::has_law) {
+                winding.extent[1].abs()
+            } else {
+                self.fastest_rate(side, dt)
+            };
+            let passing = rate * dt;
             require(
                 "share of an element that its reel moves in a step of an island",
                 passing / full,

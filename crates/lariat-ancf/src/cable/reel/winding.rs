@@ -141,6 +141,12 @@ impl Cable {
         self.snapshot.nodes_from_start()
     }
 
+    /// Returns the length in m that came through the eye of a reel at the start so far, on balance: the arc lengths of all material have
+    /// grown by this.
+    pub fn length_from_start(&self) -> f64 {
+        self.snapshot.passed_at_start()
+    }
+
     /// Returns whether all reels stand and are not asked to turn; true without one.
     pub fn is_reel_still(&self) -> bool {
         self.model.reels.sides().all(|side| {

@@ -1,0 +1,119 @@
+//! Sheaves in a world.
+
+use super::common::{add_cube, cable, run};
+use lariat_rapier::lariat_ancf::{At, Damping, Error as Mechanics, Section};
+use lariat_rapier::rapier::prelude::*;
+use lariat_rapier::{AttachmentKind, CableHandle, CableSet, Error, SheaveOptions};
+
+const G: f64 = 9.81;
+
+fn section() -> Section {
+    Section::from_stiffness(1e5, 1e-3, 0.005).unwrap()
+}
+
+/// Adds a rope between points of bodies, given by the body, its anchor and the point.
+fn rope(set: &mut CableSet, world: &PhysicsWorld, ends: [(RigidBodyHandle, Vector, [Real; 3]); 2]) -> CableHandle {
+    let rope = cable(ends[0].2.map(f64::from), ends[1].2.map(f64::from), section());
+    let rope = set.insert(rope.elements(6).damping(Damping { axial: 5e-3, bending: 5e-3 }).build().unwrap());
+    for (at, (body, anchor, _)) in [At::Start, At::End].into_iter().zip(ends) {
+        set.attach(world, rope, at, body, anchor, AttachmentKind::Ball).unwrap();
+    }
+    rope
+}
+
+/// Two crates on one rope over a fixed or kinematic block, without and with friction: both move as the equation says. Detaching an end from
+/// the block ends the sheave, and cutting the rope does not.
+///
+/// *Source.* `(m_1 + m_2) a = (m_2 - m_1) g`, and with the capstan `(m_2 + k m_1) a = (m_2 - k m_1) g`, k = exp(mu pi).
+#[test]
+fn crates_on_a_rope_over_a_block_move_as_their_equation_says() {
+    for (kinematic, friction) in [(false, 0.0), (false, 0.1), (true, 0.1)] {
+        let mut world = PhysicsWorld::new();
+        let block = if kinematic { RigidBodyBuilder::kinematic_velocity_based() } else { RigidBodyBuilder::fixed() };
+        let block = world.insert_body(block);
+        let crates = [(10.0, -3.0), (17.0, -1.0)].map(|(mass, y)| add_cube(&mut world, mass, 0.1, [0.0, y - 0.1, 0.0]));
+        let mut set = CableSet::new();
+        let top = (block, Vector::ZERO, [0.0; 3]);
+        let hook = |i: usize, y: Real| (crates[i], Vector::new(0.0, 0.1, 0.0), [0.0, y, 0.0]);
+        let ropes = [[hook(0, -3.0), top], [top, hook(1, -1.0)]].map(|ends| rope(&mut set, &world, ends));
+        let options = SheaveOptions { friction, ..SheaveOptions::default() };
+        let sheave = set.add_sheave((ropes[0], At::End), (ropes[1], At::Start), options).unwrap();
+        run(&mut world, &mut set, 15);
+        let speeds = |world: &PhysicsWorld| crates.map(|c| f64::from(world.bodies[c].linvel().y));
+        let before = speeds(&world);
+        run(&mut world, &mut set, 24);
+        let after = speeds(&world);
+        let k = (friction * std::f64::consts::PI).exp();
+        let expected = (17.0 - k * 10.0) / (17.0 + k * 10.0) * G * 24.0 / 60.0;
+        let gained = [after[0] - before[0], before[1] - after[1]].map(|gained| gained / expected);
+        let state = set.sheave(sheave).unwrap();
+        println!("{gained:?} of the speed, {state:?}");
+        assert!(gained.iter().all(|gained| (gained - 1.0).abs() < 0.01), "{gained:?}");
+        assert!((state.lost() > 1e-3) == (friction > 0.0) && state.passed() > 0.1, "{state:?}");
+        // a cut of the falling side leaves the sheave to the part at it
+        let rest = set.cut(ropes[1], 0.7).unwrap();
+        assert_eq!(set.sheave(sheave).unwrap().ends()[1].0, ropes[1]);
+        assert!(set.get(rest).unwrap().reel(At::Start).is_none());
+        let held =
+            set.attachments().find(|(_, a)| a.cable() == ropes[0] && a.body() == block).map(|(handle, _)| handle);
+        set.detach(&mut world, held.unwrap()).unwrap();
+        assert_eq!(set.sheave(sheave).unwrap_err(), Error::NoSheave(sheave));
+        assert!(set.get(ropes[1]).unwrap().reel(At::Start).is_none());
+        run(&mut world, &mut set, 3);
+    }
+}
+
+/// A tackle of four with a dynamic block: the load rises with a quarter of the speed with which the crate falls, at the acceleration of its
+/// equation.
+///
+/// *Source.* `P (g - v') = T`, `4 T = W (g + v'/4)`.
+#[test]
+fn a_tackle_with_a_dynamic_block_divides_the_speed_by_four() {
+    let mut world = PhysicsWorld::new();
+    let ground = world.insert_body(RigidBodyBuilder::fixed());
+    let block = add_cube(&mut world, 24.0, 0.1, [0.0, -3.1, 0.0]);
+    let crate_ = add_cube(&mut world, 10.0, 0.1, [0.0, -1.1, 0.0]);
+    let mut set = CableSet::new();
+    let (above, below) = ((ground, Vector::ZERO, [0.0; 3]), (block, Vector::new(0.0, 0.1, 0.0), [0.0, -3.0, 0.0]));
+    let haul = (crate_, Vector::new(0.0, 0.1, 0.0), [0.0, -1.0, 0.0]);
+    let ends = [[above, below], [below, above], [above, below], [below, above], [above, haul]];
+    let ropes = ends.map(|ends| rope(&mut set, &world, ends));
+    for pair in ropes.windows(2) {
+        set.add_sheave((pair[0], At::End), (pair[1], At::Start), SheaveOptions::default()).unwrap();
+    }
+    run(&mut world, &mut set, 18);
+    let speeds = |world: &PhysicsWorld| [block, crate_].map(|c| f64::from(world.bodies[c].linvel().y));
+    let before = speeds(&world);
+    run(&mut world, &mut set, 18);
+    let after = speeds(&world);
+    let expected = (10.0 - 24.0 / 4.0) / (10.0 + 24.0 / 16.0) * G * 18.0 / 60.0;
+    println!("{before:?} {after:?}, {expected}");
+    assert!((after[1] / after[0] + 4.0).abs() < 0.05, "{after:?}");
+    assert!(((before[1] - after[1]) / expected - 1.0).abs() < 0.015, "{after:?}");
+}
+
+/// What makes no sheave is refused by name: an end without an attachment, another place, a method that cannot, a handle of the past.
+#[test]
+fn what_makes_no_sheave_is_refused_by_name() {
+    let mut world = PhysicsWorld::new();
+    let ground = world.insert_body(RigidBodyBuilder::fixed());
+    let mut set = CableSet::new();
+    let top = (ground, Vector::ZERO, [0.0; 3]);
+    let side = |x: Real| (ground, Vector::new(x, 0.0, 0.0), [x, 0.0, 0.0]);
+    let ropes = [[side(-1.0), top], [top, side(1.0)]].map(|ends| rope(&mut set, &world, ends));
+    let inner = set.add_sheave((ropes[0], At::ArcLength(0.5)), (ropes[1], At::Start), SheaveOptions::default());
+    assert!(matches!(inner, Err(Error::Cable(Mechanics::ReelPlace { .. }))), "{inner:?}");
+    // the second end fails: the first is as before
+    let twice = set.add_sheave((ropes[0], At::End), (ropes[0], At::End), SheaveOptions::default());
+    assert!(matches!(twice, Err(Error::Cable(Mechanics::ReelPlace { .. }))), "{twice:?}");
+    assert!(set.get(ropes[0]).unwrap().reel(At::End).is_none());
+    let apart = set.add_sheave((ropes[0], At::Start), (ropes[1], At::Start), SheaveOptions::default()).unwrap();
+    assert!(set.step(&mut world).unwrap_err().to_string().contains("not at one point"));
+    set.remove_sheave(apart).unwrap();
+    assert_eq!(set.remove_sheave(apart), Err(Error::NoSheave(apart)));
+    let fine = set.add_sheave((ropes[0], At::End), (ropes[1], At::Start), SheaveOptions::default()).unwrap();
+    run(&mut world, &mut set, 5);
+    set.remove(&mut world, ropes[0]).unwrap();
+    assert_eq!(set.sheave(fine).unwrap_err(), Error::NoSheave(fine));
+    run(&mut world, &mut set, 5);
+}
