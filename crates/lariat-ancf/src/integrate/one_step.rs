@@ -110,7 +110,7 @@ impl Scratch {
 ///     .fix(At::Start)
 ///     .build()?;
 /// let control = StepControl::Stable(0.5);
-/// cable.step_with(1.0 / 60.0, IntegratorRef { method: &SymplecticEuler, control })?;
+/// cable.step_with(1.0 / 60.0, IntegratorRef::new(&SymplecticEuler, control))?;
 /// assert!(cable.node_position(10).y < 0.0);
 /// # Ok::<(), lariat_ancf::Error>(())
 /// ```

@@ -144,7 +144,7 @@ const CASES: &[Case] = &[
     ("", "[cable.break]", 19, &["cable.sling.break", "at least one"]),
     ("", "[cable.break]\ntime = 1.0", 19, &["cable.sling.break.at"]),
     ("", "[cable.break]\ntime = 1.0\nat = \"end\"", 21, &["cable.sling.break.at", "is an end of the cable"]),
-    ("", "[cable.reel]\nend = \"start\"\nrate = [[0.0, 0.0]]", 20, &["cable.sling.reel.end", "end"]),
+    ("", "[cable.reel]\nend = \"middle\"\nrate = [[0.0, 0.0]]", 20, &["cable.sling.reel.end", "end"]),
     ("", "[cable.reel]\nrate = [[0.0, nan]]", 20, &["cable.sling.reel.rate", "not finite"]),
     ("", "[cable.reel]\nrate = [[1.0, 0.1], [0.5, 0.0]]", 20, &["cable.sling.reel.rate", "ascend"]),
     ("", "[cable.reel]\nrate = [[0.0, 0.1]]\nmax_force = 10.0", 15, &["cable.sling.integrator", "clutch", "game"]),
