@@ -59,6 +59,10 @@ class Contact:
     """In m, > 0; None: half the diameter of the section."""
     stiffness: float | None = None
     """Normal force per length and depth in N/m^2, > 0; None: EA/(40 r^2)."""
+    itself: bool = False
+    """Whether the cable touches itself."""
+    cables: bool = False
+    """Whether it touches other cables; there are none beside a ``Cable``, and a ``World`` refuses it."""
     key: ClassVar[str] = "contact"
 
 
