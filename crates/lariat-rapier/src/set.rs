@@ -7,11 +7,10 @@ use crate::contents::Contents;
 use crate::draw::{self, DrawStyle};
 use crate::error::{Error, Failure};
 use crate::events::Event;
-use crate::handle::{AttachmentHandle, CableHandle, JunctionHandle, SheaveHandle};
+use crate::handle::{AttachmentHandle, CableHandle, JunctionHandle};
 use crate::junction::Junction;
 use crate::rope::{self, Rope, RopeEnd, RopeHandles};
 use crate::settings::Settings;
-use crate::sheave::{self, Sheave, SheaveOptions};
 use crate::statics::{self, Equilibrium};
 use crate::step::{self, HostStep, Stepper};
 use crate::totals::{self, WorldEnergy};
@@ -257,37 +256,6 @@ impl CableSet {
         gap: Gap,
     ) -> Result<JunctionHandle, Error> {
         join::join(&mut self.contents, (first.0, first.1.into()), (second.0, second.1.into()), gap)
-    }
-
-    /// Lets a cable run into another over a sheave: `from` and `to` are ends of cables that are attached at one point, to a body or to the
-    /// world. Both need the integrator `discrete-gradient`, and one mass per length. The sheave ends with one of the attachments.
-    ///
-    /// # Errors
-    /// [`Error::NoCable`]; [`Error::Cable`] for a point that is not an end, an end with a reel, or an effect that does not go with one. What
-    /// makes no sheave beyond that is an error of the next step.
-    pub fn add_sheave(
-        &mut self,
-        from: (CableHandle, impl Into<At>),
-        to: (CableHandle, impl Into<At>),
-        options: SheaveOptions,
-    ) -> Result<SheaveHandle, Error> {
-        sheave::add(&mut self.contents, (from.0, from.1.into()), (to.0, to.1.into()), options)
-    }
-
-    /// Ends a sheave: what is on its sides stays there, and nothing runs over it any more.
-    ///
-    /// # Errors
-    /// [`Error::NoSheave`].
-    pub fn remove_sheave(&mut self, sheave: SheaveHandle) -> Result<(), Error> {
-        sheave::remove(&mut self.contents, sheave)
-    }
-
-    /// Returns a sheave.
-    ///
-    /// # Errors
-    /// [`Error::NoSheave`].
-    pub fn sheave(&self, sheave: SheaveHandle) -> Result<&Sheave, Error> {
-        self.contents.sheaves.get(sheave.0 as usize).ok_or(Error::NoSheave(sheave))
     }
 
     /// Unties a cable from a junction; a junction with a single node left ends.

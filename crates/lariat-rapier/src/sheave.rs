@@ -3,6 +3,7 @@
 use crate::contents::Contents;
 use crate::error::Error;
 use crate::handle::{CableHandle, SheaveHandle};
+use crate::set::CableSet;
 use lariat_ancf::island::Sheave as Wheel;
 use lariat_ancf::{At, Reel};
 use serde::{Deserialize, Serialize};
@@ -65,8 +66,41 @@ impl Sheave {
     }
 }
 
+impl CableSet {
+    /// Lets a cable run into another over a sheave: `from` and `to` are ends of cables that are attached at one point, to a body or to the
+    /// world. Both need the integrator `discrete-gradient`, and one mass per length. The sheave ends with one of the attachments.
+    ///
+    /// # Errors
+    /// [`Error::NoCable`]; [`Error::Cable`] for a point that is not an end, an end with a reel, or an effect that does not go with one. What
+    /// makes no sheave beyond that is an error of the next step.
+    pub fn add_sheave(
+        &mut self,
+        from: (CableHandle, impl Into<At>),
+        to: (CableHandle, impl Into<At>),
+        options: SheaveOptions,
+    ) -> Result<SheaveHandle, Error> {
+        add(&mut self.contents, (from.0, from.1.into()), (to.0, to.1.into()), options)
+    }
+
+    /// Ends a sheave: what is on its sides stays there, and nothing runs over it any more.
+    ///
+    /// # Errors
+    /// [`Error::NoSheave`].
+    pub fn remove_sheave(&mut self, sheave: SheaveHandle) -> Result<(), Error> {
+        remove(&mut self.contents, sheave)
+    }
+
+    /// Returns a sheave.
+    ///
+    /// # Errors
+    /// [`Error::NoSheave`].
+    pub fn sheave(&self, sheave: SheaveHandle) -> Result<&Sheave, Error> {
+        self.contents.sheaves.get(sheave.0 as usize).ok_or(Error::NoSheave(sheave))
+    }
+}
+
 /// Lets one cable run into another.
-pub(crate) fn add(
+fn add(
     contents: &mut Contents,
     from: (CableHandle, At),
     to: (CableHandle, At),
@@ -89,7 +123,7 @@ pub(crate) fn add(
 }
 
 /// Ends a sheave: what is on its sides stays there.
-pub(crate) fn remove(contents: &mut Contents, sheave: SheaveHandle) -> Result<(), Error> {
+fn remove(contents: &mut Contents, sheave: SheaveHandle) -> Result<(), Error> {
     let removed = contents.sheaves.remove(sheave.0 as usize).ok_or(Error::NoSheave(sheave))?;
     contents.changed = true;
     for (cable, at) in removed.ends() {

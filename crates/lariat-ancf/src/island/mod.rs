@@ -62,6 +62,7 @@ pub use impedance::Impedance;
 pub use layout::CLOSING_SPEED;
 pub use pin::PinConstraint;
 pub use pin_accounts::PinAccount;
-pub use sheave::Sheave;
 pub use statics::equilibrium;
 pub use step::Island;
+
+pub use crate::system::Sheave;

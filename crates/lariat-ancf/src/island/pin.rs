@@ -23,6 +23,12 @@ pub struct PinConstraint {
     pub direction: Option<Vector3<f64>>,
 }
 
+/// Returns whether a node of a cable is held by a body that moves freely along or about an axis.
+pub(super) fn is_on_free_body(bodies: &[RigidBody], pins: &[PinConstraint], cable: usize, node: usize) -> bool {
+    let mut holding = pins.iter().filter(|pin| pin.cable == cable && pin.node == node);
+    holding.any(|pin| bodies[pin.body].free.contains(&true))
+}
+
 /// Checks that cables, bodies and pins make an island.
 pub(super) fn check(cables: &[&mut Cable], bodies: &[RigidBody], pins: &[PinConstraint]) -> Result<(), Error> {
     let Some(time) = cables.first().map(|cable| cable.time()) else { return Err(Error::EmptyIsland) };

@@ -31,7 +31,7 @@ use super::body::RigidBody;
 use super::equations::{IslandEquations, Matrices, MatrixKind};
 use super::hold::vector;
 use super::layout::Layout;
-use super::pin::{PinConstraint, check};
+use super::pin::{PinConstraint, check, is_on_free_body};
 use super::rotation::{exponential, jacobian_inverse};
 use crate::cable::Cable;
 use crate::effect::acts::ForceInput;
@@ -84,8 +84,7 @@ pub fn equilibrium(
     }
     let windings: Vec<_> = cables.iter().map(|cable| cable.snapshot.windings).collect();
     for (i, cable) in cables.iter_mut().enumerate().filter(|(_, cable)| cable.has_reel()) {
-        let held = |node: usize| pins.iter().filter(move |pin| pin.cable == i && pin.node == node);
-        cable.set_riding_stock(|node| held(node).any(|pin| bodies[pin.body].free.contains(&true)));
+        cable.set_riding_stock(|node| is_on_free_body(bodies, pins, i, node));
         cable.sync_reel();
     }
     let mut still = bodies.to_vec();

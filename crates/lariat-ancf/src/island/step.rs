@@ -6,12 +6,13 @@ use super::dynamics::{IslandDynamics, Vectors};
 use super::equations::{IslandEquations, Matrices};
 use super::layout::Layout;
 use super::memory;
-use super::pin::{PinConstraint, check};
+use super::pin::{PinConstraint, check, is_on_free_body};
 use super::pin_accounts::{PinAccount, PinAccounts};
-use super::sheave::{self, Sheave};
+use super::sheave;
 use crate::cable::{Cable, SHORTEST_STEP, check_integrator};
 use crate::error::{Error, require};
 use crate::integrate::{Integrator, IntegratorRef, Scratch, State, step_control};
+use crate::system::{Sheave, Wheel};
 
 /// Buffers of an island, reused from step to step; nothing in them is state.
 #[derive(Clone, Debug, Default)]
@@ -83,25 +84,22 @@ impl Island {
             return Ok(());
         }
         for (i, cable) in cables.iter().enumerate().filter(|(_, cable)| cable.has_reel()) {
-            let held = |node: usize| pins.iter().filter(move |pin| pin.cable == i && pin.node == node);
-            let moves = |node: usize| held(node).any(|pin| bodies[pin.body].free.contains(&true));
-            cable.check_reel_in_island(moves, integrator.method, dt)?;
+            cable.check_reel_in_island(|node| is_on_free_body(bodies, pins, i, node), integrator.method, dt)?;
         }
         for (i, cable) in cables.iter_mut().enumerate().filter(|(_, cable)| cable.has_reel()) {
-            let held = |node: usize| pins.iter().filter(move |pin| pin.cable == i && pin.node == node);
-            cable.set_riding_stock(|node| held(node).any(|pin| bodies[pin.body].free.contains(&true)));
+            cable.set_riding_stock(|node| is_on_free_body(bodies, pins, i, node));
         }
         cables.iter_mut().for_each(|cable| cable.begin_reel(dt));
         let wheels = &mut self.by_discrete_gradient.unknowns.wheels;
         wheels.clear();
-        wheels.extend(sheaves.iter().map(Sheave::wheel));
+        wheels.extend(sheaves.iter().copied().map(Wheel::new));
         cables.iter_mut().for_each(|cable| cable.take_workspace());
         let outcome = self.step_in_workspaces(cables, bodies, pins, integrator, dt);
         cables.iter_mut().rev().for_each(|cable| cable.return_workspace());
         cables.iter_mut().for_each(|cable| cable.end_reel(outcome.is_ok()));
         if outcome.is_ok() {
             let wheels = &self.by_discrete_gradient.unknowns.wheels;
-            sheaves.iter_mut().zip(wheels).for_each(|(sheave, wheel)| sheave.follow(wheel));
+            sheaves.iter_mut().zip(wheels).for_each(|(sheave, wheel)| *sheave = wheel.sheave);
         }
         outcome
     }

@@ -37,6 +37,7 @@ mod rigid_motion;
 pub(crate) use discrete_gradient::{CableStep, dot};
 pub(crate) use dynamics::CableDynamics;
 pub(crate) use equations::Equations;
+pub use flow::Sheave;
 pub(crate) use flow::{Flow, Law, Motor, Source, Unknowns, Wheel, rates};
 pub(crate) use projection::{project_matrix, project_vector};
 

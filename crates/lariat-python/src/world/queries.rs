@@ -8,6 +8,7 @@ use crate::error::{Raise, raise};
 use lariat_rapier::convert::vector as double;
 use lariat_rapier::rapier::dynamics::CoefficientCombineRule;
 use lariat_rapier::rapier::geometry::{ColliderHandle, Group, InteractionGroups, InteractionTestMode, Ray};
+use lariat_rapier::rapier::math::Real;
 use lariat_rapier::rapier::pipeline::QueryFilter;
 use lariat_rapier::{ContactRules, Error};
 use pyo3::prelude::*;
@@ -34,6 +35,12 @@ pub fn combine_rule(name: &str) -> PyResult<CoefficientCombineRule> {
 
 fn filter(exclude: Option<Handle>) -> QueryFilter<'static> {
     exclude.map_or(QueryFilter::default(), |body| QueryFilter::default().exclude_rigid_body(body.0))
+}
+
+/// Returns a ray and its largest time of impact.
+fn ray(origin: Vector, direction: Vector, max_toi: f64) -> PyResult<(Ray, Real)> {
+    let ray = Ray::new(single("origin (m)", origin.0)?, single("direction", direction.0)?);
+    Ok((ray, positive("max_toi", max_toi)?))
 }
 
 fn handle<'py>(py: Python<'py>, handle: ColliderHandle) -> PyResult<Bound<'py, PyAny>> {
@@ -95,8 +102,7 @@ impl World {
         solid: bool,
         exclude_rigid_body: Option<Handle>,
     ) -> PyResult<Option<(Bound<'py, PyAny>, f64)>> {
-        let ray = Ray::new(single("origin (m)", origin.0)?, single("direction", direction.0)?);
-        let most = positive("max_toi", max_toi)?;
+        let (ray, most) = ray(origin, direction, max_toi)?;
         let found = self.0.with(py, |contents| contents.world.cast_ray(&ray, most, solid, filter(exclude_rigid_body)));
         found.map(|(collider, toi)| Ok((handle(py, collider)?, f64::from(toi)))).transpose()
     }
@@ -112,8 +118,7 @@ impl World {
         solid: bool,
         exclude_rigid_body: Option<Handle>,
     ) -> PyResult<Option<(Bound<'py, PyAny>, Bound<'py, PyAny>)>> {
-        let ray = Ray::new(single("origin (m)", origin.0)?, single("direction", direction.0)?);
-        let most = positive("max_toi", max_toi)?;
+        let (ray, most) = ray(origin, direction, max_toi)?;
         let found = self
             .0
             .with(py, |contents| contents.world.cast_ray_and_get_normal(&ray, most, solid, filter(exclude_rigid_body)));

@@ -8,12 +8,40 @@ use lariat_rapier::{AttachmentKind, CableSet};
 
 /// How the links of an arm are joined to each other.
 #[derive(Clone, Copy, Debug, PartialEq)]
-enum Elbow {
+pub enum Elbow {
     Welded,
     /// Hinges that a limit keeps straight.
     Limited,
     /// Hinges with both limits at 0.
     Locked,
+}
+
+/// Adds links of 0.5 m along x, hinged to the world at the origin and joined to each other. The last one is the tip.
+pub fn add_links(world: &mut PhysicsWorld, masses: &[f64], elbow: Elbow, multibody: bool) -> Vec<RigidBodyHandle> {
+    let mut links = Vec::new();
+    let mut before = world.insert_body(RigidBodyBuilder::fixed());
+    for (k, &mass) in masses.iter().enumerate() {
+        let x = 0.25 + 0.5 * k as Real;
+        let body = RigidBodyBuilder::dynamic().translation(Vector::new(x, 0.0, 0.0)).can_sleep(false);
+        let collider = ColliderBuilder::cuboid(0.2, 0.05, 0.05).mass(mass as Real);
+        let link = world.insert(body.angular_damping(1.0), collider).0;
+        let (at, end) = (Vector::new(if k == 0 { 0.0 } else { 0.25 }, 0.0, 0.0), Vector::new(-0.25, 0.0, 0.0));
+        let hinge = RevoluteJointBuilder::new(Vector::Z).local_anchor1(at).local_anchor2(end);
+        let joint: GenericJoint = match elbow {
+            Elbow::Welded if k > 0 => FixedJointBuilder::new().local_anchor1(at).local_anchor2(end).into(),
+            Elbow::Limited if k > 0 => hinge.limits([-1.0, 0.0]).into(),
+            Elbow::Locked if k > 0 => hinge.limits([0.0, 0.0]).into(),
+            _ => hinge.into(),
+        };
+        if multibody {
+            world.multibody_joints.insert(before, link, joint, true).unwrap();
+        } else {
+            world.insert_impulse_joint(before, link, joint);
+        }
+        before = link;
+        links.push(link);
+    }
+    links
 }
 
 /// An arm of links of 0.5 m, hinged to the world at its shoulder, its tip held by a rope from above.
@@ -43,29 +71,7 @@ impl Arm<'_> {
         let mut world = PhysicsWorld::new();
         world.integration_parameters.num_solver_iterations = self.iterations;
         world.integration_parameters.dt = 1.0 / self.rate as Real;
-        let mut links = Vec::new();
-        let mut before = world.insert_body(RigidBodyBuilder::fixed());
-        for (k, &mass) in self.masses.iter().enumerate() {
-            let x = 0.25 + 0.5 * k as Real;
-            let body = RigidBodyBuilder::dynamic().translation(Vector::new(x, 0.0, 0.0)).can_sleep(false);
-            let collider = ColliderBuilder::cuboid(0.2, 0.05, 0.05).mass(mass as Real);
-            let link = world.insert(body.angular_damping(1.0), collider).0;
-            let (at, end) = (Vector::new(if k == 0 { 0.0 } else { 0.25 }, 0.0, 0.0), Vector::new(-0.25, 0.0, 0.0));
-            let hinge = RevoluteJointBuilder::new(Vector::Z).local_anchor1(at).local_anchor2(end);
-            let joint: GenericJoint = match self.elbow {
-                Elbow::Welded if k > 0 => FixedJointBuilder::new().local_anchor1(at).local_anchor2(end).into(),
-                Elbow::Limited if k > 0 => hinge.limits([-1.0, 0.0]).into(),
-                Elbow::Locked if k > 0 => hinge.limits([0.0, 0.0]).into(),
-                _ => hinge.into(),
-            };
-            if self.multibody {
-                world.multibody_joints.insert(before, link, joint, true).unwrap();
-            } else {
-                world.insert_impulse_joint(before, link, joint);
-            }
-            before = link;
-            links.push(link);
-        }
+        let links = add_links(&mut world, self.masses, self.elbow, self.multibody);
         let mut set = CableSet::new();
         set.settings.fidelity = self.fidelity;
         let mut add_rope = |world: &PhysicsWorld, link: usize| {

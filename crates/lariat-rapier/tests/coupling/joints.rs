@@ -1,5 +1,6 @@
 //! Bodies on joints, links of multibodies, motors, limits, CCD, locked axes.
 
+use super::arms::{Elbow, add_links};
 use super::common::{add_cube, cable, gap, l_stable_integrator, run, soft, tension, weightless, wire};
 use lariat_rapier::convert::vector;
 use lariat_rapier::lariat_ancf::{At, Fidelity, Section, Vector3};
@@ -115,28 +116,8 @@ fn arm(multibody: bool, limits: bool, iterations: usize, rate: usize, impulse: f
     let mut world = PhysicsWorld::new();
     world.integration_parameters.num_solver_iterations = iterations;
     world.integration_parameters.dt = 1.0 / rate as Real;
-    let mut links = Vec::new();
-    let base = world.insert_body(RigidBodyBuilder::fixed());
-    let mut before = base;
-    for k in 0..3 {
-        let x = 0.25 + 0.5 * k as Real;
-        let body = RigidBodyBuilder::dynamic().translation(Vector::new(x, 0.0, 0.0)).can_sleep(false);
-        let link = world.insert(body.angular_damping(1.0), ColliderBuilder::cuboid(0.2, 0.05, 0.05).mass(1.0)).0;
-        let (at, end) = (Vector::new(if k == 0 { 0.0 } else { 0.25 }, 0.0, 0.0), Vector::new(-0.25, 0.0, 0.0));
-        let joint: GenericJoint = if k > 0 && !limits {
-            FixedJointBuilder::new().local_anchor1(at).local_anchor2(end).into()
-        } else {
-            let hinge = RevoluteJointBuilder::new(Vector::Z).local_anchor1(at).local_anchor2(end);
-            if k > 0 { hinge.limits([-1.0, 0.0]).into() } else { hinge.into() }
-        };
-        if multibody {
-            world.multibody_joints.insert(before, link, joint, true).unwrap();
-        } else {
-            world.insert_impulse_joint(before, link, joint);
-        }
-        before = link;
-        links.push(link);
-    }
+    let elbow = if limits { Elbow::Limited } else { Elbow::Welded };
+    let links = add_links(&mut world, &[1.0; 3], elbow, multibody);
     let mut set = CableSet::new();
     let rope = cable([1.5, 1.0, 0.0], [1.5, 0.0, 0.0], soft())
         .fix(At::Start)
@@ -144,7 +125,7 @@ fn arm(multibody: bool, limits: bool, iterations: usize, rate: usize, impulse: f
         .build()
         .unwrap();
     let rope = set.insert(rope);
-    let held = set.attach_here(&world, rope, At::End, before, AttachmentKind::Ball).unwrap();
+    let held = set.attach_here(&world, rope, At::End, links[2], AttachmentKind::Ball).unwrap();
     run(&mut world, &mut set, rate);
     world.bodies[links[1]].apply_impulse(Vector::new(0.0, impulse as Real, 0.3 * impulse as Real), true);
     run(&mut world, &mut set, 4 * rate);

@@ -99,6 +99,17 @@ fn is_certain(balance: &Balance) -> bool {
     ROUNDING * (balance.numerical + balance.contacts + balance.residual.abs()) <= TOLERANCE * balance.scale()
 }
 
+/// Makes the end of the step the present state.
+fn accept(
+    system: &mut dyn DiscreteGradientSystem,
+    balance: &Balance,
+    limit: Option<&WorkLimit>,
+) -> Result<bool, StepFailure> {
+    system.accept(balance);
+    limit.into_iter().for_each(WorkLimit::note_progress);
+    Ok(true)
+}
+
 /// Advances the system by `h` (s); returns false if the limit ended the step before.
 ///
 /// # Errors
@@ -109,7 +120,6 @@ pub(super) fn step(
     depth: usize,
     limit: Option<&WorkLimit>,
 ) -> Result<bool, StepFailure> {
-    let note_progress = || limit.into_iter().for_each(WorkLimit::note_progress);
     system.predict(h);
     let mut last = Err(StepFailure::NotConverged { iterations: 0, increment: 0.0 });
     let (mut fresh, mut most) = (true, MAX_ITERATIONS);
@@ -143,9 +153,7 @@ pub(super) fn step(
         && keeps_law(balance)
         && (is_dissipation_right(balance) && closes(balance) && are_motors_right(balance) || depth == MAX_DEPTH)
     {
-        system.accept(balance);
-        note_progress();
-        return Ok(true);
+        return accept(system, balance, limit);
     }
     let reduced = limit.is_some_and(WorkLimit::reduces);
     let largest_share = if reduced { 1.0 } else { SHARE_OF_HALF_THE_ENERGY };
@@ -156,17 +164,13 @@ pub(super) fn step(
         && system.rescale(balance, largest_share)
     {
         system.count(Event::Rescaled);
-        system.accept(balance);
-        note_progress();
-        return Ok(true);
+        return accept(system, balance, limit);
     }
     if reduced
         && let Ok(balance) = &last
         && keeps_law(balance)
     {
-        system.accept(balance);
-        note_progress();
-        return Ok(true);
+        return accept(system, balance, limit);
     }
     if reduced && limit.is_some_and(WorkLimit::stops) {
         return Ok(false);

@@ -16,6 +16,7 @@
 mod body;
 mod holds;
 mod host_step;
+mod laws;
 mod pairs;
 mod rescale;
 
@@ -29,12 +30,11 @@ use super::pin_accounts::PinAccounts;
 use crate::cable::Cable;
 use crate::contact::{BodyPath, PairStep};
 use crate::effect::EffectWork;
-use crate::element::side::Side;
 use crate::error::StepFailure;
 use crate::integrate::State;
 use crate::integrate::discrete_gradient::{BETA, Balance, Buffers, DiscreteGradientSystem, Event, sum_of_forces};
 use crate::support::SlopeSupport;
-use crate::system::{CableStep, Equations, Flow, Unknowns, Wheel, dot, project_vector};
+use crate::system::{CableStep, Equations, Unknowns, dot, project_vector};
 use body::BodyStep;
 use holds::HoldStep;
 use nalgebra::Vector3;
@@ -204,87 +204,6 @@ impl IslandStep<'_, '_> {
         }
     }
 
-    /// Returns the flows at a sheave.
-    fn flows(&self, wheel: &Wheel) -> Option<[Flow; 2]> {
-        let of = |(cable, side): (usize, Side)| self.cables[cable].system.flows.at_side(side).copied();
-        let [a, b] = wheel.ends;
-        Some([of(a)?, of(b)?])
-    }
-
-    /// Begins a step of length `h` (s) for sheaves: both flows at one have opposite rates.
-    fn begin_wheels(&mut self, h: f64) {
-        for w in 0..self.buffers.unknowns.wheels.len() {
-            let mut wheel = self.buffers.unknowns.wheels[w];
-            let Some([a, b]) = self.flows(&wheel) else { continue };
-            let tangents = wheel.ends.map(|(cable, side)| {
-                let local = side.gather(self.cables[cable].positions());
-                [local[9], local[10], local[11]]
-            });
-            let (cable, side) = wheel.ends[1];
-            let model = &self.cables[cable].model;
-            let inertia = model.inertia(&model.elements[side.element(model.elements.len())]);
-            let acceleration = wheel.begin([&a, &b], tangents, inertia, h);
-            let rate = b.extent.rate;
-            for ((cable, side), sign) in wheel.ends.into_iter().zip([-1.0, 1.0]) {
-                let flows = &mut self.cables[cable].system.flows.list;
-                if let Some(flow) = flows.iter_mut().find(|flow| flow.side == side) {
-                    (flow.extent.rate, flow.extent.acceleration) = (sign * rate, sign * acceleration);
-                }
-            }
-            self.buffers.unknowns.wheels[w] = wheel;
-        }
-    }
-
-    /// Linearises the laws of reels whose rate is unknown, and solves for their columns.
-    fn linearise_laws(&mut self) {
-        let mut unknowns = core::mem::take(&mut self.buffers.unknowns);
-        unknowns.begin(self.cables.iter().map(|cable| &cable.system.flows));
-        let Unknowns { reels, columns, rows, saved, .. } = &mut unknowns;
-        for ((&(c, k), columns), rows) in reels.iter().zip(columns).zip(rows) {
-            for (cable, column) in self.cables.iter().zip(columns.iter_mut()) {
-                column.clear();
-                column.resize(cable.positions().len(), 0.0);
-            }
-            let CableStep { mut equations, state, buffers } = self.cables[c].step_parts();
-            equations.read_motors(state, buffers);
-            equations.linearise_law(k, state, buffers, &mut columns[c], saved);
-            rows.clear();
-            rows.resize(self.buffers.rows.len(), 0.0);
-            for hold in &self.buffers.cables[c].holds {
-                hold.pass(&vector(&columns[c][hold.at..]), rows);
-            }
-            self.swap(columns, rows);
-            self.solve();
-            self.swap(columns, rows);
-        }
-        self.buffers.unknowns = unknowns;
-    }
-
-    /// Exchanges the right-hand sides of cables and bodies with others.
-    fn swap(&mut self, columns: &mut [Vec<f64>], rows: &mut Vec<f64>) {
-        for (cable, column) in self.cables.iter_mut().zip(columns) {
-            core::mem::swap(&mut cable.step_buffers.rhs, column);
-        }
-        core::mem::swap(&mut self.buffers.rows, rows);
-    }
-
-    /// Solves for the rates of reels that are unknown, and completes the increments.
-    fn add_to_laws(&mut self) {
-        let (cables, StepBuffers { unknowns, rows, .. }) = (&mut *self.cables, &mut *self.buffers);
-        if unknowns.reels.is_empty() {
-            return;
-        }
-        unknowns.solve(|c| &cables[c].system.flows, |c| &cables[c].step_buffers.rhs);
-        for (i, &(c, k)) in unknowns.reels.iter().enumerate() {
-            let increment = unknowns.increments[i];
-            cables[c].step_parts().equations.add_to_law(k, increment);
-            let own = cables.iter_mut().map(|cable| &mut cable.step_buffers.rhs);
-            for (x, y) in own.zip(&unknowns.columns[i]).chain(core::iter::once((&mut *rows, &unknowns.rows[i]))) {
-                x.iter_mut().zip(y).for_each(|(x, y)| *x -= increment * y);
-            }
-        }
-    }
-
     /// Solves for the increments and adds them to the iterate.
     fn add_increment(&mut self) -> Result<(), StepFailure> {
         self.solve();
@@ -343,11 +262,7 @@ impl IslandStep<'_, '_> {
                 (0..3).for_each(|x| total.drift[x] += row[x]);
             }
         }
-        for wheel in &self.buffers.unknowns.wheels {
-            if let Some([a, b]) = self.flows(wheel) {
-                wheel.add_balance([&a, &b], &mut total);
-            }
-        }
+        self.balance_wheels(&mut total);
         if let Some(pairs) = pairs {
             total.add_contacts(&pairs, self.cables[0].step_buffers.h);
             self.cables[0].system.meter.work_of_step.contact += pairs.work;
@@ -418,13 +333,7 @@ impl DiscreteGradientSystem for IslandStep<'_, '_> {
     }
 
     fn accept(&mut self, balance: &Balance) {
-        for w in 0..self.buffers.unknowns.wheels.len() {
-            let mut wheel = self.buffers.unknowns.wheels[w];
-            if let Some([a, b]) = self.flows(&wheel) {
-                wheel.accept([&a, &b], self.time(), self.cables[0].step_buffers.h);
-            }
-            self.buffers.unknowns.wheels[w] = wheel;
-        }
+        self.accept_wheels();
         for (cable, own) in self.cables.iter_mut().zip(&self.buffers.cables) {
             let CableStep { mut equations, state, buffers } = cable.step_parts();
             for hold in &own.holds {

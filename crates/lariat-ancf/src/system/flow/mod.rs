@@ -26,12 +26,14 @@
 //! of the forces of the flow, and with riding stock its sums over rows are exact. Stock has no inertia about the eye.
 
 mod law;
+mod sheave;
 mod step;
 mod unknowns;
 mod wheel;
 mod work;
 
 pub(crate) use law::{Law, Motor, rates};
+pub use sheave::Sheave;
 pub(crate) use unknowns::Unknowns;
 pub(crate) use wheel::Wheel;
 

@@ -50,7 +50,7 @@ impl Unknowns {
         for (c, flows) in cables.enumerate() {
             for (k, flow) in flows.list.iter().enumerate().filter(|(_, flow)| flow.law.is_some()) {
                 for wheel in &mut self.wheels {
-                    for (end, unknown) in wheel.ends.iter().zip(&mut wheel.flows) {
+                    for (end, unknown) in wheel.sheave.ends().iter().zip(&mut wheel.flows) {
                         if *end == (c, flow.side) {
                             *unknown = self.reels.len();
                         }

@@ -32,6 +32,7 @@
 //! The bound from the pulls of the iterate before: the iteration contracts with (exp(mu theta) - 1)/2 and diverges for large angles.
 
 use super::law::rates;
+use super::sheave::Sheave;
 use super::{Flow, Flows};
 use crate::element::flow::Extent;
 use crate::element::side::Side;
@@ -43,21 +44,7 @@ const STOP: f64 = 100.0;
 /// A sheave in a step.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Wheel {
-    /// Cable and end, from which and to which material runs for positive rates.
-    pub ends: [(usize, Side); 2],
-    /// In kg.
-    pub inertia: f64,
-    /// Coefficient mu.
-    pub friction: f64,
-    /// Angle in rad beyond that between the tangents.
-    pub turns: f64,
-    /// In N.
-    pub brake: f64,
-    /// Length in m that ran over it, and energy in J that friction took, so far.
-    pub passed: f64,
-    pub lost: f64,
-    /// Friction in N over the last step.
-    pub force: f64,
+    pub sheave: Sheave,
     /// exp(mu theta) - 1.
     grip: f64,
     /// Mass per length in kg/m times the square of the rate, in N.
@@ -77,22 +64,9 @@ pub(super) struct Pulls {
 }
 
 impl Wheel {
-    /// Creates a sheave of no inertia, without friction.
-    pub fn new(ends: [(usize, Side); 2]) -> Self {
-        Wheel {
-            ends,
-            inertia: 0.0,
-            friction: 0.0,
-            turns: 0.0,
-            brake: 0.0,
-            passed: 0.0,
-            lost: 0.0,
-            force: 0.0,
-            grip: 0.0,
-            lift: 0.0,
-            planned: [0.0; 3],
-            flows: [0; 2],
-        }
+    /// Creates the wheel of a sheave.
+    pub fn new(sheave: Sheave) -> Self {
+        Wheel { sheave, grip: 0.0, lift: 0.0, planned: [0.0; 3], flows: [0; 2] }
     }
 
     /// Begins a step of length `h` (s): `flows` are those of its cables, `tangents` their tangents there, away from the cables, and
@@ -110,8 +84,8 @@ impl Wheel {
         let dot: f64 = (0..3).map(|x| -a[x] * b[x]).sum();
         let norm = |t: [f64; 3]| t.iter().map(|x| x * x).sum::<f64>().sqrt();
         let cosine = dot / (norm(a) * norm(b)).max(f64::MIN_POSITIVE);
-        let angle = cosine.clamp(-1.0, 1.0).acos() + self.turns;
-        self.grip = if self.friction > 0.0 { (self.friction * angle).exp() - 1.0 } else { 0.0 };
+        let angle = cosine.clamp(-1.0, 1.0).acos() + self.sheave.turns;
+        self.grip = if self.sheave.friction > 0.0 { (self.sheave.friction * angle).exp() - 1.0 } else { 0.0 };
         self.lift = inertia * rate * rate;
         let present = if rate == 0.0 { self.planned[1] } else { flows[1].extent.acceleration };
         self.bounded(present)
@@ -123,7 +97,7 @@ impl Wheel {
 
     /// Returns the largest friction in N under these pulls.
     fn bound(&self, [a, b]: [f64; 2]) -> f64 {
-        self.grip * (a.min(b) - self.lift).max(0.0) + self.brake
+        self.grip * (a.min(b) - self.lift).max(0.0) + self.sheave.brake
     }
 
     /// Returns the acceleration that meets the law.
@@ -132,7 +106,7 @@ impl Wheel {
         let wanted = self.planned[1];
         let x = wanted - present;
         let at_rest = [a - ka * x, b - kb * x];
-        let needed = at_rest[1] - at_rest[0] - self.inertia * wanted;
+        let needed = at_rest[1] - at_rest[0] - self.sheave.inertia * wanted;
         let bound = self.bound(at_rest);
         if needed.abs() <= bound && bound > 0.0 {
             return self.bounded(wanted);
@@ -141,8 +115,9 @@ impl Wheel {
         // F_b - F_a - m A - sign (grip (F_low - lift) + brake) = 0; the cable that brakes has the lower pull
         let slip = |grip: f64| {
             let (of_a, of_b) = if sign > 0.0 { (1.0 + grip, 1.0) } else { (1.0, 1.0 + grip) };
-            let force = of_b * b - of_a * a - self.inertia * present + sign * (grip * self.lift - self.brake);
-            let stiffness = of_b * kb - of_a * ka + self.inertia;
+            let force =
+                of_b * b - of_a * a - self.sheave.inertia * present + sign * (grip * self.lift - self.sheave.brake);
+            let stiffness = of_b * kb - of_a * ka + self.sheave.inertia;
             (force / stiffness.max(f64::MIN_POSITIVE), if sign > 0.0 { (a, ka) } else { (b, kb) })
         };
         let (x, (low, k)) = slip(self.grip);
@@ -153,7 +128,7 @@ impl Wheel {
     /// Returns the friction in N of an iterate, and by how much it breaks the law.
     fn violation(&self, force: [f64; 2], acceleration: f64) -> (f64, f64) {
         let [least, wanted, largest] = self.planned;
-        let friction = force[1] - force[0] - self.inertia * acceleration;
+        let friction = force[1] - force[0] - self.sheave.inertia * acceleration;
         let (bound, rounding) = (self.bound(force), 1e-12 * (1.0 + acceleration.abs()));
         let missed = if (acceleration - wanted).abs() <= rounding {
             (friction.abs() - bound).max(0.0)
@@ -177,9 +152,9 @@ impl Wheel {
     /// Adds an accepted step of length `h` (s) from `time` to what passed and was lost.
     pub fn accept(&mut self, flows: [&Flow; 2], time: f64, h: f64) {
         let Extent { rate, .. } = flows[1].over(time, h).0;
-        self.force = self.violation(flows.map(Flow::pull_of_iterate), flows[1].extent.acceleration).0;
-        self.passed += rate * h;
-        self.lost += self.force * rate * h;
+        self.sheave.force = self.violation(flows.map(Flow::pull_of_iterate), flows[1].extent.acceleration).0;
+        self.sheave.passed += rate * h;
+        self.sheave.lost += self.sheave.force * rate * h;
     }
 }
 

@@ -1,0 +1,111 @@
+//! Reels whose rate is unknown, and sheaves, of the cables of an island in a step of the discrete gradient. Equations: `system/flow/law.rs`
+//! and `wheel.rs`.
+
+use super::super::hold::vector;
+use super::{IslandStep, StepBuffers};
+use crate::element::side::Side;
+use crate::integrate::discrete_gradient::Balance;
+use crate::system::{CableStep, Flow, Unknowns, Wheel};
+
+impl IslandStep<'_, '_> {
+    /// Returns the flows at a sheave.
+    fn flows(&self, wheel: &Wheel) -> Option<[Flow; 2]> {
+        let of = |(cable, side): (usize, Side)| self.cables[cable].system.flows.at_side(side).copied();
+        let [a, b] = wheel.sheave.ends();
+        Some([of(a)?, of(b)?])
+    }
+
+    /// Begins a step of length `h` (s) for sheaves: both flows at one have opposite rates.
+    pub(super) fn begin_wheels(&mut self, h: f64) {
+        for w in 0..self.buffers.unknowns.wheels.len() {
+            let mut wheel = self.buffers.unknowns.wheels[w];
+            let Some([a, b]) = self.flows(&wheel) else { continue };
+            let tangents = wheel.sheave.ends().map(|(cable, side)| {
+                let local = side.gather(self.cables[cable].positions());
+                [local[9], local[10], local[11]]
+            });
+            let (cable, side) = wheel.sheave.ends()[1];
+            let model = &self.cables[cable].model;
+            let inertia = model.inertia(&model.elements[side.element(model.elements.len())]);
+            let acceleration = wheel.begin([&a, &b], tangents, inertia, h);
+            let rate = b.extent.rate;
+            for ((cable, side), sign) in wheel.sheave.ends().into_iter().zip([-1.0, 1.0]) {
+                let flows = &mut self.cables[cable].system.flows.list;
+                if let Some(flow) = flows.iter_mut().find(|flow| flow.side == side) {
+                    (flow.extent.rate, flow.extent.acceleration) = (sign * rate, sign * acceleration);
+                }
+            }
+            self.buffers.unknowns.wheels[w] = wheel;
+        }
+    }
+
+    /// Linearises the laws of reels whose rate is unknown, and solves for their columns.
+    pub(super) fn linearise_laws(&mut self) {
+        let mut unknowns = core::mem::take(&mut self.buffers.unknowns);
+        unknowns.begin(self.cables.iter().map(|cable| &cable.system.flows));
+        let Unknowns { reels, columns, rows, saved, .. } = &mut unknowns;
+        for ((&(c, k), columns), rows) in reels.iter().zip(columns).zip(rows) {
+            for (cable, column) in self.cables.iter().zip(columns.iter_mut()) {
+                column.clear();
+                column.resize(cable.positions().len(), 0.0);
+            }
+            let CableStep { mut equations, state, buffers } = self.cables[c].step_parts();
+            equations.read_motors(state, buffers);
+            equations.linearise_law(k, state, buffers, &mut columns[c], saved);
+            rows.clear();
+            rows.resize(self.buffers.rows.len(), 0.0);
+            for hold in &self.buffers.cables[c].holds {
+                hold.pass(&vector(&columns[c][hold.at..]), rows);
+            }
+            self.swap(columns, rows);
+            self.solve();
+            self.swap(columns, rows);
+        }
+        self.buffers.unknowns = unknowns;
+    }
+
+    /// Exchanges the right-hand sides of cables and bodies with others.
+    fn swap(&mut self, columns: &mut [Vec<f64>], rows: &mut Vec<f64>) {
+        for (cable, column) in self.cables.iter_mut().zip(columns) {
+            core::mem::swap(&mut cable.step_buffers.rhs, column);
+        }
+        core::mem::swap(&mut self.buffers.rows, rows);
+    }
+
+    /// Solves for the rates of reels that are unknown, and completes the increments.
+    pub(super) fn add_to_laws(&mut self) {
+        let (cables, StepBuffers { unknowns, rows, .. }) = (&mut *self.cables, &mut *self.buffers);
+        if unknowns.reels.is_empty() {
+            return;
+        }
+        unknowns.solve(|c| &cables[c].system.flows, |c| &cables[c].step_buffers.rhs);
+        for (i, &(c, k)) in unknowns.reels.iter().enumerate() {
+            let increment = unknowns.increments[i];
+            cables[c].step_parts().equations.add_to_law(k, increment);
+            let own = cables.iter_mut().map(|cable| &mut cable.step_buffers.rhs);
+            for (x, y) in own.zip(&unknowns.columns[i]).chain(core::iter::once((&mut *rows, &unknowns.rows[i]))) {
+                x.iter_mut().zip(y).for_each(|(x, y)| *x -= increment * y);
+            }
+        }
+    }
+
+    /// Adds to a balance by how much the iterate breaks the laws of sheaves.
+    pub(super) fn balance_wheels(&self, balance: &mut Balance) {
+        for wheel in &self.buffers.unknowns.wheels {
+            if let Some([a, b]) = self.flows(wheel) {
+                wheel.add_balance([&a, &b], balance);
+            }
+        }
+    }
+
+    /// Adds the accepted step to what ran over sheaves.
+    pub(super) fn accept_wheels(&mut self) {
+        for w in 0..self.buffers.unknowns.wheels.len() {
+            let mut wheel = self.buffers.unknowns.wheels[w];
+            if let Some([a, b]) = self.flows(&wheel) {
+                wheel.accept([&a, &b], self.cables[0].time(), self.cables[0].step_buffers.h);
+            }
+            self.buffers.unknowns.wheels[w] = wheel;
+        }
+    }
+}
