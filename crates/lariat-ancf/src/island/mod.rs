@@ -50,6 +50,7 @@ mod layout;
 mod memory;
 mod pin;
 mod pin_accounts;
+mod pin_momentum;
 mod rotation;
 mod rows;
 mod sheave;

@@ -116,7 +116,7 @@ impl Island {
         let Island { layout, matrices, accounts, vectors, by_discrete_gradient: buffers, scratch, state } = self;
         layout.begin(cables, bodies, pins, dt);
         matrices.begin(layout);
-        accounts.begin(pins.len());
+        accounts.begin(cables, layout);
         vectors.resize(layout.size());
         gather(cables, bodies, state);
         if integrator.method.uses_discrete_gradients() {
@@ -140,6 +140,7 @@ impl Island {
         }
         memory::keep(cables, bodies, pins, state);
         scatter(cables, bodies, state, layout);
+        self.accounts.end(cables, &self.layout);
         Ok(())
     }
 

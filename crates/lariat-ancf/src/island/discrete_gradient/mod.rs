@@ -34,7 +34,7 @@ use crate::error::StepFailure;
 use crate::integrate::State;
 use crate::integrate::discrete_gradient::{BETA, Balance, Buffers, DiscreteGradientSystem, Event, sum_of_forces};
 use crate::support::SlopeSupport;
-use crate::system::{CableStep, Equations, Unknowns, dot, project_vector};
+use crate::system::{CableStep, Equations, System, Unknowns, dot, project_vector};
 use body::BodyStep;
 use holds::HoldStep;
 use nalgebra::Vector3;
@@ -279,6 +279,24 @@ impl CableBuffers {
             hold.pass(&hold.impulse, rows);
         }
     }
+
+    /// Gives the momentum that the step leaves beside the reactions to the pins.
+    fn give_momentum(&self, c: usize, system: &System, state: &State, b: &mut Buffers, accounts: &mut PinAccounts) {
+        let Buffers { rhs, external, product, velocity_change, taken, change, .. } = b;
+        if taken.is_empty() {
+            product.fill(0.0);
+        } else {
+            system.mass.multiply(system.level, taken, product);
+        }
+        // the residual of free rows, and reactions of slopes
+        rhs.iter_mut().zip(&*product).for_each(|(f, taken)| *f += taken);
+        for i in 0..external.len() {
+            external[i] = state.v[i] + 0.5 * (velocity_change[i] - taken.get(i).unwrap_or(&0.0));
+        }
+        system.mass.multiply(system.level, external, product);
+        let held = self.holds.iter().filter(|hold| !hold.slope).map(|hold| (hold.at, hold.impulse));
+        accounts.momentum.add_step(c, rhs, held, [&state.q, change, product]);
+    }
 }
 
 impl DiscreteGradientSystem for IslandStep<'_, '_> {
@@ -334,8 +352,11 @@ impl DiscreteGradientSystem for IslandStep<'_, '_> {
 
     fn accept(&mut self, balance: &Balance) {
         self.accept_wheels();
-        for (cable, own) in self.cables.iter_mut().zip(&self.buffers.cables) {
+        for (c, (cable, own)) in self.cables.iter_mut().zip(&self.buffers.cables).enumerate() {
             let CableStep { mut equations, state, buffers } = cable.step_parts();
+            if self.accounts.momentum.holds(c) {
+                own.give_momentum(c, equations.system, state, buffers, self.accounts);
+            }
             for hold in &own.holds {
                 let action = hold.action(&self.buffers.bodies[hold.body], buffers.h);
                 self.accounts.pins[hold.pin].add_mean(buffers.h, hold.slope, action);
