@@ -185,9 +185,10 @@ impl PinMomentum {
         let [before, after] = &readings;
         for (c, part) in layout.parts.iter().enumerate() {
             field.clear();
-            field.extend(part.range().map(|i| {
-                0.5 * h * (before.force[i] + after.force[i]) - (after.momentum[i] - before.momentum[i])
-            }));
+            field.extend(
+                part.range()
+                    .map(|i| 0.5 * h * (before.force[i] + after.force[i]) - (after.momentum[i] - before.momentum[i])),
+            );
             self.spread(c, &field);
             let ([f0, p0], [f1, p1]) = (before.moments[c], after.moments[c]);
             self.angular[c] += 0.5 * h * (f0 + f1) - (p1 - p0);
