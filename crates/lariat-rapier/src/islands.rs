@@ -1,4 +1,5 @@
-//! Islands: sets of cables, bodies and junctions that are connected by attachments, or by contacts that are near.
+//! Islands: sets of cables, bodies and junctions that are connected by attachments, by contacts that are near,
+//! or by the joints of a mechanism.
 //!
 //! Order within and among islands follows the names of the cables and the positions at which they
 //! were inserted, not their handles: a run does not depend on the order of insertion, to the bit.
@@ -11,6 +12,8 @@ use crate::contents::{Contents, Slot};
 use crate::convert::vector;
 use crate::error::Error;
 use crate::handle::CableHandle;
+use crate::mechanism;
+use crate::step::proximity;
 use crate::table::Table;
 use ::nalgebra::Vector3;
 use lariat_ancf::island::PinConstraint;
@@ -55,6 +58,13 @@ pub(crate) enum Member {
     Junction(usize),
 }
 
+impl Member {
+    /// Returns the handle of an integrated body.
+    pub fn body(&self) -> Option<RigidBodyHandle> {
+        if let Member::Body(handle) = self { Some(*handle) } else { None }
+    }
+}
+
 /// Cables that are connected, and what connects them.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Island {
@@ -74,7 +84,7 @@ pub(crate) struct Island {
 impl Island {
     /// Returns the handles of its integrated bodies.
     pub fn bodies(&self) -> impl Iterator<Item = RigidBodyHandle> {
-        self.members.iter().filter_map(|m| if let Member::Body(h) = m { Some(*h) } else { None })
+        self.members.iter().filter_map(Member::body)
     }
 
     /// Returns the indices of the pins on a member.
@@ -91,6 +101,8 @@ pub(crate) struct Islands {
     nodes: Vec<AttachedNode>,
     /// Cables and the integrated bodies that they can touch.
     touching: Vec<(usize, RigidBodyHandle)>,
+    /// Bodies of mechanisms that several cables act on, each with the first of its mechanism.
+    jointed: Vec<[RigidBodyHandle; 2]>,
 }
 
 impl Islands {
@@ -104,6 +116,8 @@ impl Islands {
     ) -> Result<(), Error> {
         mark_rotating(contents, world);
         let unchanged = attached_nodes(contents, world).eq(self.nodes.iter().copied()) && self.touching == touching;
+        let jointed = jointed_bodies(world, attached_nodes(contents, world), touching);
+        let unchanged = unchanged && self.jointed == jointed;
         let modified = contents.cables.values().any(|slot| slot.modified);
         if unchanged && !modified && !contents.changed && !self.list.is_empty() {
             return Ok(());
@@ -118,6 +132,7 @@ impl Islands {
         self.nodes.extend(attached_nodes(contents, world));
         self.touching.clear();
         self.touching.extend_from_slice(touching);
+        self.jointed = jointed;
         let mut order: Vec<(usize, &Slot)> = contents.cables.iter().collect();
         order.sort_by(|(a, one), (b, two)| one.order(two).then(a.cmp(b)));
         let order: Vec<usize> = order.into_iter().map(|(c, _)| c).collect();
@@ -131,7 +146,7 @@ impl Islands {
         self.list.clear();
         for &first in &order {
             if !seen[first] {
-                let mut cables = connected(contents, first, (&nodes, touching), &mut seen);
+                let mut cables = connected(contents, first, (&nodes, touching, &self.jointed), &mut seen);
                 cables.sort_by_key(|&c| rank(c));
                 self.list.push(connect(contents, cables, (&nodes, touching)));
             }
@@ -143,6 +158,24 @@ impl Islands {
 /// Returns all attachments as they are now.
 fn attached_nodes(contents: &Contents, world: &PhysicsWorld) -> impl Iterator<Item = AttachedNode> {
     contents.attachments.iter().map(|(i, a)| attached_node(contents, world, i, a))
+}
+
+/// Returns the integrated bodies that share a mechanism with one before them, each with the first of it.
+fn jointed_bodies(
+    world: &PhysicsWorld,
+    nodes: impl Iterator<Item = AttachedNode>,
+    touching: &[(usize, RigidBodyHandle)],
+) -> Vec<[RigidBodyHandle; 2]> {
+    let (mut first, mut jointed): (Vec<(RigidBodyHandle, Vec<RigidBodyHandle>)>, _) = (Vec::new(), Vec::new());
+    let attached = nodes.filter(|n| n.role == Role::Integrated).map(|n| n.body);
+    for body in attached.chain(touching.iter().map(|(_, body)| *body)).filter(|b| !proximity::is_unjointed(world, *b)) {
+        match first.iter().find(|(_, bodies)| bodies.contains(&body)) {
+            Some((known, _)) if *known != body => jointed.push([body, *known]),
+            Some(_) => {}
+            None => first.push((body, mechanism::bodies(world, body))),
+        }
+    }
+    jointed
 }
 
 /// Remembers which kinematic bodies with attachments rotate.
@@ -223,7 +256,7 @@ fn set_supports(contents: &mut Contents, nodes: &[AttachedNode]) -> Result<(), E
 fn connected(
     contents: &Contents,
     first: usize,
-    (nodes, touching): (&[AttachedNode], &[(usize, RigidBodyHandle)]),
+    (nodes, touching, jointed): (&[AttachedNode], &[(usize, RigidBodyHandle)], &[[RigidBodyHandle; 2]]),
     seen: &mut [bool],
 ) -> Vec<usize> {
     let mut cables = vec![first];
@@ -233,7 +266,8 @@ fn connected(
         let cable = cables[next];
         next += 1;
         let pinned = || nodes.iter().filter(|n| n.role == Role::Integrated).map(|n| (n.cable, n.body));
-        let integrated = || pinned().chain(touching.iter().copied());
+        let first = |body: RigidBodyHandle| jointed.iter().find(|[b, _]| *b == body).map_or(body, |[_, first]| *first);
+        let integrated = || pinned().chain(touching.iter().copied()).map(|(c, body)| (c, first(body)));
         let bodies = integrated().filter(|(c, _)| *c == cable).map(|(_, body)| body);
         let over_bodies = bodies.flat_map(|b| integrated().filter(move |(_, body)| *body == b).map(|(c, _)| c));
         let handle = CableHandle(cable as u32);

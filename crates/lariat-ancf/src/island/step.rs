@@ -1,6 +1,7 @@
 //! One host step of an island.
 
 use super::body::RigidBody;
+use super::coupling::{self, CoupledInertia};
 use super::discrete_gradient::{HostStep, StepBuffers};
 use super::dynamics::{IslandDynamics, Vectors};
 use super::equations::{IslandEquations, Matrices};
@@ -80,6 +81,7 @@ impl Island {
         cables.iter().try_for_each(|cable| check_integrator(&cable.model, integrator.method))?;
         cables.iter().try_for_each(|cable| cable.model.obstacles.check_bodies(cable.name(), bodies.len()))?;
         sheave::check(cables, sheaves)?;
+        coupling::check(&self.layout.coupled, bodies.len())?;
         if dt == 0.0 {
             return Ok(());
         }
@@ -142,6 +144,12 @@ impl Island {
         scatter(cables, bodies, state, layout);
         self.accounts.end(cables, &self.layout);
         Ok(())
+    }
+
+    /// Sets the inertia that couples bodies in the next steps. Default: none.
+    pub fn couple(&mut self, coupled: &[CoupledInertia]) {
+        self.layout.coupled.clear();
+        self.layout.coupled.extend_from_slice(coupled);
     }
 
     /// Returns forces, impulses and work at each pin during the last step.
