@@ -25,14 +25,6 @@ pub enum Error {
         /// Why they cannot step.
         cause: Box<Error>,
     },
-    /// A cable that is to touch other cables: a set does not unite them in an island yet, as `lariat_ancf::island::Island` needs it.
-    #[error(
-        "cable {cable:?}: a CableSet has no contact between cables yet, only of a cable with itself; lariat_ancf::island::Island has"
-    )]
-    CablesTouch {
-        /// Name of the cable.
-        cable: String,
-    },
     /// The handle of a cable that is not, or no longer, in the set.
     #[error("no cable {0:?} in this set")]
     NoCable(CableHandle),

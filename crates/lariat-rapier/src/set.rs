@@ -25,7 +25,7 @@ use serde::{Deserialize, Serialize};
 /// The cables of a world, attached to its bodies and to each other.
 ///
 /// # Limits
-/// - Cables touch colliders, if they are told to ([`set_contact`](Self::set_contact)), but not each other.
+/// - Cables touch colliders and each other only if they are told to ([`set_contact`](Self::set_contact)).
 /// - A cable has a fixed natural length, but for [`cut`](Self::cut) and a reel
 ///   ([`Cable::add_reel`](lariat_ancf::Cable::add_reel) by [`get_mut`](Self::get_mut)). On a dynamic
 ///   body its stock rides along as a point mass at the eye, beside the mass that Rapier knows: contacts of the body see that alone.

@@ -67,7 +67,7 @@ pub(crate) fn equilibrium(
 ) -> Result<Equilibrium, Error> {
     contents.follow_gravity(world)?;
     let mut islands = Islands::default();
-    let found = islands.update(contents, world, &[]);
+    let found = islands.update(contents, world, &[], &[]);
     // the stepper has not seen these changes
     contents.changed = true;
     found?;

@@ -6,6 +6,7 @@
 //! Rapier's prediction distance. The tree holds the boxes of Rapier's last step: kinematic bodies that move are looked up besides, with the box that they sweep. Before Rapier's first step,
 //! and while it does not know all colliders, every one of them is looked at.
 
+use super::neighbours::Neighbours;
 use super::rules::{ContactFilter, ContactRules};
 use super::{Surfaces, key};
 use crate::contents::Contents;
@@ -49,6 +50,8 @@ pub(crate) struct Finder {
     fastest: f64,
     /// Cables and the dynamic bodies that they can reach in the present Rapier step, in ascending order.
     pub touching: Vec<(usize, RigidBodyHandle)>,
+    /// Cables that can reach each other in it.
+    pub neighbours: Neighbours,
     pub filter: Option<ContactFilter>,
 }
 
@@ -58,6 +61,7 @@ impl Finder {
     pub fn begin(&mut self, contents: &Contents, world: &PhysicsWorld, h: f64) {
         self.moving.clear();
         self.touching.clear();
+        self.neighbours.begin(contents, h);
         if contents.cables.values().all(|slot| slot.cable.effects().contact.is_none()) {
             return;
         }
