@@ -106,9 +106,10 @@ pub enum Error {
         /// The other body; `None` for a collider without one.
         other: Option<RigidBodyHandle>,
     },
-    /// A cable with contact that would be in a collider in equilibrium: statics compute no contacts.
+    /// A cable with contact that would be in a collider in equilibrium: on a dynamic body, a sharp edge or something thin, with which statics compute no
+    /// contact, or between the samples of a mesh that is too coarse.
     #[error(
-        "statics compute no contacts, and cable {cable:?} would be {depth:.1e} m in collider {collider:?} at {arc_length} m: \
+        "statics compute contact at samples, not with dynamic bodies, sharp edges and thin things: cable {cable:?} would be {depth:.1e} m in collider {collider:?} at {arc_length} m: \
          step until it rests"
     )]
     CableTouchesInStatics {
