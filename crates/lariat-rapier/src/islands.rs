@@ -1,4 +1,5 @@
-//! Islands: sets of cables, bodies and junctions that are connected by attachments, or by contacts that are near.
+//! Islands: sets of cables, bodies and junctions that are connected by attachments, by contacts that are near,
+//! or by the joints of a mechanism.
 //!
 //! Order within and among islands follows the names of the cables and the positions at which they
 //! were inserted, not their handles: a run does not depend on the order of insertion, to the bit.
@@ -11,6 +12,8 @@ use crate::contents::{Contents, Slot};
 use crate::convert::vector;
 use crate::error::Error;
 use crate::handle::CableHandle;
+use crate::mechanism;
+use crate::step::proximity;
 use crate::table::Table;
 use ::nalgebra::Vector3;
 use lariat_ancf::contact::CablePair;
@@ -56,6 +59,13 @@ pub(crate) enum Member {
     Junction(usize),
 }
 
+impl Member {
+    /// Returns the handle of an integrated body.
+    pub fn body(&self) -> Option<RigidBodyHandle> {
+        if let Member::Body(handle) = self { Some(*handle) } else { None }
+    }
+}
+
 /// Cables that are connected, and what connects them.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Island {
@@ -82,7 +92,7 @@ impl Island {
 
     /// Returns the handles of its integrated bodies.
     pub fn bodies(&self) -> impl Iterator<Item = RigidBodyHandle> {
-        self.members.iter().filter_map(|m| if let Member::Body(h) = m { Some(*h) } else { None })
+        self.members.iter().filter_map(Member::body)
     }
 
     /// Returns the indices of the pins on a member.
@@ -107,8 +117,13 @@ pub(crate) struct Islands {
     nodes: Vec<AttachedNode>,
     /// Cables and the integrated bodies that they can touch.
     touching: Vec<(usize, RigidBodyHandle)>,
+<<<<<<< HEAD
     /// Cables that can touch each other.
     pairs: Vec<CablePair>,
+=======
+    /// Bodies of mechanisms that several cables act on, each with the first of its mechanism.
+    jointed: Vec<[RigidBodyHandle; 2]>,
+>>>>>>> main
 }
 
 impl Islands {
@@ -122,9 +137,15 @@ impl Islands {
         pairs: &[CablePair],
     ) -> Result<(), Error> {
         mark_rotating(contents, world);
+<<<<<<< HEAD
         let unchanged = attached_nodes(contents, world).eq(self.nodes.iter().copied())
             && self.touching == touching
             && self.pairs == pairs;
+=======
+        let unchanged = attached_nodes(contents, world).eq(self.nodes.iter().copied()) && self.touching == touching;
+        let jointed = jointed_bodies(world, attached_nodes(contents, world), touching);
+        let unchanged = unchanged && self.jointed == jointed;
+>>>>>>> main
         let modified = contents.cables.values().any(|slot| slot.modified);
         if unchanged && !modified && !contents.changed && !self.list.is_empty() {
             return Ok(());
@@ -135,8 +156,12 @@ impl Islands {
         self.nodes.extend(attached_nodes(contents, world));
         self.touching.clear();
         self.touching.extend_from_slice(touching);
+<<<<<<< HEAD
         self.pairs.clear();
         self.pairs.extend_from_slice(pairs);
+=======
+        self.jointed = jointed;
+>>>>>>> main
         let mut order: Vec<(usize, &Slot)> = contents.cables.iter().collect();
         order.sort_by(|(a, one), (b, two)| one.order(two).then(a.cmp(b)));
         let order: Vec<usize> = order.into_iter().map(|(c, _)| c).collect();
@@ -151,7 +176,11 @@ impl Islands {
         self.list.clear();
         for &first in &order {
             if !seen[first] {
+<<<<<<< HEAD
                 let mut cables = connected(contents, first, links, &mut seen);
+=======
+                let mut cables = connected(contents, first, (&nodes, touching, &self.jointed), &mut seen);
+>>>>>>> main
                 cables.sort_by_key(|&c| rank(c));
                 self.list.push(connect(contents, cables, links));
             }
@@ -163,6 +192,24 @@ impl Islands {
 /// Returns all attachments as they are now.
 fn attached_nodes(contents: &Contents, world: &PhysicsWorld) -> impl Iterator<Item = AttachedNode> {
     contents.attachments.iter().map(|(i, a)| attached_node(contents, world, i, a))
+}
+
+/// Returns the integrated bodies that share a mechanism with one before them, each with the first of it.
+fn jointed_bodies(
+    world: &PhysicsWorld,
+    nodes: impl Iterator<Item = AttachedNode>,
+    touching: &[(usize, RigidBodyHandle)],
+) -> Vec<[RigidBodyHandle; 2]> {
+    let (mut first, mut jointed): (Vec<(RigidBodyHandle, Vec<RigidBodyHandle>)>, _) = (Vec::new(), Vec::new());
+    let attached = nodes.filter(|n| n.role == Role::Integrated).map(|n| n.body);
+    for body in attached.chain(touching.iter().map(|(_, body)| *body)).filter(|b| !proximity::is_unjointed(world, *b)) {
+        match first.iter().find(|(_, bodies)| bodies.contains(&body)) {
+            Some((known, _)) if *known != body => jointed.push([body, *known]),
+            Some(_) => {}
+            None => first.push((body, mechanism::bodies(world, body))),
+        }
+    }
+    jointed
 }
 
 /// Remembers which kinematic bodies with attachments rotate.
@@ -243,7 +290,11 @@ fn set_supports(contents: &mut Contents, nodes: &[AttachedNode]) -> Result<(), E
 fn connected(
     contents: &Contents,
     first: usize,
+<<<<<<< HEAD
     Links { nodes, touching, pairs }: Links<'_>,
+=======
+    (nodes, touching, jointed): (&[AttachedNode], &[(usize, RigidBodyHandle)], &[[RigidBodyHandle; 2]]),
+>>>>>>> main
     seen: &mut [bool],
 ) -> Vec<usize> {
     let mut cables = vec![first];
@@ -253,7 +304,8 @@ fn connected(
         let cable = cables[next];
         next += 1;
         let pinned = || nodes.iter().filter(|n| n.role == Role::Integrated).map(|n| (n.cable, n.body));
-        let integrated = || pinned().chain(touching.iter().copied());
+        let first = |body: RigidBodyHandle| jointed.iter().find(|[b, _]| *b == body).map_or(body, |[_, first]| *first);
+        let integrated = || pinned().chain(touching.iter().copied()).map(|(c, body)| (c, first(body)));
         let bodies = integrated().filter(|(c, _)| *c == cable).map(|(_, body)| body);
         let over_bodies = bodies.flat_map(|b| integrated().filter(move |(_, body)| *body == b).map(|(c, _)| c));
         let handle = CableHandle(cable as u32);

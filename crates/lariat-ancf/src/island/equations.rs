@@ -193,6 +193,7 @@ impl IslandEquations<'_, '_> {
             rotational += body.world_inertia(&motion.rotation);
             matrix.add_inertia(i, &inertia);
         }
+        layout.coupled.iter().for_each(|coupled| matrix.add_coupled(coupled));
         for (buffers, part) in cables.iter().zip(&layout.parts) {
             let lever =
                 |hold: &Hold| Lever::held(layout.pins[hold.pin].body, &layout.rotating_vector(hold, q), hold.slope);

@@ -39,6 +39,7 @@ mod body;
 mod body_matrix;
 mod clamp;
 mod condense;
+mod coupling;
 mod discrete_gradient;
 mod dynamics;
 mod energy_balance;
@@ -58,6 +59,7 @@ mod step;
 mod velocities;
 
 pub use body::{BodyMemory, RigidBody};
+pub use coupling::CoupledInertia;
 pub use impedance::Impedance;
 pub use layout::CLOSING_SPEED;
 pub use pin::PinConstraint;

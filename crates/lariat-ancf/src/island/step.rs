@@ -1,6 +1,7 @@
 //! One host step of an island.
 
 use super::body::RigidBody;
+use super::coupling::{self, CoupledInertia};
 use super::discrete_gradient::{HostStep, StepBuffers};
 use super::dynamics::{IslandDynamics, Vectors};
 use super::equations::{IslandEquations, Matrices};
@@ -81,6 +82,7 @@ impl Island {
         cables.iter().try_for_each(|cable| check_integrator(&cable.model, integrator.method))?;
         cables.iter().try_for_each(|cable| cable.model.obstacles.check_bodies(cable.name(), bodies.len()))?;
         sheave::check(cables, sheaves)?;
+        coupling::check(&self.layout.coupled, bodies.len())?;
         if dt == 0.0 {
             return Ok(());
         }
@@ -144,6 +146,7 @@ impl Island {
         Ok(())
     }
 
+<<<<<<< HEAD
     /// Sets which cables may touch each other, and with which friction, in the steps that follow: `None`, the default, for all that have contact with
     /// cables, with the mean of their coefficients.
     pub fn set_cable_pairs(&mut self, pairs: Option<&[CablePair]>) {
@@ -156,6 +159,12 @@ impl Island {
             list.sort_unstable_by_key(|pair| pair.cables);
             *own = Some(list);
         }
+=======
+    /// Sets the inertia that couples bodies in the next steps. Default: none.
+    pub fn couple(&mut self, coupled: &[CoupledInertia]) {
+        self.layout.coupled.clear();
+        self.layout.coupled.extend_from_slice(coupled);
+>>>>>>> main
     }
 
     /// Returns forces, impulses and work at each pin during the last step.

@@ -8,11 +8,13 @@
 //! | [`predict`] | reads cables and bodies before the step |
 //! | [`integrate`] | integrates them together, all islands at once |
 //! | [`apply`] | gives Rapier the predicted motion; reverts it |
+//! | [`groups`] | the same for bodies that joints hold together, and what Rapier's step made of them |
 //! | [`impedance`] | lets a body that may deviate feel its cables within Rapier's step |
 //! | [`reconcile`] | takes over what Rapier's step made of it |
 //! | [`refused`] | holds the bodies of an island that cannot step |
 
 pub(crate) mod apply;
+pub(crate) mod groups;
 pub(crate) mod impedance;
 pub(crate) mod integrate;
 pub(crate) mod kinematic_ends;

@@ -9,8 +9,8 @@ use crate::body;
 use crate::contents::Contents;
 use crate::error::Error;
 use crate::islands::{Island, Member};
-use crate::mechanism;
-use crate::spatial::{split_spatial, stack_spatial};
+use crate::mechanism::{self, Group};
+use crate::spatial::stack_spatial;
 use crate::step::kinematic_ends;
 use crate::step::prediction::{Prediction, StepParameters};
 use crate::step::prescribed_motion::PrescribedMotions;
@@ -81,9 +81,7 @@ fn read_members(
     step: &StepParameters,
 ) -> Result<(), Error> {
     let time = contents.cables.get(island.cables[0]).map_or(0.0, |s| s.cable.time());
-    prediction.mechanisms.clear();
-    for (m, member) in island.members.iter().enumerate() {
-        let mut mechanism = None;
+    for member in &island.members {
         let body = match member {
             Member::Body(handle) => {
                 mechanism::prepare(world, *handle);
@@ -97,20 +95,6 @@ fn read_members(
                     // a point mass does not rotate, but the solver needs an inverse
                     body.inertia = Matrix3::identity();
                 }
-                let request = mechanism::Request {
-                    handle: *handle,
-                    body: &body,
-                    load: cable_load(contents, island, m, &body),
-                    substep: step.h / world.integration_parameters.num_solver_iterations.max(1) as f64,
-                    is_attached: &|b| contents.attachments.values().any(|a| a.body == b),
-                };
-                if let Some(found) = mechanism::find(world, &request) {
-                    let (force, torque) = split_spatial(&found.load);
-                    body.force += force;
-                    body.torque += torque;
-                    body.carried = Some(found.carried);
-                    mechanism = Some(found.mechanism);
-                }
                 body
             }
             Member::Driven(handle) => kinematic_ends::driven_body(world, motions, *handle, step)?,
@@ -120,10 +104,56 @@ fn read_members(
             }
         };
         prediction.start.push(body);
-        prediction.mechanisms.push(mechanism);
     }
+    find_mechanisms(contents, world, island, prediction, step);
     prediction.end.extend_from_slice(&prediction.start);
     Ok(())
+}
+
+/// Finds the mechanisms of the members, and adds inertia and loads of the bodies that these move with.
+fn find_mechanisms(
+    contents: &Contents,
+    world: &PhysicsWorld,
+    island: &Island,
+    prediction: &mut Prediction,
+    step: &StepParameters,
+) {
+    let Prediction { start, mechanisms, groups, coupled, .. } = prediction;
+    groups.clear();
+    coupled.clear();
+    mechanisms.clear();
+    mechanisms.resize_with(start.len(), || None);
+    if island.bodies().all(|handle| proximity::is_unjointed(world, handle)) {
+        return;
+    }
+    let bodies = || island.members.iter().enumerate().filter_map(|(m, member)| Some((m, member.body()?)));
+    let members: Vec<_> = bodies().map(|(m, handle)| (handle, cable_load(contents, island, m, &start[m]))).collect();
+    let is_attached = |b| contents.attachments.values().any(|a| a.body == b);
+    let substep = step.h / world.integration_parameters.num_solver_iterations.max(1) as f64;
+    let request = |handle| mechanism::Request { handle, members: &members, substep, is_attached: &is_attached };
+    let mut together: Vec<Vec<usize>> = Vec::new();
+    for (m, handle) in bodies() {
+        mechanisms[m] = mechanism::find(world, &request(handle));
+        if mechanisms[m].is_some() {
+            let knows =
+                |&other: &usize| mechanisms[other].as_ref().is_some_and(|o| o.mobility_of(world, handle).is_some());
+            match together.iter_mut().find(|group| group.iter().any(knows)) {
+                Some(group) => group.push(m),
+                None => together.push(vec![m]),
+            }
+        }
+    }
+    for members in together {
+        let jointed = members.iter().filter_map(|&m| Some((m, &start[m], mechanisms[m].as_ref()?)));
+        match Group::new(world, &jointed.collect::<Vec<_>>()) {
+            Some(group) => {
+                group.load(start, coupled);
+                groups.push(group);
+            }
+            // they move as if alone
+            None => members.into_iter().for_each(|m| mechanisms[m] = None),
+        }
+    }
 }
 
 /// Returns the force and torque on a member: its own, and those of its cables at the end of the

@@ -14,6 +14,7 @@
 //! is that of the whole: forces and torques on the bodies do work, as do gaps that close and the axes along which a body is locked.
 
 mod body;
+mod coupled;
 mod holds;
 mod host_step;
 mod laws;
@@ -24,6 +25,7 @@ pub(super) use host_step::HostStep;
 
 use super::body_matrix::{BodyMatrix, Lever};
 use super::condense::Condensed;
+use super::coupling::CoupledInertia;
 use super::hold::vector;
 use super::layout::Layout;
 use super::pin_accounts::PinAccounts;
@@ -36,6 +38,7 @@ use crate::integrate::discrete_gradient::{BETA, Balance, Buffers, DiscreteGradie
 use crate::support::SlopeSupport;
 use crate::system::{CableStep, Equations, Unknowns, dot, project_vector};
 use body::BodyStep;
+use coupled::{add_coupled_energies, complete_rows};
 use holds::HoldStep;
 use nalgebra::Vector3;
 
@@ -46,6 +49,8 @@ const MIN_DIRECTION: f64 = 1e-9;
 #[derive(Clone, Debug, Default)]
 pub(super) struct StepBuffers {
     pub bodies: Vec<BodyStep>,
+    /// Inertia that couples bodies, with rotations in their axes.
+    coupled: Vec<CoupledInertia>,
     pub cables: Vec<CableBuffers>,
     matrix: BodyMatrix,
     /// Rows of the bodies, then their increments.
@@ -85,6 +90,9 @@ impl StepBuffers {
     pub fn begin(&mut self, cables: &[&mut Cable], layout: &Layout) {
         self.bodies.clear();
         self.bodies.extend(layout.bodies.iter().map(BodyStep::new));
+        self.coupled.clear();
+        let inverse = |i: usize| layout.bodies[i].rotation.inverse();
+        self.coupled.extend(layout.coupled.iter().map(|coupled| coupled.turned(coupled.bodies.map(inverse))));
         self.rows.resize(6 * layout.bodies.len(), 0.0);
         self.cables.resize_with(cables.len(), CableBuffers::default);
         for ((own, part), cable) in self.cables.iter_mut().zip(&layout.parts).zip(cables) {
@@ -118,7 +126,7 @@ impl IslandStep<'_, '_> {
 
     /// Computes residuals and step matrices of all cables, factors and condenses these, and sums the rows of the bodies.
     fn linearise(&mut self) -> Result<(), StepFailure> {
-        let StepBuffers { bodies, cables: own, rows, .. } = &mut *self.buffers;
+        let StepBuffers { bodies, coupled, cables: own, rows, .. } = &mut *self.buffers;
         rows.fill(0.0);
         for ((cable, own), part) in self.cables.iter_mut().zip(own).zip(&self.layout.parts) {
             let CableStep { mut equations, state, buffers } = cable.step_parts();
@@ -132,19 +140,19 @@ impl IslandStep<'_, '_> {
             let factors = &equations.system.step.factorisation;
             own.condensed.complete(level, factors, (&part.holds, borders), |x| project_vector(model, x));
         }
-        for (body, row) in bodies.iter().zip(rows.chunks_exact_mut(6)) {
-            body.complete_row(row);
-        }
+        complete_rows(bodies, coupled, rows);
         Ok(())
     }
 
     /// Factors the matrix of the bodies for steps of length `h` (s).
     fn factor_bodies(&mut self, h: f64) -> Result<(), StepFailure> {
-        let StepBuffers { bodies, cables: own, matrix, .. } = &mut *self.buffers;
+        let StepBuffers { bodies, coupled, cables: own, matrix, .. } = &mut *self.buffers;
         matrix.begin(bodies.len());
         for (i, body) in bodies.iter().enumerate() {
             matrix.add_inertia(i, &body.world_matrix());
         }
+        let rotation = |i: usize| bodies[i].rotation;
+        coupled.iter().for_each(|coupled| matrix.add_coupled(&coupled.turned(coupled.bodies.map(rotation))));
         for (cable, CableBuffers { holds, condensed, .. }) in self.cables.iter().zip(own.iter()) {
             for hold in holds {
                 matrix.add_rotational(hold.body, &(hold.stiffening() * (0.5 * BETA * h)));
@@ -227,7 +235,7 @@ impl IslandStep<'_, '_> {
     /// Returns what the present iterate does to the energy.
     fn balance(&mut self) -> Balance {
         let pairs = self.balance_pairs();
-        let StepBuffers { bodies, cables: own, rows, .. } = &mut *self.buffers;
+        let StepBuffers { bodies, coupled, cables: own, rows, .. } = &mut *self.buffers;
         rows.fill(0.0);
         let mut total = Balance::default();
         let closed = self.cables.iter().any(|cable| cable.system.flows.are_closed());
@@ -257,8 +265,9 @@ impl IslandStep<'_, '_> {
                 buffers.rhs[hold.at..hold.at + 3].copy_from_slice(hold.impulse.as_slice());
             }
         }
+        complete_rows(bodies, coupled, rows);
+        add_coupled_energies(bodies, coupled, &mut total);
         for (body, row) in bodies.iter().zip(rows.chunks_exact_mut(6)) {
-            body.complete_row(row);
             body.add_balance(row, &mut total);
             if closed {
                 (0..3).for_each(|x| total.drift[x] += row[x]);
