@@ -106,6 +106,8 @@ impl Island {
 struct Links<'a> {
     nodes: &'a [AttachedNode],
     touching: &'a [(usize, RigidBodyHandle)],
+    /// Bodies of mechanisms, each with the first of its mechanism.
+    jointed: &'a [[RigidBodyHandle; 2]],
     pairs: &'a [CablePair],
 }
 
@@ -117,13 +119,10 @@ pub(crate) struct Islands {
     nodes: Vec<AttachedNode>,
     /// Cables and the integrated bodies that they can touch.
     touching: Vec<(usize, RigidBodyHandle)>,
-<<<<<<< HEAD
     /// Cables that can touch each other.
     pairs: Vec<CablePair>,
-=======
     /// Bodies of mechanisms that several cables act on, each with the first of its mechanism.
     jointed: Vec<[RigidBodyHandle; 2]>,
->>>>>>> main
 }
 
 impl Islands {
@@ -137,15 +136,11 @@ impl Islands {
         pairs: &[CablePair],
     ) -> Result<(), Error> {
         mark_rotating(contents, world);
-<<<<<<< HEAD
+        let jointed = jointed_bodies(world, attached_nodes(contents, world), touching);
         let unchanged = attached_nodes(contents, world).eq(self.nodes.iter().copied())
             && self.touching == touching
-            && self.pairs == pairs;
-=======
-        let unchanged = attached_nodes(contents, world).eq(self.nodes.iter().copied()) && self.touching == touching;
-        let jointed = jointed_bodies(world, attached_nodes(contents, world), touching);
-        let unchanged = unchanged && self.jointed == jointed;
->>>>>>> main
+            && self.pairs == pairs
+            && self.jointed == jointed;
         let modified = contents.cables.values().any(|slot| slot.modified);
         if unchanged && !modified && !contents.changed && !self.list.is_empty() {
             return Ok(());
@@ -156,12 +151,9 @@ impl Islands {
         self.nodes.extend(attached_nodes(contents, world));
         self.touching.clear();
         self.touching.extend_from_slice(touching);
-<<<<<<< HEAD
         self.pairs.clear();
         self.pairs.extend_from_slice(pairs);
-=======
         self.jointed = jointed;
->>>>>>> main
         let mut order: Vec<(usize, &Slot)> = contents.cables.iter().collect();
         order.sort_by(|(a, one), (b, two)| one.order(two).then(a.cmp(b)));
         let order: Vec<usize> = order.into_iter().map(|(c, _)| c).collect();
@@ -171,16 +163,12 @@ impl Islands {
         let mut nodes = self.nodes.clone();
         nodes.sort_by_key(|n| (rank(n.cable), n.node));
         set_supports(contents, &nodes)?;
-        let links = Links { nodes: &nodes, touching, pairs };
+        let links = Links { nodes: &nodes, touching, jointed: &self.jointed, pairs };
         let mut seen = vec![false; contents.cables.len()];
         self.list.clear();
         for &first in &order {
             if !seen[first] {
-<<<<<<< HEAD
                 let mut cables = connected(contents, first, links, &mut seen);
-=======
-                let mut cables = connected(contents, first, (&nodes, touching, &self.jointed), &mut seen);
->>>>>>> main
                 cables.sort_by_key(|&c| rank(c));
                 self.list.push(connect(contents, cables, links));
             }
@@ -290,11 +278,7 @@ fn set_supports(contents: &mut Contents, nodes: &[AttachedNode]) -> Result<(), E
 fn connected(
     contents: &Contents,
     first: usize,
-<<<<<<< HEAD
-    Links { nodes, touching, pairs }: Links<'_>,
-=======
-    (nodes, touching, jointed): (&[AttachedNode], &[(usize, RigidBodyHandle)], &[[RigidBodyHandle; 2]]),
->>>>>>> main
+    Links { nodes, touching, jointed, pairs }: Links<'_>,
     seen: &mut [bool],
 ) -> Vec<usize> {
     let mut cables = vec![first];
@@ -325,7 +309,7 @@ fn connected(
 }
 
 /// Returns the island of `cables`, its members and pins in the order of cables and nodes.
-fn connect(contents: &Contents, cables: Vec<usize>, Links { nodes, touching, pairs }: Links<'_>) -> Island {
+fn connect(contents: &Contents, cables: Vec<usize>, Links { nodes, touching, pairs, .. }: Links<'_>) -> Island {
     let sheaves = contents.sheaves.iter().filter(|(_, sheave)| sheave.within(&cables).is_some());
     let sheaves = sheaves.map(|(i, _)| i).collect();
     let place = |cable: usize| cables.iter().position(|&c| c == cable);

@@ -146,7 +146,6 @@ impl Island {
         Ok(())
     }
 
-<<<<<<< HEAD
     /// Sets which cables may touch each other, and with which friction, in the steps that follow: `None`, the default, for all that have contact with
     /// cables, with the mean of their coefficients.
     pub fn set_cable_pairs(&mut self, pairs: Option<&[CablePair]>) {
@@ -159,12 +158,12 @@ impl Island {
             list.sort_unstable_by_key(|pair| pair.cables);
             *own = Some(list);
         }
-=======
+    }
+
     /// Sets the inertia that couples bodies in the next steps. Default: none.
     pub fn couple(&mut self, coupled: &[CoupledInertia]) {
         self.layout.coupled.clear();
         self.layout.coupled.extend_from_slice(coupled);
->>>>>>> main
     }
 
     /// Returns forces, impulses and work at each pin during the last step.

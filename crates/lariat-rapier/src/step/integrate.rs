@@ -58,13 +58,9 @@ impl Job<'_> {
     /// Steps cables and members in equal parts, and adds up the accounts of the pins.
     fn step_island(&mut self, solver: &mut IslandSolver, limit: Option<&WorkLimit>) -> Result<(), lariat_ancf::Error> {
         let Job { island, cables, prediction, integrator, h } = self;
-<<<<<<< HEAD
-        let Prediction { start, end, accounts, parts, sheaves, .. } = &mut **prediction;
-        solver.set_cable_pairs(Some(&island.pairs));
-=======
         let Prediction { start, end, accounts, parts, sheaves, coupled, .. } = &mut **prediction;
+        solver.set_cable_pairs(Some(&island.pairs));
         solver.couple(coupled);
->>>>>>> main
         for part in 0..*parts {
             for (body, start) in end.iter_mut().zip(&*start) {
                 let [first, last] = start.unsteadiness;

@@ -39,6 +39,8 @@ pub(crate) fn prepare(
     prediction.sheaves.clear();
     prediction.start.clear();
     prediction.end.clear();
+    prediction.groups.clear();
+    prediction.coupled.clear();
     let sheaves = island.sheaves.iter().filter_map(|&i| contents.sheaves.get(i));
     prediction.sheaves.extend(sheaves.filter_map(|sheave| sheave.within(&island.cables)));
     if !island.members.is_empty() {
