@@ -98,9 +98,12 @@ pub fn equilibrium(
     cables.iter_mut().for_each(|cable| cable.begin_static_contact());
     let mut search = Search::new(cables, &still, pins, options.tolerance);
     let mut outcome = search.run(cables, options.iterations);
-    if outcome.is_err()
-        && cables.iter_mut().fold(false, |any, cable| cable.soften_static_contact(&cable.positions().to_vec()) || any)
-    {
+    let mut softened = false;
+    for cable in cables.iter_mut().filter(|_| outcome.is_err()) {
+        let start = cable.positions().to_vec();
+        softened |= cable.soften_static_contact(&start);
+    }
+    if softened {
         let (steps, softened) = (search.steps, Search::new(cables, &still, pins, options.tolerance));
         search = Search { steps, ..softened };
         outcome = search.run(cables, steps + options.iterations);

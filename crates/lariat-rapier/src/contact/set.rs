@@ -12,7 +12,7 @@ use rapier::geometry::ColliderHandle;
 impl CableSet {
     /// Lets a cable touch the colliders of the world, and other cables and itself if the contact says so, or no longer with `None`. Needs the method
     /// `discrete-gradient`, which a cable gets if nobody chose its integrator. The cable's own friction is combined
-    /// with that of a collider as [`set_contact_rules`](Self::set_contact_rules) say.
+    /// with that of a collider as [`set_contact_rules`](Self::set_contact_rules) say. Restitution does not count: impacts of cables have none.
     ///
     /// # Errors
     /// [`Error::NoCable`]; [`Error::Cable`] for numbers out of range, for a cable without a diameter or a radius, and
