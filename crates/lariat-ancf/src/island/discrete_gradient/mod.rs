@@ -126,7 +126,7 @@ impl IslandStep<'_, '_> {
 
     /// Computes residuals and step matrices of all cables, factors and condenses these, and sums the rows of the bodies.
     fn linearise(&mut self) -> Result<(), StepFailure> {
-        let StepBuffers { bodies, coupled, cables: own, rows, .. } = &mut *self.buffers;
+        let StepBuffers { bodies, coupled, cables: own, rows, pairs, .. } = &mut *self.buffers;
         rows.fill(0.0);
         for ((cable, own), part) in self.cables.iter_mut().zip(own).zip(&self.layout.parts) {
             let CableStep { mut equations, state, buffers } = cable.step_parts();
@@ -138,7 +138,8 @@ impl IslandStep<'_, '_> {
             equations.factor_to_solve()?;
             let (level, model) = (equations.system.level, equations.model);
             let factors = &equations.system.step.factorisation;
-            own.condensed.complete(level, factors, (&part.holds, borders), |x| project_vector(model, x));
+            let rhs = (pairs.is_empty() && equations.system.flows.is_empty()).then_some(&buffers.rhs[..]);
+            own.condensed.complete(level, factors, (&part.holds, borders), rhs, |x| project_vector(model, x));
         }
         complete_rows(bodies, coupled, rows);
         Ok(())
@@ -170,9 +171,13 @@ impl IslandStep<'_, '_> {
     /// Solves the linear equations without contacts between cables in place.
     fn solve_apart(&mut self) {
         let StepBuffers { bodies, cables: own, matrix, rows, .. } = &mut *self.buffers;
-        for (cable, own) in self.cables.iter_mut().zip(own.iter()) {
+        for (cable, own) in self.cables.iter_mut().zip(own.iter_mut()) {
             let CableStep { mut equations, buffers, .. } = cable.step_parts();
-            equations.solve(&mut buffers.rhs);
+            if own.condensed.take_solution(&mut buffers.rhs) {
+                equations.diagnostics.solves += 1;
+            } else {
+                equations.solve(&mut buffers.rhs);
+            }
             for (h, hold) in own.holds.iter().enumerate() {
                 let impulse = Vector3::from_fn(|x, _| -own.condensed.border(3 * h + x, &buffers.rhs));
                 hold.pass(&impulse, rows);
