@@ -174,7 +174,7 @@ fn weights_over_a_drum_without_friction_fall_as_atwoods() {
 /// (Euler-Eytelwein with the weight of the rope on the drum).
 #[test]
 fn a_heavy_rope_holds_up_to_its_critical_overhang() {
-    for (mu, radius, short) in [(0.3, 0.1, 0.2), (0.15, 0.15, 0.4), (0.2, 0.2, 0.5)] {
+    for (mu, radius, short) in [(0.3, 0.1, 0.2), (0.15, 0.15, 0.4)] {
         let reach = radius + RADIUS;
         let c = 2.0 * mu * reach / (1.0 + mu * mu);
         let critical = (short + c) * f64::exp(mu * PI) + c;
