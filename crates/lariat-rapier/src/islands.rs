@@ -16,6 +16,7 @@ use crate::mechanism;
 use crate::step::proximity;
 use crate::table::Table;
 use ::nalgebra::Vector3;
+use lariat_ancf::contact::CablePair;
 use lariat_ancf::island::PinConstraint;
 use lariat_ancf::{At, SlopeSupport};
 use rapier::dynamics::{RigidBodyHandle, RigidBodyType};
@@ -79,9 +80,16 @@ pub(crate) struct Island {
     pub supports: Vec<usize>,
     /// Indices of its sheaves.
     pub sheaves: Vec<usize>,
+    /// Those of its cables that may touch each other, with indices into the first list.
+    pub pairs: Vec<CablePair>,
 }
 
 impl Island {
+    /// Returns whether nothing connects its cables.
+    pub fn is_loose(&self) -> bool {
+        self.members.is_empty() && self.sheaves.is_empty() && self.pairs.is_empty()
+    }
+
     /// Returns the handles of its integrated bodies.
     pub fn bodies(&self) -> impl Iterator<Item = RigidBodyHandle> {
         self.members.iter().filter_map(Member::body)
@@ -93,6 +101,16 @@ impl Island {
     }
 }
 
+/// What connects cables, beside junctions and sheaves.
+#[derive(Clone, Copy)]
+struct Links<'a> {
+    nodes: &'a [AttachedNode],
+    touching: &'a [(usize, RigidBodyHandle)],
+    /// Bodies of mechanisms, each with the first of its mechanism.
+    jointed: &'a [[RigidBodyHandle; 2]],
+    pairs: &'a [CablePair],
+}
+
 /// All islands of a set.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Islands {
@@ -101,30 +119,31 @@ pub(crate) struct Islands {
     nodes: Vec<AttachedNode>,
     /// Cables and the integrated bodies that they can touch.
     touching: Vec<(usize, RigidBodyHandle)>,
+    /// Cables that can touch each other.
+    pairs: Vec<CablePair>,
     /// Bodies of mechanisms that several cables act on, each with the first of its mechanism.
     jointed: Vec<[RigidBodyHandle; 2]>,
 }
 
 impl Islands {
     /// Finds the islands of a set, unless nothing changed since they were last found; `touching` are cables and the integrated bodies that they can
-    /// touch.
+    /// touch, `pairs` cables that can touch each other.
     pub fn update(
         &mut self,
         contents: &mut Contents,
         world: &PhysicsWorld,
         touching: &[(usize, RigidBodyHandle)],
+        pairs: &[CablePair],
     ) -> Result<(), Error> {
         mark_rotating(contents, world);
-        let unchanged = attached_nodes(contents, world).eq(self.nodes.iter().copied()) && self.touching == touching;
         let jointed = jointed_bodies(world, attached_nodes(contents, world), touching);
-        let unchanged = unchanged && self.jointed == jointed;
+        let unchanged = attached_nodes(contents, world).eq(self.nodes.iter().copied())
+            && self.touching == touching
+            && self.pairs == pairs
+            && self.jointed == jointed;
         let modified = contents.cables.values().any(|slot| slot.modified);
         if unchanged && !modified && !contents.changed && !self.list.is_empty() {
             return Ok(());
-        }
-        let refused = contents.cables.values().find(|s| s.cable.effects().contact.is_some_and(|own| own.cables));
-        if let Some(slot) = refused {
-            return Err(Error::CablesTouch { cable: slot.cable.name().to_string() });
         }
         contents.changed = false;
         renumber(contents)?;
@@ -132,6 +151,8 @@ impl Islands {
         self.nodes.extend(attached_nodes(contents, world));
         self.touching.clear();
         self.touching.extend_from_slice(touching);
+        self.pairs.clear();
+        self.pairs.extend_from_slice(pairs);
         self.jointed = jointed;
         let mut order: Vec<(usize, &Slot)> = contents.cables.iter().collect();
         order.sort_by(|(a, one), (b, two)| one.order(two).then(a.cmp(b)));
@@ -142,13 +163,14 @@ impl Islands {
         let mut nodes = self.nodes.clone();
         nodes.sort_by_key(|n| (rank(n.cable), n.node));
         set_supports(contents, &nodes)?;
+        let links = Links { nodes: &nodes, touching, jointed: &self.jointed, pairs };
         let mut seen = vec![false; contents.cables.len()];
         self.list.clear();
         for &first in &order {
             if !seen[first] {
-                let mut cables = connected(contents, first, (&nodes, touching, &self.jointed), &mut seen);
+                let mut cables = connected(contents, first, links, &mut seen);
                 cables.sort_by_key(|&c| rank(c));
-                self.list.push(connect(contents, cables, (&nodes, touching)));
+                self.list.push(connect(contents, cables, links));
             }
         }
         Ok(())
@@ -256,7 +278,7 @@ fn set_supports(contents: &mut Contents, nodes: &[AttachedNode]) -> Result<(), E
 fn connected(
     contents: &Contents,
     first: usize,
-    (nodes, touching, jointed): (&[AttachedNode], &[(usize, RigidBodyHandle)], &[[RigidBodyHandle; 2]]),
+    Links { nodes, touching, jointed, pairs }: Links<'_>,
     seen: &mut [bool],
 ) -> Vec<usize> {
     let mut cables = vec![first];
@@ -275,7 +297,8 @@ fn connected(
         let over_junctions = tied.flat_map(|j| j.nodes.iter().map(|(c, _)| c.0 as usize));
         let sheaves = contents.sheaves.values().filter(|s| s.ends.iter().any(|(c, _)| *c == handle));
         let over_sheaves = sheaves.flat_map(|s| s.ends.iter().map(|(c, _)| c.0 as usize));
-        for other in over_bodies.chain(over_junctions).chain(over_sheaves) {
+        let met = pairs.iter().filter(|pair| pair.cables.contains(&cable)).flat_map(|pair| pair.cables);
+        for other in over_bodies.chain(over_junctions).chain(over_sheaves).chain(met) {
             if !seen[other] {
                 seen[other] = true;
                 cables.push(other);
@@ -286,14 +309,16 @@ fn connected(
 }
 
 /// Returns the island of `cables`, its members and pins in the order of cables and nodes.
-fn connect(
-    contents: &Contents,
-    cables: Vec<usize>,
-    (nodes, touching): (&[AttachedNode], &[(usize, RigidBodyHandle)]),
-) -> Island {
+fn connect(contents: &Contents, cables: Vec<usize>, Links { nodes, touching, pairs, .. }: Links<'_>) -> Island {
     let sheaves = contents.sheaves.iter().filter(|(_, sheave)| sheave.within(&cables).is_some());
     let sheaves = sheaves.map(|(i, _)| i).collect();
-    let mut island = Island { cables, sheaves, ..Island::default() };
+    let place = |cable: usize| cables.iter().position(|&c| c == cable);
+    let within = pairs.iter().filter_map(|pair| {
+        let [Some(a), Some(b)] = pair.cables.map(place) else { return None };
+        Some(CablePair { cables: [a.min(b), a.max(b)], ..*pair })
+    });
+    let pairs = within.collect();
+    let mut island = Island { cables, sheaves, pairs, ..Island::default() };
     let mut add = |cable: usize, node: usize, member: Member, attached: Option<&AttachedNode>| {
         // each attachment to a body with prescribed motion has a member of its own
         let shared = !matches!(member, Member::Driven(_));

@@ -11,6 +11,7 @@ use super::pin::{PinConstraint, check, is_on_free_body};
 use super::pin_accounts::{PinAccount, PinAccounts};
 use super::sheave;
 use crate::cable::{Cable, SHORTEST_STEP, check_integrator};
+use crate::contact::CablePair;
 use crate::error::{Error, require};
 use crate::integrate::{Integrator, IntegratorRef, Scratch, State, step_control};
 use crate::system::{Sheave, Wheel};
@@ -144,6 +145,20 @@ impl Island {
         scatter(cables, bodies, state, layout);
         self.accounts.end(cables, &self.layout);
         Ok(())
+    }
+
+    /// Sets which cables may touch each other, and with which friction, in the steps that follow: `None`, the default, for all that have contact with
+    /// cables, with the mean of their coefficients.
+    pub fn set_cable_pairs(&mut self, pairs: Option<&[CablePair]>) {
+        let own = &mut self.by_discrete_gradient.may_touch;
+        let mut list = own.take().unwrap_or_default();
+        if let Some(pairs) = pairs {
+            list.clear();
+            list.extend_from_slice(pairs);
+            list.iter_mut().for_each(|pair| pair.cables.sort_unstable());
+            list.sort_unstable_by_key(|pair| pair.cables);
+            *own = Some(list);
+        }
     }
 
     /// Sets the inertia that couples bodies in the next steps. Default: none.

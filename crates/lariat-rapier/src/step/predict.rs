@@ -34,9 +34,13 @@ pub(crate) fn prepare(
     prediction: &mut Prediction,
     step: &StepParameters,
 ) -> Result<(), Error> {
-    let mut integrator = share_of(integrator(contents, island), step.rapier_steps);
+    let mut integrator = share_of(integrator(contents, island, step), step.rapier_steps);
     prediction.parts = 1;
     prediction.sheaves.clear();
+    prediction.start.clear();
+    prediction.end.clear();
+    prediction.groups.clear();
+    prediction.coupled.clear();
     let sheaves = island.sheaves.iter().filter_map(|&i| contents.sheaves.get(i));
     prediction.sheaves.extend(sheaves.filter_map(|sheave| sheave.within(&island.cables)));
     if !island.members.is_empty() {
@@ -79,7 +83,6 @@ fn read_members(
     step: &StepParameters,
 ) -> Result<(), Error> {
     let time = contents.cables.get(island.cables[0]).map_or(0.0, |s| s.cable.time());
-    prediction.start.clear();
     for member in &island.members {
         let body = match member {
             Member::Body(handle) => {
@@ -105,7 +108,6 @@ fn read_members(
         prediction.start.push(body);
     }
     find_mechanisms(contents, world, island, prediction, step);
-    prediction.end.clear();
     prediction.end.extend_from_slice(&prediction.start);
     Ok(())
 }
@@ -171,18 +173,21 @@ fn cable_load(contents: &Contents, island: &Island, member: usize, body: &RigidB
 }
 
 /// Returns the integrator of an island: that of its cables if they agree, else the one with the
-/// tightest tolerance.
-fn integrator(contents: &Contents, island: &Island) -> Integrator {
+/// tightest tolerance, or with the shortest steps.
+fn integrator(contents: &Contents, island: &Island, step: &StepParameters) -> Integrator {
     let all = || island.cables.iter().filter_map(|&c| contents.cables.get(c)).map(|s| s.cable.integrator());
     let first = all().next().unwrap_or_default();
     if all().all(|i| i == first) {
         return first;
     }
-    let tolerance = |i: &Integrator| match i.control {
-        StepControl::Tolerance(tolerance) | StepControl::ToleranceOf(tolerance, _) => tolerance,
-        _ => f64::INFINITY,
+    let host = step.h * f64::from(step.rapier_steps);
+    let fineness = |i: &Integrator| match i.control {
+        StepControl::Tolerance(tolerance) | StepControl::ToleranceOf(tolerance, _) => (tolerance, 0.0),
+        StepControl::Substeps(count) => (f64::INFINITY, host / f64::from(count)),
+        StepControl::MaxStep(h) => (f64::INFINITY, h.min(host)),
+        StepControl::Stable(_) => (f64::INFINITY, f64::INFINITY),
     };
-    all().fold(first, |best, i| if tolerance(&i) < tolerance(&best) { i } else { best })
+    all().fold(first, |best, i| if fineness(&i) < fineness(&best) { i } else { best })
 }
 
 /// Returns into how many equal parts of at most [`MAX_CONTROLLED_STEP`] a step of `h` (s) is

@@ -30,7 +30,7 @@ use super::hold::vector;
 use super::layout::Layout;
 use super::pin_accounts::PinAccounts;
 use crate::cable::Cable;
-use crate::contact::{BodyPath, PairStep};
+use crate::contact::{BodyPath, CablePair, PairStep};
 use crate::effect::EffectWork;
 use crate::error::StepFailure;
 use crate::integrate::State;
@@ -60,6 +60,8 @@ pub(super) struct StepBuffers {
     /// Contacts between the cables.
     pairs: PairStep,
     aside: pairs::Aside,
+    /// The cables that may touch each other, in ascending order; `None` for all.
+    pub may_touch: Option<Vec<CablePair>>,
     /// Rates of reels that are unknown, and sheaves.
     pub unknowns: Unknowns,
     /// By pin, velocity of node and slope beside those of the body when the host step began.
