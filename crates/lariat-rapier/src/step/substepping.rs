@@ -58,7 +58,7 @@ const MAX_PHASE: f64 = 0.6;
 /// Largest gap in m that may open in a Rapier step.
 const MAX_GAP: f64 = 1e-3;
 /// Steps of a host step of a body that joints hold: the reactions of joints are estimated from step
-/// to step.
+/// to step. With one step, arms that close at a limit or are near a body blow up.
 const JOINTED_STEPS: f64 = 4.0;
 /// Share of a cable's slack by which its chord may grow, so that its stiffness does not double.
 const SLACK_SHARE: f64 = 0.37;
