@@ -139,3 +139,32 @@ fn sizes_in_other_units_are_told() {
     assert_eq!(told(Section::tube(0.02, 0.01, 2.1e11, 7850.0).unwrap(), 5.0), []);
     assert_eq!(told(Section::wire_rope(0.02).unwrap(), 5.0), []);
 }
+
+/// Random sections: none of those that exist is doubted (0.5 mm to 1.4 m thick, 1e5 to 1e12 Pa, 12 to 1e5 times as long as thick), all that
+/// were given in other units are: millimetres read as metres, GPa read as Pa, and rods that are no cables.
+#[test]
+fn random_sizes_are_told_where_they_are_wrong_and_only_there() {
+    let mut random = Random::new(11);
+    let mut between = |low: f64, high: f64| low * (high / low).powf(0.5 + 0.5 * random.next());
+    for case in 0..400 {
+        let (thick, modulus, density) = (between(5e-4, 1.4), between(1.01e5, 1e12), between(900.0, 8000.0));
+        let (ratio, short) = (between(12.0, 1e5), between(0.1, 9.9));
+        let section = |thick: f64, modulus: f64| match case % 3 {
+            0 => Section::round(thick, modulus, density),
+            1 => Section::square(thick, modulus, density),
+            _ => Section::tube(thick, 0.8 * thick, modulus, density),
+        };
+        let told = |thick: f64, modulus: f64, length: f64| {
+            let line = Cable::builder().points([Vector3::zeros(), Vector3::x() * length]);
+            line.section(section(thick, modulus).unwrap()).fix(At::Start).build().unwrap().warnings()
+        };
+        let found = format!("{thick} m, {modulus} Pa, {ratio}");
+        assert_eq!(told(thick, modulus, ratio * thick), [], "{found}");
+        let in_metres = told(1e3 * thick.max(1.6e-3), modulus, ratio * thick);
+        assert!(matches!(&in_metres[..], [Warning::Stubby { .. } | Warning::Thick { .. }]), "{found}: {in_metres:?}");
+        let in_gpa = told(thick, 1e-9 * modulus, ratio * thick);
+        assert!(matches!(&in_gpa[..], [Warning::SoftMaterial { .. }]), "{found}: {in_gpa:?}");
+        let stubby = told(thick, modulus, short * thick);
+        assert!(matches!(&stubby[..], [Warning::Stubby { .. }]), "{found}, {short}: {stubby:?}");
+    }
+}
