@@ -13,7 +13,7 @@ use crate::error::Error;
 use crate::handle::CableHandle;
 use crate::table::Table;
 use ::nalgebra::Vector3;
-use lariat_ancf::island::PinConstraint;
+use lariat_ancf::island::{Drum, PinConstraint};
 use lariat_ancf::{At, SlopeSupport};
 use rapier::dynamics::{RigidBodyHandle, RigidBodyType};
 use rapier::math::AngVector;
@@ -69,6 +69,7 @@ pub(crate) struct Island {
     pub supports: Vec<usize>,
     /// Indices of its sheaves.
     pub sheaves: Vec<usize>,
+    pub drums: Vec<Drum>,
 }
 
 impl Island {
@@ -233,7 +234,8 @@ fn connected(
         let cable = cables[next];
         next += 1;
         let pinned = || nodes.iter().filter(|n| n.role == Role::Integrated).map(|n| (n.cable, n.body));
-        let integrated = || pinned().chain(touching.iter().copied());
+        let on_drums = || contents.drums.iter().map(|wound| (wound.cable.0 as usize, wound.drum.body));
+        let integrated = || pinned().chain(on_drums()).chain(touching.iter().copied());
         let bodies = integrated().filter(|(c, _)| *c == cable).map(|(_, body)| body);
         let over_bodies = bodies.flat_map(|b| integrated().filter(move |(_, body)| *body == b).map(|(c, _)| c));
         let handle = CableHandle(cable as u32);
@@ -293,6 +295,17 @@ fn connect(
                 island.members.push(member);
             }
         }
+    }
+    for wound in &contents.drums {
+        if !island.cables.contains(&(wound.cable.0 as usize)) {
+            continue;
+        }
+        let member = Member::Body(wound.drum.body);
+        let body = island.members.iter().position(|m| *m == member).unwrap_or_else(|| {
+            island.members.push(member);
+            island.members.len() - 1
+        });
+        island.drums.extend(wound.within(&island.cables, body));
     }
     island
 }

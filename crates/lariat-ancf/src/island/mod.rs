@@ -40,6 +40,7 @@ mod body_matrix;
 mod clamp;
 mod condense;
 mod discrete_gradient;
+mod drum;
 mod dynamics;
 mod energy_balance;
 mod equations;
@@ -58,6 +59,7 @@ mod step;
 mod velocities;
 
 pub use body::{BodyMemory, RigidBody};
+pub use drum::Drum;
 pub use impedance::Impedance;
 pub use layout::CLOSING_SPEED;
 pub use pin::PinConstraint;
