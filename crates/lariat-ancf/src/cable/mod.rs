@@ -222,7 +222,7 @@ impl Cable {
     pub(crate) fn check_complete(&self) -> Result<(), Error> {
         self.check_forces()?;
         if self.model.reels.sides().any(|side| self.needs_island(side)) {
-            let reason = "its end is at a sheave or on a drum: only an island with that steps it";
+            let reason = "its end is at a sheave or on a drum: only an island with that sheave or drum steps it";
             return Err(Error::ReelPlace { cable: self.name().to_string(), reason });
         }
         match self.model.supports.iter().find(|(_, s)| s.attached) {
