@@ -46,7 +46,7 @@ use lariat_ancf::{Fidelity, IntegratorChoice, Point, Section};
 /// # Limits
 ///
 /// The constitutive law is linear elastic, with constant EA and EI: see [`lariat_ancf::element`].
-/// Contact with fixed and kinematic bodies only: see the [crate page](crate#limits).
+/// Nothing touches it without a [`Contact`](crate::Contact): see the [crate page](crate#limits).
 #[derive(Component, Clone, Debug, PartialEq)]
 #[component(immutable, on_insert = built, on_discard = discarded)]
 pub struct Cable(pub(crate) Description);

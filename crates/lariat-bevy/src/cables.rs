@@ -55,7 +55,7 @@ use std::collections::{BTreeMap, HashMap};
 ///
 /// # Limits
 ///
-/// No contact of cables with dynamic bodies or with each other: see the [crate page](crate#limits).
+/// Cables touch bodies and each other only with a [`Contact`](crate::Contact): see the [crate page](crate#limits).
 #[derive(Resource, Default)]
 pub struct Cables {
     pub(crate) set: CableSet,

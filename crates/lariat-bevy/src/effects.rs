@@ -190,9 +190,14 @@ impl Buoyancy {
 }
 
 impl Contact {
-    /// Contact with the fixed and kinematic bodies, with this coefficient of friction.
+    /// Contact with the bodies, with this coefficient of friction.
     pub fn with_friction(friction: f64) -> Self {
         Contact(lariat_ancf::Contact::with_friction(friction))
+    }
+
+    /// Contact with other cables that have it and with itself, too.
+    pub fn with_cables(self) -> Self {
+        Contact(self.0.with_cables())
     }
 }
 

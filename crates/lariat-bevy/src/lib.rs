@@ -62,7 +62,7 @@
 //!
 //! # Limits
 //!
-//! - Cables touch bodies if they have [`Contact`], but not each other. The unstretched length of a cable changes by
+//! - Cables touch bodies if they have [`Contact`], and each other with [`Contact::with_cables`]. The unstretched length of a cable changes by
 //!   breaking and cutting, and by a [`Reel`].
 //! - A cable that cannot step stands still with all that is attached to it until the cause is
 //!   removed: see [`StepFailed`](event::StepFailed).

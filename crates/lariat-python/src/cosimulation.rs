@@ -17,8 +17,8 @@
 //!
 //! # Validity
 //!
-//! The exchange is explicit, once per step: stable if Z is small beside the mass matrix of the bodies. J is the integral of the force over the
-//! integrator's steps; momentum is kept to 1e-4 of the cable's weight at ends at rest, and to some 1 % of it at ends that accelerate. A is one linearised implicit Euler
+//! The exchange is explicit, once per step: stable if Z is small beside the mass matrix of the bodies. J is the impulse of the
+//! loads less the change of momentum of the cable, to rounding (`lariat_ancf::island`, accounts of pins). A is one linearised implicit Euler
 //! step; if compression makes it indefinite, D and K are halved until it is positive definite.
 //!
 //! # References

@@ -28,7 +28,7 @@ mod world;
 #[pyo3::pymodule]
 mod _lariat {
     #[pymodule_export]
-    use crate::cable::{Cable, step_all};
+    use crate::cable::{Cable, step_all, step_together};
     #[pymodule_export]
     use crate::cosimulation::CoSimulation;
     #[pymodule_export]

@@ -140,6 +140,7 @@ def call_cable(r: random.Random, c: lariat.Cable) -> Any:
         lambda: c.restore(bytes_of(r, c.snapshot())),
         lambda: lariat.Cable.from_bytes(bytes_of(r, c.to_bytes())).step(1e-3),
         lambda: lariat.step_all(r.choice([[c], [c, c], [], [None], None]), 1e-3),
+        lambda: lariat.step_together(r.choice([[c], [c, c], [c, c.copy()], [], [None]]), number(r), steps=r.choice([0, 1, 2, -1, None])),
         lambda: lariat.Integrator(r.choice(["esdirk4", "verlet", "x", "generalised-alpha-7"]), tolerance=number(r), substeps=r.choice([None, 3, 0, -1])),
     ]  # fmt: skip
     return r.choice(calls)()

@@ -155,3 +155,28 @@ def test_joints_that_make_no_sense_are_named() -> None:
         world.step()
     world.multibody_joints.remove(link)
     assert len(world.multibody_joints) == 0 and len(world.impulse_joints) == 3
+
+
+def test_cables_that_are_stepped_together_hold_each_other() -> None:
+    """A rope that is thrown down on another stops on it, and one that may not touch falls through; momentum of the pair is that of gravity,
+    for both are free (Newton)."""
+    section = lariat.Section.round(0.02, 1e7, 1000.0)
+    for touches in (True, False):
+        pair = [
+            lariat.Cable(points, section, elements=6, gravity=[0, 0, 0], fidelity="game", effects=lariat.Contact(0.2, cables=touches), velocity=velocity)
+            for points, velocity in (
+                ([[-0.5, 0.05, 0], [0.5, 0.05, 0]], [0, 0, 0]),
+                ([[0.03, -0.5, 0.05], [0.03, 0.5, 0.05]], [0, 0, -1.0]),
+            )
+        ]
+        before = sum(cable.momentum().linear for cable in pair)
+        for _ in range(20):
+            lariat.step_together(pair, 1 / 100)
+        height = [cable.sample(0.5).position[2] for cable in pair]
+        assert (height[1] > height[0]) == touches
+        assert sum(cable.momentum().linear for cable in pair) == pytest.approx(before, abs=1e-6)
+        assert (np.abs(before[2] - pair[1].momentum().linear[2]) > 0.1 * np.abs(before[2])) == touches
+    with pytest.raises(lariat.errors.EmptyIslandError):
+        lariat.step_together([], 0.01)
+    with pytest.raises(lariat.errors.DuplicateCableError):
+        lariat.step_together([pair[0], pair[0]], 0.01)

@@ -83,7 +83,7 @@ impl Contents {
         let sort_key = [start.x, start.y, start.z, end.x, end.y, end.z, cable.length()];
         let gravity = cable.gravity();
         let follows_gravity = gravity == lariat_ancf::STANDARD_GRAVITY;
-        let slot = Slot {
+        let mut slot = Slot {
             asleep: false,
             modified: true,
             follows_gravity,
@@ -95,10 +95,24 @@ impl Contents {
             ignored: Vec::new(),
             cable,
         };
+        let key = self.free_key(&slot);
+        slot.cable.set_contact_key(key);
         let index = self.cables.push(slot);
         self.changed = true;
         self.gravity = None;
         CableHandle(index as u32)
+    }
+
+    /// Returns a key by which other cables remember a new one: by its name and place, so that it does not depend on the order of insertion.
+    fn free_key(&self, slot: &Slot) -> u64 {
+        // FNV-1a; 0 stands for no key
+        let hash = |hash: u64, byte: u8| (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3);
+        let place = slot.sort_key.iter().flat_map(|x| x.to_bits().to_le_bytes());
+        let mut key = slot.cable.name().bytes().chain(place).fold(0xcbf2_9ce4_8422_2325, hash).max(1);
+        while self.cables.values().any(|other| other.cable.contact_key() == key) {
+            key = key.wrapping_add(1).max(1);
+        }
+        key
     }
 
     /// Returns the slot of a cable.

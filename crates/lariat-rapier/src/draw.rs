@@ -43,9 +43,13 @@ pub(crate) fn draw<'a>(
     let mut all = Vec::new();
     for cable in cables {
         all.push(samples(cable));
-        for touch in cable.contacts().filter(|_| style.force_length > 0.0) {
-            let Ok(sample) = cable.sample(touch.arc_length) else { continue };
-            let force = (touch.normal * touch.normal_force + touch.friction) * style.force_length;
+        let touches =
+            cable.contacts().map(|touch| (touch.arc_length, touch.normal * touch.normal_force + touch.friction));
+        let among =
+            cable.cable_contacts().map(|touch| (touch.arc_length, touch.normal * touch.normal_force + touch.friction));
+        for (arc_length, force) in touches.chain(among).filter(|_| style.force_length > 0.0) {
+            let Ok(sample) = cable.sample(arc_length) else { continue };
+            let force = force * style.force_length;
             let (from, to) = (to_vector(&sample.position), to_vector(&(sample.position + force)));
             backend.draw_line(object, from, to, CONTACT);
         }

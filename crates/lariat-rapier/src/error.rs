@@ -25,14 +25,6 @@ pub enum Error {
         /// Why they cannot step.
         cause: Box<Error>,
     },
-    /// A cable that is to touch other cables: a set does not unite them in an island yet, as `lariat_ancf::island::Island` needs it.
-    #[error(
-        "cable {cable:?}: a CableSet has no contact between cables yet, only of a cable with itself; lariat_ancf::island::Island has"
-    )]
-    CablesTouch {
-        /// Name of the cable.
-        cable: String,
-    },
     /// The handle of a cable that is not, or no longer, in the set.
     #[error("no cable {0:?} in this set")]
     NoCable(CableHandle),
@@ -123,9 +115,10 @@ pub enum Error {
         /// The other body; `None` for a collider without one.
         other: Option<RigidBodyHandle>,
     },
-    /// A cable with contact that would be in a collider in equilibrium: statics compute no contacts.
+    /// A cable with contact that would be in a collider in equilibrium: on a dynamic body, a sharp edge or something thin, with which statics compute no
+    /// contact, or between the samples of a mesh that is too coarse.
     #[error(
-        "statics compute no contacts, and cable {cable:?} would be {depth:.1e} m in collider {collider:?} at {arc_length} m: \
+        "statics compute contact at samples, not with dynamic bodies, sharp edges and thin things: cable {cable:?} would be {depth:.1e} m in collider {collider:?} at {arc_length} m: \
          step until it rests"
     )]
     CableTouchesInStatics {

@@ -1,4 +1,5 @@
-//! Islands: sets of cables, bodies and junctions that are connected by attachments, or by contacts that are near.
+//! Islands: sets of cables, bodies and junctions that are connected by attachments, by contacts that are near,
+//! or by the joints of a mechanism.
 //!
 //! Order within and among islands follows the names of the cables and the positions at which they
 //! were inserted, not their handles: a run does not depend on the order of insertion, to the bit.
@@ -11,8 +12,11 @@ use crate::contents::{Contents, Slot};
 use crate::convert::vector;
 use crate::error::Error;
 use crate::handle::CableHandle;
+use crate::mechanism;
+use crate::step::proximity;
 use crate::table::Table;
 use ::nalgebra::Vector3;
+use lariat_ancf::contact::CablePair;
 use lariat_ancf::island::{Drum, PinConstraint};
 use lariat_ancf::{At, SlopeSupport};
 use rapier::dynamics::{RigidBodyHandle, RigidBodyType};
@@ -55,6 +59,13 @@ pub(crate) enum Member {
     Junction(usize),
 }
 
+impl Member {
+    /// Returns the handle of an integrated body.
+    pub fn body(&self) -> Option<RigidBodyHandle> {
+        if let Member::Body(handle) = self { Some(*handle) } else { None }
+    }
+}
+
 /// Cables that are connected, and what connects them.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Island {
@@ -70,18 +81,35 @@ pub(crate) struct Island {
     /// Indices of its sheaves.
     pub sheaves: Vec<usize>,
     pub drums: Vec<Drum>,
+    /// Those of its cables that may touch each other, with indices into the first list.
+    pub pairs: Vec<CablePair>,
 }
 
 impl Island {
+    /// Returns whether nothing connects its cables.
+    pub fn is_loose(&self) -> bool {
+        self.members.is_empty() && self.sheaves.is_empty() && self.pairs.is_empty()
+    }
+
     /// Returns the handles of its integrated bodies.
     pub fn bodies(&self) -> impl Iterator<Item = RigidBodyHandle> {
-        self.members.iter().filter_map(|m| if let Member::Body(h) = m { Some(*h) } else { None })
+        self.members.iter().filter_map(Member::body)
     }
 
     /// Returns the indices of the pins on a member.
     pub fn pins_on(&self, member: usize) -> impl Iterator<Item = usize> {
         self.pins.iter().enumerate().filter(move |(_, p)| p.body == member).map(|(i, _)| i)
     }
+}
+
+/// What connects cables, beside junctions and sheaves.
+#[derive(Clone, Copy)]
+struct Links<'a> {
+    nodes: &'a [AttachedNode],
+    touching: &'a [(usize, RigidBodyHandle)],
+    /// Bodies of mechanisms, each with the first of its mechanism.
+    jointed: &'a [[RigidBodyHandle; 2]],
+    pairs: &'a [CablePair],
 }
 
 /// All islands of a set.
@@ -92,26 +120,31 @@ pub(crate) struct Islands {
     nodes: Vec<AttachedNode>,
     /// Cables and the integrated bodies that they can touch.
     touching: Vec<(usize, RigidBodyHandle)>,
+    /// Cables that can touch each other.
+    pairs: Vec<CablePair>,
+    /// Bodies of mechanisms that several cables act on, each with the first of its mechanism.
+    jointed: Vec<[RigidBodyHandle; 2]>,
 }
 
 impl Islands {
     /// Finds the islands of a set, unless nothing changed since they were last found; `touching` are cables and the integrated bodies that they can
-    /// touch.
+    /// touch, `pairs` cables that can touch each other.
     pub fn update(
         &mut self,
         contents: &mut Contents,
         world: &PhysicsWorld,
         touching: &[(usize, RigidBodyHandle)],
+        pairs: &[CablePair],
     ) -> Result<(), Error> {
         mark_rotating(contents, world);
-        let unchanged = attached_nodes(contents, world).eq(self.nodes.iter().copied()) && self.touching == touching;
+        let jointed = jointed_bodies(world, attached_nodes(contents, world), touching);
+        let unchanged = attached_nodes(contents, world).eq(self.nodes.iter().copied())
+            && self.touching == touching
+            && self.pairs == pairs
+            && self.jointed == jointed;
         let modified = contents.cables.values().any(|slot| slot.modified);
         if unchanged && !modified && !contents.changed && !self.list.is_empty() {
             return Ok(());
-        }
-        let refused = contents.cables.values().find(|s| s.cable.effects().contact.is_some_and(|own| own.cables));
-        if let Some(slot) = refused {
-            return Err(Error::CablesTouch { cable: slot.cable.name().to_string() });
         }
         contents.changed = false;
         renumber(contents)?;
@@ -119,6 +152,9 @@ impl Islands {
         self.nodes.extend(attached_nodes(contents, world));
         self.touching.clear();
         self.touching.extend_from_slice(touching);
+        self.pairs.clear();
+        self.pairs.extend_from_slice(pairs);
+        self.jointed = jointed;
         let mut order: Vec<(usize, &Slot)> = contents.cables.iter().collect();
         order.sort_by(|(a, one), (b, two)| one.order(two).then(a.cmp(b)));
         let order: Vec<usize> = order.into_iter().map(|(c, _)| c).collect();
@@ -128,13 +164,14 @@ impl Islands {
         let mut nodes = self.nodes.clone();
         nodes.sort_by_key(|n| (rank(n.cable), n.node));
         set_supports(contents, &nodes)?;
+        let links = Links { nodes: &nodes, touching, jointed: &self.jointed, pairs };
         let mut seen = vec![false; contents.cables.len()];
         self.list.clear();
         for &first in &order {
             if !seen[first] {
-                let mut cables = connected(contents, first, (&nodes, touching), &mut seen);
+                let mut cables = connected(contents, first, links, &mut seen);
                 cables.sort_by_key(|&c| rank(c));
-                self.list.push(connect(contents, cables, (&nodes, touching)));
+                self.list.push(connect(contents, cables, links));
             }
         }
         Ok(())
@@ -144,6 +181,24 @@ impl Islands {
 /// Returns all attachments as they are now.
 fn attached_nodes(contents: &Contents, world: &PhysicsWorld) -> impl Iterator<Item = AttachedNode> {
     contents.attachments.iter().map(|(i, a)| attached_node(contents, world, i, a))
+}
+
+/// Returns the integrated bodies that share a mechanism with one before them, each with the first of it.
+fn jointed_bodies(
+    world: &PhysicsWorld,
+    nodes: impl Iterator<Item = AttachedNode>,
+    touching: &[(usize, RigidBodyHandle)],
+) -> Vec<[RigidBodyHandle; 2]> {
+    let (mut first, mut jointed): (Vec<(RigidBodyHandle, Vec<RigidBodyHandle>)>, _) = (Vec::new(), Vec::new());
+    let attached = nodes.filter(|n| n.role == Role::Integrated).map(|n| n.body);
+    for body in attached.chain(touching.iter().map(|(_, body)| *body)).filter(|b| !proximity::is_unjointed(world, *b)) {
+        match first.iter().find(|(_, bodies)| bodies.contains(&body)) {
+            Some((known, _)) if *known != body => jointed.push([body, *known]),
+            Some(_) => {}
+            None => first.push((body, mechanism::bodies(world, body))),
+        }
+    }
+    jointed
 }
 
 /// Remembers which kinematic bodies with attachments rotate.
@@ -224,7 +279,7 @@ fn set_supports(contents: &mut Contents, nodes: &[AttachedNode]) -> Result<(), E
 fn connected(
     contents: &Contents,
     first: usize,
-    (nodes, touching): (&[AttachedNode], &[(usize, RigidBodyHandle)]),
+    Links { nodes, touching, jointed, pairs }: Links<'_>,
     seen: &mut [bool],
 ) -> Vec<usize> {
     let mut cables = vec![first];
@@ -235,7 +290,9 @@ fn connected(
         next += 1;
         let pinned = || nodes.iter().filter(|n| n.role == Role::Integrated).map(|n| (n.cable, n.body));
         let on_drums = || contents.drums.iter().map(|wound| (wound.cable.0 as usize, wound.drum.body));
-        let integrated = || pinned().chain(on_drums()).chain(touching.iter().copied());
+        let first = |body: RigidBodyHandle| jointed.iter().find(|[b, _]| *b == body).map_or(body, |[_, first]| *first);
+        let integrated =
+            || pinned().chain(on_drums()).chain(touching.iter().copied()).map(|(c, body)| (c, first(body)));
         let bodies = integrated().filter(|(c, _)| *c == cable).map(|(_, body)| body);
         let over_bodies = bodies.flat_map(|b| integrated().filter(move |(_, body)| *body == b).map(|(c, _)| c));
         let handle = CableHandle(cable as u32);
@@ -243,7 +300,8 @@ fn connected(
         let over_junctions = tied.flat_map(|j| j.nodes.iter().map(|(c, _)| c.0 as usize));
         let sheaves = contents.sheaves.values().filter(|s| s.ends.iter().any(|(c, _)| *c == handle));
         let over_sheaves = sheaves.flat_map(|s| s.ends.iter().map(|(c, _)| c.0 as usize));
-        for other in over_bodies.chain(over_junctions).chain(over_sheaves) {
+        let met = pairs.iter().filter(|pair| pair.cables.contains(&cable)).flat_map(|pair| pair.cables);
+        for other in over_bodies.chain(over_junctions).chain(over_sheaves).chain(met) {
             if !seen[other] {
                 seen[other] = true;
                 cables.push(other);
@@ -254,14 +312,16 @@ fn connected(
 }
 
 /// Returns the island of `cables`, its members and pins in the order of cables and nodes.
-fn connect(
-    contents: &Contents,
-    cables: Vec<usize>,
-    (nodes, touching): (&[AttachedNode], &[(usize, RigidBodyHandle)]),
-) -> Island {
+fn connect(contents: &Contents, cables: Vec<usize>, Links { nodes, touching, pairs, .. }: Links<'_>) -> Island {
     let sheaves = contents.sheaves.iter().filter(|(_, sheave)| sheave.within(&cables).is_some());
     let sheaves = sheaves.map(|(i, _)| i).collect();
-    let mut island = Island { cables, sheaves, ..Island::default() };
+    let place = |cable: usize| cables.iter().position(|&c| c == cable);
+    let within = pairs.iter().filter_map(|pair| {
+        let [Some(a), Some(b)] = pair.cables.map(place) else { return None };
+        Some(CablePair { cables: [a.min(b), a.max(b)], ..*pair })
+    });
+    let pairs = within.collect();
+    let mut island = Island { cables, sheaves, pairs, ..Island::default() };
     let mut add = |cable: usize, node: usize, member: Member, attached: Option<&AttachedNode>| {
         // each attachment to a body with prescribed motion has a member of its own
         let shared = !matches!(member, Member::Driven(_));

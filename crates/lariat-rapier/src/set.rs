@@ -25,7 +25,7 @@ use serde::{Deserialize, Serialize};
 /// The cables of a world, attached to its bodies and to each other.
 ///
 /// # Limits
-/// - Cables touch colliders, if they are told to ([`set_contact`](Self::set_contact)), but not each other.
+/// - Cables touch colliders and each other only if they are told to ([`set_contact`](Self::set_contact)).
 /// - A cable has a fixed natural length, but for [`cut`](Self::cut) and a reel
 ///   ([`Cable::add_reel`](lariat_ancf::Cable::add_reel) by [`get_mut`](Self::get_mut)). On a dynamic
 ///   body its stock rides along as a point mass at the eye, beside the mass that Rapier knows: contacts of the body see that alone.
@@ -352,12 +352,13 @@ impl CableSet {
 
     /// Moves all cables, and the dynamic bodies attached to them, to static equilibrium under gravity,
     /// loads and the users' forces; velocities become zero, readings of attachments are those at rest.
-    /// Returns what was moved, what was held, and what nothing is attached to.
+    /// Returns what was moved, what was held, and what nothing is attached to. Cables with contact lie on fixed and kinematic colliders, without
+    /// friction; contact of cables with each other takes no part.
     ///
     /// # Errors
     /// [`Error::Cable`] with [`NoEquilibrium`](lariat_ancf::Error::NoEquilibrium) if an island has none;
     /// [`Error::JointInStatics`] and [`Error::ContactInStatics`] for bodies with joints and contacts;
-    /// [`Error::CableTouchesInStatics`] for a cable with contact that would be in a collider;
+    /// [`Error::CableTouchesInStatics`] for a cable with contact that would be in a collider of a dynamic body, or on a sharp edge;
     /// [`Error::OtherWorld`]. Set and world are then as before.
     pub fn equilibrium(&mut self, world: &mut PhysicsWorld) -> Result<Equilibrium, Error> {
         world_mark::check(&mut self.contents, world)?;

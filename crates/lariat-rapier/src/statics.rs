@@ -6,8 +6,9 @@
 //! only when all islands are in equilibrium.
 //!
 //! # Validity
-//! No joints and no contacts: a body that has one is an error, before or after the search. A cable
-//! alone may end in an indifferent shape, which its report says.
+//! No joints and no contacts of bodies: a body that has one is an error, before or after the search. Cables with contact lie on the
+//! colliders of fixed and kinematic bodies, without friction; one that would be in another collider, or on a sharp edge or something thin, is an error. Contact of
+//! cables with each other takes no part. A cable alone may end in an indifferent shape, which its report says.
 
 use crate::body::{is_integrated, rigid_body};
 use crate::contact::broad::Finder;
@@ -20,7 +21,7 @@ use crate::ledger::is_ledger;
 use crate::record::ExactState;
 use ::nalgebra::{Matrix3, Vector3, Vector6};
 use lariat_ancf::island::{self, RigidBody};
-use lariat_ancf::{At, Cable, EquilibriumOptions, EquilibriumReport, Motion};
+use lariat_ancf::{At, Cable, EquilibriumFailure, EquilibriumOptions, EquilibriumReport, Motion};
 use rapier::dynamics::RigidBodyHandle;
 use rapier::geometry::{BoundingVolume, Collider};
 use rapier::math::{Pose, Real, Vector};
@@ -67,14 +68,14 @@ pub(crate) fn equilibrium(
 ) -> Result<Equilibrium, Error> {
     contents.follow_gravity(world)?;
     let mut islands = Islands::default();
-    let found = islands.update(contents, world, &[]);
+    let found = islands.update(contents, world, &[], &[]);
     // the stepper has not seen these changes
     contents.changed = true;
     found?;
     let mut out = Equilibrium::default();
     let mut solved = Vec::new();
     for island in &islands.list {
-        solved.push(solve(contents, world, island, options, &mut out)?);
+        solved.push(solve(contents, finder, world, island, options, &mut out)?);
     }
     let poses: Vec<(RigidBodyHandle, Pose)> = solved.iter().flat_map(|s| poses(world, s)).collect();
     check_contacts(world, &poses)?;
@@ -100,17 +101,31 @@ pub(crate) fn equilibrium(
     Ok(out)
 }
 
+/// Returns an error of statics with the collider in which a cable would be.
+fn name_collider(error: lariat_ancf::Error) -> Error {
+    match error {
+        lariat_ancf::Error::NoEquilibrium {
+            cable,
+            failure: EquilibriumFailure::Touches { obstacle, arc_length, depth },
+            ..
+        } => Error::CableTouchesInStatics { cable, collider: crate::contact::collider(obstacle), arc_length, depth },
+        error => error.into(),
+    }
+}
+
 /// Solves an island on copies.
 fn solve<'a>(
     contents: &mut Contents,
+    finder: &mut Finder,
     world: &PhysicsWorld,
     island: &'a Island,
     options: EquilibriumOptions,
     out: &mut Equilibrium,
 ) -> Result<Solved<'a>, Error> {
     let mut cables: Vec<Cable> = contents.cables_at(&island.cables).into_iter().map(|cable| cable.clone()).collect();
-    // what is touched is looked up when the shape is known
-    cables.iter_mut().try_for_each(|cable| cable.set_obstacles([]))?;
+    for (&index, cable) in island.cables.iter().zip(&mut cables) {
+        finder.gather_for_statics(contents, world, index, cable)?;
+    }
     for a in island.supports.iter().filter_map(|&i| contents.attachments.get(i)) {
         let Some(cable) = island.cables.iter().position(|&c| c == a.cable.0 as usize) else { continue };
         let body = world.bodies.get(a.body).ok_or(Error::NoBody(a.body))?;
@@ -131,7 +146,10 @@ fn solve<'a>(
         });
     }
     let reports = if members.is_empty() {
-        cables.iter_mut().map(|cable| cable.equilibrium_with(options)).collect::<Result<Vec<_>, _>>()?
+        cables
+            .iter_mut()
+            .map(|cable| cable.equilibrium_with(options).map_err(name_collider))
+            .collect::<Result<Vec<_>, _>>()?
     } else {
         let mut refs: Vec<&mut Cable> = cables.iter_mut().collect();
         vec![island::equilibrium(&mut refs, &mut members, &island.pins, options)?; island.cables.len()]

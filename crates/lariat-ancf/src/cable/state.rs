@@ -44,6 +44,11 @@ impl Clone for Snapshot {
 }
 
 impl Snapshot {
+    /// Returns the nodal coordinates, flat, as [`Cable::positions`] does.
+    pub fn positions(&self) -> &[f64] {
+        &self.state.q
+    }
+
     /// Adds the work of effects in a host step that succeeded; `before` are the positions when it began.
     pub(crate) fn add_work_of_step(&mut self, system: &mut System, before: &[f64]) {
         self.work += core::mem::take(&mut system.meter.work);

@@ -40,6 +40,12 @@ impl NormalLaw {
         NormalLaw { stiffness, ramp: RAMP * radius }
     }
 
+    /// Returns the law that is so soft and smooth that `force` per length (N/m) has `depth` (m); itself if it is as soft.
+    pub(in crate::contact) fn softened(self, force: f64, depth: f64) -> Self {
+        let stiffness = force / depth;
+        if stiffness < self.stiffness { NormalLaw { stiffness, ramp: depth.max(self.ramp) } } else { self }
+    }
+
     /// Returns the law of two cables that touch each other.
     pub(in crate::contact) fn in_series(one: NormalLaw, other: NormalLaw) -> Self {
         let (a, b) = (one.stiffness, other.stiffness);

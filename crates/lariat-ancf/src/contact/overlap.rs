@@ -5,6 +5,8 @@ use nalgebra::Vector3;
 
 /// Depth as a share of the radius below which a cable only touches.
 const TOUCH: f64 = 0.02;
+/// Depth between samples as a multiple of that at the deepest of them.
+const BETWEEN: f64 = 2.0;
 /// Points of an element that are looked at, without its last node.
 const POINTS: usize = 8;
 
@@ -20,11 +22,14 @@ pub struct Overlap {
 }
 
 impl Cable {
-    /// Returns where the cable is deepest in one of its [obstacles](Self::obstacles), deeper than 2 % of its radius, as they are now; `None` if
+    /// Returns where the cable is deepest in one of its [obstacles](Self::obstacles), deeper than 2 % of its radius beyond what its
+    /// contacts carry, as they are now; `None` if
     /// it is in none, or has no [`Contact`](crate::Contact). A piece that reaches to a supported node is left out: a cable may begin within
     /// what holds it.
     pub fn overlap(&self) -> Option<Overlap> {
         let contact = self.effects().contact?;
+        // between samples that carry the cable it is a little deeper
+        let carried = BETWEEN * self.contacts().fold(0.0, |most: f64, touch| most.max(touch.depth));
         let mut worst: Option<Overlap> = None;
         for obstacle in self.obstacles() {
             let motion = &obstacle.motion;
@@ -47,7 +52,7 @@ impl Cable {
                     let Ok(sample) = self.sample(arc_length) else { continue };
                     let y: Vector3<f64> = axes.inverse() * (sample.position - origin) + motion.centre;
                     let depth = radius + obstacle.skin - obstacle.surface.nearest(&y).distance;
-                    if depth <= TOUCH * radius {
+                    if depth <= TOUCH * radius + carried {
                         end(&mut deepest, held);
                         held = false;
                         continue;

@@ -100,22 +100,7 @@ impl ContactStep {
             if let Some(body) = self.obstacles[point.obstacle].body {
                 self.borders.add(body, element, &point.shape, &tangent, &linear.arm);
             }
-            for (p, left) in point.shape.iter().enumerate() {
-                for (q, right) in point.shape.iter().enumerate() {
-                    let block = match (p / 2, q / 2) {
-                        (0, 0) => &mut matrix.diag[element],
-                        (1, 1) => &mut matrix.diag[element + 1],
-                        (1, 0) => &mut matrix.lower[element],
-                        _ => continue,
-                    };
-                    let (row, column, weight) = (3 * (p % 2), 3 * (q % 2), left * right);
-                    for c in 0..3 {
-                        for r in 0..3 {
-                            block.0[column + c][row + r] += weight * tangent[(r, c)];
-                        }
-                    }
-                }
-            }
+            add_tangent(matrix, element, &point.shape, &tangent);
         }
     }
 
@@ -145,6 +130,26 @@ impl ContactStep {
             memory.push(point.memory(&self.obstacles[point.obstacle]));
         }
         memory.sort_unstable_by_key(|contact| contact.key());
+    }
+}
+
+/// Adds the tangent of a force on a point of an element to its blocks.
+pub(super) fn add_tangent(matrix: &mut BlockTridiagonal, element: usize, shape: &[f64; 4], tangent: &Matrix3<f64>) {
+    for (p, left) in shape.iter().enumerate() {
+        for (q, right) in shape.iter().enumerate() {
+            let block = match (p / 2, q / 2) {
+                (0, 0) => &mut matrix.diag[element],
+                (1, 1) => &mut matrix.diag[element + 1],
+                (1, 0) => &mut matrix.lower[element],
+                _ => continue,
+            };
+            let (row, column, weight) = (3 * (p % 2), 3 * (q % 2), left * right);
+            for c in 0..3 {
+                for r in 0..3 {
+                    block.0[column + c][row + r] += weight * tangent[(r, c)];
+                }
+            }
+        }
     }
 }
 

@@ -82,9 +82,10 @@ pub enum EquilibriumFailure {
         /// The first folded element.
         element: usize,
     },
-    /// The shape that was found is in something that the cable can touch, and statics compute no contacts.
+    /// The shape that was found is in something that the cable can touch: on a body, a sharp edge or something thin, with
+    /// which statics compute no contact, or between the samples of a mesh that is too coarse.
     #[error(
-        "statics compute no contacts, and the cable would be {depth:.1e} m in obstacle {obstacle} at {arc_length} m"
+        "statics compute contact at samples, not with bodies, sharp edges and thin things: the cable would be {depth:.1e} m in obstacle {obstacle} at {arc_length} m"
     )]
     Touches {
         /// Key of the obstacle.

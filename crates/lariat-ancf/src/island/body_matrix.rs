@@ -7,6 +7,7 @@
 //! ```
 
 use super::condense::Condensed;
+use super::coupling::CoupledInertia;
 use super::rotation::skew;
 use crate::error::StepFailure;
 use crate::linalg::Dense;
@@ -64,6 +65,16 @@ impl BodyMatrix {
     pub fn add_inertia(&mut self, body: usize, inertia: &Matrix6<f64>) {
         for (r, c) in [(0, 0), (0, 3), (3, 0), (3, 3)] {
             self.add(6 * body + r, 6 * body + c, &inertia.fixed_view::<3, 3>(r, c).into_owned());
+        }
+    }
+
+    /// Adds an inertia that couples two bodies, in world axes.
+    pub fn add_coupled(&mut self, coupled: &CoupledInertia) {
+        let [one, two] = coupled.bodies.map(|body| 6 * body);
+        for (r, c) in [(0, 0), (0, 3), (3, 0), (3, 3)] {
+            let block = coupled.matrix.fixed_view::<3, 3>(r, c).into_owned();
+            self.add(one + r, two + c, &block);
+            self.add(two + c, one + r, &block.transpose());
         }
     }
 

@@ -41,8 +41,10 @@ struct Column {
 pub(super) struct Condensed {
     /// By held coordinate: the column of A, before and after projection.
     columns: Vec<Column>,
-    /// A_ff^-1 A_fp, one column of 6 per node after the other.
+    /// A_ff^-1 A_fp, one column of 6 per node after the other, then A_ff^-1 r_f.
     y: Vec<f64>,
+    /// Whether A_ff^-1 r_f is there.
+    solved: bool,
     /// W, row-major.
     pub w: Vec<f64>,
     size: usize,
@@ -78,18 +80,20 @@ impl Condensed {
     }
 
     /// Completes the condensation with the factored, projected matrix; `project` removes held rows
-    /// from a vector.
+    /// from a vector. Solves for the residual `rhs` too, if there is one: together it costs a fraction.
     pub fn complete(
         &mut self,
         level: Level,
         factorisation: &Factorisation,
         (holds, borders): (&[Hold], &[Border]),
+        rhs: Option<&[f64]>,
         project: impl Fn(&mut [f64]),
     ) {
         let (held, size) = (self.columns.len(), self.size);
         let count = held + 6 * borders.len();
         self.y.clear();
-        self.y.resize(count * size, 0.0);
+        self.y.resize((count + usize::from(rhs.is_some())) * size, 0.0);
+        self.solved = rhs.is_some();
         self.w.clear();
         self.w.resize(count * count, 0.0);
         for (j, column) in self.columns.iter_mut().enumerate() {
@@ -120,14 +124,25 @@ impl Condensed {
             project(column);
             self.y[(held + k) * size..][..size].copy_from_slice(column);
         }
-        if count > 0 {
-            factorisation.solve_many(level, &mut self.y, count);
+        if let Some(rhs) = rhs {
+            self.y[count * size..].copy_from_slice(rhs);
+            project(&mut self.y[count * size..]);
         }
+        factorisation.solve_many(level, &mut self.y, count + usize::from(rhs.is_some()));
         for i in 0..count {
             for j in 0..count {
                 self.w[i * count + j] -= self.border(i, &self.y[j * size..(j + 1) * size]);
             }
         }
+    }
+
+    /// Copies A_ff^-1 r_f to `out`, once; returns whether it was there.
+    pub fn take_solution(&mut self, out: &mut [f64]) -> bool {
+        let solved = core::mem::take(&mut self.solved);
+        if solved {
+            out.copy_from_slice(&self.y[self.y.len() - self.size..]);
+        }
+        solved
     }
 
     /// Returns `A_pf u` for held coordinate `i`; those of touched bodies come after the others.

@@ -2,7 +2,7 @@
 
 use super::energy_balance;
 use super::equations::{IslandEquations, MatrixKind};
-use super::hold::vector;
+use super::hold::{stack, vector};
 use super::pin_accounts::PinAccounts;
 use super::rotation::{jacobian_inverse, jacobian_rate};
 use crate::effect::acts::ForceInput;
@@ -274,6 +274,11 @@ impl Dynamics for IslandDynamics<'_, '_> {
                 }
             }
         }
+        let of_body = |i: usize| {
+            let at = layout.body_at(i);
+            stack(&vector(&error[at..]), &vector(&error[at + 3..]))
+        };
+        layout.add_coupled_momenta(1.0, of_body, rhs);
         // the attitudes at the start of the step are accurate enough for a filter
         layout.pass_pinned_rows(zero, rhs);
         equations.solve(MatrixKind::Step, zero, rhs);

@@ -16,7 +16,7 @@
 //! loads.
 
 use super::equations::IslandEquations;
-use super::hold::vector;
+use super::hold::{stack, vector};
 use super::layout::Motion;
 use crate::effect::acts::ForceInput;
 use crate::integrate::State;
@@ -79,6 +79,17 @@ pub(super) fn spurious_energy(
         energy += gained - body.force.dot(&(end.position - start.position)) - h * body.torque.dot(&mean);
         scale[0] += kinetic(&start);
         scale[1] += kinetic(&end);
+    }
+    if !layout.coupled.is_empty() {
+        for (at, state, sign) in [(0, before, -0.5), (1, after, 0.5)] {
+            let coupled = layout.coupled_energy(|i| {
+                let at = layout.body_at(i);
+                let motion = layout.motion(i, &state.q[at..at + 6], &state.v[at..at + 6]);
+                stack(&motion.velocity, &motion.spin)
+            });
+            energy += sign * coupled;
+            scale[at] += 0.5 * coupled;
+        }
     }
     Some((energy, scale[0].max(scale[1])))
 }

@@ -145,7 +145,7 @@ impl IslandEquations<'_, '_> {
             equations.factor_to_solve()?;
             let (level, model) = (equations.system.level, equations.model);
             let factorisation = &equations.system.step.factorisation;
-            step.condensed.complete(level, factorisation, (&part.holds, &[]), |x| project_vector(model, x));
+            step.condensed.complete(level, factorisation, (&part.holds, &[]), None, |x| project_vector(model, x));
             equations.system.mass.multiply(equations.system.level, &z[range], product);
             subtract(rows, product);
         }
@@ -169,7 +169,7 @@ impl IslandEquations<'_, '_> {
                 project_matrix(model, matrix);
                 mass_factorisation.factor(system.level, matrix)?;
                 let parts = (&part.holds[..], &[][..]);
-                mass.condensed.complete(system.level, mass_factorisation, parts, |x| project_vector(model, x));
+                mass.condensed.complete(system.level, mass_factorisation, parts, None, |x| project_vector(model, x));
             }
             self.matrices.mass_is_factored = true;
         }
@@ -193,6 +193,7 @@ impl IslandEquations<'_, '_> {
             rotational += body.world_inertia(&motion.rotation);
             matrix.add_inertia(i, &inertia);
         }
+        layout.coupled.iter().for_each(|coupled| matrix.add_coupled(coupled));
         for (buffers, part) in cables.iter().zip(&layout.parts) {
             let lever =
                 |hold: &Hold| Lever::held(layout.pins[hold.pin].body, &layout.rotating_vector(hold, q), hold.slope);

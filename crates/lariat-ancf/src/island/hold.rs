@@ -1,6 +1,6 @@
 //! The coordinates of a cable that follow a body.
 
-use nalgebra::Vector3;
+use nalgebra::{Vector3, Vector6};
 
 /// Length of a slope below which it has no direction.
 const MIN_SLOPE: f64 = 1e-9;
@@ -21,6 +21,11 @@ pub(super) struct Hold {
 /// Returns the vector at the beginning of a slice.
 pub(super) fn vector(x: &[f64]) -> Vector3<f64> {
     Vector3::new(x[0], x[1], x[2])
+}
+
+/// Returns a linear and an angular vector in one.
+pub(super) fn stack(linear: &Vector3<f64>, angular: &Vector3<f64>) -> Vector6<f64> {
+    Vector6::new(linear.x, linear.y, linear.z, angular.x, angular.y, angular.z)
 }
 
 /// Returns the direction of a slope, `None` if it is too short to have one.

@@ -5,6 +5,7 @@
 
 use super::body::RigidBody;
 use super::clamp::Clamp;
+use super::coupling::CoupledInertia;
 use super::hold::{Hold, direction, vector};
 use super::pin::PinConstraint;
 use super::rotation::{exponential, spin};
@@ -57,6 +58,8 @@ pub(super) struct Layout {
     pub parts: Vec<Part>,
     /// The bodies when the step began.
     pub bodies: Vec<RigidBody>,
+    /// Inertia that couples them.
+    pub coupled: Vec<CoupledInertia>,
     /// By body, the largest distance of a pin from the centre of mass in m, by which a rotation
     /// displaces it.
     pub levers: Vec<f64>,

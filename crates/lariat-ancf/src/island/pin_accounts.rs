@@ -9,7 +9,8 @@
 //!
 //! f and m are force and moment of the cable on the body at the anchor: the residual of the cable
 //! at the pinned rows after every step of the integrator. The integrals are by the trapezoidal rule
-//! over these steps.
+//! over these steps; those of the discrete gradient are exact. What they miss of the momentum of the cable
+//! is given to [driven pins](super::pin_momentum).
 //!
 //! # References
 //!
@@ -18,6 +19,8 @@
 use super::equations::IslandEquations;
 use super::hold::vector;
 use super::layout::Layout;
+use super::pin_momentum::PinMomentum;
+use crate::cable::Cable;
 use crate::effect::acts::ForceInput;
 use crate::integrate::State;
 use nalgebra::Vector3;
@@ -67,16 +70,42 @@ impl PinAccount {
 pub(super) struct PinAccounts {
     /// By pin.
     pub pins: Vec<PinAccount>,
+    /// What the pins of driven bodies take of the momentum of the cables.
+    pub momentum: PinMomentum,
     /// Time in s up to which they are integrated; `None` before the first state of a step.
     until: Option<f64>,
 }
 
 impl PinAccounts {
     /// Begins a host step.
-    pub fn begin(&mut self, pins: usize) {
+    pub fn begin(&mut self, cables: &[&mut Cable], layout: &Layout) {
         self.pins.clear();
-        self.pins.resize(pins, PinAccount::default());
+        self.pins.resize(layout.pins.len(), PinAccount::default());
+        self.momentum.begin(cables, layout);
         self.until = None;
+    }
+
+    /// Ends a host step: driven pins take their shares of the momentum of the cables.
+    pub fn end(&mut self, cables: &[&mut Cable], layout: &Layout) {
+        if !self.momentum.is_active() {
+            return;
+        }
+        for (account, impulse) in self.pins.iter_mut().zip(&self.momentum.impulses) {
+            account.impulse += impulse;
+        }
+        for (c, cable) in cables.iter().enumerate() {
+            let of = |pin: usize| [self.pins[pin].impulse, self.pins[pin].angular_impulse];
+            if let Some(left) = self.momentum.left_to_clamps(c, layout, cable, of) {
+                let of_cable = |pin: usize| layout.pins[pin].cable == c && layout.clamps[pin].is_some();
+                let clamps = self.pins.iter_mut().enumerate().filter(|(pin, _)| of_cable(*pin));
+                clamps.for_each(|(_, account)| account.angular_impulse += left);
+            }
+        }
+    }
+
+    /// Returns whether the pin is on a driven body.
+    fn is_driven(layout: &Layout, pin: usize) -> bool {
+        layout.bodies[layout.pins[pin].body].free == [false; 6]
     }
 
     /// Adds the impulses of an inelastic impact: `momentum` is what the nodes of the cables gained,
@@ -95,6 +124,9 @@ impl PinAccounts {
                 account.work += angular.dot(&(vector(&v[body + 3..]) + 0.5 * vector(&change[body + 3..])));
             }
         }
+        if self.momentum.is_active() {
+            self.momentum.add_impact(layout, q, momentum);
+        }
     }
 
     /// Integrates the accounts to a state whose accelerations are known; `rhs` is a buffer.
@@ -110,6 +142,16 @@ impl PinAccounts {
             None => 0.0,
         };
         let layout = equations.layout;
+        if self.momentum.is_active() {
+            self.momentum.read(layout, state, |force, momentum| {
+                equations.multiply_mass(&state.memory.acceleration, force);
+                force.iter_mut().zip(&*rhs).for_each(|(force, row)| *force += row);
+                equations.multiply_mass(v, momentum);
+            });
+            if half > 0.0 {
+                self.momentum.end_step(layout, 2.0 * half);
+            }
+        }
         for (pin, account) in self.pins.iter_mut().enumerate() {
             let at = layout.pin_at(pin);
             let (motion, rho) = layout.lever(pin, q, v);
@@ -117,7 +159,10 @@ impl PinAccounts {
             let clamped = layout.clamps[pin].is_some();
             let moment = if clamped { vector(&q[at + 3..]).cross(&vector(&rhs[at + 3..])) } else { Vector3::zeros() };
             let power = force.dot(&(motion.velocity + motion.spin.cross(&rho))) + moment.dot(&motion.spin);
-            account.impulse += (account.force + force) * half;
+            // that of a driven pin is in the momentum
+            if !Self::is_driven(layout, pin) {
+                account.impulse += (account.force + force) * half;
+            }
             account.angular_impulse += (account.moment + moment) * half;
             account.work += (account.power + power) * half;
             account.force = force;

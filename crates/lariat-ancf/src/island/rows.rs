@@ -1,7 +1,7 @@
 //! The rows of the bodies: inertia and loads, and the rows of pinned coordinates, which virtual
 //! work passes to the bodies as force and moment.
 
-use super::hold::{Hold, vector};
+use super::hold::{Hold, stack, vector};
 use super::layout::Layout;
 use super::rotation::angular_acceleration;
 use nalgebra::Vector3;
@@ -28,6 +28,12 @@ impl Layout {
             rhs[at..at + 3].copy_from_slice(force.as_slice());
             rhs[at + 3..at + 6].copy_from_slice(torque.as_slice());
         }
+        let acceleration = |i: usize| {
+            let at = self.body_at(i);
+            let (theta, rate) = (vector(&q[at + 3..]), vector(&v[at + 3..]));
+            stack(&vector(&k[at..]), &angular_acceleration(scale, &theta, &rate, &vector(&k[at + 3..])))
+        };
+        self.add_coupled_momenta(-1.0, acceleration, rhs);
         self.pass_pinned_rows(q, rhs);
     }
 

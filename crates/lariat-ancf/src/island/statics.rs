@@ -15,8 +15,8 @@
 //!
 //! # Validity
 //!
-//! Loads on bodies that are constant in world axes. No contact: what touches must be known to the
-//! caller. Modes without stiffness, such as a turn about a rope, keep their place.
+//! Loads on bodies that are constant in world axes. Cables touch obstacles that stand still, without friction; contact of the bodies, and
+//! of cables with them, must be known to the caller. Modes without stiffness, such as a turn about a rope, keep their place.
 //!
 //! # References
 //!
@@ -34,6 +34,7 @@ use super::layout::Layout;
 use super::pin::{PinConstraint, check, is_on_free_body};
 use super::rotation::{exponential, jacobian_inverse};
 use crate::cable::Cable;
+use crate::contact::Growth;
 use crate::effect::acts::ForceInput;
 use crate::element::side::Side;
 use crate::error::{EquilibriumFailure, Error, StepFailure, require};
@@ -94,8 +95,37 @@ pub fn equilibrium(
     let loads: Vec<Vec<PointLoad>> = cables.iter().map(|cable| cable.model.loads.clone()).collect();
     cables.iter_mut().flat_map(|cable| &mut cable.model.loads).for_each(|load| load.ramp = 0.0);
     let supports: Vec<_> = cables.iter().map(|cable| cable.model.supports.clone()).collect();
+    cables.iter_mut().for_each(|cable| cable.begin_static_contact());
     let mut search = Search::new(cables, &still, pins, options.tolerance);
-    let outcome = search.run(cables, options.iterations);
+    let mut outcome = search.run(cables, options.iterations);
+    let mut softened = false;
+    for cable in cables.iter_mut().filter(|_| outcome.is_err()) {
+        let start = cable.positions().to_vec();
+        softened |= cable.soften_static_contact(&start);
+    }
+    if softened {
+        let (steps, softened) = (search.steps, Search::new(cables, &still, pins, options.tolerance));
+        search = Search { steps, ..softened };
+        outcome = search.run(cables, steps + options.iterations);
+    }
+    let mut growth = Growth::default();
+    while outcome.is_ok() {
+        let harden = |cable: &mut &mut Cable| cable.harden_static_contact(&growth);
+        let depths: Vec<_> = cables.iter_mut().map(harden).collect();
+        if depths.iter().all(Option::is_none) {
+            break;
+        }
+        let good = (search.q.clone(), search.layout.clone());
+        let harder = search.run(cables, search.steps + options.iterations);
+        if growth.adapt(harder.is_ok()) {
+            (search.q, search.layout) = good;
+            for (cable, depth) in cables.iter_mut().zip(depths) {
+                depth.into_iter().for_each(|depth| cable.system.static_contact.retreat(depth));
+            }
+        } else {
+            outcome = harder;
+        }
+    }
     let (steps, residual) = (search.steps, search.residual);
     for (((cable, loads), supports), windings) in cables.iter_mut().zip(loads).zip(supports).zip(windings) {
         cable.model.loads = loads;
@@ -104,6 +134,9 @@ pub fn equilibrium(
             cable.snapshot.windings = windings;
             cable.sync_reel();
         }
+    }
+    if outcome.is_err() {
+        cables.iter_mut().for_each(|cable| cable.system.static_contact.end());
     }
     let stable = outcome.map_err(|failure| Error::NoEquilibrium {
         cable: cables[0].name().to_string(),
@@ -116,6 +149,7 @@ pub fn equilibrium(
         cable.snapshot.state.q.copy_from_slice(&search.q[part.range()]);
         cable.snapshot.state.v.fill(0.0);
         cable.disturb();
+        cable.snapshot.state.memory.contacts = cable.end_static_contact();
     }
     for (i, (body, still)) in bodies.iter_mut().zip(&search.layout.bodies).enumerate() {
         body.position = vector(&search.q[search.layout.body_at(i)..]);

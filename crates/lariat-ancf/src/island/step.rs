@@ -1,6 +1,7 @@
 //! One host step of an island.
 
 use super::body::RigidBody;
+use super::coupling::{self, CoupledInertia};
 use super::discrete_gradient::{HostStep, StepBuffers};
 use super::dynamics::{IslandDynamics, Vectors};
 use super::equations::{IslandEquations, Matrices};
@@ -11,6 +12,7 @@ use super::pin_accounts::{PinAccount, PinAccounts};
 use super::sheave;
 use super::{Drum, drum};
 use crate::cable::{Cable, SHORTEST_STEP, check_integrator};
+use crate::contact::CablePair;
 use crate::error::{Error, require};
 use crate::integrate::{Integrator, IntegratorRef, Scratch, State, step_control};
 use crate::system::{Sheave, Wheel};
@@ -82,6 +84,7 @@ impl Island {
         cables.iter().try_for_each(|cable| cable.model.obstacles.check_bodies(cable.name(), bodies.len()))?;
         sheave::check(cables, sheaves)?;
         drum::check(cables, bodies, pins, drums)?;
+        coupling::check(&self.layout.coupled, bodies.len())?;
         if dt == 0.0 {
             return Ok(());
         }
@@ -120,7 +123,7 @@ impl Island {
         let Island { layout, matrices, accounts, vectors, by_discrete_gradient: buffers, scratch, state } = self;
         layout.begin(cables, bodies, pins, dt);
         matrices.begin(layout);
-        accounts.begin(pins.len());
+        accounts.begin(cables, layout);
         vectors.resize(layout.size());
         gather(cables, bodies, state);
         if integrator.method.uses_discrete_gradients() {
@@ -144,7 +147,28 @@ impl Island {
         }
         memory::keep(cables, bodies, pins, state);
         scatter(cables, bodies, state, layout);
+        self.accounts.end(cables, &self.layout);
         Ok(())
+    }
+
+    /// Sets which cables may touch each other, and with which friction, in the steps that follow: `None`, the default, for all that have contact with
+    /// cables, with the mean of their coefficients.
+    pub fn set_cable_pairs(&mut self, pairs: Option<&[CablePair]>) {
+        let own = &mut self.by_discrete_gradient.may_touch;
+        let mut list = own.take().unwrap_or_default();
+        if let Some(pairs) = pairs {
+            list.clear();
+            list.extend_from_slice(pairs);
+            list.iter_mut().for_each(|pair| pair.cables.sort_unstable());
+            list.sort_unstable_by_key(|pair| pair.cables);
+            *own = Some(list);
+        }
+    }
+
+    /// Sets the inertia that couples bodies in the next steps. Default: none.
+    pub fn couple(&mut self, coupled: &[CoupledInertia]) {
+        self.layout.coupled.clear();
+        self.layout.coupled.extend_from_slice(coupled);
     }
 
     /// Returns forces, impulses and work at each pin during the last step.

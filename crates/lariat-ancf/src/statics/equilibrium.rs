@@ -3,7 +3,7 @@
 use super::attempt::{Budget, EquilibriumReport, Failure};
 use super::{folds, start_shape};
 use crate::cable::Cable;
-use crate::contact::Overlap;
+use crate::contact::{ContactMemory, Growth, Overlap};
 use crate::error::{EquilibriumFailure, Error, require};
 use crate::model::Model;
 use crate::support::SlopeSupport;
@@ -51,25 +51,51 @@ impl Cable {
             return Err(no_equilibrium(self, EquilibriumFailure::NotHeld, resultant, 0));
         }
         self.system.static_time = self.time();
+        self.begin_static_contact();
         let (before, revision, work) = (self.snapshot.clone(), self.revision, self.snapshot.work);
         let loads = self.model.loads.clone();
         // the point loads ramp with a time from 0 to 1 while statics are solved
         self.model.loads.iter_mut().for_each(|load| (load.ramp, load.start) = (1.0, 0.0));
         let mut budget = Budget::new(options.tolerance, options.iterations);
-        let outcome = self.with_workspace(|cable| cable.attempts(&mut budget));
+        let mut searched = 0;
+        let mut outcome = self.with_workspace(|cable| cable.attempts(&mut budget));
+        if outcome.is_err() && self.soften_static_contact(&before.state.q) {
+            self.snapshot = before.clone();
+            searched += budget.done;
+            budget = Budget::new(options.tolerance, options.iterations);
+            outcome = self.with_workspace(|cable| cable.attempts(&mut budget));
+        }
+        let mut growth = Growth::default();
+        while let Some(depth) = outcome.is_ok().then(|| self.harden_static_contact(&growth)).flatten() {
+            searched += budget.done;
+            budget = Budget::new(options.tolerance, options.iterations);
+            let good = self.snapshot.clone();
+            let harder = self.with_workspace(|cable| {
+                let report = cable.minimise_energy(1.0, &mut budget)?;
+                cable.without_folds(report, &mut budget)
+            });
+            if growth.adapt(harder.is_ok()) {
+                self.snapshot = good;
+                self.system.static_contact.retreat(depth);
+            } else {
+                outcome = harder;
+            }
+        }
         self.model.loads = loads;
+        let contacts = self.end_static_contact();
         match outcome {
             Ok(report) => {
                 // the work of drag during the search is not part of the cable's history
                 self.snapshot.work = work;
                 self.set_at_rest();
+                self.snapshot.state.memory.contacts = contacts;
                 if let Some(overlap) = self.overlap() {
                     let Overlap { obstacle, arc_length, depth } = overlap;
                     self.snapshot = before;
                     let failure = EquilibriumFailure::Touches { obstacle, arc_length, depth };
-                    return Err(no_equilibrium(self, failure, 0.0, budget.done));
+                    return Err(no_equilibrium(self, failure, 0.0, searched + budget.done));
                 }
-                Ok(report)
+                Ok(EquilibriumReport { iterations: searched + report.iterations, ..report })
             }
             Err(failure) => {
                 let fold = folds::first_fold(&self.model, self.positions());
@@ -80,9 +106,37 @@ impl Cable {
                     (None, Some(element)) => EquilibriumFailure::Folded { element },
                     (None, None) => EquilibriumFailure::NotConverged,
                 };
-                Err(no_equilibrium(self, reason, failure.residual, budget.done))
+                Err(no_equilibrium(self, reason, failure.residual, searched + budget.done))
             }
         }
+    }
+
+    /// Lets statics see the obstacles.
+    pub(crate) fn begin_static_contact(&mut self) {
+        let (model, time) = (&self.model, self.snapshot.state.time);
+        let mut q = self.snapshot.state.q.clone();
+        for (node, support) in &model.supports {
+            support.prescribe(time, &mut q[6 * node..6 * node + 6], &mut [0.0; 6]);
+        }
+        self.system.static_contact.begin(model, time, &q);
+    }
+
+    /// Softens the law of contact in statics for a shape, and returns whether there is anything to touch.
+    pub(crate) fn soften_static_contact(&mut self, q: &[f64]) -> bool {
+        self.system.static_contact.soften(&self.model, q)
+    }
+
+    /// Makes a softened law of contact in statics harder, and returns the depth that it had; `None` if it was not softened.
+    pub(crate) fn harden_static_contact(&mut self, growth: &Growth) -> Option<f64> {
+        self.system.static_contact.harden(&self.model, growth)
+    }
+
+    /// Ends it, and returns the contacts of the present shape.
+    pub(crate) fn end_static_contact(&mut self) -> Vec<ContactMemory> {
+        let mut contacts = Vec::new();
+        self.system.static_contact.remember(&self.model, &self.snapshot.state.q, &mut contacts);
+        self.system.static_contact.end();
+        contacts
     }
 
     fn attempts(&mut self, budget: &mut Budget) -> Result<EquilibriumReport, Failure> {

@@ -42,6 +42,7 @@ pub(crate) use flow::{Flow, Law, Motor, STOP, Source, Unknowns, Wheel, Winch, ra
 pub(crate) use projection::{project_matrix, project_vector};
 
 use crate::cable::builder::STANDARD_GRAVITY;
+use crate::contact::StaticContact;
 use crate::error::StepFailure;
 use crate::linalg::{BlockTridiagonal, Factorisation};
 use crate::model::Model;
@@ -66,6 +67,8 @@ pub(crate) struct System {
     pub flows: Flows,
     /// Time in s at which statics evaluate forces that depend on it.
     pub static_time: f64,
+    /// Contact in statics.
+    pub static_contact: StaticContact,
 }
 
 /// The matrix of an implicit step and its factors; empty between two steps.
@@ -121,6 +124,7 @@ impl System {
             meter: EnergyMeter::default(),
             flows: Flows::new(model),
             static_time: 0.0,
+            static_contact: StaticContact::default(),
         })
     }
 

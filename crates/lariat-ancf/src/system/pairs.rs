@@ -49,7 +49,8 @@ impl<'b> Equations<'b> {
         let model = self.model;
         let strand =
             Strand { key: model.contact_key, model, q: &state.q, change: &b.change, memory: &state.memory.pairs };
-        let out = f(&mut pairs, &Strands { count: 1, get: &|_| strand, over_bodies: &|_, _| f64::INFINITY });
+        let out =
+            f(&mut pairs, &Strands { count: 1, get: &|_| strand, over_bodies: &|_, _| f64::INFINITY, pairs: None });
         b.pairs = pairs;
         out
     }

@@ -10,4 +10,5 @@ mod features;
 mod floor;
 mod pairs;
 mod state;
+mod statics;
 mod wall;

@@ -25,7 +25,7 @@ pub struct Scene {
     pub bodies: Vec<RigidBody>,
     pub pins: Vec<PinConstraint>,
     pub integrator: Integrator,
-    island: Island,
+    pub island: Island,
 }
 
 impl Scene {

@@ -7,6 +7,7 @@ mod common;
 mod bench;
 mod carried;
 mod clamp;
+mod driven;
 mod momentum;
 mod order;
 mod payload;

@@ -23,6 +23,7 @@ from lariat._lariat import (
     recommended_elements,
     rope_kinds,
     step_all,
+    step_together,
 )
 from lariat.bodies import Collider, ColliderBuilder, RigidBody, RigidBodyBuilder
 from lariat.contact import Obstacle
@@ -76,5 +77,6 @@ __all__ = [
     "run",
     "statics",
     "step_all",
+    "step_together",
     "sweep",
 ]

@@ -381,6 +381,10 @@ def step_all(cables: Sequence[Cable], dt: float) -> None:
     """Advances cables that nothing connects by ``dt`` (s), on all threads; raises the error of the first that cannot step, after all others
     have advanced. Raises DuplicateCableError."""
 
+def step_together(cables: Sequence[Cable], dt: float, *, steps: int = 1) -> None:
+    """Advances cables that may touch each other (``Contact(cables=True)``) by ``steps`` steps of ``dt`` (s), in one system, with the integrator of
+    the first. Raises DuplicateCableError, EmptyIslandError, TimeMismatchError, StepFailedError; the steps before a failed one are made."""
+
 def integrators() -> list[str]:
     """Returns the names of the integration methods."""
 

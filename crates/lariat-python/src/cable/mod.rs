@@ -254,18 +254,24 @@ impl Cable {
     }
 }
 
-/// Advances cables that nothing connects by `dt` (s), on all threads.
-#[pyfunction]
-pub fn step_all(py: Python<'_>, cables: Vec<Bound<'_, Cable>>, dt: f64) -> PyResult<()> {
+/// Cables that are stepped in one call, each with its place in the call, in one order for all threads, so that none waits for one that
+/// waits for it.
+fn apart(cables: &[Bound<'_, Cable>]) -> PyResult<Vec<(Shared<ancf::Cable>, usize)>> {
     let mut own = Vec::new();
     for (index, cable) in cables.iter().enumerate() {
         own.push((cable.get().own("step by itself")?.clone(), index));
     }
-    // in one order for all threads, so that none waits for one that waits for it
     own.sort_by_key(|(cable, _)| cable.address());
     if own.windows(2).any(|pair| pair[0].0.address() == pair[1].0.address()) {
         return Err(raise(Raise::new("DuplicateCableError", "the same cable is given twice")));
     }
+    Ok(own)
+}
+
+/// Advances cables that nothing connects by `dt` (s), on all threads.
+#[pyfunction]
+pub fn step_all(py: Python<'_>, cables: Vec<Bound<'_, Cable>>, dt: f64) -> PyResult<()> {
+    let own = apart(&cables)?;
     let outcome = py.detach(|| {
         let mut guards: Vec<_> = own.iter().map(|(cable, _)| cable.lock()).collect();
         let mut cables: Vec<&mut ancf::Cable> = guards.iter_mut().map(|guard| &mut **guard).collect();
@@ -276,4 +282,20 @@ pub fn step_all(py: Python<'_>, cables: Vec<Bound<'_, Cable>>, dt: f64) -> PyRes
         failures.sort_by_key(|(index, _)| *index);
         raise(failures.swap_remove(0).1)
     })
+}
+
+/// Advances cables that may touch each other by `steps` steps of `dt` (s), in one system, with the integrator of the first.
+#[pyfunction]
+#[pyo3(signature = (cables, dt, *, steps=1))]
+pub fn step_together(py: Python<'_>, cables: Vec<Bound<'_, Cable>>, dt: f64, steps: u32) -> PyResult<()> {
+    let own = apart(&cables)?;
+    let outcome = py.detach(|| {
+        let mut guards: Vec<_> = own.iter().map(|(cable, place)| (cable.lock(), *place)).collect();
+        guards.sort_by_key(|(_, place)| *place);
+        let mut cables: Vec<&mut ancf::Cable> = guards.iter_mut().map(|(guard, _)| &mut **guard).collect();
+        let integrator = cables.first().ok_or(ancf::Error::EmptyIsland)?.integrator();
+        let mut island = ancf::island::Island::default();
+        (0..steps).try_for_each(|_| island.step(&mut cables, &mut [], &[], integrator, dt))
+    });
+    outcome.map_err(raise)
 }

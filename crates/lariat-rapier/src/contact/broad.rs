@@ -6,6 +6,7 @@
 //! Rapier's prediction distance. The tree holds the boxes of Rapier's last step: kinematic bodies that move are looked up besides, with the box that they sweep. Before Rapier's first step,
 //! and while it does not know all colliders, every one of them is looked at.
 
+use super::neighbours::Neighbours;
 use super::rules::{ContactFilter, ContactRules};
 use super::{Surfaces, key};
 use crate::contents::Contents;
@@ -49,6 +50,8 @@ pub(crate) struct Finder {
     fastest: f64,
     /// Cables and the dynamic bodies that they can reach in the present Rapier step, in ascending order.
     pub touching: Vec<(usize, RigidBodyHandle)>,
+    /// Cables that can reach each other in it.
+    pub neighbours: Neighbours,
     pub filter: Option<ContactFilter>,
 }
 
@@ -58,6 +61,7 @@ impl Finder {
     pub fn begin(&mut self, contents: &Contents, world: &PhysicsWorld, h: f64) {
         self.moving.clear();
         self.touching.clear();
+        self.neighbours.begin(contents, h);
         if contents.cables.values().all(|slot| slot.cable.effects().contact.is_none()) {
             return;
         }
@@ -162,6 +166,46 @@ impl Finder {
         Ok(changed)
     }
 
+    /// Gives a cable whose statics are solved the colliders of fixed and kinematic bodies in its reach as obstacles.
+    pub fn gather_for_statics(
+        &mut self,
+        contents: &Contents,
+        world: &PhysicsWorld,
+        index: usize,
+        cable: &mut Cable,
+    ) -> Result<(), lariat_ancf::Error> {
+        let mut obstacles = Vec::new();
+        let slot = contents.cables.get(index).filter(|_| cable.effects().contact.is_some());
+        for (found, collider) in slot.iter().flat_map(|_| world.colliders.iter()) {
+            let dynamic = collider.parent().and_then(|body| world.bodies.get(body)).is_some_and(RigidBody::is_dynamic);
+            let touched = slot.and_then(|slot| self.touched(world, CableHandle(index as u32), &slot.rules, found));
+            if touched.is_some() && !dynamic {
+                obstacles.extend(self.still_obstacle(contents, CableHandle(index as u32), (found, collider), cable));
+            }
+        }
+        cable.set_obstacles(obstacles)
+    }
+
+    /// Returns a collider as an obstacle of a cable that stands still.
+    fn still_obstacle(
+        &mut self,
+        contents: &Contents,
+        handle: CableHandle,
+        (found, collider): (ColliderHandle, &Collider),
+        cable: &Cable,
+    ) -> Option<Obstacle> {
+        let surface = self.surfaces.of(found, collider.shared_shape())?;
+        Some(Obstacle {
+            key: key(found),
+            except: held_pieces(contents, handle, collider, &*surface, cable.contact_radius()),
+            surface,
+            motion: still(collider, cable.time()),
+            mount: None,
+            friction: 0.0,
+            skin: f64::from(collider.contact_skin()),
+        })
+    }
+
     /// Refuses the static shape of a cable with contact that is in something that it can touch.
     pub fn check_statics(
         &mut self,
@@ -185,16 +229,7 @@ impl Finder {
             if collider.parent().is_some_and(moves) {
                 continue;
             }
-            let Some(surface) = self.surfaces.of(found, collider.shared_shape()) else { continue };
-            obstacles.push(Obstacle {
-                key: key(found),
-                except: held_pieces(contents, handle, collider, &*surface, cable.contact_radius()),
-                surface,
-                motion: still(collider, cable.time()),
-                mount: None,
-                friction: 0.0,
-                skin: f64::from(collider.contact_skin()),
-            });
+            obstacles.extend(self.still_obstacle(contents, handle, (found, collider), cable));
         }
         cable.set_obstacles(obstacles)?;
         match cable.overlap() {

@@ -1,4 +1,4 @@
-//! Contact of cables with the colliders of the world.
+//! Contact of cables with the colliders of the world, and with each other.
 //!
 //! The mechanics are those of [`lariat_ancf::contact`]: before each Rapier step a cable with the effect
 //! [`Contact`](lariat_ancf::Contact) is given the colliders that it can reach as obstacles, with their motion over the step.
@@ -6,6 +6,7 @@
 //! | file | what it does |
 //! |---|---|
 //! | [`broad`] | finds the colliders that a cable can reach, by Rapier's tree |
+//! | [`neighbours`] | finds the cables that can touch each other |
 //! | [`rules`] | which of them it touches, and with which friction, as Rapier decides it |
 //! | [`shape`], [`mesh`], [`compound`], [`cone`] | the surface of a collider in `f64`, from the exact numbers of its shape |
 //! | [`events`] | contacts that began and ended |
@@ -31,6 +32,7 @@ mod compound;
 mod cone;
 pub(crate) mod events;
 mod mesh;
+mod neighbours;
 pub(crate) mod rules;
 mod set;
 mod shape;

@@ -1,4 +1,4 @@
-//! Which colliders a cable touches, and with which friction: as Rapier decides it for two colliders.
+//! Which colliders and cables a cable touches, and with which friction: as Rapier decides it for two colliders.
 
 use crate::handle::CableHandle;
 use rapier::dynamics::CoefficientCombineRule;
@@ -16,7 +16,7 @@ pub struct ContactRules {
     pub collision_groups: InteractionGroups,
     /// Its solver groups. Default: all.
     pub solver_groups: InteractionGroups,
-    /// How its friction is combined with that of a collider. Default: the mean of both.
+    /// How its friction is combined with that of a collider or another cable. Default: the mean of both.
     pub friction_combine_rule: CoefficientCombineRule,
 }
 
@@ -27,6 +27,14 @@ impl ContactRules {
             && !collider.is_sensor()
             && self.collision_groups.test(collider.collision_groups())
             && self.solver_groups.test(collider.solver_groups())
+    }
+
+    /// Returns the coefficient of friction between two cables, each with its own, if both groups let them touch.
+    pub(crate) fn between((one, mine): (&Self, f64), (other, theirs): (&Self, f64)) -> Option<f64> {
+        let allowed = one.collision_groups.test(other.collision_groups) && one.solver_groups.test(other.solver_groups);
+        let rules = (one.friction_combine_rule, other.friction_combine_rule);
+        let combined = CoefficientCombineRule::combine(mine as Real, theirs as Real, rules.0, rules.1);
+        allowed.then(|| f64::from(combined).max(0.0))
     }
 
     /// Returns the coefficient of friction between a cable with its own and a collider.

@@ -6,13 +6,13 @@ use crate::error::Error;
 use crate::handle::CableHandle;
 use crate::set::CableSet;
 use lariat_ancf::Contact;
-use lariat_ancf::contact::Touch;
+use lariat_ancf::contact::{PairTouch, Touch};
 use rapier::geometry::ColliderHandle;
 
 impl CableSet {
-    /// Lets a cable touch the colliders of the world, or no longer with `None`. Needs the method
+    /// Lets a cable touch the colliders of the world, and other cables and itself if the contact says so, or no longer with `None`. Needs the method
     /// `discrete-gradient`, which a cable gets if nobody chose its integrator. The cable's own friction is combined
-    /// with that of a collider as [`set_contact_rules`](Self::set_contact_rules) say.
+    /// with that of a collider as [`set_contact_rules`](Self::set_contact_rules) say. Restitution does not count: impacts of cables have none.
     ///
     /// # Errors
     /// [`Error::NoCable`]; [`Error::Cable`] for numbers out of range, for a cable without a diameter or a radius, and
@@ -21,7 +21,7 @@ impl CableSet {
         Ok(self.contents.cable_mut(cable)?.set_contact(contact)?)
     }
 
-    /// Sets the groups of a cable, and how its friction is combined, for its contacts.
+    /// Sets the groups of a cable, and how its friction is combined, for its contacts with colliders and other cables.
     ///
     /// # Errors
     /// [`Error::NoCable`].
@@ -44,5 +44,23 @@ impl CableSet {
     /// [`Error::NoCable`].
     pub fn contacts(&self, cable: CableHandle) -> Result<impl Iterator<Item = (ColliderHandle, Touch)>, Error> {
         Ok(self.get(cable)?.contacts().map(|touch| (collider(touch.obstacle), touch)))
+    }
+
+    /// Returns the contacts of a cable with others and with itself at the end of the last step, each with the other cable. Needs
+    /// [`Contact::with_cables`].
+    ///
+    /// # Errors
+    /// [`Error::NoCable`].
+    pub fn cable_contacts(&self, cable: CableHandle) -> Result<Vec<(CableHandle, PairTouch)>, Error> {
+        let own = self.get(cable)?;
+        let handle = |key: u64| self.iter().find(|(_, other)| other.contact_key() == key).map(|(handle, _)| handle);
+        let kept = own.cable_contacts().filter_map(|touch| Some((handle(touch.other)?, touch)));
+        let key = own.contact_key();
+        let others = self.iter().filter(|(handle, _)| *handle != cable);
+        let mirrored = others.flat_map(|(handle, other)| {
+            let with = other.cable_contacts().filter(move |touch| touch.other == key);
+            with.map(move |touch| (handle, touch.mirrored(other.contact_key())))
+        });
+        Ok(kept.chain(mirrored).collect())
     }
 }

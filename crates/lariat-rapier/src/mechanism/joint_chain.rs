@@ -17,7 +17,7 @@
 
 use super::constraints::{Constraints, Limit};
 use super::limits;
-use super::loads::{CarriedLoads, can_predict_loads, is_isolated};
+use super::loads::{CarriedLoads, are_isolated, can_predict_loads};
 use super::request::Request;
 use crate::convert::{rotation, to_vector, vector};
 use crate::ledger::is_ledger;
@@ -44,31 +44,42 @@ pub(crate) struct JointChain {
 /// A joint, and by its two bodies their index in the chain; `None` for one that is not part of it.
 type ChainJoint<'a> = ([Option<usize>; 2], &'a ImpulseJoint);
 
-/// Returns the chain of a body, the loads on the others, and the mobility of the body; `None` if no
-/// joint holds it.
-pub(super) fn find(world: &PhysicsWorld, request: &Request) -> Option<(JointChain, CarriedLoads, Matrix6<f64>)> {
+/// Returns the bodies that impulse joints connect with one, itself included; empty if none does.
+pub(super) fn bodies(world: &PhysicsWorld, handle: RigidBodyHandle) -> Vec<RigidBodyHandle> {
+    connected(world, handle).map_or_else(Vec::new, |(bodies, _)| bodies)
+}
+
+/// Returns the chain of a body and the loads on the others; `None` if no joint holds it.
+pub(super) fn find(world: &PhysicsWorld, request: &Request) -> Option<(JointChain, CarriedLoads)> {
     let handle = request.handle;
     let (bodies, joints) = connected(world, handle)?;
     let n = 6 * bodies.len();
     let inverse = inverse_mass(world, &bodies);
-    let predicts_loads = bodies.len() < MAX_BODIES && can_predict_loads(world, &bodies, handle, request.is_attached);
-    let (mut loads, mut forces) = (CarriedLoads::default(), DMatrix::<f64>::zeros(n, 1));
-    for (i, body) in bodies.iter().enumerate().skip(1).filter(|_| predicts_loads) {
-        forces.fixed_view_mut::<6, 1>(6 * i, 0).copy_from(&loads.add(world, *body));
+    let predicts_loads = bodies.len() < MAX_BODIES && can_predict_loads(world, &bodies, request);
+    let mut loads = CarriedLoads::default();
+    // the loads on others alone, and those on all bodies
+    let mut forces = [DMatrix::<f64>::zeros(n, 1), DMatrix::<f64>::zeros(n, 1)];
+    for (i, body) in bodies.iter().enumerate() {
+        let of_member = request.members.iter().find(|(member, _)| member == body);
+        let is_other = of_member.is_none() && predicts_loads;
+        let load =
+            if is_other { loads.add(world, *body) } else { of_member.map_or_else(Vector6::zeros, |(_, load)| *load) };
+        forces[1].fixed_view_mut::<6, 1>(6 * i, 0).copy_from(&load);
+        if is_other {
+            forces[0].fixed_view_mut::<6, 1>(6 * i, 0).copy_from(&load);
+        }
     }
     let (rows, limits) = constraint_rows(world, &joints, n, predicts_loads)?;
     let spread = &inverse * rows.transpose();
     let columns = inverse.columns(0, 6).into_owned();
-    let free = &inverse * forces;
-    let all = &free + &columns * DMatrix::from_column_slice(6, 1, request.load.as_slice());
+    let [free, all] = forces.map(|forces| &inverse * forces);
     let constraints = Constraints { rows, spread, limits, substep: request.substep };
     let (response, free) = constraints.project(&columns, &free, &all)?;
-    let mobility = response.fixed_view::<6, 6>(0, 0).into_owned();
     loads.of_body = free.fixed_view::<6, 1>(0, 0).into_owned();
     loads.accelerations = free.column(0).into_owned();
-    loads.isolated = !loads.bodies.is_empty() && is_isolated(world, &bodies, handle);
+    loads.isolated = predicts_loads && are_isolated(world, &bodies);
     let velocities_before = bodies.iter().map(|b| (world.bodies[*b].linvel(), world.bodies[*b].angvel())).collect();
-    Some((JointChain { bodies, response, velocities_before }, loads, mobility))
+    Some((JointChain { bodies, response, velocities_before }, loads))
 }
 
 /// Returns the bodies that impulse joints connect with one, itself first, and the joints; `None` if
@@ -169,6 +180,12 @@ fn constraint_rows(
 }
 
 impl JointChain {
+    /// Returns the change of velocity of a body of the chain per impulse on the attached one.
+    pub(super) fn mobility_of(&self, body: RigidBodyHandle) -> Option<Matrix6<f64>> {
+        let i = self.bodies.iter().position(|b| *b == body)?;
+        Some(self.response.fixed_view::<6, 6>(6 * i, 0).into_owned())
+    }
+
     /// Returns the change of all velocities by an impulse on the attached body.
     pub(super) fn velocity_change(&self, impulse: &Vector6<f64>) -> DVector<f64> {
         &self.response * impulse

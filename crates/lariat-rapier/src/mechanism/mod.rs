@@ -7,14 +7,14 @@
 //! ```text
 //! L = (W + e S)^-1      L x'' = f + L a0      v += R p,  or of a multibody  u += R p
 //! ```
-//! W is the mobility of the body in its mechanism, S that of the body alone, a0 its acceleration by
-//! the loads on the other bodies ([`loads`]), and R the response of all bodies, or of the
-//! generalised velocity u, to an impulse p and its moment about the centre of mass.
+//! W is the mobility of the bodies in their mechanism, S that of each alone, a0 their accelerations
+//! by the loads on the other bodies ([`loads`]), and R the response of all bodies, or of the
+//! generalised velocity u, to impulses p and their moments about the centres of mass. L is that of
+//! all bodies of the mechanism that cables act on ([`group`]); they are members of one island.
 //!
 //! # Validity
-//! Stiff joints. Motors, contacts and centripetal forces enter by the reaction estimate. Two
-//! attached bodies of one mechanism know of each other only by that estimate: the forces
-//! of their ropes ripple, by up to 0.39 of their sum about the right mean (tests, arms.rs).
+//! Stiff joints. Motors, contacts and centripetal forces enter by the reaction estimate. Several ropes on a chain of
+//! impulse joints that is near another body ripple by some percent of their forces (tests, arms.rs).
 //!
 //! # References
 //! Khatib 1987, the operational space inertia.
@@ -22,24 +22,25 @@
 //! # Alternatives considered
 //! The body as a free one, with the inertia of the others as a part of the reaction estimate: the
 //! estimate lags, which adds energy where the step resolves the vibration of the cable (an arm of
-//! three links of 1 kg on a soft rope oscillates by 130 N at 1/240 s). Rapier's softness of joints
+//! three links of 1 kg on a soft rope oscillates by 130 N at 1/240 s). Each body with the inertia of
+//! its mechanism, and the cables on the mechanism's other bodies as a part of the estimate: the forces
+//! of two ropes on an arm ripple by 0.39 of their sum. Rapier's softness of joints
 //! in the matrix: the estimate along held axes then feeds on itself. No estimate where a mechanism
 //! touches nothing: motors are then not predicted.
 
 mod constraints;
-mod inertia;
+mod group;
 mod joint_chain;
 mod limits;
 mod loads;
 mod multibody;
 mod request;
 
-pub(crate) use inertia::{implied_impulse, inertia, unconstrained_part};
+pub(crate) use group::{Group, own_inertia, velocity_of};
 pub(crate) use multibody::{prepare, refresh};
 pub(crate) use request::Request;
 
 use ::nalgebra::{Matrix6, Vector6};
-use inertia::{JOINT_COMPLIANCE, own_inertia};
 use joint_chain::JointChain;
 use loads::CarriedLoads;
 use multibody::MultibodyLink;
@@ -49,6 +50,7 @@ use rapier::pipeline::PhysicsWorld;
 /// The bodies that a body moves with.
 #[derive(Clone, Debug)]
 pub(crate) struct Mechanism {
+    pub handle: RigidBodyHandle,
     kind: MechanismKind,
     pub loads: CarriedLoads,
 }
@@ -62,29 +64,24 @@ enum MechanismKind {
     JointChain(JointChain),
 }
 
-/// The mechanism of a body, and its effect on the body.
-pub(crate) struct Found {
-    pub mechanism: Mechanism,
-    /// Inertia beyond the body's own.
-    pub carried: Matrix6<f64>,
-    /// Force and torque on the body by the loads on the other bodies.
-    pub load: Vector6<f64>,
+/// Returns the mechanism of a body; `None` if it moves alone.
+pub(crate) fn find(world: &PhysicsWorld, request: &Request) -> Option<Mechanism> {
+    let handle = request.handle;
+    if world.multibody_joints.rigid_body_link(handle).is_some() {
+        let (link, loads) = multibody::find(world, request)?;
+        return Some(Mechanism { handle, kind: MechanismKind::Multibody(link), loads });
+    }
+    let (chain, loads) = joint_chain::find(world, request)?;
+    Some(Mechanism { handle, kind: MechanismKind::JointChain(chain), loads })
 }
 
-/// Returns the mechanism of a body; `None` if it moves alone.
-pub(crate) fn find(world: &PhysicsWorld, request: &Request) -> Option<Found> {
-    let (kind, loads, mobility) = if world.multibody_joints.rigid_body_link(request.handle).is_some() {
-        let (link, loads, mobility) = multibody::find(world, request)?;
-        (MechanismKind::Multibody(link), loads, mobility)
-    } else {
-        let (chain, loads, mobility) = joint_chain::find(world, request)?;
-        (MechanismKind::JointChain(chain), loads, mobility)
-    };
-    let (mobility, own) = ((mobility + mobility.transpose()) * 0.5, own_inertia(request.body));
-    let total = (mobility + own.try_inverse()? * JOINT_COMPLIANCE).try_inverse()?;
-    let load = total * loads.of_body;
-    let finite = total.iter().chain(load.iter()).all(|x| x.is_finite());
-    finite.then(|| Found { mechanism: Mechanism { kind, loads }, carried: total - own, load })
+/// Returns the bodies that joints connect with one, itself included; empty if none does.
+pub(crate) fn bodies(world: &PhysicsWorld, handle: RigidBodyHandle) -> Vec<RigidBodyHandle> {
+    match world.multibody_joints.rigid_body_link(handle).and_then(|l| world.multibody_joints.get_multibody(l.multibody))
+    {
+        Some(multibody) => multibody.links().map(|link| link.rigid_body_handle()).collect(),
+        None => joint_chain::bodies(world, handle),
+    }
 }
 
 impl Mechanism {
@@ -93,30 +90,38 @@ impl Mechanism {
         matches!(self.kind, MechanismKind::Multibody(_))
     }
 
-    /// Applies an impulse and its moment to the body; all that it moves with follows.
-    pub fn apply_impulse(&self, world: &mut PhysicsWorld, handle: RigidBodyHandle, impulse: &Vector6<f64>) {
+    /// Returns the change of velocity of a body of the mechanism per impulse on this one; `None` for another body.
+    pub fn mobility_of(&self, world: &PhysicsWorld, other: RigidBodyHandle) -> Option<Matrix6<f64>> {
         match &self.kind {
-            MechanismKind::Multibody(link) => link.change_velocity(world, handle, &link.velocity_change(impulse)),
+            MechanismKind::Multibody(link) => link.mobility_of(world, self.handle, other),
+            MechanismKind::JointChain(chain) => chain.mobility_of(other),
+        }
+    }
+
+    /// Applies an impulse and its moment to the body; all that it moves with follows.
+    pub fn apply_impulse(&self, world: &mut PhysicsWorld, impulse: &Vector6<f64>) {
+        match &self.kind {
+            MechanismKind::Multibody(link) => link.change_velocity(world, self.handle, &link.velocity_change(impulse)),
             MechanismKind::JointChain(chain) => chain.change_velocity(world, &chain.velocity_change(impulse)),
         }
     }
 
     /// Applies the change of velocity by the loads on the other bodies in `time` (s).
-    pub fn apply_loads(&self, world: &mut PhysicsWorld, handle: RigidBodyHandle, time: f64) {
+    pub fn apply_loads(&self, world: &mut PhysicsWorld, time: f64) {
         if self.loads.bodies.is_empty() {
             return;
         }
         let change = &self.loads.accelerations * time;
         match &self.kind {
-            MechanismKind::Multibody(link) => link.change_velocity(world, handle, &change),
+            MechanismKind::Multibody(link) => link.change_velocity(world, self.handle, &change),
             MechanismKind::JointChain(chain) => chain.change_velocity(world, &change),
         }
     }
 
     /// Restores the velocities before the step.
-    pub fn revert(&self, world: &mut PhysicsWorld, handle: RigidBodyHandle) {
+    pub fn revert(&self, world: &mut PhysicsWorld) {
         match &self.kind {
-            MechanismKind::Multibody(link) => link.revert(world, handle),
+            MechanismKind::Multibody(link) => link.revert(world, self.handle),
             MechanismKind::JointChain(chain) => chain.revert(world),
         }
     }
@@ -155,8 +160,7 @@ mod tests {
     /// the other's weight with its moment; for impulse joints and a multibody, either body of the
     /// pair.
     ///
-    /// Reference: the parallel-axis formula, and statics; the compliance of joints is taken out
-    /// again. Bound: single precision.
+    /// Reference: the parallel-axis formula, and statics. Bound: single precision.
     #[test]
     fn a_welded_body_carries_the_inertia_and_the_weight_of_the_other() {
         for (multibody, first) in [(false, 0), (false, 1), (true, 0), (true, 1)] {
@@ -164,13 +168,11 @@ mod tests {
             let (here, there) = (boxes[first], boxes[1 - first]);
             world.gravity = Vector::new(0.0, -9.81, 0.0);
             let [one, two] = [here, there].map(|b| read(&world, b, &BodyRecord::new(b), 0.0).unwrap());
-            let load = Vector6::zeros();
-            let request = Request { handle: here, body: &one, load, substep: 1e-3, is_attached: &|_| false };
-            let Found { carried, load, .. } = find(&world, &request).unwrap();
-            let mobility = (own_inertia(&one) + carried).try_inverse().unwrap();
-            let rigid = mobility - own_inertia(&one).try_inverse().unwrap() * JOINT_COMPLIANCE;
-            let rigid = rigid.try_inverse().unwrap();
-            let (carried, load) = (rigid - own_inertia(&one), rigid * mobility * load);
+            let members = [(here, Vector6::zeros())];
+            let request = Request { handle: here, members: &members, substep: 1e-3, is_attached: &|_| false };
+            let mechanism = find(&world, &request).unwrap();
+            let rigid = mechanism.mobility_of(&world, here).unwrap().try_inverse().unwrap();
+            let (carried, load) = (rigid - own_inertia(&one), rigid * mechanism.loads.of_body);
             let arm = two.position - one.position;
             let mut expected = Matrix6::identity() * two.mass;
             let lever = arm.cross_matrix() * two.mass;

@@ -22,7 +22,7 @@
 
 use super::constraints::{Constraints, Limit};
 use super::limits;
-use super::loads::{CarriedLoads, can_predict_loads, is_isolated};
+use super::loads::{CarriedLoads, are_isolated, can_predict_loads};
 use super::request::Request;
 use crate::convert::to_vector;
 use crate::spatial::split_spatial;
@@ -65,10 +65,9 @@ pub(crate) fn prepare(world: &mut PhysicsWorld, handle: RigidBodyHandle) {
     }
 }
 
-/// Returns a link, the loads on the others, and the mobility of the link.
-pub(super) fn find(world: &PhysicsWorld, request: &Request) -> Option<(MultibodyLink, CarriedLoads, Matrix6<f64>)> {
-    let handle = request.handle;
-    let (multibody, id) = multibody(world, handle)?;
+/// Returns a link and the loads on the others.
+pub(super) fn find(world: &PhysicsWorld, request: &Request) -> Option<(MultibodyLink, CarriedLoads)> {
+    let (multibody, id) = multibody(world, request.handle)?;
     let n = multibody.ndofs();
     let jacobian = |id: usize| multibody.body_jacobian(id).map(f64::from);
     let inverse = |b: &DMatrix<f64>| {
@@ -76,11 +75,20 @@ pub(super) fn find(world: &PhysicsWorld, request: &Request) -> Option<(Multibody
         multibody.inv_augmented_mass().solve_mut(&mut x).then(|| x.map(f64::from))
     };
     let handles: Vec<RigidBodyHandle> = multibody.links().map(|l| l.rigid_body_handle()).collect();
-    let predicts_loads = can_predict_loads(world, &handles, handle, request.is_attached);
-    let (mut loads, mut forces) = (CarriedLoads::default(), DVector::<f64>::zeros(n));
-    let moves = |i: &usize| *i != id && world.bodies.get(handles[*i]).is_some_and(|b| b.is_dynamic());
-    for i in (0..handles.len()).filter(|i| predicts_loads && moves(i)) {
-        forces += jacobian(i).transpose() * loads.add(world, handles[i]);
+    let predicts_loads = can_predict_loads(world, &handles, request);
+    let mut loads = CarriedLoads::default();
+    // the loads on others alone, and those on all bodies
+    let mut forces = [DVector::<f64>::zeros(n), DVector::<f64>::zeros(n)];
+    for (i, body) in handles.iter().enumerate().filter(|(_, b)| world.bodies.get(**b).is_some_and(|b| b.is_dynamic())) {
+        let of_member = request.members.iter().find(|(member, _)| member == body);
+        let is_other = of_member.is_none() && predicts_loads;
+        let load =
+            if is_other { loads.add(world, *body) } else { of_member.map_or_else(Vector6::zeros, |(_, load)| *load) };
+        let generalised = jacobian(i).transpose() * load;
+        forces[1] += &generalised;
+        if is_other {
+            forces[0] += generalised;
+        }
     }
     let active = if predicts_loads { active_limits(multibody) } else { Vec::new() };
     let mut rows = DMatrix::<f64>::zeros(active.len(), n);
@@ -88,16 +96,14 @@ pub(super) fn find(world: &PhysicsWorld, request: &Request) -> Option<(Multibody
     let own = jacobian(id);
     let spread = inverse(&rows.transpose())?;
     let columns = inverse(&DMatrix::from_iterator(n, 6, own.transpose().iter().copied()))?;
-    let free = inverse(&DMatrix::from_column_slice(n, 1, forces.as_slice()))?;
-    let all = &free + &columns * DMatrix::from_column_slice(6, 1, request.load.as_slice());
+    let [free, all] = forces.map(|forces| inverse(&DMatrix::from_column_slice(n, 1, forces.as_slice())));
     let limits = active.into_iter().map(|(_, limit)| limit).collect();
-    let (response, free) = Constraints { rows, spread, limits, substep: 1.0 }.project(&columns, &free, &all)?;
-    let mobility = Matrix6::from_iterator((&own * &response).iter().copied());
+    let (response, free) = Constraints { rows, spread, limits, substep: 1.0 }.project(&columns, &free?, &all?)?;
     loads.of_body = Vector6::from_iterator((&own * &free).iter().copied());
     loads.accelerations = free.column(0).into_owned();
-    loads.isolated = !loads.bodies.is_empty() && is_isolated(world, &handles, handle);
+    loads.isolated = predicts_loads && are_isolated(world, &handles);
     let velocity_before = multibody.generalized_velocity().iter().copied().collect();
-    Some((MultibodyLink { response: response.map(|x| x as Real), velocity_before }, loads, mobility))
+    Some((MultibodyLink { response: response.map(|x| x as Real), velocity_before }, loads))
 }
 
 /// Returns the limits at which the joints of a multibody are, by degree of freedom; `None` for a joint that is at both.
@@ -140,6 +146,19 @@ pub(crate) fn refresh(world: &mut PhysicsWorld, handle: RigidBodyHandle) {
 }
 
 impl MultibodyLink {
+    /// Returns the change of velocity of another link of its multibody per impulse on the link.
+    pub(super) fn mobility_of(
+        &self,
+        world: &PhysicsWorld,
+        handle: RigidBodyHandle,
+        other: RigidBodyHandle,
+    ) -> Option<Matrix6<f64>> {
+        let (multibody, _) = multibody(world, handle)?;
+        let id = multibody.links().position(|link| link.rigid_body_handle() == other)?;
+        let jacobian = multibody.body_jacobian(id).map(f64::from);
+        Some(Matrix6::from_iterator((jacobian * self.response.map(f64::from)).iter().copied()))
+    }
+
     /// Returns the change of the generalised velocity by an impulse on the link.
     pub(super) fn velocity_change(&self, impulse: &Vector6<f64>) -> DVector<f64> {
         self.response.map(f64::from) * impulse

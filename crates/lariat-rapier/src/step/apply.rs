@@ -17,13 +17,12 @@ use crate::body::{SavedBody, replace_loads};
 use crate::contents::Contents;
 use crate::convert::{rotation, to_vector, vector};
 use crate::islands::{Island, Member};
-use crate::mechanism;
-use crate::record::BodyRecord;
-use crate::spatial::{split_spatial, stack_spatial};
+use crate::spatial::split_spatial;
+use crate::step::groups;
 use crate::step::prediction::{AppliedMotion, BodyStep, Prediction};
 use crate::step::prescribed_motion::MAX_ROTATION_PER_STEP;
 use crate::step::proximity;
-use ::nalgebra::Vector3;
+use ::nalgebra::{Vector3, Vector6};
 use rapier::math::Real;
 use rapier::pipeline::PhysicsWorld;
 
@@ -43,18 +42,27 @@ pub(crate) fn apply(
     for (m, member) in island.members.iter().enumerate() {
         let applied = match member {
             Member::Body(handle) if !world.bodies[*handle].is_sleeping() => {
+                // the part of the reaction that joints bear needs no balance
+                let moving = groups::unconstrained_reaction(contents, island, &prediction.groups, m);
                 let record = contents.records.record_mut(*handle);
-                Some(apply_prediction(world, &prediction.body_step(m, *handle, h), record))
+                let reactions = (record.reaction, moving.unwrap_or(record.reaction));
+                Some(apply_prediction(world, &prediction.body_step(m, *handle, h), reactions))
             }
             _ => None,
         };
         prediction.applied.push(applied);
     }
+    prediction.groups.iter().for_each(|group| groups::apply(world, island, prediction, group, h));
 }
 
-/// Makes Rapier move a body uniformly to its predicted position and attitude.
-fn apply_prediction(world: &mut PhysicsWorld, step: &BodyStep, record: &BodyRecord) -> AppliedMotion {
-    let &BodyStep { handle, start, end, mechanism, h } = step;
+/// Makes Rapier move a body uniformly to its predicted position and attitude. `reaction` is its reaction estimate, `moving`
+/// the part of it that moves the body. A body that joints hold gets its velocity with its [group](groups).
+fn apply_prediction(
+    world: &mut PhysicsWorld,
+    step: &BodyStep,
+    (reaction, moving): (Vector6<f64>, Vector6<f64>),
+) -> AppliedMotion {
+    let &BodyStep { handle, end, mechanism, h, .. } = step;
     let gravity = world.gravity;
     let (isolated, linked) = (proximity::is_isolated(world, handle), proximity::is_linked(world, handle));
     let substeps = world.integration_parameters.num_solver_iterations.max(1) as f64;
@@ -67,7 +75,7 @@ fn apply_prediction(world: &mut PhysicsWorld, step: &BodyStep, record: &BodyReco
         _ => to_vector(&linearised(&turn, h / substeps)),
     };
     let weight = vector(gravity).norm() * f64::from(body.gravity_scale()).abs();
-    let (reaction_force, _) = split_spatial(&record.reaction);
+    let (reaction_force, _) = split_spatial(&reaction);
     let applied = AppliedMotion {
         linvel,
         angvel,
@@ -77,33 +85,16 @@ fn apply_prediction(world: &mut PhysicsWorld, step: &BodyStep, record: &BodyReco
         balanced_velocity: (weight + reaction_force.norm() / end.mass) * h,
         saved: SavedBody::of(body),
     };
-    // the part of the reaction that joints bear needs no balance
-    let reaction = match mechanism {
-        Some(_) => mechanism::unconstrained_part(end, &record.reaction),
-        None => record.reaction,
-    };
-    let (force, torque) = split_spatial(&reaction);
+    let (force, torque) = split_spatial(&moving);
     let own_weight = gravity * (end.mass as Real * body.gravity_scale());
     replace_loads(body, -to_vector(&force) - own_weight, -to_vector(&torque));
     body.enable_gyroscopic_forces(false);
     if turn.norm() * h > FAST_ROTATION * MAX_ROTATION_PER_STEP {
         body.set_allow_fast_rotation(true);
     }
-    match mechanism {
-        Some(mechanism) => {
-            let wanted = stack_spatial(&vector(linvel), &vector(angvel));
-            let change = wanted - stack_spatial(&start.velocity, &start.angular_velocity);
-            // half of the change by the loads on the others comes before the uniform motion, half
-            // after
-            let change = change - mechanism.loads.of_body * (0.5 * h);
-            mechanism.loads.balance(world);
-            mechanism.apply_loads(world, handle, 0.5 * h);
-            mechanism.apply_impulse(world, handle, &(mechanism::inertia(start) * change));
-        }
-        None => {
-            body.set_linvel(linvel, false);
-            body.set_angvel(angvel, false);
-        }
+    if mechanism.is_none() {
+        body.set_linvel(linvel, false);
+        body.set_angvel(angvel, false);
     }
     applied
 }
@@ -149,7 +140,7 @@ pub(crate) fn revert_bodies(world: &mut PhysicsWorld, island: &Island, predictio
             continue;
         }
         if let Some(mechanism) = mechanism {
-            mechanism.revert(world, *handle);
+            mechanism.revert(world);
         }
         let body = &mut world.bodies[*handle];
         applied.saved.restore_settings(body);

@@ -17,10 +17,10 @@ use crate::contents::Contents;
 use crate::error::Error;
 use crate::islands::{Island, Member};
 use crate::ledger::Ledger;
-use crate::mechanism;
+use crate::mechanism::{Group, Mechanism};
 use crate::step::prediction::{Prediction, StepParameters};
 use crate::step::proximity;
-use ::nalgebra::{DMatrix, Matrix3, Vector3};
+use ::nalgebra::{DMatrix, Matrix3, Matrix6, Vector3};
 use lariat_ancf::island::RigidBody;
 use rapier::pipeline::PhysicsWorld;
 
@@ -81,18 +81,33 @@ fn deviates(
 ) -> bool {
     let (Member::Body(handle), Some(_)) = (island.members[m], &prediction.applied[m]) else { return false };
     let displacement = prediction.end[m].position - prediction.start[m].position;
+    if !bears_motors(prediction, m) {
+        return false;
+    }
     proximity::may_deviate(world, handle)
         || proximity::unlisted_collision(world, handle, &displacement, (step.h, step.fastest)).is_some()
         || !contents.records.get(handle).is_some_and(|record| record.stepped)
             && proximity::overlaps(world, handle, &displacement)
 }
 
-/// Returns the pins on a member, and those next to them on the same cables.
-fn near_pins(island: &Island, member: usize) -> Vec<usize> {
+/// Returns whether Rapier's step can bear motors on a member. Its sweeps over impulse joints do not converge with motors on several
+/// bodies of a chain: two ropes on an arm of three welded links of 1 kg then blow up. On one body that touches nothing they would
+/// only work against joints that have not converged.
+fn bears_motors(prediction: &Prediction, m: usize) -> bool {
+    let alone = prediction.groups.iter().all(|group| group.members.len() == 1 || group.place(m).is_none());
+    let bears = |mechanism: &Mechanism| mechanism.is_multibody() || alone && !mechanism.loads.isolated;
+    prediction.mechanisms[m].as_ref().is_none_or(bears)
+}
+
+/// Returns the pins on a member and on those of its mechanism, and those next to them on the same cables.
+fn near_pins(island: &Island, groups: &[Group], member: usize) -> Vec<usize> {
     let pins = &island.pins;
-    let mut near: Vec<usize> = island.pins_on(member).collect();
-    for own in island.pins_on(member) {
-        let others = (0..pins.len()).filter(|&p| pins[p].cable == pins[own].cable && pins[p].body != member);
+    let group = groups.iter().find(|group| group.place(member).is_some());
+    let members = group.map_or_else(|| core::slice::from_ref(&member), |group| &group.members);
+    let on_members = || members.iter().flat_map(|&m| island.pins_on(m));
+    let mut near: Vec<usize> = on_members().collect();
+    for own in on_members() {
+        let others = (0..pins.len()).filter(|&p| pins[p].cable == pins[own].cable && pins[p].body != pins[own].body);
         let before = others.clone().filter(|&p| pins[p].node < pins[own].node).max_by_key(|&p| pins[p].node);
         let after = others.filter(|&p| pins[p].node > pins[own].node).min_by_key(|&p| pins[p].node);
         near.extend(before.into_iter().chain(after));
@@ -110,7 +125,7 @@ fn linearise(
     deviating: &[usize],
     h: f64,
 ) -> Result<(), Error> {
-    let mut near: Vec<usize> = deviating.iter().flat_map(|&m| near_pins(island, m)).collect();
+    let mut near: Vec<usize> = deviating.iter().flat_map(|&m| near_pins(island, &prediction.groups, m)).collect();
     near.sort_unstable();
     near.dedup();
     prediction.impedances.resize_with(island.cables.len(), Default::default);
@@ -127,7 +142,7 @@ fn linearise(
 /// Returns D for every pin on a member, by the index of the pin.
 fn driving_point(island: &Island, prediction: &Prediction, member: usize) -> Vec<(usize, Matrix3<f64>)> {
     let start = &prediction.start;
-    let near = near_pins(island, member);
+    let near = near_pins(island, &prediction.groups, member);
     let n = 3 * near.len();
     let mut m = DMatrix::<f64>::zeros(n, n);
     for (a, &i) in near.iter().enumerate() {
@@ -141,9 +156,13 @@ fn driving_point(island: &Island, prediction: &Prediction, member: usize) -> Vec
             {
                 block += impedance.compliance(one, two);
             }
-            if p.body == q.body {
-                let share = if p.body == member { OWN_MOBILITY_SHARE } else { 1.0 };
-                block += mobility(&start[p.body], &p.anchor, &q.anchor) * share;
+            let share = |body: usize| if body == member { OWN_MOBILITY_SHARE.sqrt() } else { 1.0 };
+            let levers = [start[p.body].rotation * p.anchor, start[q.body].rotation * q.anchor];
+            let in_group = |group: &Group| Some(group.mobility(group.place(p.body)?, group.place(q.body)?));
+            if let Some(mobility) = prediction.groups.iter().find_map(in_group) {
+                block += point_mobility(&mobility, &levers) * (share(p.body) * share(q.body));
+            } else if p.body == q.body {
+                block += mobility(&start[p.body], &levers) * (share(p.body) * share(q.body));
             }
             m.fixed_view_mut::<3, 3>(3 * a, 3 * b).copy_from(&block);
         }
@@ -156,18 +175,16 @@ fn driving_point(island: &Island, prediction: &Prediction, member: usize) -> Vec
         .collect()
 }
 
-/// Returns the velocity at one point of a body per impulse at another, in 1/kg.
-fn mobility(body: &RigidBody, a: &Vector3<f64>, b: &Vector3<f64>) -> Matrix3<f64> {
-    let (ra, rb) = (body.rotation * a, body.rotation * b);
-    if body.carried.is_some()
-        && let Some(mobility) = mechanism::inertia(body).try_inverse()
-    {
-        let mut out = Matrix3::zeros();
-        let at = |r: usize, c: usize| mobility.fixed_view::<3, 3>(3 * r, 3 * c).into_owned();
-        out += at(0, 0) + at(0, 1) * rb.cross_matrix();
-        out -= ra.cross_matrix() * (at(1, 0) + at(1, 1) * rb.cross_matrix());
-        return out;
-    }
+/// Returns the velocity at one point per impulse at another, in 1/kg, by the mobility of their bodies and the levers from
+/// the centres of mass.
+fn point_mobility(mobility: &Matrix6<f64>, [ra, rb]: &[Vector3<f64>; 2]) -> Matrix3<f64> {
+    let at = |r: usize, c: usize| mobility.fixed_view::<3, 3>(r, c).into_owned();
+    let linear = at(0, 0) + at(0, 3) * rb.cross_matrix();
+    linear - ra.cross_matrix() * (at(3, 0) + at(3, 3) * rb.cross_matrix())
+}
+
+/// Returns the velocity at one point of a free body per impulse at another, in 1/kg.
+fn mobility(body: &RigidBody, [ra, rb]: &[Vector3<f64>; 2]) -> Matrix3<f64> {
     let mass = if body.mass > 0.0 { body.mass } else { JUNCTION_MASS };
     let masked = Matrix3::from_diagonal(&Vector3::from_fn(|i, _| f64::from(u8::from(body.free[i])) / mass));
     let mut inverse = body.world_inertia(&body.rotation).try_inverse().unwrap_or_else(Matrix3::zeros);

@@ -37,7 +37,7 @@ struct Job<'a> {
 impl Job<'_> {
     fn run(&mut self) {
         let limit = self.prediction.budget.limit();
-        let outcome = if self.island.members.is_empty() && self.island.sheaves.is_empty() {
+        let outcome = if self.island.is_loose() {
             let (h, integrator) = (self.h, &self.integrator);
             self.cables.iter_mut().try_for_each(|cable| {
                 step_within(limit.as_ref(), integrator, |integrator| cable.step_with(h, integrator))
@@ -58,7 +58,9 @@ impl Job<'_> {
     /// Steps cables and members in equal parts, and adds up the accounts of the pins.
     fn step_island(&mut self, solver: &mut IslandSolver, limit: Option<&WorkLimit>) -> Result<(), lariat_ancf::Error> {
         let Job { island, cables, prediction, integrator, h } = self;
-        let Prediction { start, end, accounts, parts, sheaves, .. } = &mut **prediction;
+        let Prediction { start, end, accounts, parts, sheaves, coupled, .. } = &mut **prediction;
+        solver.set_cable_pairs(Some(&island.pairs));
+        solver.couple(coupled);
         for part in 0..*parts {
             for (body, start) in end.iter_mut().zip(&*start) {
                 let [first, last] = start.unsteadiness;

@@ -8,11 +8,13 @@
 //! | [`predict`] | reads cables and bodies before the step |
 //! | [`integrate`] | integrates them together, all islands at once |
 //! | [`apply`] | gives Rapier the predicted motion; reverts it |
+//! | [`groups`] | the same for bodies that joints hold together, and what Rapier's step made of them |
 //! | [`impedance`] | lets a body that may deviate feel its cables within Rapier's step |
 //! | [`reconcile`] | takes over what Rapier's step made of it |
 //! | [`refused`] | holds the bodies of an island that cannot step |
 
 pub(crate) mod apply;
+pub(crate) mod groups;
 pub(crate) mod impedance;
 pub(crate) mod integrate;
 pub(crate) mod kinematic_ends;
@@ -193,31 +195,22 @@ fn predict_islands(
     held.chain(contents.drums.iter().map(|wound| wound.drum.body)).for_each(|b| body::update_mass(world, b));
     let h = f64::from(world.integration_parameters.dt);
     stepper.finder.begin(contents, world, h);
-    stepper.islands.update(contents, world, &stepper.finder.touching)?;
-    let budget = stepper.budget;
-    stepper.predictions.resize_with(stepper.islands.list.len(), || Prediction { budget, ..Prediction::default() });
-    stepper.predictions.iter_mut().for_each(|prediction| prediction.applied.clear());
-    let is_awake = |body: RigidBodyHandle| !world.bodies[body].is_sleeping();
-    let needs_speeds = stepper.islands.list.iter().any(|island| island.bodies().any(is_awake));
-    let step = StepParameters {
-        h,
-        rapier_steps: host.steps,
-        share: (f64::from(host.done - 1) / f64::from(host.steps), f64::from(host.done) / f64::from(host.steps)),
-        fastest: if needs_speeds { proximity::fastest(world) } else { 0.0 },
-        sleep_speed: settings.sleep_speed,
-    };
-    let Stepper { islands, predictions, events, failures, finder, .. } = &mut *stepper;
-    for (island, prediction) in islands.list.iter().zip(predictions.iter_mut()) {
-        let failed = |failure: &Failure| failure.cables.iter().any(|c| island.cables.contains(&(c.0 as usize)));
-        prediction.refused = failures.iter().any(failed);
-        (prediction.integrator, prediction.error) = (None, None);
-        if !prediction.refused {
-            let outcome = prepare_island(contents, world, island, prediction, (&host.motions, &step), (finder, events));
-            prediction.error = outcome.err();
+    let step = loop {
+        let step = prepare_islands(stepper, contents, world, settings, host)?;
+        reels::mark(contents);
+        let Stepper { islands, predictions, finder, .. } = &mut *stepper;
+        integrate::integrate(contents, &islands.list, predictions, step.h);
+        if !finder.neighbours.complete(contents, &islands.list, predictions) {
+            break step;
         }
-    }
-    reels::mark(contents);
-    integrate::integrate(contents, &islands.list, predictions, step.h);
+        // cables met that were not expected to: they are united, and the step begins anew
+        for (island, prediction) in islands.list.iter().zip(predictions.iter()).filter(|(_, p)| !p.refused) {
+            apply::revert(contents, world, island, prediction);
+            let disturbed = prediction.sleep.disturbed;
+            contents.cables.get_many_mut(&island.cables).into_iter().for_each(|slot| slot.modified |= disturbed);
+        }
+    };
+    let Stepper { islands, predictions, events, failures, .. } = &mut *stepper;
     reels::follow(contents);
     for (island, prediction) in islands.list.iter().zip(predictions.iter_mut()) {
         if core::mem::take(&mut prediction.degraded) {
@@ -242,6 +235,41 @@ fn predict_islands(
     Ok(())
 }
 
+/// Finds the islands of a Rapier step, and begins the prediction of all.
+fn prepare_islands(
+    stepper: &mut Stepper,
+    contents: &mut Contents,
+    world: &mut PhysicsWorld,
+    settings: &Settings,
+    host: &HostStep,
+) -> Result<StepParameters, Error> {
+    let Finder { touching, neighbours, .. } = &stepper.finder;
+    stepper.islands.update(contents, world, touching, &neighbours.pairs)?;
+    let budget = stepper.budget;
+    stepper.predictions.resize_with(stepper.islands.list.len(), || Prediction { budget, ..Prediction::default() });
+    stepper.predictions.iter_mut().for_each(|prediction| prediction.applied.clear());
+    let is_awake = |body: RigidBodyHandle| !world.bodies[body].is_sleeping();
+    let needs_speeds = stepper.islands.list.iter().any(|island| island.bodies().any(is_awake));
+    let step = StepParameters {
+        h: f64::from(world.integration_parameters.dt),
+        rapier_steps: host.steps,
+        share: (f64::from(host.done - 1) / f64::from(host.steps), f64::from(host.done) / f64::from(host.steps)),
+        fastest: if needs_speeds { proximity::fastest(world) } else { 0.0 },
+        sleep_speed: settings.sleep_speed,
+    };
+    let Stepper { islands, predictions, events, failures, finder, .. } = &mut *stepper;
+    for (island, prediction) in islands.list.iter().zip(predictions.iter_mut()) {
+        let failed = |failure: &Failure| failure.cables.iter().any(|c| island.cables.contains(&(c.0 as usize)));
+        prediction.refused = failures.iter().any(failed);
+        (prediction.integrator, prediction.error) = (None, None);
+        if !prediction.refused {
+            let outcome = prepare_island(contents, world, island, prediction, (&host.motions, &step), (finder, events));
+            prediction.error = outcome.err();
+        }
+    }
+    Ok(step)
+}
+
 /// Begins the prediction of a Rapier step of one island: it is then ready to be integrated, or asleep.
 fn prepare_island(
     contents: &mut Contents,
@@ -252,13 +280,13 @@ fn prepare_island(
     (finder, events): (&mut Finder, &mut Vec<Event>),
 ) -> Result<(), Error> {
     contents.align_clocks(&island.cables)?;
-    check_links(contents, island)?;
     prediction.snapshots.resize_with(island.cables.len(), Snapshot::default);
     for (snapshot, &cable) in prediction.snapshots.iter_mut().zip(&island.cables) {
         if let Some(slot) = contents.cables.get(cable) {
             snapshot.clone_from(slot.cable.snapshot());
         }
     }
+    check_links(contents, island)?;
     let ends_moved = island.bodies().next().is_some() && kinematic_ends::have_moved(contents, world, island, step.h);
     let mut moved = ends_moved;
     for &cable in &island.cables {

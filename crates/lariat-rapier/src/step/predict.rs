@@ -9,8 +9,8 @@ use crate::body;
 use crate::contents::Contents;
 use crate::error::Error;
 use crate::islands::{Island, Member};
-use crate::mechanism;
-use crate::spatial::{split_spatial, stack_spatial};
+use crate::mechanism::{self, Group};
+use crate::spatial::stack_spatial;
 use crate::step::kinematic_ends;
 use crate::step::prediction::{Prediction, StepParameters};
 use crate::step::prescribed_motion::PrescribedMotions;
@@ -34,9 +34,13 @@ pub(crate) fn prepare(
     prediction: &mut Prediction,
     step: &StepParameters,
 ) -> Result<(), Error> {
-    let mut integrator = share_of(integrator(contents, island), step.rapier_steps);
+    let mut integrator = share_of(integrator(contents, island, step), step.rapier_steps);
     prediction.parts = 1;
     prediction.sheaves.clear();
+    prediction.start.clear();
+    prediction.end.clear();
+    prediction.groups.clear();
+    prediction.coupled.clear();
     let sheaves = island.sheaves.iter().filter_map(|&i| contents.sheaves.get(i));
     prediction.sheaves.extend(sheaves.filter_map(|sheave| sheave.within(&island.cables)));
     if !island.members.is_empty() {
@@ -86,10 +90,7 @@ fn read_members(
     step: &StepParameters,
 ) -> Result<(), Error> {
     let time = contents.cables.get(island.cables[0]).map_or(0.0, |s| s.cable.time());
-    prediction.start.clear();
-    prediction.mechanisms.clear();
-    for (m, member) in island.members.iter().enumerate() {
-        let mut mechanism = None;
+    for member in &island.members {
         let body = match member {
             Member::Body(handle) => {
                 mechanism::prepare(world, *handle);
@@ -103,20 +104,6 @@ fn read_members(
                     // a point mass does not rotate, but the solver needs an inverse
                     body.inertia = Matrix3::identity();
                 }
-                let request = mechanism::Request {
-                    handle: *handle,
-                    body: &body,
-                    load: cable_load(contents, island, m, &body),
-                    substep: step.h / world.integration_parameters.num_solver_iterations.max(1) as f64,
-                    is_attached: &|b| contents.attachments.values().any(|a| a.body == b),
-                };
-                if let Some(found) = mechanism::find(world, &request) {
-                    let (force, torque) = split_spatial(&found.load);
-                    body.force += force;
-                    body.torque += torque;
-                    body.carried = Some(found.carried);
-                    mechanism = Some(found.mechanism);
-                }
                 body
             }
             Member::Driven(handle) => kinematic_ends::driven_body(world, motions, *handle, step)?,
@@ -126,11 +113,56 @@ fn read_members(
             }
         };
         prediction.start.push(body);
-        prediction.mechanisms.push(mechanism);
     }
-    prediction.end.clear();
+    find_mechanisms(contents, world, island, prediction, step);
     prediction.end.extend_from_slice(&prediction.start);
     Ok(())
+}
+
+/// Finds the mechanisms of the members, and adds inertia and loads of the bodies that these move with.
+fn find_mechanisms(
+    contents: &Contents,
+    world: &PhysicsWorld,
+    island: &Island,
+    prediction: &mut Prediction,
+    step: &StepParameters,
+) {
+    let Prediction { start, mechanisms, groups, coupled, .. } = prediction;
+    groups.clear();
+    coupled.clear();
+    mechanisms.clear();
+    mechanisms.resize_with(start.len(), || None);
+    if island.bodies().all(|handle| proximity::is_unjointed(world, handle)) {
+        return;
+    }
+    let bodies = || island.members.iter().enumerate().filter_map(|(m, member)| Some((m, member.body()?)));
+    let members: Vec<_> = bodies().map(|(m, handle)| (handle, cable_load(contents, island, m, &start[m]))).collect();
+    let is_attached = |b| contents.attachments.values().any(|a| a.body == b);
+    let substep = step.h / world.integration_parameters.num_solver_iterations.max(1) as f64;
+    let request = |handle| mechanism::Request { handle, members: &members, substep, is_attached: &is_attached };
+    let mut together: Vec<Vec<usize>> = Vec::new();
+    for (m, handle) in bodies() {
+        mechanisms[m] = mechanism::find(world, &request(handle));
+        if mechanisms[m].is_some() {
+            let knows =
+                |&other: &usize| mechanisms[other].as_ref().is_some_and(|o| o.mobility_of(world, handle).is_some());
+            match together.iter_mut().find(|group| group.iter().any(knows)) {
+                Some(group) => group.push(m),
+                None => together.push(vec![m]),
+            }
+        }
+    }
+    for members in together {
+        let jointed = members.iter().filter_map(|&m| Some((m, &start[m], mechanisms[m].as_ref()?)));
+        match Group::new(world, &jointed.collect::<Vec<_>>()) {
+            Some(group) => {
+                group.load(start, coupled);
+                groups.push(group);
+            }
+            // they move as if alone
+            None => members.into_iter().for_each(|m| mechanisms[m] = None),
+        }
+    }
 }
 
 /// Returns the force and torque on a member: its own, and those of its cables at the end of the
@@ -148,18 +180,21 @@ fn cable_load(contents: &Contents, island: &Island, member: usize, body: &RigidB
 }
 
 /// Returns the integrator of an island: that of its cables if they agree, else the one with the
-/// tightest tolerance.
-fn integrator(contents: &Contents, island: &Island) -> Integrator {
+/// tightest tolerance, or with the shortest steps.
+fn integrator(contents: &Contents, island: &Island, step: &StepParameters) -> Integrator {
     let all = || island.cables.iter().filter_map(|&c| contents.cables.get(c)).map(|s| s.cable.integrator());
     let first = all().next().unwrap_or_default();
     if all().all(|i| i == first) {
         return first;
     }
-    let tolerance = |i: &Integrator| match i.control {
-        StepControl::Tolerance(tolerance) | StepControl::ToleranceOf(tolerance, _) => tolerance,
-        _ => f64::INFINITY,
+    let host = step.h * f64::from(step.rapier_steps);
+    let fineness = |i: &Integrator| match i.control {
+        StepControl::Tolerance(tolerance) | StepControl::ToleranceOf(tolerance, _) => (tolerance, 0.0),
+        StepControl::Substeps(count) => (f64::INFINITY, host / f64::from(count)),
+        StepControl::MaxStep(h) => (f64::INFINITY, h.min(host)),
+        StepControl::Stable(_) => (f64::INFINITY, f64::INFINITY),
     };
-    all().fold(first, |best, i| if tolerance(&i) < tolerance(&best) { i } else { best })
+    all().fold(first, |best, i| if fineness(&i) < fineness(&best) { i } else { best })
 }
 
 /// Returns into how many equal parts of at most [`MAX_CONTROLLED_STEP`] a step of `h` (s) is

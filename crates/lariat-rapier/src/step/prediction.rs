@@ -4,11 +4,11 @@
 use crate::body::SavedBody;
 use crate::budget::Remaining;
 use crate::error::Error;
-use crate::mechanism::Mechanism;
+use crate::mechanism::{Group, Mechanism};
 use crate::sleep::SleepState;
 use crate::step::refused::HeldBodies;
 use ::nalgebra::Vector3;
-use lariat_ancf::island::{Impedance, PinAccount, RigidBody};
+use lariat_ancf::island::{CoupledInertia, Impedance, PinAccount, RigidBody};
 use lariat_ancf::{Integrator, Snapshot};
 use rapier::dynamics::RigidBodyHandle;
 use rapier::math::{AngVector, Vector};
@@ -39,6 +39,10 @@ pub(crate) struct Prediction {
     pub end: Vec<RigidBody>,
     /// By member, the bodies that joints move together with it.
     pub mechanisms: Vec<Option<Mechanism>>,
+    /// The members that are bodies of one mechanism, for each mechanism.
+    pub groups: Vec<Group>,
+    /// What couples them.
+    pub coupled: Vec<CoupledInertia>,
     /// By member, the motion given to Rapier.
     pub applied: Vec<Option<AppliedMotion>>,
     /// By cable, its response to impulses at pins on and next to deviating members.

@@ -26,11 +26,12 @@
 use crate::contents::Contents;
 use crate::convert::{rotation, to_vector, vector};
 use crate::islands::{Island, Member};
-use crate::mechanism::{self, inertia};
+use crate::mechanism::{own_inertia, velocity_of};
 use crate::record::{BodyRecord, ExactState};
 use crate::sleep;
 use crate::spatial::{split_spatial, stack_spatial};
 use crate::step::apply::restore_cables;
+use crate::step::groups;
 use crate::step::kinematic_ends;
 use crate::step::prediction::{AppliedMotion, BodyStep, Prediction};
 use ::nalgebra::{Vector3, Vector6};
@@ -42,7 +43,7 @@ use rapier::pipeline::PhysicsWorld;
 /// the gap grows.
 const MAX_LINK_GAP_SHARE: f64 = 2e-3;
 /// Share of the observed reaction that the estimate takes in a step.
-const REACTION_GAIN: f64 = 0.3;
+pub(super) const REACTION_GAIN: f64 = 0.3;
 /// A body landed where it was predicted if it is within this many units of rounding of its
 /// position, at [`USUAL_ITERATIONS`] or fewer solver iterations.
 const POSITION_ROUNDING: f64 = 32.0;
@@ -119,6 +120,7 @@ fn read_members(
     for (m, member) in island.members.iter().enumerate() {
         let (Member::Body(handle), Some(applied)) = (member, &prediction.applied[m]) else { continue };
         let step = prediction.body_step(m, *handle, h);
+        let is_jointed = step.mechanism.is_some();
         if !world.bodies.contains(*handle) {
             if let Some(mechanism) = step.mechanism {
                 mechanism.loads.restore(world);
@@ -130,17 +132,28 @@ fn read_members(
             put_to_rest(world, &step, applied, record);
             continue;
         }
-        let mut motors = Vector6::zeros();
-        for pin in island.pins_on(m) {
-            let p = &prediction.impulses[pin];
-            motors += stack_spatial(p, &(step.end.rotation * island.pins[pin].anchor).cross(p));
+        if is_jointed {
+            continue;
         }
+        let motors = motor_impulse(island, prediction, m);
         record.stepped = true;
         let landed = read_back(world, &step, applied, record, &motors);
         if landed {
             island.pins_on(m).for_each(|pin| prediction.impulses[pin] = Vector3::zeros());
         }
     }
+    for group in &prediction.groups {
+        groups::read_back(contents, world, island, prediction, group, h);
+    }
+}
+
+/// Returns impulse and angular impulse of the motors on a member.
+pub(super) fn motor_impulse(island: &Island, prediction: &Prediction, m: usize) -> Vector6<f64> {
+    let of_pin = |pin: usize| {
+        let p = &prediction.impulses[pin];
+        stack_spatial(p, &(prediction.end[m].rotation * island.pins[pin].anchor).cross(p))
+    };
+    island.pins_on(m).map(of_pin).sum()
 }
 
 /// Updates the record of a body that Rapier put to sleep instead of stepping it: it is where it
@@ -166,11 +179,7 @@ fn read_back(
     record: &mut BodyRecord,
     motors: &Vector6<f64>,
 ) -> bool {
-    let &BodyStep { handle, end, mechanism, h, .. } = step;
-    if let Some(mechanism) = mechanism {
-        mechanism.loads.restore(world);
-        mechanism::refresh(world, handle);
-    }
+    let &BodyStep { handle, end, h, .. } = step;
     let iterations = world.integration_parameters.num_solver_iterations;
     let body = &mut world.bodies[handle];
     applied.saved.restore_settings(body);
@@ -186,20 +195,6 @@ fn read_back(
     let velocity = if landed { velocity } else { velocity + deviation };
     update_reaction(body, step, applied, record, (&deviation, &velocity), motors);
     let (linear_damping, angular_damping) = applied.saved.damping_factors(h);
-    if let Some(mechanism) = mechanism {
-        let change = velocity - after - mechanism.loads.of_body * (0.5 * h);
-        mechanism.apply_loads(world, handle, 0.5 * h);
-        mechanism.apply_impulse(world, handle, &(inertia(end) * change));
-        // Rapier does not damp links of a multibody
-        if !mechanism.is_multibody() {
-            mechanism.loads.damp(world, h);
-            let body = &mut world.bodies[handle];
-            body.set_linvel(to_vector(&(vector(body.linvel()) * linear_damping)), false);
-            body.set_angvel(to_vector(&(vector(body.angvel()) * angular_damping)), false);
-        }
-        record.exact = None;
-        return false;
-    }
     let (linear, angular) = split_spatial(&velocity);
     let (linear, angular) = (linear * linear_damping, angular * angular_damping);
     body.set_linvel(to_vector(&linear), false);
@@ -244,24 +239,23 @@ fn update_reaction(
     (deviation, velocity): (&Vector6<f64>, &Vector6<f64>),
     motors: &Vector6<f64>,
 ) {
-    let &BodyStep { start, end, mechanism, h, .. } = step;
+    let &BodyStep { start, end, h, .. } = step;
     let moved = (vector(body.center_of_mass()) - end.position) / h;
     let turned = (rotation(*body.rotation()) * end.rotation.inverse()).scaled_axis() / h;
-    // in a mechanism that touches nothing, the position tells only how Rapier corrects its joints
-    let isolated = mechanism.is_some_and(|mechanism| mechanism.loads.isolated);
-    let change = deviation + stack_spatial(&moved, &turned) * if isolated { 0.0 } else { 1.0 };
-    let impulse = match mechanism {
-        Some(_) => mechanism::implied_impulse(end, &change, isolated),
-        None => inertia(end) * change,
-    };
     let motors = if applied.linked { Vector6::zeros() } else { *motors };
-    let known = record.reaction * h - motors;
-    // the share of the impulse that did not change the motion of the body
-    let whole = known + inertia(end) * deviation;
-    let gained = velocity - stack_spatial(&start.velocity, &start.angular_velocity);
-    let square = inertia(end).cholesky().map_or(0.0, |inertia| whole.dot(&inertia.solve(&whole)));
-    let share = if square > 0.0 { (1.0 - whole.dot(&gained) / square).clamp(0.0, 1.0) } else { 1.0 };
+    let (inertia, known) = (own_inertia(end), record.reaction * h - motors);
+    let whole = known + inertia * deviation;
+    let gained = velocity - velocity_of(start);
+    let square = inertia.cholesky().map_or(0.0, |inertia| whole.dot(&inertia.solve(&whole)));
+    let share = persisting_share(whole.dot(&gained), square);
+    let impulse = inertia * (deviation + stack_spatial(&moved, &turned));
     record.reaction += REACTION_GAIN * ((known + impulse) * (share / h) - record.reaction);
+}
+
+/// Returns the share of an impulse that did not change the motion of what it acted on: `work` is its product with the velocities gained,
+/// `square` that with the velocities that it would give.
+pub(super) fn persisting_share(work: f64, square: f64) -> f64 {
+    if square > 0.0 { (1.0 - work / square).clamp(0.0, 1.0) } else { 1.0 }
 }
 
 /// Gives the cables the opposite of their motors' impulses on bodies that deviated.

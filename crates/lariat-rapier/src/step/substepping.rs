@@ -13,9 +13,11 @@
 //! finer where a body that is near others, or has a reaction estimate, hangs on a taut cable. l is
 //! the length of the cable to its end, which gives an upper bound of its stiffness. A cable that is
 //! pulled but not straight gives way by its sag: where the bound asks for a split, its own response
-//! over the host step decides ([`Impedance`]). The response is linear, and may not follow a large
-//! deviation; therefore no body may then deviate by more than 1 mm, at its speed v of collision
-//! (h v) or by a reaction estimate that is wrong altogether (F h^2/2m).
+//! over the host step decides ([`Impedance`]), if it stays what it is. The force of a shallow
+//! catenary of length L and chord c varies as (L - c)^-1/2, its stiffness as (L - c)^-3/2: this does not
+//! double while the chord grows by less than 1 - 2^(-2/3) = 0.37 of L - c. The growth is bounded by
+//! the present motion, a collision's change of velocity (2 v h), and a reaction estimate that is
+//! wrong altogether (F h^2/2m).
 //!
 //! *First contact.* A body that hits another at v deviates from its prediction by up to v h, and
 //! the cable, heavier than the body over the step, does not follow by the share g/(1 + g): its
@@ -56,8 +58,12 @@ const MAX_PHASE: f64 = 0.6;
 /// Largest gap in m that may open in a Rapier step.
 const MAX_GAP: f64 = 1e-3;
 /// Steps of a host step of a body that joints hold: the reactions of joints are estimated from step
-/// to step.
+/// to step. With one step, arms that close at a limit or are near a body blow up.
 const JOINTED_STEPS: f64 = 4.0;
+/// Share of a cable's slack by which its chord may grow, so that its stiffness does not double.
+const SLACK_SHARE: f64 = 0.37;
+/// Largest change of velocity of a body that collides, per speed of the collision.
+const MAX_REBOUND: f64 = 2.0;
 /// Share of the force at an attachment from which a reaction estimate counts.
 const MIN_REACTION: f64 = 0.1;
 
@@ -90,11 +96,11 @@ pub(crate) fn count(
         let on_body = contents.attachments.values().filter(|b| b.body == a.body);
         let largest: f64 = on_body.map(|b| stiffness(contents, b)).sum();
         let mut own = count(largest);
-        if own > needed && !may_tighten(contents, world, a, dt, &mut fastest) {
+        if own > needed {
             let reaction = contents.records.get(a.body).map_or(0.0, |r| split_spatial(&r.reaction).0.norm());
-            let followed = (dt * speed / MAX_GAP).max(dt * (0.5 * reaction * inverse_mass / MAX_GAP).sqrt());
-            if followed < own {
-                own = own.min(followed.max(count(stiffness_over(contents, a.body, dt, impedance))));
+            let change = MAX_REBOUND * speed * dt + 0.5 * reaction * inverse_mass * dt * dt;
+            if stays_slack(contents, a, dt, change) {
+                own = own.min(count(stiffness_over(contents, a.body, dt, impedance)));
             }
         }
         needed = needed.max(own);
@@ -106,8 +112,9 @@ pub(crate) fn count(
     (needed.ceil().min(f64::from(max)) as u32).max(min)
 }
 
-/// Returns the number of steps of `dt` (s) that bodies need which cables press on others, so that none vibrates between them. A cable that touches
-/// a body is as stiff as one that is attached to it in the middle.
+/// Returns the number of steps of `dt` (s) that bodies need which cables press on others,
+/// so that none vibrates between them. A cable that touches a body is as stiff as one that is
+/// attached to it in the middle.
 fn pressed(contents: &Contents, world: &PhysicsWorld, dt: f64) -> f64 {
     let mut stiffnesses: Vec<(RigidBodyHandle, f64)> = Vec::new();
     for slot in contents.cables.values() {
@@ -201,21 +208,37 @@ fn may_tighten(
 ) -> bool {
     let Some(slot) = contents.slot(a.cable) else { return false };
     let own = f64::from(world.bodies[a.body].linvel().length());
-    tightens(&slot.cable, a.node, dt, own + fastest())
+    parts(&slot.cable, a.node).any(|part| part.speed * dt + (own + fastest()) * dt >= part.slack)
 }
 
-/// Returns whether a part of a cable between a node and a held end may become straight within `dt`
-/// (s), if the node's velocity changes by `change` (m/s).
-fn tightens(cable: &Cable, node: usize, dt: f64, change: f64) -> bool {
+/// Returns whether all cables of the body of an attachment keep so much slack over `dt` (s) that
+/// their stiffness cannot double, if the body moves by `change` (m) beside its present motion.
+fn stays_slack(contents: &Contents, a: &Attachment, dt: f64, change: f64) -> bool {
+    let mut on_body = contents.attachments.values().filter(|b| b.body == a.body);
+    on_body.all(|b| {
+        let keeps = |part: Part| part.speed * dt + change <= SLACK_SHARE * part.slack;
+        contents.slot(b.cable).is_none_or(|slot| parts(&slot.cable, b.node).all(keeps))
+    })
+}
+
+/// The part of a cable between a node and a held end.
+struct Part {
+    /// Its length without strain less its chord, in m.
+    slack: f64,
+    /// Relative speed of its ends in m/s.
+    speed: f64,
+}
+
+/// Returns the parts of a cable between a node and its held ends.
+fn parts(cable: &Cable, node: usize) -> impl Iterator<Item = Part> + '_ {
     let velocity = |n: usize| Vector3::from_column_slice(&cable.velocities()[6 * n..6 * n + 3]);
     let last = cable.elements().len();
     // the number may be that of before a change of the cable
     let node = node.min(last);
     let held = |end: usize| cable.support(At::Node(end)).is_ok_and(|s| s.attached || s.position.is_some());
-    [0, last].into_iter().filter(|end| *end != node && held(*end)).any(|end| {
+    [0, last].into_iter().filter(move |end| *end != node && held(*end)).map(move |end| {
         let length: f64 = cable.elements()[node.min(end)..node.max(end)].iter().map(|e| e.length).sum();
         let chord = (cable.node_position(node) - cable.node_position(end)).norm();
-        let speed = (velocity(node) - velocity(end)).norm() + change;
-        chord + speed * dt >= length
+        Part { slack: length - chord, speed: (velocity(node) - velocity(end)).norm() }
     })
 }

@@ -8,6 +8,7 @@ mod blows;
 mod budget;
 mod cable_contact;
 mod cable_contact_bodies;
+mod cable_contact_pairs;
 mod clamps;
 mod common;
 mod contact;

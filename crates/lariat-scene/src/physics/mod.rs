@@ -299,7 +299,7 @@ impl Physics {
             lariat_rapier::Error::CableTouchesInStatics { cable, collider, arc_length, depth } => {
                 let body = self.world.colliders.get(collider).and_then(|c| name(c.parent()?)).unwrap_or_default();
                 let problem = format!(
-                    "statics compute no contacts, and cable {cable:?} would be {depth:.1e} m in it at {arc_length:.4} m: run the scene until it rests"
+                    "statics compute contact at samples, not with dynamic bodies, sharp edges and thin things: cable {cable:?} would be {depth:.1e} m in it at {arc_length:.4} m: take a finer mesh, or run the scene until it rests"
                 );
                 Error::Body { time, body, problem }
             }

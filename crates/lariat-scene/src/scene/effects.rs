@@ -290,7 +290,7 @@ impl SceneEffect for LineLoads {
 }
 
 table! {
-    /// Contact and friction with the colliders of fixed and kinematic bodies.
+    /// Contact and friction with the bodies, and with other cables.
     keys CONTACT for Contact("[cable.contact]") {
         /// Radius, required for a cable without `section`.
         radius = ("half the diameter of the section"), Kind::Number(POSITIVE), "m";
@@ -298,10 +298,11 @@ table! {
         stiffness = ("EA/(40 radius^2)"), Kind::Number(POSITIVE), "N/m^2";
         /// Coefficient of friction of the cable; that of a contact is the mean of both.
         friction = 0.5, Kind::Number(NOT_NEGATIVE);
+        /// Whether the cable touches others that have this too; the coefficient of friction is the mean of both.
+        cables = false, Kind::Flag;
         /// Whether the cable touches itself.
         itself = false, Kind::Flag;
     }
-    without cables;
 }
 
 impl SceneEffect for Contact {

@@ -48,6 +48,20 @@ pub struct PairTouch {
     pub slips: bool,
 }
 
+impl PairTouch {
+    /// Returns it as the other cable has it; `key` is that of this one.
+    pub fn mirrored(self, key: u64) -> Self {
+        PairTouch {
+            other: key,
+            arc_length: self.other_arc_length,
+            other_arc_length: self.arc_length,
+            normal: -self.normal,
+            friction: -self.friction,
+            ..self
+        }
+    }
+}
+
 impl Cable {
     /// Returns the contacts with other cables and with itself at the end of the last step. A contact of two cables is with the one of the lower key.
     pub fn cable_contacts(&self) -> impl Iterator<Item = PairTouch> {

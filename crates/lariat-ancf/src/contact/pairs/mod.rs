@@ -35,6 +35,15 @@ mod search;
 mod solve;
 mod step;
 
+/// Cables of an island that may touch each other.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CablePair {
+    /// Their places in the island, in ascending order.
+    pub cables: [usize; 2],
+    /// Coefficient of friction between them.
+    pub friction: f64,
+}
+
 pub(crate) use chords::Strand;
 pub use memory::{PairMemory, PairTouch};
 pub(crate) use search::Strands;

@@ -9,6 +9,7 @@
 //!
 //! Mirtich, Impulse-based Dynamic Simulation of Rigid Body Systems, 1996 (conservative advancement).
 
+use super::CablePair;
 use super::chords::{Piece, Strand, closest, refine};
 use core::cmp::Ordering;
 use nalgebra::Vector3;
@@ -34,6 +35,38 @@ pub(crate) struct Strands<'s, 'a> {
     pub get: &'s dyn Fn(usize) -> Strand<'a>,
     /// Returns the distance in m between points of two cables, by arc length, over a body that holds both.
     pub over_bodies: &'s dyn Fn([usize; 2], [f64; 2]) -> f64,
+    /// Those that may touch each other, in ascending order; `None` for all.
+    pub pairs: Option<&'s [CablePair]>,
+}
+
+impl Strands<'_, '_> {
+    /// Returns the coefficient of friction between two strands that may touch, or of one with itself.
+    pub fn friction(&self, a: usize, b: usize) -> Option<f64> {
+        let contact = |c: usize| (self.get)(c).model.effects.contact;
+        let (one, other) = (contact(a)?, contact(b)?);
+        if a == b {
+            return one.itself.then_some(one.friction);
+        }
+        if !(one.cables && other.cables) {
+            return None;
+        }
+        let Some(pairs) = self.pairs else { return Some(0.5 * (one.friction + other.friction)) };
+        let found = pairs.binary_search_by_key(&[a.min(b), a.max(b)], |pair| pair.cables).ok()?;
+        Some(pairs[found].friction)
+    }
+
+    /// Returns whether a strand may touch any.
+    pub fn may_touch(&self, c: usize) -> bool {
+        let Some(contact) = (self.get)(c).model.effects.contact else { return false };
+        contact.itself
+            || contact.cables
+                && match self.pairs {
+                    None => (0..self.count).any(|other| {
+                        other != c && (self.get)(other).model.effects.contact.is_some_and(|own| own.cables)
+                    }),
+                    Some(pairs) => pairs.iter().any(|pair| pair.cables.contains(&c)),
+                }
+    }
 }
 
 /// An element with the box that it is in over the step.
@@ -90,7 +123,7 @@ impl Search {
         self.boxes.clear();
         for c in 0..strands.count {
             let strand = (strands.get)(c);
-            let Some(contact) = strand.model.effects.contact.filter(|own| own.cables || own.itself) else { continue };
+            let Some(contact) = strand.model.effects.contact.filter(|_| strands.may_touch(c)) else { continue };
             let mut from = 0.0;
             for (e, element) in strand.model.elements.iter().enumerate() {
                 let radius = contact.radius_of(&element.section);
@@ -265,9 +298,7 @@ fn touch(distance: impl Fn(f64) -> f64, reach: f64, way: f64) -> f64 {
 
 /// Returns whether two elements may touch.
 fn may_touch(strands: &Strands<'_, '_>, a: &Boxed, b: &Boxed) -> bool {
-    let contact = |own: &Boxed| (strands.get)(own.strand).model.effects.contact;
-    let (Some(one), Some(other)) = (contact(a), contact(b)) else { return false };
-    if a.strand == b.strand { one.itself && a.element != b.element } else { one.cables && other.cables }
+    (a.strand, a.element) != (b.strand, b.element) && strands.friction(a.strand, b.strand).is_some()
 }
 
 /// Returns whether the first of two elements is the one that keeps their contacts.

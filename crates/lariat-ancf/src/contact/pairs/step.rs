@@ -56,9 +56,7 @@ impl PairStep {
     pub fn begin(&mut self, h: f64, strands: &Strands<'_, '_>) {
         self.points.clear();
         (self.h, self.before, self.searches) = (h, 0.0, 0);
-        let touches = |c: usize| (strands.get)(c).model.effects.contact;
-        let among = (0..strands.count).filter(|&c| touches(c).is_some_and(|own| own.cables)).count() > 1;
-        self.on = among || (0..strands.count).any(|c| touches(c).is_some_and(|own| own.itself));
+        self.on = (0..strands.count).any(|c| strands.may_touch(c));
         self.low_rank.clear();
         if !self.on {
             return;
@@ -109,6 +107,7 @@ impl PairStep {
         let own = candidate.strands.map(|c| (strands.get)(c));
         let sections = [0, 1].map(|k| &own[k].model.elements[candidate.elements[k]]);
         let (Some(one), Some(other)) = (own[0].model.effects.contact, own[1].model.effects.contact) else { return };
+        let Some(friction) = strands.friction(candidate.strands[0], candidate.strands[1]) else { return };
         let ends = [0, 1].map(|k| End {
             strand: candidate.strands[k],
             element: candidate.elements[k],
@@ -133,7 +132,7 @@ impl PairStep {
             shape: ends[0].shape,
             weight: sections[0].length / chords as f64,
             law: NormalLaw::in_series(one.law_of(&sections[0].section), other.law_of(&sections[1].section)),
-            friction: 0.5 * (one.friction + other.friction),
+            friction,
             reach: candidate.reach,
             patch: Patch::Plane { point: Vector3::zeros(), normal },
             offset: 0.0,

@@ -198,6 +198,23 @@ impl BodyStep {
         row.copy_from_slice(stack(out).as_slice());
     }
 
+    /// Subtracts a change of momentum, its rotation in body axes, from a row.
+    pub fn subtract_momentum(&self, momentum: &Vector6<f64>, row: &mut [f64]) {
+        let [linear, angular] = split(momentum);
+        let out = stack([linear, self.rotation * angular]);
+        row.iter_mut().zip(&out).for_each(|(row, p)| *row -= p);
+    }
+
+    /// Returns D u - O u.
+    pub fn second_difference(&self) -> Vector6<f64> {
+        self.change - self.before
+    }
+
+    /// Returns u at the end of the step.
+    pub fn final_velocity(&self) -> Vector6<f64> {
+        self.velocity + self.change
+    }
+
     /// Removes the components of a row along the axes that are locked.
     pub fn lock(&self, row: &mut [f64]) {
         (0..6).filter(|&x| !self.free[x]).for_each(|x| row[x] = 0.0);
@@ -213,7 +230,7 @@ impl BodyStep {
         total.supports -= all - power(row);
         total.imbalance += sum_of_forces(row);
         total.impulse += self.mass * self.change.fixed_rows::<3>(0).norm() + self.h * self.force.norm();
-        let (second, start) = (self.change - self.before, self.velocity);
+        let (second, start) = (self.second_difference(), self.velocity);
         total.numerical += 0.5 * ALPHA * second.dot(&(self.matrix * second));
         total.loads += self.h * (self.force.dot(&self.mean[0]) + self.torque.dot(&self.mean[1]));
         total.held += 0.5 * start.dot(&(self.matrix * start)) + self.mass * STANDARD_GRAVITY.norm() * HEIGHT;
@@ -233,7 +250,7 @@ impl BodyStep {
     /// Takes all free velocities beside a rigid motion from the end of the step; returns their kinetic energy in J, and their product with
     /// all velocities.
     pub fn take_relative(&mut self, rigid: &RigidMotion) -> (f64, f64) {
-        let end = self.velocity + self.change;
+        let end = self.final_velocity();
         let [v, spin] = split(&end);
         let mut relative = v - rigid.at(&(self.position + self.displacement()));
         (0..3).filter(|&x| !self.free[x]).for_each(|x| relative[x] = 0.0);

@@ -71,6 +71,7 @@ impl HostStep<'_, '_> {
             own.write(body);
             body.memory = Some(BodyMemory::of_differences(body, own.differences()));
         }
+        self.accounts.end(self.cables, self.layout);
     }
 
     /// Gives pinned nodes the velocities of their bodies, and the deviations that they had from them.

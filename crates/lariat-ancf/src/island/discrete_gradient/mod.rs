@@ -14,6 +14,7 @@
 //! is that of the whole: forces and torques on the bodies do work, as do gaps that close and the axes along which a body is locked.
 
 mod body;
+mod coupled;
 mod holds;
 mod host_step;
 mod laws;
@@ -24,18 +25,20 @@ pub(super) use host_step::HostStep;
 
 use super::body_matrix::{BodyMatrix, Lever};
 use super::condense::Condensed;
+use super::coupling::CoupledInertia;
 use super::hold::vector;
 use super::layout::Layout;
 use super::pin_accounts::PinAccounts;
 use crate::cable::Cable;
-use crate::contact::{BodyPath, PairStep};
+use crate::contact::{BodyPath, CablePair, PairStep};
 use crate::effect::EffectWork;
 use crate::error::StepFailure;
 use crate::integrate::State;
 use crate::integrate::discrete_gradient::{BETA, Balance, Buffers, DiscreteGradientSystem, Event, sum_of_forces};
 use crate::support::SlopeSupport;
-use crate::system::{CableStep, Equations, Unknowns, dot, project_vector};
+use crate::system::{CableStep, Equations, System, Unknowns, dot, project_vector};
 use body::BodyStep;
+use coupled::{add_coupled_energies, complete_rows};
 use holds::HoldStep;
 use nalgebra::Vector3;
 
@@ -46,6 +49,8 @@ const MIN_DIRECTION: f64 = 1e-9;
 #[derive(Clone, Debug, Default)]
 pub(super) struct StepBuffers {
     pub bodies: Vec<BodyStep>,
+    /// Inertia that couples bodies, with rotations in their axes.
+    coupled: Vec<CoupledInertia>,
     pub cables: Vec<CableBuffers>,
     matrix: BodyMatrix,
     /// Rows of the bodies, then their increments.
@@ -55,6 +60,8 @@ pub(super) struct StepBuffers {
     /// Contacts between the cables.
     pairs: PairStep,
     aside: pairs::Aside,
+    /// The cables that may touch each other, in ascending order; `None` for all.
+    pub may_touch: Option<Vec<CablePair>>,
     /// Rates of reels that are unknown, and sheaves.
     pub unknowns: Unknowns,
     /// By pin, velocity of node and slope beside those of the body when the host step began.
@@ -83,6 +90,9 @@ impl StepBuffers {
     pub fn begin(&mut self, cables: &[&mut Cable], layout: &Layout) {
         self.bodies.clear();
         self.bodies.extend(layout.bodies.iter().map(BodyStep::new));
+        self.coupled.clear();
+        let inverse = |i: usize| layout.bodies[i].rotation.inverse();
+        self.coupled.extend(layout.coupled.iter().map(|coupled| coupled.turned(coupled.bodies.map(inverse))));
         self.rows.resize(6 * layout.bodies.len(), 0.0);
         self.cables.resize_with(cables.len(), CableBuffers::default);
         for ((own, part), cable) in self.cables.iter_mut().zip(&layout.parts).zip(cables) {
@@ -117,7 +127,7 @@ impl IslandStep<'_, '_> {
 
     /// Computes residuals and step matrices of all cables, factors and condenses these, and sums the rows of the bodies.
     fn linearise(&mut self) -> Result<(), StepFailure> {
-        let StepBuffers { bodies, cables: own, rows, unknowns, .. } = &mut *self.buffers;
+        let StepBuffers { bodies, coupled, cables: own, rows, pairs, unknowns, .. } = &mut *self.buffers;
         rows.fill(0.0);
         unknowns.winches.iter().for_each(|winch| winch.pass(winch.force, self.cables[0].step_buffers.h, rows));
         for ((cable, own), part) in self.cables.iter_mut().zip(own).zip(&self.layout.parts) {
@@ -130,21 +140,22 @@ impl IslandStep<'_, '_> {
             equations.factor_to_solve()?;
             let (level, model) = (equations.system.level, equations.model);
             let factors = &equations.system.step.factorisation;
-            own.condensed.complete(level, factors, (&part.holds, borders), |x| project_vector(model, x));
+            let rhs = (pairs.is_empty() && equations.system.flows.is_empty()).then_some(&buffers.rhs[..]);
+            own.condensed.complete(level, factors, (&part.holds, borders), rhs, |x| project_vector(model, x));
         }
-        for (body, row) in bodies.iter().zip(rows.chunks_exact_mut(6)) {
-            body.complete_row(row);
-        }
+        complete_rows(bodies, coupled, rows);
         Ok(())
     }
 
     /// Factors the matrix of the bodies for steps of length `h` (s).
     fn factor_bodies(&mut self, h: f64) -> Result<(), StepFailure> {
-        let StepBuffers { bodies, cables: own, matrix, .. } = &mut *self.buffers;
+        let StepBuffers { bodies, coupled, cables: own, matrix, .. } = &mut *self.buffers;
         matrix.begin(bodies.len());
         for (i, body) in bodies.iter().enumerate() {
             matrix.add_inertia(i, &body.world_matrix());
         }
+        let rotation = |i: usize| bodies[i].rotation;
+        coupled.iter().for_each(|coupled| matrix.add_coupled(&coupled.turned(coupled.bodies.map(rotation))));
         for (cable, CableBuffers { holds, condensed, .. }) in self.cables.iter().zip(own.iter()) {
             for hold in holds {
                 matrix.add_rotational(hold.body, &(hold.stiffening() * (0.5 * BETA * h)));
@@ -162,9 +173,13 @@ impl IslandStep<'_, '_> {
     /// Solves the linear equations without contacts between cables in place.
     fn solve_apart(&mut self) {
         let StepBuffers { bodies, cables: own, matrix, rows, .. } = &mut *self.buffers;
-        for (cable, own) in self.cables.iter_mut().zip(own.iter()) {
+        for (cable, own) in self.cables.iter_mut().zip(own.iter_mut()) {
             let CableStep { mut equations, buffers, .. } = cable.step_parts();
-            equations.solve(&mut buffers.rhs);
+            if own.condensed.take_solution(&mut buffers.rhs) {
+                equations.diagnostics.solves += 1;
+            } else {
+                equations.solve(&mut buffers.rhs);
+            }
             for (h, hold) in own.holds.iter().enumerate() {
                 let impulse = Vector3::from_fn(|x, _| -own.condensed.border(3 * h + x, &buffers.rhs));
                 hold.pass(&impulse, rows);
@@ -227,7 +242,7 @@ impl IslandStep<'_, '_> {
     /// Returns what the present iterate does to the energy.
     fn balance(&mut self) -> Balance {
         let pairs = self.balance_pairs();
-        let StepBuffers { bodies, cables: own, rows, unknowns, .. } = &mut *self.buffers;
+        let StepBuffers { bodies, coupled, cables: own, rows, unknowns, .. } = &mut *self.buffers;
         rows.fill(0.0);
         unknowns.winches.iter().for_each(|winch| winch.pass(winch.force, self.cables[0].step_buffers.h, rows));
         let mut total = Balance::default();
@@ -258,8 +273,9 @@ impl IslandStep<'_, '_> {
                 buffers.rhs[hold.at..hold.at + 3].copy_from_slice(hold.impulse.as_slice());
             }
         }
+        complete_rows(bodies, coupled, rows);
+        add_coupled_energies(bodies, coupled, &mut total);
         for (body, row) in bodies.iter().zip(rows.chunks_exact_mut(6)) {
-            body.complete_row(row);
             body.add_balance(row, &mut total);
             if closed {
                 (0..3).for_each(|x| total.drift[x] += row[x]);
@@ -281,6 +297,24 @@ impl CableBuffers {
             hold.impulse = vector(&rhs[hold.at..]);
             hold.pass(&hold.impulse, rows);
         }
+    }
+
+    /// Gives the momentum that the step leaves beside the reactions to the pins.
+    fn give_momentum(&self, c: usize, system: &System, state: &State, b: &mut Buffers, accounts: &mut PinAccounts) {
+        let Buffers { rhs, external, product, velocity_change, taken, change, .. } = b;
+        if taken.is_empty() {
+            product.fill(0.0);
+        } else {
+            system.mass.multiply(system.level, taken, product);
+        }
+        // the residual of free rows, and reactions of slopes
+        rhs.iter_mut().zip(&*product).for_each(|(f, taken)| *f += taken);
+        for i in 0..external.len() {
+            external[i] = state.v[i] + 0.5 * (velocity_change[i] - taken.get(i).unwrap_or(&0.0));
+        }
+        system.mass.multiply(system.level, external, product);
+        let held = self.holds.iter().filter(|hold| !hold.slope).map(|hold| (hold.at, hold.impulse));
+        accounts.momentum.add_step(c, rhs, held, [&state.q, change, product]);
     }
 }
 
@@ -338,8 +372,11 @@ impl DiscreteGradientSystem for IslandStep<'_, '_> {
 
     fn accept(&mut self, balance: &Balance) {
         self.accept_wheels();
-        for (cable, own) in self.cables.iter_mut().zip(&self.buffers.cables) {
+        for (c, (cable, own)) in self.cables.iter_mut().zip(&self.buffers.cables).enumerate() {
             let CableStep { mut equations, state, buffers } = cable.step_parts();
+            if self.accounts.momentum.holds(c) {
+                own.give_momentum(c, equations.system, state, buffers, self.accounts);
+            }
             for hold in &own.holds {
                 let action = hold.action(&self.buffers.bodies[hold.body], buffers.h);
                 self.accounts.pins[hold.pin].add_mean(buffers.h, hold.slope, action);

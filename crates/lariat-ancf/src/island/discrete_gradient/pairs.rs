@@ -4,7 +4,7 @@ use super::super::hold::vector;
 use super::super::layout::Layout;
 use super::IslandStep;
 use crate::cable::Cable;
-use crate::contact::{ContactBalance, LowRank, PairStep, PairSystem, Row, Strand, Strands};
+use crate::contact::{CablePair, ContactBalance, LowRank, PairStep, PairSystem, Row, Strand, Strands};
 use crate::error::StepFailure;
 use core::mem::{swap, take};
 
@@ -76,7 +76,12 @@ impl PairSystem for OnIsland<'_, '_, '_> {
 }
 
 /// Calls `f` with the cables as they are.
-fn with_strands<T>(cables: &[&mut Cable], layout: &Layout, f: impl FnOnce(&Strands<'_, '_>) -> T) -> T {
+fn with_strands<T>(
+    cables: &[&mut Cable],
+    layout: &Layout,
+    pairs: Option<&[CablePair]>,
+    f: impl FnOnce(&Strands<'_, '_>) -> T,
+) -> T {
     let get = |c: usize| {
         let Cable { model, snapshot, step_buffers, .. } = &*cables[c];
         let state = &snapshot.state;
@@ -97,14 +102,15 @@ fn with_strands<T>(cables: &[&mut Cable], layout: &Layout, f: impl FnOnce(&Stran
         });
         between.fold(f64::INFINITY, f64::min)
     };
-    f(&Strands { count: cables.len(), get: &get, over_bodies: &over_bodies })
+    f(&Strands { count: cables.len(), get: &get, over_bodies: &over_bodies, pairs })
 }
 
 impl IslandStep<'_, '_> {
     /// Calls `f` with the contacts and the cables.
     fn with_pairs<T>(&mut self, f: impl FnOnce(&mut PairStep, &Strands<'_, '_>) -> T) -> T {
         let mut pairs = take(&mut self.buffers.pairs);
-        let out = with_strands(self.cables, self.layout, |strands| f(&mut pairs, strands));
+        let out =
+            with_strands(self.cables, self.layout, self.buffers.may_touch.as_deref(), |strands| f(&mut pairs, strands));
         self.buffers.pairs = pairs;
         out
     }

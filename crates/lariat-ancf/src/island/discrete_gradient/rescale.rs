@@ -12,6 +12,7 @@
 
 use super::IslandStep;
 use super::body::BodyStep;
+use super::coupled::coupled_product;
 use crate::integrate::discrete_gradient::{Balance, share_to_take};
 use crate::island::hold::vector;
 use crate::system::{CableStep, dot};
@@ -80,6 +81,9 @@ pub(in crate::island) fn rescale(island: &mut IslandStep<'_, '_>, balance: &mut 
         energy += own;
         product += with_all;
     }
+    let (bodies, coupled) = (&island.buffers.bodies, &island.buffers.coupled);
+    energy += 0.5 * coupled_product(coupled, |i| bodies[i].taken, |i| bodies[i].taken);
+    product += coupled_product(coupled, |i| bodies[i].final_velocity(), |i| bodies[i].taken);
     let share = share_to_take(energy, product, balance.to_take(), largest_share);
     let factor = share.unwrap_or(0.0);
     for cable in island.cables.iter_mut() {

@@ -1,0 +1,295 @@
+//! Contact in statics: the potential of the normal law, without friction.
+//!
+//! # Equation
+//!
+//! ```text
+//! V = sum w W(d)      d = r + skin - g      F = w W' n      -dF/dx = w (W'' n n^T - W' H)
+//! ```
+//!
+//! at the samples of the elements; g is the distance from the patch that a sample sees, n its gradient and H its Hessian. Friction takes nothing: in the
+//! shape that is found none is needed.
+//!
+//! The law is stiff, and which samples touch is not known. If no shape is found from the present one, it is searched for with a law so soft that the loads per
+//! length have the depth in which the cable is now, then with one up to ten times as stiff, less where that fails, and so on up to the law itself.
+//!
+//! # Validity
+//!
+//! Obstacles that stand still, as they are at the cable's time; bodies that carry obstacles are left out. Samples do not see what is thinner than their
+//! spacing, nor sharp edges between them: the shape is compared with all surfaces in the end, and refused where it is in one
+//! ([`overlap`](super::overlap)). The search is no motion: a cable that begins behind a thin obstacle may end on its other side. Within four radii of a held node, and as much
+//! further as it is deep, there is no contact.
+//!
+//! # References
+//!
+//! Wriggers, Computational Contact Mechanics, 2006, section 6.3 (penalty); Allgower & Georg 1990 (continuation).
+//!
+//! # Alternatives considered
+//!
+//! Motion with damping until it rests: its last digits take as long as all before.
+
+use super::memory::ContactMemory;
+use super::obstacle::Obstacle;
+use super::pair::{SAMPLES, is_thin};
+use super::patch::Patch;
+use super::point::combine;
+use super::step::add_tangent;
+use crate::element::shape;
+use crate::linalg::BlockTridiagonal;
+use crate::model::Model;
+use crate::statics::LoadScale;
+use nalgebra::{Matrix3, UnitQuaternion, Vector3};
+
+/// Largest and smallest growth of the stiffness from one search to the next.
+const MOST_GROWTH: f64 = 10.0;
+const LEAST_GROWTH: f64 = 1.1;
+/// Radii of a cable beside a held node that do not touch.
+const HELD: f64 = 4.0;
+
+/// Whether statics are solved with contact, and where there is none.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct StaticContact {
+    on: bool,
+    time: f64,
+    /// Load per length in N/m, and the depth in m that it has in a softened law; 0 for the law itself.
+    load: f64,
+    depth: f64,
+    /// Obstacle and arc lengths in m of the pieces at held nodes.
+    held: Vec<(usize, [f64; 2])>,
+}
+
+/// Growth of the stiffness from one search to the next.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Growth(f64);
+
+impl Default for Growth {
+    fn default() -> Self {
+        Growth(MOST_GROWTH)
+    }
+}
+
+impl Growth {
+    /// Adapts it to the outcome of a search, and returns whether one that failed is tried again with less.
+    pub fn adapt(&mut self, found: bool) -> bool {
+        let last = self.0;
+        self.0 = if found { (last * last).min(MOST_GROWTH) } else { last.sqrt() };
+        !found && self.0 >= LEAST_GROWTH
+    }
+}
+
+/// A sample in an obstacle.
+struct Sample<'a> {
+    element: usize,
+    place: usize,
+    xi: f64,
+    shape: [f64; 4],
+    weight: f64,
+    obstacle: &'a Obstacle,
+    patch: Patch,
+    /// Whether a feature of the obstacle acts there, in motion.
+    thin: bool,
+    /// Gap at which it touches.
+    reach: f64,
+    depth: f64,
+    normal: Vector3<f64>,
+    /// Axes of the obstacle.
+    axes: UnitQuaternion<f64>,
+    force: f64,
+    slope: f64,
+    energy: f64,
+}
+
+impl StaticContact {
+    /// Begins to solve the statics of a cable at a time (s), with its held nodes at their places in `q`.
+    pub fn begin(&mut self, model: &Model, time: f64, q: &[f64]) {
+        (self.load, self.depth) = (0.0, 0.0);
+        (self.on, self.time) = (model.effects.contact.is_some() && !model.obstacles.0.is_empty(), time);
+        self.held.clear();
+        let Some(contact) = model.effects.contact.filter(|_| self.on) else { return };
+        for &(node, _) in model.supports.iter().filter(|(_, support)| support.holds_position()) {
+            let at: f64 = model.elements[..node].iter().map(|element| element.length).sum();
+            let radius = contact.radius_of(&model.elements[node.min(model.elements.len() - 1)].section);
+            for (i, obstacle) in model.obstacles.0.iter().enumerate() {
+                let y = own(obstacle, time, &Vector3::from_column_slice(&q[6 * node..6 * node + 3])).0;
+                let depth = -obstacle.surface.nearest(&y).distance;
+                if depth + radius > 0.0 {
+                    let reach = HELD * radius + depth.max(0.0);
+                    self.held.push((i, [at - reach, at + reach]));
+                }
+            }
+        }
+    }
+
+    /// Softens the law, so that the loads per length have the depth in which the cable is at `q`, or that of a radius. Returns whether there is anything to
+    /// touch.
+    pub fn soften(&mut self, model: &Model, q: &[f64]) -> bool {
+        let Some(contact) = model.effects.contact.filter(|_| self.on) else { return false };
+        let mut deepest = model.elements.iter().map(|e| contact.radius_of(&e.section)).fold(0.0, f64::max);
+        self.visit(model, q, |sample| deepest = deepest.max(sample.depth));
+        (self.load, self.depth) = (LoadScale::new(model, q).force / model.length(), deepest);
+        true
+    }
+
+    /// Makes a softened law harder, and returns the depth that the loads had; `None` if it was not softened.
+    pub fn harden(&mut self, model: &Model, growth: &Growth) -> Option<f64> {
+        let contact = model.effects.contact.filter(|_| self.on && self.depth > 0.0)?;
+        let before = self.depth;
+        self.depth /= growth.0;
+        let mut laws = model.elements.iter().map(|element| contact.law_of(&element.section));
+        if laws.all(|law| law.softened(self.load, self.depth).stiffness == law.stiffness) {
+            self.depth = 0.0;
+        }
+        Some(before)
+    }
+
+    /// Returns to the law in which the loads have a depth (m).
+    pub fn retreat(&mut self, depth: f64) {
+        self.depth = depth;
+    }
+
+    /// Ends it.
+    pub fn end(&mut self) {
+        self.on = false;
+    }
+
+    /// Adds `scale` times the forces at `q` to `out`, and times their tangents to the matrix.
+    pub fn add(
+        &self,
+        model: &Model,
+        (q, scale): (&[f64], f64),
+        out: &mut [f64],
+        mut matrix: Option<&mut BlockTridiagonal>,
+    ) {
+        self.visit(model, q, |sample| {
+            let (e, n) = (sample.element, &sample.normal);
+            for (k, weight) in sample.shape.iter().enumerate() {
+                for x in 0..3 {
+                    out[6 * e + 3 * k + x] += scale * weight * sample.force * n[x];
+                }
+            }
+            if let Some(matrix) = &mut matrix {
+                add_tangent(matrix, e, &sample.shape, &(sample.tangent() * scale));
+            }
+        });
+    }
+
+    /// Returns the potential in J at `q`.
+    pub fn energy(&self, model: &Model, q: &[f64]) -> f64 {
+        let mut sum = 0.0;
+        self.visit(model, q, |sample| sum += sample.energy);
+        sum
+    }
+
+    /// Remembers the contacts at `q`, from which motion goes on.
+    pub fn remember(&self, model: &Model, q: &[f64], memory: &mut Vec<ContactMemory>) {
+        memory.clear();
+        self.visit(model, q, |sample| {
+            if !sample.thin {
+                memory.push(ContactMemory {
+                    element: sample.element as u32,
+                    place: sample.place as u32,
+                    obstacle: sample.obstacle.key,
+                    xi: sample.xi,
+                    weight: sample.weight,
+                    patch: sample.patch,
+                    normal: sample.axes.inverse() * sample.normal,
+                    depth: sample.depth,
+                    spring: Vector3::zeros(),
+                    force: sample.force,
+                    energy: sample.energy,
+                    direction: sample.normal,
+                    friction: Vector3::zeros(),
+                    slips: false,
+                });
+            }
+        });
+        memory.sort_unstable_by_key(ContactMemory::key);
+    }
+
+    /// Calls `f` with every sample that is in an obstacle.
+    fn visit(&self, model: &Model, q: &[f64], mut f: impl FnMut(&Sample<'_>)) {
+        let Some(contact) = model.effects.contact.filter(|_| self.on) else { return };
+        let mut begin = 0.0;
+        for (element, section) in model.elements.iter().enumerate() {
+            let from = begin;
+            begin += section.length;
+            let (radius, law) = (contact.radius_of(&section.section), contact.law_of(&section.section));
+            let law = if self.depth > 0.0 { law.softened(self.load, self.depth) } else { law };
+            let third = section.length / 3.0;
+            let d: [Vector3<f64>; 4] =
+                core::array::from_fn(|k| Vector3::from_column_slice(&q[6 * element + 3 * k..6 * element + 3 * k + 3]));
+            let corners = [d[0], d[0] + d[1] * third, d[2] - d[3] * third, d[2]];
+            let centre = (corners[0] + corners[1] + corners[2] + corners[3]) * 0.25;
+            let size = corners.iter().fold(0.0, |most: f64, x| most.max((x - centre).norm()));
+            for (i, obstacle) in model.obstacles.0.iter().enumerate().filter(|(_, obstacle)| obstacle.mount.is_none()) {
+                let reach = radius + obstacle.skin;
+                if obstacle.surface.nearest(&own(obstacle, self.time, &centre).0).distance > size + reach {
+                    continue;
+                }
+                for (place, (xi, share)) in SAMPLES.into_iter().enumerate() {
+                    let at = from + xi * section.length;
+                    let held = self.held.iter().any(|(k, [low, high])| *k == i && (*low..=*high).contains(&at));
+                    if held || obstacle.excepts(at) {
+                        continue;
+                    }
+                    let shape = shape::position(xi, section.length);
+                    let (y, axes) = own(obstacle, self.time, &combine(q, element, &shape));
+                    let nearest = obstacle.surface.nearest(&y);
+                    let (gap, normal) = nearest.patch.gap(&y);
+                    let depth = reach - gap;
+                    if depth <= 0.0 {
+                        continue;
+                    }
+                    let (pressure, weight) = (law.at(depth), share * section.length);
+                    f(&Sample {
+                        element,
+                        place,
+                        xi,
+                        shape,
+                        weight,
+                        obstacle,
+                        patch: nearest.patch,
+                        thin: is_thin(&nearest, radius, section.length),
+                        reach,
+                        depth,
+                        normal: axes * normal,
+                        axes,
+                        force: weight * pressure.force,
+                        slope: weight * pressure.slope,
+                        energy: weight * pressure.energy,
+                    });
+                }
+            }
+        }
+    }
+}
+
+impl Sample<'_> {
+    /// Returns -dF/dx.
+    fn tangent(&self) -> Matrix3<f64> {
+        let n = self.normal;
+        let normal = n * n.transpose();
+        let reach = |radius: f64| (self.gap() + radius).max(f64::MIN_POSITIVE);
+        let hessian = match self.patch {
+            Patch::Plane { .. } => Matrix3::zeros(),
+            Patch::Line { direction, radius, .. } => {
+                let axis = self.axes * direction;
+                (Matrix3::identity() - axis * axis.transpose() - normal) / reach(radius)
+            }
+            Patch::Point { radius, .. } => (Matrix3::identity() - normal) / reach(radius),
+        };
+        normal * self.slope - hessian * self.force
+    }
+
+    fn gap(&self) -> f64 {
+        self.reach - self.depth
+    }
+}
+
+/// Returns a point in the axes of an obstacle at a time (s), and these.
+fn own(obstacle: &Obstacle, time: f64, x: &Vector3<f64>) -> (Vector3<f64>, UnitQuaternion<f64>) {
+    let motion = &obstacle.motion;
+    let elapsed = time - motion.start;
+    let origin = motion.position + motion.velocity * elapsed;
+    let axes = UnitQuaternion::new(motion.angular_velocity * elapsed) * motion.rotation;
+    (axes.inverse() * (x - origin) + motion.centre, axes)
+}

@@ -1,0 +1,161 @@
+//! Members that joints hold: all those of one mechanism are given to Rapier and read back together.
+//!
+//! # Equation
+//! ```text
+//! before   v += a h/2 + R p          p = L (v0 - v - a0 h/2)
+//! after    v += a h/2 + R p          p = L (v1 - v0 - a0 h/2)
+//! ```
+//! v0 is the uniform velocity of the step and v1 the predicted one at its end; L, R, a and a0 are
+//! those of the [mechanism](crate::mechanism). What Rapier made of the uniform velocity stays.
+
+use crate::contents::Contents;
+use crate::convert::{rotation, to_vector, vector};
+use crate::islands::{Island, Member};
+use crate::mechanism::{self, Group, Mechanism, velocity_of};
+use crate::record::BodyRecord;
+use crate::spatial::stack_spatial;
+use crate::step::prediction::{AppliedMotion, Prediction};
+use crate::step::reconcile::{REACTION_GAIN, motor_impulse, persisting_share};
+use ::nalgebra::{DVector, Vector6};
+use rapier::dynamics::RigidBodyHandle;
+use rapier::pipeline::PhysicsWorld;
+
+/// A member of a group in a step that Rapier has made.
+struct Part<'a> {
+    m: usize,
+    handle: RigidBodyHandle,
+    applied: &'a AppliedMotion,
+    mechanism: &'a Mechanism,
+}
+
+/// Returns the members of a group; `None` if the prediction was not applied to all of them.
+fn parts<'a>(island: &Island, prediction: &'a Prediction, group: &Group) -> Option<Vec<Part<'a>>> {
+    let part = |&m: &usize| {
+        let Member::Body(handle) = island.members[m] else { return None };
+        let applied = prediction.applied[m].as_ref()?;
+        Some(Part { m, handle, applied, mechanism: prediction.mechanisms[m].as_ref()? })
+    };
+    group.members.iter().map(part).collect()
+}
+
+/// Returns the uniform velocities that the members are given.
+fn given(group: &Group, parts: &[Part]) -> DVector<f64> {
+    group.stack_of(parts.iter().map(|part| stack_spatial(&vector(part.applied.linvel), &vector(part.applied.angvel))))
+}
+
+/// Changes the velocities of a mechanism so that those of the members change by `changes` in `time` (s) of the loads on
+/// the others.
+fn change(world: &mut PhysicsWorld, group: &Group, parts: &[Part], changes: DVector<f64>, time: f64) {
+    let impulses = group.impulses(&(changes - &group.acceleration * time));
+    parts[0].mechanism.apply_loads(world, time);
+    for (part, impulse) in parts.iter().zip(impulses.as_slice().chunks_exact(6)) {
+        part.mechanism.apply_impulse(world, &Vector6::from_column_slice(impulse));
+    }
+}
+
+/// Gives Rapier the uniform motion of a group over a step of `h` (s).
+pub(crate) fn apply(world: &mut PhysicsWorld, island: &Island, prediction: &Prediction, group: &Group, h: f64) {
+    let Some(parts) = parts(island, prediction, group) else { return };
+    let before = group.stack_of(parts.iter().map(|part| velocity_of(&prediction.start[part.m])));
+    parts[0].mechanism.loads.balance(world);
+    change(world, group, &parts, given(group, &parts) - before, 0.5 * h);
+}
+
+/// Restores the forces and settings of a group's bodies, and completes their velocities; updates their reaction estimates.
+pub(crate) fn read_back(
+    contents: &mut Contents,
+    world: &mut PhysicsWorld,
+    island: &Island,
+    prediction: &Prediction,
+    group: &Group,
+    h: f64,
+) {
+    let Some(parts) = parts(island, prediction, group) else { return };
+    parts[0].mechanism.loads.restore(world);
+    let mut intact = true;
+    for part in &parts {
+        let moves = |body: &&mut rapier::dynamics::RigidBody| !body.is_sleeping();
+        let Some(body) = world.bodies.get_mut(part.handle).filter(moves) else {
+            intact = false;
+            continue;
+        };
+        part.applied.saved.restore_settings(body);
+        let record = contents.records.record_mut(part.handle);
+        (record.stepped, record.exact) = (true, None);
+        if body.local_center_of_mass() != part.applied.centre {
+            // its mass changed during the step: its motion tells nothing about forces
+            *record = BodyRecord { stepped: true, ..BodyRecord::new(part.handle) };
+            intact = false;
+        }
+    }
+    if !intact {
+        return;
+    }
+    mechanism::refresh(world, parts[0].handle);
+    let velocity = |part: &Part| {
+        let body = &world.bodies[part.handle];
+        stack_spatial(&vector(body.linvel()), &vector(body.angvel()))
+    };
+    let given = given(group, &parts);
+    let deviation = group.stack_of(parts.iter().map(velocity)) - &given;
+    let end = group.stack_of(parts.iter().map(|part| velocity_of(&prediction.end[part.m])));
+    update_reactions(contents, world, (island, prediction, group, &parts), (&deviation, &end), h);
+    change(world, group, &parts, end - given, 0.5 * h);
+    // Rapier does not damp links of a multibody
+    if !parts[0].mechanism.is_multibody() {
+        parts[0].mechanism.loads.damp(world, h);
+        for part in &parts {
+            let (linear, angular) = part.applied.saved.damping_factors(h);
+            let body = &mut world.bodies[part.handle];
+            body.set_linvel(to_vector(&(vector(body.linvel()) * linear)), false);
+            body.set_angvel(to_vector(&(vector(body.angvel()) * angular)), false);
+        }
+    }
+}
+
+/// Updates the reaction estimates of a group from the deviations of velocity and position.
+fn update_reactions(
+    contents: &mut Contents,
+    world: &PhysicsWorld,
+    (island, prediction, group, parts): (&Island, &Prediction, &Group, &[Part]),
+    (deviation, end): (&DVector<f64>, &DVector<f64>),
+    h: f64,
+) {
+    // in a mechanism that touches nothing, the position tells only how Rapier corrects its joints
+    let isolated = parts[0].mechanism.loads.isolated;
+    let mut change = deviation.clone();
+    if !isolated {
+        change += group.stack_of(parts.iter().map(|part| {
+            let (body, end) = (&world.bodies[part.handle], &prediction.end[part.m]);
+            let turned = (rotation(*body.rotation()) * end.rotation.inverse()).scaled_axis();
+            stack_spatial(&((vector(body.center_of_mass()) - end.position) / h), &(turned / h))
+        }));
+    }
+    let known = group.stack_of(parts.iter().map(|part| {
+        let motors = if part.applied.linked { Vector6::zeros() } else { motor_impulse(island, prediction, part.m) };
+        contents.records.get(part.handle).map_or_else(Vector6::zeros, |record| record.reaction) * h - motors
+    }));
+    let whole = &known + group.impulses(deviation);
+    let start = group.stack_of(parts.iter().map(|part| velocity_of(&prediction.start[part.m])));
+    let share = persisting_share(whole.dot(&(end + deviation - start)), group.square(&whole));
+    let impulses = (known + group.implied_impulses(&change, isolated)) * (share / h);
+    for (part, impulse) in parts.iter().zip(impulses.as_slice().chunks_exact(6)) {
+        let record = contents.records.record_mut(part.handle);
+        record.reaction += REACTION_GAIN * (Vector6::from_column_slice(impulse) - record.reaction);
+    }
+}
+
+/// Returns the part of a member's reaction estimate that moves it, if it is one of a group: force and torque.
+pub(crate) fn unconstrained_reaction(
+    contents: &Contents,
+    island: &Island,
+    groups: &[Group],
+    m: usize,
+) -> Option<Vector6<f64>> {
+    let (group, place) = groups.iter().find_map(|group| Some((group, group.place(m)?)))?;
+    let reactions = group.stack_of(group.members.iter().map(|&m| match island.members[m] {
+        Member::Body(handle) => contents.records.get(handle).map_or_else(Vector6::zeros, |record| record.reaction),
+        _ => Vector6::zeros(),
+    }));
+    Some(group.unconstrained_part(&reactions).fixed_rows::<6>(6 * place).into_owned())
+}
