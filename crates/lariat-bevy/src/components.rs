@@ -1,13 +1,13 @@
 //! The components that together say what a cable does, in one list.
 //!
 //! The list is that of [`for_each_effect`](lariat_ancf::for_each_effect), and before it [`Rule`],
-//! [`Bending`], [`PointLoads`], [`Reel`], [`BreakTension`] and [`BreakStrain`]. Building, updating, breaking, snapshots, change detection and
+//! [`Bending`], [`PointLoads`], [`Reel`], [`ReelAtStart`], [`BreakTension`] and [`BreakStrain`]. Building, updating, breaking, snapshots, change detection and
 //! reflection all use [`CableComponents`], so a new effect needs no further line in this crate.
 
 use crate::breaking::{BreakStrain, BreakTension};
 use crate::description::Description;
 use crate::effects::*;
-use crate::reel::Reel;
+use crate::reel::{Reel, ReelAtStart};
 use bevy_ecs::component::Component;
 use bevy_ecs::query::{Changed, Or};
 use bevy_ecs::world::{EntityRef, EntityWorldMut};
@@ -22,6 +22,7 @@ macro_rules! components {
             bending: Option<Bending>,
             point_loads: Option<PointLoads>,
             reel: Option<Reel>,
+            reel_at_start: Option<ReelAtStart>,
             break_tension: Option<BreakTension>,
             break_strain: Option<BreakStrain>,
             $($field: Option<$type>,)*
@@ -39,6 +40,7 @@ macro_rules! components {
                     bending: entity.get().copied(),
                     point_loads: entity.get().cloned(),
                     reel: entity.get().cloned(),
+                    reel_at_start: entity.get().cloned(),
                     break_tension: entity.get().copied(),
                     break_strain: entity.get().copied(),
                     $($field: entity.get().cloned(),)*
@@ -51,6 +53,7 @@ macro_rules! components {
                 put(entity, self.bending);
                 put(entity, self.point_loads);
                 put(entity, self.reel);
+                put(entity, self.reel_at_start);
                 put(entity, self.break_tension);
                 put(entity, self.break_strain);
                 $(put(entity, self.$field);)*
@@ -59,11 +62,13 @@ macro_rules! components {
             /// Returns the components of a part of a cable that broke.
             pub fn of_part(&self, part: &lariat_ancf::Cable) -> Self {
                 let effects = part.effects();
+                let has_reel = |at: At| part.reel_description(at).is_some();
                 CableComponents {
                     rule: self.rule,
                     bending: self.bending,
                     point_loads: self.point_loads.as_ref().map(|_| PointLoads(part.loads().to_vec())),
-                    reel: self.reel.clone().filter(|_| part.reel_description(At::End).is_some()),
+                    reel: self.reel.clone().filter(|_| has_reel(At::End)),
+                    reel_at_start: self.reel_at_start.clone().filter(|_| has_reel(At::Start)),
                     break_tension: self.break_tension,
                     break_strain: self.break_strain,
                     $($field: self.$field.as_ref().zip(effects.$field.as_ref()).map(|(c, effect)| c.of_part(effect)),)*

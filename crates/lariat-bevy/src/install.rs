@@ -9,7 +9,7 @@ use crate::pending::Pending;
 use crate::physics::Physics;
 use crate::prepare::{self, attachments, bodies, effects, junctions, removals};
 use crate::publish;
-use crate::reel;
+use crate::reel::{self, Reel, ReelAtStart};
 use crate::schedule::{AfterEngine, BeforeEngine, CableStep, CableSystems, RapierStep};
 use crate::step;
 use bevy_ecs::schedule::{IntoScheduleConfigs, Schedule, Schedules};
@@ -86,7 +86,8 @@ fn add_prepare(schedule: &mut Schedule) {
             effects::update,
             junctions::update,
             attachments::update,
-            reel::set_reels,
+            reel::set_reels::<Reel>,
+            reel::set_reels::<ReelAtStart>,
             breaking::set_strengths,
             prepare::copy_coordinates,
             prepare::end,

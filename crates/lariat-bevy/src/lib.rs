@@ -40,7 +40,7 @@
 //! | attach it | [`Attachment`], [`OnCable`], [`ToBody`], [`AttachmentReading`] |
 //! | spawn the usual rope in one line | [`SpawnRope::spawn_rope`], [`Rope`] |
 //! | tie cables to each other | [`Junction`] |
-//! | pay it out, take it in | [`Reel`] |
+//! | pay it out, take it in | [`Reel`], [`ReelAtStart`] |
 //! | bound the work of a host step | [`Budget`] in [`Settings`], [`CableDegraded`](event::CableDegraded) |
 //! | let it break, cut it | [`BreakForce`], [`BreakTension`], [`BreakStrain`], [`Cables::cut`] |
 //! | make bodies | [`Body`], [`KinematicTarget`], [`BodyPose`], [`Bodies`] |
@@ -119,7 +119,7 @@ pub use lariat_rapier::{self, AttachmentKind, Budget, Gap, Rope, RopeEnd, Settin
 pub use physics::Physics;
 #[cfg(feature = "bevy_app")]
 pub use plugin::{LariatPlugin, install_in};
-pub use reel::Reel;
+pub use reel::{Reel, ReelAtStart};
 pub use rope::SpawnRope;
 pub use schedule::{AfterEngine, BeforeEngine, CableStep, CableSystems, RapierStep};
 pub use snapshot::Snapshot;

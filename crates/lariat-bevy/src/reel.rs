@@ -38,27 +38,63 @@ impl Reel {
     }
 }
 
-/// Query filter: the reel of a cable was added or changed, or the cable was.
-type ReelChanged = Or<(Changed<Reel>, Changed<Cable>)>;
+/// A reel at the start of a cable, as [`Reel`] is one at the end.
+#[derive(Component, Clone, Debug, Default, PartialEq)]
+pub struct ReelAtStart(pub lariat_ancf::Reel);
 
-/// Gives cables their reels, changes and removes them.
-pub(crate) fn set_reels(
+impl ReelAtStart {
+    /// A reel with a constant rate in m/s: positive pays out.
+    pub fn with_rate(rate: f64) -> Self {
+        ReelAtStart(lariat_ancf::Reel::with_rate(rate))
+    }
+}
+
+/// The component of the reel at an end.
+pub(crate) trait EndReel: Component {
+    /// The end.
+    const AT: At;
+
+    /// Returns its description.
+    fn description(&self) -> &lariat_ancf::Reel;
+}
+
+impl EndReel for Reel {
+    const AT: At = At::End;
+
+    fn description(&self) -> &lariat_ancf::Reel {
+        &self.0
+    }
+}
+
+impl EndReel for ReelAtStart {
+    const AT: At = At::Start;
+
+    fn description(&self) -> &lariat_ancf::Reel {
+        &self.0
+    }
+}
+
+/// Query filter: the reel of a cable was added or changed, or the cable was.
+type ReelChanged<R> = Or<(Changed<R>, Changed<Cable>)>;
+
+/// Gives cables their reels at an end, changes and removes them.
+pub(crate) fn set_reels<R: EndReel>(
     mut cables: ResMut<Cables>,
-    reels: Query<&Reel, (With<Cable>, Allow<Disabled>)>,
-    changed: Query<Entity, (ReelChanged, Allow<Disabled>)>,
-    mut removed: RemovedComponents<Reel>,
+    reels: Query<&R, (With<Cable>, Allow<Disabled>)>,
+    changed: Query<Entity, (ReelChanged<R>, Allow<Disabled>)>,
+    mut removed: RemovedComponents<R>,
 ) {
     for entity in changed.iter().chain(removed.read()) {
-        let Ok(now) = cables.get(entity).map(|cable| cable.reel_description(At::End).cloned()) else { continue };
-        let wanted = reels.get(entity).ok().map(|reel| reel.0.clone());
+        let Ok(now) = cables.get(entity).map(|cable| cable.reel_description(R::AT).cloned()) else { continue };
+        let wanted = reels.get(entity).ok().map(|reel| reel.description().clone());
         if now == wanted {
             continue;
         }
         let Ok(cable) = cables.get_mut(entity) else { continue };
         let outcome = match (now, wanted) {
-            (_, None) => cable.remove_reel(At::End),
-            (None, Some(reel)) => cable.add_reel(At::End, reel),
-            (Some(_), Some(reel)) => cable.set_reel(At::End, reel),
+            (_, None) => cable.remove_reel(R::AT),
+            (None, Some(reel)) => cable.add_reel(R::AT, reel),
+            (Some(_), Some(reel)) => cable.set_reel(R::AT, reel),
         };
         if let Err(error) = outcome {
             cables.events.push(CableFailed { entity, error }.into());

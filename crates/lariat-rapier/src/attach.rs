@@ -3,6 +3,7 @@
 use crate::attachment::{Attachment, AttachmentKind, AttachmentOptions, AttachmentReading};
 use crate::contents::Contents;
 use crate::convert::{rotation, vector};
+use crate::drum;
 use crate::error::Error;
 use crate::events::Event;
 use crate::handle::{AttachmentHandle, CableHandle};
@@ -126,7 +127,7 @@ pub(crate) fn end_lost(
         }
     }
     contents.records.retain_existing(world);
-    Ok(())
+    drum::end_lost(contents, &world.bodies)
 }
 
 /// Checks that no attachment and no junction has the node at a point of a cable.

@@ -3,6 +3,7 @@
 use crate::attachment::Attachment;
 use crate::contact::ContactRules;
 use crate::convert;
+use crate::drum::Wound;
 use crate::error::Error;
 use crate::handle::{AttachmentHandle, CableHandle, JunctionHandle};
 use crate::junction::Junction;
@@ -58,6 +59,8 @@ pub(crate) struct Contents {
     pub junctions: Table<Junction>,
     #[serde(default)]
     pub sheaves: Table<Sheave>,
+    #[serde(default)]
+    pub drums: Vec<Wound>,
     pub records: Records,
     /// The mark of the world that the attachments belong to.
     #[serde(default)]

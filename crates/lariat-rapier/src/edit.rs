@@ -2,6 +2,7 @@
 
 use crate::attach::detach;
 use crate::contents::Contents;
+use crate::drum;
 use crate::error::Error;
 use crate::events::Event;
 use crate::handle::{AttachmentHandle, CableHandle, JunctionHandle};
@@ -19,6 +20,7 @@ pub(crate) fn remove(contents: &mut Contents, world: &mut PhysicsWorld, cable: C
         }
     }
     sheave::remove_at(contents, cable, None)?;
+    drum::remove_of(contents, cable)?;
     for i in 0..contents.junctions.len() {
         if contents.junctions.get(i).is_some_and(|j| j.nodes.iter().any(|(c, _)| *c == cable)) {
             leave(contents, JunctionHandle(i as u32), cable)?;
@@ -45,6 +47,7 @@ pub(crate) fn part(
         (slot.follows_gravity, slot.rules) = (follows_gravity, rules);
     }
     sheave::follow_cut(contents, cable, tail);
+    drum::follow_cut(contents, cable, tail);
     let held = contents.attachments.values_mut().map(|a| (&mut a.cable, &mut a.arc_length));
     let tied = contents.junctions.values_mut().flat_map(|j| j.nodes.iter_mut().zip(&mut j.arc_lengths));
     for (of, s) in held.chain(tied.map(|((of, _), s)| (of, s))) {

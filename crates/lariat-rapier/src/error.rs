@@ -34,6 +34,15 @@ pub enum Error {
     /// The handle of a junction that is not, or no longer, in the set.
     #[error("no junction {0:?} in this set")]
     NoJunction(JunctionHandle),
+    /// A drum that is not a dynamic body: the rate of a reel is set by [`lariat_ancf::Cable::set_reel_rate`].
+    #[error("body {0:?} is not dynamic and cannot be a drum: give the reel the rate of its spin instead")]
+    DrumBody(RigidBodyHandle),
+    /// A drum that is a link of a multibody, or joined to a dynamic body: their common inertia is not known to it.
+    #[error(
+        "drum {0:?} is joined to a dynamic body or a link of a multibody, which is not coupled to its cable: join it by an impulse joint to a fixed or \
+        kinematic body, or lock its other axes"
+    )]
+    DrumJoined(RigidBodyHandle),
     /// The handle of a sheave that is not, or no longer, in the set.
     #[error("no sheave {0:?} in this set")]
     NoSheave(SheaveHandle),

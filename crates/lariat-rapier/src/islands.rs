@@ -17,7 +17,7 @@ use crate::step::proximity;
 use crate::table::Table;
 use ::nalgebra::Vector3;
 use lariat_ancf::contact::CablePair;
-use lariat_ancf::island::PinConstraint;
+use lariat_ancf::island::{Drum, PinConstraint};
 use lariat_ancf::{At, SlopeSupport};
 use rapier::dynamics::{RigidBodyHandle, RigidBodyType};
 use rapier::math::AngVector;
@@ -80,6 +80,7 @@ pub(crate) struct Island {
     pub supports: Vec<usize>,
     /// Indices of its sheaves.
     pub sheaves: Vec<usize>,
+    pub drums: Vec<Drum>,
     /// Those of its cables that may touch each other, with indices into the first list.
     pub pairs: Vec<CablePair>,
 }
@@ -288,8 +289,10 @@ fn connected(
         let cable = cables[next];
         next += 1;
         let pinned = || nodes.iter().filter(|n| n.role == Role::Integrated).map(|n| (n.cable, n.body));
+        let on_drums = || contents.drums.iter().map(|wound| (wound.cable.0 as usize, wound.drum.body));
         let first = |body: RigidBodyHandle| jointed.iter().find(|[b, _]| *b == body).map_or(body, |[_, first]| *first);
-        let integrated = || pinned().chain(touching.iter().copied()).map(|(c, body)| (c, first(body)));
+        let integrated =
+            || pinned().chain(on_drums()).chain(touching.iter().copied()).map(|(c, body)| (c, first(body)));
         let bodies = integrated().filter(|(c, _)| *c == cable).map(|(_, body)| body);
         let over_bodies = bodies.flat_map(|b| integrated().filter(move |(_, body)| *body == b).map(|(c, _)| c));
         let handle = CableHandle(cable as u32);
@@ -352,6 +355,17 @@ fn connect(contents: &Contents, cables: Vec<usize>, Links { nodes, touching, pai
                 island.members.push(member);
             }
         }
+    }
+    for wound in &contents.drums {
+        if !island.cables.contains(&(wound.cable.0 as usize)) {
+            continue;
+        }
+        let member = Member::Body(wound.drum.body);
+        let body = island.members.iter().position(|m| *m == member).unwrap_or_else(|| {
+            island.members.push(member);
+            island.members.len() - 1
+        });
+        island.drums.extend(wound.within(&island.cables, body));
     }
     island
 }

@@ -115,6 +115,7 @@ mod contents;
 pub mod convert;
 #[cfg(feature = "debug-render")]
 mod draw;
+mod drum;
 mod edit;
 mod error;
 mod events;
@@ -145,6 +146,7 @@ pub use budget::Budget;
 pub use contact::{ContactFilter, ContactRules};
 #[cfg(feature = "debug-render")]
 pub use draw::DrawStyle;
+pub use drum::Drum;
 pub use error::{BodyQuantity, Error, Failure};
 pub use events::Event;
 pub use handle::{AttachmentHandle, CableHandle, JunctionHandle, SheaveHandle};

@@ -221,8 +221,8 @@ impl Cable {
     /// Rejects a cable that cannot be stepped by itself.
     pub(crate) fn check_complete(&self) -> Result<(), Error> {
         self.check_forces()?;
-        if self.model.reels.sides().any(|side| self.is_over_sheave(side)) {
-            let reason = "its end is at a sheave: only an island with that sheave steps it";
+        if self.model.reels.sides().any(|side| self.needs_island(side)) {
+            let reason = "its end is at a sheave or on a drum: only an island with that sheave or drum steps it";
             return Err(Error::ReelPlace { cable: self.name().to_string(), reason });
         }
         match self.model.supports.iter().find(|(_, s)| s.attached) {

@@ -41,6 +41,7 @@ mod clamp;
 mod condense;
 mod coupling;
 mod discrete_gradient;
+mod drum;
 mod dynamics;
 mod energy_balance;
 mod equations;
@@ -61,6 +62,7 @@ mod velocities;
 
 pub use body::{BodyMemory, RigidBody};
 pub use coupling::CoupledInertia;
+pub use drum::Drum;
 pub use impedance::Impedance;
 pub use layout::CLOSING_SPEED;
 pub use pin::PinConstraint;

@@ -54,7 +54,11 @@ pub(super) fn check(cables: &[&mut Cable], sheaves: &[Sheave]) -> Result<(), Err
         }
     }
     for (c, cable) in cables.iter().enumerate() {
-        let mut over_sheaves = cable.model.reels.sides().filter(|&side| cable.is_over_sheave(side));
+        let mut over_sheaves = cable
+            .model
+            .reels
+            .sides()
+            .filter(|&side| cable.model.reels.get(side).is_some_and(|reel| reel.feed == Feed::Sheave));
         if over_sheaves.any(|side| !sheaves.iter().any(|sheave| sheave.ends().contains(&(c, side)))) {
             return refused(cable, "its end is at a sheave, which this island does not have");
         }

@@ -79,8 +79,8 @@ pub fn equilibrium(
 ) -> Result<EquilibriumReport, Error> {
     require("equilibrium tolerance", options.tolerance, options.tolerance > 0.0, "> 0")?;
     check(cables, bodies, pins)?;
-    if let Some(cable) = cables.iter().find(|cable| Side::BOTH.iter().any(|&side| cable.is_over_sheave(side))) {
-        let reason = "its end is at a sheave, whose equilibrium is not computed";
+    if let Some(cable) = cables.iter().find(|cable| Side::BOTH.iter().any(|&side| cable.needs_island(side))) {
+        let reason = "its end is at a sheave or on a drum, whose equilibrium is not computed";
         return Err(Error::ReelPlace { cable: cable.name().to_string(), reason });
     }
     let windings: Vec<_> = cables.iter().map(|cable| cable.snapshot.windings).collect();

@@ -10,6 +10,7 @@ use super::memory;
 use super::pin::{PinConstraint, check, is_on_free_body};
 use super::pin_accounts::{PinAccount, PinAccounts};
 use super::sheave;
+use super::{Drum, drum};
 use crate::cable::{Cable, SHORTEST_STEP, check_integrator};
 use crate::contact::CablePair;
 use crate::error::{Error, require};
@@ -60,19 +61,19 @@ impl Island {
         integrator: IntegratorRef<'_>,
         dt: f64,
     ) -> Result<(), Error> {
-        self.step_with_sheaves(cables, bodies, pins, &mut [], integrator, dt)
+        self.step_with_sheaves(cables, bodies, pins, (&mut [], &[]), integrator, dt)
     }
 
-    /// Advances as [`step_with`](Self::step_with) does, with cables that run over sheaves.
+    /// Advances as [`step_with`](Self::step_with) does, with cables that run over sheaves and on drums.
     ///
     /// # Errors
-    /// As [`step`](Self::step), and [`Error::ReelPlace`] for a sheave that does not fit the cables; sheaves are then as before, too.
+    /// As [`step`](Self::step), and [`Error::ReelPlace`] for a sheave or drum that does not fit the cables; sheaves are then as before, too.
     pub fn step_with_sheaves(
         &mut self,
         cables: &mut [&mut Cable],
         bodies: &mut [RigidBody],
         pins: &[PinConstraint],
-        sheaves: &mut [Sheave],
+        (sheaves, drums): (&mut [Sheave], &[Drum]),
         integrator: IntegratorRef<'_>,
         dt: f64,
     ) -> Result<(), Error> {
@@ -82,6 +83,7 @@ impl Island {
         cables.iter().try_for_each(|cable| check_integrator(&cable.model, integrator.method))?;
         cables.iter().try_for_each(|cable| cable.model.obstacles.check_bodies(cable.name(), bodies.len()))?;
         sheave::check(cables, sheaves)?;
+        drum::check(cables, bodies, pins, drums)?;
         coupling::check(&self.layout.coupled, bodies.len())?;
         if dt == 0.0 {
             return Ok(());
@@ -93,9 +95,11 @@ impl Island {
             cable.set_riding_stock(|node| is_on_free_body(bodies, pins, i, node));
         }
         cables.iter_mut().for_each(|cable| cable.begin_reel(dt));
-        let wheels = &mut self.by_discrete_gradient.unknowns.wheels;
-        wheels.clear();
-        wheels.extend(sheaves.iter().copied().map(Wheel::new));
+        let unknowns = &mut self.by_discrete_gradient.unknowns;
+        unknowns.wheels.clear();
+        unknowns.wheels.extend(sheaves.iter().copied().map(Wheel::new));
+        unknowns.winches.clear();
+        unknowns.winches.extend(drums.iter().map(|drum| drum.winch(cables, pins)));
         cables.iter_mut().for_each(|cable| cable.take_workspace());
         let outcome = self.step_in_workspaces(cables, bodies, pins, integrator, dt);
         cables.iter_mut().rev().for_each(|cable| cable.return_workspace());

@@ -268,11 +268,11 @@ fn linearise_laws(equations: &mut Equations<'_>, state: &State, b: &mut Buffers)
 
 /// Solves for the rates of reels that are unknown, and completes the increment in `rhs`.
 fn add_to_laws(equations: &mut Equations<'_>, b: &mut Buffers) {
-    let Buffers { unknowns, rhs, .. } = b;
+    let Buffers { unknowns, rhs, h, .. } = b;
     if unknowns.reels.is_empty() {
         return;
     }
-    unknowns.solve(|_| &equations.system.flows, |_| rhs);
+    unknowns.solve(|_| &equations.system.flows, |_| rhs, (&[], *h));
     for ((&(_, k), columns), &increment) in unknowns.reels.iter().zip(&unknowns.columns).zip(&unknowns.increments) {
         equations.add_to_law(k, increment);
         rhs.iter_mut().zip(&columns[0]).for_each(|(x, y)| *x -= increment * y);

@@ -38,7 +38,7 @@ pub(crate) use discrete_gradient::{CableStep, dot};
 pub(crate) use dynamics::CableDynamics;
 pub(crate) use equations::Equations;
 pub use flow::Sheave;
-pub(crate) use flow::{Flow, Law, Motor, Source, Unknowns, Wheel, rates};
+pub(crate) use flow::{Flow, Law, Motor, STOP, Source, Unknowns, Wheel, Winch, rates};
 pub(crate) use projection::{project_matrix, project_vector};
 
 use crate::cable::builder::STANDARD_GRAVITY;

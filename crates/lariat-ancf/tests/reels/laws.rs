@@ -104,7 +104,9 @@ fn a_free_spool_follows_its_equation() {
         (0..(time / dt).round() as usize).for_each(|_| hoist.step());
         let out = |u: f64| mass + density * u;
         let (u, v) = reference(1.0, time, |u, v| match feed {
-            Feed::Drum | Feed::Sheave => (out(u) * G - brake) / (out(u) + inertia + density * (stock - u)),
+            Feed::Drum | Feed::Sheave | Feed::BodyDrum => {
+                (out(u) * G - brake) / (out(u) + inertia + density * (stock - u))
+            }
             Feed::Coil => (out(u) * G - brake - density * v * v) / out(u),
             Feed::Bag => (out(u) * G - brake - 0.5 * density * v * v) / out(u),
         });

@@ -2,6 +2,7 @@
 
 mod both_ends;
 mod common;
+mod drums;
 mod energy;
 mod laws;
 mod motion;

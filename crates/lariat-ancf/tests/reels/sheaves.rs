@@ -71,7 +71,7 @@ impl Tackle {
         }
         let mut cables: Vec<&mut Cable> = self.cables.iter_mut().collect();
         let Tackle { bodies, pins, sheaves, dt, .. } = self;
-        Island::default().step_with_sheaves(&mut cables, bodies, pins, sheaves, (&GAME).into(), *dt)
+        Island::default().step_with_sheaves(&mut cables, bodies, pins, (sheaves, &[]), (&GAME).into(), *dt)
     }
 
     fn run(&mut self, time: f64) {

@@ -7,7 +7,7 @@ use lariat_bevy::event::{AttachmentEnded, CableBroken, CableFailed, StepFailed};
 use lariat_bevy::lariat_ancf::{BreakCause, Error, PointLoad, Vector3};
 use lariat_bevy::{
     At, Attachment, AttachmentReading, Bending, BreakStrain, BreakTension, CableAttachments, Cables, Damping,
-    PointLoads, Reel,
+    PointLoads, Reel, ReelAtStart,
 };
 
 /// A crate of 5 kg hangs on a cable that breaks at 80 N; then a force on the cable grows to 50 N
@@ -159,6 +159,38 @@ fn a_reel_is_a_component_that_stays_with_its_part() {
     steps(&mut world, 1);
     let failed: Vec<CableFailed> = world.resource_mut::<Messages<CableFailed>>().drain().collect();
     assert!(matches!(failed[..], [CableFailed { error: Error::InvalidValue { .. }, .. }]), "{failed:?}");
+}
+
+/// A crate hangs by a cable from a reel at its first point and is hoisted; cut, the part above keeps the reel. With a second reel at the end both are
+/// described, and removing one leaves the other.
+///
+/// *Source.* 1 s at 0.5 m/s, reached with 2 m/s^2.
+#[test]
+fn a_reel_at_the_start_is_a_component_too() {
+    let mut world = world();
+    let load = world.spawn(cube(0.1, 7.0, [0.0, -2.6, 0.0])).id();
+    let cable = soft([0.0; 3], [0.0, -2.5, 0.0]);
+    let cable = world.spawn((cable, Bending, Damping::critical_fraction(1.0), ReelAtStart::default())).id();
+    world.spawn(Attachment::ball(cable, At::Start).to_world());
+    world.spawn(Attachment::ball(cable, At::End).to(load).at([0.0, 0.1, 0.0]));
+    steps(&mut world, 60);
+    let before = height(&world, load);
+    *world.get_mut::<ReelAtStart>(cable).unwrap() = ReelAtStart::with_rate(-0.5);
+    steps(&mut world, 60);
+    let expected = 0.5 - 0.5 * 0.5 * 0.25;
+    assert_relative_eq!(cable_of(&world, cable).length(), 2.5 - expected, epsilon = 1e-6);
+    assert!((height(&world, load) - before - expected).abs() < 0.04);
+    world.resource_mut::<Cables>().cut(cable, 1.2).unwrap();
+    steps(&mut world, 2);
+    let broken: Vec<CableBroken> = world.resource_mut::<Messages<CableBroken>>().drain().collect();
+    assert!(world.get::<ReelAtStart>(cable).is_some() && world.get::<ReelAtStart>(broken[0].rest).is_none());
+    let ends = |world: &World| [At::Start, At::End].map(|at| cable_of(world, cable).reel(at).is_some());
+    world.entity_mut(cable).insert(Reel::default());
+    steps(&mut world, 1);
+    assert_eq!(ends(&world), [true, true]);
+    world.entity_mut(cable).remove::<ReelAtStart>();
+    steps(&mut world, 1);
+    assert_eq!(ends(&world), [false, true]);
 }
 
 /// Mass in kg of a round cable: diameter in m, density in kg/m^3, length in m.

@@ -69,7 +69,7 @@ impl Job<'_> {
             }
             let h = *h / f64::from(*parts);
             step_within(limit, integrator, |integrator| {
-                solver.step_with_sheaves(cables, end, &island.pins, sheaves, integrator, h)
+                solver.step_with_sheaves(cables, end, &island.pins, (sheaves, &island.drums), integrator, h)
             })?;
             if part == 0 {
                 accounts.clear();

@@ -191,7 +191,8 @@ fn predict_islands(
     }
     attach::end_lost(contents, world, &mut stepper.events)?;
     contents.follow_gravity(world)?;
-    contents.attachments.values().for_each(|a| body::update_mass(world, a.body));
+    let held = contents.attachments.values().map(|a| a.body);
+    held.chain(contents.drums.iter().map(|wound| wound.drum.body)).for_each(|b| body::update_mass(world, b));
     let h = f64::from(world.integration_parameters.dt);
     stepper.finder.begin(contents, world, h);
     let step = loop {

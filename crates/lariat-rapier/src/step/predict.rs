@@ -44,6 +44,13 @@ pub(crate) fn prepare(
     let sheaves = island.sheaves.iter().filter_map(|&i| contents.sheaves.get(i));
     prediction.sheaves.extend(sheaves.filter_map(|sheave| sheave.within(&island.cables)));
     if !island.members.is_empty() {
+        for drum in &island.drums {
+            if let Member::Body(body) = island.members[drum.body]
+                && proximity::is_linked(world, body)
+            {
+                return Err(Error::DrumJoined(body));
+            }
+        }
         read_members(contents, world, motions, island, prediction, step)?;
         if island.bodies().next().is_some() {
             prediction.parts = parts(&integrator, step.h);

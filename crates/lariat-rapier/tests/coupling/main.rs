@@ -14,6 +14,7 @@ mod common;
 mod contact;
 mod determinism;
 mod draw;
+mod drums;
 mod free_flight;
 mod hoist;
 mod joints;

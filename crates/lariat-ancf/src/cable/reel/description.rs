@@ -41,6 +41,9 @@ pub enum Feed {
     /// From another cable, over a [`Sheave`](crate::island::Sheave) of the island that steps both. Rate and force are those of the
     /// sheave; `stock` is not used.
     Sheave,
+    /// From a [`Drum`](crate::island::Drum) of the island, a body whose spin is the rate; `stock` and `inertia` are what it carries beside its
+    /// own inertia.
+    BodyDrum,
 }
 
 impl Default for Reel {
@@ -70,9 +73,19 @@ impl Reel {
         Reel { feed: Feed::Sheave, ..Self::default() }
     }
 
+    /// The end of a cable at a drum that is a body.
+    pub fn on_drum() -> Self {
+        Reel { feed: Feed::BodyDrum, ..Self::default() }
+    }
+
     /// Returns whether the rate is an unknown.
     pub(crate) fn has_law(&self) -> bool {
-        self.max_force.is_some() || self.feed == Feed::Sheave
+        self.max_force.is_some() || self.needs_island()
+    }
+
+    /// Returns whether its rate is that of a sheave or a drum of an island.
+    pub(crate) fn needs_island(&self) -> bool {
+        matches!(self.feed, Feed::Sheave | Feed::BodyDrum)
     }
 
     /// Refuses numbers that make no reel.
@@ -84,6 +97,10 @@ impl Reel {
         let force = self.max_force.unwrap_or(0.0);
         require("largest force of a reel (N)", force, force >= 0.0, ">= 0")?;
         require("inertia of a reel (kg)", self.inertia, self.inertia >= 0.0, ">= 0")?;
+        if self.feed == Feed::BodyDrum {
+            let own = self.rate.len() + usize::from(self.max_force.is_some());
+            require("rates and largest forces of a reel on a drum", own as f64, own == 0, "0: torque its body")?;
+        }
         let mut before = f64::NEG_INFINITY;
         for &[time, rate] in &self.rate {
             require("rate of a reel (m/s)", rate, true, "a number")?;

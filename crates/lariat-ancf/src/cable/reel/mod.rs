@@ -152,7 +152,7 @@ impl Cable {
         let forgotten = self.snapshot.state.memory.differences.is_empty();
         for flow in &mut self.system.flows.list {
             let Some(winding) = &self.snapshot.windings[flow.side as usize] else { continue };
-            flow.start = self.snapshot.state.time;
+            (flow.start, flow.left_rate) = (self.snapshot.state.time, None);
             flow.extent = winding.extent();
             // without memory of coordinates there is none of lengths: at a split at the other end
             flow.length_before = if forgotten { flow.extent.length } else { winding.length_before };

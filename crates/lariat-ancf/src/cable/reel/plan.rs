@@ -7,7 +7,7 @@
 use super::{Feed, Reel, Winding};
 use crate::cable::Cable;
 use crate::element::side::Side;
-use crate::system::{Law, Motor, rates};
+use crate::system::{Law, Motor, STOP, rates};
 
 /// Least length of the element at the eye, as a share of its full length.
 pub(super) const LEAST: f64 = 0.4;
@@ -61,12 +61,12 @@ impl Cable {
     /// Returns what drives a reel whose rate is an unknown, for a part of a host step.
     pub(super) fn law(&self, side: Side, reel: &Reel, winding: &Winding) -> Option<Law> {
         let length = winding.extent[0];
-        let over_sheave = reel.feed == Feed::Sheave;
+        let in_island = reel.needs_island();
         Some(Law::new(Motor {
-            limit: reel.max_force.or(over_sheave.then_some(0.0))?,
-            wheel: if over_sheave { 0.0 } else { reel.inertia },
+            limit: reel.max_force.or(in_island.then_some(0.0))?,
+            wheel: if reel.feed == Feed::Sheave { 0.0 } else { reel.inertia },
             asked: reel.asked(self.time()),
-            acceleration: reel.acceleration,
+            acceleration: if in_island { STOP } else { reel.acceleration },
             bounds: [length - self.left(side), length + self.left_of_stock(reel)],
         }))
     }

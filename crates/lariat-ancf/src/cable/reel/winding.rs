@@ -1,6 +1,6 @@
 //! The state of a reel, and what it does now.
 
-use super::description::{Feed, Reel};
+use super::description::Reel;
 use crate::cable::{At, Cable};
 use crate::element::flow::Extent;
 use crate::element::side::Side;
@@ -156,9 +156,9 @@ impl Cable {
         })
     }
 
-    /// Returns whether an end is at a sheave.
-    pub(crate) fn is_over_sheave(&self, side: Side) -> bool {
-        self.model.reels.get(side).is_some_and(|reel| reel.feed == Feed::Sheave)
+    /// Returns whether an end is at a sheave or on a drum, which only an island has.
+    pub(crate) fn needs_island(&self, side: Side) -> bool {
+        self.model.reels.get(side).is_some_and(Reel::needs_island)
     }
 
     /// Returns the end at a point.

@@ -1,11 +1,19 @@
-//! Reels whose rate is unknown, and sheaves, of the cables of an island in a step of the discrete gradient. Equations: `system/flow/law.rs`
-//! and `wheel.rs`.
+//! Reels whose rate is unknown, sheaves and drums of the cables of an island in a step of the discrete gradient. Equations: `system/flow/law.rs`,
+//! `wheel.rs` and `drum.rs`.
 
 use super::super::hold::vector;
+use super::body::BodyStep;
 use super::{IslandStep, StepBuffers};
+use crate::cable::Cable;
 use crate::element::side::Side;
 use crate::integrate::discrete_gradient::Balance;
 use crate::system::{CableStep, Flow, Unknowns, Wheel};
+use nalgebra::Vector3;
+
+/// Returns the flow at an end of a cable.
+fn flow_at<'a>(cables: &'a mut [&mut Cable], (cable, side): (usize, Side)) -> Option<&'a mut Flow> {
+    cables[cable].system.flows.list.iter_mut().find(|flow| flow.side == side)
+}
 
 impl IslandStep<'_, '_> {
     /// Returns the flows at a sheave.
@@ -30,12 +38,40 @@ impl IslandStep<'_, '_> {
             let acceleration = wheel.begin([&a, &b], tangents, inertia, h);
             let rate = b.extent.rate;
             for ((cable, side), sign) in wheel.sheave.ends().into_iter().zip([-1.0, 1.0]) {
-                let flows = &mut self.cables[cable].system.flows.list;
-                if let Some(flow) = flows.iter_mut().find(|flow| flow.side == side) {
+                if let Some(flow) = flow_at(self.cables, (cable, side)) {
                     (flow.extent.rate, flow.extent.acceleration) = (sign * rate, sign * acceleration);
                 }
             }
             self.buffers.unknowns.wheels[w] = wheel;
+        }
+    }
+
+    /// Begins a step of length `h` (s) for drums: reels have the rates of their spins.
+    pub(super) fn begin_drums(&mut self, h: f64) {
+        let (cables, StepBuffers { unknowns, bodies, .. }) = (&mut *self.cables, &*self.buffers);
+        for winch in &unknowns.winches {
+            let [drum, holder] = winch.bodies.map(|body| body.map(|body| &bodies[body]));
+            let spin = |body: Option<&BodyStep>| body.map_or_else(Vector3::zeros, BodyStep::spin);
+            let arm = drum.map_or(winch.axis, |drum| drum.ends(&winch.axis)[0]) * winch.radius;
+            if let Some(flow) = flow_at(cables, winch.end) {
+                flow.restart(arm.dot(&(spin(drum) - spin(holder))), h);
+            }
+        }
+    }
+
+    /// Sets the accelerations of reels on drums to those of the iterate of the bodies.
+    pub(super) fn follow_drums(&mut self) {
+        let (cables, StepBuffers { unknowns, bodies, .. }) = (&mut *self.cables, &mut *self.buffers);
+        for winch in &mut unknowns.winches {
+            let h = cables[winch.end.0].step_buffers.h;
+            let [drum, holder] = winch.bodies.map(|body| body.map(|body| &bodies[body]));
+            let spin = |body: Option<&BodyStep>| body.map_or_else(Vector3::zeros, |body| body.mean[1]);
+            let [first, last] = drum.map_or([winch.axis; 2], |drum| drum.ends(&winch.axis));
+            winch.arm = (first + last).try_normalize(f64::MIN_POSITIVE).unwrap_or(first) * winch.radius;
+            let rate = winch.arm.dot(&(spin(drum) - spin(holder)));
+            if let Some(flow) = flow_at(cables, winch.end) {
+                flow.follow(2.0 * (rate - flow.extent.rate) / h);
+            }
         }
     }
 
@@ -61,6 +97,20 @@ impl IslandStep<'_, '_> {
             self.solve();
             self.swap(columns, rows);
         }
+        for k in 0..unknowns.winches.len() {
+            let (at, winch) = (unknowns.reels.len() + k, unknowns.winches[k]);
+            let (columns, rows) = (&mut unknowns.columns[at], &mut unknowns.rows[at]);
+            for (cable, column) in self.cables.iter().zip(columns.iter_mut()) {
+                column.clear();
+                column.resize(cable.positions().len(), 0.0);
+            }
+            rows.clear();
+            rows.resize(self.buffers.rows.len(), 0.0);
+            winch.pass(-1.0, self.cables[0].step_buffers.h, rows);
+            self.swap(columns, rows);
+            self.solve();
+            self.swap(columns, rows);
+        }
         self.buffers.unknowns = unknowns;
     }
 
@@ -78,10 +128,13 @@ impl IslandStep<'_, '_> {
         if unknowns.reels.is_empty() {
             return;
         }
-        unknowns.solve(|c| &cables[c].system.flows, |c| &cables[c].step_buffers.rhs);
-        for (i, &(c, k)) in unknowns.reels.iter().enumerate() {
-            let increment = unknowns.increments[i];
-            cables[c].step_parts().equations.add_to_law(k, increment);
+        let h = cables[0].step_buffers.h;
+        unknowns.solve(|c| &cables[c].system.flows, |c| &cables[c].step_buffers.rhs, (rows, h));
+        unknowns.add_to_drums();
+        for (i, &increment) in unknowns.increments.iter().enumerate() {
+            if let Some(&(c, k)) = unknowns.reels.get(i) {
+                cables[c].step_parts().equations.add_to_law(k, increment);
+            }
             let own = cables.iter_mut().map(|cable| &mut cable.step_buffers.rhs);
             for (x, y) in own.zip(&unknowns.columns[i]).chain(core::iter::once((&mut *rows, &unknowns.rows[i]))) {
                 x.iter_mut().zip(y).for_each(|(x, y)| *x -= increment * y);
@@ -94,6 +147,12 @@ impl IslandStep<'_, '_> {
         for wheel in &self.buffers.unknowns.wheels {
             if let Some([a, b]) = self.flows(wheel) {
                 wheel.add_balance([&a, &b], balance);
+            }
+        }
+        for winch in &self.buffers.unknowns.winches {
+            let (cable, side) = winch.end;
+            if let Some(flow) = self.cables[cable].system.flows.at_side(side) {
+                winch.add_balance(flow, balance);
             }
         }
     }

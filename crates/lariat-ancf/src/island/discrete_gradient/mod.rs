@@ -106,6 +106,7 @@ impl StepBuffers {
 impl IslandStep<'_, '_> {
     /// Sets held coordinates of the iterate and obstacles to where their bodies are, and the free directions of clamped slopes.
     fn follow(&mut self) {
+        self.follow_drums();
         let StepBuffers { bodies, cables: own, paths, .. } = &mut *self.buffers;
         paths.clear();
         paths.extend(bodies.iter().map(BodyStep::path));
@@ -126,8 +127,9 @@ impl IslandStep<'_, '_> {
 
     /// Computes residuals and step matrices of all cables, factors and condenses these, and sums the rows of the bodies.
     fn linearise(&mut self) -> Result<(), StepFailure> {
-        let StepBuffers { bodies, coupled, cables: own, rows, pairs, .. } = &mut *self.buffers;
+        let StepBuffers { bodies, coupled, cables: own, rows, pairs, unknowns, .. } = &mut *self.buffers;
         rows.fill(0.0);
+        unknowns.winches.iter().for_each(|winch| winch.pass(winch.force, self.cables[0].step_buffers.h, rows));
         for ((cable, own), part) in self.cables.iter_mut().zip(own).zip(&self.layout.parts) {
             let CableStep { mut equations, state, buffers } = cable.step_parts();
             equations.step_residual(state, buffers, true, &mut EffectWork::default());
@@ -240,8 +242,9 @@ impl IslandStep<'_, '_> {
     /// Returns what the present iterate does to the energy.
     fn balance(&mut self) -> Balance {
         let pairs = self.balance_pairs();
-        let StepBuffers { bodies, coupled, cables: own, rows, .. } = &mut *self.buffers;
+        let StepBuffers { bodies, coupled, cables: own, rows, unknowns, .. } = &mut *self.buffers;
         rows.fill(0.0);
+        unknowns.winches.iter().for_each(|winch| winch.pass(winch.force, self.cables[0].step_buffers.h, rows));
         let mut total = Balance::default();
         let closed = self.cables.iter().any(|cable| cable.system.flows.are_closed());
         for (cable, own) in self.cables.iter_mut().zip(own) {
@@ -340,6 +343,7 @@ impl DiscreteGradientSystem for IslandStep<'_, '_> {
         }
         self.begin_wheels(h);
         self.buffers.bodies.iter_mut().for_each(|body| body.predict(h));
+        self.begin_drums(h);
         self.follow();
         for cable in self.cables.iter_mut() {
             let CableStep { equations, state, buffers } = cable.step_parts();

@@ -85,6 +85,21 @@ impl Flow {
         self.law.map_or(0.0, |law| law.force)
     }
 
+    /// Begins a step of length `h` (s) with another rate in m/s, that of a drum.
+    pub fn restart(&mut self, rate: f64, h: f64) {
+        self.extent.rate = rate;
+        if let Some(law) = &mut self.law {
+            law.begin(&self.extent, h);
+        }
+    }
+
+    /// Sets the acceleration that a drum gives; one beyond the reach of an iterate divides the step.
+    pub fn follow(&mut self, acceleration: f64) {
+        let [least, largest] = self.reach();
+        self.extent.acceleration = acceleration.max(least).min(largest);
+        self.stopped = self.law.is_some_and(|law| law.stop(acceleration).is_some());
+    }
+
     /// Returns the length in m that it can still take in.
     pub(super) fn left(&self) -> f64 {
         self.law.map_or(0.0, |law| self.extent.length - law.motor.bounds[0])
@@ -131,6 +146,17 @@ impl Law {
         acceleration.max(least).min(largest).max(self.reach[0]).min(self.reach[1])
     }
 
+    /// Returns the acceleration of a stop at an end of the cable, if this one goes beyond it.
+    pub(super) fn stop(&self, acceleration: f64) -> Option<f64> {
+        let [least, _, largest] = self.planned;
+        let rounding = 1e-9 * (1.0 + acceleration.abs());
+        if acceleration > largest - rounding {
+            Some(largest)
+        } else {
+            (acceleration < least + rounding).then_some(least)
+        }
+    }
+
     /// Returns the acceleration of an iterate at which the motor would have the force `at(a)`, which falls with the slope `-stiffness`.
     pub(super) fn acceleration_for(&self, present: f64, force: f64, stiffness: f64) -> f64 {
         let wanted = self.planned[1];
@@ -169,7 +195,7 @@ impl System {
         let (element, weight) = (flow.with(model, extent), flow.weight(model));
         let wheel = flow.law.map_or(0.0, |law| {
             let stock = (law.motor.bounds[1] - extent.length).max(0.0);
-            let wound = flow.feed == Feed::Drum && stock.is_finite();
+            let wound = matches!(flow.feed, Feed::Drum | Feed::BodyDrum) && stock.is_finite();
             law.motor.wheel + if wound { element.inertia * stock } else { 0.0 }
         });
         flow.feed.pull(&element, motion[0], element.length_force(motion, &weight)) - wheel * extent.acceleration
@@ -182,6 +208,9 @@ impl Equations<'_> {
         for flow in self.system.flows.list.iter_mut() {
             let extent = flow.at(time);
             let Some(law) = &mut flow.law else { continue };
+            if flow.feed == Feed::BodyDrum && (flow.start != time || flow.left_rate.is_none()) {
+                flow.left_rate = Some(extent.rate);
+            }
             let slipped = flow.extent.acceleration != law.planned[1];
             (flow.start, flow.extent) = (time, extent);
             law.begin(&extent, h);
@@ -224,8 +253,8 @@ impl Equations<'_> {
         for flow in &self.system.flows.list {
             if let Some(law) = &flow.law {
                 let acceleration = flow.extent.acceleration;
-                // a sheave has one law for both of its flows
-                if flow.feed != Feed::Sheave {
+                // a sheave has one law for both of its flows, and a drum that of its body
+                if !matches!(flow.feed, Feed::Sheave | Feed::BodyDrum) {
                     balance.slip[0] += law.violation(acceleration);
                     balance.slip[1] += law.force.abs();
                 }

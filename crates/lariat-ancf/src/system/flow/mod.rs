@@ -25,6 +25,7 @@
 //! Elastic work and momentum are exact for any step; kinetic energy to the second order of the step. The tangent takes the symmetric part
 //! of the forces of the flow, and with riding stock its sums over rows are exact. Stock has no inertia about the eye.
 
+mod drum;
 mod law;
 mod sheave;
 mod step;
@@ -32,10 +33,11 @@ mod unknowns;
 mod wheel;
 mod work;
 
+pub(crate) use drum::Winch;
 pub(crate) use law::{Law, Motor, rates};
 pub use sheave::Sheave;
 pub(crate) use unknowns::Unknowns;
-pub(crate) use wheel::Wheel;
+pub(crate) use wheel::{STOP, Wheel};
 
 use super::System;
 use super::elements::with_bending;
@@ -61,6 +63,8 @@ pub(crate) struct Flow {
     weighed: f64,
     /// Force of the loop over the elements on the eye in the last iterate of the discrete gradient, in N.
     eye_force: [f64; 3],
+    /// Rate in m/s with which the last step ended, where this one begins with that of a drum.
+    pub left_rate: Option<f64>,
     /// Length in m at the beginning of the last step.
     pub length_before: f64,
     /// Whether an end of the cable stops it.
@@ -105,6 +109,7 @@ impl Flow {
             extent,
             weighed: length,
             eye_force: [0.0; 3],
+            left_rate: None,
             length_before: length,
             stopped: false,
             feed: Feed::Drum,

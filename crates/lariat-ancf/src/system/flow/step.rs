@@ -116,7 +116,10 @@ impl Flow {
         let inertia = self.with(model, mean).inertia;
         let of_mean = mass::consistent(inertia, mean.length);
         for (end, sign) in [(0, 1.0), (1, -1.0)] {
-            let at = self.with(model, self.at(time + h * end as f64));
+            let mut at = self.with(model, self.at(time + h * end as f64));
+            if let (0, Some(rate)) = (end, self.left_rate) {
+                at.extent.rate = rate;
+            }
             let mut table = mass::consistent(inertia, lengths[end]);
             let mut point = self.stock(lengths[end]) * inertia;
             if !all {

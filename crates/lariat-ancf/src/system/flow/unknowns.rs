@@ -2,10 +2,11 @@
 //!
 //! # Solution
 //!
-//! The forces of all are linear in the increments of all accelerations; the laws are met by projected Gauss-Seidel iteration, one reel or
-//! sheave after the other.
+//! The forces of all are linear in the increments of all accelerations; the laws are met by projected Gauss-Seidel iteration, one reel,
+//! sheave or [drum](super::drum) after the other.
 
 use super::Flows;
+use super::drum::{Pair, Winch};
 use super::law::Law;
 use super::wheel::{Pulls, Wheel};
 
@@ -29,16 +30,22 @@ struct Unknown {
 pub(crate) struct Unknowns {
     /// Cable and flow of each.
     pub reels: Vec<(usize, usize)>,
-    /// By reel and cable, c and then y; by reel, the rows of bodies.
+    /// By reel and cable, c and then y; by reel, the rows of bodies. Behind those of the reels, those of the drums.
     pub columns: Vec<Vec<Vec<f64>>>,
     pub rows: Vec<Vec<f64>>,
     /// Sheaves, each with two of the reels.
     pub wheels: Vec<Wheel>,
+    /// Drums, each with one of the reels.
+    pub winches: Vec<Winch>,
     /// A buffer.
     pub saved: Vec<f64>,
     list: Vec<Unknown>,
     stiffness: Vec<f64>,
-    /// Increments of the accelerations.
+    /// By drum, what increments turn it by: with all rates as they are, then by column.
+    pub(super) turned: Vec<f64>,
+    /// By drum, the sign of the stop at which it is.
+    pub(super) stops: Vec<f64>,
+    /// Increments of the accelerations, then of the forces of the drums.
     pub increments: Vec<f64>,
 }
 
@@ -56,18 +63,28 @@ impl Unknowns {
                         }
                     }
                 }
+                for winch in self.winches.iter_mut().filter(|winch| winch.end == (c, flow.side)) {
+                    winch.reel = self.reels.len();
+                }
                 self.reels.push((c, k));
             }
         }
-        self.columns.resize_with(self.reels.len(), Vec::new);
+        let unknowns = self.reels.len() + self.winches.len();
+        self.columns.resize_with(unknowns, Vec::new);
         self.columns.iter_mut().for_each(|column| column.resize_with(count, Vec::new));
-        self.rows.resize_with(self.reels.len(), Vec::new);
+        self.rows.resize_with(unknowns, Vec::new);
     }
 
     /// Solves for the increments of all accelerations and adds them to the iterate. `flows` and `increment` return those of a cable,
-    /// the increments of its velocity changes with all rates as they are.
-    pub fn solve<'a>(&mut self, flows: impl Fn(usize) -> &'a Flows, increment: impl Fn(usize) -> &'a [f64]) {
-        let count = self.reels.len();
+    /// the increments of its velocity changes with all rates as they are; `rows` are those of the bodies over a step of `h` (s).
+    pub fn solve<'a>(
+        &mut self,
+        flows: impl Fn(usize) -> &'a Flows,
+        increment: impl Fn(usize) -> &'a [f64],
+        (rows, h): (&[f64], f64),
+    ) {
+        let count = self.columns.len();
+        self.turn_drums(rows, h);
         self.list.clear();
         self.stiffness.clear();
         for (i, &(c, k)) in self.reels.iter().enumerate() {
@@ -82,51 +99,70 @@ impl Unknowns {
         }
         self.increments.clear();
         self.increments.resize(count, 0.0);
-        let stiffness = |i: usize, j: usize| self.stiffness[i * count + j];
-        solve_unknowns(&self.list, &self.wheels, stiffness, &mut self.increments);
+        self.stops.clear();
+        self.stops.resize(self.winches.len(), 0.0);
+        let mut increments = core::mem::take(&mut self.increments);
+        let mut stops = core::mem::take(&mut self.stops);
+        self.solve_unknowns(&mut increments, &mut stops);
+        (self.increments, self.stops) = (increments, stops);
     }
-}
 
-/// Solves for the increments of the accelerations; `stiffness` is S.
-fn solve_unknowns(
-    unknowns: &[Unknown],
-    wheels: &[Wheel],
-    stiffness: impl Fn(usize, usize) -> f64,
-    increments: &mut [f64],
-) {
-    increments.fill(0.0);
-    let of_wheel = |i: usize| wheels.iter().any(|wheel| wheel.flows.contains(&i));
-    // with all increments but those of some
-    let force = |increments: &[f64], i: usize, own: &[usize]| {
-        let others = (0..unknowns.len()).filter(|j| !own.contains(j));
-        unknowns[i].force - others.map(|j| stiffness(i, j) * increments[j]).sum::<f64>()
-    };
-    let sweeps = if unknowns.len() > 1 { SWEEPS } else { 1 };
-    for _ in 0..sweeps {
-        let mut moved = 0.0f64;
-        for i in (0..unknowns.len()).filter(|&i| !of_wheel(i)) {
-            let unknown = &unknowns[i];
-            let own = stiffness(i, i);
-            let own = if own > 0.0 { own } else { f64::MIN_POSITIVE };
-            let new = unknown.law.acceleration_for(unknown.acceleration, force(increments, i, &[i]), own)
-                - unknown.acceleration;
-            moved = moved.max((new - increments[i]).abs());
-            increments[i] = new;
-        }
-        for wheel in wheels {
-            let [a, b] = wheel.flows;
-            let acceleration = unknowns[b].acceleration;
-            let pulls = Pulls {
-                force: [a, b].map(|i| force(increments, i, &wheel.flows)),
-                stiffness: [a, b].map(|i| stiffness(i, b) - stiffness(i, a)),
-                acceleration,
-            };
-            let new = wheel.acceleration_for(&pulls) - acceleration;
-            moved = moved.max((new - increments[b]).abs());
-            (increments[a], increments[b]) = (-new, new);
-        }
-        if moved <= SMALL {
-            break;
+    /// Solves for the increments; at which stops drums are.
+    fn solve_unknowns(&self, increments: &mut [f64], stops: &mut [f64]) {
+        let Unknowns { list: unknowns, wheels, winches, turned, .. } = self;
+        let count = increments.len();
+        let stiffness = |i: usize, j: usize| self.stiffness[i * count + j];
+        let law_of_other = |i: usize| {
+            wheels.iter().any(|wheel| wheel.flows.contains(&i)) || winches.iter().any(|winch| winch.reel == i)
+        };
+        // with all increments but those of some
+        let without = |base: f64, increments: &[f64], own: &[usize], column: &dyn Fn(usize) -> f64| {
+            base - (0..count).filter(|j| !own.contains(j)).map(|j| column(j) * increments[j]).sum::<f64>()
+        };
+        let force = |increments: &[f64], i: usize, own: &[usize]| {
+            without(unknowns[i].force, increments, own, &|j| stiffness(i, j))
+        };
+        let sweeps = if unknowns.len() > 1 { SWEEPS } else { 1 };
+        for _ in 0..sweeps {
+            let mut moved = 0.0f64;
+            for i in (0..unknowns.len()).filter(|&i| !law_of_other(i)) {
+                let unknown = &unknowns[i];
+                let own = stiffness(i, i);
+                let own = if own > 0.0 { own } else { f64::MIN_POSITIVE };
+                let new = unknown.law.acceleration_for(unknown.acceleration, force(increments, i, &[i]), own)
+                    - unknown.acceleration;
+                moved = moved.max((new - increments[i]).abs());
+                increments[i] = new;
+            }
+            for wheel in wheels {
+                let [a, b] = wheel.flows;
+                let acceleration = unknowns[b].acceleration;
+                let pulls = Pulls {
+                    force: [a, b].map(|i| force(increments, i, &wheel.flows)),
+                    stiffness: [a, b].map(|i| stiffness(i, b) - stiffness(i, a)),
+                    acceleration,
+                };
+                let new = wheel.acceleration_for(&pulls) - acceleration;
+                moved = moved.max((new - increments[b]).abs());
+                (increments[a], increments[b]) = (-new, new);
+            }
+            for (k, winch) in winches.iter().enumerate() {
+                let own = [winch.reel, unknowns.len() + k];
+                let turned = &turned[k * (count + 1)..(k + 1) * (count + 1)];
+                let pair = Pair {
+                    spin: without(turned[0], increments, &own, &|j| turned[1 + j]),
+                    force: force(increments, own[0], &own) - winch.force,
+                    turned: own.map(|j| turned[1 + j]),
+                    stiffness: own.map(|j| stiffness(own[0], j)),
+                };
+                let Unknown { law, acceleration, .. } = unknowns[own[0]];
+                let (new, stop) = pair.solve(|x| law.stop(acceleration + x).map(|end| end - acceleration));
+                moved = moved.max((new[0] - increments[own[0]]).abs());
+                (increments[own[0]], increments[own[1]], stops[k]) = (new[0], new[1], stop);
+            }
+            if moved <= SMALL {
+                break;
+            }
         }
     }
 }

@@ -38,8 +38,8 @@ use crate::element::flow::Extent;
 use crate::element::side::Side;
 use crate::integrate::discrete_gradient::Balance;
 
-/// Deceleration in m/s^2 with which a cable stops before its end reaches a sheave.
-const STOP: f64 = 100.0;
+/// Deceleration in m/s^2 with which a cable stops before its end reaches a sheave or the drum that it is on.
+pub(crate) const STOP: f64 = 100.0;
 
 /// A sheave in a step.
 #[derive(Clone, Copy, Debug)]
