@@ -22,7 +22,7 @@ use lariat_rapier::SheaveOptions;
 /// # let mut world = World::new();
 /// # lariat_bevy::install(&mut world);
 /// let up = world.spawn(Cable::steel_rope(0.01).between([0.0, -3.0, 0.0], [0.0, 0.0, 0.0])).id();
-/// let down = world.spawn(Cable::steel_rope(0.01).between([0.0, 0.0, 0.0], [0.0, -4.0, 0.0])).id();
+/// let down = world.spawn(Cable::steel_rope(0.01).between([0.0, 0.0, 0.0], [0.0, -5.0, 0.0])).id();
 /// world.spawn(Attachment::ball(up, At::End).to_world());
 /// world.spawn(Attachment::ball(down, At::Start).to_world());
 /// let sheave = world.spawn(Sheave::between((up, At::End), (down, At::Start)).friction(0.1)).id();
