@@ -7,6 +7,7 @@ use crate::components::{CableComponents, put};
 use crate::event::{CableBroken, CableFailed};
 use crate::interpolate::Interpolate;
 use crate::junction::Junction;
+use crate::sheave::Sheave;
 use bevy_ecs::component::Component;
 use bevy_ecs::entity::Entity;
 use bevy_ecs::entity_disabling::Disabled;
@@ -70,14 +71,18 @@ fn split_entity(world: &mut World, entity: Entity, cable: CableHandle, tail: Cab
     let components = CableComponents::of(world.entity(entity));
     let cables = world.resource::<Cables>();
     let (before, behind) = (cables.set.get(cable).ok()?, cables.set.get(tail).ok()?);
-    let length = before.length();
+    let (length, length_behind) = (before.length(), behind.length());
     let [before, behind] = [before, behind].map(|part| components.of_part(part));
     let rest = world.spawn_empty().id();
     let mut cables = world.resource_mut::<Cables>();
     // linked before its component is inserted, which else would build a new cable
-    cables.links.insert_cable(rest, tail);
+    cables.links.insert_cable(rest, tail, length_behind);
+    if let Some(link) = cables.links.cables.get_mut(&cable) {
+        link.length = length;
+    }
     let moved = move_attachments(&mut cables, tail, length, rest);
     let tied = move_junctions(&mut cables, tail, length, rest);
+    let led = move_sheaves(&mut cables, tail, rest);
     before.put(&mut world.entity_mut(entity));
     behind.put(&mut world.entity_mut(rest));
     let name = world.get::<Name>(entity).cloned();
@@ -97,7 +102,31 @@ fn split_entity(world: &mut World, entity: Entity, cable: CableHandle, tail: Cab
             *component = junction;
         }
     }
+    for (entity, sheave) in led {
+        if let Some(mut component) = world.get_mut::<Sheave>(entity) {
+            *component = sheave;
+        }
+    }
     Some(rest)
+}
+
+/// Points the sheaves behind a break to the entity `rest`; returns those that changed, with their components.
+fn move_sheaves(cables: &mut Cables, tail: CableHandle, rest: Entity) -> Vec<(Entity, Sheave)> {
+    let Cables { set, links, .. } = cables;
+    let mut moved = Vec::new();
+    for (entity, link) in &mut links.sheaves {
+        let Some(Ok(sheave)) = link.handle.map(|handle| set.sheave(handle)) else { continue };
+        let before = link.made;
+        for (own, (cable, at)) in [&mut link.made.from, &mut link.made.to].into_iter().zip(sheave.ends()) {
+            if cable == tail {
+                *own = (rest, at);
+            }
+        }
+        if link.made != before {
+            moved.push((*entity, link.made));
+        }
+    }
+    moved
 }
 
 /// Points the junctions behind a break at `length` (m) to the entity `rest`; returns those that

@@ -139,8 +139,9 @@ pub(crate) fn build(mut world: DeferredWorld, entity: Entity) {
     let mut cables = world.resource_mut::<Cables>();
     match built {
         Ok(cable) => {
+            let length = cable.length();
             let handle = cables.set.insert(cable);
-            cables.links.insert_cable(entity, handle);
+            cables.links.insert_cable(entity, handle, length);
             world.resource_mut::<Pending>().new_cables = true;
         }
         Err(error) => {

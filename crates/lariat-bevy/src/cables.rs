@@ -29,11 +29,12 @@ use crate::attachment::Attachment;
 use crate::error::Error;
 use crate::event::{QueuedEvent, StepFailed};
 use crate::junction::Junction;
+use crate::sheave::Sheave;
 use bevy_ecs::entity::{Entity, EntityHashMap};
 use bevy_ecs::resource::Resource;
 use lariat_ancf::{At, Break};
 use lariat_rapier::rapier::dynamics::RigidBodyHandle;
-use lariat_rapier::{AttachmentHandle, CableHandle, CableSet, Event, HostStep, JunctionHandle, Settings};
+use lariat_rapier::{AttachmentHandle, CableHandle, CableSet, Event, HostStep, JunctionHandle, Settings, SheaveHandle};
 use std::collections::{BTreeMap, HashMap};
 
 /// The cables of a world: a resource to read with `Res<Cables>` and to change with
@@ -188,6 +189,8 @@ pub(crate) struct Links {
     pub built: EntityHashMap<Result<CableHandle, lariat_ancf::Error>>,
     pub attachments: BTreeMap<AttachmentHandle, AttachmentLink>,
     pub junctions: BTreeMap<JunctionHandle, JunctionLink>,
+    /// By entity.
+    pub sheaves: BTreeMap<Entity, SheaveLink>,
     pub bodies: HashMap<RigidBodyHandle, Entity>,
     /// The fixed body to which cables are attached that are attached to the world.
     pub ground: Option<RigidBodyHandle>,
@@ -197,6 +200,8 @@ pub(crate) struct Links {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct CableLink {
     pub entity: Entity,
+    /// Unstretched length in m for which shares of effects are meant: that when it was built or broke, whatever reels do.
+    pub length: f64,
     /// The cable's counters when they were last read.
     pub counted: lariat_ancf::Diagnostics,
 }
@@ -223,11 +228,20 @@ pub(crate) struct JunctionLink {
     pub made: Junction,
 }
 
+/// A sheave of an entity.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct SheaveLink {
+    /// The component that it was made from.
+    pub made: Sheave,
+    /// The sheave of the set; `None` if it could not be made or has ended.
+    pub handle: Option<SheaveHandle>,
+}
+
 impl Links {
     /// Links an entity to its cable.
-    pub fn insert_cable(&mut self, entity: Entity, handle: CableHandle) {
+    pub fn insert_cable(&mut self, entity: Entity, handle: CableHandle, length: f64) {
         self.built.insert(entity, Ok(handle));
-        self.cables.insert(handle, CableLink { entity, counted: lariat_ancf::Diagnostics::default() });
+        self.cables.insert(handle, CableLink { entity, length, counted: lariat_ancf::Diagnostics::default() });
     }
 
     /// Unlinks an entity from its cable, and returns the handle if there was one.
@@ -246,6 +260,8 @@ impl Links {
             link.entity = name(link.entity);
             link.made.rename(name);
         }
+        links.sheaves = self.sheaves.iter().map(|(entity, link)| (name(*entity), *link)).collect();
+        links.sheaves.values_mut().for_each(|link| link.made.rename(name));
         links.bodies.values_mut().for_each(|entity| *entity = name(*entity));
         for link in links.attachments.values_mut() {
             (link.entity, link.cable) = (name(link.entity), name(link.cable));

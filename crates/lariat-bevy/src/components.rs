@@ -1,14 +1,16 @@
 //! The components that together say what a cable does, in one list.
 //!
 //! The list is that of [`for_each_effect`](lariat_ancf::for_each_effect), and before it [`Rule`],
-//! [`Bending`], [`PointLoads`], [`Reel`], [`ReelAtStart`], [`BreakTension`] and [`BreakStrain`]. Building, updating, breaking, snapshots, change detection and
+//! [`Bending`], [`PointLoads`], [`Reel`], [`ReelAtStart`], [`Drum`], [`BreakTension`] and [`BreakStrain`]. Building, updating, breaking, snapshots, change detection and
 //! reflection all use [`CableComponents`], so a new effect needs no further line in this crate.
 
 use crate::breaking::{BreakStrain, BreakTension};
 use crate::description::Description;
+use crate::drum::{Drum, is_of_island};
 use crate::effects::*;
 use crate::reel::{Reel, ReelAtStart};
 use bevy_ecs::component::Component;
+use bevy_ecs::entity::Entity;
 use bevy_ecs::query::{Changed, Or};
 use bevy_ecs::world::{EntityRef, EntityWorldMut};
 use lariat_ancf::{At, BendingRule, Effects, Error, PointLoad, Section};
@@ -23,6 +25,7 @@ macro_rules! components {
             point_loads: Option<PointLoads>,
             reel: Option<Reel>,
             reel_at_start: Option<ReelAtStart>,
+            drum: Option<Drum>,
             break_tension: Option<BreakTension>,
             break_strain: Option<BreakStrain>,
             $($field: Option<$type>,)*
@@ -41,6 +44,7 @@ macro_rules! components {
                     point_loads: entity.get().cloned(),
                     reel: entity.get().cloned(),
                     reel_at_start: entity.get().cloned(),
+                    drum: entity.get().cloned(),
                     break_tension: entity.get().copied(),
                     break_strain: entity.get().copied(),
                     $($field: entity.get().cloned(),)*
@@ -54,6 +58,7 @@ macro_rules! components {
                 put(entity, self.point_loads);
                 put(entity, self.reel);
                 put(entity, self.reel_at_start);
+                put(entity, self.drum);
                 put(entity, self.break_tension);
                 put(entity, self.break_strain);
                 $(put(entity, self.$field);)*
@@ -69,6 +74,7 @@ macro_rules! components {
                     point_loads: self.point_loads.as_ref().map(|_| PointLoads(part.loads().to_vec())),
                     reel: self.reel.clone().filter(|_| has_reel(At::End)),
                     reel_at_start: self.reel_at_start.clone().filter(|_| has_reel(At::Start)),
+                    drum: self.drum.clone().filter(|drum| part.reel_description(drum.at()).is_some_and(is_of_island)),
                     break_tension: self.break_tension,
                     break_strain: self.break_strain,
                     $($field: self.$field.as_ref().zip(effects.$field.as_ref()).map(|(c, effect)| c.of_part(effect)),)*
@@ -101,6 +107,13 @@ macro_rules! components {
 lariat_ancf::for_each_effect!(components);
 
 impl CableComponents {
+    /// Renames entities.
+    pub fn rename(&mut self, name: &impl Fn(Entity) -> Entity) {
+        if let Some(drum) = &mut self.drum {
+            drum.body = name(drum.body);
+        }
+    }
+
     fn rule(&self) -> lariat_ancf::Rule {
         let mut rule = self.rule.unwrap_or_default().0;
         if self.bending.is_none() {
@@ -125,14 +138,15 @@ impl CableComponents {
         description.build(name, self.rule(), effects, self.loads())
     }
 
-    /// Returns a cable changed to what these components say; `None` if it does that already.
+    /// Returns a cable changed to what these components say of one of this unstretched length (m); `None` if it does that already.
     pub fn updated(
         &self,
         cable: &lariat_ancf::Cable,
         description: &Description,
+        length: f64,
     ) -> Result<Option<lariat_ancf::Cable>, Error> {
         let (rule, loads) = (self.rule(), self.loads());
-        let effects = self.effects(&description.section.clone()?, cable.length())?;
+        let effects = self.effects(&description.section.clone()?, length)?;
         let same_rule = rule == cable.rule() && effects == *cable.effects();
         let same_loads =
             cable.loads().len() == loads.len() && cable.loads().iter().zip(loads).all(|(a, b)| a.is_same(b));

@@ -25,6 +25,9 @@ pub enum Error {
     /// An attachment to an entity without a body.
     #[error("entity {0} has no body")]
     NotABody(Entity),
+    /// An entity without a [`Sheave`](crate::Sheave) over which a cable runs.
+    #[error("entity {0} has no sheave over which a cable runs")]
+    NotASheave(Entity),
     /// From the mechanics of a cable.
     #[error(transparent)]
     Cable(#[from] lariat_ancf::Error),

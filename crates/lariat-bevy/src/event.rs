@@ -167,6 +167,25 @@ pub struct JunctionEnded {
     pub entity: Entity,
 }
 
+/// A drum cannot be, or its body is gone. It is tried again when its component, its cable or its body changes.
+#[derive(EntityEvent, Message, Clone, Debug, PartialEq)]
+pub struct DrumFailed {
+    /// The cable.
+    pub entity: Entity,
+    /// The cause.
+    pub error: Error,
+}
+
+/// A sheave cannot be made, or ended with one of its cables or attachments. It is tried again when its component changes, or when
+/// a cable is spawned.
+#[derive(EntityEvent, Message, Clone, Debug, PartialEq)]
+pub struct SheaveFailed {
+    /// The sheave.
+    pub entity: Entity,
+    /// The cause.
+    pub error: Error,
+}
+
 /// Calls `$apply!` with the type of each event.
 macro_rules! for_each_event {
     ($apply:ident) => {
@@ -184,7 +203,9 @@ macro_rules! for_each_event {
             AttachmentEnded,
             AttachmentFailed,
             JunctionFailed,
-            JunctionEnded
+            JunctionEnded,
+            DrumFailed,
+            SheaveFailed
         );
     };
 }

@@ -4,6 +4,7 @@ use crate::breaking;
 use crate::cables::Cables;
 use crate::clock::FixedClock;
 use crate::diagnostics::Diagnostics;
+use crate::drum;
 use crate::event;
 use crate::pending::Pending;
 use crate::physics::Physics;
@@ -11,6 +12,7 @@ use crate::prepare::{self, attachments, bodies, effects, junctions, removals};
 use crate::publish;
 use crate::reel::{self, Reel, ReelAtStart};
 use crate::schedule::{AfterEngine, BeforeEngine, CableStep, CableSystems, RapierStep};
+use crate::sheave;
 use crate::step;
 use bevy_ecs::schedule::{IntoScheduleConfigs, Schedule, Schedules};
 use bevy_ecs::world::World;
@@ -85,7 +87,9 @@ fn add_prepare(schedule: &mut Schedule) {
             effects::watch,
             effects::update,
             junctions::update,
+            sheave::update,
             attachments::update,
+            drum::update,
             reel::set_reels::<Reel>,
             reel::set_reels::<ReelAtStart>,
             breaking::set_strengths,

@@ -41,6 +41,7 @@
 //! | spawn the usual rope in one line | [`SpawnRope::spawn_rope`], [`Rope`] |
 //! | tie cables to each other | [`Junction`] |
 //! | pay it out, take it in | [`Reel`], [`ReelAtStart`] |
+//! | wind it on a body that turns, run it over a wheel into another | [`Drum`], [`Sheave`] |
 //! | bound the work of a host step | [`Budget`] in [`Settings`], [`CableDegraded`](event::CableDegraded) |
 //! | let it break, cut it | [`BreakForce`], [`BreakTension`], [`BreakStrain`], [`Cables::cut`] |
 //! | make bodies | [`Body`], [`KinematicTarget`], [`BodyPose`], [`Bodies`] |
@@ -63,7 +64,7 @@
 //! # Limits
 //!
 //! - Cables touch bodies if they have [`Contact`], and each other with [`Contact::with_cables`]. The unstretched length of a cable changes by
-//!   breaking and cutting, and by a [`Reel`].
+//!   breaking and cutting, and by a [`Reel`], a [`Drum`] or a [`Sheave`].
 //! - A cable that cannot step stands still with all that is attached to it until the cause is
 //!   removed: see [`StepFailed`](event::StepFailed).
 //! - On the bodies of another plugin ([`BeforeEngine`], [`AfterEngine`]; crate
@@ -81,6 +82,7 @@ mod clock;
 mod components;
 mod description;
 mod diagnostics;
+mod drum;
 mod effects;
 mod error;
 pub mod event;
@@ -96,6 +98,7 @@ mod publish;
 mod reel;
 mod rope;
 mod schedule;
+mod sheave;
 mod snapshot;
 mod step;
 
@@ -109,17 +112,19 @@ pub use cable::Cable;
 pub use cables::Cables;
 pub use clock::{FixedClock, advance};
 pub use diagnostics::{Diagnostics, Times};
+pub use drum::Drum;
 pub use effects::*;
 pub use error::Error;
 pub use install::install;
 pub use interpolate::{Interpolate, curve};
 pub use junction::Junction;
 pub use lariat_ancf::{self, At, Fidelity, Point};
-pub use lariat_rapier::{self, AttachmentKind, Budget, Gap, Rope, RopeEnd, Settings, rapier};
+pub use lariat_rapier::{self, AttachmentKind, Budget, Gap, Rope, RopeEnd, Settings, SheaveOptions, rapier};
 pub use physics::Physics;
 #[cfg(feature = "bevy_app")]
 pub use plugin::{LariatPlugin, install_in};
 pub use reel::{Reel, ReelAtStart};
 pub use rope::SpawnRope;
 pub use schedule::{AfterEngine, BeforeEngine, CableStep, CableSystems, RapierStep};
+pub use sheave::Sheave;
 pub use snapshot::Snapshot;

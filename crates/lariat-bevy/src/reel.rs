@@ -2,6 +2,7 @@
 
 use crate::cable::Cable;
 use crate::cables::Cables;
+use crate::drum::is_of_island;
 use crate::event::CableFailed;
 use bevy_ecs::component::Component;
 use bevy_ecs::entity::Entity;
@@ -92,6 +93,9 @@ pub(crate) fn set_reels<R: EndReel>(
         }
         let Ok(cable) = cables.get_mut(entity) else { continue };
         let outcome = match (now, wanted) {
+            // that of a drum or a sheave
+            (Some(now), None) if is_of_island(&now) => continue,
+            (Some(now), Some(reel)) if is_of_island(&now) => cable.add_reel(R::AT, reel),
             (_, None) => cable.remove_reel(R::AT),
             (None, Some(reel)) => cable.add_reel(R::AT, reel),
             (Some(_), Some(reel)) => cable.set_reel(R::AT, reel),

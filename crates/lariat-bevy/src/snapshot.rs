@@ -16,6 +16,7 @@ use crate::interpolate::Interpolate;
 use crate::junction::{Joined, Junction, NotJoinable};
 use crate::pending::Pending;
 use crate::physics::Physics;
+use crate::sheave::Sheave;
 use bevy_ecs::entity::Entity;
 use bevy_ecs::entity_disabling::Disabled;
 use bevy_ecs::name::Name;
@@ -38,8 +39,9 @@ pub struct Snapshot {
     entities: Vec<Saved>,
 }
 
-type AnyOfOurs = (Or<(With<Cable>, With<Attachment>, With<Junction>, With<Body>, With<BodyHandle>)>, Allow<Disabled>);
-type SpawnedByUser = (Or<(With<Cable>, With<Attachment>, With<Junction>, With<Body>)>, Allow<Disabled>);
+type Ours = (With<Cable>, With<Attachment>, With<Junction>, With<Sheave>, With<Body>);
+type AnyOfOurs = (Or<(Or<Ours>, With<BodyHandle>)>, Allow<Disabled>);
+type SpawnedByUser = (Or<Ours>, Allow<Disabled>);
 
 impl Snapshot {
     /// Copies the state.
@@ -157,6 +159,7 @@ struct Saved {
     to: Option<ToBody>,
     body: Option<Body>,
     junction: Option<Junction>,
+    sheave: Option<Sheave>,
     cable: CableComponents,
     plain: Plain,
 }
@@ -169,12 +172,13 @@ impl Saved {
             to: entity.get().copied(),
             body: entity.get().cloned(),
             junction: entity.get().cloned(),
+            sheave: entity.get().copied(),
             cable: CableComponents::of(entity),
             plain: Plain::of(entity),
         }
     }
 
-    fn put(self, world: &mut World, name: &impl Fn(Entity) -> Entity) {
+    fn put(mut self, world: &mut World, name: &impl Fn(Entity) -> Entity) {
         let alive = |entity: &Entity| world.get_entity(*entity).is_ok();
         let on = self.on.map(|on| name(on.0)).filter(alive).map(OnCable);
         let to = self.to.map(|to| name(to.0)).filter(alive).map(ToBody);
@@ -195,6 +199,12 @@ impl Saved {
             junction
         });
         put(&mut entity, junction);
+        let sheave = self.sheave.map(|mut sheave| {
+            sheave.rename(name);
+            sheave
+        });
+        put(&mut entity, sheave);
+        self.cable.rename(name);
         put(&mut entity, on);
         put(&mut entity, to);
         self.cable.put(&mut entity);

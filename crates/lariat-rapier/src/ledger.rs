@@ -15,7 +15,7 @@
 //! the second frame as lever of both bodies.
 
 use crate::convert::{to_pose, to_vector, vector};
-use ::nalgebra::{Matrix3, UnitQuaternion, Vector3};
+use ::nalgebra::{Matrix3, Rotation3, UnitQuaternion, Vector3};
 use rapier::dynamics::{
     GenericJointBuilder, ImpulseJointHandle, JointAxesMask, JointAxis, MotorModel, RigidBody, RigidBodyBuilder,
     RigidBodyHandle,
@@ -72,7 +72,7 @@ impl Ledger {
         if axes.determinant() < 0.0 {
             axes.column_mut(2).neg_mut();
         }
-        let frame = UnitQuaternion::from_matrix(&axes);
+        let frame = UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(axes));
         let target = frame.inverse() * target;
         if let Some(joint) = world.impulse_joints.get_mut(self.joint, false) {
             joint.data.set_enabled(true);

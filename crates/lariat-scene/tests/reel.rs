@@ -33,6 +33,8 @@ fn a_winch_of_a_scene_lifts_its_crate() {
         let work = last[5] - first[5];
         println!("{method}: {gained} J of {work} J, pull over weight {weight}");
         assert!((gained - work).abs() < 5e-3 * work.abs(), "{method}: {gained} J of {work} J");
+        let balance = summary.energy_balance.unwrap();
+        assert!(balance.made() < 1e-3 && balance.lost() < 5e-3, "{method}: {balance:?}");
     }
 }
 
@@ -97,6 +99,23 @@ fn a_reel_at_the_first_point_is_one_at_the_last_of_the_rope_drawn_the_other_way(
     }
 }
 
+/// The run of a tackle finds neither energy made nor lost beside what its sheaves take, and statics of sheaves are refused by name.
+///
+/// *Source.* Conservation of energy.
+#[test]
+fn a_tackle_of_a_scene_keeps_its_energy() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../assets/scenes/tackle.toml");
+    let overrides = ["duration=0.5".to_string()];
+    let scene = Scene::read(&path, &overrides, Purpose::Run).unwrap();
+    let folder = tempfile::tempdir().unwrap();
+    let balance = run::run(&scene, folder.path(), &mut Options::default()).unwrap().energy_balance.unwrap();
+    println!("{balance:?}");
+    assert!(balance.scale_j > 20.0 && balance.made() < 1e-3 && balance.lost() < 1e-2, "{balance:?}");
+    let scene = Scene::read(&path, &overrides, Purpose::Static).unwrap();
+    let error = run::World::build(&scene).and_then(|mut world| world.start(Purpose::Static)).unwrap_err().to_string();
+    assert!(error.contains("whose equilibrium is not computed"), "{error}");
+}
+
 /// Tables that make no sheave are refused with the key that is wrong.
 #[test]
 fn sheaves_that_do_not_fit_are_refused() {
@@ -112,4 +131,74 @@ fn sheaves_that_do_not_fit_are_refused() {
         let error = Scene::read(&path, &[change.to_string()], Purpose::Run).unwrap_err().to_string();
         assert!(error.contains(words), "{change}: {error}");
     }
+}
+
+/// The windlass of its scene hoists: bucket, drum and reel move as their equation says, also with the reel at the last point; and the run
+/// finds no energy made or lost.
+///
+/// *Source.* `(J/R^2 + rho S + m) L'' = g (rho L + m) + M/R`, L within 1.2 m of rope of 0.1 kg/m.
+#[test]
+fn a_windlass_of_a_scene_hoists_its_bucket() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../assets/scenes/windlass.toml");
+    let text = std::fs::read_to_string(path).unwrap();
+    let reversed = text
+        .replace("points = [[0.0, 0.0, 0.0], [0.0, -4.002, 0.0]]", "points = [[0.0, -4.002, 0.0], [0.0, 0.0, 0.0]]")
+        .replace("at = \"end\"", "at = \"END\"")
+        .replace("at = \"start\"", "at = \"end\"")
+        .replace("at = \"END\"", "at = \"start\"")
+        .replace("end = \"start\"", "end = \"end\"");
+    for (text, mass, torque) in [(&text, 10.0, -18.0), (&reversed, 10.0, -18.0), (&text, 6.0, 0.0)] {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("scene.toml");
+        std::fs::write(&path, text).unwrap();
+        let overrides = [format!("body.bucket.mass={mass:?}"), format!("load.0.moment=[0.0, 0.0, {torque:?}]")];
+        let scene = Scene::read(&path, &overrides, Purpose::Run).unwrap();
+        let out = folder.path().join("out");
+        let summary = run::run(&scene, &out, &mut Options::default()).unwrap();
+        assert!(summary.failed.is_none() && summary.warnings.is_empty(), "{summary:?}");
+        let last = ["bucket", "drum", "reel"].map(|name| {
+            let text = std::fs::read_to_string(out.join(format!("probes/{name}.csv"))).unwrap();
+            let row = text.lines().last().unwrap();
+            row.split(',').map(|x| x.parse::<f64>().unwrap()).collect::<Vec<_>>()
+        });
+        let moved = 0.5 * 8.0 + 0.1 * 12.0 + mass;
+        let at = |length: f64| (9.81 * (0.1 * length + mass) + torque / 0.15) / moved * 1.5;
+        let (speed, rate) = (-last[0][9], last[2][2]);
+        let spun = last[1][13] * 0.15;
+        let bounds = [at(4.0), at(last[2][1])];
+        let [low, high] = [bounds[0].min(bounds[1]), bounds[0].max(bounds[1])];
+        println!("{speed}, {spun}, {rate} of {low} to {high} m/s");
+        let margin = 0.01 * high.abs();
+        assert!([speed, spun, rate].iter().all(|v| (low - margin..high + margin).contains(v)), "{last:?}");
+    }
+}
+
+/// Drums that do not fit are refused with the key that is wrong, and their statics by name.
+#[test]
+fn drums_that_do_not_fit_are_refused() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../assets/scenes/windlass.toml");
+    for (change, words) in [
+        ("cable.rope.reel.drum.body=\"windlas\"", "windlas"),
+        ("cable.rope.reel.drum.radius=0.0", "radius"),
+        ("cable.rope.reel.drum.axis=[0.0, 0.0, 0.0]", "no direction"),
+        ("cable.rope.reel.rate=[[0.0, 1.0]]", "rate"),
+        ("cable.rope.reel.max_force=10.0", "that of its body"),
+        ("cable.rope.reel.acceleration=2.0", "that of its body"),
+        ("attachment.0.body=\"drum\"", "holds the end of the cable itself"),
+        ("attachment.0.at=1.0", "no attachment holds the end"),
+        ("joint.0.to=\"bucket\"", "to a dynamic body"),
+        ("cable.rope.integrator={ tolerance = 1e-5 }", "a cable on a drum"),
+        ("cable.rope.reel.drum.body=\"bucket\"", ""),
+    ] {
+        let read = Scene::read(&path, &[change.to_string()], Purpose::Run);
+        if words.is_empty() {
+            read.unwrap();
+            continue;
+        }
+        let error = read.unwrap_err().to_string();
+        assert!(error.contains(words), "{change}: {error}");
+    }
+    let scene = Scene::read(&path, &[], Purpose::Static).unwrap();
+    let error = run::World::build(&scene).and_then(|mut world| world.start(Purpose::Static)).unwrap_err().to_string();
+    assert!(error.contains("statics compute no joints"), "{error}");
 }

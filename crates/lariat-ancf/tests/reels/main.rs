@@ -7,6 +7,9 @@ mod energy;
 mod laws;
 mod motion;
 mod on_bodies;
+#[path = "../common/mod.rs"]
+mod random;
 mod remesh;
 mod sheaves;
+mod slack;
 mod state;

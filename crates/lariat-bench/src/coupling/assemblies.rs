@@ -8,6 +8,7 @@ use cpu_time::ProcessTime;
 use lariat_rapier::lariat_ancf::{At, Cable, Damping, Diagnostics, Section, Vector3};
 use lariat_rapier::rapier::prelude::*;
 use lariat_rapier::{AttachmentKind, CableHandle, CableSet};
+use std::time::Instant;
 
 /// Boxes of the pile.
 const BOXES: usize = 500;
@@ -23,28 +24,47 @@ struct Assembly {
     cables: Vec<CableHandle>,
 }
 
-/// CPU times of host steps in us.
+/// Times of host steps in us.
 struct Times {
+    /// CPU time, of all threads.
     mean: f64,
     worst: f64,
+    /// Mean wall time.
+    wall: f64,
     /// Counts per host step, of all cables.
     counts: Diagnostics,
 }
 
+/// What steps an assembly.
+#[derive(Clone, Copy, PartialEq)]
+enum Stepping {
+    /// Rapier alone.
+    Alone,
+    /// Rapier alone, after the host took a body to change it.
+    Changed,
+    WithSet,
+}
+
 impl Assembly {
-    /// Runs host steps, and returns their times. Without a set the world is stepped alone.
-    fn run(&mut self, steps: usize, with_set: bool) -> Result<Times, Error> {
-        let mut times = Times { mean: 0.0, worst: 0.0, counts: Diagnostics::default() };
+    /// Runs host steps, and returns their times.
+    fn run(&mut self, steps: usize, stepping: Stepping) -> Result<Times, Error> {
+        let mut times = Times { mean: 0.0, worst: 0.0, wall: 0.0, counts: Diagnostics::default() };
         for &cable in &self.cables {
             self.set.get_mut(cable)?.diagnostics_mut().reset();
         }
         for _ in 0..steps {
-            let clock = ProcessTime::now();
-            if with_set {
-                self.set.step(&mut self.physics)?
-            } else {
-                self.physics.step()
+            let (clock, wall) = (ProcessTime::now(), Instant::now());
+            match stepping {
+                Stepping::Alone => self.physics.step(),
+                Stepping::Changed => {
+                    let last = self.physics.bodies.iter().last().map(|(handle, _)| handle);
+                    let last = last.and_then(|handle| self.physics.bodies.get_mut(handle));
+                    last.into_iter().for_each(|body| body.wake_up(true));
+                    self.physics.step();
+                }
+                Stepping::WithSet => self.set.step(&mut self.physics)?,
             }
+            times.wall += wall.elapsed().as_secs_f64() * 1e6 / steps as f64;
             let micros = clock.elapsed().as_secs_f64() * 1e6;
             times.mean += micros / steps as f64;
             times.worst = times.worst.max(micros);
@@ -130,6 +150,8 @@ fn columns() -> Vec<crate::table::Column> {
         shown("mean_us", "mean us", Format::Short),
         shown("worst_us", "worst us", Format::Short),
         shown("ratio", "times Rapier alone", Format::Fixed(2)),
+        shown("wall_us", "wall us", Format::Short),
+        shown("wall_ratio", "wall, times Rapier alone", Format::Fixed(2)),
         shown("newton_iterations", "Newton iterations", Format::Fixed(1)),
         shown("steps", "steps", Format::Fixed(1)),
     ]
@@ -141,14 +163,16 @@ fn columns() -> Vec<crate::table::Column> {
 /// [`Error::Mechanics`], [`Error::Coupling`] if a run fails.
 pub fn table(progress: &mut dyn FnMut(&str)) -> Result<Table, Error> {
     let mut rows = Vec::new();
-    let mut row = |name: String, times: &Times, steps: usize, alone: Option<f64>| {
+    let mut row = |name: String, times: &Times, steps: usize, alone: Option<&Times>| {
         progress(&format!("{name}: mean {:.0} us, worst {:.0} us", times.mean, times.worst));
         let per_step = |count: u64| count as f64 / steps as f64;
         rows.push(vec![
             name.into(),
             times.mean.into(),
             times.worst.into(),
-            alone.map(|alone| times.mean / alone).into(),
+            alone.map(|alone| times.mean / alone.mean).into(),
+            times.wall.into(),
+            alone.map(|alone| times.wall / alone.wall).into(),
             per_step(times.counts.newton_iterations).into(),
             per_step(times.counts.steps).into(),
         ]);
@@ -157,29 +181,36 @@ pub fn table(progress: &mut dyn FnMut(&str)) -> Result<Table, Error> {
         let mut assembly = bridge(hooks)?;
         // the box falls for 0.6 s
         let fall = RATE * 3 / 5;
-        row(format!("bridge, {} pins, the box in the air", 20 * hooks), &assembly.run(fall, true)?, fall, None);
+        row(
+            format!("bridge, {} pins, the box in the air", 20 * hooks),
+            &assembly.run(fall, Stepping::WithSet)?,
+            fall,
+            None,
+        );
         row(
             format!("bridge, {} pins, the box on it", 20 * hooks),
-            &assembly.run(STEPS - fall, true)?,
+            &assembly.run(STEPS - fall, Stepping::WithSet)?,
             STEPS - fall,
             None,
         );
     }
-    let best = |cables: usize, with_set: bool| -> Result<Times, Error> {
+    let best = |cables: usize, stepping: Stepping| -> Result<Times, Error> {
         let mut best: Option<Times> = None;
         for _ in 0..REPEATS {
-            let times = pile(cables)?.run(STEPS / 2, with_set)?;
+            let times = pile(cables)?.run(STEPS / 2, stepping)?;
             if best.as_ref().is_none_or(|best| times.mean < best.mean) {
                 best = Some(times);
             }
         }
         best.ok_or_else(|| unreachable!("at least one run"))
     };
-    let alone = best(0, false)?;
-    row(format!("{BOXES} boxes, Rapier alone"), &alone, STEPS / 2, Some(alone.mean));
+    let alone = best(0, Stepping::Alone)?;
+    row(format!("{BOXES} boxes, Rapier alone"), &alone, STEPS / 2, Some(&alone));
+    let changed = best(0, Stepping::Changed)?;
+    row(format!("{BOXES} boxes, Rapier alone, one box changed by the host"), &changed, STEPS / 2, Some(&alone));
     for cables in [0, 1, 10, 50] {
-        let times = best(cables, true)?;
-        row(format!("{BOXES} boxes, {cables} cables"), &times, STEPS / 2, Some(alone.mean));
+        let times = best(cables, Stepping::WithSet)?;
+        row(format!("{BOXES} boxes, {cables} cables"), &times, STEPS / 2, Some(&alone));
     }
     Ok(Table { name: "coupling_assemblies", columns: columns(), rows })
 }

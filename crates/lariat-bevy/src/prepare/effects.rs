@@ -22,8 +22,10 @@ pub(crate) fn update(world: &mut World) {
     let changed = core::mem::take(&mut world.resource_mut::<Pending>().changed_effects);
     for entity in changed {
         let Some(cable) = world.get::<Cable>(entity) else { continue };
-        let Ok(current) = world.resource::<Cables>().get(entity) else { continue };
-        let updated = CableComponents::of(world.entity(entity)).updated(current, &cable.0);
+        let cables = world.resource::<Cables>();
+        let Ok(handle) = cables.handle(entity) else { continue };
+        let (Ok(current), Some(link)) = (cables.set.get(handle), cables.links.cables.get(&handle)) else { continue };
+        let updated = CableComponents::of(world.entity(entity)).updated(current, &cable.0, link.length);
         let mut cables = world.resource_mut::<Cables>();
         match updated {
             Ok(None) => {}

@@ -15,3 +15,4 @@ mod order;
 mod pendulum;
 mod plugin;
 mod snapshots;
+mod wheels;

@@ -4,7 +4,8 @@ use super::{Physics, RAPIER_STEPS};
 use crate::error::Error;
 use crate::scene::Scene;
 use crate::scene::body::BodyKind;
-use lariat_ancf::Vector3;
+use lariat_ancf::{Method, Vector3};
+use lariat_rapier::CableHandle;
 use lariat_rapier::convert::{rotation, vector};
 use lariat_rapier::rapier::dynamics::RigidBodyHandle;
 use nalgebra::UnitQuaternion;
@@ -20,8 +21,8 @@ pub struct BodyTerms {
     pub loads: f64,
     /// Work of its cables on it.
     pub cables: f64,
-    /// True if a cable is attached to it.
-    pub attached: bool,
+    /// True if the energy law of a cable has the work of gravity and loads on it.
+    pub in_law: bool,
     /// True if nothing but cables, gravity and loads moves it.
     pub free: bool,
 }
@@ -87,7 +88,9 @@ impl Physics {
             let handle = self.bodies[index];
             let Some(rigid) = lariat_rapier::rigid_body(&self.world, handle) else { continue };
             let joined = scene.joints.iter().any(|joint| joint.body == index || joint.to == Some(index));
-            let free = !joined && !self.is_near_another(handle);
+            // the reel has the work of its drum
+            let wound = scene.cables.iter().any(|cable| cable.drum.is_some_and(|drum| drum.body == index));
+            let free = !joined && !wound && !self.is_near_another(handle);
             let (cables, of_rounding) = on_body[index];
             rounding += if free { 0.0 } else { of_rounding };
             terms.push(BodyTerms {
@@ -95,11 +98,17 @@ impl Physics {
                 gravity: -rigid.mass * scene.gravity.dot(&rigid.position),
                 loads: self.load_work[index],
                 cables,
-                attached: scene.attachments.iter().any(|attachment| attachment.body == Some(index)),
+                in_law: wound
+                    || scene.attachments.iter().any(|a| a.body == Some(index) && self.has_law(self.handles[a.cable])),
                 free,
             });
         }
         Ok((on_others, rounding))
+    }
+
+    /// Returns whether a cable steps by the discrete gradient.
+    fn has_law(&self, cable: CableHandle) -> bool {
+        self.cables.get(cable).is_ok_and(|cable| cable.integrator().method == Method::DiscreteGradient)
     }
 
     /// Returns the weight of the dynamic bodies in N.

@@ -27,7 +27,8 @@ use lariat_rapier::rapier::dynamics::RigidBodyHandle;
 use lariat_rapier::rapier::math::Real;
 use lariat_rapier::rapier::prelude::PhysicsWorld;
 use lariat_rapier::{
-    AttachmentHandle, AttachmentKind, AttachmentReading, CableHandle, CableSet, Event, Gap, SheaveHandle, SheaveOptions,
+    AttachmentHandle, AttachmentKind, AttachmentReading, CableHandle, CableSet, Drum, Event, Gap, SheaveHandle,
+    SheaveOptions,
 };
 
 /// Rapier steps of a host step: a run is for accuracy, in contacts too, and its cost is that of the cables.
@@ -176,6 +177,13 @@ impl Physics {
         for junction in &scene.junctions {
             let [a, b] = junction.points.map(|(cable, s)| (self.handles[cable], At::ArcLength(s)));
             self.cables.join(a, b).map_err(|error| self.explain(scene, 0.0, error))?;
+        }
+        for (cable, own) in scene.cables.iter().enumerate() {
+            let (Some(drum), Some(reel)) = (own.drum, &own.reel) else { continue };
+            let end = if own.reel_at_start { At::Start } else { At::End };
+            let wound = Drum { body: self.bodies[drum.body], axis: to_vector(&drum.axis), radius: drum.radius as Real };
+            let added = self.cables.add_drum(&self.world.bodies, (self.handles[cable], end), wound, reel.clone());
+            added.map_err(|error| self.explain(scene, 0.0, error))?;
         }
         for sheave in &scene.sheaves {
             let SheaveScene { friction, turns, inertia, brake, .. } = *sheave;

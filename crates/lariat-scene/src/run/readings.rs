@@ -87,11 +87,9 @@ impl World {
         }
         let masses = self.scene.cables.iter().map(|cable| cable.section.mass_per_length * cable.length);
         terms.weight += self.scene.gravity.norm() * masses.sum::<f64>();
-        if all_by_law {
-            // the law counts all forces on bodies as loads
-            let attached = terms.bodies.iter().filter(|body| body.attached);
-            terms.work += attached.map(|body| body.gravity - body.loads).sum::<f64>();
-        }
+        // the law counts all forces on bodies as loads
+        let in_law = terms.bodies.iter().filter(|body| body.in_law);
+        terms.work += in_law.map(|body| body.gravity - body.loads).sum::<f64>();
         terms.by_law = all_by_law.then_some(by_law);
         Ok(terms)
     }

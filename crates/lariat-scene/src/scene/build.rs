@@ -4,7 +4,7 @@ use super::{AttachmentScene, LoadScene, Scene};
 use lariat_ancf::{At, Cable, Error, Motion, PointLoad, Vector3};
 
 impl Scene {
-    /// Builds a cable as drawn, supported at its attachments and junctions, without loads.
+    /// Builds a cable as drawn, supported at its attachments and junctions, without loads, sheaves and drums.
     ///
     /// # Errors
     /// As [`CableBuilder::build`](lariat_ancf::CableBuilder::build).
@@ -32,7 +32,8 @@ impl Scene {
         }
         let mut cable = builder.build()?;
         cable.set_strength(scene.breaking.strength)?;
-        if let Some(reel) = &scene.reel {
+        // a drum brings its reel
+        if let (Some(reel), None) = (&scene.reel, scene.drum) {
             cable.add_reel(if scene.reel_at_start { At::Start } else { At::End }, reel.clone())?;
         }
         Ok(cable)

@@ -3,7 +3,7 @@
 use super::breaking::{self, BREAK, BreakScene};
 use super::effects::{self, EFFECTS};
 use super::integrator::{self, IntegratorTable};
-use super::reel::{self, REEL};
+use super::reel::{self, DrumScene, DrumTable, REEL};
 use crate::document::{Document, KeyPath};
 use crate::error::{Error, Problem};
 use crate::schema::{Choose, Kind, NOT_NEGATIVE, POSITIVE, VECTOR, choice, parse_as, table};
@@ -128,6 +128,8 @@ pub struct CableScene {
     pub reel: Option<Reel>,
     /// Whether that is the first point.
     pub reel_at_start: bool,
+    /// Body on which the reel winds it.
+    pub drum: Option<DrumScene>,
     /// Time integrator.
     pub integrator: IntegratorChoice,
     /// Initial velocity in m/s.
@@ -136,8 +138,12 @@ pub struct CableScene {
     pub angular_velocity: Vector3<f64>,
 }
 
-/// Reads the cable at a path.
-pub(super) fn read(doc: &Document<'_>, at: &KeyPath, mut row: CableTable) -> Result<CableScene, Error> {
+/// Reads the cable at a path, and its drum as written.
+pub(super) fn read(
+    doc: &Document<'_>,
+    at: &KeyPath,
+    mut row: CableTable,
+) -> Result<(CableScene, Option<DrumTable>), Error> {
     if let Some(i) = row.points.windows(2).position(|p| p[0] == p[1]) {
         let problem = format!("points {i} and {} coincide at {:?}", i + 1, row.points[i].as_slice());
         return Err(doc.conflict(&at.key("points"), problem));
@@ -150,9 +156,9 @@ pub(super) fn read(doc: &Document<'_>, at: &KeyPath, mut row: CableTable) -> Res
     let rule = rule(doc, &at.key("rule"), &row)?;
     let section = section(doc, at, &row)?;
     let breaking = breaking::read(doc, at, &mut row.effects, (length, row.elements))?;
-    let (reel, reel_at_start) = match reel::read(doc, at, &mut row.effects)? {
-        Some((reel, at_start)) => (Some(reel), at_start),
-        None => (None, false),
+    let (reel, reel_at_start, drum) = match reel::read(doc, at, &mut row.effects)? {
+        Some(reel::Written { reel, at_start, drum }) => (Some(reel), at_start, drum),
+        None => (None, false, None),
     };
     if reel_at_start && breaking != BreakScene::default() {
         return Err(doc.conflict(&at.key(REEL.name), "a cable that breaks cannot have its reel at the first point"));
@@ -165,7 +171,7 @@ pub(super) fn read(doc: &Document<'_>, at: &KeyPath, mut row: CableTable) -> Res
     {
         integrator = integrator::by_discrete_gradient(doc, &at.key("integrator"), integrator, what)?;
     }
-    Ok(CableScene {
+    let cable = CableScene {
         points: row.points,
         length,
         equilibrium: row.initial == Initial::Equilibrium,
@@ -176,11 +182,13 @@ pub(super) fn read(doc: &Document<'_>, at: &KeyPath, mut row: CableTable) -> Res
         breaking,
         reel,
         reel_at_start,
+        drum: None,
         integrator,
         velocity: row.velocity,
         angular_velocity: row.angular_velocity,
         name: row.name,
-    })
+    };
+    Ok((cable, drum))
 }
 
 fn section(doc: &Document<'_>, at: &KeyPath, row: &CableTable) -> Result<Section, Error> {

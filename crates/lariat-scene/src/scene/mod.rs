@@ -179,10 +179,12 @@ pub(crate) fn check(doc: &Document<'_>, fallback: &str, folder: &Path, purpose: 
         body_loads: Vec::new(),
         probes: Vec::new(),
     };
+    let mut drums = Vec::new();
     for (i, row) in table.cable.into_iter().enumerate() {
         let at = root.key("cable").item(i);
         references::unique(doc, &at, &row.name, scene.cables.iter().map(|c| c.name.as_str()))?;
-        let cable = cable::read(doc, &at, row)?;
+        let (cable, drum) = cable::read(doc, &at, row)?;
+        drums.extend(drum.map(|drum| (i, drum)));
         if cable.effects.contact.is_some() && engine == Engine::None {
             return Err(doc.conflict(&at.key("contact"), "the scene has no bodies that the cable could touch"));
         }
@@ -200,6 +202,9 @@ pub(crate) fn check(doc: &Document<'_>, fallback: &str, folder: &Path, purpose: 
     for (i, row) in table.attachment.into_iter().enumerate() {
         let row = attachment::read(doc, &scene, i, row)?;
         scene.attachments.push(row);
+    }
+    for (cable, drum) in drums {
+        reel::put_on_drum(doc, &mut scene, cable, &drum)?;
     }
     for (i, row) in table.junction.into_iter().enumerate() {
         let row = junction::read(doc, &scene, i, row)?;

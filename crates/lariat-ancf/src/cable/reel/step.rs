@@ -111,22 +111,33 @@ impl Cable {
             } else {
                 self.fastest_rate(side, dt)
             };
-            let passing = rate * dt;
-            require(
-                "share of an element that its reel moves in a step of an island",
-                passing / full,
-                passing <= 0.5 * full,
-                "<= 0.5",
-            )
-            .and_then(|()| {
-                require(
-                    "length of the element at the eye over its full one",
-                    length / full,
-                    length < 2.5 * full,
-                    "< 2.5",
-                )
-            })
-            .map_err(|e| e.of_cable(self.name()))?;
+            require_share(rate * dt, full)
+                .and_then(|()| {
+                    require(
+                        "length of the element at the eye over its full one",
+                        length / full,
+                        length < 2.5 * full,
+                        "< 2.5",
+                    )
+                })
+                .map_err(|e| e.of_cable(self.name()))?;
+        }
+        Ok(())
+    }
+
+    /// Checks, after a step of an island of `dt` (s) failed, that its reels had not to move more than half of the element at the eye, of
+    /// its full or its present length: an unknown rate may grow within the step.
+    ///
+    /// # Errors
+    /// [`Error::InvalidValue`].
+    pub(crate) fn check_reach_of_reels(&self, dt: f64) -> Result<(), Error> {
+        for flow in &self.system.flows.list {
+            let Some(winding) = &self.snapshot.windings[flow.side as usize] else { continue };
+            let full = self.model.reels.element(self.number(flow.side.element(self.elements().len()))).length;
+            let [length, rate, _] = winding.extent;
+            let moved = flow.at(self.snapshot.state.time).length - length;
+            let passing = moved.abs().max(rate.abs() * dt);
+            require_share(passing, full.min(length)).map_err(|e| e.of_cable(self.name()))?;
         }
         Ok(())
     }
@@ -181,4 +192,10 @@ impl Cable {
         self.sync_reel();
         Ok(())
     }
+}
+
+/// Refuses lengths in m that are more than half of an element.
+fn require_share(passing: f64, full: f64) -> Result<(), Error> {
+    let what = "share of an element that its reel moves in a step of an island";
+    require(what, passing / full, passing <= 0.5 * full, "<= 0.5")
 }

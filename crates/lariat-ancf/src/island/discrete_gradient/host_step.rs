@@ -48,7 +48,9 @@ impl HostStep<'_, '_> {
             diagnostics.rejected_steps += counts.rejected;
         }
         if let Err(failed) = outcome {
+            let within = self.cables.iter().try_for_each(|cable| cable.check_reach_of_reels(dt));
             self.restore();
+            within?;
             return Err(self.cables[0].step_failed(failed.time, failed.step, failed.failure));
         }
         self.finish();

@@ -7,7 +7,7 @@ use super::{IslandStep, StepBuffers};
 use crate::cable::Cable;
 use crate::element::side::Side;
 use crate::integrate::discrete_gradient::Balance;
-use crate::system::{CableStep, Flow, Unknowns, Wheel};
+use crate::system::{CableStep, Flow, Unknowns, Wheel, Winch};
 use nalgebra::Vector3;
 
 /// Returns the flow at an end of a cable.
@@ -48,8 +48,9 @@ impl IslandStep<'_, '_> {
 
     /// Begins a step of length `h` (s) for drums: reels have the rates of their spins.
     pub(super) fn begin_drums(&mut self, h: f64) {
-        let (cables, StepBuffers { unknowns, bodies, .. }) = (&mut *self.cables, &*self.buffers);
-        for winch in &unknowns.winches {
+        let (cables, StepBuffers { unknowns, bodies, .. }) = (&mut *self.cables, &mut *self.buffers);
+        for winch in &mut unknowns.winches {
+            winch.begin();
             let [drum, holder] = winch.bodies.map(|body| body.map(|body| &bodies[body]));
             let spin = |body: Option<&BodyStep>| body.map_or_else(Vector3::zeros, BodyStep::spin);
             let arm = drum.map_or(winch.axis, |drum| drum.ends(&winch.axis)[0]) * winch.radius;
@@ -157,8 +158,9 @@ impl IslandStep<'_, '_> {
         }
     }
 
-    /// Adds the accepted step to what ran over sheaves.
+    /// Adds the accepted step to what ran over sheaves, and notes the forces of drums.
     pub(super) fn accept_wheels(&mut self) {
+        self.buffers.unknowns.winches.iter_mut().for_each(Winch::accept);
         for w in 0..self.buffers.unknowns.wheels.len() {
             let mut wheel = self.buffers.unknowns.wheels[w];
             if let Some([a, b]) = self.flows(&wheel) {

@@ -54,6 +54,8 @@ pub(crate) struct Winch {
     pub arm: Vector3<f64>,
     /// T of the iterate in N.
     pub force: f64,
+    /// T of the last accepted step in N, with which the next begins.
+    accepted: f64,
     /// Unknown of its flow.
     pub reel: usize,
     /// Sign of the stop at which it is, or 0.
@@ -63,7 +65,17 @@ pub(crate) struct Winch {
 impl Winch {
     /// Creates that of a drum; `force` in N is a first guess.
     pub fn new(end: (usize, Side), bodies: [Option<usize>; 2], axis: Vector3<f64>, radius: f64, force: f64) -> Self {
-        Winch { end, bodies, axis, radius, arm: axis * radius, force, reel: 0, stop: 0.0 }
+        Winch { end, bodies, axis, radius, arm: axis * radius, force, accepted: force, reel: 0, stop: 0.0 }
+    }
+
+    /// Begins a step: nothing is left of one that failed.
+    pub fn begin(&mut self) {
+        (self.force, self.stop) = (self.accepted, 0.0);
+    }
+
+    /// Makes the iterate the last step.
+    pub fn accept(&mut self) {
+        self.accepted = self.force;
     }
 
     /// Returns bodies and signs.

@@ -206,6 +206,10 @@ impl Equations<'_> {
     /// Begins a step of length `h` (s) for reels whose rate is unknown: sets the first iterate.
     pub fn begin_laws(&mut self, time: f64, h: f64) {
         for flow in self.system.flows.list.iter_mut() {
+            if !flow.extent.acceleration.is_finite() {
+                // left by the last iterate of a step that failed
+                flow.extent.acceleration = 0.0;
+            }
             let extent = flow.at(time);
             let Some(law) = &mut flow.law else { continue };
             if flow.feed == Feed::BodyDrum && (flow.start != time || flow.left_rate.is_none()) {
