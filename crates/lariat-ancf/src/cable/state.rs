@@ -108,6 +108,8 @@ impl Cable {
     }
 
     /// Sets nodal coordinates and velocities, flat as [`positions`](Self::positions) and [`velocities`](Self::velocities).
+    /// Contacts are forgotten: friction begins anew, and a depth at which the cable is set gives no force and no energy.
+    /// [`restore`](Self::restore) keeps them.
     ///
     /// # Errors
     /// [`Error::WrongCount`] for the wrong number, [`Error::InvalidValue`] for numbers that are not finite.
