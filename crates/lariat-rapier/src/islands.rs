@@ -13,7 +13,7 @@ use crate::convert::vector;
 use crate::error::Error;
 use crate::handle::CableHandle;
 use crate::mechanism;
-use crate::step::proximity;
+use crate::proximity;
 use crate::table::Table;
 use ::nalgebra::Vector3;
 use lariat_ancf::contact::CablePair;

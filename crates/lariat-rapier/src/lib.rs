@@ -125,6 +125,7 @@ mod join;
 mod junction;
 mod ledger;
 mod mechanism;
+mod proximity;
 mod record;
 mod reels;
 mod rope;

@@ -327,6 +327,10 @@ impl DiscreteGradientSystem for CableStep<'_> {
         Ok(balance)
     }
 
+    fn crosses(&mut self) -> bool {
+        self.equations.do_pairs_cross(self.state, self.buffers)
+    }
+
     fn rescale(&mut self, balance: &mut Balance, largest_share: f64) -> bool {
         let CableStep { equations, state, buffers } = self;
         // the other buffers are free now
@@ -361,6 +365,7 @@ impl DiscreteGradientSystem for CableStep<'_> {
     fn count(&mut self, event: Event) {
         match event {
             Event::Rescaled => self.equations.diagnostics.rescaled_steps += 1,
+            Event::Crossed => self.equations.diagnostics.crossed_steps += 1,
             Event::Split => self.equations.diagnostics.split_steps += 1,
         }
     }

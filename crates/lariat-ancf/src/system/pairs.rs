@@ -86,6 +86,11 @@ impl<'b> Equations<'b> {
         low_rank.complete(&mut OnCable { equations: self, x, saved: buffer });
     }
 
+    /// Returns whether the centre line goes through itself in the step.
+    pub fn do_pairs_cross(&self, state: &State, b: &mut Buffers) -> bool {
+        self.with_pairs(state, b, PairStep::crosses)
+    }
+
     /// Evaluates them at the present iterate, and returns what they do, if any are near.
     pub fn balance_pairs(&mut self, state: &State, b: &mut Buffers, work: &mut EffectWork) -> Option<ContactBalance> {
         self.with_pairs(state, b, PairStep::complete);

@@ -114,6 +114,17 @@ pub enum Warning {
         /// Rate over the speed of transverse waves.
         ratio: f64,
     },
+    /// Its centre line went through that of a cable that it can touch, or through itself.
+    #[error(
+        "cable {cable:?}: in {steps} steps it passed through a cable that it can touch, or through itself: try more elements, shorter steps, or \
+         more stiffness in bending"
+    )]
+    PassedThrough {
+        /// Name of the cable.
+        cable: String,
+        /// Number of steps in which it did.
+        steps: u64,
+    },
     /// Too short for its thickness.
     #[error(
         "cable {cable:?}: it is {ratio:.3} times as long as thick ({length_m:.4} m, {diameter_m:.3e} m): below 10 its shear is not small, \

@@ -74,13 +74,14 @@ pub struct Watch {
 type Law = fn(&Watch, &Cable, Option<f64>) -> Option<Warning>;
 
 /// Laws in the order of warnings; the flag says that one holds at every time, not for the whole run only.
-const LAWS: [(Law, bool); 6] = [
+const LAWS: [(Law, bool); 7] = [
     (Watch::strain, true),
     (Watch::mesh, true),
     (Watch::small_motion, false),
     (Watch::single_elements, true),
     (Watch::long_steps, true),
     (Watch::fast_reel, true),
+    (Watch::crossed, true),
 ];
 
 /// The bit of warnings about sizes.
@@ -202,6 +203,11 @@ impl Watch {
     fn fast_reel(&self, cable: &Cable, _: Option<f64>) -> Option<Warning> {
         let (ratio, time_s) = self.reel;
         (ratio > REEL).then(|| Warning::FastReel { cable: cable.name().to_string(), time_s, ratio })
+    }
+
+    fn crossed(&self, cable: &Cable, _: Option<f64>) -> Option<Warning> {
+        let steps = cable.diagnostics().crossed_steps;
+        (steps > 0).then(|| Warning::PassedThrough { cable: cable.name().to_string(), steps })
     }
 }
 

@@ -227,6 +227,59 @@ fn a_heap_comes_to_rest() {
     assert!(kinetic < 1e-6, "{kinetic:e}");
 }
 
+/// Thin ropes that fall on their ends into heaps never pass through themselves: the diameter, the stiffness, the mass, friction, damping and the mesh are
+/// random.
+///
+/// *Source.* The definition: points that are more than sixteen radii apart along the rope stay further from each other than a radius, and no centre lines
+/// cross.
+#[test]
+fn thin_ropes_in_heaps_do_not_pass_themselves() {
+    let seeds = if std::env::var_os("LARIAT_LONG_TESTS").is_some() { 0..40 } else { 10..14 };
+    let (mut crossed, mut nearest) = (0, f64::INFINITY);
+    for seed in seeds {
+        let mut random = Random::new(7000 + seed);
+        let mut unit = || 0.5 * (random.next() + 1.0);
+        let power = |x: f64, low: f64, high: f64| 10f64.powf(low + (high - low) * x);
+        let radius = power(unit(), -2.8, -2.2);
+        let (ei, mass, friction) = (power(unit(), -4.0, -2.0), power(unit(), -2.0, -0.5), unit());
+        let elements = 20 + (unit() * 60.0) as usize;
+        let points = [Vector3::new(0.0, 0.05, 0.0), Vector3::new(0.02 * unit(), 1.05, 0.02 * unit())];
+        let mut cable = Cable::builder()
+            .points(points)
+            .section(Section::from_stiffness(power(unit(), 4.0, 6.0), ei, mass).unwrap())
+            .elements(elements)
+            .damping(Damping { axial: 1e-3, bending: power(unit(), -3.0, -1.5) })
+            .integrator(steps(240.0))
+            .build()
+            .unwrap();
+        cable.set_contact(Contact::with_friction(friction).with_radius(radius).with_cables()).unwrap();
+        cable.set_obstacles([Obstacle::new(1, HalfSpace { normal: up() }, Vector3::zeros(), friction)]).unwrap();
+        let mut least = f64::INFINITY;
+        let made =
+            run(&mut cable, 150, |cable| least = least.min(least_distance(cable, 16.0 * radius) / (2.0 * radius)));
+        let d = cable.diagnostics();
+        println!(
+            "seed {seed}: r {radius:.1e}, n {elements}, EI {ei:.1e}, {mass:.2} kg/m: made {made:.1e}, crossed {}, least {least:.2} diameters",
+            d.crossed_steps
+        );
+        crossed += d.crossed_steps;
+        nearest = nearest.min(least);
+        assert!(made < 1e-7, "{made:e}");
+    }
+    assert!(crossed == 0 && nearest > 0.5, "{crossed} {nearest}");
+}
+
+/// Returns the least distance of points of a cable that are further apart along it than a distance.
+fn least_distance(cable: &Cable, apart: f64) -> f64 {
+    let count = 300;
+    let step = cable.length() / f64::from(count);
+    let at = |i: i32| cable.sample(step * f64::from(i)).unwrap().position;
+    let points: Vec<Vector3<f64>> = (0..=count).map(at).collect();
+    let skip = (apart / step).ceil() as usize;
+    let pairs = (0..points.len()).flat_map(|i| (i + skip..points.len()).map(move |j| (i, j)));
+    pairs.fold(f64::INFINITY, |least, (i, j)| least.min((points[i] - points[j]).norm()))
+}
+
 /// An overhand knot that is pulled to 100 N holds for 10 s: no strand passes another.
 ///
 /// *Source.* The definition: without a knot the pulled end would be gone.

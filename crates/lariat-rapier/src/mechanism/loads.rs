@@ -22,26 +22,36 @@
 //! The loads of the others as a reaction estimate: it takes ten steps to settle; meanwhile joints
 //! that have not converged yield, and what Rapier corrects of it enters the estimate as a force.
 
+use super::multibody::edit_damping;
 use super::request::Request;
 use crate::body::{SavedBody, replace_loads};
 use crate::convert::vector;
+use crate::proximity::may_touch;
 use crate::spatial::stack_spatial;
 use ::nalgebra::{DVector, Vector6};
 use rapier::dynamics::RigidBodyHandle;
+use rapier::geometry::Collider;
 use rapier::math::{AngVector, Real};
 use rapier::pipeline::PhysicsWorld;
+
+/// Damping by degree of freedom, in N s/m or N m s.
+type JointDamping = DVector<Real>;
 
 /// The loads on the other bodies of a mechanism that the prediction includes.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct CarriedLoads {
     /// The other bodies; empty if their loads are not included.
     pub(super) bodies: Vec<(RigidBodyHandle, SavedBody)>,
+    /// Damping of the joints of a multibody that the prediction includes, with one of its links.
+    pub(super) joint_damping: Option<(RigidBodyHandle, JointDamping)>,
     /// Accelerations a of all bodies, or generalised ones of a multibody.
     pub(super) accelerations: DVector<f64>,
     /// Acceleration a0 of the attached body.
     pub of_body: Vector6<f64>,
     /// Whether the loads are included and the mechanism touches no other body.
     pub isolated: bool,
+    /// Whether joints of a multibody are at their limits, which Rapier's solver keeps in its own step.
+    pub limited: bool,
 }
 
 impl CarriedLoads {
@@ -61,6 +71,9 @@ impl CarriedLoads {
             let weight = gravity * (body.mass() * body.gravity_scale());
             replace_loads(body, -weight, AngVector::ZERO);
         }
+        if let Some((link, _)) = &self.joint_damping {
+            edit_damping(world, *link, |damping| damping.fill(0.0));
+        }
     }
 
     /// Restores the loads and settings of the bodies.
@@ -69,6 +82,14 @@ impl CarriedLoads {
             if let Some(body) = world.bodies.get_mut(*handle) {
                 saved.restore_settings(body);
             }
+        }
+        if let Some((link, saved)) = &self.joint_damping {
+            edit_damping(world, *link, |damping| {
+                // the user may have changed the joints meanwhile
+                if damping.len() == saved.len() {
+                    damping.copy_from(saved);
+                }
+            });
         }
     }
 
@@ -100,8 +121,11 @@ fn is_isolated(world: &PhysicsWorld, bodies: &[RigidBodyHandle], body: RigidBody
     let Some(body) = world.bodies.get(body) else { return false };
     body.colliders().iter().all(|&c| {
         world.narrow_phase.contact_pairs_with(c).all(|pair| {
-            let colliders = [pair.collider1, pair.collider2].map(|c| world.colliders.get(c));
-            colliders.iter().all(|c| c.is_none_or(|c| c.parent().is_some_and(|p| bodies.contains(&p))))
+            let [Some(one), Some(two)] = [pair.collider1, pair.collider2].map(|c| world.colliders.get(c)) else {
+                return true;
+            };
+            let own = |c: &Collider| c.parent().is_some_and(|p| bodies.contains(&p));
+            own(one) && own(two) || !may_touch(world, one, two, pair)
         })
     })
 }

@@ -108,7 +108,7 @@ impl Mechanism {
 
     /// Applies the change of velocity by the loads on the other bodies in `time` (s).
     pub fn apply_loads(&self, world: &mut PhysicsWorld, time: f64) {
-        if self.loads.bodies.is_empty() {
+        if self.loads.bodies.is_empty() && self.loads.joint_damping.is_none() {
             return;
         }
         let change = &self.loads.accelerations * time;

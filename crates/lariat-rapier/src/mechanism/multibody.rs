@@ -2,10 +2,11 @@
 //!
 //! # Equation
 //! ```text
-//! W = J R      R = P M^-1 J^T      a = P M^-1 sum J_i^T f_i
+//! W = J R      R = P M^-1 J^T      a = P M^-1 (sum J_i^T f_i - D u)
 //! ```
 //! J is a link's Jacobian (velocity of its centre of mass before angular velocity) and M the mass
-//! matrix, both Rapier's; f_i are the loads on the other links. Each active limit is a unit vector
+//! matrix, both Rapier's; f_i are the loads on the other links, D the damping that Rapier gives the
+//! joints (0.1 N m s about axes unless the user changes it) and u the generalised velocity. Each active limit is a unit vector
 //! in G ([`super::constraints`]); limits count only where the loads on the other links are
 //! included.
 //!
@@ -91,6 +92,14 @@ pub(super) fn find(world: &PhysicsWorld, request: &Request) -> Option<(Multibody
         }
     }
     let active = if predicts_loads { active_limits(multibody) } else { Vec::new() };
+    // at a limit joints hardly turn, and it is their damping that brings Rapier's solver to rest
+    if predicts_loads && active.is_empty() {
+        let damping = multibody.damping();
+        let rates = damping.component_mul(&multibody.generalized_velocity()).map(f64::from);
+        forces.iter_mut().for_each(|forces| *forces -= &rates);
+        loads.joint_damping = Some((request.handle, damping.clone()));
+    }
+    loads.limited = !active.is_empty();
     let mut rows = DMatrix::<f64>::zeros(active.len(), n);
     active.iter().enumerate().for_each(|(i, (dof, _))| rows[(i, *dof)] = 1.0);
     let own = jacobian(id);
@@ -126,6 +135,14 @@ fn active_limits(multibody: &Multibody) -> Vec<(usize, Option<Limit>)> {
         }
     }
     active
+}
+
+/// Edits the damping of the joints of a link's multibody.
+pub(super) fn edit_damping(world: &mut PhysicsWorld, handle: RigidBodyHandle, edit: impl Fn(&mut DVector<Real>)) {
+    let Some(link) = world.multibody_joints.rigid_body_link(handle).copied() else { return };
+    if let Some(multibody) = world.multibody_joints.get_multibody_mut(link.multibody) {
+        edit(multibody.damping_mut());
+    }
 }
 
 /// Gives the bodies of a link's multibody the velocities of its generalised velocity; does nothing

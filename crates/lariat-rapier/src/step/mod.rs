@@ -2,7 +2,7 @@
 //!
 //! | file | per Rapier step |
 //! |---|---|
-//! | [`substepping`] | how many Rapier steps the host step has; [`proximity`]: which bodies will collide |
+//! | [`substepping`] | how many Rapier steps the host step has; [`proximity`](crate::proximity): which bodies will collide |
 //! | [`prescribed_motion`] | how fixed and kinematic bodies move over the host step |
 //! | [`kinematic_ends`] | prescribes the ends of cables on them |
 //! | [`predict`] | reads cables and bodies before the step |
@@ -21,7 +21,6 @@ pub(crate) mod kinematic_ends;
 pub(crate) mod predict;
 pub(crate) mod prediction;
 pub(crate) mod prescribed_motion;
-pub(crate) mod proximity;
 pub(crate) mod reconcile;
 pub(crate) mod refused;
 pub(crate) mod substepping;
@@ -35,6 +34,7 @@ use crate::error::{Error, Failure};
 use crate::events::Event;
 use crate::handle::CableHandle;
 use crate::islands::{Island, Islands};
+use crate::proximity;
 use crate::reels;
 use crate::settings::Settings;
 use crate::sleep;

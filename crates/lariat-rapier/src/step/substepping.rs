@@ -23,7 +23,7 @@
 //! the cable, heavier than the body over the step, does not follow by the share g/(1 + g): its
 //! impedance is h^2 k, and a tenth of the body's own mobility counts ([`crate::step::impedance`]).
 //! Therefore the collisions and the taut cables of the whole coming host step count
-//! ([`crate::step::proximity`]). All is evaluated again before each Rapier step, and the rest of
+//! ([`crate::proximity`]). All is evaluated again before each Rapier step, and the rest of
 //! the host step is split finer.
 //!
 //! # Validity
@@ -40,11 +40,11 @@ use crate::attachment::Attachment;
 use crate::body::is_integrated;
 use crate::contact;
 use crate::contents::Contents;
+use crate::proximity;
 use crate::settings::Settings;
 use crate::spatial::split_spatial;
 use crate::step::apply::MAX_HALF_ROTATION;
 use crate::step::impedance::OWN_MOBILITY_SHARE;
-use crate::step::proximity;
 use ::nalgebra::{Vector3, Vector6};
 use lariat_ancf::island::Impedance;
 use lariat_ancf::{At, Cable};

@@ -18,6 +18,7 @@ mod drums;
 mod free_flight;
 mod hoist;
 mod joints;
+mod lever;
 mod moving_ends;
 mod payload;
 mod prescribed_motion;

@@ -101,6 +101,8 @@ pub(super) fn refine(a: &Piece<'_>, chord: usize, b: &Piece<'_>, from: [f64; 2],
     let n = a.chords as f64;
     let (low, high) = (chord as f64 / n, (chord + 1) as f64 / n);
     let middle = 0.5 * (low + high);
+    let is_last = b.element + 1 == b.strand.model.elements.len();
+    let (first, last) = (if b.element == 0 { 0.0 } else { -1.0 }, if is_last { 1.0 } else { 2.0 });
     for _ in 0..REFINEMENTS {
         let (u, v) = (a.slope(x, share), b.slope(y, share));
         let w = a.at(x, share) - b.at(y, share);
@@ -111,7 +113,10 @@ pub(super) fn refine(a: &Piece<'_>, chord: usize, b: &Piece<'_>, from: [f64; 2],
         if determinant <= 0.0 || vv <= 0.0 {
             break;
         }
-        let next = (x - (vv * gx + uv * gy) / determinant).clamp(low, high);
+        // beyond the end of the second cable there is nothing: the first one's best point is that for its end
+        let free = y - ((uu + weight) * gy + uv * gx) / determinant;
+        let bounded = free.clamp(first, last);
+        let next = (x - (gx - uv * (bounded - y)) / (uu + weight)).clamp(low, high);
         // the best y for the new x
         y = (y + (v.dot(&w) + uv * (next - x)) / vv).clamp(0.0, 1.0);
         x = next;

@@ -18,6 +18,8 @@
 //!
 //! The element has no torsion: cables that are parallel, to `sqrt(e)` = 0.03 rad, roll on each other without friction. Points of one cable nearer
 //! than eight radii along it do not touch, nor do points so near to a body that holds both. Cables that bend to less than some radii are not resolved.
+//! Whether centre lines went through each other is asked after every step (crossing.rs): such a step is divided, and if that does not help it is counted in
+//! [`Diagnostics::crossed_steps`](crate::Diagnostics::crossed_steps), which is a [warning](crate::Warning::PassedThrough).
 //!
 //! # References
 //!
@@ -29,6 +31,7 @@
 //! the material points instead of a plane (it grows as they slide along the cables).
 
 mod chords;
+mod crossing;
 mod memory;
 mod point;
 mod search;

@@ -11,6 +11,7 @@
 
 use super::CablePair;
 use super::chords::{Piece, Strand, closest, refine};
+use super::crossing::crossing;
 use core::cmp::Ordering;
 use nalgebra::Vector3;
 
@@ -110,12 +111,47 @@ impl Search {
     /// Finds all candidates at the present iterate with a gap of at most `near` reaches.
     pub fn run(&mut self, strands: &Strands<'_, '_>, near: f64) {
         self.found.clear();
-        self.collect(strands);
-        self.sweep(strands);
+        self.find_near(strands);
         for i in 0..self.near.len() {
             let [a, b] = self.near[i].map(|k| self.boxes[k]);
             self.compare(strands, a, b, near);
         }
+    }
+
+    /// Finds the elements that are near each other at some time of the step.
+    pub fn find_near(&mut self, strands: &Strands<'_, '_>) {
+        self.collect(strands);
+        self.sweep(strands);
+    }
+
+    /// Returns the first strands found whose centre lines go through each other in the step.
+    pub fn crossing(&self, strands: &Strands<'_, '_>) -> Option<[usize; 2]> {
+        self.near.iter().find_map(|near| {
+            let own = near.map(|k| self.boxes[k]);
+            let pieces = own.map(|own| Piece::new((strands.get)(own.strand), own.element));
+            let ends = |k: usize, i: usize| pieces[k].place(i as f64 / pieces[k].chords as f64);
+            let arc = |k: usize, i: usize| own[k].from + (i as f64 + 0.5) * pieces[k].length / pieces[k].chords as f64;
+            let reach = own[0].radius + own[1].radius;
+            let same = own[0].strand == own[1].strand;
+            (0..pieces[0].chords).find_map(|i| {
+                let [a0, a1] = [ends(0, i), ends(0, i + 1)];
+                (0..pieces[1].chords).find_map(|j| {
+                    let [b0, b1] = [ends(1, j), ends(1, j + 1)];
+                    let arcs = [arc(0, i), arc(1, j)];
+                    let size = 0.5 * ((a1[0] - a0[0]).norm() + (b1[0] - b0[0]).norm());
+                    let ways = [[a0, b0], [a0, b1], [a1, b0], [a1, b1]].map(|[p, q]| (p[1] - q[1]).norm());
+                    let middles = 0.5 * (a0[0] + a1[0] - b0[0] - b1[0]);
+                    let apart = middles.norm() > size + ways.into_iter().fold(0.0, f64::max);
+                    if apart || same && (arcs[0] - arcs[1]).abs() < APART * reach {
+                        return None;
+                    }
+                    let strands_of = own.map(|own| own.strand);
+                    crossing([&a0, &a1], [&b0, &b1])
+                        .filter(|_| (strands.over_bodies)(strands_of, arcs) >= APART * reach)
+                        .map(|_| strands_of)
+                })
+            })
+        })
     }
 
     /// Collects the boxes of all elements that can touch others.

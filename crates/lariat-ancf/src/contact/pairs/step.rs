@@ -34,6 +34,8 @@ pub(crate) struct PairStep {
     h: f64,
     /// Energy in J that the contacts store at the beginning.
     before: f64,
+    /// Strands that go through each other in the step.
+    crossed: Option<[usize; 2]>,
     /// Number of searches.
     searches: usize,
     /// Whether any cable can touch another or itself.
@@ -77,6 +79,23 @@ impl PairStep {
         {
             self.look(strands, 0.0);
         }
+    }
+
+    /// Returns whether centre lines go through each other in the step.
+    pub fn crosses(&mut self, strands: &Strands<'_, '_>) -> bool {
+        if !self.on {
+            return false;
+        }
+        if (0..strands.count).any(|c| deviates(&(strands.get)(c), &self.searched[c])) {
+            self.search.find_near(strands);
+        }
+        self.crossed = self.search.crossing(strands);
+        self.crossed.is_some()
+    }
+
+    /// Returns the strands that went through each other when that was last asked.
+    pub fn crossed(&self) -> [usize; 2] {
+        self.crossed.unwrap_or_default()
     }
 
     fn look(&mut self, strands: &Strands<'_, '_>, near: f64) {

@@ -193,6 +193,9 @@ pub(crate) trait DiscreteGradientSystem {
     /// Makes the end of the step the present state.
     fn accept(&mut self, balance: &Balance);
 
+    /// Returns whether centre lines of cables go through each other in the step.
+    fn crosses(&mut self) -> bool;
+
     /// Counts an event.
     fn count(&mut self, event: Event);
 }
@@ -204,6 +207,8 @@ pub(crate) enum Event {
     Rescaled,
     /// The step was divided.
     Split,
+    /// Centre lines of cables went through each other.
+    Crossed,
 }
 
 /// Returns the smaller share u for which v - u w has less kinetic energy than v by the excess, from `1/2 w.M w` and `v.M w`; `None` if

@@ -17,6 +17,8 @@
 //! division the energy law alone must hold. Motors of reels must have the forces of their laws likewise, to 1e-3, with a new
 //! tangent in every iteration that is needed for them. With stock of a reel on a body that moves freely the sum of all impulses must balance, to 1e-9
 //! of them.
+//!
+//! A step in which the centre lines of cables that may touch go through each other is divided too; in the last division it is counted, and a warning says so.
 
 use super::law::{Balance, CLOSURE, DiscreteGradientSystem, Event};
 use crate::error::StepFailure;
@@ -104,7 +106,11 @@ fn accept(
     system: &mut dyn DiscreteGradientSystem,
     balance: &Balance,
     limit: Option<&WorkLimit>,
+    crosses: bool,
 ) -> Result<bool, StepFailure> {
+    if crosses {
+        system.count(Event::Crossed);
+    }
     system.accept(balance);
     limit.into_iter().for_each(WorkLimit::note_progress);
     Ok(true)
@@ -149,28 +155,32 @@ pub(super) fn step(
             most = MAX_ITERATIONS_NEAR;
         }
     }
+    let reduced = limit.is_some_and(WorkLimit::reduces);
+    let crosses = last.as_ref().is_ok_and(|balance| balance.excess().is_finite()) && system.crosses();
+    let may_end = !crosses || depth == MAX_DEPTH || reduced;
     if let Ok(balance) = &last
         && keeps_law(balance)
         && (is_dissipation_right(balance) && closes(balance) && are_motors_right(balance) || depth == MAX_DEPTH)
+        && may_end
     {
-        return accept(system, balance, limit);
+        return accept(system, balance, limit, crosses);
     }
-    let reduced = limit.is_some_and(WorkLimit::reduces);
     let largest_share = if reduced { 1.0 } else { SHARE_OF_HALF_THE_ENERGY };
     if let Ok(balance) = &mut last
         && is_certain(balance)
         && (is_consistent(balance) && are_motors_right(balance) || depth == MAX_DEPTH || reduced)
         && balance.to_take() > 0.0
+        && may_end
         && system.rescale(balance, largest_share)
     {
         system.count(Event::Rescaled);
-        return accept(system, balance, limit);
+        return accept(system, balance, limit, crosses);
     }
     if reduced
         && let Ok(balance) = &last
         && keeps_law(balance)
     {
-        return accept(system, balance, limit);
+        return accept(system, balance, limit, crosses);
     }
     if reduced && limit.is_some_and(WorkLimit::stops) {
         return Ok(false);

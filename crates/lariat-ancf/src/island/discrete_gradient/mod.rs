@@ -370,6 +370,10 @@ impl DiscreteGradientSystem for IslandStep<'_, '_> {
         rescale::rescale(self, balance, largest_share)
     }
 
+    fn crosses(&mut self) -> bool {
+        self.do_pairs_cross()
+    }
+
     fn accept(&mut self, balance: &Balance) {
         self.accept_wheels();
         for (c, (cable, own)) in self.cables.iter_mut().zip(&self.buffers.cables).enumerate() {
@@ -383,15 +387,13 @@ impl DiscreteGradientSystem for IslandStep<'_, '_> {
             }
             equations.accept_step(state, buffers);
         }
-        for (c, cable) in self.cables.iter_mut().enumerate() {
-            self.buffers.pairs.remember(c, &mut cable.snapshot.state.memory.pairs);
-        }
+        self.remember_pairs();
         self.buffers.bodies.iter_mut().for_each(BodyStep::accept);
         // the law is that of the whole: the first cable keeps it
         self.cables[0].system.meter.law.add(balance);
     }
 
     fn count(&mut self, event: Event) {
-        self.cables.iter_mut().for_each(|cable| cable.step_parts().count(event));
+        self.count_event(event);
     }
 }

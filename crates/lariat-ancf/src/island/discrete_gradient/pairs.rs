@@ -6,6 +6,7 @@ use super::IslandStep;
 use crate::cable::Cable;
 use crate::contact::{CablePair, ContactBalance, LowRank, PairStep, PairSystem, Row, Strand, Strands};
 use crate::error::StepFailure;
+use crate::integrate::discrete_gradient::{DiscreteGradientSystem, Event};
 use core::mem::{swap, take};
 
 /// Right-hand sides that are put aside, by cable, and of the bodies.
@@ -171,6 +172,28 @@ impl IslandStep<'_, '_> {
         let out = f(&mut pairs.low_rank, &mut OnIsland { island: self, aside: &mut aside });
         (self.buffers.pairs, self.buffers.aside) = (pairs, aside);
         Some(out)
+    }
+
+    /// Returns whether centre lines go through each other in the step.
+    pub(super) fn do_pairs_cross(&mut self) -> bool {
+        self.with_pairs(PairStep::crosses)
+    }
+
+    /// Counts an event for the cables that it concerns.
+    pub(super) fn count_event(&mut self, event: Event) {
+        let crossed = self.buffers.pairs.crossed();
+        for (c, cable) in self.cables.iter_mut().enumerate() {
+            if event != Event::Crossed || crossed.contains(&c) {
+                cable.step_parts().count(event);
+            }
+        }
+    }
+
+    /// Remembers those that touch at the end of the step.
+    pub(super) fn remember_pairs(&mut self) {
+        for (c, cable) in self.cables.iter_mut().enumerate() {
+            self.buffers.pairs.remember(c, &mut cable.snapshot.state.memory.pairs);
+        }
     }
 
     /// Evaluates them at the present iterate, and returns what they do, if any are near.

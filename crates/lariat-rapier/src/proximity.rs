@@ -3,6 +3,10 @@
 //! Rapier lists a pair of colliders once their bounding boxes at the start of its last step came
 //! within its prediction distance. A body that moves farther than that in a step meets others
 //! before they are listed: its box, swept along its displacement, is looked up among all others.
+//!
+//! Boxes along the axes overlap long before bodies do: that of a long lever holds the loads below it. In
+//! a step Rapier makes contacts where, as it begins, the distance of two colliders is at most its
+//! prediction distance and their skins; with CCD, where they come to touch. The same distance decides here.
 
 use crate::convert::{to_vector, vector};
 use crate::ledger::is_ledger;
@@ -10,6 +14,7 @@ use ::nalgebra::Vector3;
 use rapier::dynamics::RigidBodyHandle;
 use rapier::geometry::{Aabb, BoundingVolume, Collider, ColliderHandle, ContactPair};
 use rapier::math::Real;
+use rapier::parry::query::distance;
 use rapier::pipeline::{PhysicsWorld, QueryFilter};
 
 /// Returns whether a body may deviate from its prediction and must feel its cables meanwhile: it is
@@ -42,10 +47,37 @@ pub(crate) fn is_unjointed(world: &PhysicsWorld, handle: RigidBodyHandle) -> boo
         && !world.impulse_joints.attached_joints(handle).any(|(a, b, _, _)| joined((a, b)))
 }
 
-/// Returns whether Rapier lists a pair with a collider of a body. It keeps the pairs of a removed
-/// collider until its next step.
+/// Returns whether Rapier's next step may make contacts of a body with another, of those that it lists pairs of.
+/// It keeps the pairs of a removed collider until then.
 fn is_near_another(world: &PhysicsWorld, handle: RigidBodyHandle) -> bool {
-    pairs(world, handle).next().is_some()
+    pairs(world, handle).any(|(own, other, pair)| may_touch(world, own, other, pair))
+}
+
+/// Returns whether Rapier's next step may make contacts of a pair that it lists.
+pub(crate) fn may_touch(world: &PhysicsWorld, one: &Collider, two: &Collider, pair: &ContactPair) -> bool {
+    pair.manifolds().iter().any(|m| !m.points.is_empty()) || reaches(world, one, two, 0.0)
+}
+
+/// Returns whether two colliders that come closer by `way` (m) may touch: within twice the distance at which Rapier makes contacts.
+fn reaches(world: &PhysicsWorld, one: &Collider, two: &Collider, way: f64) -> bool {
+    let body = |c: &Collider| c.parent().and_then(|b| world.bodies.get(b));
+    let sweeps = |c: &Collider| body(c).is_some_and(|b| b.is_ccd_enabled() || b.soft_ccd_prediction() > 0.0);
+    let skins = f64::from(one.contact_skin() + two.contact_skin());
+    let listed = 2.0 * f64::from(world.integration_parameters.prediction_distance()) + skins;
+    sweeps(one)
+        || sweeps(two)
+        || distance(one.position(), one.shape(), two.position(), two.shape())
+            .map_or(true, |found| f64::from(found.distance) <= way + listed)
+}
+
+/// Returns by how much a point of a collider rotates at most within `dt` (s), in m.
+fn turn(world: &PhysicsWorld, collider: &Collider, dt: f64) -> f64 {
+    let body = collider.parent().and_then(|b| world.bodies.get(b));
+    body.map_or(0.0, |body| {
+        let sphere = collider.compute_aabb().bounding_sphere();
+        let radius = (sphere.center() - body.center_of_mass()).length() + sphere.radius();
+        f64::from(body.angvel().length() * radius) * dt
+    })
 }
 
 /// Returns the listed pairs of the colliders of a body: its own collider, the other, the pair.
@@ -102,9 +134,11 @@ pub(crate) fn unlisted_collision(
             QueryFilter::default().exclude_rigid_body(handle).exclude_sensors().groups(collider.collision_groups());
         let own = swept(collider.compute_aabb(), displacement, listed);
         let reached = own.loosened(others as Real);
-        world
-            .intersect_aabb_conservative(reached, filter)
-            .any(|(_, other)| swept(other.compute_aabb(), &(velocity_of(world, other) * dt), 0.0).intersects(&own))
+        world.intersect_aabb_conservative(reached, filter).any(|(_, other)| {
+            let moved = velocity_of(world, other) * dt;
+            let way = || (displacement - moved).norm() + turn(world, collider, dt) + turn(world, other, dt);
+            swept(other.compute_aabb(), &moved, 0.0).intersects(&own) && reaches(world, collider, other, way())
+        })
     });
     collides.then(|| displacement.norm() / dt + fastest)
 }
@@ -124,8 +158,12 @@ pub(crate) fn collision(world: &PhysicsWorld, handle: RigidBodyHandle, (dt, fast
         let relative = velocity - velocity_of(world, other);
         let normals = pair.manifolds().iter().filter(|m| !m.points.is_empty()).map(|m| vector(m.data.normal));
         let along = normals.map(|n| relative.dot(&n).abs()).reduce(f64::max);
-        let reaches = || swept(own.compute_aabb(), &(relative * dt), margin).intersects(&other.compute_aabb());
-        along.or_else(|| reaches().then(|| relative.norm()))
+        let way = || relative.norm() * dt + turn(world, own, dt) + turn(world, other, dt);
+        let meets = || {
+            swept(own.compute_aabb(), &(relative * dt), margin).intersects(&other.compute_aabb())
+                && reaches(world, own, other, way())
+        };
+        along.or_else(|| meets().then(|| relative.norm()))
     });
     let listed = speeds.reduce(f64::max);
     let unlisted = unlisted_collision(world, handle, &(velocity * dt), (dt, fastest));
