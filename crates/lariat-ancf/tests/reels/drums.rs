@@ -151,7 +151,9 @@ fn a_load_turns_a_drum_and_a_drum_hoists_a_load() {
 /// *Source.* Conservation of momentum, angular momentum and energy.
 #[test]
 fn a_drum_in_a_free_frame_keeps_momentum_and_energy() {
-    let cases = [(At::End, Data { density: 0.4, stock: 4.0, load: 3.0, inertia: 0.05, radius: 0.2, torque: -1.0 })];
+    let data = Data { density: 0.4, stock: 4.0, load: 3.0, inertia: 0.05, radius: 0.2, torque: -1.0 };
+    let other = Data { density: 0.3, stock: 5.0, load: 2.0, inertia: 0.08, radius: 0.15, torque: -0.8 };
+    let cases = [(At::End, data), (At::Start, data), (At::Start, other)];
     for (at, data) in cases {
         let mut missing = Vec::new();
         for dt in [1.0 / 240.0, 1.0 / 480.0, 1.0 / 960.0] {

@@ -29,13 +29,15 @@ pub enum Family {
     Many,
     /// Joints, motors, limits, CCD, locked axes, kinematic bodies.
     Mechanisms,
+    /// Reels and drums.
+    Reels,
     /// Random combinations of the above.
     Random,
 }
 
 impl Family {
     /// All families.
-    pub const ALL: [Family; 14] = [
+    pub const ALL: [Family; 15] = [
         Family::MassRatio,
         Family::Stiffness,
         Family::Snatch,
@@ -49,6 +51,7 @@ impl Family {
         Family::Scale,
         Family::Many,
         Family::Mechanisms,
+        Family::Reels,
         Family::Random,
     ];
 
@@ -68,6 +71,7 @@ impl Family {
             Family::Scale => "scale",
             Family::Many => "many",
             Family::Mechanisms => "mechanisms",
+            Family::Reels => "reels",
             Family::Random => "random",
         }
     }

@@ -10,6 +10,7 @@ mod mass_ratio;
 mod mechanisms;
 mod prelude;
 pub mod random;
+mod reels;
 mod scale;
 mod snatch;
 mod stiffness;
@@ -35,6 +36,7 @@ pub fn of(family: Family) -> Vec<Case> {
         Family::Scale => scale::cases(),
         Family::Many => many::cases(),
         Family::Mechanisms => mechanisms::cases(),
+        Family::Reels => reels::cases(),
         Family::Random => random::cases(),
     }
 }
