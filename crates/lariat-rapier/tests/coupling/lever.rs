@@ -1,4 +1,4 @@
-//! A lever on a hinge that carries two loads on ropes, against its equations of motion.
+//! Hinged bodies that swing with loads on ropes: a lever, against its equations of motion, and booms, as multibodies and on impulse joints.
 
 use super::common::{cable, gap};
 use lariat_rapier::lariat_ancf::{At, Fidelity, Section};
@@ -132,6 +132,88 @@ fn a_lever_with_two_loads_moves_by_its_equations() {
                 if error > 0.01 * way || gap > 1e-6 {
                     wrong.push(format!("{:.4} of {way:.2} m, gap {gap:.1e}: {lever:?}", error / way));
                 }
+            }
+        }
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+/// A boom of links of 0.6 m that hinges join, level, with a load on a line at its tip.
+#[derive(Clone, Copy, Debug)]
+struct Boom<'a> {
+    links: &'a [f64],
+    load: f64,
+    fidelity: Fidelity,
+    rate: usize,
+    /// Time in s.
+    end: f64,
+}
+
+impl Boom<'_> {
+    /// Lets it fall, and returns the path of the load and the largest gap. Joints of the multibody have no damping, as impulse joints.
+    fn fall(&self, multibody: bool) -> (Vec<Vector2<f64>>, f64) {
+        let mut world = PhysicsWorld::new();
+        world.integration_parameters.dt = 1.0 / self.rate as Real;
+        let mut before = world.insert_body(RigidBodyBuilder::fixed());
+        for (k, &mass) in self.links.iter().enumerate() {
+            let body = RigidBodyBuilder::dynamic().translation(Vector::new(0.3 + 0.6 * k as Real, 0.0, 0.0));
+            let shape = ColliderBuilder::cuboid(0.28, 0.03, 0.03).mass(mass as Real);
+            let link = world.insert(body.can_sleep(false), shape).0;
+            let at = Vector::new(if k == 0 { 0.0 } else { 0.3 }, 0.0, 0.0);
+            let hinge =
+                RevoluteJointBuilder::new(Vector::Z).local_anchor1(at).local_anchor2(Vector::new(-0.3, 0.0, 0.0));
+            let hinge = hinge.contacts_enabled(false);
+            if multibody {
+                let joint = world.multibody_joints.insert(before, link, hinge, true).unwrap();
+                world.multibody_joints.get_mut(joint).unwrap().0.damping_mut().fill(0.0);
+            } else {
+                world.insert_impulse_joint(before, link, hinge);
+            }
+            before = link;
+        }
+        let x = 0.6 * self.links.len() as f64;
+        let at = RigidBodyBuilder::dynamic().translation(Vector::new(x as Real, -1.0, 0.0));
+        let load = world.insert(at.can_sleep(false), ColliderBuilder::ball(0.02).mass(self.load as Real)).0;
+        let mut set = CableSet::new();
+        set.settings.fidelity = self.fidelity;
+        let section = Section::from_stiffness(1e6, 1e-3, 0.01).unwrap();
+        let line = set.insert(cable([x, 0.0, 0.0], [x, -1.0, 0.0], section).elements(6).build().unwrap());
+        set.attach_here(&world, line, At::Start, before, AttachmentKind::Ball).unwrap();
+        set.attach_here(&world, line, At::End, load, AttachmentKind::Ball).unwrap();
+        let (mut path, mut widest) = (Vec::new(), 0.0f64);
+        for _ in 0..(self.end * self.rate as f64).round() as usize {
+            set.step(&mut world).unwrap();
+            let x = world.bodies[load].translation();
+            path.push(Vector2::new(f64::from(x.x), f64::from(x.y)));
+            widest = widest.max(gap(&set));
+        }
+        (path, widest)
+    }
+}
+
+/// A boom of one to three links that falls freely with a load, its line slack at first, moves the same as a multibody and on impulse
+/// joints, and no further from its line.
+///
+/// Reference: each other; and a lever's equations above. Bound: lines that tighten within a step.
+#[test]
+fn a_falling_boom_moves_the_same_as_a_multibody_and_on_impulse_joints() {
+    let mut wrong = Vec::new();
+    for (links, load) in [
+        (&[3.0][..], 2.0),
+        (&[30.0], 5.0),
+        (&[1.0], 8.0),
+        (&[2.0, 1.0], 1.0),
+        (&[1.0, 3.0], 2.0),
+        (&[2.0, 2.0, 2.0], 3.0),
+    ] {
+        for (fidelity, rate) in [(Fidelity::Game, 60), (Fidelity::Game, 120), (Fidelity::Engineering, 60)] {
+            let boom = Boom { links, load, fidelity, rate, end: 0.5 };
+            let [(one, gap_one), (two, gap_two)] = [false, true].map(|multibody| boom.fall(multibody));
+            let apart = one.iter().zip(&two).map(|(a, b)| (a - b).norm()).fold(0.0, f64::max);
+            let way = (one[one.len() - 1] - one[0]).norm();
+            println!("{:.4} of {way:.2} m, gaps {gap_one:.1e}, {gap_two:.1e}: {boom:?}", apart / way);
+            if apart > 0.05 * way || gap_two > gap_one.max(1e-4) {
+                wrong.push(format!("{:.4} of {way:.2} m, gaps {gap_one:.1e}, {gap_two:.1e}: {boom:?}", apart / way));
             }
         }
     }
