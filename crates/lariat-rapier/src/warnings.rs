@@ -43,12 +43,27 @@ pub enum Warning {
         /// Its distance from the surface in m.
         depth: f64,
     },
+    /// A cable that touches bodies would bounce off a collider, if contacts of cables had restitution.
+    #[error(
+        "cable {name:?}: contacts of cables have no restitution, and a collider that it may touch has {restitution}: the cable does not bounce \
+         off it"
+    )]
+    Restitution {
+        /// The cable.
+        cable: CableHandle,
+        /// Its name.
+        name: String,
+        /// The collider with the largest restitution.
+        collider: ColliderHandle,
+        /// That restitution.
+        restitution: f64,
+    },
 }
 
 impl CableSet {
     /// Returns the warnings about all cables: those that the cables have
-    /// ([`Cable::warnings`](lariat_ancf::Cable::warnings)), and nodes inside colliders. Worth a look when a world has been
-    /// built.
+    /// ([`Cable::warnings`](lariat_ancf::Cable::warnings)), nodes inside colliders, and restitution that contacts of cables ignore. Worth a
+    /// look when a world has been built.
     pub fn warnings(&self, world: &PhysicsWorld) -> Vec<Warning> {
         let mut warnings = Vec::new();
         for (cable, slot) in self.contents.cables.iter() {
@@ -62,6 +77,14 @@ impl CableSet {
                 if let Some((arc_length, depth)) = deepest(&slot.cable, shape) {
                     let name = slot.cable.name().to_string();
                     warnings.push(Warning::InCollider { cable: handle, name, collider, arc_length, depth });
+                }
+            }
+            if slot.cable.effects().contact.is_some() {
+                let touched = world.colliders.iter().filter(|(_, c)| c.restitution() > 0.0 && slot.rules.allow(c));
+                if let Some((collider, shape)) = touched.max_by(|a, b| a.1.restitution().total_cmp(&b.1.restitution()))
+                {
+                    let (name, restitution) = (slot.cable.name().to_string(), f64::from(shape.restitution()));
+                    warnings.push(Warning::Restitution { cable: handle, name, collider, restitution });
                 }
             }
         }

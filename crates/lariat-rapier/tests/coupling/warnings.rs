@@ -1,7 +1,7 @@
 //! Warnings of a set: as events, once each, and when asked for.
 
 use super::common::{add_cube, cable, run, soft};
-use lariat_rapier::lariat_ancf::{At, Section, Warning as CableWarning};
+use lariat_rapier::lariat_ancf::{At, Contact, Section, Warning as CableWarning};
 use lariat_rapier::rapier::prelude::*;
 use lariat_rapier::{AttachmentKind, CableHandle, CableSet, Event, Warning};
 
@@ -92,4 +92,23 @@ fn a_cable_inside_a_collider_is_told() {
     assert!(found == through && there == collider && (arc_length - 1.0).abs() < 1e-9 && (depth - 0.3).abs() < 1e-6);
     set.attach_here(&world, through, 1.0, wall, AttachmentKind::Ball).unwrap();
     assert!(set.warnings(&world).is_empty());
+}
+
+/// Restitution of colliders does not act on cables: who asks is told, of cables that touch, by the most elastic collider.
+#[test]
+fn restitution_is_told() {
+    let mut world = PhysicsWorld::new();
+    for restitution in [0.0, 0.7, 0.3] {
+        world.insert_collider(ColliderBuilder::cuboid(1.0, 0.1, 1.0).restitution(restitution), None);
+    }
+    let mut set = CableSet::new();
+    let high = || cable([0.0, 2.0, 0.0], [4.0, 2.0, 0.0], soft()).elements(8);
+    set.insert(high().build().unwrap());
+    assert_eq!(set.warnings(&world), []);
+    let touching = set.insert(high().build().unwrap());
+    set.set_contact(touching, Contact::with_friction(0.3).with_radius(0.01)).unwrap();
+    let [Warning::Restitution { cable: found, restitution, .. }] = set.warnings(&world)[..] else {
+        panic!("{:?}", set.warnings(&world))
+    };
+    assert!(found == touching && (restitution - 0.7).abs() < 1e-6);
 }

@@ -1,46 +1,15 @@
-//! Static equilibrium of cables and the bodies that they carry.
-//!
-//! # Equation
-//!
-//! ```text
-//! M z = c2 F(q + z)        F: forces on the cables, forces and torques on the bodies
-//! ```
-//!
-//! is solved again and again with growing c2, from rest each time: a proximal step of the potential
-//! energy in the metric of mass, for c2 = 0 along its gradient, for large c2 Newton's step. A step that
-//! raises the energy is repeated with a smaller c2. Velocities, gyroscopic torques and gaps are zero,
-//! and the rotation vectors of the bodies are counted from their attitude before each step. The end is
-//! checked: forces and moments balance at every node and at every body, no element is folded, and the
-//! matrix is positive definite; a saddle is left by a small displacement.
-//!
-//! # Validity
-//!
-//! Loads on bodies that are constant in world axes. Cables touch obstacles that stand still, without friction; contact of the bodies, and
-//! of cables with them, must be known to the caller. Modes without stiffness, such as a turn about a rope, keep their place.
-//!
-//! # References
-//!
-//! Rockafellar 1976 (proximal point); Kelley & Keyes 1998 (pseudo-transient continuation).
-//!
-//! # Alternatives considered
-//!
-//! - Newton's method alone: a body on a slack cable has a singular matrix.
-//! - Motion with damping until it rests: its last digits take as long as all before.
+//! The iteration to equilibrium: proximal steps, and the checks of their end.
 
-use super::body::RigidBody;
-use super::equations::{IslandEquations, Matrices, MatrixKind};
-use super::hold::vector;
-use super::layout::Layout;
-use super::pin::{PinConstraint, check, is_on_free_body};
-use super::rotation::{exponential, jacobian_inverse};
 use crate::cable::Cable;
-use crate::contact::Growth;
 use crate::effect::acts::ForceInput;
-use crate::element::side::Side;
-use crate::error::{EquilibriumFailure, Error, StepFailure, require};
-use crate::load::PointLoad;
-use crate::statics::{EquilibriumOptions, EquilibriumReport, LoadScale};
-use crate::statics::{first_fold, largest_force, move_with_supports, potential, straighten};
+use crate::error::{EquilibriumFailure, StepFailure};
+use crate::island::body::RigidBody;
+use crate::island::equations::{IslandEquations, Matrices, MatrixKind};
+use crate::island::hold::vector;
+use crate::island::layout::Layout;
+use crate::island::pin::PinConstraint;
+use crate::island::rotation::{exponential, jacobian_inverse};
+use crate::statics::{LoadScale, first_fold, largest_force, move_with_supports, potential, straighten};
 use crate::system::project_vector;
 use nalgebra::Vector3;
 
@@ -64,108 +33,13 @@ const AT_REST: f64 = 1e-8;
 const SHAKE: f64 = 1e-3;
 const MAX_SHAKES: usize = 3;
 
-/// Moves cables and bodies, held together by `pins`, to static equilibrium under gravity, the full point
-/// loads and effects of the cables, and the forces and torques of the bodies; velocities become zero. Flow
-/// is that of the cables' time.
-///
-/// # Errors
-/// [`Error::NoEquilibrium`] if none is found, and as [`Island::step`](super::Island::step) for pins that
-/// do not fit. Cables and bodies are then as before.
-pub fn equilibrium(
-    cables: &mut [&mut Cable],
-    bodies: &mut [RigidBody],
-    pins: &[PinConstraint],
-    options: EquilibriumOptions,
-) -> Result<EquilibriumReport, Error> {
-    require("equilibrium tolerance", options.tolerance, options.tolerance > 0.0, "> 0")?;
-    check(cables, bodies, pins)?;
-    if let Some(cable) = cables.iter().find(|cable| Side::BOTH.iter().any(|&side| cable.needs_island(side))) {
-        let reason = "its end is at a sheave or on a drum, whose equilibrium is not computed";
-        return Err(Error::ReelPlace { cable: cable.name().to_string(), reason });
-    }
-    let windings: Vec<_> = cables.iter().map(|cable| cable.snapshot.windings).collect();
-    for (i, cable) in cables.iter_mut().enumerate().filter(|(_, cable)| cable.has_reel()) {
-        cable.set_riding_stock(|node| is_on_free_body(bodies, pins, i, node));
-        cable.sync_reel();
-    }
-    let mut still = bodies.to_vec();
-    for body in &mut still {
-        (body.velocity, body.angular_velocity, body.memory) = (Vector3::zeros(), Vector3::zeros(), None);
-    }
-    let loads: Vec<Vec<PointLoad>> = cables.iter().map(|cable| cable.model.loads.clone()).collect();
-    cables.iter_mut().flat_map(|cable| &mut cable.model.loads).for_each(|load| load.ramp = 0.0);
-    let supports: Vec<_> = cables.iter().map(|cable| cable.model.supports.clone()).collect();
-    cables.iter_mut().for_each(|cable| cable.begin_static_contact());
-    let mut search = Search::new(cables, &still, pins, options.tolerance);
-    let mut outcome = search.run(cables, options.iterations);
-    let mut softened = false;
-    for cable in cables.iter_mut().filter(|_| outcome.is_err()) {
-        let start = cable.positions().to_vec();
-        softened |= cable.soften_static_contact(&start);
-    }
-    if softened {
-        let (steps, softened) = (search.steps, Search::new(cables, &still, pins, options.tolerance));
-        search = Search { steps, ..softened };
-        outcome = search.run(cables, steps + options.iterations);
-    }
-    let mut growth = Growth::default();
-    while outcome.is_ok() {
-        let harden = |cable: &mut &mut Cable| cable.harden_static_contact(&growth);
-        let depths: Vec<_> = cables.iter_mut().map(harden).collect();
-        if depths.iter().all(Option::is_none) {
-            break;
-        }
-        let good = (search.q.clone(), search.layout.clone());
-        let harder = search.run(cables, search.steps + options.iterations);
-        if growth.adapt(harder.is_ok()) {
-            (search.q, search.layout) = good;
-            for (cable, depth) in cables.iter_mut().zip(depths) {
-                depth.into_iter().for_each(|depth| cable.system.static_contact.retreat(depth));
-            }
-        } else {
-            outcome = harder;
-        }
-    }
-    let (steps, residual) = (search.steps, search.residual);
-    for (((cable, loads), supports), windings) in cables.iter_mut().zip(loads).zip(supports).zip(windings) {
-        cable.model.loads = loads;
-        if outcome.is_err() {
-            cable.model.supports = supports;
-            cable.snapshot.windings = windings;
-            cable.sync_reel();
-        }
-    }
-    if outcome.is_err() {
-        cables.iter_mut().for_each(|cable| cable.system.static_contact.end());
-    }
-    let stable = outcome.map_err(|failure| Error::NoEquilibrium {
-        cable: cables[0].name().to_string(),
-        time: cables[0].time(),
-        failure,
-        residual,
-        iterations: steps,
-    })?;
-    for (cable, part) in cables.iter_mut().zip(&search.layout.parts) {
-        cable.snapshot.state.q.copy_from_slice(&search.q[part.range()]);
-        cable.snapshot.state.v.fill(0.0);
-        cable.disturb();
-        cable.snapshot.state.memory.contacts = cable.end_static_contact();
-    }
-    for (i, (body, still)) in bodies.iter_mut().zip(&search.layout.bodies).enumerate() {
-        body.position = vector(&search.q[search.layout.body_at(i)..]);
-        body.rotation = still.rotation;
-        (body.velocity, body.angular_velocity, body.memory) = (Vector3::zeros(), Vector3::zeros(), None);
-    }
-    Ok(EquilibriumReport { iterations: steps, residual, stable })
-}
-
 /// The iteration.
-struct Search {
-    layout: Layout,
+pub(super) struct Search {
+    pub layout: Layout,
     matrices: Matrices,
     time: f64,
     /// Coordinates, those of a trial, its displacement, and zero velocities.
-    q: Vec<f64>,
+    pub q: Vec<f64>,
     trial: Vec<f64>,
     z: Vec<f64>,
     v: Vec<f64>,
@@ -178,12 +52,12 @@ struct Search {
     /// First c2 in s^2.
     first: f64,
     has_potential: bool,
-    steps: usize,
-    residual: f64,
+    pub steps: usize,
+    pub residual: f64,
 }
 
 impl Search {
-    fn new(cables: &mut [&mut Cable], bodies: &[RigidBody], pins: &[PinConstraint], tolerance: f64) -> Self {
+    pub fn new(cables: &mut [&mut Cable], bodies: &[RigidBody], pins: &[PinConstraint], tolerance: f64) -> Self {
         let mut layout = Layout::default();
         layout.begin(cables, bodies, pins, 1.0);
         layout.close();
@@ -222,7 +96,7 @@ impl Search {
     }
 
     /// Iterates to rest, and returns whether the shape is stable.
-    fn run(&mut self, cables: &mut [&mut Cable], most: usize) -> Result<bool, EquilibriumFailure> {
+    pub fn run(&mut self, cables: &mut [&mut Cable], most: usize) -> Result<bool, EquilibriumFailure> {
         if let Some(resultant) = self.unheld(cables) {
             self.residual = resultant;
             return Err(EquilibriumFailure::NotHeld);
