@@ -137,7 +137,7 @@ fn a_section_that_fails_loses_no_other() {
         failed += usize::from(matches!(progress, Progress::Failed(_)));
     });
     let report = report.unwrap();
-    assert_eq!((report.failures.len(), failed, report.sections.len()), (6, 6, 10));
+    assert_eq!((report.failures.len(), failed, report.sections.len()), (6, 6, 11));
     for file in ["table1.csv", "fidelity.csv", "effects.csv", "kernels.csv", "figure_1.svg"] {
         assert!(folder.path().join(file).exists(), "{file}");
     }
