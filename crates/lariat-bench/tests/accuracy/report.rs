@@ -102,7 +102,7 @@ fn the_page_of_a_report_says_what_its_files_hold() {
         Progress::Failed(error) => panic!("{error}"),
     });
     let report = report.unwrap();
-    assert_eq!((begun.len(), done, report.sections.len()), (10, 10, 10));
+    assert_eq!((begun.len(), done, report.sections.len()), (11, 11, 11));
     assert!(compare(&out, &report) > 150);
     let page = fs::read_to_string(out.join("README.md")).unwrap();
     for block in report.sections.iter().flat_map(|section| &section.blocks) {
