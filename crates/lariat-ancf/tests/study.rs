@@ -66,6 +66,11 @@ fn runs_that_do_not_converge_or_would_need_too_many_elements_are_told() {
     let claim = Study::new(1.0, 0.01, model(50.0, 2.0, 0.0)).error(1e-5).run().unwrap().claim;
     assert_eq!((claim.outcome, claim.claimed_m), (Outcome::ElementLimit, None));
     assert!(claim.elements <= 160 && claim.horizon_s.is_some());
+    // an error of the first order: 0.3/n m is below 1e-5 m from 30000 elements on
+    let first = Study::new(1.0, 0.01, model(0.3, 1.0, 0.0)).error(1e-5).run().unwrap().claim;
+    assert!(first.outcome == Outcome::ElementLimit && first.elements < 160 && first.horizon_s.is_some());
+    let needed = first.elements_needed.unwrap() as f64;
+    assert!((15_000.0..60_000.0).contains(&needed), "{first:?}");
     // parts that only one mesh has
     let breaks = |resolution: &Resolution, record: &mut Record| {
         record.frame(0.0).point([0.0; 3]);

@@ -141,13 +141,16 @@ fn sizes_in_other_units_are_told() {
 }
 
 /// Random sections: none of those that exist is doubted (0.5 mm to 1.4 m thick, 1e5 to 1e12 Pa, 12 to 1e5 times as long as thick), all that
-/// were given in other units are: millimetres read as metres, GPa read as Pa, and rods that are no cables.
+/// were given in other units are: millimetres read as metres, GPa read as Pa, MPa of metals read as Pa, and rods that are no cables.
+///
+/// *Source.* Metals: lead 1.6e10 Pa and 11340 kg/m^3 to beryllium copper 1.3e11 and 8250, steel 2.1e11 and 7800, aluminium 7e10 and 2700,
+/// titanium 1.1e11 and 4500.
 #[test]
 fn random_sizes_are_told_where_they_are_wrong_and_only_there() {
     let mut random = Random::new(11);
     let mut between = |low: f64, high: f64| low * (high / low).powf(0.5 + 0.5 * random.next());
     for case in 0..400 {
-        let (thick, modulus, density) = (between(5e-4, 1.4), between(1.01e5, 1e12), between(900.0, 8000.0));
+        let (thick, modulus, density) = (between(5e-4, 1.4), between(1.01e5, 1e12), between(900.0, 2500.0));
         let (ratio, short) = (between(12.0, 1e5), between(0.1, 9.9));
         let section = |thick: f64, modulus: f64| match case % 3 {
             0 => Section::round(thick, modulus, density),
@@ -164,6 +167,15 @@ fn random_sizes_are_told_where_they_are_wrong_and_only_there() {
         assert!(matches!(&in_metres[..], [Warning::Stubby { .. } | Warning::Thick { .. }]), "{found}: {in_metres:?}");
         let in_gpa = told(thick, 1e-9 * modulus, ratio * thick);
         assert!(matches!(&in_gpa[..], [Warning::SoftMaterial { .. }]), "{found}: {in_gpa:?}");
+        let metals = [(1.6e10, 11340.0), (1.3e11, 8250.0), (2.1e11, 7800.0), (7e10, 2700.0), (1.1e11, 4500.0)];
+        let (metal, heavy) = metals[case % metals.len()];
+        let metal = |unit: f64| {
+            let section = Section::round(thick, unit * metal, heavy).unwrap();
+            let line = Cable::builder().points([Vector3::zeros(), Vector3::x() * ratio * thick]);
+            line.section(section).fix(At::Start).build().unwrap().warnings()
+        };
+        assert_eq!(metal(1.0), [], "{found}");
+        assert!(matches!(&metal(1e-6)[..], [Warning::SoftMaterial { .. }]), "{found}");
         let stubby = told(thick, modulus, short * thick);
         assert!(matches!(&stubby[..], [Warning::Stubby { .. }]), "{found}, {short}: {stubby:?}");
     }

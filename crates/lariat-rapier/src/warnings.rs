@@ -4,15 +4,12 @@
 //! [`Event::Warning`] once, after the host step in which it came up. [`CableSet::warnings`] returns all at any time.
 
 use crate::contents::Contents;
-use crate::convert::{to_vector, vector};
 use crate::events::Event;
 use crate::handle::CableHandle;
+use crate::inside::deepest_inside;
 use crate::set::CableSet;
-use rapier::geometry::{Collider, ColliderHandle};
+use rapier::geometry::ColliderHandle;
 use rapier::pipeline::PhysicsWorld;
-
-/// Depth in m, besides half the thickness of the cable, that is not taken for touching.
-const TOUCHING: f64 = 1e-3;
 
 /// A warning about a cable of a set; its text says what to do.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -26,7 +23,7 @@ pub enum Warning {
         /// Its warning.
         warning: lariat_ancf::Warning,
     },
-    /// A node of a cable is inside a collider of a body that it is not attached to.
+    /// A cable runs through a collider of a body that it is not attached to.
     #[error(
         "cable {name:?}: at {arc_length:.4} m it is {depth:.2e} m inside a collider: contact does not push it out, and without contact it \
          passes through; check the points of the cable and the place of the collider"
@@ -38,9 +35,9 @@ pub enum Warning {
         name: String,
         /// The collider.
         collider: ColliderHandle,
-        /// Arc length of the deepest node in m.
+        /// Arc length of the deepest place in m.
         arc_length: f64,
-        /// Its distance from the surface in m.
+        /// Its distance from the surface in m; where no point that is tested is inside, half the length inside.
         depth: f64,
     },
     /// A cable that touches bodies would bounce off a collider, if contacts of cables had restitution.
@@ -62,7 +59,7 @@ pub enum Warning {
 
 impl CableSet {
     /// Returns the warnings about all cables: those that the cables have
-    /// ([`Cable::warnings`](lariat_ancf::Cable::warnings)), nodes inside colliders, and restitution that contacts of cables ignore. Worth a
+    /// ([`Cable::warnings`](lariat_ancf::Cable::warnings)), places inside colliders, and restitution that contacts of cables ignore. Worth a
     /// look when a world has been built.
     pub fn warnings(&self, world: &PhysicsWorld) -> Vec<Warning> {
         let mut warnings = Vec::new();
@@ -74,7 +71,7 @@ impl CableSet {
                 if attached.into_iter().any(|a| a.cable == handle && Some(a.body) == shape.parent()) {
                     continue;
                 }
-                if let Some((arc_length, depth)) = deepest(&slot.cable, shape) {
+                if let Some((arc_length, depth)) = deepest_inside(&slot.cable, shape) {
                     let name = slot.cable.name().to_string();
                     warnings.push(Warning::InCollider { cable: handle, name, collider, arc_length, depth });
                 }
@@ -90,22 +87,6 @@ impl CableSet {
         }
         warnings
     }
-}
-
-/// Returns arc length and depth in m of the node that is deepest in a collider, if one is in it.
-fn deepest(cable: &lariat_ancf::Cable, collider: &Collider) -> Option<(f64, f64)> {
-    let diameter = |element: &lariat_ancf::Element| element.section.diameter.unwrap_or(0.0);
-    let thickness = cable.elements().iter().map(diameter).fold(0.0, f64::max);
-    let mut deepest = (0.0, TOUCHING.max(0.5 * thickness));
-    for (node, s) in cable.node_arc_lengths().into_iter().enumerate() {
-        let point = cable.node_position(node);
-        let surface = collider.shape().project_point(collider.position(), to_vector(&point), false);
-        let depth = (vector(surface.point) - point).norm();
-        if surface.is_inside && depth > deepest.1 {
-            deepest = (s, depth);
-        }
-    }
-    (deepest.1 > TOUCHING.max(0.5 * thickness)).then_some(deepest)
 }
 
 /// Reads the cables at the end of a host step; what is new is an event.

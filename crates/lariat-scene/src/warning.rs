@@ -31,9 +31,9 @@ pub enum Warning {
         cable: String,
         /// Name of the body.
         body: String,
-        /// Arc length of the deepest node in m.
+        /// Arc length of the deepest place in m.
         at_m: f64,
-        /// Its distance from the surface in m.
+        /// Its distance from the surface in m; in a body thinner than an element, half the length inside.
         depth_m: f64,
     },
     /// A cable that passes through a body.
@@ -92,8 +92,8 @@ pub enum Warning {
         other_branch: bool,
     },
     /// An error that was asked for is not proven with as many elements as are tried.
-    #[error("the error of {asked_m:e} m is not proven{} with elements = {elements}, the most that are tried{}", until(*.horizon_s, *.estimate_m),
-        branches(*.other_branch)
+    #[error("the error of {asked_m:e} m is not proven{} with elements = {elements}{}{}", until(*.horizon_s, *.estimate_m),
+        would_need(*.elements_needed), branches(*.other_branch)
     )]
     ErrorNotReached {
         /// Error that was asked for in m.
@@ -102,6 +102,9 @@ pub enum Warning {
         estimate_m: Option<f64>,
         /// Elements of the cable that has most.
         elements: usize,
+        /// Elements that it would need about, by the order that the runs show.
+        #[serde(default)]
+        elements_needed: Option<usize>,
         /// First host time in s at which the error is not proven.
         horizon_s: Option<f64>,
         /// True if the runs are apart by more than a tenth of the longest cable.
@@ -153,6 +156,12 @@ pub enum Warning {
 fn until(horizon: Option<f64>, estimate: Option<f64>) -> String {
     let horizon = horizon.map_or(String::new(), |time| format!(" from {time:.4} s on"));
     estimate.map_or(horizon.clone(), |estimate| format!("{horizon} (estimate {estimate:.1e} m)"))
+}
+
+fn would_need(elements: Option<usize>) -> String {
+    elements.map_or(String::from(", the most that are tried"), |n| {
+        format!(": by the order that the runs show about {n} would be needed, more than are tried")
+    })
 }
 
 fn branches(other: bool) -> &'static str {

@@ -10,7 +10,7 @@ pub enum Outcome {
     Proven,
     /// Refining does not bring the runs together: a chaotic motion, or several equilibria.
     NoConvergence,
-    /// The limit of elements was reached before the error.
+    /// The limit of elements was reached before the error, or refining helps so slowly that it would be.
     ElementLimit,
 }
 
@@ -36,6 +36,10 @@ pub struct Claim {
     pub host_step_limits: bool,
     /// Elements of the cable that has most, in the last run.
     pub elements: usize,
+    /// If the limit of elements ended the study: how many that cable would need about, by the order that the last runs show; `None` if they
+    /// show none, and for runs that part later than in the first tenth of the motion.
+    #[serde(default)]
+    pub elements_needed: Option<usize>,
     /// Error of position per host step of the last run in m; `None` for an equilibrium.
     pub tolerance_m: Option<f64>,
     /// Number of runs.

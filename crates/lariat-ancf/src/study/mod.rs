@@ -12,9 +12,12 @@
 //!   its error says less than its tolerance: `e_time = d/(r - 1)`, which assumes the first order in the step alone. Below 5/4 both runs are
 //!   limited, and `e_time` is `4 d`, at least `T/dt tau`. If it is above `0.4 e`, the tolerance is taken smaller.
 //!
-//! The study ends with the finer of the two runs when `e_mesh + e_time <= e`; else the next run has 1.5 to 3 times as many elements, after the
-//! difference and an order of 2.5. Where refining does not help (the third difference is above 0.6 of the first), the motion is not
-//! determined by its start within `e`, as that of a chaotic pendulum: the study reports the time up to which `e` holds.
+//! The study ends with the finer of the two runs when `e_mesh + e_time <= e`; else the next run has 1.5 to 3 times as many elements, after
+//! the difference and the order that the last differences show, 2.5 before there are two. Where refining does not help (the third difference
+//! is above 0.6 of the first), the motion is not determined by its start within `e`, as that of a chaotic pendulum: the study reports the
+//! time up to which `e` holds. Where meshes are apart from the first tenth of the motion on, which is no chaos, and it helps so slowly that
+//! by the order of the last three differences half as many elements again as are allowed would be needed, the study ends at once and reports
+//! how many: that number is an extrapolation, and no claim rests on it.
 //! A first run that fails is repeated with twice and four times as many elements.
 //!
 //! # Validity
@@ -41,12 +44,14 @@
 //! - The mesh indicator as a bound: it does not see what waves accumulate.
 
 mod claim;
+mod order;
 mod record;
 
 pub use claim::{Claim, Outcome, Proof, StudyError};
 pub use record::Record;
 
 use crate::integrate::{Integrator, Method, StepControl};
+use order::Difference;
 
 /// Elements of the first run.
 const FIRST: usize = 4;
@@ -213,20 +218,19 @@ impl<F> Study<F> {
             let factor = if refined { (1.0 / (ratio - 1.0)).max(1.0) } else { f64::INFINITY };
             let mesh = if refined { factor * difference } else { f64::INFINITY };
             if refined {
-                differences.push(difference);
+                differences.push(Difference { distance: difference, ratio });
             }
-            let stuck = matches!(differences[..], [.., before, _, last] if last > 0.6 * before);
-            let growth = match (difference / (ratio.powf(2.5) - 1.0) / (0.6 * left)).cbrt() {
-                growth if refined && growth.is_finite() => growth.clamp(1.5, 3.0),
-                _ if refined => 3.0,
-                _ => 1.5,
-            };
+            let growth = if refined { order::growth(&differences, left) } else { 1.5 };
             let next = ((fine.elements as f64 * growth).ceil() as usize).min(limit);
+            let apart = coarse.record.first_beyond(&fine.record, left / factor);
+            let early = span.is_none_or(|span| apart.is_some_and(|time| time <= 0.1 * span.steps * span.host_step));
+            let needed = order::needed(&differences, left).filter(|_| early);
+            let needed = needed.map(|share| (share * fine.elements as f64).ceil());
             let outcome = if mesh + time.error <= error {
                 Outcome::Proven
-            } else if stuck {
+            } else if order::stuck(&differences) {
                 Outcome::NoConvergence
-            } else if (next as f64) < 1.5 * fine.elements as f64 {
+            } else if (next as f64) < 1.5 * fine.elements as f64 || needed.is_some_and(|n| n > 1.5 * limit as f64) {
                 Outcome::ElementLimit
             } else {
                 coarse = fine;
@@ -240,13 +244,11 @@ impl<F> Study<F> {
                 mesh_m: Some(mesh).filter(|mesh| mesh.is_finite()),
                 time_m: time.error,
                 outcome,
-                horizon_s: coarse
-                    .record
-                    .first_beyond(&fine.record, left / factor)
-                    .filter(|_| !proven && span.is_some()),
+                horizon_s: apart.filter(|_| !proven && span.is_some()),
                 other_branch: !proven && difference > BRANCH * fine.record.longest(),
                 host_step_limits: time.saturated,
                 elements: fine.elements,
+                elements_needed: needed.filter(|_| outcome == Outcome::ElementLimit).map(|needed| needed as usize),
                 tolerance_m: time.tolerance,
                 runs: runs.count,
                 cost: runs.evaluations as f64 / fine.record.evaluations().max(1) as f64,

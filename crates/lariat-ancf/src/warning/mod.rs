@@ -148,10 +148,10 @@ pub enum Warning {
         /// Outer diameter or side in m.
         diameter_m: f64,
     },
-    /// Softer than any rope.
+    /// Softer than any rope, or than any of its density.
     #[error(
         "cable {cable:?}: Young's modulus is {youngs_modulus_pa} Pa, softer than any rope or rubber: it is in Pa (steel 2.1e11, rubber \
-         1e6 to 1e8); was {youngs_modulus_pa} GPa meant?"
+         1e6 to 1e8); was {youngs_modulus_pa} GPa or MPa meant?"
     )]
     SoftMaterial {
         /// Name of the cable.

@@ -3,7 +3,8 @@
 //! # Validity
 //!
 //! Sources of the limits: below ten times its thickness a rod shears visibly (the deflection of a Timoshenko cantilever, nu = 0.3, is 0.8 %
-//! above Euler's at 10, 3 % at 5); the softest technical elastomers have 1e5 Pa; the thickest cables are those of suspension
+//! above Euler's at 10, 3 % at 5); the softest technical elastomers have 1e5 Pa; waves along a rod run at 10 m/s in them, and at 1200 m/s
+//! (lead) to 5200 m/s (steel, aluminium) in metals, of which a thousandth is left where a modulus in MPa is read in Pa; the thickest cables are those of suspension
 //! bridges (Akashi Kaikyo: 1.12 m) and the thickest pipelines 1.42 m (56 inches).
 
 use super::Warning;
@@ -13,6 +14,8 @@ use crate::section::Section;
 const SLENDERNESS: f64 = 10.0;
 /// Least Young's modulus in Pa.
 const SOFTEST: f64 = 1e5;
+/// Least speed of waves along a cable whose material is given, in m/s.
+const SLOWEST: f64 = 6.0;
 /// Largest thickness in m.
 const THICKEST: f64 = 1.5;
 
@@ -28,7 +31,8 @@ pub fn warnings(cable: &str, section: &Section, length_m: f64) -> impl Iterator<
         let thick = section.diameter.is_some_and(|diameter| diameter > THICKEST);
         thick.then(|| Warning::Thick { cable: name(), diameter_m })
     };
-    let soft = section.youngs_modulus.filter(|modulus| *modulus < SOFTEST);
+    let slow = section.axial_stiffness < SLOWEST * SLOWEST * section.mass_per_length;
+    let soft = section.youngs_modulus.filter(|modulus| *modulus < SOFTEST || slow);
     let material = soft.map(|youngs_modulus_pa| Warning::SoftMaterial { cable: name(), youngs_modulus_pa });
     shape.into_iter().chain(material)
 }

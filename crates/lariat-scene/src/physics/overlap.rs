@@ -3,14 +3,10 @@
 use super::Physics;
 use crate::scene::Scene;
 use crate::warning::Warning;
-use lariat_rapier::convert::to_vector;
-use lariat_rapier::rapier::geometry::{Aabb, BoundingVolume};
-
-/// Depth in m, besides half the thickness of the cable, that is not taken for touching.
-const TOUCHING: f64 = 1e-3;
+use lariat_rapier::deepest_inside;
 
 impl Physics {
-    /// Returns a warning for each cable and body, not attached to each other, with a node of the cable inside the body.
+    /// Returns a warning for each cable and body, not attached to each other, where the cable runs through the body.
     pub fn inside(&mut self, scene: &Scene) -> Vec<Warning> {
         let mut deepest: Vec<(usize, usize, f64, f64)> = Vec::new();
         for warning in self.cables.warnings(&self.world) {
@@ -40,26 +36,16 @@ impl Physics {
         let mut found = Vec::new();
         for (part, (_, cable)) in self.cables.iter().enumerate() {
             let Some(&c) = self.sources.get(part) else { continue };
-            let radius = cable.contact_radius().max(0.5 * scene.cables[c].section.diameter.unwrap_or(0.0));
             if cable.effects().contact.is_some() {
                 continue;
             }
-            let places = || (0..cable.nodes()).map(|node| to_vector(&cable.node_position(node)));
-            let mut around = Aabb::new_invalid();
-            places().for_each(|x| around.take_point(x));
             for b in 0..scene.bodies.len() {
                 let attached = scene.attachments.iter().any(|a| a.cable == c && a.body == Some(b));
                 if attached || self.passed.contains(&(c, b)) {
                     continue;
                 }
                 let colliders = self.world.bodies[self.bodies[b]].colliders().iter();
-                let inside = colliders.map(|c| &self.world.colliders[*c]).any(|collider| {
-                    collider.compute_aabb().intersects(&around)
-                        && places().any(|x| {
-                            let depth = -f64::from(collider.shape().distance_to_point(collider.position(), x, false));
-                            depth > TOUCHING.max(radius)
-                        })
-                });
+                let inside = colliders.map(|c| &self.world.colliders[*c]).any(|c| deepest_inside(cable, c).is_some());
                 if inside && !found.contains(&(c, b)) {
                     found.push((c, b));
                 }

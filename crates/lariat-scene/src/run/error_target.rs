@@ -3,7 +3,7 @@
 use super::{Done, Open, Options, Recorded, simulate};
 use crate::error::Error;
 use crate::scene::body::{BodyKind, BodyScene};
-use crate::scene::{Engine, Purpose, Scene};
+use crate::scene::{CableScene, Engine, Purpose, Scene};
 use crate::warning::Warning;
 use lariat_ancf::Vector3;
 use lariat_ancf::study::{Claim, Outcome, Proof, Resolution, Study, StudyError};
@@ -51,16 +51,21 @@ impl ErrorClaim {
     }
 
     fn warning(&self) -> Option<Warning> {
-        let Claim { asked_m, outcome, horizon_s, other_branch, elements, .. } = self.claim;
+        let Claim { asked_m, outcome, horizon_s, other_branch, elements, elements_needed, .. } = self.claim;
         let estimate_m = self.claim.mesh_m.map(|mesh| mesh + self.claim.time_m);
         match outcome {
             Outcome::Proven => None,
             Outcome::NoConvergence => {
                 Some(Warning::NoConvergence { asked_m, estimate_m, elements, horizon_s, other_branch })
             }
-            Outcome::ElementLimit => {
-                Some(Warning::ErrorNotReached { asked_m, estimate_m, elements, horizon_s, other_branch })
-            }
+            Outcome::ElementLimit => Some(Warning::ErrorNotReached {
+                asked_m,
+                estimate_m,
+                elements,
+                elements_needed,
+                horizon_s,
+                other_branch,
+            }),
         }
     }
 }
@@ -79,7 +84,7 @@ pub(super) fn conduct(
     error: f64,
     options: &mut Options<'_>,
 ) -> Result<Recorded, Error> {
-    check(scene, error)?;
+    check(scene, error, purpose)?;
     let largest = scene.cables.iter().map(|cable| cable.elements).max().unwrap_or(1);
     let each = |resolution: &Resolution, record: &mut _| -> Result<(Scene, Done), Stopped> {
         if let Some(pilot) = &mut options.pilot {
@@ -122,8 +127,17 @@ fn described(error: &StudyError<Stopped>) -> String {
     }
 }
 
-/// Refuses an error that rounding does not allow to prove.
-fn check(scene: &Scene, error: f64) -> Result<(), Error> {
+/// Refuses an error that rounding does not allow to prove, and cables that error control does not solve for.
+fn check(scene: &Scene, error: f64, purpose: Purpose) -> Result<(), Error> {
+    let unsolved =
+        |cable: &&CableScene| cable.drum.is_some() || cable.reel.as_ref().is_some_and(|r| r.max_force.is_some());
+    if let Some(cable) = scene.cables.iter().find(unsolved).filter(|_| purpose == Purpose::Run) {
+        let problem = format!(
+            "cable {:?}: runs with a tolerance do not solve for the rate of a reel with max_force or drum; halve elements and dt by hand",
+            cable.name
+        );
+        return Err(Error::Study { error, problem });
+    }
     let longest = scene.cables.iter().fold(0.0, |longest: f64, cable| longest.max(cable.length));
     let mut least = (LEAST * longest, "double precision");
     if scene.engine == Engine::Rapier {

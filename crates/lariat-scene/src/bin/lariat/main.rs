@@ -122,7 +122,7 @@ fn run_scene(arguments: &SceneArguments) -> Result<Summary, Error> {
     }
     let bar = RefCell::new(progress::Bar::new(scene.duration));
     let mut report = |time: f64| bar.borrow_mut().advance(time);
-    let mut pilot = |resolution: &Resolution| bar.borrow_mut().begin_run(resolution.elements);
+    let mut pilot = |resolution: &Resolution| bar.borrow_mut().begin_run(resolution);
     let mut options = Options {
         stop,
         progress: Some(&mut report),
@@ -138,8 +138,15 @@ fn run_scene(arguments: &SceneArguments) -> Result<Summary, Error> {
 
 fn find_static(arguments: &SceneArguments) -> Result<Summary, Error> {
     let scene = Scene::read(&arguments.scene, &arguments.set, Purpose::Static)?;
-    let mut options =
-        Options { warn: Some(&mut warn), error: arguments.error, usd: arguments.usd, ..Options::default() };
+    let mut bar = progress::Bar::new(0.0);
+    let mut pilot = |resolution: &Resolution| bar.begin_run(resolution);
+    let mut options = Options {
+        warn: Some(&mut warn),
+        error: arguments.error,
+        pilot: Some(&mut pilot),
+        usd: arguments.usd,
+        ..Options::default()
+    };
     run::statics(&scene, &arguments.out, &mut options)
 }
 

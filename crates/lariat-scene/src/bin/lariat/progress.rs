@@ -1,7 +1,9 @@
-//! A progress bar on stderr, if that is a terminal and the run is longer than a second.
+//! A progress bar on stderr, if that is a terminal and the run is longer than a second. A study that is longer says there, terminal or not,
+//! when each of its runs begins.
 
 use indicatif::{ProgressBar, ProgressStyle};
-use std::io::{IsTerminal, stderr};
+use lariat_ancf::study::Resolution;
+use std::io::{IsTerminal, Write, stderr};
 use std::time::{Duration, Instant};
 
 /// Ticks of the bar.
@@ -21,9 +23,21 @@ impl Bar {
         Bar { duration, start: Instant::now(), terminal: stderr().is_terminal(), bar: None, run: None }
     }
 
-    /// Begins the next of several runs.
-    pub fn begin_run(&mut self, elements: usize) {
-        self.run = Some((self.run.map_or(1, |(number, _)| number + 1), elements));
+    /// Begins the next run of a study.
+    pub fn begin_run(&mut self, resolution: &Resolution) {
+        let Resolution { elements, tolerance } = *resolution;
+        let number = self.run.map_or(1, |(number, _)| number + 1);
+        self.run = Some((number, elements));
+        let elapsed = self.start.elapsed();
+        if elapsed < Duration::from_secs(1) {
+            return;
+        }
+        let tolerance = tolerance.map_or(String::new(), |tolerance| format!(", tolerance {tolerance:.1e} m"));
+        let line = format!("study, {:.0} s: run {number} with elements = {elements}{tolerance}", elapsed.as_secs_f64());
+        match &self.bar {
+            Some(bar) => bar.println(line),
+            None => _ = writeln!(stderr(), "{line}"),
+        }
     }
 
     pub fn advance(&mut self, time: f64) {

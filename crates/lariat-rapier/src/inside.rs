@@ -1,0 +1,76 @@
+//! Where a cable runs through a collider.
+//!
+//! # Validity
+//!
+//! The line through five points of each element is tested: a point is inside if it is deeper than half the thickness of the cable and a
+//! millimetre; and a straight piece with both ends outside runs through what it enters by one face and leaves by an opposite one, however thin
+//! the collider is. An edge sharper than 60 degrees that only touches the cable is taken for such a piece.
+
+use crate::convert::{to_vector, vector};
+use lariat_ancf::Cable;
+use nalgebra::Vector3;
+use rapier::geometry::{Aabb, BoundingVolume, Collider, Ray};
+use rapier::math::Real;
+
+/// Depth in m, besides half the thickness of the cable, that is not taken for touching.
+const TOUCHING: f64 = 1e-3;
+/// Points per element, of which one is a node.
+const POINTS: usize = 4;
+/// Largest product of the normals of two faces that are opposite.
+const OPPOSITE: Real = -0.5;
+
+/// Returns arc length and depth in m of the place where a cable is deepest in a collider, if it runs through it.
+pub fn deepest_inside(cable: &Cable, collider: &Collider) -> Option<(f64, f64)> {
+    let nodes = (0..cable.nodes()).map(|node| cable.node_position(node));
+    let mut around = Aabb::new_invalid();
+    nodes.for_each(|x| around.take_point(to_vector(&x)));
+    let slack = cable.elements().iter().fold(0.0, |longest: f64, element| longest.max(element.length));
+    if !collider.compute_aabb().intersects(&around.loosened(0.5 * slack as Real)) {
+        return None;
+    }
+    let diameter = |element: &lariat_ancf::Element| element.section.diameter.unwrap_or(0.0);
+    let touching = cable.elements().iter().map(diameter).fold(2.0 * TOUCHING, f64::max) * 0.5;
+    let mut deepest: Option<(f64, f64)> = None;
+    let mut note = |s: f64, depth: f64| {
+        if deepest.is_none_or(|(_, known)| depth > known) {
+            deepest = Some((s, depth));
+        }
+    };
+    let mut before: Option<(f64, Vector3<f64>, bool)> = None;
+    let arc_lengths = cable.node_arc_lengths();
+    let starts = arc_lengths
+        .windows(2)
+        .flat_map(|ends| (0..POINTS).map(move |k| ends[0] + (ends[1] - ends[0]) * k as f64 / POINTS as f64));
+    for s in starts.chain([cable.length()]) {
+        let Ok(sample) = cable.sample(s) else { continue };
+        let point = sample.position;
+        let surface = collider.shape().project_point(collider.position(), to_vector(&point), false);
+        let depth = (vector(surface.point) - point).norm();
+        if surface.is_inside && depth > touching {
+            note(s, depth);
+        }
+        if let Some((from, start, false)) = before
+            && !surface.is_inside
+            && let Some((share, half)) = pierced(collider, &start, &point)
+        {
+            note(from + share * (s - from), half);
+        }
+        before = Some((s, point, surface.is_inside));
+    }
+    deepest
+}
+
+/// Returns where on a line between two points outside a collider, from 0 to 1, it is in the collider, and half of the length in m inside, if the
+/// line enters by one face and leaves by an opposite one.
+fn pierced(collider: &Collider, from: &Vector3<f64>, to: &Vector3<f64>) -> Option<(f64, f64)> {
+    let cast = |origin: &Vector3<f64>, end: &Vector3<f64>| {
+        let ray = Ray::new(to_vector(origin), to_vector(&(end - origin)));
+        collider.shape().cast_ray_and_get_normal(collider.position(), &ray, 1.0, false)
+    };
+    let (entry, exit) = (cast(from, to)?, cast(to, from)?);
+    if entry.normal.dot(exit.normal) > OPPOSITE {
+        return None;
+    }
+    let (start, end) = (entry.time_of_impact as f64, 1.0 - exit.time_of_impact as f64);
+    Some((0.5 * (start + end), 0.5 * (end - start).max(0.0) * (to - from).norm()))
+}
