@@ -87,11 +87,11 @@ pub enum Error {
         /// The node.
         node: usize,
     },
-    /// A link of a multibody that moved otherwise than predicted, so that the cable has lost it: links that
-    /// swing freely are not coupled right.
+    /// A link of a multibody that moved otherwise than predicted, so that the cable has lost it: one that is thrown
+    /// against another body or its limits.
     #[error(
-        "cable {cable:?} has lost body {body:?}, a link of a multibody that moves freely: {gap:.3e} m apart; \
-         use impulse joints"
+        "cable {cable:?} has lost body {body:?}, a link of a multibody that Rapier moved otherwise than predicted: \
+         {gap:.3e} m apart; use impulse joints"
     )]
     LinkLost {
         /// Name of the cable.

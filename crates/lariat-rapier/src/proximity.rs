@@ -4,9 +4,9 @@
 //! within its prediction distance. A body that moves farther than that in a step meets others
 //! before they are listed: its box, swept along its displacement, is looked up among all others.
 //!
-//! Boxes along the axes overlap long before bodies do: that of a long lever holds the loads below it. In
-//! a step Rapier makes contacts where, as it begins, the distance of two colliders is at most its
-//! prediction distance and their skins; with CCD, where they come to touch. The same distance decides here.
+//! Boxes along the axes overlap long before bodies do: that of a long lever holds the loads below it. Of a body that joints hold,
+//! whose motion by its mechanism is exact until it touches something, the distance decides; of others the boxes, so that a body
+//! that chatters in a jam keeps its reaction.
 
 use crate::convert::{to_vector, vector};
 use crate::ledger::is_ledger;
@@ -50,12 +50,19 @@ pub(crate) fn is_unjointed(world: &PhysicsWorld, handle: RigidBodyHandle) -> boo
 /// Returns whether Rapier's next step may make contacts of a body with another, of those that it lists pairs of.
 /// It keeps the pairs of a removed collider until then.
 fn is_near_another(world: &PhysicsWorld, handle: RigidBodyHandle) -> bool {
-    pairs(world, handle).any(|(own, other, pair)| may_touch(world, own, other, pair))
+    let boxes = is_unjointed(world, handle);
+    pairs(world, handle).any(|(own, other, pair)| boxes || may_touch(world, own, other, pair))
 }
 
-/// Returns whether Rapier's next step may make contacts of a pair that it lists.
+/// Returns whether a pair that Rapier lists may touch in its next step or, at twice the present velocities, in the one after it: the reaction
+/// of a body that chatters is expected again.
 pub(crate) fn may_touch(world: &PhysicsWorld, one: &Collider, two: &Collider, pair: &ContactPair) -> bool {
-    pair.manifolds().iter().any(|m| !m.points.is_empty()) || reaches(world, one, two, 0.0)
+    let way = || {
+        let dt = f64::from(world.integration_parameters.dt);
+        let linear = (velocity_of(world, one) - velocity_of(world, two)).norm() * dt;
+        2.0 * (linear + turn(world, one, dt) + turn(world, two, dt))
+    };
+    pair.manifolds().iter().any(|m| !m.points.is_empty()) || reaches(world, one, two, way())
 }
 
 /// Returns whether two colliders that come closer by `way` (m) may touch: within twice the distance at which Rapier makes contacts.
@@ -124,6 +131,7 @@ pub(crate) fn unlisted_collision(
 ) -> Option<f64> {
     let listed = f64::from(world.integration_parameters.prediction_distance());
     let others = dt * fastest;
+    let boxes = is_unjointed(world, handle);
     // the list of pairs may be one step old
     if 2.0 * (displacement.norm() + others) <= listed {
         return None;
@@ -137,7 +145,8 @@ pub(crate) fn unlisted_collision(
         world.intersect_aabb_conservative(reached, filter).any(|(_, other)| {
             let moved = velocity_of(world, other) * dt;
             let way = || (displacement - moved).norm() + turn(world, collider, dt) + turn(world, other, dt);
-            swept(other.compute_aabb(), &moved, 0.0).intersects(&own) && reaches(world, collider, other, way())
+            swept(other.compute_aabb(), &moved, 0.0).intersects(&own)
+                && (boxes || reaches(world, collider, other, way()))
         })
     });
     collides.then(|| displacement.norm() / dt + fastest)
@@ -154,6 +163,7 @@ fn velocity_of(world: &PhysicsWorld, collider: &Collider) -> Vector3<f64> {
 pub(crate) fn collision(world: &PhysicsWorld, handle: RigidBodyHandle, (dt, fastest): (f64, f64)) -> Option<f64> {
     let velocity = vector(world.bodies[handle].linvel());
     let margin = f64::from(world.integration_parameters.prediction_distance());
+    let boxes = is_unjointed(world, handle);
     let speeds = pairs(world, handle).filter_map(|(own, other, pair)| {
         let relative = velocity - velocity_of(world, other);
         let normals = pair.manifolds().iter().filter(|m| !m.points.is_empty()).map(|m| vector(m.data.normal));
@@ -161,7 +171,7 @@ pub(crate) fn collision(world: &PhysicsWorld, handle: RigidBodyHandle, (dt, fast
         let way = || relative.norm() * dt + turn(world, own, dt) + turn(world, other, dt);
         let meets = || {
             swept(own.compute_aabb(), &(relative * dt), margin).intersects(&other.compute_aabb())
-                && reaches(world, own, other, way())
+                && (boxes || reaches(world, own, other, way()))
         };
         along.or_else(|| meets().then(|| relative.norm()))
     });
