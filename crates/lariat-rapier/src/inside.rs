@@ -2,9 +2,9 @@
 //!
 //! # Validity
 //!
-//! The line through five points of each element is tested: a point is inside if it is deeper than half the thickness of the cable and a
-//! millimetre; and a straight piece with both ends outside runs through what it enters by one face and leaves by an opposite one, however thin
-//! the collider is. An edge sharper than 60 degrees that only touches the cable is taken for such a piece.
+//! Tested are the line through five points of each element, which is inside where it is deeper than half the thickness of the cable and a
+//! millimetre, and lines from one point outside to the next: such a line runs through a collider, however thin, that it enters by one
+//! face and leaves by an opposite one. An edge sharper than 60 degrees that only touches the cable is taken for such a collider.
 
 use crate::convert::{to_vector, vector};
 use lariat_ancf::Cable;
@@ -32,11 +32,11 @@ pub fn deepest_inside(cable: &Cable, collider: &Collider) -> Option<(f64, f64)> 
     let touching = cable.elements().iter().map(diameter).fold(2.0 * TOUCHING, f64::max) * 0.5;
     let mut deepest: Option<(f64, f64)> = None;
     let mut note = |s: f64, depth: f64| {
-        if deepest.is_none_or(|(_, known)| depth > known) {
+        if deepest.is_none_or(|(_, known)| depth > known * (1.0 + 1e-6)) {
             deepest = Some((s, depth));
         }
     };
-    let mut before: Option<(f64, Vector3<f64>, bool)> = None;
+    let mut outside: Option<(f64, Vector3<f64>)> = None;
     let arc_lengths = cable.node_arc_lengths();
     let starts = arc_lengths
         .windows(2)
@@ -44,33 +44,43 @@ pub fn deepest_inside(cable: &Cable, collider: &Collider) -> Option<(f64, f64)> 
     for s in starts.chain([cable.length()]) {
         let Ok(sample) = cable.sample(s) else { continue };
         let point = sample.position;
-        let surface = collider.shape().project_point(collider.position(), to_vector(&point), false);
-        let depth = (vector(surface.point) - point).norm();
-        if surface.is_inside && depth > touching {
+        let (depth, is_inside) = depth(collider, &point);
+        if is_inside && depth > touching {
             note(s, depth);
         }
-        if let Some((from, start, false)) = before
-            && !surface.is_inside
-            && let Some((share, half)) = pierced(collider, &start, &point)
-        {
-            note(from + share * (s - from), half);
+        if is_inside {
+            continue;
         }
-        before = Some((s, point, surface.is_inside));
+        if let Some((from, start)) = outside
+            && let Some((share, depth)) = pierced(collider, &start, &point, touching)
+        {
+            note(from + share * (s - from), depth);
+        }
+        outside = Some((s, point));
     }
     deepest
 }
 
-/// Returns where on a line between two points outside a collider, from 0 to 1, it is in the collider, and half of the length in m inside, if the
-/// line enters by one face and leaves by an opposite one.
-fn pierced(collider: &Collider, from: &Vector3<f64>, to: &Vector3<f64>) -> Option<(f64, f64)> {
+/// Returns where on a line between two points outside a collider, from 0 to 1, it is in the collider, and how deep in m, if that is deeper than
+/// `touching`; or half of the length inside, if the line enters by one face and leaves by an opposite one.
+fn pierced(collider: &Collider, from: &Vector3<f64>, to: &Vector3<f64>, touching: f64) -> Option<(f64, f64)> {
     let cast = |origin: &Vector3<f64>, end: &Vector3<f64>| {
         let ray = Ray::new(to_vector(origin), to_vector(&(end - origin)));
         collider.shape().cast_ray_and_get_normal(collider.position(), &ray, 1.0, false)
     };
     let (entry, exit) = (cast(from, to)?, cast(to, from)?);
-    if entry.normal.dot(exit.normal) > OPPOSITE {
-        return None;
-    }
     let (start, end) = (entry.time_of_impact as f64, 1.0 - exit.time_of_impact as f64);
-    Some((0.5 * (start + end), 0.5 * (end - start).max(0.0) * (to - from).norm()))
+    let length = (end - start).max(0.0) * (to - from).norm();
+    let places = (1..2 * POINTS).map(|k| start + (end - start) * k as f64 / (2 * POINTS) as f64);
+    let depths = places.map(|share| (share, depth(collider, &(from + (to - from) * share)).0));
+    let deepest =
+        depths.reduce(|a, b| if b.1 > a.1 { b } else { a }).filter(|(_, depth)| *depth > touching && length > 0.0);
+    let through = entry.normal.dot(exit.normal) < OPPOSITE;
+    deepest.or_else(|| through.then_some((0.5 * (start + end), 0.5 * length)))
+}
+
+/// Returns the distance in m of a point from the surface of a collider, and whether it is inside.
+fn depth(collider: &Collider, point: &Vector3<f64>) -> (f64, bool) {
+    let surface = collider.shape().project_point(collider.position(), to_vector(point), false);
+    ((vector(surface.point) - point).norm(), surface.is_inside)
 }

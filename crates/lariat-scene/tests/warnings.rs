@@ -185,7 +185,10 @@ fn bodies_of_all_shapes_that_a_cable_runs_through_are_told_and_only_those() {
         let a = if kind == 0 && case % 4 == 0 { 1e-4 * 50f64.powf(random.next()) } else { a };
         let along = way * (4.0 * random.next());
         let beside = way.cross(&turn).normalize() * (random.next() * 1.5 * a.max(b).max(c));
-        let (center, rotation) = (along + beside, Rotation3::from_scaled_axis(turn));
+        let rotation = Rotation3::from_scaled_axis(turn);
+        // half of the planes below the cable
+        let below = if kind == 5 && case % 4 == 1 { rotation * Vector3::y() * -4.5 } else { Vector3::zeros() };
+        let center = along + beside + below;
         let shape = match kind {
             0 => format!("cuboid = [{a:?}, {b:?}, {c:?}]"),
             1 => format!("ball = {a:?}"),
@@ -222,8 +225,14 @@ fn bodies_of_all_shapes_that_a_cable_runs_through_are_told_and_only_those() {
         let deepest = (0..=40_000)
             .map(|k| depth(kind, [a, b, c], rotation.inverse() * (end * (f64::from(k) / 40_000.0) - center)))
             .fold(f64::NEG_INFINITY, f64::max);
-        let plate = kind == 0 && a < 6e-3;
-        if deepest > if plate { 0.9 * a } else { 0.01 } {
+        // a plate that it enters by one face and leaves by the other
+        let (from, along) = (rotation.inverse() * -center, rotation.inverse() * end);
+        let crosses = |x: f64| {
+            let share = (x - from.x) / along.x;
+            let there = from + along * share;
+            (0.0..1.0).contains(&share) && there.y.abs() < b && there.z.abs() < c
+        };
+        if deepest > 0.01 || kind == 0 && crosses(a) && crosses(-a) {
             through[kind] += 1;
             assert!(is_told, "{case}: {deepest} m in\n{text}");
         } else if deepest < 0.0 {

@@ -13,11 +13,11 @@
 //!   limited, and `e_time` is `4 d`, at least `T/dt tau`. If it is above `0.4 e`, the tolerance is taken smaller.
 //!
 //! The study ends with the finer of the two runs when `e_mesh + e_time <= e`; else the next run has 1.5 to 3 times as many elements, after
-//! the difference and the order that the last differences show, 2.5 before there are two. Where refining does not help (the third difference
-//! is above 0.6 of the first), the motion is not determined by its start within `e`, as that of a chaotic pendulum: the study reports the
-//! time up to which `e` holds. Where meshes are apart from the first tenth of the motion on, which is no chaos, and it helps so slowly that
-//! by the order of the last three differences half as many elements again as are allowed would be needed, the study ends at once and reports
-//! how many: that number is an extrapolation, and no claim rests on it.
+//! the difference and an order of 2.5. Where refining does not help (the third difference is above 0.6 of the first), the motion is not
+//! determined by its start within `e`, as that of a chaotic pendulum: the study reports the time up to which `e` holds. Where meshes are
+//! apart from the first tenth of the motion on, which is no chaos, the order is that of the last three differences; and where by it half as
+//! many elements again as are allowed would be needed, the study ends at once and reports how many: that number is an extrapolation, and no
+//! claim rests on it.
 //! A first run that fails is repeated with twice and four times as many elements.
 //!
 //! # Validity
@@ -220,10 +220,10 @@ impl<F> Study<F> {
             if refined {
                 differences.push(Difference { distance: difference, ratio });
             }
-            let growth = if refined { order::growth(&differences, left) } else { 1.5 };
-            let next = ((fine.elements as f64 * growth).ceil() as usize).min(limit);
             let apart = coarse.record.first_beyond(&fine.record, left / factor);
             let early = span.is_none_or(|span| apart.is_some_and(|time| time <= 0.1 * span.steps * span.host_step));
+            let growth = if refined { order::growth(&differences, left, early) } else { 1.5 };
+            let next = ((fine.elements as f64 * growth).ceil() as usize).min(limit);
             let needed = order::needed(&differences, left).filter(|_| early);
             let needed = needed.map(|share| (share * fine.elements as f64).ceil());
             let outcome = if mesh + time.error <= error {

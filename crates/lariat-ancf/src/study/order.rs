@@ -19,7 +19,7 @@
 //!
 //! - The order 2.5 throughout: where the order is 1, the elements grow by so little that a study takes three runs more.
 
-/// Order that is assumed before two distances show one.
+/// Order that is assumed where distances show none.
 const ASSUMED: f64 = 2.5;
 /// Least and largest order.
 const ORDERS: [f64; 2] = [0.25, 4.0];
@@ -64,10 +64,10 @@ fn tail(differences: &[Difference], count: usize) -> &[Difference] {
     &differences[differences.len().saturating_sub(count)..]
 }
 
-/// Returns the factor by which the number of elements is to grow for an error in m.
-pub(super) fn growth(differences: &[Difference], error: f64) -> f64 {
+/// Returns the factor by which the number of elements is to grow for an error in m; by the order of the last distances, if they show `one`.
+pub(super) fn growth(differences: &[Difference], error: f64, one: bool) -> f64 {
     let [.., last] = differences else { return LEAST };
-    let order = observed(tail(differences, 3)).unwrap_or(ASSUMED).min(ASSUMED);
+    let order = observed(tail(differences, 3)).filter(|_| one).unwrap_or(ASSUMED).min(ASSUMED);
     let finest = last.distance / (last.ratio.powf(order) - 1.0);
     let growth = (finest / (AIM * error)).powf(1.0 / (order + 0.5));
     if growth.is_finite() { growth.clamp(LEAST, 3.0) } else { 3.0 }

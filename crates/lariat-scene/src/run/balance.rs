@@ -4,7 +4,8 @@
 //!
 //! ```text
 //! B(t) = change of (kinetic + strain + gravity) - work on it
-//! S(t) = largest of kinetic energy, change of strain energy, change of gravity's, dissipated energy, work, weight times 1 mm, so far
+//! S(t) = largest of kinetic energy, change of strain energy, change of gravity's, dissipated energy, work, weight times 1 mm, the energy of
+//!                a strain of 1e-6, so far
 //! ```
 //!
 //! of all cables, and of the dynamic bodies that nothing but cables, gravity and loads moves. The work is that of effects (damping and
@@ -42,6 +43,9 @@ const ROUNDING: f64 = 1e-9;
 /// Height in m over which the weight of everything is the least energy to compare with, as in the law of the discrete gradient.
 const LEAST_HEIGHT: f64 = 1e-3;
 
+/// Strain of all cables that is the least energy to compare with, where nothing has weight and all is at rest.
+const LEAST_STRAIN: f64 = 1e-6;
+
 /// What `summary.json` says about the energy of a run.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct EnergyBalance {
@@ -56,7 +60,7 @@ pub struct EnergyBalance {
     /// Host time of that in s.
     pub lost_at_s: f64,
     /// Energy of the run in J, to compare with: the largest of kinetic energy, changes of strain energy and of that of gravity, dissipated
-    /// energy, work, and all weight times 1 mm.
+    /// energy, work, all weight times 1 mm, and the energy of a strain of 1e-6 of all cables.
     pub scale_j: f64,
     /// Rounding errors in J that the balance may have: of the energies, which are differences, and of the positions of bodies in single
     /// precision, by which the forces of cables do work in every step.
@@ -92,6 +96,8 @@ pub(super) struct Terms {
     pub gravity: f64,
     /// Weight of all cables and dynamic bodies in N.
     pub weight: f64,
+    /// Sum of axial stiffness times length of all cables in J.
+    pub stiffness: f64,
     pub dissipated: f64,
     /// Work on cables, but that of damping and drag.
     pub work: f64,
@@ -147,6 +153,7 @@ impl Account {
         balance.dissipated_j = now.dissipated - start.dissipated;
         let sizes = [
             now.weight * LEAST_HEIGHT,
+            0.5 * now.stiffness * LEAST_STRAIN * LEAST_STRAIN,
             kinetic,
             now.strain - start.strain,
             gravity(&now) - gravity(start),

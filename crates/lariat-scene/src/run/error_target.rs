@@ -129,14 +129,16 @@ fn described(error: &StudyError<Stopped>) -> String {
 
 /// Refuses an error that rounding does not allow to prove, and cables that error control does not solve for.
 fn check(scene: &Scene, error: f64, purpose: Purpose) -> Result<(), Error> {
-    let unsolved =
-        |cable: &&CableScene| cable.drum.is_some() || cable.reel.as_ref().is_some_and(|r| r.max_force.is_some());
-    if let Some(cable) = scene.cables.iter().find(unsolved).filter(|_| purpose == Purpose::Run) {
-        let problem = format!(
-            "cable {:?}: runs with a tolerance do not solve for the rate of a reel with max_force or drum; halve elements and dt by hand",
-            cable.name
-        );
-        return Err(Error::Study { error, problem });
+    if purpose == Purpose::Run {
+        let winds =
+            |cable: &CableScene| cable.drum.is_some() || cable.reel.as_ref().is_some_and(|r| r.max_force.is_some());
+        let winding =
+            scene.cables.iter().find(|cable| winds(cable)).map(|cable| format!("reel of cable {:?}", cable.name));
+        let unsolved = winding.or_else(|| scene.sheaves.first().map(|sheave| format!("sheave {:?}", sheave.name)));
+        if let Some(unsolved) = unsolved {
+            let problem = format!("{unsolved}: its rate is an unknown, which runs with a tolerance do not solve for");
+            return Err(Error::Study { error, problem });
+        }
     }
     let longest = scene.cables.iter().fold(0.0, |longest: f64, cable| longest.max(cable.length));
     let mut least = (LEAST * longest, "double precision");

@@ -87,6 +87,8 @@ impl World {
         }
         let masses = self.scene.cables.iter().map(|cable| cable.section.mass_per_length * cable.length);
         terms.weight += self.scene.gravity.norm() * masses.sum::<f64>();
+        let stiffness = self.scene.cables.iter().map(|cable| cable.section.axial_stiffness * cable.length);
+        terms.stiffness = stiffness.sum();
         // the law counts all forces on bodies as loads
         let in_law = terms.bodies.iter().filter(|body| body.in_law);
         terms.work += in_law.map(|body| body.gravity - body.loads).sum::<f64>();
