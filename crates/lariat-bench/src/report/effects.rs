@@ -14,7 +14,7 @@ use crate::page::Section;
 use crate::table::{Cell, Format, Table, hidden, shown};
 use cpu_time::ProcessTime;
 use fearless_simd::Level;
-use lariat_ancf::{At, Cable, Effects, Integrator, Method, Rule, Section as CrossSection, Vector3};
+use lariat_ancf::{At, Cable, Effects, Fidelity, Integrator, Method, Rule, Section as CrossSection, Vector3};
 use std::hint::black_box;
 
 /// Step in s.
@@ -121,6 +121,32 @@ fn table(name: &'static str, first: &'static str, rows: Vec<Vec<Cell>>) -> Table
     Table { name, columns, rows }
 }
 
+/// Measures a host step of 1/60 s in fidelity game, of a cable that nobody watches and of one that [`CableSet`](lariat_rapier::CableSet)
+/// watches.
+fn watching(options: &Options) -> Result<Table, Error> {
+    let mut rows = Vec::new();
+    for (name, watched) in [("not watched", false), ("watched", true)] {
+        let mut cable = cable("projected-3", Effects::default())?;
+        cable.set_integrator(cable.integrator_for(Fidelity::Game))?;
+        cable.set_watched(watched);
+        cable.step(1.0 / 60.0)?;
+        let timing = time(options, &mut cable, |cable| {
+            cable.step(black_box(1.0 / 60.0))?;
+            cable.note_host_step(|warning| drop(black_box(warning)));
+            Ok(())
+        })?;
+        let part = |part: fn(&Timing) -> f64| Cell::from(timing.as_ref().map(part));
+        rows.push(vec![Cell::from(name), part(|t| t.median), part(|t| t.least), part(|t| t.most)]);
+    }
+    let columns = vec![
+        shown("case", "a host step in fidelity game", Format::Plain),
+        shown("host_step_ns", "ns per element", Format::Fixed(1)),
+        hidden("host_step_least_ns"),
+        hidden("host_step_most_ns"),
+    ];
+    Ok(Table { name: "watching", columns, rows })
+}
+
 /// Returns the instruction sets of this machine, the widest first.
 fn levels() -> Vec<(&'static str, Level)> {
     #[cfg(target_arch = "x86_64")]
@@ -166,5 +192,10 @@ pub fn section(options: &Options) -> Result<Section, Error> {
         rows.push(row(options, name, &mut cable, false)?);
     }
     section.table(table("kernels", "instructions", rows));
+    section.text(
+        "What warnings cost: a cable of a `CableSet` reads its mesh indicator, strain and steps at the end of each host step \
+         (`Settings::watch`, on by default).",
+    );
+    section.table(watching(options)?);
     Ok(section)
 }
