@@ -100,3 +100,17 @@ fn every_known_miss_belongs_to_a_run() {
         assert!(value.is_finite() && bound.is_finite() && seen.insert((run, kind)));
     }
 }
+
+/// The page lists the bounds that Lariat misses; a rope of Rapier's that misses one is none of them.
+#[test]
+fn the_page_lists_no_misses_of_other_ropes() {
+    let missed = |row: Row| {
+        let (_, sections) = lariat_bench::stability::page::page(&[row], "", "").unwrap();
+        let tables = sections.iter().flat_map(|section| section.tables());
+        let of_misses = tables.filter(|table| table.name == "stability_misses");
+        of_misses.map(|table| table.rows.len()).max().unwrap()
+    };
+    let ours = row(Outcome::NotFinite, 0.5);
+    assert_eq!(missed(Row { model: CableModel::SoftRope, ..ours.clone() }), 0);
+    assert_eq!(missed(ours), 1);
+}

@@ -29,8 +29,8 @@ time); what is not done by then is *over budget*. Evaluations are the same on ev
 /// # Errors
 /// [`Error::Figure`].
 pub fn page(rows: &[Row], machine: &str, command: &str) -> Result<(String, Vec<Section>), Error> {
-    let missed: Vec<Miss> = rows.iter().flat_map(misses::of).collect();
     let ours = || rows.iter().filter(|r| r.model == CableModel::Lariat);
+    let missed: Vec<Miss> = ours().flat_map(misses::of).collect();
     let good = ours().filter(|r| r.outcome.is_good()).count();
     let introduction = format!(
         "Made by `{command}`; do not edit. {machine}\n\n{good} of {} runs of Lariat passed or ended in an error that their case allows.\n\n\
@@ -66,7 +66,7 @@ pub fn page(rows: &[Row], machine: &str, command: &str) -> Result<(String, Vec<S
         misses.text("None.");
     } else {
         misses.text(
-            "By case, with the worst run. A run that ended before its time shows the share of it that was done. The tests compare with the \
+            "Bounds that Lariat misses by case, with the worst run. A run that ended before its time shows the share of it that was done. The tests compare with the \
              list in `crates/lariat-bench/stability_misses.csv`: they fail if a value of it becomes worse by more than 20 %, and also if \
              one becomes better, so that the list remains true.",
         );
