@@ -3,7 +3,7 @@
 use crate::cable::Reels;
 use crate::contact::Obstacles;
 use crate::effect::force_density::ForceDensities;
-use crate::effect::{Effects, Target};
+use crate::effect::{Effects, LineLoads, Target};
 use crate::error::{Error, require, require_finite};
 use crate::load::PointLoad;
 use crate::rule::Rule;
@@ -148,6 +148,11 @@ impl Model {
     /// Returns the weight per length in N/m: scaled gravity less buoyancy.
     pub(crate) fn weight(&self, element: &Element) -> Vector3<f64> {
         self.effects.weight(&element.section, self.gravity)
+    }
+
+    /// Returns the constant force per length in N/m of a cable with a reel, beside its weight.
+    pub(crate) fn line_force(&self) -> Vector3<f64> {
+        self.effects.line_loads.as_ref().map_or_else(Vector3::zeros, LineLoads::sum)
     }
 
     /// Returns the sum of weights and constant forces in N, and the sum of their sizes.

@@ -84,11 +84,12 @@ impl Cable {
     /// ```
     ///
     /// # Errors
-    /// [`Error::StepFailed`] if the mass matrix cannot be factored.
+    /// [`Error::StepFailed`] if the mass matrix cannot be factored, [`Error::NotWithReel`] for a cable with a reel.
     pub fn add_force_density(&mut self, force: Arc<dyn ForceDensity>) -> Result<(), Error> {
         let mut model = self.model.clone();
         model.force_densities.attach(force);
         let as_before = self.model.force_densities.missing() > 0;
+        model.check_effects().map_err(|e| e.of_cable(self.name()))?;
         self.rebuild(model)?;
         if !as_before {
             self.revise();
@@ -135,9 +136,12 @@ impl Cable {
     /// ```
     ///
     /// # Errors
-    /// [`Error::MissingForEffect`] for a cable without drag, [`Error::InvalidValue`] for a velocity that is not finite; the samples are then as
-    /// before.
+    /// [`Error::MissingForEffect`] for a cable without drag, [`Error::NotWithReel`] for one with a reel, [`Error::InvalidValue`] for a velocity
+    /// that is not finite; the samples are then as before.
     pub fn sample_flow(&mut self, mut field: impl FnMut(Vector3<f64>) -> Vector3<f64>) -> Result<(), Error> {
+        if self.has_reel() {
+            return Err(Error::NotWithReel { cable: self.name().to_string(), what: "a sampled flow" });
+        }
         let (Some(drag), Some(table)) = (&mut self.model.effects.drag, &mut self.system.forces.at_points.drag) else {
             let (cable, effect) = (self.model.name.clone(), "a sampled flow");
             return Err(Error::MissingForEffect { cable, effect, requirement: Requirement::Drag });

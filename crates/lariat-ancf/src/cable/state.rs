@@ -56,7 +56,10 @@ impl Snapshot {
         for (winding, work) in self.windings.iter_mut().zip(core::mem::take(&mut system.meter.reel_work)) {
             winding.iter_mut().for_each(|winding| winding.work += work);
         }
-        system.loads.of_effects.add_work(before, &self.state.q, &mut self.work);
+        // with a reel, the lengths on which they act change: it is in the work of the steps
+        if system.flows.is_empty() {
+            system.loads.of_effects.add_work(before, &self.state.q, &mut self.work);
+        }
     }
 }
 

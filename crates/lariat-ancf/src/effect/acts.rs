@@ -169,6 +169,9 @@ pub(crate) trait PointForce: Clone + Debug {
         out.iter_mut().for_each(|f| *f *= 1.0 / scale);
     }
 
+    /// Sets the length of an element in m: that at the eye of a reel changes. Default: it never does.
+    fn set_length(&mut self, _element: usize, _length: f64) {}
+
     /// Whether it can move a cable at rest although it has no potential.
     fn drives(&self) -> bool;
 

@@ -50,6 +50,23 @@ impl LineLoad {
 #[serde(transparent)]
 pub struct LineLoads(pub Vec<LineLoad>);
 
+impl LineLoads {
+    /// Returns the sum in N/m of loads that are on the whole cable.
+    pub(crate) fn sum(&self) -> Vector3<f64> {
+        self.0.iter().map(|load| load.force).sum()
+    }
+
+    /// Makes loads that reach the end of a cable of a length in m those of all cable that is paid out there.
+    pub(crate) fn extend(&mut self, length: f64) {
+        self.0.iter_mut().filter(|load| load.to >= length * (1.0 - 1e-12)).for_each(|load| load.to = f64::MAX);
+    }
+
+    /// Returns whether all are on the whole cable, however long it is.
+    pub(crate) fn are_whole(&self) -> bool {
+        self.0.iter().all(|load| load.from == 0.0 && load.to == f64::MAX)
+    }
+}
+
 impl From<LineLoad> for LineLoads {
     fn from(load: LineLoad) -> Self {
         LineLoads(vec![load])

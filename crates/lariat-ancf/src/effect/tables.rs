@@ -196,6 +196,11 @@ macro_rules! generate {
                 $(if let Some(table) = &self.$field { table.add_dual(element, time, q, v, out); })*
             }
 
+            /// Sets the length of an element in m.
+            pub fn set_length(&mut self, element: usize, length: f64) {
+                $(if let Some(table) = &mut self.$field { table.set_length(element, length); })*
+            }
+
             /// Whether an effect is there.
             pub fn any(&self) -> bool {
                 false $(|| self.$field.is_some())*
@@ -224,7 +229,7 @@ macro_rules! generate {
         /// Constant generalised forces of effects; empty for those that have none.
         #[derive(Clone, Debug)]
         pub(crate) struct DeadForces {
-            $($field: Vec<f64>,)*
+            $(pub $field: Vec<f64>,)*
         }
 
         impl DeadForces {

@@ -157,11 +157,17 @@ impl Equations<'_> {
         let (level, forces) = (system.level, &mut system.forces);
         let count = forces.elements.count() as u64;
         let at_points = forces.at_points.any() || forces.densities.is_some();
-        if at_points || !self.model.loads.is_empty() {
+        let lines_flow = !system.flows.is_empty() && self.model.effects.line_loads.is_some();
+        if at_points || lines_flow || !self.model.loads.is_empty() {
             if matrix {
                 b.linearised.clear();
             }
             b.find_means(&state.q);
+            system.flows.add_drift_over_step(state, b, matrix);
+        }
+        if lines_flow {
+            let lines = &system.loads.of_effects.line_loads;
+            work.line_loads += dot(lines, &b.change) + system.flows.work_on_lengths(state, b, lines);
         }
         let time = state.time + 0.5 * b.h;
         let [middle, velocity, middle_before, velocity_before] = &b.means;
@@ -181,7 +187,16 @@ impl Equations<'_> {
             }
         }
         let loads = ForceInput { time, q: middle_before, v: &[], dv_dq: 0.0, scale: 1.0 };
+        if at_points {
+            system.flows.note_point_forces((state.time, b.h), middle, external);
+        }
+        if self.model.loads.is_empty() {
+            return system.loads.add(&self.model.loads, loads, external, None, diagnostics);
+        }
+        let before = dot(external, &b.change);
         system.loads.add(&self.model.loads, loads, external, None, diagnostics);
+        let dead = system.loads.gravity_work(&b.change) + system.loads.effect_work(&b.change);
+        b.load_work = dot(external, &b.change) - before - dead;
     }
 
     /// Returns what the present iterate does to the energy, but for the product of residual and velocity: `rhs` is then the residual of
@@ -189,11 +204,10 @@ impl Equations<'_> {
     pub fn step_balance(&mut self, state: &State, b: &mut Buffers, work: &mut EffectWork) -> Balance {
         let loss = self.step_residual(state, b, false, work);
         let mut balance = Balance { numerical: loss.numerical, effects: loss.effects, ..Balance::default() };
-        let (system, Buffers { h, change, external, product, .. }) = (&*self.system, &*b);
+        let Buffers { h, external, product, .. } = &*b;
         balance.impulse = sum_of_forces(product) + *h * sum_of_forces(external);
         if !self.model.loads.is_empty() {
-            let dead = system.loads.gravity_work(change) + system.loads.effect_work(change);
-            balance.loads = dot(external, change) - dead - (work.total() + loss.effects);
+            balance.loads = b.load_work;
         }
         if !b.contact.is_empty() {
             self.balance_contacts(b, &mut balance, work);

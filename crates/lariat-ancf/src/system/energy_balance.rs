@@ -96,7 +96,8 @@ impl Equations<'_> {
     fn add_effect_work(&mut self, before: &State, after: &State, h: f64, range: Range<usize>) {
         let forces = &self.system.forces;
         let dissipates = forces.in_element.as_ref().is_some_and(|effects| effects.dissipates());
-        let effects = dissipates || forces.at_points.any() || forces.densities.is_some();
+        let line_loads = !self.system.flows.is_empty() && self.model.effects.line_loads.is_some();
+        let effects = dissipates || forces.at_points.any() || forces.densities.is_some() || line_loads;
         if !effects && self.model.loads.is_empty() {
             return;
         }
@@ -140,18 +141,24 @@ impl Equations<'_> {
     /// Returns the power of effects that have no energy, at positions and velocities of the meter.
     fn effect_power(&mut self, time: f64) -> EffectWork {
         let system = &mut *self.system;
+        system.set_flows(self.model, time);
         let (forces, EnergyMeter { q, v, force, .. }) = (&mut system.forces, &mut system.meter);
-        system.flows.strain_velocity(time, q, v);
+        let input = ForceInput { time, q, v, dv_dq: 0.0, scale: 1.0 };
+        let with_flows = !system.flows.is_empty();
+        let [strain, input] = system.flows.velocities(input);
         let mut power = EffectWork::default();
         if let Some(effects) = forces.in_element.as_ref().filter(|effects| effects.dissipates()) {
-            forces.elements.add_effect_power(effects, q, v, &mut power);
+            forces.elements.add_effect_power(effects, q, strain.v, &mut power);
         }
-        let input = ForceInput { time, q, v, dv_dq: 0.0, scale: 1.0 };
+        if with_flows {
+            let of_lines = &system.loads.of_effects.line_loads;
+            power.line_loads = of_lines.iter().zip(input.v).map(|(f, v)| f * v).sum();
+        }
         forces.at_points.add_power(system.level, input, force, &mut power);
         if let Some(densities) = &mut forces.densities {
             force.fill(0.0);
             densities.add(system.level, input, force, None);
-            power.force_densities = force.iter().zip(v.iter()).map(|(f, v)| f * v).sum();
+            power.force_densities = force.iter().zip(input.v).map(|(f, v)| f * v).sum();
         }
         power
     }

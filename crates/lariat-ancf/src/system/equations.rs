@@ -75,7 +75,7 @@ impl Equations<'_> {
         }
         let n = self.model.elements.len() as u64;
         let to = mass_scale.map(|mass_scale| MatrixOutput { matrix: &mut *matrix, mass_scale });
-        system.forces.add(system.level, system.flows.for_damping(input), out, to, diagnostics);
+        system.forces.add(system.level, system.flows.velocities(input), out, to, diagnostics);
         match mass_scale {
             None => diagnostics.force_evaluations += n,
             Some(_) => diagnostics.tangent_evaluations += n,

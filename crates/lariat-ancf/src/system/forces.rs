@@ -32,11 +32,12 @@ impl Forces {
         }
     }
 
-    /// Adds all forces to `out`, and overwrites the step matrix if that is asked for.
+    /// Adds all forces to `out`, and overwrites the step matrix if that is asked for; `material` has the velocities of the material, which
+    /// the others are not [at the eye of a reel](super::flow).
     pub fn add(
         &mut self,
         level: Level,
-        input: ForceInput<'_>,
+        [input, material]: [ForceInput<'_>; 2],
         out: &mut [f64],
         to: Option<MatrixOutput<'_>>,
         diagnostics: &mut Diagnostics,
@@ -58,9 +59,9 @@ impl Forces {
         if let Some(effects) = effects {
             effects.count(count, !input.v.is_empty(), counts);
         }
-        self.at_points.add(level, input, out, matrix.as_deref_mut(), (count, counts));
+        self.at_points.add(level, material, out, matrix.as_deref_mut(), (count, counts));
         if let Some(densities) = &mut self.densities {
-            densities.add(level, input, out, matrix);
+            densities.add(level, material, out, matrix);
             counts.force_densities += count;
         }
     }

@@ -54,17 +54,24 @@ impl Loads {
         self.of_effects.add(&mut self.dead_force);
     }
 
-    /// Sets the weight of element `e` to that of its length in m, of a cable without constant forces of effects, with that of stock of
-    /// a length in m at each end.
+    /// Sets weight and line load of element `e` to those of its length in m, with the weight of stock of a length in m at each end.
     pub fn weigh_element(&mut self, model: &Model, e: usize, length: impl Fn(usize) -> f64, at_ends: [f64; 2]) {
         let own = 6 * e..6 * e + 12;
+        let of_line = model.line_force();
+        let loaded = !self.of_effects.line_loads.is_empty();
         self.gravity_force[own.clone()].fill(0.0);
+        if loaded {
+            self.of_effects.line_loads[own.clone()].fill(0.0);
+        }
         // of the neighbours, the shares of its own nodes
         for i in e.saturating_sub(1)..(e + 2).min(model.elements.len()) {
             let weight = model.weight(&model.elements[i]);
             for (k, share) in mass::load_weights(length(i)).iter().enumerate() {
                 for at in (6 * i + 3 * k..6 * i + 3 * k + 3).filter(|at| own.contains(at)) {
                     self.gravity_force[at] += share * weight[at % 3];
+                    if loaded {
+                        self.of_effects.line_loads[at] += share * of_line[at % 3];
+                    }
                 }
             }
         }
@@ -75,7 +82,10 @@ impl Loads {
             let weight = model.weight(&model.elements[node.min(last - 1)]);
             (0..3).for_each(|x| self.gravity_force[6 * node + x] += stock * weight[x]);
         }
-        self.dead_force[own.clone()].copy_from_slice(&self.gravity_force[own]);
+        self.dead_force[own.clone()].copy_from_slice(&self.gravity_force[own.clone()]);
+        if loaded {
+            own.for_each(|at| self.dead_force[at] += self.of_effects.line_loads[at]);
+        }
     }
 
     /// Finds the elements of the point loads.

@@ -8,8 +8,8 @@ use nalgebra::Matrix3;
 const GAME: Integrator = Integrator { method: Method::DiscreteGradient, control: StepControl::Substeps(1) };
 
 /// A load of a mass in kg on a rope of a density in kg/m, 1 m of which hang from a fixed eye.
-struct Hoist {
-    cable: Cable,
+pub struct Hoist {
+    pub cable: Cable,
     bodies: Vec<RigidBody>,
     pins: Vec<PinConstraint>,
     island: Island,
@@ -17,7 +17,7 @@ struct Hoist {
 }
 
 impl Hoist {
-    fn new(mass: f64, density: f64, dt: f64, reel: Reel) -> Self {
+    pub fn new(mass: f64, density: f64, dt: f64, reel: Reel) -> Self {
         Self::with_stiffness(1.0e5, mass, density, dt, reel)
     }
 
@@ -43,7 +43,7 @@ impl Hoist {
         Hoist { cable, bodies, pins, island: Island::default(), dt }
     }
 
-    fn step(&mut self) {
+    pub fn step(&mut self) {
         self.cable.remesh_reel().unwrap();
         if self.bodies.is_empty() {
             self.cable.step(self.dt).unwrap();
@@ -53,19 +53,18 @@ impl Hoist {
     }
 
     /// Returns the energy in J of cable and load less all work on them.
-    fn account(&self) -> f64 {
+    pub fn account(&self) -> f64 {
         let reel = self.cable.reel(At::End).unwrap();
         let of_bodies: f64 =
             self.bodies.iter().map(|b| 0.5 * b.mass * b.velocity.norm_squared() + b.mass * G * b.position.y).sum();
-        self.cable.energy().total() + of_bodies - reel.work - reel.remeshed
-            + self.cable.effect_work().dissipated()
+        self.cable.energy().total() + of_bodies - reel.work - reel.remeshed - self.cable.effect_work().total()
             + self.cable.energy_law().numerical
             + self.cable.energy_law().rescaled
     }
 }
 
 /// Integrates u'' = f(u, u') from (u, 0) to a time by the classical Runge-Kutta method.
-fn reference(mut u: f64, time: f64, f: impl Fn(f64, f64) -> f64) -> (f64, f64) {
+pub fn reference(mut u: f64, time: f64, f: impl Fn(f64, f64) -> f64) -> (f64, f64) {
     let (n, mut v) = (20_000, 0.0);
     let h = time / f64::from(n);
     for _ in 0..n {

@@ -4,6 +4,7 @@ mod both_ends;
 mod common;
 mod drums;
 mod energy;
+mod fluid;
 mod laws;
 mod motion;
 mod on_bodies;

@@ -1,6 +1,7 @@
 //! Motions that are known.
 
 use super::common::{G, implicit, rope};
+use super::random::Random;
 use approx::assert_relative_eq;
 use lariat_ancf::island::{Island, PinConstraint, RigidBody};
 use lariat_ancf::{At, Cable, Damping, ErrorNorm, Integrator, Method, Reel, Section, StepControl, Vector3};
@@ -103,5 +104,44 @@ fn a_pendulum_of_variable_length_follows_its_equation() {
         println!("{method:?}: {worst:.2e} of the length, {reel:?}");
         assert!(reel.splits >= 2 && reel.merges >= 1);
         assert!(worst < 1e-3, "{method:?}: {worst:e}");
+    }
+}
+
+/// A reel that runs to the end of its stock, or takes in to the least length, ends exactly there, prescribed or with a motor, at any
+/// acceleration, rate and step.
+///
+/// *Source.* The stock; 0.4 of an element of 0.25 m. The sum of the lengths of steps is a sum of numbers with rounding.
+#[test]
+fn a_reel_ends_exactly_at_its_stop() {
+    let mut random = Random::new(7);
+    for trial in 0..24 {
+        let mut between = |low: f64, high: f64| low + (high - low) * 0.5 * (1.0 + random.next());
+        let (acceleration, speed, dt) = (between(0.7, 8.0), between(0.3, 2.0), 1.0 / between(60.0, 500.0));
+        let (stock, motor) = (between(1.3, 1.9), trial % 2 == 0);
+        let mut cable =
+            rope(1.0, 4, Integrator { method: Method::DiscreteGradient, control: StepControl::Substeps(1) });
+        let max_force = motor.then_some(1e3);
+        let reel = Reel { acceleration, stock: Some(stock), max_force, ..Reel::with_rate(speed) };
+        cable.add_reel(At::End, reel).unwrap();
+        let least = 0.1;
+        for (rate, expected) in [(speed, stock), (-speed, least)] {
+            cable.set_reel_rate(At::End, rate).unwrap();
+            let mut beyond = 0.0f64;
+            for _ in 0..(8.0 / dt) as usize {
+                cable.step(dt).unwrap();
+                let reel = cable.reel(At::End).unwrap();
+                beyond = beyond.max((reel.length_out - expected) * rate.signum());
+                if reel.stopped && reel.rate == 0.0 {
+                    break;
+                }
+            }
+            let reel = cable.reel(At::End).unwrap();
+            let missed = (reel.length_out - expected).abs();
+            println!(
+                "{acceleration:.2} m/s^2, {rate:.2} m/s, 1/{:.0} s: {missed:.1e} m, beyond {beyond:.1e} m",
+                1.0 / dt
+            );
+            assert!(missed < 1e-12 && beyond < 1e-12 && reel.rate == 0.0, "{missed:e} {beyond:e} {reel:?}");
+        }
     }
 }

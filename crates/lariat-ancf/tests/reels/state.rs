@@ -3,7 +3,9 @@
 use super::common::{implicit, rope};
 use approx::assert_relative_eq;
 use lariat_ancf::island::Island;
-use lariat_ancf::{At, Cable, Damping, Drag, Error, Integrator, Method, PointLoad, Reel, StepControl};
+use lariat_ancf::{
+    At, Buoyancy, Cable, Damping, Drag, Error, Integrator, LineLoad, Method, PointLoad, Reel, StepControl, Vector3,
+};
 
 /// A run continues bitwise from its snapshot, across splits and merges, and from its description.
 ///
@@ -110,12 +112,17 @@ fn what_makes_no_reel_is_a_typed_error_and_changes_nothing() {
     assert!(matches!(cable.add_reel(0.5, Reel::default()), Err(Error::ReelPlace { .. })));
     assert!(matches!(cable.set_reel_rate(At::End, 1.0), Err(Error::ReelPlace { .. })));
     assert!(cable.reel(At::End).is_none() && cable.positions() == positions);
-    let mut dragged = cable.clone();
-    let mut effects = dragged.effects().clone();
-    effects.drag = Some(Drag { diameter: Some(0.01), ..Drag::new(1.2, 1.2, 0.01, Default::default()) });
-    dragged.set_effects(effects.clone()).unwrap();
-    assert!(matches!(dragged.add_reel(At::End, Reel::default()), Err(Error::NotWithReel { what: "drag", .. })));
+    let mut loaded = cable.clone();
+    let mut effects = loaded.effects().clone();
+    effects.line_loads = Some(LineLoad { from: 0.3, ..LineLoad::uniform(Vector3::x()) }.into());
+    loaded.set_effects(effects.clone()).unwrap();
+    assert!(matches!(loaded.add_reel(At::End, Reel::default()), Err(Error::NotWithReel { .. })));
+    cable.set_drag(Drag { diameter: Some(0.01), ..Drag::new(1.2, 1.2, 0.01, Default::default()) }).unwrap();
     cable.add_reel(At::End, Reel::default()).unwrap();
+    assert!(matches!(cable.sample_flow(|r| r), Err(Error::NotWithReel { what: "a sampled flow", .. })));
+    let water = Buoyancy { area: Some(1e-4), ..Buoyancy::new(1000.0, 1.0) };
+    assert!(matches!(cable.set_buoyancy(water), Err(Error::NotWithReel { what: "added mass", .. })));
+    cable.set_drag(None).unwrap();
     assert!(matches!(cable.add_reel(At::End, Reel::default()), Err(Error::ReelPlace { .. })));
     assert!(matches!(cable.set_effects(effects), Err(Error::NotWithReel { .. })));
     let explicit = Integrator { method: Method::Rkn4, control: StepControl::Stable(0.5) };

@@ -15,8 +15,8 @@
 //! [`ReelReading::remeshed`] says how much. The node at
 //! the eye is held by a support, or by an attachment to a body. On a body that moves freely the stock rides with it, as a point mass at the
 //! eye beside the body's own mass; [`Reel::stock`] says how much there is, and energy and momentum of the cable include it. That takes
-//! the discrete gradient. Implicit methods only. Gravity, internal damping and a uniform rest stretch act on the element at the eye; other
-//! effects are refused ([`Error::NotWithReel`]).
+//! the discrete gradient. Implicit methods only. Gravity, internal damping, a uniform rest stretch, drag, buoyancy and line loads on all of the
+//! cable act on the element at the eye, stock at most weighs (less buoyancy); other effects are refused ([`Error::NotWithReel`]).
 //!
 //! # Alternatives considered
 //!
@@ -77,6 +77,8 @@ impl Cable {
             return Err(refused("two reels need two elements"));
         }
         let mut model = self.model.clone();
+        let length = self.length();
+        model.effects.line_loads.iter_mut().for_each(|loads| loads.extend(length));
         model.reels.add(side, reel, self.elements(), self.number(self.elements().len() - 1));
         model.check_effects().map_err(|e| e.of_cable(self.name()))?;
         super::check_integrator(&model, &self.integrator().method)?;
@@ -216,10 +218,13 @@ impl Model {
                 || shape.pieces.first().is_some_and(|piece| piece.from > 0.0)
         };
         let refused = [
-            ("drag", self.effects.drag.is_some()),
-            ("buoyancy", self.effects.buoyancy.is_some()),
+            ("a sampled flow", self.effects.drag.as_ref().is_some_and(|drag| !drag.flow.samples.is_empty())),
+            ("added mass", self.effects.buoyancy.is_some_and(|buoyancy| buoyancy.added_mass > 0.0)),
             ("contact", self.effects.contact.is_some()),
-            ("line loads", self.effects.line_loads.is_some()),
+            (
+                "line loads on a part of the cable",
+                self.effects.line_loads.as_ref().is_some_and(|loads| !loads.are_whole()),
+            ),
             ("a rest shape that is curved or in pieces", self.effects.rest_shape.as_ref().is_some_and(curved)),
             ("forces per length of your own", !self.force_densities.is_empty()),
         ];

@@ -43,7 +43,7 @@ pub(crate) struct DragTable {
     pub(super) points: Vec<Point>,
     pub(super) count: usize,
     pub(super) flow: Flow,
-    /// Length in m, l k_n and l k_t in kg/m by element, padded.
+    /// Length in m, k_n and k_t in kg/m^2 by element, padded.
     pub(super) length: Vec<f64>,
     pub(super) normal: Vec<f64>,
     pub(super) tangential: Vec<f64>,
@@ -57,8 +57,7 @@ type ForceAndBlocks<'a, S> = (&'a mut [[Lanes<S>; 3]; 4], &'a mut [[[Lanes<S>; 3
 impl DragTable {
     pub fn new(drag: &Drag, cable: &Target<'_>) -> Self {
         let diameter = |e: &Element| drag.diameter.or(e.section.diameter).unwrap_or(0.0);
-        let factor =
-            |coefficient: f64| move |e: &Element| 0.5 * drag.fluid_density * diameter(e) * coefficient * e.length;
+        let factor = |coefficient: f64| move |e: &Element| 0.5 * drag.fluid_density * diameter(e) * coefficient;
         let points = gauss_legendre(POINTS).into_iter().map(|(xi, weight)| Point {
             xi,
             weight,
@@ -173,7 +172,7 @@ impl DragTable {
             let length = load(simd, &self.length, first);
             let inverse = Lanes::splat(simd, 1.0) / length;
             let (x, w) = (self.gather(simd, first, q, length), self.gather(simd, first, v, length));
-            let (kn, kt) = (load(simd, &self.normal, first) * scale, load(simd, &self.tangential, first) * scale);
+            let [kn, kt] = [&self.normal, &self.tangential].map(|k| load(simd, k, first) * length * scale);
             let mut force = [[zero; 3]; 4];
             let mut blocks = [[[zero; 3]; 3]; 10];
             for point in &self.points {
@@ -322,11 +321,19 @@ impl PointForce for DragTable {
             let relative: [Dual; 3] =
                 core::array::from_fn(|c| velocity[c] - Dual { value: flow[c], slope: base[c] * slope });
             let direction = mix(q, &point.slope).map(|c| c * (1.0 / length));
-            let [kn, kt] = [self.normal[e], self.tangential[e]].map(|k| constant(k * point.weight));
+            let [kn, kt] = [self.normal[e], self.tangential[e]].map(|k| constant(k * length * point.weight));
             let force = Split::new(&relative, &direction).force(kn, kt);
             for i in 0..12 {
                 out[i] = out[i] + force[i % 3] * (point.position[i / 3] * arm(i / 3));
             }
+        }
+    }
+
+    fn set_length(&mut self, e: usize, length: f64) {
+        self.length[e] = length;
+        if e + 1 == self.count {
+            // lanes beyond the last element repeat it
+            self.length[e..].fill(length);
         }
     }
 

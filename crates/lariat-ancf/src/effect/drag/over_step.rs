@@ -35,7 +35,7 @@ impl DragTable {
             let inverse = Lanes::splat(simd, 1.0) / length;
             let [x, about, velocity] =
                 [step.middle_before, step.velocity_before, step.velocity].map(|x| self.gather(simd, first, x, length));
-            let (kn, kt) = (load(simd, &self.normal, first), load(simd, &self.tangential, first));
+            let [kn, kt] = [&self.normal, &self.tangential].map(|k| load(simd, k, first) * length);
             let mut force = [[zero; 3]; 4];
             let mut blocks = [[[zero; 3]; 3]; 10];
             for point in &self.points {

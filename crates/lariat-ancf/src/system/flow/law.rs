@@ -96,6 +96,7 @@ impl Flow {
     /// Sets the acceleration that a drum gives; one beyond the reach of an iterate divides the step.
     pub fn follow(&mut self, acceleration: f64) {
         let [least, largest] = self.reach();
+        self.linearised = self.extent.acceleration;
         self.extent.acceleration = acceleration.max(least).min(largest);
         self.stopped = self.law.is_some_and(|law| law.stop(acceleration).is_some());
     }
@@ -112,13 +113,22 @@ impl Flow {
 }
 
 /// Returns the least, the wanted and the largest rate in m/s after a step of length `h` (s): what is asked for within the limit on
-/// acceleration, and from where a reel can still stop within what is `left` of the cable, in and out: `r^2/(2 a) <= left - h (r_0 + r)/2`.
+/// acceleration, and from where a reel can still stop within what is `left` of the cable, in and out.
+///
+/// A rate that is braked by a h in every step and to zero in the last one takes, over steps in which it is linear, the way
+/// `D((k + x) a h) = a h^2 (k^2/2 + k x + x/2)`, 0 <= x < 1. The largest rate r with `D(r) <= left - h (r_0 + r)/2` is followed by that of
+/// the next step, so the cable ends at the stop to rounding.
 pub(crate) fn rates(asked: f64, acceleration: f64, rate: f64, left: [f64; 2], h: f64) -> [f64; 3] {
     let a = acceleration;
     // towards an end that is `left` away, at the present rate r towards it
     let bound = |left: f64, r: f64| {
-        let left = left - 0.5 * h * r;
-        if left <= 0.0 { 0.0 } else { a * ((0.25 * h * h + 2.0 * left / a).sqrt() - 0.5 * h) }
+        let left = (left - 0.5 * h * r) / (a * h * h);
+        if left <= 0.0 || left.is_infinite() {
+            return left.max(0.0);
+        }
+        // D + h r/2 = a h^2 (k (k + 1)/2 + x (k + 1))
+        let steps = (0.5 * ((1.0 + 8.0 * left).sqrt() - 1.0)).floor();
+        a * h * (steps + (left - 0.5 * steps * (steps + 1.0)) / (steps + 1.0))
     };
     let [least, largest] = [-bound(left[0], -rate), bound(left[1], rate)];
     [least, asked.clamp(rate - a * h, rate + a * h), largest.max(least)]
@@ -192,13 +202,13 @@ impl Law {
 impl System {
     /// Returns the force of the motor, or of a prescribed winch, less the part of the strain energy, at an extent.
     fn motor_of_inertia(&self, model: &Model, flow: &Flow, extent: Extent, motion: [&[f64; 12]; 3]) -> f64 {
-        let (element, weight) = (flow.with(model, extent), flow.weight(model));
+        let (element, dead) = (flow.with(model, extent), flow.dead(model));
         let wheel = flow.law.map_or(0.0, |law| {
             let stock = (law.motor.bounds[1] - extent.length).max(0.0);
             let wound = matches!(flow.feed, Feed::Drum | Feed::BodyDrum) && stock.is_finite();
             law.motor.wheel + if wound { element.inertia * stock } else { 0.0 }
         });
-        flow.feed.pull(&element, motion[0], element.length_force(motion, &weight)) - wheel * extent.acceleration
+        flow.feed.pull(&element, motion[0], element.length_force(motion, &dead)) - wheel * extent.acceleration
     }
 }
 
@@ -243,7 +253,7 @@ impl Equations<'_> {
             let (mean, _) = flow.over(state.time, b.h);
             let [q, v, a] = self.motion_of_step(&flow, state, b);
             let element = flow.with(self.model, mean);
-            let inertial = element.length_force([&q, &v, &a], &flow.weight(self.model));
+            let inertial = element.length_force([&q, &v, &a], &flow.dead(self.model));
             // the pull is linear in the force on the length
             law.force = self.system.motor_of_inertia(self.model, &flow, mean, [&q, &v, &a]) + inertial - on_length
                 + flow.lost(self.model, &q, mean.rate);
@@ -325,6 +335,8 @@ impl Equations<'_> {
 
     /// Adds an increment to the acceleration of the iterate.
     pub fn add_to_law(&mut self, k: usize, increment: f64) {
-        self.system.flows.list[k].extent.acceleration += increment;
+        let flow = &mut self.system.flows.list[k];
+        flow.linearised = flow.extent.acceleration;
+        flow.extent.acceleration += increment;
     }
 }

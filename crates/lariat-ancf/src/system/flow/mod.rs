@@ -26,6 +26,7 @@
 //! of the forces of the flow, and with riding stock its sums over rows are exact. Stock has no inertia about the eye.
 
 mod drum;
+mod effects;
 mod law;
 mod sheave;
 mod step;
@@ -73,6 +74,10 @@ pub(crate) struct Flow {
     pub feed: Feed,
     /// What drives it, if its rate is an unknown.
     pub law: Option<Law>,
+    /// Acceleration of the iterate about which the equations of a step are linear.
+    linearised: f64,
+    /// Force in N of effects at Gauss points on the length, in the last iterate of the discrete gradient.
+    of_points: f64,
     /// Mean pull of the winch over the last step of the discrete gradient in N.
     pub pull: Option<f64>,
     /// Where the material at the eye comes from and goes to.
@@ -95,8 +100,8 @@ pub(crate) enum Source {
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Flows {
     pub list: Vec<Flow>,
-    /// Velocities as internal damping sees them.
-    velocity: Vec<f64>,
+    /// Velocities as internal damping sees them, and those of the material.
+    velocities: [Vec<f64>; 2],
 }
 
 impl Flow {
@@ -114,6 +119,8 @@ impl Flow {
             stopped: false,
             feed: Feed::Drum,
             law: None,
+            linearised: 0.0,
+            of_points: 0.0,
             pull: None,
             source: Source::Outside,
         }
@@ -200,7 +207,7 @@ impl Flows {
     pub fn new(model: &Model) -> Self {
         let length = |side: Side| model.elements[side.element(model.elements.len())].length;
         let list = model.reels.sides().map(|side| Flow::new(side, length(side))).collect();
-        Flows { list, velocity: Vec::new() }
+        Flows { list, velocities: Default::default() }
     }
 
     /// Returns whether there are none.
@@ -218,21 +225,8 @@ impl Flows {
         self.list.iter().all(|flow| flow.extent.rate == 0.0 && flow.extent.acceleration == 0.0)
     }
 
-    /// Returns an evaluation with velocities as internal damping of the elements at the eyes sees them.
-    pub fn for_damping<'a>(&'a mut self, at: ForceInput<'a>) -> ForceInput<'a> {
-        if self.list.is_empty() || at.v.is_empty() {
-            return at;
-        }
-        let mut velocity = core::mem::take(&mut self.velocity);
-        velocity.clear();
-        velocity.extend_from_slice(at.v);
-        self.strain_velocity(at.time, at.q, &mut velocity);
-        self.velocity = velocity;
-        ForceInput { v: &self.velocity, ..at }
-    }
-
     /// Makes of velocities those that internal damping sees, at `time` (s).
-    pub fn strain_velocity(&self, time: f64, q: &[f64], v: &mut [f64]) {
+    fn strain_velocity(&self, time: f64, q: &[f64], v: &mut [f64]) {
         for flow in &self.list {
             let Extent { length, rate, .. } = flow.at(time);
             let [far, eye] = flow.side.nodes(v.len() / 6);
@@ -279,6 +273,7 @@ impl System {
         elements.axial[e] = 0.25 * element.section.axial_stiffness * mean;
         elements.flexural[e] = 2.0 * element.section.bending_stiffness * inverse;
         elements.set_mass(e, model.inertia(element), mean);
+        forces.at_points.set_length(e, mean);
         let length = |e: usize| {
             let flow = flows.list.iter().find(|flow| flow.element(model) == e);
             flow.map_or(model.elements[e].length, |flow| flow.weighed)
@@ -318,22 +313,30 @@ impl System {
         (own.0 + of_effects.0, own.1 + of_effects.1)
     }
 
-    /// Returns the gradient of the strain energy by the control vectors.
-    fn flow_gradient(&self, model: &Model, flow: &Flow, d: Control<f64>, length: f64) -> Control<f64> {
-        let state = ElementState { stiffness: flow.stiffness(model, length), d, velocity: None };
-        let table = &self.forces.elements.table;
-        with_bending!(&self.forces.elements.bending, bending => match &self.forces.in_element {
-            None => Kernel { table, bending, effects: &NoEffects }.force(&state, &NoEffects),
-            Some(effects) => Kernel { table, bending, effects }.force(&state, &Single(flow.element(model))),
-        })
+    /// Returns the forces in N that strains and internal damping exert on the length of an element at an eye: dU/dl at fixed coordinates,
+    /// and the power that damping loses by a rate of the length, over the rate.
+    fn strain_length_force(&self, model: &Model, flow: &Flow, extent: &Extent, [q, v]: [&[f64; 12]; 2]) -> [f64; 2] {
+        let Extent { length, rate, .. } = *extent;
+        let (d, mut velocity) = (control(q, length), control(v, length));
+        (0..3).for_each(|x| velocity[1][x] -= rate / length * d[1][x]);
+        let stiffness = flow.stiffness(model, length);
+        let (axial, bending) = self.flow_energy(model, flow, &d, length);
+        let along = |velocity: Option<Control<f64>>| {
+            let gradient = self.flow_gradient(flow.element(model), &ElementState { stiffness, d, velocity });
+            (0..3).map(|x| d[1][x] * gradient[1][x]).sum::<f64>() / length
+        };
+        let elastic = along(None);
+        let damping = if self.forces.in_element.is_some() { elastic - along(Some(velocity)) } else { 0.0 };
+        [(axial - bending) / length - elastic, damping]
     }
 
-    /// Returns dU/dl at fixed coordinates of an element at an eye, in N.
-    fn strain_length_force(&self, model: &Model, flow: &Flow, q: &[f64; 12], length: f64) -> f64 {
-        let d = control(q, length);
-        let gradient = self.flow_gradient(model, flow, d, length);
-        let (axial, bending) = self.flow_energy(model, flow, &d, length);
-        (axial - bending - (0..3).map(|x| d[1][x] * gradient[1][x]).sum::<f64>()) / length
+    /// Returns the forces that oppose changes of the control vectors of an element.
+    fn flow_gradient(&self, element: usize, state: &ElementState<f64>) -> Control<f64> {
+        let table = &self.forces.elements.table;
+        with_bending!(&self.forces.elements.bending, bending => match &self.forces.in_element {
+            None => Kernel { table, bending, effects: &NoEffects }.force(state, &NoEffects),
+            Some(effects) => Kernel { table, bending, effects }.force(state, &Single(element)),
+        })
     }
 }
 

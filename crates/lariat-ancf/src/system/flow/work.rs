@@ -2,7 +2,7 @@
 //!
 //! # Equation
 //!
-//! With B the [force on the length](crate::element::flow), w the weight per length, f the stretch and v the velocity of the material at
+//! With B the [force on the length](crate::element::flow), less that of [effects](super::effects), w the weight per length, f the stretch and v the velocity of the material at
 //! the eye r:
 //!
 //! ```text
@@ -39,8 +39,10 @@ use crate::system::Equations;
 pub(crate) struct FlowForce {
     /// Pull of the winch on the cable in N.
     pub pull: f64,
-    /// Power in W that winch and entering material bring.
+    /// Power in W that winch and entering material bring, without that against internal damping.
     pub power: f64,
+    /// The latter.
+    pub damping: f64,
 }
 
 impl System {
@@ -49,22 +51,33 @@ impl System {
         let extent = flow.at(time);
         let (element, weight) = (flow.with(model, extent), flow.weight(model));
         let [q, v, _] = motion;
-        let on_length = element.length_force(motion, &weight) + self.strain_length_force(model, flow, q, extent.length);
+        let [strain, damping] = self.strain_length_force(model, flow, &extent, [q, v]);
+        let others =
+            element.length_force(motion, &flow.dead(model)) + strain - self.points_on_length(model, flow, time, [q, v]);
+        let on_length = others + damping;
         FlowForce {
             pull: flow.feed.pull(&element, q, on_length) + flow.lost(model, q, extent.rate),
-            power: extent.rate * (on_length + entering(&element, &weight, q, v)),
+            power: extent.rate * (others + entering(&element, &weight, q, v)),
+            damping: extent.rate * damping,
         }
     }
 }
 
 impl Equations<'_> {
     /// Returns the work of winch and entering material over a step of a method with accelerations, by the two points of Gauss on
-    /// the cubics of velocity; `range` is the cable's part of the states.
-    pub fn flow_work(&self, flow: &Flow, before: &State, after: &State, h: f64, range: core::ops::Range<usize>) -> f64 {
+    /// the cubics of velocity, and against internal damping by the mean velocity if that is [not resolved](crate::system::energy_balance); `range` is the cable's part of the states.
+    pub fn flow_work(
+        &mut self,
+        flow: &Flow,
+        before: &State,
+        after: &State,
+        h: f64,
+        range: core::ops::Range<usize>,
+    ) -> f64 {
         let of = |x: &[f64]| flow.side.gather(&x[range.clone()]);
         let [q0, v0, a0] = [&before.q, &before.v, &before.memory.acceleration].map(|x| of(x));
         let [q1, v1, a1] = [&after.q, &after.v, &after.memory.acceleration].map(|x| of(x));
-        let mut work = 0.0;
+        let (mut work, mut along) = (0.0, 0.0);
         for s in POINTS {
             let (cubic, slope) = hermite(s);
             let mix = |w: [f64; 4], x0: &[f64; 12], d0: &[f64; 12], x1: &[f64; 12], d1: &[f64; 12]| -> [f64; 12] {
@@ -72,9 +85,20 @@ impl Equations<'_> {
             };
             let q = mix(cubic, &q0, &v0, &q1, &v1);
             let (v, a) = (mix(cubic, &v0, &a0, &v1, &a1), mix(slope, &v0, &a0, &v1, &a1).map(|x| x / h));
-            work += 0.5 * h * self.system.flow_force(self.model, flow, before.time + s * h, [&q, &v, &a]).power;
+            self.system.set_flows(self.model, before.time + s * h);
+            let force = self.system.flow_force(self.model, flow, before.time + s * h, [&q, &v, &a]);
+            work += 0.5 * h * force.power;
+            along += 0.5 * h * force.damping;
         }
-        work
+        if along == 0.0 {
+            return work;
+        }
+        let middle = core::array::from_fn(|k| 0.5 * (q0[k] + q1[k]) + h / 8.0 * (v0[k] - v1[k]));
+        let velocity = core::array::from_fn(|k| (q1[k] - q0[k]) / h);
+        let extent = flow.at(before.time + 0.5 * h);
+        let [_, damping] = self.system.strain_length_force(self.model, flow, &extent, [&middle, &velocity]);
+        let mean = h * extent.rate * damping;
+        work + if (along - mean).abs() <= mean.abs() { along } else { mean }
     }
 
     /// Returns the mean force B on the length over a step of the discrete gradient, and what entering material brings beside it, in N.
@@ -91,7 +115,7 @@ impl Equations<'_> {
         let (element, weight) = (flow.with(model, mean), flow.weight(model));
         let velocity = change.map(|x| x / b.h);
         let acceleration = flow.side.gather(&b.velocity_change).map(|x| x / b.h);
-        let inertial = element.length_force([&middle, &velocity, &acceleration], &weight);
+        let inertial = element.length_force([&middle, &velocity, &acceleration], &flow.dead(model));
         let entering = match flow.source {
             Source::Outside => entering(&element, &weight, &middle, &velocity),
             // the stock, or the other cable, is a part of the system
@@ -99,7 +123,7 @@ impl Equations<'_> {
                 0.5 * element.inertia * mean.rate * mean.rate * square_of_stretch(&middle)
             }
         };
-        [elastic + inertial, entering]
+        [elastic + inertial - flow.of_points, entering]
     }
 
     /// Adds the work of winches and entering material over a step of the discrete gradient, and notes its lengths for the next one.

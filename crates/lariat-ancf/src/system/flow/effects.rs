@@ -1,0 +1,228 @@
+//! Drag and forces per length on the element at an eye.
+//!
+//! # Equation
+//!
+//! The velocity of the material is a cubic like that of the nodes, because `w = S_l e` is one:
+//!
+//! ```text
+//! v = S e' + l' w = S (e' + l' e_w)        e_w = (0, 0, -t, -r'') at the eye
+//! ```
+//!
+//! An effect that is given the nodal velocities `e' + l' e_w` acts on the velocity of the material. With its force f per length and
+//! `F = int S^T f dy`, virtual work `int f . (S de + w dl) dy` says how it acts on the length, and what its power is:
+//!
+//! ```text
+//! Q = e_w . F        P = F . (e' + l' e_w) = int f . v dy        B becomes B - Q
+//! ```
+//!
+//! # Validity
+//!
+//! Exact for the discretised cable, with the Gauss points of the effect. Stock is neither dragged nor loaded. Added mass is refused: it acts
+//! in all directions alike, and material that comes out along itself would have to set fluid in motion.
+//!
+//! # References
+//!
+//! Own derivation, checked against the power of the force along the path of its points (tests/reels/fluid.rs).
+
+use super::{Flow, Flows};
+use crate::dual::constant;
+use crate::effect::acts::ForceInput;
+use crate::element::flow::Extent;
+use crate::element::shape;
+use crate::integrate::State;
+use crate::integrate::discrete_gradient::Buffers;
+use crate::model::Model;
+use crate::system::System;
+
+/// Returns e_w of coordinates seen from the far node.
+fn drift(q: &[f64; 12], length: f64) -> [f64; 12] {
+    let bend = shape::second_derivative(1.0, length);
+    core::array::from_fn(|i| match i {
+        0..6 => 0.0,
+        6..9 => -q[i + 3],
+        _ => -(0..4).map(|k| bend[k] * q[3 * k + i - 9]).sum::<f64>(),
+    })
+}
+
+fn dot(x: &[f64; 12], y: &[f64; 12]) -> f64 {
+    x.iter().zip(y).map(|(x, y)| x * y).sum()
+}
+
+impl Flow {
+    /// Makes of the velocities of a cable those of the material of this element.
+    fn add_drift(&self, extent: &Extent, q: &[f64], v: &mut [f64]) {
+        let own = drift(&self.side.gather(q), extent.length);
+        self.side.add(&own.map(|x| extent.rate * x), v);
+    }
+
+    /// Returns the force on the length in N of forces on the nodes of a cable with coordinates `q`.
+    fn on_length(&self, length: f64, q: &[f64], force: &[f64]) -> f64 {
+        dot(&drift(&self.side.gather(q), length), &self.side.gather(force))
+    }
+
+    /// Returns the constant force per length on the element in N/m, its weight among them.
+    pub(super) fn dead(&self, model: &Model) -> [f64; 3] {
+        (model.weight(&model.elements[self.element(model)]) + model.line_force()).into()
+    }
+}
+
+impl Flows {
+    /// Returns an evaluation with velocities as internal damping sees them, and one with those of the material.
+    pub fn velocities<'a>(&'a mut self, at: ForceInput<'a>) -> [ForceInput<'a>; 2] {
+        if self.list.is_empty() || at.v.is_empty() {
+            return [at; 2];
+        }
+        let [mut strain, mut material] = core::mem::take(&mut self.velocities);
+        for v in [&mut strain, &mut material] {
+            v.clear();
+            v.extend_from_slice(at.v);
+        }
+        self.strain_velocity(at.time, at.q, &mut strain);
+        self.list.iter().for_each(|flow| flow.add_drift(&flow.at(at.time), at.q, &mut material));
+        self.velocities = [strain, material];
+        let [strain, material] = &self.velocities;
+        [strain, material].map(|v| ForceInput { v, ..at })
+    }
+
+    /// Makes of the mean velocities of a step of the discrete gradient those of the material; its lengths are those of the present iterate
+    /// from now on if the equations are made linear about it.
+    pub fn add_drift_over_step(&mut self, state: &State, b: &mut Buffers, linearise: bool) {
+        let [middle, velocity, middle_before, velocity_before] = &mut b.means;
+        for flow in &mut self.list {
+            if linearise {
+                flow.linearised = flow.extent.acceleration;
+            }
+            let acceleration = if flow.law.is_some() { flow.linearised } else { flow.extent.acceleration };
+            let about = Flow { extent: Extent { acceleration, ..flow.extent }, ..*flow };
+            flow.add_drift(&flow.over(state.time, b.h).0, middle, velocity);
+            flow.add_drift(&about.over(state.time, b.h).0, middle_before, velocity_before);
+        }
+    }
+
+    /// Notes the forces on the lengths of mean forces on the nodes over a step of the discrete gradient from `time` of length `h` (s), in
+    /// whose middle the coordinates are `middle`.
+    pub fn note_point_forces(&mut self, (time, h): (f64, f64), middle: &[f64], force: &[f64]) {
+        for flow in &mut self.list {
+            flow.of_points = flow.on_length(flow.over(time, h).0.length, middle, force);
+        }
+    }
+
+    /// Returns the work in J that constant forces on the nodes do through the changes of lengths in a step of the discrete gradient.
+    pub fn work_on_lengths(&self, state: &State, b: &Buffers, force: &[f64]) -> f64 {
+        let work = |flow: &Flow| {
+            let mean = flow.over(state.time, b.h).0;
+            b.h * mean.rate * flow.on_length(mean.length, &b.means[0], force)
+        };
+        self.list.iter().map(work).sum()
+    }
+}
+
+impl System {
+    /// Returns the force on the length in N of effects at Gauss points, at the coordinates and velocities of an element at an eye; the lengths
+    /// must be [set](System::set_flows) to `time` (s).
+    pub(super) fn points_on_length(&self, model: &Model, flow: &Flow, time: f64, [q, v]: [&[f64; 12]; 2]) -> f64 {
+        if !self.forces.at_points.any() {
+            return 0.0;
+        }
+        let extent = flow.at(time);
+        let drift = drift(q, extent.length);
+        let of_cable = |x: [f64; 12]| {
+            let mut out = [0.0; 12];
+            flow.side.add(&x, &mut out);
+            out.map(constant)
+        };
+        let material = core::array::from_fn(|i| v[i] + extent.rate * drift[i]);
+        let mut force = [constant(0.0); 12];
+        self.forces.at_points.add_dual(flow.element(model), time, &of_cable(*q), &of_cable(material), &mut force);
+        dot(&drift, &flow.side.gather(&force.map(|f| f.value)))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::effect::Profile;
+    use crate::element::flow::flow_weights;
+    use crate::element::side::Side;
+    use crate::quadrature::gauss_legendre;
+    use crate::{At, Cable, Drag, Flow as Fluid, Integrator, Method, Reel, Section, StepControl};
+    use approx::assert_relative_eq;
+    use nalgebra::Vector3;
+
+    /// Any number in -1..1.
+    fn some(seed: usize) -> f64 {
+        (1.7 * seed as f64 + 0.3).sin()
+    }
+
+    /// The generalised forces of drag, times the rates of all coordinates and lengths, are the power of the force per length on the
+    /// particles, at random states of a cable with a reel at each end.
+    ///
+    /// *Source.* Morison's formula at the Gauss points, and the velocity of the particles by [`flow_weights`], which is checked against
+    /// differences in time.
+    #[test]
+    fn generalised_forces_of_drag_have_its_power() {
+        let integrator = Integrator { method: Method::DiscreteGradient, control: StepControl::Substeps(1) };
+        let mut cable = Cable::builder()
+            .points([Vector3::zeros(), Vector3::new(2.0, 0.0, 0.0)])
+            .section(Section::from_stiffness(1e4, 0.02, 0.4).unwrap())
+            .elements(4)
+            .integrator(integrator)
+            .build()
+            .unwrap();
+        let profile = Profile { up: Vector3::y(), rows: vec![[-3.0, 0.5], [3.0, 2.0]] };
+        let fluid = Fluid { profile: Some(profile), ..Fluid::uniform(Vector3::new(0.4, -0.2, 0.9)) };
+        let drag = Drag { diameter: Some(0.02), ..Drag::new(1000.0, 1.2, 0.07, fluid.clone()) };
+        cable.set_drag(drag).unwrap();
+        for at in [At::Start, At::End] {
+            cable.add_reel(at, Reel::default()).unwrap();
+        }
+        for seed in 0..20 {
+            let q: Vec<f64> = (0..30).map(|i| 0.6 * (i / 6) as f64 + some(31 * seed + i)).collect();
+            let v: Vec<f64> = (0..30).map(|i| 2.0 * some(77 * seed + i + 5)).collect();
+            let lengths = Side::BOTH.map(|side| 0.5 + 0.25 * some(seed + side as usize));
+            let rates = Side::BOTH.map(|side| 3.0 * some(13 * seed + 7 * side as usize));
+            for flow in &mut cable.system.flows.list {
+                let side = flow.side as usize;
+                flow.extent = Extent { length: lengths[side], rate: rates[side], acceleration: 0.0 };
+            }
+            let Cable { model, system, .. } = &mut cable;
+            system.set_flows(model, 0.0);
+            let mut force = vec![0.0; 30];
+            let at = ForceInput { time: 0.0, q: &q, v: &v, dv_dq: 0.0, scale: 1.0 };
+            let [_, material] = system.flows.velocities(at);
+            let mut counts = Default::default();
+            system.forces.at_points.add(system.level, material, &mut force, None, (4, &mut counts));
+            let mut power: f64 = force.iter().zip(&v).map(|(f, v)| f * v).sum();
+            for flow in &system.flows.list {
+                let (q, v) = (flow.side.gather(&q), flow.side.gather(&v));
+                let own = system.points_on_length(model, flow, 0.0, [&q, &v]);
+                assert_relative_eq!(own, flow.on_length(lengths[flow.side as usize], &at.q, &force), epsilon = 1e-9);
+                power += own * rates[flow.side as usize];
+            }
+            let mut physical = 0.0;
+            for e in 0..4 {
+                let side = if e == 0 { Some(Side::Start) } else { (e == 3).then_some(Side::End) };
+                let length = side.map_or(0.5, |side| lengths[side as usize]);
+                let of = |x: &[f64], s: [f64; 4], own: &[f64; 12]| -> Vector3<f64> {
+                    let x = if side == Some(Side::Start) { own } else { &x[6 * e..6 * e + 12] };
+                    Vector3::from_fn(|c, _| (0..4).map(|k| s[k] * x[3 * k + c]).sum())
+                };
+                let [q_own, v_own] = [&q, &v].map(|x| Side::Start.gather(x));
+                for (xi, weight) in gauss_legendre(3) {
+                    let place = of(&q, shape::position(xi, length), &q_own);
+                    let mut speed = of(&v, shape::position(xi, length), &v_own);
+                    if let Some(side) = side {
+                        speed += rates[side as usize] * of(&q, flow_weights(xi, length)[0], &q_own);
+                    }
+                    let along = of(&q, shape::slope(xi, length), &q_own).normalize();
+                    let relative = speed - fluid.at(0.0, &place);
+                    let (tangential, k) = (relative.dot(&along) * along, 0.5 * 1000.0 * 0.02);
+                    let normal = relative - tangential;
+                    let f = -k * (1.2 * normal.norm() * normal + 0.07 * tangential.norm() * tangential);
+                    physical += weight * length * f.dot(&speed);
+                }
+            }
+            assert_relative_eq!(power, physical, max_relative = 1e-12);
+        }
+    }
+}
