@@ -151,7 +151,12 @@ const CASES: &[Case] = &[
     ("", "[cable.reel]\nrate = [[0.0, 0.1]]\nmax_force = -1.0", 21, &["cable.sling.reel.max_force", ">= 0"]),
     ("", "[cable.reel]\nrate = [[0.0, 0.1]]\nfeed = \"box\"", 21, &["cable.sling.reel.feed", "coil"]),
     ("", "[cable.reel]\nrate = [[0.0, 0.1]]\nacceleration = 0.0", 21, &["cable.sling.reel.acceleration", "> 0"]),
-    ("", "[cable.reel]\nrate = [[0.0, 0.1]]\n[cable.drag]\nfluid_density = 1.2", 6, &["drag", "reel"]),
+    (
+        "",
+        "[cable.reel]\nrate = [[0.0, 0.1]]\n[cable.buoyancy]\nfluid_density = 1.2\nadded_mass = 1.0",
+        6,
+        &["added mass", "reel"],
+    ),
     (
         "",
         "[cable.drag]\nfluid_density = 1.2\nflow = [1.0, 2.0]",
