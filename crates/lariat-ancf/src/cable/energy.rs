@@ -67,7 +67,7 @@ impl Cable {
         momentum
     }
 
-    fn generalised_momentum(&self) -> Vec<f64> {
+    pub(super) fn generalised_momentum(&self) -> Vec<f64> {
         let mut p = self.mass_times_velocity();
         self.system.add_flow_momentum(&self.model, self.time(), self.positions(), &mut p);
         p

@@ -38,7 +38,7 @@ impl Modes<'_> {
 }
 
 /// Replaces the velocities `w` at coordinates `q` by their relative part; `momentum` and `mode` are buffers.
-pub(super) fn relative_velocities(
+pub(crate) fn relative_velocities(
     model: &Model,
     system: &System,
     q: &[f64],

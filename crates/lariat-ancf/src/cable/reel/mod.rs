@@ -11,8 +11,8 @@
 //!
 //! The rate is prescribed, and the winch as strong as it must be: [`ReelReading::force`] says how strong that is; or the motor slips above
 //! a [largest force](Reel::max_force), and the rate is an unknown of the discrete gradient (system/flow/law.rs). A rate above 0.3 of the speed of transverse waves, `sqrt(T/rho A)`, needs internal damping. A rope
-//! that is paid out faster than it falls crumples at the eye, and splitting crumpled elements adds strain energy:
-//! [`ReelReading::remeshed`] says how much. The node at
+//! that is paid out faster than it falls crumples at the eye; what splitting and merging crumpled elements adds of strain energy is taken back by
+//! [`settle`], and [`ReelReading::remeshed`] says what is left. The node at
 //! the eye is held by a support, or by an attachment to a body. On a body that moves freely the stock rides with it, as a point mass at the
 //! eye beside the body's own mass; [`Reel::stock`] says how much there is, and energy and momentum of the cable include it. That takes
 //! the discrete gradient. Implicit methods only. Gravity, internal damping, a uniform rest stretch, drag, buoyancy and line loads on all of the
@@ -25,6 +25,7 @@
 mod description;
 mod plan;
 mod remesh;
+mod settle;
 mod step;
 mod winding;
 

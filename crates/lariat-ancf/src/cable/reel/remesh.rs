@@ -13,8 +13,8 @@
 //! ```
 //!
 //! which is a projection in the norm of the mass: momentum stays but for the impulse on supports, and kinetic energy falls but for the
-//! product of `v_old - v_new` with l' w_new, of the order of the waves that the mesh does not resolve. The change of the whole energy is
-//! on the account [`remeshed`](super::ReelReading::remeshed).
+//! product of `v_old - v_new` with l' w_new, of the order of the waves that the mesh does not resolve. Where the energy is then more than
+//! before, nodes [move](super::settle). The change of the whole energy is on the account [`remeshed`](super::ReelReading::remeshed).
 //!
 //! At the start of a cable the same is done to the reversed one.
 //!
@@ -41,6 +41,8 @@ use nalgebra::Vector3;
 
 /// Length above which the element at the eye is split, as a share of its full length.
 const MOST: f64 = 1.6;
+/// Rate in m/s below which the time in which an element passes the eye is not asked for.
+const LEAST_RATE: f64 = 1e-3;
 /// Largest number of splits in a part of a host step.
 const MOST_SPLITS: usize = 100;
 
@@ -88,6 +90,7 @@ impl Cable {
                 return Ok(());
             }
             let energy = self.energy().total();
+            let most = energy + self.energy_to_add(side, full.length);
             let mut turned = Turned {
                 side,
                 q: self.positions().to_vec(),
@@ -104,6 +107,7 @@ impl Cable {
             } else {
                 self.merge(turned)?;
             }
+            self.settle(most, self.longest_wave().max(full.length / winding.extent[1].abs().max(LEAST_RATE)))?;
             let change = self.energy().total() - energy;
             if let Some(winding) = &mut self.snapshot.windings[side as usize] {
                 winding.remeshed += change;
@@ -191,16 +195,21 @@ impl Cable {
         }
         side.turn(&mut missed);
         self.replace_elements(turned, 2, &[whole])?;
+        self.take_up(missed)
+    }
+
+    /// Changes velocities by an impulse on all coordinates, but those that supports hold.
+    pub(super) fn take_up(&mut self, mut impulse: Vec<f64>) -> Result<(), Error> {
         // nodes on bodies move with them: the next step of the island shares their jump with the bodies
         let mut free = self.model.clone();
         free.supports.retain(|(_, support)| !support.attached);
         let outcome = self.system.factor_mass(&free).and_then(|()| {
-            project_vector(&free, &mut missed);
-            self.system.mass.solve(self.system.level, &mut missed);
+            project_vector(&free, &mut impulse);
+            self.system.mass.solve(self.system.level, &mut impulse);
             self.system.factor_mass(&self.model)
         });
         outcome.map_err(|failure| self.step_failed(self.time(), 0.0, failure))?;
-        self.snapshot.state.v.iter_mut().zip(&missed).for_each(|(v, d)| *v += d);
+        self.snapshot.state.v.iter_mut().zip(&impulse).for_each(|(v, d)| *v += d);
         Ok(())
     }
 }

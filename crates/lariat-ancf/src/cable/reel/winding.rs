@@ -89,7 +89,7 @@ impl Cable {
         self.reel_at(self.side(at.into())?)
     }
 
-    fn reel_at(&self, side: Side) -> Option<ReelReading> {
+    pub(super) fn reel_at(&self, side: Side) -> Option<ReelReading> {
         let winding = self.snapshot.windings[side as usize]?;
         let flow = self.system.flows.list.iter().find(|flow| flow.side == side)?;
         let memory = &self.snapshot.state.memory;
