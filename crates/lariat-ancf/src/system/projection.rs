@@ -4,6 +4,7 @@
 
 use crate::linalg::BlockTridiagonal;
 use crate::model::Model;
+use crate::support::Support;
 
 /// Removes held components from a vector.
 pub(crate) fn project_vector(model: &Model, x: &mut [f64]) {
@@ -15,36 +16,34 @@ pub(crate) fn project_vector(model: &Model, x: &mut [f64]) {
 /// Replaces `A` by `P A P + (I - P)`.
 pub(crate) fn project_matrix(model: &Model, a: &mut BlockTridiagonal) {
     for (node, support) in &model.supports {
-        let p = support.projector();
-        let times = |x: &[[f64; 8]; 6], left: bool, right: bool| {
-            let mut y = *x;
-            if left {
-                for c in 0..6 {
-                    y[c] = core::array::from_fn(|r| if r < 6 { (0..6).map(|k| p[k][r] * x[c][k]).sum() } else { 0.0 });
-                }
-            }
-            let z = y;
-            if right {
-                for c in 0..6 {
-                    y[c] = core::array::from_fn(|r| if r < 6 { (0..6).map(|k| z[k][r] * p[c][k]).sum() } else { 0.0 });
-                }
-            }
-            y
-        };
         let diag = &mut a.diag[*node].0;
-        *diag = times(diag, true, true);
+        project_columns(support, diag);
+        project_rows(support, diag);
+        let p = support.projector();
         for c in 0..6 {
             for r in 0..6 {
                 diag[c][r] += f64::from(u8::from(r == c)) - p[c][r];
             }
         }
         if *node > 0 {
-            let lower = &mut a.lower[node - 1].0;
-            *lower = times(lower, true, false);
+            project_columns(support, &mut a.lower[node - 1].0);
         }
         if node + 1 < a.diag.len() {
-            let lower = &mut a.lower[*node].0;
-            *lower = times(lower, false, true);
+            project_rows(support, &mut a.lower[*node].0);
         }
+    }
+}
+
+/// Replaces a block, `[column][row]`, by `P A`.
+fn project_columns(support: &Support, a: &mut [[f64; 8]; 6]) {
+    a.iter_mut().for_each(|column| support.project(&mut column[..6]));
+}
+
+/// Replaces a block, `[column][row]`, by `A P`.
+fn project_rows(support: &Support, a: &mut [[f64; 8]; 6]) {
+    for r in 0..6 {
+        let mut row: [f64; 6] = core::array::from_fn(|c| a[c][r]);
+        support.project(&mut row);
+        (0..6).for_each(|c| a[c][r] = row[c]);
     }
 }

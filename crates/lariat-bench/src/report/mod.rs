@@ -15,6 +15,7 @@
 //! | [`model_error`] | errors of T1, T2 and mean strain, separated from those of the mesh | tip distances | `pendulum_converged_tip.csv` |
 //! | [`claims`] | the scenes of assets/scenes: errors of mesh and time, and the cost of an error that is asked for | largest distance of cables and bodies at host times | twice the elements and a quarter of the tolerance |
 //! | [`thrown`] | thrown cables in fidelity game, and a minute of the pendulum: energy law, constant cost | | the energy law, read from the outside |
+//! | [`contact`] | the scenes of assets/contact | tensions, accelerations, depths, energy | formulas and bounds, derived there |
 //! | [`effects`], [`effect_cases`] | cost of an element and of each effect | | |
 //! | [`coupling`] | gap, energy and momentum with Rapier | distance as in [`payload`]; drifts | the same; conservation |
 //!
@@ -26,6 +27,7 @@ pub mod catenary;
 pub mod catenary_reference;
 pub mod cheapest;
 pub mod claims;
+pub mod contact;
 pub mod coupling;
 pub mod effect_cases;
 pub mod effects;
@@ -162,6 +164,7 @@ pub fn run(out: &Path, options: &Options, progress: &mut dyn FnMut(Progress<'_>)
     recorder.record(last, model_error::TITLE, |o| plain(model_error::section(o)))?;
     recorder.record(last, claims::TITLE, |o| plain(claims::section(o)))?;
     recorder.record(last, thrown::TITLE, |o| plain(thrown::section(o)))?;
+    recorder.record(last, contact::TITLE, |o| plain(contact::section(o)))?;
     recorder.record(last, effects::TITLE, |o| plain(effects::section(o)))?;
     recorder.record(last, coupling::TITLE, |o| plain(coupling::section(o)))?;
     Ok(recorder.report)

@@ -42,8 +42,14 @@ pub fn insert(world: &mut PhysicsWorld, scene: &Scene, bodies: &[RigidBodyHandle
         let second = bodies[joint.body];
         if !joint.multibody {
             world.insert_impulse_joint(first, second, built);
-        } else if world.multibody_joints.insert(first, second, built, true).is_none() {
+            continue;
+        }
+        let Some(handle) = world.multibody_joints.insert(first, second, built, true) else {
             return Err((scene.bodies[joint.body].name.clone(), format!("Rapier rejects the joint {:?}", joint.name)));
+        };
+        // Rapier's own damping of 0.1 N m s would make it another joint than without `multibody`
+        if let Some((multibody, _)) = world.multibody_joints.get_mut(handle) {
+            multibody.damping_mut().fill(0.0);
         }
     }
     Ok(())

@@ -39,7 +39,7 @@ table! {
         /// Direction, not zero, in the world at t = 0, for a hinge or a slider.
         axis: Option<Vector3<f64>> = ("required by hinge and slider"), Kind::Numbers(&["x", "y", "z"], ANY.single());
         /// `true` makes the body a link of a multibody, in reduced coordinates. Such a link has one such joint before it, closes no ring
-        /// and starts at rest. Rapier's other joints yield under load.
+        /// and starts at rest. Rapier's other joints yield under load. Neither has friction or damping.
         multibody: bool = false, Kind::Flag;
     }
 }

@@ -3,6 +3,7 @@
 use super::body::{BodyKind, BodyScene, BodyShape};
 use super::{CableScene, Purpose, Scene};
 use crate::warning::Warning;
+use lariat_ancf::Vector3;
 use lariat_ancf::warning::sizes;
 
 impl Scene {
@@ -19,7 +20,7 @@ impl Scene {
     fn falling(&self) -> Vec<Warning> {
         let Some(down) = self.gravity.try_normalize(f64::MIN_POSITIVE) else { return Vec::new() };
         let fall_m = 0.5 * self.gravity.norm() * self.duration * self.duration;
-        let held = self.held();
+        let (held, cables_held) = self.held();
         let falls = |b: &BodyScene| Warning::FallsFreely { body: b.name.clone(), fall_m, duration_s: self.duration };
         let mut warnings = Vec::new();
         for (i, body) in self.bodies.iter().enumerate() {
@@ -38,15 +39,23 @@ impl Scene {
                 let fits = (way - down * way.dot(&down)).norm() <= reach + radius(other);
                 !matches!(other.shape, BodyShape::None) && fits && way.dot(&down) > -reach - radius(other)
             };
-            if !held[i] && !loaded && !self.bodies.iter().enumerate().any(stops) {
+            let catches = |(cable, held): (&CableScene, &bool)| {
+                let centre = cable.points.iter().sum::<Vector3<f64>>() / cable.points.len() as f64;
+                let way = centre - body.position;
+                let fits = (way - down * way.dot(&down)).norm() <= reach + cable.length;
+                *held && cable.effects.contact.is_some() && fits && way.dot(&down) > -reach - cable.length
+            };
+            let shape = !matches!(body.shape, BodyShape::None);
+            let caught = shape && self.cables.iter().zip(&cables_held).any(catches);
+            if !held[i] && !loaded && !caught && !self.bodies.iter().enumerate().any(stops) {
                 warnings.push(falls(body));
             }
         }
         warnings
     }
 
-    /// Returns by body whether it is connected to the world, or to anything but weights, through cables and joints.
-    fn held(&self) -> Vec<bool> {
+    /// Returns by body, and by cable, whether it is connected to the world, or to anything but weights, through cables and joints.
+    fn held(&self) -> (Vec<bool>, Vec<bool>) {
         let mut bodies: Vec<bool> = self.bodies.iter().map(|body| body.kind != BodyKind::Dynamic).collect();
         // loads, flow and buoyancy may carry a cable
         let carried = |(i, cable): (usize, &CableScene)| {
@@ -76,7 +85,7 @@ impl Scene {
                 }
             }
             if before == (bodies.clone(), cables.clone()) {
-                return bodies;
+                return (bodies, cables);
             }
         }
     }
@@ -94,9 +103,7 @@ fn radius(body: &BodyScene) -> f64 {
         BodyShape::Ball(radius) => *radius,
         BodyShape::Cylinder([half, radius]) => half.hypot(*radius),
         BodyShape::Capsule([half, radius]) => half + radius,
-        BodyShape::Mesh(mesh) => {
-            mesh.vertices.iter().map(|x| lariat_ancf::Vector3::from(*x).norm()).fold(0.0, f64::max)
-        }
+        BodyShape::Mesh(mesh) => mesh.vertices.iter().map(|x| Vector3::from(*x).norm()).fold(0.0, f64::max),
     }
 }
 
