@@ -196,7 +196,7 @@ mod tests {
             for flow in &system.flows.list {
                 let (q, v) = (flow.side.gather(&q), flow.side.gather(&v));
                 let own = system.points_on_length(model, flow, 0.0, [&q, &v]);
-                assert_relative_eq!(own, flow.on_length(lengths[flow.side as usize], &at.q, &force), epsilon = 1e-9);
+                assert_relative_eq!(own, flow.on_length(lengths[flow.side as usize], at.q, &force), epsilon = 1e-9);
                 power += own * rates[flow.side as usize];
             }
             let mut physical = 0.0;
