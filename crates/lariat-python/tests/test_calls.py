@@ -227,6 +227,12 @@ def call_world(r: random.Random, w: lariat.World, things: dict[str, list[Any]]) 
         lambda: setattr(w.rigid_bodies[body()], r.choice(["translation", "linvel", "angvel", "rotation"]), array(r)),
         lambda: w.rigid_bodies[body()].apply_impulse(array(r)),
         lambda: lariat.World.restore(bytes_of(r, w.snapshot())).step(),
+        lambda: w.add_sheave(rope(), place(r), rope(), place(r), inertia=number(r), friction=number(r), turns=r.choice([0.0, number(r)])),
+        lambda: w.add_sheave(rope(), place(r), rope(), place(r)),
+        lambda: (w.sheave(r.choice([0, 1, -1, None])), w.remove_sheave(r.choice([0, 1, 99]))),
+        lambda: w.add_drum(rope(), place(r), body(), array(r), number(r), stock=r.choice([None, number(r)]), inertia=r.choice([0.0, number(r)])),
+        lambda: w.add_drum(rope(), place(r), body(), [0, 1, 0], 0.1),
+        lambda: w.remove_drum(rope(), place(r)),
         lambda: call_cable(r, rope()),
     ]
     return r.choice(calls)()

@@ -24,6 +24,7 @@ from lariat.results import (
     RayIntersection,
     Reaction,
     ReelReading,
+    SheaveReading,
     RigidBodyHandle,
     Sample,
     Samples,
@@ -574,6 +575,41 @@ class World:
 
     def join(self, first: Cable, at: Place, second: Cable, second_at: Place) -> None:
         """Ties a point of a cable to a point of another. Raises GapTooLongError, AlreadyAttachedError."""
+
+    def add_sheave(
+        self,
+        first: Cable,
+        at: Place,
+        second: Cable,
+        second_at: Place,
+        *,
+        inertia: float = 0.0,
+        friction: float = 0.0,
+        turns: float = 0.0,
+        brake: float = 0.0,
+    ) -> int:
+        """Lets the first cable run into the second over a wheel, where an end of each is attached to one point of a body. ``inertia``: that of
+        the wheel over the square of its radius, in kg; ``friction``: tensions differ by up to exp(friction angle); ``turns``: angle in rad
+        wound beyond that between the two; ``brake``: constant friction in N. Both need the integrator "discrete-gradient" and one mass
+        per length. Returns the number of the sheave. Raises ReelPlaceError, ReelMethodError, NotWithReelError, InvalidValueError,
+        NoCableError; what makes no sheave beyond that is an error of the next step."""
+
+    def remove_sheave(self, sheave: int) -> None:
+        """Ends a sheave: what is on its sides stays there. Raises NoSheaveError."""
+
+    def sheave(self, sheave: int) -> SheaveReading:
+        """Returns what a sheave did so far. Raises NoSheaveError."""
+
+    def add_drum(
+        self, cable: Cable, at: Place, body: Handle, axis: ArrayLike, radius: float, *, stock: float | None = None, inertia: float = 0.0
+    ) -> None:
+        """Winds an end of a cable on a dynamic body that turns about ``axis`` (in its frame; positive spin pays out): the cable runs at
+        ``radius`` (m), and its pull turns the body. ``stock``: largest length in m that can be out; ``inertia``: what the drum carries beside
+        the body's own, over the square of the radius, in kg. Needs the integrator "discrete-gradient". Raises DrumBodyError, NoBodyError,
+        ReelPlaceError, ReelMethodError, NotWithReelError, InvalidValueError, NoCableError; a step raises DrumJoinedError."""
+
+    def remove_drum(self, cable: Cable, at: Place) -> bool:
+        """Ends the drum at an end of a cable: what is out stays. Returns whether there was one. Raises NoCableError."""
 
     def equilibrium(self) -> bool:
         """Moves cables and the bodies on them to static equilibrium; returns whether all is stable. Raises NoEquilibriumError,

@@ -224,6 +224,18 @@ class NoAttachmentError(Error, LookupError):
     """An attachment that is not, or no longer, in the world."""
 
 
+class NoSheaveError(Error, LookupError):
+    """A sheave that is not, or no longer, in the world."""
+
+
+class DrumBodyError(Error, ValueError):
+    """A drum that is not a dynamic body."""
+
+
+class DrumJoinedError(Error, ValueError):
+    """A drum that is joined to a dynamic body."""
+
+
 class NoJunctionError(Error, LookupError):
     """A junction that is not, or no longer, in the world."""
 

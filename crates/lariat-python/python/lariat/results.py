@@ -177,6 +177,17 @@ class Touch(NamedTuple):
     """Whether it slips."""
 
 
+class SheaveReading(NamedTuple):
+    """What a sheave did so far."""
+
+    passed: float
+    """Length in m that ran over it."""
+    force: float
+    """Friction in N in the last step: what the pull on one side exceeds that on the other by, but for inertia."""
+    lost: float
+    """Energy in J that friction took."""
+
+
 class ReelReading(NamedTuple):
     """What a reel does now."""
 

@@ -1,9 +1,10 @@
-//! `World`: rapier3d with cables on its bodies. `bodies`, `colliders`, `joints` and `queries` hold what their names say.
+//! `World`: rapier3d with cables on its bodies. `bodies`, `colliders`, `joints`, `queries` and `wheels` hold what their names say.
 
 mod bodies;
 mod colliders;
 mod joints;
 mod queries;
+mod wheels;
 
 use crate::cable::Cable;
 use crate::convert::{Place, Vector, result, vector};
@@ -13,7 +14,7 @@ use crate::shared::Shared;
 use bodies::{Handle, single};
 use lariat_rapier::rapier::dynamics::RigidBodyHandle;
 use lariat_rapier::rapier::pipeline::PhysicsWorld;
-use lariat_rapier::{AttachmentHandle, AttachmentKind, CableHandle, CableSet, Error, Event, Gap};
+use lariat_rapier::{AttachmentHandle, AttachmentKind, CableHandle, CableSet, Error, Event, Gap, SheaveHandle};
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyList};
 use serde::{Deserialize, Serialize};
@@ -32,6 +33,8 @@ pub struct Contents {
     pub bodies: Vec<RigidBodyHandle>,
     /// Attachments in the order of their numbers.
     pub attachments: Vec<AttachmentHandle>,
+    /// Sheaves in the order of their numbers.
+    pub sheaves: Vec<SheaveHandle>,
 }
 
 /// A world of rigid bodies and cables.
@@ -85,7 +88,8 @@ impl World {
         set.settings.max_rapier_steps = max_rapier_steps;
         set.settings.sleep_speed = sleep_speed;
         set.settings.fidelity = self::fidelity(fidelity)?;
-        Ok(World(Shared::new(Contents { world, set, time: 0.0, bodies: Vec::new(), attachments: Vec::new() })))
+        let (bodies, attachments, sheaves) = (Vec::new(), Vec::new(), Vec::new());
+        Ok(World(Shared::new(Contents { world, set, time: 0.0, bodies, attachments, sheaves })))
     }
 
     /// Advances bodies and cables by `dt`.

@@ -117,3 +117,45 @@ fn what_makes_no_sheave_is_refused_by_name() {
     assert_eq!(set.sheave(fine).unwrap_err(), Error::NoSheave(fine));
     run(&mut world, &mut set, 5);
 }
+
+/// Two crates that sway on ropes over one sheave with friction: the wheel runs on. Where a step has a second solution, which stops
+/// it at once with tensions that press it enough, that one must not be taken.
+///
+/// *Source.* Rigid crates: once the rope is taut it accelerates with less than g.
+#[test]
+fn a_running_sheave_does_not_lock() {
+    let mut seed = 5u64;
+    let mut random = || {
+        seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (seed >> 11) as f64 / (1u64 << 53) as f64
+    };
+    for case in 0..20 {
+        let friction = if case == 0 { 0.05 } else { 0.15 * random() };
+        let light = if case == 0 { 2.0 } else { 1.0 + 3.0 * random() };
+        let ratio = if case == 0 { 1.5 } else { (friction * std::f64::consts::PI).exp() * (1.1 + random()) };
+        let mut world = PhysicsWorld::new();
+        let block = world.insert_body(RigidBodyBuilder::fixed());
+        let crates = [(light * ratio, 0.3), (light, -0.3)]
+            .map(|(mass, z)| add_cube(&mut world, mass as Real, 0.1, [0.0, -3.1, z]));
+        let mut set = CableSet::new();
+        let ropes = [0.3, -0.3].map(|z| {
+            let section = Section::from_stiffness(2e5, 1e-3, 0.005).unwrap();
+            let rope = cable([0.0; 3], [0.0, -3.0, z], section).elements(12);
+            set.insert(rope.damping(Damping { axial: 5e-3, bending: 0.0 }).build().unwrap())
+        });
+        for (rope, crate_) in ropes.into_iter().zip(crates) {
+            set.attach(&world, rope, At::Start, block, Vector::ZERO, AttachmentKind::Ball).unwrap();
+            set.attach(&world, rope, At::End, crate_, Vector::new(0.0, 0.1, 0.0), AttachmentKind::Ball).unwrap();
+        }
+        let options = SheaveOptions { friction, ..SheaveOptions::default() };
+        set.add_sheave((ropes[0], At::Start), (ropes[1], At::Start), options).unwrap();
+        let mut before = 0.0;
+        for step in 0..48 {
+            run(&mut world, &mut set, 1);
+            let rate = set.get(ropes[0]).unwrap().reel(At::Start).unwrap().rate;
+            assert!(step < 6 || (rate - before).abs() < G / 60.0, "case {case}, step {step}: {before} to {rate} m/s");
+            before = rate;
+        }
+        assert!(before > 0.1, "case {case}: {before} m/s");
+    }
+}

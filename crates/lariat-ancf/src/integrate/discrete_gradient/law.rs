@@ -96,6 +96,8 @@ pub(crate) struct Balance {
     pub missed: f64,
     /// Sum in N by which motors of reels break their laws, and that of their forces.
     pub slip: [f64; 2],
+    /// Whether friction stops a sheave that runs when the step begins.
+    pub stops: bool,
     /// Sum over nodes and bodies of the impulse in N s that the residual leaves unbalanced.
     pub imbalance: f64,
     /// By axis, the impulse in N s that the residual leaves unbalanced in all; only with stock of a reel on a body that moves freely.
@@ -122,6 +124,7 @@ impl Balance {
         self.forces += other.forces;
         self.missed += other.missed;
         (0..2).for_each(|i| self.slip[i] += other.slip[i]);
+        self.stops |= other.stops;
         self.imbalance += other.imbalance;
         (0..3).for_each(|i| self.drift[i] += other.drift[i]);
         self.impulse += other.impulse;

@@ -19,6 +19,8 @@
 //! of them.
 //!
 //! A step in which the centre lines of cables that may touch go through each other is divided too; in the last division it is counted, and a warning says so.
+//! So is one in which the friction of a sheave stops it from running: a long step may have such a solution beside the one that runs on, and
+//! Newton's iteration end there.
 
 use super::law::{Balance, CLOSURE, DiscreteGradientSystem, Event};
 use crate::error::StepFailure;
@@ -157,7 +159,8 @@ pub(super) fn step(
     }
     let reduced = limit.is_some_and(WorkLimit::reduces);
     let crosses = last.as_ref().is_ok_and(|balance| balance.excess().is_finite()) && system.crosses();
-    let may_end = !crosses || depth == MAX_DEPTH || reduced;
+    let stops = last.as_ref().is_ok_and(|balance| balance.stops);
+    let may_end = !(crosses || stops) || depth == MAX_DEPTH || reduced;
     if let Ok(balance) = &last
         && keeps_law(balance)
         && (is_dissipation_right(balance) && closes(balance) && are_motors_right(balance) || depth == MAX_DEPTH)

@@ -104,6 +104,11 @@ impl Unknowns {
         let mut increments = core::mem::take(&mut self.increments);
         let mut stops = core::mem::take(&mut self.stops);
         self.solve_unknowns(&mut increments, &mut stops);
+        for wheel in &mut self.wheels {
+            let [a, b] = wheel.flows;
+            increments[b] = wheel.secant(self.list[b].acceleration, increments[b]);
+            increments[a] = -increments[b];
+        }
         (self.increments, self.stops) = (increments, stops);
     }
 

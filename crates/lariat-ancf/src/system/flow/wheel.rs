@@ -12,8 +12,10 @@
 //! ```
 //!
 //! theta is the angle between the tangents of both cables at the sheave when the step begins, with whole turns added; `rho u'^2` is what the
-//! running rope takes off the pressure. Whether it slips is decided by the friction that u' = 0 at the end of the step needs; of a slipping
-//! one, b is that of the unknown pulls, not of the iterate before. Near the end of a cable u'' is bounded, as for a reel.
+//! running rope takes off the pressure. A step can have two solutions, since b grows with the pulls: one that runs on, and one that stops
+//! it at once with pulls that press it enough. Of a wheel that runs, the first is taken if it does not turn back; otherwise, and for one at
+//! rest, the friction that u' = 0 at the end of the step needs decides whether it slips. b is that of the unknown pulls, not of the
+//! iterate before. Near the end of a cable u'' is bounded, as for a reel.
 //!
 //! What leaves one cable enters the other at the same point, so neither row of an eye has an inflow of momentum: the sum of both is the
 //! force on what holds the sheave.
@@ -53,6 +55,8 @@ pub(crate) struct Wheel {
     planned: [f64; 3],
     /// Unknowns of its flows.
     pub flows: [usize; 2],
+    /// Acceleration of the iterate before, and the increment that its linear equations asked for.
+    before: Option<[f64; 2]>,
 }
 
 /// Pulls in N of both cables at a sheave, linear in the increment x of the acceleration: `F - k x`, and the acceleration of the iterate.
@@ -66,12 +70,13 @@ pub(super) struct Pulls {
 impl Wheel {
     /// Creates the wheel of a sheave.
     pub fn new(sheave: Sheave) -> Self {
-        Wheel { sheave, grip: 0.0, lift: 0.0, planned: [0.0; 3], flows: [0; 2] }
+        Wheel { sheave, grip: 0.0, lift: 0.0, planned: [0.0; 3], flows: [0; 2], before: None }
     }
 
     /// Begins a step of length `h` (s): `flows` are those of its cables, `tangents` their tangents there, away from the cables, and
     /// `inertia` the mass per length in kg/m. Returns the acceleration of the first iterate.
     pub fn begin(&mut self, flows: [&Flow; 2], tangents: [[f64; 3]; 2], inertia: f64, h: f64) -> f64 {
+        self.before = None;
         let rate = flows[1].extent.rate;
         let left = flows.map(|flow| flow.left());
         let [least, _, largest] = rates(0.0, STOP, rate, [left[1], left[0]], h);
@@ -103,7 +108,26 @@ impl Wheel {
     /// Returns the acceleration that meets the law.
     pub(super) fn acceleration_for(&self, pulls: &Pulls) -> f64 {
         let Pulls { force: [a, b], stiffness: [ka, kb], acceleration: present } = *pulls;
+        // F_b - F_a - m A - sign (grip (F_low - lift) + brake) = 0; the cable that brakes has the lower pull
+        let slip = |sign: f64| {
+            let with = |grip: f64| {
+                let (of_a, of_b) = if sign > 0.0 { (1.0 + grip, 1.0) } else { (1.0, 1.0 + grip) };
+                let force =
+                    of_b * b - of_a * a - self.sheave.inertia * present + sign * (grip * self.lift - self.sheave.brake);
+                let stiffness = of_b * kb - of_a * ka + self.sheave.inertia;
+                (force / stiffness.max(f64::MIN_POSITIVE), if sign > 0.0 { (a, ka) } else { (b, kb) })
+            };
+            let (x, (low, k)) = with(self.grip);
+            present + if low - k * x >= self.lift { x } else { with(0.0).0 }
+        };
         let wanted = self.planned[1];
+        let running = -1.0f64.copysign(wanted);
+        if wanted != 0.0 {
+            let on = slip(running);
+            if (on - wanted) * running > 0.0 {
+                return self.bounded(on);
+            }
+        }
         let x = wanted - present;
         let at_rest = [a - ka * x, b - kb * x];
         let needed = at_rest[1] - at_rest[0] - self.sheave.inertia * wanted;
@@ -111,18 +135,20 @@ impl Wheel {
         if needed.abs() <= bound && bound > 0.0 {
             return self.bounded(wanted);
         }
-        let sign = 1.0f64.copysign(needed);
-        // F_b - F_a - m A - sign (grip (F_low - lift) + brake) = 0; the cable that brakes has the lower pull
-        let slip = |grip: f64| {
-            let (of_a, of_b) = if sign > 0.0 { (1.0 + grip, 1.0) } else { (1.0, 1.0 + grip) };
-            let force =
-                of_b * b - of_a * a - self.sheave.inertia * present + sign * (grip * self.lift - self.sheave.brake);
-            let stiffness = of_b * kb - of_a * ka + self.sheave.inertia;
-            (force / stiffness.max(f64::MIN_POSITIVE), if sign > 0.0 { (a, ka) } else { (b, kb) })
-        };
-        let (x, (low, k)) = slip(self.grip);
-        let x = if low - k * x >= self.lift { x } else { slip(0.0).0 };
-        self.bounded(present + x)
+        self.bounded(slip(1.0f64.copysign(needed)))
+    }
+
+    /// Returns the increment for an iterate of this acceleration whose linear equations ask for `increment`: by the secant of what they asked
+    /// for at the last two iterates. Their matrix is the symmetric part of the derivative, so that on a short element at an eye the
+    /// iteration would go too far and diverge; with the whole derivative the secant changes nothing.
+    pub(super) fn secant(&mut self, acceleration: f64, increment: f64) -> f64 {
+        let before = self.before.replace([acceleration, increment]);
+        let asked = acceleration + increment;
+        if self.planned.contains(&asked) {
+            return increment;
+        }
+        let slope = before.map_or(-1.0, |[at, then]| (increment - then) / (acceleration - at));
+        if slope < -1.0 { -increment / slope } else { increment }
     }
 
     /// Returns the friction in N of an iterate, and by how much it breaks the law.
@@ -144,7 +170,9 @@ impl Wheel {
 
     /// Adds to a balance by how much the iterate breaks the law; the flows hold its pulls.
     pub fn add_balance(&self, flows: [&Flow; 2], balance: &mut Balance) {
-        let (_, missed) = self.violation(flows.map(Flow::pull_of_iterate), flows[1].extent.acceleration);
+        let acceleration = flows[1].extent.acceleration;
+        let (_, missed) = self.violation(flows.map(Flow::pull_of_iterate), acceleration);
+        balance.stops |= self.grip > 0.0 && self.planned[1] != 0.0 && acceleration == self.planned[1];
         balance.slip[0] += missed;
         balance.slip[1] += flows.iter().map(|flow| flow.pull_of_iterate().abs()).sum::<f64>();
     }

@@ -1,0 +1,100 @@
+//! Sheaves and drums of a world.
+
+use super::bodies::{Handle, invalid, not_negative, positive, single};
+use super::{Contents, World};
+use crate::cable::Cable;
+use crate::convert::{Place, Vector, result};
+use crate::error::{Raise, raise};
+use lariat_ancf::Reel;
+use lariat_rapier::{Drum, SheaveHandle, SheaveOptions};
+use pyo3::prelude::*;
+
+impl Contents {
+    fn sheave(&self, number: usize) -> Result<SheaveHandle, Raise> {
+        let none = || Raise::new("NoSheaveError", format!("no sheave {number} in this world"));
+        self.sheaves.get(number).copied().ok_or_else(none)
+    }
+}
+
+#[pymethods]
+impl World {
+    /// Lets one cable run into another over a wheel, where ends of both are attached at one point; returns its number.
+    #[pyo3(signature = (first, at, second, second_at, *, inertia=0.0, friction=0.0, turns=0.0, brake=0.0))]
+    #[expect(clippy::too_many_arguments, reason = "they have names in Python")]
+    fn add_sheave(
+        &self,
+        py: Python<'_>,
+        first: &Cable,
+        at: Place,
+        second: &Cable,
+        second_at: Place,
+        inertia: f64,
+        friction: f64,
+        turns: f64,
+        brake: f64,
+    ) -> PyResult<usize> {
+        let ends = ((first.handle_in(&self.0)?, at.0), (second.handle_in(&self.0)?, second_at.0));
+        not_negative("inertia (kg)", inertia)?;
+        not_negative("friction", friction)?;
+        not_negative("turns (rad)", turns)?;
+        not_negative("brake (N)", brake)?;
+        let options = SheaveOptions { inertia, friction, turns, brake };
+        let added = self.0.compute(py, |contents| {
+            contents.set.add_sheave(ends.0, ends.1, options).map(|sheave| {
+                contents.sheaves.push(sheave);
+                contents.sheaves.len() - 1
+            })
+        });
+        added.map_err(raise)
+    }
+
+    /// Ends a sheave: what is on its sides stays there.
+    fn remove_sheave(&self, py: Python<'_>, sheave: usize) -> PyResult<()> {
+        let removed = self.0.compute(py, |contents| {
+            let handle = contents.sheave(sheave)?;
+            contents.set.remove_sheave(handle).map_err(Raise::from)
+        });
+        removed.map_err(raise)
+    }
+
+    /// What a sheave did so far.
+    fn sheave<'py>(&self, py: Python<'py>, sheave: usize) -> PyResult<Bound<'py, PyAny>> {
+        let reading = self.0.with(py, |contents| {
+            let handle = contents.sheave(sheave)?;
+            let sheave = contents.set.sheave(handle).map_err(Raise::from)?;
+            Ok::<_, Raise>((sheave.passed(), sheave.force(), sheave.lost()))
+        });
+        result(py, "SheaveReading", reading.map_err(raise)?)
+    }
+
+    /// Winds an end of a cable on a body that turns about an axis in its frame.
+    #[pyo3(signature = (cable, at, body, axis, radius, *, stock=None, inertia=0.0))]
+    #[expect(clippy::too_many_arguments, reason = "they have names in Python")]
+    fn add_drum(
+        &self,
+        py: Python<'_>,
+        cable: &Cable,
+        at: Place,
+        body: Handle,
+        axis: Vector,
+        radius: f64,
+        stock: Option<f64>,
+        inertia: f64,
+    ) -> PyResult<()> {
+        let unit = axis.0.try_normalize(1e-9).ok_or_else(|| invalid("length of the axis", axis.0.norm(), "> 0"))?;
+        let drum = Drum { body: body.0, axis: single("axis", unit)?, radius: positive("radius (m)", radius)? };
+        not_negative("inertia (kg)", inertia)?;
+        let reel = Reel { stock, inertia, ..Reel::on_drum() };
+        let handle = cable.handle_in(&self.0)?;
+        let added =
+            self.0.compute(py, |contents| contents.set.add_drum(&contents.world.bodies, (handle, at.0), drum, reel));
+        added.map_err(raise)
+    }
+
+    /// Ends the drum at an end of a cable; returns whether there was one.
+    fn remove_drum(&self, py: Python<'_>, cable: &Cable, at: Place) -> PyResult<bool> {
+        let handle = cable.handle_in(&self.0)?;
+        let removed = self.0.compute(py, |contents| contents.set.remove_drum(handle, at.0));
+        removed.map(|drum| drum.is_some()).map_err(raise)
+    }
+}
