@@ -1,6 +1,6 @@
 //! The payload pendulum's error of the mesh, apart from its error in time.
 //!
-//! [`payload`](super::payload) compares with an independent code on ten elements: errors in time.
+//! [`payload`] compares with an independent code on ten elements: errors in time.
 //! Here time is resolved (verlet at half of its stable step, host steps of 1/240 s), and the mesh is
 //! refined for two rules, which are two discretisations of one beam. The converged mesh is the
 //! finest of the full energy.
