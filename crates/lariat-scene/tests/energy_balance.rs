@@ -1,7 +1,7 @@
 //! The energy balance of runs: closed with error control, and a warning where integration makes or takes energy.
 
 use lariat_ancf::{Fidelity, Integrator, IntegratorChoice, Method, StepControl};
-use lariat_scene::run::{self, EnergyBalance, Options, Summary};
+use lariat_scene::run::{self, EnergyBalance, Options, Summary, World};
 use lariat_scene::{Purpose, Scene, Warning};
 use std::path::Path;
 
@@ -176,4 +176,30 @@ fn the_work_of_a_body_that_rotates_is_in_the_balance() {
         });
         assert!((works[0] - works[1]).abs() < 1e-2 * works[0].abs(), "{radius}: {works:?}");
     }
+}
+
+/// Friction and impacts only take energy, whatever the bodies do that a cable touches: fixed, driven or moved by it.
+///
+/// *Source.* The second law of thermodynamics; none of the scenes has a flow that could drive a cable.
+#[test]
+fn contacts_never_give_back_what_they_dissipated() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../assets/contact");
+    let mut scenes = 0;
+    for file in std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()) {
+        let scene = Scene::read(&file, &[], Purpose::Run).unwrap();
+        let mut world = World::build(&scene).unwrap();
+        world.start(Purpose::Run).unwrap();
+        let scale = world.energy(None).total().abs();
+        let mut before = 0.0;
+        for step in 1..=(scene.duration / scene.dt).round().min(120.0) as u32 {
+            world.advance(f64::from(step) * scene.dt).unwrap();
+            let now = world.dissipated(None);
+            assert!(now >= before - 1e-9 * scale, "{}: {before} {now} J, step {step}", scene.name);
+            before = now;
+        }
+        println!("{}: {before:.3} J", scene.name);
+        assert!(before > 0.0, "{}: nothing was dissipated", scene.name);
+        scenes += 1;
+    }
+    assert!(scenes >= 10, "{scenes}");
 }

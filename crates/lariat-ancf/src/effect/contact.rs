@@ -59,7 +59,8 @@ impl Contact {
 }
 
 impl Effect for Contact {
-    const DISSIPATIVE: bool = true;
+    // it stores energy, and bodies that move work through it: what it loses is in the energy law of the method
+    const DISSIPATIVE: bool = false;
 
     fn check(&self, cable: &Target<'_>) -> Result<(), Error> {
         let Contact { radius, stiffness, friction, .. } = *self;

@@ -160,7 +160,8 @@ macro_rules! generate {
                 self.force_densities += factor * other.force_densities;
             }
 
-            /// Energy in J that dissipative effects (damping and drag) took from the cable; negative where a flow drives it.
+            /// Energy in J that dissipative effects (damping and drag) took from the cable; negative where a flow drives it. What contacts and
+            /// friction lost is [`EnergyLaw::contacts`](crate::EnergyLaw::contacts).
             pub fn dissipated(&self) -> f64 {
                 0.0 $(- if <$type as Effect>::DISSIPATIVE { self.$field } else { 0.0 })*
             }

@@ -28,9 +28,10 @@ impl World {
         sum
     }
 
-    /// Returns the energy in J that damping and drag have taken from a cable, or from all.
+    /// Returns the energy in J that damping, drag, friction and impacts have taken from a cable, or from all. Contacts of cables that are
+    /// solved together count for the first of them.
     pub fn dissipated(&self, cable: Option<usize>) -> f64 {
-        self.chosen(cable).into_iter().map(|cable| cable.effect_work().dissipated()).sum()
+        self.chosen(cable).into_iter().map(dissipated).sum()
     }
 
     /// Returns the number of elements evaluated by effect, summed over the cables that have it; zero for effects that act by
@@ -71,8 +72,9 @@ impl World {
             terms.kinetic += energy.kinetic;
             terms.strain += energy.axial + energy.bending;
             terms.gravity += energy.gravity;
-            terms.dissipated += effects.dissipated();
-            terms.work += effects.total() + effects.dissipated() + law.loads + law.supports + cable.inserted_energy();
+            let dissipated = dissipated(cable);
+            terms.dissipated += dissipated;
+            terms.work += effects.total() + dissipated + law.loads + law.supports + cable.inserted_energy();
             // the energy law of a step knows no winch
             all_by_law &= !cable.has_reel();
             terms.work += cable.reels().map(|reel| reel.work + reel.remeshed).sum::<f64>();
@@ -139,6 +141,11 @@ impl World {
         let (force, moment) = pull(cable, arc_length)?;
         Ok((force, moment, 0.0))
     }
+}
+
+/// Returns the energy in J that damping, drag, friction and impacts have taken from a cable.
+fn dissipated(cable: &Cable) -> f64 {
+    cable.effect_work().dissipated() + cable.energy_law().contacts
 }
 
 /// Returns force (N) and moment (N m) of a cable on its support at an arc length; zero without one.

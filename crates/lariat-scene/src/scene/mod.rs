@@ -82,7 +82,7 @@ table! {
         /// Gravity.
         gravity: Vector3<f64> = [0.0, -9.81, 0.0], VECTOR, "m/s^2";
         /// Computes the bodies, and the junctions and sheaves of cables.
-        engine: Option<Engine> = ("`\"rapier\"` with bodies, junctions or sheaves, else `\"none\"`"), Kind::Choice(Engine::names);
+        engine: Option<Engine> = ("`\"rapier\"` with bodies, junctions, sheaves or contact between cables, else `\"none\"`"), Kind::Choice(Engine::names);
         /// Rapier's `num_solver_iterations`, with `engine = "rapier"`.
         solver_iterations: Option<u32> = ("Rapier's"), Kind::Whole(1, MANY);
         /// Rigid bodies.
@@ -186,7 +186,9 @@ pub(crate) fn check(doc: &Document<'_>, fallback: &str, folder: &Path, purpose: 
         let (cable, drum) = cable::read(doc, &at, row)?;
         drums.extend(drum.map(|drum| (i, drum)));
         if cable.effects.contact.is_some() && engine == Engine::None {
-            return Err(doc.conflict(&at.key("contact"), "the scene has no bodies that the cable could touch"));
+            return Err(
+                doc.conflict(&at.key("contact"), "without an engine there is nothing that the cable could touch")
+            );
         }
         scene.cables.push(cable);
     }
@@ -225,10 +227,18 @@ pub(crate) fn check(doc: &Document<'_>, fallback: &str, folder: &Path, purpose: 
     Ok(scene)
 }
 
-/// Returns the engine; without the key, bodies, junctions and sheaves choose Rapier.
+/// Returns whether a cable is to touch others, or itself.
+fn touches_cables(row: &cable::CableTable) -> bool {
+    let contact = row.effects.get("contact");
+    let is_set = |key| contact.and_then(|contact| contact.get(key)).and_then(toml::Value::as_bool) == Some(true);
+    is_set("cables") || is_set("itself")
+}
+
+/// Returns the engine; without the key, bodies, junctions, sheaves and contact of cables with cables choose Rapier.
 fn engine(doc: &Document<'_>, table: &SceneTable) -> Result<Engine, Error> {
+    let alone = table.body.is_empty() && table.junction.is_empty() && table.sheave.is_empty();
     let engine = match table.engine {
-        None if table.body.is_empty() && table.junction.is_empty() && table.sheave.is_empty() => Engine::None,
+        None if alone && !table.cable.iter().any(touches_cables) => Engine::None,
         None => Engine::Rapier,
         Some(engine) => engine,
     };
