@@ -7,6 +7,7 @@
 //! way to the surface, at every iterate.
 
 use super::memory::ContactMemory;
+use super::missed::Nearby;
 use super::pair::{Pair, SAMPLES, bounding_ball, is_thin};
 use super::patch::Patch;
 use super::path::{BodyPath, ObstacleStep};
@@ -42,7 +43,9 @@ impl ContactStep {
     pub fn begin(&mut self, motion: &Motion<'_>) {
         self.points.clear();
         self.watched.clear();
+        self.nearby.clear();
         self.before = 0.0;
+        self.stored = motion.memory.iter().map(|memory| memory.energy).sum();
         let Some(contact) = &motion.model.effects.contact else { return };
         let obstacles = &motion.model.obstacles.0;
         if obstacles.is_empty() {
@@ -74,7 +77,8 @@ impl ContactStep {
                 self.add_samples(&pair);
                 obstacle.surface.features(&own, near, &mut |feature| {
                     let limit = near + feature.radius;
-                    if feature.distance_squared(&own) <= limit * limit {
+                    if !pair.is_wide(feature.radius) && feature.distance_squared(&own) <= limit * limit {
+                        self.nearby.push(Nearby { element, from, obstacle: number, feature });
                         self.add_feature(&pair, &feature);
                     }
                 });
@@ -122,13 +126,9 @@ impl ContactStep {
 
     /// Adds the closest point of an element on a feature, if it has one that is near.
     fn add_feature(&mut self, pair: &Pair<'_>, feature: &Feature) {
-        if pair.is_wide(feature.radius) {
-            return;
-        }
-        let Some(xi) = pair.closest(feature).filter(|xi| !pair.is_apart(*xi)) else { return };
-        let length = pair.section.length;
-        let weight = (length / SAMPLES.len() as f64).min(4.0 * pair.radius);
-        let mut point = pair.point(SAMPLES.len() as u32 + feature.id, xi, weight);
+        let share = pair.meeting(feature);
+        let Some(xi) = pair.closest(feature, share).filter(|xi| !pair.is_apart(*xi)) else { return };
+        let mut point = pair.feature_point(feature, xi);
         let y = pair.step.start.own(&point.start);
         let Some((patch, z)) = feature.patch(&y) else { return };
         let end = pair.step.end.own(&(point.start + point.change(pair.motion.change)));
@@ -143,6 +143,7 @@ impl ContactStep {
             None => patch,
         };
         point.recall(&y, &pair.step, memory);
+        (point.nearby, point.recalls) = (Some(self.nearby.len() - 1), index);
         index.into_iter().for_each(|i| self.recalled[i] = true);
         self.points.push(point);
     }
@@ -161,6 +162,7 @@ impl ContactStep {
                     self.recalled[i] = true;
                     let y = self.obstacles[point.obstacle].start.own(&point.start);
                     point.recall(&y, &self.obstacles[point.obstacle], Some(&memory[i]));
+                    point.recalls = Some(i);
                     break;
                 }
             }
@@ -168,7 +170,9 @@ impl ContactStep {
     }
 
     /// Adds samples that an iterate carries into an obstacle although they were not near, or on another way than expected.
-    pub fn complete(&mut self, model: &Model, change: &[f64]) {
+    pub fn complete(&mut self, motion: &Motion<'_>) {
+        let Motion { model, change, .. } = *motion;
+        self.follow_closest(motion);
         let Some(contact) = &model.effects.contact else { return };
         let surface = |point: &ContactPoint| &*model.obstacles.0[point.obstacle].surface;
         let thin = |point: &ContactPoint, found: &Nearest| {
@@ -211,8 +215,13 @@ impl ContactStep {
 }
 
 impl ContactPoint {
+    /// Returns whether it is one of an element or of its neighbours, with an obstacle.
+    pub(super) fn touches(&self, obstacle: usize, element: usize) -> bool {
+        self.obstacle == obstacle && (self.key.0 as usize).abs_diff(element) <= 1
+    }
+
     /// Returns its place in the obstacle's axes at the beginning and at the end of an iterate.
-    fn way(&self, obstacle: &ObstacleStep, change: &[f64]) -> (Vector3<f64>, Vector3<f64>) {
+    pub(super) fn way(&self, obstacle: &ObstacleStep, change: &[f64]) -> (Vector3<f64>, Vector3<f64>) {
         (obstacle.start.own(&self.start), obstacle.end.own(&(self.start + self.change(change))))
     }
 }

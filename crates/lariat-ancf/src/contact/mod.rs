@@ -18,8 +18,9 @@
 //! # Where
 //!
 //! Three Gauss points per element act on faces and on round surfaces that are wide beside their spacing. On edges, corners and thin
-//! rods acts the closest point of the element, one for each of these features (find.rs). Both are chosen when a step begins and stay
-//! the same material points during it; so does the patch. A patch is one-sided: as long as the centre line is behind it, it is
+//! rods acts the closest point of the element, one for each of these features. Both are chosen when a step begins (find.rs). Samples stay the
+//! same material points during it, and keep their patches; closest points follow the iteration (roll.rs), and what was not near at the beginning is
+//! found when it ends (missed.rs). A patch is one-sided: as long as the centre line is behind it, it is
 //! kept. It is swept: where the predicted way of a point meets the surface, the patch is that of the meeting point.
 //!
 //! A contact that is deeper when a step begins than it was when the last one ended (a new one that is born deep, an obstacle that was put
@@ -34,9 +35,6 @@
 //! matrix, and a block to the body's (border.rs).
 //!
 //! # Validity
-//!
-//! A body whose edges, or whose radius, are small beside the spacing of the samples and that passes more than its own size in a step can slip
-//! through: the closest point is chosen from the predicted end.
 //!
 //! `k = EA/(40 r^2)` per length: under the tension T around a radius R the depth is 40 (r/R) (T/EA) of the radius. First touch is of order
 //! 1 in the step, and so is friction, whose bound lags by a step. Restitution is zero where the step does not resolve the contact. The
@@ -56,6 +54,7 @@ mod border;
 mod find;
 mod law;
 mod memory;
+mod missed;
 mod obstacle;
 mod overlap;
 mod pair;
@@ -63,6 +62,7 @@ mod pairs;
 mod patch;
 mod path;
 mod point;
+mod roll;
 mod shapes;
 mod statics;
 mod step;

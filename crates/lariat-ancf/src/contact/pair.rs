@@ -19,6 +19,9 @@ pub(super) const SAMPLES: [(f64, f64); 3] =
 const WIDE: f64 = 2.0;
 /// Intervals in which the closest point of an element is looked for.
 const INTERVALS: usize = 8;
+/// Largest number of steps towards where an element meets a feature, and their least share of the step.
+const MEETINGS: usize = 32;
+const LEAST_SHARE: f64 = 1e-3;
 /// Steps of the golden section.
 const SECTIONS: usize = 32;
 
@@ -38,8 +41,12 @@ pub(super) struct Pair<'a> {
 }
 
 impl Pair<'_> {
+    pub fn key(&self, place: u32) -> Key {
+        (self.element as u32, self.obstacle.key, place)
+    }
+
     pub fn point(&self, place: u32, xi: f64, weight: f64) -> ContactPoint {
-        let key: Key = (self.element as u32, self.obstacle.key, place);
+        let key = self.key(place);
         let shape = shape::position(xi, self.section.length);
         ContactPoint {
             key,
@@ -57,6 +64,9 @@ impl Pair<'_> {
             start: combine(self.motion.q, self.element, &shape),
             spring: Vector3::zeros(),
             bound: 0.0,
+            nearby: None,
+            recalls: None,
+            roll: None,
             linear: Linear::default(),
             about: About::default(),
             now: Evaluation::default(),
@@ -76,22 +86,64 @@ impl Pair<'_> {
         is_thin(found, self.radius, self.section.length)
     }
 
-    /// Returns the local coordinate of the point of the element that will be closest to a feature at the end of the step, as far as that is
-    /// known: the closest point at the beginning would slide off, and the cable sink in behind it. A node belongs to the element behind
-    /// it, so that each minimum of the distance along the cable is found once.
-    pub fn closest(&self, feature: &Feature) -> Option<f64> {
-        let (Motion { q, change, .. }, e, length) = (self.motion, self.element, self.section.length);
-        let end = &self.step.end;
-        let at = |xi: f64| {
-            let shape = shape::position(xi, length);
-            end.own(&(combine(q, e, &shape) + combine(change, e, &shape)))
-        };
-        let distance = |xi: f64| feature.distance_squared(&at(xi));
+    /// Returns a point of the element that touches a feature.
+    pub fn feature_point(&self, feature: &Feature, xi: f64) -> ContactPoint {
+        let weight = (self.section.length / SAMPLES.len() as f64).min(4.0 * self.radius);
+        self.point(feature_place(feature), xi, weight)
+    }
+
+    /// Returns where a point of the element is in the obstacle's axes, at a share of the step.
+    fn at(&self, xi: f64, share: f64) -> Vector3<f64> {
+        let (Motion { q, change, .. }, e) = (self.motion, self.element);
+        let shape = shape::position(xi, self.section.length);
+        let start = combine(q, e, &shape);
+        let [y0, y1] = [self.step.start.own(&start), self.step.end.own(&(start + combine(change, e, &shape)))];
+        y0 + (y1 - y0) * share
+    }
+
+    /// Returns the share of the step at which the element comes to a feature that it meets on its way: found by distances, which change no faster than
+    /// the element moves. The end of the step if it moves less than it reaches, begins within reach, or does not meet it.
+    pub fn meeting(&self, feature: &Feature) -> f64 {
+        let reach = self.radius + self.obstacle.skin + feature.radius;
+        let places: [f64; INTERVALS + 1] = core::array::from_fn(|i| i as f64 / INTERVALS as f64);
+        let way = places.map(|xi| (self.at(xi, 1.0) - self.at(xi, 0.0)).norm()).into_iter().fold(0.0, f64::max);
+        if way <= reach {
+            return 1.0;
+        }
+        // how far a point can be nearer than the places on both sides of it
+        let between = 0.6 * self.section.length / INTERVALS as f64;
+        let mut share = 0.0;
+        for _ in 0..MEETINGS {
+            let nearest = places
+                .map(|xi| feature.distance_squared(&self.at(xi, share)))
+                .into_iter()
+                .fold(f64::INFINITY, f64::min);
+            let gap = nearest.sqrt() - between - reach;
+            if gap <= 0.0 {
+                return if share > 0.0 { share } else { 1.0 };
+            }
+            share += (gap / way).max(LEAST_SHARE);
+            if share >= 1.0 {
+                break;
+            }
+        }
+        1.0
+    }
+
+    /// Returns the local coordinate of the point of the element that is closest to a feature at a share of the step: at the end, as far as that is
+    /// known, where the element moves slowly; the closest point at the beginning would slide off, and the cable sink in behind it. A node
+    /// belongs to the element behind it, so that each minimum of the distance along the cable is found once.
+    pub fn closest(&self, feature: &Feature, share: f64) -> Option<f64> {
+        let (Motion { q, change, .. }, e) = (self.motion, self.element);
+        let [start, end] = [&self.step.start, &self.step.end];
+        let distance = |xi: f64| feature.distance_squared(&self.at(xi, share));
         // growth of the distance along the cable at a node, from the node alone: the same number for both of its elements
         let growth = |node: usize| {
-            let moved = |x: usize| Vector3::from_fn(|k, _| q[6 * node + x + k] + change[6 * node + x + k]);
-            let y = end.own(&moved(0));
-            (y - feature.core(&y)).dot(&end.rotation.tr_mul(&moved(3)))
+            let first = |x: usize| Vector3::from_column_slice(&q[6 * node + x..6 * node + x + 3]);
+            let last = |x: usize| first(x) + Vector3::from_column_slice(&change[6 * node + x..6 * node + x + 3]);
+            let y = start.own(&first(0)).lerp(&end.own(&last(0)), share);
+            let slope = start.rotation.tr_mul(&first(3)).lerp(&end.rotation.tr_mul(&last(3)), share);
+            (y - feature.core(&y)).dot(&slope)
         };
         let last = self.motion.model.elements.len() - 1;
         let mut best: Option<(f64, f64)> = None;
@@ -119,6 +171,11 @@ impl Pair<'_> {
         }
         best.map(|(xi, _)| xi)
     }
+}
+
+/// Returns the number of a point of an element on a feature among those on an obstacle.
+pub(super) fn feature_place(feature: &Feature) -> u32 {
+    SAMPLES.len() as u32 + feature.id
 }
 
 /// Returns whether samples see a round surface as smooth.

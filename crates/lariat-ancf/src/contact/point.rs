@@ -4,6 +4,7 @@ use super::law::{NormalLaw, friction, spring_energy};
 use super::memory::{ContactMemory, Key};
 use super::patch::Patch;
 use super::path::ObstacleStep;
+use super::roll::Roll;
 use nalgebra::{Matrix3, Vector3};
 
 /// Time in s in which a body's displacement by others comes to the cable, as a motion of the body. An engine's contact and the cable would
@@ -41,6 +42,12 @@ pub(in crate::contact) struct ContactPoint {
     pub spring: Vector3<f64>,
     /// Largest friction in N.
     pub bound: f64,
+    /// Number of the feature that it touches among those that are near.
+    pub nearby: Option<usize>,
+    /// Number of what it remembers.
+    pub recalls: Option<usize>,
+    /// How it moves along its element.
+    pub roll: Option<Roll>,
     /// What the last linear solve was made with.
     pub linear: Linear,
     /// The depth and the friction about which the next one is.
@@ -58,6 +65,8 @@ pub(in crate::contact) struct Linear {
     slip: Vector3<f64>,
     /// Arm of the force about the centre of the body that carries the obstacle.
     pub arm: Vector3<f64>,
+    pub normal: Vector3<f64>,
+    pub normal_force: f64,
     pressure: f64,
     slope: f64,
     depth: f64,
@@ -208,8 +217,8 @@ impl ContactPoint {
     /// Makes it linear at a change of its position.
     pub fn linearise(&mut self, obstacle: &ObstacleStep, change: Vector3<f64>) {
         let at = self.evaluate(obstacle, &change, self.about);
-        let Evaluation { force, tangent, slip, arm, pressure, slope, depth, slides, .. } = at;
-        self.linear = Linear { force, tangent, slip, arm, pressure, slope, depth, slides };
+        let Evaluation { force, tangent, slip, arm, normal, normal_force, pressure, slope, depth, slides, .. } = at;
+        self.linear = Linear { force, tangent, slip, arm, normal, normal_force, pressure, slope, depth, slides };
     }
 
     /// Evaluates it at the result of the linear solve, and returns how far that was off in N.
@@ -257,6 +266,9 @@ mod tests {
             start: Vector3::zeros(),
             spring: Vector3::zeros(),
             bound: 0.0,
+            nearby: None,
+            recalls: None,
+            roll: None,
             linear: Linear::default(),
             about: About::default(),
             now: Evaluation::default(),

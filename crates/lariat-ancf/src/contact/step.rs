@@ -2,6 +2,7 @@
 
 use super::border::{Border, Borders};
 use super::memory::{ContactMemory, Key};
+use super::missed::Nearby;
 use super::obstacle::Obstacle;
 use super::path::{BodyPath, ObstacleStep};
 use super::point::ContactPoint;
@@ -15,6 +16,10 @@ pub(crate) struct ContactStep {
     pub(super) points: Vec<ContactPoint>,
     /// Samples that are near an obstacle, but not near enough to be a contact.
     pub(super) watched: Vec<ContactPoint>,
+    /// Thin and sharp features that an element may touch.
+    pub(super) nearby: Vec<Nearby>,
+    /// Whether an element went through one when that was last asked.
+    pub passed: bool,
     pub(super) obstacles: Vec<ObstacleStep>,
     /// By contact of the memory, whether a point took it up.
     pub(super) recalled: Vec<bool>,
@@ -24,6 +29,8 @@ pub(crate) struct ContactStep {
     borders: Borders,
     /// Energy in J that the contacts store at the beginning.
     pub(super) before: f64,
+    /// Energy in J that was remembered: what is more than that is lost.
+    pub(super) stored: f64,
 }
 
 /// What contacts do to the energy in a step, in J, and how far the linear solve was off.
@@ -31,6 +38,8 @@ pub(crate) struct ContactStep {
 pub(crate) struct ContactBalance {
     /// Energy that they lose.
     pub loss: f64,
+    /// Energy that was remembered and that no contact took up.
+    pub left: f64,
     /// Work of obstacles that move.
     pub obstacles: f64,
     /// Work on the cable.
@@ -101,12 +110,18 @@ impl ContactStep {
                 self.borders.add(body, element, &point.shape, &tangent, &linear.arm);
             }
             add_tangent(matrix, element, &point.shape, &tangent);
+            if let Some(roll) = &point.roll {
+                let stiffness = linear.normal_force * roll.length * (BETA * h * h);
+                let normal = linear.normal;
+                add_tangent(matrix, element, &roll.slope, &(normal * normal.transpose() * stiffness));
+            }
         }
     }
 
     /// Adds h times the forces at an iterate to `rhs`, and returns what they do.
     pub fn balance(&mut self, change: &[f64], rhs: &mut [f64]) -> ContactBalance {
-        let mut sum = ContactBalance { before: self.before, ..ContactBalance::default() };
+        let left = (self.stored - self.before).max(0.0);
+        let mut sum = ContactBalance { before: self.before, left, ..ContactBalance::default() };
         for point in &mut self.points {
             let moved = point.change(change);
             sum.missed += point.follow(&self.obstacles[point.obstacle], moved);
@@ -129,7 +144,9 @@ impl ContactStep {
         for point in self.points.iter().filter(|point| point.now.normal_force > 0.0) {
             memory.push(point.memory(&self.obstacles[point.obstacle]));
         }
-        memory.sort_unstable_by_key(|contact| contact.key());
+        // of several points on a feature the one that carries most
+        memory.sort_unstable_by(|a, b| a.key().cmp(&b.key()).then(b.force.total_cmp(&a.force)));
+        memory.dedup_by_key(|contact| contact.key());
     }
 }
 

@@ -5,7 +5,7 @@ use super::lanes::discrete_gradient::{CoordinateStep, ElementLoss};
 use super::rigid_motion::relative_velocities;
 use super::{Equations, System, Unknowns, project_vector};
 use crate::cable::Cable;
-use crate::contact::{BodyPath, Motion};
+use crate::contact::{BodyPath, ContactStep, Motion};
 use crate::effect::EffectWork;
 use crate::effect::acts::{ForceInput, PointForce, StepInput};
 use crate::error::StepFailure;
@@ -85,9 +85,25 @@ impl Equations<'_> {
         contact.begin(&Motion { model: self.model, time: state.time, h: *h, q: &state.q, change, memory, bodies });
     }
 
+    /// Adds contacts with thin parts of obstacles that the iterate entered; returns whether there are any.
+    pub fn add_missed_contacts(&self, state: &State, b: &mut Buffers) -> bool {
+        self.after_step(state, b, ContactStep::add_missed)
+    }
+
+    /// Returns whether the iterate goes through thin parts of obstacles.
+    pub fn passes_obstacles(&self, state: &State, b: &mut Buffers) -> bool {
+        self.after_step(state, b, ContactStep::passes)
+    }
+
+    fn after_step<T>(&self, state: &State, b: &mut Buffers, ask: fn(&mut ContactStep, &Motion<'_>) -> T) -> T {
+        let Buffers { contact, change, h, .. } = b;
+        let memory = &state.memory.contacts;
+        ask(contact, &Motion { model: self.model, time: state.time, h: *h, q: &state.q, change, memory, bodies: &[] })
+    }
+
     /// Adds contact forces to the residual of the present iterate, and what they do to its balance.
-    fn balance_contacts(&mut self, b: &mut Buffers, balance: &mut Balance, work: &mut EffectWork) {
-        b.contact.complete(self.model, &b.change);
+    fn balance_contacts(&mut self, state: &State, b: &mut Buffers, balance: &mut Balance, work: &mut EffectWork) {
+        self.after_step(state, b, |contact, motion| contact.complete(motion));
         let contacts = b.contact.balance(&b.change, &mut b.rhs);
         self.diagnostics.effects.contact += b.contact.count();
         work.contact += contacts.work;
@@ -210,7 +226,7 @@ impl Equations<'_> {
             balance.loads = b.load_work;
         }
         if !b.contact.is_empty() {
-            self.balance_contacts(b, &mut balance, work);
+            self.balance_contacts(state, b, &mut balance, work);
         }
         self.balance_motors(state, b, &mut balance);
         let system = &*self.system;
@@ -341,8 +357,13 @@ impl DiscreteGradientSystem for CableStep<'_> {
         Ok(balance)
     }
 
+    fn add_missed(&mut self) -> bool {
+        self.equations.add_missed_contacts(self.state, self.buffers)
+    }
+
     fn crosses(&mut self) -> bool {
-        self.equations.do_pairs_cross(self.state, self.buffers)
+        let passes = self.equations.passes_obstacles(self.state, self.buffers);
+        self.equations.do_pairs_cross(self.state, self.buffers) || passes
     }
 
     fn rescale(&mut self, balance: &mut Balance, largest_share: f64) -> bool {

@@ -116,7 +116,7 @@ pub enum Warning {
     },
     /// Its centre line went through that of a cable that it can touch, or through itself.
     #[error(
-        "cable {cable:?}: in {steps} steps it passed through a cable that it can touch, or through itself: try more elements, shorter steps, or \
+        "cable {cable:?}: in {steps} steps it passed through what it can touch, a cable, itself or a thin part of a body: try more elements, shorter steps, or \
          more stiffness in bending"
     )]
     PassedThrough {

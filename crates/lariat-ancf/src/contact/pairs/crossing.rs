@@ -23,7 +23,7 @@ use super::chords::closest;
 use nalgebra::Vector3;
 
 /// A point at the beginning of a step, and its change.
-pub(super) type Moved = [Vector3<f64>; 2];
+pub(in crate::contact) type Moved = [Vector3<f64>; 2];
 
 /// Halvings of an interval with a root.
 const HALVINGS: usize = 40;
@@ -31,7 +31,7 @@ const HALVINGS: usize = 40;
 const ROUNDING: f64 = 1e-6;
 
 /// Returns the share of the step at which two chords first go through each other, if they do.
-pub(super) fn crossing([a0, a1]: [&Moved; 2], [b0, b1]: [&Moved; 2]) -> Option<f64> {
+pub(in crate::contact) fn crossing([a0, a1]: [&Moved; 2], [b0, b1]: [&Moved; 2]) -> Option<f64> {
     let [u, v, w] = [[a1, a0], [b1, b0], [b0, a0]].map(|[p, q]| [p[0] - q[0], p[1] - q[1]]);
     let triple = |i: usize, j: usize, k: usize| u[i].cross(&v[j]).dot(&w[k]);
     let cubic = [

@@ -48,6 +48,7 @@ pub struct CablePair {
 }
 
 pub(crate) use chords::Strand;
+pub(in crate::contact) use crossing::crossing;
 pub use memory::{PairMemory, PairTouch};
 pub(crate) use search::Strands;
 pub(crate) use solve::{LowRank, PairSystem, Row};

@@ -83,6 +83,7 @@ impl PairStep {
 
     /// Returns whether centre lines go through each other in the step.
     pub fn crosses(&mut self, strands: &Strands<'_, '_>) -> bool {
+        self.crossed = None;
         if !self.on {
             return false;
         }
@@ -94,8 +95,8 @@ impl PairStep {
     }
 
     /// Returns the strands that went through each other when that was last asked.
-    pub fn crossed(&self) -> [usize; 2] {
-        self.crossed.unwrap_or_default()
+    pub fn crossed(&self) -> Option<[usize; 2]> {
+        self.crossed
     }
 
     fn look(&mut self, strands: &Strands<'_, '_>, near: f64) {
@@ -160,6 +161,9 @@ impl PairStep {
             start,
             spring: Vector3::zeros(),
             bound: 0.0,
+            nearby: None,
+            recalls: None,
+            roll: None,
             linear: Linear::default(),
             about: About::default(),
             now: Evaluation::default(),

@@ -39,7 +39,7 @@ impl EnergyLaw {
         self.rescaled += step.rescaled;
         self.supports += step.supports + step.closing;
         self.loads += step.loads;
-        self.contacts += step.contacts;
+        self.contacts += step.contacts + step.left;
         self.obstacles += step.obstacles;
         self.residual += step.residual;
         self.made = self.made.max(step.excess());
@@ -87,6 +87,8 @@ pub(crate) struct Balance {
     pub weight: f64,
     /// Energy that contacts lose.
     pub contacts: f64,
+    /// Energy that is lost with contacts of the last step that no contact took up; it hides nothing.
+    pub left: f64,
     /// Work of obstacles that move.
     pub obstacles: f64,
     /// Whether an obstacle is near.
@@ -119,6 +121,7 @@ impl Balance {
         self.held += other.held;
         self.weight += other.weight;
         self.contacts += other.contacts;
+        self.left += other.left;
         self.obstacles += other.obstacles;
         self.near |= other.near;
         self.forces += other.forces;
@@ -135,6 +138,7 @@ impl Balance {
         self.near = true;
         self.held += contacts.before;
         self.contacts += contacts.loss;
+        self.left += contacts.left;
         self.obstacles += contacts.obstacles;
         self.missed += contacts.missed;
         self.forces += contacts.forces;
@@ -196,7 +200,10 @@ pub(crate) trait DiscreteGradientSystem {
     /// Makes the end of the step the present state.
     fn accept(&mut self, balance: &Balance);
 
-    /// Returns whether centre lines of cables go through each other in the step.
+    /// Adds contacts with what the iterate entered although they were not found before; returns whether there are any.
+    fn add_missed(&mut self) -> bool;
+
+    /// Returns whether centre lines of cables go through each other, or through thin parts of obstacles, in the step.
     fn crosses(&mut self) -> bool;
 
     /// Counts an event.
@@ -210,7 +217,7 @@ pub(crate) enum Event {
     Rescaled,
     /// The step was divided.
     Split,
-    /// Centre lines of cables went through each other.
+    /// Centre lines of cables went through each other or through thin parts of obstacles.
     Crossed,
 }
 

@@ -18,7 +18,8 @@
 //! tangent in every iteration that is needed for them. With stock of a reel on a body that moves freely the sum of all impulses must balance, to 1e-9
 //! of them.
 //!
-//! A step in which the centre lines of cables that may touch go through each other is divided too; in the last division it is counted, and a warning says so.
+//! When the iteration ends, contacts with thin and sharp parts of obstacles are looked for again; if any were missed it goes on with them, up to
+//! three times. A step in which some are missed still, or in which the centre lines of cables that may touch go through each other, or through such parts, is divided too; in the last division it is counted, and a warning says so.
 //! So is one in which the friction of a sheave stops it from running: a long step may have such a solution beside the one that runs on, and
 //! Newton's iteration end there.
 
@@ -43,8 +44,12 @@ const ROUNDING: f64 = 1e-13;
 const MAX_ITERATIONS: usize = 8;
 /// Largest number of Newton iterations near an obstacle.
 const MAX_ITERATIONS_NEAR: usize = 20;
+/// Number of times that contacts are looked for again when the iteration has ended.
+const MAX_SEARCHES: usize = 3;
 /// Energy by which it may miss in any case, as a share of the weight times 1 mm.
 const CLOSURE_OF_WEIGHT: f64 = 1e-6;
+/// Share of the impulses that may be unbalanced where velocities are rescaled near an obstacle.
+const LARGEST_IMBALANCE: f64 = 0.1;
 /// Share of the contact forces that the linear solve may miss.
 const CONSISTENCY: f64 = 1e-3;
 /// Share of the velocities relative to rigid motion that rescaling may take: that of half of their energy.
@@ -80,6 +85,11 @@ fn closes(balance: &Balance) -> bool {
 /// N).
 fn is_consistent(balance: &Balance) -> bool {
     balance.missed <= CONSISTENCY * balance.forces + balance.weight
+}
+
+/// Returns whether an iterate near an obstacle is close to a solution: rescaling does not repair one that is thrown to and fro.
+fn is_almost_solved(balance: &Balance) -> bool {
+    !balance.near || balance.imbalance <= LARGEST_IMBALANCE * balance.impulse
 }
 
 /// Returns whether motors of reels have the forces of their laws.
@@ -132,6 +142,7 @@ pub(super) fn step(
     let mut last = Err(StepFailure::NotConverged { iterations: 0, increment: 0.0 });
     let (mut fresh, mut most) = (true, MAX_ITERATIONS);
     let (mut iteration, mut imbalance) = (0, f64::INFINITY);
+    let (mut searches, mut misses) = (0, None);
     let is_spent = || limit.is_some_and(WorkLimit::is_spent);
     while iteration < most && !(iteration > 0 && is_spent()) {
         iteration += 1;
@@ -145,7 +156,14 @@ pub(super) fn step(
                 let forces = forces && is_momentum_right(balance);
                 let motors = are_motors_right(balance);
                 if is_dissipation_right(balance) && forces && closes(balance) && is_consistent(balance) && motors {
-                    break;
+                    misses = Some(system.add_missed());
+                    if misses == Some(false) || searches == MAX_SEARCHES {
+                        break;
+                    }
+                    misses = None;
+                    (searches, most) = (searches + 1, MAX_ITERATIONS_NEAR);
+                    (fresh, imbalance) = (true, f64::INFINITY);
+                    continue;
                 }
                 fresh = balance.near || !closes(balance) || !motors || balance.imbalance > MAX_LEFT * imbalance;
                 imbalance = balance.imbalance;
@@ -158,7 +176,8 @@ pub(super) fn step(
         }
     }
     let reduced = limit.is_some_and(WorkLimit::reduces);
-    let crosses = last.as_ref().is_ok_and(|balance| balance.excess().is_finite()) && system.crosses();
+    let crosses = last.as_ref().is_ok_and(|balance| balance.excess().is_finite())
+        && (system.crosses() || misses.unwrap_or_else(|| system.add_missed()));
     let stops = last.as_ref().is_ok_and(|balance| balance.stops);
     let may_end = !(crosses || stops) || depth == MAX_DEPTH || reduced;
     if let Ok(balance) = &last
@@ -171,7 +190,9 @@ pub(super) fn step(
     let largest_share = if reduced { 1.0 } else { SHARE_OF_HALF_THE_ENERGY };
     if let Ok(balance) = &mut last
         && is_certain(balance)
-        && (is_consistent(balance) && are_motors_right(balance) || depth == MAX_DEPTH || reduced)
+        && (is_consistent(balance) && are_motors_right(balance) && is_almost_solved(balance)
+            || depth == MAX_DEPTH
+            || reduced)
         && balance.to_take() > 0.0
         && may_end
         && system.rescale(balance, largest_share)

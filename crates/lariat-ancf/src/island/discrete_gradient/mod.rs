@@ -370,8 +370,20 @@ impl DiscreteGradientSystem for IslandStep<'_, '_> {
         rescale::rescale(self, balance, largest_share)
     }
 
+    fn add_missed(&mut self) -> bool {
+        // each cable, although one will do
+        self.cables.iter_mut().fold(false, |any, cable| {
+            let CableStep { equations, state, buffers } = cable.step_parts();
+            equations.add_missed_contacts(state, buffers) || any
+        })
+    }
+
     fn crosses(&mut self) -> bool {
-        self.do_pairs_cross()
+        let passes = self.cables.iter_mut().fold(false, |any, cable| {
+            let CableStep { equations, state, buffers } = cable.step_parts();
+            equations.passes_obstacles(state, buffers) || any
+        });
+        self.do_pairs_cross() || passes
     }
 
     fn accept(&mut self, balance: &Balance) {

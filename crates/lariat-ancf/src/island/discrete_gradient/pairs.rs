@@ -183,7 +183,8 @@ impl IslandStep<'_, '_> {
     pub(super) fn count_event(&mut self, event: Event) {
         let crossed = self.buffers.pairs.crossed();
         for (c, cable) in self.cables.iter_mut().enumerate() {
-            if event != Event::Crossed || crossed.contains(&c) {
+            let crosses = crossed.is_some_and(|crossed| crossed.contains(&c)) || cable.step_buffers.contact.passed;
+            if event != Event::Crossed || crosses {
                 cable.step_parts().count(event);
             }
         }
