@@ -11,7 +11,7 @@ use super::missed::Nearby;
 use super::pair::{Pair, SAMPLES, bounding_ball, is_thin};
 use super::patch::Patch;
 use super::path::{BodyPath, ObstacleStep};
-use super::point::ContactPoint;
+use super::point::{ContactPoint, OFFSET_TIME, PAID};
 use super::step::{ContactStep, find};
 use super::surface::{Feature, Nearest};
 use super::trace::{comes_near, trace};
@@ -34,6 +34,8 @@ pub(crate) struct Motion<'a> {
     /// Change of the coordinates in the first iterate.
     pub change: &'a [f64],
     pub memory: &'a [ContactMemory],
+    /// Power in W of contacts in the last step that may close offsets.
+    pub lost: f64,
     /// The bodies of the island as they move in the first iterate.
     pub bodies: &'a [BodyPath],
 }
@@ -85,10 +87,19 @@ impl ContactStep {
             }
         }
         self.hand_over(motion.memory);
+        self.close_offsets(PAID * motion.lost * motion.h);
         for point in &self.points {
             let y = self.obstacles[point.obstacle].start.own(&point.start);
             self.before += point.energy_before(&y);
         }
+    }
+
+    /// Closes offsets, at a cost of at most `budget` (J).
+    fn close_offsets(&mut self, budget: f64) {
+        let cost: f64 = self.points.iter().map(ContactPoint::cost).sum();
+        let share = (self.h / OFFSET_TIME).min(1.0);
+        self.closes = if share * cost > budget { budget / cost } else { share };
+        self.points.iter_mut().for_each(|point| point.close(self.closes));
     }
 
     /// Adds the samples of an element that are near an obstacle.

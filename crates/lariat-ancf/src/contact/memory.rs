@@ -26,12 +26,18 @@ pub struct ContactMemory {
     pub(in crate::contact) normal: Vector3<f64>,
     /// Depth in m, less the offset.
     pub(in crate::contact) depth: f64,
+    /// The offset in m.
+    #[serde(default)]
+    pub(in crate::contact) offset: f64,
     /// Spring of friction in m, in the obstacle's axes.
     pub(in crate::contact) spring: Vector3<f64>,
     /// Normal force in N.
     pub(in crate::contact) force: f64,
     /// Energy in J.
     pub(in crate::contact) energy: f64,
+    /// Power in W that friction took in the last step.
+    #[serde(default)]
+    pub(in crate::contact) friction_power: f64,
     /// Outward normal, world axes.
     pub(in crate::contact) direction: Vector3<f64>,
     /// Friction in N, world axes.
@@ -51,7 +57,7 @@ impl ContactMemory {
     pub(crate) fn check(&self, elements: usize) -> Result<(), Error> {
         let element = self.element as usize;
         require("element of a contact", element as f64, element < elements, "one of the cable")?;
-        let numbers = [self.xi, self.weight, self.depth, self.force, self.energy];
+        let numbers = [self.xi, self.weight, self.depth, self.offset, self.force, self.energy, self.friction_power];
         let vectors = [self.normal, self.spring, self.direction, self.friction];
         let mut all = numbers.into_iter().chain(vectors.iter().flat_map(|v| [v.x, v.y, v.z]));
         all.try_for_each(|x| require("contact", x, true, "a number"))
@@ -77,7 +83,7 @@ pub struct Touch {
     pub normal_force: f64,
     /// Friction on the cable in N.
     pub friction: Vector3<f64>,
-    /// Depth in m by which the cable's surface is in the obstacle.
+    /// Depth in m by which the cable's surface is in the obstacle, offset and all.
     pub depth: f64,
     /// Whether it slips.
     pub slips: bool,
@@ -98,7 +104,7 @@ impl Cable {
                 normal: contact.direction,
                 normal_force: contact.force,
                 friction: contact.friction,
-                depth: contact.depth,
+                depth: contact.depth + contact.offset,
                 slips: contact.slips,
             }
         })

@@ -60,6 +60,8 @@ impl Pair<'_> {
             patch: Patch::Point { point: Vector3::zeros(), radius: 0.0 },
             offset: 0.0,
             closing: 0.0,
+            pays: false,
+            remembered: 0.0,
             distance: 0.0,
             start: combine(self.motion.q, self.element, &shape),
             spring: Vector3::zeros(),

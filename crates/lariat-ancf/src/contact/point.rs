@@ -10,6 +10,11 @@ use nalgebra::{Matrix3, Vector3};
 /// Time in s in which a body's displacement by others comes to the cable, as a motion of the body. An engine's contact and the cable would
 /// pump energy through each other if it came at once: each answers to what the other did a step before.
 const CLOSING_TIME: f64 = 0.25;
+/// Time in s in which the offset of an obstacle closes, and that of a cable, if losses pay for it.
+pub(in crate::contact) const OFFSET_TIME: f64 = 0.05;
+pub(in crate::contact) const OFFSET_TIME_OF_PAIRS: f64 = 0.25;
+/// Share of the energy lost in the last step that closing offsets may cost.
+pub(in crate::contact) const PAID: f64 = 0.9;
 /// Distance in radii by which others can lift a body off a cable in a step without ending the contact.
 const LIFTED: f64 = 0.1;
 
@@ -34,6 +39,10 @@ pub(in crate::contact) struct ContactPoint {
     pub offset: f64,
     /// What of it counts at the end.
     pub closing: f64,
+    /// Whether losses pay for that, not what moved the obstacle.
+    pub pays: bool,
+    /// Normal force in N at the end of the last step.
+    pub remembered: f64,
     /// Distance in m from the surface at the beginning.
     pub distance: f64,
     /// Position at the beginning.
@@ -106,6 +115,8 @@ pub(in crate::contact) struct Evaluation {
     pub energy: f64,
     /// Energy in J that it lost.
     pub loss: f64,
+    /// What of it friction took.
+    pub friction_loss: f64,
     /// Work in J of the obstacle's motion.
     pub work: f64,
     pressure: f64,
@@ -113,19 +124,33 @@ pub(in crate::contact) struct Evaluation {
 }
 
 impl ContactPoint {
-    /// Takes up what was remembered of it: the spring and the bound of friction, and the depth, beyond which nothing counts. Of an obstacle on a
-    /// body that was moved since then, by an engine, the difference has either sign, and closes slowly.
+    /// Takes up what was remembered of it: the spring and the bound of friction, and the depth, beyond which nothing counts: the offset. Of an
+    /// obstacle on a body that was moved since then, by an engine, the difference has either sign, and closes by the engine's work.
     pub fn recall(&mut self, y: &Vector3<f64>, obstacle: &ObstacleStep, memory: Option<&ContactMemory>) {
         let depth = self.reach - self.patch.gap(y).0;
         let difference = depth.max(0.0) - memory.map_or(0.0, |memory| memory.depth);
-        (self.offset, self.closing) = (difference.max(0.0), 0.0);
+        (self.offset, self.closing, self.pays) = (difference.max(0.0), 0.0, false);
+        self.remembered = memory.map_or(0.0, |memory| memory.force);
         if let Some(memory) = memory {
             let difference = depth - memory.depth;
             if obstacle.moved && difference > -LIFTED * self.reach {
                 (self.offset, self.closing) = (difference, difference * (obstacle.h / CLOSING_TIME).min(1.0));
+                self.remembered = 0.0;
             }
             self.spring = memory.spring;
             self.bound = self.friction * memory.force;
+        }
+    }
+
+    /// Returns the energy in J that it would cost to close the offset, under the force of the last step.
+    pub fn cost(&self) -> f64 {
+        self.remembered * self.offset
+    }
+
+    /// Closes a share of the offset.
+    pub fn close(&mut self, share: f64) {
+        if self.remembered > 0.0 && self.offset > 0.0 {
+            (self.closing, self.pays) = (share * self.offset, true);
         }
     }
 
@@ -176,6 +201,10 @@ impl ContactPoint {
             slope,
             ..Evaluation::default()
         };
+        if self.pays {
+            out.loss -= out.work;
+            out.work = 0.0;
+        }
         if self.friction > 0.0 {
             let mean = gap.mean.try_normalize(0.0).unwrap_or(gap.normal);
             let friction = friction(stiffness, self.bound, &mean, &u0, &slip, about.sticks);
@@ -186,6 +215,7 @@ impl ContactPoint {
             out.slides = friction.slides;
             out.energy += spring_energy(stiffness, &friction.spring);
             out.loss += friction.loss;
+            out.friction_loss = friction.loss;
         }
         if obstacle.driven {
             out.work += out.force.dot(&(change - slip));
@@ -205,9 +235,11 @@ impl ContactPoint {
             patch: self.patch,
             normal: obstacle.end.rotation.tr_mul(&now.normal),
             depth: now.depth,
+            offset: self.offset - self.closing,
             spring: obstacle.middle.tr_mul(&now.spring),
             force: now.normal_force,
             energy: now.energy,
+            friction_power: now.friction_loss / obstacle.h,
             direction: now.normal,
             friction: now.friction,
             slips: now.slides.is_some(),
@@ -262,6 +294,8 @@ mod tests {
             patch,
             offset: 0.0,
             closing: 0.0,
+            pays: false,
+            remembered: 0.0,
             distance: 0.0,
             start: Vector3::zeros(),
             spring: Vector3::zeros(),

@@ -98,6 +98,7 @@ impl ContactStep {
         };
         point.distance = z.norm() - nearby.feature.radius;
         point.recall(&y, &pair.step, memory);
+        point.close(self.closes);
         point.roll = roll(&point, pair, nearby);
         let old = &self.points[i];
         self.before += point.energy_before(&y) - old.energy_before(&pair.step.start.own(&old.start));

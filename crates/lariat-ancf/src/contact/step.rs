@@ -25,6 +25,8 @@ pub(crate) struct ContactStep {
     pub(super) recalled: Vec<bool>,
     /// Length of the step in s.
     pub(super) h: f64,
+    /// Share of every offset that closes in the step.
+    pub(super) closes: f64,
     /// Columns of the bodies that are touched, as the last linear solve sees them.
     borders: Borders,
     /// Energy in J that the contacts store at the beginning.

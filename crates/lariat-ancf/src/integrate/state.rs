@@ -36,6 +36,9 @@ pub struct Memory {
     /// The last step of the discrete gradient.
     #[serde(default)]
     pub differences: Differences,
+    /// Power in W that contacts with obstacles took in the last step of the discrete gradient.
+    #[serde(default)]
+    pub lost: f64,
     /// Contacts at the end of the last step of the discrete gradient.
     #[serde(default)]
     pub contacts: Vec<ContactMemory>,
@@ -60,6 +63,7 @@ impl Default for Memory {
             energy_made: 0.0,
             largest_energy: 0.0,
             differences: Differences::default(),
+            lost: 0.0,
             contacts: Vec::new(),
             pairs: Vec::new(),
         }
@@ -93,6 +97,7 @@ impl State {
             energy_made,
             largest_energy,
             differences,
+            lost,
             contacts,
             pairs,
         } = memory;
@@ -108,6 +113,7 @@ impl State {
         self.memory.energy_made = *energy_made;
         self.memory.largest_energy = *largest_energy;
         self.memory.differences.copy_from(differences);
+        self.memory.lost = *lost;
         self.memory.contacts.clone_from(contacts);
         self.memory.pairs.clone_from(pairs);
     }
@@ -115,7 +121,16 @@ impl State {
     /// Checks that this is a finite state of `size` coordinates; `cable` is the name for the error.
     pub(crate) fn check(&self, cable: &str, size: usize) -> Result<(), Error> {
         let Memory {
-            acceleration, algorithmic, valid, step, coherence, energy_made, largest_energy, differences, ..
+            acceleration,
+            algorithmic,
+            valid,
+            step,
+            coherence,
+            energy_made,
+            largest_energy,
+            differences,
+            lost,
+            ..
         } = &self.memory;
         let lists = [
             ("positions", &self.q, false),
@@ -137,6 +152,7 @@ impl State {
             .and_then(|()| require("coherence of errors", *coherence, *coherence >= 0.0 && *coherence <= 1.0, "0 to 1"))
             .and_then(|()| require("energy made (J)", *energy_made, *energy_made >= 0.0, ">= 0"))
             .and_then(|()| require("largest energy (J)", *largest_energy, *largest_energy >= 0.0, ">= 0"))
+            .and_then(|()| require("power lost (W)", *lost, *lost >= 0.0, ">= 0"))
             .and_then(|()| self.q.iter().try_for_each(|&x| finite("position", x)))
             .and_then(|()| self.v.iter().try_for_each(|&x| finite("velocity", x)))
             .and_then(|()| acceleration.iter().chain(algorithmic).try_for_each(|&x| finite("acceleration", x)))

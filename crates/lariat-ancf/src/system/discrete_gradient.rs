@@ -78,11 +78,21 @@ impl Equations<'_> {
         }
     }
 
-    /// Finds the contacts of a step, if the cable can have any, with obstacles and with `bodies` of an island.
-    pub fn find_contacts(&self, state: &State, b: &mut Buffers, bodies: &[BodyPath]) {
+    /// Finds the contacts of a step, if the cable can have any, with obstacles and with bodies of an island; they close offsets if `close`.
+    pub fn find_contacts(&self, state: &State, b: &mut Buffers, (bodies, close): (&[BodyPath], bool)) {
+        let lost = if close { state.memory.lost } else { 0.0 };
         let Buffers { contact, change, h, .. } = b;
         let memory = &state.memory.contacts;
-        contact.begin(&Motion { model: self.model, time: state.time, h: *h, q: &state.q, change, memory, bodies });
+        contact.begin(&Motion {
+            model: self.model,
+            time: state.time,
+            h: *h,
+            q: &state.q,
+            change,
+            memory,
+            lost,
+            bodies,
+        });
     }
 
     /// Adds contacts with thin parts of obstacles that the iterate entered; returns whether there are any.
@@ -98,7 +108,19 @@ impl Equations<'_> {
     fn after_step<T>(&self, state: &State, b: &mut Buffers, ask: fn(&mut ContactStep, &Motion<'_>) -> T) -> T {
         let Buffers { contact, change, h, .. } = b;
         let memory = &state.memory.contacts;
-        ask(contact, &Motion { model: self.model, time: state.time, h: *h, q: &state.q, change, memory, bodies: &[] })
+        ask(
+            contact,
+            &Motion {
+                model: self.model,
+                time: state.time,
+                h: *h,
+                q: &state.q,
+                change,
+                memory,
+                lost: state.memory.lost,
+                bodies: &[],
+            },
+        )
     }
 
     /// Adds contact forces to the residual of the present iterate, and what they do to its balance.
@@ -107,6 +129,7 @@ impl Equations<'_> {
         let contacts = b.contact.balance(&b.change, &mut b.rhs);
         self.diagnostics.effects.contact += b.contact.count();
         work.contact += contacts.work;
+        b.lost = contacts.loss;
         balance.add_contacts(&contacts, b.h);
     }
 
@@ -219,6 +242,7 @@ impl Equations<'_> {
     /// all coordinates.
     pub fn step_balance(&mut self, state: &State, b: &mut Buffers, work: &mut EffectWork) -> Balance {
         let loss = self.step_residual(state, b, false, work);
+        b.lost = 0.0;
         let mut balance = Balance { numerical: loss.numerical, effects: loss.effects, ..Balance::default() };
         let Buffers { h, external, product, .. } = &*b;
         balance.impulse = sum_of_forces(product) + *h * sum_of_forces(external);
@@ -250,12 +274,13 @@ impl Equations<'_> {
         balance
     }
 
-    /// Adds the increment of the velocity change in `rhs` to the iterate, which becomes the one about which it was linearised.
-    pub fn apply_increment(b: &mut Buffers) {
+    /// Adds a share of the increment of the velocity change in `rhs` to the iterate, which becomes the one about which it was linearised.
+    pub fn apply_increment(b: &mut Buffers, share: f64) {
         b.linearised.clone_from(&b.change);
         for i in 0..b.rhs.len() {
-            b.velocity_change[i] += b.rhs[i];
-            b.change[i] += b.h * BETA * b.rhs[i];
+            let increment = share * b.rhs[i];
+            b.velocity_change[i] += increment;
+            b.change[i] += b.h * BETA * increment;
         }
     }
 
@@ -274,6 +299,7 @@ impl Equations<'_> {
         }
         let memory = &mut state.memory;
         b.contact.remember(&mut memory.contacts);
+        memory.lost = (b.lost / b.h).max(0.0);
         memory.differences.velocity.clone_from(&b.velocity_change);
         memory.differences.displacement.clone_from(&b.change);
         memory.differences.step = b.h;
@@ -322,15 +348,15 @@ impl DiscreteGradientSystem for CableStep<'_> {
         self.equations.begin_host_step(self.state);
     }
 
-    fn predict(&mut self, h: f64) {
+    fn predict(&mut self, h: f64, close: bool) {
         self.equations.begin_laws(self.state.time, h);
         self.buffers.recall(self.state, h);
         self.equations.prescribe_change(self.state, self.buffers);
-        self.equations.find_contacts(self.state, self.buffers, &[]);
-        self.equations.find_pairs(self.state, self.buffers);
+        self.equations.find_contacts(self.state, self.buffers, (&[], close));
+        self.equations.find_pairs(self.state, self.buffers, close);
     }
 
-    fn iterate(&mut self, fresh: bool) -> Result<Balance, StepFailure> {
+    fn iterate(&mut self, fresh: bool, share: f64) -> Result<Balance, StepFailure> {
         let CableStep { equations, state, buffers: b } = self;
         equations.diagnostics.newton_iterations += 1;
         if fresh {
@@ -345,7 +371,7 @@ impl DiscreteGradientSystem for CableStep<'_> {
         if !b.rhs.iter().all(|x| x.is_finite()) {
             return Err(equations.not_finite("Newton increment", &b.rhs));
         }
-        Equations::apply_increment(b);
+        Equations::apply_increment(b, if b.unknowns.reels.is_empty() { share } else { 1.0 });
         let mut work = EffectWork::default();
         let pairs = equations.balance_pairs(state, b, &mut work);
         let mut balance = equations.step_balance(state, b, &mut work);

@@ -56,9 +56,9 @@ impl<'b> Equations<'b> {
     }
 
     /// Finds the contacts of a step of the cable with itself.
-    pub fn find_pairs(&self, state: &State, b: &mut Buffers) {
+    pub fn find_pairs(&self, state: &State, b: &mut Buffers, close: bool) {
         let h = b.h;
-        self.with_pairs(state, b, |pairs, strands| pairs.begin(h, strands));
+        self.with_pairs(state, b, |pairs, strands| pairs.begin(h, close, strands));
     }
 
     /// Makes them linear.

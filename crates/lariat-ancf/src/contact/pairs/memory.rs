@@ -72,7 +72,7 @@ impl Cable {
             normal: contact.direction,
             normal_force: contact.force,
             friction: contact.friction,
-            depth: contact.depth,
+            depth: contact.depth + contact.offset,
             slips: contact.slips,
         })
     }

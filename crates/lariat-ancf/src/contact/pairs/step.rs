@@ -4,7 +4,7 @@ use super::super::ContactBalance;
 use super::super::law::NormalLaw;
 use super::super::memory::ContactMemory;
 use super::super::patch::Patch;
-use super::super::point::{About, ContactPoint, Evaluation, Linear, combine};
+use super::super::point::{About, ContactPoint, Evaluation, Linear, OFFSET_TIME_OF_PAIRS, PAID, combine};
 use super::chords::{Piece, Strand};
 use super::memory::PairMemory;
 use super::point::{End, PairPoint, frame};
@@ -38,6 +38,8 @@ pub(crate) struct PairStep {
     crossed: Option<[usize; 2]>,
     /// Number of searches.
     searches: usize,
+    /// Whether contacts close offsets.
+    close: bool,
     /// Whether any cable can touch another or itself.
     on: bool,
     pub low_rank: LowRank,
@@ -54,10 +56,10 @@ impl PairStep {
         self.points.len() as u64
     }
 
-    /// Begins a step of length `h` (s).
-    pub fn begin(&mut self, h: f64, strands: &Strands<'_, '_>) {
+    /// Begins a step of length `h` (s); contacts close offsets if `close`.
+    pub fn begin(&mut self, h: f64, close: bool, strands: &Strands<'_, '_>) {
         self.points.clear();
-        (self.h, self.before, self.searches) = (h, 0.0, 0);
+        (self.h, self.before, self.searches, self.close) = (h, 0.0, 0, close);
         self.on = (0..strands.count).any(|c| strands.may_touch(c));
         self.low_rank.clear();
         if !self.on {
@@ -157,6 +159,8 @@ impl PairStep {
             patch: Patch::Plane { point: Vector3::zeros(), normal },
             offset: 0.0,
             closing: 0.0,
+            pays: false,
+            remembered: 0.0,
             distance: 0.0,
             start,
             spring: Vector3::zeros(),
@@ -170,6 +174,10 @@ impl PairStep {
         };
         let still = frame(Vector3::zeros(), self.h);
         point.recall(&start, &still, memory.as_ref());
+        if let Some(memory) = memory.filter(|memory| self.close && memory.friction_power > 0.0) {
+            let paid = PAID * memory.friction_power * self.h;
+            point.close((paid / point.cost()).min(self.h / OFFSET_TIME_OF_PAIRS).min(1.0));
+        }
         self.before += point.energy_before(&start);
         let tangents = [at(0, &ends[0].slope), at(1, &ends[1].slope)];
         self.points.push(PairPoint::new(ends, point, tangents, self.h));

@@ -68,6 +68,8 @@ pub(crate) struct Buffers {
     pub external: Vec<f64>,
     /// Mean coordinates and velocities of the present iterate, and of the one about which it was linearised.
     pub means: [Vec<f64>; 4],
+    /// Energy in J that contacts with obstacles lose.
+    pub lost: f64,
     /// Work of point loads in the present iterate in J.
     pub load_work: f64,
     /// Any product.

@@ -183,15 +183,15 @@ pub(crate) trait DiscreteGradientSystem {
     /// Begins a host step: puts prescribed coordinates in place if supports or the state were changed.
     fn begin(&mut self);
 
-    /// Begins a step of length `h` (s): sets the first iterate.
-    fn predict(&mut self, h: f64);
+    /// Begins a step of length `h` (s): sets the first iterate. Contacts may close offsets if `close`.
+    fn predict(&mut self, h: f64, close: bool);
 
-    /// Takes one Newton iteration, with a new tangent if `fresh`, else with the factors of the last one, and returns what its result
-    /// does to the energy.
+    /// Takes one Newton iteration, with a new tangent if `fresh`, else with the factors of the last one, adds a share of the increment, and
+    /// returns what its result does to the energy.
     ///
     /// # Errors
     /// If the matrix is singular or a number is not finite.
-    fn iterate(&mut self, fresh: bool) -> Result<Balance, StepFailure>;
+    fn iterate(&mut self, fresh: bool, share: f64) -> Result<Balance, StepFailure>;
 
     /// Scales velocities relative to rigid motion down until the step makes no energy; returns false, and changes nothing, if that
     /// would take a larger share of them than `largest_share` (0 to 1).

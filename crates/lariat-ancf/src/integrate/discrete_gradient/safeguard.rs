@@ -13,7 +13,8 @@
 //! Damping, friction and impact lose so much that any error of the iteration hides behind them: on a rotor whose rope is damped, errors of
 //! the tension grow to a thousand times the tension. A step is therefore accepted only if its energy balance *closes*, to 1 % of what
 //! they lose. Near an obstacle it must close to 1 % of all that the step loses, and the contact forces must be those of the linear solve, to
-//! 1e-3 in sum; every iteration has a new tangent, and up to 20 are taken. After those the balance alone must close; and in the last
+//! 1e-3 in sum; every iteration has a new tangent, and up to 20 are taken; those after the fourth take half of
+//! the increment (under-relaxation: what the tangent leaves out makes a slack cable that is hit swing between two iterates for ever). After those the balance alone must close; and in the last
 //! division the energy law alone must hold. Motors of reels must have the forces of their laws likewise, to 1e-3, with a new
 //! tangent in every iteration that is needed for them. With stock of a reel on a body that moves freely the sum of all impulses must balance, to 1e-9
 //! of them.
@@ -44,6 +45,9 @@ const ROUNDING: f64 = 1e-13;
 const MAX_ITERATIONS: usize = 8;
 /// Largest number of Newton iterations near an obstacle.
 const MAX_ITERATIONS_NEAR: usize = 20;
+/// Number of Newton iterations near an obstacle that take the whole increment, and the share that those after them take.
+const WHOLE_INCREMENTS: usize = 4;
+const RELAXATION: f64 = 0.5;
 /// Number of times that contacts are looked for again when the iteration has ended.
 const MAX_SEARCHES: usize = 3;
 /// Energy by which it may miss in any case, as a share of the weight times 1 mm.
@@ -92,6 +96,11 @@ fn is_almost_solved(balance: &Balance) -> bool {
     !balance.near || balance.imbalance <= LARGEST_IMBALANCE * balance.impulse
 }
 
+/// Returns whether contacts that close offsets take more than they lose: its parts are nearer to what the last step lost.
+fn gives_back(balance: &Balance) -> bool {
+    -balance.contacts > TOLERANCE * balance.scale()
+}
+
 /// Returns whether motors of reels have the forces of their laws.
 fn are_motors_right(balance: &Balance) -> bool {
     let [missed, forces] = balance.slip;
@@ -138,7 +147,7 @@ pub(super) fn step(
     depth: usize,
     limit: Option<&WorkLimit>,
 ) -> Result<bool, StepFailure> {
-    system.predict(h);
+    system.predict(h, depth < MAX_DEPTH);
     let mut last = Err(StepFailure::NotConverged { iterations: 0, increment: 0.0 });
     let (mut fresh, mut most) = (true, MAX_ITERATIONS);
     let (mut iteration, mut imbalance) = (0, f64::INFINITY);
@@ -146,7 +155,8 @@ pub(super) fn step(
     let is_spent = || limit.is_some_and(WorkLimit::is_spent);
     while iteration < most && !(iteration > 0 && is_spent()) {
         iteration += 1;
-        last = system.iterate(fresh);
+        let swings = iteration > WHOLE_INCREMENTS && last.as_ref().is_ok_and(|balance: &Balance| balance.near);
+        last = system.iterate(fresh, if swings { RELAXATION } else { 1.0 });
         if let Some(limit) = limit {
             limit.spend(1);
         }
@@ -179,10 +189,12 @@ pub(super) fn step(
     let crosses = last.as_ref().is_ok_and(|balance| balance.excess().is_finite())
         && (system.crosses() || misses.unwrap_or_else(|| system.add_missed()));
     let stops = last.as_ref().is_ok_and(|balance| balance.stops);
-    let may_end = !(crosses || stops) || depth == MAX_DEPTH || reduced;
+    let gives_back = depth == 0 && last.as_ref().is_ok_and(|balance| gives_back(balance));
+    let may_end = !(crosses || stops || gives_back) || depth == MAX_DEPTH || reduced;
     if let Ok(balance) = &last
         && keeps_law(balance)
-        && (is_dissipation_right(balance) && closes(balance) && are_motors_right(balance) || depth == MAX_DEPTH)
+        && (is_dissipation_right(balance) && closes(balance) && is_consistent(balance) && are_motors_right(balance)
+            || depth == MAX_DEPTH)
         && may_end
     {
         return accept(system, balance, limit, crosses);

@@ -11,7 +11,7 @@
 //!
 //! with the condensed matrices W and the stiffening part of the levers under the impulses p of the pins. It is positive definite if the
 //! step matrices of the cables are. A body that a cable touches has columns of its own beside the held coordinates, and G = 1. The energy law
-//! is that of the whole: forces and torques on the bodies do work, as do gaps that close and the axes along which a body is locked.
+//! is that of the close: forces and torques on the bodies do work, as do gaps that close and the axes along which a body is locked.
 
 mod body;
 mod coupled;
@@ -221,18 +221,20 @@ impl IslandStep<'_, '_> {
         }
     }
 
-    /// Solves for the increments and adds them to the iterate.
-    fn add_increment(&mut self) -> Result<(), StepFailure> {
+    /// Solves for the increments and adds a share of them to the iterate: all where rates of reels are unknown.
+    fn add_increment(&mut self, share: f64) -> Result<(), StepFailure> {
         self.solve();
         self.add_to_laws();
-        let StepBuffers { bodies, rows, .. } = &mut *self.buffers;
+        let StepBuffers { bodies, rows, unknowns, .. } = &mut *self.buffers;
+        let share = if unknowns.reels.is_empty() { share } else { 1.0 };
         for cable in self.cables.iter_mut() {
             let CableStep { equations, buffers, .. } = cable.step_parts();
             if !buffers.rhs.iter().all(|x| x.is_finite()) {
                 return Err(equations.not_finite("Newton increment", &buffers.rhs));
             }
-            Equations::apply_increment(buffers);
+            Equations::apply_increment(buffers, share);
         }
+        rows.iter_mut().for_each(|x| *x *= share);
         for (body, increment) in bodies.iter_mut().zip(rows.chunks_exact(6)) {
             body.add(increment);
         }
@@ -334,7 +336,7 @@ impl DiscreteGradientSystem for IslandStep<'_, '_> {
         }
     }
 
-    fn predict(&mut self, h: f64) {
+    fn predict(&mut self, h: f64, close: bool) {
         for cable in self.cables.iter_mut() {
             let CableStep { mut equations, state, buffers } = cable.step_parts();
             equations.begin_laws(state.time, h);
@@ -347,12 +349,12 @@ impl DiscreteGradientSystem for IslandStep<'_, '_> {
         self.follow();
         for cable in self.cables.iter_mut() {
             let CableStep { equations, state, buffers } = cable.step_parts();
-            equations.find_contacts(state, buffers, &self.buffers.paths);
+            equations.find_contacts(state, buffers, (&self.buffers.paths, close));
         }
-        self.find_pairs(h);
+        self.find_pairs(h, close);
     }
 
-    fn iterate(&mut self, fresh: bool) -> Result<Balance, StepFailure> {
+    fn iterate(&mut self, fresh: bool, share: f64) -> Result<Balance, StepFailure> {
         self.cables.iter_mut().for_each(|cable| cable.diagnostics_mut().newton_iterations += 1);
         if fresh {
             self.linearise_pairs();
@@ -361,7 +363,7 @@ impl DiscreteGradientSystem for IslandStep<'_, '_> {
             self.factor_pairs()?;
             self.linearise_laws();
         }
-        self.add_increment()?;
+        self.add_increment(share)?;
         self.follow();
         Ok(self.balance())
     }
@@ -401,7 +403,7 @@ impl DiscreteGradientSystem for IslandStep<'_, '_> {
         }
         self.remember_pairs();
         self.buffers.bodies.iter_mut().for_each(BodyStep::accept);
-        // the law is that of the whole: the first cable keeps it
+        // the law is that of the close: the first cable keeps it
         self.cables[0].system.meter.law.add(balance);
     }
 

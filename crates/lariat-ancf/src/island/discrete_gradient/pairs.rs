@@ -117,8 +117,8 @@ impl IslandStep<'_, '_> {
     }
 
     /// Finds the contacts of a step of length `h` (s).
-    pub(super) fn find_pairs(&mut self, h: f64) {
-        self.with_pairs(|pairs, strands| pairs.begin(h, strands));
+    pub(super) fn find_pairs(&mut self, h: f64, close: bool) {
+        self.with_pairs(|pairs, strands| pairs.begin(h, close, strands));
     }
 
     /// Makes them linear.
