@@ -26,7 +26,7 @@
 //! A contact that is deeper when a step begins than it was when the last one ended (a new one that is born deep, an obstacle that was put
 //! elsewhere, another patch) gets an offset of the difference, so that no energy comes from it. An offset closes again as far as what friction and impact took in the step
 //! before pays for the energy that it stores: `N` times what closes is at most 0.9 of that. A step in which contacts would give back more than they
-//! take is divided; those of the last division close nothing. If a body of the island was moved by others
+//! take is divided, and its parts close nothing, but those of cables with cables down to the last division. If a body of the island was moved by others
 //! since its last step, by the contacts that an engine computes, the offset has either sign, so that the force goes on, and closes in a
 //! quarter of a second: that is work of the others, `N` times what closes.
 //!

@@ -356,6 +356,25 @@ mod tests {
         }
     }
 
+    /// What closes of an offset is paid by the contact itself, `F . D x = -D (W + U) - loss`, or by what moved the obstacle, with its work.
+    ///
+    /// *Source.* The energies by their formulas.
+    #[test]
+    fn an_offset_that_closes_is_paid_for() {
+        let step = ObstacleStep::new(&RigidMotion::default(), 0.0, 1.0 / 240.0);
+        for pays in [true, false] {
+            let mut p = point(Patch::Plane { point: Vector3::zeros(), normal: Vector3::y() }, 0.4);
+            p.start = Vector3::new(0.0, 5e-3 - 6e-5, 0.0);
+            (p.bound, p.offset, p.closing, p.pays) = (30.0, 4e-5, 1e-5, pays);
+            let before = p.energy_before(&p.start);
+            let change = Vector3::new(3e-4, -1e-5, 0.0);
+            let now = p.evaluate(&step, &change, About::default());
+            let made = now.force.dot(&change) + now.energy - before + now.loss - now.work;
+            assert!(now.normal_force > 0.0 && made.abs() < 1e-12, "{made:e}");
+            assert_eq!(now.work, if pays { 0.0 } else { now.normal_force * p.closing });
+        }
+    }
+
     /// On a plane the tangent is exact: of the normal force, of sticking and of slipping.
     ///
     /// *Source.* Central differences.

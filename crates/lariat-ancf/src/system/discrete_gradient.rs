@@ -11,7 +11,7 @@ use crate::effect::acts::{ForceInput, PointForce, StepInput};
 use crate::error::StepFailure;
 use crate::integrate::State;
 use crate::integrate::discrete_gradient::{
-    ALPHA, BETA, Balance, Buffers, DiscreteGradientSystem, Event, share_to_take, sum_of_forces,
+    ALPHA, BETA, Balance, Buffers, Closing, DiscreteGradientSystem, Event, share_to_take, sum_of_forces,
 };
 use crate::support::{SlopeSupport, Support};
 use core::ops::Range;
@@ -130,6 +130,7 @@ impl Equations<'_> {
         self.diagnostics.effects.contact += b.contact.count();
         work.contact += contacts.work;
         b.lost = contacts.loss;
+        balance.given_back = (-contacts.loss).max(0.0);
         balance.add_contacts(&contacts, b.h);
     }
 
@@ -348,12 +349,12 @@ impl DiscreteGradientSystem for CableStep<'_> {
         self.equations.begin_host_step(self.state);
     }
 
-    fn predict(&mut self, h: f64, close: bool) {
+    fn predict(&mut self, h: f64, closing: Closing) {
         self.equations.begin_laws(self.state.time, h);
         self.buffers.recall(self.state, h);
         self.equations.prescribe_change(self.state, self.buffers);
-        self.equations.find_contacts(self.state, self.buffers, (&[], close));
-        self.equations.find_pairs(self.state, self.buffers, close);
+        self.equations.find_contacts(self.state, self.buffers, (&[], closing.obstacles));
+        self.equations.find_pairs(self.state, self.buffers, closing.cables);
     }
 
     fn iterate(&mut self, fresh: bool, share: f64) -> Result<Balance, StepFailure> {

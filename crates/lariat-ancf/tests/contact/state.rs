@@ -119,6 +119,32 @@ fn a_rope_that_begins_inside_an_obstacle_gains_no_energy() {
     assert!(made < 1e-8, "{made:e}");
 }
 
+/// A rope that begins two millimetres deep in a floor comes out of it while friction pays for that, makes no energy, and stays in it where nothing
+/// does.
+///
+/// *Source.* The energy law; geometry.
+#[test]
+fn an_offset_closes_while_friction_pays_for_it() {
+    for (friction, speed) in [(0.3, 2.0), (0.8, 1.0), (0.3, 0.0), (0.0, 2.0)] {
+        let start = up() * 0.003;
+        let cable = rope(0.1, &[start, start + Vector3::new(2.0, 0.0, 0.0)], 20);
+        let cable = cable.velocity(Vector3::new(speed, 0.0, 0.0)).build().unwrap();
+        let mut cable = with(cable, vec![Obstacle::new(1, HalfSpace { normal: up() }, Vector3::zeros(), friction)]);
+        let deepest = |cable: &Cable| cable.contacts().fold(0.0, |most: f64, touch| most.max(touch.depth));
+        let before = cable.energy_law().contacts;
+        let made = run(&mut cable, 60, |_| {});
+        let (depth, lost) = (deepest(&cable), cable.energy_law().contacts - before);
+        println!("mu {friction}, {speed} m/s: {depth:.1e} m deep, contacts lost {lost:.2e} J, made {made:.0e}");
+        // at rest there is no energy to have a share of
+        assert!((made < 1e-8 || speed == 0.0) && lost >= 0.0, "{made:e} {lost:e}");
+        if friction * speed > 0.0 {
+            assert!(depth < 2e-4, "{depth:e}");
+        } else {
+            assert!((depth - 2e-3).abs() < 2e-4, "{depth:e}");
+        }
+    }
+}
+
 /// An error keeps its failure.
 ///
 /// *Source.* The contract.

@@ -89,6 +89,8 @@ pub(crate) struct Balance {
     pub contacts: f64,
     /// Energy that is lost with contacts of the last step that no contact took up; it hides nothing.
     pub left: f64,
+    /// What contacts with obstacles give back of what they lost before.
+    pub given_back: f64,
     /// Work of obstacles that move.
     pub obstacles: f64,
     /// Whether an obstacle is near.
@@ -122,6 +124,7 @@ impl Balance {
         self.weight += other.weight;
         self.contacts += other.contacts;
         self.left += other.left;
+        self.given_back += other.given_back;
         self.obstacles += other.obstacles;
         self.near |= other.near;
         self.forces += other.forces;
@@ -167,6 +170,15 @@ impl Balance {
     }
 }
 
+/// Which contacts may close offsets in a step.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) struct Closing {
+    /// Those with obstacles.
+    pub obstacles: bool,
+    /// Those between cables.
+    pub cables: bool,
+}
+
 /// Returns the sum of the magnitudes of the forces on positions in a nodal vector.
 pub(crate) fn sum_of_forces(x: &[f64]) -> f64 {
     x.as_chunks::<6>().0.iter().map(|x| (x[0] * x[0] + x[1] * x[1] + x[2] * x[2]).sqrt()).sum()
@@ -183,8 +195,8 @@ pub(crate) trait DiscreteGradientSystem {
     /// Begins a host step: puts prescribed coordinates in place if supports or the state were changed.
     fn begin(&mut self);
 
-    /// Begins a step of length `h` (s): sets the first iterate. Contacts may close offsets if `close`.
-    fn predict(&mut self, h: f64, close: bool);
+    /// Begins a step of length `h` (s): sets the first iterate. Contacts close offsets as `closing` says.
+    fn predict(&mut self, h: f64, closing: Closing);
 
     /// Takes one Newton iteration, with a new tangent if `fresh`, else with the factors of the last one, adds a share of the increment, and
     /// returns what its result does to the energy.

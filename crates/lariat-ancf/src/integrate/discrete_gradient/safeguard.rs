@@ -24,7 +24,7 @@
 //! So is one in which the friction of a sheave stops it from running: a long step may have such a solution beside the one that runs on, and
 //! Newton's iteration end there.
 
-use super::law::{Balance, CLOSURE, DiscreteGradientSystem, Event};
+use super::law::{Balance, CLOSURE, Closing, DiscreteGradientSystem, Event};
 use crate::error::StepFailure;
 use crate::integrate::WorkLimit;
 
@@ -96,9 +96,9 @@ fn is_almost_solved(balance: &Balance) -> bool {
     !balance.near || balance.imbalance <= LARGEST_IMBALANCE * balance.impulse
 }
 
-/// Returns whether contacts that close offsets take more than they lose: its parts are nearer to what the last step lost.
+/// Returns whether contacts with obstacles that close offsets give back more than they lose. In parts of the step they close none.
 fn gives_back(balance: &Balance) -> bool {
-    -balance.contacts > TOLERANCE * balance.scale()
+    balance.given_back > TOLERANCE * balance.scale()
 }
 
 /// Returns whether motors of reels have the forces of their laws.
@@ -147,7 +147,7 @@ pub(super) fn step(
     depth: usize,
     limit: Option<&WorkLimit>,
 ) -> Result<bool, StepFailure> {
-    system.predict(h, depth < MAX_DEPTH);
+    system.predict(h, Closing { obstacles: depth == 0, cables: depth < MAX_DEPTH });
     let mut last = Err(StepFailure::NotConverged { iterations: 0, increment: 0.0 });
     let (mut fresh, mut most) = (true, MAX_ITERATIONS);
     let (mut iteration, mut imbalance) = (0, f64::INFINITY);
@@ -189,7 +189,7 @@ pub(super) fn step(
     let crosses = last.as_ref().is_ok_and(|balance| balance.excess().is_finite())
         && (system.crosses() || misses.unwrap_or_else(|| system.add_missed()));
     let stops = last.as_ref().is_ok_and(|balance| balance.stops);
-    let gives_back = depth == 0 && last.as_ref().is_ok_and(|balance| gives_back(balance));
+    let gives_back = last.as_ref().is_ok_and(|balance| gives_back(balance));
     let may_end = !(crosses || stops || gives_back) || depth == MAX_DEPTH || reduced;
     if let Ok(balance) = &last
         && keeps_law(balance)

@@ -34,7 +34,9 @@ use crate::contact::{BodyPath, CablePair, PairStep};
 use crate::effect::EffectWork;
 use crate::error::StepFailure;
 use crate::integrate::State;
-use crate::integrate::discrete_gradient::{BETA, Balance, Buffers, DiscreteGradientSystem, Event, sum_of_forces};
+use crate::integrate::discrete_gradient::{
+    BETA, Balance, Buffers, Closing, DiscreteGradientSystem, Event, sum_of_forces,
+};
 use crate::support::SlopeSupport;
 use crate::system::{CableStep, Equations, System, Unknowns, dot, project_vector};
 use body::BodyStep;
@@ -336,7 +338,7 @@ impl DiscreteGradientSystem for IslandStep<'_, '_> {
         }
     }
 
-    fn predict(&mut self, h: f64, close: bool) {
+    fn predict(&mut self, h: f64, closing: Closing) {
         for cable in self.cables.iter_mut() {
             let CableStep { mut equations, state, buffers } = cable.step_parts();
             equations.begin_laws(state.time, h);
@@ -349,9 +351,9 @@ impl DiscreteGradientSystem for IslandStep<'_, '_> {
         self.follow();
         for cable in self.cables.iter_mut() {
             let CableStep { equations, state, buffers } = cable.step_parts();
-            equations.find_contacts(state, buffers, (&self.buffers.paths, close));
+            equations.find_contacts(state, buffers, (&self.buffers.paths, closing.obstacles));
         }
-        self.find_pairs(h, close);
+        self.find_pairs(h, closing.cables);
     }
 
     fn iterate(&mut self, fresh: bool, share: f64) -> Result<Balance, StepFailure> {
