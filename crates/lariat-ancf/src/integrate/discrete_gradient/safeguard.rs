@@ -189,7 +189,7 @@ pub(super) fn step(
     let crosses = last.as_ref().is_ok_and(|balance| balance.excess().is_finite())
         && (system.crosses() || misses.unwrap_or_else(|| system.add_missed()));
     let stops = last.as_ref().is_ok_and(|balance| balance.stops);
-    let gives_back = last.as_ref().is_ok_and(|balance| gives_back(balance));
+    let gives_back = last.as_ref().is_ok_and(gives_back);
     let may_end = !(crosses || stops || gives_back) || depth == MAX_DEPTH || reduced;
     if let Ok(balance) = &last
         && keeps_law(balance)
