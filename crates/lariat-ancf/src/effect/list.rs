@@ -161,7 +161,7 @@ macro_rules! generate {
             }
 
             /// Energy in J that dissipative effects (damping and drag) took from the cable; negative where a flow drives it. What contacts and
-            /// friction lost is [`EnergyLaw::contacts`](crate::EnergyLaw::contacts).
+            /// friction lost is [`EnergyLaw::contacts`](crate::integrate::EnergyLaw::contacts).
             pub fn dissipated(&self) -> f64 {
                 0.0 $(- if <$type as Effect>::DISSIPATIVE { self.$field } else { 0.0 })*
             }
