@@ -10,7 +10,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let points = [Vector3::zeros(), Vector3::new(2.0, 0.0, 0.0), Vector3::new(2.0, 1.0, 0.3)];
     let builder = Cable::builder().points(points).section(Section::square(0.01, 1.0e8, 4000.0)?);
     let mut cable = builder.elements(64).fix(At::Start).build()?;
-    cable.set_integrator(Integrator::substeps(Method::Trapezoid, 1)?)?;
+    cable.set_integrator(Integrator::substeps(Method::DiscreteGradient, 1)?)?;
     cable.set_simd_level(Level::baseline())?;
     for _ in 0..steps {
         cable.step(1e-4)?;
