@@ -5,7 +5,6 @@ use super::lanes::discrete_gradient::{CoordinateStep, ElementLoss};
 use super::rigid_motion::relative_velocities;
 use super::{Equations, System, Unknowns, project_vector};
 use crate::cable::Cable;
-use crate::contact::{BodyPath, ContactStep, Motion};
 use crate::effect::EffectWork;
 use crate::effect::acts::{ForceInput, PointForce, StepInput};
 use crate::error::StepFailure;
@@ -76,62 +75,6 @@ impl Equations<'_> {
             b.change[i] = end - state.q[i];
             b.velocity_change[i] = (b.change[i] / b.h - state.v[i] + ALPHA * b.velocity_before[i]) / BETA;
         }
-    }
-
-    /// Finds the contacts of a step, if the cable can have any, with obstacles and with bodies of an island; they close offsets if `close`.
-    pub fn find_contacts(&self, state: &State, b: &mut Buffers, (bodies, close): (&[BodyPath], bool)) {
-        let lost = if close { state.memory.lost } else { 0.0 };
-        let Buffers { contact, change, h, .. } = b;
-        let memory = &state.memory.contacts;
-        contact.begin(&Motion {
-            model: self.model,
-            time: state.time,
-            h: *h,
-            q: &state.q,
-            change,
-            memory,
-            lost,
-            bodies,
-        });
-    }
-
-    /// Adds contacts with thin parts of obstacles that the iterate entered; returns whether there are any.
-    pub fn add_missed_contacts(&self, state: &State, b: &mut Buffers) -> bool {
-        self.after_step(state, b, ContactStep::add_missed)
-    }
-
-    /// Returns whether the iterate goes through thin parts of obstacles.
-    pub fn passes_obstacles(&self, state: &State, b: &mut Buffers) -> bool {
-        self.after_step(state, b, ContactStep::passes)
-    }
-
-    fn after_step<T>(&self, state: &State, b: &mut Buffers, ask: fn(&mut ContactStep, &Motion<'_>) -> T) -> T {
-        let Buffers { contact, change, h, .. } = b;
-        let memory = &state.memory.contacts;
-        ask(
-            contact,
-            &Motion {
-                model: self.model,
-                time: state.time,
-                h: *h,
-                q: &state.q,
-                change,
-                memory,
-                lost: state.memory.lost,
-                bodies: &[],
-            },
-        )
-    }
-
-    /// Adds contact forces to the residual of the present iterate, and what they do to its balance.
-    fn balance_contacts(&mut self, state: &State, b: &mut Buffers, balance: &mut Balance, work: &mut EffectWork) {
-        self.after_step(state, b, |contact, motion| contact.complete(motion));
-        let contacts = b.contact.balance(&b.change, &mut b.rhs);
-        self.diagnostics.effects.contact += b.contact.count();
-        work.contact += contacts.work;
-        b.lost = contacts.loss;
-        balance.given_back = (-contacts.loss).max(0.0);
-        balance.add_contacts(&contacts, b.h);
     }
 
     /// Computes `h (G + F - f) - M D v` of the present iterate into `rhs`, and the step matrix if asked. Without it, returns what the

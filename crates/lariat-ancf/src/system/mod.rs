@@ -18,6 +18,7 @@
 //! | [`frequency`] | a bound of the frequencies |
 //! | [`projection`] | supports in vectors and matrices |
 
+mod contacts;
 mod discrete_gradient;
 pub(crate) mod dynamics;
 pub(crate) mod elements;

@@ -11,7 +11,7 @@
 //!
 //! with the condensed matrices W and the stiffening part of the levers under the impulses p of the pins. It is positive definite if the
 //! step matrices of the cables are. A body that a cable touches has columns of its own beside the held coordinates, and G = 1. The energy law
-//! is that of the close: forces and torques on the bodies do work, as do gaps that close and the axes along which a body is locked.
+//! is that of the whole: forces and torques on the bodies do work, as do gaps that close and the axes along which a body is locked.
 
 mod body;
 mod coupled;
@@ -20,10 +20,11 @@ mod host_step;
 mod laws;
 mod pairs;
 mod rescale;
+mod solve;
 
 pub(super) use host_step::HostStep;
 
-use super::body_matrix::{BodyMatrix, Lever};
+use super::body_matrix::BodyMatrix;
 use super::condense::Condensed;
 use super::coupling::CoupledInertia;
 use super::hold::vector;
@@ -34,11 +35,9 @@ use crate::contact::{BodyPath, CablePair, PairStep};
 use crate::effect::EffectWork;
 use crate::error::StepFailure;
 use crate::integrate::State;
-use crate::integrate::discrete_gradient::{
-    BETA, Balance, Buffers, Closing, DiscreteGradientSystem, Event, sum_of_forces,
-};
+use crate::integrate::discrete_gradient::{Balance, Buffers, Closing, DiscreteGradientSystem, Event, sum_of_forces};
 use crate::support::SlopeSupport;
-use crate::system::{CableStep, Equations, System, Unknowns, dot, project_vector};
+use crate::system::{CableStep, System, Unknowns, dot, project_vector};
 use body::BodyStep;
 use coupled::{add_coupled_energies, complete_rows};
 use holds::HoldStep;
@@ -125,122 +124,6 @@ impl IslandStep<'_, '_> {
             }
             cable.step_buffers.contact.follow(&cable.model.obstacles.0, paths);
         }
-    }
-
-    /// Computes residuals and step matrices of all cables, factors and condenses these, and sums the rows of the bodies.
-    fn linearise(&mut self) -> Result<(), StepFailure> {
-        let StepBuffers { bodies, coupled, cables: own, rows, pairs, unknowns, .. } = &mut *self.buffers;
-        rows.fill(0.0);
-        unknowns.winches.iter().for_each(|winch| winch.pass(winch.force, self.cables[0].step_buffers.h, rows));
-        for ((cable, own), part) in self.cables.iter_mut().zip(own).zip(&self.layout.parts) {
-            let CableStep { mut equations, state, buffers } = cable.step_parts();
-            equations.step_residual(state, buffers, true, &mut EffectWork::default());
-            own.pass_impulses(&buffers.rhs, rows);
-            buffers.contact.pass_impulses(true, rows);
-            let borders = buffers.contact.borders();
-            own.condensed.read(&equations.system.step.matrix, &part.holds, borders);
-            equations.factor_to_solve()?;
-            let (level, model) = (equations.system.level, equations.model);
-            let factors = &equations.system.step.factorisation;
-            let rhs = (pairs.is_empty() && equations.system.flows.is_empty()).then_some(&buffers.rhs[..]);
-            own.condensed.complete(level, factors, (&part.holds, borders), rhs, |x| project_vector(model, x));
-        }
-        complete_rows(bodies, coupled, rows);
-        Ok(())
-    }
-
-    /// Factors the matrix of the bodies for steps of length `h` (s).
-    fn factor_bodies(&mut self, h: f64) -> Result<(), StepFailure> {
-        let StepBuffers { bodies, coupled, cables: own, matrix, .. } = &mut *self.buffers;
-        matrix.begin(bodies.len());
-        for (i, body) in bodies.iter().enumerate() {
-            matrix.add_inertia(i, &body.world_matrix());
-        }
-        let rotation = |i: usize| bodies[i].rotation;
-        coupled.iter().for_each(|coupled| matrix.add_coupled(&coupled.turned(coupled.bodies.map(rotation))));
-        for (cable, CableBuffers { holds, condensed, .. }) in self.cables.iter().zip(own.iter()) {
-            for hold in holds {
-                matrix.add_rotational(hold.body, &(hold.stiffening() * (0.5 * BETA * h)));
-            }
-            let held = holds.iter().map(|hold| Lever::held(hold.body, &hold.arm, hold.slope));
-            let touched = cable.step_buffers.contact.borders().iter().flat_map(|border| Lever::own(border.body));
-            matrix.add_cable(condensed, held.chain(touched));
-        }
-        for (i, body) in bodies.iter().enumerate() {
-            matrix.lock(i, &body.free);
-        }
-        matrix.factor()
-    }
-
-    /// Solves the linear equations without contacts between cables in place.
-    fn solve_apart(&mut self) {
-        let StepBuffers { bodies, cables: own, matrix, rows, .. } = &mut *self.buffers;
-        for (cable, own) in self.cables.iter_mut().zip(own.iter_mut()) {
-            let CableStep { mut equations, buffers, .. } = cable.step_parts();
-            if own.condensed.take_solution(&mut buffers.rhs) {
-                equations.diagnostics.solves += 1;
-            } else {
-                equations.solve(&mut buffers.rhs);
-            }
-            for (h, hold) in own.holds.iter().enumerate() {
-                let impulse = Vector3::from_fn(|x, _| -own.condensed.border(3 * h + x, &buffers.rhs));
-                hold.pass(&impulse, rows);
-            }
-            let first = 3 * own.holds.len();
-            for (k, border) in buffers.contact.borders().iter().enumerate() {
-                for x in 0..6 {
-                    rows[6 * border.body + x] -= own.condensed.border(first + 6 * k + x, &buffers.rhs);
-                }
-            }
-        }
-        for (body, row) in bodies.iter().zip(rows.chunks_exact_mut(6)) {
-            body.lock(row);
-        }
-        matrix.solve(rows);
-        for (cable, own) in self.cables.iter_mut().zip(own.iter()) {
-            let CableStep { buffers, .. } = cable.step_parts();
-            for (h, hold) in own.holds.iter().enumerate() {
-                let moved = hold.moved(rows);
-                for x in 0..3 {
-                    own.condensed.spread(3 * h + x, moved[x], &mut buffers.rhs);
-                }
-            }
-            let first = 3 * own.holds.len();
-            let Buffers { contact, rhs, .. } = &mut *buffers;
-            for (k, border) in contact.borders().iter().enumerate() {
-                for x in 0..6 {
-                    own.condensed.spread(first + 6 * k + x, rows[6 * border.body + x], rhs);
-                }
-            }
-            for hold in &own.holds {
-                let moved = hold.moved(rows);
-                for x in 0..3 {
-                    // a slope is free along its direction
-                    let along = if hold.slope { buffers.rhs[hold.at + x] } else { 0.0 };
-                    buffers.rhs[hold.at + x] = along + moved[x];
-                }
-            }
-        }
-    }
-
-    /// Solves for the increments and adds a share of them to the iterate: all where rates of reels are unknown.
-    fn add_increment(&mut self, share: f64) -> Result<(), StepFailure> {
-        self.solve();
-        self.add_to_laws();
-        let StepBuffers { bodies, rows, unknowns, .. } = &mut *self.buffers;
-        let share = if unknowns.reels.is_empty() { share } else { 1.0 };
-        for cable in self.cables.iter_mut() {
-            let CableStep { equations, buffers, .. } = cable.step_parts();
-            if !buffers.rhs.iter().all(|x| x.is_finite()) {
-                return Err(equations.not_finite("Newton increment", &buffers.rhs));
-            }
-            Equations::apply_increment(buffers, share);
-        }
-        rows.iter_mut().for_each(|x| *x *= share);
-        for (body, increment) in bodies.iter_mut().zip(rows.chunks_exact(6)) {
-            body.add(increment);
-        }
-        Ok(())
     }
 
     /// Returns what the present iterate does to the energy.
@@ -405,7 +288,7 @@ impl DiscreteGradientSystem for IslandStep<'_, '_> {
         }
         self.remember_pairs();
         self.buffers.bodies.iter_mut().for_each(BodyStep::accept);
-        // the law is that of the close: the first cable keeps it
+        // the law is that of the whole: the first cable keeps it
         self.cables[0].system.meter.law.add(balance);
     }
 

@@ -1,0 +1,55 @@
+//! Contacts of one cable with obstacles, in a step of the discrete gradient.
+
+use super::Equations;
+use crate::contact::{BodyPath, ContactStep, Motion};
+use crate::effect::EffectWork;
+use crate::integrate::State;
+use crate::integrate::discrete_gradient::{Balance, Buffers};
+
+impl Equations<'_> {
+    /// Finds the contacts of a step, if the cable can have any, with obstacles and with bodies of an island; they close offsets if `close`.
+    pub fn find_contacts(&self, state: &State, b: &mut Buffers, (bodies, close): (&[BodyPath], bool)) {
+        let lost = if close { state.memory.lost } else { 0.0 };
+        self.with_contacts(state, b, (bodies, lost), |contact, motion| contact.begin(motion));
+    }
+
+    /// Adds contacts with thin parts of obstacles that the iterate entered; returns whether there are any.
+    pub fn add_missed_contacts(&self, state: &State, b: &mut Buffers) -> bool {
+        self.with_contacts(state, b, (&[], 0.0), ContactStep::add_missed)
+    }
+
+    /// Returns whether the iterate goes through thin parts of obstacles.
+    pub fn passes_obstacles(&self, state: &State, b: &mut Buffers) -> bool {
+        self.with_contacts(state, b, (&[], 0.0), ContactStep::passes)
+    }
+
+    /// Calls `f` with the contacts of a step and its iterate, with bodies of an island, and the power in W that closes offsets.
+    fn with_contacts<T>(
+        &self,
+        state: &State,
+        b: &mut Buffers,
+        (bodies, lost): (&[BodyPath], f64),
+        f: impl FnOnce(&mut ContactStep, &Motion<'_>) -> T,
+    ) -> T {
+        let Buffers { contact, change, h, .. } = b;
+        let (q, memory) = (&state.q[..], &state.memory.contacts[..]);
+        f(contact, &Motion { model: self.model, time: state.time, h: *h, q, change, memory, lost, bodies })
+    }
+
+    /// Adds contact forces to the residual of the present iterate, and what they do to its balance.
+    pub(super) fn balance_contacts(
+        &mut self,
+        state: &State,
+        b: &mut Buffers,
+        balance: &mut Balance,
+        work: &mut EffectWork,
+    ) {
+        self.with_contacts(state, b, (&[], 0.0), |contact, motion| contact.complete(motion));
+        let contacts = b.contact.balance(&b.change, &mut b.rhs);
+        self.diagnostics.effects.contact += b.contact.count();
+        work.contact += contacts.work;
+        b.lost = contacts.loss;
+        balance.given_back = (-contacts.loss).max(0.0);
+        balance.add_contacts(&contacts, b.h);
+    }
+}
