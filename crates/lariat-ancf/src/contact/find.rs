@@ -149,10 +149,7 @@ impl ContactStep {
         }
         let index = find(pair.motion.memory, point.key);
         let memory = index.map(|i| &pair.motion.memory[i]);
-        point.patch = match memory.filter(|memory| memory.normal.dot(&z) < 0.0) {
-            Some(memory) => Patch::Plane { point: y - z, normal: memory.normal },
-            None => patch,
-        };
+        point.patch = one_sided(patch, (&y, &z), memory);
         point.recall(&y, &pair.step, memory);
         (point.nearby, point.recalls) = (Some(self.nearby.len() - 1), index);
         index.into_iter().for_each(|i| self.recalled[i] = true);
@@ -234,6 +231,14 @@ impl ContactPoint {
     /// Returns its place in the obstacle's axes at the beginning and at the end of an iterate.
     pub(super) fn way(&self, obstacle: &ObstacleStep, change: &[f64]) -> (Vector3<f64>, Vector3<f64>) {
         (obstacle.start.own(&self.start), obstacle.end.own(&(self.start + self.change(change))))
+    }
+}
+
+/// Returns the patch of a feature at `y`, with the vector z to it from the core: where the memory is of the core's other side, the plane there.
+pub(super) fn one_sided(patch: Patch, (y, z): (&Vector3<f64>, &Vector3<f64>), memory: Option<&ContactMemory>) -> Patch {
+    match memory.filter(|memory| memory.normal.dot(z) < 0.0) {
+        Some(memory) => Patch::Plane { point: y - z, normal: memory.normal },
+        None => patch,
     }
 }
 

@@ -18,7 +18,7 @@ const TANGENTIAL: f64 = 0.1;
 const RAMP: f64 = 0.02;
 
 /// The normal law, per length.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct NormalLaw {
     /// Stiffness k in N/m^2.
     pub(in crate::contact) stiffness: f64,

@@ -18,7 +18,7 @@
 //! not asked whether an element went through them.
 
 use super::find::Motion;
-use super::pair::{Pair, SAMPLES};
+use super::pair::{Pair, SAMPLES, feature_place};
 use super::pairs::crossing;
 use super::path::ObstacleStep;
 use super::step::ContactStep;
@@ -57,11 +57,12 @@ impl ContactStep {
         for i in 0..self.nearby.len() {
             let nearby = self.nearby[i];
             let Some(pair) = self.pair(motion, &nearby) else { continue };
-            let Some(xi) = pair.closest(&nearby.feature, 1.0).filter(|xi| !pair.is_apart(*xi)) else { continue };
-            let mut point = pair.feature_point(&nearby.feature, xi);
-            if self.points.iter().any(|other| other.key == point.key) {
+            let key = pair.key(feature_place(&nearby.feature));
+            if self.points.iter().any(|point| point.key == key) {
                 continue;
             }
+            let Some(xi) = pair.closest(&nearby.feature, 1.0).filter(|xi| !pair.is_apart(*xi)) else { continue };
+            let mut point = pair.feature_point(&nearby.feature, xi);
             let (start, end) = point.way(&pair.step, motion.change);
             let Some((at_end, z)) = nearby.feature.patch(&end) else { continue };
             let depth = point.reach + nearby.feature.radius - z.norm();

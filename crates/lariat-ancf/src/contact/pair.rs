@@ -3,9 +3,8 @@
 use super::find::Motion;
 use super::memory::Key;
 use super::obstacle::Obstacle;
-use super::patch::Patch;
 use super::path::ObstacleStep;
-use super::point::{About, ContactPoint, Evaluation, Linear, combine};
+use super::point::{ContactPoint, combine};
 use super::surface::{Feature, Nearest};
 use crate::effect::Contact;
 use crate::element::shape;
@@ -57,21 +56,8 @@ impl Pair<'_> {
             law: self.contact.law_of(&self.section.section),
             friction: self.obstacle.friction,
             reach: self.radius + self.obstacle.skin,
-            patch: Patch::Point { point: Vector3::zeros(), radius: 0.0 },
-            offset: 0.0,
-            closing: 0.0,
-            pays: false,
-            remembered: 0.0,
-            distance: 0.0,
             start: combine(self.motion.q, self.element, &shape),
-            spring: Vector3::zeros(),
-            bound: 0.0,
-            nearby: None,
-            recalls: None,
-            roll: None,
-            linear: Linear::default(),
-            about: About::default(),
-            now: Evaluation::default(),
+            ..ContactPoint::default()
         }
     }
 

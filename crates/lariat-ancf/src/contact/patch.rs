@@ -60,6 +60,12 @@ pub(in crate::contact) struct GapStep {
     pub normal: Vector3<f64>,
 }
 
+impl Default for Patch {
+    fn default() -> Patch {
+        Patch::Point { point: Vector3::zeros(), radius: 0.0 }
+    }
+}
+
 impl Patch {
     /// Returns the gap and the outward normal at a point in the obstacle's axes.
     pub(in crate::contact) fn gap(&self, y: &Vector3<f64>) -> (f64, Vector3<f64>) {

@@ -19,7 +19,7 @@ pub(in crate::contact) const PAID: f64 = 0.9;
 const LIFTED: f64 = 0.1;
 
 /// A material point that can touch an obstacle in the present step.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 pub(in crate::contact) struct ContactPoint {
     pub key: Key,
     /// Number of the obstacle.
@@ -283,8 +283,6 @@ mod tests {
     fn point(patch: Patch, friction: f64) -> ContactPoint {
         let law = NormalLaw::new(1e9, 5e-3);
         ContactPoint {
-            key: (0, 0, 0),
-            obstacle: 0,
             xi: 0.5,
             shape: [0.5, 0.0, 0.5, 0.0],
             weight: 0.03,
@@ -292,20 +290,7 @@ mod tests {
             friction,
             reach: 5e-3,
             patch,
-            offset: 0.0,
-            closing: 0.0,
-            pays: false,
-            remembered: 0.0,
-            distance: 0.0,
-            start: Vector3::zeros(),
-            spring: Vector3::zeros(),
-            bound: 0.0,
-            nearby: None,
-            recalls: None,
-            roll: None,
-            linear: Linear::default(),
-            about: About::default(),
-            now: Evaluation::default(),
+            ..ContactPoint::default()
         }
     }
 

@@ -22,7 +22,7 @@
 //! One maximum per element and feature. Where another one takes its place in a step the iteration may swing between both, and the step is
 //! divided. While the point passes to the other side of the core in a step, it stays.
 
-use super::find::Motion;
+use super::find::{Motion, one_sided};
 use super::missed::Nearby;
 use super::pair::{Pair, feature_place};
 use super::patch::Patch;
@@ -73,13 +73,12 @@ impl ContactStep {
                 continue;
             }
             let Some(xi) = pair.closest(&nearby.feature, 1.0).filter(|xi| !pair.is_apart(*xi)) else { continue };
-            let at = |known: &Nearby| known.is_same(&other);
-            let n = self.nearby.iter().position(at).unwrap_or_else(|| {
-                self.nearby.push(other);
-                self.nearby.len() - 1
-            });
             if pair.feature_point(&nearby.feature, xi).weight == self.points[i].weight {
-                self.points[i].nearby = Some(n);
+                let known = self.nearby.iter().position(|known| known.is_same(&other));
+                self.points[i].nearby = Some(known.unwrap_or(self.nearby.len()));
+                if known.is_none() {
+                    self.nearby.push(other);
+                }
                 return self.move_point(i, &pair, &other, xi);
             }
         }
@@ -92,10 +91,7 @@ impl ContactStep {
         let y = pair.step.start.own(&point.start);
         let Some((patch, z)) = nearby.feature.patch(&y) else { return };
         let memory = recalls.map(|i| &pair.motion.memory[i]);
-        point.patch = match memory.filter(|memory| memory.normal.dot(&z) < 0.0) {
-            Some(memory) => Patch::Plane { point: y - z, normal: memory.normal },
-            None => patch,
-        };
+        point.patch = one_sided(patch, (&y, &z), memory);
         point.distance = z.norm() - nearby.feature.radius;
         point.recall(&y, &pair.step, memory);
         point.close(self.closes);

@@ -4,7 +4,7 @@ use super::super::ContactBalance;
 use super::super::law::NormalLaw;
 use super::super::memory::ContactMemory;
 use super::super::patch::Patch;
-use super::super::point::{About, ContactPoint, Evaluation, Linear, OFFSET_TIME_OF_PAIRS, PAID, combine};
+use super::super::point::{ContactPoint, OFFSET_TIME_OF_PAIRS, PAID, combine};
 use super::chords::{Piece, Strand};
 use super::memory::PairMemory;
 use super::point::{End, PairPoint, frame};
@@ -149,7 +149,6 @@ impl PairStep {
         let chords = Piece::new(own[0], candidate.elements[0]).chords;
         let mut point = ContactPoint {
             key: (candidate.elements[0] as u32, own[1].key, candidate.elements[1] as u32),
-            obstacle: 0,
             xi: candidate.xi[0],
             shape: ends[0].shape,
             weight: sections[0].length / chords as f64,
@@ -157,20 +156,8 @@ impl PairStep {
             friction,
             reach: candidate.reach,
             patch: Patch::Plane { point: Vector3::zeros(), normal },
-            offset: 0.0,
-            closing: 0.0,
-            pays: false,
-            remembered: 0.0,
-            distance: 0.0,
             start,
-            spring: Vector3::zeros(),
-            bound: 0.0,
-            nearby: None,
-            recalls: None,
-            roll: None,
-            linear: Linear::default(),
-            about: About::default(),
-            now: Evaluation::default(),
+            ..ContactPoint::default()
         };
         let still = frame(Vector3::zeros(), self.h);
         point.recall(&start, &still, memory.as_ref());
