@@ -80,7 +80,7 @@ impl ContactStep {
                 obstacle.surface.features(&own, near, &mut |feature| {
                     let limit = near + feature.radius;
                     if !pair.is_wide(feature.radius) && feature.distance_squared(&own) <= limit * limit {
-                        self.nearby.push(Nearby { element, from, obstacle: number, feature });
+                        self.nearby.push(Nearby { element, from, obstacle: number, feature, start: None });
                         self.add_feature(&pair, &feature);
                     }
                 });
@@ -92,6 +92,7 @@ impl ContactStep {
             let y = self.obstacles[point.obstacle].start.own(&point.start);
             self.before += point.energy_before(&y);
         }
+        self.follow_closest(motion);
     }
 
     /// Closes offsets, at a cost of at most `budget` (J).

@@ -21,6 +21,7 @@ use super::find::Motion;
 use super::pair::{Pair, SAMPLES, feature_place};
 use super::pairs::crossing;
 use super::path::ObstacleStep;
+use super::point::ContactPoint;
 use super::step::ContactStep;
 use super::surface::{Feature, FeatureShape};
 use nalgebra::Vector3;
@@ -39,9 +40,23 @@ pub(super) struct Nearby {
     /// Number of the obstacle.
     pub obstacle: usize,
     pub feature: Feature,
+    /// Element, where it begins, and local coordinate of the point that is closest when the step begins; `None` until it is asked for.
+    pub start: Option<Option<(usize, f64, f64)>>,
 }
 
 impl Nearby {
+    /// Returns the same feature beside the element behind this one, or before it.
+    pub fn neighbour(&self, motion: &Motion<'_>, behind: bool) -> Option<Nearby> {
+        let elements = &motion.model.elements;
+        let (element, from) = if behind {
+            (self.element + 1, self.from + elements[self.element].length)
+        } else {
+            let element = self.element.checked_sub(1)?;
+            (element, self.from - elements[element].length)
+        };
+        (element < elements.len()).then_some(Nearby { element, from, start: None, ..*self })
+    }
+
     /// Returns whether it is the same element and feature.
     pub fn is_same(&self, other: &Nearby) -> bool {
         let key = |nearby: &Nearby| (nearby.element, nearby.obstacle, nearby.feature.id);
@@ -79,13 +94,15 @@ impl ContactStep {
         self.points.len() > known
     }
 
-    /// Returns whether an element went through the core of a feature.
+    /// Returns whether an element went through the core of a feature, or slid so fast over a round surface that the plane of a contact braked it.
     pub fn passes(&mut self, motion: &Motion<'_>) -> bool {
-        self.passed = (0..self.nearby.len()).any(|i| {
-            let nearby = self.nearby[i];
-            let FeatureShape::Segment(a, b) = nearby.feature.shape else { return false };
-            self.pair(motion, &nearby).is_some_and(|pair| goes_through(&pair, [a, b]))
-        });
+        let brakes = |point: &ContactPoint| point.remembered > 0.0 && point.now.replaced;
+        self.passed = self.points.iter().any(brakes)
+            || (0..self.nearby.len()).any(|i| {
+                let nearby = self.nearby[i];
+                let FeatureShape::Segment(a, b) = nearby.feature.shape else { return false };
+                self.pair(motion, &nearby).is_some_and(|pair| goes_through(&pair, [a, b]))
+            });
         self.passed
     }
 

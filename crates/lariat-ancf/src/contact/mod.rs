@@ -19,8 +19,8 @@
 //!
 //! Three Gauss points per element act on faces and on round surfaces that are wide beside their spacing. On edges, corners and thin
 //! rods acts the closest point of the element, one for each of these features. Both are chosen when a step begins (find.rs). Samples stay the
-//! same material points during it, and keep their patches; closest points follow the iteration (roll.rs), and what was not near at the beginning is
-//! found when it ends (missed.rs). A patch is one-sided: as long as the centre line is behind it, it is
+//! same material points during it, and keep their patches; closest points follow the iteration (roll.rs), act between those of the beginning and the
+//! end of a step while the cable slides (slide.rs), and what was not near at the beginning is found when it ends (missed.rs). A patch is one-sided: as long as the centre line is behind it, it is
 //! kept. It is swept: where the predicted way of a point meets the surface, the patch is that of the meeting point.
 //!
 //! A contact that is deeper when a step begins than it was when the last one ended (a new one that is born deep, an obstacle that was put
@@ -55,6 +55,7 @@
 mod border;
 mod find;
 mod law;
+mod linear;
 mod memory;
 mod missed;
 mod obstacle;
@@ -66,6 +67,7 @@ mod path;
 mod point;
 mod roll;
 mod shapes;
+mod slide;
 mod statics;
 mod step;
 mod surface;

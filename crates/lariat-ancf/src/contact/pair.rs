@@ -4,7 +4,7 @@ use super::find::Motion;
 use super::memory::Key;
 use super::obstacle::Obstacle;
 use super::path::ObstacleStep;
-use super::point::{ContactPoint, combine};
+use super::point::{ContactPoint, Row, combine};
 use super::surface::{Feature, Nearest};
 use crate::effect::Contact;
 use crate::element::shape;
@@ -61,6 +61,12 @@ impl Pair<'_> {
         }
     }
 
+    /// Returns a place of the element as a row of the matrix.
+    pub fn row(&self, xi: f64) -> Row {
+        let shape = shape::position(xi, self.section.length);
+        Row { shape, start: combine(self.motion.q, self.element, &shape) }
+    }
+
     /// Returns whether a point of the element does not touch the obstacle.
     pub fn is_apart(&self, xi: f64) -> bool {
         self.obstacle.excepts(self.from + xi * self.section.length)
@@ -81,7 +87,7 @@ impl Pair<'_> {
     }
 
     /// Returns where a point of the element is in the obstacle's axes, at a share of the step.
-    fn at(&self, xi: f64, share: f64) -> Vector3<f64> {
+    pub fn at(&self, xi: f64, share: f64) -> Vector3<f64> {
         let (Motion { q, change, .. }, e) = (self.motion, self.element);
         let shape = shape::position(xi, self.section.length);
         let start = combine(q, e, &shape);

@@ -9,15 +9,17 @@
 //! ```
 //!
 //! with y from a point of the patch, its axis a, and means over both ends; so `gbar . s = g1 - g0` exactly, s the motion beside the
-//! obstacle ([`path`](super::path)), which may turn. If z turns by more than 20 degrees in a step, the patch is for this step the plane that touches it
-//! where the way of the point meets it: the distance from a line alone would let a point pass through it.
+//! obstacle ([`path`](super::path)), which may turn. If z turns by more than 20 degrees in a step, on a way that goes deeper than half the reach, the patch
+//! is for this step the plane that touches it where the way of the point meets it: the distance from a line alone would let a point pass through it.
+//! A point that slides would be braked there: the step of one that touched before is divided.
 
 use super::path::ObstacleStep;
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
-/// Cosine of the angle by which z may turn in a step.
+/// Cosine of the angle by which z may turn in a step, and how deep its way may then go below where it touches, in reaches.
 const MAX_TURN: f64 = 0.94;
+const MAX_DEPTH: f64 = 0.5;
 
 /// A part of a surface, in the obstacle's axes; lengths in m, unit directions.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -58,6 +60,8 @@ pub(in crate::contact) struct GapStep {
     pub mean: Vector3<f64>,
     /// Gradient at the end.
     pub normal: Vector3<f64>,
+    /// Whether a plane took the place of a line or a point.
+    pub replaced: bool,
 }
 
 impl Default for Patch {
@@ -87,19 +91,20 @@ impl Patch {
         }
     }
 
-    /// Returns the gap over a step in which the point at `x` moves by `change`; the surface is met at the gap `reach`.
+    /// Returns the gap over a step in which the point at `x` moves by `change`; the surface is met at the gap `reach`; without
+    /// one the way is not asked whether it goes through.
     pub(in crate::contact) fn over_step(
         &self,
         obstacle: &ObstacleStep,
         x: &Vector3<f64>,
         change: &Vector3<f64>,
-        reach: f64,
+        reach: Option<f64>,
     ) -> GapStep {
         match *self {
             Patch::Plane { point, normal } => {
                 let [y0, y1] = obstacle.beside(&point, x, change);
                 let [n0, n1] = obstacle.ends(&normal);
-                GapStep { start: n0.dot(&y0), end: n1.dot(&y1), mean: 0.5 * (n0 + n1), normal: n1 }
+                GapStep { start: n0.dot(&y0), end: n1.dot(&y1), mean: 0.5 * (n0 + n1), normal: n1, replaced: false }
             }
             Patch::Line { point, direction, radius } => {
                 let [y0, y1] = obstacle.beside(&point, x, change);
@@ -129,21 +134,36 @@ fn radial(
     half: Vector3<f64>,
     obstacle: &ObstacleStep,
     radius: f64,
-    reach: f64,
+    reach: Option<f64>,
 ) -> GapStep {
     let (l0, l1) = (z0.norm(), z1.norm());
-    if z0.dot(&z1) < MAX_TURN * l0 * l1
+    if let Some(reach) = reach
+        && z0.dot(&z1) < MAX_TURN * l0 * l1
+        && radius + (1.0 - MAX_DEPTH) * reach > least(&z0, &z1)
         && let Some(n) = meets(&z0, &z1, l0, radius + reach)
     {
         let end = obstacle.carry(&n);
-        return GapStep { start: n.dot(&z0) - radius, end: end.dot(&z1) - radius, mean: 0.5 * (n + end), normal: end };
+        return GapStep {
+            start: n.dot(&z0) - radius,
+            end: end.dot(&z1) - radius,
+            mean: 0.5 * (n + end),
+            normal: end,
+            replaced: true,
+        };
     }
     let sum = l0 + l1;
     if sum <= 0.0 {
-        return GapStep { start: -radius, end: -radius, mean: Vector3::x(), normal: Vector3::x() };
+        return GapStep { start: -radius, end: -radius, mean: Vector3::x(), normal: Vector3::x(), replaced: false };
     }
     let normal = if l1 > 0.0 { z1 / l1 } else { z0 / l0 };
-    GapStep { start: l0 - radius, end: l1 - radius, mean: half * (2.0 / sum), normal }
+    GapStep { start: l0 - radius, end: l1 - radius, mean: half * (2.0 / sum), normal, replaced: false }
+}
+
+/// Returns the least length of z on a straight way.
+fn least(z0: &Vector3<f64>, z1: &Vector3<f64>) -> f64 {
+    let way = z1 - z0;
+    let share = (-z0.dot(&way) / way.norm_squared().max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
+    (z0 + way * share).norm()
 }
 
 /// Returns the normal where the way from z0 to z1 meets the distance `reach`, that at z0 if it begins within; `None` if it passes by.
@@ -188,7 +208,7 @@ mod tests {
         };
         let step = ObstacleStep::new(&motion, 0.0, 0.01);
         for patch in patches() {
-            let gap = patch.over_step(&step, &x, &change, 0.005);
+            let gap = patch.over_step(&step, &x, &change, Some(0.005));
             let relative = change - 0.01 * motion.velocity;
             assert!((gap.mean.dot(&relative) - (gap.end - gap.start)).abs() < 1e-15, "{patch:?}");
             let own = motion.rotation.inverse() * (x + relative);
@@ -214,7 +234,7 @@ mod tests {
         let step = ObstacleStep::new(&motion, 0.0, 1.0 / 240.0);
         let point = Vector3::zeros();
         for patch in [Patch::Line { point, direction, radius: 0.3 }, Patch::Point { point, radius: 0.3 }] {
-            let gap = patch.over_step(&step, &Vector3::new(0.0, 0.305, 0.0), &Vector3::zeros(), 0.005);
+            let gap = patch.over_step(&step, &Vector3::new(0.0, 0.305, 0.0), &Vector3::zeros(), Some(0.005));
             assert_eq!(gap.start, gap.end);
             assert!((gap.mean - Vector3::y()).norm() < 1e-15);
         }
@@ -228,9 +248,9 @@ mod tests {
         let patch = Patch::Line { point: Vector3::zeros(), direction: Vector3::z(), radius: 0.003 };
         let step = ObstacleStep::new(&RigidMotion::default(), 0.0, 0.01);
         let fall = Vector3::new(0.0, -0.1, 0.0);
-        let through = patch.over_step(&step, &Vector3::new(0.001, 0.05, 0.0), &fall, 0.005);
+        let through = patch.over_step(&step, &Vector3::new(0.001, 0.05, 0.0), &fall, Some(0.005));
         assert!(through.end < -0.05 && through.start > 0.04, "{through:?}");
-        let beside = patch.over_step(&step, &Vector3::new(0.02, 0.05, 0.0), &fall, 0.005);
+        let beside = patch.over_step(&step, &Vector3::new(0.02, 0.05, 0.0), &fall, Some(0.005));
         assert!(beside.end > 0.04, "{beside:?}");
     }
 }

@@ -1,6 +1,7 @@
 //! One contact over a step: its force, its tangent, and what it does to the energy.
 
 use super::law::{NormalLaw, friction, spring_energy};
+use super::linear::{About, Linear};
 use super::memory::{ContactMemory, Key};
 use super::patch::Patch;
 use super::path::ObstacleStep;
@@ -43,6 +44,8 @@ pub(in crate::contact) struct ContactPoint {
     pub pays: bool,
     /// Normal force in N at the end of the last step.
     pub remembered: f64,
+    /// Where it acts, if that is between the closest points of beginning and end.
+    pub between: Option<Between>,
     /// Distance in m from the surface at the beginning.
     pub distance: f64,
     /// Position at the beginning.
@@ -65,31 +68,22 @@ pub(in crate::contact) struct ContactPoint {
     pub now: Evaluation,
 }
 
-/// A contact as a linear solve sees it.
-#[derive(Clone, Copy, Debug, Default)]
-pub(in crate::contact) struct Linear {
-    pub force: Vector3<f64>,
-    pub tangent: Matrix3<f64>,
-    /// Motion beside the obstacle of that iterate.
-    slip: Vector3<f64>,
-    /// Arm of the force about the centre of the body that carries the obstacle.
-    pub arm: Vector3<f64>,
+/// Where a contact acts between two closest points ([`slide`](super::slide)).
+#[derive(Clone, Copy, Debug)]
+pub(in crate::contact) struct Between {
+    /// What its gap has more than that of the closest points, in m.
+    pub excess: f64,
+    /// Outward normal at the closest point of the end, in the obstacle's axes.
     pub normal: Vector3<f64>,
-    pub normal_force: f64,
-    pressure: f64,
-    slope: f64,
-    depth: f64,
-    slides: Option<Vector3<f64>>,
+    /// The row of the normal force in the matrix.
+    pub row: Row,
 }
 
-/// How a contact is made linear.
+/// A place of an element: shape functions, and position at the beginning.
 #[derive(Clone, Copy, Debug, Default)]
-pub(in crate::contact) struct About {
-    /// The depth that belongs to the force that the last linear solve gave: on the quadratic start of the law, Newton's iteration about the
-    /// depth itself only halves it.
-    pub depth: Option<f64>,
-    /// As if it stuck, because the direction of slip turned round: the solution lies between.
-    pub sticks: bool,
+pub(in crate::contact) struct Row {
+    pub shape: [f64; 4],
+    pub start: Vector3<f64>,
 }
 
 /// A contact at the end of an iterate.
@@ -100,6 +94,7 @@ pub(in crate::contact) struct Evaluation {
     /// Friction alone.
     pub friction: Vector3<f64>,
     pub tangent: Matrix3<f64>,
+    pub friction_tangent: Matrix3<f64>,
     pub normal_force: f64,
     /// Outward normal.
     pub normal: Vector3<f64>,
@@ -108,7 +103,9 @@ pub(in crate::contact) struct Evaluation {
     pub spring: Vector3<f64>,
     pub slides: Option<Vector3<f64>>,
     /// Motion beside the obstacle.
-    slip: Vector3<f64>,
+    pub slip: Vector3<f64>,
+    /// Whether a plane took the place of its patch.
+    pub replaced: bool,
     /// Arm of the force about the centre of the body that carries the obstacle.
     pub arm: Vector3<f64>,
     /// Energy in J that it stores.
@@ -119,15 +116,15 @@ pub(in crate::contact) struct Evaluation {
     pub friction_loss: f64,
     /// Work in J of the obstacle's motion.
     pub work: f64,
-    pressure: f64,
-    slope: f64,
+    pub pressure: f64,
+    pub slope: f64,
 }
 
 impl ContactPoint {
     /// Takes up what was remembered of it: the spring and the bound of friction, and the depth, beyond which nothing counts: the offset. Of an
     /// obstacle on a body that was moved since then, by an engine, the difference has either sign, and closes by the engine's work.
     pub fn recall(&mut self, y: &Vector3<f64>, obstacle: &ObstacleStep, memory: Option<&ContactMemory>) {
-        let depth = self.reach - self.patch.gap(y).0;
+        let depth = self.depth_at(self.patch.gap(y).0);
         let difference = depth.max(0.0) - memory.map_or(0.0, |memory| memory.depth);
         (self.offset, self.closing, self.pays) = (difference.max(0.0), 0.0, false);
         self.remembered = memory.map_or(0.0, |memory| memory.force);
@@ -140,6 +137,11 @@ impl ContactPoint {
             self.spring = memory.spring;
             self.bound = self.friction * memory.force;
         }
+    }
+
+    /// Returns the depth in m of the closest point where the gap of this one is `gap`.
+    fn depth_at(&self, gap: f64) -> f64 {
+        self.reach + self.between.map_or(0.0, |between| between.excess) - gap
     }
 
     /// Returns the energy in J that it would cost to close the offset, under the force of the last step.
@@ -156,8 +158,13 @@ impl ContactPoint {
 
     /// Returns the energy in J that it stores at the beginning.
     pub fn energy_before(&self, y: &Vector3<f64>) -> f64 {
-        let depth = self.reach - self.patch.gap(y).0 - self.offset;
+        let depth = self.depth_at(self.patch.gap(y).0) - self.offset;
         self.weight * self.law.at(depth).energy + spring_energy(self.law.stiffness * self.weight, &self.spring)
+    }
+
+    /// Returns the row of its normal force.
+    pub fn row(&self) -> Row {
+        self.between.map_or(Row { shape: self.shape, start: self.start }, |between| between.row)
     }
 
     /// Returns the change of its position.
@@ -167,11 +174,12 @@ impl ContactPoint {
 
     /// Evaluates it for a change of its position over the step.
     pub fn evaluate(&self, obstacle: &ObstacleStep, change: &Vector3<f64>, about: About) -> Evaluation {
-        let gap = self.patch.over_step(obstacle, &self.start, change, self.reach);
-        let depth = self.reach - gap.end - (self.offset - self.closing);
+        let meets = self.between.is_none().then_some(self.reach);
+        let gap = self.patch.over_step(obstacle, &self.start, change, meets);
+        let depth = self.depth_at(gap.end) - (self.offset - self.closing);
         let stiffness = self.weight * self.law.stiffness;
         let u0 = obstacle.middle * self.spring;
-        let before = self.weight * self.law.at(self.reach - gap.start - self.offset).energy;
+        let before = self.weight * self.law.at(self.depth_at(gap.start) - self.offset).energy;
         if depth <= 0.0 && about.depth.is_none() {
             let loss = before + spring_energy(stiffness, &u0);
             let slip = obstacle.slip(&self.start, change);
@@ -183,6 +191,9 @@ impl ContactPoint {
             let at = self.law.at(about);
             (pressure, slope) = (at.force + at.slope * (depth - about), at.slope);
         }
+        let normal = self.between.map_or(gap.normal, |between| obstacle.end.rotation * between.normal);
+        // symmetric, of the derivative between the mean normal and the one of the end
+        let row = 0.5 * (gap.mean + normal);
         let normal_force = self.weight * pressure;
         let after = self.weight * end.energy;
         let slip = obstacle.slip(&self.start, change);
@@ -190,9 +201,10 @@ impl ContactPoint {
             force: gap.mean * normal_force,
             arm: obstacle.arm(&self.start, change),
             slip,
-            tangent: gap.normal * gap.normal.transpose() * (self.weight * slope),
+            replaced: gap.replaced,
+            tangent: row * row.transpose() * (self.weight * slope),
             normal_force,
-            normal: gap.normal,
+            normal,
             depth,
             energy: after,
             loss: before - after - normal_force * (gap.mean.dot(&slip) - self.closing),
@@ -210,7 +222,7 @@ impl ContactPoint {
             let friction = friction(stiffness, self.bound, &mean, &u0, &slip, about.sticks);
             out.friction = friction.spring * -friction.stiffness;
             out.force += out.friction;
-            out.tangent += friction.tangent;
+            out.friction_tangent = friction.tangent;
             out.spring = friction.spring;
             out.slides = friction.slides;
             out.energy += spring_energy(stiffness, &friction.spring);
@@ -244,25 +256,6 @@ impl ContactPoint {
             friction: now.friction,
             slips: now.slides.is_some(),
         }
-    }
-
-    /// Makes it linear at a change of its position.
-    pub fn linearise(&mut self, obstacle: &ObstacleStep, change: Vector3<f64>) {
-        let at = self.evaluate(obstacle, &change, self.about);
-        let Evaluation { force, tangent, slip, arm, normal, normal_force, pressure, slope, depth, slides, .. } = at;
-        self.linear = Linear { force, tangent, slip, arm, normal, normal_force, pressure, slope, depth, slides };
-    }
-
-    /// Evaluates it at the result of the linear solve, and returns how far that was off in N.
-    pub fn follow(&mut self, obstacle: &ObstacleStep, change: Vector3<f64>) -> f64 {
-        let linear = &self.linear;
-        self.now = self.evaluate(obstacle, &change, About::default());
-        let pressure = linear.pressure + linear.slope * (self.now.depth - linear.depth);
-        let turned = linear.slides.zip(self.now.slides).is_some_and(|(a, b)| a.dot(&b) < 0.0);
-        let pushes = linear.slope > 0.0 && pressure > 0.0;
-        self.about = About { depth: pushes.then(|| self.law.depth_of(pressure)), sticks: turned };
-        let believed = linear.force - linear.tangent * (self.now.slip - linear.slip);
-        (self.now.force - believed).norm()
     }
 }
 
@@ -375,7 +368,8 @@ mod tests {
             for c in 0..3 {
                 let d = 1e-10 * Vector3::ith(c, 1.0);
                 let slope = (at(&(change - d)).force - at(&(change + d)).force) / 2e-10;
-                let column = at(&change).tangent.column(c).into_owned();
+                let now = at(&change);
+                let column = (now.tangent + now.friction_tangent).column(c).into_owned();
                 assert!((slope - column).norm() < 1e-4 * 3e7, "{bound} {slope:?} {column:?}");
             }
         }

@@ -1,4 +1,4 @@
-//! Contacts with thin and sharp features stay at the closest point of their element while a step is iterated.
+//! Contacts with thin and sharp features follow the closest point of their element while a step is iterated.
 //!
 //! # Equation
 //!
@@ -15,7 +15,9 @@
 //! # Energy
 //!
 //! Wherever the point is at the end of a step, no energy is made: W grows with d and is convex, so with the point xi of the end
-//! `W(d0(xi0)) - W(d1(xi)) + W'(d1)(d1 - d0(xi)) >= W(d0(xi0)) - W(d0(xi)) >= 0`, since xi0 was the maximum. The difference is lost.
+//! `W(d0(xi0)) - W(d1(xi)) + W'(d1)(d1 - d0(xi)) >= W(d0(xi0)) - W(d0(xi)) >= 0`, since xi0 was the maximum. The difference is lost. The point where the
+//! contact acts is therefore one between both, at which the difference is zero ([`slide`](super::slide)); it moves half as far as the maximum does,
+//! and so the force turns half as much.
 //!
 //! # Validity
 //!
@@ -26,10 +28,10 @@ use super::find::{Motion, one_sided};
 use super::missed::Nearby;
 use super::pair::{Pair, feature_place};
 use super::patch::Patch;
-use super::point::{ContactPoint, combine};
+use super::point::{Between, ContactPoint, combine};
+use super::slide::{Place, between, mean_point};
 use super::step::ContactStep;
 use crate::element::shape;
-use nalgebra::Vector3;
 
 /// Least D beside the curvature of the feature: beyond it the element follows the feature's curvature, and every point is the closest.
 const LEAST: f64 = 0.05;
@@ -41,71 +43,107 @@ pub(super) struct Roll {
     pub slope: [f64; 4],
     /// 1/D in m.
     pub length: f64,
+    /// Share of the closest point's motion by which the contact moves.
+    pub share: f64,
 }
 
 impl ContactStep {
-    /// Moves contacts with features to the points that are closest at an iterate.
+    /// Moves contacts with features to where they act at an iterate: between the points that are closest at the beginning and at the end.
     pub(super) fn follow_closest(&mut self, motion: &Motion<'_>) {
         for i in 0..self.points.len() {
-            let Some(nearby) = self.points[i].nearby.map(|n| self.nearby[n]) else { continue };
-            let Some(pair) = self.pair(motion, &nearby) else { continue };
-            if !stays_on_its_side(&self.points[i], &pair, &nearby) {
-                continue;
-            }
-            match pair.closest(&nearby.feature, 1.0).filter(|xi| !pair.is_apart(*xi)) {
-                Some(xi) => self.move_point(i, &pair, &nearby, xi),
-                None => self.move_to_neighbour(motion, i, &nearby),
-            }
-        }
-    }
-
-    /// Moves a contact whose closest point has gone over a node.
-    fn move_to_neighbour(&mut self, motion: &Motion<'_>, i: usize, nearby: &Nearby) {
-        let lengths = &motion.model.elements;
-        let before = nearby.element.checked_sub(1).map(|e| (e, nearby.from - lengths[e].length));
-        let behind = (nearby.element + 1 < lengths.len())
-            .then(|| (nearby.element + 1, nearby.from + lengths[nearby.element].length));
-        for (element, from) in before.into_iter().chain(behind) {
-            let other = Nearby { element, from, ..*nearby };
-            let Some(pair) = self.pair(motion, &other) else { continue };
-            let key = pair.key(feature_place(&nearby.feature));
-            if self.points.iter().any(|point| point.key == key) {
-                continue;
-            }
-            let Some(xi) = pair.closest(&nearby.feature, 1.0).filter(|xi| !pair.is_apart(*xi)) else { continue };
-            if pair.feature_point(&nearby.feature, xi).weight == self.points[i].weight {
-                let known = self.nearby.iter().position(|known| known.is_same(&other));
-                self.points[i].nearby = Some(known.unwrap_or(self.nearby.len()));
-                if known.is_none() {
-                    self.nearby.push(other);
-                }
-                return self.move_point(i, &pair, &other, xi);
+            let Some(n) = self.points[i].nearby else { continue };
+            let nearby = self.nearby[n];
+            let beside = [Some(nearby), nearby.neighbour(motion, false), nearby.neighbour(motion, true)];
+            let weight = self.points[i].weight;
+            let end = beside.into_iter().flatten().find_map(|at| {
+                let pair = self.pair(motion, &at)?;
+                let xi = pair.closest(&at.feature, 1.0).filter(|xi| !pair.is_apart(*xi))?;
+                (pair.feature_point(&at.feature, xi).weight == weight).then_some((at, xi))
+            });
+            if let Some((at, xi)) = end {
+                self.act_between(motion, i, (&at, xi));
             }
         }
     }
 
-    fn move_point(&mut self, i: usize, pair: &Pair<'_>, nearby: &Nearby, xi: f64) {
-        let ContactPoint { nearby: n, recalls, linear, about, now, .. } = self.points[i];
+    /// Lets a contact act between the closest point at the beginning and the one at the end, `xi` of an element.
+    fn act_between(&mut self, motion: &Motion<'_>, i: usize, (end, xi): (&Nearby, f64)) {
+        let Some(pair) = self.pair(motion, end) else { return };
+        let x1 = Place { pair: &pair, xi };
+        let start = self.start(motion, self.points[i].nearby, end);
+        let other =
+            start.and_then(|(element, from, xi)| Some((self.pair(motion, &Nearby { element, from, ..*end })?, xi)));
+        if let Some((pair, xi)) = &other {
+            let places = [Place { pair, xi: *xi }, x1];
+            if let Some((share, excess)) = mean_point(&places, &end.feature) {
+                let place = between([&places[0], &places[1]], share);
+                // half way to where the depth is, in the same element
+                let along = place.xi + 0.5 * (places[1].arc() - place.arc()) / place.pair.section.length;
+                let row = place.pair.row(along.clamp(0.0, 1.0));
+                let normal = places[1].beside_core(&end.feature, 1.0).normalize();
+                return self.move_point(i, (&place, end), Some(Between { excess, normal, row }));
+            }
+            if places[0].beside_core(&end.feature, 0.0).dot(&places[1].beside_core(&end.feature, 1.0)) <= 0.0 {
+                return;
+            }
+            return self.move_point(i, (&places[1], end), None);
+        }
+        if x1.beside_core(&end.feature, 0.0).dot(&x1.beside_core(&end.feature, 1.0)) > 0.0 {
+            self.move_point(i, (&x1, end), None);
+        }
+    }
+
+    /// Returns the closest point when the step begins: element, where it begins, and local coordinate.
+    fn start(&mut self, motion: &Motion<'_>, nearby: Option<usize>, end: &Nearby) -> Option<(usize, f64, f64)> {
+        let known = nearby.map(|n| self.nearby[n]).filter(|known| known.is_same(end)).and_then(|known| known.start);
+        if let Some(start) = known {
+            return start;
+        }
+        let beside = [Some(*end), end.neighbour(motion, false), end.neighbour(motion, true)];
+        let start = beside.into_iter().flatten().find_map(|at| {
+            let xi = self.pair(motion, &at)?.closest(&at.feature, 0.0)?;
+            Some((at.element, at.from, xi))
+        });
+        if let Some(n) = nearby.filter(|n| self.nearby[*n].is_same(end)) {
+            self.nearby[n].start = Some(start);
+        }
+        start
+    }
+
+    /// Returns whether another contact than the i-th is one of an element with a feature.
+    fn is_taken(&self, i: usize, element: usize, nearby: &Nearby) -> bool {
+        let place = feature_place(&nearby.feature);
+        let same = |point: &ContactPoint| {
+            point.obstacle == nearby.obstacle && point.key.0 as usize == element && point.key.2 == place
+        };
+        self.points.iter().enumerate().any(|(k, point)| k != i && same(point))
+    }
+
+    /// Moves a contact to a place, where it acts between closest points, or at one.
+    fn move_point(&mut self, i: usize, (place, nearby): (&Place<'_, '_>, &Nearby), between: Option<Between>) {
+        let pair = place.pair;
+        if self.is_taken(i, pair.element, nearby) {
+            return;
+        }
+        let old = &self.points[i];
+        let ContactPoint { nearby: n, recalls, linear, about, now, .. } = *old;
+        let before = old.energy_before(&pair.step.start.own(&old.start));
         let mut point =
-            ContactPoint { nearby: n, recalls, linear, about, now, ..pair.feature_point(&nearby.feature, xi) };
+            ContactPoint { nearby: n, recalls, linear, about, now, ..pair.feature_point(&nearby.feature, place.xi) };
         let y = pair.step.start.own(&point.start);
         let Some((patch, z)) = nearby.feature.patch(&y) else { return };
         let memory = recalls.map(|i| &pair.motion.memory[i]);
         point.patch = one_sided(patch, (&y, &z), memory);
+        if point.patch == patch {
+            point.between = between;
+        }
         point.distance = z.norm() - nearby.feature.radius;
         point.recall(&y, &pair.step, memory);
         point.close(self.closes);
         point.roll = roll(&point, pair, nearby);
-        let old = &self.points[i];
-        self.before += point.energy_before(&y) - old.energy_before(&pair.step.start.own(&old.start));
+        self.before += point.energy_before(&y) - before;
         self.points[i] = point;
     }
-}
-
-fn stays_on_its_side(point: &ContactPoint, pair: &Pair<'_>, nearby: &Nearby) -> bool {
-    let (start, end) = point.way(&pair.step, pair.motion.change);
-    let from_core = |y: &Vector3<f64>| y - nearby.feature.core(y);
-    from_core(&start).dot(&from_core(&end)) > 0.0
 }
 
 /// Returns how the closest point of an element moves with it at the end of an iterate; `None` at its ends.
@@ -129,5 +167,6 @@ fn roll(point: &ContactPoint, pair: &Pair<'_>, nearby: &Nearby) -> Option<Roll> 
     };
     let curvature = around.norm_squared() / z.norm();
     let d = (normal.dot(&second) + curvature).max(LEAST * curvature);
-    (d > 0.0).then(|| Roll { slope, length: 1.0 / d })
+    let share = if point.between.is_some() { 0.5 } else { 1.0 };
+    (d > 0.0).then(|| Roll { slope, length: 1.0 / d, share })
 }

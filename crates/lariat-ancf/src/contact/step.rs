@@ -5,7 +5,7 @@ use super::memory::{ContactMemory, Key};
 use super::missed::Nearby;
 use super::obstacle::Obstacle;
 use super::path::{BodyPath, ObstacleStep};
-use super::point::ContactPoint;
+use super::point::{ContactPoint, combine};
 use crate::integrate::discrete_gradient::BETA;
 use crate::linalg::BlockTridiagonal;
 use nalgebra::{Matrix3, Vector3};
@@ -100,20 +100,23 @@ impl ContactStep {
         let h = self.h;
         self.borders.begin(rhs.len());
         for point in &mut self.points {
-            point.linearise(&self.obstacles[point.obstacle], point.change(change));
+            point.linearise(&self.obstacles[point.obstacle], |e, shape| combine(change, e, shape));
             let linear = &point.linear;
             if linear.tangent == Matrix3::zeros() {
                 continue;
             }
             add_force(point, &(linear.force * h), rhs);
-            let tangent = linear.tangent * (BETA * h * h);
             let element = point.key.0 as usize;
-            if let Some(body) = self.obstacles[point.obstacle].body {
-                self.borders.add(body, element, &point.shape, &tangent, &linear.arm);
+            let parts = [(&linear.tangent, &linear.row.shape), (&linear.friction_tangent, &point.shape)];
+            for (tangent, shape) in parts.into_iter().filter(|(tangent, _)| **tangent != Matrix3::zeros()) {
+                let tangent = tangent * (BETA * h * h);
+                if let Some(body) = self.obstacles[point.obstacle].body {
+                    self.borders.add(body, element, shape, &tangent, &linear.arm);
+                }
+                add_tangent(matrix, element, shape, &tangent);
             }
-            add_tangent(matrix, element, &point.shape, &tangent);
             if let Some(roll) = &point.roll {
-                let stiffness = linear.normal_force * roll.length * (BETA * h * h);
+                let stiffness = linear.normal_force * roll.length * (roll.share * BETA * h * h);
                 let normal = linear.normal;
                 add_tangent(matrix, element, &roll.slope, &(normal * normal.transpose() * stiffness));
             }
@@ -126,7 +129,7 @@ impl ContactStep {
         let mut sum = ContactBalance { before: self.before, left, ..ContactBalance::default() };
         for point in &mut self.points {
             let moved = point.change(change);
-            sum.missed += point.follow(&self.obstacles[point.obstacle], moved);
+            sum.missed += point.follow(&self.obstacles[point.obstacle], |e, shape| combine(change, e, shape));
             let now = &point.now;
             sum.forces += now.force.norm();
             sum.loss += now.loss;

@@ -1,8 +1,8 @@
 //! Edges and thin rods: the closest points of elements.
 
-use crate::bench::{RADIUS, rope, run, with};
+use crate::bench::{RADIUS, rope, run, tension, with};
 use lariat_ancf::contact::{Capsule, Cuboid, Obstacle};
-use lariat_ancf::{At, Cable, Vector3};
+use lariat_ancf::{At, Cable, Contact, Motion, Support, Vector3};
 
 /// Least distance of the centre line from a point in the plane z = 0.
 fn least(cable: &Cable, x: f64, y: f64) -> f64 {
@@ -86,5 +86,40 @@ fn a_thrown_rope_does_not_pass_a_thin_rod() {
             assert!(nearest > 0.002 + 0.9 * RADIUS, "{speed}, {elements}, {slant}: {nearest}");
             assert!(made < 1e-8, "{made:e}");
         }
+    }
+}
+
+/// A taut rope that is drawn along itself over a thin rod without friction has the same tension on both sides, at several speeds and meshes.
+///
+/// *Source.* Equilibrium of the rope on the rod. A force at the closest point of the end of a step would brake it, by 10 % of the tension at 0.5 m/s.
+#[test]
+fn a_rope_that_slides_over_a_thin_rod_without_friction_is_not_braked() {
+    for (speed, elements) in [(0.5, 20), (0.5, 41), (1.0, 20), (1.0, 41), (2.0, 20), (2.0, 41)] {
+        let [down, rise] = [Vector3::new(1.0, -0.25, 0.0).normalize(), Vector3::new(1.0, 0.25, 0.0).normalize()];
+        let top = 0.002 + RADIUS;
+        let apex = Vector3::new(0.0, top, 0.0);
+        let points = [apex - 1.2 * rise, apex, apex + 0.8 * down];
+        let cable = rope(0.05, &points, elements).gravity(Vector3::zeros()).velocity(Vector3::new(speed, 0.0, 0.0));
+        let rod = Capsule { ends: [Vector3::new(0.0, 0.0, -1.0), Vector3::new(0.0, 0.0, 1.0)], radius: 0.002 };
+        let mut cable = with(cable.build().unwrap(), vec![Obstacle::new(3, rod, Vector3::zeros(), 0.0)]);
+        cable.set_contact(Contact::with_friction(0.0).with_radius(RADIUS)).unwrap();
+        // drawn tight by 1 mm
+        let ends = [(At::Start, points[0], rise), (At::End, points[2] + 1e-3 * down, down)];
+        for (at, from, along) in ends {
+            let position = Some(Motion::uniform(0.0, from, speed * along));
+            cable.set_support(at, Support { position, ..Support::default() }).unwrap();
+        }
+        let (mut difference, mut mean) = (0.0, 0.0);
+        let made = run(&mut cable, (30.0 / speed) as usize, |cable| {
+            if cable.time() > 0.1 / speed {
+                let [before, behind] = [0.1, 1.9].map(|s| tension(cable, s));
+                difference += behind - before;
+                mean += 0.5 * (before + behind);
+            }
+        });
+        let share = difference / mean;
+        println!("{speed} m/s, {elements} elements: {:.2} % of the tension, made {made:.1e}", 100.0 * share);
+        assert!(share.abs() < 0.005, "{speed}, {elements}: {share}");
+        assert!(made < 1e-8, "{made:e}");
     }
 }

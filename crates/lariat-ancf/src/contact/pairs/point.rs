@@ -75,13 +75,13 @@ impl PairPoint {
     /// Makes it linear at an iterate.
     pub fn linearise(&mut self, strands: [&Strand<'_>; 2]) {
         let moved = self.turn(strands);
-        self.point.linearise(&self.frame, moved);
+        self.point.linearise(&self.frame, |_, _| moved);
     }
 
     /// Evaluates it at the result of the linear solve, and returns how far that was off in N, and the work of its force in J.
     pub fn follow(&mut self, strands: [&Strand<'_>; 2]) -> [f64; 2] {
         let moved = self.turn(strands);
-        let missed = self.point.follow(&self.frame, moved);
+        let missed = self.point.follow(&self.frame, |_, _| moved);
         [missed, self.point.now.force.dot(&self.frame.slip(&self.point.start, &moved))]
     }
 

@@ -193,7 +193,7 @@ impl PairStep {
         self.low_rank.clear();
         for pair in &mut self.points {
             pair.linearise(pair.ends.map(|end| (strands.get)(end.strand)).each_ref());
-            let tangent = pair.point.linear.tangent * (BETA * self.h * self.h);
+            let tangent = (pair.point.linear.tangent + pair.point.linear.friction_tangent) * (BETA * self.h * self.h);
             let eigen = tangent.symmetric_eigen();
             let most = eigen.eigenvalues.amax();
             for k in 0..3 {
