@@ -6,6 +6,9 @@ mod cut;
 mod grapple;
 mod lamp;
 mod mooring;
+mod net;
+mod pulley;
+mod seabed;
 mod tow_rope;
 
 use std::error::Error;
@@ -54,14 +57,17 @@ macro_rules! recipe {
 }
 
 /// All recipes, in the order of the page.
-pub const ALL: [Recipe; 7] = [
+pub const ALL: [Recipe; 10] = [
     recipe!(tow_rope, TowRope, "1 x 10", 2, "generalised-alpha-0, 1/240 s", 300),
     recipe!(grapple, Grapple, "1 x 10", 1, "game", 120),
     recipe!(bridge, Bridge, "2 x 16", 7, "generalised-alpha-0, 1/240 s", 300),
     recipe!(lamp, Lamp, "1 x 8", 1, "game", 1200),
     recipe!(cut, Cut, "1 x 12, then 2 x 6", 1, "game", 90),
     recipe!(crane, Crane, "1 x 10", 1, "generalised-alpha-0, 1/240 s", 900),
+    recipe!(pulley, Pulley, "1 x 42", 2, "game", 45),
+    recipe!(net, Net, "40 x 4", 1, "game", 180),
     recipe!(mooring, Mooring, "1 x 30", 0, "engineering, tolerance 1e-4 m", 600),
+    recipe!(seabed, Seabed, "1 x 52", 0, "game", 1200),
 ];
 
 impl Recipe {
