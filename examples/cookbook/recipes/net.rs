@@ -35,7 +35,7 @@ impl Net {
         {
             let cable = Cable::builder()
                 .points([knot(from.0, from.1), knot(to.0, to.1)])
-                .section(twine.clone())
+                .section(twine)
                 .elements(4)
                 .damping(Damping { axial: 5e-3, bending: 1e-2 }) // s
                 .build()?;
