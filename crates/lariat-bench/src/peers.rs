@@ -1,7 +1,7 @@
 //! The ropes that Rapier itself offers: a soft rope, and a chain of capsules on spherical joints.
 //!
 //! Both are laid along the nodes of a cable, with its mass and with as many parts as it has
-//! elements, so that they can be compared with it. They collide with nothing.
+//! elements, so that they can be compared with it. Without a [`Skin`] they collide with nothing.
 
 use super::convert::{from_rapier, to_rapier};
 use super::engine::rapier::prelude::*;
@@ -49,6 +49,21 @@ impl Anchor {
     }
 }
 
+/// With what a rope collides: with all but itself.
+#[derive(Clone, Copy, Debug)]
+pub struct Skin {
+    /// Its radius in m.
+    pub radius: f64,
+    /// Coefficient of friction.
+    pub friction: f64,
+}
+
+impl Skin {
+    fn groups() -> InteractionGroups {
+        InteractionGroups::new(Group::GROUP_1, Group::ALL.difference(Group::GROUP_1), InteractionTestMode::And)
+    }
+}
+
 /// The joints between capsules.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Joints {
@@ -86,7 +101,7 @@ impl PeerRope {
     ///
     /// `frequency` is the natural frequency of the edges in Hz: 30 by default in Rapier, 1e6 in its
     /// joints.
-    pub fn soft(world: &mut PhysicsWorld, cable: &Cable, ends: [End; 2], frequency: f64) -> Self {
+    pub fn soft(world: &mut PhysicsWorld, cable: &Cable, ends: [End; 2], frequency: f64, skin: Option<Skin>) -> Self {
         let nodes = nodes(cable);
         let last = nodes.len() - 1;
         let mass: f64 = cable.elements().iter().map(|e| e.length * e.section.mass_per_length).sum();
@@ -104,8 +119,14 @@ impl PeerRope {
             .masses(masses)
             .material(material)
             .pinned_particles(pinned.map(|(k, _)| k as u32))
-            .no_surface_collider()
             .can_sleep(false);
+        let rope = match skin {
+            None => rope.no_surface_collider(),
+            Some(Skin { radius, friction }) => {
+                let collider = ColliderBuilder::ball(radius as Real).friction(friction as Real);
+                rope.particle_radius(radius as Real).surface_collider(collider.collision_groups(Skin::groups()))
+            }
+        };
         let handle = world.insert_soft_body(rope);
         let rope = &mut world.soft_bodies[handle];
         for (k, at) in nodes.iter().enumerate() {
@@ -123,11 +144,17 @@ impl PeerRope {
 
     /// Inserts a chain of capsules as long as the elements of a cable are drawn, and as thick as
     /// it.
-    pub fn capsules(world: &mut PhysicsWorld, cable: &Cable, ends: [End; 2], joints: Joints) -> Self {
+    pub fn capsules(
+        world: &mut PhysicsWorld,
+        cable: &Cable,
+        ends: [End; 2],
+        joints: Joints,
+        skin: Option<Skin>,
+    ) -> Self {
         let nodes = nodes(cable);
         let last = nodes.len() - 1;
         let anchors = [ends[0].anchor(&nodes[0]), ends[1].anchor(&nodes[last])];
-        let thickness = cable.elements()[0].section.diameter.unwrap_or(0.01);
+        let thickness = skin.map_or(cable.elements()[0].section.diameter.unwrap_or(0.01), |skin| 2.0 * skin.radius);
         let holder = |world: &mut PhysicsWorld, anchor: &Anchor| match anchor {
             Anchor::World(at) => {
                 let body = RigidBodyBuilder::fixed().translation(to_rapier(*at));
@@ -154,7 +181,8 @@ impl PeerRope {
             let element = &cable.elements()[k];
             let shape = ColliderBuilder::capsule_y((half - radius) as Real, radius as Real)
                 .mass((element.length * element.section.mass_per_length) as Real)
-                .collision_groups(InteractionGroups::none());
+                .friction(skin.map_or(0.5, |skin| skin.friction) as Real)
+                .collision_groups(skin.map_or(InteractionGroups::none(), |_| Skin::groups()));
             let (capsule, _) = world.insert(body, shape);
             let top = Pose::from_translation(Vector::Y * half as Real);
             if let Some((body, frame)) = before {
@@ -173,7 +201,7 @@ impl PeerRope {
     }
 
     /// Returns the positions in m of its particles, or of the ends of its capsules.
-    fn points(&self, world: &PhysicsWorld) -> Vec<Vector3<f64>> {
+    pub fn points(&self, world: &PhysicsWorld) -> Vec<Vector3<f64>> {
         match &self.parts {
             Parts::Soft(handle, _) => {
                 let rope = world.soft_bodies.get(*handle);

@@ -63,8 +63,8 @@ impl World {
                     let ends = [End::Fixed, End::On(*holder, [0.0, f64::from(HALF), 0.0])];
                     let cable = cable(scene, model, i)?;
                     Ok(match model {
-                        CableModel::Capsules(joints) => PeerRope::capsules(&mut physics, &cable, ends, joints),
-                        CableModel::SoftRope(frequency) => PeerRope::soft(&mut physics, &cable, ends, frequency),
+                        CableModel::Capsules(joints) => PeerRope::capsules(&mut physics, &cable, ends, joints, None),
+                        CableModel::SoftRope(frequency) => PeerRope::soft(&mut physics, &cable, ends, frequency, None),
                         _ => unreachable!("matched above"),
                     })
                 });

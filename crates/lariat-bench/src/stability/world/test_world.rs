@@ -175,9 +175,13 @@ impl TestWorld {
         let world = &mut self.physics;
         let rope = match self.model {
             CableModel::Lariat => Rope::Cable(self.attach(cable, start, end)?),
-            CableModel::SoftRope => Rope::Peer(PeerRope::soft(world, &cable, [start, end], 1e6)),
-            CableModel::CapsuleChain => Rope::Peer(PeerRope::capsules(world, &cable, [start, end], Joints::Impulse)),
-            CableModel::Multibody => Rope::Peer(PeerRope::capsules(world, &cable, [start, end], Joints::Multibody)),
+            CableModel::SoftRope => Rope::Peer(PeerRope::soft(world, &cable, [start, end], 1e6, None)),
+            CableModel::CapsuleChain => {
+                Rope::Peer(PeerRope::capsules(world, &cable, [start, end], Joints::Impulse, None))
+            }
+            CableModel::Multibody => {
+                Rope::Peer(PeerRope::capsules(world, &cable, [start, end], Joints::Multibody, None))
+            }
         };
         self.ropes.push(rope);
         Ok(self.ropes.len() - 1)
