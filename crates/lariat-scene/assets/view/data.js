@@ -13,11 +13,13 @@ const numbers = new Float32Array(bytesOf(data.frames));
 
 // A node of a cable: arc length, position, slope, tension there and half-way to the next node.
 const NODE = 9;
+// A contact: place on the cable, force on the cable.
+const CONTACT = 6;
 
-// frames[k] = { cables: [first number, nodes, cable] of each part of a cable, bodies: first number }
+// frames[k] = { cables: [first number, nodes, cable] of each part of a cable, bodies: first number, contacts: [first number, contacts] }
 const frames = [];
 for (let k = 0, at = 0; k < times.length; k++) {
-  const frame = { cables: [], bodies: 0 };
+  const frame = { cables: [], bodies: 0, contacts: [0, 0] };
   const parts = numbers[at++];
   for (let c = 0; c < parts; c++) {
     const nodes = numbers[at + 1];
@@ -26,6 +28,10 @@ for (let k = 0, at = 0; k < times.length; k++) {
   }
   frame.bodies = at;
   at += 7 * data.bodies.length;
+  if (data.contacts) {
+    frame.contacts = [at + 1, numbers[at]];
+    at += 1 + CONTACT * numbers[at];
+  }
   frames.push(frame);
 }
 

@@ -14,7 +14,7 @@ let style = {};
 
 function readStyle() {
   const all = getComputedStyle(document.documentElement);
-  for (const name of ["paper", "ink", "soft", "grid", "accent", "load", "dynamic", "fixed", "kinematic"]) {
+  for (const name of ["paper", "ink", "soft", "grid", "accent", "load", "contact", "dynamic", "fixed", "kinematic"]) {
     style[name] = all.getPropertyValue("--" + name).trim();
   }
 }
@@ -173,7 +173,7 @@ function drawMarks(g, frame, time, names) {
     g.fillStyle = style.ink;
     g.fillText(text, p[0] + 8, p[1] - 8);
   };
-  for (const arrow of loadArrows(frame, time)) drawArrow(g, arrow, names, label);
+  for (const arrow of [...loadArrows(frame, time), ...contactArrows(frame)]) drawArrow(g, arrow, names, label);
   for (const hold of data.attachments) {
     const p = project(onCable(frame, hold.cable, hold.at));
     if (!p) continue;

@@ -1,7 +1,7 @@
 //! `view.html`: the run as an animated page that opens from disk, without network.
 //!
 //! The page contains its data and its program. Cables are drawn as the cubics of their elements: a frame has position, slope and
-//! tension at each node and the tension in the middle of each element. Bodies have position and rotation, loads are arrows. Probes
+//! tension at each node and the tension in the middle of each element. Bodies have position and rotation, loads and the forces of contacts are arrows. Probes
 //! are plotted from the rows of their files. Nothing is interpolated in time: every picture is a state of the run.
 //!
 //! # Limits
@@ -61,7 +61,9 @@ impl Recorder {
     /// Returns an empty recorder.
     pub fn new(scene: &Scene) -> Self {
         let nodes: usize = scene.cables.iter().map(|cable| 2 + 9 * (cable.elements + 1).min(NODES)).sum();
-        let limit = (NUMBERS / (nodes + 7 * scene.bodies.len()).max(1)).clamp(2, FRAMES);
+        // a few contacts per element, if there are any
+        let contacts = if touches(scene) { 6 * nodes / 9 } else { 0 };
+        let limit = (NUMBERS / (nodes + contacts + 7 * scene.bodies.len()).max(1)).clamp(2, FRAMES);
         Recorder {
             frames: Decimator::new(limit),
             probes: scene.probes.iter().map(|_| Decimator::new(ROWS)).collect(),
@@ -147,6 +149,28 @@ impl Frame {
                 numbers.extend(body.position.iter().chain(&[q.i, q.j, q.k, q.w]).map(|&x| x as f32));
             }
         }
+        if touches(world.scene()) {
+            let count = numbers.len();
+            numbers.push(0.0);
+            for cable in world.cables() {
+                let on_bodies = cable
+                    .contacts()
+                    .map(|touch| (touch.arc_length, touch.normal * touch.normal_force + touch.friction));
+                let on_cables = cable
+                    .cable_contacts()
+                    .map(|touch| (touch.arc_length, touch.normal * touch.normal_force + touch.friction));
+                for (s, force) in on_bodies.chain(on_cables) {
+                    let place = cable.sample(s)?.position;
+                    numbers.extend(place.iter().chain(force.iter()).map(|&x| x as f32));
+                    numbers[count] += 1.0;
+                }
+            }
+        }
         Ok(Frame { time: world.time(), numbers })
     }
+}
+
+/// Returns whether frames have contacts.
+fn touches(scene: &Scene) -> bool {
+    scene.cables.iter().any(|cable| cable.effects.contact.is_some())
 }

@@ -1,7 +1,8 @@
 //! The page as text: the template of `assets/view` with its data.
 //!
 //! Frames are a sequence of little-endian `f32` in base64: for each frame the number of parts of cables, for each part its cable, the
-//! number of nodes and for each node arc length on the cable, position, slope, tension there and half-way to the next node; then for each body position and quaternion. Times and
+//! number of nodes and for each node arc length on the cable, position, slope, tension there and half-way to the next node; then for each body position and quaternion; if cables can touch, the number of contacts,
+//! and for each the place on the cable and the force on it. Times and
 //! rows of probes are `f64`.
 
 use super::{Decimator, Frame};
@@ -48,6 +49,7 @@ pub fn write(scene: &Scene, summary: &Summary, frames: &[Frame], probes: &[Decim
         "attachments": scene.attachments.iter().map(|a| json!({
             "cable": a.cable, "at": on_page(scene, a.cable, a.arc_length), "world": a.body.is_none(), "clamp": a.clamp,
         })).collect::<Vec<_>>(),
+        "contacts": super::touches(scene),
         "junctions": scene.junctions.iter().map(|j| json!({ "cable": j.points[0].0, "at": j.points[0].1 })).collect::<Vec<_>>(),
         "times": base64(frames.iter().flat_map(|f| f.time.to_le_bytes())),
         "frames": base64(frames.iter().flat_map(|f| &f.numbers).flat_map(|x| x.to_le_bytes())),

@@ -90,6 +90,31 @@ fn a_long_run_keeps_to_the_limits_of_frames_and_rows_and_has_its_last_state() {
     assert!(rows > view::ROWS / 2 && rows <= view::ROWS + 1, "{rows}");
 }
 
+/// Every frame of a scene whose cable can touch has its contacts after the bodies: on a rope that sticks to a slope they carry its weight.
+///
+/// *Source.* Equilibrium of 1 m of 0.1 kg/m.
+#[test]
+fn frames_have_the_forces_of_contacts() {
+    let folder = page_of("../contact/stick", &["duration=0.5"]);
+    let data = Data::read(folder.path());
+    assert_eq!(data.0["contacts"], true);
+    let (numbers, bodies) = (data.frames(), data.0["bodies"].as_array().unwrap().len());
+    let (mut at, mut carried, mut count) = (0, [0.0f32; 3], 0);
+    for _ in data.times() {
+        assert_eq!(numbers[at], 1.0);
+        at += 3 + 9 * numbers[at + 2] as usize + 7 * bodies;
+        (count, carried) = (numbers[at] as usize, [0.0; 3]);
+        for contact in numbers[at + 1..at + 1 + 6 * count].chunks_exact(6) {
+            (0..3).for_each(|x| carried[x] += contact[3 + x]);
+        }
+        at += 1 + 6 * count;
+    }
+    assert_eq!(at, numbers.len());
+    assert!(count > 3);
+    let off = carried[0].hypot(carried[1] - 0.981).hypot(carried[2]);
+    assert!(off < 1e-3 * 0.981, "{carried:?}");
+}
+
 #[test]
 fn statics_have_one_frame() {
     let folder = tempfile::tempdir().unwrap();

@@ -180,6 +180,23 @@ fn loads_are_arrows() {
     assert!(page.complaints.is_empty(), "{:?}", page.complaints);
 }
 
+#[test]
+#[ignore = "needs Chromium: .ci/view"]
+fn the_forces_of_contacts_are_arrows() {
+    let folder = page_of("../contact/stick", &["duration=0.5"]);
+    let mut page = Browser::start(1200, 800);
+    page.open(&folder.path().join("view.html"));
+    let last = "contactArrows(frames[frames.length - 1])";
+    assert!(page.ask(&format!("{last}.length")).parse::<u32>().unwrap() > 3);
+    assert_eq!(page.ask(&format!("{last}.every((arrow) => arrow.vector[1] > 0)")), "true");
+    assert!(page.ask(&format!("{last}.map((arrow) => arrow.label).join('')")).contains('N'));
+    let drawn = "(() => { const d = pen.getImageData(0, 0, canvas.width, canvas.height).data; let n = 0; \
+                 for (let i = 0; i < d.length; i += 4) n += d[i] === 163 && d[i + 1] === 53 && d[i + 2] === 143; return n; })()";
+    page.ask("(setTheme('light'), goTo(frames.length - 1), show())");
+    assert!(page.ask(drawn).parse::<u32>().unwrap() > 50, "no arrow is drawn");
+    assert!(page.complaints.is_empty(), "{:?}", page.complaints);
+}
+
 /// Draws docs/view.png anew: `LARIAT_PICTURE=docs/view.png .ci/view`.
 #[test]
 #[ignore = "needs Chromium: .ci/view"]

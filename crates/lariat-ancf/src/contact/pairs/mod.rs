@@ -32,7 +32,8 @@
 //! # Alternatives considered
 //!
 //! Forces on the centre lines alone (friction has a couple that is lost: angular momentum, and a knot that turns rigidly brakes itself). The distance of
-//! the material points instead of a plane (it grows as they slide along the cables).
+//! the material points instead of a plane (it grows as they slide along the cables). The same between the closest points of beginning and end, as on
+//! features ([`slide`](super::slide)): a knot that snaps shut is lost, and its iterations take many times as long.
 
 mod chords;
 mod crossing;
