@@ -4,7 +4,7 @@ use crate::bench::{GRAVITY, MASS, RADIUS, rope, run, steps, up};
 use crate::bodies::World;
 use crate::common::Random;
 use lariat_ancf::contact::{HalfSpace, Obstacle};
-use lariat_ancf::{At, Cable, CableBuilder, Contact, Damping, Motion, PointLoad, Section, Vector3};
+use lariat_ancf::{At, Cable, CableBuilder, Contact, Damping, Drag, Flow, Motion, PointLoad, Section, Vector3};
 
 /// Gives it contact with other cables.
 fn beside(builder: CableBuilder, friction: f64) -> Cable {
@@ -211,8 +211,8 @@ fn is_above(one: &Cable, other: &Cable) -> bool {
 /// *Source.* The energy law.
 #[test]
 fn a_heap_comes_to_rest() {
-    let points = [Vector3::new(0.0, 0.05, 0.0), Vector3::new(0.02, 1.05, 0.01)];
-    let mut cable = touching(rope(1e-2, &points, 40), 0.5);
+    let points = [Vector3::new(0.0, 0.05, 0.0), Vector3::new(0.02, 2.05, 0.01)];
+    let mut cable = touching(rope(1e-3, &points, 80), 0.5);
     cable.set_obstacles([Obstacle::new(1, HalfSpace { normal: up() }, Vector3::zeros(), 0.5)]).unwrap();
     let mut most = 0;
     let mut deep = 0.0f64;
@@ -222,7 +222,7 @@ fn a_heap_comes_to_rest() {
     });
     let kinetic = cable.energy().kinetic;
     println!("heap: made {made:.1e}, kinetic {kinetic:.1e} J, {most} contacts, {:.2} r deep", deep / RADIUS);
-    assert!(most > 3);
+    assert!(most > 3 && deep < RADIUS, "{most} {deep}");
     assert!(made < 1e-7, "{made:e}");
     assert!(kinetic < 1e-6, "{kinetic:e}");
 }
@@ -230,8 +230,8 @@ fn a_heap_comes_to_rest() {
 /// Thin ropes that fall on their ends into heaps never pass through themselves: the diameter, the stiffness, the mass, friction, damping and the mesh are
 /// random.
 ///
-/// *Source.* The definition: points that are more than sixteen radii apart along the rope stay further from each other than a radius, and no centre lines
-/// cross.
+/// *Source.* The definition: points that are more than sixteen radii apart along the rope stay further from each other than 0.8 diameters, and no centre
+/// lines cross.
 #[test]
 fn thin_ropes_in_heaps_do_not_pass_themselves() {
     let seeds = if std::env::var_os("LARIAT_LONG_TESTS").is_some() { 0..40 } else { 10..14 };
@@ -266,7 +266,7 @@ fn thin_ropes_in_heaps_do_not_pass_themselves() {
         nearest = nearest.min(least);
         assert!(made < 1e-7, "{made:e}");
     }
-    assert!(crossed == 0 && nearest > 0.5, "{crossed} {nearest}");
+    assert!(crossed == 0 && nearest > 0.8, "{crossed} {nearest}");
 }
 
 /// Returns the least distance of points of a cable that are further apart along it than a distance.
@@ -280,12 +280,21 @@ fn least_distance(cable: &Cable, apart: f64) -> f64 {
     pairs.fold(f64::INFINITY, |least, (i, j)| least.min((points[i] - points[j]).norm()))
 }
 
-/// An overhand knot that is pulled to 100 N holds for 10 s. Its strands sink into each other while it is drawn tight (`pairs`, Validity), so their depth is
-/// printed, not bounded.
+/// An overhand knot that is pulled to 100 N holds for 10 s, whatever its friction, mesh and haste: from 5 s to 10 s its ends only
+/// swing, and no strand passes another.
 ///
-/// *Source.* The definition: without a knot the pulled end would be gone.
+/// *Source.* The definition: without a knot the pulled end would be gone; and [`crossed_steps`](lariat_ancf::Diagnostics::crossed_steps).
 #[test]
 fn an_overhand_knot_holds() {
+    let long = std::env::var_os("LARIAT_LONG_TESTS").is_some();
+    let more = [(0.2, 80, 4.0), (0.7, 80, 4.0), (0.4, 60, 4.0), (0.4, 110, 4.0), (0.4, 80, 2.0), (0.3, 70, 6.0)];
+    for (friction, elements, time) in [(0.4, 80, 4.0)].into_iter().chain(more.into_iter().filter(|_| long)) {
+        pull_a_knot(friction, elements, time);
+    }
+}
+
+/// Pulls a knot tight within a time in s.
+fn pull_a_knot(friction: f64, elements: usize, time: f64) {
     // an open trefoil, with its ends drawn out
     let size = 0.06;
     let knot = |t: f64| {
@@ -301,32 +310,85 @@ fn an_overhand_knot_holds() {
     points.push(out(last, points[points.len() - 2]));
     let n = points.len();
     let away = points[n - 1];
-    let builder = rope(1e-2, &points, 80).gravity(Vector3::zeros()).fix(At::Start);
-    let mut cable = touching(builder, 0.4);
+    let builder = rope(1e-2, &points, elements).gravity(Vector3::zeros()).fix(At::Start);
+    let mut cable = touching(builder, friction);
     let towards = (away - points[0]).normalize();
-    let pull = |cable: &mut Cable, force: f64| {
-        let load = PointLoad::force(cable.length(), towards * force);
-        cable.set_loads(&[load]).unwrap();
-    };
+    let deepest = |cable: &Cable| cable.cable_contacts().fold(0.0f64, |most, touch| most.max(touch.depth)) / RADIUS;
     let mut deep = 0.0f64;
-    for i in 0..240 {
-        pull(&mut cable, 100.0 * f64::from(i + 1) / 240.0);
+    let hosts = (60.0 * time) as usize;
+    for i in 0..hosts {
+        let load = PointLoad::force(cable.length(), towards * (100.0 * (i + 1) as f64 / hosts as f64));
+        cable.set_loads(&[load]).unwrap();
         cable.step(1.0 / 60.0).unwrap();
-        deep = deep.max(cable.cable_contacts().fold(0.0, |most, touch| most.max(touch.depth)));
+        deep = deep.max(deepest(&cable));
     }
     let span = |cable: &Cable| (cable.sample(cable.length()).unwrap().position - points[0]).norm();
-    let before = span(&cable);
-    for _ in 0..600 {
-        cable.step(1.0 / 60.0).unwrap();
-    }
-    let after = span(&cable);
-    let kinetic = cable.energy().kinetic;
+    let hold = |cable: &mut Cable| {
+        (0..300).for_each(|_| cable.step(1.0 / 60.0).map(|_| ()).unwrap());
+        span(cable)
+    };
+    let [before, after] = [hold(&mut cable), hold(&mut cable)];
+    let crossed = cable.diagnostics().crossed_steps;
     println!(
-        "knot: span {before:.5} {after:.5} of {:.4}, kinetic {kinetic:.1e}, {} contacts, {:.2} r deep",
+        "knot, mu {friction}, {elements} elements, {time} s: span {before:.5} {after:.5} of {:.4}, {} contacts, {deep:.2} r deep, then {:.2}, crossed {crossed}",
         cable.length(),
         cable.cable_contacts().count(),
-        deep / RADIUS
+        deepest(&cable)
     );
     assert!(after < cable.length() - 0.05, "no knot");
     assert!((after - before).abs() < 0.005 * before, "{before} {after}");
+    assert!(crossed == 0 && deepest(&cable) < 2.0, "{crossed}");
+}
+
+/// Two ropes that hang across each other without friction, the upper one on the lower one: the force between them is that of the elastica, the contact
+/// does not sink in time, and stays in the middle, where chords of the mesh meet or not.
+///
+/// *Source.* `cosseratbench` 0.3.0, experiment crossing: the elasticas of both ropes as a boundary value problem (SciPy), of ropes 1 m long over 0.8 m, radius
+/// 5 mm, E 1e5 and 1e6 Pa, 1000 kg/m^3, pins of the upper one 0.05 m lower. Stiffer ropes, or ropes pinned 0.1 m lower, slip off sideways.
+#[test]
+fn ropes_that_hang_across_each_other_press_with_the_force_of_elasticas() {
+    let (drop, pi) = (0.05, std::f64::consts::PI);
+    for (modulus, elements, exact) in [(1e6, 51, 0.188161), (1e6, 40, 0.188161), (1e5, 80, 0.115492)] {
+        let (area, second) = (pi * RADIUS * RADIUS, 0.25 * pi * RADIUS.powi(4));
+        let rope = |along: Vector3<f64>, height: f64, sag: f64| {
+            let point = |i: i32| {
+                let x = 0.1 * f64::from(i);
+                along * (0.4 * x) + up() * (height - sag * (1.0 - x * x))
+            };
+            let section = Section::from_stiffness(modulus * area, modulus * second, 1000.0 * area).unwrap();
+            let mut cable = Cable::builder()
+                .points((-10..=10).map(point))
+                .length(1.0)
+                .section(section)
+                .elements(elements)
+                .damping(Damping { axial: 1e-2, bending: 1e-2 })
+                .integrator(steps(240.0))
+                .fix(At::Start)
+                .fix(At::End)
+                .build()
+                .unwrap();
+            // twenty times as stiff as by default: the depth is part of the way that the elasticas are apart
+            let contact = Contact {
+                cables: true,
+                stiffness: Some(modulus * pi / 2.0),
+                ..Contact::with_friction(0.0).with_radius(RADIUS)
+            };
+            cable.set_contact(contact).unwrap();
+            cable.set_drag(Drag { diameter: Some(0.01), ..Drag::new(1e4, 1.2, 1.2, Flow::default()) }).unwrap();
+            cable
+        };
+        let mut world =
+            World::new(vec![rope(Vector3::x(), 0.0, 0.28), rope(Vector3::z(), -drop, 0.265 - drop)], vec![]);
+        let mut depths = Vec::new();
+        world.run(360, |world| depths.push(deepest(&world.cables)));
+        let force = -vertical_force(&world.cables[0]);
+        let middles = [0, 1].map(|k| world.cables[k].sample(0.5).unwrap().position);
+        let aside = (middles[1] - middles[0]).x.hypot((middles[1] - middles[0]).z);
+        println!(
+            "E {modulus:.0e}, {elements} elements: {force:.5} N for {exact}, {aside:.1e} m aside, deep {:.2e} then {:.2e}",
+            depths[179], depths[359]
+        );
+        assert!((force / exact - 1.0).abs() < 0.02, "{force}");
+        assert!(aside < 1e-4 && depths[359] < 1.02 * depths[179], "{aside:e}");
+    }
 }

@@ -17,8 +17,10 @@
 //! # Validity
 //!
 //! Strands that slide through tight bends sink into each other: the plane of a contact is that of the predicted end, and what its turn in the step
-//! hides is an offset, which friction alone pays back. An overhand knot in a rope of 5 mm, drawn tight in 4 s, has strands that pass each
-//! other once; it holds because contacts remember their side. The depth that is read, [`PairTouch::depth`], has the offset in it.
+//! hides is an offset, which friction alone pays back. Without friction and damping it grows: by 0.8 r in 8 s of a slide, once. An overhand knot in a rope of
+//! radius 5 mm is up to 0.8 r deep while it is drawn tight, and 0.1 to 0.6 r when it holds; no strand passes. The depth that is read,
+//! [`PairTouch::depth`], has the offset in it. The law of contact that is taken by default, EA/(40 r^2), is soft for a rope that crosses another one at a
+//! point: a rope of 0.1 MPa under half a newton sinks by 1.8 r. [`Contact::stiffness`](super::Contact::stiffness) sets another.
 //!
 //! The element has no torsion: cables that are parallel, to `sqrt(e)` = 0.03 rad, roll on each other without friction. Points of one cable nearer
 //! than eight radii along it do not touch, nor do points so near to a body that holds both. Cables that bend to less than some radii are not resolved.

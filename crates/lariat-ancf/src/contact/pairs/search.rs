@@ -94,6 +94,8 @@ pub(super) struct Candidate {
     pub reach: f64,
     /// From the second to the first when they are closest.
     pub normal: Vector3<f64>,
+    /// How far they are apart in m.
+    pub distance: f64,
 }
 
 /// Buffers of the search.
@@ -286,15 +288,16 @@ impl Search {
                     continue;
                 }
                 let strands = [first.strand, second.strand];
-                // chords that meet in the closest point are one contact
+                // chords that meet in the closest point are one contact: that of the nearest points
                 let same = |other: &Candidate| {
                     other.strands == strands
                         && (other.arcs[0] - arcs[0]).abs() + (other.arcs[1] - arcs[1]).abs() < SAME * reach
                 };
-                if self.found.iter().any(same) {
+                let known = self.found.iter().position(same);
+                let y = a.at(xi[0], share) - b.at(xi[1], share);
+                if known.is_some_and(|k| self.found[k].distance <= y.norm()) {
                     continue;
                 }
-                let y = a.at(xi[0], share) - b.at(xi[1], share);
                 // beside a crossing the end of a chord is no place of contact
                 let slope = a.slope(xi[0], share);
                 let is_tip = arcs[0] <= 0.0 || xi[0] >= 1.0 && first.element + 1 == a.strand.model.elements.len();
@@ -302,7 +305,7 @@ impl Search {
                     continue;
                 }
                 let normal = y.try_normalize(1e-9 * reach);
-                self.found.push(Candidate {
+                let candidate = Candidate {
                     strands,
                     elements: [first.element, second.element],
                     chords: [i, j],
@@ -310,7 +313,12 @@ impl Search {
                     arcs,
                     reach,
                     normal: normal.unwrap_or_else(|| y.try_normalize(0.0).unwrap_or(Vector3::y())),
-                });
+                    distance: y.norm(),
+                };
+                match known {
+                    Some(k) => self.found[k] = candidate,
+                    None => self.found.push(candidate),
+                }
             }
         }
     }

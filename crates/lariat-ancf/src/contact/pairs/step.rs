@@ -14,8 +14,10 @@ use crate::element::shape;
 use crate::integrate::discrete_gradient::BETA;
 use nalgebra::Vector3;
 
-/// Distance in reaches along both cables over which a contact hands on what it remembers, beside the way of the step.
-const HAND_ON: f64 = 4.0;
+/// Distance in reaches along both cables over which a contact hands on what it remembers, beside the way of the step: a little less than the longest
+/// chord, for a contact moves to the next one. Of those further away the normal is another: with 4, strands that slid quickly over each other
+/// were taken to be on the other side, and in a knot one passed.
+const HAND_ON: f64 = 0.8;
 /// Largest number of searches in a step.
 const MOST_SEARCHES: usize = 3;
 /// Deviation in radii of an iterate from that of the search, from which on it is made anew.
