@@ -5,8 +5,10 @@
 //! A program states an error `e` in m of all recorded positions at all recorded times. The study runs it with `n_A < n_B` elements at the
 //! tolerance `tau = e dt/(4 T)` per host step `dt` of the duration `T`, beginning with 4 and 8, and takes
 //!
-//! - `e_mesh = d max(1, 1/(f - 1))` for the error of the mesh, with the largest distance `d` between the two runs and the least ratio `f`
-//!   of their element lengths, found on the meshes themselves: the whole difference, so that no order is assumed above the first;
+//! - `e_mesh = d max(1, 1/(f^p - 1))` for the error of the mesh, with the largest distance `d` between the two runs and the least ratio `f`
+//!   of their element lengths, found on the meshes themselves. The order p is 1: the whole difference of a mesh and its half. Where the last two
+//!   distances or the [mesh indicator](crate::Cable::mesh_indicator) of both runs show less than the first order, it is what they show, at least 1/4.
+//!   Where [velocities jump](Record::velocities_jump), it is 2/3 at most;
 //! - `e_time` from the largest distance `d` between runs at `8 tau` and `tau`, both with 8 elements, and the ratio `r` of their steps. Steps
 //!   that follow their tolerance have `r = 8^(1/3)`, and `e_time = d/3`. Below `8^(1/4)` the host step limits those of the looser run, so that
 //!   its error says less than its tolerance: `e_time = d/(r - 1)`, which assumes the first order in the step alone. Below 5/4 both runs are
@@ -27,7 +29,8 @@
 //! meshes find though another is meant. A cable whose elements are not refined proves nothing, and the study goes on.
 //!
 //! The first order is what a cable shows that a load bends within `sqrt(EI/T)`, shorter than its elements: on the bridge of `assets/scenes`
-//! 9 mm at each hanger. Orders below the first, and errors that change their sign between two meshes, are not bounded. Where both runs are
+//! 9 mm at each hanger. Errors that change their sign between two meshes are not bounded, nor are orders below the first that neither distances nor indicator
+//! show. Where both runs are
 //! limited by the host step, the error per host step is taken to be at most `tau`, and not to grow.
 //!
 //! # References
@@ -215,11 +218,13 @@ impl<F> Study<F> {
             let difference = coarse.record.distance(&fine.record)?;
             let ratio = coarse.record.refinement(&fine.record, coarse.elements, fine.elements);
             let refined = ratio >= REFINED;
-            let factor = if refined { (1.0 / (ratio - 1.0)).max(1.0) } else { f64::INFINITY };
-            let mesh = if refined { factor * difference } else { f64::INFINITY };
             if refined {
                 differences.push(Difference { distance: difference, ratio });
             }
+            let largest = fine.record.largest_order();
+            let indicated = coarse.record.indicated_order(&fine.record, ratio);
+            let factor = if refined { order::factor(&differences, indicated, largest) } else { f64::INFINITY };
+            let mesh = if refined { factor * difference } else { f64::INFINITY };
             let apart = coarse.record.first_beyond(&fine.record, left / factor);
             let early = span.is_none_or(|span| apart.is_some_and(|time| time <= 0.1 * span.steps * span.host_step));
             let growth = if refined { order::growth(&differences, left, early) } else { 1.5 };

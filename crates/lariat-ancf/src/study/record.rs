@@ -1,12 +1,15 @@
 //! What a run of a study records: positions by time, and the meshes and the work of its cables.
 
 use super::StudyError;
+use super::order;
 use crate::cable::Cable;
 use crate::point::Point;
 use nalgebra::Vector3;
 
 /// Points of a cable at equal distances; more than the elements of the first runs have nodes.
 const POINTS: usize = 33;
+/// Indicator of the mesh over the longest cable that is rounding.
+const ROUNDING: f64 = 1e-9;
 
 /// The positions that a run recorded.
 #[derive(Clone, Debug, Default)]
@@ -19,6 +22,10 @@ pub struct Record {
     cables: Vec<CableRecord>,
     /// Cables of the present frame.
     present: usize,
+    /// Largest [mesh indicator](Cable::mesh_indicator) in m.
+    indicator: f64,
+    /// True if velocities jump in the motion.
+    jumps: bool,
 }
 
 /// Mesh and work of a cable.
@@ -39,6 +46,13 @@ impl Record {
         self
     }
 
+    /// Tells that velocities jump in the motion, where a cable is set in motion in no time: from then on waves with kinks travel along it, which meshes
+    /// resolve slowly.
+    pub fn velocities_jump(&mut self) -> &mut Self {
+        self.jumps = true;
+        self
+    }
+
     /// Records 33 points of a cable. Cables are recorded in the same order in each frame.
     pub fn cable(&mut self, cable: &Cable) -> &mut Self {
         let diagnostics = cable.diagnostics();
@@ -48,6 +62,7 @@ impl Record {
             None => self.cables.push(CableRecord { nodes: cable.node_arc_lengths(), steps, evaluations }),
         }
         self.present += 1;
+        self.indicator = self.indicator.max(cable.mesh_indicator().position);
         for k in 0..POINTS {
             self.push(cable.position_at(cable.length() * k as f64 / (POINTS - 1) as f64));
         }
@@ -85,6 +100,18 @@ impl Record {
     /// Returns the length of the longest cable in m.
     pub(super) fn longest(&self) -> f64 {
         self.cables.iter().filter_map(|cable| cable.nodes.last()).fold(0.0, |longest, &s| longest.max(s))
+    }
+
+    /// Returns the order that the mesh indicator shows between this mesh and a finer one of element lengths shorter by `ratio`; `None` for cables
+    /// whose indicator is rounding, as that of straight ones.
+    pub(super) fn indicated_order(&self, finer: &Record, ratio: f64) -> Option<f64> {
+        let order = (self.indicator / finer.indicator).ln() / ratio.ln();
+        Some(order).filter(|order| order.is_finite() && finer.indicator > ROUNDING * finer.longest())
+    }
+
+    /// Returns the largest order of convergence that the motion allows.
+    pub(super) fn largest_order(&self) -> f64 {
+        if self.jumps { order::KINKS } else { 1.0 }
     }
 
     /// Returns the largest distance between the points of two runs at a frame in m; infinite if they have not the same parts, or are not

@@ -6,7 +6,7 @@ use crate::scene::body::{BodyKind, BodyScene};
 use crate::scene::{CableScene, Engine, Purpose, Scene};
 use crate::warning::Warning;
 use lariat_ancf::Vector3;
-use lariat_ancf::study::{Claim, Outcome, Proof, Resolution, Study, StudyError};
+use lariat_ancf::study::{Claim, Outcome, Proof, Record, Resolution, Study, StudyError};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
@@ -31,7 +31,7 @@ pub struct ErrorClaim {
 }
 
 impl ErrorClaim {
-    fn of(scene: &Scene, claim: Claim, purpose: Purpose) -> Self {
+    fn of(scene: &Scene, claim: Claim, purpose: Purpose, jumps: bool) -> Self {
         let mut not_covered = vec!["the model: theory of thin rods, rule, law and effects, measured data"];
         if scene.engine == Engine::Rapier {
             not_covered.push("single precision of bodies");
@@ -42,6 +42,9 @@ impl ErrorClaim {
         let kinematic = scene.bodies.iter().any(|body| body.kind == BodyKind::Kinematic);
         if kinematic && purpose == Purpose::Run {
             not_covered.push("motion of kinematic bodies within a host step");
+        }
+        if jumps {
+            not_covered.push("what buckles when velocities jump");
         }
         if purpose == Purpose::Static {
             not_covered.push("equilibria other than the one that all meshes found");
@@ -86,7 +89,7 @@ pub(super) fn conduct(
 ) -> Result<Recorded, Error> {
     check(scene, error, purpose)?;
     let largest = scene.cables.iter().map(|cable| cable.elements).max().unwrap_or(1);
-    let each = |resolution: &Resolution, record: &mut _| -> Result<(Scene, Done), Stopped> {
+    let each = |resolution: &Resolution, record: &mut Record| -> Result<(Scene, Done), Stopped> {
         if let Some(pilot) = &mut options.pilot {
             pilot(resolution);
         }
@@ -97,7 +100,10 @@ pub(super) fn conduct(
                 cable.integrator = resolution.integrator().into();
             }
         }
-        let done = simulate(&scene, open, purpose, options, Some(record)).map_err(Stopped::Before)?;
+        let done = simulate(&scene, open, purpose, options, Some(&mut *record)).map_err(Stopped::Before)?;
+        if velocities_jump(&scene, &done) {
+            record.velocities_jump();
+        }
         if done.outcome.is_err() { Err(Stopped::During(Box::new(done))) } else { Ok((scene, done)) }
     };
     let study = match purpose {
@@ -107,7 +113,7 @@ pub(super) fn conduct(
     let limit = LIMIT.max(4 * largest);
     match study.error(error).limit(limit).run() {
         Ok(Proof { world: (scene, mut done), claim }) => {
-            let claim = ErrorClaim::of(&scene, claim, purpose);
+            let claim = ErrorClaim::of(&scene, claim, purpose, velocities_jump(&scene, &done));
             done.world.warnings.extend(claim.warning());
             if let Some(warn) = &mut options.warn {
                 done.world.warnings.iter().for_each(&mut **warn);
@@ -125,6 +131,14 @@ fn described(error: &StudyError<Stopped>) -> String {
         StudyError::DifferentTimes { time, other } => format!("runs at {time} s and {other} s"),
         _ => "nothing to compare".to_string(),
     }
+}
+
+/// Returns whether a cable is set in motion in no time: at the start, or where the path of a body that holds it has a corner.
+fn velocities_jump(scene: &Scene, done: &Done) -> bool {
+    let corners = |body: &BodyScene| body.path.iter().any(|(time, _)| 0.0 < *time && *time < scene.duration);
+    let bodies = scene.attachments.iter().filter_map(|attachment| attachment.body);
+    done.world.warnings.iter().any(|warning| matches!(warning, Warning::VelocityJump { .. }))
+        || bodies.into_iter().any(|body| corners(&scene.bodies[body]))
 }
 
 /// Refuses an error that rounding does not allow to prove, and cables that error control does not solve for.
