@@ -69,6 +69,14 @@ impl IslandDynamics<'_, '_> {
         }
         equations.multiply_mass(z, velocity);
         accounts.add_impact(equations.layout, q, v, rhs, velocity);
+        // what sets driven nodes in motion, or stops them, is work of the bodies that drive them
+        let layout = equations.layout;
+        for (pin, of) in layout.pins.iter().enumerate().filter(|(_, pin)| layout.bodies[pin.body].is_driven()) {
+            let at = layout.pin_at(pin);
+            let rows = if layout.clamps[pin].is_some() { at..at + 6 } else { at..at + 3 };
+            let work: f64 = rows.map(|i| velocity[i] * (v[i] + 0.5 * (jump[i] + rhs[i]))).sum();
+            equations.cables[of.cable].equations().0.system.meter.law.supports += work;
+        }
         // the chart is at its origin: rates of the rotation vector are angular velocities
         for (v, change) in v.iter_mut().zip(rhs.iter()) {
             *v += change;

@@ -7,11 +7,16 @@
 //! ```text
 //! effects, loads   int F(q(s), q'(s), t) . q'(s) ds                     2 Gauss points
 //! effects          h F(q(1/2), dq/h, t) . dq/h                          if the step is not resolved
-//! supports         int ((1 - s) R0 + s R1) . q'(s) ds                   R = M q'' - F of prescribed coordinates
+//! supports         J_p . dq_p/h + h (R0 - R1) . (v0 - v1)_p/12          J_p = sum_i w_p(i) (M (v1 - v0) - h (F0 + F1)/2)_i
+//! their slopes     int ((1 - s) R0 + s R1) . q'(s) ds                   R = M q'' - F of prescribed coordinates
+//! a jump           (v1.M v1 - v0.M v0)/2
 //! ```
 //!
 //! A step is not resolved if the power along the cubic is more than twice that of the mean velocity `dq/h`: velocities at its ends are then
 //! transients that the method damps. Accelerations are not used, because `h q''` is no velocity that the cable has.
+//! J_p is the impulse by which a held node p gives the cable the momentum that it gains, with the weights of
+//! [`pin_momentum`](crate::island); the mean of the reactions R at both ends of a step is none where a jump of velocity leaves transients. Where the two differ by
+//! more than half of J_p, the second term, by which the force varies with the velocity, is left out.
 //! Spurious energy is
 //!
 //! ```text
@@ -50,6 +55,9 @@ pub(crate) struct EnergyMeter {
     q: Vec<f64>,
     v: Vec<f64>,
     force: Vec<f64>,
+    /// Reactions at both ends of a step, and the momentum that the forces at hand miss.
+    reactions: [Vec<f64>; 2],
+    missed: Vec<f64>,
 }
 
 impl EnergyMeter {
@@ -163,9 +171,17 @@ impl Equations<'_> {
         power
     }
 
-    /// Puts supports in place, and adds the work by which one that starts at once does so.
+    /// Puts supports in place, and adds the work by which one that starts or stops at once does so.
     pub fn place_supports(&mut self, time: f64, q: &mut [f64], v: &mut [f64]) {
-        if !self.model.supports.iter().any(moves) {
+        let jumps = |(node, support): &(usize, Support)| {
+            let range = 6 * node..6 * node + 6;
+            let [mut at, mut velocity] = [[0.0; 6]; 2];
+            at.copy_from_slice(&q[range.clone()]);
+            velocity.copy_from_slice(&v[range.clone()]);
+            support.prescribe(time, &mut at, &mut velocity);
+            !support.attached && velocity[..] != v[range]
+        };
+        if !self.model.supports.iter().any(jumps) {
             self.prescribe(time, q, v);
             return;
         }
@@ -181,27 +197,59 @@ impl Equations<'_> {
 
     /// Adds the work of supports that move, and of driven nodes.
     fn add_support_work(&mut self, before: &State, after: &State, h: f64, range: Range<usize>, driven: &[usize]) {
-        let [mut force, mut inertia] = [0, 1].map(|_| Vec::new());
-        core::mem::swap(&mut force, &mut self.system.meter.force);
-        core::mem::swap(&mut inertia, &mut self.system.meter.v);
-        [&mut force, &mut inertia].into_iter().for_each(|x| x.resize(range.len(), 0.0));
-        let mut work = 0.0;
-        for (state, sign) in [(before, 1.0), (after, -1.0)] {
+        let meter = &mut self.system.meter;
+        let mut reactions = core::mem::take(&mut meter.reactions);
+        let [mut missed, mut inertia] = [&mut meter.missed, &mut meter.v].map(core::mem::take);
+        reactions.iter_mut().chain([&mut missed, &mut inertia]).for_each(|x| x.resize(range.len(), 0.0));
+        let change = |k: usize| after.v[k] - before.v[k];
+        inertia.iter_mut().zip(range.clone()).for_each(|(dv, k)| *dv = change(k));
+        self.system.mass.multiply(self.system.level, &inertia, &mut missed);
+        for (state, reaction) in [before, after].into_iter().zip(&mut reactions) {
             let [q, v, a] = [&state.q, &state.v, &state.memory.acceleration].map(|x| &x[range.clone()]);
-            self.force(ForceInput { time: state.time, q, v, dv_dq: 0.0, scale: 1.0 }, &mut force);
+            self.force(ForceInput { time: state.time, q, v, dv_dq: 0.0, scale: 1.0 }, reaction);
+            missed.iter_mut().zip(&*reaction).for_each(|(p, f)| *p -= 0.5 * h * f);
             self.system.mass.multiply(self.system.level, a, &mut inertia);
-            let supports = self.model.supports.iter().filter(|support| moves(support)).map(|(node, _)| node);
-            for node in supports.chain(driven) {
-                for i in 6 * node..6 * node + 6 {
-                    let k = range.start + i;
-                    let way = 0.5 * (after.q[k] - before.q[k]) + sign * h / 12.0 * (before.v[k] - after.v[k]);
-                    work += (inertia[i] - force[i]) * way;
-                }
+            reaction.iter_mut().zip(&inertia).for_each(|(f, ma)| *f = ma - *f);
+        }
+        let moving = |node: usize, support: &Support| driven.contains(&node) || moves(&(node, *support));
+        let mut work = 0.0;
+        for (held, (node, support)) in self.model.supports.iter().enumerate().filter(|(_, (n, s))| moving(*n, s)) {
+            let [r0, r1] = &reactions;
+            let way = |i: usize| after.q[range.start + i] - before.q[range.start + i];
+            let beyond = |i: usize| -h / 12.0 * (r0[i] - r1[i]) * change(range.start + i);
+            for i in 6 * node + 3..6 * node + 6 {
+                work += 0.5 * (r0[i] + r1[i]) * way(i) + beyond(i);
             }
+            if support.position.is_none() && !support.attached {
+                continue;
+            }
+            let at = 6 * node;
+            let mean = Vector3::from_fn(|x, _| 0.5 * h * (r0[at + x] + r1[at + x]));
+            // the mass of an element at a reel changes
+            let flows = !self.system.flows.is_empty();
+            let impulse = if flows { mean } else { self.impulse_at(held, &missed) };
+            let resolved = (impulse - mean).norm() <= 0.5 * impulse.norm();
+            work +=
+                (0..3).map(|x| impulse[x] * way(at + x) / h + if resolved { beyond(at + x) } else { 0.0 }).sum::<f64>();
         }
         let meter = &mut self.system.meter;
         meter.law.supports += work;
-        (meter.force, meter.v) = (force, inertia);
+        (meter.reactions, meter.missed, meter.v) = (reactions, missed, inertia);
+    }
+
+    /// Returns the share of momenta `p` of all nodes that one of the supports gives: those of nodes between two held ones by the number of nodes.
+    fn impulse_at(&self, held: usize, p: &[f64]) -> Vector3<f64> {
+        let holds = |(_, support): &&(usize, Support)| support.attached || support.position.is_some();
+        let (before, from) = self.model.supports.split_at(held);
+        let here = from[0].0;
+        let last = before.iter().rfind(holds).map(|(node, _)| *node);
+        let next = from[1..].iter().find(holds).map(|(node, _)| *node);
+        let share = |node: usize| {
+            let other = if node < here { last } else { next };
+            other.map_or(1.0, |other| 1.0 - node.abs_diff(here) as f64 / other.abs_diff(here) as f64)
+        };
+        let range = last.map_or(0, |last| last + 1)..next.unwrap_or(p.len() / 6);
+        range.map(|node| Vector3::from_column_slice(&p[6 * node..6 * node + 3]) * share(node)).sum()
     }
 
     /// Returns whether the external work is known by energies. Nodes that are attached to bodies are left to the island.

@@ -63,26 +63,21 @@ impl Physics {
         }
     }
 
-    /// Appends the terms of the dynamic bodies, and returns the work of cables on all other bodies in J, and that of their present forces over
-    /// the rounding errors of a host step. Where the energy law of a cable has the work of a kinematic body that moves a node as a support does, that is none of it.
+    /// Appends the terms of the dynamic bodies, and returns the work in J of the present forces of cables on them over the rounding errors of a host step.
+    /// The cables have the work of all other bodies.
     ///
     /// # Errors
     /// [`Error::Coupling`]; not for an attachment of the scene.
-    pub fn bodies_balance(&self, scene: &Scene, time: f64, terms: &mut Vec<BodyTerms>) -> Result<(f64, f64), Error> {
+    pub fn bodies_balance(&self, scene: &Scene, time: f64, terms: &mut Vec<BodyTerms>) -> Result<f64, Error> {
         let mut on_body = vec![(0.0, 0.0); scene.bodies.len()];
-        let (mut on_others, mut rounding) = (0.0, 0.0);
+        let mut rounding = 0.0;
         for (k, attachment) in scene.attachments.iter().enumerate() {
-            let (Some(body), Some(reading)) = (attachment.body, self.reading(k, time)?) else { continue };
-            match scene.bodies[body].kind {
-                BodyKind::Dynamic => {
-                    on_body[body].0 += reading.work;
-                    let origin = vector(self.world.bodies[self.bodies[body]].translation()).norm();
-                    let place = origin + attachment.anchor.map_or(0.0, |anchor| anchor.norm());
-                    on_body[body].1 += reading.force.norm() * place * f64::from(RAPIER_STEPS) * f64::from(f32::EPSILON);
-                }
-                _ if attachment.clamp => on_others += reading.work,
-                _ => {}
-            }
+            let dynamic = attachment.body.filter(|body| scene.bodies[*body].kind == BodyKind::Dynamic);
+            let (Some(body), Some(reading)) = (dynamic, self.reading(k, time)?) else { continue };
+            on_body[body].0 += reading.work;
+            let origin = vector(self.world.bodies[self.bodies[body]].translation()).norm();
+            let place = origin + attachment.anchor.map_or(0.0, |anchor| anchor.norm());
+            on_body[body].1 += reading.force.norm() * place * f64::from(RAPIER_STEPS) * f64::from(f32::EPSILON);
         }
         for (index, _) in scene.bodies.iter().enumerate().filter(|(_, body)| body.kind == BodyKind::Dynamic) {
             let handle = self.bodies[index];
@@ -103,7 +98,7 @@ impl Physics {
                 free,
             });
         }
-        Ok((on_others, rounding))
+        Ok(rounding)
     }
 
     /// Returns whether a cable steps by the discrete gradient.

@@ -82,9 +82,7 @@ impl World {
             all_by_law &= cable.integrator().method == Method::DiscreteGradient;
         }
         if let Some(physics) = &self.physics {
-            let (work, rounding) = physics.bodies_balance(&self.scene, self.time, &mut terms.bodies)?;
-            terms.work -= work;
-            terms.rounding = rounding;
+            terms.rounding = physics.bodies_balance(&self.scene, self.time, &mut terms.bodies)?;
             terms.weight = physics.weight(&self.scene);
         }
         let masses = self.scene.cables.iter().map(|cable| cable.section.mass_per_length * cable.length);
