@@ -101,4 +101,8 @@ impl Real for Dual {
     fn at_least(self, least: f64) -> Self {
         if self.value < least { constant(least) } else { self }
     }
+    #[inline]
+    fn is_above(self, limit: f64) -> bool {
+        self.value > limit
+    }
 }

@@ -13,7 +13,7 @@
 //! Fused multiply-add: faster, and different bits on different machines, which lock-step networking cannot use.
 
 use core::ops::{Add, Div, Mul, Neg, Sub};
-use fearless_simd::{ExtractToken, Simd, SimdBase, SimdFloat, f64x8};
+use fearless_simd::{ExtractToken, Simd, SimdBase, SimdFloat, f64x8, prelude::*};
 
 /// A number, or lanes of numbers, in the element kernels.
 pub trait Real:
@@ -35,6 +35,8 @@ pub trait Real:
     fn abs(self) -> Self;
     /// The larger of the number and a constant; of a number that is none, either.
     fn at_least(self, least: f64) -> Self;
+    /// Whether it is above a constant in every lane.
+    fn is_above(self, limit: f64) -> bool;
 }
 
 impl Real for f64 {
@@ -54,6 +56,10 @@ impl Real for f64 {
     fn at_least(self, least: f64) -> Self {
         f64::max(self, least)
     }
+    #[inline(always)]
+    fn is_above(self, limit: f64) -> bool {
+        self > limit
+    }
 }
 
 impl<S: Simd> Real for f64x8<S> {
@@ -72,5 +78,9 @@ impl<S: Simd> Real for f64x8<S> {
     #[inline(always)]
     fn at_least(self, least: f64) -> Self {
         <f64x8<S> as SimdBase<S>>::max(self, self.splat(least))
+    }
+    #[inline(always)]
+    fn is_above(self, limit: f64) -> bool {
+        self.simd_gt(self.splat(limit)).to_bitmask() == 0xff
     }
 }

@@ -11,7 +11,7 @@
 //! f[Q0,Q1] = (D(q^-k) + D p)/DQ = (1 - m) D(q^-k)/Dq + m Dp/Dy,                m = Dy/DQ, between 0 and 1
 //! ```
 //!
-//! m is 0 above Q_c and 1 below it. Where both ends fall together it is regularised by 1e-20: what that changes in f[Q0,Q1] DQ is of
+//! m is 0 above Q_c, where D(q^-k)/Dq is all that is computed, and 1 below it. Where both ends fall together it is regularised by 1e-20: what that changes in f[Q0,Q1] DQ is of
 //! that size too, because there both secants are the derivative.
 //!
 //! # Validity
@@ -64,16 +64,20 @@ impl<T: Real> PowerSecant<T> {
         let one = start.splat(1.0);
         let (q0, q1) = (start.at_least(LOWER_LIMIT), end.at_least(LOWER_LIMIT));
         let (i, j) = (one / q0, one / q1);
-        let (y0, y1) = (start - q0, end - q1);
-        let (sum, change) = (y0 + y1, end - start);
-        let below = sum / (sum - SMALL);
-        let share = ((y1 - y0) * change + below * SMALL_SQUARE) / (change * change + SMALL_SQUARE);
-        let crumpled = (sum * curvature - k) * limit_power;
         let (above, powers) = if K == 2 {
             (i * j * (i + j), i * i + j * j)
         } else {
             (i * j * (i * i + i * j + j * j), i * i * i + j * j * j)
         };
+        // m and p are zeros, and what follows leaves these bits
+        if start.is_above(LOWER_LIMIT) && end.is_above(LOWER_LIMIT) {
+            return PowerSecant { mean: powers * 0.5, slope: -above };
+        }
+        let (y0, y1) = (start - q0, end - q1);
+        let (sum, change) = (y0 + y1, end - start);
+        let below = sum / (sum - SMALL);
+        let share = ((y1 - y0) * change + below * SMALL_SQUARE) / (change * change + SMALL_SQUARE);
+        let crumpled = (sum * curvature - k) * limit_power;
         let slope = crumpled * share - above * (one - share);
         let taylor = ((y0 * curvature - k) * y0 + (y1 * curvature - k) * y1) * limit_power;
         PowerSecant { mean: (powers + taylor) * 0.5, slope }
@@ -84,6 +88,39 @@ impl<T: Real> PowerSecant<T> {
 mod tests {
     use super::*;
     use crate::bending::regularisation::RegularisedPower;
+
+    /// Lanes that are all above Q_c take a shorter way than those of which one is not: the others have the same bits either way, whatever
+    /// their change.
+    #[test]
+    fn the_shorter_way_above_the_limit_has_the_same_bits() {
+        use crate::simd::dispatch;
+        use fearless_simd::{Level, f64x8, prelude::*};
+        let changes = [0.0, -0.0, 1e-300, 1e-14, -1e-14, -1e-6, 0.3, 40.0];
+        for start in [LOWER_LIMIT * (1.0 + 1e-15), 0.3, 1.0, 1.7, 50.0] {
+            let ends = changes.map(|change| f64::max(start + change, LOWER_LIMIT * (1.0 + 1e-15)));
+            // the last lane is crumpled
+            let (mut starts, mut mixed) = ([start; 8], ends);
+            (starts[7], mixed[7]) = (0.1, 0.2);
+            let long: [[[f64; 8]; 2]; 2] = dispatch!(Level::new(), simd => {
+                let (start, end) = (f64x8::simd_from(simd, starts), f64x8::simd_from(simd, mixed));
+                let (square, cube) = (PowerSecant::square(start, end), PowerSecant::cube(start, end));
+                let mut out = [[[0.0; 8]; 2]; 2];
+                square.mean.store_slice(&mut out[0][0]);
+                square.slope.store_slice(&mut out[0][1]);
+                cube.mean.store_slice(&mut out[1][0]);
+                cube.slope.store_slice(&mut out[1][1]);
+                out
+            });
+            for lane in 0..7 {
+                let short = [PowerSecant::square(start, ends[lane]), PowerSecant::cube(start, ends[lane])];
+                for (long, short) in long.iter().zip(short) {
+                    let [mean, slope] = [long[0][lane], long[1][lane]];
+                    assert_eq!(mean.to_bits(), short.mean.to_bits(), "{start} {}", ends[lane]);
+                    assert_eq!(slope.to_bits(), short.slope.to_bits(), "{start} {}", ends[lane]);
+                }
+            }
+        }
+    }
 
     fn power(square: f64, k: i32) -> f64 {
         let at = RegularisedPower::new(square);

@@ -196,9 +196,8 @@ impl Elements {
             let (s, stiffness) = self.gather_step(group, step);
             let [axial, flexural] = self.pairs(simd, bending, stiffness, &s);
             let mut sum = Gradient { n: combined(&axial, &flexural, 1.0), viscous: [zero(simd); 6] };
-            let at = self.gram_step(stiffness, &s, step.h);
             if let Some(effects) = effects {
-                effects.add_discrete_gradient(&at, &group, &mut sum);
+                effects.add_discrete_gradient(&self.gram_step(stiffness, &s, step.h), &group, &mut sum);
             }
             let mut force = gradient(&sum.n, &s.mean);
             let mut tangent = Hessian { geometric: [zero(simd); 6], h: self.table.hessian(stiffness.axial * BETA) };
@@ -213,10 +212,10 @@ impl Elements {
                 force = shifted(&force, &gradient(&numerical, &s.second), 1.0);
             }
             if let Some(effects) = effects {
-                effects.add_step_tangent(&at, &group, &mut tangent);
+                effects.add_step_tangent(&self.gram_step(stiffness, &s, step.h), &group, &mut tangent);
             }
             if moving {
-                force = shifted(&force, &gradient(&sum.viscous, &s.change), at.rate);
+                force = shifted(&force, &gradient(&sum.viscous, &s.change), 1.0 / step.h);
             }
             self.scatter_force(simd, first, &force, out);
             let implicit = BETA * step.h;
