@@ -3,10 +3,13 @@
 use crate::error::{Raise, raise};
 use lariat_ancf::{At, Vector3};
 use numpy::{AllowTypeChange, PyArray1, PyArray2, PyArrayLikeDyn, PyArrayMethods, PyUntypedArrayMethods};
-use pyo3::exceptions::PyTypeError;
+use pyo3::exceptions::{PyRecursionError, PyTypeError};
 use pyo3::prelude::*;
 use pyo3::types::{PyBool, PyDict, PyString};
 use serde_json::{Map, Number, Value};
+
+/// Largest depth of nested data.
+const DEEPEST: usize = 64;
 
 /// A vector of three numbers, from any sequence or array.
 #[derive(Clone, Copy, Debug)]
@@ -135,8 +138,15 @@ pub fn result<'py>(
 /// Returns dicts, sequences, arrays, paths, numbers and texts as plain data.
 ///
 /// # Errors
-/// `InvalidValueError` for a number that is not finite, `TypeError` for anything else.
+/// `InvalidValueError` for a number that is not finite, `RecursionError` for data that contain themselves, `TypeError` for anything else.
 pub fn data(object: &Bound<'_, PyAny>) -> PyResult<Value> {
+    data_within(object, DEEPEST)
+}
+
+fn data_within(object: &Bound<'_, PyAny>, depth: usize) -> PyResult<Value> {
+    let Some(depth) = depth.checked_sub(1) else {
+        return Err(PyRecursionError::new_err(format!("data nested deeper than {DEEPEST} levels, or in itself")));
+    };
     if object.is_none() {
         return Ok(Value::Null);
     }
@@ -149,18 +159,22 @@ pub fn data(object: &Bound<'_, PyAny>) -> PyResult<Value> {
     if let Ok(dict) = object.cast::<PyDict>() {
         let mut map = Map::new();
         for (key, value) in dict {
-            map.insert(key.extract()?, data(&value)?);
+            map.insert(key.extract()?, data_within(&value, depth)?);
         }
         return Ok(Value::Object(map));
     }
     if object.hasattr("tolist")? {
-        return data(&object.call_method0("tolist")?);
+        return data_within(&object.call_method0("tolist")?, depth);
     }
     if object.hasattr("__fspath__")? {
-        return data(&object.call_method0("__fspath__")?);
+        return data_within(&object.call_method0("__fspath__")?, depth);
     }
     if object.hasattr("__iter__")? {
-        return object.try_iter()?.map(|item| data(&item?)).collect::<PyResult<Vec<_>>>().map(Value::Array);
+        return object
+            .try_iter()?
+            .map(|item| data_within(&item?, depth))
+            .collect::<PyResult<Vec<_>>>()
+            .map(Value::Array);
     }
     if object.hasattr("__index__")? {
         return Ok(Value::Number(object.extract::<i64>()?.into()));

@@ -43,6 +43,8 @@ use std::borrow::Cow;
 const MAGIC: &str = concat!("lariat co-simulation ", env!("CARGO_PKG_VERSION"), "\n");
 /// Largest number of times that D and K are halved.
 const HALVINGS: i32 = 40;
+/// Largest distance in m of a node from its body, as in a world.
+const LARGEST_GAP: f64 = 1e-3;
 
 /// Pose and velocity of the reference point of a body.
 #[derive(Clone, Copy, Debug, Serialize, Deserialize)]
@@ -57,6 +59,9 @@ struct Motion {
 #[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 struct End {
     node: usize,
+    /// Whether that is the last node, and the nodes that a reel at the start had added: reels add and remove nodes.
+    is_last: bool,
+    from_start: i64,
     /// Point of the body in its axes, from the reference point, in m.
     anchor: Vector3<f64>,
     /// Direction of the tangent in the axes of the body, for a clamp.
@@ -103,7 +108,40 @@ impl End {
 }
 
 impl Link {
-    fn step(&mut self, cable: &mut ancf::Cable, to: &[Motion], h: f64) -> Result<Vec<Wrench>, Error> {
+    /// Splits and merges elements at reels, and finds the nodes of the ends anew.
+    fn remesh(&mut self, cable: &mut ancf::Cable) -> Result<(), Error> {
+        if !cable.has_reel() {
+            return Ok(());
+        }
+        cable.remesh_reel()?;
+        let [start, end] = [At::Start, At::End].map(|at| cable.reel_description(at).is_some());
+        for own in &mut self.ends {
+            own.node = match own.node {
+                _ if own.is_last && end => cable.nodes() - 1,
+                0 if start => 0,
+                node => node.saturating_add_signed((cable.nodes_from_start() - own.from_start) as isize),
+            };
+            own.from_start = cable.nodes_from_start();
+        }
+        Ok(())
+    }
+
+    /// Refuses a cable whose ends are not where their bodies are: somebody else has moved it.
+    fn check(&self, cable: &ancf::Cable) -> Result<(), lariat_rapier::Error> {
+        for end in self.ends.iter().filter(|end| end.node < cable.nodes()) {
+            let place = end.motion.position + end.motion.rotation * end.anchor;
+            let gap = (cable.node_position(end.node) - place).norm();
+            if gap > LARGEST_GAP {
+                let cable = cable.name().to_string();
+                return Err(lariat_rapier::Error::GapTooLong { cable, gap, limit: LARGEST_GAP });
+            }
+        }
+        Ok(())
+    }
+
+    fn step(&mut self, cable: &mut ancf::Cable, to: &[Motion], h: f64) -> Result<Vec<Wrench>, lariat_rapier::Error> {
+        self.remesh(cable)?;
+        self.check(cable)?;
         let mut bodies = self.ends.iter().zip(to).map(|(end, to)| end.body(to, h)).collect::<Result<Vec<_>, _>>()?;
         let pins: Vec<PinConstraint> = self
             .ends
@@ -283,7 +321,7 @@ impl CoSimulation {
         let attached = self.link.compute(py, move |link| {
             let mut cable = cable.lock();
             let node = cable.node(at.0)?;
-            if link.ends.iter().any(|end| end.node == node) {
+            if cable.support(At::Node(node))?.attached || link.ends.iter().any(|end| end.node == node) {
                 return Err(lariat_rapier::Error::AlreadyAttached { cable: cable.name().to_string(), node });
             }
             let coordinates = Vector3::from_column_slice(&cable.positions()[6 * node + 3..6 * node + 6]);
@@ -296,7 +334,8 @@ impl CoSimulation {
             let direction = clamp.then(|| rotation.inverse() * coordinates.normalize());
             let anchor = rotation.inverse() * (cable.node_position(node) - position);
             let motion = Motion { position, rotation, velocity, spin: Vector3::zeros() };
-            link.ends.push(End { node, anchor, direction, motion });
+            let (is_last, from_start) = (node + 1 == cable.nodes(), cable.nodes_from_start());
+            link.ends.push(End { node, is_last, from_start, anchor, direction, motion });
             Ok(link.ends.len() - 1)
         });
         attached.map_err(raise)
@@ -338,7 +377,7 @@ impl CoSimulation {
         let cable = self.cable.clone();
         let wrenches = self.link.compute(py, move |link| {
             if link.ends.len() != to.len() {
-                return Err(Error::EmptyIsland);
+                return Err(Error::EmptyIsland.into());
             }
             link.step(&mut cable.lock(), &to, dt)
         });

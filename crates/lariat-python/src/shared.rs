@@ -3,6 +3,7 @@
 use pyo3::marker::Ungil;
 use pyo3::prelude::*;
 use std::sync::{Arc, Mutex, MutexGuard, TryLockError};
+use std::time::{Duration, Instant};
 
 /// A value behind a lock that is never held while Python runs.
 pub struct Shared<T>(Arc<Mutex<T>>);
@@ -10,6 +11,21 @@ pub struct Shared<T>(Arc<Mutex<T>>);
 impl<T> Clone for Shared<T> {
     fn clone(&self) -> Self {
         Shared(Arc::clone(&self.0))
+    }
+}
+
+/// Longest time between two looks for signals.
+const UNHEARD: Duration = Duration::from_millis(50);
+
+/// Calls `f` as often as is left, until it fails or that time is over.
+pub fn repeat_for_a_while<E>(left: &mut usize, mut f: impl FnMut() -> Result<(), E>) -> Result<(), E> {
+    let begin = Instant::now();
+    loop {
+        f()?;
+        *left -= 1;
+        if *left == 0 || begin.elapsed() > UNHEARD {
+            return Ok(());
+        }
     }
 }
 
@@ -31,6 +47,24 @@ impl<T: Send> Shared<T> {
     /// Computes with the value while other threads run Python.
     pub fn compute<R: Ungil + Send>(&self, py: Python<'_>, f: impl FnOnce(&mut T) -> R + Ungil + Send) -> R {
         py.detach(|| f(&mut self.lock()))
+    }
+
+    /// Calls `f` this many times, until it fails, and looks for signals of the process (Ctrl-C) in between.
+    pub fn repeat<E: Ungil + Send>(
+        &self,
+        py: Python<'_>,
+        times: usize,
+        mut f: impl FnMut(&mut T) -> Result<(), E> + Ungil + Send,
+    ) -> PyResult<Result<(), E>> {
+        let mut left = times;
+        while left > 0 {
+            let outcome = self.compute(py, |value| repeat_for_a_while(&mut left, || f(value)));
+            if outcome.is_err() {
+                return Ok(outcome);
+            }
+            py.check_signals()?;
+        }
+        Ok(Ok(()))
     }
 
     /// Locks; only for a caller that has released the interpreter.

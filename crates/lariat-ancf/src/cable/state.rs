@@ -111,7 +111,7 @@ impl Cable {
     }
 
     /// Sets nodal coordinates and velocities, flat as [`positions`](Self::positions) and [`velocities`](Self::velocities).
-    /// Contacts are forgotten: friction begins anew, and a depth at which the cable is set gives no force and no energy.
+    /// If positions change, contacts are forgotten: friction begins anew, and a depth at which the cable is set gives no force and no energy.
     /// [`restore`](Self::restore) keeps them.
     ///
     /// # Errors
@@ -125,19 +125,26 @@ impl Cable {
             }
             given.iter().try_for_each(|&x| require(each, x, true, "a number")).map_err(|e| e.of_cable(self.name()))?;
         }
+        let moved = self.snapshot.state.q != positions;
         self.snapshot.state.q.copy_from_slice(positions);
         self.snapshot.state.v.copy_from_slice(velocities);
-        self.disturb();
+        if moved { self.disturb() } else { self.disturb_motion() }
         Ok(())
     }
 
-    /// Marks the accelerations as unknown, after a change of the state.
+    /// Marks the accelerations as unknown, and forgets contacts, after a change of the positions.
     pub(crate) fn disturb(&mut self) {
-        self.snapshot.state.memory.valid = false;
-        self.snapshot.state.memory.step = 0.0;
-        self.snapshot.state.memory.differences.clear();
+        self.disturb_motion();
         self.snapshot.state.memory.contacts.clear();
         self.snapshot.state.memory.pairs.clear();
+    }
+
+    /// Marks the accelerations as unknown, after a change of the velocities; contacts are of the positions.
+    fn disturb_motion(&mut self) {
+        let memory = &mut self.snapshot.state.memory;
+        memory.valid = false;
+        memory.step = 0.0;
+        memory.differences.clear();
     }
 
     /// Marks a change of supports, loads, effects or integrator: states from before keep their positions and velocities only.
@@ -166,7 +173,7 @@ impl Cable {
             let mut position = [0.0; 6];
             support.prescribe(state.time, &mut position, &mut state.v[6 * node..6 * node + 6]);
         }
-        self.disturb();
+        self.disturb_motion();
         Ok(())
     }
 
@@ -182,9 +189,7 @@ impl Cable {
         let state = &mut self.snapshot.state;
         state.time += dt;
         state.v.fill(0.0);
-        state.memory.valid = false;
-        state.memory.step = 0.0;
-        state.memory.differences.clear();
+        self.disturb_motion();
     }
 
     /// Sets the clock to `time` (s); prescribed motions and the ramps of loads keep their distance from it.

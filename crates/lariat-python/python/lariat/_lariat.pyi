@@ -13,6 +13,7 @@ from lariat.reel import Reel
 from lariat.results import (
     Attachment,
     Break,
+    CableTouch,
     ColliderHandle,
     EndForces,
     Energy,
@@ -26,10 +27,12 @@ from lariat.results import (
     ReelReading,
     SheaveReading,
     RigidBodyHandle,
+    Rope,
     Sample,
     Samples,
     Touch,
     WorldEnergy,
+    WorldEquilibrium,
 )
 from lariat.types import Array, Fidelity, Handle, Place
 
@@ -159,7 +162,7 @@ class Cable:
         """
 
     def step(self, dt: float, *, steps: int = 1) -> None:
-        """Advances the cable by ``steps`` steps of ``dt`` (s); 0 does nothing. Raises InvalidValueError, AttachedError, InWorldError, and
+        """Advances the cable by ``steps`` steps of ``dt`` (s); 0 does nothing. Ctrl-C ends it after a step. Raises InvalidValueError, AttachedError, InWorldError, and
         StepFailedError, after which the cable is as it was before the step that failed."""
 
     def equilibrium(self, *, tolerance: float = 1e-9, iterations: int = 400) -> Equilibrium:
@@ -262,7 +265,8 @@ class Cable:
         """Copies the nodal coordinates into a contiguous array of shape (nodes, 6). Raises ShapeError."""
 
     def set_state(self, coordinates: ArrayLike, rates: ArrayLike) -> None:
-        """Sets nodal coordinates and their rates, both of shape (nodes, 6). Raises ShapeError, InvalidValueError."""
+        """Sets nodal coordinates and their rates, both of shape (nodes, 6). If coordinates change, contacts are forgotten: friction begins
+        anew, and the depth at which the cable is set gives no force. ``restore`` keeps them. Raises ShapeError, InvalidValueError."""
 
     def set_rigid_motion(self, velocity: ArrayLike, angular_velocity: ArrayLike | None = None) -> None:
         """Sets the velocities of a rigid motion: ``velocity`` (m/s) of the start, ``angular_velocity`` (rad/s) about it."""
@@ -412,7 +416,8 @@ class CoSimulation:
 
     def attach(self, at: Place, position: ArrayLike, rotation: ArrayLike | None = None, *, clamp: bool = False) -> int:
         """Attaches a node to a body whose reference point is at ``position`` (m) with ``rotation``: where the node is now. A clamp holds the
-        direction of the tangent, too. Returns the index of the end. Raises OutOfRangeError, NoNodeError, AlreadyAttachedError."""
+        direction of the tangent, too. Returns the index of the end. Raises OutOfRangeError, NoNodeError, AlreadyAttachedError (by this or
+        another co-simulation)."""
 
     def step(
         self,
@@ -424,7 +429,8 @@ class CoSimulation:
     ) -> EndForces:
         """Advances the cable by ``dt`` (s) while the bodies move to ``positions`` (m, shape (ends, 3)), ``rotations`` (shape (ends, 4);
         default: unchanged) with ``velocities`` (m/s) and ``angular_velocities`` (rad/s) at the end of the step (shape (ends, 3); default:
-        uniform motion over the step). Raises ShapeError, InvalidValueError, and StepFailedError, after which all is as before."""
+        uniform motion over the step). Raises ShapeError, InvalidValueError, GapTooLongError (something else moved an end by more than
+        1e-3 m), and StepFailedError, after which all is as before."""
 
     def impedance(self, dt: float) -> Array:
         """Returns Z, shape (6 ends, 6 ends), velocity before angular velocity of each end, about the reference points, in kg, kg m and
@@ -451,10 +457,14 @@ class World:
         rapier_steps: int = 1,
         max_rapier_steps: int = 32,
         sleep_speed: float = 2e-3,
+        max_iterations: int | None = None,
+        max_time: float | None = None,
     ) -> Self:
         """A world of this gravity (m/s^2, default (0, -9.81, 0)) and host step (s, default 1/60). ``fidelity``: of cables whose
         integrator nobody chose. ``rapier_steps``, ``max_rapier_steps``: Rapier's steps per host step. ``sleep_speed``: in m/s, below
-        which cables and bodies may fall asleep; 0 = never. Raises InvalidValueError, UnknownFidelityError."""
+        which cables and bodies may fall asleep; 0 = never. ``max_iterations`` (Newton iterations of each island, repeatable) or
+        ``max_time`` (wall-clock s): the work of a host step beyond which accuracy is reduced, with the event "degraded". Raises
+        InvalidValueError, UnknownFidelityError."""
 
     def step(self) -> None:
         """Advances bodies and cables by ``dt``. Raises StepRefusedError if some cables cannot step; all others have advanced."""
@@ -520,7 +530,7 @@ class World:
         """Returns the colliders that contain a point (m)."""
 
     def set_contact(self, cable: Cable, contact: Contact | None) -> None:
-        """Lets a cable touch the colliders, or no longer with None; it gets the integrator "discrete-gradient" if nobody chose one. Raises
+        """Lets a cable touch the colliders, and other cables and itself if the contact says so, or no longer with None; it gets the integrator "discrete-gradient" if nobody chose one. Raises
         InvalidValueError, MissingForEffectError (no diameter and no radius), ContactMethodError, NoCableError."""
 
     def set_contact_rules(
@@ -537,6 +547,10 @@ class World:
     def contacts(self, cable: Cable) -> list[Touch]:
         """Returns what a cable touched at the end of the last step, each with its collider."""
 
+    def cable_contacts(self, cable: Cable) -> list[CableTouch]:
+        """Returns what a cable touched of others and of itself at the end of the last step, if its contact says that it may. Raises
+        NoCableError."""
+
     def add_cable(self, cable: Cable) -> Cable:
         """Adds a copy of a cable, and returns it as a part of this world."""
 
@@ -550,8 +564,27 @@ class World:
     def cut(self, cable: Cable, at: Place) -> Cable:
         """Cuts a cable; it keeps the part before the point, the other is returned. Raises OutOfRangeError."""
 
-    def set_strength(self, cable: Cable, strength: float | None) -> None:
-        """Sets the tension in N above which a cable breaks; None: it does not."""
+    def add_rope(
+        self,
+        start: ArrayLike,
+        end: ArrayLike,
+        section: Section,
+        *,
+        start_body: Handle | None = None,
+        end_body: Handle | None = None,
+        slack: float = 0.0,
+        strength: float | None = None,
+        elements: int | None = None,
+        fidelity: Fidelity | None = None,
+        name: str = "rope",
+    ) -> Rope:
+        """Adds the usual rope between two points (m), each held by a body or by the world, damped by 0.2 of critical at its lowest axial
+        mode. ``slack``: unstretched length beyond the distance, as a share of it; ``strength``: tension in N above which it breaks;
+        ``elements``: default that of fidelity game. Raises NoBodyError, CoincidentPointsError, InvalidValueError, ElementCountError."""
+
+    def set_strength(self, cable: Cable, tension: float | None = None, *, strain: float | None = None) -> None:
+        """Sets the tension in N and the strain above which a cable breaks; None: no limit. Raises InvalidValueError, OneElementError,
+        NoCableError."""
 
     def attach(
         self,
@@ -573,8 +606,16 @@ class World:
     def attachment(self, attachment: int) -> Attachment:
         """Returns what the cable does to the body, after the last step. Raises NoAttachmentError."""
 
-    def join(self, first: Cable, at: Place, second: Cable, second_at: Place) -> None:
-        """Ties a point of a cable to a point of another. Raises GapTooLongError, AlreadyAttachedError."""
+    def join(self, first: Cable, at: Place, second: Cable, second_at: Place, *, gap: float | None = 1e-3) -> int:
+        """Ties a point of a cable to a point of another, like a massless shackle; ``gap``: the largest distance in m that is closed, None:
+        any. Returns the number of the junction; that of one of the points, if it is tied already. Raises GapTooLongError,
+        AlreadyAttachedError, NoCableError, OutOfRangeError."""
+
+    def leave(self, junction: int, cable: Cable) -> None:
+        """Unties a cable from a junction; one with a single point left ends. Raises NoJunctionError, NoCableError."""
+
+    def junction(self, junction: int) -> list[tuple[Cable, float]]:
+        """Returns the cables of a junction, each with the arc length of its point in m. Raises NoJunctionError."""
 
     def add_sheave(
         self,
@@ -611,9 +652,14 @@ class World:
     def remove_drum(self, cable: Cable, at: Place) -> bool:
         """Ends the drum at an end of a cable: what is out stays. Returns whether there was one. Raises NoCableError."""
 
-    def equilibrium(self) -> bool:
-        """Moves cables and the bodies on them to static equilibrium; returns whether all is stable. Raises NoEquilibriumError,
-        JointInStaticsError, ContactInStaticsError."""
+    def equilibrium(self) -> WorldEquilibrium:
+        """Moves cables and the bodies on them to static equilibrium; true if all is stable. Cables with contact lie on fixed and kinematic
+        colliders, without friction. Raises NoEquilibriumError, JointInStaticsError, ContactInStaticsError, CableTouchesInStaticsError;
+        all is then as before."""
+
+    def warnings(self) -> list[str]:
+        """Returns what all cables say about their mesh, steps, law and sizes, and about colliders that they are in or do not bounce off.
+        Worth a look when a world has been built."""
 
     def is_asleep(self, cable: Cable) -> bool:
         """Returns whether a cable is asleep with the bodies attached to it."""

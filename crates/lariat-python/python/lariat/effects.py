@@ -62,7 +62,7 @@ class Contact:
     itself: bool = False
     """Whether the cable touches itself."""
     cables: bool = False
-    """Whether it touches the other cables of ``step_together``; a ``World`` refuses it."""
+    """Whether it touches the other cables of ``step_together`` or of its world that have this too."""
     key: ClassVar[str] = "contact"
 
 

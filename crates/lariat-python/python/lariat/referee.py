@@ -1,10 +1,13 @@
 """The adapter for ``cosseratbench``, a benchmark of rods by others: ``cosseratbench run -s lariat``.
 
-Quasi-static scenarios are solved by statics, without time steps: all frames but the first are the equilibrium. Others are stepped from
-frame to frame; the integrator controls its error. ``preset`` chooses the fidelity and the tolerance.
+Quasi-static scenarios of rods that touch nothing are solved by statics, without time steps: all frames but the first are the equilibrium.
+Others are stepped from frame to frame; the integrator controls its error. ``preset`` chooses the fidelity and the tolerance.
 
-Scenarios with obstacles are stepped by fidelity game, which is the one that has contact, whatever the preset; quasi-static ones with internal
-damping, critical at the lowest axial mode, which cannot hold a rope that slides.
+Scenarios with contact are stepped by fidelity game, which is the one that has contact, whatever the preset. Quasi-static ones have dissipation:
+
+- rods that touch each other alone: that of the other adapters, proportional to mass, critical at the slowest mode; between two steps of
+  dt the rates are taken times exp(-c dt). When all are at rest, the rest of the frames are that state.
+- rods on obstacles: internal damping, critical at the lowest axial mode, which cannot hold a rope that slides.
 """
 
 from __future__ import annotations
@@ -17,8 +20,11 @@ from cosseratbench.solver import Diverged  # type: ignore[import-untyped, unused
 from cosseratbench.trajectory import Trajectory  # type: ignore[import-untyped, unused-ignore]
 
 import lariat
-from lariat.types import Array, Fidelity
+from lariat.types import Array, Fidelity, Place
 
+ENDS: tuple[tuple[End, Place], ...] = ((End.START, "start"), (End.END, "end"))
+REST = 1e-4
+"""Speed below which rods are at rest, in rod lengths per second."""
 PRESETS: dict[str, lariat.Integrator | Fidelity] = {
     "engineering": "engineering",
     "game": "game",
@@ -27,8 +33,8 @@ PRESETS: dict[str, lariat.Integrator | Fidelity] = {
 
 
 class LariatSolver:
-    """A solver of ``cosseratbench``: stretch and bending of cables, and contact with cylinders and planes; without torsion, shear and contact
-    of rods with rods."""
+    """A solver of ``cosseratbench``: stretch and bending of cables, contact with cylinders, planes and other rods, and friction there; without
+    torsion and shear."""
 
     name = "lariat"
     backend_version = lariat.__version__
@@ -37,6 +43,7 @@ class LariatSolver:
         if preset not in PRESETS:
             raise ValueError(f"unknown preset {preset!r}; expected {', '.join(PRESETS)}")
         self.preset = preset
+        self.rests = False
         self.time_step_scale = time_step_scale
 
     @property
@@ -44,14 +51,16 @@ class LariatSolver:
         """What the solver models."""
         from cosseratbench.solver import Capability  # type: ignore[import-untyped, unused-ignore]
 
-        return frozenset({Capability.STRETCH, Capability.CYLINDER_CONTACT, Capability.PLANE_CONTACT})
+        has = Capability
+        return frozenset({has.STRETCH, has.CYLINDER_CONTACT, has.PLANE_CONTACT, has.ROD_CONTACT, has.ROD_FRICTION})
 
     def settings(self, scenario: Scenario, *, n_elements: int, n_frames: int) -> dict[str, Any]:
         """The numerical choices for a run."""
         method = "statics" if scenario.quasi_static else repr(PRESETS[self.preset])
-        if scenario.obstacles:
-            method = "discrete-gradient"
-        return {"method": method, "host_step": self._step(scenario, n_frames)[0]}
+        settings: dict[str, Any] = {"method": method, "host_step": self._step(scenario, n_frames)[0]}
+        if touches(scenario):
+            settings |= {"method": "discrete-gradient", "contact_stiffness": _stiffness(scenario, n_elements)}
+        return settings
 
     def _step(self, scenario: Scenario, n_frames: int) -> tuple[float, int]:
         interval = scenario.duration / (n_frames - 1)
@@ -61,18 +70,16 @@ class LariatSolver:
 
     def run(self, scenario: Scenario, *, n_elements: int, n_frames: int) -> Trajectory:
         """Computes a scenario with this many elements per rod."""
-        if scenario.self_contact or (len(scenario.rods) > 1 and scenario.obstacles):
-            raise NotImplementedError("contact of rods with rods")
+        if len({rod.friction for rod in scenario.rods}) > 1:
+            raise NotImplementedError("the larger of two coefficients of friction of rods that touch: Lariat takes the mean")
+        self.rests = False
         cables = [self._cable(rod, scenario, n_elements) for rod in scenario.rods]
         frames = [[cable.positions] for cable in cables]
         step, steps = self._step(scenario, n_frames)
         try:
             for _ in range(n_frames - 1):
+                self._advance(cables, scenario, step, steps)
                 for cable, path in zip(cables, frames):
-                    if scenario.obstacles or not scenario.quasi_static:
-                        cable.step(step, steps=steps)
-                    elif len(path) == 1:
-                        cable.equilibrium()
                     path.append(cable.positions)
         except lariat.Error as error:
             raise Diverged(str(error), error.time) from error
@@ -80,14 +87,50 @@ class LariatSolver:
         directors = [_directors(path, np.asarray(rod.normal, float)) for rod, path in zip(scenario.rods, paths)]
         return Trajectory(np.linspace(0.0, scenario.duration, n_frames), tuple(paths), tuple(directors))
 
+    def _advance(self, cables: list[lariat.Cable], scenario: Scenario, step: float, steps: int) -> None:
+        """Advances all rods by a frame."""
+        contact = touches(scenario)
+        if scenario.quasi_static and not contact:
+            for cable in cables:
+                if cable.time == 0.0:
+                    cable.equilibrium()
+                    cable.time = step
+            return
+        settles = scenario.quasi_static and not scenario.obstacles
+        kept = np.exp(-2.0 * scenario.slowest_frequency() * step)
+        driven = any(rod.start_motion or rod.end_motion for rod in scenario.rods)
+        at_once = 1 if settles or driven else steps
+        for _ in range(steps // at_once):
+            if settles and self.rests:
+                return
+            before = [cable.positions for cable in cables]
+            for cable, rod in zip(cables, scenario.rods):
+                _drive(cable, rod, step)
+            if contact:
+                lariat.step_together(cables, step, steps=at_once)
+            else:
+                for cable in cables:
+                    cable.step(step, steps=at_once)
+            if settles:
+                for cable in cables:
+                    cable.set_state(cable.coordinates, kept * cable.rates)
+                ways = [float(np.abs(cable.positions - was).max()) / rod.length for cable, was, rod in zip(cables, before, scenario.rods)]
+                self.rests = max(ways) < REST * step
+
     def _cable(self, rod: Rod, scenario: Scenario, n_elements: int) -> lariat.Cable:
-        if rod.start_motion is not None or rod.end_motion is not None:
-            raise NotImplementedError("ends with prescribed motion twist, and this element has no torsion")
+        for motion in (rod.start_motion, rod.end_motion):
+            if motion is not None and np.any(motion.rotation):
+                raise NotImplementedError("ends that are turned twist, and this element has no torsion")
+            if motion is not None and motion.slides_along is not None:
+                raise NotImplementedError("ends that slide")
         section = lariat.Section.round(2.0 * rod.radius, rod.material.youngs_modulus, rod.material.density)
         nodes: Array = rod.nodes(n_elements)
-        preset = "game" if scenario.obstacles else PRESETS[self.preset]
-        effects: list[Any] = [lariat.Contact()] if scenario.obstacles else []
-        if scenario.obstacles and scenario.quasi_static:
+        preset, effects = PRESETS[self.preset], list[Any]()
+        if touches(scenario):
+            preset = "game"
+            stiffness = _stiffness(scenario, n_elements)
+            effects.append(lariat.Contact(rod.friction, stiffness=stiffness, cables=True, itself=scenario.self_contact))
+        if scenario.quasi_static and touches(scenario):
             wave_speed = float(np.sqrt(section.axial_stiffness / section.mass_per_length))
             effects.append(lariat.Damping.from_ratio(1.0, np.pi * wave_speed / rod.length))
         cable = lariat.Cable(
@@ -95,14 +138,19 @@ class LariatSolver:
         )
         cable.set_obstacles([_obstacle(obstacle, rod) for obstacle in scenario.obstacles])
         cable.set_state(np.hstack([nodes, _slopes(rod, n_elements)]), np.zeros((n_elements + 1, 6)))
-        for end, at in ((End.START, "start"), (End.END, "end")):
+        for end, at in ENDS:
             if rod.condition(end) is EndCondition.PINNED:
-                cable.fix(at)  # type: ignore[arg-type]
+                cable.fix(at)
             elif rod.condition(end) is EndCondition.CLAMPED:
-                cable.clamp(at)  # type: ignore[arg-type]
+                cable.clamp(at)
         for load in rod.loads:
             cable.add_load(0.0 if load.at is End.START else rod.length, load.force)
         return cable
+
+
+def touches(scenario: Scenario) -> bool:
+    """Returns whether anything in a scenario can touch a rod."""
+    return bool(scenario.obstacles) or len(scenario.rods) > 1 or scenario.self_contact
 
 
 def _obstacle(obstacle: Any, rod: Rod) -> lariat.Obstacle:
@@ -117,6 +165,24 @@ def _obstacle(obstacle: Any, rod: Rod) -> lariat.Obstacle:
     rotation = np.array([z, 0.0, -x, 1.0 + y])
     half, at = obstacle.length / 2, obstacle.center
     return lariat.Obstacle.cylinder(half, obstacle.radius, position=at, rotation=rotation / np.linalg.norm(rotation), friction=friction)
+
+
+def _stiffness(scenario: Scenario, n_elements: int) -> float | None:
+    """Returns the stiffness of contact in N/m^2: where rods may touch rods, so stiff that the weight of all of them on one element has a depth of
+    a percent of a radius. None: that of Lariat."""
+    if len(scenario.rods) == 1 and not scenario.self_contact:
+        return None
+    weight = sum(rod.material.density * rod.area * rod.length for rod in scenario.rods) * float(np.linalg.norm(scenario.gravity))
+    return max(100.0 * weight / (rod.radius * rod.length / n_elements) for rod in scenario.rods) or None
+
+
+def _drive(cable: lariat.Cable, rod: Rod, step: float) -> None:
+    """Prescribes how driven ends move over the next step: cubics through the places and velocities of the motion at its ends."""
+    for end, at in ENDS:
+        motion, first = rod.motion(end), np.asarray(rod.centerline[0 if end is End.START else -1], float)
+        if motion is not None:
+            then = cable.time + step
+            cable.prescribe(at, first + motion.pose(then)[0], step, motion.rates(then)[0])
 
 
 def _slopes(rod: Rod, n_elements: int) -> Array:

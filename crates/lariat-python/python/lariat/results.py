@@ -105,6 +105,21 @@ class Equilibrium(NamedTuple):
     stable: bool
 
 
+class WorldEquilibrium(NamedTuple):
+    """What a search for the equilibrium of a world found; true if all is stable."""
+
+    stable: bool
+    moved: list[RigidBodyHandle]
+    """Dynamic bodies that were brought to their place."""
+    held: list[RigidBodyHandle]
+    """Attached bodies that were held: fixed, kinematic, disabled or without mass."""
+    unattached: list[RigidBodyHandle]
+    """Dynamic bodies without a cable, which were left where they are."""
+
+    def __bool__(self) -> bool:
+        return self.stable
+
+
 class MeshIndicator(NamedTuple):
     """What the shape says about the mesh."""
 
@@ -141,8 +156,8 @@ class Attachment(NamedTuple):
 
 
 class Event(NamedTuple):
-    """An event of a step of a world: "asleep", "awake", "broken", "contact started", "contact ended", "attachment ended", or "warning: " and
-    its text."""
+    """An event of a step of a world: "asleep", "awake", "broken", "degraded" (its work reached the limit of the world), "contact started",
+    "contact ended", "contact ignored" (a collider that it cannot touch), "attachment ended", or "warning: " and its text."""
 
     kind: str
     cable: Cable | None
@@ -186,6 +201,36 @@ class SheaveReading(NamedTuple):
     """Friction in N in the last step: what the pull on one side exceeds that on the other by, but for inertia."""
     lost: float
     """Energy in J that friction took."""
+
+
+class CableTouch(NamedTuple):
+    """A contact of a cable of a world with another or with itself, at the end of a step."""
+
+    other: Cable
+    arc_length: float
+    """Of the point that touches, in m."""
+    other_arc_length: float
+    """Of the point of the other cable, in m."""
+    normal: Array
+    """Unit normal, from the other cable to this one."""
+    normal_force: float
+    """In N, > 0."""
+    friction: Array
+    """Friction on this cable in N."""
+    depth: float
+    """Depth in m by which the surfaces are in each other."""
+    slips: bool
+    """Whether it slips."""
+
+
+class Rope(NamedTuple):
+    """A rope that was added to a world."""
+
+    cable: Cable
+    start: int | None
+    """Number of the attachment of its start; None if the world holds it."""
+    end: int | None
+    """Number of the attachment of its end; None if the world holds it."""
 
 
 class ReelReading(NamedTuple):

@@ -9,7 +9,7 @@ use crate::convert::{Array, Place, Places, Vector, data};
 use crate::error::{Raise, raise};
 use crate::integrator::{Choice, fidelity};
 use crate::section::Section;
-use crate::shared::Shared;
+use crate::shared::{Shared, repeat_for_a_while};
 use crate::world::Contents;
 use lariat_ancf as ancf;
 use lariat_ancf::{EquilibriumOptions, Error};
@@ -193,8 +193,7 @@ impl Cable {
     /// Advances the cable by `steps` steps of `dt` (s).
     #[pyo3(signature = (dt, *, steps=1))]
     fn step(&self, py: Python<'_>, dt: f64, steps: usize) -> PyResult<()> {
-        let own = self.own("step by itself")?;
-        own.compute(py, |cable| (0..steps).try_for_each(|_| cable.step(dt))).map_err(raise)
+        self.own("step by itself")?.repeat(py, steps, |cable| cable.step(dt))?.map_err(raise)
     }
 
     /// Moves the cable to static equilibrium.
@@ -287,15 +286,22 @@ pub fn step_all(py: Python<'_>, cables: Vec<Bound<'_, Cable>>, dt: f64) -> PyRes
 /// Advances cables that may touch each other by `steps` steps of `dt` (s), in one system, with the integrator of the first.
 #[pyfunction]
 #[pyo3(signature = (cables, dt, *, steps=1))]
-pub fn step_together(py: Python<'_>, cables: Vec<Bound<'_, Cable>>, dt: f64, steps: u32) -> PyResult<()> {
+pub fn step_together(py: Python<'_>, cables: Vec<Bound<'_, Cable>>, dt: f64, steps: usize) -> PyResult<()> {
     let own = apart(&cables)?;
-    let outcome = py.detach(|| {
-        let mut guards: Vec<_> = own.iter().map(|(cable, place)| (cable.lock(), *place)).collect();
-        guards.sort_by_key(|(_, place)| *place);
-        let mut cables: Vec<&mut ancf::Cable> = guards.iter_mut().map(|(guard, _)| &mut **guard).collect();
-        let integrator = cables.first().ok_or(ancf::Error::EmptyIsland)?.integrator();
-        let mut island = ancf::island::Island::default();
-        (0..steps).try_for_each(|_| island.step(&mut cables, &mut [], &[], integrator, dt))
-    });
-    outcome.map_err(raise)
+    let (mut left, mut island) = (steps, ancf::island::Island::default());
+    while left > 0 {
+        let outcome = py.detach(|| {
+            let mut guards: Vec<_> = own.iter().map(|(cable, place)| (cable.lock(), *place)).collect();
+            guards.sort_by_key(|(_, place)| *place);
+            let mut cables: Vec<&mut ancf::Cable> = guards.iter_mut().map(|(guard, _)| &mut **guard).collect();
+            let integrator = cables.first().ok_or(ancf::Error::EmptyIsland)?.integrator();
+            repeat_for_a_while(&mut left, || {
+                cables.iter_mut().try_for_each(|cable| cable.remesh_reel())?;
+                island.step(&mut cables, &mut [], &[], integrator, dt)
+            })
+        });
+        outcome.map_err(raise)?;
+        py.check_signals()?;
+    }
+    Ok(())
 }

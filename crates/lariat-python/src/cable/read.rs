@@ -5,7 +5,7 @@ use crate::convert::{Array, Place, object, result, table, vector, vectors};
 use crate::integrator::Integrator;
 use crate::section::Section;
 use lariat_ancf::{Sample, Vector3};
-use numpy::{PyArray1, PyArray2, PyArrayMethods};
+use numpy::{PyArray1, PyArray2, PyArrayMethods, PyUntypedArrayMethods};
 use pyo3::prelude::*;
 
 /// Returns the first or the last three of every six numbers.
@@ -221,8 +221,10 @@ impl Cable {
     fn read_into(&self, py: Python<'_>, coordinates: &Bound<'_, PyArray2<f64>>) -> PyResult<()> {
         let mut writable = coordinates.try_readwrite().map_err(PyErr::from)?;
         let nodes = self.nodes(py)?;
-        let shape = coordinates.as_array_shape();
-        let Some(target) = writable.as_slice_mut().ok().filter(|x| x.len() == 6 * nodes) else {
+        let shape = coordinates.shape().to_vec();
+        // in Fortran's order the numbers lie otherwise
+        let fits = shape == [nodes, 6] && coordinates.is_c_contiguous();
+        let Some(target) = writable.as_slice_mut().ok().filter(|_| fits) else {
             let array = Array { values: Vec::new(), shape };
             return Err(array.wrong_shape(&format!("({nodes}, 6), contiguous")));
         };
@@ -232,16 +234,5 @@ impl Cable {
             target[..n].copy_from_slice(&cable.positions()[..n]);
             Ok(())
         })
-    }
-}
-
-trait ShapeOf {
-    fn as_array_shape(&self) -> Vec<usize>;
-}
-
-impl ShapeOf for Bound<'_, PyArray2<f64>> {
-    fn as_array_shape(&self) -> Vec<usize> {
-        use numpy::PyUntypedArrayMethods;
-        self.shape().to_vec()
     }
 }

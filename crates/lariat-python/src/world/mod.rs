@@ -1,9 +1,11 @@
-//! `World`: rapier3d with cables on its bodies. `bodies`, `colliders`, `joints`, `queries` and `wheels` hold what their names say.
+//! `World`: rapier3d with cables on its bodies. `bodies`, `colliders`, `events`, `joints`, `queries`, `ropes` and `wheels` hold what their names say.
 
 mod bodies;
 mod colliders;
+mod events;
 mod joints;
 mod queries;
+mod ropes;
 mod wheels;
 
 use crate::cable::Cable;
@@ -14,9 +16,11 @@ use crate::shared::Shared;
 use bodies::{Handle, single};
 use lariat_rapier::rapier::dynamics::RigidBodyHandle;
 use lariat_rapier::rapier::pipeline::PhysicsWorld;
-use lariat_rapier::{AttachmentHandle, AttachmentKind, CableHandle, CableSet, Error, Event, Gap, SheaveHandle};
+use lariat_rapier::{
+    AttachmentHandle, AttachmentKind, CableHandle, CableSet, Error, Gap, JunctionHandle, SheaveHandle,
+};
 use pyo3::prelude::*;
-use pyo3::types::{PyBytes, PyList};
+use pyo3::types::PyBytes;
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
 
@@ -35,6 +39,8 @@ pub struct Contents {
     pub attachments: Vec<AttachmentHandle>,
     /// Sheaves in the order of their numbers.
     pub sheaves: Vec<SheaveHandle>,
+    /// Junctions in the order of their numbers.
+    pub junctions: Vec<JunctionHandle>,
 }
 
 /// A world of rigid bodies and cables.
@@ -65,7 +71,9 @@ impl Contents {
 #[pymethods]
 impl World {
     #[new]
-    #[pyo3(signature = (gravity=None, *, dt=1.0/60.0, fidelity="game", rapier_steps=1, max_rapier_steps=32, sleep_speed=2e-3))]
+    #[pyo3(signature = (gravity=None, *, dt=1.0/60.0, fidelity="game", rapier_steps=1, max_rapier_steps=32, sleep_speed=2e-3,
+        max_iterations=None, max_time=None))]
+    #[expect(clippy::too_many_arguments, reason = "they have names in Python")]
     fn new(
         gravity: Option<Vector>,
         dt: f64,
@@ -73,6 +81,8 @@ impl World {
         rapier_steps: u32,
         max_rapier_steps: u32,
         sleep_speed: f64,
+        max_iterations: Option<u64>,
+        max_time: Option<f64>,
     ) -> PyResult<Self> {
         let mut world = PhysicsWorld::new();
         world.gravity = single("gravity (m/s^2)", gravity.map_or(lariat_ancf::STANDARD_GRAVITY, |v| v.0))?;
@@ -88,8 +98,9 @@ impl World {
         set.settings.max_rapier_steps = max_rapier_steps;
         set.settings.sleep_speed = sleep_speed;
         set.settings.fidelity = self::fidelity(fidelity)?;
-        let (bodies, attachments, sheaves) = (Vec::new(), Vec::new(), Vec::new());
-        Ok(World(Shared::new(Contents { world, set, time: 0.0, bodies, attachments, sheaves })))
+        set.settings.budget = ropes::budget(max_iterations, max_time)?;
+        let (bodies, attachments, sheaves, junctions) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
+        Ok(World(Shared::new(Contents { world, set, time: 0.0, bodies, attachments, sheaves, junctions })))
     }
 
     /// Advances bodies and cables by `dt`.
@@ -130,16 +141,6 @@ impl World {
         let handle = cable.handle_in(&self.0)?;
         let rest = self.0.compute(py, |contents| contents.set.cut(handle, at.0)).map_err(raise)?;
         Ok(Cable::of_world(self.0.clone(), rest))
-    }
-
-    /// Sets the tension in N above which a cable breaks; None: it does not.
-    #[pyo3(signature = (cable, strength))]
-    fn set_strength(&self, py: Python<'_>, cable: &Cable, strength: Option<f64>) -> PyResult<()> {
-        if let Some(value) = strength.filter(|x| !(x.is_finite() && *x > 0.0)) {
-            return Err(bodies::invalid("strength (N)", value, "> 0"));
-        }
-        let handle = cable.handle_in(&self.0)?;
-        self.0.with(py, |contents| contents.set.set_strength(handle, strength)).map_err(raise)
     }
 
     /// Attaches a point of a cable to a body: at `anchor` (m, body axes), by default where the point is now.
@@ -189,59 +190,10 @@ impl World {
         result(py, "Attachment", (force, moment, gap, reading.work))
     }
 
-    /// Ties a point of a cable to a point of another.
-    fn join(&self, py: Python<'_>, first: &Cable, at: Place, second: &Cable, second_at: Place) -> PyResult<()> {
-        let ends = ((first.handle_in(&self.0)?, at.0), (second.handle_in(&self.0)?, second_at.0));
-        self.0.compute(py, |contents| contents.set.join(ends.0, ends.1)).map(|_| ()).map_err(raise)
-    }
-
-    /// Moves cables and the bodies on them to static equilibrium; returns whether all of it is stable.
-    fn equilibrium(&self, py: Python<'_>) -> PyResult<bool> {
-        let found = self.0.compute(py, |Contents { world, set, .. }| set.equilibrium(world));
-        found.map(|found| found.is_stable()).map_err(raise)
-    }
-
     /// Whether a cable is asleep with the bodies attached to it.
     fn is_asleep(&self, py: Python<'_>, cable: &Cable) -> PyResult<bool> {
         let handle = cable.handle_in(&self.0)?;
         self.0.with(py, |contents| contents.set.is_asleep(handle)).map_err(raise)
-    }
-
-    /// Events of the last step.
-    fn events<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyList>> {
-        let events = self.0.with(py, |contents| contents.set.events().to_vec());
-        let list = PyList::empty(py);
-        for event in events {
-            let cable = |handle: CableHandle| Cable::of_world(self.0.clone(), handle);
-            let none = || (None::<Cable>, None::<Cable>, None::<f64>, None::<f64>);
-            if let Event::ContactStarted { cable: of, collider, arc_length, .. }
-            | Event::ContactEnded { cable: of, collider, arc_length } = event
-            {
-                let (kind, force) = match event {
-                    Event::ContactStarted { force, .. } => ("contact started", Some(force)),
-                    _ => ("contact ended", None),
-                };
-                let collider = result(py, "ColliderHandle", collider.into_raw_parts())?;
-                let values = (kind, cable(of), None::<Cable>, arc_length, None::<f64>, collider, force);
-                list.append(result(py, "Event", values)?)?;
-                continue;
-            }
-            let (kind, (first, rest, s, tension)) = match event {
-                Event::Asleep(handle) => ("asleep".to_string(), (Some(cable(handle)), None, None, None)),
-                Event::Awake(handle) => ("awake".to_string(), (Some(cable(handle)), None, None, None)),
-                Event::Broken { cable: handle, rest, how } => {
-                    let (s, tension) = (Some(how.arc_length), Some(how.tension));
-                    ("broken".to_string(), (Some(cable(handle)), Some(cable(rest)), s, tension))
-                }
-                Event::AttachmentEnded { .. } => ("attachment ended".to_string(), none()),
-                Event::Warning { cable: handle, warning } => {
-                    (format!("warning: {warning}"), (Some(cable(handle)), None, None, None))
-                }
-                other => (format!("{other:?}"), none()),
-            };
-            list.append(result(py, "Event", (kind, first, rest, s, tension))?)?;
-        }
-        Ok(list)
     }
 
     /// Energies of cables and bodies in J.

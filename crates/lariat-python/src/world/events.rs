@@ -1,0 +1,86 @@
+//! What a world says: events, warnings, what statics moved, and contacts of cables with each other.
+
+use super::World;
+use crate::cable::Cable;
+use crate::convert::{result, vector};
+use crate::error::raise;
+use lariat_rapier::rapier::dynamics::RigidBodyHandle;
+use lariat_rapier::{CableHandle, Event};
+use pyo3::prelude::*;
+
+#[pymethods]
+impl World {
+    /// Events of the last step.
+    fn events<'py>(&self, py: Python<'py>) -> PyResult<Vec<Bound<'py, PyAny>>> {
+        let events = self.0.with(py, |contents| contents.set.events().to_vec());
+        events.into_iter().map(|event| self.event(py, event)).collect()
+    }
+
+    /// What the cables say about their mesh, steps, law and sizes, and about colliders that they are in or do not bounce off.
+    fn warnings(&self, py: Python<'_>) -> Vec<String> {
+        let warnings = self.0.compute(py, |contents| contents.set.warnings(&contents.world));
+        warnings.iter().map(ToString::to_string).collect()
+    }
+
+    /// Moves cables and the bodies on them to static equilibrium; returns whether all is stable, and what was moved.
+    fn equilibrium<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        let found = self.0.compute(py, |contents| contents.set.equilibrium(&mut contents.world)).map_err(raise)?;
+        let handles = |bodies: &[RigidBodyHandle]| -> PyResult<Vec<Bound<'py, PyAny>>> {
+            bodies.iter().map(|body| result(py, "RigidBodyHandle", body.into_raw_parts())).collect()
+        };
+        let bodies = (handles(&found.moved)?, handles(&found.held)?, handles(&found.unattached)?);
+        result(py, "WorldEquilibrium", (found.is_stable(), bodies.0, bodies.1, bodies.2))
+    }
+
+    /// What a cable touched of others and of itself at the end of the last step, each with the other cable.
+    fn cable_contacts<'py>(&self, py: Python<'py>, cable: &Cable) -> PyResult<Vec<Bound<'py, PyAny>>> {
+        let handle = cable.handle_in(&self.0)?;
+        let touches = self.0.with(py, |contents| contents.set.cable_contacts(handle)).map_err(raise)?;
+        let made = touches.into_iter().map(|(other, touch)| {
+            let (normal, friction) = (vector(py, &touch.normal), vector(py, &touch.friction));
+            let places = (touch.arc_length, touch.other_arc_length);
+            let values =
+                (self.cable(other), places.0, places.1, normal, touch.normal_force, friction, touch.depth, touch.slips);
+            result(py, "CableTouch", values)
+        });
+        made.collect()
+    }
+}
+
+impl World {
+    /// Returns a cable of this world.
+    pub(super) fn cable(&self, handle: CableHandle) -> Cable {
+        Cable::of_world(self.0.clone(), handle)
+    }
+
+    fn event<'py>(&self, py: Python<'py>, event: Event) -> PyResult<Bound<'py, PyAny>> {
+        let (mut rest, mut arc_length, mut tension, mut force) = (None, None, None, None);
+        let mut collider = None;
+        let (kind, cable) = match event {
+            Event::Asleep(cable) => ("asleep".to_string(), Some(cable)),
+            Event::Awake(cable) => ("awake".to_string(), Some(cable)),
+            Event::Degraded(cable) => ("degraded".to_string(), Some(cable)),
+            Event::Broken { cable, rest: behind, how } => {
+                (rest, arc_length, tension) = (Some(self.cable(behind)), Some(how.arc_length), Some(how.tension));
+                ("broken".to_string(), Some(cable))
+            }
+            Event::ContactStarted { cable, collider: other, arc_length: s, force: normal } => {
+                (collider, arc_length, force) = (Some(other), Some(s), Some(normal));
+                ("contact started".to_string(), Some(cable))
+            }
+            Event::ContactEnded { cable, collider: other, arc_length: s } => {
+                (collider, arc_length) = (Some(other), Some(s));
+                ("contact ended".to_string(), Some(cable))
+            }
+            Event::ContactIgnored { cable, collider: other } => {
+                collider = Some(other);
+                ("contact ignored".to_string(), Some(cable))
+            }
+            Event::AttachmentEnded { .. } => ("attachment ended".to_string(), None),
+            Event::Warning { cable, warning } => (format!("warning: {warning}"), Some(cable)),
+            other => (format!("{other:?}"), None),
+        };
+        let collider = collider.map(|c| result(py, "ColliderHandle", c.into_raw_parts())).transpose()?;
+        result(py, "Event", (kind, cable.map(|c| self.cable(c)), rest, arc_length, tension, collider, force))
+    }
+}
