@@ -21,7 +21,7 @@ use crate::scene::body::BodyKind;
 use crate::scene::{Scene, SheaveScene};
 use crate::warning::Warning;
 use lariat_ancf::island::RigidBody;
-use lariat_ancf::{At, Break, Cable, Momentum, Vector3};
+use lariat_ancf::{At, Break, Cable, Momentum, PointLoad, Vector3};
 use lariat_rapier::convert::{to_pose, to_vector};
 use lariat_rapier::rapier::dynamics::RigidBodyHandle;
 use lariat_rapier::rapier::math::Real;
@@ -186,9 +186,11 @@ impl Physics {
             added.map_err(|error| self.explain(scene, 0.0, error))?;
         }
         for sheave in &scene.sheaves {
-            let SheaveScene { friction, turns, inertia, brake, .. } = *sheave;
+            let SheaveScene { friction, turns, inertia, brake, radius, on_wheel, .. } = *sheave;
             let [from, to] = sheave.cables.map(|cable| self.handles[cable]);
-            let options = SheaveOptions { inertia, friction, turns, brake };
+            // what is on the wheel turns with it
+            let inertia = inertia + scene.cables[sheave.cables[0]].section.mass_per_length * on_wheel;
+            let options = SheaveOptions { inertia, friction, turns, brake, radius };
             let added = self.cables.add_sheave((from, At::End), (to, At::Start), options);
             self.sheaves.push(added.map_err(|error| self.explain(scene, 0.0, error))?);
         }
@@ -322,6 +324,14 @@ impl Physics {
     pub fn cut(&mut self, scene: &Scene, time: f64, cable: usize, arc_length: f64) -> Result<(), Error> {
         let cut = self.cables.cut(self.handles[cable], arc_length);
         cut.map(|_| ()).map_err(|error| self.explain(scene, time, error))
+    }
+
+    /// Sets the point loads of a cable.
+    pub fn set_loads(&mut self, cable: usize, loads: &[PointLoad]) {
+        if let Ok(cable) = self.cables.get_mut(self.handles[cable]) {
+            // loads of the scene, at points of the cable
+            let _ = cable.set_loads(loads);
+        }
     }
 
     /// Returns the cables that broke or were cut since the last call, by their position, with what they carried. The rest of

@@ -22,7 +22,8 @@
 //!
 //! # Validity
 //!
-//! A wheel without extent, one density on both sides. Friction is that of a rope on a wheel that stands, or of a bearing: with it, the inertia
+//! A wheel whose two ends are points of what holds it, one density on both sides. What is on the wheel between them has no weight, and its
+//! mass is to be counted to the inertia. Friction is that of a rope on a wheel that stands, or of a bearing: with it, the inertia
 //! is that of what turns with the rope.
 //!
 //! # References
