@@ -48,6 +48,16 @@ pub enum Warning {
         /// Time in s at which it was first found in it.
         time_s: f64,
     },
+    /// A sheave that a point of its cable stopped.
+    #[error(
+        "sheave {sheave:?}: it stopped at {time_s:.3} s, before a held or loaded point of its cable, or its last element, came to the wheel"
+    )]
+    SheaveStopped {
+        /// Name of the sheave.
+        sheave: String,
+        /// Time in s.
+        time_s: f64,
+    },
     /// A part of a cable that turned at a wheel, whose points do not follow it.
     #[error(
         "sheave {sheave:?}: a part of its cable turned there by {angle_rad:.3} rad, at {time_s:.3} s: the point where it leaves the wheel is fixed to \

@@ -21,7 +21,7 @@ use crate::scene::body::BodyKind;
 use crate::scene::{Scene, SheaveScene};
 use crate::warning::Warning;
 use lariat_ancf::island::RigidBody;
-use lariat_ancf::{At, Break, Cable, Momentum, PointLoad, Vector3};
+use lariat_ancf::{At, Break, Cable, Momentum, Vector3};
 use lariat_rapier::convert::{to_pose, to_vector};
 use lariat_rapier::rapier::dynamics::RigidBodyHandle;
 use lariat_rapier::rapier::math::Real;
@@ -205,6 +205,16 @@ impl Physics {
         Some([sheave.passed(), to.rate, from.tension, to.tension, sheave.force(), sheave.lost()])
     }
 
+    /// Returns whether a sheave stands because its cable cannot run on: at a point that is held or loaded, or at its last element.
+    pub fn sheave_stopped(&self, sheave: usize) -> bool {
+        let ends = self.sheaves.get(sheave).and_then(|sheave| Some(self.cables.sheave(*sheave).ok()?.ends()));
+        let at_end = |(cable, at): (CableHandle, At)| {
+            let reel = self.cables.get(cable).ok().and_then(|cable| cable.reel(at));
+            reel.is_some_and(|reel| reel.stopped)
+        };
+        ends.is_some_and(|ends| ends.into_iter().any(at_end))
+    }
+
     /// Returns a warning for each attachment whose two sides start at different velocities.
     ///
     /// # Errors
@@ -324,14 +334,6 @@ impl Physics {
     pub fn cut(&mut self, scene: &Scene, time: f64, cable: usize, arc_length: f64) -> Result<(), Error> {
         let cut = self.cables.cut(self.handles[cable], arc_length);
         cut.map(|_| ()).map_err(|error| self.explain(scene, time, error))
-    }
-
-    /// Sets the point loads of a cable.
-    pub fn set_loads(&mut self, cable: usize, loads: &[PointLoad]) {
-        if let Ok(cable) = self.cables.get_mut(self.handles[cable]) {
-            // loads of the scene, at points of the cable
-            let _ = cable.set_loads(loads);
-        }
     }
 
     /// Returns the cables that broke or were cut since the last call, by their position, with what they carried. The rest of

@@ -1,7 +1,7 @@
 //! The parts that the cables of a scene have become.
 
 use super::World;
-use lariat_ancf::{Break, PointLoad};
+use lariat_ancf::Break;
 use serde::{Deserialize, Serialize};
 
 /// A part of a cable of the file: what a break or a sheave left of it.
@@ -112,34 +112,5 @@ impl World {
         self.owners.push(owner);
         let from = self.pieces()[part].from;
         self.breaks.push(Parted::new(&self.scene.cables[owner].name, from, self.time(), how));
-    }
-
-    /// Moves point loads that ran over a sheave to the part of their cable that has their material now.
-    pub(super) fn hand_over_loads(&mut self) {
-        for cable in 0..self.order.len() {
-            if self.scene.parts[cable].len() < 2 {
-                continue;
-            }
-            let of_cable = |k: &usize| self.scene.whole(self.scene.loads[*k].cable) == cable;
-            let loads: Vec<usize> = (0..self.scene.loads.len()).filter(of_cable).collect();
-            let at = |k: usize| {
-                let load = &self.scene.loads[k];
-                (self.part_of(load.cable, load.load.arc_length), load.load)
-            };
-            let now: Vec<_> = loads.iter().map(|&k| at(k)).collect();
-            let stay = loads.iter().zip(&now).all(|(&k, ((part, _), _))| self.loaded[k] == *part);
-            // a ramp goes on where it began
-            if stay || now.iter().any(|(_, load)| load.ramp > self.time) {
-                continue;
-            }
-            for &part in &self.order[cable] {
-                let here = now.iter().filter(|((own, _), _)| *own == part);
-                let here = here.map(|&((_, arc_length), load)| PointLoad { arc_length, ramp: 0.0, ..load });
-                if let Some(physics) = &mut self.physics {
-                    physics.set_loads(part, &here.collect::<Vec<_>>());
-                }
-            }
-            loads.iter().zip(&now).for_each(|(&k, ((part, _), _))| self.loaded[k] = *part);
-        }
     }
 }

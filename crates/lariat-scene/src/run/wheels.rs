@@ -32,7 +32,8 @@ impl WheelWatch {
         let place = order.iter().position(|&part| part == behind).and_then(|k| k.checked_sub(1));
         let Some(before) = place.map(|k| order[k]) else { return };
         let cables = world.cables();
-        let body = world.scene.attachments.iter().find(|a| a.cable == behind && a.arc_length == 0.0).and_then(|a| a.body);
+        let body =
+            world.scene.attachments.iter().find(|a| a.cable == behind && a.arc_length == 0.0).and_then(|a| a.body);
         let turn = body.and_then(|body| world.body(body)).map(|state| state.rotation.inverse());
         let ends = [(before, cables[before].length()), (behind, 0.0)];
         let direction = |(part, s): (usize, f64)| {

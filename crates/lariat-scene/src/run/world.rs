@@ -22,8 +22,6 @@ pub struct World {
     pub(super) owners: Vec<usize>,
     /// By cable of the file, its parts, in their order along it.
     pub(super) order: Vec<Vec<usize>>,
-    /// By point load of the scene, the part that has it.
-    pub(super) loaded: Vec<usize>,
     /// By cable of the file, whether its cut is done.
     cut: Vec<bool>,
     pub(super) breaks: Vec<Parted>,
@@ -55,7 +53,6 @@ impl World {
             time: 0.0,
             owners: (0..scene.cables.len()).map(|part| scene.whole(part)).collect(),
             order: scene.parts.clone(),
-            loaded: scene.loads.iter().map(|load| load.cable).collect(),
             cut: vec![false; scene.parts.len()],
             breaks: Vec::new(),
             warnings: Vec::new(),
@@ -186,7 +183,6 @@ impl World {
             }
         }
         self.note_breaks();
-        self.hand_over_loads();
         for cable in 0..self.cut.len() {
             if let Some((_, s)) = self.scene.cables[cable].breaking.cut.filter(|(t, _)| *t <= time)
                 && !core::mem::replace(&mut self.cut[cable], true)
@@ -238,6 +234,11 @@ impl World {
     /// Returns of a sheave: length passed in m, rate in m/s, tensions at its cables in N, friction in N, energy lost in J; `None` if it ended.
     pub fn sheave(&self, sheave: usize) -> Option<[f64; 6]> {
         self.physics.as_ref()?.sheave(sheave)
+    }
+
+    /// Returns whether a sheave stands because its cable cannot run on.
+    pub(super) fn sheave_stopped(&self, sheave: usize) -> bool {
+        self.physics.as_ref().is_some_and(|physics| physics.sheave_stopped(sheave))
     }
 
     /// Returns the scene.

@@ -110,12 +110,7 @@ pub(super) fn divide(
 }
 
 /// Reads the sheave in a row, if it is along a cable: the cable and where it passes.
-fn read(
-    doc: &Document<'_>,
-    scene: &Scene,
-    row: usize,
-    table: &SheaveTable,
-) -> Result<Option<(usize, Passage)>, Error> {
+fn read(doc: &Document<'_>, scene: &Scene, row: usize, table: &SheaveTable) -> Result<Option<(usize, Passage)>, Error> {
     let at = KeyPath::root("sheave").item(row);
     let Some(name) = &table.cable else {
         for (key, given) in [
@@ -332,7 +327,8 @@ fn split(
     for (k, passage) in passages.iter().enumerate() {
         let parts = [positions[k], positions[k + 1]];
         let on_wheel = scene.cables[parts[1]].lead;
-        let between = if passage.angle > std::f64::consts::PI { std::f64::consts::TAU - passage.angle } else { passage.angle };
+        let between =
+            if passage.angle > std::f64::consts::PI { std::f64::consts::TAU - passage.angle } else { passage.angle };
         let turns = if passage.radius > 0.0 { passage.angle - between } else { 0.0 };
         along[passage.row] = Some(Passed { parts, on_wheel, turns });
     }
@@ -431,11 +427,7 @@ impl Scene {
 }
 
 /// Checks that a name is not that of an attachment of a sheave.
-pub(super) fn add(
-    doc: &Document<'_>,
-    scene: &mut Scene,
-    attachments: Vec<AttachmentScene>,
-) -> Result<(), Error> {
+pub(super) fn add(doc: &Document<'_>, scene: &mut Scene, attachments: Vec<AttachmentScene>) -> Result<(), Error> {
     for attachment in attachments {
         let root = KeyPath::root("sheave");
         unique(doc, &root, &attachment.name, scene.attachments.iter().map(|a| a.name.as_str()))?;
