@@ -158,7 +158,10 @@ impl Wheel {
         let friction = force[1] - force[0] - self.sheave.inertia * acceleration;
         let (bound, rounding) = (self.bound(force), 1e-12 * (1.0 + acceleration.abs()));
         let missed = if (acceleration - wanted).abs() <= rounding {
-            (friction.abs() - bound).max(0.0)
+            // at a stop, that takes what friction does not
+            let beyond = if wanted >= largest - rounding { 0.0 } else { (friction - bound).max(0.0) };
+            let below = if wanted <= least + rounding { 0.0 } else { (-bound - friction).max(0.0) };
+            beyond.max(below)
         } else if acceleration >= largest - rounding {
             (bound - friction).max(0.0)
         } else if acceleration <= least + rounding {
