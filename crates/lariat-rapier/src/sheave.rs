@@ -20,6 +20,8 @@ pub struct SheaveOptions {
     pub turns: f64,
     /// Constant friction in N. Default 0.
     pub brake: f64,
+    /// Radius of the wheel in m: both ends are within it of one centre, as points of one body. Default 0, where they are one point.
+    pub radius: f64,
 }
 
 /// A sheave of a [`CableSet`](crate::CableSet), and what it did so far.
@@ -116,8 +118,9 @@ fn add(
         }
     }
     let mut wheel = Wheel::new((0, At::End), (0, At::Start));
-    let SheaveOptions { inertia, friction, turns, brake } = options;
+    let SheaveOptions { inertia, friction, turns, brake, radius } = options;
     (wheel.inertia, wheel.friction, wheel.turns, wheel.brake) = (inertia, friction, turns, brake);
+    wheel.radius = radius;
     contents.changed = true;
     Ok(SheaveHandle(contents.sheaves.push(Sheave { ends, wheel }) as u32))
 }

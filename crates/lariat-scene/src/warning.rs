@@ -48,6 +48,33 @@ pub enum Warning {
         /// Time in s at which it was first found in it.
         time_s: f64,
     },
+    /// A sheave that a point of its cable stopped.
+    #[error(
+        "sheave {sheave:?}: it stopped at {time_s:.3} s, before a held or loaded point of its cable, or its last element, came to the wheel"
+    )]
+    SheaveStopped {
+        /// Name of the sheave.
+        sheave: String,
+        /// Time in s.
+        time_s: f64,
+    },
+    /// A part of a cable that turned at a wheel, whose points do not follow it.
+    #[error(
+        "sheave {sheave:?}: a part of its cable turned there by {angle_rad:.3} rad, at {time_s:.3} s: the point where it leaves the wheel is fixed to \
+         its body, and {error_m:.1e} m off, {:.2} % of that part; take a smaller radius, or a longer part", 100.0 * .error_m / .part_m
+    )]
+    WheelTurned {
+        /// Name of the sheave.
+        sheave: String,
+        /// Angle in rad between the directions of the part at the start and then, seen from the body.
+        angle_rad: f64,
+        /// Time in s of the largest share of the error.
+        time_s: f64,
+        /// Radius times angle in m.
+        error_m: f64,
+        /// Length of the part then in m.
+        part_m: f64,
+    },
     /// Integration makes energy.
     #[error(
         "the run makes energy: {made_j:.1e} J until {time_s:.4} s, {percent:.2} % of the largest energy or work ({scale_j:.3e} J): take a smaller tolerance, \

@@ -28,6 +28,7 @@ pub(super) fn check(cables: &[&mut Cable], sheaves: &[Sheave]) -> Result<(), Err
             ("friction of a sheave", sheave.friction),
             ("turns of a sheave (rad)", sheave.turns),
             ("brake of a sheave (N)", sheave.brake),
+            ("radius of a sheave (m)", sheave.radius),
         ] {
             require(what, value, value >= 0.0, ">= 0").map_err(|e| e.of_cable(a.name()))?;
         }
@@ -42,7 +43,7 @@ pub(super) fn check(cables: &[&mut Cable], sheaves: &[Sheave]) -> Result<(), Err
             }
         }
         let [p, q] = ends.map(|(cable, side)| cables[cable].node_position(side.nodes(cables[cable].nodes())[1]));
-        if (p - q).norm() > GAP {
+        if (p - q).norm() > GAP + 2.0 * sheave.radius {
             return refused(a, "the two ends at a sheave are not at one point");
         }
         let [m, n] = ends.map(|(cable, side)| {

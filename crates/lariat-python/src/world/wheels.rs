@@ -38,7 +38,7 @@ impl World {
         not_negative("friction", friction)?;
         not_negative("turns (rad)", turns)?;
         not_negative("brake (N)", brake)?;
-        let options = SheaveOptions { inertia, friction, turns, brake };
+        let options = SheaveOptions { inertia, friction, turns, brake, ..SheaveOptions::default() };
         let added = self.0.compute(py, |contents| {
             contents.set.add_sheave(ends.0, ends.1, options).map(|sheave| {
                 contents.sheaves.push(sheave);

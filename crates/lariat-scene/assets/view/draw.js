@@ -186,6 +186,16 @@ function drawMarks(g, frame, time, names) {
     g.fill();
     g.stroke();
   }
+  for (const part of data.sheaves) {
+    const [first] = frame.cables[part];
+    const p = project([...numbers.subarray(first + 1, first + 4)]);
+    if (!p) continue;
+    g.beginPath();
+    g.arc(p[0], p[1], 5.5, 0, 7);
+    g.strokeStyle = style.ink;
+    g.lineWidth = 1.5;
+    g.stroke();
+  }
   for (const tie of data.junctions) {
     const p = project(onCable(frame, tie.cable, tie.at));
     if (!p) continue;

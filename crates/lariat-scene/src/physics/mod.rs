@@ -186,9 +186,11 @@ impl Physics {
             added.map_err(|error| self.explain(scene, 0.0, error))?;
         }
         for sheave in &scene.sheaves {
-            let SheaveScene { friction, turns, inertia, brake, .. } = *sheave;
+            let SheaveScene { friction, turns, inertia, brake, radius, on_wheel, .. } = *sheave;
             let [from, to] = sheave.cables.map(|cable| self.handles[cable]);
-            let options = SheaveOptions { inertia, friction, turns, brake };
+            // what is on the wheel turns with it
+            let inertia = inertia + scene.cables[sheave.cables[0]].section.mass_per_length * on_wheel;
+            let options = SheaveOptions { inertia, friction, turns, brake, radius };
             let added = self.cables.add_sheave((from, At::End), (to, At::Start), options);
             self.sheaves.push(added.map_err(|error| self.explain(scene, 0.0, error))?);
         }
@@ -201,6 +203,16 @@ impl Physics {
         let [from, to] = sheave.ends().map(|(cable, at)| self.cables.get(cable).ok()?.reel(at));
         let (from, to) = (from?, to?);
         Some([sheave.passed(), to.rate, from.tension, to.tension, sheave.force(), sheave.lost()])
+    }
+
+    /// Returns whether a sheave stands because its cable cannot run on: at a point that is held or loaded, or at its last element.
+    pub fn sheave_stopped(&self, sheave: usize) -> bool {
+        let ends = self.sheaves.get(sheave).and_then(|sheave| Some(self.cables.sheave(*sheave).ok()?.ends()));
+        let at_end = |(cable, at): (CableHandle, At)| {
+            let reel = self.cables.get(cable).ok().and_then(|cable| cable.reel(at));
+            reel.is_some_and(|reel| reel.stopped)
+        };
+        ends.is_some_and(|ends| ends.into_iter().any(at_end))
     }
 
     /// Returns a warning for each attachment whose two sides start at different velocities.

@@ -44,6 +44,7 @@ pub mod schedule;
 mod statics;
 mod summary;
 mod watch;
+mod wheels;
 mod world;
 
 pub use balance::EnergyBalance;
@@ -246,7 +247,8 @@ fn note(record: &mut Option<&mut Record>, world: &World) {
     }
     for probe in &world.scene.probes {
         if let Target::Point { cable, arc_length } = probe.target
-            && let Ok(sample) = cables[cable].sample(arc_length)
+            && let (part, s) = world.part(cable, arc_length)
+            && let Ok(sample) = cables[part].sample(s)
         {
             record.point(sample.position);
         }

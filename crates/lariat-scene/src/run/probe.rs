@@ -64,8 +64,8 @@ pub(super) fn read(target: Target, world: &mut World, row: &mut Vec<f64>) -> Res
         Target::Reel(cable) => {
             let (part, _) = world.part(cable, f64::INFINITY);
             // a reel at the end is at the last part of its cable
-            let (part, end) =
-                if world.scene().cables[cable].reel_at_start { (cable, At::Start) } else { (part, At::End) };
+            let at_start = world.scene().reel_part(cable).is_some_and(|own| world.scene().cables[own].reel_at_start);
+            let (part, end) = if at_start { (cable, At::Start) } else { (part, At::End) };
             if let Some(reel) = world.cables()[part].reel(end) {
                 row.extend([reel.length_out, reel.rate, reel.force, reel.tension, reel.work]);
             }

@@ -54,7 +54,13 @@ impl World {
     pub fn interface_work(&self, cable: Option<usize>) -> Result<f64, Error> {
         let Some(physics) = &self.physics else { return Ok(0.0) };
         let mut sum = 0.0;
-        for (k, _) in self.scene.attachments.iter().enumerate().filter(|(_, a)| cable.is_none_or(|c| c == a.cable)) {
+        for (k, _) in self
+            .scene
+            .attachments
+            .iter()
+            .enumerate()
+            .filter(|(_, a)| cable.is_none_or(|c| c == self.scene.whole(a.cable)))
+        {
             sum += physics.reading(k, self.time)?.map_or(0.0, |reading| reading.work);
         }
         Ok(sum)
@@ -131,7 +137,7 @@ impl World {
         let AttachmentScene { cable, arc_length, .. } = self.scene.attachments[index];
         // a copy, because reading reactions modifies a cable, which wakes it
         let mut coupled = None;
-        let (part, arc_length) = self.part(cable, arc_length);
+        let (part, arc_length) = self.part_of(cable, arc_length);
         let cable = match self.alone.get_mut(part) {
             Some(cable) => cable,
             None => coupled.insert(self.cables()[part].clone()),

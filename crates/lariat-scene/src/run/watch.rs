@@ -2,6 +2,7 @@
 
 use super::World;
 use super::balance::{Account, EnergyBalance, LOST, MADE};
+use super::wheels::WheelWatch;
 use crate::error::Error;
 use crate::scene::Purpose;
 use crate::warning::Warning;
@@ -9,6 +10,9 @@ use crate::warning::Warning;
 /// The readings of the cables of a run so far, and its energy balance.
 pub(super) struct Watch {
     cables: Vec<lariat_ancf::Watch>,
+    wheels: Vec<WheelWatch>,
+    /// By sheave, when it was first found stopped.
+    stopped: Vec<Option<f64>>,
     account: Account,
 }
 
@@ -20,7 +24,12 @@ impl Watch {
         let watch = |(cable, known)| {
             if known { lariat_ancf::Watch::new(cable) } else { lariat_ancf::Watch::from_guess() }
         };
-        Watch { cables: world.cables().into_iter().zip(drawn).map(watch).collect(), account: Account::default() }
+        Watch {
+            cables: world.cables().into_iter().zip(drawn).map(watch).collect(),
+            wheels: WheelWatch::all(world),
+            stopped: vec![None; world.scene.sheaves.len()],
+            account: Account::default(),
+        }
     }
 
     /// Reads the cables at a host time.
@@ -29,6 +38,10 @@ impl Watch {
     /// [`Error::Coupling`]; not for a running scene.
     pub fn note(&mut self, world: &World) -> Result<(), Error> {
         self.account.note(world)?;
+        self.wheels.iter_mut().for_each(|wheel| wheel.note(world));
+        for (sheave, stopped) in self.stopped.iter_mut().enumerate() {
+            *stopped = stopped.or(world.sheave_stopped(sheave).then(|| world.time()));
+        }
         // the part of a broken cable that comes first keeps its place
         self.cables.iter_mut().zip(world.cables()).for_each(|(watch, cable)| watch.note(cable));
         Ok(())
@@ -51,6 +64,10 @@ impl Watch {
     /// Returns the warnings about the cables and the energy, if an error of positions (m) is asked for against that.
     pub fn warnings(&self, world: &World, error: Option<f64>) -> Vec<Warning> {
         let of_cables = self.cables.iter().zip(world.cables()).flat_map(|(watch, cable)| watch.warnings(cable, error));
-        of_cables.map(Warning::Cable).chain(self.energy_warning()).collect()
+        let of_stops = self.stopped.iter().zip(&world.scene.sheaves).filter_map(|(stopped, sheave)| {
+            stopped.map(|time_s| Warning::SheaveStopped { sheave: sheave.name.clone(), time_s })
+        });
+        let of_wheels = self.wheels.iter().filter_map(|wheel| wheel.warning(world));
+        of_cables.map(Warning::Cable).chain(self.energy_warning()).chain(of_wheels).chain(of_stops).collect()
     }
 }

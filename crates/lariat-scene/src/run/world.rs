@@ -1,12 +1,12 @@
 //! The cables and bodies of a scene while it runs.
 
 use super::readings::pull;
-use super::{BodyStatics, CableStatics, Parted, Piece};
+use super::{BodyStatics, CableStatics, Parted};
 use crate::error::Error;
 use crate::physics::Physics;
 use crate::scene::{Engine, Purpose, Scene};
 use crate::warning::Warning;
-use lariat_ancf::{At, AxialRule, Break, Cable, EquilibriumReport, Support};
+use lariat_ancf::{At, AxialRule, Cable, EquilibriumReport, Support};
 
 /// The cables and bodies of a scene in their present state.
 #[derive(Clone)]
@@ -18,9 +18,11 @@ pub struct World {
     pub(super) physics: Option<Box<Physics>>,
     /// Common time of cables and bodies in s.
     pub(super) time: f64,
-    /// What each cable of [`cables`](Self::cables) is part of.
-    pieces: Vec<Piece>,
-    /// By cable of the scene, whether its cut is done.
+    /// By cable of [`cables`](Self::cables), that of the file of which it is a part.
+    pub(super) owners: Vec<usize>,
+    /// By cable of the file, its parts, in their order along it.
+    pub(super) order: Vec<Vec<usize>>,
+    /// By cable of the file, whether its cut is done.
     cut: Vec<bool>,
     pub(super) breaks: Vec<Parted>,
     pub(super) warnings: Vec<Warning>,
@@ -49,8 +51,9 @@ impl World {
             alone: cables,
             physics,
             time: 0.0,
-            pieces: (0..scene.cables.len()).map(|cable| Piece { cable, from: 0.0 }).collect(),
-            cut: vec![false; scene.cables.len()],
+            owners: (0..scene.cables.len()).map(|part| scene.whole(part)).collect(),
+            order: scene.parts.clone(),
+            cut: vec![false; scene.parts.len()],
             breaks: Vec::new(),
             warnings: Vec::new(),
             static_iterations: 0,
@@ -216,14 +219,6 @@ impl World {
         }
     }
 
-    /// Notes that a cable became two; the rest is the last of all cables.
-    fn note_break(&mut self, part: usize, how: &Break) {
-        let piece = self.pieces[part];
-        let name = self.scene.cables[piece.cable].name.as_str();
-        self.breaks.push(Parted::new(name, &piece, self.time(), how));
-        self.pieces.push(Piece { from: piece.from + how.arc_length, ..piece });
-    }
-
     /// Returns a copy whose cables do not break, for times between host times.
     pub(super) fn unbreakable(&self) -> World {
         let mut copy = self.clone();
@@ -236,35 +231,14 @@ impl World {
         copy
     }
 
-    /// Returns what each of the [cables](Self::cables) is part of.
-    pub fn pieces(&self) -> &[Piece] {
-        &self.pieces
-    }
-
-    /// Returns the position in [`cables`](Self::cables) of the part of a cable of the scene that holds an arc length (m), and the
-    /// arc length on it. A break belongs to the part before it; what a reel has taken in is at its eye, and so is its end.
-    pub fn part(&self, cable: usize, arc_length: f64) -> (usize, f64) {
-        let length = self.scene.cables[cable].length;
-        let slack = 1e-9 * length;
-        let [at_start, at_end] = self.scene.eyes(cable);
-        // what came through an eye at the start is before all other material
-        let passed = if at_start && arc_length > slack { self.cables()[cable].length_from_start() } else { 0.0 };
-        let at_eye = at_end && arc_length >= length - slack;
-        let arc_length = if at_eye { f64::INFINITY } else { (arc_length + passed).max(0.0) };
-        let parts = self.pieces.iter().enumerate().filter(|(_, piece)| piece.cable == cable);
-        let before = parts.filter(|(_, piece)| piece.from < arc_length - slack);
-        let (part, from) = before.fold(
-            (cable, 0.0),
-            |(part, from), (i, piece)| {
-                if piece.from > from { (i, piece.from) } else { (part, from) }
-            },
-        );
-        (part, (arc_length - from).min(self.cables()[part].length()))
-    }
-
     /// Returns of a sheave: length passed in m, rate in m/s, tensions at its cables in N, friction in N, energy lost in J; `None` if it ended.
     pub fn sheave(&self, sheave: usize) -> Option<[f64; 6]> {
         self.physics.as_ref()?.sheave(sheave)
+    }
+
+    /// Returns whether a sheave stands because its cable cannot run on.
+    pub(super) fn sheave_stopped(&self, sheave: usize) -> bool {
+        self.physics.as_ref().is_some_and(|physics| physics.sheave_stopped(sheave))
     }
 
     /// Returns the scene.

@@ -1,6 +1,6 @@
 //! `[[attachment]]`: a point of a cable that a body or the world holds.
 
-use super::references::{Position, arc_length, body_or_world, cable, unique};
+use super::references::{Position, body_or_world, cable, point, unique};
 use super::{Purpose, Scene};
 use crate::document::{Document, KeyPath};
 use crate::error::{Error, Problem};
@@ -87,8 +87,8 @@ pub(super) fn read(
 ) -> Result<AttachmentScene, Error> {
     let at = KeyPath::root("attachment").item(i);
     let cable = cable(doc, &at.key("cable"), scene, &row.cable)?;
+    let (cable, arc_length) = point(doc, &at.key("at"), row.at, scene, cable)?;
     let length = scene.cables[cable].length;
-    let arc_length = arc_length(doc, &at.key("at"), row.at, length)?;
     let body = body_or_world(doc, &at.key("body"), scene, &row.body)?;
     let name = row.name.unwrap_or_else(|| format!("attachment-{i}"));
     unique(doc, &at, &name, scene.attachments.iter().map(|a| a.name.as_str()))?;

@@ -250,6 +250,12 @@ impl BodyScene {
         let (position, rotation) = self.pose(0.0);
         position + rotation * point
     }
+
+    /// Returns a point of the world at t = 0 in the axes of the body.
+    pub fn to_body(&self, point: &Vector3<f64>) -> Vector3<f64> {
+        let (position, rotation) = self.pose(0.0);
+        rotation.inverse() * (point - position)
+    }
 }
 
 /// Returns position and velocity on a path: linear between rows, constant before the first and after the last.

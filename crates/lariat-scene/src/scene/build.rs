@@ -11,7 +11,7 @@ impl Scene {
     pub fn build_cable(&self, index: usize) -> Result<Cable, Error> {
         let scene = &self.cables[index];
         let mut builder = Cable::builder()
-            .name(scene.name.as_str())
+            .name(self.name_of(index))
             .points(scene.points.iter().copied())
             .length(scene.length)
             .elements(scene.elements)
@@ -37,6 +37,15 @@ impl Scene {
             cable.add_reel(if scene.reel_at_start { At::Start } else { At::End }, reel.clone())?;
         }
         Ok(cable)
+    }
+
+    /// Returns the name of a cable, with the number of its part behind a sheave.
+    fn name_of(&self, index: usize) -> String {
+        let name = &self.cables[index].name;
+        match self.parts[self.whole(index)].iter().position(|&part| part == index) {
+            None | Some(0) => name.clone(),
+            Some(k) => format!("{name}, part {}", k + 1),
+        }
     }
 
     /// Returns whether material runs through the first and the last point of a cable: at a reel or a sheave.

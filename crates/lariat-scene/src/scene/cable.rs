@@ -33,7 +33,7 @@ table! {
         /// `"straight"` starts as drawn, `"equilibrium"` in the static shape under the loads of the scene, with bodies and junctions
         /// held where they are drawn.
         initial: Initial = "straight", Kind::Choice(Initial::names);
-        /// Number of elements.
+        /// Number of elements. A cable over sheaves shares them out over its parts, each of which has at least two.
         elements: u64 = 10, Kind::Whole(1, 1_000_000);
         /// Shape of the section; or the three stiffnesses.
         section: Option<Shape> = ("required without the three stiffnesses"), Kind::Table(&SECTION), "m";
@@ -51,8 +51,8 @@ table! {
         rule: RuleTable = "projected-3", RULE;
         /// `true` runs a rule with zero-energy modes.
         allow_rank_deficient: bool = false, Kind::Flag;
-        /// Time integrator and step control. A cable with `contact` needs the method `"discrete-gradient"`, and has `{ fidelity = "game" }` by
-        /// default.
+        /// Time integrator and step control. A cable with `contact`, a reel with `max_force` or a drum, or a sheave needs the method
+        /// `"discrete-gradient"`, and has `{ fidelity = "game" }` by default.
         integrator: IntegratorTable = { fidelity = "engineering" }, Kind::Table(&IntegratorTable::TABLE);
         /// Velocity of the start point.
         velocity: Vector3<f64> = [0.0, 0.0, 0.0], VECTOR, "m/s";
@@ -112,6 +112,8 @@ pub struct CableScene {
     pub points: Vec<Vector3<f64>>,
     /// Unstretched length in m.
     pub length: f64,
+    /// Length in m of the cable between the part before this one and its start: what is on a wheel.
+    pub lead: f64,
     /// True to start from static equilibrium.
     pub equilibrium: bool,
     /// Number of elements.
@@ -160,9 +162,6 @@ pub(super) fn read(
         Some(reel::Written { reel, at_start, drum }) => (Some(reel), at_start, drum),
         None => (None, false, None),
     };
-    if reel_at_start && breaking != BreakScene::default() {
-        return Err(doc.conflict(&at.key(REEL.name), "a cable that breaks cannot have its reel at the first point"));
-    }
     let effects = effects::read(doc, at, row.effects, &effects::Context { section: &section, rule, length })?;
     let mut integrator = integrator::read(doc, &at.key("integrator"), &row.integrator)?;
     let slips = reel.as_ref().is_some_and(|reel| reel.max_force.is_some());
@@ -174,6 +173,7 @@ pub(super) fn read(
     let cable = CableScene {
         points: row.points,
         length,
+        lead: 0.0,
         equilibrium: row.initial == Initial::Equilibrium,
         elements: row.elements as usize,
         section,

@@ -1,7 +1,7 @@
 //! `[[junction]]`: two points of cables that are tied to each other.
 
 use super::Scene;
-use super::references::{Position, arc_length, cable, unique};
+use super::references::{Position, cable, point, unique};
 use crate::document::{Document, KeyPath};
 use crate::error::{Error, Problem};
 use crate::schema::{Kind, POSITION, table};
@@ -40,11 +40,11 @@ pub struct JunctionScene {
 /// Reads the junction in row `i`.
 pub(super) fn read(doc: &Document<'_>, scene: &Scene, i: usize, row: JunctionTable) -> Result<JunctionScene, Error> {
     let at = KeyPath::root("junction").item(i);
-    let point = |key: &str, name: &str, at_key: &str, position| {
+    let tied = |key: &str, name: &str, at_key: &str, position| {
         let cable = cable(doc, &at.key(key), scene, name)?;
-        arc_length(doc, &at.key(at_key), position, scene.cables[cable].length).map(|s| (cable, s))
+        point(doc, &at.key(at_key), position, scene, cable)
     };
-    let points = [point("cable", &row.cable, "at", row.at)?, point("other", &row.other, "other_at", row.other_at)?];
+    let points = [tied("cable", &row.cable, "at", row.at)?, tied("other", &row.other, "other_at", row.other_at)?];
     let same = |a: (usize, f64), b: (usize, f64)| a.0 == b.0 && (a.1 - b.1).abs() <= 1e-9 * scene.cables[a.0].length;
     for (key, point) in ["at", "other_at"].into_iter().zip(points) {
         if let Some(other) = scene.attachments.iter().find(|a| same((a.cable, a.arc_length), point)) {

@@ -2,7 +2,7 @@
 
 use super::Scene;
 use super::body::BodyKind;
-use super::references::{Position, arc_length, body, cable, single};
+use super::references::{Position, body, cable, point, single};
 use crate::document::{Document, KeyPath};
 use crate::error::{Error, Problem};
 use crate::schema::{Choose, Kind, NOT_NEGATIVE, POSITION, VECTOR, table};
@@ -82,8 +82,8 @@ pub(super) fn read(doc: &Document<'_>, scene: &mut Scene, i: usize, row: LoadTab
     }
     let name = row.cable.ok_or_else(|| doc.missing(&at.key("cable")))?;
     let cable = cable(doc, &at.key("cable"), scene, &name)?;
-    let point = row.at.ok_or_else(|| doc.missing(&at.key("at")))?;
-    let arc_length = arc_length(doc, &at.key("at"), point, scene.cables[cable].length)?;
+    let position = row.at.ok_or_else(|| doc.missing(&at.key("at")))?;
+    let (cable, arc_length) = point(doc, &at.key("at"), position, scene, cable)?;
     scene.loads.push(LoadScene { cable, load: PointLoad { arc_length, force, moment, ramp, start: 0.0 } });
     Ok(())
 }

@@ -11,6 +11,7 @@
 //! | [`body`], `mesh` | `[[body]]` |
 //! | [`joint`], [`attachment`], [`junction`], [`sheave`], [`load`], [`probe`] | the tables of these names |
 //! | `references` | names and points that tables refer to |
+//! | `passing` | the parts of a cable between its sheaves |
 //! | `build` | from a scene to cables |
 //! | `plausibility` | warnings about what is probably not meant |
 
@@ -26,6 +27,7 @@ pub mod joint;
 pub mod junction;
 pub mod load;
 mod mesh;
+mod passing;
 mod plausibility;
 pub mod probe;
 pub mod reel;
@@ -95,7 +97,7 @@ table! {
         attachment: Vec<attachment::AttachmentTable> = ("none"), Kind::Tables(&attachment::AttachmentTable::TABLE);
         /// Cables tied to each other.
         junction: Vec<junction::JunctionTable> = ("none"), Kind::Tables(&junction::JunctionTable::TABLE);
-        /// Wheels over which one cable runs into another.
+        /// Wheels and eyes that cables run over.
         sheave: Vec<sheave::SheaveTable> = ("none"), Kind::Tables(&sheave::SheaveTable::TABLE);
         /// Point forces and moments.
         load: Vec<load::LoadTable> = ("none"), Kind::Tables(&load::LoadTable::TABLE);
@@ -121,8 +123,10 @@ pub struct Scene {
     pub solver_iterations: Option<usize>,
     /// Rigid bodies.
     pub bodies: Vec<BodyScene>,
-    /// Cables.
+    /// Cables, in the order of the file; after them what is behind the sheaves along them.
     pub cables: Vec<CableScene>,
+    /// By cable of the file, its parts between sheaves, in their order: positions in [`cables`](Self::cables). The first is that of the cable.
+    pub parts: Vec<Vec<usize>>,
     /// Attachments to bodies and to the world.
     pub attachments: Vec<AttachmentScene>,
     /// Joints between bodies.
@@ -171,6 +175,7 @@ pub(crate) fn check(doc: &Document<'_>, fallback: &str, folder: &Path, purpose: 
         solver_iterations: table.solver_iterations.map(|n| n as usize),
         bodies: Vec::new(),
         cables: Vec::new(),
+        parts: Vec::new(),
         attachments: Vec::new(),
         joints: Vec::new(),
         junctions: Vec::new(),
@@ -191,6 +196,7 @@ pub(crate) fn check(doc: &Document<'_>, fallback: &str, folder: &Path, purpose: 
             );
         }
         scene.cables.push(cable);
+        scene.parts.push(vec![i]);
     }
     for (i, row) in table.body.into_iter().enumerate() {
         let at = root.key("body").item(i);
@@ -201,10 +207,12 @@ pub(crate) fn check(doc: &Document<'_>, fallback: &str, folder: &Path, purpose: 
         let row = joint::read(doc, &scene, i, row)?;
         scene.joints.push(row);
     }
+    let (mut along, at_sheaves) = passing::divide(doc, &mut scene, &table.sheave)?;
     for (i, row) in table.attachment.into_iter().enumerate() {
         let row = attachment::read(doc, &scene, i, row)?;
         scene.attachments.push(row);
     }
+    passing::add(doc, &mut scene, at_sheaves)?;
     for (cable, drum) in drums {
         reel::put_on_drum(doc, &mut scene, cable, &drum)?;
     }
@@ -213,7 +221,7 @@ pub(crate) fn check(doc: &Document<'_>, fallback: &str, folder: &Path, purpose: 
         scene.junctions.push(row);
     }
     for (i, row) in table.sheave.into_iter().enumerate() {
-        let row = sheave::read(doc, &mut scene, i, row)?;
+        let row = sheave::read(doc, &mut scene, i, row, along[i].take())?;
         scene.sheaves.push(row);
     }
     for (i, row) in table.load.into_iter().enumerate() {
@@ -269,7 +277,7 @@ fn check_start(doc: &Document<'_>, scene: &Scene, purpose: Purpose) -> Result<()
         let failed = |error: lariat_ancf::Error| {
             let problem = Problem::Conflict(error.to_string());
             doc.error_accepting(
-                &KeyPath::root("cable").item(i),
+                &KeyPath::root("cable").item(scene.whole(i)),
                 problem,
                 "a cable that can be built, see docs/scene.md",
             )

@@ -98,7 +98,7 @@ pub(super) fn read(doc: &Document<'_>, scene: &Scene, i: usize, row: ProbeTable)
     let target = if let Some(name) = &row.cable {
         let cable = cable(doc, &at.key("cable"), scene, name)?;
         let point = row.at.ok_or_else(|| doc.missing(&at.key("at")))?;
-        Target::Point { cable, arc_length: arc_length(doc, &at.key("at"), point, scene.cables[cable].length)? }
+        Target::Point { cable, arc_length: arc_length(doc, &at.key("at"), point, scene.whole_length(cable))? }
     } else if let Some(name) = &row.body {
         Target::Body(body(doc, &at.key("body"), scene, name)?)
     } else if let Some(name) = &row.attachment {
@@ -107,7 +107,7 @@ pub(super) fn read(doc: &Document<'_>, scene: &Scene, i: usize, row: ProbeTable)
         Target::Attachment(known().position(|n| n == name).ok_or_else(unknown)?)
     } else if let Some(name) = &row.reel {
         let cable = cable(doc, &at.key("reel"), scene, name)?;
-        if scene.cables[cable].reel.is_none() {
+        if scene.reel_part(cable).is_none() {
             return Err(doc.conflict(&at.key("reel"), format!("cable {name:?} has no reel")));
         }
         Target::Reel(cable)

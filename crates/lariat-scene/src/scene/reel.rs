@@ -132,9 +132,10 @@ pub(super) fn put_on_drum(doc: &Document<'_>, scene: &mut Scene, cable: usize, r
     let axis = row.axis.try_normalize(f64::MIN_POSITIVE);
     let axis =
         axis.ok_or_else(|| doc.conflict(&at.key("axis"), format!("{:?} has no direction", row.axis.as_slice())))?;
-    let own = &scene.cables[cable];
+    let part = scene.reel_part(cable).unwrap_or(cable);
+    let own = &scene.cables[part];
     let eye = if own.reel_at_start { 0.0 } else { own.length };
-    let here = |a: &&super::AttachmentScene| a.cable == cable && (a.arc_length - eye).abs() <= 1e-9 * own.length;
+    let here = |a: &&super::AttachmentScene| a.cable == part && (a.arc_length - eye).abs() <= 1e-9 * own.length;
     let Some(holder) = scene.attachments.iter().find(here).map(|attachment| attachment.body) else {
         let problem = Problem::Conflict("no attachment holds the end of the cable on it".to_string());
         return Err(doc.error_accepting(
@@ -158,8 +159,9 @@ pub(super) fn put_on_drum(doc: &Document<'_>, scene: &mut Scene, cable: usize, r
     }
     let key = KeyPath::root("cable").item(cable).key("integrator");
     let chosen = integrator::by_discrete_gradient(doc, &key, own.integrator, "a cable on a drum")?;
-    let own = &mut scene.cables[cable];
-    own.integrator = chosen;
-    own.drum = Some(DrumScene { body: drum, axis, radius: row.radius });
+    for &part in &scene.parts[cable] {
+        scene.cables[part].integrator = chosen;
+    }
+    scene.cables[part].drum = Some(DrumScene { body: drum, axis, radius: row.radius });
     Ok(())
 }

@@ -40,9 +40,36 @@ pub(super) fn arc_length(doc: &Document<'_>, at: &KeyPath, point: Position, leng
     Err(doc.conflict(at, format!("{s} m is not on the cable, which is {length} m long")))
 }
 
+/// Returns the part of a cable that has a point, and the arc length (m) on it. A point at a sheave is refused.
+pub(super) fn point(
+    doc: &Document<'_>,
+    at: &KeyPath,
+    point: Position,
+    scene: &Scene,
+    cable: usize,
+) -> Result<(usize, f64), Error> {
+    let s = arc_length(doc, at, point, scene.whole_length(cable))?;
+    let (part, on_part) = match point {
+        Position::End(CableEnd::End) => {
+            let last = scene.parts[cable].last().copied().unwrap_or(cable);
+            (last, scene.cables[last].length)
+        }
+        _ => scene.part_at(cable, s),
+    };
+    let parts = &scene.parts[cable];
+    let slack = 1e-9 * scene.whole_length(cable);
+    let at_first = parts[0] != part && on_part <= slack;
+    let at_last = parts.last() != Some(&part) && on_part >= scene.cables[part].length - slack;
+    if at_first || at_last {
+        let problem = Problem::Conflict(format!("{s} m is at a sheave, which holds the cable there"));
+        return Err(doc.error_accepting(at, problem, "a point between sheaves"));
+    }
+    Ok((part, on_part))
+}
+
 /// Returns the position of a cable in the scene's list.
 pub(super) fn cable(doc: &Document<'_>, at: &KeyPath, scene: &Scene, name: &str) -> Result<usize, Error> {
-    let known = || scene.cables.iter().map(|cable| cable.name.as_str());
+    let known = || scene.cables[..scene.parts.len()].iter().map(|cable| cable.name.as_str());
     known().position(|n| n == name).ok_or_else(|| doc.unknown_name(at, "cable", name, known()))
 }
 

@@ -1,29 +1,43 @@
-//! `[[sheave]]`: a wheel over which one cable runs into another.
+//! `[[sheave]]`: a wheel or an eye over which a cable runs, or one cable into another.
 
+use super::passing::Passed;
 use super::references::{cable, unique};
 use super::{Scene, integrator};
 use crate::document::{Document, KeyPath};
 use crate::error::{Error, Problem};
-use crate::schema::{Kind, NOT_NEGATIVE, table};
-use lariat_ancf::Cable;
+use crate::schema::{Choose, Kind, NOT_NEGATIVE, POSITIVE, VECTOR, table};
+use lariat_ancf::{At, Cable, Reel, Vector3};
 
 /// Largest distance of the two ends at a sheave as drawn, in m.
 const GAP: f64 = 1e-3;
 
 table! {
-    /// Lets a cable run into another over a wheel without extent: from the last point of one to the first point of the other, which
-    /// attachments hold at one point, of a body or of the world. Both cables need one mass per length and the integrator `discrete-gradient`.
-    /// Sheaves need `engine = "rapier"`. Arc lengths of the second cable grow with what runs into it, so attachments, loads and
-    /// probes stay with their material.
+    /// A wheel or an eye that a cable runs over: along one cable (`cable`, `at`, `body`, `anchor`), or from the last point of one cable to the first
+    /// point of another (`from`, `to`), which attachments hold at one point and which have one mass per length. Several may be along a
+    /// cable. It stays one cable: attachments, loads, probes, cuts and breaks count arc lengths along all of it, at t = 0, and stay with
+    /// their material, as probes do where it runs over the wheel. Between sheaves it is computed in parts; an attachment, a junction or a load
+    /// stops it before it comes to the wheel, which a warning tells. Needs the integrator `discrete-gradient` and `engine = "rapier"`.
     struct SheaveTable("[[sheave]]") {
         /// No other sheave has it.
         name: Option<String> = ("`sheave-N`, counted from 0"), Kind::Name(&[]);
-        /// Name of the cable whose last point is at the sheave.
-        from: String = required, Kind::Text;
+        /// Name of a cable that runs over it.
+        cable: Option<String> = (), Kind::Text;
+        /// Arc length of the unstretched cable at the sheave at t = 0; with a `radius`, of any point on the wheel as drawn.
+        at: Option<f64> = ("required with `cable`"), Kind::Number(POSITIVE), "m";
+        /// Name of the body that holds it, or `"world"`.
+        body: Option<String> = ("required with `cable`"), Kind::Text;
+        /// The eye, or the centre of the wheel, in the axes of the body or the world. The cable is drawn through it, or around the wheel; with
+        /// `initial = "equilibrium"` anywhere.
+        anchor: Option<Vector3<f64>> = ("required with `cable`"), VECTOR, "m";
+        /// Radius of the wheel: the cable leaves it where its drawn parts touch it, and what is on it counts to the length, by default too. These two
+        /// points stay on the body, so that a part which turns by an angle there is off by that times the radius, which a warning tells. 0 is an eye.
+        radius: f64 = 0.0, Kind::Number(NOT_NEGATIVE), "m";
+        /// Name of the cable whose last point is at the sheave, instead of `cable`.
+        from: Option<String> = (), Kind::Text;
         /// Name of the cable whose first point is at the sheave.
-        to: String = required, Kind::Text;
+        to: Option<String> = ("required with `from`"), Kind::Text;
         /// Coefficient of friction of the rope on the wheel: tensions differ by up to exp(friction angle), with the angle between the
-        /// directions of both cables.
+        /// directions of both sides.
         friction: f64 = 0.0, Kind::Number(NOT_NEGATIVE);
         /// Angle beyond that by which the rope is wound around the wheel.
         turns: f64 = 0.0, Kind::Number(NOT_NEGATIVE), "rad";
@@ -32,6 +46,7 @@ table! {
         /// Constant friction.
         brake: f64 = 0.0, Kind::Number(NOT_NEGATIVE), "N";
     }
+    choose Choose::ExactlyOne(&["cable", "from"]);
 }
 
 /// A checked sheave.
@@ -41,6 +56,12 @@ pub struct SheaveScene {
     pub name: String,
     /// Positions in [`Scene::cables`] of the cables whose last and whose first point is there.
     pub cables: [usize; 2],
+    /// Whether both are parts of one cable.
+    pub along: bool,
+    /// Radius of the wheel in m.
+    pub radius: f64,
+    /// Length on the wheel in m.
+    pub on_wheel: f64,
     /// Coefficient of friction.
     pub friction: f64,
     /// Further angle in rad.
@@ -51,11 +72,42 @@ pub struct SheaveScene {
     pub brake: f64,
 }
 
-/// Reads the sheave in row `i`.
-pub(super) fn read(doc: &Document<'_>, scene: &mut Scene, i: usize, row: SheaveTable) -> Result<SheaveScene, Error> {
+/// Reads the sheave in row `i`, along a cable as [divided](super::passing) there.
+pub(super) fn read(
+    doc: &Document<'_>,
+    scene: &mut Scene,
+    i: usize,
+    row: SheaveTable,
+    along: Option<Passed>,
+) -> Result<SheaveScene, Error> {
     let at = KeyPath::root("sheave").item(i);
+    let cables = match along {
+        Some(passed) => passed.parts,
+        None => between(doc, scene, &at, &row)?,
+    };
+    for c in cables {
+        let key = KeyPath::root("cable").item(scene.whole(c)).key("integrator");
+        let written = scene.cables[c].integrator;
+        scene.cables[c].integrator = integrator::by_discrete_gradient(doc, &key, written, "a cable over a sheave")?;
+    }
+    let name = row.name.unwrap_or_else(|| format!("sheave-{i}"));
+    unique(doc, &at, &name, scene.sheaves.iter().map(|s| s.name.as_str()))?;
+    let SheaveTable { friction, turns, inertia, brake, radius, .. } = row;
+    let on_wheel = along.map_or(0.0, |passed| passed.on_wheel);
+    let turns = turns + along.map_or(0.0, |passed| passed.turns);
+    Ok(SheaveScene { name, cables, along: along.is_some(), radius, on_wheel, friction, turns, inertia, brake })
+}
+
+/// Returns the two cables that a sheave joins.
+fn between(doc: &Document<'_>, scene: &Scene, at: &KeyPath, row: &SheaveTable) -> Result<[usize; 2], Error> {
     let keys = ["from", "to"];
-    let cables = [cable(doc, &at.key("from"), scene, &row.from)?, cable(doc, &at.key("to"), scene, &row.to)?];
+    let named = |key: &str, name: &Option<String>| {
+        let name = name.as_ref().ok_or_else(|| doc.missing(&at.key(key)))?;
+        cable(doc, &at.key(key), scene, name)
+    };
+    let cables = [named("from", &row.from)?, named("to", &row.to)?];
+    // the last part of one, and the first of the other
+    let cables = [scene.parts[cables[0]].last().copied().unwrap_or(cables[0]), cables[1]];
     let mut bodies = [None; 2];
     for (k, c) in cables.into_iter().enumerate() {
         let (key, place, own) = (at.key(keys[k]), ["last", "first"][k], &scene.cables[c]);
@@ -74,30 +126,24 @@ pub(super) fn read(doc: &Document<'_>, scene: &mut Scene, i: usize, row: SheaveT
         bodies[k] = Some(attachment.body);
     }
     if bodies[0] != bodies[1] {
-        return Err(doc.conflict(&at, "its two ends are attached to different bodies"));
+        return Err(doc.conflict(at, "its two ends are attached to different bodies"));
     }
-    for c in cables {
-        if scene.cables[c].breaking != Default::default() && c == cables[1] {
-            return Err(doc.conflict(&at.key("to"), "a cable that breaks cannot have its first point at a sheave"));
-        }
-        let key = KeyPath::root("cable").item(c).key("integrator");
-        let written = scene.cables[c].integrator;
-        scene.cables[c].integrator = integrator::by_discrete_gradient(doc, &key, written, "a cable over a sheave")?;
-    }
-    let name = row.name.unwrap_or_else(|| format!("sheave-{i}"));
-    unique(doc, &at, &name, scene.sheaves.iter().map(|s| s.name.as_str()))?;
-    let SheaveTable { friction, turns, inertia, brake, .. } = row;
-    Ok(SheaveScene { name, cables, friction, turns, inertia, brake })
+    Ok(cables)
 }
 
-/// Compares the two ends at each sheave on the cables as drawn.
+/// Compares the two ends at each sheave on the cables as drawn, and checks that what they have goes with a sheave.
 pub(super) fn check_start(doc: &Document<'_>, scene: &Scene, cables: &[Cable]) -> Result<(), Error> {
+    let mut cables = cables.to_vec();
     for (i, sheave) in scene.sheaves.iter().enumerate() {
+        let at = KeyPath::root("sheave").item(i);
         let [from, to] = sheave.cables.map(|c| &cables[c]);
         let gap = (from.node_position(from.nodes() - 1) - to.node_position(0)).norm();
-        if gap > GAP {
-            let problem = format!("the ends of its cables start {gap:.3e} m apart");
-            return Err(doc.conflict(&KeyPath::root("sheave").item(i), problem));
+        if gap > GAP && !sheave.along {
+            return Err(doc.conflict(&at, format!("the ends of its cables start {gap:.3e} m apart")));
+        }
+        for (c, end) in sheave.cables.into_iter().zip([At::End, At::Start]) {
+            let added = cables[c].add_reel(end, Reel::over_sheave());
+            added.map_err(|error| doc.conflict(&at, error.to_string()))?;
         }
     }
     Ok(())

@@ -8,7 +8,7 @@
 use super::{Decimator, Frame};
 use crate::run::{Summary, columns};
 use crate::scene::body::BodyShape;
-use crate::scene::{Scene, Target};
+use crate::scene::{AttachmentScene, Scene, Target};
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
 use serde_json::{Value, json};
@@ -40,17 +40,21 @@ pub fn write(scene: &Scene, summary: &Summary, frames: &[Frame], probes: &[Decim
         "name": scene.name,
         "summary": summary,
         "gravity": scene.gravity.as_slice(),
-        "cables": scene.cables.iter().map(|c| json!({ "name": c.name, "diameter": c.section.diameter })).collect::<Vec<_>>(),
+        "cables": scene.cables[..scene.parts.len()].iter().map(|c| json!({ "name": c.name, "diameter": c.section.diameter })).collect::<Vec<_>>(),
         "bodies": scene.bodies.iter().map(|b| json!({
             "name": b.name,
             "kind": b.kind.name(),
             "shape": shape(&b.shape),
         })).collect::<Vec<_>>(),
-        "attachments": scene.attachments.iter().map(|a| json!({
-            "cable": a.cable, "at": on_page(scene, a.cable, a.arc_length), "world": a.body.is_none(), "clamp": a.clamp,
+        "attachments": scene.attachments.iter().filter(|a| !at_sheave(scene, a)).map(|a| json!({
+            "cable": scene.whole(a.cable), "at": on_page(scene, a.cable, a.arc_length), "world": a.body.is_none(), "clamp": a.clamp,
         })).collect::<Vec<_>>(),
+        // the first node of the part behind it
+        "sheaves": scene.sheaves.iter().map(|s| s.cables[1]).collect::<Vec<_>>(),
         "contacts": super::touches(scene),
-        "junctions": scene.junctions.iter().map(|j| json!({ "cable": j.points[0].0, "at": j.points[0].1 })).collect::<Vec<_>>(),
+        "junctions": scene.junctions.iter().map(|j| j.points[0]).map(|(part, s)| json!({
+            "cable": scene.whole(part), "at": on_page(scene, part, s),
+        })).collect::<Vec<_>>(),
         "times": base64(frames.iter().flat_map(|f| f.time.to_le_bytes())),
         "frames": base64(frames.iter().flat_map(|f| &f.numbers).flat_map(|x| x.to_le_bytes())),
         "loads": loads(scene, summary.statics.is_some()),
@@ -101,9 +105,9 @@ fn loads(scene: &Scene, statics: bool) -> Value {
     let ramp = |ramp: f64| if statics { 0.0 } else { ramp };
     let mut loads = Vec::new();
     for load in &scene.loads {
-        let (cable, l) = (load.cable, &load.load);
+        let (cable, l) = (scene.whole(load.cable), &load.load);
         loads.push(json!({
-            "cable": cable, "at": l.arc_length, "force": l.force.as_slice(), "moment": l.moment.as_slice(), "ramp": ramp(l.ramp),
+            "cable": cable, "at": on_page(scene, load.cable, l.arc_length), "force": l.force.as_slice(), "moment": l.moment.as_slice(), "ramp": ramp(l.ramp),
         }));
     }
     for load in scene.body_loads.iter().filter(|_| !statics) {
@@ -115,17 +119,28 @@ fn loads(scene: &Scene, statics: bool) -> Value {
     for (c, cable) in scene.cables.iter().enumerate() {
         for load in cable.effects.line_loads.iter().flat_map(|loads| &loads.0) {
             loads.push(json!({
-                "cable": c, "from": load.from, "to": load.to.min(cable.length), "perLength": load.force.as_slice(),
+                "cable": scene.whole(c), "from": scene.along(c, load.from), "to": scene.along(c, load.to.min(cable.length)), "perLength": load.force.as_slice(),
             }));
         }
     }
     Value::Array(loads)
 }
 
-/// Returns the arc length of a point on the page: the eye of a reel is at the end, whatever is out.
-fn on_page(scene: &Scene, cable: usize, arc_length: f64) -> f64 {
-    let [_, at_end] = scene.eyes(cable);
-    if at_end && arc_length >= scene.cables[cable].length * (1.0 - 1e-9) { 1e9 } else { arc_length }
+/// Returns the arc length of a point of a part on the page: the eye of a reel is at the end, whatever is out.
+fn on_page(scene: &Scene, part: usize, arc_length: f64) -> f64 {
+    let ([at_start, at_end], length) = (scene.eyes(part), scene.cables[part].length);
+    match arc_length {
+        s if at_end && s >= length * (1.0 - 1e-9) => 1e9,
+        s if at_start && s <= length * 1e-9 => -1e9,
+        s => scene.along(part, s),
+    }
+}
+
+/// Returns whether an attachment holds a cable to a sheave along it.
+fn at_sheave(scene: &Scene, attachment: &AttachmentScene) -> bool {
+    let first = attachment.arc_length == 0.0;
+    scene.sheaves.iter().any(|sheave| sheave.along && sheave.cables[usize::from(first)] == attachment.cable)
+        && (first || attachment.arc_length >= scene.cables[attachment.cable].length)
 }
 
 /// Returns what a probe reads, in words.

@@ -26,10 +26,10 @@ pub fn write(scene: &Scene, frames: &[Frame]) -> String {
          startTimeCode = 0\n    endTimeCode = {end}\n    timeCodesPerSecond = {RATE}\n)\n\ndef Xform \"World\"\n{{\n"
     );
     let mut names = Vec::new();
-    let (pieces, mut at): (Vec<_>, Vec<_>) = frames.iter().map(|frame| places(frame, scene.cables.len())).unzip();
-    for (i, cable) in scene.cables.iter().enumerate() {
+    let (pieces, mut at): (Vec<_>, Vec<_>) = frames.iter().map(|frame| places(frame, scene.parts.len())).unzip();
+    for (i, cable) in scene.cables[..scene.parts.len()].iter().enumerate() {
         let name = unique(&cable.name, &mut names);
-        curve(&mut text, &name, cable, frames.iter().zip(pieces.iter().map(|of| &of[i][..])));
+        curve(&mut text, &name, (cable, scene.whole_length(i)), frames.iter().zip(pieces.iter().map(|of| &of[i][..])));
     }
     for body in &scene.bodies {
         let name = unique(&body.name, &mut names);
@@ -87,11 +87,11 @@ fn vertices(text: &mut String, frame: &Frame, at: usize) -> usize {
     count
 }
 
-/// Writes a cable from its frames, each with the places of its pieces.
+/// Writes a cable of this length (m) from its frames, each with the places of its pieces.
 fn curve<'a>(
     text: &mut String,
     name: &str,
-    cable: &CableScene,
+    (cable, length): (&CableScene, f64),
     frames: impl Iterator<Item = (&'a Frame, &'a [usize])>,
 ) {
     let mut samples = String::new();
@@ -120,7 +120,7 @@ fn curve<'a>(
          interpolation = \"constant\"\n        )\n        point3f[] points.timeSamples = {{\n{samples}        }}\n        \
          custom double lariat:axialStiffness = {}\n        custom double lariat:bendingStiffness = {}\n        \
          custom double lariat:massPerLength = {}\n        custom double lariat:length = {}\n    }}\n",
-        section.axial_stiffness, section.bending_stiffness, section.mass_per_length, cable.length
+        section.axial_stiffness, section.bending_stiffness, section.mass_per_length, length
     );
 }
 

@@ -185,16 +185,19 @@ impl Law {
     fn violation(&self, acceleration: f64) -> f64 {
         let [least, wanted, largest] = self.planned;
         let rounding = 1e-12 * (1.0 + acceleration.abs());
-        let beyond = (self.force.abs() - self.motor.limit).max(0.0);
+        let limit = self.motor.limit;
         if (acceleration - wanted).abs() <= rounding {
-            beyond
+            // a motor that is asked to stand at a stop: that pulls what the motor cannot
+            let beyond = if wanted >= largest - rounding { 0.0 } else { (self.force - limit).max(0.0) };
+            let below = if wanted <= least + rounding { 0.0 } else { (-limit - self.force).max(0.0) };
+            beyond.max(below)
         } else if acceleration >= largest - rounding {
             // a stop pulls as it must
-            (self.motor.limit - self.force).max(0.0)
+            (limit - self.force).max(0.0)
         } else if acceleration <= least + rounding {
-            (self.motor.limit + self.force).max(0.0)
+            (limit + self.force).max(0.0)
         } else {
-            (self.force - self.motor.limit.copysign(acceleration - wanted)).abs()
+            (self.force - limit.copysign(acceleration - wanted)).abs()
         }
     }
 }

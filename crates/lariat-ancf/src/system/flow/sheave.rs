@@ -21,6 +21,9 @@ pub struct Sheave {
     pub turns: f64,
     /// Constant friction in N. Default 0.
     pub brake: f64,
+    /// Radius of the wheel in m: the ends may be as far apart as two points of its rim are. Default 0.
+    #[serde(default)]
+    pub radius: f64,
     /// Length in m that ran over it so far.
     pub passed: f64,
     /// Energy in J that friction took so far.
@@ -41,6 +44,7 @@ impl Sheave {
             friction: 0.0,
             turns: 0.0,
             brake: 0.0,
+            radius: 0.0,
             passed: 0.0,
             lost: 0.0,
             force: 0.0,

@@ -22,7 +22,8 @@
 //!
 //! # Validity
 //!
-//! A wheel without extent, one density on both sides. Friction is that of a rope on a wheel that stands, or of a bearing: with it, the inertia
+//! A wheel whose two ends are points of what holds it, one density on both sides. What is on the wheel between them has no weight, and its
+//! mass is to be counted to the inertia. Friction is that of a rope on a wheel that stands, or of a bearing: with it, the inertia
 //! is that of what turns with the rope.
 //!
 //! # References
@@ -157,7 +158,10 @@ impl Wheel {
         let friction = force[1] - force[0] - self.sheave.inertia * acceleration;
         let (bound, rounding) = (self.bound(force), 1e-12 * (1.0 + acceleration.abs()));
         let missed = if (acceleration - wanted).abs() <= rounding {
-            (friction.abs() - bound).max(0.0)
+            // at a stop, that takes what friction does not
+            let beyond = if wanted >= largest - rounding { 0.0 } else { (friction - bound).max(0.0) };
+            let below = if wanted <= least + rounding { 0.0 } else { (-bound - friction).max(0.0) };
+            beyond.max(below)
         } else if acceleration >= largest - rounding {
             (bound - friction).max(0.0)
         } else if acceleration <= least + rounding {
