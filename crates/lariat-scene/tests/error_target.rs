@@ -267,7 +267,8 @@ fn the_claim_for_a_body_on_a_cable_holds_and_is_deterministic() {
     assert!(error.not_covered.iter().any(|text| text.contains("single precision")));
     let mut finer = scene.clone();
     finer.cables[0].elements = 2 * claim.elements;
-    let resolution = lariat_ancf::study::Resolution { elements: 0, tolerance: claim.tolerance_m.map(|x| x / 10.0) };
+    let resolution =
+        lariat_ancf::study::Resolution { tolerance: claim.tolerance_m.map(|x| x / 10.0), ..Default::default() };
     finer.cables[0].integrator = resolution.integrator().into();
     let (_, there) = execute(&finer, None, Purpose::Run);
     let (a, b) = (rows(folder.path(), "crate"), rows(there.path(), "crate"));
@@ -289,7 +290,8 @@ fn the_claim_holds_where_the_host_step_limits_the_looser_run() {
         let mut finer = scene.clone();
         finer.cables[0].elements = 2 * claim.elements;
         let tolerance = claim.tolerance_m.map(|tolerance| tolerance / 16.0);
-        finer.cables[0].integrator = lariat_ancf::study::Resolution { elements: 0, tolerance }.integrator().into();
+        finer.cables[0].integrator =
+            lariat_ancf::study::Resolution { tolerance, ..Default::default() }.integrator().into();
         let (_, there) = execute(&finer, None, Purpose::Run);
         let (a, b) = (rows(folder.path(), "hand"), rows(there.path(), "hand"));
         let off = a.iter().zip(&b).map(|(a, b)| distance(&a[1..4], &b[1..4])).fold(0.0, f64::max);
