@@ -5,10 +5,12 @@
 //! Two runs of the same mesh are `d` apart, one with `r` times as many steps as the other. With an error `C h^p` in the mean step `h` the one with
 //! longer steps is off by `d r^p/(r^p - 1)`, the other by `d/(r^p - 1)`.
 //!
-//! - Runs at `q tau` and `tau`, q = 8 at first, with `r >= q^(1/4)`, as steps have that follow a tolerance: the error at `tau` is `d/(r^p - 1)`, p = 2.
+//! - Runs at `q tau` and `tau`, q = 8 at first, with `r >= q^(1/4)`, as steps have that follow a tolerance: the error at `tau` is `d/(r^p - 1)`, p = 2,
+//!   with r at most `q^(1/3)`.
 //! - Below, the host step limits the steps of the looser one, or of both, so that they are near each other whatever their error. The run at `tau` is
-//!   compared with one in equal steps of half its mean step: `d r/(r - 1)`, p = 1, is its error, and at least the sum `T/dt tau` of its tolerances.
+//!   compared with one in equal steps of half its mean step: `d r/(r - 1)`, p = 1, is its error.
 //!
+//! Both are at least the sum `T/dt tau` of the tolerances.
 //! If the error is above 0.4 of what is asked for, the next run has a tolerance that the error asks for, and is judged in the same way.
 //!
 //! # Validity
@@ -85,10 +87,10 @@ impl<F> Runs<F> {
                     return Ok((coarse, fine, Time { error, ..time }));
                 }
                 error
-            } else if ratio.is_nan() {
-                distance / (looser - 1.0)
             } else {
-                distance / (ratio * ratio - 1.0)
+                // steps that a vibration makes shorter than the tolerance does are no measure of the rest
+                let ratio = ratio.min(looser.cbrt());
+                (distance / (ratio * ratio - 1.0)).max(span.steps * tau)
             };
             // a difference that is not finite says nothing about the tolerance: the meshes are compared, and do not agree
             if error <= allowed || !error.is_finite() {
