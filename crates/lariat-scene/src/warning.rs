@@ -10,8 +10,8 @@ use serde::{Deserialize, Serialize, Serializer};
 pub enum Warning {
     /// A dynamic body that nothing holds and nothing stops.
     #[error(
-        "body {body:?}: nothing holds it, and no body is under it: it falls freely, {fall_m:.3e} m in the {duration_s} s of the run; \
-         attach a cable to it, join it, or set gravity = [0, 0, 0]"
+        "body {body:?}: nothing holds it, loads carry less than its weight, and no body is under it: it falls, {fall_m:.3e} m in the {duration_s} s of \
+         the run; attach a cable to it, join it, or set gravity = [0, 0, 0]"
     )]
     FallsFreely {
         /// Name of the body.
@@ -74,6 +74,32 @@ pub enum Warning {
         error_m: f64,
         /// Length of the part then in m.
         part_m: f64,
+    },
+    /// A load that the run ends too early for.
+    #[error(
+        "the load on {on:?} has a ramp of {ramp_s} s, of which the run of {duration_s} s sees {percent:.0} %: make the ramp shorter, or the run longer",
+        percent = 100.0 * .duration_s / .ramp_s
+    )]
+    UnfinishedRamp {
+        /// Name of the cable or body.
+        on: String,
+        /// Time from zero to the full load in s.
+        ramp_s: f64,
+        /// Duration of the run in s.
+        duration_s: f64,
+    },
+    /// A cable without torsion gets a moment about its own direction.
+    #[error(
+        "cable {cable:?}: the moment on it at {at_m:.4} m has {part_nm:.3e} N m about its tangent, as drawn: a cable has no torsion, and that part \
+         does nothing"
+    )]
+    MomentAlong {
+        /// Name of the cable.
+        cable: String,
+        /// Arc length in m.
+        at_m: f64,
+        /// Part of the moment about the tangent in N m.
+        part_nm: f64,
     },
     /// Integration makes energy.
     #[error(

@@ -138,6 +138,85 @@ fn a_body_that_nothing_holds_is_told() {
     assert!(falls(&(loose + pair)));
 }
 
+/// A load carries a body if its upward part is at least the weight; drag in a fluid at rest carries nothing.
+///
+/// *Source.* Newton's second law: fall = (g - F/m) t^2/2.
+#[test]
+fn a_body_whose_loads_carry_less_than_its_weight_is_told() {
+    let loose = pendulum([5.0, 0.004, 2.1e11], 2.0, 0.5, "world");
+    for (force, share) in [([5.0, 0.0, 0.0], 1.0), ([0.0, 9.81, 3.0], 0.5), ([0.0, -19.62, 0.0], 2.0)] {
+        let text = format!("{loose}[[load]]\nbody = \"bob\"\nforce = {force:?}\n");
+        let warnings = warned(&text, Purpose::Run);
+        let expected = 0.5 * 9.81 * 0.04 * share;
+        let told =
+            |w: &Warning| matches!(w, Warning::FallsFreely { fall_m, .. } if (fall_m / expected - 1.0).abs() < 1e-9);
+        assert!(warnings.iter().any(told), "{force:?} {warnings:?}");
+    }
+    let hung = "duration = 0.1\n[[body]]\nname = \"bob\"\nshape = { ball = 0.05 }\nmass = 1.0\n[[cable]]\nname = \"line\"\npoints = [[0.0, 0.0, \
+                0.0], [0.0, 1.0, 0.0]]\naxial_stiffness = 1e5\nbending_stiffness = 0.1\nmass_per_length = 0.1\nDRAG\n[[attachment]]\ncable = \
+                \"line\"\nat = \"start\"\nbody = \"bob\"\n";
+    let still = "drag = { fluid_density = 1.2, diameter = 0.01 }";
+    for (drag, due) in
+        [(still, true), ("drag = { fluid_density = 1.2, diameter = 0.01, flow = [0.0, 9.0, 0.0] }", false)]
+    {
+        let warnings = warned(&hung.replace("DRAG", drag), Purpose::Run);
+        assert_eq!(warnings.iter().any(|w| matches!(w, Warning::FallsFreely { .. })), due, "{drag}");
+    }
+}
+
+/// Densities in g/cm^3, of which some are slow enough; densities of real cables are not told.
+#[test]
+fn a_density_in_grams_per_cubic_centimetre_is_told() {
+    let line = |density: f64, modulus: f64| {
+        format!(
+            "duration = 0.02\n[[cable]]\nname = \"line\"\npoints = [[0.0, 0.0, 0.0], [3.0, 0.0, 0.0]]\nsection = {{ round = 0.01 }}\ndensity = {density:?}\n\
+             youngs_modulus = {modulus:?}\n[[attachment]]\ncable = \"line\"\nat = \"start\"\nbody = \"world\"\n"
+        )
+    };
+    for (density, modulus) in [(7.85, 2.1e11), (1.15, 3e9), (0.9, 1e9), (2.7, 7e10), (1.1, 5e6), (19.3, 4.1e11)] {
+        let light = |text: &str| {
+            let warnings = warned(text, Purpose::Run);
+            warnings.iter().any(|w| matches!(w, Warning::Cable(CableWarning::LightMaterial { density_kg_m3, .. }) if (density_kg_m3 / density - 1.0).abs() < 1e-9))
+        };
+        assert!(light(&line(density, modulus)), "{density}");
+        assert_eq!(warned(&line(1000.0 * density, modulus), Purpose::Run), [], "{density}");
+    }
+}
+
+#[test]
+fn loads_that_a_run_does_not_see_are_told() {
+    let beam = |load: &str| {
+        format!(
+            "duration = 0.1\ngravity = [0.0, 0.0, 0.0]\n[[cable]]\nname = \"beam\"\npoints = [[0.0, 0.0, 0.0], [0.0, 2.0, 0.0]]\naxial_stiffness = 1e6\n\
+             bending_stiffness = 50.0\nmass_per_length = 0.5\n[[attachment]]\ncable = \"beam\"\nat = \"start\"\nbody = \"world\"\nkind = \"clamp\"\n\
+             [[load]]\ncable = \"beam\"\nat = \"end\"\n{load}\n"
+        )
+    };
+    let ramp = warned(&beam("force = [1.0, 0.0, 0.0]\nramp = 5.0"), Purpose::Run);
+    assert!(matches!(&ramp[..], [Warning::UnfinishedRamp { on, ramp_s: 5.0, .. }] if on == "beam"), "{ramp:?}");
+    assert!(ramp[0].to_string().contains("2 %"), "{}", ramp[0]);
+    let along = warned(&beam("moment = [0.0, -2.0, 0.5]"), Purpose::Run);
+    assert!(matches!(&along[..], [Warning::MomentAlong { part_nm: 2.0, at_m: 2.0, .. }]), "{along:?}");
+    for well in ["force = [1.0, 0.0, 0.0]\nramp = 0.1", "moment = [0.5, 0.0, 0.5]"] {
+        assert_eq!(warned(&beam(well), Purpose::Run), [], "{well}");
+    }
+}
+
+/// A cable that statics let hang through a body that it is not attached to.
+#[test]
+fn statics_through_a_body_are_told() {
+    let text = |height: f64| {
+        format!(
+            "[[body]]\nname = \"beam\"\nkind = \"fixed\"\nshape = {{ cuboid = [3.0, 0.3, 0.3] }}\nposition = [1.0, {height:?}, 0.0]\n[[cable]]\nname = \
+             \"line\"\npoints = [[0.0, 0.0, 0.0], [2.0, 0.0, 0.0]]\nlength = 3.0\naxial_stiffness = 1e6\nbending_stiffness = 0.1\nmass_per_length = 0.5\n\
+             [[attachment]]\ncable = \"line\"\nat = \"start\"\nbody = \"world\"\n[[attachment]]\ncable = \"line\"\nat = \"end\"\nbody = \"world\"\n"
+        )
+    };
+    let through = warned(&text(-1.0), Purpose::Static);
+    assert!(matches!(&through[..], [Warning::PassesThrough { body, .. }] if body == "beam"), "{through:?}");
+    assert_eq!(warned(&text(-2.0), Purpose::Static), []);
+}
+
 #[test]
 fn a_cable_through_a_body_is_told() {
     let text = pendulum([5.0, 0.004, 2.1e11], 20.0, 0.0, "bob");

@@ -92,6 +92,11 @@ impl Record {
         self.cables.iter().map(|cable| cable.steps).sum()
     }
 
+    /// Returns the number of integration steps of a cable in the mean; 1 without cables.
+    pub(super) fn steps_of_one(&self) -> f64 {
+        if self.cables.is_empty() { 1.0 } else { (self.steps() as f64 / self.cables.len() as f64).max(1.0) }
+    }
+
     /// Returns the number of elements evaluated.
     pub(super) fn evaluations(&self) -> u64 {
         self.cables.iter().map(|cable| cable.evaluations).sum()

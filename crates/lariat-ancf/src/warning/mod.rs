@@ -148,6 +148,19 @@ pub enum Warning {
         /// Outer diameter or side in m.
         diameter_m: f64,
     },
+    /// Lighter than any cable, or so light that waves run faster along it than in any material.
+    #[error(
+        "cable {cable:?}: its density is {density_kg_m3:.3e} kg/m^3, with waves of {wave_speed_m_s:.1e} m/s, as no material has: it is in kg/m^3 (rope 500 to 1500, steel \
+         7850); was {density_kg_m3} g/cm^3 meant? For a cable without weight set gravity_scale = 0"
+    )]
+    LightMaterial {
+        /// Name of the cable.
+        cable: String,
+        /// Density in kg/m^3.
+        density_kg_m3: f64,
+        /// Speed of longitudinal waves in m/s.
+        wave_speed_m_s: f64,
+    },
     /// Softer than any rope, or than any of its density.
     #[error(
         "cable {cable:?}: Young's modulus is {youngs_modulus_pa} Pa, softer than any rope or rubber: it is in Pa (steel 2.1e11, rubber \

@@ -1,5 +1,6 @@
 //! Runs of a scene to a given error.
 
+use super::output::Output;
 use super::{Done, Open, Options, Recorded, simulate};
 use crate::error::Error;
 use crate::scene::body::{BodyKind, BodyScene};
@@ -88,6 +89,9 @@ pub(super) fn conduct(
     options: &mut Options<'_>,
 ) -> Result<Recorded, Error> {
     check(scene, error, purpose)?;
+    // what hinders files is told before the first run; the rows of runs are kept until it is known which of them is the result
+    drop(open(scene)?);
+    let in_memory = |scene: &Scene| Ok(Output::in_memory(scene));
     let largest = scene.cables.iter().map(|cable| cable.elements).max().unwrap_or(1);
     let each = |resolution: &Resolution, record: &mut Record| -> Result<(Scene, Done), Stopped> {
         if let Some(pilot) = &mut options.pilot {
@@ -100,7 +104,7 @@ pub(super) fn conduct(
                 cable.integrator = resolution.integrator().into();
             }
         }
-        let done = simulate(&scene, open, purpose, options, Some(&mut *record)).map_err(Stopped::Before)?;
+        let done = simulate(&scene, &in_memory, purpose, options, Some(&mut *record)).map_err(Stopped::Before)?;
         if velocities_jump(&scene, &done) {
             record.velocities_jump();
         }
@@ -114,13 +118,17 @@ pub(super) fn conduct(
     match study.error(error).limit(limit).run() {
         Ok(Proof { world: (scene, mut done), claim }) => {
             let claim = ErrorClaim::of(&scene, claim, purpose, velocities_jump(&scene, &done));
+            done.output = done.output.move_to(&scene, open(&scene)?)?;
             done.world.warnings.extend(claim.warning());
             if let Some(warn) = &mut options.warn {
                 done.world.warnings.iter().for_each(&mut **warn);
             }
             Ok(done.finish(Some(claim)))
         }
-        Err(StudyError::Run { source: Stopped::During(done), .. }) => Ok(done.finish(None)),
+        Err(StudyError::Run { source: Stopped::During(mut done), .. }) => {
+            done.output = done.output.move_to(scene, open(scene)?)?;
+            Ok(done.finish(None))
+        }
         Err(StudyError::Run { source: Stopped::Before(error), .. }) => Err(error),
         Err(other) => Err(Error::Study { error, problem: described(&other) }),
     }

@@ -94,20 +94,21 @@ impl Output {
         self.row.clear();
         self.row.push(time);
         probe::read(world.scene.probes[index].target, world, &mut self.row)?;
-        match &mut self.sink {
-            Sink::Memory(rows) => rows[index].extend(&self.row),
-            Sink::Folder { files, text, .. } => {
-                text.clear();
-                for (i, x) in self.row.iter().enumerate() {
-                    // the shortest text that reads back to the same number; writing to a String cannot fail
-                    let _ = write!(text, "{}{x:?}", if i > 0 { "," } else { "" });
-                }
-                text.push('\n');
-                files[index].append(text, time)?;
-            }
-        }
+        self.sink.write(index, &self.row)?;
         self.view.row(index, &self.row);
         Ok(())
+    }
+
+    /// Moves samples that were kept in memory to where another output writes.
+    pub fn move_to(self, scene: &Scene, mut other: Output) -> Result<Self, Error> {
+        if let Sink::Memory(kept) = &self.sink {
+            for (index, (rows, probe)) in kept.iter().zip(&scene.probes).enumerate() {
+                for row in rows.chunks_exact(probe::columns(probe.target).len()) {
+                    other.sink.write(index, row)?;
+                }
+            }
+        }
+        Ok(Output { view: self.view, ..other })
     }
 
     /// Records the state at a host time for the page.
@@ -140,6 +141,25 @@ impl Output {
         let page = write(PAGE, view.page(world, summary));
         let motion = if usd { write(USD, view.usd(world)) } else { Ok(()) };
         page.and(motion).and(written).map(|()| Kept { rows: Vec::new(), view })
+    }
+}
+
+impl Sink {
+    /// Writes a row of a probe, which begins with the time.
+    fn write(&mut self, index: usize, row: &[f64]) -> Result<(), Error> {
+        match self {
+            Sink::Memory(rows) => rows[index].extend(row),
+            Sink::Folder { files, text, .. } => {
+                text.clear();
+                for (i, x) in row.iter().enumerate() {
+                    // the shortest text that reads back to the same number; writing to a String cannot fail
+                    let _ = write!(text, "{}{x:?}", if i > 0 { "," } else { "" });
+                }
+                text.push('\n');
+                files[index].append(text, row.first().copied().unwrap_or(f64::NAN))?;
+            }
+        }
+        Ok(())
     }
 }
 

@@ -141,7 +141,9 @@ impl World {
         let loose =
             settled.unattached.iter().map(|&i| Warning::LeftAsDrawn { body: self.scene.bodies[i].name.clone() });
         let warnings: Vec<Warning> = unstable.chain(loose).collect();
-        self.warnings.extend(warnings);
+        let Some(physics) = &mut self.physics else { return Ok(Vec::new()) };
+        let through = physics.passing(&self.scene, 0.0);
+        self.warnings.extend(warnings.into_iter().chain(through));
         self.static_bodies = Some(BodyStatics::read(self, &settled));
         Ok(settled.cables)
     }

@@ -1,17 +1,20 @@
 //! What is probably not meant in a scene: sizes and materials that no cable has, bodies that nothing holds.
 
-use super::body::{BodyKind, BodyScene, BodyShape};
+use super::body::{BodyKind, BodyMass, BodyScene, BodyShape};
+use super::load::LoadScene;
 use super::{CableScene, Purpose, Scene};
 use crate::warning::Warning;
-use lariat_ancf::Vector3;
 use lariat_ancf::warning::sizes;
+use lariat_ancf::{Flow, Vector3};
 
 impl Scene {
     /// Returns warnings about what is probably not meant, as the scene is written.
     pub fn warnings(&self, purpose: Purpose) -> Vec<Warning> {
         let mut warnings: Vec<Warning> = self.cables.iter().flat_map(of_cable).map(Warning::Cable).collect();
+        warnings.extend(self.moments_along());
         if purpose == Purpose::Run {
             warnings.extend(self.falling());
+            warnings.extend(self.unfinished_ramps());
         }
         warnings
     }
@@ -19,12 +22,23 @@ impl Scene {
     /// Returns a warning for each dynamic body that nothing holds, loads or stops.
     fn falling(&self) -> Vec<Warning> {
         let Some(down) = self.gravity.try_normalize(f64::MIN_POSITIVE) else { return Vec::new() };
-        let fall_m = 0.5 * self.gravity.norm() * self.duration * self.duration;
+        let free_fall = 0.5 * self.gravity.norm() * self.duration * self.duration;
         let (held, cables_held) = self.held();
-        let falls = |b: &BodyScene| Warning::FallsFreely { body: b.name.clone(), fall_m, duration_s: self.duration };
+        let falls = |b: &BodyScene, share: f64| Warning::FallsFreely {
+            body: b.name.clone(),
+            fall_m: share * free_fall,
+            duration_s: self.duration,
+        };
         let mut warnings = Vec::new();
         for (i, body) in self.bodies.iter().enumerate() {
-            let loaded = self.body_loads.iter().any(|load| load.body == i);
+            // share of the weight that no load carries; loads may carry a body whose mass its shape gives
+            let on_it = || self.body_loads.iter().filter(|load| load.body == i);
+            let share = match body.mass {
+                Some(BodyMass::Mass(mass)) => {
+                    1.0 + on_it().map(|load| load.force.dot(&down)).sum::<f64>() / (mass * self.gravity.norm())
+                }
+                _ => f64::from(u8::from(on_it().next().is_none())),
+            };
             // where its horizontal velocity may take it
             let across = body.velocity - down * body.velocity.dot(&down);
             let reach = radius(body) + across.norm() * self.duration;
@@ -47,20 +61,41 @@ impl Scene {
             };
             let shape = !matches!(body.shape, BodyShape::None);
             let caught = shape && self.cables.iter().zip(&cables_held).any(catches);
-            if !held[i] && !loaded && !caught && !self.bodies.iter().enumerate().any(stops) {
-                warnings.push(falls(body));
+            if !held[i] && share > 1e-6 && !caught && !self.bodies.iter().enumerate().any(stops) {
+                warnings.push(falls(body, share));
             }
         }
         warnings
     }
 
+    /// Returns a warning for each moment about the tangent of a cable that is drawn straight.
+    fn moments_along(&self) -> impl Iterator<Item = Warning> {
+        self.loads.iter().filter_map(|LoadScene { cable, load }| {
+            let cable = &self.cables[*cable];
+            let [a, b] = cable.points[..] else { return None };
+            let part_nm = load.moment.dot(&(b - a).normalize()).abs();
+            let most = part_nm > 0.1 * load.moment.norm();
+            most.then(|| Warning::MomentAlong { cable: cable.name.clone(), at_m: load.arc_length, part_nm })
+        })
+    }
+
+    /// Returns a warning for each load whose ramp the run does not see the half of.
+    fn unfinished_ramps(&self) -> impl Iterator<Item = Warning> {
+        let cables = self.loads.iter().map(|load| (&self.cables[load.cable].name, load.load.ramp));
+        let bodies = self.body_loads.iter().map(|load| (&self.bodies[load.body].name, load.ramp));
+        let unfinished = cables.chain(bodies).filter(|(_, ramp)| *ramp > 2.0 * self.duration);
+        unfinished.map(|(on, ramp_s)| Warning::UnfinishedRamp { on: on.clone(), ramp_s, duration_s: self.duration })
+    }
+
     /// Returns by body, and by cable, whether it is connected to the world, or to anything but weights, through cables and joints.
     fn held(&self) -> (Vec<bool>, Vec<bool>) {
         let mut bodies: Vec<bool> = self.bodies.iter().map(|body| body.kind != BodyKind::Dynamic).collect();
-        // loads, flow and buoyancy may carry a cable
+        // loads, a flow and buoyancy may carry a cable; drag in a fluid at rest only delays its fall
         let carried = |(i, cable): (usize, &CableScene)| {
             let effects = &cable.effects;
-            let free = effects.present().all(|key| ["damping", "rest_shape", "gravity_scale"].contains(&key));
+            let at_rest = effects.drag.as_ref().is_some_and(|drag| drag.flow == Flow::default());
+            let idle = |key| ["damping", "rest_shape", "gravity_scale"].contains(&key) || key == "drag" && at_rest;
+            let free = effects.present().all(idle);
             !free || self.loads.iter().any(|load| load.cable == i)
         };
         let mut cables: Vec<bool> = self.cables.iter().enumerate().map(carried).collect();

@@ -55,7 +55,7 @@ fn claim(summary: &Summary) -> String {
     format!(
         "{verdict} (mesh {mesh}, time {:.1e} m{})\n  elements {}{tolerance}; {} runs, {:.1} times the cost of the last\n  not covered: {}\n",
         claim.time_m,
-        if claim.host_step_limits { ", from the tolerance: the host step limits the steps" } else { "" },
+        if claim.host_step_limits { ": the host step limits the steps" } else { "" },
         elements.join(", "),
         claim.runs,
         claim.cost,

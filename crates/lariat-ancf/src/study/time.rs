@@ -1,0 +1,127 @@
+//! The error in time of the first runs, and the tolerance of the others.
+//!
+//! # Equation
+//!
+//! Two runs of the same mesh are `d` apart, one with `r` times as many steps as the other. With an error `C h^p` in the mean step `h` the one with
+//! longer steps is off by `d r^p/(r^p - 1)`, the other by `d/(r^p - 1)`.
+//!
+//! - Runs at `q tau` and `tau`, q = 8 at first, with `r >= q^(1/4)`, as steps have that follow a tolerance: the error at `tau` is `d/(r^p - 1)`, p = 2,
+//!   with r at most `q^(1/3)`.
+//! - Below, the host step limits the steps of the looser one, or of both, so that they are near each other whatever their error. The run at `tau` is
+//!   compared with one in equal steps of half its mean step: `d r/(r - 1)`, p = 1, is its error.
+//!
+//! Both are at least the sum `T/dt tau` of the tolerances.
+//! If the error is above 0.4 of what is asked for, the next run has a tolerance that the error asks for, and is judged in the same way.
+//!
+//! # Validity
+//!
+//! ESDIRK4 with local extrapolation has order 4 in the step, and 2 or more where stiff modes reduce it. Errors per step that a motion amplifies,
+//! as a rotation whose rate is off, are in the distance, but not in any bound by the sum of tolerances: a bar that swings for two seconds in steps of 1/30 s
+//! is off by 2.4 times that sum. The run in equal steps has the mesh of the coarser pilot where that takes as many steps as the finer. Vibrations that are
+//! faster than all steps, and smaller than the tolerance, are in no run. Runs that do not come closer with the tolerance, or not enough in a few
+//! rounds, have no error in time: the motion is not determined by its start, from the horizon on.
+//!
+//! # References
+//!
+//! Hairer, Norsett, Wanner 1993, section II.4 (local extrapolation, tolerance proportionality).
+//!
+//! # Alternatives considered
+//!
+//! - A run at a smaller tolerance instead of equal steps: up to 115 times the cost of the run it judges, where a stiff cable then rings.
+
+use super::{Record, Resolution, Run, Runs, Span, StudyError};
+
+/// Ratio of the first two tolerances.
+const LOOSER: f64 = 8.0;
+/// Ratio of steps below which the host step limits those of both tolerances.
+const SATURATED: f64 = 1.25;
+/// Share of the error that is asked for which the error in time may have, and at which it aims.
+const SHARE: [f64; 2] = [0.4, 0.3];
+/// Share of a distance below which the next one must be, if runs come closer.
+const CLOSER: f64 = 0.6;
+/// Most rounds.
+const ROUNDS: usize = 5;
+/// Least tolerance over the longest cable: below it steps are rounding errors.
+const TIGHTEST: f64 = 1e-12;
+
+/// Error in time of the first runs.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Time {
+    /// In m.
+    pub error: f64,
+    /// True if the host step limits the steps.
+    pub saturated: bool,
+    /// True if smaller tolerances do not bring runs together.
+    pub stuck: bool,
+    /// First time in s at which they are not together.
+    pub horizon: Option<f64>,
+    /// Tolerance that has it.
+    pub tolerance: Option<f64>,
+}
+
+/// The runs of a mesh and of one twice as fine, and their error in time.
+pub(super) type Pilots<W> = (Run<W>, Run<W>, Time);
+
+impl<F> Runs<F> {
+    /// Returns the runs with `first` and twice as many elements at the tolerance that they have their error in time for, and that error.
+    pub(super) fn in_time<W, E>(&mut self, first: usize, span: Span) -> Result<Pilots<W>, StudyError<E>>
+    where
+        F: FnMut(&Resolution, &mut Record) -> Result<W, E>,
+    {
+        let at = |elements, tolerance| Resolution { elements, tolerance: Some(tolerance), max_step: None };
+        let [allowed, aim] = SHARE.map(|share| share * self.error);
+        let (mut tau, mut looser, mut before) = (self.error / (4.0 * span.steps), LOOSER, f64::INFINITY);
+        let mut loose = self.run(at(2 * first, LOOSER * tau))?;
+        let mut fine = self.run(at(2 * first, tau))?;
+        let least = TIGHTEST * fine.record.longest();
+        for round in 1.. {
+            let distance = loose.record.distance(&fine.record)?;
+            // not a number without cables, whose steps are not known: then the tolerance is taken to be kept
+            let ratio = fine.record.steps() as f64 / loose.record.steps() as f64;
+            let time = Time { saturated: ratio < SATURATED, tolerance: Some(tau), ..Time::default() };
+            let limited = ratio < looser.powf(0.25);
+            let error = if limited {
+                let coarse = self.run(at(first, tau))?;
+                let error = self.in_equal_steps(&coarse, &fine, span)?;
+                if error <= allowed {
+                    return Ok((coarse, fine, Time { error, ..time }));
+                }
+                error
+            } else {
+                // steps that a vibration makes shorter than the tolerance does are no measure of the rest
+                let ratio = ratio.min(looser.cbrt());
+                (distance / (ratio * ratio - 1.0)).max(span.steps * tau)
+            };
+            // a difference that is not finite says nothing about the tolerance: the meshes are compared, and do not agree
+            if error <= allowed || !error.is_finite() {
+                return Ok((self.run(at(first, tau))?, fine, Time { error, ..time }));
+            }
+            let next = (tau * aim / error).clamp(tau / 64.0, tau / LOOSER);
+            if round == ROUNDS || next < least || !limited && distance > CLOSER * before {
+                let horizon = loose.record.first_beyond(&fine.record, allowed);
+                let (tolerance, coarse) = (looser * tau, self.run(at(first, looser * tau))?);
+                let time = Time { error: distance, stuck: true, horizon, tolerance: Some(tolerance), ..time };
+                return Ok((coarse, loose, time));
+            }
+            before = if limited { f64::INFINITY } else { distance };
+            (looser, tau, loose) = (tau / next, next, fine);
+            fine = self.run(at(2 * first, next))?;
+        }
+        unreachable!("the last round returns")
+    }
+
+    /// Returns the error in m of the steps of two runs with the same tolerance, by one in equal steps that are half as long in the mean.
+    fn in_equal_steps<W, E>(&mut self, coarse: &Run<W>, fine: &Run<W>, span: Span) -> Result<f64, StudyError<E>>
+    where
+        F: FnMut(&Resolution, &mut Record) -> Result<W, E>,
+    {
+        let same = (fine.record.steps() as f64 / coarse.record.steps() as f64 - 1.0).abs() < 0.1;
+        let run = if same { coarse } else { fine };
+        let mean = span.steps * span.host_step / run.record.steps_of_one();
+        let check = Resolution { elements: run.elements, tolerance: None, max_step: Some(0.5 * mean) };
+        let check = self.run(check)?;
+        let ratio = check.record.steps() as f64 / run.record.steps() as f64;
+        let distance = run.record.distance(&check.record)?;
+        Ok(if ratio > SATURATED { distance * ratio / (ratio - 1.0) } else { f64::INFINITY })
+    }
+}
