@@ -91,20 +91,30 @@ impl Impedance {
     fn linearise(&mut self, cable: &mut Cable, h: f64) -> Result<(), StepFailure> {
         let size = cable.positions().len();
         let mut inertia = 1.0;
-        loop {
+        let assembled = loop {
             // positive definite with half the inertia: the response is at most twice that of the
             // inertia alone
-            let definite = self.factor(cable, h, 0.5 * inertia);
+            let half = 0.5 * inertia;
+            assemble(cable, h, half);
+            let definite = self.factor(cable);
             if definite == Ok(true) {
-                break;
+                break half;
             }
             inertia *= 2.0;
             if inertia > MAX_DIVISOR {
                 definite?;
-                break;
+                break half;
             }
+        };
+        if cable.system.flows.is_empty() {
+            // the rest is added to what is assembled: projected twice it is as projected once
+            let system = &mut cable.system;
+            system.mass.add_to(&mut system.step.matrix, inertia - assembled);
+        } else {
+            // the mass matrix has the stock of a reel too, which is not assembled
+            assemble(cable, h, inertia);
         }
-        self.factor(cable, h, inertia)?;
+        self.factor(cable)?;
         let (model, system) = (&cable.model, &mut cable.system);
         for (i, column) in self.columns.chunks_exact_mut(size).enumerate() {
             column[6 * self.nodes[i / 3] + i % 3] = 1.0;
@@ -118,12 +128,8 @@ impl Impedance {
         Ok(())
     }
 
-    /// Factors `inertia M + h D + h^2 K`, and returns whether it is positive definite.
-    fn factor(&mut self, cable: &mut Cable, h: f64, inertia: f64) -> Result<bool, StepFailure> {
-        let (dynamics, state) = cable.dynamics();
-        let mut equations = dynamics.equations;
-        let input = ForceInput { time: state.time, q: &state.q, v: &state.v, dv_dq: 1.0 / h, scale: h * h };
-        equations.force_and_matrix(input, inertia, &mut dynamics.buffers.product);
+    /// Projects and factors what is assembled, and returns whether it is positive definite.
+    fn factor(&mut self, cable: &mut Cable) -> Result<bool, StepFailure> {
         let (model, system) = (&cable.model, &mut cable.system);
         project_matrix(model, &mut system.step.matrix);
         let kind = self.factorisation.factor(system.level, &system.step.matrix)?;
@@ -185,4 +191,12 @@ impl Impedance {
         cable.buffers.product = dv;
         cable.snapshot.state.memory.valid = false;
     }
+}
+
+/// Computes `inertia M + h D + h^2 K` into the matrix of the system.
+fn assemble(cable: &mut Cable, h: f64, inertia: f64) {
+    let (dynamics, state) = cable.dynamics();
+    let mut equations = dynamics.equations;
+    let input = ForceInput { time: state.time, q: &state.q, v: &state.v, dv_dq: 1.0 / h, scale: h * h };
+    equations.force_and_matrix(input, inertia, &mut dynamics.buffers.product);
 }

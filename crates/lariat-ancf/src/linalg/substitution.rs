@@ -26,6 +26,9 @@
 //! Substitution with the scalar factor of the whole matrix: its critical path has six dependent
 //! steps per node and direction; here it is one 6x6 product, and the S_i^-1 of different nodes
 //! overlap.
+//!
+//! A right-hand side that begins with zeros, as a column of the border of a cable that is pinned at its end does, stays zero down to
+//! its first entry: this part of the sweep inwards is left out, with the same bits (S_i^-1 0 = 0 and 0 - G_i 0 = 0).
 
 use super::lanes::{after, before, columns_times, load, load_block, load_six, splat, store_six, transpose_dots};
 use super::twisted::Node;
@@ -47,6 +50,12 @@ fn solve_block<S: Simd>(simd: S, node: &Node, b: f64x8<S>) -> f64x8<S> {
     y * load(simd, &node.inverse)
 }
 
+/// Returns the number of nodes before the first whose entries are not all +0.
+#[inline(always)]
+fn zeros(rhs: &[[f64; 6]]) -> usize {
+    rhs.iter().position(|six| six.iter().any(|x| x.to_bits() != 0)).unwrap_or(rhs.len())
+}
+
 /// Solves in place for `N` right-hand sides of `nodes.len()` nodes each.
 #[inline(always)]
 pub(super) fn solve<S: Simd, const N: usize>(simd: S, nodes: &[Node], rhs: [&mut [[f64; 6]]; N]) {
@@ -55,6 +64,7 @@ pub(super) fn solve<S: Simd, const N: usize>(simd: S, nodes: &[Node], rhs: [&mut
     let from_below = n - 1 - middle;
     let zero = splat(simd, 0.0);
     let rhs = rhs.map(|r| &mut r[..n]);
+    let begin: [usize; N] = core::array::from_fn(|r| zeros(&rhs[r][..middle]));
     let mut top: [f64x8<S>; N] = core::array::from_fn(|r| load_six(simd, &rhs[r][0]));
     let mut bottom: [f64x8<S>; N] = core::array::from_fn(|r| load_six(simd, &rhs[r][n - 1]));
 
@@ -62,6 +72,10 @@ pub(super) fn solve<S: Simd, const N: usize>(simd: S, nodes: &[Node], rhs: [&mut
         let (i, j) = (s, n - 1 - s);
         let gain = load_block(simd, &nodes[i].gain);
         for r in 0..N {
+            if i < begin[r] {
+                top[r] = load_six(simd, &rhs[r][i + 1]);
+                continue;
+            }
             let c = solve_block(simd, &nodes[i], top[r]);
             top[r] = load_six(simd, &rhs[r][i + 1]) - columns_times(simd, &gain, top[r]);
             store_six(simd, c, &mut rhs[r][i]);

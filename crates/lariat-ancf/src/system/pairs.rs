@@ -45,14 +45,9 @@ impl PairSystem for OnCable<'_, '_> {
 impl<'b> Equations<'b> {
     /// Calls `f` with the contacts of the cable with itself, and the cable.
     fn with_pairs<T>(&self, state: &State, b: &mut Buffers, f: impl FnOnce(&mut PairStep, &Strands<'_, '_>) -> T) -> T {
-        let mut pairs = core::mem::take(&mut b.pairs);
-        let model = self.model;
-        let strand =
-            Strand { key: model.contact_key, model, q: &state.q, change: &b.change, memory: &state.memory.pairs };
-        let out =
-            f(&mut pairs, &Strands { count: 1, get: &|_| strand, over_bodies: &|_, _| f64::INFINITY, pairs: None });
-        b.pairs = pairs;
-        out
+        let (model, Buffers { pairs, change, .. }) = (self.model, b);
+        let strand = Strand { key: model.contact_key, model, q: &state.q, change, memory: &state.memory.pairs };
+        f(pairs, &Strands { count: 1, get: &|_| strand, over_bodies: &|_, _| f64::INFINITY, pairs: None })
     }
 
     /// Finds the contacts of a step of the cable with itself.

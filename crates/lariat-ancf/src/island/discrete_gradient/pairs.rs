@@ -2,7 +2,7 @@
 
 use super::super::hold::vector;
 use super::super::layout::Layout;
-use super::IslandStep;
+use super::{IslandStep, StepBuffers};
 use crate::cable::Cable;
 use crate::contact::{CablePair, ContactBalance, LowRank, PairStep, PairSystem, Row, Strand, Strands};
 use crate::error::StepFailure;
@@ -109,11 +109,8 @@ fn with_strands<T>(
 impl IslandStep<'_, '_> {
     /// Calls `f` with the contacts and the cables.
     fn with_pairs<T>(&mut self, f: impl FnOnce(&mut PairStep, &Strands<'_, '_>) -> T) -> T {
-        let mut pairs = take(&mut self.buffers.pairs);
-        let out =
-            with_strands(self.cables, self.layout, self.buffers.may_touch.as_deref(), |strands| f(&mut pairs, strands));
-        self.buffers.pairs = pairs;
-        out
+        let StepBuffers { pairs, may_touch, .. } = &mut *self.buffers;
+        with_strands(self.cables, self.layout, may_touch.as_deref(), |strands| f(pairs, strands))
     }
 
     /// Finds the contacts of a step of length `h` (s).
