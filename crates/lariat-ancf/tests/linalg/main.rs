@@ -223,6 +223,28 @@ fn systems_of_extreme_scale_are_solved() {
 }
 
 #[test]
+fn right_hand_sides_that_begin_with_zeros_are_solved_with_the_same_bits() {
+    let mut random = Random(23);
+    for nodes in 1..12 {
+        let a = random.matrix(nodes, 6.0);
+        for level in levels() {
+            let mut factorisation = Factorisation::default();
+            assert_eq!(factorisation.factor(level, &a), Ok(Definiteness::PositiveDefinite));
+            for zeros in 0..6 * nodes {
+                let b: Vec<f64> = (0..6 * nodes).map(|i| if i < zeros { 0.0 } else { random.next() }).collect();
+                let mut x = b.clone();
+                factorisation.solve(level, &mut x);
+                // nothing is left out of a side whose zeros are negative
+                let mut whole: Vec<f64> = b.iter().map(|&b| if b == 0.0 { -0.0 } else { b }).collect();
+                factorisation.solve(level, &mut whole);
+                assert_eq!(x, whole, "{nodes} nodes, {zeros} zeros");
+                assert!(backward_error(&a, &x, &b) < 1e-15, "{nodes} nodes, {zeros} zeros");
+            }
+        }
+    }
+}
+
+#[test]
 fn buffers_are_reused_and_an_empty_matrix_is_valid() {
     let mut f = Factorisation::default();
     assert_eq!(f.determinant_sign(), None);
