@@ -217,12 +217,14 @@ impl<F> Study<F> {
             let apart = coarse.record.first_beyond(&fine.record, left / factor);
             let early = span.is_none_or(|span| apart.is_some_and(|time| time <= 0.1 * span.steps * span.host_step));
             let growth = if refined { order::growth(&differences, left, early) } else { 1.5 };
+            // what parts with time says nothing about the next mesh
+            let growth = if time.stuck { growth.min(2.0) } else { growth };
             let next = ((fine.elements as f64 * growth).ceil() as usize).min(limit);
             let needed = order::needed(&differences, left).filter(|_| early);
             let needed = needed.map(|share| (share * fine.elements as f64).ceil());
             let outcome = if mesh + time.error <= error && !time.stuck {
                 Outcome::Proven
-            } else if order::stuck(&differences) || time.stuck && differences.len() > 1 {
+            } else if order::stuck(&differences) || time.stuck && differences.len() > 2 {
                 Outcome::NoConvergence
             } else if (next as f64) < 1.5 * fine.elements as f64 || needed.is_some_and(|n| n > 1.5 * limit as f64) {
                 Outcome::ElementLimit

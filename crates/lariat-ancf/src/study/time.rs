@@ -82,7 +82,7 @@ impl<F> Runs<F> {
             let limited = ratio < looser.powf(0.25);
             let error = if limited {
                 let coarse = self.run(at(first, tau))?;
-                let error = self.in_equal_steps(&coarse, &fine, span)?;
+                let error = self.in_equal_steps(&coarse, &fine, span)?.max(span.steps * tau);
                 if error <= allowed {
                     return Ok((coarse, fine, Time { error, ..time }));
                 }
