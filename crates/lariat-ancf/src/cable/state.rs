@@ -128,7 +128,11 @@ impl Cable {
         let moved = self.snapshot.state.q != positions;
         self.snapshot.state.q.copy_from_slice(positions);
         self.snapshot.state.v.copy_from_slice(velocities);
-        if moved { self.disturb() } else { self.disturb_motion() }
+        if moved {
+            self.disturb()
+        } else {
+            self.disturb_motion()
+        }
         Ok(())
     }
 

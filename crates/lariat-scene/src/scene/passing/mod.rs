@@ -1,26 +1,10 @@
-//! Sheaves along a cable: the parts between them, and the wheel in the drawn shape.
+//! Sheaves along a cable: the cable is divided into the parts between them.
 //!
-//! # Equation
-//!
-//! The drawn polyline is cut where it is nearest to the anchor of each sheave; a part ends at the anchor, or, at a wheel of radius R, where
-//! the straight line to its next point touches the wheel. With the centre C, the point P before the wheel and the normal n about which the cable turns,
-//!
-//! ```text
-//! A = C + R (cos f u + sin f n x u)     u = (P - C)/|P - C|,   cos f = R/|P - C|
-//! ```
-//!
-//! and the mirror image of it for the point behind. Between two wheels both points are found by iteration. What is on the wheel is the
-//! angle from A to B times R, in the proportion of the unstretched to the drawn length. `at` is the arc length of any point that is on
-//! the wheel as drawn; what lies before or beyond is moved over the wheel.
-//!
-//! # Validity
-//!
-//! A and B are points of the body from then on: exact as long as the cable keeps its directions there, else off by R times the angle that
-//! it turned, which a run [warns of](crate::Warning::WheelTurned).
-//!
-//! # Alternatives considered
-//!
-//! Points that move along the wheel: the element at the eye would have an eye that moves over its material, and a second flow.
+//! A part ends at the anchor of a sheave, or where it touches the wheel ([`wheel`]). The parts are cables of their own in
+//! [`Scene::cables`], one after the other in `Scene::parts`; arc lengths of the file count along all of them (whole.rs).
+
+mod wheel;
+mod whole;
 
 use super::attachment::AttachmentScene;
 use super::references::{body_or_world, cable, unique};
@@ -30,15 +14,10 @@ use crate::document::{Document, KeyPath};
 use crate::error::{Error, Problem};
 use lariat_ancf::{RestPiece, Vector3};
 use lariat_rapier::Gap;
+use wheel::{Drawn, place, shape};
 
 /// Largest distance of a sheave from the cable as drawn, in m.
 const GAP: f64 = 1e-3;
-/// Drawn points within this many radii of the centre are on the wheel.
-const ON_WHEEL: f64 = 1.5;
-/// Iterations for the lines between two wheels.
-const ROUNDS: usize = 100;
-/// Least sine of the angle between two directions that have a plane.
-const PLANE: f64 = 1e-6;
 /// Least number of elements of a part.
 const LEAST_ELEMENTS: usize = 2;
 
@@ -138,134 +117,6 @@ fn read(doc: &Document<'_>, scene: &Scene, row: usize, table: &SheaveTable) -> R
     let centre = body.map_or(anchor, |body| scene.bodies[body].to_world(&anchor));
     let (drawn, touches) = ((0.0, centre), [centre; 2]);
     Ok(Some((c, Passage { row, at: position, body, radius: table.radius, centre, drawn, touches, angle: 0.0 })))
-}
-
-/// The drawn points of a part.
-struct Drawn(Vec<Vector3<f64>>);
-
-impl Drawn {
-    fn length(&self) -> f64 {
-        self.0.windows(2).map(|p| (p[1] - p[0]).norm()).sum()
-    }
-}
-
-/// Returns the place in m of each point of a polyline.
-fn places(points: &[Vector3<f64>]) -> Vec<f64> {
-    let mut sum = 0.0;
-    let rest = points.windows(2).map(|p| {
-        sum += (p[1] - p[0]).norm();
-        sum
-    });
-    std::iter::once(0.0).chain(rest).collect()
-}
-
-/// Finds where a cable passes its sheaves, in their order.
-fn place(doc: &Document<'_>, own: &CableScene, passages: &mut [Passage]) -> Result<(), Error> {
-    let places = places(&own.points);
-    let drawn = places.last().copied().unwrap_or(0.0);
-    let mut before = 0.0;
-    for k in 0..passages.len() {
-        let at = KeyPath::root("sheave").item(passages[k].row);
-        let passage = &mut passages[k];
-        let (s, centre, radius) = (passage.at, passage.centre, passage.radius);
-        let near = |i: usize| {
-            let (a, b) = (own.points[i], own.points[i + 1]);
-            let span = places[i + 1] - places[i];
-            let share = ((centre - a).dot(&(b - a)) / (span * span)).clamp(0.0, 1.0);
-            let place = (places[i] + share * span).max(before);
-            let point = a + (b - a) * ((place - places[i]) / span).clamp(0.0, 1.0);
-            (place, point, (point - centre).norm())
-        };
-        let all: Vec<_> = (0..own.points.len() - 1).filter(|&i| places[i + 1] > before).map(near).collect();
-        let least = all.iter().map(|(_, _, far)| *far).fold(f64::INFINITY, f64::min);
-        let wanted = s * drawn / own.length;
-        let alike = all.iter().filter(|(_, _, far)| *far <= least.max(radius) + GAP);
-        let nearest = alike.min_by(|a, b| (a.0 - wanted).abs().total_cmp(&(b.0 - wanted).abs()));
-        let Some(&(place, point, far)) = nearest else {
-            return Err(doc.conflict(&at.key("at"), "the cable as drawn ends before it"));
-        };
-        if far > radius * (1.0 + 1e-3) + GAP && !own.equilibrium {
-            let problem = Problem::Conflict(format!("it is {far:.3e} m from the cable as drawn"));
-            let accepted = "a point that the cable is drawn through, or initial = \"equilibrium\"";
-            return Err(doc.error_accepting(&at.key("anchor"), problem, accepted));
-        }
-        passage.drawn = (place, point);
-        before = place;
-    }
-    if passages.iter().all(|passage| passage.radius == 0.0) {
-        return Ok(());
-    }
-    for _ in 0..ROUNDS {
-        let mut moved = 0.0f64;
-        for k in 0..passages.len() {
-            let parts = shape(own, passages);
-            let around = [parts[k].0.iter().rev().nth(1), parts[k + 1].0.get(1)].map(|p| p.copied());
-            if let (passage, [Some(p), Some(q)]) = (&mut passages[k], around)
-                && passage.radius > 0.0
-            {
-                let before = passage.touches;
-                touch(doc, passage, p, q)?;
-                moved += (0..2).map(|i| (passage.touches[i] - before[i]).norm()).sum::<f64>();
-            }
-        }
-        if moved <= 1e-14 * drawn {
-            break;
-        }
-    }
-    Ok(())
-}
-
-/// Lays a cable that comes from one point and goes to another around a wheel.
-fn touch(doc: &Document<'_>, passage: &mut Passage, p: Vector3<f64>, q: Vector3<f64>) -> Result<(), Error> {
-    let at = KeyPath::root("sheave").item(passage.row).key("radius");
-    let Passage { centre, radius, drawn: (_, drawn), .. } = *passage;
-    let arms = [p - centre, q - centre];
-    if let Some(near) = arms.iter().map(|arm| arm.norm()).find(|near| *near <= radius) {
-        let problem = format!("a point of the cable beside it is {near:.3e} m from its centre: within the wheel");
-        return Err(doc.conflict(&at, problem));
-    }
-    let turning = (drawn - p).cross(&(q - drawn));
-    let (plane, across) = (arms[0].cross(&arms[1]), arms[0].norm() * arms[1].norm());
-    let normal = if plane.norm() > PLANE * across {
-        plane * plane.dot(&turning).signum()
-    } else {
-        turning - arms[0] * (turning.dot(&arms[0]) / arms[0].norm_squared())
-    };
-    if turning.norm() <= PLANE * (drawn - p).norm() * (q - drawn).norm() || normal.norm() == 0.0 {
-        let problem = Problem::Conflict("the cable as drawn does not turn at the wheel: its side is not known".into());
-        return Err(doc.error_accepting(&at, problem, "points that are drawn around the wheel, or radius = 0"));
-    }
-    let normal = normal.normalize();
-    let touching = |arm: Vector3<f64>, sign: f64| {
-        let (far, along) = (arm.norm(), arm.normalize());
-        let cosine = radius / far;
-        (along * cosine + normal.cross(&along) * (sign * (1.0 - cosine * cosine).max(0.0).sqrt())) * radius
-    };
-    let [a, b] = [touching(arms[0], 1.0), touching(arms[1], -1.0)];
-    let angle = normal.dot(&a.cross(&b)).atan2(a.dot(&b)).rem_euclid(std::f64::consts::TAU);
-    passage.angle = if angle > std::f64::consts::TAU - 1e-6 { 0.0 } else { angle };
-    passage.touches = [centre + a, centre + b];
-    Ok(())
-}
-
-/// Returns the drawn points of the parts of a cable: those between its sheaves that are on no wheel, and the points where it touches them.
-fn shape(own: &CableScene, passages: &[Passage]) -> Vec<Drawn> {
-    let (places, last) = (places(&own.points), own.points.len() - 1);
-    let on_wheel = |i: usize, passage: &Passage| (own.points[i] - passage.centre).norm() <= ON_WHEEL * passage.radius;
-    let mut parts = Vec::new();
-    for k in 0..=passages.len() {
-        let sides = [k.checked_sub(1).map(|k| &passages[k]), passages.get(k)];
-        let reach = |side: Option<&Passage>, end: f64| side.map_or(end, |passage| passage.drawn.0);
-        let (from, to) = (reach(sides[0], -1.0), reach(sides[1], f64::INFINITY));
-        let between = (0..=last).filter(|&i| places[i] > from && places[i] < to);
-        let kept = between.filter(|&i| i == 0 || i == last || !sides.iter().flatten().any(|side| on_wheel(i, side)));
-        let mut points: Vec<_> = sides[0].map(|side| side.touches[1]).into_iter().collect();
-        points.extend(kept.map(|i| own.points[i]));
-        points.extend(sides[1].map(|side| side.touches[0]));
-        points.dedup_by(|b, a| (*b - *a).norm() <= 1e-9 * own.length);
-        parts.push(Drawn(points));
-    }
-    parts
 }
 
 /// Divides a cable at its sheaves: the first part takes its place, the others follow all cables.
@@ -377,53 +228,6 @@ fn held(
         clamp: false,
         gap: Gap::Refuse(GAP),
     })
-}
-
-impl Scene {
-    /// Returns the cable of the file of which an entry of [`cables`](Self::cables) is a part: its position there.
-    pub fn whole(&self, part: usize) -> usize {
-        if part < self.parts.len() {
-            return part;
-        }
-        self.parts.iter().position(|parts| parts.contains(&part)).unwrap_or(part)
-    }
-
-    /// Returns the unstretched length of a cable of the file in m, with what is on wheels.
-    pub fn whole_length(&self, cable: usize) -> f64 {
-        self.parts[cable].iter().map(|&part| self.cables[part].lead + self.cables[part].length).sum()
-    }
-
-    /// Returns the part of a cable of the file that has an arc length (m) at t = 0, and the arc length on it. What is on a wheel is at the
-    /// end of the part before.
-    pub fn part_at(&self, cable: usize, arc_length: f64) -> (usize, f64) {
-        let mut from = 0.0;
-        let mut found = (cable, arc_length);
-        for (k, &part) in self.parts[cable].iter().enumerate() {
-            let own = &self.cables[part];
-            if k > 0 && arc_length <= from + own.lead {
-                return (found.0, found.1.min(self.cables[found.0].length));
-            }
-            from += own.lead;
-            found = (part, arc_length - from);
-            if found.1 <= own.length {
-                return found;
-            }
-            from += own.length;
-        }
-        (found.0, found.1.min(self.cables[found.0].length))
-    }
-
-    /// Returns the arc length in m on its cable of the file, at t = 0, of a point of a part.
-    pub fn along(&self, part: usize, arc_length: f64) -> f64 {
-        let parts = &self.parts[self.whole(part)];
-        let before = parts.iter().take_while(|&&other| other != part).map(|&i| &self.cables[i]);
-        before.map(|own| own.lead + own.length).sum::<f64>() + self.cables[part].lead + arc_length
-    }
-
-    /// Returns the part of a cable of the file that its reel is at.
-    pub fn reel_part(&self, cable: usize) -> Option<usize> {
-        self.parts[cable].iter().copied().find(|&part| self.cables[part].reel.is_some())
-    }
 }
 
 /// Checks that a name is not that of an attachment of a sheave.

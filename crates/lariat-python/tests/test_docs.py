@@ -1,0 +1,42 @@
+"""The code of docs/python.md runs as it stands, block after block."""
+
+import re
+import sys
+from pathlib import Path
+from unittest import mock
+
+import pytest
+
+import lariat
+
+ROOT = Path(__file__).parents[3]
+PAGE = ROOT / "docs" / "python.md"
+
+
+def blocks():
+    """The code of the page in order."""
+    return re.findall(r"^```python\n(.*?)^```$", PAGE.read_text(), re.DOTALL | re.MULTILINE)
+
+
+def test_every_block_of_the_page_runs(tmp_path, monkeypatch):
+    """Paths of scenes are those of a clone; what a block writes goes to a folder of the test."""
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "assets").symlink_to(ROOT / "assets")
+    pyplot = mock.MagicMock()
+    monkeypatch.setitem(sys.modules, "matplotlib", mock.MagicMock(pyplot=pyplot))
+    monkeypatch.setitem(sys.modules, "matplotlib.pyplot", pyplot)
+    names = {"scene": "assets/scenes/payload_pendulum.toml"}
+    found = blocks()
+    assert len(found) >= 8
+    for number, code in enumerate(found):
+        try:
+            exec(compile(code, f"{PAGE.name}, block {number + 1}", "exec"), names)
+        except Exception as error:
+            pytest.fail(f"block {number + 1}: {error!r}\n{code}")
+    # the page says what the blocks show
+    half_weight, flexible = 0.14 * 9.81 * 3.0 / 2.0, 2.615  # N; a catenary without bending stiffness: sinh(x)/x = 1.2
+    assert half_weight < names["line"].tension.max() < flexible
+    assert names["reading"].rate == pytest.approx(1 / 60, rel=1e-6)
+    assert names["forces"].force[0][1] > 0.0
+    assert (tmp_path / "out" / "payload" / "view.html").exists()
+    assert issubclass(lariat.errors.StepFailedError, lariat.Error)
