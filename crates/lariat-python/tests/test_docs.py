@@ -20,7 +20,6 @@ def blocks():
 
 def test_every_block_of_the_page_runs(tmp_path, monkeypatch):
     """Paths of scenes are those of a clone; what a block writes goes to a folder of the test."""
-    monkeypatch.chdir(tmp_path)
     (tmp_path / "assets").symlink_to(ROOT / "assets")
     pyplot = mock.MagicMock()
     monkeypatch.setitem(sys.modules, "matplotlib", mock.MagicMock(pyplot=pyplot))
