@@ -179,7 +179,9 @@ fn a_density_in_grams_per_cubic_centimetre_is_told() {
             warnings.iter().any(|w| matches!(w, Warning::Cable(CableWarning::LightMaterial { density_kg_m3, .. }) if (density_kg_m3 / density - 1.0).abs() < 1e-9))
         };
         assert!(light(&line(density, modulus)), "{density}");
-        assert_eq!(warned(&line(1000.0 * density, modulus), Purpose::Run), [], "{density}");
+        let heavy = warned(&line(1000.0 * density, modulus), Purpose::Run);
+        let told = |w: &Warning| matches!(w, Warning::Cable(CableWarning::LightMaterial { .. }));
+        assert!(!heavy.iter().any(told), "{density} {heavy:?}");
     }
 }
 
@@ -196,9 +198,11 @@ fn loads_that_a_run_does_not_see_are_told() {
     assert!(matches!(&ramp[..], [Warning::UnfinishedRamp { on, ramp_s: 5.0, .. }] if on == "beam"), "{ramp:?}");
     assert!(ramp[0].to_string().contains("2 %"), "{}", ramp[0]);
     let along = warned(&beam("moment = [0.0, -2.0, 0.5]"), Purpose::Run);
-    assert!(matches!(&along[..], [Warning::MomentAlong { part_nm: 2.0, at_m: 2.0, .. }]), "{along:?}");
+    assert!(along.iter().any(|w| matches!(w, Warning::MomentAlong { part_nm: 2.0, at_m: 2.0, .. })), "{along:?}");
     for well in ["force = [1.0, 0.0, 0.0]\nramp = 0.1", "moment = [0.5, 0.0, 0.5]"] {
-        assert_eq!(warned(&beam(well), Purpose::Run), [], "{well}");
+        let told = |w: &Warning| matches!(w, Warning::UnfinishedRamp { .. } | Warning::MomentAlong { .. });
+        let warnings = warned(&beam(well), Purpose::Run);
+        assert!(!warnings.iter().any(told), "{well} {warnings:?}");
     }
 }
 

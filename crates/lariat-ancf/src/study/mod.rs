@@ -234,6 +234,13 @@ impl<F> Study<F> {
                 continue;
             };
             let proven = outcome == Outcome::Proven;
+            // distances at the end of a motion that no mesh determines show no order of what is before
+            let apart = if outcome == Outcome::NoConvergence {
+                let factor = order::factor(&differences[differences.len() - 1..], None, largest);
+                coarse.record.first_beyond(&fine.record, left / factor)
+            } else {
+                apart
+            };
             let claim = Claim {
                 asked_m: error,
                 claimed_m: proven.then_some(mesh + time.error),

@@ -10,7 +10,7 @@
 //! - Below, the host step limits the steps of the looser one, or of both, so that they are near each other whatever their error. The run at `tau` is
 //!   compared with one in equal steps of half its mean step: `d r/(r - 1)`, p = 1, is its error.
 //!
-//! Both are at least the sum `T/dt tau` of the tolerances.
+//! Where a run takes hardly more steps than the host, none at a looser tolerance is taken. Both are at least the sum `T/dt tau` of the tolerances.
 //! If the error is above 0.4 of what is asked for, the next run has a tolerance that the error asks for, and is judged in the same way.
 //!
 //! # Validity
@@ -71,13 +71,19 @@ impl<F> Runs<F> {
         let at = |elements, tolerance| Resolution { elements, tolerance: Some(tolerance), max_step: None };
         let [allowed, aim] = SHARE.map(|share| share * self.error);
         let (mut tau, mut looser, mut before) = (self.error / (4.0 * span.steps), LOOSER, f64::INFINITY);
-        let mut loose = self.run(at(2 * first, LOOSER * tau))?;
         let mut fine = self.run(at(2 * first, tau))?;
+        // no tolerance has fewer steps than the host: a looser one says nothing where this one has hardly more
+        let one_each = fine.record.steps() > 0 && fine.record.steps_of_one() < SATURATED * span.steps;
+        let mut loose = if one_each { None } else { Some(self.run(at(2 * first, LOOSER * tau))?) };
         let least = TIGHTEST * fine.record.longest();
         for round in 1.. {
-            let distance = loose.record.distance(&fine.record)?;
             // not a number without cables, whose steps are not known: then the tolerance is taken to be kept
-            let ratio = fine.record.steps() as f64 / loose.record.steps() as f64;
+            let (ratio, distance) = match &loose {
+                Some(loose) => {
+                    (fine.record.steps() as f64 / loose.record.steps() as f64, loose.record.distance(&fine.record)?)
+                }
+                None => (1.0, 0.0),
+            };
             let time = Time { saturated: ratio < SATURATED, tolerance: Some(tau), ..Time::default() };
             let limited = ratio < looser.powf(0.25);
             let error = if limited {
@@ -98,13 +104,14 @@ impl<F> Runs<F> {
             }
             let next = (tau * aim / error).clamp(tau / 64.0, tau / LOOSER);
             if round == ROUNDS || next < least || !limited && distance > CLOSER * before {
-                let horizon = loose.record.first_beyond(&fine.record, allowed);
-                let (tolerance, coarse) = (looser * tau, self.run(at(first, looser * tau))?);
-                let time = Time { error: distance, stuck: true, horizon, tolerance: Some(tolerance), ..time };
-                return Ok((coarse, loose, time));
+                let horizon = loose.as_ref().and_then(|loose| loose.record.first_beyond(&fine.record, allowed));
+                let (kept, tolerance) = loose.map_or((fine, tau), |loose| (loose, looser * tau));
+                let time =
+                    Time { error: distance.max(error), stuck: true, horizon, tolerance: Some(tolerance), ..time };
+                return Ok((self.run(at(first, tolerance))?, kept, time));
             }
             before = if limited { f64::INFINITY } else { distance };
-            (looser, tau, loose) = (tau / next, next, fine);
+            (looser, tau, loose) = (tau / next, next, Some(fine));
             fine = self.run(at(2 * first, next))?;
         }
         unreachable!("the last round returns")
