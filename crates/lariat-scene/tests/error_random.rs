@@ -123,7 +123,9 @@ fn study(text: &str, error: f64) -> Option<f64> {
     let (summary, folder) = execute(text, Some(error));
     let claim = &summary.error.as_ref().unwrap().claim;
     let claimed = claim.claimed_m?;
-    assert!(claimed <= error && claim.cost < 4.0, "{claim:?}");
+    // a run in equal steps, which judges steps that the host or Rapier limits, has more iterations per step than runs with a tolerance
+    let cost = if claim.host_step_limits { 5.0 } else { 4.0 };
+    assert!(claimed <= error && claim.cost < cost, "{claim:?}");
     let tolerance = claim.tolerance_m.unwrap() / 8.0;
     let finer =
         format!("name = \"c\"\nelements = {}\nintegrator = {{ tolerance = {:?} }}", 2 * claim.elements, tolerance);

@@ -17,7 +17,7 @@
 //!
 //! ESDIRK4 with local extrapolation has order 4 in the step, and 2 or more where stiff modes reduce it. Errors per step that a motion amplifies,
 //! as a rotation whose rate is off, are in the distance, but not in any bound by the sum of tolerances: a bar that swings for two seconds in steps of 1/30 s
-//! is off by 2.4 times that sum. The run in equal steps has the mesh of the coarser pilot where that takes as many steps as the finer. Vibrations that are
+//! is off by 2.4 times that sum. The run in equal steps has the mesh of the coarser pilot unless the finer takes more steps. Vibrations that are
 //! faster than all steps, and smaller than the tolerance, are in no run. Runs that do not come closer with the tolerance, or not enough in a few
 //! rounds, have no error in time: the motion is not determined by its start, from the horizon on.
 //!
@@ -122,7 +122,7 @@ impl<F> Runs<F> {
     where
         F: FnMut(&Resolution, &mut Record) -> Result<W, E>,
     {
-        let same = (fine.record.steps() as f64 / coarse.record.steps() as f64 - 1.0).abs() < 0.1;
+        let same = fine.record.steps() as f64 <= SATURATED * coarse.record.steps() as f64;
         let run = if same { coarse } else { fine };
         let mean = span.steps * span.host_step / run.record.steps_of_one();
         let check = Resolution { elements: run.elements, tolerance: None, max_step: Some(0.5 * mean) };
