@@ -290,24 +290,54 @@ impl SceneEffect for LineLoads {
 }
 
 table! {
-    /// Contact and friction with the bodies, and with other cables.
-    keys CONTACT for Contact("[cable.contact]") {
+    /// Contact and friction with the bodies, and with cables.
+    struct ContactTable("[cable.contact]") {
         /// Radius, required for a cable without `section`.
-        radius = ("half the diameter of the section"), Kind::Number(POSITIVE), "m";
+        radius: Option<f64> = ("half the diameter of the section"), Kind::Number(POSITIVE), "m";
         /// Normal force per length and depth.
-        stiffness = ("EA/(40 radius^2)"), Kind::Number(POSITIVE), "N/m^2";
+        stiffness: Option<f64> = ("EA/(40 radius^2)"), Kind::Number(POSITIVE), "N/m^2";
         /// Coefficient of friction of the cable; that of a contact is the mean of both.
-        friction = 0.5, Kind::Number(NOT_NEGATIVE);
-        /// Whether the cable touches others that have this too; the coefficient of friction is the mean of both.
-        cables = false, Kind::Flag;
+        friction: f64 = 0.5, Kind::Number(NOT_NEGATIVE);
+        /// Whether the cable touches itself, and other cables that say so: both of the keys below.
+        self_contact: bool = false, Kind::Flag;
+        /// Whether the cable touches other cables that say so.
+        cables: Option<bool> = ("that of `self_contact`"), Kind::Flag;
         /// Whether the cable touches itself.
-        itself = false, Kind::Flag;
+        itself: Option<bool> = ("that of `self_contact`"), Kind::Flag;
     }
 }
 
+impl ContactTable {
+    /// Whether the cable is to touch others.
+    fn cables(&self) -> bool {
+        self.cables.unwrap_or(self.self_contact)
+    }
+
+    /// Whether the cable is to touch itself.
+    fn itself(&self) -> bool {
+        self.itself.unwrap_or(self.self_contact)
+    }
+}
+
+/// Returns whether the cable of a row is to touch cables, others or itself.
+pub(super) fn touches_cables(doc: &Document<'_>, at: &KeyPath, row: &toml::Table) -> Result<bool, Error> {
+    let Some(value) = row.get("contact") else { return Ok(false) };
+    let table: ContactTable = typed(doc, at, value.clone())?;
+    Ok(table.cables() || table.itself())
+}
+
 impl SceneEffect for Contact {
-    const KIND: Kind = Kind::Table(&CONTACT);
+    const KIND: Kind = Kind::Table(&ContactTable::TABLE);
     const WITHOUT: &'static str = "off";
+
+    fn write_out(doc: &Document<'_>, at: &KeyPath, value: &mut Value, _: &Context<'_>) -> Result<(), Error> {
+        let table: ContactTable = typed(doc, at, value.clone())?;
+        let (cables, itself) = (table.cables(), table.itself());
+        let ContactTable { radius, stiffness, friction, .. } = table;
+        *value = Value::try_from(Contact { radius, stiffness, friction, cables, itself })
+            .map_err(|error| doc.conflict(at, error.to_string()))?;
+        Ok(())
+    }
 
     fn check(&self, doc: &Document<'_>, at: &KeyPath, cable: &Context<'_>) -> Result<(), Error> {
         match self.radius.or(cable.section.diameter) {

@@ -235,18 +235,16 @@ pub(crate) fn check(doc: &Document<'_>, fallback: &str, folder: &Path, purpose: 
     Ok(scene)
 }
 
-/// Returns whether a cable is to touch others, or itself.
-fn touches_cables(row: &cable::CableTable) -> bool {
-    let contact = row.effects.get("contact");
-    let is_set = |key| contact.and_then(|contact| contact.get(key)).and_then(toml::Value::as_bool) == Some(true);
-    is_set("cables") || is_set("itself")
-}
-
 /// Returns the engine; without the key, bodies, junctions, sheaves and contact of cables with cables choose Rapier.
 fn engine(doc: &Document<'_>, table: &SceneTable) -> Result<Engine, Error> {
     let alone = table.body.is_empty() && table.junction.is_empty() && table.sheave.is_empty();
+    let mut touching = false;
+    for (i, row) in table.cable.iter().enumerate() {
+        let at = KeyPath::root("cable").item(i).key("contact");
+        touching |= effects::touches_cables(doc, &at, &row.effects)?;
+    }
     let engine = match table.engine {
-        None if alone && !table.cable.iter().any(touches_cables) => Engine::None,
+        None if alone && !touching => Engine::None,
         None => Engine::Rapier,
         Some(engine) => engine,
     };
