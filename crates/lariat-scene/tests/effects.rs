@@ -300,12 +300,18 @@ fn self_contact_is_contact_with_cables_and_with_itself() {
         ("itself = true", [false, true]),
     ];
     let read = |keys: &str| {
-        let probe = "[[probe]]\nname = \"p\"\nenergy = \"line\"\n";
-        Scene::parse(&format!("{CABLE}[cable.contact]\n{keys}\n{FLOOR}{probe}"), Path::new("scene.toml"), &[], Purpose::Run)
+        let text = format!("{CABLE}[cable.contact]\n{keys}\n");
+        Scene::parse("rope.toml", &text, &[], Purpose::Run)
     };
-    for (keys, expected) in cases {
-        let contact = read(keys).unwrap().cables[0].effects.contact.unwrap();
-        assert_eq!([contact.cables, contact.itself], expected, "{keys}");
+    for (keys, [cables, itself]) in cases {
+        let scene = read(keys);
+        if !(cables || itself) {
+            let nothing = scene.unwrap_err().to_string();
+            assert!(nothing.contains("nothing that the cable could touch"), "{keys}: {nothing}");
+            continue;
+        }
+        let contact = scene.unwrap().cables[0].effects.contact.unwrap();
+        assert_eq!([contact.cables, contact.itself], [cables, itself], "{keys}");
     }
     let wrong = read("self_contact = 1").unwrap_err().to_string();
     assert!(wrong.contains("self_contact"), "{wrong}");
