@@ -285,6 +285,38 @@ fn contact_of_a_scene_holds_a_cable_on_a_floor() {
     assert!(summary.warnings.iter().all(told), "{:?}", summary.warnings);
 }
 
+/// `self_contact` stands for `cables` and `itself`, each of which wins where it is given; a scene without bodies gets an engine for them.
+///
+/// *Source.* The contract of the scene file.
+#[test]
+fn self_contact_is_contact_with_cables_and_with_itself() {
+    let cases = [
+        ("", [false, false]),
+        ("self_contact = false", [false, false]),
+        ("self_contact = true", [true, true]),
+        ("self_contact = true\nitself = false", [true, false]),
+        ("self_contact = true\ncables = false", [false, true]),
+        ("self_contact = false\ncables = true", [true, false]),
+        ("itself = true", [false, true]),
+    ];
+    let read = |keys: &str| {
+        let text = format!("{CABLE}[cable.contact]\n{keys}\n");
+        Scene::parse("rope.toml", &text, &[], Purpose::Run)
+    };
+    for (keys, [cables, itself]) in cases {
+        let scene = read(keys);
+        if !(cables || itself) {
+            let nothing = scene.unwrap_err().to_string();
+            assert!(nothing.contains("nothing that the cable could touch"), "{keys}: {nothing}");
+            continue;
+        }
+        let contact = scene.unwrap().cables[0].effects.contact.unwrap();
+        assert_eq!([contact.cables, contact.itself], [cables, itself], "{keys}");
+    }
+    let wrong = read("self_contact = 1").unwrap_err().to_string();
+    assert!(wrong.contains("self_contact"), "{wrong}");
+}
+
 /// Without contact the same cable passes through the floor, and is told once, with the time; with it, it rests on one that is a dynamic body.
 ///
 /// *Source.* Free fall of 0.3 m takes 0.247 s, and a radius more 0.25 s.
