@@ -70,8 +70,7 @@
 //! ([`Attachment`]).
 //!
 //! # Validity
-//! - See the limits of [`CableSet`]: no contact with dynamic bodies, no reel on free bodies, one number of Rapier steps for
-//!   the whole world, and what is predicted of mechanisms.
+//! - See the limits of [`CableSet`]: one number of Rapier steps for the whole world, and what is predicted of mechanisms.
 //! - An undamped cable oscillates for ever, and so does the force at its end: a rope that was slack
 //!   and bowed has a tension ripple of 1 % when it is taut, with any integrator. Give it damping
 //!   ([`lariat_ancf::Damping`]), or an integrator that damps.
@@ -87,9 +86,9 @@
 //!   approximately.
 //! - Damping of Rapier's bodies acts at the end of a step; with it, a body's accelerations are not
 //!   kept.
-//! - Kinematic bodies move with Rapier's precision: in single precision a slow winch moves in jumps
-//!   of 2e-7 m at 2 m, 2 N of a steel bar of 1 cm^2. The package `lariat-rapier-f64`, of the same
-//!   source, has none of this.
+//! - Kinematic bodies and those in contact move with Rapier's precision: in single precision a slow
+//!   winch moves in jumps of 2e-7 m at 2 m, 2 N of a steel bar of 1 cm^2, and 1 + T/h times that if
+//!   its retardation time is T. The package `lariat-rapier-f64`, of the same source, has none of this.
 //!
 //! # References
 //! - Each file of the source names the equations it solves, their sources and their limits.

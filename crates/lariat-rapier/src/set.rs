@@ -31,9 +31,10 @@ use serde::{Deserialize, Serialize};
 ///   body its stock rides along as a point mass at the eye, beside the mass that Rapier knows: contacts of the body see that alone.
 /// - All cables of a set share one number of Rapier steps per host step ([`Settings`]), which is
 ///   also that of the whole world: a pile of bodies costs as many Rapier steps as the cables need.
-/// - The bodies of a mechanism (a multibody, or bodies joined by impulse joints) are predicted
-///   together only if none of those without a cable touches a body from outside. Otherwise their effect is estimated from step to step, and limits of multibody
-///   joints chatter. Chains of impulse joints count up to 24 bodies.
+/// - The loads on the bodies of a mechanism (a multibody, or bodies joined by impulse joints) are
+///   predicted only if none of those without a cable is near a body from outside. Otherwise they are
+///   estimated from step to step; on chains of impulse joints forces may ripple by some per cent
+///   then. Chains of impulse joints count up to 24 bodies.
 /// - Cables that cannot step stand still with the bodies attached to them, and block others that
 ///   touch them; all else goes on.
 ///

@@ -1,5 +1,6 @@
 //! Scenes with rigid bodies, run by the command, against independent values.
 
+mod contacts;
 mod holds;
 mod motion;
 mod results;
