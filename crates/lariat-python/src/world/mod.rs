@@ -56,10 +56,15 @@ fn kind(name: &str) -> PyResult<AttachmentKind> {
     }
 }
 
+/// Returns what has a number among those of a kind; `error` is the name of the exception if none has.
+fn numbered<T: Copy>(all: &[T], number: usize, kind: &str, error: &'static str) -> Result<T, Raise> {
+    let none = || Raise::new(error, format!("no {kind} {number} in this world"));
+    all.get(number).copied().ok_or_else(none)
+}
+
 impl Contents {
     fn attachment(&self, number: usize) -> Result<AttachmentHandle, Raise> {
-        let none = || Raise::new("NoAttachmentError", format!("no attachment {number} in this world"));
-        self.attachments.get(number).copied().ok_or_else(none)
+        numbered(&self.attachments, number, "attachment", "NoAttachmentError")
     }
 
     fn add_attachment(&mut self, handle: AttachmentHandle) -> usize {

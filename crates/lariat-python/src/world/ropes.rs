@@ -1,7 +1,7 @@
 //! Ropes of a world in one call, what ties cables to each other, what they withstand, and what a step may cost.
 
 use super::bodies::{Handle, invalid};
-use super::{Contents, World};
+use super::{Contents, World, numbered};
 use crate::cable::Cable;
 use crate::convert::{Place, Vector, result};
 use crate::error::{Raise, raise};
@@ -23,8 +23,7 @@ pub(super) fn budget(max_iterations: Option<u64>, max_time: Option<f64>) -> PyRe
 
 impl Contents {
     fn junction(&self, number: usize) -> Result<JunctionHandle, Raise> {
-        let none = || Raise::new("NoJunctionError", format!("no junction {number} in this world"));
-        self.junctions.get(number).copied().ok_or_else(none)
+        numbered(&self.junctions, number, "junction", "NoJunctionError")
     }
 }
 

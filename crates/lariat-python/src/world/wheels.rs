@@ -1,7 +1,7 @@
 //! Sheaves and drums of a world.
 
 use super::bodies::{Handle, invalid, not_negative, positive, single};
-use super::{Contents, World};
+use super::{Contents, World, numbered};
 use crate::cable::Cable;
 use crate::convert::{Place, Vector, result};
 use crate::error::{Raise, raise};
@@ -11,8 +11,7 @@ use pyo3::prelude::*;
 
 impl Contents {
     fn sheave(&self, number: usize) -> Result<SheaveHandle, Raise> {
-        let none = || Raise::new("NoSheaveError", format!("no sheave {number} in this world"));
-        self.sheaves.get(number).copied().ok_or_else(none)
+        numbered(&self.sheaves, number, "sheave", "NoSheaveError")
     }
 }
 

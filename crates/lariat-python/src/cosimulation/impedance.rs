@@ -1,0 +1,111 @@
+//! The impedance of a cable between bodies that another program moves.
+//!
+//! # Equation
+//!
+//! The impedance is the matrix Z (6x6 for each pair of bodies, velocity before angular velocity, about the reference points) by which
+//! the impulse on the bodies changes when their velocities at the end of a step differ by dv from the prescribed ones: dJ = -Z dv.
+//!
+//! ```text
+//! A = M + h D + h^2 K        C = B A^-1 B^T        Z = P^T C^-1 P
+//! ```
+//!
+//! B selects the coordinates of the cable that the bodies hold, and P are the velocities of these by those of the bodies.
+//!
+//! # Validity
+//!
+//! A is one linearised implicit Euler step; if compression makes it indefinite, D and K are halved until it is positive definite.
+
+use super::link::Link;
+use crate::error::Raise;
+use fearless_simd::Level;
+use lariat_ancf::linalg::{BlockTridiagonal, Definiteness, Factorisation};
+use lariat_ancf::{self as ancf, At, Vector3};
+use nalgebra::DMatrix;
+
+/// Largest number of times that D and K are halved.
+const HALVINGS: i32 = 40;
+
+impl Link {
+    /// Returns Z; see the page of this module.
+    pub(super) fn impedance(&self, cable: &ancf::Cable, h: f64) -> Result<DMatrix<f64>, Raise> {
+        let mut cable = cable.clone();
+        for end in &self.ends {
+            cable.detach(At::Node(end.node))?;
+        }
+        let (mass, stiffness, damping) = (cable.mass_matrix(), cable.stiffness_matrix(), cable.damping_matrix());
+        let level = Level::new();
+        let mut factorisation = Factorisation::default();
+        let is_positive_definite = (0..=HALVINGS).any(|halving| {
+            let share = 0.5f64.powi(halving);
+            let mut a = combine(&mass, &damping, share * h, &stiffness, share * h * h);
+            cable.apply_supports(&mut a);
+            matches!(factorisation.factor(level, &a), Ok(Definiteness::PositiveDefinite))
+        });
+        let none = || {
+            let message =
+                format!("cable {:?}: no impedance at t = {} s for a step of {h} s", cable.name(), cable.time());
+            Raise::new("ImpedanceError", message)
+                .with("cable", cable.name())
+                .with("time", cable.time())
+                .with("value", h)
+        };
+        if !is_positive_definite {
+            return Err(none());
+        }
+        let size = cable.positions().len();
+        let (mut rows, mut maps) = (Vec::new(), Vec::new());
+        for (i, end) in self.ends.iter().enumerate() {
+            let lever = end.motion.rotation * end.anchor;
+            for axis in 0..3 {
+                let mut row = vec![0.0; size];
+                row[6 * end.node + axis] = 1.0;
+                rows.push(row);
+                let unit = Vector3::ith(axis, 1.0);
+                // (omega x lever) . unit = omega . (lever x unit)
+                maps.push((i, unit, lever.cross(&unit)));
+            }
+            if end.direction.is_some() {
+                let at = 6 * end.node + 3;
+                let slope = Vector3::from_column_slice(&cable.positions()[at..at + 3]);
+                let tangent = slope.normalize();
+                let across = if tangent.x.abs() < 0.9 { Vector3::x() } else { Vector3::y() };
+                let first = tangent.cross(&across).normalize();
+                for unit in [first, tangent.cross(&first)] {
+                    let mut row = vec![0.0; size];
+                    // omega . unit = unit . (t x t')/|t|^2
+                    row[at..at + 3].copy_from_slice((unit.cross(&slope) / slope.norm_squared()).as_slice());
+                    rows.push(row);
+                    maps.push((i, Vector3::zeros(), unit));
+                }
+            }
+        }
+        let count = rows.len();
+        let b = DMatrix::from_fn(count, size, |r, c| rows[r][c]);
+        let mut columns = rows.concat();
+        factorisation.solve_many(level, &mut columns, count);
+        let compliance = &b * DMatrix::from_column_slice(size, count, &columns);
+        let p = DMatrix::from_fn(count, 6 * self.ends.len(), |r, c| {
+            let (end, linear, angular) = &maps[r];
+            match c / 6 == *end {
+                true if c % 6 < 3 => linear[c % 6],
+                true => angular[c % 6 - 3],
+                false => 0.0,
+            }
+        });
+        let z = p.transpose() * compliance.try_inverse().ok_or_else(none)? * p;
+        if z.iter().all(|x| x.is_finite()) { Ok(z) } else { Err(none()) }
+    }
+}
+
+/// Returns `m + a c + b k`.
+fn combine(m: &BlockTridiagonal, c: &BlockTridiagonal, a: f64, k: &BlockTridiagonal, b: f64) -> BlockTridiagonal {
+    let mut sum = m.clone();
+    let pairs = [(c, a), (k, b)];
+    for (matrix, factor) in pairs {
+        let blocks = matrix.diag.iter().chain(&matrix.lower);
+        for (target, block) in sum.diag.iter_mut().chain(&mut sum.lower).zip(blocks) {
+            target.0.iter_mut().flatten().zip(block.0.iter().flatten()).for_each(|(t, x)| *t += factor * x);
+        }
+    }
+    sum
+}

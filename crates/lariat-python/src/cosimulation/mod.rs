@@ -1,0 +1,216 @@
+//! `CoSimulation`: a cable on bodies that another program moves.
+//!
+//! # Equation
+//!
+//! Per step the host prescribes poses and velocities of the bodies at its end ([`link`]). What returns is the impulse J of the cable on
+//! each body over the step, as the mean force J/h, and on request the matrix by which J changes with the velocities ([`impedance`]).
+//!
+//! # Validity
+//!
+//! The exchange is explicit, once per step: stable if Z is small beside the mass matrix of the bodies. J is the impulse of the
+//! loads less the change of momentum of the cable, to rounding (`lariat_ancf::island`, accounts of pins).
+//!
+//! # References
+//!
+//! Busch, Continuous approximation techniques for co-simulation methods, 2016.
+
+mod impedance;
+mod link;
+
+use crate::cable::Cable;
+use crate::convert::{Array, Place, Vector, result, table, vectors};
+use crate::error::{Raise, raise};
+use crate::shared::Shared;
+use lariat_ancf::{self as ancf, At, Error, Vector3};
+use link::{End, Link, Motion, Wrench};
+use nalgebra::{Quaternion, UnitQuaternion};
+use numpy::PyArray2;
+use pyo3::prelude::*;
+use pyo3::types::PyBytes;
+use std::borrow::Cow;
+
+const MAGIC: &str = concat!("lariat co-simulation ", env!("CARGO_PKG_VERSION"), "\n");
+
+/// A cable on bodies that another program moves.
+#[pyclass(frozen, module = "lariat")]
+pub struct CoSimulation {
+    /// Locked before the cable.
+    link: Shared<Link>,
+    cable: Shared<ancf::Cable>,
+    object: Py<Cable>,
+}
+
+fn finite(what: &str, values: &[f64]) -> PyResult<()> {
+    match values.iter().find(|x| !x.is_finite()) {
+        None => Ok(()),
+        Some(&value) => {
+            let (cable, what, expected) = (None, what.to_string(), "a number");
+            Err(raise(Error::InvalidValue { cable, what, value, expected }))
+        }
+    }
+}
+
+/// Returns the rotation of a quaternion x, y, z, w.
+fn rotation(q: &[f64]) -> PyResult<UnitQuaternion<f64>> {
+    finite("rotation (quaternion)", q)?;
+    let q = Quaternion::new(q[3], q[0], q[1], q[2]);
+    let norm = q.norm();
+    if (norm - 1.0).abs() > 1e-3 {
+        let (cable, what) = (None, "length of the quaternion".to_string());
+        return Err(raise(Error::InvalidValue { cable, what, value: norm, expected: "1" }));
+    }
+    Ok(UnitQuaternion::from_quaternion(q))
+}
+
+/// Returns the rows of an optional array of shape (ends, columns).
+fn rows(array: Option<Array>, ends: usize, columns: usize, what: &str) -> PyResult<Option<Vec<Vec<f64>>>> {
+    let Some(array) = array else { return Ok(None) };
+    if array.shape != [ends, columns] {
+        return Err(array.wrong_shape(&format!("({ends}, {columns})")));
+    }
+    finite(what, &array.values)?;
+    Ok(Some(array.values.chunks_exact(columns).map(<[f64]>::to_vec).collect()))
+}
+
+#[pymethods]
+impl CoSimulation {
+    /// A co-simulation of this cable, which is from now on stepped by it.
+    #[new]
+    fn new(cable: Bound<'_, Cable>) -> PyResult<Self> {
+        let own = cable.get().own("be part of a co-simulation")?.clone();
+        Ok(CoSimulation { link: Shared::new(Link::default()), cable: own, object: cable.unbind() })
+    }
+
+    /// The cable.
+    #[getter]
+    fn cable(&self, py: Python<'_>) -> Py<Cable> {
+        self.object.clone_ref(py)
+    }
+
+    /// Attaches a node to a body whose reference point is at `position` (m) with `rotation` (quaternion x, y, z, w), where the node is now;
+    /// a clamp holds the direction of the tangent, too. Returns the index of the end.
+    #[pyo3(signature = (at, position, rotation=None, *, clamp=false))]
+    fn attach(
+        &self,
+        py: Python<'_>,
+        at: Place,
+        position: Vector,
+        rotation: Option<Array>,
+        clamp: bool,
+    ) -> PyResult<usize> {
+        finite("position (m)", position.0.as_slice())?;
+        let rotation = match rotation {
+            None => UnitQuaternion::identity(),
+            Some(q) if q.shape == [4] => self::rotation(&q.values)?,
+            Some(q) => return Err(q.wrong_shape("(4,)")),
+        };
+        let (position, cable) = (position.0, self.cable.clone());
+        let attached = self.link.compute(py, move |link| {
+            let mut cable = cable.lock();
+            let node = cable.node(at.0)?;
+            if cable.support(At::Node(node))?.attached || link.ends.iter().any(|end| end.node == node) {
+                return Err(lariat_rapier::Error::AlreadyAttached { cable: cable.name().to_string(), node });
+            }
+            let coordinates = Vector3::from_column_slice(&cable.positions()[6 * node + 3..6 * node + 6]);
+            if clamp {
+                cable.attach_clamped(At::Node(node))?;
+            } else {
+                cable.attach(At::Node(node))?;
+            }
+            let velocity = Vector3::from_column_slice(&cable.velocities()[6 * node..6 * node + 3]);
+            let direction = clamp.then(|| rotation.inverse() * coordinates.normalize());
+            let anchor = rotation.inverse() * (cable.node_position(node) - position);
+            let motion = Motion { position, rotation, velocity, spin: Vector3::zeros() };
+            let (is_last, from_start) = (node + 1 == cable.nodes(), cable.nodes_from_start());
+            link.ends.push(End { node, is_last, from_start, anchor, direction, motion });
+            Ok(link.ends.len() - 1)
+        });
+        attached.map_err(raise)
+    }
+
+    /// Advances the cable by `dt` (s) while the bodies move to these poses: `positions` (ends, 3) in m, `rotations` (ends, 4) as x, y, z, w
+    /// (default: as they are), `velocities` (ends, 3) in m/s and `angular_velocities` (ends, 3) in rad/s at the end of the step (default:
+    /// uniform motion). Returns what the cable did to the bodies.
+    #[pyo3(signature = (dt, positions, rotations=None, velocities=None, angular_velocities=None))]
+    fn step<'py>(
+        &self,
+        py: Python<'py>,
+        dt: f64,
+        positions: Array,
+        rotations: Option<Array>,
+        velocities: Option<Array>,
+        angular_velocities: Option<Array>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        if !(dt.is_finite() && dt >= 1e-100) {
+            let (cable, what, expected) = (None, "dt (s)".to_string(), ">= 1e-100");
+            return Err(raise(Error::InvalidValue { cable, what, value: dt, expected }));
+        }
+        let before = self.link.with(py, |link| link.ends.clone());
+        let ends = before.len();
+        let positions = rows(Some(positions), ends, 3, "position (m)")?.unwrap_or_default();
+        let rotations = rows(rotations, ends, 4, "rotation (quaternion)")?;
+        let velocities = rows(velocities, ends, 3, "velocity (m/s)")?;
+        let spins = rows(angular_velocities, ends, 3, "angular velocity (rad/s)")?;
+        let mut to = Vec::new();
+        for (i, end) in before.iter().enumerate() {
+            let position = Vector3::from_column_slice(&positions[i]);
+            let rotation = rotations.as_ref().map_or(Ok(end.motion.rotation), |q| rotation(&q[i]))?;
+            let of = |rows: &Option<Vec<Vec<f64>>>| rows.as_ref().map(|rows| Vector3::from_column_slice(&rows[i]));
+            let uniform = (position - end.motion.position) / dt;
+            let turning = (rotation * end.motion.rotation.inverse()).scaled_axis() / dt;
+            let (velocity, spin) = (of(&velocities).unwrap_or(uniform), of(&spins).unwrap_or(turning));
+            to.push(Motion { position, rotation, velocity, spin });
+        }
+        let cable = self.cable.clone();
+        let wrenches = self.link.compute(py, move |link| {
+            if link.ends.len() != to.len() {
+                return Err(Error::EmptyIsland.into());
+            }
+            link.step(&mut cable.lock(), &to, dt)
+        });
+        let wrenches = wrenches.map_err(raise)?;
+        let of = |read: fn(&Wrench) -> Vector3<f64>| vectors(py, &wrenches.iter().map(read).collect::<Vec<_>>());
+        let work: Vec<f64> = wrenches.iter().map(|wrench| wrench.work).collect();
+        let values = (of(|w| w.force)?, of(|w| w.moment)?, of(|w| w.end_force)?, numpy::PyArray1::from_vec(py, work));
+        result(py, "EndForces", values)
+    }
+
+    /// Returns the impedance Z in kg, kg m and kg m^2 for a step of `dt` (s), shape (6 ends, 6 ends).
+    fn impedance<'py>(&self, py: Python<'py>, dt: f64) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        if !(dt.is_finite() && dt > 0.0) {
+            let (cable, what, expected) = (None, "dt (s)".to_string(), "> 0");
+            return Err(raise(Error::InvalidValue { cable, what, value: dt, expected }));
+        }
+        let cable = self.cable.clone();
+        let z = self.link.compute(py, move |link| link.impedance(&cable.lock(), dt)).map_err(raise)?;
+        // symmetric, so that the order of the numbers does not matter
+        table(py, z.as_slice().to_vec(), z.ncols())
+    }
+
+    /// Returns cable and ends as bytes; `from_bytes` continues the run bitwise.
+    fn to_bytes<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyBytes>> {
+        let cable = self.cable.clone();
+        let bytes = self.link.compute(py, move |link| rmp_serde::to_vec_named(&(&*cable.lock(), &link.ends)));
+        let bytes = bytes.map_err(|error| raise(Raise::new("FormatError", error.to_string())))?;
+        Ok(PyBytes::new(py, &[MAGIC.as_bytes(), &bytes].concat()))
+    }
+
+    /// Returns a co-simulation from the bytes of `to_bytes`, of the same version.
+    #[staticmethod]
+    fn from_bytes(py: Python<'_>, bytes: Cow<'_, [u8]>) -> PyResult<Self> {
+        let wrong = |problem: String| raise(Raise::new("FormatError", format!("not a saved co-simulation: {problem}")));
+        let Some(body) = bytes.strip_prefix(MAGIC.as_bytes()) else {
+            return Err(wrong(format!("it does not begin with {MAGIC:?}")));
+        };
+        let (cable, ends): (ancf::Cable, Vec<End>) =
+            rmp_serde::from_slice(body).map_err(|error| wrong(error.to_string()))?;
+        let object = Bound::new(py, Cable::new(cable))?;
+        let cable = object.get().own("be part of a co-simulation")?.clone();
+        Ok(CoSimulation { link: Shared::new(Link::new(ends)), cable, object: object.unbind() })
+    }
+
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, (Bound<'py, PyBytes>,))> {
+        let restore = slf.get_type().getattr("from_bytes")?;
+        Ok((restore, (slf.get().to_bytes(slf.py())?,)))
+    }
+}
