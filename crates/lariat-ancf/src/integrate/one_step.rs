@@ -172,6 +172,13 @@ pub trait OneStep: fmt::Debug {
     ) -> Result<Option<f64>, StepFailure>;
 }
 
+/// Sets `sum` to `x + factor * y`.
+pub(crate) fn set_sum(sum: &mut [f64], x: &[f64], factor: f64, y: &[f64]) {
+    for ((sum, x), y) in sum.iter_mut().zip(x).zip(y) {
+        *sum = x + factor * y;
+    }
+}
+
 /// Adds `factor * y` to `x`.
 pub(crate) fn add_scaled(x: &mut [f64], factor: f64, y: &[f64]) {
     for (x, y) in x.iter_mut().zip(y) {

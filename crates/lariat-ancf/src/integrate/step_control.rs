@@ -272,15 +272,28 @@ fn accept(state: &mut State, next: &mut State, algorithmic: bool) {
 }
 
 fn check_finite(next: &State, estimate: Option<f64>) -> Result<(), StepFailure> {
-    for (what, x) in [("position", &next.q), ("velocity", &next.v), ("acceleration", &next.memory.acceleration)] {
-        // without a branch for each number, which takes a tenth of an explicit step
-        if x.iter().fold(false, |found, x| found | !x.is_finite()) {
-            let i = x.iter().position(|x| !x.is_finite()).unwrap_or(0);
-            return Err(StepFailure::NotFinite { what, node: i / 6 });
+    let [q, v, a] = [&next.q, &next.v, &next.memory.acceleration];
+    if !is_sum_finite(q, v, a) {
+        for (what, x) in [("position", q), ("velocity", v), ("acceleration", a)] {
+            if let Some(i) = x.iter().position(|x| !x.is_finite()) {
+                return Err(StepFailure::NotFinite { what, node: i / 6 });
+            }
         }
     }
     match estimate {
         Some(estimate) if !estimate.is_finite() => Err(StepFailure::NotFinite { what: "error estimate", node: 0 }),
         _ => Ok(()),
     }
+}
+
+/// Returns whether `x + y + z` is finite in every place: then each of them is. A branch for each number takes a tenth of an explicit step.
+fn is_sum_finite(x: &[f64], y: &[f64], z: &[f64]) -> bool {
+    let ((x, rest), (y, _), (z, _)) = (x.as_chunks::<6>(), y.as_chunks::<6>(), z.as_chunks::<6>());
+    let mut zeros = [0.0; 6];
+    for ((x, y), z) in x.iter().zip(y).zip(z) {
+        for k in 0..6 {
+            zeros[k] += 0.0 * (x[k] + y[k] + z[k]);
+        }
+    }
+    rest.is_empty() && (x.len(), y.len()) == (y.len(), z.len()) && zeros == [0.0; 6]
 }

@@ -10,6 +10,7 @@ use crate::effect::acts::ForceInput;
 use crate::error::StepFailure;
 use crate::integrate::newton::{self, Increment, Linearised};
 use crate::integrate::{Dynamics, Stage, State};
+use crate::support::Support;
 
 /// The equations of a cable with the buffers that a step needs.
 pub(crate) struct CableDynamics<'a> {
@@ -95,15 +96,14 @@ impl Dynamics for CableDynamics<'_> {
         let CableDynamics { equations, buffers: Buffers { rhs, z, .. } } = self;
         equations.begin_acceleration(time)?;
         equations.force(ForceInput { time, q, v, dv_dq: 0.0, scale: 1.0 }, rhs);
-        acceleration.fill(0.0);
-        let mut moving = false;
-        for (node, support) in &equations.model.supports {
-            let held = support.acceleration(time);
-            moving |= held != [0.0; 6];
-            acceleration[6 * node..6 * node + 6].copy_from_slice(&held);
-        }
         let (level, mass) = (equations.system.level, &equations.system.mass);
+        let held = |support: &Support| support.acceleration(time);
+        let moving = equations.model.supports.iter().any(|(_, support)| held(support) != [0.0; 6]);
         if moving {
+            acceleration.fill(0.0);
+            for (node, support) in &equations.model.supports {
+                acceleration[6 * node..6 * node + 6].copy_from_slice(&held(support));
+            }
             mass.multiply(level, acceleration, z);
             for (r, m) in rhs.iter_mut().zip(z.iter()) {
                 *r -= m;
@@ -113,8 +113,10 @@ impl Dynamics for CableDynamics<'_> {
         equations.diagnostics.mass_solves += 1;
         mass.solve(level, rhs);
         let finite = rhs.iter().fold(true, |finite, x| finite & x.is_finite());
-        for (a, r) in acceleration.iter_mut().zip(rhs.iter()) {
-            *a += r;
+        if moving {
+            acceleration.iter_mut().zip(rhs.iter()).for_each(|(a, r)| *a += r);
+        } else {
+            acceleration.copy_from_slice(rhs);
         }
         if finite { Ok(()) } else { Err(equations.not_finite("acceleration", acceleration)) }
     }

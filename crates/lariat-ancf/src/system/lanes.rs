@@ -12,7 +12,7 @@
 //! # Validity
 //!
 //! Elements are added in ascending order whatever the width of the lanes, so sums round the same way everywhere. The last group is
-//! padded with copies of the last element, which are computed and dropped. Effects are a type parameter of the loop: a cable without
+//! padded with elements without length, which are computed and dropped. Effects are a type parameter of the loop: a cable without
 //! any runs code that does not contain them.
 
 pub(crate) mod discrete_gradient;
@@ -126,25 +126,26 @@ impl Elements {
         ElementState { stiffness, d, velocity }
     }
 
-    /// Gathers the control vectors of a group from nodal coordinates, or their velocities from nodal velocities.
+    /// Gathers the control vectors of a group from nodal coordinates, or their velocities from nodal velocities. Lanes beyond the last element
+    /// have its second node at both ends.
     #[inline(always)]
     fn gather_control<S: Simd>(&self, Group { simd, first }: Group<S>, q: &[f64]) -> Control<f64x8<S>> {
-        let node = |lane: usize| -> &[f64; 12] {
-            let e = (first + lane).min(self.count - 1);
-            q[6 * e..6 * e + 12].try_into().expect("twelve coordinates")
-        };
-        let n = [node(0), node(1), node(2), node(3), node(4), node(5), node(6), node(7)];
+        let (nodes, _) = q.as_chunks::<6>();
+        let node = |lane: usize| &nodes[(first + lane).min(self.count)];
+        let n = [node(0), node(1), node(2), node(3), node(4), node(5), node(6), node(7), node(8)];
         let s = load(simd, &self.scale, first);
-        let zero = f64x8::splat(simd, 0.0);
-        let mut d = [[zero; 3]; 3];
+        let mut d = [[f64x8::splat(simd, 0.0); 3]; 3];
         for x in 0..3 {
-            d[0][x] = lanes(simd, &n, 3 + x);
-            d[1][x] = (lanes(simd, &n, 6 + x) - lanes(simd, &n, x)) * s;
-            d[2][x] = lanes(simd, &n, 9 + x);
+            let ([r0, r1], [t0, t1]) = (lanes(simd, &n, x), lanes(simd, &n, 3 + x));
+            d[0][x] = t0;
+            d[1][x] = (r1 - r0) * s;
+            d[2][x] = t1;
         }
         d
     }
 
+    /// Adds the forces of a group. The sum at a node stays in registers until it is complete: a load of what has just been stored in other parts
+    /// waits for the store.
     #[inline(always)]
     fn scatter_force<S: Simd>(&self, simd: S, first: usize, g: &Control<f64x8<S>>, out: &mut [f64]) {
         let s = load(simd, &self.scale, first);
@@ -154,15 +155,22 @@ impl Elements {
             (g[1][x] * s).store_slice(&mut raw[1][x]);
             g[2][x].store_slice(&mut raw[2][x]);
         }
-        for lane in 0..LANES.min(self.count - first) {
-            let n = &mut out[6 * (first + lane)..6 * (first + lane) + 12];
+        let count = LANES.min(self.count - first);
+        let (nodes, _) = out[6 * first..].as_chunks_mut::<6>();
+        let mut sum = nodes[0];
+        for (lane, pair) in (0..count).zip(1..) {
             for x in 0..3 {
-                n[x] += raw[1][x][lane];
-                n[3 + x] -= raw[0][x][lane];
-                n[6 + x] -= raw[1][x][lane];
-                n[9 + x] -= raw[2][x][lane];
+                sum[x] += raw[1][x][lane];
+                sum[3 + x] -= raw[0][x][lane];
+            }
+            nodes[lane] = sum;
+            sum = nodes[pair];
+            for x in 0..3 {
+                sum[x] -= raw[1][x][lane];
+                sum[3 + x] -= raw[2][x][lane];
             }
         }
+        nodes[count] = sum;
     }
 
     /// Maps the 3x3 blocks over control vectors into 6x6 blocks over nodes, one column of one element per vector of lanes.
@@ -248,10 +256,11 @@ fn with_mass<S: Simd, const C: usize>(mut column: [f64x8<S>; 6], r: f64x8<S>, t:
     column
 }
 
-/// Coordinate `i` of eight elements.
+/// Coordinate `i` of nine nodes: of the first eight, and of the last eight.
 #[inline(always)]
-fn lanes<S: Simd>(simd: S, n: &[&[f64; 12]; LANES], i: usize) -> f64x8<S> {
-    f64x8::simd_from(simd, [n[0][i], n[1][i], n[2][i], n[3][i], n[4][i], n[5][i], n[6][i], n[7][i]])
+fn lanes<S: Simd>(simd: S, n: &[&[f64; 6]; LANES + 1], i: usize) -> [f64x8<S>; 2] {
+    let first = f64x8::simd_from(simd, [n[0][i], n[1][i], n[2][i], n[3][i], n[4][i], n[5][i], n[6][i], n[7][i]]);
+    [first, first.slide::<1>(f64x8::splat(simd, n[8][i]))]
 }
 
 /// Transposes six rows and two of zeros: three rounds of a perfect shuffle rotate the six address bits by three.
