@@ -12,7 +12,6 @@ use crate::sheave::Sheave;
 use crate::table::Table;
 use crate::world_mark::WorldMark;
 use lariat_ancf::Cable;
-use lariat_ancf::warning::Exchange;
 use rapier::math::Vector;
 use rapier::pipeline::PhysicsWorld;
 use serde::{Deserialize, Serialize};
@@ -41,9 +40,9 @@ pub(crate) struct Slot {
     /// Keys of the colliders in which it was found although it cannot touch them.
     #[serde(default)]
     pub ignored: Vec<u64>,
-    /// What bodies did to it, for its energy balance; `None` if that is not known.
+    /// Whether neither dynamic bodies nor other cables acted on it in the last host step, so that its energy balance closes.
     #[serde(skip)]
-    pub exchange: Option<Exchange>,
+    pub alone: bool,
 }
 
 impl Slot {
@@ -97,7 +96,7 @@ impl Contents {
             rules: ContactRules::default(),
             touched: Vec::new(),
             ignored: Vec::new(),
-            exchange: None,
+            alone: false,
             cable,
         };
         let key = self.free_key(&slot);

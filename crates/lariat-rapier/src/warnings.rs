@@ -4,15 +4,11 @@
 //! [`Event::Warning`] once, after the host step in which it came up. [`CableSet::warnings`] returns all at any time.
 
 use crate::contents::Contents;
-use crate::convert::vector;
 use crate::events::Event;
 use crate::handle::CableHandle;
 use crate::inside::deepest_inside;
 use crate::set::CableSet;
-use lariat_ancf::Method;
-use lariat_ancf::warning::Exchange;
 use rapier::geometry::ColliderHandle;
-use rapier::math::Real;
 use rapier::pipeline::PhysicsWorld;
 
 /// A warning about a cable of a set; its text says what to do.
@@ -93,37 +89,25 @@ impl CableSet {
     }
 }
 
-/// Reads the cables at the end of a host step of this many Rapier steps; what is new is an event.
-pub(crate) fn note(contents: &mut Contents, world: &PhysicsWorld, rapier_steps: u32, events: &mut Vec<Event>) {
+/// Reads the cables at the end of a host step; what is new is an event.
+pub(crate) fn note(contents: &mut Contents, world: &PhysicsWorld, events: &mut Vec<Event>) {
     let Contents { cables, attachments, junctions, sheaves, drums, .. } = contents;
     for slot in cables.values_mut() {
-        slot.exchange = slot.cable.effects().contact.is_none().then(Exchange::default);
+        slot.alone = slot.cable.effects().contact.is_none();
     }
-    // what a cable exchanges with others by a junction, a sheave or a drum is not known
+    let dynamic = |body| world.bodies.get(body).is_some_and(|body| body.is_dynamic());
+    let at_bodies = attachments.values().filter(|attachment| dynamic(attachment.body)).map(|a| a.cable);
     let at_junctions = junctions.values().flat_map(|junction| &junction.nodes).map(|(cable, _)| *cable);
     let at_sheaves = sheaves.values().flat_map(|sheave| sheave.ends()).map(|(cable, _)| cable);
-    for cable in at_junctions.chain(at_sheaves).chain(drums.iter().map(|drum| drum.cable)) {
+    let at_drums = drums.iter().map(|drum| drum.cable);
+    for cable in at_bodies.chain(at_junctions).chain(at_sheaves).chain(at_drums) {
         if let Some(slot) = cables.get_mut(cable.0 as usize) {
-            slot.exchange = None;
+            slot.alone = false;
         }
-    }
-    for attachment in attachments.values() {
-        let Some(slot) = cables.get_mut(attachment.cable.0 as usize) else { continue };
-        let Some(body) = world.bodies.get(attachment.body).filter(|body| body.is_dynamic()) else { continue };
-        // its energy law is that of an island, which may have other cables
-        if slot.cable.integrator().method == Method::DiscreteGradient {
-            slot.exchange = None;
-        }
-        let Some(exchange) = &mut slot.exchange else { continue };
-        let place = vector(body.translation()).norm() + attachment.anchor.norm();
-        exchange.work -= attachment.reading.work;
-        exchange.rounding +=
-            attachment.reading.force.norm() * place * f64::from(rapier_steps) * f64::from(Real::EPSILON);
     }
     for index in 0..cables.len() {
         let Some(slot) = cables.get_mut(index).filter(|slot| !slot.asleep) else { continue };
-        let cable = CableHandle(index as u32);
-        let exchange = slot.exchange;
-        slot.cable.note_host_step(exchange.as_ref(), |warning| events.push(Event::Warning { cable, warning }));
+        let (cable, alone) = (CableHandle(index as u32), slot.alone);
+        slot.cable.note_host_step(alone, |warning| events.push(Event::Warning { cable, warning }));
     }
 }

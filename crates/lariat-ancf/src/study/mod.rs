@@ -10,7 +10,7 @@
 //!   distances or the [mesh indicator](crate::Cable::mesh_indicator) of both runs show less than the first order, it is what they show, at least 1/4.
 //!   Where [velocities jump](Record::velocities_jump), and of an equilibrium that is held between the ends of a cable, it is 2/3 at most; of one that is smooth
 //!   there it is what both show, up to 2;
-//! - `e_time` from runs at `8 tau` and `tau` or, where the host step limits their steps, from one in equal steps of half their length: see `time`.
+//! - `e_time` from runs at `8 tau` and `tau` or, where the host step limits their steps, from one in shorter equal steps: see `time`.
 //!
 //! The study ends with the finer of the two runs when `e_mesh + e_time <= e`; else the next run has 1.5 to 3 times as many elements, after
 //! the difference and an order of 2.5. Where refining does not help (the third difference is above 0.6 of the first), the motion is not

@@ -9,14 +9,14 @@
 //! # Validity
 //!
 //! Before meshes resolve a motion their distances follow no order, and points beside a kink are nearer to one mesh than to the next. So orders
-//! are kept between 1/4 and 4, and a study is ended on one that spans four meshes only. A claim about a motion never rests on an order above the first; one below it,
-//! of the distances or of the mesh indicator `eta = max h^3 |[[r''']]|/96`, makes it larger: a cable that is set in motion by a jolt can have meshes of
+//! are kept between 1/4 and 4, and a study is ended on one that spans four meshes only. A claim about a motion never rests on an order above the first;
+//! one below it, of the distances or of the mesh indicator `eta = max h^3 |[[r''']]|/96`, makes it larger: a cable that is set in motion by a jolt can have meshes of
 //! 4 and 8 elements nearer to each other than to the truth, while the indicator of the finer one is the larger one. Where velocities jump, kinks travel
 //! along the cable, and the order is 2/3 at most (Brenner, Thomee & Wahlbin 1975, chapter 5); what buckles under such a shock follows none.
 //!
-//! In equilibria nothing accumulates. One that is smooth between its ends has the order 3 to 4 once it is resolved, and up to the second is believed, if three meshes and the
-//! indicator show it. A support between the ends bends a cable within `sqrt(EI/T)`, where that is shorter than the elements a kink in its tangent, and meshes converge with
-//! 0.5 to 0.9: the order is that of waves with kinks.
+//! In equilibria nothing accumulates. One that is smooth between its ends has the order 3 to 4 once it is resolved, and up to the second is believed,
+//! if three meshes and the indicator show it. A support between the ends bends a cable within `sqrt(EI/T)`, where that is shorter than the elements a
+//! kink in its tangent, and meshes converge with 0.5 to 0.9: the order is that of waves with kinks.
 //!
 //! # References
 //!
@@ -25,8 +25,8 @@
 //! # Alternatives considered
 //!
 //! - The order 2.5 throughout: where the order is 1, the elements grow by so little that a study takes three runs more.
-//! - The second order for all equilibria whose distances and indicator show it: of 280 random ones, three that are held between the ends were claimed at down to 0.14
-//!   of the true error; with the first order at 0.86.
+//! - The second order for all equilibria whose distances and indicator show it: of 280 random ones, three that are held between the ends were claimed
+//!   at down to 0.14 of the true error; with the first order at 0.86.
 
 /// Order that is assumed where distances show none.
 const ASSUMED: f64 = 2.5;

@@ -8,8 +8,8 @@
 //!                a strain of 1e-6, so far
 //! ```
 //!
-//! The work of one cable is that of its effects, loads, supports and reels, and of the bodies that it is attached to, which a host of bodies
-//! knows. Energy made above 1e-3 S, or lost above 1e-2 S, beyond what rounding may account for, is worth a warning.
+//! The work on one cable is that of its effects, loads, supports and reels. A cable that exchanges energy with dynamic bodies or other cables has
+//! no balance of its own; a run of a scene has one of everything. Energy made above 1e-3 S, or lost above 1e-2 S, beyond what rounding may account for, is worth a warning.
 //!
 //! # Validity
 //!
@@ -131,21 +131,10 @@ impl EnergyBalance {
     }
 }
 
-/// What bodies and other cables did to a cable since it was built, in J.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Exchange {
-    /// Work of dynamic bodies on the cable.
-    pub work: f64,
-    /// Work that a rounding error of their positions is worth in the last host step.
-    pub rounding: f64,
-}
-
 /// The balance of one cable.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub(super) struct CableAccount {
     last: Option<Last>,
-    /// Sum of the rounding errors of bodies in J.
-    rounding: f64,
     #[serde(skip)]
     buffer: Vec<f64>,
     pub balance: EnergyBalance,
@@ -171,12 +160,11 @@ impl CableAccount {
     }
 
     /// Reads the cable at a host time.
-    pub fn note(&mut self, cable: &Cable, exchange: &Exchange) {
+    pub fn note(&mut self, cable: &Cable) {
         let (energy, effects, law) = (cable.energy_in(&mut self.buffer), cable.effect_work(), cable.energy_law());
         let dissipated = effects.dissipated() + law.contacts;
         let reels: f64 = cable.reels().map(|reel| reel.work + reel.remeshed).sum();
-        let work =
-            effects.total() + dissipated + law.loads + law.supports + cable.inserted_energy() + reels + exchange.work;
+        let work = effects.total() + dissipated + law.loads + law.supports + cable.inserted_energy() + reels;
         let now = Last {
             revision: cable.revision,
             sum: energy.total() + dissipated - work,
@@ -193,9 +181,8 @@ impl CableAccount {
         let change = if by_law { now.law - last.law } else { now.sum - last.sum };
         self.balance.dissipated_j += now.dissipated - last.dissipated;
         self.balance.work_j += now.work - last.work;
-        self.rounding += exchange.rounding;
         let held = energy.kinetic + strain.abs() + gravity.abs();
-        self.balance.rounding_j = self.balance.rounding_j.max(self.rounding + ROUNDING * held);
+        self.balance.rounding_j = self.balance.rounding_j.max(ROUNDING * held);
         let (mut weight, mut stiffness) = (0.0, 0.0);
         for element in cable.elements() {
             weight += element.section.mass_per_length * element.length * cable.gravity().norm();

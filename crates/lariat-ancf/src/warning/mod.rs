@@ -15,7 +15,7 @@ pub mod sizes;
 mod steps;
 mod watch;
 
-pub use balance::{EnergyBalance, Exchange};
+pub use balance::EnergyBalance;
 pub use watch::Watch;
 
 use serde::{Deserialize, Serialize};

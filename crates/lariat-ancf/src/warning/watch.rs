@@ -6,7 +6,7 @@
 //! them was off by 0.2 to 11 % of the length, what does not by less than 0.25 %. A mesh is judged as
 //! [`Cable::mesh_indicator`] says, steps as `steps` says; the strain by the law of the material, which is 7.5 % above Hooke's at 5 %.
 
-use super::balance::{CableAccount, Exchange, Verdict};
+use super::balance::{CableAccount, Verdict};
 use super::steps::{Estimate, Steps};
 use super::{Warning, sizes};
 use crate::cable::Cable;
@@ -258,7 +258,7 @@ impl Cable {
     pub fn set_watched(&mut self, watched: bool) {
         self.watch = watched.then(|| {
             let mut watch = Watch::new(self);
-            watch.account.note(self, &Exchange::default());
+            watch.account.note(self);
             Box::new(watch)
         });
     }
@@ -270,15 +270,15 @@ impl Cable {
 
     /// Reads the cable at the end of one of its own steps, if it is watched, and counts the warnings that are new.
     pub(crate) fn note_step(&mut self) {
-        self.note_with(Some(&Exchange::default()));
+        self.note_with(true);
     }
 
-    fn note_with(&mut self, exchange: Option<&Exchange>) {
+    fn note_with(&mut self, alone: bool) {
         let Some(mut watch) = self.watch.take() else { return };
         if watch.noted != Some(self.time()) {
-            match exchange {
-                Some(exchange) => watch.account.note(self, exchange),
-                None => watch.account.interrupt(),
+            match alone {
+                true => watch.account.note(self),
+                false => watch.account.interrupt(),
             }
         }
         watch.note(self);
@@ -289,10 +289,10 @@ impl Cable {
     }
 
     /// Reads the cable at the end of a host step, if it is watched, and calls `tell` with each warning that it was not called with before. For
-    /// those who step [islands](crate::island), and those who want to hear of warnings as they come up. `exchange` is what bodies did to it, for its
-    /// energy balance; `None` if that is not known, as of a cable that is tied to another.
-    pub fn note_host_step(&mut self, exchange: Option<&Exchange>, tell: impl FnMut(Warning)) {
-        self.note_with(exchange);
+    /// those who step [islands](crate::island), and those who want to hear of warnings as they come up. `alone` says whether nothing but its own
+    /// supports, loads and effects acted on it, which its energy balance needs: neither a dynamic body nor another cable.
+    pub fn note_host_step(&mut self, alone: bool, tell: impl FnMut(Warning)) {
+        self.note_with(alone);
         if let Some(mut watch) = self.watch.take() {
             watch.raise(self, tell);
             self.watch = Some(watch);

@@ -113,11 +113,15 @@ fn restitution_is_told() {
     assert!(found == touching && (restitution - 0.7).abs() < 1e-6);
 }
 
-/// A load that swings on a bar, by a method that damps long steps: the loss of energy is an event; with error control and the steps of a game there is none, though gravity and
-/// the bar do work on the load and on the cable.
+/// A bar that swings, by a method that damps long steps: the loss of energy is an event; with error control there is none, nor for a load on the bar,
+/// which exchanges energy with it.
 #[test]
 fn energy_that_integration_takes_is_told() {
-    for (method, due) in [(Method::GeneralisedAlpha { rho: 0.0 }, true), (Method::Esdirk4, false)] {
+    for (method, loaded, due) in [
+        (Method::GeneralisedAlpha { rho: 0.0 }, false, true),
+        (Method::Esdirk4, false, false),
+        (Method::Esdirk4, true, false),
+    ] {
         let mut world = PhysicsWorld::new();
         let mut set = CableSet::new();
         if due {
@@ -128,8 +132,10 @@ fn energy_that_integration_takes_is_told() {
         let section = Section::from_stiffness(1e6, 5.0, 2.0).unwrap();
         let builder = cable([0.0; 3], [1.5, 0.0, 0.0], section).elements(12).fix(At::Start);
         let rope = set.insert(builder.integrator(Integrator { method, control }).build().unwrap());
-        let cube = add_cube(&mut world, 0.5, 0.05, [1.5, 0.0, 0.0]);
-        set.attach(&world, rope, At::End, cube, Vector::new(0.0, 0.0, 0.0), AttachmentKind::Ball).unwrap();
+        if loaded {
+            let cube = add_cube(&mut world, 0.5, 0.05, [1.5, 0.0, 0.0]);
+            set.attach(&world, rope, At::End, cube, Vector::new(0.0, 0.0, 0.0), AttachmentKind::Ball).unwrap();
+        }
         let told = told(&mut set, &mut world, 60);
         let lost = told
             .iter()

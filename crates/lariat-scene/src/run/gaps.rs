@@ -26,7 +26,8 @@ impl GapWatch {
     /// # Errors
     /// [`Error::Coupling`]; not for an attachment of the scene.
     pub fn note(&mut self, index: usize, world: &World) -> Result<(), Error> {
-        let Some(physics) = &world.physics else { return Ok(()) };
+        // before the first step there is no reading
+        let Some(physics) = world.physics.as_ref().filter(|_| world.time() > 0.0) else { return Ok(()) };
         let Some(reading) = physics.reading(index, world.time())? else { return Ok(()) };
         let now = (reading.gap.norm(), world.time());
         if !self.closed && now.0 <= limit(index, world) {
