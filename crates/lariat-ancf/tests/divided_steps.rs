@@ -29,7 +29,7 @@ fn a_method_that_cannot_take_the_steps_of_a_stiff_cable_says_so_after_bounded_wo
         for method in [Method::Midpoint, Method::Trapezoid, Method::GeneralisedAlpha { rho: 0.9 }] {
             let mut cable = struck(axial, bending, elements, method);
             for _ in 0..30 {
-                let before = cable.diagnostics().clone();
+                let before = *cable.diagnostics();
                 let outcome = cable.step(1.0 / 240.0);
                 let now = cable.diagnostics();
                 let tries = now.steps + now.rejected_steps - before.steps - before.rejected_steps;
