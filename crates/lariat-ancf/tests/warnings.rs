@@ -180,3 +180,45 @@ fn random_sizes_are_told_where_they_are_wrong_and_only_there() {
         assert!(matches!(&stubby[..], [Warning::Stubby { .. }]), "{found}, {short}: {stubby:?}");
     }
 }
+
+/// The damping of a method is told as energy lost; with error control there is none, and a program that strikes the cable makes none.
+///
+/// *Source.* A pendulum in vacuum keeps its energy.
+#[test]
+fn energy_that_integration_loses_is_told() {
+    let energy = |cable: &Cable| {
+        let warnings = cable.warnings().into_iter();
+        let told = |w: Warning| match w {
+            Warning::EnergyLost { lost_j, scale_j, .. } => Some(-lost_j / scale_j),
+            Warning::EnergyMade { made_j, scale_j, .. } => Some(made_j / scale_j),
+            _ => None,
+        };
+        warnings.filter_map(told).next()
+    };
+    let fixed = |method| Integrator { method, control: StepControl::Substeps(1) };
+    let damped = fixed(Method::GeneralisedAlpha { rho: 0.0 });
+    let (builder, omega) = swing(2.0, 20.0, 1.0);
+    let mut lossy = watched(builder.clone(), damped);
+    let (start, mut largest) = (lossy.energy().total(), 0.0_f64);
+    for _ in 0..40 {
+        lossy.step(0.3 / omega).unwrap();
+        largest = largest.max(start - lossy.energy().total());
+    }
+    let told = energy(&lossy).expect("a loss");
+    assert!(told < -1e-2, "{told}");
+    let scale = lossy.warnings().into_iter().find_map(|w| match w {
+        Warning::EnergyLost { scale_j, .. } => Some(scale_j),
+        _ => None,
+    });
+    assert!((largest + told * scale.unwrap()).abs() < 1e-3 * largest, "{largest} {told}");
+    let mut good = watched(builder.clone(), Integrator::tolerance(Method::Esdirk4, 1e-6).unwrap());
+    for step in 0..60 {
+        if step == 30 {
+            // struck by a program
+            let (q, v) = (good.positions().to_vec(), good.velocities().iter().map(|v| 2.0 * v).collect::<Vec<_>>());
+            good.set_coordinates(&q, &v).unwrap();
+        }
+        good.step(0.1 / omega).unwrap();
+    }
+    assert_eq!(energy(&good), None);
+}

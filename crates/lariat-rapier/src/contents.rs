@@ -40,6 +40,9 @@ pub(crate) struct Slot {
     /// Keys of the colliders in which it was found although it cannot touch them.
     #[serde(default)]
     pub ignored: Vec<u64>,
+    /// Whether neither dynamic bodies nor other cables acted on it in the last host step, so that its energy balance closes.
+    #[serde(skip)]
+    pub alone: bool,
 }
 
 impl Slot {
@@ -93,6 +96,7 @@ impl Contents {
             rules: ContactRules::default(),
             touched: Vec::new(),
             ignored: Vec::new(),
+            alone: false,
             cable,
         };
         let key = self.free_key(&slot);

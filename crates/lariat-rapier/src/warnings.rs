@@ -90,10 +90,24 @@ impl CableSet {
 }
 
 /// Reads the cables at the end of a host step; what is new is an event.
-pub(crate) fn note(contents: &mut Contents, events: &mut Vec<Event>) {
-    for index in 0..contents.cables.len() {
-        let Some(slot) = contents.cables.get_mut(index).filter(|slot| !slot.asleep) else { continue };
-        let cable = CableHandle(index as u32);
-        slot.cable.note_host_step(|warning| events.push(Event::Warning { cable, warning }));
+pub(crate) fn note(contents: &mut Contents, world: &PhysicsWorld, events: &mut Vec<Event>) {
+    let Contents { cables, attachments, junctions, sheaves, drums, .. } = contents;
+    for slot in cables.values_mut() {
+        slot.alone = slot.cable.effects().contact.is_none();
+    }
+    let dynamic = |body| world.bodies.get(body).is_some_and(|body| body.is_dynamic());
+    let at_bodies = attachments.values().filter(|attachment| dynamic(attachment.body)).map(|a| a.cable);
+    let at_junctions = junctions.values().flat_map(|junction| &junction.nodes).map(|(cable, _)| *cable);
+    let at_sheaves = sheaves.values().flat_map(|sheave| sheave.ends()).map(|(cable, _)| cable);
+    let at_drums = drums.iter().map(|drum| drum.cable);
+    for cable in at_bodies.chain(at_junctions).chain(at_sheaves).chain(at_drums) {
+        if let Some(slot) = cables.get_mut(cable.0 as usize) {
+            slot.alone = false;
+        }
+    }
+    for index in 0..cables.len() {
+        let Some(slot) = cables.get_mut(index).filter(|slot| !slot.asleep) else { continue };
+        let (cable, alone) = (CableHandle(index as u32), slot.alone);
+        slot.cable.note_host_step(alone, |warning| events.push(Event::Warning { cable, warning }));
     }
 }

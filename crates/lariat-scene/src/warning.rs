@@ -48,6 +48,21 @@ pub enum Warning {
         /// Time in s at which it was first found in it.
         time_s: f64,
     },
+    /// An attachment whose two sides are apart.
+    #[error(
+        "attachment {attachment:?}: cable and anchor are {gap_m:.1e} m apart at {time_s:.4} s{}",
+        if *.closed { ": take a shorter `dt`, or find what holds the body back" } else { ", and never met: start them together, or run longer" }
+    )]
+    OpenGap {
+        /// Name of the attachment.
+        attachment: String,
+        /// Time in s.
+        time_s: f64,
+        /// Largest distance in m since they met, or else the least.
+        gap_m: f64,
+        /// Whether they met.
+        closed: bool,
+    },
     /// A sheave that a point of its cable stopped.
     #[error(
         "sheave {sheave:?}: it stopped at {time_s:.3} s, before a held or loaded point of its cable, or its last element, came to the wheel"

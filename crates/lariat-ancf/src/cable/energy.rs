@@ -45,8 +45,14 @@ pub struct Momentum {
 impl Cable {
     /// Returns kinetic, strain and gravity energy of the present state.
     pub fn energy(&self) -> Energy {
+        self.energy_in(&mut Vec::new())
+    }
+
+    /// Returns the energy as [`energy`](Self::energy) does, with the momenta in a buffer.
+    pub(crate) fn energy_in(&self, momentum: &mut Vec<f64>) -> Energy {
         let (axial, bending) = self.system.forces.strain_energy(self.positions());
-        let momentum = self.mass_times_velocity();
+        momentum.resize(self.velocities().len(), 0.0);
+        self.system.mass.multiply(self.system.level, self.velocities(), momentum);
         let (time, q, v) = (self.time(), self.positions(), self.velocities());
         let kinetic = 0.5 * momentum.iter().zip(v).map(|(p, v)| p * v).sum::<f64>()
             + self.system.flow_kinetic(&self.model, time, q, v);

@@ -13,7 +13,7 @@
 //! # Validity
 //!
 //! In statics the indicator is within 0.25 to 4.1 of the largest error of position, for cantilevers, arcs, catenaries and clamped
-//! boundary layers (`tests/mesh_indicator.rs`), and up to ten times too large for a stiff catenary; near the limit point of a column it is up to 20 times too small. In dynamics it is no bound: waves
+//! boundary layers (`tests/mesh_indicator.rs`), and up to ten times too large for a stiff catenary, five for a shallow one of four elements; near the limit point of a column it is up to 20 times too small. In dynamics it is no bound: waves
 //! accumulate errors which it does not see, and it is blind to axial waves.
 //!
 //! # References
@@ -110,7 +110,7 @@ impl Cable {
     }
 
     /// Returns whether tension and shape have no reason to jump at a node between two elements: neither support, load nor another section.
-    pub(super) fn is_smooth_at(&self, node: usize) -> bool {
+    pub(crate) fn is_smooth_at(&self, node: usize) -> bool {
         let [a, b] = [&self.elements()[node - 1], &self.elements()[node]];
         if a.section != b.section || self.model.supports.iter().any(|(held, _)| *held == node) {
             return false;
@@ -120,6 +120,11 @@ impl Cable {
         }
         let s: f64 = self.elements()[..node].iter().map(|element| element.length).sum();
         self.model.loads.iter().all(|load| (load.arc_length - s).abs() > 1e-9 * self.length())
+    }
+
+    /// Returns whether a node between the ends is held.
+    pub(crate) fn is_held_between_ends(&self) -> bool {
+        self.model.supports.iter().any(|(node, _)| 0 < *node && *node < self.elements().len())
     }
 
     /// Returns the elastic tension that is the largest share of EA, read at both ends of every element: the share, the tension in N, and

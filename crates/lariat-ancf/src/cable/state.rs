@@ -106,6 +106,9 @@ impl Cable {
             .map_err(|e| e.of_cable(self.name()))?;
         self.mesh_of_reel(&snapshot, nodes)?;
         self.snapshot = snapshot;
+        if let Some(watch) = &mut self.watch {
+            watch.interrupt();
+        }
         self.sync_reel();
         Ok(())
     }
@@ -149,6 +152,9 @@ impl Cable {
         memory.valid = false;
         memory.step = 0.0;
         memory.differences.clear();
+        if let Some(watch) = &mut self.watch {
+            watch.interrupt();
+        }
     }
 
     /// Marks a change of supports, loads, effects or integrator: states from before keep their positions and velocities only.

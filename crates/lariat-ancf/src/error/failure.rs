@@ -58,6 +58,17 @@ pub enum StepFailure {
         /// Energy of the system in J.
         scale: f64,
     },
+    /// Steps of fixed length that fail again and again, however they are divided.
+    #[error(
+        "the method cannot take steps of {step:.3e} s here: divided, they fail again and again ({cause}): use shorter ones, a tolerance, or a method \
+         that damps (tr-bdf2, generalised-alpha-0, discrete-gradient)"
+    )]
+    Divided {
+        /// Length of the steps in s.
+        step: f64,
+        /// Why the last one failed.
+        cause: Box<StepFailure>,
+    },
     /// The [limit](crate::integrate::WorkLimit) of its work was reached.
     #[error("the limit of its work was reached")]
     WorkLimit,

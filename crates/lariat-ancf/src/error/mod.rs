@@ -5,10 +5,11 @@
 
 mod failure;
 mod nearest;
+mod range;
 
 pub use failure::{EquilibriumFailure, PinProblem, Requirement, StepFailure};
-use nalgebra::Vector3;
 pub(crate) use nearest::nearest;
+pub(crate) use range::{require, require_finite};
 use thiserror::Error as ThisError;
 
 /// The error type of this crate.
@@ -55,7 +56,7 @@ pub enum Error {
         /// Number of the first of them, from 0.
         index: usize,
         /// Where they are, in m.
-        point: Vector3<f64>,
+        point: nalgebra::Vector3<f64>,
     },
     /// No elements, or too many.
     #[error("cable {cable:?}: needs 1 to {most} elements, got {count}")]
@@ -395,18 +396,4 @@ fn prefix(cable: &Option<String>) -> String {
 /// The question with which a message proposes the nearest name.
 fn did_you_mean(suggestion: &Option<String>) -> String {
     suggestion.as_ref().map_or(String::new(), |name| format!("did you mean {name:?}? "))
-}
-
-/// Checks a range: `Err` unless `value` is finite and `ok`.
-pub(crate) fn require(what: &str, value: f64, ok: bool, expected: &'static str) -> Result<(), Error> {
-    if value.is_finite() && ok {
-        Ok(())
-    } else {
-        Err(Error::InvalidValue { cable: None, what: what.to_string(), value, expected })
-    }
-}
-
-/// Applies [`require`] to every component of a vector.
-pub(crate) fn require_finite(what: &str, value: &Vector3<f64>) -> Result<(), Error> {
-    value.iter().try_for_each(|&x| require(what, x, true, "a number"))
 }

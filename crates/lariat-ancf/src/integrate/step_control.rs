@@ -21,6 +21,12 @@
 //! Steps of implicit methods that make energy are rejected by the [energy
 //! check](super::energy_check), and tried at a quarter as well.
 //!
+//! Steps of fixed length are divided for failures that are rare. One at the shortest length, and the
+//! growth back by doubling, take 10 + 20 tries. A host step fails once it has taken more than those of
+//! two of them in each of its regular steps: the method does not take steps of this length there, as
+//! the midpoint rule with a stiff cable whose end is set in motion by a jolt, which else took 1e5 steps
+//! per host step.
+//!
 //! # References
 //!
 //! Hairer & Wanner 1996, IV.8.
@@ -46,6 +52,9 @@ const RETRY_SHARE: f64 = 0.25;
 /// Longest step after one at which Newton's iteration failed with an inexact tangent, as a share of
 /// it.
 const MAX_SHARE_OF_FAILED: f64 = 0.5;
+/// Tries per regular step of fixed length in a host step after which a failure ends it: of two
+/// failures at the shortest step, 2 (10 + 20), and a few.
+const TRIES: u64 = 64;
 /// Growth of that bound with every accepted step.
 const BOUND_GROWTH: f64 = 1.2;
 
@@ -110,6 +119,7 @@ fn run(
     let is_checked = implicit && (system.is_isolated() || method.estimate_order().is_none());
     let mut energy = EnergyCheck::new(is_checked, &state.memory);
     let mut checked = energy;
+    let tries = integrator.tolerance().is_none().then(|| TRIES * (horizon / regular).ceil() as u64);
     let mut proposal = regular;
     let mut max_step = f64::INFINITY;
     let mut done = 0.0;
@@ -148,6 +158,9 @@ fn run(
                     if energy_made { MIN_CHECKED_SHARE * regular.min(horizon) } else { MIN_STEP_SHARE * horizon };
                 if proposal < least {
                     return failed(failure);
+                }
+                if tries.is_some_and(|most| counts.steps + counts.rejected >= most) {
+                    return failed(StepFailure::Divided { step: regular, cause: Box::new(failure) });
                 }
                 continue;
             }

@@ -32,7 +32,7 @@ pub struct Claim {
     /// True if the last two runs are apart by more than a tenth of the longest cable: they follow different branches.
     pub other_branch: bool,
     /// True if the steps are limited by the host step rather than the tolerance, so that runs at two tolerances cannot judge the error in
-    /// time: a run in equal steps of half their length does.
+    /// time: a run in shorter equal steps does.
     pub host_step_limits: bool,
     /// Elements of the cable that has most, in the last run.
     pub elements: usize,

@@ -26,6 +26,9 @@ pub struct Record {
     indicator: f64,
     /// True if velocities jump in the motion.
     jumps: bool,
+    /// True if a cable is held between its ends, and if one is not smooth there: held, loaded, or of several sections.
+    held: bool,
+    kinked: bool,
 }
 
 /// Mesh and work of a cable.
@@ -59,7 +62,11 @@ impl Record {
         let (steps, evaluations) = (diagnostics.steps, diagnostics.element_evaluations());
         match self.cables.get_mut(self.present) {
             Some(known) => (known.steps, known.evaluations) = (steps, evaluations),
-            None => self.cables.push(CableRecord { nodes: cable.node_arc_lengths(), steps, evaluations }),
+            None => {
+                self.cables.push(CableRecord { nodes: cable.node_arc_lengths(), steps, evaluations });
+                self.held |= cable.is_held_between_ends();
+                self.kinked |= (1..cable.elements().len()).any(|node| !cable.is_smooth_at(node));
+            }
         }
         self.present += 1;
         self.indicator = self.indicator.max(cable.mesh_indicator().position);
@@ -114,9 +121,13 @@ impl Record {
         Some(order).filter(|order| order.is_finite() && finer.indicator > ROUNDING * finer.longest())
     }
 
-    /// Returns the largest order of convergence that the motion allows.
-    pub(super) fn largest_order(&self) -> f64 {
-        if self.jumps { order::KINKS } else { 1.0 }
+    /// Returns the largest order of convergence that the motion, or the equilibrium, allows; `seen` is the least that distances and indicator both show.
+    pub(super) fn largest_order(&self, equilibrium: bool, seen: Option<f64>) -> f64 {
+        match seen {
+            _ if self.jumps || equilibrium && self.held => order::KINKS,
+            Some(seen) if equilibrium && !self.kinked => seen.clamp(1.0, order::SMOOTH),
+            _ => 1.0,
+        }
     }
 
     /// Returns the largest distance between the points of two runs at a frame in m; infinite if they have not the same parts, or are not

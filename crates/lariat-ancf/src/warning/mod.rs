@@ -8,11 +8,14 @@
 //! | `sizes` | section, length and material, before anything moves |
 //! | `watch` | mesh, tension and reel, by the shapes of a run |
 //! | `steps` | the length of integration steps, by the velocities of a run |
+//! | `balance` | the energy that integration makes or loses |
 
+pub mod balance;
 pub mod sizes;
 mod steps;
 mod watch;
 
+pub use balance::EnergyBalance;
 pub use watch::Watch;
 
 use serde::{Deserialize, Serialize};
@@ -100,6 +103,36 @@ pub enum Warning {
         tension_n: f64,
         /// Axial stiffness EA in N.
         axial_stiffness_n: f64,
+    },
+    /// Integration makes energy.
+    #[error(
+        "cable {cable:?}: integration makes energy: {made_j:.1e} J until {time_s:.4} s, {percent:.2} % of its largest energy or work ({scale_j:.3e} J): take a \
+         smaller tolerance, shorter steps, or the discrete gradient (fidelity = \"game\"), which makes none", percent = 100.0 * .made_j / .scale_j
+    )]
+    EnergyMade {
+        /// Name of the cable.
+        cable: String,
+        /// Time in s.
+        time_s: f64,
+        /// Energy made in J.
+        made_j: f64,
+        /// Largest energy or work so far in J.
+        scale_j: f64,
+    },
+    /// Integration takes energy.
+    #[error(
+        "cable {cable:?}: integration takes {lost_j:.1e} J until {time_s:.4} s, {percent:.1} % of its largest energy or work ({scale_j:.3e} J), besides damping \
+         and drag: the motion is damped that much; take a smaller tolerance or shorter steps", percent = 100.0 * .lost_j / .scale_j
+    )]
+    EnergyLost {
+        /// Name of the cable.
+        cable: String,
+        /// Time in s.
+        time_s: f64,
+        /// Energy lost in J.
+        lost_j: f64,
+        /// Largest energy or work so far in J.
+        scale_j: f64,
     },
     /// A reel whose rate comes near the speed of waves.
     #[error(

@@ -6,6 +6,7 @@
 //! them was off by 0.2 to 11 % of the length, what does not by less than 0.25 %. A mesh is judged as
 //! [`Cable::mesh_indicator`] says, steps as `steps` says; the strain by the law of the material, which is 7.5 % above Hooke's at 5 %.
 
+use super::balance::{CableAccount, Verdict};
 use super::steps::{Estimate, Steps};
 use super::{Warning, sizes};
 use crate::cable::Cable;
@@ -63,6 +64,9 @@ pub struct Watch {
     /// Largest rate of a reel over the speed of transverse waves, and its time in s.
     reel: (f64, f64),
     steps: Steps,
+    /// The energy, of a cable that notes its own steps.
+    #[serde(default)]
+    account: CableAccount,
     /// Time of the last note in s.
     noted: Option<f64>,
     /// Laws that were counted, and told of, by bit.
@@ -74,7 +78,7 @@ pub struct Watch {
 type Law = fn(&Watch, &Cable, Option<f64>) -> Option<Warning>;
 
 /// Laws in the order of warnings; the flag says that one holds at every time, not for the whole run only.
-const LAWS: [(Law, bool); 7] = [
+const LAWS: [(Law, bool); 8] = [
     (Watch::strain, true),
     (Watch::mesh, true),
     (Watch::small_motion, false),
@@ -82,6 +86,7 @@ const LAWS: [(Law, bool); 7] = [
     (Watch::long_steps, true),
     (Watch::fast_reel, true),
     (Watch::crossed, true),
+    (Watch::energy, true),
 ];
 
 /// The bit of warnings about sizes.
@@ -211,6 +216,21 @@ impl Watch {
     }
 }
 
+impl Watch {
+    /// Leaves the coming step out of the energy balance, because a program changes the state before it.
+    pub(crate) fn interrupt(&mut self) {
+        self.account.interrupt();
+    }
+
+    fn energy(&self, cable: &Cable, _: Option<f64>) -> Option<Warning> {
+        let cable = || cable.name().to_string();
+        Some(match self.account.balance.verdict()? {
+            Verdict::Made(time_s, made_j, scale_j) => Warning::EnergyMade { cable: cable(), time_s, made_j, scale_j },
+            Verdict::Lost(time_s, lost_j, scale_j) => Warning::EnergyLost { cable: cable(), time_s, lost_j, scale_j },
+        })
+    }
+}
+
 impl Cable {
     /// Returns the warnings about the cable: those of all host steps since it is [watched](Self::set_watched); else those of its present
     /// shape and tension. Warnings about section and material are always among them.
@@ -236,7 +256,11 @@ impl Cable {
     /// [`Diagnostics::warnings`](crate::Diagnostics::warnings) counts them. Displacements are counted from now. Default: not, which costs
     /// nothing; a `CableSet` of lariat-rapier watches its cables.
     pub fn set_watched(&mut self, watched: bool) {
-        self.watch = watched.then(|| Box::new(Watch::new(self)));
+        self.watch = watched.then(|| {
+            let mut watch = Watch::new(self);
+            watch.account.note(self);
+            Box::new(watch)
+        });
     }
 
     /// Returns whether the cable reads itself.
@@ -246,7 +270,17 @@ impl Cable {
 
     /// Reads the cable at the end of one of its own steps, if it is watched, and counts the warnings that are new.
     pub(crate) fn note_step(&mut self) {
+        self.note_with(true);
+    }
+
+    fn note_with(&mut self, alone: bool) {
         let Some(mut watch) = self.watch.take() else { return };
+        if watch.noted != Some(self.time()) {
+            match alone {
+                true => watch.account.note(self),
+                false => watch.account.interrupt(),
+            }
+        }
         watch.note(self);
         let mut new = 0;
         watch.counted |= watch.due(self, watch.counted, |_| new += 1);
@@ -255,9 +289,10 @@ impl Cable {
     }
 
     /// Reads the cable at the end of a host step, if it is watched, and calls `tell` with each warning that it was not called with before. For
-    /// those who step [islands](crate::island), and those who want to hear of warnings as they come up.
-    pub fn note_host_step(&mut self, tell: impl FnMut(Warning)) {
-        self.note_step();
+    /// those who step [islands](crate::island), and those who want to hear of warnings as they come up. `alone` says whether nothing but its own
+    /// supports, loads and effects acted on it, which its energy balance needs: neither a dynamic body nor another cable.
+    pub fn note_host_step(&mut self, alone: bool, tell: impl FnMut(Warning)) {
+        self.note_with(alone);
         if let Some(mut watch) = self.watch.take() {
             watch.raise(self, tell);
             self.watch = Some(watch);

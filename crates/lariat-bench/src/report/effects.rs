@@ -132,7 +132,7 @@ fn watching(options: &Options) -> Result<Table, Error> {
         cable.step(1.0 / 60.0)?;
         let timing = time(options, &mut cable, |cable| {
             cable.step(black_box(1.0 / 60.0))?;
-            cable.note_host_step(|warning| drop(black_box(warning)));
+            cable.note_host_step(true, |warning| drop(black_box(warning)));
             Ok(())
         })?;
         let part = |part: fn(&Timing) -> f64| Cell::from(timing.as_ref().map(part));

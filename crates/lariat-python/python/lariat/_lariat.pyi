@@ -278,7 +278,7 @@ class Cable:
         """Reads the cable at one arc length (m), or at an array of shape (n,). Raises OutOfRangeError, ShapeError."""
 
     def warnings(self) -> list[str]:
-        """Returns what the cable says about its mesh, steps, law and sizes: of all steps in a world, else of the present state."""
+        """Returns what the cable says about its mesh, steps, energy, law and sizes, in all its steps."""
 
     def peak_tension(self) -> tuple[float, float]:
         """Returns the arc length in m of the largest tension, and that tension in N."""
@@ -658,7 +658,7 @@ class World:
         all is then as before."""
 
     def warnings(self) -> list[str]:
-        """Returns what all cables say about their mesh, steps, law and sizes, and about colliders that they are in or do not bounce off.
+        """Returns what all cables say about their mesh, steps, energy, law and sizes, and about colliders that they are in or do not bounce off.
         Worth a look when a world has been built."""
 
     def is_asleep(self, cable: Cable) -> bool:

@@ -187,7 +187,9 @@ impl Cable {
         if let Some(kind) = damped_as {
             builder = builder.damped_as(kind.parse().map_err(raise::<Error>)?);
         }
-        builder.build().map(Cable::new).map_err(raise)
+        let mut cable = builder.build().map_err(raise)?;
+        cable.set_watched(true);
+        Ok(Cable::new(cable))
     }
 
     /// Advances the cable by `steps` steps of `dt` (s).

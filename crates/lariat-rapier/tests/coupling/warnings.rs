@@ -1,7 +1,7 @@
 //! Warnings of a set: as events, once each, and when asked for.
 
 use super::common::{add_cube, cable, run, soft};
-use lariat_rapier::lariat_ancf::{At, Contact, Section, Warning as CableWarning};
+use lariat_rapier::lariat_ancf::{At, Contact, Integrator, Method, Section, StepControl, Warning as CableWarning};
 use lariat_rapier::rapier::prelude::*;
 use lariat_rapier::{AttachmentKind, CableHandle, CableSet, Event, Warning};
 
@@ -111,4 +111,36 @@ fn restitution_is_told() {
         panic!("{:?}", set.warnings(&world))
     };
     assert!(found == touching && (restitution - 0.7).abs() < 1e-6);
+}
+
+/// A bar that swings, by a method that damps long steps: the loss of energy is an event; with error control there is none, nor for a load on the bar,
+/// which exchanges energy with it.
+#[test]
+fn energy_that_integration_takes_is_told() {
+    for (method, loaded, due) in [
+        (Method::GeneralisedAlpha { rho: 0.0 }, false, true),
+        (Method::Esdirk4, false, false),
+        (Method::Esdirk4, true, false),
+    ] {
+        let mut world = PhysicsWorld::new();
+        let mut set = CableSet::new();
+        if due {
+            world.integration_parameters.dt = 0.03;
+            set.settings.rapier_steps = 1;
+        }
+        let control = if due { StepControl::Substeps(1) } else { StepControl::Tolerance(1e-6) };
+        let section = Section::from_stiffness(1e6, 5.0, 2.0).unwrap();
+        let builder = cable([0.0; 3], [1.5, 0.0, 0.0], section).elements(12).fix(At::Start);
+        let rope = set.insert(builder.integrator(Integrator { method, control }).build().unwrap());
+        if loaded {
+            let cube = add_cube(&mut world, 0.5, 0.05, [1.5, 0.0, 0.0]);
+            set.attach(&world, rope, At::End, cube, Vector::new(0.0, 0.0, 0.0), AttachmentKind::Ball).unwrap();
+        }
+        let told = told(&mut set, &mut world, 60);
+        let lost = told
+            .iter()
+            .any(|(_, w)| matches!(w, CableWarning::EnergyLost { lost_j, scale_j, .. } if *lost_j > 0.01 * scale_j));
+        let made = told.iter().any(|(_, w)| matches!(w, CableWarning::EnergyMade { .. }));
+        assert!(lost == due && !made, "{due} {told:?}");
+    }
 }

@@ -2,91 +2,18 @@
 //!
 //! # Equation
 //!
-//! ```text
-//! B(t) = change of (kinetic + strain + gravity) - work on it
-//! S(t) = largest of kinetic energy, change of strain energy, change of gravity's, dissipated energy, work, weight times 1 mm, the energy of
-//!                a strain of 1e-6, so far
-//! ```
-//!
-//! of all cables, and of the dynamic bodies that nothing but cables, gravity and loads moves. The work is that of effects (damping and
-//! drag take it), point loads, moving supports, loads on bodies, and of all other bodies on their cables. B is what integration makes
-//! (above 0) or loses.
+//! That of [`lariat_ancf::warning::balance`], of all cables together, and of the dynamic bodies that nothing but cables, gravity and loads moves. The
+//! work is that of effects (damping and drag take it), point loads, moving supports, loads on bodies, and of all other bodies on their cables.
 //!
 //! # Validity
 //!
-//! Cables that step by the discrete gradient have an energy law: of a run in which all do, B is its residual less what it lost, and counts
-//! as made beyond the energy that damping took, because the residual of a step may be as large.
-//! A body in a host step in which a collider is near it, or with a joint, takes part by what its cables do on it: what contacts and joints
-//! take is not known. The balance is no estimate of the error of positions.
-//!
-//! # References
-//!
-//! Work-energy theorem; quadratures: [`Cable::effect_work`](lariat_ancf::Cable::effect_work), [`Cable::energy_law`](lariat_ancf::Cable::energy_law).
-//!
-//! # Alternatives considered
-//!
-//! The total energy alone: it changes by the work of loads and kinematic bodies, and by damping.
+//! The energy law of the discrete gradient takes its place in a run in which all cables step by it. A body in a host step in which a collider
+//! is near it, or with a joint, takes part by what its cables do on it: what contacts and joints take is not known.
 
 use super::World;
 use crate::error::Error;
 use crate::physics::BodyTerms;
-use serde::{Deserialize, Serialize};
-
-/// Share of the energy of a run above which energy that it makes is warned of.
-pub(super) const MADE: f64 = 1e-3;
-/// Share of the energy of a run above which energy that integration takes is warned of.
-pub(super) const LOST: f64 = 1e-2;
-
-/// Rounding error of the balance over the energy of cables: that of statics.
-const ROUNDING: f64 = 1e-9;
-
-/// Height in m over which the weight of everything is the least energy to compare with, as in the law of the discrete gradient.
-const LEAST_HEIGHT: f64 = 1e-3;
-
-/// Strain of all cables that is the least energy to compare with, where nothing has weight and all is at rest.
-const LEAST_STRAIN: f64 = 1e-6;
-
-/// What `summary.json` says about the energy of a run.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct EnergyBalance {
-    /// Change of the energy less the work at the end, in J: what integration made, or lost.
-    pub balance_j: f64,
-    /// Most that it had made at a host time in J.
-    pub made_j: f64,
-    /// Host time of that in s.
-    pub made_at_s: f64,
-    /// Most that it had lost at a host time in J.
-    pub lost_j: f64,
-    /// Host time of that in s.
-    pub lost_at_s: f64,
-    /// Energy of the run in J, to compare with: the largest of kinetic energy, changes of strain energy and of that of gravity, dissipated
-    /// energy, work, all weight times 1 mm, and the energy of a strain of 1e-6 of all cables.
-    pub scale_j: f64,
-    /// Rounding errors in J that the balance may have: of the energies, which are differences, and of the positions of bodies in single
-    /// precision, by which the forces of cables do work in every step.
-    pub rounding_j: f64,
-    /// Energy that damping and drag took in J.
-    pub dissipated_j: f64,
-    /// Work of loads, moving supports, flows and other bodies in J.
-    pub work_j: f64,
-}
-
-impl EnergyBalance {
-    /// Returns the share of the energy of the run that integration made, beyond rounding errors.
-    pub fn made(&self) -> f64 {
-        share(self.made_j, self)
-    }
-
-    /// Returns the share of the energy of the run that integration lost at most, beyond rounding errors.
-    pub fn lost(&self) -> f64 {
-        share(self.lost_j, self)
-    }
-}
-
-fn share(energy: f64, balance: &EnergyBalance) -> f64 {
-    let beyond = energy - balance.rounding_j;
-    if beyond > 0.0 { beyond / balance.scale_j } else { 0.0 }
-}
+use lariat_ancf::warning::balance::{EnergyBalance, ROUNDING, Sizes};
 
 /// Energies and works up to a time, in J.
 #[derive(Clone, Debug, Default)]
@@ -148,33 +75,21 @@ impl Account {
         let sum = |t: &Terms, of: fn(&BodyTerms) -> f64| t.bodies.iter().map(of).sum::<f64>();
         let kinetic = now.kinetic + sum(&now, |body| body.kinetic);
         let gravity = |t: &Terms| t.gravity + sum(t, |body| body.gravity);
-        balance.balance_j += change;
         balance.work_j += work;
         balance.dissipated_j = now.dissipated - start.dissipated;
-        let sizes = [
-            now.weight * LEAST_HEIGHT,
-            0.5 * now.stiffness * LEAST_STRAIN * LEAST_STRAIN,
-            kinetic,
-            now.strain - start.strain,
-            gravity(&now) - gravity(start),
-            balance.dissipated_j,
-            balance.work_j,
-        ];
-        balance.scale_j = sizes.iter().fold(balance.scale_j, |largest, size| largest.max(size.abs()));
         let held = kinetic + now.strain.abs() + now.gravity.abs();
         let bodies = sum(&now, |body| body.kinetic + body.gravity.abs());
         *steps_rounding += now.rounding;
         let differences = ROUNDING * held + f64::from(f32::EPSILON) * bodies;
         balance.rounding_j = balance.rounding_j.max(*steps_rounding + differences);
-        let time = world.time();
-        // the discrete gradient sees to it that a step makes no more than damping takes
-        let made = balance.balance_j - by_law.map_or(0.0, |_| balance.dissipated_j.max(0.0));
-        if made > balance.made_j {
-            (balance.made_j, balance.made_at_s) = (made, time);
-        }
-        if -balance.balance_j > balance.lost_j {
-            (balance.lost_j, balance.lost_at_s) = (-balance.balance_j, time);
-        }
+        let sizes = Sizes {
+            kinetic,
+            strain: now.strain - start.strain,
+            gravity: gravity(&now) - gravity(start),
+            weight: now.weight,
+            stiffness: now.stiffness,
+        };
+        balance.add(world.time(), change, by_law.is_some(), &sizes);
         *last = now;
         Ok(())
     }

@@ -35,6 +35,7 @@
 
 mod balance;
 mod error_target;
+mod gaps;
 mod output;
 mod pieces;
 mod probe;
@@ -47,8 +48,8 @@ mod watch;
 mod wheels;
 mod world;
 
-pub use balance::EnergyBalance;
 pub use error_target::ErrorClaim;
+pub use lariat_ancf::warning::EnergyBalance;
 pub use pieces::{Parted, Piece};
 pub(crate) use probe::columns;
 pub use recording::{ProbeRecord, Recording, collect};

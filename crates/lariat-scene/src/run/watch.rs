@@ -1,16 +1,19 @@
 //! What a run says about itself: its cables and its energy at all host times.
 
 use super::World;
-use super::balance::{Account, EnergyBalance, LOST, MADE};
+use super::balance::Account;
+use super::gaps::GapWatch;
 use super::wheels::WheelWatch;
 use crate::error::Error;
 use crate::scene::Purpose;
 use crate::warning::Warning;
+use lariat_ancf::warning::balance::{EnergyBalance, Verdict};
 
 /// The readings of the cables of a run so far, and its energy balance.
 pub(super) struct Watch {
     cables: Vec<lariat_ancf::Watch>,
     wheels: Vec<WheelWatch>,
+    gaps: Vec<GapWatch>,
     /// By sheave, when it was first found stopped.
     stopped: Vec<Option<f64>>,
     account: Account,
@@ -27,6 +30,7 @@ impl Watch {
         Watch {
             cables: world.cables().into_iter().zip(drawn).map(watch).collect(),
             wheels: WheelWatch::all(world),
+            gaps: vec![GapWatch::default(); world.scene.attachments.len()],
             stopped: vec![None; world.scene.sheaves.len()],
             account: Account::default(),
         }
@@ -39,6 +43,7 @@ impl Watch {
     pub fn note(&mut self, world: &World) -> Result<(), Error> {
         self.account.note(world)?;
         self.wheels.iter_mut().for_each(|wheel| wheel.note(world));
+        self.gaps.iter_mut().enumerate().try_for_each(|(k, gap)| gap.note(k, world))?;
         for (sheave, stopped) in self.stopped.iter_mut().enumerate() {
             *stopped = stopped.or(world.sheave_stopped(sheave).then(|| world.time()));
         }
@@ -53,12 +58,10 @@ impl Watch {
     }
 
     fn energy_warning(&self) -> Option<Warning> {
-        let balance = self.account.balance;
-        let EnergyBalance { made_j, made_at_s, lost_j, lost_at_s, scale_j, .. } = balance;
-        if balance.made() > MADE {
-            return Some(Warning::EnergyMade { time_s: made_at_s, made_j, scale_j });
-        }
-        (balance.lost() > LOST).then_some(Warning::EnergyLost { time_s: lost_at_s, lost_j, scale_j })
+        Some(match self.account.balance.verdict()? {
+            Verdict::Made(time_s, made_j, scale_j) => Warning::EnergyMade { time_s, made_j, scale_j },
+            Verdict::Lost(time_s, lost_j, scale_j) => Warning::EnergyLost { time_s, lost_j, scale_j },
+        })
     }
 
     /// Returns the warnings about the cables and the energy, if an error of positions (m) is asked for against that.
@@ -68,6 +71,13 @@ impl Watch {
             stopped.map(|time_s| Warning::SheaveStopped { sheave: sheave.name.clone(), time_s })
         });
         let of_wheels = self.wheels.iter().filter_map(|wheel| wheel.warning(world));
-        of_cables.map(Warning::Cable).chain(self.energy_warning()).chain(of_wheels).chain(of_stops).collect()
+        let of_gaps = self.gaps.iter().enumerate().filter_map(|(k, gap)| gap.warning(k, world));
+        of_cables
+            .map(Warning::Cable)
+            .chain(self.energy_warning())
+            .chain(of_wheels)
+            .chain(of_stops)
+            .chain(of_gaps)
+            .collect()
     }
 }

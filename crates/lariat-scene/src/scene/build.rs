@@ -30,6 +30,8 @@ impl Scene {
         for &(_, arc_length) in self.tied(index) {
             builder = builder.fix(At::ArcLength(arc_length));
         }
+        let loads = self.loads.iter().filter(|load| load.cable == index && scene.nodes_at_loads);
+        builder = loads.fold(builder, |builder, load| builder.node_at(load.load.arc_length));
         let mut cable = builder.build()?;
         cable.set_strength(scene.breaking.strength)?;
         // a drum brings its reel

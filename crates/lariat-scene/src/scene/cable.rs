@@ -118,6 +118,8 @@ pub struct CableScene {
     pub equilibrium: bool,
     /// Number of elements.
     pub elements: usize,
+    /// Whether nodes are at point loads, where the third derivative of the shape jumps, as they are at attachments.
+    pub nodes_at_loads: bool,
     /// Section.
     pub section: Section,
     /// Force strategy.
@@ -176,6 +178,7 @@ pub(super) fn read(
         lead: 0.0,
         equilibrium: row.initial == Initial::Equilibrium,
         elements: row.elements as usize,
+        nodes_at_loads: false,
         section,
         rule,
         effects,

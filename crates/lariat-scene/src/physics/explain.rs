@@ -1,0 +1,41 @@
+//! Errors of the coupling, with the names of the scene.
+
+use super::Physics;
+use crate::error::Error;
+use crate::scene::Scene;
+use lariat_rapier::rapier::dynamics::RigidBodyHandle;
+
+impl Physics {
+    /// Converts an error of the coupling, with the names of the scene.
+    pub(super) fn explain(&self, scene: &Scene, time: f64, error: lariat_rapier::Error) -> Error {
+        let name = |handle: RigidBodyHandle| {
+            self.bodies.iter().position(|b| *b == handle).map(|i| scene.bodies[i].name.clone())
+        };
+        match error {
+            lariat_rapier::Error::StepRefused { cause, .. } => self.explain(scene, time, *cause),
+            lariat_rapier::Error::Cable(source) => Error::mechanics(time, source),
+            lariat_rapier::Error::BodyNotFinite { body, quantity, time } => {
+                let name = name(body).unwrap_or_default();
+                Error::Body { time, body: name, problem: format!("its {quantity} is not finite") }
+            }
+            lariat_rapier::Error::JointInStatics { body } => {
+                let problem = "statics compute no joints, and it has one: run the scene until it rests".to_string();
+                Error::Body { time, body: name(body).unwrap_or_default(), problem }
+            }
+            lariat_rapier::Error::ContactInStatics { body, other } => {
+                let other = other.and_then(name).map_or("a collider".to_string(), |other| format!("body {other:?}"));
+                let problem =
+                    format!("statics compute no contacts, and it touches {other}: run the scene until it rests");
+                Error::Body { time, body: name(body).unwrap_or_default(), problem }
+            }
+            lariat_rapier::Error::CableTouchesInStatics { cable, collider, arc_length, depth } => {
+                let body = self.world.colliders.get(collider).and_then(|c| name(c.parent()?)).unwrap_or_default();
+                let problem = format!(
+                    "statics compute contact at samples, not with dynamic bodies, sharp edges and thin things: cable {cable:?} would be {depth:.1e} m in it at {arc_length:.4} m: take a finer mesh, or run the scene until it rests"
+                );
+                Error::Body { time, body, problem }
+            }
+            source => Error::Coupling { time, source },
+        }
+    }
+}

@@ -1,0 +1,43 @@
+//! Warnings: each kind where it is due, none in the scenes of assets/scenes that are resolved.
+
+mod bodies;
+mod mesh;
+mod through;
+mod units;
+
+use lariat_scene::run::{self, Options, Summary};
+use lariat_scene::{Error, Purpose, Scene, Warning};
+
+/// Runs or settles a scene; returns its warnings as told while it ran.
+fn warned(text: &str, purpose: Purpose) -> Vec<Warning> {
+    let scene = Scene::parse("scene.toml", text, &[], purpose).unwrap_or_else(|error| panic!("{error}\n{text}"));
+    let folder = tempfile::tempdir().unwrap();
+    let mut told = Vec::new();
+    let mut warn = |warning: &Warning| told.push(warning.clone());
+    let mut options = Options { warn: Some(&mut warn), ..Options::default() };
+    let outcome: Result<Summary, Error> = match purpose {
+        Purpose::Run => run::run(&scene, folder.path(), &mut options),
+        Purpose::Static => run::statics(&scene, folder.path(), &mut options),
+    };
+    let json = std::fs::read_to_string(folder.path().join("summary.json")).unwrap();
+    let summary: Summary = serde_json::from_str(&json).unwrap();
+    // a run that fails tells and writes them, too
+    assert_eq!(summary.warnings, told, "{:?}", outcome.err());
+    let texts: serde_json::Value = serde_json::from_str(&json).unwrap();
+    for (warning, written) in told.iter().zip(texts["warnings"].as_array().unwrap()) {
+        assert_eq!(written["text"].as_str(), Some(warning.to_string().as_str()));
+        assert!(written["kind"].is_string(), "{written}");
+    }
+    told
+}
+
+/// A pendulum of a wire and a bob, `angle` rad from the vertical: wire `[length m, diameter m, E Pa]`.
+fn pendulum([length, diameter, modulus]: [f64; 3], mass: f64, angle: f64, end: &str) -> String {
+    let (x, y) = (length * angle.sin(), -length * angle.cos());
+    format!(
+        "duration = 0.2\n[[body]]\nname = \"bob\"\nshape = {{ ball = 0.05 }}\nmass = {mass}\nposition = [{x:?}, {y:?}, 0.0]\n\
+         [[cable]]\nname = \"wire\"\npoints = [[0.0, 0.0, 0.0], [{x:?}, {y:?}, 0.0]]\nsection = {{ round = {diameter:?} }}\n\
+         density = 7850.0\nyoungs_modulus = {modulus:?}\n[[attachment]]\ncable = \"wire\"\nat = \"start\"\nbody = \"world\"\n\
+         [[attachment]]\ncable = \"wire\"\nat = \"end\"\nbody = \"{end}\"\n"
+    )
+}

@@ -1,0 +1,87 @@
+//! Sizes and materials in another unit than was meant.
+
+use crate::{pendulum, warned};
+use lariat_ancf::Warning as CableWarning;
+use lariat_scene::{Purpose, Warning};
+
+#[test]
+fn a_pendulum_in_si_units_has_no_warning() {
+    for (wire, mass) in [([5.0, 0.004, 2.1e11], 20.0), ([1.0, 0.002, 1.0e11], 3.0), ([30.0, 0.02, 1.0e9], 100.0)] {
+        assert_eq!(warned(&pendulum(wire, mass, 0.1, "bob"), Purpose::Run), [], "{wire:?}");
+        assert_eq!(warned(&pendulum(wire, mass, 0.1, "bob"), Purpose::Static), [], "{wire:?}");
+    }
+}
+
+#[test]
+fn a_modulus_in_gpa_is_told() {
+    for (modulus, mass) in [(210.0, 20.0), (70.0, 0.5), (3.5, 1.0)] {
+        let warnings = warned(&pendulum([3.0, 0.004, modulus], mass, 0.1, "bob"), Purpose::Run);
+        let soft = CableWarning::SoftMaterial { cable: "wire".to_string(), youngs_modulus_pa: modulus }.into();
+        assert!(warnings.contains(&soft), "{warnings:?}");
+        assert!(warnings[0].to_string().contains("in Pa"), "{}", warnings[0]);
+    }
+}
+
+/// In MPa the modulus of steel is one of a soft rubber: the strain tells.
+#[test]
+fn a_tension_beyond_the_law_is_told_in_runs_and_in_statics() {
+    let beyond = |text: &str, purpose| {
+        let warnings = warned(text, purpose);
+        let found = warnings.iter().any(|w| {
+            matches!(w, Warning::Cable(CableWarning::LargeStrain { cable, tension_n, axial_stiffness_n, .. })
+                if cable == "wire" && *tension_n > 0.05 * axial_stiffness_n)
+        });
+        assert!(found, "{purpose:?} {warnings:?}");
+    };
+    for (modulus, mass) in [(2.1e5, 2.0), (1.0e6, 10.0), (1.0e7, 5.0)] {
+        beyond(&pendulum([2.0, 0.006, modulus], mass, 0.0, "bob"), Purpose::Run);
+    }
+    // T/EA = 0.08 to 0.4
+    for (modulus, mass) in [(2.0e7, 4.0), (5.0e6, 2.0), (5.0e6, 5.0)] {
+        beyond(&pendulum([2.0, 0.006, modulus], mass, 0.0, "bob"), Purpose::Static);
+    }
+    // T/EA = 0.04 at rest
+    let area = std::f64::consts::FRAC_PI_4 * 0.006f64.powi(2);
+    let below = pendulum([2.0, 0.006, 1.0 * 9.81 / 0.04 / area], 1.0 - 0.5 * 2.0 * 7850.0 * area, 0.0, "bob");
+    assert_eq!(warned(&below, Purpose::Static), []);
+}
+
+#[test]
+fn a_section_in_mm_is_told() {
+    for (length, diameter) in [(5.0, 4.0), (0.3, 2.0), (2.0, 0.5)] {
+        let warnings = warned(&pendulum([length, diameter, 2.1e11], 20.0, 0.1, "bob"), Purpose::Run);
+        let stubby = |w: &Warning| matches!(w, Warning::Cable(CableWarning::Stubby { ratio, .. }) if (ratio * diameter / length - 1.0).abs() < 1e-12);
+        assert!(warnings.iter().any(stubby), "{warnings:?}");
+    }
+    let long = warned(&pendulum([60.0, 4.0, 2.1e11], 20.0, 0.1, "bob"), Purpose::Run);
+    assert!(long.contains(&CableWarning::Thick { cable: "wire".to_string(), diameter_m: 4.0 }.into()), "{long:?}");
+    // by its stiffnesses, a round rod of 0.1 m
+    let rod = "[[cable]]\nname = \"rod\"\npoints = [[0.0, 0.0, 9.0], [0.8, 0.0, 9.0]]\naxial_stiffness = 1.0e8\n\
+               bending_stiffness = 6.25e4\nmass_per_length = 60.0\n[[attachment]]\ncable = \"rod\"\nat = \"start\"\nbody = \"world\"\nkind = \"clamp\"\n";
+    let warnings = warned(&format!("duration = 0.02\n{rod}"), Purpose::Run);
+    assert!(
+        matches!(&warnings[..], [Warning::Cable(CableWarning::Stubby { ratio, .. })] if (ratio - 8.0).abs() < 1e-9),
+        "{warnings:?}"
+    );
+}
+
+/// Densities in g/cm^3, of which some are slow enough; densities of real cables are not told.
+#[test]
+fn a_density_in_grams_per_cubic_centimetre_is_told() {
+    let line = |density: f64, modulus: f64| {
+        format!(
+            "duration = 0.02\n[[cable]]\nname = \"line\"\npoints = [[0.0, 0.0, 0.0], [3.0, 0.0, 0.0]]\nsection = {{ round = 0.01 }}\ndensity = {density:?}\n\
+             youngs_modulus = {modulus:?}\n[[attachment]]\ncable = \"line\"\nat = \"start\"\nbody = \"world\"\n"
+        )
+    };
+    for (density, modulus) in [(7.85, 2.1e11), (1.15, 3e9), (0.9, 1e9), (2.7, 7e10), (1.1, 5e6), (19.3, 4.1e11)] {
+        let light = |text: &str| {
+            let warnings = warned(text, Purpose::Run);
+            warnings.iter().any(|w| matches!(w, Warning::Cable(CableWarning::LightMaterial { density_kg_m3, .. }) if (density_kg_m3 / density - 1.0).abs() < 1e-9))
+        };
+        assert!(light(&line(density, modulus)), "{density}");
+        let heavy = warned(&line(1000.0 * density, modulus), Purpose::Run);
+        let told = |w: &Warning| matches!(w, Warning::Cable(CableWarning::LightMaterial { .. }));
+        assert!(!heavy.iter().any(told), "{density} {heavy:?}");
+    }
+}
