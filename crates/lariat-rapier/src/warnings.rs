@@ -89,10 +89,14 @@ impl CableSet {
     }
 }
 
-/// Reads the cables at the end of a host step; what is new is an event.
-pub(crate) fn note(contents: &mut Contents, events: &mut Vec<Event>) {
+/// Tells the cables at the end of a host step by how much what holds them was rounded in it, and reads them; what is new is an event.
+pub(crate) fn note(contents: &mut Contents, world: &PhysicsWorld, events: &mut Vec<Event>) {
+    let dt = f64::from(world.integration_parameters.dt);
     for index in 0..contents.cables.len() {
+        let on_cable = contents.attachments.values().filter(|a| a.cable.0 as usize == index);
+        let rounding = on_cable.map(|a| contents.records.rounding(world, a.body, &a.anchor, dt)).fold(0.0, f64::max);
         let Some(slot) = contents.cables.get_mut(index).filter(|slot| !slot.asleep) else { continue };
+        slot.cable.set_end_rounding(rounding, dt);
         let cable = CableHandle(index as u32);
         slot.cable.note_host_step(|warning| events.push(Event::Warning { cable, warning }));
     }
