@@ -222,9 +222,6 @@ fn read_back(
         body.set_position(to_pose(&origin, &settled.rotation), false);
     }
     record.exact = Some(ExactState::new(&settled, (linear, angular), applied.centre, body));
-    if landed && applied.isolated {
-        record.reaction = Vector6::zeros();
-    }
     landed
 }
 
