@@ -43,6 +43,9 @@ pub(crate) struct Slot {
     /// Whether neither dynamic bodies nor other cables acted on it in the last host step, so that its energy balance closes.
     #[serde(skip)]
     pub alone: bool,
+    /// By how much what holds it was rounded in the last host step, in m.
+    #[serde(skip)]
+    pub rounding: f64,
 }
 
 impl Slot {
@@ -97,6 +100,7 @@ impl Contents {
             touched: Vec::new(),
             ignored: Vec::new(),
             alone: false,
+            rounding: 0.0,
             cable,
         };
         let key = self.free_key(&slot);

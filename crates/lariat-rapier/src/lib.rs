@@ -86,9 +86,10 @@
 //!   approximately.
 //! - Damping of Rapier's bodies acts at the end of a step; with it, a body's accelerations are not
 //!   kept.
-//! - Kinematic bodies and those in contact move with Rapier's precision: in single precision a slow
-//!   winch moves in jumps of 2e-7 m at 2 m, 2 N of a steel bar of 1 cm^2, and 1 + T/h times that if
-//!   its retardation time is T. The package `lariat-rapier-f64`, of the same source, has none of this.
+//! - Kinematic bodies that turn or accelerate by poses, and bodies on joints, move with Rapier's
+//!   precision: in single precision in jumps of 2e-7 m at 2 m, 2 N of a steel bar of 1 m and 1 cm^2,
+//!   and 1 + T/h times that if its retardation time is T. A warning tells where that matters. The
+//!   package `lariat-rapier-f64`, of the same source, has none of this.
 //!
 //! # References
 //! - Each file of the source names the equations it solves, their sources and their limits.

@@ -1,9 +1,10 @@
 //! What the coupling keeps of each body between steps.
 
-use crate::step::prescribed_motion::MotionMemory;
+use crate::convert::{rotation, to_pose, vector};
+use crate::step::prescribed_motion::{self, MotionMemory, OriginPose};
 use ::nalgebra::{UnitQuaternion, Vector3, Vector6};
 use lariat_ancf::island::{BodyMemory, RigidBody};
-use rapier::dynamics::{RigidBody as RapierBody, RigidBodyHandle};
+use rapier::dynamics::{RigidBody as RapierBody, RigidBodyHandle, RigidBodyType};
 use rapier::math::{AngVector, Pose, Real, Vector};
 use rapier::pipeline::PhysicsWorld;
 use serde::{Deserialize, Serialize};
@@ -22,6 +23,12 @@ pub(crate) struct BodyRecord {
     /// Of a kinematic body, its motion in the last host step.
     #[serde(default)]
     pub motion: Option<MotionMemory>,
+    /// Of a kinematic body, its place in `f64` beside the pose in Rapier that stands for it.
+    #[serde(default)]
+    pub place: Option<(Pose, OriginPose)>,
+    /// Of a kinematic body, its place after the Rapier step in progress.
+    #[serde(skip)]
+    pub next_place: Option<OriginPose>,
     /// Whether it is kinematic and has rotated: it then drives the cables on it.
     #[serde(default)]
     pub rotates: bool,
@@ -30,7 +37,16 @@ pub(crate) struct BodyRecord {
 impl BodyRecord {
     /// A record of an unknown body.
     pub fn new(handle: RigidBodyHandle) -> Self {
-        BodyRecord { handle, reaction: Vector6::zeros(), exact: None, stepped: false, motion: None, rotates: false }
+        BodyRecord {
+            handle,
+            reaction: Vector6::zeros(),
+            exact: None,
+            stepped: false,
+            motion: None,
+            place: None,
+            next_place: None,
+            rotates: false,
+        }
     }
 }
 
@@ -133,6 +149,62 @@ impl Records {
             i
         });
         &mut self.0[i]
+    }
+
+    /// Returns the place of the origin of a body, in `f64` where it is known and the user has not moved the body since.
+    pub fn place(&self, world: &PhysicsWorld, handle: RigidBodyHandle) -> OriginPose {
+        let pose = world.bodies[handle].position();
+        let known = self.get(handle).and_then(|record| record.place);
+        known
+            .filter(|(rounded, _)| rounded == pose)
+            .map_or_else(|| prescribed_motion::pose(world, handle), |(_, place)| place)
+    }
+
+    /// Returns by how much (m) an anchor on a body was rounded in a host step of `dt` (s): not at all if the body's place is known in `f64`, or
+    /// if it moved by less.
+    pub fn rounding(&self, world: &PhysicsWorld, handle: RigidBodyHandle, anchor: &Vector3<f64>, dt: f64) -> f64 {
+        let Some(body) = world.bodies.get(handle) else { return 0.0 };
+        let unit = 0.5 * f64::from(Real::EPSILON);
+        let (distance, lever) = (vector(body.translation()).amax(), 2.0 * anchor.norm());
+        let record = self.get(handle);
+        let (position, attitude) = match body.body_type() {
+            RigidBodyType::Dynamic => {
+                let rounded =
+                    !body.is_sleeping() && record.is_some_and(|record| record.stepped && record.exact.is_none());
+                let way = f64::from(body.linvel().length()) + f64::from(body.angvel().length()) * lever;
+                let moves = rounded && way * dt > unit * (distance + lever);
+                (moves, moves)
+            }
+            RigidBodyType::KinematicPositionBased => {
+                record.and_then(|record| record.motion).map_or((false, false), |motion| motion.is_rounded())
+            }
+            _ => (false, false),
+        };
+        unit * (if position { distance } else { 0.0 } + if attitude { lever } else { 0.0 })
+    }
+
+    /// Takes over where kinematic bodies went in a Rapier step: as prescribed, but for rounding. Rapier adds up the rounding of a body that it
+    /// moves by its velocity; here it ends.
+    pub fn follow_kinematic(&mut self, world: &mut PhysicsWorld) {
+        let substeps = world.integration_parameters.num_solver_iterations;
+        for record in &mut self.0 {
+            record.place = None;
+            let Some(place) = record.next_place.take() else { continue };
+            let Some(body) = world.bodies.get_mut(record.handle).filter(|body| body.is_kinematic()) else { continue };
+            let (origin, attitude) = (vector(body.translation()), rotation(*body.rotation()));
+            let lever = vector(body.local_center_of_mass()).norm();
+            let rounding = prescribed_motion::rounding(substeps);
+            if (origin - place.0).norm() > 2.0 * rounding * (origin.norm() + lever)
+                || attitude.angle_to(&place.1) > 2.0 * rounding
+            {
+                continue;
+            }
+            let rounded = to_pose(&place.0, &place.1);
+            if body.body_type() == RigidBodyType::KinematicVelocityBased && *body.position() != rounded {
+                body.set_position(rounded, false);
+            }
+            record.place = Some((*body.position(), place));
+        }
     }
 
     /// Drops the records of bodies that are no longer in the world.

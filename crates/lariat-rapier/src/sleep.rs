@@ -75,9 +75,7 @@ pub(crate) fn keep_awake(
     disturbed: bool,
     speed: f64,
 ) {
-    if island.bodies().next().is_none()
-        || !disturbed && is_steady(contents, island) && is_quiet(contents, world, island, speed)
-    {
+    if island.bodies().next().is_none() || !disturbed && is_resting(contents, world, island, speed) {
         return;
     }
     for index in island.attachments.iter().flatten() {
@@ -92,6 +90,11 @@ pub(crate) fn keep_awake(
             body.activation_mut().time_since_can_sleep = 0.0;
         }
     }
+}
+
+/// Returns whether an island is slower than `speed` (m/s), under forces that do not change.
+pub(crate) fn is_resting(contents: &Contents, world: &PhysicsWorld, island: &Island, speed: f64) -> bool {
+    is_steady(contents, island) && is_quiet(contents, world, island, speed)
 }
 
 /// Returns whether the forces at the attachments of an island are those at which the time until

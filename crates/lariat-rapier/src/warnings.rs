@@ -89,25 +89,31 @@ impl CableSet {
     }
 }
 
-/// Reads the cables at the end of a host step; what is new is an event.
+/// Reads the cables at the end of a host step, and tells them first whether nothing else acts on them and by how much what holds them was rounded;
+/// what is new is an event.
 pub(crate) fn note(contents: &mut Contents, world: &PhysicsWorld, events: &mut Vec<Event>) {
-    let Contents { cables, attachments, junctions, sheaves, drums, .. } = contents;
+    let dt = f64::from(world.integration_parameters.dt);
+    let Contents { cables, attachments, junctions, sheaves, drums, records, .. } = contents;
     for slot in cables.values_mut() {
-        slot.alone = slot.cable.effects().contact.is_none();
+        (slot.alone, slot.rounding) = (slot.cable.effects().contact.is_none(), 0.0);
     }
-    let dynamic = |body| world.bodies.get(body).is_some_and(|body| body.is_dynamic());
-    let at_bodies = attachments.values().filter(|attachment| dynamic(attachment.body)).map(|a| a.cable);
     let at_junctions = junctions.values().flat_map(|junction| &junction.nodes).map(|(cable, _)| *cable);
     let at_sheaves = sheaves.values().flat_map(|sheave| sheave.ends()).map(|(cable, _)| cable);
     let at_drums = drums.iter().map(|drum| drum.cable);
-    for cable in at_bodies.chain(at_junctions).chain(at_sheaves).chain(at_drums) {
+    for cable in at_junctions.chain(at_sheaves).chain(at_drums) {
         if let Some(slot) = cables.get_mut(cable.0 as usize) {
             slot.alone = false;
         }
     }
+    for attachment in attachments.values() {
+        let Some(slot) = cables.get_mut(attachment.cable.0 as usize) else { continue };
+        slot.alone &= !world.bodies.get(attachment.body).is_some_and(|body| body.is_dynamic());
+        slot.rounding = records.rounding(world, attachment.body, &attachment.anchor, dt).max(slot.rounding);
+    }
     for index in 0..cables.len() {
         let Some(slot) = cables.get_mut(index).filter(|slot| !slot.asleep) else { continue };
-        let (cable, alone) = (CableHandle(index as u32), slot.alone);
-        slot.cable.note_host_step(alone, |warning| events.push(Event::Warning { cable, warning }));
+        let cable = CableHandle(index as u32);
+        slot.cable.set_end_rounding(slot.rounding, dt);
+        slot.cable.note_host_step(slot.alone, |warning| events.push(Event::Warning { cable, warning }));
     }
 }

@@ -98,6 +98,8 @@ pub struct Cable {
     before: State,
     /// Readings of the host steps, if they are asked for.
     pub(crate) watch: Option<Box<Watch>>,
+    /// Force in N that the rounding of what holds it may make in a host step, if it is straight.
+    pub(crate) end_noise: f64,
     /// Counts changes of supports, loads, effects and integrator.
     pub(crate) revision: u64,
 }
@@ -129,6 +131,7 @@ impl Cable {
             scratch: Scratch::default(),
             before: State::default(),
             watch: None,
+            end_noise: 0.0,
             revision: 0,
             model,
             snapshot,

@@ -29,6 +29,7 @@ pub(crate) struct Dense {
     scratch: Vec<f64>,
     scale: Vec<f64>,
     filled: Vec<usize>,
+    column: Vec<f64>,
 }
 
 impl Dense {
@@ -44,16 +45,11 @@ impl Dense {
         self.order.extend(0..n);
         self.scratch.resize(n, 0.0);
         let f = &mut self.factors;
-        for i in 0..n {
-            for j in 0..i {
-                f[j * n + i] = f[i * n + j];
-            }
-        }
         self.scale.clear();
         self.scale.extend((0..n).map(|i| f[i * n + i].abs()));
         let scale = &self.scale;
         let fail = |node: usize, pivot: f64, scale: f64, reason| Err(SingularMatrix { node, pivot, scale, reason });
-        if f.iter().any(|x| !x.is_finite()) {
+        if (0..n).any(|i| f[i * n..=i * n + i].iter().any(|x| !x.is_finite())) {
             return fail(0, 0.0, 0.0, Reason::NonFinite);
         }
         for k in 0..n {
@@ -74,15 +70,15 @@ impl Dense {
             }
             self.filled.clear();
             self.filled.extend((k + 1..n).filter(|i| f[i * n + k] != 0.0));
+            self.column.clear();
+            self.column.extend(self.filled.iter().map(|i| f[i * n + k]));
             for (a, &i) in self.filled.iter().enumerate() {
-                let l = f[i * n + k] / pivot;
-                for &j in &self.filled[..=a] {
-                    f[i * n + j] -= l * f[j * n + k];
-                    f[j * n + i] = f[i * n + j];
+                let row = &mut f[i * n..=i * n + i];
+                let l = self.column[a] / pivot;
+                row[k] = l;
+                for (&j, c) in self.filled[..=a].iter().zip(&self.column) {
+                    row[j] -= l * c;
                 }
-            }
-            for &i in &self.filled {
-                f[i * n + k] /= pivot;
             }
         }
         Ok(())
@@ -117,15 +113,20 @@ impl Dense {
     }
 }
 
-/// Swaps rows and columns `a` and `b` of a full symmetric matrix whose first columns hold factors.
+/// Swaps rows and columns `a` and `b`, `a < b`, of a symmetric matrix of which the lower triangle is stored, with factors in its first `a`
+/// columns.
 fn swap(f: &mut [f64], n: usize, a: usize, b: usize) {
     if a == b {
         return;
     }
-    for j in 0..n {
+    for j in 0..a {
         f.swap(a * n + j, b * n + j);
     }
-    for i in a.min(b)..n {
+    f.swap(a * n + a, b * n + b);
+    for i in a + 1..b {
+        f.swap(i * n + a, b * n + i);
+    }
+    for i in b + 1..n {
         f.swap(i * n + a, i * n + b);
     }
 }
@@ -155,6 +156,32 @@ mod tests {
             let expected = a.clone().cholesky().unwrap().solve(&(&a * &x));
             for i in 0..n {
                 assert!((rhs[i] - x[i]).abs() < 1e-9 * (1.0 + (expected[i] - x[i]).abs() * 1e9), "{n} {i}");
+            }
+        }
+    }
+
+    /// Pivots that vanish are exchanged, whatever else was exchanged before; the reference is the factorisation of nalgebra with full pivoting.
+    #[test]
+    fn vanishing_pivots_are_exchanged() {
+        let links = |n: usize| {
+            DMatrix::from_fn(n, n, |i, j| match i.abs_diff(j) {
+                0 => 1.0 + if i % 3 == 2 { i as f64 } else { 0.0 },
+                1 => 1.0,
+                2 => 0.1 * (i * j) as f64,
+                _ => 0.0,
+            })
+        };
+        for n in [3, 4, 7, 12] {
+            let a = links(n);
+            let x = DVector::from_fn(n, |i, _| 1.0 + i as f64);
+            let mut rhs = (&a * &x).as_slice().to_vec();
+            let mut dense = Dense::default();
+            dense.factor(a.as_slice(), n).unwrap();
+            assert_ne!(dense.order, (0..n).collect::<Vec<_>>(), "{n}");
+            dense.solve(&mut rhs);
+            let expected = a.clone().full_piv_lu().solve(&(&a * &x)).unwrap();
+            for i in 0..n {
+                assert!((rhs[i] - expected[i]).abs() < 1e-8 * expected.amax(), "{n} {i}: {} {}", rhs[i], expected[i]);
             }
         }
     }

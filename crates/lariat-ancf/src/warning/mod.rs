@@ -147,6 +147,21 @@ pub enum Warning {
         /// Rate over the speed of transverse waves.
         ratio: f64,
     },
+    /// What holds a straight, stiff cable moves in jumps of its rounding.
+    #[error(
+        "cable {cable:?}: at {time_s:.3} s the rounding of what holds it, far from the origin in single precision, may pull at it by {noise_n:.1e} N, where its \
+         tension is {tension_n:.1e} N at most: bring the scene near the origin, choose less stiffness or damping, or use bodies in double precision"
+    )]
+    RoundedEnds {
+        /// Name of the cable.
+        cable: String,
+        /// Time of the largest estimate in s.
+        time_s: f64,
+        /// Estimate of the largest force that the rounding makes in N.
+        noise_n: f64,
+        /// Largest tension in N.
+        tension_n: f64,
+    },
     /// Its centre line went through that of a cable that it can touch, or through itself.
     #[error(
         "cable {cable:?}: in {steps} steps it passed through what it can touch, a cable, itself or a thin part of a body: try more elements, shorter steps, or \

@@ -24,6 +24,10 @@ const TURN: f64 = 0.2;
 const STRAIN: f64 = 0.05;
 /// Largest rate of a reel over the speed of transverse waves.
 const REEL: f64 = 0.3;
+/// Largest force that the rounding of what holds a cable may make, as a share of its largest tension.
+const NOISE: f64 = 0.01;
+/// Largest part of its length by which the ends of a straight cable are nearer than that.
+const STRAIGHT: f64 = 1e-4;
 /// Largest number of elements that is advised.
 const MOST: f64 = 1e6;
 
@@ -63,6 +67,9 @@ pub struct Watch {
     tension: [f64; 4],
     /// Largest rate of a reel over the speed of transverse waves, and its time in s.
     reel: (f64, f64),
+    /// Largest force in N that the rounding of what holds it made, and its time in s.
+    #[serde(default)]
+    noise: (f64, f64),
     steps: Steps,
     /// The energy, of a cable that notes its own steps.
     #[serde(default)]
@@ -78,7 +85,7 @@ pub struct Watch {
 type Law = fn(&Watch, &Cable, Option<f64>) -> Option<Warning>;
 
 /// Laws in the order of warnings; the flag says that one holds at every time, not for the whole run only.
-const LAWS: [(Law, bool); 8] = [
+const LAWS: [(Law, bool); 9] = [
     (Watch::strain, true),
     (Watch::mesh, true),
     (Watch::small_motion, false),
@@ -87,6 +94,7 @@ const LAWS: [(Law, bool); 8] = [
     (Watch::fast_reel, true),
     (Watch::crossed, true),
     (Watch::energy, true),
+    (Watch::rounded_ends, false),
 ];
 
 /// The bit of warnings about sizes.
@@ -126,6 +134,9 @@ impl Watch {
         let (share, tension, stiffness) = cable.largest_strain();
         if share > self.tension[0] {
             self.tension = [share, tension, stiffness, cable.time()];
+        }
+        if cable.end_noise > self.noise.0 && cable.is_straight() {
+            self.noise = (cable.end_noise, cable.time());
         }
         self.steps.note(cable);
     }
@@ -210,6 +221,12 @@ impl Watch {
         (ratio > REEL).then(|| Warning::FastReel { cable: cable.name().to_string(), time_s, ratio })
     }
 
+    fn rounded_ends(&self, cable: &Cable, _: Option<f64>) -> Option<Warning> {
+        let ((noise_n, time_s), tension_n) = (self.noise, self.tension[1]);
+        let cable = || cable.name().to_string();
+        (noise_n > NOISE * tension_n).then(|| Warning::RoundedEnds { cable: cable(), time_s, noise_n, tension_n })
+    }
+
     fn crossed(&self, cable: &Cable, _: Option<f64>) -> Option<Warning> {
         let steps = cable.diagnostics().crossed_steps;
         (steps > 0).then(|| Warning::PassedThrough { cable: cable.name().to_string(), steps })
@@ -242,6 +259,28 @@ impl Cable {
             watch.warnings(self, None)
         });
         self.size_warnings().chain(noted).collect()
+    }
+
+    /// Tells by how much (m) positions of what holds the cable were rounded in a host step of `h` (s); for those who hold cables by bodies in
+    /// single precision. If the cable is straight, the rounding u makes forces of `u EA/L (1 + T/h)` with the axial retardation time T;
+    /// warnings compare them with the tension. What is not finite counts as zero.
+    pub fn set_end_rounding(&mut self, rounding: f64, h: f64) {
+        if rounding == 0.0 {
+            self.end_noise = 0.0;
+            return;
+        }
+        let compliance: f64 = self.elements().iter().map(|e| e.length / e.section.axial_stiffness).sum();
+        let retardation = self.effects().damping.map_or(0.0, |damping| damping.axial);
+        let force = rounding / compliance * (1.0 + retardation / h);
+        self.end_noise = if force.is_finite() { force } else { 0.0 };
+    }
+
+    /// Returns whether the cable is straight and taut.
+    fn is_straight(&self) -> bool {
+        let nodes = || (0..self.nodes()).map(|node| self.node_position(node));
+        let length: f64 = nodes().zip(nodes().skip(1)).map(|(a, b)| (b - a).norm()).sum();
+        let chord = (self.node_position(self.nodes() - 1) - self.node_position(0)).norm();
+        chord > (1.0 - STRAIGHT) * length && chord > self.length()
     }
 
     /// Returns the warnings about sections and materials.

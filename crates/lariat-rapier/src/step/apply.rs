@@ -62,13 +62,19 @@ fn apply_prediction(
     step: &BodyStep,
     (reaction, moving): (Vector6<f64>, Vector6<f64>),
 ) -> AppliedMotion {
-    let &BodyStep { handle, end, mechanism, h, .. } = step;
+    let &BodyStep { handle, start, end, mechanism, h } = step;
     let gravity = world.gravity;
     let (isolated, linked) = (proximity::is_isolated(world, handle), proximity::is_linked(world, handle));
     let substeps = world.integration_parameters.num_solver_iterations.max(1) as f64;
     let body = &mut world.bodies[handle];
-    let linvel = to_vector(&((end.position - vector(body.center_of_mass())) / h));
-    let turn = (end.rotation * rotation(*body.rotation()).inverse()).scaled_axis() / h;
+    // a body that meets nothing is led back from its rounded place; contacts and motors would feel that as a velocity
+    let (from, attitude) = if isolated {
+        (vector(body.center_of_mass()), rotation(*body.rotation()))
+    } else {
+        (start.position, start.rotation)
+    };
+    let linvel = to_vector(&((end.position - from) / h));
+    let turn = (end.rotation * attitude.inverse()).scaled_axis() / h;
     let angvel = match mechanism {
         // Rapier rotates links of a multibody exactly
         Some(mechanism) if mechanism.is_multibody() => to_vector(&turn),
@@ -83,6 +89,7 @@ fn apply_prediction(
         isolated,
         linked,
         balanced_velocity: (weight + reaction_force.norm() / end.mass) * h,
+        landed: false,
         saved: SavedBody::of(body),
     };
     let (force, torque) = split_spatial(&moving);

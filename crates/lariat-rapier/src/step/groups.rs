@@ -121,16 +121,12 @@ fn update_reactions(
     (deviation, end): (&DVector<f64>, &DVector<f64>),
     h: f64,
 ) {
-    // in a mechanism that touches nothing, the position tells only how Rapier corrects its joints
-    let isolated = parts[0].mechanism.loads.isolated;
-    let mut change = deviation.clone();
-    if !isolated {
-        change += group.stack_of(parts.iter().map(|part| {
-            let (body, end) = (&world.bodies[part.handle], &prediction.end[part.m]);
-            let turned = (rotation(*body.rotation()) * end.rotation.inverse()).scaled_axis();
-            stack_spatial(&((vector(body.center_of_mass()) - end.position) / h), &(turned / h))
-        }));
-    }
+    let moved = group.stack_of(parts.iter().map(|part| {
+        let (body, end) = (&world.bodies[part.handle], &prediction.end[part.m]);
+        let turned = (rotation(*body.rotation()) * end.rotation.inverse()).scaled_axis();
+        stack_spatial(&((vector(body.center_of_mass()) - end.position) / h), &(turned / h))
+    }));
+    let change = deviation + moved;
     let known = group.stack_of(parts.iter().map(|part| {
         let motors = if part.applied.linked { Vector6::zeros() } else { motor_impulse(island, prediction, part.m) };
         contents.records.get(part.handle).map_or_else(Vector6::zeros, |record| record.reaction) * h - motors
@@ -138,7 +134,7 @@ fn update_reactions(
     let whole = &known + group.impulses(deviation);
     let start = group.stack_of(parts.iter().map(|part| velocity_of(&prediction.start[part.m])));
     let share = persisting_share(whole.dot(&(end + deviation - start)), group.square(&whole));
-    let impulses = (known + group.implied_impulses(&change, isolated)) * (share / h);
+    let impulses = (known + group.implied_impulses(&change, parts[0].mechanism.loads.isolated)) * (share / h);
     for (part, impulse) in parts.iter().zip(impulses.as_slice().chunks_exact(6)) {
         let record = contents.records.record_mut(part.handle);
         record.reaction += REACTION_GAIN * (Vector6::from_column_slice(impulse) - record.reaction);

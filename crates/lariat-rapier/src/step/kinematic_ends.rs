@@ -11,7 +11,7 @@ use crate::contents::Contents;
 use crate::error::Error;
 use crate::islands::{Island, Member};
 use crate::step::prediction::StepParameters;
-use crate::step::prescribed_motion::{OriginPose, PrescribedMotions, ROUNDING, pose, pose_after};
+use crate::step::prescribed_motion::{OriginPose, PrescribedMotions, ROUNDING};
 use ::nalgebra::{Matrix3, Vector3};
 use lariat_ancf::island::{CLOSING_SPEED, RigidBody};
 use lariat_ancf::{At, Motion};
@@ -46,7 +46,13 @@ pub(crate) fn driven_body(
 
 /// Returns whether an end of an island with prescribed motion moves in the coming step, or was
 /// moved since the last.
-pub(crate) fn have_moved(contents: &Contents, world: &PhysicsWorld, island: &Island, h: f64) -> bool {
+pub(crate) fn have_moved(
+    contents: &Contents,
+    world: &PhysicsWorld,
+    motions: &PrescribedMotions,
+    island: &Island,
+    h: f64,
+) -> bool {
     let has_moved = |a: &Attachment, (origin, attitude): OriginPose| {
         a.last_anchor.is_none_or(|before| (origin + attitude * a.anchor - before).norm() > UNMOVED_DISTANCE)
     };
@@ -55,9 +61,15 @@ pub(crate) fn have_moved(contents: &Contents, world: &PhysicsWorld, island: &Isl
         let Member::Driven(body) = island.members[pin.body] else { return None };
         Some((body, contents.attachments.get((*index)?)?))
     });
-    let rotates = |member: &Member| matches!(member, Member::Driven(b) if pose(world, *b) != pose_after(world, *b, h));
-    supports.any(|a| has_moved(a, pose_after(world, a.body, h)))
-        || clamps.any(|(body, a)| has_moved(a, pose(world, body)))
+    let rotates = |member: &Member| match member {
+        Member::Driven(b) => {
+            let [start, end] = motions.poses(world, *b, h);
+            start != end
+        }
+        _ => false,
+    };
+    supports.any(|a| has_moved(a, motions.poses(world, a.body, h)[1]))
+        || clamps.any(|(body, a)| has_moved(a, motions.poses(world, body, h)[0]))
         || island.members.iter().any(rotates)
 }
 
@@ -109,7 +121,7 @@ pub(crate) fn read(contents: &mut Contents, world: &PhysicsWorld, island: &Islan
         if !world.bodies.contains(a.body) {
             continue;
         }
-        let (origin, attitude) = pose(world, a.body);
+        let (origin, attitude) = contents.records.place(world, a.body);
         let anchor = origin + attitude * a.anchor;
         let (force, _) = slot.cable.pull(a.node);
         let mean = 0.5 * (a.reading.force + force);

@@ -141,7 +141,7 @@ pub(crate) fn predict_next(
         return Ok(());
     }
     reels::remesh(contents)?;
-    host.motions.advance(world, host.done, host.steps);
+    host.motions.advance(contents, world, host.done, host.steps);
     let outcome = predict_islands(stepper, contents, world, settings, host);
     host.failed = outcome.is_err();
     outcome
@@ -287,7 +287,8 @@ fn prepare_island(
         }
     }
     check_links(contents, island)?;
-    let ends_moved = island.bodies().next().is_some() && kinematic_ends::have_moved(contents, world, island, step.h);
+    let ends_moved =
+        island.bodies().next().is_some() && kinematic_ends::have_moved(contents, world, motions, island, step.h);
     let mut moved = ends_moved;
     for &cable in &island.cables {
         moved |= finder.gather(contents, world, (cable, island), (motions, step), events)?;
@@ -338,6 +339,7 @@ pub(crate) fn reconcile(stepper: &mut Stepper, contents: &mut Contents, world: &
         return;
     }
     stepper.finder.end(world);
+    contents.records.follow_kinematic(world);
     let h = f64::from(world.integration_parameters.dt);
     for (island, prediction) in stepper.islands.list.iter().zip(&mut stepper.predictions) {
         if core::mem::take(&mut prediction.refused) {

@@ -15,8 +15,16 @@
 //! (s = 0), its velocity jumps, as Rapier's does. A body that rotates steadily gives each anchor
 //! the velocity v + w x r at both ends of a step.
 //!
+//! The user's poses are in single precision. As long as they lie on a line in time, within their rounding, the body follows the line of least
+//! squares through all of them: after the k-th, with the residual e of the position that the last line gives,
+//! ```text
+//! x += 2 (2k - 1)/(k (k + 1)) e        V += 6/(k (k + 1)) e/H
+//! ```
+//! Taken for motion, the rounding u of a pose makes a straight cable of stiffness EA/L with axial retardation time T pull by u EA/L (1 + T/H).
+//!
 //! # Validity
-//! The error of the velocities is of second order in H. If a host step is split, a body that Rapier
+//! A body that is slower than the rounding of its position per host step is at rest in some of them, and keeps that rounding; so does one that
+//! accelerates, and attitudes do. The error of the velocities is of second order in H. If a host step is split, a body that Rapier
 //! moves by its velocity is between the ends where Rapier moves it to: uniformly from its first
 //! to its last pose.
 //!
@@ -47,6 +55,35 @@ pub(crate) type OriginPose = (Vector3<f64>, UnitQuaternion<f64>);
 /// Velocity in m/s and angular velocity in rad/s.
 pub(crate) type Velocities = [Vector3<f64>; 2];
 
+/// Returns the largest rounding of a coordinate in a step of this many substeps, as a share of it: half a unit in the last place in each, and
+/// two for the way from the centre of mass to the origin and back.
+pub(crate) fn rounding(substeps: usize) -> f64 {
+    (0.5 * substeps as f64 + 2.0) * f64::from(Real::EPSILON)
+}
+
+/// The line of least squares through the last positions of a body: its velocity in m/s, and how many positions.
+#[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
+struct Line {
+    velocity: Vector3<f64>,
+    count: u32,
+}
+
+impl Line {
+    /// Returns the position on the line after a step of `h` (s) from `before` to about `to`.
+    fn follow(&mut self, before: &Vector3<f64>, to: Vector3<f64>, h: f64) -> Vector3<f64> {
+        let predicted = before + self.velocity * h;
+        let residual = to - predicted;
+        if self.count == 0 || residual.amax() > f64::from(Real::EPSILON) * to.amax() {
+            (self.velocity, self.count) = ((to - before) / h, 2);
+            return to;
+        }
+        self.count = self.count.saturating_add(1);
+        let k = f64::from(self.count);
+        self.velocity += residual * (6.0 / (k * (k + 1.0)) / h);
+        predicted + residual * (2.0 * (2.0 * k - 1.0) / (k * (k + 1.0)))
+    }
+}
+
 /// What is kept of a host step for the next: mean velocities and accelerations, the velocities at
 /// the end, and its length in s.
 #[derive(Clone, Copy, Debug, Serialize, Deserialize)]
@@ -55,6 +92,18 @@ pub(crate) struct MotionMemory {
     acceleration: Velocities,
     end: Velocities,
     step: f64,
+    #[serde(default)]
+    line: Line,
+    /// Whether its last two positions were on no line with those before.
+    #[serde(default)]
+    curved: bool,
+}
+
+impl MotionMemory {
+    /// Returns whether positions and attitudes of a body that is moved to poses are rounded.
+    pub fn is_rounded(&self) -> (bool, bool) {
+        (self.curved, self.mean[1] != Vector3::zeros())
+    }
 }
 
 /// The motion of one body over a host step.
@@ -64,6 +113,8 @@ struct BodyMotion {
     /// Whether the user prescribes its pose at the end, not its velocity.
     by_pose: bool,
     poses: [OriginPose; 2],
+    /// Those of the Rapier step in progress.
+    step: [OriginPose; 2],
     /// Velocities at both ends beyond the mean.
     beyond: [Velocities; 2],
     memory: MotionMemory,
@@ -88,18 +139,21 @@ pub(crate) fn pose_after(world: &PhysicsWorld, handle: RigidBodyHandle, h: f64) 
         RigidBodyType::KinematicPositionBased => {
             (vector(body.next_position().translation), rotation(body.next_position().rotation))
         }
-        RigidBodyType::KinematicVelocityBased => moved_by_velocity(world, handle, h),
+        RigidBodyType::KinematicVelocityBased => moved_by_velocity(world, handle, pose(world, handle), h),
         _ => pose(world, handle),
     }
 }
 
-/// Returns the pose of a kinematic body after Rapier moved it by its velocity for `h` (s): no
+/// Returns the pose of a kinematic body after Rapier moved it from `start` by its velocity for `h` (s): no
 /// faster than Rapier's greatest velocity, with a linearised rotation in each substep.
-fn moved_by_velocity(world: &PhysicsWorld, handle: RigidBodyHandle, h: f64) -> OriginPose {
+fn moved_by_velocity(world: &PhysicsWorld, handle: RigidBodyHandle, start: OriginPose, h: f64) -> OriginPose {
     let body = &world.bodies[handle];
     let parameters = &world.integration_parameters;
     let substeps = parameters.num_solver_iterations.max(1);
     let (mut velocity, mut spin) = (vector(body.linvel()), vector(body.angvel()));
+    if velocity == Vector3::zeros() && spin == Vector3::zeros() {
+        return start;
+    }
     let (max_speed, speed) = (f64::from(parameters.max_linear_velocity()), velocity.norm());
     if speed > max_speed {
         velocity *= max_speed / speed;
@@ -110,10 +164,10 @@ fn moved_by_velocity(world: &PhysicsWorld, handle: RigidBodyHandle, h: f64) -> O
     // the normalised quaternion (1, t/2) is a rotation by 2 atan(|t|/2)
     let half = 0.5 * spin.norm() * h / substeps as f64;
     let turn = spin.try_normalize(0.0).map_or_else(Vector3::zeros, |axis| axis * (2.0 * half.atan() * substeps as f64));
-    let attitude = UnitQuaternion::from_scaled_axis(turn) * rotation(*body.rotation());
+    let attitude = UnitQuaternion::from_scaled_axis(turn) * start.1;
     // Rapier's world centre of mass may be that of the last step
     let local = vector(body.local_center_of_mass());
-    let centre = vector(body.translation()) + rotation(*body.rotation()) * local + velocity * h;
+    let centre = start.0 + start.1 * local + velocity * h;
     (centre - attitude * local, attitude)
 }
 
@@ -134,11 +188,30 @@ fn steadiness(now: &Vector3<f64>, before: &Vector3<f64>) -> f64 {
 impl BodyMotion {
     fn read(contents: &Contents, world: &PhysicsWorld, handle: RigidBodyHandle, dt: f64) -> Self {
         let by_pose = world.bodies[handle].body_type() == RigidBodyType::KinematicPositionBased;
-        let poses = [pose(world, handle), pose_after(world, handle, dt)];
+        let start = contents.records.place(world, handle);
+        let last = contents.records.get(handle).and_then(|record| record.motion);
+        let mut line = last.filter(|last| last.step == dt).map_or_else(Line::default, |last| last.line);
+        let end = match world.bodies[handle].body_type() {
+            RigidBodyType::KinematicVelocityBased if world.bodies[handle].is_enabled() => {
+                moved_by_velocity(world, handle, start, dt)
+            }
+            _ => {
+                let (to, attitude) = pose_after(world, handle, dt);
+                if to == pose(world, handle).0 {
+                    // it rests
+                    line = Line::default();
+                    (start.0, attitude)
+                } else {
+                    (line.follow(&start.0, to, dt), attitude)
+                }
+            }
+        };
+        let curved = line.count == 2 && last.is_some_and(|last| last.line.count == 2);
+        let poses = [start, end];
         let mean = mean(&poses[0], &poses[1], &reference(world, handle), dt);
-        let mut memory = MotionMemory { mean, acceleration: Default::default(), end: mean, step: dt };
+        let mut memory = MotionMemory { mean, acceleration: Default::default(), end: mean, step: dt, line, curved };
         let mut beyond = [Velocities::default(); 2];
-        if let Some(last) = contents.records.get(handle).and_then(|record| record.motion) {
+        if let Some(last) = last {
             let extent = poses[0].0.norm().max(1.0);
             for (x, size) in [extent, 1.0].into_iter().enumerate() {
                 let change = mean[x] - last.mean[x];
@@ -155,7 +228,7 @@ impl BodyMotion {
                 memory.end[x] = mean[x] + half;
             }
         }
-        BodyMotion { handle, by_pose, poses, beyond, memory }
+        BodyMotion { handle, by_pose, poses, step: poses, beyond, memory }
     }
 
     /// Returns pose and velocities at a share of the host step of a body that is moved to a pose.
@@ -166,7 +239,8 @@ impl BodyMotion {
         let (d0, d1) = ((1.0 - share) * (1.0 - 3.0 * share), share * (3.0 * share - 2.0));
         let turn = self.memory.mean[1] * (share * h) + first[1] * c0 + last[1] * c1;
         let origin = x0.lerp(x1, share) + first[0] * c0 + last[0] * c1;
-        let attitude = if share == 1.0 { *r1 } else { UnitQuaternion::from_scaled_axis(turn) * r0 };
+        let attitude = UnitQuaternion::from_scaled_axis(turn) * r0;
+        let (origin, attitude) = if share == 1.0 { (*x1, *r1) } else { (origin, attitude) };
         let velocities = core::array::from_fn(|x| self.memory.mean[x] + first[x] * d0 + last[x] * d1);
         ((origin, attitude), velocities)
     }
@@ -209,13 +283,25 @@ impl PrescribedMotions {
         }
     }
 
-    /// Sets the poses of the bodies that the user moves to one, for the end of step `done` of
-    /// `steps`.
-    pub fn advance(&self, world: &mut PhysicsWorld, done: u32, steps: u32) {
-        for motion in self.0.iter().filter(|motion| motion.by_pose && steps > 1) {
-            let (origin, attitude) = motion.at(f64::from(done) / f64::from(steps)).0;
-            if let Some(body) = world.bodies.get_mut(motion.handle) {
-                body.set_next_kinematic_position(to_pose(&origin, &attitude));
+    /// Begins Rapier step `done` of `steps`: where each body is and will be; sets the poses of those that the user moves to one.
+    pub fn advance(&mut self, contents: &mut Contents, world: &mut PhysicsWorld, done: u32, steps: u32) {
+        let h = f64::from(world.integration_parameters.dt);
+        for motion in &mut self.0 {
+            if !world.bodies.contains(motion.handle) {
+                continue;
+            }
+            motion.step = if motion.by_pose {
+                [done - 1, done].map(|done| motion.at(f64::from(done) / f64::from(steps)).0)
+            } else if world.bodies[motion.handle].is_enabled() {
+                let start = contents.records.place(world, motion.handle);
+                [start, moved_by_velocity(world, motion.handle, start, h)]
+            } else {
+                [contents.records.place(world, motion.handle); 2]
+            };
+            contents.records.record_mut(motion.handle).next_place = Some(motion.step[1]);
+            if motion.by_pose && steps > 1 {
+                let (origin, attitude) = motion.step[1];
+                world.bodies[motion.handle].set_next_kinematic_position(to_pose(&origin, &attitude));
             }
         }
     }
@@ -237,6 +323,12 @@ impl PrescribedMotions {
         }
     }
 
+    /// Returns the poses of a body at both ends of the Rapier step of `h` (s) in progress.
+    pub fn poses(&self, world: &PhysicsWorld, handle: RigidBodyHandle, h: f64) -> [OriginPose; 2] {
+        let known = self.0.iter().find(|motion| motion.handle == handle);
+        known.map_or_else(|| [pose(world, handle), pose_after(world, handle, h)], |motion| motion.step)
+    }
+
     /// Returns the poses of a body at both ends of the Rapier step of `h` (s) from one share of the
     /// host step to another, and the velocities of its origin there.
     pub fn ends(
@@ -246,7 +338,7 @@ impl PrescribedMotions {
         (from, to): (f64, f64),
         h: f64,
     ) -> [(OriginPose, Velocities); 2] {
-        let poses = [pose(world, handle), pose_after(world, handle, h)];
+        let poses = self.poses(world, handle, h);
         let local = reference(world, handle);
         let uniform = mean(&poses[0], &poses[1], &local, h);
         let mut velocities = [uniform; 2];

@@ -26,6 +26,7 @@ mod reels;
 mod refused;
 mod ropes;
 mod sheaves;
+mod single_precision;
 mod sleep;
 mod statics;
 mod substepping;

@@ -1,10 +1,10 @@
 //! Bodies that the user removes, disables, moves or changes during a run.
 
-use super::common::{add_cube, cable, gap, run, soft};
+use super::common::{add_cube, cable, gap, run, soft, tension};
 use lariat_rapier::convert::vector;
-use lariat_rapier::lariat_ancf::{At, Fidelity};
+use lariat_rapier::lariat_ancf::{At, Damping, Fidelity, Vector3};
 use lariat_rapier::rapier::prelude::*;
-use lariat_rapier::{AttachmentHandle, AttachmentKind, CableHandle, CableSet, Event};
+use lariat_rapier::{AttachmentHandle, AttachmentKind, CableHandle, CableSet, Event, Gap};
 
 struct Hung {
     world: PhysicsWorld,
@@ -155,4 +155,38 @@ fn wrong_handles_give_typed_errors() {
     h.set.remove(&mut h.world, h.rope).unwrap();
     assert!(h.set.get(h.rope).is_err() && h.set.attachment(h.held).is_err());
     h.set.step(&mut h.world).unwrap();
+}
+
+/// The ground that bears half of a box is taken away, a rope bears the other half: what bore the box is forgotten at once, or the prediction
+/// would be wrong by it, and open the attachment by F h^2/2m, 0.7 mm.
+///
+/// Reference: the load oscillates about its weight, by the half that it lost; the rope hardly damps.
+#[test]
+fn a_box_hangs_on_its_rope_when_the_ground_is_removed() {
+    let mut world = PhysicsWorld::new();
+    let ground = ColliderBuilder::cuboid(2.0, 0.5, 2.0).translation(Vector::new(0.0, -0.5, 0.0));
+    let (ground, _) = world.insert(RigidBodyBuilder::fixed(), ground);
+    let load = add_cube(&mut world, 50.0, 0.1, [0.0, 0.1, 0.0]);
+    let hook = world.insert_body(RigidBodyBuilder::fixed().translation(Vector::new(0.0, 2.2, 0.0)));
+    let mut set = CableSet::new();
+    let weight = 50.0 * 9.81;
+    // stretched by half the weight when it is closed
+    let to = 2.2 - 2.0 / (1.0 + 0.5 * weight / 1e5);
+    let rope = cable([0.0, 2.2, 0.0], [0.0, to, 0.0], soft()).damping(Damping { axial: 1e-3, bending: 1e-3 });
+    let rope = set.insert(rope.gravity(Vector3::zeros()).build().unwrap());
+    set.attach(&world, rope, At::Start, hook, Vector::ZERO, AttachmentKind::Ball).unwrap();
+    let ball = AttachmentKind::Ball.with_gap(Gap::Close);
+    set.attach(&world, rope, At::End, load, Vector::new(0.0, 0.1, 0.0), ball).unwrap();
+    run(&mut world, &mut set, 60);
+    let borne = tension(&set, rope, 1.0);
+    world.remove_body(ground);
+    let (mut widest, mut largest) = (0.0_f64, 0.0_f64);
+    for _ in 0..60 {
+        run(&mut world, &mut set, 1);
+        widest = widest.max(gap(&set));
+        largest = largest.max(tension(&set, rope, 1.0));
+    }
+    println!("{borne:.1} N of {:.1}, then up to {largest:.1} N, gap {widest:.1e} m", 0.5 * weight);
+    assert!((borne / weight - 0.5).abs() < 0.02 && widest < 1e-6, "{borne} N, {widest:.1e} m");
+    assert!((largest / (2.0 * weight - borne) - 1.0).abs() < 0.03, "{largest} N");
 }

@@ -184,6 +184,30 @@ fn an_end_that_starts_at_another_velocity_than_its_body_is_a_warning() {
     }
 }
 
+/// A taut, stiff, damped rope on an arm that turns, held at 40 m from the axis and at 0.4 m.
+#[test]
+fn rounding_that_pulls_at_a_rope_far_from_the_axis_is_a_warning() {
+    for (x, warned) in [(40.0, true), (0.4, false)] {
+        let attachment = |at: &str, x: f64| {
+            format!("[[attachment]]\ncable = \"stay\"\nat = \"{at}\"\nbody = \"arm\"\nanchor = [{x:?}, 0.0, 0.0]\n")
+        };
+        let text = format!(
+            "duration = 0.5\ndt = 0.01\ngravity = [0.0, 0.0, 0.0]\n[[body]]\nname = \"arm\"\nkind = \"kinematic\"\nshape = \"none\"\n\
+             angular_velocity = [0.0, 0.0, 0.1]\n[[cable]]\nname = \"stay\"\npoints = [[{x:?}, 0.0, 0.0], [{:?}, 0.0, 0.0]]\n\
+             length = 0.7999\naxial_stiffness = 3e6\nbending_stiffness = 0.1\nmass_per_length = 0.1\n\
+             damping = {{ axial = 0.01, bending = 0.01 }}\n{}{}",
+            x + 0.8,
+            attachment("start", x),
+            attachment("end", x + 0.8)
+        );
+        let results = Results::of_text("run", &text).done();
+        let rounded = |w: &Warning| matches!(w, Warning::Cable(lariat_ancf::Warning::RoundedEnds { cable, .. }) if cable == "stay");
+        let warnings = results.summary().warnings;
+        assert_eq!(warnings.iter().any(rounded), warned, "{x}: {warnings:?}");
+        assert_eq!(String::from_utf8_lossy(&results.output.stderr).contains("the rounding of what holds it"), warned);
+    }
+}
+
 /// A load beyond the stability limit of an explicit method; a load beyond the single precision of a body.
 #[test]
 fn a_run_that_fails_exits_with_3_names_cable_or_body_and_time_and_keeps_its_samples() {
