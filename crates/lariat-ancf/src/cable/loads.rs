@@ -67,7 +67,9 @@ impl Cable {
 
     /// Takes up point loads that were changed.
     fn take_loads(&mut self) {
-        self.model.note_load_origins(self.snapshot.passed_at_start());
+        let passed = self.snapshot.passed_at_start();
+        self.model.note_load_origins(passed);
+        self.model.move_loads(passed);
         self.system.loads.locate(&self.model);
         self.revise();
     }

@@ -185,11 +185,12 @@ impl Cable {
                 model.elements[side.element(nodes - 1)].length = winding.extent[0];
             }
         }
-        if model.elements == self.model.elements {
+        let passed = snapshot.passed_at_start();
+        if model.elements == self.model.elements && passed == self.snapshot.passed_at_start() {
             return Ok(());
         }
         model.renumber(self.nodes(), from_start - self.nodes_from_start());
-        model.move_loads(snapshot.passed_at_start());
+        model.move_loads(passed);
         self.rebuild(model)
     }
 }
