@@ -159,7 +159,7 @@ fn a_reel_stops_before_what_it_cannot_swallow_and_stays_with_its_part() {
     for (case, last) in [("held", 0.6), ("loaded", 0.6), ("loaded", 0.8), ("section", 0.6)] {
         let mut cable = rope(2.0, 10, integrator);
         match case {
-            "held" => drop(cable.fix(0.6).unwrap()),
+            "held" => cable.fix(0.6).unwrap(),
             "loaded" => cable.add_load(PointLoad::force(last - 0.07 * (last - 0.6) / 0.2, [0.0, -5.0, 0.0])).unwrap(),
             _ => {
                 let section = cable.elements()[0].section;
@@ -197,7 +197,7 @@ fn a_reel_stops_before_what_it_cannot_swallow_and_stays_with_its_part() {
 }
 
 /// Out to the end of the stock, in to the least length, out again, and cut in the swing, by every implicit method: each end is met exactly, the
-/// account of energy closes to 1e-3 of the work (2e-2 with midpoint), a cut keeps momentum and energy, and the part with the reel goes on.
+/// account of energy closes to 1e-3 of the work (2e-2 in fixed steps without the discrete gradient), a cut keeps momentum and energy, and the part with the reel goes on.
 ///
 /// *Source.* Conservation; 0.4 of an element.
 #[test]
@@ -210,17 +210,21 @@ fn a_reel_runs_from_end_to_end_and_its_rope_is_cut() {
         cable.add_reel(At::End, Reel { stock: Some(2.1), acceleration: 3.0, ..Reel::default() }).unwrap();
         let mut v = cable.velocities().to_vec();
         v.chunks_exact_mut(6).enumerate().for_each(|(i, v)| v[2] = 0.3 * (1.0 - i as f64 / 7.0));
-        cable.set_coordinates(&cable.positions().to_vec(), &v).unwrap();
+        let q = cable.positions().to_vec();
+        cable.set_coordinates(&q, &v).unwrap();
         let start = account(&mut cable);
         for (rate, end) in [(0.9, 2.1), (-1.1, 0.4 * 1.3 / 7.0)] {
             cable.set_reel_rate(At::End, rate).unwrap();
             (0..180).for_each(|_| cable.step(1.0 / 60.0).unwrap());
             let reel = cable.reel(At::End).unwrap();
-            let missing = account(&mut cable) - start - cable.effect_work().total() + cable.energy_law().numerical;
+            let (law, store) = (*cable.energy_law(), cable.energy_in_store());
+            let missing =
+                account(&mut cable) - start - cable.effect_work().total() + law.numerical + law.rescaled + store;
             println!("{:?}: {missing:.1e} J, {reel:?}", integrator.method);
             assert!(reel.stopped && reel.rate == 0.0 && (reel.length_out - end).abs() < 1e-12, "{reel:?}");
-            // midpoint neither resolves nor damps the axial waves of the mesh, whose loss by damping is known by a quadrature
-            let allowed = if integrator.method == Method::Midpoint { 2e-2 } else { 1e-3 };
+            // fixed steps do not resolve the axial waves of the mesh, whose loss by damping is known by a quadrature
+            let fixed = matches!(integrator.method, Method::Midpoint | Method::GeneralisedAlpha { .. });
+            let allowed = if fixed { 2e-2 } else { 1e-3 };
             assert!(missing.abs() < allowed * reel.work.abs(), "{missing:e} J");
         }
         cable.set_reel_rate(At::End, 0.7).unwrap();
