@@ -26,6 +26,9 @@ pub struct Model {
     /// Supports by node, ascending, none of them free.
     pub(crate) supports: Vec<(usize, Support)>,
     pub(crate) loads: Vec<PointLoad>,
+    /// By point load, the arc length in m of its material less what had come through the eye of a reel at the start when it was given: it stays.
+    #[serde(default)]
+    pub(crate) load_origins: Vec<f64>,
     #[serde(default)]
     pub(crate) effects: Effects,
     #[serde(default)]

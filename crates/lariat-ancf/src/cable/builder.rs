@@ -285,6 +285,7 @@ impl CableBuilder {
             gravity: self.gravity,
             supports: Vec::new(),
             loads: Vec::new(),
+            load_origins: Vec::new(),
             effects: self.effects,
             force_densities: self.force_densities,
             obstacles: Obstacles::default(),

@@ -14,6 +14,8 @@ impl Cable {
         require_finite("gravity (m/s^2)", &gravity).map_err(|e| e.of_cable(self.name()))?;
         self.model.gravity = gravity;
         self.system.loads.weigh(&self.model);
+        self.system.flows.forget_lengths();
+        self.sync_reel();
         self.revise();
         Ok(())
     }
@@ -26,7 +28,8 @@ impl Cable {
     /// Adds a point load; a ramp begins now.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] for an arc length off the cable, [`Error::InvalidValue`] for numbers that are not finite.
+    /// [`Error::OutOfRange`] for an arc length off the cable, [`Error::InvalidValue`] for numbers that are not finite,
+    /// [`Error::NotWithReel`] for a load on the element at the eye of a reel.
     pub fn add_load(&mut self, load: PointLoad) -> Result<(), Error> {
         self.check_arc_length(load.arc_length)?;
         require_finite("force (N)", &load.force)
@@ -34,8 +37,11 @@ impl Cable {
             .and_then(|()| require("ramp (s)", load.ramp, load.ramp >= 0.0, ">= 0"))
             .map_err(|e| e.of_cable(self.name()))?;
         self.model.loads.push(PointLoad { start: self.time(), ..load });
-        self.system.loads.locate(&self.model);
-        self.revise();
+        if let Err(error) = self.model.check_loads_at_eyes() {
+            self.model.loads.pop();
+            return Err(error.of_cable(self.name()));
+        }
+        self.take_loads();
         Ok(())
     }
 
@@ -48,24 +54,30 @@ impl Cable {
         for load in loads {
             if let Err(error) = self.add_load(*load) {
                 self.model.loads = before;
-                self.system.loads.locate(&self.model);
-                self.revise();
+                self.take_loads();
                 return Err(error);
             }
             if let (Some(old), Some(new)) = (before.iter().find(|old| old.is_same(load)), self.model.loads.last_mut()) {
                 new.start = old.start;
             }
         }
+        self.take_loads();
+        Ok(())
+    }
+
+    /// Takes up point loads that were changed.
+    fn take_loads(&mut self) {
+        let passed = self.snapshot.passed_at_start();
+        self.model.note_load_origins(passed);
+        self.model.move_loads(passed);
         self.system.loads.locate(&self.model);
         self.revise();
-        Ok(())
     }
 
     /// Removes all point loads.
     pub fn clear_loads(&mut self) {
         self.model.loads.clear();
-        self.system.loads.locate(&self.model);
-        self.revise();
+        self.take_loads();
     }
 
     /// Returns whether all loads are at their full value now, that is no ramp is in progress.

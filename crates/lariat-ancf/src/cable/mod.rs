@@ -110,9 +110,12 @@ impl Cable {
         CableBuilder::default()
     }
 
-    pub(crate) fn from_parts(model: Model, snapshot: Snapshot, integrator: Integrator) -> Result<Self, Error> {
+    pub(crate) fn from_parts(mut model: Model, snapshot: Snapshot, integrator: Integrator) -> Result<Self, Error> {
         model.check().map_err(|e| e.of_cable(&model.name))?;
         snapshot.state.check(&model.name, 6 * model.nodes())?;
+        if model.load_origins.len() != model.loads.len() {
+            model.note_load_origins(snapshot.passed_at_start());
+        }
         let system = System::new(&model).map_err(|failure| Error::StepFailed {
             cable: model.name.clone(),
             time: snapshot.state.time,

@@ -56,6 +56,27 @@ const J: Table = [
     [-192.0, -76.0, 192.0, -188.0],
 ];
 const W: [f64; 4] = [210.0, 70.0, -210.0, -70.0];
+/// Transposes of G, and J with its own.
+const G_T: Table = transposed(&G);
+const J_SUM: Table = sum(&J, &transposed(&J));
+
+const fn transposed(table: &Table) -> Table {
+    let (mut out, mut k) = ([[0.0; 4]; 4], 0);
+    while k < 16 {
+        out[k / 4][k % 4] = table[k % 4][k / 4];
+        k += 1;
+    }
+    out
+}
+
+const fn sum(x: &Table, y: &Table) -> Table {
+    let (mut out, mut k) = ([[0.0; 4]; 4], 0);
+    while k < 16 {
+        out[k / 4][k % 4] = x[k / 4][k % 4] + y[k / 4][k % 4];
+        k += 1;
+    }
+    out
+}
 
 /// Length of the element, its rate and acceleration: m, m/s, m/s^2.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -73,36 +94,35 @@ pub(crate) struct FlowElement {
 }
 
 impl FlowElement {
-    /// Returns entry (a, b) of `D table D` times `factor`.
-    fn entry(&self, table: &Table, factor: f64, a: usize, b: usize) -> f64 {
-        let l = self.extent.length;
-        let d = |k: usize| if k % 2 == 1 { l } else { 1.0 };
-        factor * d(a) * table[a][b] * d(b) / 420.0
+    /// Returns `D (sum of factors times tables) D`, times the mass per length.
+    #[inline(always)]
+    fn weighted<const N: usize>(&self, terms: [(f64, &Table); N]) -> Table {
+        let d = [1.0, self.extent.length, 1.0, self.extent.length];
+        let unit = self.inertia / 420.0;
+        let mut out = [[0.0; 4]; 4];
+        for a in 0..4 {
+            for b in 0..4 {
+                let mut entry = 0.0;
+                for (factor, table) in &terms {
+                    entry += factor * table[a][b];
+                }
+                out[a][b] = unit * d[a] * d[b] * entry;
+            }
+        }
+        out
     }
 
     /// Returns the matrices of `2 l' G` and of `l'' G + l'^2 H`.
     pub fn matrices(&self) -> [Table; 2] {
         let Extent { length, rate, acceleration } = self.extent;
-        let of = |g: f64, h: f64| {
-            core::array::from_fn(|a| {
-                core::array::from_fn(|b| {
-                    self.entry(&G, g * self.inertia, a, b) + self.entry(&H, h * self.inertia / length, a, b)
-                })
-            })
-        };
-        [of(2.0 * rate, 0.0), of(acceleration, rate * rate)]
+        [self.weighted([(2.0 * rate, &G)]), self.weighted([(acceleration, &G), (rate * rate / length, &H)])]
     }
 
     /// Adds `scale` times the force `-(2 l' G v + (l'' G + l'^2 H) q)` of the flow on the element's 12 coordinates.
     pub fn add_force(&self, scale: f64, q: &[f64; 12], v: &[f64; 12], out: &mut [f64; 12]) {
         let [by_velocity, by_position] = self.matrices();
-        for a in 0..4 {
-            for b in 0..4 {
-                for x in 0..3 {
-                    out[3 * a + x] -= scale * (by_velocity[a][b] * v[3 * b + x] + by_position[a][b] * q[3 * b + x]);
-                }
-            }
-        }
+        add_product(&by_velocity, -scale, v, out);
+        add_product(&by_position, -scale, q, out);
     }
 
     /// Adds the momentum `l' G q`.
@@ -112,55 +132,73 @@ impl FlowElement {
 
     /// Returns `l' G`.
     pub fn momentum_matrix(&self) -> Table {
-        let factor = self.extent.rate * self.inertia;
-        core::array::from_fn(|a| core::array::from_fn(|b| self.entry(&G, factor, a, b)))
+        self.weighted([(self.extent.rate, &G)])
     }
 
     /// Returns `l' G^T` and `l'^2 K`, which give the derivative of the kinetic energy by the coordinates.
     pub fn gradient_matrices(&self) -> [Table; 2] {
         let Extent { length, rate, .. } = self.extent;
-        let of = |entry: &dyn Fn(usize, usize) -> f64| core::array::from_fn(|a| core::array::from_fn(|b| entry(a, b)));
-        [
-            of(&|a, b| self.entry(&G, rate * self.inertia, b, a)),
-            of(&|a, b| self.entry(&K, rate * rate * self.inertia / length, a, b)),
-        ]
+        [self.weighted([(rate, &G_T)]), self.weighted([(rate * rate / length, &K)])]
     }
 
     /// Returns the kinetic energy beyond that of the mass matrix, `l' v.G q + 1/2 l'^2 q.K q`, in J.
     pub fn kinetic_energy(&self, q: &[f64; 12], v: &[f64; 12]) -> f64 {
-        let Extent { length, rate, .. } = self.extent;
-        self.product(&G, rate * self.inertia, v, q) + 0.5 * self.product(&K, rate * rate * self.inertia / length, q, q)
+        let [_, square] = self.gradient_matrices();
+        let mut force = [0.0; 12];
+        add_product(&square, 0.5, q, &mut force);
+        add_product(&self.weighted([(self.extent.rate, &G_T)]), 1.0, v, &mut force);
+        dot(q, &force)
     }
 
     /// Returns B without the strain energy, in N: inertia and weight, with accelerations `a` of the coordinates.
     pub fn length_force(&self, [q, v, a]: [&[f64; 12]; 3], weight: &[f64; 3]) -> f64 {
         let Extent { length, rate, acceleration } = self.extent;
-        let rho = self.inertia;
-        let mut sum = self.product(&G, rho, a, q)
-            + self.product(&K, 2.0 * rate * rho / length, q, v)
-            + self.product(&K, acceleration * rho / length, q, q)
-            + self.product(&J, rate * rate * rho / (length * length), q, q);
-        for b in 0..4 {
-            let d = if b % 2 == 1 { length } else { 1.0 };
-            for x in 0..3 {
-                sum -= W[b] / 420.0 * d * q[3 * b + x] * weight[x];
-            }
+        let square = [(acceleration / length, &K), (rate * rate / (length * length), &J)];
+        let mut force = [0.0; 12];
+        add_product(&self.weighted([(1.0, &G_T)]), 1.0, a, &mut force);
+        if rate != 0.0 || acceleration != 0.0 {
+            add_product(&self.weighted([(2.0 * rate / length, &K)]), 1.0, v, &mut force);
+            add_product(&self.weighted(square), 1.0, q, &mut force);
         }
-        sum
+        self.add_weight(-1.0, weight, &mut force);
+        dot(q, &force)
     }
 
-    fn product(&self, table: &Table, factor: f64, x: &[f64; 12], y: &[f64; 12]) -> f64 {
-        let mut sum = 0.0;
-        for a in 0..4 {
-            for b in 0..4 {
-                let entry = self.entry(table, factor, a, b);
-                for i in 0..3 {
-                    sum += entry * x[3 * a + i] * y[3 * b + i];
-                }
+    /// Returns the derivatives of the [force on the length](Self::length_force) by coordinates, velocities and accelerations.
+    pub fn length_force_gradient(&self, [q, v, a]: [&[f64; 12]; 3], weight: &[f64; 3]) -> [[f64; 12]; 3] {
+        let Extent { length, rate, acceleration } = self.extent;
+        let of_rate = self.weighted([(2.0 * rate / length, &K)]);
+        let square = [(2.0 * acceleration / length, &K), (rate * rate / (length * length), &J_SUM)];
+        let mut out = [[0.0; 12]; 3];
+        add_product(&self.weighted([(1.0, &G_T)]), 1.0, a, &mut out[0]);
+        add_product(&of_rate, 1.0, v, &mut out[0]);
+        add_product(&self.weighted(square), 1.0, q, &mut out[0]);
+        self.add_weight(-1.0, weight, &mut out[0]);
+        add_product(&of_rate, 1.0, q, &mut out[1]);
+        add_product(&self.weighted([(1.0, &G)]), 1.0, q, &mut out[2]);
+        out
+    }
+
+    /// Adds `scale` times `w^ D` times a force per length to 12 numbers.
+    fn add_weight(&self, scale: f64, weight: &[f64; 3], out: &mut [f64; 12]) {
+        for b in 0..4 {
+            let d = if b % 2 == 1 { self.extent.length } else { 1.0 };
+            for x in 0..3 {
+                out[3 * b + x] += scale * W[b] / 420.0 * d * weight[x];
             }
         }
-        sum
     }
+}
+
+/// Returns the product of 12 numbers.
+pub(crate) fn dot(x: &[f64; 12], y: &[f64; 12]) -> f64 {
+    let mut sums = [0.0; 3];
+    for b in 0..4 {
+        for i in 0..3 {
+            sums[i] += x[3 * b + i] * y[3 * b + i];
+        }
+    }
+    sums[0] + sums[1] + sums[2]
 }
 
 /// Adds `scale` times the product of a table and 12 coordinates.
@@ -256,6 +294,19 @@ mod tests {
         let own: f64 = (0..12).map(|i| 0.5 * v[i] * product(&v, i)).sum();
         assert_relative_eq!(own + element.kinetic_energy(&q, &v), kinetic, epsilon = 1e-9);
         assert_relative_eq!(element.length_force([&q, &v, &a], &weight), on_length, epsilon = 1e-6);
+        // the force on the length is a polynomial of the second degree: central differences are exact
+        let gradient = element.length_force_gradient([&q, &v, &a], &weight);
+        for (k, gradient) in gradient.iter().enumerate() {
+            for i in 0..12 {
+                let at = |sign: f64| {
+                    let mut moved = state;
+                    moved[k][i] += 0.5 * sign;
+                    let [q, v, a] = &moved;
+                    element.length_force([q, v, a], &weight)
+                };
+                assert_relative_eq!(gradient[i], at(1.0) - at(-1.0), epsilon = 1e-12);
+            }
+        }
     }
 
     /// w is the derivative of S(y; l) e by l at a fixed particle, and dw/dy that along the cable; w = -t at the eye.

@@ -47,7 +47,7 @@ impl Side {
     /// Returns the vectors of the element at this end from those of a cable, as seen from its far node.
     pub fn gather(self, x: &[f64]) -> [f64; 12] {
         match self {
-            Side::End => core::array::from_fn(|i| x[x.len() - 12 + i]),
+            Side::End => *x.last_chunk().expect("twelve coordinates"),
             Side::Start => core::array::from_fn(|i| {
                 let (k, sign) = MIRROR[i / 3];
                 sign * x[3 * k + i % 3]

@@ -56,26 +56,25 @@ impl Loads {
 
     /// Sets weight and line load of element `e` to those of its length in m, with the weight of stock of a length in m at each end.
     pub fn weigh_element(&mut self, model: &Model, e: usize, length: impl Fn(usize) -> f64, at_ends: [f64; 2]) {
-        let own = 6 * e..6 * e + 12;
-        let of_line = model.line_force();
+        let (own, last) = (6 * e..6 * e + 12, model.elements.len());
         let loaded = !self.of_effects.line_loads.is_empty();
+        let of_line = if loaded { model.line_force() } else { Vector3::zeros() };
         self.gravity_force[own.clone()].fill(0.0);
         if loaded {
             self.of_effects.line_loads[own.clone()].fill(0.0);
         }
-        // of the neighbours, the shares of its own nodes
-        for i in e.saturating_sub(1)..(e + 2).min(model.elements.len()) {
-            let weight = model.weight(&model.elements[i]);
-            for (k, share) in mass::load_weights(length(i)).iter().enumerate() {
-                for at in (6 * i + 3 * k..6 * i + 3 * k + 3).filter(|at| own.contains(at)) {
-                    self.gravity_force[at] += share * weight[at % 3];
+        for node in [e, e + 1] {
+            // the element before the node, and the one behind it
+            for (i, k) in [(node.wrapping_sub(1), 2), (node, 0)].into_iter().filter(|(i, _)| *i < last) {
+                let (weight, shares) = (model.weight(&model.elements[i]), mass::load_weights(length(i)));
+                for at in 0..6 {
+                    self.gravity_force[6 * node + at] += shares[k + at / 3] * weight[at % 3];
                     if loaded {
-                        self.of_effects.line_loads[at] += share * of_line[at % 3];
+                        self.of_effects.line_loads[6 * node + at] += shares[k + at / 3] * of_line[at % 3];
                     }
                 }
             }
         }
-        let last = model.elements.len();
         for (node, stock) in
             [(0, at_ends[0]), (last, at_ends[1])].into_iter().filter(|(node, _)| (e..=e + 1).contains(node))
         {

@@ -107,6 +107,8 @@ pub(crate) struct Scales {
     pub mass: f64,
     /// Smallest `L l rhoA/EA` in s^2: an acceleration k strains an element by this times k/l.
     pub stiff_time_squared: f64,
+    /// Of all elements but the first and the last, whose lengths reels change: mass in kg, length in m, smallest `l rhoA/EA` in s^2/m.
+    inner: [f64; 3],
 }
 
 impl System {
@@ -155,6 +157,13 @@ impl Buffers {
     }
 }
 
+/// Adds an element to the sums of [`Scales::inner`].
+fn add_element(model: &Model, [mass, length, stiff]: [f64; 3], e: usize) -> [f64; 3] {
+    let element = &model.elements[e];
+    let own = model.inertia(element) * element.length;
+    [mass + own, length + element.length, stiff.min(own / element.section.axial_stiffness)]
+}
+
 impl Scales {
     fn new(model: &Model) -> Self {
         let mut scales = Scales {
@@ -163,26 +172,36 @@ impl Scales {
             mass: 0.0,
             frequency_bound: frequency::bound(model),
             stiff_time_squared: 0.0,
+            inner: [0.0, 0.0, f64::INFINITY],
         };
-        scales.measure(model);
+        scales.slope_lever.resize(model.nodes(), 0.0);
+        let last = model.elements.len() - 1;
+        for (e, element) in model.elements.iter().enumerate() {
+            for node in [e, e + 1] {
+                scales.slope_lever[node] = scales.slope_lever[node].max(element.length / 8.0);
+            }
+            if e > 0 && e < last {
+                scales.inner = add_element(model, scales.inner, e);
+            }
+        }
+        scales.measure_ends(model);
         scales
     }
 
-    /// Sets all but the bound of the frequencies to the present lengths of the elements: reels change them between two meshes.
-    pub fn measure(&mut self, model: &Model) {
-        self.slope_lever.clear();
-        self.slope_lever.resize(model.nodes(), 0.0);
-        for (e, element) in model.elements.iter().enumerate() {
-            for node in [e, e + 1] {
-                self.slope_lever[node] = self.slope_lever[node].max(element.length / 8.0);
-            }
+    /// Sets all but the bound of the frequencies to the present lengths of the first and the last element, which reels change.
+    pub fn measure_ends(&mut self, model: &Model) {
+        let last = model.elements.len() - 1;
+        let lever = |e: usize| model.elements[e].length / 8.0;
+        for node in [0, 1, last, last + 1] {
+            self.slope_lever[node] = lever(node.saturating_sub(1)).max(lever(node.min(last)));
         }
-        let length = model.length();
-        self.stiff_time_squared = model.elements.iter().fold(f64::INFINITY, |least, e| {
-            least.min(length * e.length * model.inertia(e) / e.section.axial_stiffness)
-        });
-        self.mass = model.elements.iter().map(|e| model.inertia(e) * e.length).sum();
-        self.weight_energy = self.mass * STANDARD_GRAVITY.norm() * 1e-3;
+        let mut sums = add_element(model, self.inner, 0);
+        if last > 0 {
+            sums = add_element(model, sums, last);
+        }
+        let [mass, length, stiff] = sums;
+        (self.mass, self.stiff_time_squared) = (mass, length * stiff);
+        self.weight_energy = mass * STANDARD_GRAVITY.norm() * 1e-3;
     }
 
     /// Returns the largest component of a nodal vector as a displacement in m (of r, and of t over l/8), and the largest |t|.

@@ -138,6 +138,7 @@ fn two_hundred_splits_and_merges_in_long_host_steps() {
         Integrator::tolerance(Method::Esdirk4, 1e-4).unwrap(),
         Integrator::tolerance(Method::TrBdf2, 1e-4).unwrap(),
         fine(Method::Midpoint),
+        fine(Method::GeneralisedAlpha { rho: 0.6 }),
         fine(Method::DiscreteGradient),
     ] {
         let mut cable = Cable::builder()

@@ -92,8 +92,10 @@ fn a_free_spool_follows_its_equation() {
         (Feed::Coil, 1.0, 0.4, 0.0, 1.0 / 240.0),
         (Feed::Coil, 0.3, 0.8, 2.0, 1.0 / 960.0),
         (Feed::Coil, 0.0, 0.4, 0.0, 1.0 / 480.0),
+        (Feed::Coil, 0.5, 1.5, 1.0, 1.0 / 480.0),
         (Feed::Bag, 1.0, 0.4, 0.0, 1.0 / 240.0),
         (Feed::Bag, 3.0, 0.2, 11.0, 1.0 / 480.0),
+        (Feed::Bag, 0.5, 0.9, 0.0, 1.0 / 240.0),
     ] {
         let (stock, inertia) = (8.0, if feed == Feed::Drum { 0.6 } else { 0.0 });
         let reel = Reel { feed, stock: Some(stock), inertia, acceleration: 1e4, ..Reel::brake(brake) };
@@ -306,4 +308,38 @@ fn a_snapshot_inside_a_slip_continues_bitwise() {
     let bits = |x: &[f64]| x.iter().map(|x| x.to_bits()).collect::<Vec<_>>();
     assert_eq!(bits(cable.positions()), bits(&q));
     assert_eq!(cable.reel(At::End), reel);
+}
+
+/// A reel evaluates no element of its cable once more: an iteration has one evaluation with and one without tangent, one factorisation, and one
+/// solution, and a second one where a motor may slip.
+///
+/// *Source.* Counters, beside those of the cable without a reel.
+#[test]
+fn a_reel_adds_no_evaluation_of_its_cable() {
+    for (name, reel, most_solutions) in [
+        ("none", None, 1),
+        ("standing", Some(Reel::default()), 1),
+        ("turning", Some(Reel::with_rate(0.3)), 1),
+        ("clutch", Some(Reel { max_force: Some(40.0), ..Reel::with_rate(0.3) }), 2),
+        ("slipping", Some(Reel { max_force: Some(4.0), ..Reel::with_rate(0.3) }), 2),
+    ] {
+        let mut cable = rope(1.5, 8, GAME);
+        reel.into_iter().for_each(|reel| cable.add_reel(At::End, reel).unwrap());
+        cable.step(1.0 / 240.0).unwrap();
+        cable.diagnostics_mut().reset();
+        let (mut evaluations, mut before) = ([0; 2], 0);
+        for _ in 0..60 {
+            let elements = cable.elements().len() as u64;
+            cable.step(1.0 / 240.0).unwrap();
+            let iterations = cable.diagnostics().newton_iterations;
+            evaluations[0] += elements * (iterations - before);
+            before = iterations;
+        }
+        let d = cable.diagnostics();
+        evaluations[1] = d.newton_iterations * most_solutions;
+        println!("{name}: {} iterations, {} factorisations, {} solutions", before, d.factorisations, d.solves);
+        assert_eq!(d.force_evaluations, evaluations[0], "{name}");
+        assert!(d.tangent_evaluations <= evaluations[0] && d.factorisations <= d.newton_iterations, "{name}");
+        assert!(d.solves <= evaluations[1], "{name}: {} solutions", d.solves);
+    }
 }

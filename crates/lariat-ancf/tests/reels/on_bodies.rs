@@ -12,6 +12,8 @@ struct Tow {
     bodies: Vec<RigidBody>,
     pins: Vec<PinConstraint>,
     island: Island,
+    /// By how much splits and merges changed the angular momentum, in kg m^2/s.
+    turned: f64,
 }
 
 impl Tow {
@@ -39,11 +41,13 @@ impl Tow {
             let node = if x == 0.0 { 0 } else { cable.nodes() - 1 };
             pins.push(PinConstraint { cable: 0, node, body: i, anchor, direction: None });
         }
-        Tow { cable, bodies, pins, island: Island::default() }
+        Tow { cable, bodies, pins, island: Island::default(), turned: 0.0 }
     }
 
     fn step(&mut self, dt: f64) {
+        let [_, before] = self.momentum();
         self.cable.remesh_reel().unwrap();
+        self.turned += (self.momentum()[1] - before).norm();
         for pin in &mut self.pins {
             pin.node = if pin.node == 0 { 0 } else { self.cable.nodes() - 1 };
         }
@@ -74,14 +78,15 @@ impl Tow {
 }
 
 /// A winch on a free body draws in and pays out a cable with a tumbling load, in space, off the centres of mass, over splits and merges, as
-/// strong as it must be or against a clutch: the momentum of cable, stock and bodies stays to 1e-8, the angular momentum to what merging
-/// changes, and the account of energy closes to the second order of the step.
+/// strong as it must be or against a clutch: the momentum of cable, stock and bodies stays to 1e-8. Splits and merges keep the angular momentum to
+/// rounding; steps keep it, as those of a reel that stands do, to the second order of the step. The account of energy closes to that
+/// order.
 ///
 /// *Source.* Conservation of momentum, angular momentum and energy.
 #[test]
 fn a_winch_on_a_free_body_keeps_momentum_and_energy() {
     for (at, density, max_force) in [(At::End, 0.4, None), (At::Start, 1.5, None), (At::End, 0.4, Some(3.0))] {
-        let mut missing = Vec::new();
+        let (mut missing, mut turned) = (Vec::new(), Vec::new());
         for dt in [1.0 / 240.0, 1.0 / 480.0, 1.0 / 960.0] {
             let reel = Reel { stock: Some(5.0), acceleration: 4.0, max_force, inertia: 0.3, ..Reel::default() };
             let mut tow = Tow::new(at, [1e4, density], [3.0, 7.0], 0.2, reel);
@@ -103,13 +108,19 @@ fn a_winch_on_a_free_body_keeps_momentum_and_energy() {
             let reel = tow.cable.reel(at).unwrap();
             println!("{at:?} {density} kg/m at 1/{:.0} s: {worst:?}, of {moved:.2} J, {reel:?}", 1.0 / dt);
             assert!(reel.splits > 1 && (reel.merges > 1 || max_force.is_some()), "{reel:?}");
-            assert!(worst[0] < 1e-8 && worst[1] < 5e-3, "{worst:?}");
+            assert!(worst[0] < 1e-8 && tow.turned < 1e-12, "{worst:?} {:e}", tow.turned);
             missing.push(worst[2] / moved);
+            turned.push(worst[1]);
         }
         println!("{missing:?}");
-        assert!(missing[0] < 0.02 && missing[2] < 2e-3, "{missing:?}");
+        assert!(
+            missing[0] < 1e-3 && missing[2] < 1e-4 && turned[0] < 2e-3 && turned[2] < 2e-4,
+            "{missing:?} {turned:?}"
+        );
         if max_force.is_none() {
-            assert!(missing[0] > 3.0 * missing[1] && missing[1] > 3.0 * missing[2], "{missing:?}");
+            // but for what the bodies take of a merge
+            assert!(missing[0] > 9.0 * missing[2] || missing[2] < 3e-6, "{missing:?}");
+            assert!(turned[0] > 9.0 * turned[2], "{turned:?}");
         }
     }
 }

@@ -46,6 +46,8 @@ impl Cable {
         head.loads.retain(|load| load.arc_length <= s);
         tail.loads.retain(|load| load.arc_length > s);
         tail.loads.iter_mut().for_each(|load| load.arc_length = (load.arc_length - s).min(length - s));
+        // noted anew by the parts
+        [&mut head, &mut tail].into_iter().for_each(|part| part.load_origins.clear());
         [head.effects, tail.effects] = self.model.effects.cut(Cut { node, elements: &self.model.elements });
         [head.reels, tail.reels] = self.model.reels.cut(self.number(node));
         tail.force_densities = self.model.force_densities.behind(s);

@@ -4,7 +4,7 @@
 //!
 //! Only the element at the eye, the last one of that end, is of changing material ([`element::flow`](crate::element)): its length l is a
 //! function of time, given by the rate of the reel. All others are made of the same particles for ever, so supports and loads keep
-//! their material (those at a reel at the start to rounding, also from a snapshot). Arc lengths count from the first node as it is: those of all material grow with what a reel at the start pays out.
+//! their material. Arc lengths count from the first node as it is: those of all material grow with what a reel at the start pays out.
 //! [`remesh`] keeps l near the length of the elements, and [`plan`] chooses the rate.
 //!
 //! # Validity
@@ -40,6 +40,9 @@ use crate::error::Error;
 use crate::model::Model;
 use crate::system::Source;
 
+/// Share of the length of an element within which a load is at its node.
+const NEAR: f64 = 1e-9;
+
 impl Snapshot {
     /// Returns the number of nodes that the state must have: its own with a reel, else that of the cable.
     pub(super) fn nodes_with_reel(&self, reel: bool, nodes: usize) -> usize {
@@ -53,7 +56,7 @@ impl Snapshot {
     }
 
     /// Returns the length in m that came through the eye at the start, on balance.
-    fn passed_at_start(&self) -> f64 {
+    pub(super) fn passed_at_start(&self) -> f64 {
         self.windings[Side::Start as usize].map_or(0.0, |winding| winding.passed)
     }
 }
@@ -65,7 +68,7 @@ impl Cable {
     /// # Errors
     /// [`Error::InvalidValue`] for numbers out of range, [`Error::ReelPlace`] for another place than an end, for a second reel there, or
     /// for two reels on one element, [`Error::ExplicitReel`] for an explicit integrator, [`Error::ReelMethod`] for a largest force under
-    /// another integrator than the discrete gradient, [`Error::NotWithReel`] for effects that the
+    /// another integrator than the discrete gradient, [`Error::NotWithReel`] for effects and point loads that the
     /// flowing element does not carry. The cable is then as before.
     pub fn add_reel(&mut self, at: impl Into<At>, reel: Reel) -> Result<(), Error> {
         reel.check().map_err(|e| e.of_cable(self.name()))?;
@@ -81,7 +84,7 @@ impl Cable {
         let length = self.length();
         model.effects.line_loads.iter_mut().for_each(|loads| loads.extend(length));
         model.reels.add(side, reel, self.elements(), self.number(self.elements().len() - 1));
-        model.check_effects().map_err(|e| e.of_cable(self.name()))?;
+        model.check_effects().and_then(|()| model.check_loads_at_eyes()).map_err(|e| e.of_cable(self.name()))?;
         super::check_integrator(&model, &self.integrator().method)?;
         let length = self.elements()[side.element(self.elements().len())].length;
         self.rebuild(model)?;
@@ -148,10 +151,10 @@ impl Cable {
 
     /// Sets the equations to the present state of the reels.
     pub(crate) fn sync_reel(&mut self) {
-        if self.has_reel() {
-            self.system.scales.measure(&self.model);
+        if !self.has_reel() {
+            return;
         }
-        let length = self.model.length();
+        self.system.scales.measure_ends(&self.model);
         let forgotten = self.snapshot.state.memory.differences.is_empty();
         for flow in &mut self.system.flows.list {
             let Some(winding) = &self.snapshot.windings[flow.side as usize] else { continue };
@@ -162,7 +165,7 @@ impl Cable {
             let stock = self.model.reels.get(flow.side).and_then(|reel| reel.stock).filter(|_| winding.rides);
             // what came from the other end is none of this reel
             let passed = self.snapshot.windings[1 - flow.side as usize].map_or(0.0, |other| other.passed);
-            let both = stock.map(|stock| (stock + passed - length).max(0.0) + flow.extent.length);
+            let both = stock.map(|stock| (stock + passed - self.model.length()).max(0.0) + flow.extent.length);
             let over_sheave = self.model.reels.get(flow.side).is_some_and(|reel| reel.feed == Feed::Sheave);
             flow.source = if over_sheave { Source::Cable } else { both.map_or(Source::Outside, Source::Stock) };
         }
@@ -182,12 +185,12 @@ impl Cable {
                 model.elements[side.element(nodes - 1)].length = winding.extent[0];
             }
         }
-        let later = snapshot.passed_at_start() - self.snapshot.passed_at_start();
-        if model.elements == self.model.elements && later == 0.0 {
+        let passed = snapshot.passed_at_start();
+        if model.elements == self.model.elements && passed == self.snapshot.passed_at_start() {
             return Ok(());
         }
         model.renumber(self.nodes(), from_start - self.nodes_from_start());
-        model.move_loads(later);
+        model.move_loads(passed);
         self.rebuild(model)
     }
 }
@@ -205,10 +208,38 @@ impl Model {
         }
     }
 
-    /// Moves the loads with their material, which is this much in m further from the start.
-    pub(super) fn move_loads(&mut self, later: f64) {
+    /// Puts the loads where their material is after a length in m came through the eye at the start: whatever the way to it, to the last bit.
+    pub(super) fn move_loads(&mut self, passed: f64) {
         let length = self.length();
-        self.loads.iter_mut().for_each(|load| load.arc_length = (load.arc_length + later).clamp(0.0, length));
+        for (load, origin) in self.loads.iter_mut().zip(&self.load_origins) {
+            load.arc_length = (origin + passed).clamp(0.0, length);
+        }
+    }
+
+    /// Notes which material the loads are on, when so much in m has come through the eye at the start.
+    pub(super) fn note_load_origins(&mut self, passed: f64) {
+        self.load_origins.clear();
+        self.load_origins.extend(self.loads.iter().map(|load| load.arc_length - passed));
+    }
+
+    /// Returns the distances in m of the point loads from the end at a side.
+    pub(super) fn loads_from(&self, side: Side) -> impl Iterator<Item = f64> {
+        let length = if self.loads.is_empty() { 0.0 } else { self.length() };
+        self.loads.iter().map(move |load| if side == Side::End { length - load.arc_length } else { load.arc_length })
+    }
+
+    /// Refuses point loads on elements at eyes: their force on its length is not there.
+    pub(crate) fn check_loads_at_eyes(&self) -> Result<(), Error> {
+        for side in self.reels.sides() {
+            let length = self.elements[side.element(self.elements.len())].length;
+            if self.loads_from(side).any(|distance| distance < length - NEAR * length) {
+                return Err(Error::NotWithReel {
+                    cable: self.name.clone(),
+                    what: "a point load on the element at the eye",
+                });
+            }
+        }
+        Ok(())
     }
 
     /// Refuses effects that the element at the eye of a reel does not carry.

@@ -4,7 +4,7 @@
 //!
 //! The rate is linear within a step of length h; its bounds are those of [`rates`].
 
-use super::{Feed, Reel, Winding};
+use super::{Feed, NEAR, Reel, Winding};
 use crate::cable::Cable;
 use crate::element::side::Side;
 use crate::system::{Law, Motor, STOP, rates};
@@ -22,9 +22,9 @@ pub(super) struct Plan {
 }
 
 impl Cable {
-    /// Returns the length in m that the reel of an end can take in: up to the next held node, load or element at another eye, less the
-    /// least element.
-    fn left(&self, side: Side) -> f64 {
+    /// Returns the length in m that the reel of an end can take in: up to the next held node, element with a load or of another section, or at another eye, less the
+    /// least element; or a length that is more than `enough` (m) and less than that.
+    fn left(&self, side: Side, enough: f64) -> f64 {
         let (model, count) = (&self.model, self.elements().len());
         let element = |k: usize| if side == Side::End { count - 1 - k } else { k };
         let two = model.reels.sides().count() > 1;
@@ -33,21 +33,38 @@ impl Cable {
             last = element(k);
             left += model.elements[last].length;
             let far = if side == Side::End { last } else { last + 1 };
-            if model.support(far).is_some() || two && k + 2 == count {
+            let least = LEAST * model.reels.element(self.number(last)).length;
+            let held = model.support(far).is_some() || self.keeps_node_behind(side, left, k);
+            if left - least > enough || held || two && k + 2 == count {
                 break;
             }
         }
-        let length = self.length();
-        let from_eye = |s: f64| if side == Side::End { length - s } else { s };
-        let load = model.loads.iter().map(|load| from_eye(load.arc_length)).fold(left, f64::min);
-        load - LEAST * model.reels.element(self.number(last)).length
+        left - LEAST * model.reels.element(self.number(last)).length
+    }
+
+    /// Returns whether the far node of element number `k` from the eye, `from_eye` m from there, has to stay: because the next element is of
+    /// another section, or has a point load on it, but at its own far node.
+    pub(super) fn keeps_node_behind(&self, side: Side, from_eye: f64, k: usize) -> bool {
+        let count = self.elements().len();
+        if k + 1 >= count {
+            return false;
+        }
+        let [own, next] = [k, k + 1].map(|k| &self.elements()[if side == Side::End { count - 1 - k } else { k }]);
+        let loaded = |distance: f64| distance < from_eye + next.length * (1.0 - NEAR);
+        own.section != next.section || self.model.loads_from(side).any(loaded)
     }
 
     /// Returns the rate of a reel for a step of length `h` (s).
     pub(super) fn plan(&self, side: Side, reel: &Reel, winding: &Winding, h: f64) -> Plan {
-        let rate = winding.extent[1];
-        let left = [self.left(side), self.left_of_stock(reel)];
-        let [lowest, wanted, highest] = rates(reel.asked(self.time()), reel.acceleration, rate, left, h);
+        let (rate, asked, a) = (winding.extent[1], reel.asked(self.time()), reel.acceleration);
+        if rate == 0.0 && asked == 0.0 {
+            return Plan { acceleration: 0.0, stopped: false };
+        }
+        // the way to brake from r in steps is at most r^2/2a + a h^2/8, and h r passes before
+        let r = rate.abs().max(asked.abs());
+        let enough = r * (0.5 * r / a + h) + a * h * h;
+        let left = [self.left(side, enough), self.left_of_stock(reel)];
+        let [lowest, wanted, highest] = rates(asked, a, rate, left, h);
         let end = wanted.clamp(lowest, highest);
         Plan { acceleration: (end - rate) / h, stopped: end != wanted }
     }
@@ -67,7 +84,7 @@ impl Cable {
             wheel: if reel.feed == Feed::Sheave { 0.0 } else { reel.inertia },
             asked: reel.asked(self.time()),
             acceleration: if in_island { STOP } else { reel.acceleration },
-            bounds: [length - self.left(side), length + self.left_of_stock(reel)],
+            bounds: [length - self.left(side, f64::INFINITY), length + self.left_of_stock(reel)],
         }))
     }
 }

@@ -13,14 +13,16 @@
 //! ```
 //!
 //! which is a projection in the norm of the mass: momentum stays but for the impulse on supports, and kinetic energy falls but for the
-//! product of `v_old - v_new` with l' w_new, of the order of the waves that the mesh does not resolve. Where the energy is then more than
+//! product of `v_old - v_new` with l' w_new, of the order of the waves that the mesh does not resolve. The shape has changed and with it
+//! `int rho r x v`: a cable that no support holds takes that up by a rigid rotation about its centre of mass. Where the energy is then more than
 //! before, nodes [move](super::settle). The change of the whole energy is on the account [`remeshed`](super::ReelReading::remeshed).
 //!
-//! At the start of a cable the same is done to the reversed one.
+//! The discrete gradient remembers the last step: a node that a split makes has the changes of its particle, and the others keep theirs, so that no
+//! force jumps; where that would hold more energy than before, less is remembered. At the start of a cable the same is done to the reversed one.
 //!
 //! # Validity
 //!
-//! A node that is held, or between elements of different sections, is not merged away: the reel stops before it.
+//! A node that is held, or before an element with a point load or of another section, is not merged away: the reel stops before it.
 //!
 //! # Alternatives considered
 //!
@@ -34,6 +36,7 @@ use crate::element::flow::flow_weights;
 use crate::element::shape;
 use crate::element::side::Side;
 use crate::error::Error;
+use crate::integrate::discrete_gradient::Differences;
 use crate::quadrature::gauss_legendre;
 use crate::section::Element;
 use crate::system::project_vector;
@@ -58,6 +61,19 @@ struct Turned {
     full: Element,
     next: Element,
     rate: f64,
+    /// Changes of `q` and `v` over the last step of the discrete gradient, and at its beginning length in m and rate in m/s of the element at
+    /// the eye.
+    changes: Option<[Vec<f64>; 2]>,
+    length_before: f64,
+    rate_before: f64,
+}
+
+impl Turned {
+    /// Returns the vectors over all nodes.
+    fn vectors(&mut self) -> impl Iterator<Item = &mut Vec<f64>> {
+        let Turned { q, v, changes, .. } = self;
+        [q, v].into_iter().chain(changes.iter_mut().flatten())
+    }
 }
 
 impl Cable {
@@ -81,9 +97,9 @@ impl Cable {
             let inner = if side == Side::End { e.checked_sub(1) } else { Some(e + 1).filter(|&e| e < count) };
             let full_before = inner.map_or(0.0, |e| reels.element(self.number(e)).length);
             let held = self.model.support(side.nodes(count + 1)[0]).is_some();
-            // the other element may be at an eye, too
-            let can_merge = !held && count > reels.sides().count();
             let length = self.elements()[e].length;
+            // the other element may be at an eye, too
+            let can_merge = !held && !self.keeps_node_behind(side, length, 0) && count > reels.sides().count();
             let splits = length > MOST * full.length;
             let merges = can_merge && length < LEAST * full.length.min(full_before);
             if !splits && !merges {
@@ -91,6 +107,7 @@ impl Cable {
             }
             let energy = self.energy().total();
             let most = energy + self.energy_to_add(side, full.length);
+            let (differences, store) = (&self.snapshot.state.memory.differences, self.energy_in_store());
             let mut turned = Turned {
                 side,
                 q: self.positions().to_vec(),
@@ -100,14 +117,19 @@ impl Cable {
                 full,
                 next: reels.element(self.number(e) + if side == Side::End { 1 } else { -1 }),
                 rate: winding.extent[1],
+                changes: (!differences.is_empty())
+                    .then(|| [&differences.displacement, &differences.velocity].map(Vec::clone)),
+                length_before: winding.length_before,
+                rate_before: winding.extent[1] - winding.extent[2] * differences.step,
             };
-            [&mut turned.q, &mut turned.v].into_iter().for_each(|x| side.turn(x));
+            turned.vectors().for_each(|x| side.turn(x));
             if splits {
                 self.split(turned)?;
             } else {
                 self.merge(turned)?;
             }
             self.settle(most, self.longest_wave().max(full.length / winding.extent[1].abs().max(LEAST_RATE)))?;
+            self.bound_store(store);
             let change = self.energy().total() - energy;
             if let Some(winding) = &mut self.snapshot.windings[side as usize] {
                 winding.remeshed += change;
@@ -117,9 +139,11 @@ impl Cable {
     }
 
     /// Replaces the last `removed` elements before the eye by `elements`, ordered towards it, with the turned state that goes with them.
-    fn replace_elements(&mut self, turned: Turned, removed: usize, elements: &[Element]) -> Result<(), Error> {
-        let Turned { side, mut q, mut v, .. } = turned;
+    fn replace_elements(&mut self, mut turned: Turned, removed: usize, elements: &[Element]) -> Result<(), Error> {
         let (before, added) = (self.nodes(), elements.len() as i64 - removed as i64);
+        let side = turned.side;
+        turned.vectors().for_each(|x| side.turn(x));
+        let Turned { q, v, changes, .. } = turned;
         let mut model = self.model.clone();
         let inner = model.elements.len() - removed;
         match side {
@@ -127,37 +151,74 @@ impl Cable {
             Side::Start => drop(model.elements.splice(..removed, elements.iter().rev().copied())),
         }
         model.renumber(before, if side == Side::Start { added } else { 0 });
-        [&mut q, &mut v].into_iter().for_each(|x| side.turn(x));
         self.rebuild(model)?;
         (self.snapshot.state.q, self.snapshot.state.v) = (q, v);
         let memory = &mut self.snapshot.state.memory;
         memory.acceleration.clear();
         memory.algorithmic.clear();
-        let step = memory.step;
+        let (step, differences) = (memory.step, core::mem::take(&mut memory.differences));
         self.disturb();
+        let memory = &mut self.snapshot.state.memory;
         // the length of steps is still a good proposal
-        self.snapshot.state.memory.step = step;
+        memory.step = step;
+        if let Some([displacement, velocity]) = changes {
+            memory.differences = Differences { displacement, velocity, ..differences };
+        }
         if let Some(winding) = &mut self.snapshot.windings[side as usize] {
+            winding.length_before += elements[elements.len() - 1].length - winding.extent[0];
             winding.extent[0] = elements[elements.len() - 1].length;
-            winding.length_before = winding.extent[0];
             if added > 0 { winding.splits += 1 } else { winding.merges += 1 }
         }
         self.sync_reel();
         Ok(())
     }
 
+    /// Makes the memory of the discrete gradient hold no more than an energy in J; what it holds less is dissipated.
+    fn bound_store(&mut self, most: f64) {
+        let held = self.energy_in_store();
+        let differences = &mut self.snapshot.state.memory.differences;
+        if held > most {
+            let share = (most / held).sqrt();
+            let Differences { velocity, displacement, .. } = differences;
+            velocity.iter_mut().chain(displacement).for_each(|x| *x *= share);
+            if self.energy_in_store() > most {
+                // what flows does not scale
+                self.snapshot.state.memory.differences.clear();
+                self.sync_reel();
+            }
+        }
+        self.snapshot.law.numerical += most - self.energy_in_store();
+    }
+
     fn split(&mut self, mut turned: Turned) -> Result<(), Error> {
-        let Turned { q, v, at_eye: Element { length, .. }, full, next, rate, .. } = &mut turned;
-        let (length, full, next, rate) = (*length, *full, *next, *rate);
+        let Turned { at_eye: Element { length, .. }, full, next, rate, length_before, rate_before, .. } = turned;
+        let Turned { q, v, changes, .. } = &mut turned;
         let e = q.len() / 6 - 2;
-        let xi = full.length / length;
-        let [w, w_y] = flow_weights(xi, length);
-        let (s, s_y) = (shape::position(xi, length), shape::slope(xi, length));
-        let node_q = [combine(q, e, s), combine(q, e, s_y)];
-        let node_v = [combine(v, e, s) + rate * combine(q, e, w), combine(v, e, s_y) + rate * combine(q, e, w_y)];
+        // the particle at `full` from the far node: position and slope, and their rates
+        let particle = |q: &[f64], v: &[f64], length: f64, rate: f64| {
+            let xi = full.length / length;
+            let [w, w_y] = flow_weights(xi, length);
+            [shape::position(xi, length), shape::slope(xi, length)].into_iter().zip([w, w_y]).fold(
+                [Vec::new(), Vec::new()],
+                |[mut r, mut u], (s, w)| {
+                    r.extend(combine(q, e, s).iter());
+                    u.extend((combine(v, e, s) + rate * combine(q, e, w)).iter());
+                    [r, u]
+                },
+            )
+        };
         let at = 6 * (e + 1);
-        q.splice(at..at, node_q.iter().flatten().copied());
-        v.splice(at..at, node_v.iter().flatten().copied());
+        let node = particle(q, v, length, rate);
+        if let Some([dq, dv]) = changes {
+            let before = |x: &[f64], d: &[f64]| x.iter().zip(d).map(|(x, d)| x - d).collect::<Vec<_>>();
+            let old = particle(&before(q, dq), &before(v, dv), length_before, rate_before);
+            for ((list, node), old) in [dq, dv].into_iter().zip(&node).zip(&old) {
+                list.splice(at..at, before(node, old));
+            }
+        }
+        for (list, node) in [q, v].into_iter().zip(node) {
+            list.splice(at..at, node);
+        }
         self.replace_elements(turned, 1, &[full, Element { length: length - full.length, ..next }])
     }
 
@@ -166,10 +227,8 @@ impl Cable {
         let e = turned.q.len() / 6 - 3;
         let whole = Element { length: kept.length + gone.length, ..kept };
         let (old_q, old_v) = (turned.q.clone(), turned.v.clone());
+        turned.vectors().for_each(|x| drop(x.drain(6 * (e + 1)..6 * (e + 2))));
         let Turned { q, v, .. } = &mut turned;
-        let removed = 6 * (e + 1)..6 * (e + 2);
-        q.drain(removed.clone());
-        v.drain(removed);
         let bend = |q: &[f64], e: usize, length: f64| combine(q, e, shape::second_derivative(1.0, length));
         let bent = rate * (bend(q, e, whole.length) - bend(&old_q, e + 1, gone.length));
         let eye = v.len() - 3;
@@ -194,8 +253,11 @@ impl Cable {
             }
         }
         side.turn(&mut missed);
+        let angular = self.momentum().angular;
         self.replace_elements(turned, 2, &[whole])?;
-        self.take_up(missed)
+        self.take_up(missed)?;
+        self.keep_angular_momentum(&angular);
+        Ok(())
     }
 
     /// Changes velocities by an impulse on all coordinates, but those that supports hold.

@@ -18,8 +18,8 @@
 //!
 //! tau is at most the time in which an element passes the eye, or an axial wave the cable: the step is what the rope would do meanwhile. What is
 //! above the bound then is taken from velocities relative to rigid motion, but for cables on bodies; the rest is on the account of the reel: the
-//! energy that the coarser mesh cannot do without. Momentum is kept, and without
-//! supports angular momentum, by a rigid rotation.
+//! energy that the coarser mesh cannot do without. Momentum is kept, and angular momentum of a cable that no support holds, by a rigid
+//! rotation.
 //!
 //! # Alternatives considered
 //!
@@ -81,9 +81,7 @@ impl Cable {
             let mut missed = self.generalised_momentum();
             missed.iter_mut().zip(&before).for_each(|(new, old)| *new = old - *new);
             self.take_up(missed)?;
-            if self.model.supports.is_empty() {
-                self.turn_by(&(angular - self.momentum().angular));
-            }
+            self.keep_angular_momentum(&angular);
             // what the velocities gained
             bound -= (self.energy().total() - energy).max(0.0);
         }
@@ -104,6 +102,13 @@ impl Cable {
         let product = snapshot.state.v.iter().zip(&momentum).map(|(v, p)| v * p).sum();
         if let Some(share) = share_to_take(energy, product, excess, 1.0) {
             snapshot.state.v.iter_mut().zip(&relative).for_each(|(v, d)| *v -= share * d);
+        }
+    }
+
+    /// Makes the angular momentum about the origin what it was in kg m^2/s, if nothing but bodies holds the cable.
+    pub(super) fn keep_angular_momentum(&mut self, before: &Vector3<f64>) {
+        if self.model.supports.iter().all(|(_, support)| support.attached) {
+            self.turn_by(&(before - self.momentum().angular));
         }
     }
 

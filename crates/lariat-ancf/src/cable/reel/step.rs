@@ -69,9 +69,10 @@ impl Cable {
             (winding.stopped, winding.pull) = (flow.stopped, flow.pull);
             let e = flow.side.element(self.model.elements.len());
             self.model.elements[e].length = length;
-            if flow.side == Side::Start {
-                self.model.move_loads(passed);
-            }
+        }
+        if succeeded && !self.model.loads.is_empty() {
+            self.model.move_loads(self.snapshot.passed_at_start());
+            self.system.loads.locate(&self.model);
         }
         self.sync_reel();
     }

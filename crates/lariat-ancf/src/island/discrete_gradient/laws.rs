@@ -80,15 +80,21 @@ impl IslandStep<'_, '_> {
     pub(super) fn linearise_laws(&mut self) {
         let mut unknowns = core::mem::take(&mut self.buffers.unknowns);
         unknowns.begin(self.cables.iter().map(|cable| &cable.system.flows));
-        let Unknowns { reels, columns, rows, saved, .. } = &mut unknowns;
+        for &(c, _) in &unknowns.reels {
+            let CableStep { mut equations, state, buffers } = self.cables[c].step_parts();
+            equations.read_motors(state, buffers);
+        }
+        if unknowns.winches.is_empty() && self.cables.iter().all(|cable| cable.system.flows.stick()) {
+            unknowns.reels.clear();
+        }
+        let Unknowns { reels, columns, rows, .. } = &mut unknowns;
         for ((&(c, k), columns), rows) in reels.iter().zip(columns).zip(rows) {
             for (cable, column) in self.cables.iter().zip(columns.iter_mut()) {
                 column.clear();
                 column.resize(cable.positions().len(), 0.0);
             }
             let CableStep { mut equations, state, buffers } = self.cables[c].step_parts();
-            equations.read_motors(state, buffers);
-            equations.linearise_law(k, state, buffers, &mut columns[c], saved);
+            equations.linearise_law(k, state, buffers, &mut columns[c]);
             rows.clear();
             rows.resize(self.buffers.rows.len(), 0.0);
             for hold in &self.buffers.cables[c].holds {

@@ -25,9 +25,9 @@
 //! Own derivation, checked against the power of the force along the path of its points (tests/reels/fluid.rs).
 
 use super::{Flow, Flows};
-use crate::dual::constant;
+use crate::dual::{Dual, constant};
 use crate::effect::acts::ForceInput;
-use crate::element::flow::Extent;
+use crate::element::flow::{Extent, dot};
 use crate::element::shape;
 use crate::integrate::State;
 use crate::integrate::discrete_gradient::Buffers;
@@ -35,17 +35,13 @@ use crate::model::Model;
 use crate::system::System;
 
 /// Returns e_w of coordinates seen from the far node.
-fn drift(q: &[f64; 12], length: f64) -> [f64; 12] {
+pub(super) fn drift(q: &[f64; 12], length: f64) -> [f64; 12] {
     let bend = shape::second_derivative(1.0, length);
     core::array::from_fn(|i| match i {
         0..6 => 0.0,
         6..9 => -q[i + 3],
         _ => -(0..4).map(|k| bend[k] * q[3 * k + i - 9]).sum::<f64>(),
     })
-}
-
-fn dot(x: &[f64; 12], y: &[f64; 12]) -> f64 {
-    x.iter().zip(y).map(|(x, y)| x * y).sum()
 }
 
 impl Flow {
@@ -126,15 +122,31 @@ impl System {
         }
         let extent = flow.at(time);
         let drift = drift(q, extent.length);
-        let of_cable = |x: [f64; 12]| {
+        let material = core::array::from_fn(|i| constant(v[i] + extent.rate * drift[i]));
+        dot(&drift, &self.points_of_flow(model, flow, time, q, &material).map(|f| f.value))
+    }
+
+    /// Returns the forces in N of effects at Gauss points on the coordinates of an element at an eye, at these and the velocities of the material.
+    pub(super) fn points_of_flow(
+        &self,
+        model: &Model,
+        flow: &Flow,
+        time: f64,
+        q: &[f64; 12],
+        material: &[Dual; 12],
+    ) -> [Dual; 12] {
+        let turned = |x: &dyn Fn(usize) -> f64| {
             let mut out = [0.0; 12];
-            flow.side.add(&x, &mut out);
-            out.map(constant)
+            flow.side.add(&core::array::from_fn(x), &mut out);
+            out
         };
-        let material = core::array::from_fn(|i| v[i] + extent.rate * drift[i]);
+        let [value, slope] = [turned(&|i| material[i].value), turned(&|i| material[i].slope)];
+        let v = core::array::from_fn(|i| Dual { value: value[i], slope: slope[i] });
         let mut force = [constant(0.0); 12];
-        self.forces.at_points.add_dual(flow.element(model), time, &of_cable(*q), &of_cable(material), &mut force);
-        dot(&drift, &flow.side.gather(&force.map(|f| f.value)))
+        let q = turned(&|i| q[i]).map(constant);
+        self.forces.at_points.add_dual(flow.element(model), time, &q, &v, &mut force);
+        let [value, slope] = [force.map(|f| f.value), force.map(|f| f.slope)].map(|x| flow.side.gather(&x));
+        core::array::from_fn(|i| Dual { value: value[i], slope: slope[i] })
     }
 }
 

@@ -21,7 +21,8 @@
 //! ```
 //!
 //! S > 0 is the apparent stiffness of all cables and bodies to the flow, so the alternative is decided by `T(a_0 - a)` exactly; several reels
-//! one after the other ([`unknowns`](super::unknowns)).
+//! one after the other ([`unknowns`](super::unknowns)). c, row and T_a are of the element at the eye alone ([`linear`](super::linear)). Where all
+//! motors stick in an iterate, within their forces, da = 0 is tried first: such a reel costs what one with a given rate does.
 //!
 //! # Validity
 //!
@@ -33,22 +34,16 @@
 //! An elastic clutch with a slip as state: stiff, and its constant is arbitrary. Stages of other methods: the reel would be one more
 //! coordinate of every integrator.
 
-use super::Flow;
-use super::step::StepMotion;
+use super::{Flow, Flows};
 use crate::cable::Feed;
-use crate::effect::EffectWork;
 use crate::element::flow::Extent;
 use crate::integrate::State;
-use crate::integrate::discrete_gradient::{BETA, Balance, Buffers};
+use crate::integrate::discrete_gradient::{Balance, Buffers};
 use crate::model::Model;
 use crate::system::{Equations, System};
 
 /// Least and largest length of an element at the end of an iterate, as a multiple of that at the beginning.
 const REACH: [f64; 2] = [0.5, 1.5];
-/// Increment by which tangents of quadratic functions are read, in m/s^2 or m/s.
-const PROBE: f64 = 1e-3;
-/// Share of the length of the element by which an increment changes it, where strains are read.
-const STRAIN_PROBE: f64 = 1e-7;
 
 /// What drives a reel during a host step.
 #[derive(Clone, Copy, Debug, Default)]
@@ -73,7 +68,7 @@ pub(crate) struct Law {
     /// Accelerations beyond which no iterate goes.
     reach: [f64; 2],
     /// Derivatives of the force of the motor by the velocity changes of the element, and by the acceleration.
-    row: [f64; 12],
+    pub(super) row: [f64; 12],
     pub(super) own: f64,
     /// Force of the motor in the last iterate, in N; at a sheave the pull.
     pub(super) force: f64,
@@ -99,6 +94,14 @@ impl Flow {
         self.linearised = self.extent.acceleration;
         self.extent.acceleration = acceleration.max(least).min(largest);
         self.stopped = self.law.is_some_and(|law| law.stop(acceleration).is_some());
+    }
+
+    /// Returns whether a motor holds the rate that is asked for, with a force in N of the last iterate that it has.
+    fn sticks(&self) -> bool {
+        self.law.is_none_or(|law| {
+            let alone = !matches!(self.feed, Feed::Sheave | Feed::BodyDrum);
+            alone && self.extent.acceleration == law.bounded(law.planned[1]) && law.force.abs() <= law.motor.limit
+        })
     }
 
     /// Returns the length in m that it can still take in.
@@ -132,6 +135,14 @@ pub(crate) fn rates(asked: f64, acceleration: f64, rate: f64, left: [f64; 2], h:
     };
     let [least, largest] = [-bound(left[0], -rate), bound(left[1], rate)];
     [least, asked.clamp(rate - a * h, rate + a * h), largest.max(least)]
+}
+
+impl Flows {
+    /// Returns whether all rates that could be unknown are as the last iterate has them: the motors of all [stick](Flow::sticks). If the result
+    /// of an iteration breaks a law, the next one solves for the rates.
+    pub fn stick(&self) -> bool {
+        self.list.iter().all(Flow::sticks)
+    }
 }
 
 impl Law {
@@ -204,7 +215,7 @@ impl Law {
 
 impl System {
     /// Returns the force of the motor, or of a prescribed winch, less the part of the strain energy, at an extent.
-    fn motor_of_inertia(&self, model: &Model, flow: &Flow, extent: Extent, motion: [&[f64; 12]; 3]) -> f64 {
+    pub(super) fn motor_of_inertia(&self, model: &Model, flow: &Flow, extent: Extent, motion: [&[f64; 12]; 3]) -> f64 {
         let (element, dead) = (flow.with(model, extent), flow.dead(model));
         let wheel = flow.law.map_or(0.0, |law| {
             let stock = (law.motor.bounds[1] - extent.length).max(0.0);
@@ -238,7 +249,7 @@ impl Equations<'_> {
     }
 
     /// Returns the middle and the mean rates of the element at an eye over the present iterate.
-    fn motion_of_step(&self, flow: &Flow, state: &State, b: &Buffers) -> [[f64; 12]; 3] {
+    pub(super) fn motion_of_step(&self, flow: &Flow, state: &State, b: &Buffers) -> [[f64; 12]; 3] {
         let change = flow.side.gather(&b.change);
         [
             self.middle_of_step(flow, state, b),
@@ -281,59 +292,6 @@ impl Equations<'_> {
                 }
             }
         }
-    }
-
-    /// Linearises flow `k` about the present iterate, and writes the column c to `out`; `saved` is a buffer.
-    ///
-    /// The column and T_a are differences of whole residuals. Forces with a potential, of strains or of their rates, are symmetric: in the
-    /// row they are -2 b/h^2 times the column, b the coefficient of the one-leg formula. Inertia is not, and is read by itself.
-    pub fn linearise_law(
-        &mut self,
-        k: usize,
-        state: &State,
-        b: &mut Buffers,
-        out: &mut Vec<f64>,
-        saved: &mut Vec<f64>,
-    ) {
-        let (flow, h) = (self.system.flows.list[k], b.h);
-        let Some(mut law) = flow.law else { return };
-        saved.clone_from(&b.rhs);
-        let probe = 2.0 * STRAIN_PROBE * flow.extent.length / (h * h);
-        let base = self.residual_at(k, flow.extent.acceleration, state, b);
-        out.clone_from(&b.rhs);
-        let moved = self.residual_at(k, flow.extent.acceleration + probe, state, b);
-        out.iter_mut().zip(&b.rhs).for_each(|(before, after)| *before = (*before - after) / probe);
-        law.own = (moved - base) / probe;
-        b.rhs.clone_from(saved);
-        let (model, system) = (self.model, &*self.system);
-        let (mean, _) = flow.over(state.time, h);
-        let [q, v, a] = self.motion_of_step(&flow, state, b);
-        let motion = StepMotion::of(&flow, state, b);
-        let impulse = |probe: f64| {
-            let mut other = flow;
-            other.extent.acceleration += probe;
-            other.impulse(model, &motion, true)
-        };
-        let (before, after) = (impulse(0.0), impulse(PROBE));
-        let motor = |motion: [&[f64; 12]; 3]| system.motor_of_inertia(model, &flow, mean, motion);
-        let (present, column) = (motor([&q, &v, &a]), flow.side.gather(out));
-        for i in 0..12 {
-            let (mut q, mut v, mut a) = (q, v, a);
-            q[i] += 0.5 * BETA * h * PROBE;
-            v[i] += BETA * PROBE;
-            a[i] += PROBE / h;
-            let of_inertia = (before[i] - after[i]) / PROBE;
-            law.row[i] = (motor([&q, &v, &a]) - present) / PROBE - 2.0 * BETA / (h * h) * (column[i] - of_inertia);
-        }
-        self.system.flows.list[k] = Flow { law: Some(law), ..flow };
-    }
-
-    /// Computes the residual of the present iterate with another acceleration of flow `k`, and returns the force of its motor in N.
-    fn residual_at(&mut self, k: usize, acceleration: f64, state: &State, b: &mut Buffers) -> f64 {
-        self.system.flows.list[k].extent.acceleration = acceleration;
-        self.step_residual(state, b, false, &mut EffectWork::default());
-        self.read_motors(state, b);
-        self.system.flows.list[k].law.map_or(0.0, |law| law.force)
     }
 
     /// Adds an increment to the acceleration of the iterate.

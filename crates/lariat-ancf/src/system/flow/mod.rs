@@ -28,6 +28,7 @@
 mod drum;
 mod effects;
 mod law;
+mod linear;
 mod sheave;
 mod step;
 mod unknowns;
@@ -62,6 +63,8 @@ pub(crate) struct Flow {
     pub extent: Extent,
     /// Length in m of its mass and weight in the equations as they are set.
     weighed: f64,
+    /// Lengths and stock in m to which the equations are set; `None` if they are not set.
+    set: Option<[f64; 4]>,
     /// Force of the loop over the elements on the eye in the last iterate of the discrete gradient, in N.
     eye_force: [f64; 3],
     /// Rate in m/s with which the last step ended, where this one begins with that of a drum.
@@ -113,6 +116,7 @@ impl Flow {
             start: 0.0,
             extent,
             weighed: length,
+            set: None,
             eye_force: [0.0; 3],
             left_rate: None,
             length_before: length,
@@ -129,6 +133,14 @@ impl Flow {
     /// Returns the length in m of the stock that rides with the body at the eye, when the element has this length.
     fn stock(&self, length: f64) -> f64 {
         if let Source::Stock(both) = self.source { both - length } else { 0.0 }
+    }
+
+    /// Returns whether it stands, did so in the last step, and is not driven by an unknown force: it is then an element like others, if no
+    /// stock rides at the eye.
+    fn stands(&self) -> bool {
+        let Extent { length, rate, acceleration } = self.extent;
+        let alone = self.law.is_none() && self.source == Source::Outside;
+        alone && rate == 0.0 && acceleration == 0.0 && self.length_before == length
     }
 
     /// Returns the extent at a time in s.
@@ -225,6 +237,11 @@ impl Flows {
         self.list.iter().all(|flow| flow.extent.rate == 0.0 && flow.extent.acceleration == 0.0)
     }
 
+    /// Makes the equations be set anew, whatever their lengths.
+    pub fn forget_lengths(&mut self) {
+        self.list.iter_mut().for_each(|flow| flow.set = None);
+    }
+
     /// Makes of velocities those that internal damping sees, at `time` (s).
     fn strain_velocity(&self, time: f64, q: &[f64], v: &mut [f64]) {
         for flow in &self.list {
@@ -265,7 +282,11 @@ impl System {
     /// of bending.
     fn set_each_length(&mut self, model: &Model, k: usize, [shape, mean, inverse]: [f64; 3]) {
         let System { flows, forces, mass, loads, .. } = self;
-        flows.list[k].weighed = mean;
+        let set = Some([shape, mean, inverse, flows.list[k].stock(mean)]);
+        if flows.list[k].set == set {
+            return;
+        }
+        (flows.list[k].set, flows.list[k].weighed) = (set, mean);
         let e = flows.list[k].element(model);
         let element = &model.elements[e];
         let elements = &mut forces.elements;

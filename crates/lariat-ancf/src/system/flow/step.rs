@@ -1,7 +1,7 @@
 //! Elements at eyes over a step of the [discrete gradient](crate::integrate::discrete_gradient): see [`flow`](super).
 
 use super::{Flow, Flows, Source};
-use crate::element::flow::{Table, add_product};
+use crate::element::flow::{FlowElement, Table, add_product};
 use crate::element::mass;
 use crate::integrate::State;
 use crate::integrate::discrete_gradient::{BETA, Buffers};
@@ -20,6 +20,9 @@ impl Equations<'_> {
             let flow = self.system.flows.list[k];
             let (mean, [l0, l1]) = flow.over(state.time, b.h);
             self.system.set_each_length(self.model, k, [l0, mean.length, 0.5 * (1.0 / l0 + 1.0 / l1)]);
+            if flow.stands() {
+                continue;
+            }
             let [far, eye] = flow.side.nodes(self.model.nodes()).map(|node| 6 * node);
             let lists = [&mut b.change, &mut b.linearised, &mut b.change_before];
             for (i, (list, saved)) in lists.into_iter().zip(saved).enumerate().filter(|(_, (list, _))| !list.is_empty())
@@ -43,6 +46,10 @@ impl Equations<'_> {
             let (_, [l0, l1]) = flow.over(state.time, b.h);
             let share = 0.5 * (1.0 + l0 / l1);
             let [far, eye] = flow.side.nodes(self.model.nodes()).map(|node| 6 * node);
+            if flow.stands() {
+                flow.eye_force = core::array::from_fn(|x| b.rhs[eye + x] / b.h);
+                continue;
+            }
             for (list, saved) in [&mut b.change, &mut b.linearised, &mut b.change_before].into_iter().zip(saved) {
                 if !list.is_empty() {
                     list[eye..eye + 3].copy_from_slice(&saved);
@@ -61,7 +68,7 @@ impl Equations<'_> {
     /// matrix if it is asked for.
     pub fn add_flows_over_step(&mut self, state: &State, b: &mut Buffers, matrix: bool) {
         let (model, system) = (self.model, &mut *self.system);
-        for flow in &system.flows.list {
+        for flow in system.flows.list.iter().filter(|flow| !flow.stands()) {
             let impulse = flow.impulse(model, &StepMotion::of(flow, state, b), false);
             flow.side.add(&impulse.map(|x| x / b.h), &mut b.external);
             if matrix {
@@ -113,16 +120,17 @@ impl Flow {
         let StepMotion { time, h, q, v } = *motion;
         let (mean, lengths) = self.over(time, h);
         let mut out = [0.0; 12];
-        let inertia = self.with(model, mean).inertia;
-        let of_mean = mass::consistent(inertia, mean.length);
+        let of_mean = self.with(model, mean);
+        let inertia = of_mean.inertia;
         for (end, sign) in [(0, 1.0), (1, -1.0)] {
-            let mut at = self.with(model, self.at(time + h * end as f64));
+            let mut at = FlowElement { inertia, extent: self.at(time + h * end as f64) };
             if let (0, Some(rate)) = (end, self.left_rate) {
                 at.extent.rate = rate;
             }
             let mut table = mass::consistent(inertia, lengths[end]);
             let mut point = self.stock(lengths[end]) * inertia;
             if !all {
+                let of_mean = mass::consistent(inertia, mean.length);
                 (0..16).for_each(|i| table[i / 4][i % 4] -= of_mean[i / 4][i % 4]);
                 point -= self.stock(mean.length) * inertia;
             }
@@ -132,7 +140,7 @@ impl Flow {
         }
         let middle = core::array::from_fn(|i| 0.5 * (q[0][i] + q[1][i]));
         let velocity = core::array::from_fn(|i| (q[1][i] - q[0][i]) / h);
-        let [by_velocity, by_position] = self.with(model, mean).gradient_matrices();
+        let [by_velocity, by_position] = of_mean.gradient_matrices();
         add_product(&by_velocity, h, &velocity, &mut out);
         add_product(&by_position, h, &middle, &mut out);
         if self.source == Source::Outside {

@@ -37,8 +37,6 @@ pub(crate) struct Unknowns {
     pub wheels: Vec<Wheel>,
     /// Drums, each with one of the reels.
     pub winches: Vec<Winch>,
-    /// A buffer.
-    pub saved: Vec<f64>,
     list: Vec<Unknown>,
     stiffness: Vec<f64>,
     /// By drum, what increments turn it by: with all rates as they are, then by column.

@@ -110,8 +110,7 @@ impl Equations<'_> {
         let (start, middle, end) = (at(0.0), at(0.5), at(1.0));
         let [u0, u1] = [(&start, l0), (&end, l1)].map(|(q, l)| system.flow_energy(model, flow, &control(q, l), l));
         let of_eye: f64 = (0..3).map(|x| flow.eye_force[x] * (middle[6 + x] - middle[x])).sum();
-        // D U at fixed coordinates over D l, for (1/l1 - 1/l0)/(l1 - l0) = -1/(l0 l1)
-        let elastic = 0.5 * (u0.0 / l0 + u1.0 / l1) - (0.5 * (u0.1 * l0 + u1.1 * l1) - l0 * of_eye) / (l0 * l1);
+        let elastic = strain_on_length([u0, u1], [l0, l1], of_eye);
         let (element, weight) = (flow.with(model, mean), flow.weight(model));
         let velocity = change.map(|x| x / b.h);
         let acceleration = flow.side.gather(&b.velocity_change).map(|x| x / b.h);
@@ -153,13 +152,18 @@ impl Equations<'_> {
 impl Feed {
     /// Returns the pull of the winch from the force on the length, without the energy that is lost.
     pub(super) fn pull(self, element: &FlowElement, q: &[f64; 12], on_length: f64) -> f64 {
-        let (rate, square) = (element.extent.rate, square_of_stretch(q));
-        let momentum = match self {
-            Feed::Bag if rate > 0.0 => 0.5 * square,
-            Feed::Coil if rate > 0.0 => square,
-            _ => 0.5 * (square - 1.0),
-        };
-        -on_length - element.inertia * rate * rate * momentum
+        let rate = element.extent.rate;
+        let [of_square, constant] = self.momentum(rate);
+        -on_length - element.inertia * rate * rate * (of_square * square_of_stretch(q) + constant)
+    }
+
+    /// Returns what the pull loses to the momentum of entering material over rho l'^2: the factor of f^2, and the rest.
+    pub(super) fn momentum(self, rate: f64) -> [f64; 2] {
+        match self {
+            Feed::Bag if rate > 0.0 => [0.5, 0.0],
+            Feed::Coil if rate > 0.0 => [1.0, 0.0],
+            _ => [0.5, -0.5],
+        }
     }
 }
 
@@ -172,6 +176,12 @@ impl Flow {
         let strain = 0.5 * (square_of_stretch(q) - 1.0);
         0.5 * model.elements[self.element(model)].section.axial_stiffness * strain * strain
     }
+}
+
+/// Returns the mean force of strains on the length over a step: D U at fixed coordinates over D l, for `(1/l1 - 1/l0)/(l1 - l0) =
+/// -1/(l0 l1)`, from axial and bending energies at both ends and the product of mean chord and mean force on the eye.
+pub(super) fn strain_on_length([u0, u1]: [(f64, f64); 2], [l0, l1]: [f64; 2], of_eye: f64) -> f64 {
+    0.5 * (u0.0 / l0 + u1.0 / l1) - (0.5 * (u0.1 * l0 + u1.1 * l1) - l0 * of_eye) / (l0 * l1)
 }
 
 /// Returns the square of the stretch at the eye.

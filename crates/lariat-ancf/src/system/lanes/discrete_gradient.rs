@@ -20,7 +20,7 @@ use crate::Real;
 use crate::bending::Bending;
 use crate::bending::t1::RHO;
 use crate::effect::tables::ElementTables;
-use crate::element::gram::{PAIR_WEIGHT, Six, contract, form, gradient, gram, hessian_block};
+use crate::element::gram::{Control, PAIR_WEIGHT, Six, contract, form, gradient, gram, hessian_block};
 use crate::element::kernel::{
     DiscreteGradientForce, Gradient, GramForce, GramStep, Hessian, Load, Stiffness, gram_rates,
 };
@@ -103,29 +103,64 @@ impl Elements {
 
     /// Returns the pairs of the axial rule and of the bending rule.
     #[inline(always)]
-    fn pairs<S: Simd, B: Bending>(
-        &self,
-        simd: S,
-        bending: &B,
-        stiffness: Stiffness<f64x8<S>>,
-        s: &ElementStep<f64x8<S>>,
-    ) -> [Six<f64x8<S>>; 2] {
+    fn pairs<T: Real, B: Bending>(&self, bending: &B, stiffness: Stiffness<T>, s: &ElementStep<T>) -> [Six<T>; 2] {
         let axial = self.table.gradient(&s.one_leg(ALPHA), stiffness.axial);
-        let mut flexural = [zero(simd); 6];
+        let mut flexural = [stiffness.axial.splat(0.0); 6];
         bending.add_discrete_gradient([&s.start, &s.end], stiffness.bending, &mut flexural);
         [axial, flexural]
     }
 
     #[inline(always)]
-    fn gram_step<'a, S: Simd>(
-        &'a self,
-        stiffness: Stiffness<f64x8<S>>,
-        step: &'a ElementStep<f64x8<S>>,
-        h: f64,
-    ) -> GramStep<'a, f64x8<S>> {
+    fn gram_step<'a, T: Real>(&'a self, stiffness: Stiffness<T>, step: &'a ElementStep<T>, h: f64) -> GramStep<'a, T> {
         let rate = 1.0 / h;
         let rates = scaled(&step.gram_change, rate);
         GramStep { table: &self.table, stiffness, step, middle: gram(&step.mean), rates, rate }
+    }
+
+    /// Returns h times the negative discrete-gradient force of one element on its control vectors; the stiffness has the factor h.
+    pub fn discrete_gradient_of<T: Real, L: Load<T>>(
+        &self,
+        effects: Option<&ElementTables>,
+        from: &L,
+        step: &ElementStep<T>,
+        stiffness: Stiffness<T>,
+        h: f64,
+    ) -> Control<T> {
+        with_bending!(&self.bending, bending => self.element_force(bending, effects, from, (step, stiffness, h)).0)
+    }
+
+    /// Returns h times the negative force on the control vectors, and h times numerical dissipation, dissipation by effects (times 1) and
+    /// strain energy.
+    #[inline(always)]
+    fn element_force<T: Real, B: Bending, L: Load<T>>(
+        &self,
+        bending: &B,
+        effects: Option<&ElementTables>,
+        from: &L,
+        (s, stiffness, h): (&ElementStep<T>, Stiffness<T>, f64),
+    ) -> (Control<T>, [T; 3]) {
+        let (zero, rate) = (stiffness.axial.splat(0.0), 1.0 / h);
+        let [axial, flexural] = self.pairs(bending, stiffness, s);
+        let mut sum = Gradient { n: combined(&axial, &flexural, 1.0), viscous: [zero; 6] };
+        let mut dissipated = zero;
+        if let Some(effects) = effects {
+            dissipated = effects.add_discrete_gradient(&self.gram_step(stiffness, s, h), from, &mut sum);
+        }
+        let mut force = gradient(&sum.n, &s.mean);
+        let mut numerical = self.axial_square(stiffness, &s.gram_second()) * (0.5 * ALPHA);
+        let mut strain = self.axial_square(stiffness, &over_straight(&s.start)) * 0.5;
+        if !B::ABSENT {
+            let of_bending = gradient(&numerical_bending(stiffness.bending), &s.second);
+            force = shifted(&force, &of_bending, 1.0);
+            numerical = numerical + product(&of_bending, &s.second) * 0.5;
+            strain = strain + stiffness.bending * form(&RHO, &s.start);
+        }
+        if effects.is_some_and(|effects| effects.needs_rates()) {
+            let viscous = gradient(&sum.viscous, &s.change);
+            force = shifted(&force, &viscous, rate);
+            dissipated = dissipated + product(&viscous, &s.change) * (rate * rate);
+        }
+        (force, [numerical, dissipated, strain])
     }
 
     #[inline(always)]
@@ -138,31 +173,12 @@ impl Elements {
         out: &mut [f64],
     ) -> ElementLoss {
         let rate = 1.0 / step.h;
-        let moving = effects.is_some_and(|effects| effects.needs_rates());
         let mut losses = [0.0; 3];
         for first in (0..self.count).step_by(LANES) {
             let group = Group { simd, first };
             let (s, stiffness) = self.gather_step(group, step);
-            let [axial, flexural] = self.pairs(simd, bending, stiffness, &s);
-            let mut sum = Gradient { n: combined(&axial, &flexural, 1.0), viscous: [zero(simd); 6] };
-            let mut dissipated = zero(simd);
-            if let Some(effects) = effects {
-                dissipated = effects.add_discrete_gradient(&self.gram_step(stiffness, &s, step.h), &group, &mut sum);
-            }
-            let mut force = gradient(&sum.n, &s.mean);
-            let mut numerical = self.axial_square(simd, stiffness, &s.gram_second()) * (0.5 * ALPHA);
-            let mut strain = self.axial_square(simd, stiffness, &over_straight(&s.start)) * 0.5;
-            if !B::ABSENT {
-                let of_bending = gradient(&numerical_bending(stiffness.bending), &s.second);
-                force = shifted(&force, &of_bending, 1.0);
-                numerical += product(&of_bending, &s.second) * 0.5;
-                strain += stiffness.bending * form(&RHO, &s.start);
-            }
-            if moving {
-                let viscous = gradient(&sum.viscous, &s.change);
-                force = shifted(&force, &viscous, rate);
-                dissipated += product(&viscous, &s.change) * (rate * rate);
-            }
+            let (force, [numerical, dissipated, strain]) =
+                self.element_force(bending, effects, &group, (&s, stiffness, step.h));
             self.scatter_force(simd, first, &force, out);
             let mut raw = [[0.0; LANES]; 3];
             numerical.store_slice(&mut raw[0]);
@@ -194,7 +210,7 @@ impl Elements {
         for first in (0..self.count).step_by(LANES) {
             let group = Group { simd, first };
             let (s, stiffness) = self.gather_step(group, step);
-            let [axial, flexural] = self.pairs(simd, bending, stiffness, &s);
+            let [axial, flexural] = self.pairs(bending, stiffness, &s);
             let mut sum = Gradient { n: combined(&axial, &flexural, 1.0), viscous: [zero(simd); 6] };
             if let Some(effects) = effects {
                 effects.add_discrete_gradient(&self.gram_step(stiffness, &s, step.h), &group, &mut sum);
@@ -238,8 +254,8 @@ impl Elements {
 
     /// Returns `EA l/4 x.A x` for changes of Gram numbers.
     #[inline(always)]
-    fn axial_square<S: Simd>(&self, simd: S, stiffness: Stiffness<f64x8<S>>, x: &Six<f64x8<S>>) -> f64x8<S> {
-        let mut stress = [zero(simd); 6];
+    fn axial_square<T: Real>(&self, stiffness: Stiffness<T>, x: &Six<T>) -> T {
+        let mut stress = [stiffness.axial.splat(0.0); 6];
         self.table.add_product(x, stiffness.axial, &mut stress);
         contract(&stress, x)
     }

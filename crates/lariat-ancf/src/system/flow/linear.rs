@@ -1,0 +1,252 @@
+//! Derivatives of the [law of a motor](super::law) about an iterate of a step.
+//!
+//! # Equation
+//!
+//! An acceleration da changes the length at the end of a step of length h by `h^2/2 da`, the mean length by half of that, and the mean rate by `h/2
+//! da`. No other element feels it, so the column c is that of the element at the eye alone. Its strains are derived in
+//! [dual numbers](crate::dual). Forces with a potential, of strains or of their rates, and drag are symmetric: in the row they
+//! are -2 b/h^2 times their part of the column, b the coefficient of the one-leg formula. Inertia is not: both its parts are derived by themselves.
+//!
+//! # Validity
+//!
+//! Exact but for drag, whose coefficients in the step are those of the iterate before, and for its dependence on the length.
+
+use super::effects::drift;
+use super::step::StepMotion;
+use super::work::strain_on_length;
+use super::{Flow, Source, control};
+use crate::dual::{Dual, constant};
+use crate::effect::acts::Single;
+use crate::element::flow::{Extent, dot};
+use crate::element::gram::Control;
+use crate::element::kernel::Stiffness;
+use crate::element::step::ElementStep;
+use crate::integrate::State;
+use crate::integrate::discrete_gradient::{BETA, Buffers};
+use crate::model::Model;
+use crate::system::{Equations, System};
+
+/// Increment of an acceleration in m/s^2 by which tangents of inertia are read.
+const PROBE: f64 = 1e-3;
+/// Share of the length of the element by which tangents of strain energy are read.
+const STRAIN_PROBE: f64 = 1e-7;
+
+/// Derivatives by the length at the end of a step.
+struct OfLength {
+    /// Of the impulse of strains on the coordinates.
+    impulse: [f64; 12],
+    /// Of the mean force of strains on the length.
+    on_length: f64,
+}
+
+impl Equations<'_> {
+    /// Linearises flow `k` about the present iterate, and writes the column c to `out`.
+    pub fn linearise_law(&mut self, k: usize, state: &State, b: &Buffers, out: &mut Vec<f64>) {
+        let flow = self.system.flows.list[k];
+        let Some(mut law) = flow.law else { return };
+        let (model, system, h) = (self.model, &*self.system, b.h);
+        let (mean, _) = flow.over(state.time, h);
+        let motion = StepMotion::of(&flow, state, b);
+        let [q, v, a] = self.motion_of_step(&flow, state, b);
+        let strains = system.strains_by_length(model, &flow, &motion, (&flow.side.gather(&b.change_before), b.kept));
+        let points = system.points_by_acceleration(&flow, model, state.time + 0.5 * h, h, [&q, &v]);
+        let moved = Flow { extent: Extent { acceleration: flow.extent.acceleration + PROBE, ..flow.extent }, ..flow };
+        let impulses = [&flow, &moved].map(|flow| flow.impulse(model, &motion, true));
+        let motors =
+            [&flow, &moved].map(|flow| system.motor_of_inertia(model, flow, flow.over(state.time, h).0, [&q, &v, &a]));
+        let dead = flow.dead_by_length(model, mean.length);
+        let (element, weight) = (flow.with(model, mean), flow.dead(model));
+        let [by_q, by_v, by_a] = element.length_force_gradient([&q, &v, &a], &weight);
+        let [of_square, _] = flow.feed.momentum(mean.rate);
+        let thrust = 2.0 * of_square * element.inertia * mean.rate * mean.rate;
+        let (mut row, mut column) = ([0.0; 12], [0.0; 12]);
+        for i in 0..12 {
+            let symmetric = -(0.5 * h * h * strains.impulse[i] + h * points[i]);
+            column[i] = symmetric - 0.25 * h * h * h * dead[i] - (impulses[1][i] - impulses[0][i]) / PROBE;
+            let of_stretch = if i < 9 { 0.0 } else { thrust * q[i] };
+            let motor = -0.5 * BETA * h * (by_q[i] + of_stretch) - BETA * by_v[i] - by_a[i] / h;
+            row[i] = motor - 2.0 * BETA / (h * h) * symmetric;
+        }
+        out.clear();
+        out.resize(b.rhs.len(), 0.0);
+        flow.side.add(&column, out);
+        law.row = row;
+        law.own =
+            (motors[1] - motors[0]) / PROBE - 0.5 * h * h * strains.on_length + dot(&drift(&q, mean.length), &points);
+        self.system.flows.list[k].law = Some(law);
+    }
+}
+
+impl System {
+    /// Returns the derivatives of what strains and internal damping do over a step; `before` is the change of the coordinates in the step before,
+    /// and the share of it that counts.
+    fn strains_by_length(
+        &self,
+        model: &Model,
+        flow: &Flow,
+        motion: &StepMotion,
+        (before, kept): (&[f64; 12], f64),
+    ) -> OfLength {
+        let StepMotion { time, h, q: [start, end], .. } = motion;
+        let (_, [l0, l1]) = flow.over(*time, *h);
+        let at_before = control(&core::array::from_fn(|i| start[i] - before[i]), flow.length_before);
+        let (d0, d1) = (control(start, l0), control(end, l1));
+        let dual = |f: &dyn Fn(usize, usize) -> Dual| -> Control<Dual> {
+            core::array::from_fn(|k| core::array::from_fn(|x| f(k, x)))
+        };
+        // the middle one of the control vectors is 3 (r_j - r_i)/l
+        let change =
+            dual(&|k, x| Dual { value: d1[k][x] - d0[k][x], slope: if k == 1 { -d1[1][x] / l1 } else { 0.0 } });
+        let begin = dual(&|k, x| constant(d0[k][x]));
+        let before = dual(&|k, x| constant(d0[k][x] - at_before[k][x]));
+        let step = ElementStep::new(&begin, &change, &before, kept);
+        let inverse = Dual { value: 0.5 * (1.0 / l0 + 1.0 / l1), slope: -0.5 / (l1 * l1) };
+        let section = &model.elements[flow.element(model)].section;
+        let stiffness = Stiffness {
+            axial: Dual { value: 0.5 * (l0 + l1), slope: 0.5 } * (0.25 * section.axial_stiffness * h),
+            bending: inverse * (2.0 * section.bending_stiffness * h),
+        };
+        let elements = &self.forces.elements;
+        let effects = self.forces.in_element.as_ref();
+        let pull = elements.discrete_gradient_of(effects, &Single(flow.element(model)), &step, stiffness, *h);
+        let mut impulse = [0.0; 12];
+        let mut eye = [0.0; 2];
+        for x in 0..3 {
+            let along = pull[1][x] * inverse * 3.0;
+            (impulse[x], impulse[6 + x]) = (along.slope, -along.slope);
+            (impulse[3 + x], impulse[9 + x]) = (-pull[0][x].slope, -pull[2][x].slope);
+            let chord = 0.5 * (start[6 + x] - start[x] + end[6 + x] - end[x]);
+            eye[0] -= 3.0 / (l0 * h) * pull[1][x].value * chord;
+            eye[1] -= 3.0 / (l0 * h) * pull[1][x].slope * chord;
+        }
+        let probe = STRAIN_PROBE * l1;
+        let u0 = self.flow_energy(model, flow, &d0, l0);
+        let at = |l1: f64, eye: f64| {
+            strain_on_length([u0, self.flow_energy(model, flow, &control(end, l1), l1)], [l0, l1], eye)
+        };
+        OfLength { impulse, on_length: (at(l1 + probe, eye[0] + probe * eye[1]) - at(l1, eye[0])) / probe }
+    }
+
+    /// Returns the derivatives of the forces of effects at Gauss points by the acceleration, through the velocity of the material.
+    fn points_by_acceleration(
+        &self,
+        flow: &Flow,
+        model: &Model,
+        time: f64,
+        h: f64,
+        [q, v]: [&[f64; 12]; 2],
+    ) -> [f64; 12] {
+        if !self.forces.at_points.any() {
+            return [0.0; 12];
+        }
+        let Extent { length, rate, .. } = flow.over(time - 0.5 * h, h).0;
+        let drift = drift(q, length);
+        let material = core::array::from_fn(|i| Dual { value: v[i] + rate * drift[i], slope: 0.5 * h * drift[i] });
+        self.points_of_flow(model, flow, time, q, &material).map(|f| f.slope)
+    }
+}
+
+impl Flow {
+    /// Returns the derivative of weights and line loads on the coordinates by the length, in N/m.
+    fn dead_by_length(&self, model: &Model, length: f64) -> [f64; 12] {
+        let (dead, weight) = (self.dead(model), self.weight(model));
+        let shares = [0.5, length / 6.0, 0.5, -length / 6.0];
+        let mut out: [f64; 12] = core::array::from_fn(|i| shares[i / 3] * dead[i % 3]);
+        if let Source::Stock(_) = self.source {
+            (0..3).for_each(|x| out[6 + x] -= weight[x]);
+        }
+        out
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::effect::EffectWork;
+    use crate::system::CableStep;
+    use crate::{At, Cable, Damping, Feed, Integrator, LineLoad, Method, Reel, Section, StepControl};
+    use nalgebra::Vector3;
+
+    /// Any number in -1..1.
+    fn some(seed: usize) -> f64 {
+        (1.7 * seed as f64 + 0.3).sin()
+    }
+
+    /// The column of one element is that of all residuals, and the row that of the motor, at random iterates of a cable with weight, line load
+    /// and internal damping.
+    ///
+    /// *Source.* Central differences of the residual of the whole cable and of the force of the motor. The secants of the discrete gradient
+    /// make the row symmetric to first order of the step only.
+    #[test]
+    fn columns_are_derivatives_of_the_whole_residual() {
+        let feeds = [Feed::Drum, Feed::Bag, Feed::Coil];
+        for (trial, at) in [At::Start, At::End].into_iter().cycle().take(12).enumerate() {
+            let mut cable = Cable::builder()
+                .points([Vector3::zeros(), Vector3::new(1.5, -1.0, 0.4)])
+                .section(Section::from_stiffness(1e4, 0.02, 0.4).unwrap())
+                .elements(5)
+                .damping(Damping { axial: 2e-3, bending: 2e-3 })
+                .integrator(Integrator { method: Method::DiscreteGradient, control: StepControl::Substeps(1) })
+                .fix(at)
+                .build()
+                .unwrap();
+            cable.add_line_load(LineLoad::uniform(Vector3::new(0.0, 0.3, 1.0))).unwrap();
+            let reel = Reel { feed: feeds[trial % 3], stock: Some(5.0), inertia: 0.2, ..Reel::brake(0.5) };
+            cable.add_reel(at, reel).unwrap();
+            (0..10 + trial).for_each(|_| cable.step(1.0 / 240.0).unwrap());
+            let h = 1.0 / 240.0;
+            cable.begin_reel(h);
+            cable.with_workspace(|cable| {
+                let CableStep { mut equations, state, buffers: b } = cable.step_parts();
+                equations.begin_laws(state.time, h);
+                b.recall(state, h);
+                for i in 0..b.change.len() {
+                    b.velocity_change[i] += 1e-2 * some(31 * trial + i);
+                    b.change[i] += 1e-2 * BETA * h * some(31 * trial + i);
+                }
+                let side = equations.system.flows.list[0].side;
+                let mut column = Vec::new();
+                equations.linearise_law(0, state, b, &mut column);
+                let law = equations.system.flows.list[0].law.unwrap();
+                let present = equations.system.flows.list[0].extent.acceleration;
+                let mut at = |b: &mut Buffers, acceleration: f64| {
+                    equations.system.flows.list[0].extent.acceleration = acceleration;
+                    equations.step_residual(state, b, false, &mut EffectWork::default());
+                    equations.read_motors(state, b);
+                    (b.rhs.clone(), equations.system.flows.list[0].pull_of_iterate())
+                };
+                let close = |name: &str, own: &[f64], other: &[f64], share: f64| {
+                    let scale = other.iter().fold(0.0f64, |most, x| most.max(x.abs()));
+                    let worst = own.iter().zip(other).fold(0.0f64, |most, (a, b)| most.max((a - b).abs()));
+                    assert!(worst <= share * scale, "{name} of {trial}: {worst:e} of {scale:e}");
+                };
+                let probe = 0.2;
+                let [(low, least), (high, most)] = [-probe, probe].map(|by| at(b, present + by));
+                let column_of_all: Vec<f64> = low.iter().zip(&high).map(|(a, b)| (a - b) / (2.0 * probe)).collect();
+                close("column", &column, &column_of_all, 1e-5);
+                close("derivative", &[law.own], &[(most - least) / (2.0 * probe)], 1e-5);
+                let row: Vec<f64> = (0..12)
+                    .map(|i| {
+                        let mut local = [0.0; 12];
+                        local[i] = 1e-6;
+                        let mut moved = vec![0.0; b.change.len()];
+                        side.add(&local, &mut moved);
+                        let by = |b: &mut Buffers, sign: f64| {
+                            for k in 0..moved.len() {
+                                b.velocity_change[k] += sign * moved[k];
+                                b.change[k] += sign * BETA * h * moved[k];
+                            }
+                        };
+                        by(b, 1.0);
+                        let up = at(b, present).1;
+                        by(b, -2.0);
+                        let down = at(b, present).1;
+                        by(b, 1.0);
+                        (up - down) / 2e-6
+                    })
+                    .collect();
+                close("row", &law.row, &row, 0.05);
+            });
+        }
+    }
+}
