@@ -6,6 +6,7 @@
 //! them was off by 0.2 to 11 % of the length, what does not by less than 0.25 %. A mesh is judged as
 //! [`Cable::mesh_indicator`] says, steps as `steps` says; the strain by the law of the material, which is 7.5 % above Hooke's at 5 %.
 
+use super::contact::Contacts;
 use super::steps::{Estimate, Steps};
 use super::{Warning, sizes};
 use crate::cable::Cable;
@@ -63,6 +64,8 @@ pub struct Watch {
     /// Largest rate of a reel over the speed of transverse waves, and its time in s.
     reel: (f64, f64),
     steps: Steps,
+    #[serde(default)]
+    contacts: Contacts,
     /// Time of the last note in s.
     noted: Option<f64>,
     /// Laws that were counted, and told of, by bit.
@@ -74,7 +77,7 @@ pub struct Watch {
 type Law = fn(&Watch, &Cable, Option<f64>) -> Option<Warning>;
 
 /// Laws in the order of warnings; the flag says that one holds at every time, not for the whole run only.
-const LAWS: [(Law, bool); 7] = [
+const LAWS: [(Law, bool); 10] = [
     (Watch::strain, true),
     (Watch::mesh, true),
     (Watch::small_motion, false),
@@ -82,6 +85,9 @@ const LAWS: [(Law, bool); 7] = [
     (Watch::long_steps, true),
     (Watch::fast_reel, true),
     (Watch::crossed, true),
+    (|watch, cable, _| watch.contacts.sinks(cable), true),
+    (|watch, cable, _| watch.contacts.coarse(cable), true),
+    (|_, cable, _| Contacts::lags(cable), true),
 ];
 
 /// The bit of warnings about sizes.
@@ -123,6 +129,7 @@ impl Watch {
             self.tension = [share, tension, stiffness, cable.time()];
         }
         self.steps.note(cable);
+        self.contacts.note(cable);
     }
 
     /// Returns the warnings about what was noted. If an error of positions (m) is asked for, that is the limit of the mesh, and only of its

@@ -257,6 +257,11 @@ impl DiscreteGradientSystem for IslandStep<'_, '_> {
         rescale::rescale(self, balance, largest_share)
     }
 
+    fn renew_friction(&mut self) -> bool {
+        // each cable, although one will do
+        self.cables.iter_mut().fold(false, |any, cable| cable.step_parts().buffers.contact.renew_friction() || any)
+    }
+
     fn add_missed(&mut self) -> bool {
         // each cable, although one will do
         self.cables.iter_mut().fold(false, |any, cable| {
