@@ -159,6 +159,16 @@ pub enum Warning {
         /// Number of elements that would do.
         enough: usize,
     },
+    /// It touches something that bodies bounce off.
+    #[error(
+        "cable {cable:?}: contacts of cables have no restitution, and what it touches has {restitution}: it does not bounce off it"
+    )]
+    NoRestitution {
+        /// Name of the cable.
+        cable: String,
+        /// Restitution of what it touches.
+        restitution: f64,
+    },
     /// Friction does not settle on the normal forces.
     #[error(
         "cable {cable:?}: in {steps} steps its friction did not settle on the normal forces of the step, and tensions along what it slides on are probably wrong: try \
