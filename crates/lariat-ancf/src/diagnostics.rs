@@ -40,6 +40,9 @@ pub struct Diagnostics {
     /// Steps of the discrete gradient in which centre lines of cables went through each other.
     #[serde(default)]
     pub crossed_steps: u64,
+    /// Steps of the discrete gradient whose friction did not settle on the normal forces of the step itself.
+    #[serde(default)]
+    pub lagging_steps: u64,
     /// [Warnings](crate::Cable::warnings) that came up in host steps, each kind once; zero for a cable that is not
     /// [watched](crate::Cable::set_watched).
     #[serde(default)]
@@ -55,7 +58,7 @@ macro_rules! by_field {
     ($a:expr, $b:expr, $op:expr, $effects:expr) => {
         by_field!(@ $a, $b, $op, $effects; host_steps, steps, rejected_steps, newton_iterations, factorisations,
             indefinite_factorisations, solves, mass_solves, force_evaluations, tangent_evaluations, bending_evaluations,
-            load_evaluations, rescaled_steps, split_steps, crossed_steps, warnings)
+            load_evaluations, rescaled_steps, split_steps, crossed_steps, lagging_steps, warnings)
     };
     (@ $a:expr, $b:expr, $op:expr, $effects:expr; $($field:ident),*) => {
         Diagnostics { $($field: $op($a.$field, $b.$field),)* effects: $effects }

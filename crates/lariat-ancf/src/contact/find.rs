@@ -8,7 +8,7 @@
 
 use super::memory::ContactMemory;
 use super::missed::Nearby;
-use super::pair::{Pair, SAMPLES, bounding_ball, is_thin};
+use super::pair::{PLACES, Pair, bounding_ball, is_thin, samples};
 use super::patch::Patch;
 use super::path::{BodyPath, ObstacleStep};
 use super::point::{ContactPoint, OFFSET_TIME, PAID};
@@ -105,11 +105,11 @@ impl ContactStep {
 
     /// Adds the samples of an element that are near an obstacle.
     fn add_samples(&mut self, pair: &Pair<'_>) {
-        for (place, (xi, weight)) in SAMPLES.into_iter().enumerate() {
+        for (place, xi, weight) in samples(pair.contact, &pair.motion.model.elements, pair.element) {
             if pair.is_apart(xi) {
                 continue;
             }
-            let mut point = pair.point(place as u32, xi, weight * pair.section.length);
+            let mut point = pair.point(place, xi, weight);
             let y = pair.step.start.own(&point.start);
             let nearest = pair.obstacle.surface.nearest(&y);
             point.distance = nearest.distance;
@@ -159,7 +159,7 @@ impl ContactStep {
 
     /// Hands what a feature remembers of one element to its neighbour, where the closest point has moved over their node.
     fn hand_over(&mut self, memory: &[ContactMemory]) {
-        for point in self.points.iter_mut().filter(|point| point.key.2 >= SAMPLES.len() as u32) {
+        for point in self.points.iter_mut().filter(|point| point.key.2 >= PLACES) {
             let (element, obstacle, place) = point.key;
             if find(memory, point.key).is_some() {
                 continue;
@@ -196,7 +196,7 @@ impl ContactStep {
             let met = trace(surface(point), [&y0, &y1], point.reach, |found| !thin(point, found))?;
             (met.patch.gap(&y1).0 < point.reach).then_some((met.patch, y0))
         };
-        for point in self.points.iter_mut().filter(|point| point.key.2 < SAMPLES.len() as u32) {
+        for point in self.points.iter_mut().filter(|point| point.key.2 < PLACES) {
             let obstacle = &self.obstacles[point.obstacle];
             let deep = |patch: &Patch, y: &Vector3<f64>| patch.gap(y).0 < point.reach;
             let (y0, y1) = point.way(obstacle, change);

@@ -18,7 +18,7 @@
 //! not asked whether an element went through them.
 
 use super::find::Motion;
-use super::pair::{Pair, SAMPLES, feature_place};
+use super::pair::{PLACES, Pair, feature_place};
 use super::pairs::crossing;
 use super::path::ObstacleStep;
 use super::point::ContactPoint;
@@ -129,7 +129,7 @@ impl ContactStep {
 fn goes_through(pair: &Pair<'_>, segment: [Vector3<f64>; 2]) -> bool {
     let step: &ObstacleStep = &pair.step;
     let at = |i: usize| {
-        let point = pair.point(SAMPLES.len() as u32, i as f64 / CHORDS as f64, 0.0);
+        let point = pair.point(PLACES, i as f64 / CHORDS as f64, 0.0);
         let (start, end) = point.way(step, pair.motion.change);
         [start, end - start]
     };

@@ -11,9 +11,19 @@ use crate::element::shape;
 use crate::section::Element;
 use nalgebra::Vector3;
 
-/// Gauss points of an element (three, exact to degree five) with their weights.
-pub(super) const SAMPLES: [(f64, f64); 3] =
-    [(0.112_701_665_379_258_3, 5.0 / 18.0), (0.5, 8.0 / 18.0), (0.887_298_334_620_741_7, 5.0 / 18.0)];
+/// The points of Lobatto's rule (five, exact to degree seven) with their shares of the length of an element. The last is the first of the next element: only
+/// the last element of a cable has its own.
+const SAMPLES: [(f64, f64); 5] = [
+    (0.0, 1.0 / 20.0),
+    (0.172_673_164_646_011_43, 49.0 / 180.0),
+    (0.5, 16.0 / 45.0),
+    (0.827_326_835_353_988_6, 49.0 / 180.0),
+    (1.0, 1.0 / 20.0),
+];
+/// Number of samples of an element: features are numbered behind them.
+pub(super) const PLACES: u32 = SAMPLES.len() as u32;
+/// Largest distances of samples in an element.
+const SPACINGS: f64 = 3.0;
 /// A round surface is smooth for samples if its radius, with the cable's, is so many of their spacings.
 const WIDE: f64 = 2.0;
 /// Intervals in which the closest point of an element is looked for.
@@ -23,6 +33,24 @@ const MEETINGS: usize = 32;
 const LEAST_SHARE: f64 = 1e-3;
 /// Steps of the golden section.
 const SECTIONS: usize = 32;
+
+/// Returns the samples of an element: number, local coordinate, and the length that it stands for. A node stands for parts of both of its elements, that of the one
+/// before by its stiffness.
+pub(super) fn samples(
+    contact: &Contact,
+    elements: &[Element],
+    element: usize,
+) -> impl Iterator<Item = (u32, f64, f64)> {
+    let own = elements[element];
+    let stiffness = |element: &Element| contact.law_of(&element.section).stiffness;
+    let before = element.checked_sub(1).map_or(0.0, |e| elements[e].length * stiffness(&elements[e]) / stiffness(&own));
+    let last = element + 1 == elements.len();
+    let own_samples = SAMPLES.into_iter().enumerate().take(if last { SAMPLES.len() } else { SAMPLES.len() - 1 });
+    own_samples.map(move |(place, (xi, share))| {
+        let length = if place == 0 { own.length + before } else { own.length };
+        (place as u32, xi, share * length)
+    })
+}
 
 /// An element and an obstacle.
 pub(super) struct Pair<'a> {
@@ -82,7 +110,7 @@ impl Pair<'_> {
 
     /// Returns a point of the element that touches a feature.
     pub fn feature_point(&self, feature: &Feature, xi: f64) -> ContactPoint {
-        let weight = (self.section.length / SAMPLES.len() as f64).min(4.0 * self.radius);
+        let weight = (self.section.length / SPACINGS).min(4.0 * self.radius);
         self.point(feature_place(feature), xi, weight)
     }
 
@@ -169,12 +197,12 @@ impl Pair<'_> {
 
 /// Returns the number of a point of an element on a feature among those on an obstacle.
 pub(super) fn feature_place(feature: &Feature) -> u32 {
-    SAMPLES.len() as u32 + feature.id
+    PLACES + feature.id
 }
 
 /// Returns whether samples see a round surface as smooth.
 pub(super) fn is_wide(surface: f64, cable: f64, length: f64) -> bool {
-    surface + cable >= WIDE * length / SAMPLES.len() as f64
+    surface + cable >= WIDE * length / SPACINGS
 }
 
 /// Returns whether the closest points of elements act on a place of a surface, not samples.

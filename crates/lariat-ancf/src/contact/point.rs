@@ -54,6 +54,8 @@ pub(in crate::contact) struct ContactPoint {
     pub spring: Vector3<f64>,
     /// Largest friction in N.
     pub bound: f64,
+    /// Whether that is the bound of the present step.
+    pub renewed: bool,
     /// Number of the feature that it touches among those that are near.
     pub nearby: Option<usize>,
     /// Number of what it remembers.

@@ -126,7 +126,7 @@ impl ContactStep {
             return;
         }
         let old = &self.points[i];
-        let ContactPoint { nearby: n, recalls, linear, about, now, .. } = *old;
+        let ContactPoint { nearby: n, recalls, linear, about, now, bound, renewed, .. } = *old;
         let before = old.energy_before(&pair.step.start.own(&old.start));
         let mut point =
             ContactPoint { nearby: n, recalls, linear, about, now, ..pair.feature_point(&nearby.feature, place.xi) };
@@ -140,6 +140,9 @@ impl ContactStep {
         point.distance = z.norm() - nearby.feature.radius;
         point.recall(&y, &pair.step, memory);
         point.close(self.closes);
+        if renewed {
+            (point.bound, point.renewed) = (bound, true);
+        }
         point.roll = roll(&point, pair, nearby);
         self.before += point.energy_before(&y) - before;
         self.points[i] = point;

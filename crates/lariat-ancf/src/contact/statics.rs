@@ -29,7 +29,7 @@
 
 use super::memory::ContactMemory;
 use super::obstacle::Obstacle;
-use super::pair::{SAMPLES, is_thin};
+use super::pair::{is_thin, samples};
 use super::patch::Patch;
 use super::point::combine;
 use super::step::add_tangent;
@@ -79,7 +79,7 @@ impl Growth {
 /// A sample in an obstacle.
 struct Sample<'a> {
     element: usize,
-    place: usize,
+    place: u32,
     xi: f64,
     shape: [f64; 4],
     weight: f64,
@@ -186,7 +186,7 @@ impl StaticContact {
             if !sample.thin {
                 memory.push(ContactMemory {
                     element: sample.element as u32,
-                    place: sample.place as u32,
+                    place: sample.place,
                     obstacle: sample.obstacle.key,
                     xi: sample.xi,
                     weight: sample.weight,
@@ -227,7 +227,7 @@ impl StaticContact {
                 if obstacle.surface.nearest(&own(obstacle, self.time, &centre).0).distance > size + reach {
                     continue;
                 }
-                for (place, (xi, share)) in SAMPLES.into_iter().enumerate() {
+                for (place, xi, weight) in samples(&contact, &model.elements, element) {
                     let at = from + xi * section.length;
                     let held = self.held.iter().any(|(k, [low, high])| *k == i && (*low..=*high).contains(&at));
                     if held || obstacle.excepts(at) {
@@ -241,7 +241,7 @@ impl StaticContact {
                     if depth <= 0.0 {
                         continue;
                     }
-                    let (pressure, weight) = (law.at(depth), share * section.length);
+                    let pressure = law.at(depth);
                     f(&Sample {
                         element,
                         place,

@@ -20,6 +20,8 @@ pub(crate) struct ContactStep {
     pub(super) nearby: Vec<Nearby>,
     /// Whether an element went through one when that was last asked.
     pub passed: bool,
+    /// Whether friction missed its bounds when that was last asked.
+    pub lags: bool,
     pub(super) obstacles: Vec<ObstacleStep>,
     /// By contact of the memory, whether a point took it up.
     pub(super) recalled: Vec<bool>,

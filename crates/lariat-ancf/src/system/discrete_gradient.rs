@@ -330,6 +330,10 @@ impl DiscreteGradientSystem for CableStep<'_> {
         Ok(balance)
     }
 
+    fn renew_friction(&mut self) -> bool {
+        self.buffers.contact.renew_friction()
+    }
+
     fn add_missed(&mut self) -> bool {
         self.equations.add_missed_contacts(self.state, self.buffers)
     }
@@ -374,6 +378,7 @@ impl DiscreteGradientSystem for CableStep<'_> {
         match event {
             Event::Rescaled => self.equations.diagnostics.rescaled_steps += 1,
             Event::Crossed => self.equations.diagnostics.crossed_steps += 1,
+            Event::Lagging => self.equations.diagnostics.lagging_steps += 1,
             Event::Split => self.equations.diagnostics.split_steps += 1,
         }
     }

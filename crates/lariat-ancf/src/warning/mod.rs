@@ -6,11 +6,13 @@
 //! | file | what it judges |
 //! |---|---|
 //! | `sizes` | section, length and material, before anything moves |
+//! | `contact` | the mesh beside what the cable touches, and its friction |
 //! | `watch` | mesh, tension and reel, by the shapes of a run |
 //! | `steps` | the length of integration steps, by the velocities of a run |
 //! | `balance` | the energy that integration makes or loses |
 
 pub mod balance;
+mod contact;
 pub mod sizes;
 mod steps;
 mod watch;
@@ -171,6 +173,59 @@ pub enum Warning {
         /// Name of the cable.
         cable: String,
         /// Number of steps in which it did.
+        steps: u64,
+    },
+    /// It is deep in what it touches, for longer than an impact takes.
+    #[error(
+        "cable {cable:?}: at {arc_length_m:.4} m it has been deep in what it touches for {duration_s} s, by {share:.2} of its radius: between its points of contact, try \
+         elements = {enough}; pressed in by its load, try a larger stiffness of contact"
+    )]
+    Sinks {
+        /// Name of the cable.
+        cable: String,
+        /// Arc length in m where it is deepest.
+        arc_length_m: f64,
+        /// Depth over radius.
+        share: f64,
+        /// For how long, in s.
+        duration_s: f64,
+        /// Number of elements that would do.
+        enough: usize,
+    },
+    /// Its elements are long beside the radius around which contact bends them.
+    #[error(
+        "cable {cable:?}: at {arc_length_m:.4} m an element turns by {turn_rad:.2} rad about what it touches, so friction and depth there are probably off by several per \
+         cent: try elements = {enough}, 12 per turn"
+    )]
+    CoarseContact {
+        /// Name of the cable.
+        cable: String,
+        /// Arc length in m where the element begins.
+        arc_length_m: f64,
+        /// Angle between the slopes at the ends of the element in rad.
+        turn_rad: f64,
+        /// Number of elements that would do.
+        enough: usize,
+    },
+    /// It touches something that bodies bounce off.
+    #[error(
+        "cable {cable:?}: contacts of cables have no restitution, and what it touches has {restitution}: it does not bounce off it"
+    )]
+    NoRestitution {
+        /// Name of the cable.
+        cable: String,
+        /// Restitution of what it touches.
+        restitution: f64,
+    },
+    /// Friction does not settle on the normal forces.
+    #[error(
+        "cable {cable:?}: in {steps} steps its friction did not settle on the normal forces of the step, and tensions along what it slides on are probably wrong: try \
+         shorter steps"
+    )]
+    FrictionLags {
+        /// Name of the cable.
+        cable: String,
+        /// Number of steps in which it did not.
         steps: u64,
     },
     /// Too short for its thickness.

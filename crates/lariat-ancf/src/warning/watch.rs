@@ -7,6 +7,7 @@
 //! [`Cable::mesh_indicator`] says, steps as `steps` says; the strain by the law of the material, which is 7.5 % above Hooke's at 5 %.
 
 use super::balance::{CableAccount, Verdict};
+use super::contact::Contacts;
 use super::steps::{Estimate, Steps};
 use super::{Warning, sizes};
 use crate::cable::Cable;
@@ -74,6 +75,8 @@ pub struct Watch {
     /// The energy, of a cable that notes its own steps.
     #[serde(default)]
     account: CableAccount,
+    #[serde(default)]
+    contacts: Contacts,
     /// Time of the last note in s.
     noted: Option<f64>,
     /// Laws that were counted, and told of, by bit.
@@ -85,7 +88,7 @@ pub struct Watch {
 type Law = fn(&Watch, &Cable, Option<f64>) -> Option<Warning>;
 
 /// Laws in the order of warnings; the flag says that one holds at every time, not for the whole run only.
-const LAWS: [(Law, bool); 9] = [
+const LAWS: [(Law, bool); 12] = [
     (Watch::strain, true),
     (Watch::mesh, true),
     (Watch::small_motion, false),
@@ -95,6 +98,9 @@ const LAWS: [(Law, bool); 9] = [
     (Watch::crossed, true),
     (Watch::energy, true),
     (Watch::rounded_ends, false),
+    (|watch, cable, _| watch.contacts.sinks(cable), true),
+    (|watch, cable, _| watch.contacts.coarse(cable), true),
+    (|_, cable, _| Contacts::lags(cable), true),
 ];
 
 /// The bit of warnings about sizes.
@@ -139,6 +145,7 @@ impl Watch {
             self.noise = (cable.end_noise, cable.time());
         }
         self.steps.note(cable);
+        self.contacts.note(cable);
     }
 
     /// Returns the warnings about what was noted. If an error of positions (m) is asked for, that is the limit of the mesh, and only of its

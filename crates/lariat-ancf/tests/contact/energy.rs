@@ -51,10 +51,10 @@ fn a_swing_around_a_drum_keeps_its_energy() {
 /// *Source.* The energy law, which holds to 1e-9 of the energy in each step, of which a host step has four, divided ones more.
 #[test]
 fn thrown_ropes_make_no_energy() {
-    let seeds = if std::env::var_os("LARIAT_LONG_TESTS").is_some() { 500 } else { 40 };
+    let seeds = if std::env::var_os("LARIAT_LONG_TESTS").is_some() { 500 } else { 20 };
     let (mut worst, mut sweeps, mut hosts, mut split, mut rescaled, mut sunk) = (0.0f64, 0, 0, 0, 0, 0);
-    for seed in 0..seeds {
-        let mut random = Random::new(7000 + seed);
+    for seed in [7000, 31000, 47000].into_iter().flat_map(|first| first..first + seeds) {
+        let mut random = Random::new(seed);
         let mut unit = || 0.5 * (random.next() + 1.0);
         let power = |x: f64, low: f64, high: f64| 10f64.powf(low + (high - low) * x);
         let (ea, ei, mass) = (power(unit(), 3.0, 7.0), power(unit(), -5.0, 0.0), power(unit(), -2.0, 0.5));
@@ -102,7 +102,7 @@ fn thrown_ropes_make_no_energy() {
         hosts += 60;
     }
     println!(
-        "{seeds} seeds: made {worst:.1e}, {:.1} sweeps/host, {split} split, {rescaled} rescaled, {sunk} sunk",
+        "three times {seeds} seeds: made {worst:.1e}, {:.1} sweeps/host, {split} split, {rescaled} rescaled, {sunk} sunk",
         sweeps as f64 / f64::from(hosts)
     );
     assert!(worst < 1e-7 && sunk == 0, "{worst:e}, {sunk} sunk");

@@ -4,13 +4,15 @@ use super::collider;
 use crate::contents::Contents;
 use crate::events::Event;
 use crate::handle::CableHandle;
-use lariat_ancf::Cable;
+use lariat_ancf::{Cable, Warning};
+use rapier::pipeline::PhysicsWorld;
 
 /// What a cable touches: key of the collider, sum of the normal forces in N, and the arc length in m of their centre.
 type Touched = (u64, f64, f64);
 
 /// Compares what cables touch with what they touched at the end of the last host step.
-pub(crate) fn compare(contents: &mut Contents, events: &mut Vec<Event>) {
+/// The first touch of a collider with restitution, which contacts of cables do not have, is a warning.
+pub(crate) fn compare(contents: &mut Contents, world: &PhysicsWorld, events: &mut Vec<Event>) {
     for index in 0..contents.cables.len() {
         let Some(slot) = contents.cables.get_mut(index) else { continue };
         if slot.asleep || slot.touched.is_empty() && slot.cable.effects().contact.is_none() {
@@ -21,6 +23,13 @@ pub(crate) fn compare(contents: &mut Contents, events: &mut Vec<Event>) {
         for &(key, force, arc_length) in &now {
             if !slot.touched.iter().any(|(before, _)| *before == key) {
                 events.push(Event::ContactStarted { cable, collider: collider(key), arc_length, force });
+                let restitution =
+                    world.colliders.get(collider(key)).map_or(0.0, |found| f64::from(found.restitution()));
+                if restitution > 0.0 && !slot.ignored.contains(&key) {
+                    slot.ignored.push(key);
+                    let warning = Warning::NoRestitution { cable: slot.cable.name().to_string(), restitution };
+                    events.push(Event::Warning { cable, warning });
+                }
             }
         }
         for &(key, arc_length) in &slot.touched {

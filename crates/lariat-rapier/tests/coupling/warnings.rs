@@ -94,6 +94,26 @@ fn a_cable_inside_a_collider_is_told() {
     assert!(set.warnings(&world).is_empty());
 }
 
+/// A cable that touches a collider with restitution tells so in an event, once.
+#[test]
+fn restitution_is_told_at_the_first_touch() {
+    for restitution in [0.0, 0.75] {
+        let mut world = PhysicsWorld::new();
+        world.insert_collider(ColliderBuilder::cuboid(3.0, 0.1, 1.0).restitution(restitution), None);
+        let mut set = CableSet::new();
+        let rope = set.insert(cable([-1.0, 0.2, 0.0], [1.0, 0.2, 0.0], soft()).elements(8).build().unwrap());
+        set.set_contact(rope, Contact::with_friction(0.3).with_radius(0.01)).unwrap();
+        let found = told(&mut set, &mut world, 60).into_iter().filter_map(|(cable, warning)| match warning {
+            CableWarning::NoRestitution { restitution, .. } => Some((cable, restitution)),
+            _ => None,
+        });
+        let found: Vec<_> = found.collect();
+        assert!(set.contacts(rope).unwrap().next().is_some());
+        let expected: Vec<_> = (restitution > 0.0).then_some((rope, f64::from(restitution))).into_iter().collect();
+        assert_eq!(found, expected);
+    }
+}
+
 /// Restitution of colliders does not act on cables: who asks is told, of cables that touch, by the most elastic collider.
 #[test]
 fn restitution_is_told() {

@@ -215,6 +215,9 @@ pub(crate) trait DiscreteGradientSystem {
     /// Adds contacts with what the iterate entered although they were not found before; returns whether there are any.
     fn add_missed(&mut self) -> bool;
 
+    /// Sets the bounds of friction of contacts with obstacles by their present normal forces, if they miss them; returns whether they did.
+    fn renew_friction(&mut self) -> bool;
+
     /// Returns whether centre lines of cables go through each other, or through thin parts of obstacles, in the step.
     fn crosses(&mut self) -> bool;
 
@@ -231,6 +234,8 @@ pub(crate) enum Event {
     Split,
     /// Centre lines of cables went through each other or through thin parts of obstacles.
     Crossed,
+    /// Friction did not settle on the normal forces of the step itself.
+    Lagging,
 }
 
 /// Returns the smaller share u for which v - u w has less kinetic energy than v by the excess, from `1/2 w.M w` and `v.M w`; `None` if

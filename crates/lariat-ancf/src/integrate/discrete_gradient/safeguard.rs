@@ -50,6 +50,10 @@ const WHOLE_INCREMENTS: usize = 4;
 const RELAXATION: f64 = 0.5;
 /// Number of times that contacts are looked for again when the iteration has ended.
 const MAX_SEARCHES: usize = 3;
+/// Largest number of times that the bounds of friction are set by the normal forces of the step itself.
+const MAX_RENEWALS: usize = 40;
+/// The same for the parts of a divided step.
+const MAX_RENEWALS_OF_PARTS: usize = 4;
 /// Energy by which it may miss in any case, as a share of the weight times 1 mm.
 const CLOSURE_OF_WEIGHT: f64 = 1e-6;
 /// Share of the impulses that may be unbalanced where velocities are rescaled near an obstacle.
@@ -152,10 +156,13 @@ pub(super) fn step(
     let (mut fresh, mut most) = (true, MAX_ITERATIONS);
     let (mut iteration, mut imbalance) = (0, f64::INFINITY);
     let (mut searches, mut misses) = (0, None);
+    let (mut renewals, mut renewed, mut lags) = (0, 0, false);
+    let most_renewals = if depth == 0 { MAX_RENEWALS } else { MAX_RENEWALS_OF_PARTS };
     let is_spent = || limit.is_some_and(WorkLimit::is_spent);
     while iteration < most && !(iteration > 0 && is_spent()) {
         iteration += 1;
-        let swings = iteration > WHOLE_INCREMENTS && last.as_ref().is_ok_and(|balance: &Balance| balance.near);
+        let swings =
+            iteration - renewed > WHOLE_INCREMENTS && last.as_ref().is_ok_and(|balance: &Balance| balance.near);
         last = system.iterate(fresh, if swings { RELAXATION } else { 1.0 });
         if let Some(limit) = limit {
             limit.spend(1);
@@ -166,12 +173,20 @@ pub(super) fn step(
                 let forces = forces && is_momentum_right(balance);
                 let motors = are_motors_right(balance);
                 if is_dissipation_right(balance) && forces && closes(balance) && is_consistent(balance) && motors {
+                    let renews = balance.near && renewals <= most_renewals && system.renew_friction();
+                    if renews && renewals == most_renewals {
+                        (renewals, lags) = (renewals + 1, true);
+                    } else if renews {
+                        (renewals, renewed, most) = (renewals + 1, iteration, iteration + MAX_ITERATIONS_NEAR);
+                        (fresh, imbalance) = (true, f64::INFINITY);
+                        continue;
+                    }
                     misses = Some(system.add_missed());
                     if misses == Some(false) || searches == MAX_SEARCHES {
                         break;
                     }
                     misses = None;
-                    (searches, most) = (searches + 1, MAX_ITERATIONS_NEAR);
+                    (searches, most) = (searches + 1, renewed + MAX_ITERATIONS_NEAR);
                     (fresh, imbalance) = (true, f64::INFINITY);
                     continue;
                 }
@@ -182,8 +197,11 @@ pub(super) fn step(
             _ => break,
         }
         if last.as_ref().is_ok_and(|balance| balance.near || balance.slip[1] > 0.0) {
-            most = MAX_ITERATIONS_NEAR;
+            most = renewed + MAX_ITERATIONS_NEAR;
         }
+    }
+    if lags {
+        system.count(Event::Lagging);
     }
     let reduced = limit.is_some_and(WorkLimit::reduces);
     let crosses = last.as_ref().is_ok_and(|balance| balance.excess().is_finite())

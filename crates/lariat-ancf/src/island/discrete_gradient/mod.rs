@@ -257,6 +257,12 @@ impl DiscreteGradientSystem for IslandStep<'_, '_> {
         rescale::rescale(self, balance, largest_share)
     }
 
+    fn renew_friction(&mut self) -> bool {
+        // each cable, although one will do
+        let renewed = self.cables.iter_mut().map(|cable| cable.step_parts().buffers.contact.renew_friction());
+        renewed.fold(false, |any, one| any | one)
+    }
+
     fn add_missed(&mut self) -> bool {
         // each cable, although one will do
         self.cables.iter_mut().fold(false, |any, cable| {

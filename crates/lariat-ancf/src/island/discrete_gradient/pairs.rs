@@ -180,8 +180,13 @@ impl IslandStep<'_, '_> {
     pub(super) fn count_event(&mut self, event: Event) {
         let crossed = self.buffers.pairs.crossed();
         for (c, cable) in self.cables.iter_mut().enumerate() {
-            let crosses = crossed.is_some_and(|crossed| crossed.contains(&c)) || cable.step_buffers.contact.passed;
-            if event != Event::Crossed || crosses {
+            let contact = &cable.step_buffers.contact;
+            let is_its = match event {
+                Event::Crossed => crossed.is_some_and(|crossed| crossed.contains(&c)) || contact.passed,
+                Event::Lagging => contact.lags,
+                Event::Rescaled | Event::Split => true,
+            };
+            if is_its {
                 cable.step_parts().count(event);
             }
         }

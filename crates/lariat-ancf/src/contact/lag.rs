@@ -1,0 +1,46 @@
+//! Friction that follows the normal force of its own step.
+//!
+//! # Equation
+//!
+//! The bound of friction is first `c = mu N0`, N0 that of the last step. When the iteration has ended with N,
+//!
+//! ```text
+//! sum |mu N - c| (slipping) + sum (|f| - mu N)+ (sticking) <= 0.003 sum mu N        else c := mu N, and the iteration goes on
+//! ```
+//!
+//! Return mapping loses energy for any bound, so the energy law holds for each of them. Along a rope on a drum the bounds determine the tensions one after the
+//! other, so the sequence ends after as many rounds as there are contacts, and its error after k of them is that of Taylor's series of `exp(mu phi)`.
+//!
+//! # Validity
+//!
+//! A contact that is born in the step has no friction in it: the first touch is of order 1. Forty rounds are taken at most, four in parts of a divided step; steps
+//! that need more are [counted](crate::Diagnostics::lagging_steps).
+
+use super::step::ContactStep;
+
+/// Share of the friction by which it may miss the bound.
+const LAG: f64 = 3e-3;
+
+impl ContactStep {
+    /// Sets the bounds of friction by the normal forces of the present iterate, if they miss them; returns whether they did.
+    pub fn renew_friction(&mut self) -> bool {
+        let (mut missed, mut all) = (0.0, 0.0);
+        for point in self.points.iter().filter(|point| point.bound > 0.0) {
+            let due = point.friction * point.now.normal_force;
+            all += due;
+            missed += match point.now.slides {
+                Some(_) => (due - point.bound).abs(),
+                None => (point.now.friction.norm() - due).max(0.0),
+            };
+        }
+        self.lags = missed > LAG * all;
+        if !self.lags {
+            return false;
+        }
+        for point in self.points.iter_mut().filter(|point| point.bound > 0.0) {
+            point.bound = (point.friction * point.now.normal_force).max(f64::MIN_POSITIVE);
+            point.renewed = true;
+        }
+        true
+    }
+}

@@ -1,0 +1,96 @@
+//! Whether the mesh resolves what a cable touches.
+//!
+//! # Validity
+//!
+//! The centre line is looked at half way between the samples of its elements, at host times, beside obstacles that are fixed or move as prescribed. Between
+//! samples a cable sags with the square of their distance. Where an element that touches turns by more than a ninth of a turn, tensions along a drum are off by 5 to
+//! 8 % (8 elements per turn; 10: by 1 %), and the iterations of a step grow to tens. Both are told of if they last longer than an impact.
+
+use super::Warning;
+use crate::cable::Cable;
+use core::f64::consts::TAU;
+use serde::{Deserialize, Serialize};
+
+/// Largest depth as a share of the radius.
+const DEPTH: f64 = 0.2;
+/// Largest angle in rad by which an element turns that touches, and the one that is advised.
+const TURN: f64 = TAU / 9.0;
+const ADVISED: f64 = TAU / 12.0;
+/// For how long in s they may be larger.
+const DURATION: f64 = 0.1;
+
+/// What a cable did beside what it touches.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub(super) struct Contacts {
+    depth: Excess,
+    turn: Excess,
+}
+
+/// How far a reading exceeds its limit, and since when.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+struct Excess {
+    since: Option<f64>,
+    /// The least of the readings since then, with its arc length in m.
+    least: [f64; 2],
+    /// The largest that lasted long enough, with its arc length in m.
+    worst: [f64; 2],
+}
+
+impl Excess {
+    fn note(&mut self, time: f64, [arc_length, reading]: [f64; 2], limit: f64) {
+        if reading <= limit {
+            self.since = None;
+            return;
+        }
+        let since = *self.since.get_or_insert_with(|| {
+            self.least = [arc_length, reading];
+            time
+        });
+        if reading < self.least[1] {
+            self.least = [arc_length, reading];
+        }
+        if time - since > DURATION && self.least[1] > self.worst[1] {
+            self.worst = self.least;
+        }
+    }
+
+    fn told(&self) -> Option<[f64; 2]> {
+        Some(self.worst).filter(|worst| worst[1] > 0.0)
+    }
+}
+
+impl Contacts {
+    /// Reads the cable at a host time.
+    pub fn note(&mut self, cable: &Cable) {
+        if cable.effects().contact.is_none() {
+            return;
+        }
+        let [depth, turn] = cable.contact_quality(TURN);
+        self.depth.note(cable.time(), depth, DEPTH);
+        self.turn.note(cable.time(), turn, 1.0);
+    }
+
+    pub fn sinks(&self, cable: &Cable) -> Option<Warning> {
+        self.depth.told().map(|[arc_length_m, share]| {
+            let enough = (cable.elements().len() as f64 * (2.0 * share / DEPTH).sqrt()).ceil() as usize;
+            let cable = cable.name().to_string();
+            Warning::Sinks { cable, arc_length_m, share, duration_s: DURATION, enough }
+        })
+    }
+
+    pub fn coarse(&self, cable: &Cable) -> Option<Warning> {
+        self.turn.told().map(|[arc_length_m, share]| {
+            let turn_rad = share * TURN;
+            let enough = (cable.elements().len() as f64 * turn_rad / ADVISED).ceil() as usize;
+            Warning::CoarseContact { cable: cable.name().to_string(), arc_length_m, turn_rad, enough }
+        })
+    }
+
+    /// Whether friction lags in more than a hundredth of all steps.
+    pub fn lags(cable: &Cable) -> Option<Warning> {
+        let counts = cable.diagnostics();
+        let steps = counts.lagging_steps;
+        (steps > 10 && 100 * steps > counts.steps)
+            .then(|| Warning::FrictionLags { cable: cable.name().to_string(), steps })
+    }
+}
