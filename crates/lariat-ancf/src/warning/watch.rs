@@ -86,7 +86,7 @@ const LAWS: [(Law, bool); 8] = [
     (Watch::long_steps, true),
     (Watch::fast_reel, true),
     (Watch::crossed, true),
-    (Watch::energy, true),
+    (Watch::energy, false),
 ];
 
 /// The bit of warnings about sizes.
