@@ -96,7 +96,7 @@ const LAWS: [(Law, bool); 12] = [
     (Watch::long_steps, true),
     (Watch::fast_reel, true),
     (Watch::crossed, true),
-    (Watch::energy, true),
+    (Watch::energy, false),
     (Watch::rounded_ends, false),
     (|watch, cable, _| watch.contacts.sinks(cable), true),
     (|watch, cable, _| watch.contacts.coarse(cable), true),
