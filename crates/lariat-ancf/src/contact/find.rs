@@ -122,8 +122,8 @@ impl ContactStep {
                 if pair.is_thin(&nearest) || nearest.distance - point.reach > NEAR * pair.radius {
                     let end = pair.step.end.own(&(point.start + point.change(pair.motion.change)));
                     match trace(&*pair.obstacle.surface, [&y, &end], point.reach, |found| !pair.is_thin(found)) {
-                        Some(met) => point.patch = met.patch,
-                        None => {
+                        Some(met) if !point.is_inside(&met.patch, &y) => point.patch = met.patch,
+                        _ => {
                             self.watched.push(point);
                             continue;
                         }
@@ -194,14 +194,13 @@ impl ContactStep {
                 return None;
             }
             let met = trace(surface(point), [&y0, &y1], point.reach, |found| !thin(point, found))?;
-            (met.patch.gap(&y1).0 < point.reach).then_some((met.patch, y0))
+            (point.is_inside(&met.patch, &y1) && !point.is_inside(&met.patch, &y0)).then_some((met.patch, y0))
         };
         for point in self.points.iter_mut().filter(|point| point.key.2 < PLACES) {
             let obstacle = &self.obstacles[point.obstacle];
-            let deep = |patch: &Patch, y: &Vector3<f64>| patch.gap(y).0 < point.reach;
             let (y0, y1) = point.way(obstacle, change);
-            if !deep(&point.patch, &y0)
-                && !deep(&point.patch, &y1)
+            if !point.is_inside(&point.patch, &y0)
+                && !point.is_inside(&point.patch, &y1)
                 && let Some((patch, _)) = meets(point, obstacle)
             {
                 point.patch = patch;
@@ -227,6 +226,12 @@ impl ContactPoint {
     /// Returns whether it is one of an element or of its neighbours, with an obstacle.
     pub(super) fn touches(&self, obstacle: usize, element: usize) -> bool {
         self.obstacle == obstacle && (self.key.0 as usize).abs_diff(element) <= 1
+    }
+
+    /// Returns whether it touches a patch at `y`. A sample that comes from beside a face is behind the face's plane before it is at the face: it would begin
+    /// deep there, where the contact of the edge holds it.
+    fn is_inside(&self, patch: &Patch, y: &Vector3<f64>) -> bool {
+        patch.gap(y).0 < self.reach
     }
 
     /// Returns its place in the obstacle's axes at the beginning and at the end of an iterate.

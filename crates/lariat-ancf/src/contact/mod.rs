@@ -41,8 +41,7 @@
 //!
 //! `k = EA/(40 r^2)` per length: under the tension T around a radius R the depth is 40 (r/R) (T/EA) of the radius. First touch is of order
 //! 1 in the step; after it the bound of friction is that of the step itself (lag.rs). Restitution is zero where the step does not resolve the contact. The
-//! element has no torsion: forces act on the centre line. Where a box that falls on ropes slides over them, a contact near its edges can begin deep: in 6 of 24 falls
-//! of 50 kg on four ropes one was 0.1 to 0.8 of the radius deep at a host time, the others at most 0.06; with Gauss's points in 4.
+//! element has no torsion: forces act on the centre line.
 //!
 //! # References
 //!

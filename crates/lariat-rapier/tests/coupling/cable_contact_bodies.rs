@@ -36,7 +36,7 @@ fn contact_energy(cables: &CableSet) -> f64 {
 /// *Source.* Conservation of energy; geometry.
 #[test]
 fn four_ropes_catch_a_cube() {
-    for (mass, rate) in [(50.0, 60.0), (50.0, 120.0), (5.0, 60.0)] {
+    for (mass, rate) in [(50.0, 60.0), (50.0, 120.0), (5.0, 60.0), (53.7, 30.0), (55.55, 90.0)] {
         let mut world = PhysicsWorld::new();
         world.integration_parameters.dt = 1.0 / rate;
         let at = RVector::new(0.01, 0.25 + 0.5 + RADIUS as Real, 0.02);
