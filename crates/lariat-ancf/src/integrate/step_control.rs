@@ -22,7 +22,7 @@
 //! check](super::energy_check), and tried at a quarter as well.
 //!
 //! Steps of fixed length are divided for failures that are rare. One at the shortest length, and the
-//! growth back by doubling, take 10 + 20 tries. A host step fails once it has taken more than those of
+//! growth back by 1.2, take 10 + 76 tries. A host step fails once it has taken more than those of
 //! two of them in each of its regular steps: the method does not take steps of this length there, as
 //! the midpoint rule with a stiff cable whose end is set in motion by a jolt, which else took 1e5 steps
 //! per host step.
@@ -53,8 +53,8 @@ const RETRY_SHARE: f64 = 0.25;
 /// it.
 const MAX_SHARE_OF_FAILED: f64 = 0.5;
 /// Tries per regular step of fixed length in a host step after which a failure ends it: of two
-/// failures at the shortest step, 2 (10 + 20), and a few.
-const TRIES: u64 = 64;
+/// failures at the shortest step, 2 (10 + 76), for 1.2^76 = 4^10.
+const TRIES: u64 = 172;
 /// Growth of that bound with every accepted step.
 const BOUND_GROWTH: f64 = 1.2;
 
