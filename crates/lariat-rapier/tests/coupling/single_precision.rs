@@ -116,8 +116,11 @@ fn a_rope_between_bodies_that_move_alike_feels_no_rounding() {
         let case = format!("{mean:.3} N, +- {deviation:.1e} of {:.1e} N: {haul:?}", haul.noise());
         println!("{case}");
         let placed = f64::from(Real::EPSILON) * (haul.x + haul.length) * STIFFNESS / haul.length;
-        assert!((mean - 1e-4 * STIFFNESS).abs() < placed + 0.1 * haul.noise(), "{case}");
-        assert!(deviation < 0.15 * haul.noise(), "{case}");
+        // Green's law at the stretch 1.0001; in double precision waves of the start are what is left
+        let force = 0.5 * STIFFNESS * (1.0001f64.powi(2) - 1.0) * 1.0001;
+        let waves = if Real::EPSILON < 1e-10 { 1e-3 * force } else { 0.0 };
+        assert!((mean - force).abs() < placed + 0.1 * haul.noise() + waves, "{case}");
+        assert!(deviation < 0.15 * haul.noise() + waves, "{case}");
     }
 }
 
@@ -145,7 +148,7 @@ fn a_rope_that_drags_a_box_carries_its_friction_anywhere() {
 }
 
 /// A taut rope between two kinematic bodies that are moved to poses: warned of where rounding makes more than a hundredth of its tension,
-/// which it does on bodies that accelerate or turn, far from the origin.
+/// which it does on bodies that accelerate or turn, far from the origin, in single precision.
 ///
 /// Reference: the force is constant, but for the bodies' own acceleration, which is the same anywhere.
 #[test]
@@ -157,6 +160,7 @@ fn rounded_poses_that_make_forces_are_warned_of() {
         (0.3, 0.0, 0.2, false),
         (8.0, 0.0, 0.0, false),
     ] {
+        let warned = warned && Real::EPSILON > 1e-10;
         let haul = Haul { x, ..HAUL };
         let mut world = weightless();
         world.integration_parameters.dt = (1.0 / haul.rate) as Real;

@@ -167,6 +167,7 @@ fn a_box_hangs_on_its_rope_when_the_ground_is_removed() {
     let ground = ColliderBuilder::cuboid(2.0, 0.5, 2.0).translation(Vector::new(0.0, -0.5, 0.0));
     let (ground, _) = world.insert(RigidBodyBuilder::fixed(), ground);
     let load = add_cube(&mut world, 50.0, 0.1, [0.0, 0.1, 0.0]);
+    *world.bodies[load].activation_mut() = RigidBodyActivation::cannot_sleep();
     let hook = world.insert_body(RigidBodyBuilder::fixed().translation(Vector::new(0.0, 2.2, 0.0)));
     let mut set = CableSet::new();
     let weight = 50.0 * 9.81;
