@@ -120,6 +120,7 @@ mod edit;
 mod error;
 mod events;
 mod handle;
+mod host_step;
 mod inside;
 mod islands;
 mod join;

@@ -25,7 +25,7 @@ impl Cable {
     /// [`IntegratorRef`] with a method of another crate.
     ///
     /// # Errors
-    /// As [`step`](Self::step), [`Integrator::checked`] and [`set_integrator`](Self::set_integrator).
+    /// As [`step`](Self::step), [`Integrator::checked`](crate::Integrator::checked) and [`set_integrator`](Self::set_integrator).
     pub fn step_with<'a>(&mut self, dt: f64, integrator: impl Into<IntegratorRef<'a>>) -> Result<(), Error> {
         let integrator = integrator.into();
         integrator.check()?;

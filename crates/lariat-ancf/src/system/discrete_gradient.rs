@@ -4,7 +4,6 @@ use super::lanes::MatrixOutput;
 use super::lanes::discrete_gradient::{CoordinateStep, ElementLoss};
 use super::rigid_motion::relative_velocities;
 use super::{Equations, System, Unknowns, project_vector};
-use crate::cable::Cable;
 use crate::effect::EffectWork;
 use crate::effect::acts::{ForceInput, PointForce, StepInput};
 use crate::error::StepFailure;
@@ -381,24 +380,5 @@ impl DiscreteGradientSystem for CableStep<'_> {
             Event::Lagging => self.equations.diagnostics.lagging_steps += 1,
             Event::Split => self.equations.diagnostics.split_steps += 1,
         }
-    }
-}
-
-impl Cable {
-    /// Returns the energy in J that the method `discrete-gradient` holds beyond the mechanical energy: S of the last step. Its law is about
-    /// the sum of both.
-    pub fn energy_in_store(&self) -> f64 {
-        let (q, differences) = (self.positions(), &self.snapshot().state.memory.differences);
-        if differences.is_empty() {
-            return 0.0;
-        }
-        let still = vec![0.0; q.len()];
-        let mut buffer = still.clone();
-        let mut before = differences.displacement.clone();
-        self.system.flows.shift_eyes_before(q, &mut before);
-        let step = CoordinateStep { start: q, change: &still, before: &before, kept: 1.0, linearised: &[], h: 1.0 };
-        let elastic =
-            self.system.forces.elements.add_discrete_gradient(self.system.level, None, step, &mut buffer).numerical;
-        elastic + 0.5 * ALPHA * self.system.mass_square(&differences.velocity, &mut buffer)
     }
 }

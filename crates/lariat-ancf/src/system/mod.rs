@@ -34,6 +34,7 @@ pub(crate) mod mass;
 mod pairs;
 mod projection;
 mod rigid_motion;
+mod store;
 
 pub(crate) use discrete_gradient::{CableStep, dot};
 pub(crate) use dynamics::CableDynamics;
