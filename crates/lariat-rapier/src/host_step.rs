@@ -8,7 +8,7 @@ use rapier::pipeline::{EventHandler, PhysicsHooks, PhysicsWorld};
 
 impl CableSet {
     /// Advances cables and world by a host step of `world.integration_parameters.dt`, split into
-    /// Rapier steps as the [`Settings`] say.
+    /// Rapier steps as the [`Settings`](crate::Settings) say.
     ///
     /// # Errors
     /// [`Error::StepRefused`] if cables cannot step. They and their bodies are then as after the last
