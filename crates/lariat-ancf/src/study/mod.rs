@@ -214,6 +214,8 @@ impl<F> Study<F> {
             let indicated = coarse.record.indicated_order(&fine.record, ratio);
             let shown = order::shown_by_both(&differences, indicated).filter(|_| refined);
             let largest = fine.record.largest_order(span.is_none(), shown);
+            // one distance shows no order
+            let largest = if differences.len() == 1 { largest.min(order::KINKS) } else { largest };
             let factor = if refined { order::factor(&differences, indicated, largest) } else { f64::INFINITY };
             let mesh = if refined { factor * difference } else { f64::INFINITY };
             let apart = coarse.record.first_beyond(&fine.record, left / factor);
