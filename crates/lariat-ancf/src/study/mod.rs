@@ -8,8 +8,8 @@
 //! - `e_mesh = d max(1, 1/(f^p - 1))` for the error of the mesh, with the largest distance `d` between the two runs and the least ratio `f`
 //!   of their element lengths, found on the meshes themselves. The order p is 1: the whole difference of a mesh and its half. Where the last two
 //!   distances or the [mesh indicator](crate::Cable::mesh_indicator) of both runs show less than the first order, it is what they show, at least 1/4.
-//!   Where [velocities jump](Record::velocities_jump), and of an equilibrium that is held between the ends of a cable, it is 2/3 at most; of one that is smooth
-//!   there it is what both show, up to 2;
+//!   It is 2/3 at most with two meshes alone, where [velocities jump](Record::velocities_jump), and for an equilibrium that is held between the ends of a cable;
+//!   for one that is smooth there it is what both show, up to 2;
 //! - `e_time` from runs at `8 tau` and `tau` or, where the host step limits their steps, from one in shorter equal steps: see `time`.
 //!
 //! The study ends with the finer of the two runs when `e_mesh + e_time <= e`; else the next run has 1.5 to 3 times as many elements, after
@@ -213,9 +213,7 @@ impl<F> Study<F> {
             }
             let indicated = coarse.record.indicated_order(&fine.record, ratio);
             let shown = order::shown_by_both(&differences, indicated).filter(|_| refined);
-            let largest = fine.record.largest_order(span.is_none(), shown);
-            // one distance shows no order
-            let largest = if differences.len() == 1 { largest.min(order::KINKS) } else { largest };
+            let largest = fine.record.largest_order(span.is_none(), differences.len(), shown);
             let factor = if refined { order::factor(&differences, indicated, largest) } else { f64::INFINITY };
             let mesh = if refined { factor * difference } else { f64::INFINITY };
             let apart = coarse.record.first_beyond(&fine.record, left / factor);

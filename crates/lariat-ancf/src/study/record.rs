@@ -121,10 +121,11 @@ impl Record {
         Some(order).filter(|order| order.is_finite() && finer.indicator > ROUNDING * finer.longest())
     }
 
-    /// Returns the largest order of convergence that the motion, or the equilibrium, allows; `seen` is the least that distances and indicator both show.
-    pub(super) fn largest_order(&self, equilibrium: bool, seen: Option<f64>) -> f64 {
+    /// Returns the largest order of convergence that the motion, or the equilibrium, allows after a number of distances between meshes, of which one
+    /// shows no order; `seen` is the least that distances and indicator both show.
+    pub(super) fn largest_order(&self, equilibrium: bool, distances: usize, seen: Option<f64>) -> f64 {
         match seen {
-            _ if self.jumps || equilibrium && self.held => order::KINKS,
+            _ if distances == 1 || self.jumps || equilibrium && self.held => order::KINKS,
             Some(seen) if equilibrium && !self.kinked => seen.clamp(1.0, order::SMOOTH),
             _ => 1.0,
         }
