@@ -7,7 +7,7 @@
 //! | `cosimulation` | `CoSimulation`: a cable on bodies that another program moves |
 //! | `world` | `World`: rapier3d with cables on its bodies |
 //! | `scene` | runs of scene files and sweeps over them |
-//! | `convert`, `error`, `shared` | arguments, exceptions, objects that several threads use |
+//! | `convert`, `error`, `shared`, `saved` | arguments, exceptions, objects that several threads use, objects as bytes |
 //!
 //! What needs no Rust (exceptions, results as named tuples, effects, tables) is in `python/lariat`.
 //!
@@ -19,6 +19,7 @@ mod convert;
 mod cosimulation;
 mod error;
 mod integrator;
+mod saved;
 mod scene;
 mod section;
 mod shared;

@@ -8,6 +8,7 @@ mod reel;
 use crate::convert::{Array, Place, Places, Vector, data};
 use crate::error::{Raise, raise};
 use crate::integrator::{Choice, fidelity};
+use crate::saved;
 use crate::section::Section;
 use crate::shared::{Shared, repeat_for_a_while};
 use crate::world::Contents;
@@ -19,9 +20,6 @@ use pyo3::marker::Ungil;
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict};
 use std::borrow::Cow;
-
-/// What the bytes of a saved cable begin with; the version of the crate follows.
-const MAGIC: &str = concat!("lariat cable ", env!("CARGO_PKG_VERSION"), "\n");
 
 /// Where the cable is.
 #[derive(Clone)]
@@ -209,19 +207,14 @@ impl Cable {
 
     /// Returns description and state as bytes; `from_bytes` continues the run bitwise.
     fn to_bytes<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyBytes>> {
-        let bytes = self.read(py, |cable| Ok(rmp_serde::to_vec_named(cable)))?;
-        let bytes = bytes.map_err(|error| raise(Raise::new("FormatError", error.to_string())))?;
-        Ok(PyBytes::new(py, &[MAGIC.as_bytes(), &bytes].concat()))
+        let written = self.read(py, |cable| Ok(saved::write(cable)))?;
+        saved::to_bytes(py, "cable", written)
     }
 
     /// Returns a cable from the bytes of `to_bytes`, of the same version.
     #[staticmethod]
     fn from_bytes(bytes: Cow<'_, [u8]>) -> PyResult<Self> {
-        let wrong = |problem: String| raise(Raise::new("FormatError", format!("not a saved cable: {problem}")));
-        let Some(body) = bytes.strip_prefix(MAGIC.as_bytes()) else {
-            return Err(wrong(format!("it does not begin with {MAGIC:?}")));
-        };
-        rmp_serde::from_slice(body).map(Cable::new).map_err(|error| wrong(error.to_string()))
+        saved::from_bytes("cable", &bytes).map(Cable::new)
     }
 
     fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, (Bound<'py, PyBytes>,))> {

@@ -19,7 +19,8 @@ mod link;
 
 use crate::cable::Cable;
 use crate::convert::{Array, Place, Vector, result, table, vectors};
-use crate::error::{Raise, raise};
+use crate::error::raise;
+use crate::saved;
 use crate::shared::Shared;
 use lariat_ancf::{self as ancf, At, Error, Vector3};
 use link::{End, Link, Motion, Wrench};
@@ -28,8 +29,6 @@ use numpy::PyArray2;
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 use std::borrow::Cow;
-
-const MAGIC: &str = concat!("lariat co-simulation ", env!("CARGO_PKG_VERSION"), "\n");
 
 /// A cable on bodies that another program moves.
 #[pyclass(frozen, module = "lariat")]
@@ -190,20 +189,14 @@ impl CoSimulation {
     /// Returns cable and ends as bytes; `from_bytes` continues the run bitwise.
     fn to_bytes<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyBytes>> {
         let cable = self.cable.clone();
-        let bytes = self.link.compute(py, move |link| rmp_serde::to_vec_named(&(&*cable.lock(), &link.ends)));
-        let bytes = bytes.map_err(|error| raise(Raise::new("FormatError", error.to_string())))?;
-        Ok(PyBytes::new(py, &[MAGIC.as_bytes(), &bytes].concat()))
+        let written = self.link.compute(py, move |link| saved::write(&(&*cable.lock(), &link.ends)));
+        saved::to_bytes(py, "co-simulation", written)
     }
 
     /// Returns a co-simulation from the bytes of `to_bytes`, of the same version.
     #[staticmethod]
     fn from_bytes(py: Python<'_>, bytes: Cow<'_, [u8]>) -> PyResult<Self> {
-        let wrong = |problem: String| raise(Raise::new("FormatError", format!("not a saved co-simulation: {problem}")));
-        let Some(body) = bytes.strip_prefix(MAGIC.as_bytes()) else {
-            return Err(wrong(format!("it does not begin with {MAGIC:?}")));
-        };
-        let (cable, ends): (ancf::Cable, Vec<End>) =
-            rmp_serde::from_slice(body).map_err(|error| wrong(error.to_string()))?;
+        let (cable, ends): (ancf::Cable, Vec<End>) = saved::from_bytes("co-simulation", &bytes)?;
         let object = Bound::new(py, Cable::new(cable))?;
         let cable = object.get().own("be part of a co-simulation")?.clone();
         Ok(CoSimulation { link: Shared::new(Link::new(ends)), cable, object: object.unbind() })

@@ -12,6 +12,7 @@ use crate::cable::Cable;
 use crate::convert::{Place, Vector, result, vector};
 use crate::error::{Raise, raise};
 use crate::integrator::fidelity;
+use crate::saved;
 use crate::shared::Shared;
 use bodies::{Handle, single};
 use lariat_rapier::rapier::dynamics::RigidBodyHandle;
@@ -23,8 +24,6 @@ use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
-
-const MAGIC: &str = concat!("lariat world ", env!("CARGO_PKG_VERSION"), "\n");
 
 /// Bodies and cables.
 #[derive(Serialize, Deserialize)]
@@ -249,20 +248,13 @@ impl World {
 
     /// Returns bodies and cables as bytes; `restore` continues the run bitwise.
     fn snapshot<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyBytes>> {
-        let bytes = self.0.compute(py, |contents| rmp_serde::to_vec_named(contents));
-        let bytes = bytes.map_err(|error| raise(Raise::new("FormatError", error.to_string())))?;
-        Ok(PyBytes::new(py, &[MAGIC.as_bytes(), &bytes].concat()))
+        saved::to_bytes(py, "world", self.0.compute(py, |contents| saved::write(contents)))
     }
 
     /// Returns a world from the bytes of `snapshot`, of the same version.
     #[staticmethod]
     fn restore(bytes: Cow<'_, [u8]>) -> PyResult<Self> {
-        let wrong = |problem: String| raise(Raise::new("FormatError", format!("not a saved world: {problem}")));
-        let Some(body) = bytes.strip_prefix(MAGIC.as_bytes()) else {
-            return Err(wrong(format!("it does not begin with {MAGIC:?}")));
-        };
-        let contents = rmp_serde::from_slice(body).map_err(|error| wrong(error.to_string()))?;
-        Ok(World(Shared::new(contents)))
+        Ok(World(Shared::new(saved::from_bytes("world", &bytes)?)))
     }
 
     fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, (Bound<'py, PyBytes>,))> {
