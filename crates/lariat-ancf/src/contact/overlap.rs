@@ -1,5 +1,6 @@
 //! Whether a cable is in what it can touch: for shapes that were found without contact.
 
+use super::pair::between_samples;
 use super::point::combine;
 use crate::cable::Cable;
 use crate::element::shape;
@@ -11,8 +12,6 @@ const TOUCH: f64 = 0.02;
 const BETWEEN: f64 = 2.0;
 /// Points of an element that are looked at, without its last node.
 const POINTS: usize = 8;
-/// Local coordinates half way between the samples of an element.
-const BETWEEN_SAMPLES: [f64; 4] = [0.086, 0.336, 0.664, 0.914];
 
 /// Where a cable is in an obstacle.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -44,7 +43,7 @@ impl Cable {
                 if depth(&middle) < -element.length {
                     continue;
                 }
-                for xi in BETWEEN_SAMPLES {
+                for xi in between_samples() {
                     let at = begin + xi * element.length;
                     let held = [e, e + 1].into_iter().any(|node| self.model.support(node).is_some());
                     if held || obstacle.excepts(at) {

@@ -52,6 +52,11 @@ pub(super) fn samples(
     })
 }
 
+/// Returns the local coordinates half way between the samples of an element.
+pub(super) fn between_samples() -> impl Iterator<Item = f64> {
+    SAMPLES.windows(2).map(|pair| 0.5 * (pair[0].0 + pair[1].0))
+}
+
 /// An element and an obstacle.
 pub(super) struct Pair<'a> {
     pub motion: &'a Motion<'a>,

@@ -143,10 +143,10 @@ impl FlowElement {
 
     /// Returns the kinetic energy beyond that of the mass matrix, `l' v.G q + 1/2 l'^2 q.K q`, in J.
     pub fn kinetic_energy(&self, q: &[f64; 12], v: &[f64; 12]) -> f64 {
-        let [_, square] = self.gradient_matrices();
+        let [by_velocity, by_position] = self.gradient_matrices();
         let mut force = [0.0; 12];
-        add_product(&square, 0.5, q, &mut force);
-        add_product(&self.weighted([(self.extent.rate, &G_T)]), 1.0, v, &mut force);
+        add_product(&by_position, 0.5, q, &mut force);
+        add_product(&by_velocity, 1.0, v, &mut force);
         dot(q, &force)
     }
 

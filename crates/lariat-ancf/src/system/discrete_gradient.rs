@@ -252,15 +252,12 @@ impl Equations<'_> {
     }
 }
 
-/// Linearises the laws of reels whose rate is unknown, and solves for their columns; where all motors stick, none is.
+/// Linearises the laws of reels whose rate is unknown, and solves for their columns.
 fn linearise_laws(equations: &mut Equations<'_>, state: &State, b: &mut Buffers) {
+    equations.read_motors(state, b);
     let mut unknowns = core::mem::take(&mut b.unknowns);
     unknowns.begin([&equations.system.flows].into_iter());
     let Unknowns { reels, columns, .. } = &mut unknowns;
-    equations.read_motors(state, b);
-    if equations.system.flows.stick() {
-        reels.clear();
-    }
     for (&(_, k), columns) in reels.iter().zip(columns) {
         equations.linearise_law(k, state, b, &mut columns[0]);
         equations.solve_with_pairs(&mut b.pairs.low_rank, &mut columns[0], &mut b.product);

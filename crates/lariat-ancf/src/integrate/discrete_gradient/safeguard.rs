@@ -156,7 +156,7 @@ pub(super) fn step(
     let (mut fresh, mut most) = (true, MAX_ITERATIONS);
     let (mut iteration, mut imbalance) = (0, f64::INFINITY);
     let (mut searches, mut misses) = (0, None);
-    let (mut renewals, mut renewed, mut lags) = (0, 0, false);
+    let (mut renewals, mut renewed) = (0, 0);
     let most_renewals = if depth == 0 { MAX_RENEWALS } else { MAX_RENEWALS_OF_PARTS };
     let is_spent = || limit.is_some_and(WorkLimit::is_spent);
     while iteration < most && !(iteration > 0 && is_spent()) {
@@ -173,13 +173,13 @@ pub(super) fn step(
                 let forces = forces && is_momentum_right(balance);
                 let motors = are_motors_right(balance);
                 if is_dissipation_right(balance) && forces && closes(balance) && is_consistent(balance) && motors {
-                    let renews = balance.near && renewals <= most_renewals && system.renew_friction();
-                    if renews && renewals == most_renewals {
-                        (renewals, lags) = (renewals + 1, true);
-                    } else if renews {
-                        (renewals, renewed, most) = (renewals + 1, iteration, iteration + MAX_ITERATIONS_NEAR);
-                        (fresh, imbalance) = (true, f64::INFINITY);
-                        continue;
+                    if balance.near && renewals <= most_renewals && system.renew_friction() {
+                        renewals += 1;
+                        if renewals <= most_renewals {
+                            (renewed, most) = (iteration, iteration + MAX_ITERATIONS_NEAR);
+                            (fresh, imbalance) = (true, f64::INFINITY);
+                            continue;
+                        }
                     }
                     misses = Some(system.add_missed());
                     if misses == Some(false) || searches == MAX_SEARCHES {
@@ -200,7 +200,7 @@ pub(super) fn step(
             most = renewed + MAX_ITERATIONS_NEAR;
         }
     }
-    if lags {
+    if renewals > most_renewals {
         system.count(Event::Lagging);
     }
     let reduced = limit.is_some_and(WorkLimit::reduces);

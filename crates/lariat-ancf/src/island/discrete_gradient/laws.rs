@@ -78,15 +78,12 @@ impl IslandStep<'_, '_> {
 
     /// Linearises the laws of reels whose rate is unknown, and solves for their columns.
     pub(super) fn linearise_laws(&mut self) {
-        let mut unknowns = core::mem::take(&mut self.buffers.unknowns);
-        unknowns.begin(self.cables.iter().map(|cable| &cable.system.flows));
-        for &(c, _) in &unknowns.reels {
-            let CableStep { mut equations, state, buffers } = self.cables[c].step_parts();
+        for cable in self.cables.iter_mut() {
+            let CableStep { mut equations, state, buffers } = cable.step_parts();
             equations.read_motors(state, buffers);
         }
-        if unknowns.winches.is_empty() && self.cables.iter().all(|cable| cable.system.flows.stick()) {
-            unknowns.reels.clear();
-        }
+        let mut unknowns = core::mem::take(&mut self.buffers.unknowns);
+        unknowns.begin(self.cables.iter().map(|cable| &cable.system.flows));
         let Unknowns { reels, columns, rows, .. } = &mut unknowns;
         for ((&(c, k), columns), rows) in reels.iter().zip(columns).zip(rows) {
             for (cable, column) in self.cables.iter().zip(columns.iter_mut()) {

@@ -152,6 +152,7 @@ impl System {
 
 #[cfg(test)]
 mod tests {
+    use super::super::some;
     use super::*;
     use crate::effect::Profile;
     use crate::element::flow::flow_weights;
@@ -160,11 +161,6 @@ mod tests {
     use crate::{At, Cable, Drag, Flow as Fluid, Integrator, Method, Reel, Section, StepControl};
     use approx::assert_relative_eq;
     use nalgebra::Vector3;
-
-    /// Any number in -1..1.
-    fn some(seed: usize) -> f64 {
-        (1.7 * seed as f64 + 0.3).sin()
-    }
 
     /// The generalised forces of drag, times the rates of all coordinates and lengths, are the power of the force per length on the
     /// particles, at random states of a cable with a reel at each end.

@@ -161,16 +161,12 @@ impl Flow {
 
 #[cfg(test)]
 mod tests {
+    use super::super::some;
     use super::*;
     use crate::effect::EffectWork;
     use crate::system::CableStep;
     use crate::{At, Cable, Damping, Feed, Integrator, LineLoad, Method, Reel, Section, StepControl};
     use nalgebra::Vector3;
-
-    /// Any number in -1..1.
-    fn some(seed: usize) -> f64 {
-        (1.7 * seed as f64 + 0.3).sin()
-    }
 
     /// The column of one element is that of all residuals, and the row that of the motor, at random iterates of a cable with weight, line load
     /// and internal damping.

@@ -366,3 +366,9 @@ fn control(q: &[f64; 12], length: f64) -> Control<f64> {
     let s = 3.0 / length;
     [[q[3], q[4], q[5]], core::array::from_fn(|x| s * (q[6 + x] - q[x])), [q[9], q[10], q[11]]]
 }
+
+/// Any number in -1..1, for tests.
+#[cfg(test)]
+fn some(seed: usize) -> f64 {
+    (1.7 * seed as f64 + 0.3).sin()
+}

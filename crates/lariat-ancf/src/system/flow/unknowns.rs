@@ -48,11 +48,12 @@ pub(crate) struct Unknowns {
 }
 
 impl Unknowns {
-    /// Lists the unknowns of cables, each with its equations.
+    /// Lists the unknowns of cables, each with its equations and the forces of its motors; where all of these stick, no rate is unknown.
     pub fn begin<'a>(&mut self, cables: impl ExactSizeIterator<Item = &'a Flows>) {
         self.reels.clear();
-        let count = cables.len();
+        let (count, mut stick) = (cables.len(), self.winches.is_empty());
         for (c, flows) in cables.enumerate() {
+            stick &= flows.stick();
             for (k, flow) in flows.list.iter().enumerate().filter(|(_, flow)| flow.law.is_some()) {
                 for wheel in &mut self.wheels {
                     for (end, unknown) in wheel.sheave.ends().iter().zip(&mut wheel.flows) {
@@ -71,6 +72,9 @@ impl Unknowns {
         self.columns.resize_with(unknowns, Vec::new);
         self.columns.iter_mut().for_each(|column| column.resize_with(count, Vec::new));
         self.rows.resize_with(unknowns, Vec::new);
+        if stick {
+            self.reels.clear();
+        }
     }
 
     /// Solves for the increments of all accelerations and adds them to the iterate. `flows` and `increment` return those of a cable,
