@@ -114,6 +114,20 @@ pub struct CableWarning {
     pub warning: lariat_ancf::Warning,
 }
 
+/// A cable and its anchor on a body, which had met, came apart: by more than 2e-3 of the length of the cable. Sent once for each attachment; take shorter
+/// steps, or find what holds the body back.
+#[derive(EntityEvent, Message, Clone, Debug, PartialEq)]
+pub struct GapOpened {
+    /// The attachment.
+    pub entity: Entity,
+    /// Its cable.
+    pub cable: Entity,
+    /// The body it is attached to; `None` for the world.
+    pub body: Option<Entity>,
+    /// The distance in m.
+    pub gap: f64,
+}
+
 /// Reason why an attachment ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum EndReason {
@@ -200,6 +214,7 @@ macro_rules! for_each_event {
             ContactStarted,
             ContactEnded,
             ContactIgnored,
+            GapOpened,
             AttachmentEnded,
             AttachmentFailed,
             JunctionFailed,

@@ -6,7 +6,7 @@ use crate::cables::{Cables, Parting};
 use crate::diagnostics::{Diagnostics, Stage};
 use crate::event::{
     AttachmentEnded, CableAsleep, CableAwake, CableDegraded, CableWarning, ContactEnded, ContactIgnored,
-    ContactStarted, EndReason, QueuedEvent,
+    ContactStarted, EndReason, GapOpened, QueuedEvent,
 };
 use crate::physics::Physics;
 use bevy_ecs::prelude::{DetectChangesMut, Query, Res, ResMut};
@@ -26,6 +26,10 @@ pub(crate) fn read_events(mut cables: ResMut<Cables>, physics: Res<Physics>) {
                 let (entity, cable, body) = (link.entity, link.cable, link.body);
                 AttachmentEnded { entity, cable, body, reason: EndReason::BodyGone }.into()
             }),
+            Event::GapOpened { attachment, gap } => links
+                .attachments
+                .get(&attachment)
+                .map(|link| GapOpened { entity: link.entity, cable: link.cable, body: link.body, gap: gap.gap }.into()),
             Event::Broken { cable, rest, how } => {
                 broken.push(Parting { cable, rest, how });
                 None

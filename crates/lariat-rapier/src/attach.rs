@@ -6,6 +6,7 @@ use crate::convert::{rotation, vector};
 use crate::drum;
 use crate::error::Error;
 use crate::events::Event;
+use crate::gaps::GapWatch;
 use crate::handle::{AttachmentHandle, CableHandle};
 use crate::sheave;
 use crate::world_mark;
@@ -58,6 +59,7 @@ pub(crate) fn attach(
         ledger: None,
         last_anchor: None,
         reading: AttachmentReading::default(),
+        watch: GapWatch::default(),
         lost_link: false,
         at_eye: false,
         from_start: 0,

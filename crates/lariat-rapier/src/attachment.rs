@@ -1,6 +1,7 @@
 //! A node of a cable attached to a body, and the force and moment between them.
 
 use crate::error::Error;
+use crate::gaps::GapWatch;
 use crate::handle::CableHandle;
 use crate::ledger::Ledger;
 use ::nalgebra::Vector3;
@@ -97,6 +98,8 @@ pub struct Attachment {
     /// Last position in m of the anchor on a body with prescribed motion.
     pub(crate) last_anchor: Option<Vector3<f64>>,
     pub(crate) reading: AttachmentReading,
+    #[serde(default)]
+    pub(crate) watch: GapWatch,
     /// Whether a gap has opened in a step although the body is a link of a multibody: its motion was not the predicted one.
     #[serde(default)]
     pub(crate) lost_link: bool,

@@ -1,5 +1,6 @@
 //! Events of a host step.
 
+use crate::gaps::OpenGap;
 use crate::handle::{AttachmentHandle, CableHandle};
 use lariat_ancf::{Break, Warning};
 use rapier::dynamics::RigidBodyHandle;
@@ -28,6 +29,14 @@ pub enum Event {
         rest: CableHandle,
         /// Why, where and under which load.
         how: Break,
+    },
+    /// A cable and the anchor of an attachment, which had met, came apart: by more than 2e-3 of the length of the cable at the end of a host step.
+    /// Once for each attachment; take shorter steps, or find what holds the body back.
+    GapOpened {
+        /// The attachment.
+        attachment: AttachmentHandle,
+        /// The gap.
+        gap: OpenGap,
     },
     /// A cable began to touch a collider.
     ContactStarted {

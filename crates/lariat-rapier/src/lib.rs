@@ -34,7 +34,7 @@
 //! | bound the work of a host step | [`Settings::budget`] |
 //! | let a cable break | [`CableSet::set_strength`] |
 //! | read forces, gaps and work | [`Attachment`], [`AttachmentReading`], [`WorldEnergy`] |
-//! | hear where meshes, steps, laws and sizes are not good enough | [`Event::Warning`], [`CableSet::warnings`] |
+//! | hear where meshes, steps, laws and sizes are not good enough | [`Event::Warning`], [`Event::GapOpened`], [`CableSet::warnings`] |
 //! | tie cables to each other | [`CableSet::join`], [`Junction`] |
 //! | step Rapier yourself | [`CableSet::begin`], [`HostStep`] |
 //! | convert numbers | [`convert`] |
@@ -119,6 +119,7 @@ mod drum;
 mod edit;
 mod error;
 mod events;
+mod gaps;
 mod handle;
 mod host_step;
 mod inside;
@@ -152,6 +153,7 @@ pub use draw::DrawStyle;
 pub use drum::Drum;
 pub use error::{BodyQuantity, Error, Failure};
 pub use events::Event;
+pub use gaps::OpenGap;
 pub use handle::{AttachmentHandle, CableHandle, JunctionHandle, SheaveHandle};
 pub use inside::deepest_inside;
 pub use junction::Junction;

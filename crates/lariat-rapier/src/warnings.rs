@@ -3,13 +3,22 @@
 //! Cables of a set are watched ([`Settings::watch`](crate::Settings::watch)): each warning of [`lariat_ancf::warning`] is an
 //! [`Event::Warning`] once, after the host step in which it came up. [`CableSet::warnings`] returns all at any time.
 
+use crate::attachment::Attachment;
 use crate::contents::Contents;
+use crate::convert::{rotation, to_vector, vector};
+use crate::error::Error;
 use crate::events::Event;
-use crate::handle::CableHandle;
+use crate::gaps::OpenGap;
+use crate::handle::{AttachmentHandle, CableHandle};
 use crate::inside::deepest_inside;
 use crate::set::CableSet;
+use rapier::dynamics::RigidBodyType;
 use rapier::geometry::ColliderHandle;
+use rapier::math::Real;
 use rapier::pipeline::PhysicsWorld;
+
+/// Largest difference of velocities at the start without a warning, in m/s.
+const JOLT: f64 = 1e-5;
 
 /// A warning about a cable of a set; its text says what to do.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -40,6 +49,32 @@ pub enum Warning {
         /// Its distance from the surface in m; where no point that is tested is inside, half the length inside.
         depth: f64,
     },
+    /// An attachment whose two sides are apart.
+    #[error(
+        "cable {name:?}: at {:.4} s it is {:.1e} m off the anchor of an attachment{}", gap.time, gap.gap,
+        if gap.closed { ": take shorter steps, or find what holds the body back" } else { ", and they never met: start them together, or wait" }
+    )]
+    OpenGap {
+        /// The attachment.
+        attachment: AttachmentHandle,
+        /// Name of its cable.
+        name: String,
+        /// The gap.
+        gap: OpenGap,
+    },
+    /// Cable and body of an attachment that has not been stepped have different velocities.
+    #[error(
+        "cable {name:?}: cable and body start with velocities {difference:.3e} m/s apart where they are attached, which gives a shock: give both the same \
+         velocity there"
+    )]
+    VelocityJump {
+        /// The attachment.
+        attachment: AttachmentHandle,
+        /// Name of its cable.
+        name: String,
+        /// Difference of the velocities in m/s.
+        difference: f64,
+    },
     /// A cable that touches bodies would bounce off a collider, if contacts of cables had restitution.
     #[error(
         "cable {name:?}: contacts of cables have no restitution, and a collider that it may touch has {restitution}: the cable does not bounce \
@@ -59,8 +94,8 @@ pub enum Warning {
 
 impl CableSet {
     /// Returns the warnings about all cables: those that the cables have
-    /// ([`Cable::warnings`](lariat_ancf::Cable::warnings)), places inside colliders, and restitution that contacts of cables ignore. Worth a
-    /// look when a world has been built.
+    /// ([`Cable::warnings`](lariat_ancf::Cable::warnings)), places inside colliders, restitution that contacts of cables ignore, gaps, and attachments
+    /// that start with a shock. Worth a look when a world has been built.
     pub fn warnings(&self, world: &PhysicsWorld) -> Vec<Warning> {
         let mut warnings = Vec::new();
         for (cable, slot) in self.contents.cables.iter() {
@@ -85,7 +120,36 @@ impl CableSet {
                 }
             }
         }
+        let attachments = self.contents.attachments.iter();
+        warnings.extend(attachments.filter_map(|(i, a)| self.of_attachment(AttachmentHandle(i as u32), a, world)));
         warnings
+    }
+
+    /// Returns the gap of an attachment if it is longer than 2e-3 of the length of its cable: the largest since the two sides met, or if they did not,
+    /// the least.
+    ///
+    /// # Errors
+    /// [`Error::NoAttachment`].
+    pub fn open_gap(&self, attachment: AttachmentHandle) -> Result<Option<OpenGap>, Error> {
+        let own = self.contents.attachment(attachment)?;
+        Ok(own.watch.open(self.contents.cable(own.cable)?.length()))
+    }
+
+    fn of_attachment(&self, attachment: AttachmentHandle, own: &Attachment, world: &PhysicsWorld) -> Option<Warning> {
+        let (cable, body) = (self.contents.cable(own.cable).ok()?, world.bodies.get(own.body)?);
+        let name = cable.name().to_string();
+        if own.watch.is_read() {
+            return Some(Warning::OpenGap { attachment, name, gap: own.watch.open(cable.length())? });
+        }
+        // how a body whose positions are prescribed moves is known only within a step
+        if body.body_type() == RigidBodyType::KinematicPositionBased {
+            return None;
+        }
+        let anchor = vector(body.translation()) + rotation(*body.rotation()) * own.anchor;
+        let there = vector(body.velocity_at_point(to_vector(&anchor)));
+        let difference = (cable.sample(own.arc_length).ok()?.velocity - there).norm();
+        let rounding = 4.0 * f64::from(Real::EPSILON) * there.amax();
+        (difference > JOLT + rounding).then_some(Warning::VelocityJump { attachment, name, difference })
     }
 }
 
@@ -105,10 +169,18 @@ pub(crate) fn note(contents: &mut Contents, world: &PhysicsWorld, events: &mut V
             slot.alone = false;
         }
     }
-    for attachment in attachments.values() {
+    for index in 0..attachments.len() {
+        let Some(attachment) = attachments.get_mut(index) else { continue };
         let Some(slot) = cables.get_mut(attachment.cable.0 as usize) else { continue };
         slot.alone &= !world.bodies.get(attachment.body).is_some_and(|body| body.is_dynamic());
         slot.rounding = records.rounding(world, attachment.body, &attachment.anchor, dt).max(slot.rounding);
+        if slot.asleep {
+            continue;
+        }
+        let opened = attachment.watch.note(attachment.gap(), slot.cable.time(), slot.cable.length());
+        if let Some(gap) = opened.filter(|_| slot.cable.is_watched()) {
+            events.push(Event::GapOpened { attachment: AttachmentHandle(index as u32), gap });
+        }
     }
     for index in 0..cables.len() {
         let Some(slot) = cables.get_mut(index).filter(|slot| !slot.asleep) else { continue };

@@ -77,6 +77,10 @@ impl World {
                 ("contact ignored".to_string(), Some(cable))
             }
             Event::AttachmentEnded { .. } => ("attachment ended".to_string(), None),
+            Event::GapOpened { attachment, gap } => {
+                let cable = self.set.attachment(attachment).ok().map(|a| a.cable());
+                (format!("gap opened: {:.1e} m at {:.4} s", gap.gap, gap.time), cable)
+            }
             Event::Warning { cable, warning } => (format!("warning: {warning}"), Some(cable)),
             other => (format!("{other:?}"), None),
         };

@@ -3,7 +3,7 @@
 use super::common::{add_cube, cable, run, soft};
 use lariat_rapier::lariat_ancf::{At, Contact, Integrator, Method, Section, StepControl, Warning as CableWarning};
 use lariat_rapier::rapier::prelude::*;
-use lariat_rapier::{AttachmentKind, CableHandle, CableSet, Event, Warning};
+use lariat_rapier::{AttachmentKind, CableHandle, CableSet, Event, Gap, Warning};
 
 fn told(set: &mut CableSet, world: &mut PhysicsWorld, steps: usize) -> Vec<(CableHandle, CableWarning)> {
     let mut told = Vec::new();
@@ -162,4 +162,66 @@ fn energy_that_integration_takes_is_told() {
         let made = told.iter().any(|w| matches!(w, CableWarning::EnergyMade { .. }));
         assert!(lost == due && !made, "{due} {told:?}");
     }
+}
+
+/// A crate hangs on a rope, moves at first while the rope does not, and is put elsewhere later: a shock before the first step, and a gap in the step
+/// in which it was moved. Before and after there is nothing to say.
+#[test]
+fn shocks_and_gaps_of_attachments_are_told() {
+    let mut world = PhysicsWorld::new();
+    let mut set = CableSet::new();
+    let rope = cable([0.0, 0.0, 0.0], [0.0, -2.0, 0.0], soft()).elements(8).fix(At::Start);
+    let rope = set.insert(rope.build().unwrap());
+    let load = add_cube(&mut world, 5.0, 0.1, [0.0, -2.1, 0.0]);
+    let hook = set.attach(&world, rope, At::End, load, Vector::new(0.0, 0.1, 0.0), AttachmentKind::Ball).unwrap();
+    assert_eq!(set.warnings(&world), []);
+    // the anchor is at 0.1 m from the centre: w x r and v together
+    world.bodies[load].set_linvel(Vector::new(0.5, 0.0, 0.0), true);
+    world.bodies[load].set_angvel(Vector::new(0.0, 0.0, 2.0), true);
+    assert!(
+        matches!(set.warnings(&world)[..], [Warning::VelocityJump { attachment, difference, .. }]
+            if attachment == hook && (difference - 0.3).abs() < 1e-6),
+        "{:?}",
+        set.warnings(&world)
+    );
+    let opened = |set: &mut CableSet, world: &mut PhysicsWorld, steps| {
+        let mut opened = Vec::new();
+        for _ in 0..steps {
+            run(world, set, 1);
+            opened.extend(set.take_events().into_iter().filter_map(|event| match event {
+                Event::GapOpened { attachment, gap } => Some((attachment, gap)),
+                _ => None,
+            }));
+        }
+        opened
+    };
+    assert_eq!(opened(&mut set, &mut world, 60), []);
+    assert_eq!(set.open_gap(hook), Ok(None));
+    // a heavy ball hits the crate: within that step the rope cannot follow
+    let place = world.bodies[load].translation();
+    let ball = RigidBodyBuilder::dynamic()
+        .translation(place + Vector::new(-1.0, 0.0, 0.0))
+        .linvel(Vector::new(40.0, 0.0, 0.0));
+    world.insert(ball, ColliderBuilder::ball(0.1).mass(50.0));
+    let told = opened(&mut set, &mut world, 10);
+    assert!(matches!(told[..], [(attachment, gap)] if attachment == hook && gap.closed), "{told:?}");
+    let warnings = set.warnings(&world);
+    let open = |w: &Warning| matches!(w, Warning::OpenGap { gap, .. } if gap.gap >= told[0].1.gap);
+    assert!(warnings.iter().any(open), "{warnings:?}");
+}
+
+/// An anchor 1 m from the cable that is to close is never met after one step, and is met later.
+#[test]
+fn a_gap_that_is_still_to_close_is_told_when_asked_for() {
+    let mut world = PhysicsWorld::new();
+    let mut set = CableSet::new();
+    let rope = set.insert(cable([0.0, 0.0, 0.0], [0.0, -2.0, 0.0], soft()).elements(8).fix(At::Start).build().unwrap());
+    let load = add_cube(&mut world, 5.0, 0.1, [0.0, -3.1, 0.0]);
+    let close = AttachmentKind::Ball.with_gap(Gap::Close);
+    let hook = set.attach(&world, rope, At::End, load, Vector::new(0.0, 0.1, 0.0), close).unwrap();
+    run(&mut world, &mut set, 1);
+    let gap = set.open_gap(hook).unwrap();
+    assert!(gap.is_some_and(|gap| !gap.closed && gap.gap > 0.5), "{gap:?}");
+    run(&mut world, &mut set, 60);
+    assert_eq!((set.open_gap(hook), set.take_events()), (Ok(None), vec![]));
 }

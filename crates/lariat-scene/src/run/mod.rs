@@ -35,7 +35,6 @@
 
 mod balance;
 mod error_target;
-mod gaps;
 mod output;
 mod pieces;
 mod probe;

@@ -2,7 +2,6 @@
 
 use super::World;
 use super::balance::Account;
-use super::gaps::GapWatch;
 use super::wheels::WheelWatch;
 use crate::error::Error;
 use crate::scene::Purpose;
@@ -13,7 +12,6 @@ use lariat_ancf::warning::balance::{EnergyBalance, Verdict};
 pub(super) struct Watch {
     cables: Vec<lariat_ancf::Watch>,
     wheels: Vec<WheelWatch>,
-    gaps: Vec<GapWatch>,
     /// By sheave, when it was first found stopped.
     stopped: Vec<Option<f64>>,
     account: Account,
@@ -30,7 +28,6 @@ impl Watch {
         Watch {
             cables: world.cables().into_iter().zip(drawn).map(watch).collect(),
             wheels: WheelWatch::all(world),
-            gaps: vec![GapWatch::default(); world.scene.attachments.len()],
             stopped: vec![None; world.scene.sheaves.len()],
             account: Account::default(),
         }
@@ -43,7 +40,6 @@ impl Watch {
     pub fn note(&mut self, world: &World) -> Result<(), Error> {
         self.account.note(world)?;
         self.wheels.iter_mut().for_each(|wheel| wheel.note(world));
-        self.gaps.iter_mut().enumerate().try_for_each(|(k, gap)| gap.note(k, world))?;
         for (sheave, stopped) in self.stopped.iter_mut().enumerate() {
             *stopped = stopped.or(world.sheave_stopped(sheave).then(|| world.time()));
         }
@@ -71,7 +67,7 @@ impl Watch {
             stopped.map(|time_s| Warning::SheaveStopped { sheave: sheave.name.clone(), time_s })
         });
         let of_wheels = self.wheels.iter().filter_map(|wheel| wheel.warning(world));
-        let of_gaps = self.gaps.iter().enumerate().filter_map(|(k, gap)| gap.warning(k, world));
+        let of_gaps = world.physics.iter().flat_map(|physics| physics.open_gaps(&world.scene));
         of_cables
             .map(Warning::Cable)
             .chain(self.energy_warning())
