@@ -2,7 +2,7 @@
 
 use super::common::{bits, cable_of, cube, pin, soft, steps, world};
 use bevy_ecs::prelude::*;
-use lariat_bevy::event::{AttachmentEnded, CableAsleep, CableAwake, CableWarning, StepFailed};
+use lariat_bevy::event::{AttachmentEnded, CableAsleep, CableAwake, CableWarning, GapOpened, StepFailed};
 use lariat_bevy::lariat_rapier::BodyQuantity;
 use lariat_bevy::{At, Attachment, Bending, BodyPose, Cables, Damping, Diagnostics, Error, Physics, lariat_rapier};
 
@@ -52,6 +52,26 @@ fn a_warning_of_a_cable_is_an_event_once() {
     assert!(messages.iter().all(|warning| warning.entity == cable), "{messages:?}");
     assert_eq!(world.resource::<Log>().0.len(), messages.len());
     assert_eq!(world.resource::<Diagnostics>().cables.warnings, messages.len() as u64);
+}
+
+/// A heavy ball hits a crate on a rope, which cannot follow within that step: the attachment hears of its gap, once.
+#[test]
+fn a_gap_that_opens_triggers_observers() {
+    let mut world = world();
+    world.init_resource::<Log>();
+    let load = world.spawn(cube(0.1, 5.0, [0.0, -2.1, 0.0])).id();
+    let cable = world.spawn((soft([0.0; 3], [0.0, -2.0, 0.0]), Bending)).id();
+    world.spawn(pin(cable));
+    let hook = world.spawn(Attachment::ball(cable, At::End).to(load).at([0.0, 0.1, 0.0])).id();
+    world.entity_mut(hook).observe(move |event: On<GapOpened>, mut log: ResMut<Log>| {
+        assert!(event.cable == cable && event.body == Some(load) && event.gap > 4e-3);
+        log.0.push(("gap", event.entity));
+    });
+    steps(&mut world, 30);
+    assert_eq!(world.resource::<Log>().0, []);
+    world.spawn(cube(0.1, 50.0, [-1.0, -2.1, 0.0]).velocity([40.0, 0.0, 0.0]));
+    steps(&mut world, 10);
+    assert_eq!(world.resource::<Log>().0, [("gap", hook)]);
 }
 
 /// A body whose velocity is not a number: the step fails with the name of the cable, whose time
