@@ -39,6 +39,8 @@ struct CableBuffers {
     mass_factorisation: Factorisation,
     /// Mass matrix times accelerations.
     product: Vec<f64>,
+    /// Of the held coordinates.
+    displacements: Vec<f64>,
 }
 
 impl CableBuffers {
@@ -145,7 +147,7 @@ impl IslandEquations<'_, '_> {
             equations.factor_to_solve()?;
             let (level, model) = (equations.system.level, equations.model);
             let factorisation = &equations.system.step.factorisation;
-            step.condensed.complete(level, factorisation, (&part.holds, &[]), None, |x| project_vector(model, x));
+            step.condensed.complete(level, factorisation, (&part.holds, &[]), |x| project_vector(model, x));
             equations.system.mass.multiply(equations.system.level, &z[range], product);
             subtract(rows, product);
         }
@@ -169,7 +171,7 @@ impl IslandEquations<'_, '_> {
                 project_matrix(model, matrix);
                 mass_factorisation.factor(system.level, matrix)?;
                 let parts = (&part.holds[..], &[][..]);
-                mass.condensed.complete(system.level, mass_factorisation, parts, None, |x| project_vector(model, x));
+                mass.condensed.complete(system.level, mass_factorisation, parts, |x| project_vector(model, x));
             }
             self.matrices.mass_is_factored = true;
         }
@@ -195,15 +197,15 @@ impl IslandEquations<'_, '_> {
         }
         layout.coupled.iter().for_each(|coupled| matrix.add_coupled(coupled));
         for (buffers, part) in cables.iter().zip(&layout.parts) {
-            let lever =
-                |hold: &Hold| Lever::held(layout.pins[hold.pin].body, &layout.rotating_vector(hold, q), hold.slope);
             if kind == MatrixKind::Step {
                 for hold in &part.holds {
                     let geometric = -skew(&vector(&rhs[hold.at..])) * skew(&layout.rotating_vector(hold, q));
                     matrix.add_rotational(layout.pins[hold.pin].body, &((geometric + geometric.transpose()) * 0.5));
                 }
             }
-            matrix.add_cable(&buffers.matrix(kind).condensed, part.holds.iter().map(lever));
+            let lever =
+                |hold: &Hold| Lever::held(layout.pins[hold.pin].body, &layout.rotating_vector(hold, q), hold.slope);
+            matrix.add_cable(&buffers.matrix(kind).condensed.w, part.holds.iter().map(lever));
         }
         for (i, body) in layout.bodies.iter().enumerate() {
             matrix.lock(i, &body.free);
@@ -269,22 +271,22 @@ impl IslandEquations<'_, '_> {
             }
         }
         matrix.solve(&mut rhs[at..at + 6 * layout.bodies.len()]);
-        for (part, buffers) in layout.parts.iter().zip(buffers.iter()) {
-            let HeldMatrix { condensed, directions } = buffers.matrix(kind);
-            let displacement = |hold: &Hold, rhs: &[f64]| {
+        for ((cable, part), buffers) in self.cables.iter().zip(&layout.parts).zip(buffers.iter_mut()) {
+            let CableBuffers { step, mass, mass_factorisation, displacements, .. } = buffers;
+            let (HeldMatrix { condensed, directions }, factorisation) = match kind {
+                MatrixKind::Mass => (mass, &*mass_factorisation),
+                MatrixKind::Step => (step, &cable.system.step.factorisation),
+            };
+            displacements.clear();
+            for hold in &part.holds {
                 let at = layout.body_at(layout.pins[hold.pin].body);
                 let rotated = vector(&rhs[at + 3..]).cross(&layout.rotating_vector(hold, q));
-                if hold.slope { rotated } else { vector(&rhs[at..]) + rotated }
-            };
-            for (h, hold) in part.holds.iter().enumerate() {
-                let displacement = displacement(hold, rhs);
-                let rows = &mut rhs[part.range()];
-                for x in 0..3 {
-                    condensed.spread(3 * h + x, displacement[x], rows);
-                }
+                let displacement = if hold.slope { rotated } else { vector(&rhs[at..]) + rotated };
+                displacements.extend_from_slice(displacement.as_slice());
             }
-            for (hold, factored) in part.holds.iter().zip(directions) {
-                let mut held = displacement(hold, rhs);
+            condensed.spread(cable.system.level, factorisation, displacements, &mut rhs[part.range()]);
+            let held = displacements.chunks_exact(3).map(vector);
+            for ((hold, factored), mut held) in part.holds.iter().zip(&*directions).zip(held) {
                 if hold.slope {
                     let along = factored.dot(&vector(&rhs[hold.at..]));
                     held += direction_near(&q[hold.at..], factored) * along;

@@ -74,6 +74,8 @@ pub(super) struct StepBuffers {
 pub(super) struct CableBuffers {
     pub holds: Vec<HoldStep>,
     condensed: Condensed,
+    /// Of the held coordinates, then of touched bodies.
+    displacements: Vec<f64>,
     /// The cable at the beginning of the host step.
     pub start: State,
 }

@@ -12,7 +12,7 @@ use nalgebra::Vector3;
 impl IslandStep<'_, '_> {
     /// Computes residuals and step matrices of all cables, factors and condenses these, and sums the rows of the bodies.
     pub(super) fn linearise(&mut self) -> Result<(), StepFailure> {
-        let StepBuffers { bodies, coupled, cables: own, rows, pairs, unknowns, .. } = &mut *self.buffers;
+        let StepBuffers { bodies, coupled, cables: own, rows, unknowns, .. } = &mut *self.buffers;
         rows.fill(0.0);
         unknowns.winches.iter().for_each(|winch| winch.pass(winch.force, self.cables[0].step_buffers.h, rows));
         for ((cable, own), part) in self.cables.iter_mut().zip(own).zip(&self.layout.parts) {
@@ -25,8 +25,7 @@ impl IslandStep<'_, '_> {
             equations.factor_to_solve()?;
             let (level, model) = (equations.system.level, equations.model);
             let factors = &equations.system.step.factorisation;
-            let rhs = (pairs.is_empty() && equations.system.flows.is_empty()).then_some(&buffers.rhs[..]);
-            own.condensed.complete(level, factors, (&part.holds, borders), rhs, |x| project_vector(model, x));
+            own.condensed.complete(level, factors, (&part.holds, borders), |x| project_vector(model, x));
         }
         complete_rows(bodies, coupled, rows);
         Ok(())
@@ -47,7 +46,7 @@ impl IslandStep<'_, '_> {
             }
             let held = holds.iter().map(|hold| Lever::held(hold.body, &hold.arm, hold.slope));
             let touched = cable.step_buffers.contact.borders().iter().flat_map(|border| Lever::own(border.body));
-            matrix.add_cable(condensed, held.chain(touched));
+            matrix.add_cable(&condensed.w, held.chain(touched));
         }
         for (i, body) in bodies.iter().enumerate() {
             matrix.lock(i, &body.free);
@@ -60,11 +59,7 @@ impl IslandStep<'_, '_> {
         let StepBuffers { bodies, cables: own, matrix, rows, .. } = &mut *self.buffers;
         for (cable, own) in self.cables.iter_mut().zip(own.iter_mut()) {
             let CableStep { mut equations, buffers, .. } = cable.step_parts();
-            if own.condensed.take_solution(&mut buffers.rhs) {
-                equations.diagnostics.solves += 1;
-            } else {
-                equations.solve(&mut buffers.rhs);
-            }
+            equations.solve(&mut buffers.rhs);
             for (h, hold) in own.holds.iter().enumerate() {
                 let impulse = Vector3::from_fn(|x, _| -own.condensed.border(3 * h + x, &buffers.rhs));
                 hold.pass(&impulse, rows);
@@ -80,21 +75,16 @@ impl IslandStep<'_, '_> {
             body.lock(row);
         }
         matrix.solve(rows);
-        for (cable, own) in self.cables.iter_mut().zip(own.iter()) {
-            let CableStep { buffers, .. } = cable.step_parts();
-            for (h, hold) in own.holds.iter().enumerate() {
-                let moved = hold.moved(rows);
-                for x in 0..3 {
-                    own.condensed.spread(3 * h + x, moved[x], &mut buffers.rhs);
-                }
-            }
-            let first = 3 * own.holds.len();
+        for (cable, own) in self.cables.iter_mut().zip(own.iter_mut()) {
+            let CableStep { equations, buffers, .. } = cable.step_parts();
+            own.displacements.clear();
+            own.displacements.extend(own.holds.iter().flat_map(|hold| <[f64; 3]>::from(hold.moved(rows))));
             let Buffers { contact, rhs, .. } = &mut *buffers;
-            for (k, border) in contact.borders().iter().enumerate() {
-                for x in 0..6 {
-                    own.condensed.spread(first + 6 * k + x, rows[6 * border.body + x], rhs);
-                }
+            for border in contact.borders() {
+                own.displacements.extend_from_slice(&rows[6 * border.body..6 * border.body + 6]);
             }
+            let (level, factors) = (equations.system.level, &equations.system.step.factorisation);
+            own.condensed.spread(level, factors, &own.displacements, rhs);
             for hold in &own.holds {
                 let moved = hold.moved(rows);
                 for x in 0..3 {
