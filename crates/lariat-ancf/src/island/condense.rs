@@ -129,27 +129,16 @@ impl Condensed {
         self.schur.subtract_from(level, &mut self.w);
     }
 
-    /// Returns `A_pf u` for held coordinate `i`; those of touched bodies come after the others.
-    pub fn border(&self, i: usize, u: &[f64]) -> f64 {
-        match self.columns.get(i) {
-            Some(column) => column.dot(u),
-            None => {
-                let column = &self.borders[(i - self.columns.len()) * self.size..][..self.size];
-                column.iter().zip(u).map(|(a, b)| a * b).sum()
-            }
-        }
+    /// Computes `out = A_pf A_ff^-1 r_f` for projected rows `r_f`, which [`expand`](Self::expand) needs as this leaves them. The held
+    /// coordinates come first, then those of touched bodies. The factorisation is that of [`complete`](Self::complete).
+    pub fn reduce(&self, level: Level, factorisation: &Factorisation, rows: &mut [f64], out: &mut Vec<f64>) {
+        out.clear();
+        out.resize(self.w.len().isqrt(), 0.0);
+        self.schur.reduce(level, factorisation, rows, out);
     }
 
-    /// Computes `u -= Y displacements`, with the factorisation that completed it.
-    pub fn spread(&mut self, level: Level, factorisation: &Factorisation, displacements: &[f64], u: &mut [f64]) {
-        self.schur.combine(level, factorisation, displacements, &mut self.scratch);
-        u.iter_mut().zip(&self.scratch).for_each(|(u, y)| *u -= y);
-    }
-}
-
-impl Column {
-    fn dot(&self, u: &[f64]) -> f64 {
-        let u = &u[6 * self.first..6 * (self.first + self.nodes)];
-        self.rows.iter().zip(u).map(|(a, b)| a * b).sum()
+    /// Computes `A_ff^-1 r_f - Y displacements` in place.
+    pub fn expand(&self, level: Level, factorisation: &Factorisation, displacements: &[f64], rows: &mut [f64]) {
+        self.schur.expand(level, factorisation, displacements, rows);
     }
 }

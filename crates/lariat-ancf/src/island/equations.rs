@@ -39,8 +39,8 @@ struct CableBuffers {
     mass_factorisation: Factorisation,
     /// Mass matrix times accelerations.
     product: Vec<f64>,
-    /// Of the held coordinates.
-    displacements: Vec<f64>,
+    /// A_pf A_ff^-1 r_f, then the displacements of held coordinates.
+    at_bodies: Vec<f64>,
 }
 
 impl CableBuffers {
@@ -48,6 +48,18 @@ impl CableBuffers {
         match kind {
             MatrixKind::Mass => &self.mass,
             MatrixKind::Step => &self.step,
+        }
+    }
+
+    /// Returns a matrix with its factors, those of the step matrix in `step`, and `at_bodies`.
+    fn split<'a>(
+        &'a mut self,
+        kind: MatrixKind,
+        step: &'a Factorisation,
+    ) -> (&'a HeldMatrix, &'a Factorisation, &'a mut Vec<f64>) {
+        match kind {
+            MatrixKind::Mass => (&self.mass, &self.mass_factorisation, &mut self.at_bodies),
+            MatrixKind::Step => (&self.step, step, &mut self.at_bodies),
         }
     }
 }
@@ -236,9 +248,10 @@ impl IslandEquations<'_, '_> {
     pub fn solve(&mut self, kind: MatrixKind, q: &[f64], rhs: &mut [f64]) {
         let layout = self.layout;
         let Matrices { cables: buffers, bodies: matrix, .. } = &mut *self.matrices;
-        for ((cable, part), buffers) in self.cables.iter_mut().zip(&layout.parts).zip(buffers.iter()) {
+        for ((cable, part), buffers) in self.cables.iter_mut().zip(&layout.parts).zip(buffers.iter_mut()) {
             let cable = &mut **cable;
-            let directions = &buffers.matrix(kind).directions;
+            let (HeldMatrix { condensed, directions }, factors, at_bodies) =
+                buffers.split(kind, &cable.system.step.factorisation);
             for (hold, factored) in part.holds.iter().zip(directions).filter(|(h, _)| h.slope) {
                 // the matrix was factored with this direction
                 let along = direction_near(&q[hold.at..], factored).dot(&vector(&rhs[hold.at..]));
@@ -249,19 +262,12 @@ impl IslandEquations<'_, '_> {
             }
             let rows = &mut rhs[part.range()];
             project_vector(&cable.model, rows);
-            let factorisation = match kind {
-                MatrixKind::Mass => &buffers.mass_factorisation,
-                MatrixKind::Step => &cable.system.step.factorisation,
-            };
-            factorisation.solve(cable.system.level, rows);
+            condensed.reduce(cable.system.level, factors, rows, at_bodies);
             cable.diagnostics_mut().solves += 1;
         }
         for (part, buffers) in layout.parts.iter().zip(buffers.iter()) {
-            let condensed = &buffers.matrix(kind).condensed;
-            for (h, hold) in part.holds.iter().enumerate() {
-                let rows = &rhs[part.range()];
-                let row = Vector3::from_fn(|x, _| -condensed.border(3 * h + x, rows));
-                layout.pass(hold, &row, &layout.rotating_vector(hold, q), rhs);
+            for (hold, reduced) in part.holds.iter().zip(buffers.at_bodies.chunks_exact(3)) {
+                layout.pass(hold, &-vector(reduced), &layout.rotating_vector(hold, q), rhs);
             }
         }
         let at = layout.bodies_at;
@@ -272,21 +278,18 @@ impl IslandEquations<'_, '_> {
         }
         matrix.solve(&mut rhs[at..at + 6 * layout.bodies.len()]);
         for ((cable, part), buffers) in self.cables.iter().zip(&layout.parts).zip(buffers.iter_mut()) {
-            let CableBuffers { step, mass, mass_factorisation, displacements, .. } = buffers;
-            let (HeldMatrix { condensed, directions }, factorisation) = match kind {
-                MatrixKind::Mass => (mass, &*mass_factorisation),
-                MatrixKind::Step => (step, &cable.system.step.factorisation),
-            };
-            displacements.clear();
+            let (HeldMatrix { condensed, directions }, factors, at_bodies) =
+                buffers.split(kind, &cable.system.step.factorisation);
+            at_bodies.clear();
             for hold in &part.holds {
                 let at = layout.body_at(layout.pins[hold.pin].body);
                 let rotated = vector(&rhs[at + 3..]).cross(&layout.rotating_vector(hold, q));
                 let displacement = if hold.slope { rotated } else { vector(&rhs[at..]) + rotated };
-                displacements.extend_from_slice(displacement.as_slice());
+                at_bodies.extend_from_slice(displacement.as_slice());
             }
-            condensed.spread(cable.system.level, factorisation, displacements, &mut rhs[part.range()]);
-            let held = displacements.chunks_exact(3).map(vector);
-            for ((hold, factored), mut held) in part.holds.iter().zip(&*directions).zip(held) {
+            condensed.expand(cable.system.level, factors, at_bodies, &mut rhs[part.range()]);
+            let held = at_bodies.chunks_exact(3).map(vector);
+            for ((hold, factored), mut held) in part.holds.iter().zip(directions).zip(held) {
                 if hold.slope {
                     let along = factored.dot(&vector(&rhs[hold.at..]));
                     held += direction_near(&q[hold.at..], factored) * along;

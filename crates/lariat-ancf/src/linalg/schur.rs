@@ -1,15 +1,16 @@
-//! The Schur complement of a factored matrix on the columns of a border, and the solution for any combination of them.
+//! The Schur complement of a factored matrix on the columns of a border, and solutions with it.
 //!
 //! # Equation
 //!
 //! With the block factors (I + G) S (I + G)^T of the [two-ended elimination](super::twisted) and the columns B of the border,
 //!
 //! ```text
-//! Y = (I + G)^-1 B        B^T A^-1 B = sum_i Y_i^T S_i^-1 Y_i        A^-1 B d = (I + G)^-T (S^-1 Y d)
+//! Y = (I + G)^-1 B        B^T A^-1 B = sum_i Y_i^T S_i^-1 Y_i
+//! z = S^-1 (I + G)^-1 b        B^T A^-1 b = Y^T z        A^-1 (b - B d) = (I + G)^-T (z - S^-1 Y d)
 //! ```
 //!
 //! A column only passes the sweep inwards, and only from its first entry on: its nodes between that and the middle node are all that it
-//! has in Y, so that the products of columns from different halves have one term. The sweep outwards is made once, for the combination.
+//! has in Y, so that the products of columns from different halves have one term. The sweep outwards is made once, for the solution.
 //! With the [banded](super::banded) factors, A^-1 B takes the place of S^-1 Y.
 //!
 //! Columns are in lanes, eight at a time: no sum is across lanes but that of the combination.
@@ -24,7 +25,7 @@
 
 use super::block::Block;
 use super::factorisation::Factorisation;
-use super::lanes::{Columns, load, load_block, splat, store_six, transpose_dots};
+use super::lanes::{Columns, load, load_block, load_six, splat, store_six, transpose_dots};
 use super::substitution;
 use super::twisted::Node;
 use fearless_simd::{Level, Simd, dispatch, f64x8, prelude::*};
@@ -106,10 +107,21 @@ impl SchurComplement {
         dispatch!(level, simd => subtract_from(simd, self, w));
     }
 
-    /// Computes `out = A^-1 B d` with the factorisation that completed the columns.
-    pub fn combine(&self, level: Level, factorisation: &Factorisation, d: &[f64], out: &mut [f64]) {
-        let (out, _) = out.as_chunks_mut::<6>();
-        dispatch!(level, simd => combine(simd, self, factorisation.twisted(), d, out));
+    /// Computes `out = B^T A^-1 b`, and brings b half of the way to the solution, which [`expand`](Self::expand) completes. The
+    /// factorisation is that of [`complete`](Self::complete).
+    pub fn reduce(&self, level: Level, factorisation: &Factorisation, b: &mut [f64], out: &mut [f64]) {
+        let factors = factorisation.twisted();
+        if factors.is_none() {
+            factorisation.solve(level, b);
+        }
+        let (b, _) = b.as_chunks_mut::<6>();
+        dispatch!(level, simd => reduce(simd, self, factors, b, out));
+    }
+
+    /// Computes `A^-1 (b - B d)` of what [`reduce`](Self::reduce) made of b, in place.
+    pub fn expand(&self, level: Level, factorisation: &Factorisation, d: &[f64], b: &mut [f64]) {
+        let (b, _) = b.as_chunks_mut::<6>();
+        dispatch!(level, simd => expand(simd, self, factorisation.twisted(), d, b));
     }
 
     /// Returns the columns and `solved` of a group.
@@ -236,9 +248,27 @@ fn subtract_from<S: Simd>(simd: S, border: &SchurComplement, w: &mut [f64]) {
 }
 
 #[inline(always)]
-fn combine<S: Simd>(simd: S, border: &SchurComplement, factors: Option<&[Node]>, d: &[f64], out: &mut [[f64; 6]]) {
+fn reduce<S: Simd>(simd: S, border: &SchurComplement, factors: Option<&[Node]>, b: &mut [[f64; 6]], out: &mut [f64]) {
+    if let Some(nodes) = factors.filter(|nodes| !nodes.is_empty()) {
+        substitution::sweep_inwards(simd, nodes, b);
+    }
+    for (group, out) in out.chunks_mut(LANES).enumerate() {
+        let [before, after] = border.zeros[group];
+        let range = before..border.nodes - after;
+        let mut sums = splat(simd, 0.0);
+        for (y, z) in border.group(group).0[range.clone()].iter().zip(&b[range]) {
+            for k in 0..6 {
+                sums += load(simd, &y.0[k]) * splat(simd, z[k]);
+            }
+        }
+        out.iter_mut().enumerate().for_each(|(lane, out)| *out = sums[lane]);
+    }
+}
+
+#[inline(always)]
+fn expand<S: Simd>(simd: S, border: &SchurComplement, factors: Option<&[Node]>, d: &[f64], b: &mut [[f64; 6]]) {
     let n = border.nodes;
-    for (i, six) in out.iter_mut().enumerate() {
+    for (i, six) in b.iter_mut().enumerate() {
         let mut sums = [splat(simd, 0.0); 6];
         for (group, amounts) in d.chunks(LANES).enumerate() {
             let [before, after] = border.zeros[group];
@@ -250,9 +280,9 @@ fn combine<S: Simd>(simd: S, border: &SchurComplement, factors: Option<&[Node]>,
             }
         }
         let total: f64x8<S> = transpose_dots(&sums, splat(simd, 1.0));
-        store_six(simd, total, six);
+        store_six(simd, load_six(simd, six) - total, six);
     }
     if let Some(nodes) = factors.filter(|nodes| !nodes.is_empty()) {
-        substitution::sweep_outwards(simd, nodes, out);
+        substitution::sweep_outwards(simd, nodes, b);
     }
 }

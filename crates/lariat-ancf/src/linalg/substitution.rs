@@ -58,6 +58,13 @@ fn zeros(rhs: &[[f64; 6]]) -> usize {
 /// Solves in place for a right-hand side of `nodes.len()` nodes.
 #[inline(always)]
 pub(super) fn solve<S: Simd>(simd: S, nodes: &[Node], rhs: &mut [[f64; 6]]) {
+    sweep_inwards(simd, nodes, rhs);
+    sweep_outwards(simd, nodes, rhs);
+}
+
+/// Replaces a right-hand side by S^-1 b after the sweep inwards.
+#[inline(always)]
+pub(super) fn sweep_inwards<S: Simd>(simd: S, nodes: &[Node], rhs: &mut [[f64; 6]]) {
     let n = nodes.len();
     let middle = n / 2;
     let from_below = n - 1 - middle;
@@ -91,7 +98,6 @@ pub(super) fn solve<S: Simd>(simd: S, nodes: &[Node], rhs: &mut [[f64; 6]]) {
         top += bottom;
     }
     store_six(simd, solve_block(simd, &nodes[middle], top), &mut rhs[middle]);
-    sweep_outwards(simd, nodes, rhs);
 }
 
 /// Completes S^-1 b, after the sweep inwards, to the solution.

@@ -25,24 +25,30 @@ fn borders_of_every_size_match_dense_solutions_with_the_same_bits_at_every_level
             let d = DVector::from_vec(random.vector(count));
             let start = random.matrix(count.div_ceil(6).max(1), 0.0);
             let symmetric = dense(&start).view((0, 0), (count, count)).into_owned();
-            let (expected_w, expected_x) = (&symmetric - b.transpose() * &inverse * &b, &inverse * (&b * &d));
-            let mut first: Option<(Vec<u64>, Vec<u64>)> = None;
+            let rhs = DVector::from_vec(random.vector(6 * nodes));
+            let expected_w = &symmetric - b.transpose() * &inverse * &b;
+            let (expected_y, expected_x) = (b.transpose() * &inverse * &rhs, &inverse * (&rhs - &b * &d));
+            let mut first: Option<[Vec<u64>; 3]> = None;
             for level in levels() {
                 let mut factors = Factorisation::default();
                 factors.factor(level, &a).unwrap();
                 border.begin(nodes, count);
                 parts.iter().enumerate().for_each(|(j, (first, rows))| border.set(j, *first, rows));
                 border.complete(level, &factors);
-                let (mut w, mut x) = (symmetric.as_slice().to_vec(), vec![f64::NAN; 6 * nodes]);
+                let (mut w, mut y, mut x) =
+                    (symmetric.as_slice().to_vec(), vec![f64::NAN; count], rhs.as_slice().to_vec());
                 border.subtract_from(level, &mut w);
-                border.combine(level, &factors, d.as_slice(), &mut x);
+                border.reduce(level, &factors, &mut x, &mut y);
+                border.expand(level, &factors, d.as_slice(), &mut x);
                 let w_matrix = DMatrix::from_vec(count, count, w.clone());
                 assert_eq!(w_matrix, w_matrix.transpose(), "{nodes} nodes, {count} columns: not symmetric");
                 let size = 1.0 + inverse.amax();
                 assert!((w_matrix - &expected_w).abs().max() <= 1e-12 * size * size, "{nodes} nodes, {count} columns");
-                let error = (DVector::from_vec(x.clone()) - &expected_x).abs().max();
-                assert!(error <= 1e-12 * size * size, "{nodes} nodes, {count} columns: {error:e}");
-                let now = (bits(&w), bits(&x));
+                for (found, expected) in [(&x, &expected_x), (&y, &expected_y)] {
+                    let error = (DVector::from_vec(found.clone()) - expected).amax();
+                    assert!(error <= 1e-12 * size * size, "{nodes} nodes, {count} columns: {error:e}");
+                }
+                let now = [bits(&w), bits(&y), bits(&x)];
                 assert_eq!(*first.get_or_insert_with(|| now.clone()), now, "bits differ between levels");
             }
         }

@@ -74,8 +74,8 @@ pub(super) struct StepBuffers {
 pub(super) struct CableBuffers {
     pub holds: Vec<HoldStep>,
     condensed: Condensed,
-    /// Of the held coordinates, then of touched bodies.
-    displacements: Vec<f64>,
+    /// A_pf A_ff^-1 r_f, then the displacements of held coordinates and touched bodies.
+    at_bodies: Vec<f64>,
     /// The cable at the beginning of the host step.
     pub start: State,
 }

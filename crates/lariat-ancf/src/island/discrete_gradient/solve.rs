@@ -1,13 +1,13 @@
 //! The linear equations of an iteration: each cable is condensed on the bodies, and their matrix is factored.
 
 use super::super::body_matrix::Lever;
+use super::super::hold::vector;
 use super::coupled::complete_rows;
 use super::{CableBuffers, IslandStep, StepBuffers};
 use crate::effect::EffectWork;
 use crate::error::StepFailure;
 use crate::integrate::discrete_gradient::{BETA, Buffers};
 use crate::system::{CableStep, Equations, project_vector};
-use nalgebra::Vector3;
 
 impl IslandStep<'_, '_> {
     /// Computes residuals and step matrices of all cables, factors and condenses these, and sums the rows of the bodies.
@@ -58,17 +58,17 @@ impl IslandStep<'_, '_> {
     pub(super) fn solve_apart(&mut self) {
         let StepBuffers { bodies, cables: own, matrix, rows, .. } = &mut *self.buffers;
         for (cable, own) in self.cables.iter_mut().zip(own.iter_mut()) {
-            let CableStep { mut equations, buffers, .. } = cable.step_parts();
-            equations.solve(&mut buffers.rhs);
-            for (h, hold) in own.holds.iter().enumerate() {
-                let impulse = Vector3::from_fn(|x, _| -own.condensed.border(3 * h + x, &buffers.rhs));
-                hold.pass(&impulse, rows);
+            let CableStep { equations, buffers, .. } = cable.step_parts();
+            equations.diagnostics.solves += 1;
+            project_vector(equations.model, &mut buffers.rhs);
+            let (level, factors) = (equations.system.level, &equations.system.step.factorisation);
+            own.condensed.reduce(level, factors, &mut buffers.rhs, &mut own.at_bodies);
+            let (held, touched) = own.at_bodies.split_at(3 * own.holds.len());
+            for (hold, reduced) in own.holds.iter().zip(held.chunks_exact(3)) {
+                hold.pass(&-vector(reduced), rows);
             }
-            let first = 3 * own.holds.len();
-            for (k, border) in buffers.contact.borders().iter().enumerate() {
-                for x in 0..6 {
-                    rows[6 * border.body + x] -= own.condensed.border(first + 6 * k + x, &buffers.rhs);
-                }
+            for (border, reduced) in buffers.contact.borders().iter().zip(touched.chunks_exact(6)) {
+                (0..6).for_each(|x| rows[6 * border.body + x] -= reduced[x]);
             }
         }
         for (body, row) in bodies.iter().zip(rows.chunks_exact_mut(6)) {
@@ -77,14 +77,14 @@ impl IslandStep<'_, '_> {
         matrix.solve(rows);
         for (cable, own) in self.cables.iter_mut().zip(own.iter_mut()) {
             let CableStep { equations, buffers, .. } = cable.step_parts();
-            own.displacements.clear();
-            own.displacements.extend(own.holds.iter().flat_map(|hold| <[f64; 3]>::from(hold.moved(rows))));
+            own.at_bodies.clear();
+            own.at_bodies.extend(own.holds.iter().flat_map(|hold| <[f64; 3]>::from(hold.moved(rows))));
             let Buffers { contact, rhs, .. } = &mut *buffers;
             for border in contact.borders() {
-                own.displacements.extend_from_slice(&rows[6 * border.body..6 * border.body + 6]);
+                own.at_bodies.extend_from_slice(&rows[6 * border.body..6 * border.body + 6]);
             }
             let (level, factors) = (equations.system.level, &equations.system.step.factorisation);
-            own.condensed.spread(level, factors, &own.displacements, rhs);
+            own.condensed.expand(level, factors, &own.at_bodies, rhs);
             for hold in &own.holds {
                 let moved = hold.moved(rows);
                 for x in 0..3 {
