@@ -13,7 +13,7 @@
 //! ([`contact`](crate::contact)).
 //!
 //! W (3 rows per pin, 6 per clamp or touched body) is the dynamic stiffness of the cable at the bodies; Y gives the
-//! increments of the cable from those of the bodies.
+//! increments of the cable from those of the bodies. Neither needs the columns of Y: a [`SchurComplement`] brings them half of the way.
 //!
 //! # References
 //!
