@@ -56,19 +56,18 @@ impl Cable {
     /// Returns an indicator of the error of the mesh for the present shape.
     pub fn mesh_indicator(&self) -> MeshIndicator {
         let q = self.positions();
-        let mut indicator = MeshIndicator::default();
-        let mut judged_before = false;
-        self.visit_elements(|e, judged| {
-            if judged {
-                indicator.position = indicator.position.max(self.jump(e, |e| self.third(q, e)));
-            }
-            if !judged && !judged_before {
-                let [a, b] = [e, e + 1].map(|node| Vector3::from_column_slice(&q[6 * node + 3..6 * node + 6]));
-                indicator.turn = indicator.turn.max(a.cross(&b).norm().atan2(a.dot(&b)));
-            }
-            judged_before = judged;
-        });
-        indicator
+        let (mut turn, mut judged_before) = (0.0f64, false);
+        let position = self.largest_jump(
+            |e| self.third(q, e),
+            |e, judged| {
+                if !judged && !judged_before {
+                    let [a, b] = [e, e + 1].map(|node| Vector3::from_column_slice(&q[6 * node + 3..6 * node + 6]));
+                    turn = turn.max(a.cross(&b).norm().atan2(a.dot(&b)));
+                }
+                judged_before = judged;
+            },
+        );
+        MeshIndicator { position, turn }
     }
 
     /// Returns the indicator for the displacement from the positions `start`, as [`positions`](Self::positions) returned them: for
@@ -82,18 +81,11 @@ impl Cable {
             let (cable, count) = (self.name().to_string(), start.len());
             return Err(Error::WrongCount { cable, what: "coordinates", count, expected: q.len() });
         }
-        let mut indicator = MotionIndicator::default();
-        self.visit_elements(|e, judged| {
-            if judged {
-                let jump = self.jump(e, |e| self.third(q, e) - self.third(start, e));
-                indicator.error = indicator.error.max(jump);
-            }
+        let error = self.largest_jump(|e| self.third(q, e) - self.third(start, e), |_, _| {});
+        let moved = q.chunks_exact(6).zip(start.chunks_exact(6)).map(|(now, then)| {
+            (Vector3::from_column_slice(&now[..3]) - Vector3::from_column_slice(&then[..3])).norm_squared()
         });
-        for (now, then) in q.chunks_exact(6).zip(start.chunks_exact(6)) {
-            let moved = Vector3::from_column_slice(&now[..3]) - Vector3::from_column_slice(&then[..3]);
-            indicator.displacement = indicator.displacement.max(moved.norm());
-        }
-        Ok(indicator)
+        Ok(MotionIndicator { error, displacement: moved.fold(0.0, f64::max).sqrt() })
     }
 
     /// Returns the largest jump of the tension between neighbouring elements before it is averaged, in N: a bound of its error that converges
@@ -171,10 +163,22 @@ impl Cable {
         combine(q, e, [12.0, 6.0 * h, -12.0, 6.0 * h])
     }
 
-    /// Returns h^3 |[[r''']]|/96 in m at the last node of an element.
-    fn jump(&self, e: usize, third: impl Fn(usize) -> Vector3<f64>) -> f64 {
-        let [a, b] = [e, e + 1].map(|e| self.elements()[e].length);
-        let h = a.max(b);
-        (third(e + 1) * (h / b).powi(3) - third(e) * (h / a).powi(3)).norm() / 96.0
+    /// Returns the largest h^3 |[[r''']]|/96 in m at the nodes that judge, h^3 r''' being given by `third`; calls `visit` as
+    /// [`visit_elements`](Self::visit_elements) does.
+    fn largest_jump(&self, third: impl Fn(usize) -> Vector3<f64>, mut visit: impl FnMut(usize, bool)) -> f64 {
+        let (mut square, mut next) = (0.0f64, None);
+        self.visit_elements(|e, judged| {
+            visit(e, judged);
+            let known = next.take();
+            if judged {
+                let [a, b] = [e, e + 1].map(|e| self.elements()[e].length);
+                let h = a.max(b);
+                let scaled = |third: Vector3<f64>, l: f64| if l == h { third } else { third * (h / l).powi(3) };
+                let (one, two) = (known.unwrap_or_else(|| third(e)), third(e + 1));
+                square = square.max((scaled(two, b) - scaled(one, a)).norm_squared());
+                next = Some(two);
+            }
+        });
+        square.sqrt() / 96.0
     }
 }

@@ -6,7 +6,6 @@
 //! B + sum G^T W G          G = (1, -[arm]x) of a held position, (0, -[arm]x) of a held slope, 1 of a touched body
 //! ```
 
-use super::condense::Condensed;
 use super::coupling::CoupledInertia;
 use super::rotation::skew;
 use crate::error::StepFailure;
@@ -16,10 +15,12 @@ use nalgebra::{Matrix3, Matrix6, Vector3};
 /// The matrix, and its factors.
 #[derive(Clone, Debug, Default)]
 pub(super) struct BodyMatrix {
+    /// Row-major; above the diagonal blocks it is not complete.
     entries: Vec<f64>,
     dense: Dense,
     /// Number of rows.
     n: usize,
+    levers: Vec<Lever>,
 }
 
 /// Three coordinates that follow a body, by `G = (linear 1, angular)`.
@@ -83,14 +84,17 @@ impl BodyMatrix {
         self.add(6 * body + 3, 6 * body + 3, block);
     }
 
-    /// Adds a cable that is condensed on held coordinates.
-    pub fn add_cable(&mut self, condensed: &Condensed, levers: impl Iterator<Item = Lever> + Clone) {
-        let count = 3 * levers.clone().count();
-        for (a, one) in levers.clone().enumerate() {
+    /// Adds a cable that is condensed on held coordinates, to the blocks on and below the diagonal.
+    pub fn add_cable(&mut self, w: &[f64], levers: impl Iterator<Item = Lever>) {
+        let mut list = core::mem::take(&mut self.levers);
+        list.clear();
+        list.extend(levers);
+        let count = 3 * list.len();
+        for (a, one) in list.iter().enumerate() {
             let (first, turned) = (6 * one.body, one.angular.transpose());
-            for (b, other) in levers.clone().enumerate() {
+            for (b, other) in list.iter().enumerate().filter(|(_, other)| other.body <= one.body) {
                 let second = 6 * other.body;
-                let block = Matrix3::from_fn(|r, c| condensed.w[(3 * a + r) * count + 3 * b + c]);
+                let block = Matrix3::from_fn(|r, c| w[(3 * a + r) * count + 3 * b + c]);
                 let rotated = block * other.angular;
                 self.add(first + 3, second + 3, &(turned * rotated));
                 if one.linear {
@@ -104,6 +108,7 @@ impl BodyMatrix {
                 }
             }
         }
+        self.levers = list;
     }
 
     /// Locks the axes of a body that are not free.

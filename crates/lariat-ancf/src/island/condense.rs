@@ -13,7 +13,7 @@
 //! ([`contact`](crate::contact)).
 //!
 //! W (3 rows per pin, 6 per clamp or touched body) is the dynamic stiffness of the cable at the bodies; Y gives the
-//! increments of the cable from those of the bodies.
+//! increments of the cable from those of the bodies. Neither needs the columns of Y: a [`SchurComplement`] brings them half of the way.
 //!
 //! # References
 //!
@@ -25,7 +25,7 @@
 
 use super::hold::Hold;
 use crate::contact::Border;
-use crate::linalg::{BlockTridiagonal, Factorisation};
+use crate::linalg::{BlockTridiagonal, Factorisation, SchurComplement};
 use fearless_simd::Level;
 
 /// Nonzero rows of a column of A: up to three nodes from `first`.
@@ -41,15 +41,14 @@ struct Column {
 pub(super) struct Condensed {
     /// By held coordinate: the column of A, before and after projection.
     columns: Vec<Column>,
-    /// A_ff^-1 A_fp, one column of 6 per node after the other, then A_ff^-1 r_f.
-    y: Vec<f64>,
-    /// Whether A_ff^-1 r_f is there.
-    solved: bool,
+    schur: SchurComplement,
     /// W, row-major.
     pub w: Vec<f64>,
     size: usize,
     /// Columns of touched bodies, six each, before and after projection.
     borders: Vec<f64>,
+    /// A vector of the cable.
+    scratch: Vec<f64>,
 }
 
 impl Condensed {
@@ -80,22 +79,21 @@ impl Condensed {
     }
 
     /// Completes the condensation with the factored, projected matrix; `project` removes held rows
-    /// from a vector. Solves for the residual `rhs` too, if there is one: together it costs a fraction.
+    /// from a vector.
     pub fn complete(
         &mut self,
         level: Level,
         factorisation: &Factorisation,
         (holds, borders): (&[Hold], &[Border]),
-        rhs: Option<&[f64]>,
         project: impl Fn(&mut [f64]),
     ) {
         let (held, size) = (self.columns.len(), self.size);
         let count = held + 6 * borders.len();
-        self.y.clear();
-        self.y.resize((count + usize::from(rhs.is_some())) * size, 0.0);
-        self.solved = rhs.is_some();
         self.w.clear();
         self.w.resize(count * count, 0.0);
+        self.scratch.clear();
+        self.scratch.resize(size, 0.0);
+        self.schur.begin(size / 6, count);
         for (j, column) in self.columns.iter_mut().enumerate() {
             for (q, &Hold { node, slope, .. }) in holds.iter().enumerate() {
                 if node >= column.first && node < column.first + column.nodes {
@@ -105,10 +103,13 @@ impl Condensed {
                     }
                 }
             }
-            let y = &mut self.y[j * size..(j + 1) * size];
-            y[6 * column.first..6 * (column.first + column.nodes)].copy_from_slice(&column.rows[..6 * column.nodes]);
-            project(y);
-            column.rows[..6 * column.nodes].copy_from_slice(&y[6 * column.first..6 * (column.first + column.nodes)]);
+            let range = 6 * column.first..6 * (column.first + column.nodes);
+            let rows = &mut column.rows[..6 * column.nodes];
+            self.scratch[range.clone()].copy_from_slice(rows);
+            project(&mut self.scratch);
+            rows.copy_from_slice(&self.scratch[range.clone()]);
+            self.scratch[range].fill(0.0);
+            self.schur.set(j, column.first, rows);
         }
         for (k, column) in self.borders.chunks_exact_mut(size.max(1)).enumerate() {
             for (q, &Hold { node, slope, .. }) in holds.iter().enumerate() {
@@ -122,51 +123,22 @@ impl Condensed {
                 self.w[(held + k) * count + held + k / 6 * 6 + x] = borders[k / 6].block[(k % 6, x)];
             }
             project(column);
-            self.y[(held + k) * size..][..size].copy_from_slice(column);
+            self.schur.set(held + k, 0, column);
         }
-        if let Some(rhs) = rhs {
-            self.y[count * size..].copy_from_slice(rhs);
-            project(&mut self.y[count * size..]);
-        }
-        factorisation.solve_many(level, &mut self.y, count + usize::from(rhs.is_some()));
-        for i in 0..count {
-            for j in 0..count {
-                self.w[i * count + j] -= self.border(i, &self.y[j * size..(j + 1) * size]);
-            }
-        }
+        self.schur.complete(level, factorisation);
+        self.schur.subtract_from(level, &mut self.w);
     }
 
-    /// Copies A_ff^-1 r_f to `out`, once; returns whether it was there.
-    pub fn take_solution(&mut self, out: &mut [f64]) -> bool {
-        let solved = core::mem::take(&mut self.solved);
-        if solved {
-            out.copy_from_slice(&self.y[self.y.len() - self.size..]);
-        }
-        solved
+    /// Computes `out = A_pf A_ff^-1 r_f` for projected rows `r_f`, which [`expand`](Self::expand) needs as this leaves them. The held
+    /// coordinates come first, then those of touched bodies. The factorisation is that of [`complete`](Self::complete).
+    pub fn reduce(&self, level: Level, factorisation: &Factorisation, rows: &mut [f64], out: &mut Vec<f64>) {
+        out.clear();
+        out.resize(self.w.len().isqrt(), 0.0);
+        self.schur.reduce(level, factorisation, rows, out);
     }
 
-    /// Returns `A_pf u` for held coordinate `i`; those of touched bodies come after the others.
-    pub fn border(&self, i: usize, u: &[f64]) -> f64 {
-        match self.columns.get(i) {
-            Some(column) => column.dot(u),
-            None => {
-                let column = &self.borders[(i - self.columns.len()) * self.size..][..self.size];
-                column.iter().zip(u).map(|(a, b)| a * b).sum()
-            }
-        }
-    }
-
-    /// Computes `u -= Y_i displacement`.
-    pub fn spread(&self, i: usize, displacement: f64, u: &mut [f64]) {
-        for (u, y) in u.iter_mut().zip(&self.y[i * self.size..(i + 1) * self.size]) {
-            *u -= y * displacement;
-        }
-    }
-}
-
-impl Column {
-    fn dot(&self, u: &[f64]) -> f64 {
-        let u = &u[6 * self.first..6 * (self.first + self.nodes)];
-        self.rows.iter().zip(u).map(|(a, b)| a * b).sum()
+    /// Computes `A_ff^-1 r_f - Y displacements` in place.
+    pub fn expand(&self, level: Level, factorisation: &Factorisation, displacements: &[f64], rows: &mut [f64]) {
+        self.schur.expand(level, factorisation, displacements, rows);
     }
 }

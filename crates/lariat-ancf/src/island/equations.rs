@@ -39,6 +39,8 @@ struct CableBuffers {
     mass_factorisation: Factorisation,
     /// Mass matrix times accelerations.
     product: Vec<f64>,
+    /// A_pf A_ff^-1 r_f, then the displacements of held coordinates.
+    at_bodies: Vec<f64>,
 }
 
 impl CableBuffers {
@@ -46,6 +48,18 @@ impl CableBuffers {
         match kind {
             MatrixKind::Mass => &self.mass,
             MatrixKind::Step => &self.step,
+        }
+    }
+
+    /// Returns a matrix with its factors, those of the step matrix in `step`, and `at_bodies`.
+    fn split<'a>(
+        &'a mut self,
+        kind: MatrixKind,
+        step: &'a Factorisation,
+    ) -> (&'a HeldMatrix, &'a Factorisation, &'a mut Vec<f64>) {
+        match kind {
+            MatrixKind::Mass => (&self.mass, &self.mass_factorisation, &mut self.at_bodies),
+            MatrixKind::Step => (&self.step, step, &mut self.at_bodies),
         }
     }
 }
@@ -145,7 +159,7 @@ impl IslandEquations<'_, '_> {
             equations.factor_to_solve()?;
             let (level, model) = (equations.system.level, equations.model);
             let factorisation = &equations.system.step.factorisation;
-            step.condensed.complete(level, factorisation, (&part.holds, &[]), None, |x| project_vector(model, x));
+            step.condensed.complete(level, factorisation, (&part.holds, &[]), |x| project_vector(model, x));
             equations.system.mass.multiply(equations.system.level, &z[range], product);
             subtract(rows, product);
         }
@@ -169,7 +183,7 @@ impl IslandEquations<'_, '_> {
                 project_matrix(model, matrix);
                 mass_factorisation.factor(system.level, matrix)?;
                 let parts = (&part.holds[..], &[][..]);
-                mass.condensed.complete(system.level, mass_factorisation, parts, None, |x| project_vector(model, x));
+                mass.condensed.complete(system.level, mass_factorisation, parts, |x| project_vector(model, x));
             }
             self.matrices.mass_is_factored = true;
         }
@@ -195,15 +209,15 @@ impl IslandEquations<'_, '_> {
         }
         layout.coupled.iter().for_each(|coupled| matrix.add_coupled(coupled));
         for (buffers, part) in cables.iter().zip(&layout.parts) {
-            let lever =
-                |hold: &Hold| Lever::held(layout.pins[hold.pin].body, &layout.rotating_vector(hold, q), hold.slope);
             if kind == MatrixKind::Step {
                 for hold in &part.holds {
                     let geometric = -skew(&vector(&rhs[hold.at..])) * skew(&layout.rotating_vector(hold, q));
                     matrix.add_rotational(layout.pins[hold.pin].body, &((geometric + geometric.transpose()) * 0.5));
                 }
             }
-            matrix.add_cable(&buffers.matrix(kind).condensed, part.holds.iter().map(lever));
+            let lever =
+                |hold: &Hold| Lever::held(layout.pins[hold.pin].body, &layout.rotating_vector(hold, q), hold.slope);
+            matrix.add_cable(&buffers.matrix(kind).condensed.w, part.holds.iter().map(lever));
         }
         for (i, body) in layout.bodies.iter().enumerate() {
             matrix.lock(i, &body.free);
@@ -234,9 +248,10 @@ impl IslandEquations<'_, '_> {
     pub fn solve(&mut self, kind: MatrixKind, q: &[f64], rhs: &mut [f64]) {
         let layout = self.layout;
         let Matrices { cables: buffers, bodies: matrix, .. } = &mut *self.matrices;
-        for ((cable, part), buffers) in self.cables.iter_mut().zip(&layout.parts).zip(buffers.iter()) {
+        for ((cable, part), buffers) in self.cables.iter_mut().zip(&layout.parts).zip(buffers.iter_mut()) {
             let cable = &mut **cable;
-            let directions = &buffers.matrix(kind).directions;
+            let (HeldMatrix { condensed, directions }, factors, at_bodies) =
+                buffers.split(kind, &cable.system.step.factorisation);
             for (hold, factored) in part.holds.iter().zip(directions).filter(|(h, _)| h.slope) {
                 // the matrix was factored with this direction
                 let along = direction_near(&q[hold.at..], factored).dot(&vector(&rhs[hold.at..]));
@@ -247,19 +262,12 @@ impl IslandEquations<'_, '_> {
             }
             let rows = &mut rhs[part.range()];
             project_vector(&cable.model, rows);
-            let factorisation = match kind {
-                MatrixKind::Mass => &buffers.mass_factorisation,
-                MatrixKind::Step => &cable.system.step.factorisation,
-            };
-            factorisation.solve(cable.system.level, rows);
+            condensed.reduce(cable.system.level, factors, rows, at_bodies);
             cable.diagnostics_mut().solves += 1;
         }
         for (part, buffers) in layout.parts.iter().zip(buffers.iter()) {
-            let condensed = &buffers.matrix(kind).condensed;
-            for (h, hold) in part.holds.iter().enumerate() {
-                let rows = &rhs[part.range()];
-                let row = Vector3::from_fn(|x, _| -condensed.border(3 * h + x, rows));
-                layout.pass(hold, &row, &layout.rotating_vector(hold, q), rhs);
+            for (hold, reduced) in part.holds.iter().zip(buffers.at_bodies.chunks_exact(3)) {
+                layout.pass(hold, &-vector(reduced), &layout.rotating_vector(hold, q), rhs);
             }
         }
         let at = layout.bodies_at;
@@ -269,22 +277,19 @@ impl IslandEquations<'_, '_> {
             }
         }
         matrix.solve(&mut rhs[at..at + 6 * layout.bodies.len()]);
-        for (part, buffers) in layout.parts.iter().zip(buffers.iter()) {
-            let HeldMatrix { condensed, directions } = buffers.matrix(kind);
-            let displacement = |hold: &Hold, rhs: &[f64]| {
+        for ((cable, part), buffers) in self.cables.iter().zip(&layout.parts).zip(buffers.iter_mut()) {
+            let (HeldMatrix { condensed, directions }, factors, at_bodies) =
+                buffers.split(kind, &cable.system.step.factorisation);
+            at_bodies.clear();
+            for hold in &part.holds {
                 let at = layout.body_at(layout.pins[hold.pin].body);
                 let rotated = vector(&rhs[at + 3..]).cross(&layout.rotating_vector(hold, q));
-                if hold.slope { rotated } else { vector(&rhs[at..]) + rotated }
-            };
-            for (h, hold) in part.holds.iter().enumerate() {
-                let displacement = displacement(hold, rhs);
-                let rows = &mut rhs[part.range()];
-                for x in 0..3 {
-                    condensed.spread(3 * h + x, displacement[x], rows);
-                }
+                let displacement = if hold.slope { rotated } else { vector(&rhs[at..]) + rotated };
+                at_bodies.extend_from_slice(displacement.as_slice());
             }
-            for (hold, factored) in part.holds.iter().zip(directions) {
-                let mut held = displacement(hold, rhs);
+            condensed.expand(cable.system.level, factors, at_bodies, &mut rhs[part.range()]);
+            let held = at_bodies.chunks_exact(3).map(vector);
+            for ((hold, factored), mut held) in part.holds.iter().zip(directions).zip(held) {
                 if hold.slope {
                     let along = factored.dot(&vector(&rhs[hold.at..]));
                     held += direction_near(&q[hold.at..], factored) * along;

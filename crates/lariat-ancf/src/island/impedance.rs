@@ -27,8 +27,8 @@ use crate::cable::Cable;
 use crate::effect::acts::ForceInput;
 use crate::error::{Error, StepFailure};
 use crate::integrate::add_scaled;
-use crate::linalg::{Definiteness, Factorisation};
-use crate::system::{project_matrix, project_vector};
+use crate::linalg::{Factorisation, SchurComplement};
+use crate::system::project_matrix;
 use nalgebra::{Matrix3, Vector3};
 
 /// Largest divisor of D and K against compression that makes A indefinite.
@@ -41,10 +41,14 @@ const MIN_SHARE: f64 = 1.0 / 64.0;
 #[derive(Clone, Debug, Default)]
 pub struct Impedance {
     factorisation: Factorisation,
-    /// A^-1 J^T, one column per coordinate of the nodes.
-    columns: Vec<f64>,
+    /// The columns J^T, one per coordinate of the nodes.
+    pins: SchurComplement,
+    /// J times the inverse of the factored matrix times J^T, with the sign changed; row-major.
+    response: Vec<f64>,
     nodes: Vec<usize>,
     step: f64,
+    /// What A is multiplied by in the factored matrix.
+    factor: f64,
 }
 
 impl Impedance {
@@ -74,12 +78,9 @@ impl Impedance {
         h: f64,
         is_free: impl Fn(usize) -> bool,
     ) -> Result<(), Error> {
-        let size = cable.positions().len();
         self.step = h;
         self.nodes.clear();
         self.nodes.extend_from_slice(nodes);
-        self.columns.clear();
-        self.columns.resize(3 * nodes.len() * size, 0.0);
         // with its pins free a cable has other supports; they are restored below
         let supports = cable.model.supports.clone();
         cable.model.supports.iter_mut().filter(|(n, _)| is_free(*n)).for_each(|(_, s)| s.attached = false);
@@ -89,20 +90,19 @@ impl Impedance {
     }
 
     fn linearise(&mut self, cable: &mut Cable, h: f64) -> Result<(), StepFailure> {
-        let size = cable.positions().len();
         let mut inertia = 1.0;
         let assembled = loop {
             // positive definite with half the inertia: the response is at most twice that of the
             // inertia alone
             let half = 0.5 * inertia;
             assemble(cable, h, half);
-            let definite = self.factor(cable);
-            if definite == Ok(true) {
+            project_matrix(&cable.model, &mut cable.system.step.matrix);
+            if self.factorisation.factor_if_definite(cable.system.level, &cable.system.step.matrix) {
                 break half;
             }
             inertia *= 2.0;
             if inertia > MAX_DIVISOR {
-                definite?;
+                self.factorisation.factor_to_solve(cable.system.level, &cable.system.step.matrix)?;
                 break half;
             }
         };
@@ -114,33 +114,33 @@ impl Impedance {
             // the mass matrix has the stock of a reel too, which is not assembled
             assemble(cable, h, inertia);
         }
-        self.factor(cable)?;
-        let (model, system) = (&cable.model, &mut cable.system);
-        for (i, column) in self.columns.chunks_exact_mut(size).enumerate() {
-            column[6 * self.nodes[i / 3] + i % 3] = 1.0;
-            project_vector(model, column);
-        }
-        if !self.nodes.is_empty() {
-            self.factorisation.solve_many(system.level, &mut self.columns, 3 * self.nodes.len());
-        }
-        // the factored matrix is inertia M + h^2 K, the wanted one M + h^2 K/inertia
-        self.columns.iter_mut().for_each(|x| *x *= inertia);
-        Ok(())
-    }
-
-    /// Projects and factors what is assembled, and returns whether it is positive definite.
-    fn factor(&mut self, cable: &mut Cable) -> Result<bool, StepFailure> {
         let (model, system) = (&cable.model, &mut cable.system);
         project_matrix(model, &mut system.step.matrix);
-        let kind = self.factorisation.factor(system.level, &system.step.matrix)?;
-        Ok(matches!(kind, Definiteness::PositiveDefinite))
+        self.factorisation.factor_to_solve(system.level, &system.step.matrix)?;
+        let count = 3 * self.nodes.len();
+        self.pins.begin(self.factorisation.nodes(), count);
+        for (i, node) in self.nodes.iter().enumerate() {
+            for x in 0..3 {
+                let mut rows = [0.0; 6];
+                rows[x] = 1.0;
+                model.support(*node).into_iter().for_each(|support| support.project(&mut rows));
+                self.pins.set(3 * i + x, *node, &rows);
+            }
+        }
+        self.pins.complete(system.level, &self.factorisation);
+        self.response.clear();
+        self.response.resize(count * count, 0.0);
+        self.pins.subtract_from(system.level, &mut self.response);
+        // the factored matrix is inertia M + h^2 K, the wanted one M + h^2 K/inertia
+        self.factor = inertia;
+        Ok(())
     }
 
     /// Returns the velocity in m/s at node `i` of the given ones for unit impulses at node `j`, in
     /// 1/kg.
     pub fn compliance(&self, i: usize, j: usize) -> Matrix3<f64> {
-        let size = self.columns.len() / (3 * self.nodes.len()).max(1);
-        Matrix3::from_fn(|r, c| self.columns[(3 * j + c) * size + 6 * self.nodes[i] + r])
+        let count = 3 * self.nodes.len();
+        Matrix3::from_fn(|r, c| -self.factor * self.response[(3 * i + r) * count + 3 * j + c])
     }
 
     /// Returns the nodes that it was updated with.
@@ -164,10 +164,8 @@ impl Impedance {
         let mut dv = core::mem::take(&mut cable.buffers.product);
         dv.clear();
         dv.resize(size, 0.0);
-        for (i, column) in self.columns.chunks_exact(size).enumerate() {
-            let p = impulses[i / 3][i % 3];
-            dv.iter_mut().zip(column).for_each(|(dv, y)| *dv -= p * y);
-        }
+        let scaled: Vec<f64> = impulses.iter().flatten().map(|p| self.factor * p).collect();
+        self.pins.expand(cable.system.level, &self.factorisation, &scaled, &mut dv);
         let at_nodes = self.nodes.iter().zip(impulses);
         let given: f64 = at_nodes.map(|(n, p)| (0..3).map(|x| -p[x] * dv[6 * n + x]).sum::<f64>()).sum();
         let strain = |cable: &Cable| {

@@ -3,7 +3,7 @@
 //! # Validity
 //!
 //! Positive definite matrices, and nearly so; a pivot below rounding is an error. Rows are
-//! exchanged only where a pivot has lost most of its diagonal entry, and zeros are skipped: a chain
+//! exchanged only where a pivot has lost most of its diagonal entry, and zeros below the last entry of a column are skipped: a chain
 //! of bodies in its order costs O(n), a full matrix O(n^3).
 //!
 //! # References
@@ -16,6 +16,7 @@
 //! nalgebra's Cholesky: its products choose kernels at run time, with other bits on other machines.
 
 use super::outcome::{Reason, SingularMatrix};
+use fearless_simd::{Level, dispatch};
 
 /// Share of its diagonal entry above which a pivot needs no exchange.
 const MIN_PIVOT_SHARE: f64 = 1e-3;
@@ -28,7 +29,6 @@ pub(crate) struct Dense {
     order: Vec<usize>,
     scratch: Vec<f64>,
     scale: Vec<f64>,
-    filled: Vec<usize>,
     column: Vec<f64>,
 }
 
@@ -44,7 +44,7 @@ impl Dense {
         self.order.clear();
         self.order.extend(0..n);
         self.scratch.resize(n, 0.0);
-        let f = &mut self.factors;
+        let (f, level) = (&mut self.factors, Level::new());
         self.scale.clear();
         self.scale.extend((0..n).map(|i| f[i * n + i].abs()));
         let scale = &self.scale;
@@ -68,18 +68,10 @@ impl Dense {
             if pivot.abs() <= 64.0 * f64::EPSILON * size || pivot == 0.0 {
                 return fail(self.order[k] / 6, pivot, size, Reason::Pivot);
             }
-            self.filled.clear();
-            self.filled.extend((k + 1..n).filter(|i| f[i * n + k] != 0.0));
+            let end = (k + 1..n).rev().find(|i| f[i * n + k] != 0.0).map_or(k + 1, |last| last + 1);
             self.column.clear();
-            self.column.extend(self.filled.iter().map(|i| f[i * n + k]));
-            for (a, &i) in self.filled.iter().enumerate() {
-                let row = &mut f[i * n..=i * n + i];
-                let l = self.column[a] / pivot;
-                row[k] = l;
-                for (&j, c) in self.filled[..=a].iter().zip(&self.column) {
-                    row[j] -= l * c;
-                }
-            }
+            self.column.extend((k + 1..end).map(|i| f[i * n + k]));
+            dispatch!(level, _ => eliminate(&mut f[(k + 1) * n..end * n], (n, k), &self.column, pivot));
         }
         Ok(())
     }
@@ -101,15 +93,26 @@ impl Dense {
                 x[i] -= f[i * n + j] * x[j];
             }
         }
-        for i in (0..n).rev() {
+        for i in 0..n {
             x[i] /= f[i * n + i];
-            for j in i + 1..n {
-                x[i] -= f[j * n + i] * x[j];
-            }
+        }
+        for j in (0..n).rev() {
+            let (before, after) = x.split_at_mut(j);
+            before.iter_mut().zip(&f[j * n..]).for_each(|(x, l)| *x -= l * after[0]);
         }
         for i in 0..n {
             rhs[self.order[i]] = x[i];
         }
+    }
+}
+
+/// Computes l = column/pivot in column `k` of the rows after `k`, of `n` numbers each, and subtracts l column^T from their lower triangle.
+#[inline(always)]
+fn eliminate(rows: &mut [f64], (n, k): (usize, usize), column: &[f64], pivot: f64) {
+    for (i, row) in rows.chunks_exact_mut(n).enumerate().filter(|(i, _)| column[*i] != 0.0) {
+        let l = column[i] / pivot;
+        row[k] = l;
+        row[k + 1..=k + 1 + i].iter_mut().zip(column).for_each(|(x, c)| *x -= l * c);
     }
 }
 

@@ -66,13 +66,24 @@ impl Factorisation {
         self.factor_with(level, a, false)
     }
 
-    fn factor_with(&mut self, level: Level, a: &BlockTridiagonal, count: bool) -> Result<Definiteness, SingularMatrix> {
+    /// Factors `a` if it is safely positive definite, and returns whether it is.
+    ///
+    /// # Panics
+    /// As [`factor`](Self::factor).
+    pub fn factor_if_definite(&mut self, level: Level, a: &BlockTridiagonal) -> bool {
         a.check();
         self.state = State::Empty;
         self.nodes.resize(a.nodes(), Node::ZERO);
         let nodes = &mut self.nodes[..];
-        if nodes.is_empty() || dispatch!(level, simd => twisted::factor(simd, a, nodes)) {
+        let definite = nodes.is_empty() || dispatch!(level, simd => twisted::factor(simd, a, nodes));
+        if definite {
             self.state = State::Twisted;
+        }
+        definite
+    }
+
+    fn factor_with(&mut self, level: Level, a: &BlockTridiagonal, count: bool) -> Result<Definiteness, SingularMatrix> {
+        if self.factor_if_definite(level, a) {
             return Ok(Definiteness::PositiveDefinite);
         }
         let definiteness = self.banded.factor(level, a, count)?;
@@ -90,39 +101,23 @@ impl Factorisation {
     /// # Panics
     /// If nothing has been factored successfully or the length does not match.
     pub fn solve(&self, level: Level, rhs: &mut [f64]) {
-        self.solve_many(level, rhs, 1);
+        assert_eq!(rhs.len(), 6 * self.nodes.len(), "length of the right-hand side");
+        assert_ne!(self.state, State::Empty, "no factorisation to solve with");
+        if rhs.is_empty() {
+            return;
+        }
+        match self.twisted() {
+            Some(nodes) => {
+                let (sixes, _) = rhs.as_chunks_mut::<6>();
+                dispatch!(level, simd => substitution::solve(simd, nodes, sixes));
+            }
+            None => self.banded.solve(level, rhs),
+        }
     }
 
-    /// Solves for `count` right-hand sides, each contiguous, with the same bits as one `solve` for
-    /// each.
-    ///
-    /// # Panics
-    /// If nothing has been factored successfully or the length does not match.
-    pub fn solve_many(&self, level: Level, rhs: &mut [f64], count: usize) {
-        let n = self.nodes.len();
-        assert_eq!(rhs.len(), 6 * n * count, "length of the right-hand sides");
-        assert_ne!(self.state, State::Empty, "no factorisation to solve with");
-        if n == 0 {
-            return;
-        }
-        if self.state != State::Twisted {
-            for one in rhs.chunks_exact_mut(6 * n) {
-                self.banded.solve(level, one);
-            }
-            return;
-        }
-        let nodes = &self.nodes[..];
-        let (sixes, _) = rhs.as_chunks_mut::<6>();
-        let mut fours = sixes.chunks_exact_mut(4 * n);
-        for four in &mut fours {
-            let (ab, cd) = four.split_at_mut(2 * n);
-            let (a, b) = ab.split_at_mut(n);
-            let (c, d) = cd.split_at_mut(n);
-            dispatch!(level, simd => substitution::solve(simd, nodes, [a, b, c, d]));
-        }
-        for one in fours.into_remainder().chunks_exact_mut(n) {
-            dispatch!(level, simd => substitution::solve(simd, nodes, [one]));
-        }
+    /// Returns the factors of a positive definite matrix; `None` if there are others.
+    pub(super) fn twisted(&self) -> Option<&[Node]> {
+        (self.state == State::Twisted).then_some(&self.nodes[..])
     }
 
     /// Returns the number of negative eigenvalues, if it is certain.

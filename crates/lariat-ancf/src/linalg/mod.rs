@@ -39,6 +39,7 @@ mod lanes;
 mod mass;
 mod outcome;
 mod product;
+mod schur;
 mod substitution;
 mod twisted;
 
@@ -47,3 +48,4 @@ pub(crate) use dense::Dense;
 pub use factorisation::Factorisation;
 pub use mass::{MassFactorisation, MassMatrix};
 pub use outcome::{Definiteness, Reason, SingularMatrix};
+pub use schur::SchurComplement;

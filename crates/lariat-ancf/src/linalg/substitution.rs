@@ -15,7 +15,7 @@
 //!
 //! # Validity
 //!
-//! After an accepted factorisation; one or several right-hand sides at a time give the same bits.
+//! After an accepted factorisation.
 //!
 //! # References
 //!
@@ -27,8 +27,7 @@
 //! steps per node and direction; here it is one 6x6 product, and the S_i^-1 of different nodes
 //! overlap.
 //!
-//! A right-hand side that begins with zeros, as a column of the border of a cable that is pinned at its end does, stays zero down to
-//! its first entry: this part of the sweep inwards is left out, with the same bits (S_i^-1 0 = 0 and 0 - G_i 0 = 0).
+//! A right-hand side that begins with zeros stays zero down to its first entry: this part of the sweep inwards is left out, with the same bits (S_i^-1 0 = 0 and 0 - G_i 0 = 0).
 
 use super::lanes::{after, before, columns_times, load, load_block, load_six, splat, store_six, transpose_dots};
 use super::twisted::Node;
@@ -56,63 +55,69 @@ fn zeros(rhs: &[[f64; 6]]) -> usize {
     rhs.iter().position(|six| six.iter().any(|x| x.to_bits() != 0)).unwrap_or(rhs.len())
 }
 
-/// Solves in place for `N` right-hand sides of `nodes.len()` nodes each.
+/// Solves in place for a right-hand side of `nodes.len()` nodes.
 #[inline(always)]
-pub(super) fn solve<S: Simd, const N: usize>(simd: S, nodes: &[Node], rhs: [&mut [[f64; 6]]; N]) {
+pub(super) fn solve<S: Simd>(simd: S, nodes: &[Node], rhs: &mut [[f64; 6]]) {
+    sweep_inwards(simd, nodes, rhs);
+    sweep_outwards(simd, nodes, rhs);
+}
+
+/// Replaces a right-hand side by S^-1 b after the sweep inwards.
+#[inline(always)]
+pub(super) fn sweep_inwards<S: Simd>(simd: S, nodes: &[Node], rhs: &mut [[f64; 6]]) {
     let n = nodes.len();
     let middle = n / 2;
     let from_below = n - 1 - middle;
     let zero = splat(simd, 0.0);
-    let rhs = rhs.map(|r| &mut r[..n]);
-    let begin: [usize; N] = core::array::from_fn(|r| zeros(&rhs[r][..middle]));
-    let mut top: [f64x8<S>; N] = core::array::from_fn(|r| load_six(simd, &rhs[r][0]));
-    let mut bottom: [f64x8<S>; N] = core::array::from_fn(|r| load_six(simd, &rhs[r][n - 1]));
+    let rhs = &mut rhs[..n];
+    let begin = zeros(&rhs[..middle]);
+    let mut top = load_six(simd, &rhs[0]);
+    let mut bottom = load_six(simd, &rhs[n - 1]);
 
     for s in 0..middle {
         let (i, j) = (s, n - 1 - s);
-        let gain = load_block(simd, &nodes[i].gain);
-        for r in 0..N {
-            if i < begin[r] {
-                top[r] = load_six(simd, &rhs[r][i + 1]);
-                continue;
-            }
-            let c = solve_block(simd, &nodes[i], top[r]);
-            top[r] = load_six(simd, &rhs[r][i + 1]) - columns_times(simd, &gain, top[r]);
-            store_six(simd, c, &mut rhs[r][i]);
+        if i < begin {
+            top = load_six(simd, &rhs[i + 1]);
+        } else {
+            let gain = load_block(simd, &nodes[i].gain);
+            let c = solve_block(simd, &nodes[i], top);
+            top = load_six(simd, &rhs[i + 1]) - columns_times(simd, &gain, top);
+            store_six(simd, c, &mut rhs[i]);
         }
         if s < from_below {
             let gain = load_block(simd, &nodes[j].gain);
-            for r in 0..N {
-                let c = solve_block(simd, &nodes[j], bottom[r]);
-                // the middle node's own entries arrive through `top`
-                let last = s + 1 == from_below;
-                let next = if last { zero } else { load_six(simd, &rhs[r][j - 1]) };
-                bottom[r] = next - columns_times(simd, &gain, bottom[r]);
-                store_six(simd, c, &mut rhs[r][j]);
-            }
+            let c = solve_block(simd, &nodes[j], bottom);
+            // the middle node's own entries arrive through `top`
+            let last = s + 1 == from_below;
+            let next = if last { zero } else { load_six(simd, &rhs[j - 1]) };
+            bottom = next - columns_times(simd, &gain, bottom);
+            store_six(simd, c, &mut rhs[j]);
         }
     }
-    for r in 0..N {
-        if from_below > 0 {
-            top[r] += bottom[r];
-        }
-        top[r] = solve_block(simd, &nodes[middle], top[r]);
-        bottom[r] = top[r];
-        store_six(simd, top[r], &mut rhs[r][middle]);
+    if from_below > 0 {
+        top += bottom;
     }
+    store_six(simd, solve_block(simd, &nodes[middle], top), &mut rhs[middle]);
+}
+
+/// Completes S^-1 b, after the sweep inwards, to the solution.
+#[inline(always)]
+pub(super) fn sweep_outwards<S: Simd>(simd: S, nodes: &[Node], rhs: &mut [[f64; 6]]) {
+    let n = nodes.len();
+    let middle = n / 2;
+    let from_below = n - 1 - middle;
+    let rhs = &mut rhs[..n];
+    let mut top = load_six(simd, &rhs[middle]);
+    let mut bottom = top;
     for s in (0..middle).rev() {
         let (i, j) = (s, n - 1 - s);
         let gain = load_block(simd, &nodes[i].gain);
-        for r in 0..N {
-            top[r] = load_six(simd, &rhs[r][i]) - transpose_dots(&gain, top[r]);
-            store_six(simd, top[r], &mut rhs[r][i]);
-        }
+        top = load_six(simd, &rhs[i]) - transpose_dots(&gain, top);
+        store_six(simd, top, &mut rhs[i]);
         if s < from_below {
             let gain = load_block(simd, &nodes[j].gain);
-            for r in 0..N {
-                bottom[r] = load_six(simd, &rhs[r][j]) - transpose_dots(&gain, bottom[r]);
-                store_six(simd, bottom[r], &mut rhs[r][j]);
-            }
+            bottom = load_six(simd, &rhs[j]) - transpose_dots(&gain, bottom);
+            store_six(simd, bottom, &mut rhs[j]);
         }
     }
 }

@@ -18,7 +18,7 @@
 use super::link::Link;
 use crate::error::Raise;
 use fearless_simd::Level;
-use lariat_ancf::linalg::{BlockTridiagonal, Definiteness, Factorisation};
+use lariat_ancf::linalg::{BlockTridiagonal, Definiteness, Factorisation, SchurComplement};
 use lariat_ancf::{self as ancf, At, Vector3};
 use nalgebra::DMatrix;
 
@@ -80,10 +80,13 @@ impl Link {
             }
         }
         let count = rows.len();
-        let b = DMatrix::from_fn(count, size, |r, c| rows[r][c]);
-        let mut columns = rows.concat();
-        factorisation.solve_many(level, &mut columns, count);
-        let compliance = &b * DMatrix::from_column_slice(size, count, &columns);
+        let mut border = SchurComplement::default();
+        border.begin(factorisation.nodes(), count);
+        rows.iter().enumerate().for_each(|(k, row)| border.set(k, 0, row));
+        border.complete(level, &factorisation);
+        let mut compliance = DMatrix::zeros(count, count);
+        border.subtract_from(level, compliance.as_mut_slice());
+        let compliance = -compliance;
         let p = DMatrix::from_fn(count, 6 * self.ends.len(), |r, c| {
             let (end, linear, angular) = &maps[r];
             match c / 6 == *end {

@@ -172,12 +172,17 @@ fn driving_point(island: &Island, prediction: &Prediction, member: usize) -> Vec
             m.fixed_view_mut::<3, 3>(3 * a, 3 * b).copy_from(&block);
         }
     }
-    let Some(inverse) = m.try_inverse() else { return Vec::new() };
-    near.iter()
-        .enumerate()
-        .filter(|&(_, &pin)| island.pins[pin].body == member)
-        .map(|(a, &pin)| (pin, inverse.fixed_view::<3, 3>(3 * a, 3 * a).into_owned()))
-        .collect()
+    let own: Vec<(usize, usize)> =
+        near.iter().copied().enumerate().filter(|(_, pin)| island.pins[*pin].body == member).collect();
+    let mut columns = DMatrix::<f64>::zeros(n, 3 * own.len());
+    for (k, (a, _)) in own.iter().enumerate() {
+        columns.fixed_view_mut::<3, 3>(3 * a, 3 * k).fill_diagonal(1.0);
+    }
+    if !m.lu().solve_mut(&mut columns) {
+        return Vec::new();
+    }
+    let block = |k: usize, a: usize| columns.fixed_view::<3, 3>(3 * a, 3 * k).into_owned();
+    own.iter().enumerate().map(|(k, (a, pin))| (*pin, block(k, *a))).collect()
 }
 
 /// Returns the velocity at one point per impulse at another, in 1/kg, by the mobility of their bodies and the levers from

@@ -74,6 +74,8 @@ pub(super) struct StepBuffers {
 pub(super) struct CableBuffers {
     pub holds: Vec<HoldStep>,
     condensed: Condensed,
+    /// A_pf A_ff^-1 r_f, then the displacements of held coordinates and touched bodies.
+    at_bodies: Vec<f64>,
     /// The cable at the beginning of the host step.
     pub start: State,
 }

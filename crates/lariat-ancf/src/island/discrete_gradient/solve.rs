@@ -1,18 +1,18 @@
 //! The linear equations of an iteration: each cable is condensed on the bodies, and their matrix is factored.
 
 use super::super::body_matrix::Lever;
+use super::super::hold::vector;
 use super::coupled::complete_rows;
 use super::{CableBuffers, IslandStep, StepBuffers};
 use crate::effect::EffectWork;
 use crate::error::StepFailure;
 use crate::integrate::discrete_gradient::{BETA, Buffers};
 use crate::system::{CableStep, Equations, project_vector};
-use nalgebra::Vector3;
 
 impl IslandStep<'_, '_> {
     /// Computes residuals and step matrices of all cables, factors and condenses these, and sums the rows of the bodies.
     pub(super) fn linearise(&mut self) -> Result<(), StepFailure> {
-        let StepBuffers { bodies, coupled, cables: own, rows, pairs, unknowns, .. } = &mut *self.buffers;
+        let StepBuffers { bodies, coupled, cables: own, rows, unknowns, .. } = &mut *self.buffers;
         rows.fill(0.0);
         unknowns.winches.iter().for_each(|winch| winch.pass(winch.force, self.cables[0].step_buffers.h, rows));
         for ((cable, own), part) in self.cables.iter_mut().zip(own).zip(&self.layout.parts) {
@@ -25,8 +25,7 @@ impl IslandStep<'_, '_> {
             equations.factor_to_solve()?;
             let (level, model) = (equations.system.level, equations.model);
             let factors = &equations.system.step.factorisation;
-            let rhs = (pairs.is_empty() && equations.system.flows.is_empty()).then_some(&buffers.rhs[..]);
-            own.condensed.complete(level, factors, (&part.holds, borders), rhs, |x| project_vector(model, x));
+            own.condensed.complete(level, factors, (&part.holds, borders), |x| project_vector(model, x));
         }
         complete_rows(bodies, coupled, rows);
         Ok(())
@@ -47,7 +46,7 @@ impl IslandStep<'_, '_> {
             }
             let held = holds.iter().map(|hold| Lever::held(hold.body, &hold.arm, hold.slope));
             let touched = cable.step_buffers.contact.borders().iter().flat_map(|border| Lever::own(border.body));
-            matrix.add_cable(condensed, held.chain(touched));
+            matrix.add_cable(&condensed.w, held.chain(touched));
         }
         for (i, body) in bodies.iter().enumerate() {
             matrix.lock(i, &body.free);
@@ -59,42 +58,33 @@ impl IslandStep<'_, '_> {
     pub(super) fn solve_apart(&mut self) {
         let StepBuffers { bodies, cables: own, matrix, rows, .. } = &mut *self.buffers;
         for (cable, own) in self.cables.iter_mut().zip(own.iter_mut()) {
-            let CableStep { mut equations, buffers, .. } = cable.step_parts();
-            if own.condensed.take_solution(&mut buffers.rhs) {
-                equations.diagnostics.solves += 1;
-            } else {
-                equations.solve(&mut buffers.rhs);
+            let CableStep { equations, buffers, .. } = cable.step_parts();
+            equations.diagnostics.solves += 1;
+            project_vector(equations.model, &mut buffers.rhs);
+            let (level, factors) = (equations.system.level, &equations.system.step.factorisation);
+            own.condensed.reduce(level, factors, &mut buffers.rhs, &mut own.at_bodies);
+            let (held, touched) = own.at_bodies.split_at(3 * own.holds.len());
+            for (hold, reduced) in own.holds.iter().zip(held.chunks_exact(3)) {
+                hold.pass(&-vector(reduced), rows);
             }
-            for (h, hold) in own.holds.iter().enumerate() {
-                let impulse = Vector3::from_fn(|x, _| -own.condensed.border(3 * h + x, &buffers.rhs));
-                hold.pass(&impulse, rows);
-            }
-            let first = 3 * own.holds.len();
-            for (k, border) in buffers.contact.borders().iter().enumerate() {
-                for x in 0..6 {
-                    rows[6 * border.body + x] -= own.condensed.border(first + 6 * k + x, &buffers.rhs);
-                }
+            for (border, reduced) in buffers.contact.borders().iter().zip(touched.chunks_exact(6)) {
+                (0..6).for_each(|x| rows[6 * border.body + x] -= reduced[x]);
             }
         }
         for (body, row) in bodies.iter().zip(rows.chunks_exact_mut(6)) {
             body.lock(row);
         }
         matrix.solve(rows);
-        for (cable, own) in self.cables.iter_mut().zip(own.iter()) {
-            let CableStep { buffers, .. } = cable.step_parts();
-            for (h, hold) in own.holds.iter().enumerate() {
-                let moved = hold.moved(rows);
-                for x in 0..3 {
-                    own.condensed.spread(3 * h + x, moved[x], &mut buffers.rhs);
-                }
-            }
-            let first = 3 * own.holds.len();
+        for (cable, own) in self.cables.iter_mut().zip(own.iter_mut()) {
+            let CableStep { equations, buffers, .. } = cable.step_parts();
+            own.at_bodies.clear();
+            own.at_bodies.extend(own.holds.iter().flat_map(|hold| <[f64; 3]>::from(hold.moved(rows))));
             let Buffers { contact, rhs, .. } = &mut *buffers;
-            for (k, border) in contact.borders().iter().enumerate() {
-                for x in 0..6 {
-                    own.condensed.spread(first + 6 * k + x, rows[6 * border.body + x], rhs);
-                }
+            for border in contact.borders() {
+                own.at_bodies.extend_from_slice(&rows[6 * border.body..6 * border.body + 6]);
             }
+            let (level, factors) = (equations.system.level, &equations.system.step.factorisation);
+            own.condensed.expand(level, factors, &own.at_bodies, rhs);
             for hold in &own.holds {
                 let moved = hold.moved(rows);
                 for x in 0..3 {
