@@ -36,7 +36,7 @@ mod wheel;
 mod work;
 
 pub(crate) use drum::Winch;
-pub(crate) use law::{Law, Motor, rates};
+pub(crate) use law::{Law, Motor, MotorState, rates};
 pub use sheave::Sheave;
 pub(crate) use unknowns::Unknowns;
 pub(crate) use wheel::{STOP, Wheel};
