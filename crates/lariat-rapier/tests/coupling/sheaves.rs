@@ -76,7 +76,7 @@ fn one_rope_runs_over_sheaves_along_it() {
     let mut set = CableSet::new();
     let corners = [[0.0, -3.0, 0.0], [0.0; 3], [1.5, 0.5, 0.0], [3.0, 0.0, 0.0], [3.0, -1.0, 0.0]];
     let eyes = [1, 2, 3].map(|k| Vector::from(corners[k].map(|x| x as Real)));
-    let drawn = corners.map(|x| lariat_rapier::lariat_ancf::Vector3::from(x));
+    let drawn = corners.map(lariat_rapier::lariat_ancf::Vector3::from);
     let places: Vec<f64> = drawn
         .windows(2)
         .scan(0.0, |s, pair| {
