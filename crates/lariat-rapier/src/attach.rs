@@ -133,7 +133,7 @@ pub(crate) fn end_lost(
 }
 
 /// Checks that no attachment and no junction has the node at a point of a cable.
-fn check_free(contents: &Contents, cable: CableHandle, at: At) -> Result<(), Error> {
+pub(crate) fn check_free(contents: &Contents, cable: CableHandle, at: At) -> Result<(), Error> {
     let existing = contents.cable(cable)?;
     let Ok(node) = existing.node(at) else { return Ok(()) };
     let attached = contents.attachments.values().map(|a| (a.cable, a.node));

@@ -128,6 +128,7 @@ mod join;
 mod junction;
 mod ledger;
 mod mechanism;
+mod passing;
 mod proximity;
 mod record;
 mod reels;

@@ -31,6 +31,9 @@ pub struct Sheave {
     pub(crate) ends: [(CableHandle, bool); 2],
     /// The mechanics, with the indices of another set of cables.
     pub(crate) wheel: Wheel,
+    /// Whether both are parts of one cable.
+    #[serde(default)]
+    pub(crate) along: bool,
 }
 
 /// Returns the end of a cable.
@@ -42,6 +45,11 @@ impl Sheave {
     /// Returns the cables and their ends there; material runs from the first to the second at positive rates.
     pub fn ends(&self) -> [(CableHandle, At); 2] {
         self.ends.map(|(cable, start)| (cable, end(start)))
+    }
+
+    /// Returns whether both ends are [parts of one cable](crate::CableSet::add_sheave_at).
+    pub fn is_along_a_cable(&self) -> bool {
+        self.along
     }
 
     /// Returns the length in m that ran over it so far.
@@ -102,7 +110,7 @@ impl CableSet {
 }
 
 /// Lets one cable run into another.
-fn add(
+pub(crate) fn add(
     contents: &mut Contents,
     from: (CableHandle, At),
     to: (CableHandle, At),
@@ -122,7 +130,7 @@ fn add(
     (wheel.inertia, wheel.friction, wheel.turns, wheel.brake) = (inertia, friction, turns, brake);
     wheel.radius = radius;
     contents.changed = true;
-    Ok(SheaveHandle(contents.sheaves.push(Sheave { ends, wheel }) as u32))
+    Ok(SheaveHandle(contents.sheaves.push(Sheave { ends, wheel, along: false }) as u32))
 }
 
 /// Ends a sheave: what is on its sides stays there.

@@ -40,7 +40,7 @@ pub(crate) use discrete_gradient::{CableStep, dot};
 pub(crate) use dynamics::CableDynamics;
 pub(crate) use equations::Equations;
 pub use flow::Sheave;
-pub(crate) use flow::{Flow, Law, Motor, STOP, Source, Unknowns, Wheel, Winch, rates};
+pub(crate) use flow::{Flow, Law, Motor, MotorState, STOP, Source, Unknowns, Wheel, Winch, rates};
 pub(crate) use projection::{project_matrix, project_vector};
 pub(crate) use rigid_motion::relative_velocities;
 

@@ -635,6 +635,26 @@ class World:
         per length. Returns the number of the sheave. Raises ReelPlaceError, ReelMethodError, NotWithReelError, InvalidValueError,
         NoCableError; what makes no sheave beyond that is an error of the next step."""
 
+    def add_sheave_at(
+        self,
+        cable: Cable,
+        at: Place,
+        body: Handle,
+        anchor: ArrayLike,
+        *,
+        inertia: float = 0.0,
+        friction: float = 0.0,
+        turns: float = 0.0,
+        brake: float = 0.0,
+    ) -> tuple[int, Cable]:
+        """Lets a cable run over an eye at ``anchor`` of a body (m, body axes), within 1 mm of a point between its ends; an arc length counts along all
+        :meth:`parts`. Other arguments as in :meth:`add_sheave`. Returns the number of the sheave, and the part of the cable behind it. Raises GapTooLongError,
+        AlreadyAttachedError, NoBodyError, ReelPlaceError, ReelMethodError, NotWithReelError, OutOfRangeError, InvalidValueError, NoCableError; nothing
+        changes then."""
+
+    def parts(self, cable: Cable) -> list[Cable]:
+        """Returns the parts of a cable that runs over sheaves along it, from start to end. Raises NoCableError."""
+
     def remove_sheave(self, sheave: int) -> None:
         """Ends a sheave: what is on its sides stays there. Raises NoSheaveError."""
 

@@ -15,6 +15,15 @@ impl Contents {
     }
 }
 
+/// Checks the numbers of a sheave.
+fn options(inertia: f64, friction: f64, turns: f64, brake: f64) -> PyResult<SheaveOptions> {
+    not_negative("inertia (kg)", inertia)?;
+    not_negative("friction", friction)?;
+    not_negative("turns (rad)", turns)?;
+    not_negative("brake (N)", brake)?;
+    Ok(SheaveOptions { inertia, friction, turns, brake, ..SheaveOptions::default() })
+}
+
 #[pymethods]
 impl World {
     /// Lets one cable run into another over a wheel, where ends of both are attached at one point; returns its number.
@@ -33,11 +42,7 @@ impl World {
         brake: f64,
     ) -> PyResult<usize> {
         let ends = ((first.handle_in(&self.0)?, at.0), (second.handle_in(&self.0)?, second_at.0));
-        not_negative("inertia (kg)", inertia)?;
-        not_negative("friction", friction)?;
-        not_negative("turns (rad)", turns)?;
-        not_negative("brake (N)", brake)?;
-        let options = SheaveOptions { inertia, friction, turns, brake, ..SheaveOptions::default() };
+        let options = options(inertia, friction, turns, brake)?;
         let added = self.0.compute(py, |contents| {
             contents.set.add_sheave(ends.0, ends.1, options).map(|sheave| {
                 contents.sheaves.push(sheave);
@@ -45,6 +50,40 @@ impl World {
             })
         });
         added.map_err(raise)
+    }
+
+    /// Lets a cable run over an eye at `anchor` of a body (m, body axes), where a point between its ends is; returns its number, and the part of the cable behind it.
+    #[pyo3(signature = (cable, at, body, anchor, *, inertia=0.0, friction=0.0, turns=0.0, brake=0.0))]
+    #[expect(clippy::too_many_arguments, reason = "they have names in Python")]
+    fn add_sheave_at(
+        &self,
+        py: Python<'_>,
+        cable: &Cable,
+        at: Place,
+        body: Handle,
+        anchor: Vector,
+        inertia: f64,
+        friction: f64,
+        turns: f64,
+        brake: f64,
+    ) -> PyResult<(usize, Cable)> {
+        let (handle, anchor) = (cable.handle_in(&self.0)?, single("anchor (m)", anchor.0)?);
+        let options = options(inertia, friction, turns, brake)?;
+        let added = self.0.compute(py, |contents| {
+            let Contents { world, set, sheaves, .. } = contents;
+            let sheave = set.add_sheave_at(world, (handle, at.0), (body.0, anchor), options)?;
+            sheaves.push(sheave);
+            Ok::<_, lariat_rapier::Error>((sheaves.len() - 1, set.sheave(sheave)?.ends()[1].0))
+        });
+        let (number, rest) = added.map_err(raise)?;
+        Ok((number, Cable::of_world(self.0.clone(), rest)))
+    }
+
+    /// The parts of a cable that runs over sheaves along it, from start to end.
+    fn parts(&self, py: Python<'_>, cable: &Cable) -> PyResult<Vec<Cable>> {
+        let handle = cable.handle_in(&self.0)?;
+        let parts = self.0.with(py, |contents| contents.set.parts(handle)).map_err(raise)?;
+        Ok(parts.into_iter().map(|part| Cable::of_world(self.0.clone(), part)).collect())
     }
 
     /// Ends a sheave: what is on its sides stays there.

@@ -63,6 +63,68 @@ fn crates_on_a_rope_over_a_block_move_as_their_equation_says() {
     }
 }
 
+/// One rope over three eyes, put along it one after the other, moves two crates as their equation says, is counted along all of its parts, and carries an attachment with its material;
+/// what cannot be is refused and changes nothing.
+///
+/// *Source.* `m_1 v_1' + m_2 v_2' = (m_2 - m_1) g`; lengths of parts sum to that of the rope.
+#[test]
+fn one_rope_runs_over_sheaves_along_it() {
+    let mut world = PhysicsWorld::new();
+    let ground = world.insert_body(RigidBodyBuilder::fixed());
+    let crates = [(10.0, 0.0, -3.0), (17.0, 3.0, -1.0)]
+        .map(|(mass, x, y): (Real, Real, Real)| add_cube(&mut world, mass, 0.1, [x, y - 0.1, 0.0]));
+    let mut set = CableSet::new();
+    let corners = [[0.0, -3.0, 0.0], [0.0; 3], [1.5, 0.5, 0.0], [3.0, 0.0, 0.0], [3.0, -1.0, 0.0]];
+    let eyes = [1, 2, 3].map(|k| Vector::from(corners[k].map(|x| x as Real)));
+    let drawn = corners.map(lariat_rapier::lariat_ancf::Vector3::from);
+    let places: Vec<f64> = drawn
+        .windows(2)
+        .scan(0.0, |s, pair| {
+            *s += (pair[1] - pair[0]).norm();
+            Some(*s)
+        })
+        .collect();
+    let rope = lariat_rapier::lariat_ancf::Cable::builder().points(drawn).section(section()).elements(24);
+    let rope = places[..3].iter().fold(rope, |rope, &s| rope.node_at(s));
+    let rope = set.insert(rope.damping(Damping { axial: 5e-3, bending: 5e-3 }).build().unwrap());
+    let hook = Vector::new(0.0, 0.1, 0.0);
+    for (at, crate_) in [At::Start, At::End].into_iter().zip(crates) {
+        set.attach(&world, rope, at, crate_, hook, AttachmentKind::Ball).unwrap();
+    }
+    let options = SheaveOptions::default();
+    let at = |s: f64| (rope, At::ArcLength(s));
+    let far = set.add_sheave_at(&world, at(places[0] + 0.2), (ground, eyes[0]), options);
+    assert!(matches!(far, Err(Error::GapTooLong { .. })), "{far:?}");
+    let end = set.add_sheave_at(&world, (rope, At::Start), (crates[0], hook), options);
+    assert!(matches!(end, Err(Error::AlreadyAttached { .. })), "{end:?}");
+    assert_eq!((set.parts(rope).unwrap(), set.attachments().count()), (vec![rope], 2));
+    let sheaves = [0, 1, 2].map(|k| set.add_sheave_at(&world, at(places[k]), (ground, eyes[k]), options).unwrap());
+    let twice = set.add_sheave_at(&world, at(places[1]), (ground, eyes[1]), options);
+    assert!(matches!(twice, Err(Error::AlreadyAttached { .. })), "{twice:?}");
+    let parts = set.parts(rope).unwrap();
+    assert_eq!((parts.len(), parts[0]), (4, rope));
+    assert!(parts.iter().all(|&part| set.parts(part).unwrap() == parts));
+    let whole = |set: &CableSet| parts.iter().map(|&part| set.get(part).unwrap().length()).sum::<f64>();
+    assert!((whole(&set) - places[3]).abs() < 1e-9, "{} m", whole(&set));
+    assert_eq!(set.part_at(rope, places[1] + 0.4).unwrap().0, parts[2]);
+    run(&mut world, &mut set, 12);
+    let speeds = |world: &PhysicsWorld| crates.map(|c| f64::from(world.bodies[c].linvel().y));
+    let before = speeds(&world);
+    run(&mut world, &mut set, 18);
+    let after = speeds(&world);
+    // the sum of momenta along the rope, in which its tension is not
+    let gained = (10.0 * (after[0] - before[0]) + 17.0 * (before[1] - after[1])) / (7.0 * G * 18.0 / 60.0);
+    let passed = sheaves.map(|sheave| set.sheave(sheave).unwrap().passed());
+    println!("{gained} of the momentum, {passed:?} m");
+    assert!((gained - 1.0).abs() < 5e-3, "{gained}");
+    // a part between two of them is stretched by 2 mm
+    assert!(passed[0] > 0.1 && passed.windows(2).all(|pair| (pair[1] - pair[0]).abs() < 3e-3), "{passed:?}");
+    assert!((whole(&set) - places[3]).abs() < 1e-9, "{} m", whole(&set));
+    set.remove_sheave(sheaves[1]).unwrap();
+    assert_eq!(set.parts(rope).unwrap(), parts[..2]);
+    run(&mut world, &mut set, 3);
+}
+
 /// A tackle of four with a dynamic block: the load rises with a quarter of the speed with which the crate falls, at the acceleration of its
 /// equation.
 ///

@@ -6,7 +6,7 @@ use super::references::{Position, body, cable, point, single};
 use crate::document::{Document, KeyPath};
 use crate::error::{Error, Problem};
 use crate::schema::{Choose, Kind, NOT_NEGATIVE, POSITION, VECTOR, table};
-use lariat_ancf::{PointLoad, Vector3};
+use lariat_ancf::{Cable, PointLoad, Vector3};
 
 table! {
     /// A point force or moment with a constant direction in the world, on a cable or on a dynamic body.
@@ -37,6 +37,8 @@ pub struct LoadScene {
     pub cable: usize,
     /// The load.
     pub load: PointLoad,
+    /// Row of the table.
+    pub(super) row: usize,
 }
 
 /// A checked load on a body.
@@ -84,6 +86,21 @@ pub(super) fn read(doc: &Document<'_>, scene: &mut Scene, i: usize, row: LoadTab
     let cable = cable(doc, &at.key("cable"), scene, &name)?;
     let position = row.at.ok_or_else(|| doc.missing(&at.key("at")))?;
     let (cable, arc_length) = point(doc, &at.key("at"), position, scene, cable)?;
-    scene.loads.push(LoadScene { cable, load: PointLoad { arc_length, force, moment, ramp, start: 0.0 } });
+    scene.loads.push(LoadScene { cable, load: PointLoad { arc_length, force, moment, ramp, start: 0.0 }, row: i });
+    Ok(())
+}
+
+/// Checks that the cables, with their reels and as the run has them, carry their loads.
+pub(super) fn check_start(doc: &Document<'_>, scene: &Scene, mut cables: Vec<Cable>) -> Result<(), Error> {
+    for own in &scene.loads {
+        let at = KeyPath::root("load").item(own.row);
+        cables[own.cable].add_load(own.load).map_err(|error| {
+            doc.error_accepting(
+                &at.key("at"),
+                Problem::Conflict(error.to_string()),
+                "a point that the cable carries a load at",
+            )
+        })?;
+    }
     Ok(())
 }

@@ -284,5 +284,5 @@ fn check_start(doc: &Document<'_>, scene: &Scene, purpose: Purpose) -> Result<()
     }
     attachment::check_start(doc, scene, &cables, purpose)?;
     junction::check_start(doc, scene, &cables)?;
-    sheave::check_start(doc, scene, &cables)
+    load::check_start(doc, scene, sheave::check_start(doc, scene, cables)?)
 }

@@ -70,7 +70,7 @@ impl Scene {
 
     /// Returns a warning for each moment about the tangent of a cable that is drawn straight.
     fn moments_along(&self) -> impl Iterator<Item = Warning> {
-        self.loads.iter().filter_map(|LoadScene { cable, load }| {
+        self.loads.iter().filter_map(|LoadScene { cable, load, .. }| {
             let cable = &self.cables[*cable];
             let [a, b] = cable.points[..] else { return None };
             let part_nm = load.moment.dot(&(b - a).normalize()).abs();

@@ -131,9 +131,8 @@ fn between(doc: &Document<'_>, scene: &Scene, at: &KeyPath, row: &SheaveTable) -
     Ok(cables)
 }
 
-/// Compares the two ends at each sheave on the cables as drawn, and checks that what they have goes with a sheave.
-pub(super) fn check_start(doc: &Document<'_>, scene: &Scene, cables: &[Cable]) -> Result<(), Error> {
-    let mut cables = cables.to_vec();
+/// Compares the two ends at each sheave on the cables as drawn, and checks that what they have goes with a sheave and with a drum. Returns the cables with the reels of these.
+pub(super) fn check_start(doc: &Document<'_>, scene: &Scene, mut cables: Vec<Cable>) -> Result<Vec<Cable>, Error> {
     for (i, sheave) in scene.sheaves.iter().enumerate() {
         let at = KeyPath::root("sheave").item(i);
         let [from, to] = sheave.cables.map(|c| &cables[c]);
@@ -146,5 +145,12 @@ pub(super) fn check_start(doc: &Document<'_>, scene: &Scene, cables: &[Cable]) -
             added.map_err(|error| doc.conflict(&at, error.to_string()))?;
         }
     }
-    Ok(())
+    for (c, own) in scene.cables.iter().enumerate() {
+        if let (Some(reel), Some(_)) = (&own.reel, own.drum) {
+            let at = KeyPath::root("cable").item(scene.whole(c)).key("reel");
+            let end = if own.reel_at_start { At::Start } else { At::End };
+            cables[c].add_reel(end, reel.clone()).map_err(|error| doc.conflict(&at, error.to_string()))?;
+        }
+    }
+    Ok(cables)
 }

@@ -149,6 +149,12 @@ const CASES: &[Case] = &[
     ("", "[cable.reel]\nrate = [[1.0, 0.1], [0.5, 0.0]]", 20, &["cable.sling.reel.rate", "ascend"]),
     ("", "[cable.reel]\nrate = [[0.0, 0.1]]\nmax_force = 10.0", 15, &["cable.sling.integrator", "clutch", "game"]),
     ("", "[cable.reel]\nrate = [[0.0, 0.1]]\nmax_force = -1.0", 21, &["cable.sling.reel.max_force", ">= 0"]),
+    (
+        "",
+        "[cable.reel]\nrate = [[0.0, 0.1]]\n[[load]]\ncable = \"sling\"\nat = 1.9\nforce = [0.0, -1.0, 0.0]",
+        23,
+        &["load.0.at", "element at the eye", "sling"],
+    ),
     ("", "[cable.reel]\nrate = [[0.0, 0.1]]\nfeed = \"box\"", 21, &["cable.sling.reel.feed", "coil"]),
     ("", "[cable.reel]\nrate = [[0.0, 0.1]]\nacceleration = 0.0", 21, &["cable.sling.reel.acceleration", "> 0"]),
     (

@@ -11,14 +11,15 @@ use serde::{Deserialize, Serialize};
 pub struct Reel {
     /// Rate in m/s by time in s, ascending: positive pays out; a rate holds until the next row. Default: no rows, at rest.
     pub rate: Vec<[f64; 2]>,
-    /// Largest acceleration of the rate in m/s^2. Default 2: a jump of the rate by dv is one of the tension by dv sqrt(EA rho A).
+    /// Largest acceleration of the rate in m/s^2. Default 2: a jump of the rate by dv is one of the tension by dv sqrt(EA rho A). With `max_force` it is that of
+    /// the rate that the motor is commanded; a reel that slipped returns to it as fast as the force lets it.
     pub acceleration: f64,
     /// Largest length of cable in m that can be out: the reel stops there, as softly as `acceleration` says, whatever `max_force`
     /// is. On a body that moves freely, what is not out rides with it, so it must be given there. Default: no limit.
     pub stock: Option<f64>,
-    /// Largest force of the motor in N. The reel slips where the cable pulls more, and follows its rate again where it pulls less:
-    /// a clutch; with a rate of zero a brake; 0 is a free spool. Needs the integrator `discrete-gradient`. Default: as
-    /// strong as it must be.
+    /// Largest force of the motor in N: a clutch between the reel and a shaft that turns at the commanded rate. The reel slips where the cable pulls more, and is
+    /// pulled back by this force until it follows the shaft again; with a rate of zero a brake; 0 is a free spool. Needs the integrator `discrete-gradient`.
+    /// Default: as strong as it must be.
     pub max_force: Option<f64>,
     /// Inertia of the wheel over the square of its radius in kg; the stock on a drum is added, if `stock` says how much. It counts
     /// where the reel slips. Default 0.

@@ -7,7 +7,7 @@
 use super::{Feed, NEAR, Reel, Winding};
 use crate::cable::Cable;
 use crate::element::side::Side;
-use crate::system::{Law, Motor, STOP, rates};
+use crate::system::{Law, Motor, MotorState, STOP, rates};
 
 /// Least length of the element at the eye, as a share of its full length.
 pub(super) const LEAST: f64 = 0.4;
@@ -64,7 +64,8 @@ impl Cable {
         let r = rate.abs().max(asked.abs());
         let enough = r * (0.5 * r / a + h) + a * h * h;
         let left = [self.left(side, enough), self.left_of_stock(reel)];
-        let [lowest, wanted, highest] = rates(asked, a, rate, left, h);
+        let [lowest, highest] = rates(a, rate, left, h);
+        let wanted = asked.clamp(rate - a * h, rate + a * h);
         let end = wanted.clamp(lowest, highest);
         Plan { acceleration: (end - rate) / h, stopped: end != wanted }
     }
@@ -75,16 +76,23 @@ impl Cable {
         stock.map_or(f64::INFINITY, |stock| stock - self.length())
     }
 
-    /// Returns what drives a reel whose rate is an unknown, for a part of a host step.
-    pub(super) fn law(&self, side: Side, reel: &Reel, winding: &Winding) -> Option<Law> {
-        let length = winding.extent[0];
+    /// Returns what drives a reel whose rate is an unknown, for a part of a host step, of length `h` (s).
+    pub(super) fn law(&self, side: Side, reel: &Reel, winding: &Winding, h: f64) -> Option<Law> {
+        let [length, rate, _] = winding.extent;
         let in_island = reel.needs_island();
-        Some(Law::new(Motor {
-            limit: reel.max_force.or(in_island.then_some(0.0))?,
+        let limit = reel.max_force.or(in_island.then_some(0.0))?;
+        // what was as strong as it must be had no limit
+        let held = |force| MotorState { commanded: rate, limit: f64::INFINITY, force };
+        let before = winding.motor.or(winding.pull.map(held)).filter(|_| !in_island);
+        let motor = Motor {
+            limits: [before.map_or(limit, |before| before.limit_before(limit)), limit],
+            duration: h,
             wheel: if reel.feed == Feed::Sheave { 0.0 } else { reel.inertia },
             asked: reel.asked(self.time()),
             acceleration: if in_island { STOP } else { reel.acceleration },
+            before: before.or((!in_island).then_some(MotorState { commanded: rate, limit, force: 0.0 })),
             bounds: [length - self.left(side, f64::INFINITY), length + self.left_of_stock(reel)],
-        }))
+        };
+        Some(Law::new(motor, self.time()))
     }
 }

@@ -42,7 +42,7 @@ impl Cable {
             else {
                 continue;
             };
-            let (plan, law) = (self.plan(side, reel, winding, h), self.law(side, reel, winding));
+            let (plan, law) = (self.plan(side, reel, winding, h), self.law(side, reel, winding, h));
             let flow = &mut self.system.flows.list[k];
             (flow.feed, flow.law, flow.pull) = (reel.feed, law, None);
             if law.is_none() {
@@ -66,6 +66,7 @@ impl Cable {
             winding.passed += passed;
             winding.extent = [length, rate, acceleration];
             winding.length_before = flow.length_before;
+            winding.motor = flow.law.map(|law| law.state());
             (winding.stopped, winding.pull) = (flow.stopped, flow.pull);
             let e = flow.side.element(self.model.elements.len());
             self.model.elements[e].length = length;

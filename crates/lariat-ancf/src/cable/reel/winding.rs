@@ -5,6 +5,7 @@ use crate::cable::{At, Cable};
 use crate::element::flow::Extent;
 use crate::element::side::Side;
 use crate::error::{Error, require};
+use crate::system::MotorState;
 use serde::{Deserialize, Serialize};
 
 /// The state of a reel, beside the coordinates of its cable.
@@ -25,6 +26,9 @@ pub(crate) struct Winding {
     pub stopped: bool,
     /// Mean pull in N over the last step of the discrete gradient.
     pub pull: Option<f64>,
+    /// What a motor of limited force was left in; `None` without one.
+    #[serde(default)]
+    pub motor: Option<MotorState>,
     /// Whether the stock rides with the body at the eye.
     #[serde(default)]
     pub rides: bool,
@@ -51,7 +55,7 @@ impl Winding {
         {
             require("number of a reel", x, true, "a number")?;
         }
-        Ok(())
+        self.motor.map_or(Ok(()), |motor| motor.check())
     }
 }
 

@@ -9,8 +9,9 @@
 //! m a = F - T        a = a_0 and |T| <= T_max,   or   T = T_max and a > a_0,   or   T = -T_max and a < a_0
 //! ```
 //!
-//! a_0 is what the rate asked for needs, within the limit on acceleration. At the end of the stock and at the least length the
-//! acceleration is bounded whatever T is. A slipping motor opposes the slip, so it only dissipates.
+//! a_0 is what the *commanded rate* c needs. The shaft of the motor turns with it: c approaches the rate asked for within the limit on acceleration, whether the
+//! wheel follows or slips. At the end of the stock and at the least length the acceleration, and with it c, is bounded whatever T is. A slipping motor opposes the
+//! slip, so it only dissipates. A T_max that the host lowers is approached linearly over a host step.
 //!
 //! # Solution
 //!
@@ -32,15 +33,18 @@
 //! # Alternatives considered
 //!
 //! An elastic clutch with a slip as state: stiff, and its constant is arbitrary. Stages of other methods: the reel would be one more
-//! coordinate of every integrator.
+//! coordinate of every integrator. A limit on acceleration that begins at the rate of the wheel: a wheel that has slipped, because stretch was let go, is led back
+//! so slowly that the rope falls slack, and a brake stops nothing faster than that limit.
 
 use super::{Flow, Flows};
 use crate::cable::Feed;
 use crate::element::flow::Extent;
+use crate::error::{Error, require};
 use crate::integrate::State;
 use crate::integrate::discrete_gradient::{Balance, Buffers};
 use crate::model::Model;
 use crate::system::{Equations, System};
+use serde::{Deserialize, Serialize};
 
 /// Least and largest length of an element at the end of an iterate, as a multiple of that at the beginning.
 const REACH: [f64; 2] = [0.5, 1.5];
@@ -48,21 +52,57 @@ const REACH: [f64; 2] = [0.5, 1.5];
 /// What drives a reel during a host step.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Motor {
-    /// Largest force of the motor in N.
-    pub limit: f64,
+    /// Largest force of the motor in N at the beginning and at the end of the host step.
+    pub limits: [f64; 2],
+    /// Length of the host step in s.
+    pub duration: f64,
     /// Inertia of the wheel in kg.
     pub wheel: f64,
-    /// Rate in m/s asked for, and largest acceleration to it in m/s^2.
+    /// Rate in m/s asked for, and largest acceleration of the commanded rate to it in m/s^2.
     pub asked: f64,
     pub acceleration: f64,
+    /// What it was left in; `None` where the rate is not that of a motor, and the commanded one begins every step at it.
+    pub before: Option<MotorState>,
     /// Least and largest length in m that the element may have.
     pub bounds: [f64; 2],
+}
+
+/// What a motor leaves to the next host step.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub(crate) struct MotorState {
+    /// Commanded rate in m/s.
+    pub commanded: f64,
+    /// Largest force in N.
+    pub limit: f64,
+    /// Force in N over the last step.
+    pub force: f64,
+}
+
+impl MotorState {
+    /// Returns the largest force in N at the beginning of a host step that ends with this one: a smaller one is approached linearly from the force. At once, the rope
+    /// would let go twice the stretch that it must, since forces are means of steps, and a motor that then holds the rate keeps it so.
+    pub fn limit_before(&self, limit: f64) -> f64 {
+        if limit < self.limit { self.force.abs().max(limit).min(self.limit) } else { limit }
+    }
+
+    /// Refuses numbers that make no state.
+    pub fn check(&self) -> Result<(), Error> {
+        require("commanded rate of a reel (m/s)", self.commanded, true, "a number")?;
+        require("force of a motor of a reel (N)", self.force, true, "a number")?;
+        require("largest force of a motor of a reel (N)", self.limit, self.limit >= 0.0, ">= 0")
+    }
 }
 
 /// A motor, and the unknown over a step of the integrator.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Law {
     motor: Motor,
+    /// Time in s at which the host step began.
+    begun: f64,
+    /// Commanded rate in m/s at the end of the step.
+    commanded: f64,
+    /// Largest force of the motor in N, in the mean of the step.
+    limit: f64,
     /// Accelerations of the step: least, wanted, largest.
     planned: [f64; 3],
     /// Accelerations beyond which no iterate goes.
@@ -84,7 +124,7 @@ impl Flow {
     pub fn restart(&mut self, rate: f64, h: f64) {
         self.extent.rate = rate;
         if let Some(law) = &mut self.law {
-            law.begin(&self.extent, h);
+            law.begin(&self.extent, self.start, h);
         }
     }
 
@@ -100,7 +140,7 @@ impl Flow {
     fn sticks(&self) -> bool {
         self.law.is_none_or(|law| {
             let alone = !matches!(self.feed, Feed::Sheave | Feed::BodyDrum);
-            alone && self.extent.acceleration == law.bounded(law.planned[1]) && law.force.abs() <= law.motor.limit
+            alone && self.extent.acceleration == law.bounded(law.planned[1]) && law.force.abs() <= law.limit
         })
     }
 
@@ -115,13 +155,13 @@ impl Flow {
     }
 }
 
-/// Returns the least, the wanted and the largest rate in m/s after a step of length `h` (s): what is asked for within the limit on
-/// acceleration, and from where a reel can still stop within what is `left` of the cable, in and out.
+/// Returns the least and the largest rate in m/s after a step of length `h` (s) from where a reel can still stop, by an acceleration, within what is `left` of
+/// the cable, in and out.
 ///
 /// A rate that is braked by a h in every step and to zero in the last one takes, over steps in which it is linear, the way
 /// `D((k + x) a h) = a h^2 (k^2/2 + k x + x/2)`, 0 <= x < 1. The largest rate r with `D(r) <= left - h (r_0 + r)/2` is followed by that of
 /// the next step, so the cable ends at the stop to rounding.
-pub(crate) fn rates(asked: f64, acceleration: f64, rate: f64, left: [f64; 2], h: f64) -> [f64; 3] {
+pub(crate) fn rates(acceleration: f64, rate: f64, left: [f64; 2], h: f64) -> [f64; 2] {
     let a = acceleration;
     // towards an end that is `left` away, at the present rate r towards it
     let bound = |left: f64, r: f64| {
@@ -134,7 +174,7 @@ pub(crate) fn rates(asked: f64, acceleration: f64, rate: f64, left: [f64; 2], h:
         a * h * (steps + (left - 0.5 * steps * (steps + 1.0)) / (steps + 1.0))
     };
     let [least, largest] = [-bound(left[0], -rate), bound(left[1], rate)];
-    [least, asked.clamp(rate - a * h, rate + a * h), largest.max(least)]
+    [least, largest.max(least)]
 }
 
 impl Flows {
@@ -146,18 +186,28 @@ impl Flows {
 }
 
 impl Law {
-    /// Creates the law of a motor for a host step.
-    pub fn new(motor: Motor) -> Self {
-        Law { motor, ..Law::default() }
+    /// Creates the law of a motor for a host step that begins at a time in s.
+    pub fn new(motor: Motor, begun: f64) -> Self {
+        Law { motor, begun, ..Law::default() }
     }
 
-    /// Begins a step of length `h` (s) from an extent.
-    fn begin(&mut self, flow: &Extent, h: f64) {
+    /// Returns what the motor leaves to the next host step.
+    pub fn state(&self) -> MotorState {
+        MotorState { commanded: self.commanded, limit: self.motor.limits[1], force: self.force }
+    }
+
+    /// Begins a step of length `h` (s) at `time` (s) from an extent.
+    fn begin(&mut self, flow: &Extent, time: f64, h: f64) {
         let Extent { length, rate, .. } = *flow;
-        let Motor { asked, acceleration, bounds, .. } = self.motor;
+        let Motor { limits, duration, asked, acceleration, bounds, before, .. } = self.motor;
         let left = [length - bounds[0], bounds[1] - length];
-        let rates = rates(asked, acceleration, rate, left, h);
-        self.planned = [rates[0], rates[1].clamp(rates[0], rates[2]), rates[2]].map(|end| (end - rate) / h);
+        let [least, largest] = rates(acceleration, rate, left, h);
+        let (from, passed) = before.map_or((rate, h), |before| (before.commanded, time + h - self.begun));
+        let within = acceleration * passed;
+        self.commanded = asked.clamp(from - within, from + within).clamp(least, largest);
+        self.planned = [least, self.commanded, largest].map(|end| (end - rate) / h);
+        let middle = (time + 0.5 * h - self.begun) / duration;
+        self.limit = limits[1] + (1.0 - middle).clamp(0.0, 1.0) * (limits[0] - limits[1]);
         self.reach = REACH.map(|share| 2.0 * ((share - 1.0) * length - h * rate) / (h * h));
     }
 
@@ -182,8 +232,8 @@ impl Law {
     pub(super) fn acceleration_for(&self, present: f64, force: f64, stiffness: f64) -> f64 {
         let wanted = self.planned[1];
         let stuck = force - stiffness * (wanted - present);
-        let slipping = present + (force - self.motor.limit.copysign(stuck)) / stiffness;
-        let wished = if stuck.abs() <= self.motor.limit { wanted } else { slipping };
+        let slipping = present + (force - self.limit.copysign(stuck)) / stiffness;
+        let wished = if stuck.abs() <= self.limit { wanted } else { slipping };
         self.bounded(wished)
     }
 
@@ -196,7 +246,7 @@ impl Law {
     fn violation(&self, acceleration: f64) -> f64 {
         let [least, wanted, largest] = self.planned;
         let rounding = 1e-12 * (1.0 + acceleration.abs());
-        let limit = self.motor.limit;
+        let limit = self.limit;
         if (acceleration - wanted).abs() <= rounding {
             // a motor that is asked to stand at a stop: that pulls what the motor cannot
             let beyond = if wanted >= largest - rounding { 0.0 } else { (self.force - limit).max(0.0) };
@@ -241,7 +291,7 @@ impl Equations<'_> {
             }
             let slipped = flow.extent.acceleration != law.planned[1];
             (flow.start, flow.extent) = (time, extent);
-            law.begin(&extent, h);
+            law.begin(&extent, time, h);
             let [least, wanted, largest] = law.planned;
             flow.extent.acceleration = law.bounded(if slipped { extent.acceleration } else { wanted });
             flow.stopped = wanted == least || wanted == largest;

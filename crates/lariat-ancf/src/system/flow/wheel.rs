@@ -80,7 +80,7 @@ impl Wheel {
         self.before = None;
         let rate = flows[1].extent.rate;
         let left = flows.map(|flow| flow.left());
-        let [least, _, largest] = rates(0.0, STOP, rate, [left[1], left[0]], h);
+        let [least, largest] = rates(STOP, rate, [left[1], left[0]], h);
         let reach = [flows[1].reach()[0].max(-flows[0].reach()[1]), flows[1].reach()[1].min(-flows[0].reach()[0])];
         self.planned = [least, 0.0f64.clamp(least, largest), largest].map(|end| (end - rate) / h);
         let planned = self.planned;

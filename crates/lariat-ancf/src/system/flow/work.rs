@@ -24,6 +24,12 @@
 //!
 //! The account of energy is exact for any step of the discrete gradient but for its kinetic part, of the second order; for other methods
 //! to the order of two points of Gauss.
+//!
+//! # Alternatives considered
+//!
+//! Velocities and accelerations of the cubic of positions, linear ones, or the middle of the step, as the midpoint rule has it: where a rope of EA 1e6 N is taken in under 5 kN to its
+//! least length, the account of the midpoint rule misses 0.1 to 0.3 % and that of generalised-alpha up to 1.6 % of the work by all of them, so it is not the quadrature: TR-BDF2 misses
+//! 1e-5 by the same points. The middle alone misses up to a third of the work of a rope that is paid out.
 
 use super::{Flow, Source, System, control};
 use crate::cable::Feed;
