@@ -118,6 +118,8 @@ pub(crate) struct Islands {
     pub list: Vec<Island>,
     /// The attachments that they were found with.
     nodes: Vec<AttachedNode>,
+    /// A buffer: the attachments as they are now.
+    found: Vec<AttachedNode>,
     /// Cables and the integrated bodies that they can touch.
     touching: Vec<(usize, RigidBodyHandle)>,
     /// Cables that can touch each other.
@@ -137,11 +139,11 @@ impl Islands {
         pairs: &[CablePair],
     ) -> Result<(), Error> {
         mark_rotating(contents, world);
-        let jointed = jointed_bodies(world, attached_nodes(contents, world), touching);
-        let unchanged = attached_nodes(contents, world).eq(self.nodes.iter().copied())
-            && self.touching == touching
-            && self.pairs == pairs
-            && self.jointed == jointed;
+        self.found.clear();
+        self.found.extend(attached_nodes(contents, world));
+        let jointed = jointed_bodies(world, &self.found, touching);
+        let unchanged =
+            self.found == self.nodes && self.touching == touching && self.pairs == pairs && self.jointed == jointed;
         let modified = contents.cables.values().any(|slot| slot.modified);
         if unchanged && !modified && !contents.changed && !self.list.is_empty() {
             return Ok(());
@@ -186,11 +188,11 @@ fn attached_nodes(contents: &Contents, world: &PhysicsWorld) -> impl Iterator<It
 /// Returns the integrated bodies that share a mechanism with one before them, each with the first of it.
 fn jointed_bodies(
     world: &PhysicsWorld,
-    nodes: impl Iterator<Item = AttachedNode>,
+    nodes: &[AttachedNode],
     touching: &[(usize, RigidBodyHandle)],
 ) -> Vec<[RigidBodyHandle; 2]> {
     let (mut first, mut jointed): (Vec<(RigidBodyHandle, Vec<RigidBodyHandle>)>, _) = (Vec::new(), Vec::new());
-    let attached = nodes.filter(|n| n.role == Role::Integrated).map(|n| n.body);
+    let attached = nodes.iter().filter(|n| n.role == Role::Integrated).map(|n| n.body);
     for body in attached.chain(touching.iter().map(|(_, body)| *body)).filter(|b| !proximity::is_unjointed(world, *b)) {
         match first.iter().find(|(_, bodies)| bodies.contains(&body)) {
             Some((known, _)) if *known != body => jointed.push([body, *known]),

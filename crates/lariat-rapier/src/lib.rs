@@ -60,7 +60,8 @@
 //!    prediction.
 //!
 //! Fixed, kinematic and disabled bodies prescribe the motion of their cable's end, and rotate a
-//! clamp. Cables and bodies that come to rest fall asleep and wake up together.
+//! clamp. Cables and bodies that come to rest fall asleep and wake up together; the forces of the
+//! cables on a sleeping body stand in the motors of its ledger, for it may wake within Rapier's step.
 //!
 //! *Order.* Integrators keep their accelerations from step to step, so generalised-alpha and Verlet
 //! keep order 2; an implicit method keeps the order that it has on a cable alone.
@@ -84,6 +85,13 @@
 //! - If the velocity of a kinematic body is set anew at every host step, the work of a clamp on it
 //!   is some per cent short of the energy that the cable gains: the work in the jumps is known
 //!   approximately.
+//! - Where a line on a body that joints hold snaps taut, the error is of first order in Rapier's
+//!   step, for any integrator of the cable: a boom of 1 kg that falls with 6.8 kg on 1 m of line is
+//!   0.13, 0.086, 0.038, 0.016, 0.007 m off 0.15 s after the snap, at 30, 60, 120, 240, 480 Hz. Raise
+//!   [`Settings::rapier_steps`] there.
+//! - A kick that a taut cable answers within a step loses energy in fidelity game, and angular
+//!   momentum with it: up to half and 0.2 of it, of two balls on a cable whose vibration has several
+//!   periods in a step of 1/60 s.
 //! - Damping of Rapier's bodies acts at the end of a step; with it, a body's accelerations are not
 //!   kept.
 //! - Kinematic bodies that turn or accelerate by poses, and bodies on joints, move with Rapier's

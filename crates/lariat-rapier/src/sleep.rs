@@ -11,8 +11,13 @@
 //! An island whose bodies all sleep is not stepped; only its clock advances. It wakes up when one
 //! of its bodies does, an end moves, a cable is modified, or gravity or an attachment changes.
 //!
+//! Rapier wakes bodies within its step, by rules of which not all can be foreseen from outside. What it
+//! would be given for the prediction that the island rests stands in it meanwhile, as motors
+//! ([`Ledger`](crate::ledger::Ledger)): a woken body feels its cables in that step as an awake one.
+//!
 //! # Validity
-//! The cable must come to rest; without damping it never does.
+//! The cable must come to rest; without damping it never does. Of a body that is only touched by a cable, the
+//! force of that contact is missing in the step in which Rapier wakes it.
 
 use crate::contents::Contents;
 use crate::events::Event;
@@ -51,6 +56,9 @@ pub(crate) fn update(
     }
     let undisturbed = sleeping > 0 && !disturbed && is_quiet(contents, world, island, speed);
     let asleep = undisturbed && sleeping == count;
+    if !asleep {
+        release(contents, island);
+    }
     if sleeping > 0 && !undisturbed {
         for body in island.bodies() {
             world.islands.wake_up(&mut world.bodies, body, true);
@@ -65,6 +73,15 @@ pub(crate) fn update(
         }
     }
     SleepState { asleep, disturbed }
+}
+
+/// Forgets the forces that hold sleeping bodies: the island is predicted.
+fn release(contents: &mut Contents, island: &Island) {
+    for index in island.attachments.iter().flatten() {
+        if let Some(ledger) = contents.attachments.get_mut(*index).and_then(|a| a.ledger.as_mut()) {
+            ledger.rest = None;
+        }
+    }
 }
 
 /// After a step, prevents bodies from falling asleep whose cables still move or change their force.

@@ -60,13 +60,21 @@ impl Impedance {
         self.update_freed(cable, nodes, h, |_| true)
     }
 
+    /// As [`update`](Self::update), with all attached nodes but `nodes` held.
+    ///
+    /// # Errors
+    /// As [`update`](Self::update).
+    pub fn update_held(&mut self, cable: &mut Cable, nodes: &[usize], h: f64) -> Result<(), Error> {
+        self.update_freed(cable, nodes, h, |attached| nodes.contains(&attached))
+    }
+
     /// Returns the largest stiffness in N/m that `cable` shows at a node over a step of `h` (s), its
     /// inertia included: the largest eigenvalue of C^-1/h^2. All other attached nodes are held.
     ///
     /// # Errors
     /// [`Error::StepFailed`] if the matrix is singular or not finite.
     pub fn stiffness(&mut self, cable: &mut Cable, node: usize, h: f64) -> Result<f64, Error> {
-        self.update_freed(cable, &[node], h, |attached| attached == node)?;
+        self.update_held(cable, &[node], h)?;
         Ok(1.0 / (h * h * self.compliance(0, 0).symmetric_eigenvalues().min()))
     }
 

@@ -9,19 +9,23 @@
 //! C is the compliance of the body's cables over the step ([`Impedance`]) at its pins and at the next
 //! ones on these cables, B' the mobility of the bodies at these pins. A [`Ledger`] acts on the body with D about the predicted velocity of the
 //! anchor: if the prediction was right it does nothing; if a contact or a joint makes the body
-//! deviate, the body feels the cable within the same step.
+//! deviate, the body feels the cable within the same step. A sleeping body is predicted to rest under the force of its
+//! cables, which stands in the motors for as long as it sleeps: should Rapier wake it within a step, it feels them.
 //!
 //! [`Impedance`]: lariat_ancf::island::Impedance
 
+use crate::attachment::Attachment;
 use crate::contents::Contents;
 use crate::error::Error;
 use crate::islands::{Island, Member};
-use crate::ledger::Ledger;
+use crate::ledger::{Drive, Ledger};
 use crate::mechanism::{Group, Mechanism};
 use crate::proximity;
 use crate::step::prediction::{Prediction, StepParameters};
 use ::nalgebra::{DMatrix, Matrix3, Matrix6, Vector3};
-use lariat_ancf::island::RigidBody;
+use lariat_ancf::Cable;
+use lariat_ancf::island::{Impedance, PinConstraint, RigidBody};
+use rapier::dynamics::RigidBodyHandle;
 use rapier::pipeline::PhysicsWorld;
 
 /// Mass in kg given to a junction, which has none, so that the matrix has an inverse.
@@ -40,19 +44,29 @@ pub(crate) fn set_motors(
 ) -> Result<(), Error> {
     prediction.motors.clear();
     prediction.motors.resize(island.pins.len(), false);
+    let sleeps = |handle: RigidBodyHandle| world.bodies[handle].is_sleeping();
+    if island.bodies().any(sleeps) {
+        hold(contents, world, island, prediction, step.h, |a| {
+            [a.predicted.impulse, a.predicted.angular_impulse].map(|p| p / step.h)
+        })?;
+    }
     let mut deviating = core::mem::take(&mut prediction.deviating);
     deviating.clear();
     deviating.extend((0..island.members.len()).filter(|&m| deviates(contents, world, island, prediction, m, step)));
     if !deviating.is_empty() {
-        linearise(contents, island, prediction, &deviating, step.h)?;
+        let near = near_pins(island, &prediction.groups, &deviating);
+        linearise(contents, island, prediction, &near, |cable, nodes, impedance| {
+            impedance.update(cable, nodes, step.h)
+        })?;
     }
     for &m in &deviating {
-        for (pin, d) in driving_point(island, prediction, m) {
+        let near = near_pins(island, &prediction.groups, &[m]);
+        for (pin, impedance) in driving_point(island, prediction, m, &near) {
             let anchor = island.pins[pin].anchor;
             let target = (prediction.end[m].point(&anchor) - prediction.start[m].point(&anchor)) / step.h;
             if let Some(a) = island.attachments[pin].and_then(|a| contents.attachments.get_mut(a)) {
                 let ledger = a.ledger.get_or_insert_with(|| Ledger::insert(world, a.body));
-                ledger.set_motors(world, &a.anchor, &d, &target, step.h);
+                ledger.set_motors(world, &a.anchor, &Drive { impedance, target, load: None }, step.h);
                 prediction.motors[pin] = true;
             }
         }
@@ -63,9 +77,48 @@ pub(crate) fn set_motors(
     Ok(())
 }
 
-/// Disables the motors of attachments.
+/// Lets the motors on the sleeping bodies of an island exert what its cables do in a step of `h` (s) in which the bodies
+/// do not move: `load` (N and N m), and the impedance of the cables with all other pins held.
+pub(crate) fn hold(
+    contents: &mut Contents,
+    world: &mut PhysicsWorld,
+    island: &Island,
+    prediction: &mut Prediction,
+    h: f64,
+    load: impl Fn(&Attachment) -> [Vector3<f64>; 2],
+) -> Result<(), Error> {
+    let asleep = |member: &Member| member.body().is_some_and(|handle| world.bodies[handle].is_sleeping());
+    let asleep: Vec<usize> = (0..island.members.len()).filter(|&m| asleep(&island.members[m])).collect();
+    linearise_at(contents, island, prediction, &asleep, h)?;
+    for (pin, constraint) in island.pins.iter().enumerate().filter(|(_, pin)| asleep.contains(&pin.body)) {
+        let Some(a) = island.attachments[pin].and_then(|a| contents.attachments.get_mut(a)) else { continue };
+        let impedance = &prediction.impedances[constraint.cable];
+        let own = impedance.nodes().iter().position(|&node| node == constraint.node);
+        let compliance = own.map_or_else(Matrix3::zeros, |own| impedance.compliance(own, own));
+        let drive = Drive {
+            impedance: compliance.try_inverse().unwrap_or_else(Matrix3::zeros),
+            target: Vector3::zeros(),
+            load: Some(load(a)),
+        };
+        let ledger = a.ledger.unwrap_or_else(|| Ledger::insert(world, a.body));
+        a.ledger.insert(ledger.asleep(world, a.body)).set_motors(world, &a.anchor, &drive, h);
+    }
+    Ok(())
+}
+
+/// Returns whether the motors of all bodies of an island hold them in steps of `h` (s).
+pub(crate) fn are_held(contents: &Contents, island: &Island, h: f64) -> bool {
+    let on_body = |pin: &PinConstraint| island.members[pin.body].body().is_some();
+    let mut attached = island.pins.iter().zip(&island.attachments).filter(|(pin, _)| on_body(pin));
+    attached.all(|(_, index)| {
+        let ledger = index.and_then(|index| contents.attachments.get(index)).and_then(|a| a.ledger);
+        ledger.and_then(|ledger| ledger.rest).is_some_and(|(_, step)| step == h)
+    })
+}
+
+/// Disables the motors of attachments, but those that hold a sleeping body.
 pub(crate) fn disable_motors(contents: &Contents, world: &mut PhysicsWorld, attachments: impl Iterator<Item = usize>) {
-    for ledger in attachments.filter_map(|a| contents.attachments.get(a)?.ledger) {
+    for ledger in attachments.filter_map(|a| contents.attachments.get(a)?.ledger).filter(|l| l.rest.is_none()) {
         ledger.disable(world);
     }
 }
@@ -104,12 +157,12 @@ fn bears_motors(prediction: &Prediction, m: usize) -> bool {
     prediction.mechanisms[m].as_ref().is_none_or(bears)
 }
 
-/// Returns the pins on a member and on those of its mechanism, and those next to them on the same cables.
-fn near_pins(island: &Island, groups: &[Group], member: usize) -> Vec<usize> {
+/// Returns the pins on members and on those of their mechanisms, and those next to them on the same cables, in ascending order.
+fn near_pins(island: &Island, groups: &[Group], members: &[usize]) -> Vec<usize> {
     let pins = &island.pins;
-    let group = groups.iter().find(|group| group.place(member).is_some());
-    let members = group.map_or_else(|| core::slice::from_ref(&member), |group| &group.members);
-    let on_members = || members.iter().flat_map(|&m| island.pins_on(m));
+    let group = |m: &usize| groups.iter().find(|group| group.place(*m).is_some());
+    let together = |m| group(m).map_or_else(|| core::slice::from_ref(m), |group| &group.members);
+    let on_members = || members.iter().flat_map(together).flat_map(|&m| island.pins_on(m));
     let mut near: Vec<usize> = on_members().collect();
     for own in on_members() {
         let others = (0..pins.len()).filter(|&p| pins[p].cable == pins[own].cable && pins[p].body != pins[own].body);
@@ -122,32 +175,46 @@ fn near_pins(island: &Island, groups: &[Group], member: usize) -> Vec<usize> {
     near
 }
 
-/// Linearises the cables of the `deviating` members of an island for a step of `h` (s).
+/// Linearises the cables of an island at their pins on `members` for a step of `h` (s); all others are held.
+pub(super) fn linearise_at(
+    contents: &mut Contents,
+    island: &Island,
+    prediction: &mut Prediction,
+    members: &[usize],
+    h: f64,
+) -> Result<(), Error> {
+    let mut pins: Vec<usize> = members.iter().flat_map(|&m| island.pins_on(m)).collect();
+    pins.sort_unstable();
+    linearise(contents, island, prediction, &pins, |cable, nodes, impedance| impedance.update_held(cable, nodes, h))
+}
+
+/// Linearises the cables of an island that some of `pins` are on.
 fn linearise(
     contents: &mut Contents,
     island: &Island,
     prediction: &mut Prediction,
-    deviating: &[usize],
-    h: f64,
+    pins: &[usize],
+    update: impl Fn(&mut Cable, &[usize], &mut Impedance) -> Result<(), lariat_ancf::Error>,
 ) -> Result<(), Error> {
-    let mut near: Vec<usize> = deviating.iter().flat_map(|&m| near_pins(island, &prediction.groups, m)).collect();
-    near.sort_unstable();
-    near.dedup();
     prediction.impedances.resize_with(island.cables.len(), Default::default);
     for (c, cable) in contents.cables_at(&island.cables).into_iter().enumerate() {
-        let of_cable = near.iter().filter(|&&p| island.pins[p].cable == c);
+        let of_cable = pins.iter().filter(|&&p| island.pins[p].cable == c);
         let nodes: Vec<usize> = of_cable.map(|&p| island.pins[p].node).collect();
         if !nodes.is_empty() {
-            prediction.impedances[c].update(cable, &nodes, h)?;
+            update(cable, &nodes, &mut prediction.impedances[c])?;
         }
     }
     Ok(())
 }
 
-/// Returns D for every pin on a member, by the index of the pin.
-fn driving_point(island: &Island, prediction: &Prediction, member: usize) -> Vec<(usize, Matrix3<f64>)> {
+/// Returns D for every pin on a member, by the index of the pin; the pins `near` it move too.
+fn driving_point(
+    island: &Island,
+    prediction: &Prediction,
+    member: usize,
+    near: &[usize],
+) -> Vec<(usize, Matrix3<f64>)> {
     let start = &prediction.start;
-    let near = near_pins(island, &prediction.groups, member);
     let n = 3 * near.len();
     let mut m = DMatrix::<f64>::zeros(n, n);
     for (a, &i) in near.iter().enumerate() {

@@ -11,6 +11,7 @@
 //! | [`groups`] | the same for bodies that joints hold together, and what Rapier's step made of them |
 //! | [`impedance`] | lets a body that may deviate feel its cables within Rapier's step |
 //! | [`reconcile`] | takes over what Rapier's step made of it |
+//! | [`waking`] | takes over bodies that it woke |
 //! | [`refused`] | holds the bodies of an island that cannot step |
 
 pub(crate) mod apply;
@@ -24,6 +25,7 @@ pub(crate) mod prescribed_motion;
 pub(crate) mod reconcile;
 pub(crate) mod refused;
 pub(crate) mod substepping;
+mod waking;
 
 use crate::attach;
 use crate::body;
@@ -295,6 +297,9 @@ fn prepare_island(
     }
     prediction.sleep = sleep::update(contents, world, island, moved, step.sleep_speed, events);
     if prediction.sleep.asleep {
+        if !impedance::are_held(contents, island, step.h) {
+            impedance::hold(contents, world, island, prediction, step.h, |a| [a.reading.force, a.reading.moment])?;
+        }
         contents.cables_at(&island.cables).into_iter().for_each(|cable| cable.rest(step.h));
         return Ok(());
     }

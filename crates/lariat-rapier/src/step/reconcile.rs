@@ -40,6 +40,7 @@ use crate::step::groups;
 use crate::step::kinematic_ends;
 use crate::step::prediction::{AppliedMotion, BodyStep, Prediction};
 use crate::step::prescribed_motion::rounding;
+use crate::step::waking;
 use ::nalgebra::{UnitQuaternion, Vector3, Vector6};
 use lariat_ancf::island::RigidBody;
 use rapier::dynamics::{RigidBody as RapierBody, RigidBodyHandle};
@@ -74,6 +75,7 @@ pub(crate) fn reconcile(
     (h, sleep_speed): (f64, f64),
 ) {
     if prediction.sleep.asleep {
+        waking::wake_within_step(contents, world, island, prediction, h);
         return;
     }
     if contents.changed {
@@ -90,6 +92,7 @@ pub(crate) fn reconcile(
         read_members(contents, world, island, prediction, (h, rests));
         apply_motor_impulses(contents, island, prediction);
         read_attachments(contents, world, island, prediction, h);
+        waking::wake_within_step(contents, world, island, prediction, h);
     }
     kinematic_ends::read(contents, world, island);
     sleep::keep_awake(contents, world, island, prediction.sleep.disturbed, sleep_speed);
@@ -111,6 +114,16 @@ fn undo_for_sleep(contents: &mut Contents, world: &mut PhysicsWorld, island: &Is
     }
 }
 
+/// Reads the impulses of the motors of an island in a step of `h` (s).
+fn take_impulses(contents: &Contents, world: &mut PhysicsWorld, island: &Island, prediction: &mut Prediction, h: f64) {
+    prediction.impulses.clear();
+    for (pin, on) in prediction.motors.iter().enumerate() {
+        let attachment = island.attachments[pin].and_then(|a| contents.attachments.get(a));
+        let ledger = attachment.filter(|_| *on).and_then(|a| a.ledger);
+        prediction.impulses.push(ledger.map_or_else(Vector3::zeros, |ledger| ledger.take_impulse(world, h)));
+    }
+}
+
 /// Reads the bodies of an island after Rapier's step, and the impulses of their motors.
 fn read_members(
     contents: &mut Contents,
@@ -119,12 +132,7 @@ fn read_members(
     prediction: &mut Prediction,
     (h, rests): (f64, bool),
 ) {
-    prediction.impulses.clear();
-    for (pin, on) in prediction.motors.iter().enumerate() {
-        let attachment = island.attachments[pin].and_then(|a| contents.attachments.get(a));
-        let ledger = attachment.filter(|_| *on).and_then(|a| a.ledger);
-        prediction.impulses.push(ledger.map_or_else(Vector3::zeros, |ledger| ledger.take_impulse(world)));
-    }
+    take_impulses(contents, world, island, prediction, h);
     for (m, member) in island.members.iter().enumerate() {
         let (Member::Body(handle), Some(applied)) = (member, &prediction.applied[m]) else { continue };
         let step = prediction.body_step(m, *handle, h);
@@ -300,7 +308,7 @@ pub(super) fn persisting_share(work: f64, square: f64) -> f64 {
 }
 
 /// Gives the cables the opposite of their motors' impulses on bodies that deviated.
-fn apply_motor_impulses(contents: &mut Contents, island: &Island, prediction: &Prediction) {
+pub(super) fn apply_motor_impulses(contents: &mut Contents, island: &Island, prediction: &Prediction) {
     let impulse_at = |c: usize, node: usize| {
         let pin = island.pins.iter().position(|pin| pin.cable == c && pin.node == node);
         pin.map_or_else(Vector3::zeros, |pin| prediction.impulses[pin])

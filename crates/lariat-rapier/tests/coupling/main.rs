@@ -31,5 +31,6 @@ mod sleep;
 mod statics;
 mod substepping;
 mod user_changes;
+mod waking;
 mod warnings;
 mod worlds;
