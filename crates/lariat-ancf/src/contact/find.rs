@@ -12,7 +12,7 @@ use super::pair::{PLACES, Pair, bounding_ball, is_thin, samples};
 use super::patch::Patch;
 use super::path::{BodyPath, ObstacleStep};
 use super::point::{ContactPoint, OFFSET_TIME, PAID};
-use super::step::{ContactStep, find};
+use super::step::{ContactStep, find, find_from};
 use super::surface::{Feature, Nearest};
 use super::trace::{comes_near, trace};
 use crate::model::Model;
@@ -46,7 +46,7 @@ impl ContactStep {
         self.points.clear();
         self.watched.clear();
         self.nearby.clear();
-        self.before = 0.0;
+        (self.before, self.next) = (0.0, 0);
         self.stored = motion.memory.iter().map(|memory| memory.energy).sum();
         let Some(contact) = &motion.model.effects.contact else { return };
         let obstacles = &motion.model.obstacles.0;
@@ -113,7 +113,8 @@ impl ContactStep {
             let y = pair.step.start.own(&point.start);
             let nearest = pair.obstacle.surface.nearest(&y);
             point.distance = nearest.distance;
-            let index = find(pair.motion.memory, point.key);
+            let index = find_from(pair.motion.memory, self.next, point.key);
+            self.next = index.map_or(self.next, |i| i + 1);
             let memory = index.map(|i| &pair.motion.memory[i]);
             if let Some(kept) = memory.filter(|memory| is_behind(&memory.patch, &y, &nearest)) {
                 point.patch = kept.patch;
@@ -203,7 +204,7 @@ impl ContactStep {
                 && !point.is_inside(&point.patch, &y1)
                 && let Some((patch, _)) = meets(point, obstacle)
             {
-                point.patch = patch;
+                (point.patch, point.free_way) = (patch, 0.0);
             }
         }
         let mut i = 0;

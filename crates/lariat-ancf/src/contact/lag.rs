@@ -2,7 +2,7 @@
 //!
 //! # Equation
 //!
-//! The bound of friction is first `c = mu N0`, N0 that of the last step. When the iteration has ended with N,
+//! The bound of friction is first `c = mu N0`, N0 that of the last step; zero in a first touch. When the iteration has ended with N,
 //!
 //! ```text
 //! sum |mu N - c| (slipping) + sum (|f| - mu N)+ (sticking) <= 0.003 sum mu N        else c := mu N, and the iteration goes on
@@ -11,9 +11,12 @@
 //! Return mapping loses energy for any bound, so the energy law holds for each of them. Along a rope on a drum the bounds determine the tensions one after the
 //! other, so the sequence ends after as many rounds as there are contacts, and its error after k of them is that of Taylor's series of `exp(mu phi)`.
 //!
+//! h N is the impulse of the step, that of an impact too: a rope that falls on a floor while it moves along it loses the speed `mu v`, v that of the fall, and one
+//! that is put on a slope below the angle of friction stays.
+//!
 //! # Validity
 //!
-//! A contact that is born in the step has no friction in it: the first touch is of order 1. Forty rounds are taken at most, four in parts of a divided step; steps
+//! Contacts with obstacles; between cables the bound is that of the last step. Friction of the first touch acts over the whole step, although the cable touches in a part of it. Forty rounds are taken at most; steps
 //! that need more are [counted](crate::Diagnostics::lagging_steps).
 
 use super::step::ContactStep;
@@ -25,7 +28,7 @@ impl ContactStep {
     /// Sets the bounds of friction by the normal forces of the present iterate, if they miss them; returns whether they did.
     pub fn renew_friction(&mut self) -> bool {
         let (mut missed, mut all) = (0.0, 0.0);
-        for point in self.points.iter().filter(|point| point.bound > 0.0) {
+        for point in self.points.iter().filter(|point| point.friction > 0.0) {
             let due = point.friction * point.now.normal_force;
             all += due;
             missed += match point.now.slides {
@@ -37,7 +40,7 @@ impl ContactStep {
         if !self.lags {
             return false;
         }
-        for point in self.points.iter_mut().filter(|point| point.bound > 0.0) {
+        for point in self.points.iter_mut().filter(|point| point.friction > 0.0) {
             point.bound = (point.friction * point.now.normal_force).max(f64::MIN_POSITIVE);
             point.renewed = true;
         }

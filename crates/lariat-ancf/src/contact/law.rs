@@ -81,10 +81,10 @@ pub(in crate::contact) struct Friction {
     pub spring: Vector3<f64>,
     /// Stiffness k_t in N/m.
     pub stiffness: f64,
-    /// Minus the derivative of the force by the slip.
-    pub tangent: Matrix3<f64>,
     /// Direction in which it slips.
     pub slides: Option<Vector3<f64>>,
+    /// Share `c/(k_t |t|)` of the trial force that is left; 1 while it sticks.
+    share: f64,
     /// Energy in J that it loses.
     pub loss: f64,
 }
@@ -102,16 +102,25 @@ pub(in crate::contact) fn friction(
     let k = TANGENTIAL * stiffness;
     let tangential = |x: &Vector3<f64>| x - normal * normal.dot(x);
     let (slip, trial) = (tangential(slip), tangential(&(before + slip)));
-    let projector = Matrix3::identity() - normal * normal.transpose();
     let size = k * trial.norm();
-    let (spring, tangent, slides) = if size <= bound || sticks {
-        (trial, projector * k, None)
+    let (spring, share, slides) = if size <= bound || sticks {
+        (trial, 1.0, None)
     } else {
-        let e = trial * (k / size);
-        (e * (bound / k), (projector - e * e.transpose()) * (k * bound / size), Some(e))
+        (trial * (bound / size), bound / size, Some(trial * (k / size)))
     };
     let loss = k * (spring.dot(&slip) - 0.5 * (spring.norm_squared() - before.norm_squared()));
-    Friction { spring, stiffness: k, tangent, slides, loss }
+    Friction { spring, stiffness: k, slides, share, loss }
+}
+
+impl Friction {
+    /// Returns minus the derivative of the force by the slip, on a surface with the unit normal `normal`.
+    pub fn tangent(&self, normal: &Vector3<f64>) -> Matrix3<f64> {
+        let mut plane = Matrix3::identity() - normal * normal.transpose();
+        if let Some(e) = self.slides {
+            plane -= e * e.transpose();
+        }
+        plane * (self.stiffness * self.share)
+    }
 }
 
 /// Returns the energy in J of a spring of friction (m).
@@ -158,7 +167,7 @@ mod tests {
                 for c in 0..3 {
                     let d = 1e-9 * Vector3::ith(c, 1.0);
                     let slope = (at(&(slip + d)).spring - at(&(slip - d)).spring) * (f.stiffness / 2e-9);
-                    assert!((slope - f.tangent.column(c)).norm() < 1e-4 * f.stiffness, "{bound} {slip:?}");
+                    assert!((slope - f.tangent(&normal).column(c)).norm() < 1e-4 * f.stiffness, "{bound} {slip:?}");
                 }
             }
         }

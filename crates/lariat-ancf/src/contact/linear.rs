@@ -7,17 +7,14 @@
 //! ([`slide`](super::slide)) the row is half way between its place and the one whose depth counts, for the same reason.
 
 use super::path::ObstacleStep;
-use super::point::{ContactPoint, Evaluation, Row};
-use nalgebra::{Matrix3, Vector3};
+use super::point::{ContactPoint, Evaluation, Row, Tangents};
+use nalgebra::Vector3;
 
 /// A contact as a linear solve sees it.
 #[derive(Clone, Copy, Debug, Default)]
 pub(in crate::contact) struct Linear {
     pub force: Vector3<f64>,
-    /// Minus the derivative of the normal force, by the motion of its row.
-    pub tangent: Matrix3<f64>,
-    /// Minus that of friction.
-    pub friction_tangent: Matrix3<f64>,
+    pub tangents: Tangents,
     pub element: usize,
     pub row: Row,
     /// Motion beside the obstacle of that iterate, of the point and of the row.
@@ -28,7 +25,7 @@ pub(in crate::contact) struct Linear {
     pub normal: Vector3<f64>,
     pub normal_force: f64,
     pressure: f64,
-    slope: f64,
+    pub slope: f64,
     depth: f64,
     slides: Option<Vector3<f64>>,
 }
@@ -47,14 +44,14 @@ impl ContactPoint {
     /// Makes it linear at changes of its position and of that of its row.
     pub fn linearise(&mut self, obstacle: &ObstacleStep, changes: impl Fn(usize, &[f64; 4]) -> Vector3<f64>) {
         let (element, row) = (self.key.0 as usize, self.row());
-        let at = self.evaluate(obstacle, &changes(element, &self.shape), self.about);
+        let mut tangents = Tangents::default();
+        let at = self.evaluate(obstacle, &changes(element, &self.shape), self.about, Some(&mut tangents));
         let row_slip = obstacle.slip(&row.start, &changes(element, &row.shape));
-        let Evaluation { force, tangent, friction_tangent, slip, arm, normal, normal_force, .. } = at;
+        let Evaluation { force, slip, arm, normal, normal_force, .. } = at;
         let Evaluation { pressure, slope, depth, slides, .. } = at;
         self.linear = Linear {
             force,
-            tangent,
-            friction_tangent,
+            tangents,
             element,
             row,
             slip,
@@ -72,15 +69,15 @@ impl ContactPoint {
     /// Evaluates it at the result of the linear solve, and returns how far that was off in N.
     pub fn follow(&mut self, obstacle: &ObstacleStep, changes: impl Fn(usize, &[f64; 4]) -> Vector3<f64>) -> f64 {
         let linear = &self.linear;
-        self.now = self.evaluate(obstacle, &changes(self.key.0 as usize, &self.shape), About::default());
+        self.now = self.evaluate(obstacle, &changes(self.key.0 as usize, &self.shape), About::default(), None);
         let pressure = linear.pressure + linear.slope * (self.now.depth - linear.depth);
         let turned = linear.slides.zip(self.now.slides).is_some_and(|(a, b)| a.dot(&b) < 0.0);
         let pushes = linear.slope > 0.0 && pressure > 0.0;
         self.about = About { depth: pushes.then(|| self.law.depth_of(pressure)), sticks: turned };
         let row_slip = obstacle.slip(&linear.row.start, &changes(linear.element, &linear.row.shape));
         let believed = linear.force
-            - linear.tangent * (row_slip - linear.row_slip)
-            - linear.friction_tangent * (self.now.slip - linear.slip);
+            - linear.tangents.normal * (row_slip - linear.row_slip)
+            - linear.tangents.friction * (self.now.slip - linear.slip);
         (self.now.force - believed).norm()
     }
 }

@@ -40,7 +40,7 @@
 //! # Validity
 //!
 //! `k = EA/(40 r^2)` per length: under the tension T around a radius R the depth is 40 (r/R) (T/EA) of the radius. First touch is of order
-//! 1 in the step; after it the bound of friction is that of the step itself (lag.rs). Restitution is zero where the step does not resolve the contact. The
+//! 1 in the step; the bound of friction is that of the step itself, of a first touch too (lag.rs). Restitution is zero where the step does not resolve the contact. The
 //! element has no torsion: forces act on the centre line.
 //!
 //! # References

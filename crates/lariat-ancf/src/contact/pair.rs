@@ -52,9 +52,10 @@ pub(super) fn samples(
     })
 }
 
-/// Returns the local coordinates half way between the samples of an element.
+/// Returns the local coordinates a quarter, half and three quarters of the way between the samples of an element: half way alone may be where a line turns that is deep on one side of it.
 pub(super) fn between_samples() -> impl Iterator<Item = f64> {
-    SAMPLES.windows(2).map(|pair| 0.5 * (pair[0].0 + pair[1].0))
+    let shares = [0.25, 0.5, 0.75];
+    SAMPLES.windows(2).flat_map(move |pair| shares.map(|share| pair[0].0 + share * (pair[1].0 - pair[0].0)))
 }
 
 /// An element and an obstacle.

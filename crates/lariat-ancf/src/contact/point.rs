@@ -56,6 +56,8 @@ pub(in crate::contact) struct ContactPoint {
     pub bound: f64,
     /// Whether that is the bound of the present step.
     pub renewed: bool,
+    /// Distance in m by which it may move beside the obstacle without touching it: the gap of a patch changes no faster than that.
+    pub free_way: f64,
     /// Number of the feature that it touches among those that are near.
     pub nearby: Option<usize>,
     /// Number of what it remembers.
@@ -95,8 +97,6 @@ pub(in crate::contact) struct Evaluation {
     pub force: Vector3<f64>,
     /// Friction alone.
     pub friction: Vector3<f64>,
-    pub tangent: Matrix3<f64>,
-    pub friction_tangent: Matrix3<f64>,
     pub normal_force: f64,
     /// Outward normal.
     pub normal: Vector3<f64>,
@@ -122,11 +122,19 @@ pub(in crate::contact) struct Evaluation {
     pub slope: f64,
 }
 
+/// Minus the derivatives of the normal force, by the motion of its row, and of friction.
+#[derive(Clone, Copy, Debug, Default)]
+pub(in crate::contact) struct Tangents {
+    pub normal: Matrix3<f64>,
+    pub friction: Matrix3<f64>,
+}
+
 impl ContactPoint {
     /// Takes up what was remembered of it: the spring and the bound of friction, and the depth, beyond which nothing counts: the offset. Of an
     /// obstacle on a body that was moved since then, by an engine, the difference has either sign, and closes by the engine's work.
     pub fn recall(&mut self, y: &Vector3<f64>, obstacle: &ObstacleStep, memory: Option<&ContactMemory>) {
         let depth = self.depth_at(self.patch.gap(y).0);
+        self.free_way = if memory.is_none() { -depth } else { 0.0 };
         let difference = depth.max(0.0) - memory.map_or(0.0, |memory| memory.depth);
         (self.offset, self.closing, self.pays) = (difference.max(0.0), 0.0, false);
         self.remembered = memory.map_or(0.0, |memory| memory.force);
@@ -174,8 +182,23 @@ impl ContactPoint {
         combine(change, self.key.0 as usize, &self.shape)
     }
 
-    /// Evaluates it for a change of its position over the step.
-    pub fn evaluate(&self, obstacle: &ObstacleStep, change: &Vector3<f64>, about: About) -> Evaluation {
+    /// Evaluates it for a change of its position over the step, with its tangents if they are asked for.
+    pub fn evaluate(
+        &self,
+        obstacle: &ObstacleStep,
+        change: &Vector3<f64>,
+        about: About,
+        mut tangents: Option<&mut Tangents>,
+    ) -> Evaluation {
+        if let Some(tangents) = &mut tangents {
+            **tangents = Tangents::default();
+        }
+        if self.free_way > 0.0 && about.depth.is_none() && self.linear.slope == 0.0 {
+            let slip = obstacle.slip(&self.start, change);
+            if slip.norm_squared() < self.free_way * self.free_way {
+                return Evaluation { slip, ..Evaluation::default() };
+            }
+        }
         let meets = self.between.is_none().then_some(self.reach);
         let gap = self.patch.over_step(obstacle, &self.start, change, meets);
         let depth = self.depth_at(gap.end) - (self.offset - self.closing);
@@ -194,8 +217,11 @@ impl ContactPoint {
             (pressure, slope) = (at.force + at.slope * (depth - about), at.slope);
         }
         let normal = self.between.map_or(gap.normal, |between| obstacle.end.rotation * between.normal);
-        // symmetric, of the derivative between the mean normal and the one of the end
-        let row = 0.5 * (gap.mean + normal);
+        if let Some(tangents) = &mut tangents {
+            // symmetric, of the derivative between the mean normal and the one of the end
+            let row = 0.5 * (gap.mean + normal);
+            tangents.normal = row * row.transpose() * (self.weight * slope);
+        }
         let normal_force = self.weight * pressure;
         let after = self.weight * end.energy;
         let slip = obstacle.slip(&self.start, change);
@@ -204,7 +230,6 @@ impl ContactPoint {
             arm: obstacle.arm(&self.start, change),
             slip,
             replaced: gap.replaced,
-            tangent: row * row.transpose() * (self.weight * slope),
             normal_force,
             normal,
             depth,
@@ -224,7 +249,9 @@ impl ContactPoint {
             let friction = friction(stiffness, self.bound, &mean, &u0, &slip, about.sticks);
             out.friction = friction.spring * -friction.stiffness;
             out.force += out.friction;
-            out.friction_tangent = friction.tangent;
+            if let Some(tangents) = tangents {
+                tangents.friction = friction.tangent(&mean);
+            }
             out.spring = friction.spring;
             out.slides = friction.slides;
             out.energy += spring_energy(stiffness, &friction.spring);
@@ -324,7 +351,7 @@ mod tests {
                     p.bound = f64::from(i % 4) * 20.0;
                     let before = p.energy_before(&p.start);
                     let change = Vector3::new(way(1, 3), way(2, 7), way(3, 2));
-                    let now = p.evaluate(&step, &change, About::default());
+                    let now = p.evaluate(&step, &change, About::default(), None);
                     let way = step.slip(&p.start, &change);
                     let made = now.force.dot(&way) + now.energy - before + now.loss;
                     let work = if step.driven { now.force.dot(&(change - way)) } else { 0.0 };
@@ -348,7 +375,7 @@ mod tests {
             (p.bound, p.offset, p.closing, p.pays) = (30.0, 4e-5, 1e-5, pays);
             let before = p.energy_before(&p.start);
             let change = Vector3::new(3e-4, -1e-5, 0.0);
-            let now = p.evaluate(&step, &change, About::default());
+            let now = p.evaluate(&step, &change, About::default(), None);
             let made = now.force.dot(&change) + now.energy - before + now.loss - now.work;
             assert!(now.normal_force > 0.0 && made.abs() < 1e-12, "{made:e}");
             assert_eq!(now.work, if pays { 0.0 } else { now.normal_force * p.closing });
@@ -366,12 +393,13 @@ mod tests {
             p.start = Vector3::new(0.0, 5e-3 - 2e-5, 0.0);
             p.bound = bound;
             let change = Vector3::new(3e-6, -2e-5, 2e-6);
-            let at = |change: &Vector3<f64>| p.evaluate(&step, change, About::default());
+            let at = |change: &Vector3<f64>| p.evaluate(&step, change, About::default(), None);
+            let mut tangents = Tangents::default();
+            p.evaluate(&step, &change, About::default(), Some(&mut tangents));
             for c in 0..3 {
                 let d = 1e-10 * Vector3::ith(c, 1.0);
                 let slope = (at(&(change - d)).force - at(&(change + d)).force) / 2e-10;
-                let now = at(&change);
-                let column = (now.tangent + now.friction_tangent).column(c).into_owned();
+                let column = (tangents.normal + tangents.friction).column(c).into_owned();
                 assert!((slope - column).norm() < 1e-4 * 3e7, "{bound} {slope:?} {column:?}");
             }
         }

@@ -5,7 +5,7 @@ use super::memory::{ContactMemory, Key};
 use super::missed::Nearby;
 use super::obstacle::Obstacle;
 use super::path::{BodyPath, ObstacleStep};
-use super::point::{ContactPoint, combine};
+use super::point::{ContactPoint, Tangents, combine};
 use crate::integrate::discrete_gradient::BETA;
 use crate::linalg::BlockTridiagonal;
 use nalgebra::{Matrix3, Vector3};
@@ -25,6 +25,8 @@ pub(crate) struct ContactStep {
     pub(super) obstacles: Vec<ObstacleStep>,
     /// By contact of the memory, whether a point took it up.
     pub(super) recalled: Vec<bool>,
+    /// Where the contact of the next sample is in the memory, if it is that of the sample after the last one found.
+    pub(super) next: usize,
     /// Length of the step in s.
     pub(super) h: f64,
     /// Share of every offset that closes in the step.
@@ -104,13 +106,18 @@ impl ContactStep {
         for point in &mut self.points {
             point.linearise(&self.obstacles[point.obstacle], |e, shape| combine(change, e, shape));
             let linear = &point.linear;
-            if linear.tangent == Matrix3::zeros() {
+            let Tangents { normal, friction } = linear.tangents;
+            if normal == Matrix3::zeros() {
                 continue;
             }
             add_force(point, &(linear.force * h), rhs);
             let element = point.key.0 as usize;
-            let parts = [(&linear.tangent, &linear.row.shape), (&linear.friction_tangent, &point.shape)];
-            for (tangent, shape) in parts.into_iter().filter(|(tangent, _)| **tangent != Matrix3::zeros()) {
+            // one matrix where both act at the same place
+            let parts = match point.between {
+                None => [(normal + friction, &point.shape), (Matrix3::zeros(), &point.shape)],
+                Some(_) => [(normal, &linear.row.shape), (friction, &point.shape)],
+            };
+            for (tangent, shape) in parts.into_iter().filter(|(tangent, _)| *tangent != Matrix3::zeros()) {
                 let tangent = tangent * (BETA * h * h);
                 if let Some(body) = self.obstacles[point.obstacle].body {
                     self.borders.add(body, element, shape, &tangent, &linear.arm);
@@ -184,6 +191,11 @@ fn add_force(point: &ContactPoint, force: &Vector3<f64>, rhs: &mut [f64]) {
             out[3 * k + x] += weight * force[x];
         }
     }
+}
+
+/// Returns the contact with a key; `next` is where it is looked for first.
+pub(super) fn find_from(memory: &[ContactMemory], next: usize, key: Key) -> Option<usize> {
+    if memory.get(next).is_some_and(|memory| memory.key() == key) { Some(next) } else { find(memory, key) }
 }
 
 /// Returns the contact with a key.

@@ -378,4 +378,8 @@ impl DiscreteGradientSystem for CableStep<'_> {
             Event::Split => self.equations.diagnostics.split_steps += 1,
         }
     }
+
+    fn splits(&self) -> u64 {
+        self.equations.diagnostics.split_steps
+    }
 }

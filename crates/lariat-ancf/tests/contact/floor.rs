@@ -43,7 +43,8 @@ fn a_dropped_rope_comes_to_rest_without_making_energy() {
     }
 }
 
-/// A rope that stands on its end, or falls on it, is nowhere deeper in the floor than 2 % of its radius, with elements of 4, 10 and 20 radii.
+/// The tenth of a rope at the end on which it stands, or falls, is nowhere deeper in the floor than 2 % of its radius, with elements of 4, 10 and 20 radii, and the rest
+/// of it, which falls flat afterwards at several m/s, nowhere deeper than 5 %, half way between its samples.
 ///
 /// *Source.* Geometry: the end of the centre line is a radius away.
 #[test]
@@ -56,13 +57,15 @@ fn an_end_that_points_at_a_floor_touches_it() {
             let points = [up() * 0.02, up() * 0.02 + along * (length * f64::from(elements))];
             let cable = rope(0.1, &points, elements as usize).velocity(up() * -speed).build().unwrap();
             let mut cable = with(cable, vec![floor(0.3)]);
-            let mut lowest = f64::INFINITY;
+            let [mut end, mut rest] = [f64::INFINITY; 2];
             let made = run(&mut cable, 240, |cable| {
                 let at = |i: i32| cable.sample(cable.length() * f64::from(i) / 100.0).unwrap().position.y;
-                lowest = (0..=100).map(at).fold(lowest, f64::min);
+                end = (0..=10).map(at).fold(end, f64::min);
+                rest = (11..=100).map(at).fold(rest, f64::min);
             });
-            println!("{length} m, {speed} m/s, tilt {tilt:.2}: {:.3} r deep, made {made:.1e}", 1.0 - lowest / RADIUS);
-            assert!(lowest > 0.98 * RADIUS && made < 1e-8, "{length} {speed} {tilt}: {lowest} {made:e}");
+            let [end, rest] = [end, rest].map(|lowest| 1.0 - lowest / RADIUS);
+            println!("{length} m, {speed} m/s, tilt {tilt:.2}: {end:.3} r deep, the rest {rest:.3}, made {made:.1e}");
+            assert!(end < 0.02 && rest < 0.05 && made < 1e-8, "{length} {speed} {tilt}: {end} {rest} {made:e}");
         }
     }
 }
@@ -77,7 +80,7 @@ fn incline(degrees: f64, friction: f64, at: Vector3<f64>) -> Cable {
 
 /// Below the angle of friction a rope sticks without creep, and above it slides with the acceleration of Coulomb's law.
 ///
-/// *Source.* tan 16.699 degrees = 0.3; g (sin a - mu cos a). The bound of friction lags by one step, in which the rope falls freely.
+/// *Source.* tan 16.699 degrees = 0.3; g (sin a - mu cos a).
 #[test]
 fn a_rope_on_an_incline_sticks_or_slides_by_coulombs_law() {
     let friction = 0.3f64;
@@ -96,7 +99,7 @@ fn a_rope_on_an_incline_sticks_or_slides_by_coulombs_law() {
             (first - start).norm()
         );
         if exact == 0.0 {
-            assert!(moved < 1e-6 && (first - start).norm() < 3e-3, "{degrees}: {moved:e}");
+            assert!(moved < 1e-6 && (first - start).norm() < 1e-6, "{degrees}: {moved:e}");
         } else {
             assert!((speed / exact - 1.0).abs() < 1e-3, "{degrees}: {speed} for {exact}");
         }
@@ -105,7 +108,7 @@ fn a_rope_on_an_incline_sticks_or_slides_by_coulombs_law() {
 
 /// A conveyor takes a rope along with mu g until it has its speed, and its work is all the energy that the rope gets.
 ///
-/// *Source.* Coulomb's law; 0.5 m/s after 0.17 s. The bound lags by one step.
+/// *Source.* Coulomb's law; 0.5 m/s after 0.17 s.
 #[test]
 fn a_conveyor_carries_a_rope() {
     let rope = rope(0.1, &[up() * 0.005, Vector3::new(2.0, 0.005, 0.0)], 20).build().unwrap();
@@ -116,10 +119,10 @@ fn a_conveyor_carries_a_rope() {
         let v = &cable.velocities()[60..63];
         speeds.push((v[0] * v[0] + v[2] * v[2]).sqrt());
     });
-    let early = 0.3 * GRAVITY * (0.1 - 1.0 / 240.0);
+    let early = 0.3 * GRAVITY * 0.1;
     println!("made {made:.1e}; {:.4} for {early:.4}, {:.6}; {:?}", speeds[5], speeds[59], cable.energy_law());
     assert!(made < 1e-8, "{made:e}");
-    assert!((speeds[5] / early - 1.0).abs() < 0.01, "{}", speeds[5]);
+    assert!((speeds[5] / early - 1.0).abs() < 1e-3, "{}", speeds[5]);
     assert!((speeds[59] / 0.5 - 1.0).abs() < 1e-6, "{}", speeds[59]);
     assert!(cable.energy_law().obstacles > 0.5 * 0.28 * 0.25);
 }

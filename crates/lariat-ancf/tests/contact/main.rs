@@ -7,6 +7,7 @@ mod capstan;
 mod common;
 mod energy;
 mod features;
+mod first_touch;
 mod floor;
 mod pairs;
 mod state;

@@ -122,7 +122,7 @@ fn a_rope_that_begins_inside_an_obstacle_gains_no_energy() {
 /// A rope that begins two millimetres deep in a floor comes out of it while friction pays for that, makes no energy, and stays in it where nothing
 /// does.
 ///
-/// *Source.* The energy law; geometry.
+/// *Source.* The energy law; geometry. The offset falls by exp(-t/0.05 s) in the time v/(mu g) in which the rope slides, but for six steps in which it begins and ends.
 #[test]
 fn an_offset_closes_while_friction_pays_for_it() {
     for (friction, speed) in [(0.3, 2.0), (0.8, 1.0), (0.3, 0.0), (0.0, 2.0)] {
@@ -138,7 +138,8 @@ fn an_offset_closes_while_friction_pays_for_it() {
         // at rest there is no energy to have a share of
         assert!((made < 1e-8 || speed == 0.0) && lost >= 0.0, "{made:e} {lost:e}");
         if friction * speed > 0.0 {
-            assert!(depth < 2e-4, "{depth:e}");
+            let closing = speed / (friction * GRAVITY) - 6.0 / 240.0;
+            assert!(depth < 2e-3 * (-closing / 0.05).exp() + 1e-6, "{depth:e}");
         } else {
             assert!((depth - 2e-3).abs() < 2e-4, "{depth:e}");
         }

@@ -195,7 +195,8 @@ impl PairStep {
         self.low_rank.clear();
         for pair in &mut self.points {
             pair.linearise(pair.ends.map(|end| (strands.get)(end.strand)).each_ref());
-            let tangent = (pair.point.linear.tangent + pair.point.linear.friction_tangent) * (BETA * self.h * self.h);
+            let tangents = pair.point.linear.tangents;
+            let tangent = (tangents.normal + tangents.friction) * (BETA * self.h * self.h);
             let eigen = tangent.symmetric_eigen();
             let most = eigen.eigenvalues.amax();
             for k in 0..3 {

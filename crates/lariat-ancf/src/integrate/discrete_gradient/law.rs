@@ -223,6 +223,9 @@ pub(crate) trait DiscreteGradientSystem {
 
     /// Counts an event.
     fn count(&mut self, event: Event);
+
+    /// Returns how many steps were divided.
+    fn splits(&self) -> u64;
 }
 
 /// What happened to a step for which one iteration was not enough.

@@ -5,7 +5,7 @@
 //! 2. Up to eight, up to four for the last condition: with the same factors where energy is not made and they bring the impulses nearer to
 //!    balance, else with a new tangent.
 //! 3. Velocities relative to rigid motion are scaled down, if that takes at most half of their energy; momenta stay.
-//! 4. Four steps of a quarter, each by the same means.
+//! 4. Four steps of a quarter, each by the same means; the one after a quarter that had to be divided in turn is divided at once.
 //!
 //! With a [limit](WorkLimit) to the work that is spent, one iteration is taken, rescaling may take all of that energy, and instead of a
 //! division the step ends.
@@ -13,8 +13,8 @@
 //! Damping, friction and impact lose so much that any error of the iteration hides behind them: on a rotor whose rope is damped, errors of
 //! the tension grow to a thousand times the tension. A step is therefore accepted only if its energy balance *closes*, to 1 % of what
 //! they lose. Near an obstacle it must close to 1 % of all that the step loses, and the contact forces must be those of the linear solve, to
-//! 1e-3 in sum; every iteration has a new tangent, and up to 20 are taken; those after the fourth take half of
-//! the increment (under-relaxation: what the tangent leaves out makes a slack cable that is hit swing between two iterates for ever). After those the balance alone must close; and in the last
+//! 1e-3 in sum; every iteration has a new tangent, and up to 20 are taken; from the fourth on, those after one that leaves
+//! more than half of the imbalance take half of the increment (under-relaxation: what the tangent leaves out makes a slack cable that is hit swing between two iterates for ever). After those the balance alone must close; and in the last
 //! division the energy law alone must hold. Motors of reels must have the forces of their laws likewise, to 1e-3, with a new
 //! tangent in every iteration that is needed for them. With stock of a reel on a body that moves freely the sum of all impulses must balance, to 1e-9
 //! of them.
@@ -45,15 +45,15 @@ const ROUNDING: f64 = 1e-13;
 const MAX_ITERATIONS: usize = 8;
 /// Largest number of Newton iterations near an obstacle.
 const MAX_ITERATIONS_NEAR: usize = 20;
-/// Number of Newton iterations near an obstacle that take the whole increment, and the share that those after them take.
+/// Number of Newton iterations near an obstacle that take the whole increment; the share of the imbalance that one leaves where the iteration swings, and the share of the
+/// increment that those after it take.
 const WHOLE_INCREMENTS: usize = 4;
+const SWINGING: f64 = 0.5;
 const RELAXATION: f64 = 0.5;
 /// Number of times that contacts are looked for again when the iteration has ended.
 const MAX_SEARCHES: usize = 3;
 /// Largest number of times that the bounds of friction are set by the normal forces of the step itself.
 const MAX_RENEWALS: usize = 40;
-/// The same for the parts of a divided step.
-const MAX_RENEWALS_OF_PARTS: usize = 4;
 /// Energy by which it may miss in any case, as a share of the weight times 1 mm.
 const CLOSURE_OF_WEIGHT: f64 = 1e-6;
 /// Share of the impulses that may be unbalanced where velocities are rescaled near an obstacle.
@@ -157,13 +157,16 @@ pub(super) fn step(
     let (mut iteration, mut imbalance) = (0, f64::INFINITY);
     let (mut searches, mut misses) = (0, None);
     let (mut renewals, mut renewed) = (0, 0);
-    let most_renewals = if depth == 0 { MAX_RENEWALS } else { MAX_RENEWALS_OF_PARTS };
+    let (mut swings, mut left) = (false, f64::INFINITY);
     let is_spent = || limit.is_some_and(WorkLimit::is_spent);
     while iteration < most && !(iteration > 0 && is_spent()) {
         iteration += 1;
-        let swings =
-            iteration - renewed > WHOLE_INCREMENTS && last.as_ref().is_ok_and(|balance: &Balance| balance.near);
         last = system.iterate(fresh, if swings { RELAXATION } else { 1.0 });
+        if let Ok(balance) = &last {
+            swings |=
+                balance.near && iteration - renewed >= WHOLE_INCREMENTS && balance.imbalance > SWINGING * left;
+            left = balance.imbalance;
+        }
         if let Some(limit) = limit {
             limit.spend(1);
         }
@@ -173,10 +176,10 @@ pub(super) fn step(
                 let forces = forces && is_momentum_right(balance);
                 let motors = are_motors_right(balance);
                 if is_dissipation_right(balance) && forces && closes(balance) && is_consistent(balance) && motors {
-                    if balance.near && renewals <= most_renewals && system.renew_friction() {
+                    if balance.near && renewals <= MAX_RENEWALS && system.renew_friction() {
                         renewals += 1;
-                        if renewals <= most_renewals {
-                            (renewed, most) = (iteration, iteration + MAX_ITERATIONS_NEAR);
+                        if renewals <= MAX_RENEWALS {
+                            (renewed, most, swings) = (iteration, iteration + MAX_ITERATIONS_NEAR, false);
                             (fresh, imbalance) = (true, f64::INFINITY);
                             continue;
                         }
@@ -200,7 +203,7 @@ pub(super) fn step(
             most = renewed + MAX_ITERATIONS_NEAR;
         }
     }
-    if renewals > most_renewals {
+    if renewals > MAX_RENEWALS {
         system.count(Event::Lagging);
     }
     let reduced = limit.is_some_and(WorkLimit::reduces);
@@ -243,11 +246,27 @@ pub(super) fn step(
         let balance = last?;
         return Err(StepFailure::EnergyMade { energy: balance.excess(), scale: balance.scale() });
     }
+    divide(system, h, depth, limit)
+}
+
+/// Advances the system by `h` (s) in [`PARTS`] steps. The one after a step that had to be divided is divided without a try: what kept the iteration
+/// from its end, a cable that kinks most often, goes on, and a try in vain costs more than four short steps.
+fn divide(
+    system: &mut dyn DiscreteGradientSystem,
+    h: f64,
+    depth: usize,
+    limit: Option<&WorkLimit>,
+) -> Result<bool, StepFailure> {
     system.count(Event::Split);
+    let (part, depth) = (h / PARTS as f64, depth + 1);
+    let mut at_once = false;
     for _ in 0..PARTS {
-        if !step(system, h / PARTS as f64, depth + 1, limit)? {
+        let before = system.splits();
+        let advance = if at_once { divide } else { step };
+        if !advance(system, part, depth, limit)? {
             return Ok(false);
         }
+        at_once = !at_once && depth < MAX_DEPTH && system.splits() > before;
     }
     Ok(true)
 }

@@ -303,4 +303,8 @@ impl DiscreteGradientSystem for IslandStep<'_, '_> {
     fn count(&mut self, event: Event) {
         self.count_event(event);
     }
+
+    fn splits(&self) -> u64 {
+        self.cables[0].diagnostics().split_steps
+    }
 }
