@@ -21,7 +21,7 @@ const FEW_ELEMENTS: usize = 64;
 
 thread_local! {
     /// Buffers of the islands that this thread integrates.
-    static SOLVERS: RefCell<Vec<Box<IslandSolver>>> = const { RefCell::new(Vec::new()) };
+    static SOLVERS: RefCell<Vec<IslandSolver>> = const { RefCell::new(Vec::new()) };
 }
 
 /// An island that is ready, with its cables.

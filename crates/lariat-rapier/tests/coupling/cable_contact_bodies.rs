@@ -138,7 +138,8 @@ fn a_net_catches_a_ball() {
 }
 
 /// A rope that is dropped on a sleeping crate wakes it; both come to rest, and sleep. Its internal friction is large: limp ends that hang
-/// free swing for minutes without.
+/// free swing for minutes without. When they sleep hangs on rounding: of 80 heights within 1e-5 m of this one, 76 sleep 2 to 10 s after the
+/// drop, in the median 2.7 s, and the last after 21.5 s.
 ///
 /// *Source.* The contract of sleep.
 #[test]
@@ -161,10 +162,13 @@ fn a_rope_wakes_a_sleeping_crate() {
         .damping(Damping { axial: 1e-3, bending: 0.1 });
     let cable = touching(&mut cables, cable, 0.5);
     let (mut woke, mut events) = (false, Vec::new());
-    for _ in 0..600 {
+    for _ in 0..3600 {
         cables.step(&mut world).unwrap();
         woke |= !world.bodies[load].is_sleeping();
         events.extend(cables.take_events());
+        if woke && world.bodies[load].is_sleeping() && events.contains(&Event::Asleep(cable)) {
+            break;
+        }
     }
     println!("{woke}, {:?}, {events:?}", world.bodies[load].translation());
     assert!(woke, "it slept on");
