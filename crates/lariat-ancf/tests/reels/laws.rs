@@ -26,7 +26,7 @@ impl Hoist {
     }
 
     /// The same with a strain.
-    fn stretched(strain: f64, stiffness: f64, mass: f64, density: f64, dt: f64, reel: Reel) -> Self {
+    pub fn stretched(strain: f64, stiffness: f64, mass: f64, density: f64, dt: f64, reel: Reel) -> Self {
         let start = Vector3::new(0.0, -1.0 - strain, 0.0);
         let mut cable = Cable::builder()
             .points([start, Vector3::zeros()])
@@ -64,7 +64,7 @@ impl Hoist {
     /// Takes half a second of steps, in the first of which the force of the clutch falls to `limit` (N), and returns by how much the load gains speed downwards, and by how much
     /// it should, in m/s: `(m + rho L) v' = (m + rho L) g - T`. T is the tension of a rope that the winch pulls by the force F per unstretched length,
     /// `T f = F + u` with the stretch f and the strain energy u.
-    fn fall(&mut self, limit: f64) -> Result<[f64; 2], Error> {
+    pub fn fall(&mut self, limit: f64) -> Result<[f64; 2], Error> {
         let (body, section) = (&self.bodies[0], self.cable.elements()[0].section);
         let (mass, before, stiffness) = (body.mass, body.velocity.y, section.axial_stiffness);
         let reading = |cable: &Cable| cable.reel(At::End).unwrap();
@@ -201,42 +201,6 @@ fn a_clutch_slips_at_its_force() {
         println!("braked within {} m of {way} m, {reel:?}", reel.length_out - from);
         assert!(reel.rate.abs() < 1e-9 && reel.force < brake && (reel.force / weight - 1.0).abs() < 0.1, "{reel:?}");
         assert!(((reel.length_out - from) / way - 1.0).abs() < 0.05, "{} m of {way} m", reel.length_out - from);
-    }
-}
-
-/// A clutch that holds a load and is weakened at once lets it fall as its force says, whatever the load, the step and the force: to 0.2 %, and to 2 % where the rope is
-/// stretched by more than 1 %, on which the load vibrates.
-///
-/// *Source.* See [`Hoist::fall`].
-#[test]
-fn a_weakened_clutch_lets_its_load_fall_as_its_force_says() {
-    let stiffness = 1.0e5;
-    for mass in [0.5, 1.0, 3.0, 8.0, 14.0, 20.0, 50.0, 150.0, 500.0] {
-        for dt in [1.0 / 30.0, 1.0 / 60.0, 1.0 / 120.0, 1.0 / 240.0] {
-            for share in [0.1, 0.3, 0.8, 0.95] {
-                let strong =
-                    Reel { max_force: Some(2.0 * (mass + 0.15) * G), acceleration: 0.3, ..Reel::with_rate(-0.3) };
-                let strain = mass * G / stiffness;
-                let mut hoist = Hoist::stretched(strain, stiffness, mass, 0.15, dt, strong.clone());
-                (0..(1.0 / dt) as usize).for_each(|_| hoist.step());
-                let limit = share * (mass + 0.15 * hoist.cable.length()) * G;
-                hoist.cable.set_reel(At::End, Reel { max_force: Some(limit), ..strong }).unwrap();
-                let case = format!("{mass} kg, {dt} s, {share}");
-                match hoist.fall(limit) {
-                    Ok([fell, expected]) => {
-                        let bound = if strain < 0.01 { 2e-3 } else { 2e-2 };
-                        assert!((fell / expected - 1.0).abs() < bound, "{case}: {fell} m/s of {expected} m/s");
-                    }
-                    // it falls by more than half of an element in a step
-                    Err(error) => {
-                        assert!(
-                            matches!(error, Error::InvalidValue { .. }) && dt > 0.03 && share < 0.5,
-                            "{case}: {error}"
-                        );
-                    }
-                }
-            }
-        }
     }
 }
 

@@ -14,3 +14,4 @@ mod remesh;
 mod sheaves;
 mod slack;
 mod state;
+mod weakened;
