@@ -89,9 +89,9 @@
 //!   step, for any integrator of the cable: a boom of 1 kg that falls with 6.8 kg on 1 m of line is
 //!   0.13, 0.086, 0.038, 0.016, 0.007 m off 0.15 s after the snap, at 30, 60, 120, 240, 480 Hz. Raise
 //!   [`Settings::rapier_steps`] there.
-//! - A kick that a taut cable answers within a step loses energy in fidelity game, and angular
-//!   momentum with it: up to half and 0.2 of it, of two balls on a cable whose vibration has several
-//!   periods in a step of 1/60 s.
+//! - A kick that a taut cable answers within a step loses energy in fidelity game: up to half of it,
+//!   of two balls on a cable whose vibration has several periods in a step of 1/60 s. Momentum and
+//!   angular momentum stay.
 //! - Damping of Rapier's bodies acts at the end of a step; with it, a body's accelerations are not
 //!   kept.
 //! - Kinematic bodies that turn or accelerate by poses, and bodies on joints, move with Rapier's

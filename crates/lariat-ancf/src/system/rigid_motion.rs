@@ -87,7 +87,7 @@ pub(crate) fn relative_velocities(
 }
 
 /// Solves a semi-definite system by L D L^T; what has no pivot stays zero.
-fn solve(a: &mut SMatrix<f64, 6, 6>, mut b: SVector<f64, 6>) -> SVector<f64, 6> {
+pub(crate) fn solve(a: &mut SMatrix<f64, 6, 6>, mut b: SVector<f64, 6>) -> SVector<f64, 6> {
     let diagonal = a.diagonal();
     let sound = |k: usize, pivot: f64| pivot > LEAST_PIVOT * diagonal[k];
     for k in 0..6 {

@@ -42,6 +42,7 @@ pub(super) fn wake_within_step(
     };
     let bodies = island.members.iter().enumerate().filter_map(|(m, member)| Some((m, member.body()?)));
     let woken: Vec<usize> = bodies.filter(|(m, handle)| is_woken(*m, *handle)).map(|(m, _)| m).collect();
+    // what was linearised when the motors were set can be linearised again: it has not moved since
     if woken.is_empty() || contents.changed || impedance::linearise_at(contents, island, prediction, &woken, h).is_err()
     {
         return;

@@ -261,6 +261,26 @@ impl BodyStep {
         (0.5 * self.taken.dot(&momentum), end.dot(&momentum))
     }
 
+    /// Returns its velocity in a rigid motion of the island at the end of the step: along an axis, or about one through `centre`.
+    pub fn velocity_in(&self, mode: usize, centre: &Vector3<f64>) -> Vector6<f64> {
+        if mode < 3 {
+            return stack([Vector3::ith(mode, 1.0), Vector3::zeros()]);
+        }
+        let axis = Vector3::ith(mode - 3, 1.0);
+        stack([axis.cross(&(self.position + self.displacement() - centre)), self.end.inverse() * axis])
+    }
+
+    /// Returns whether it carries other bodies.
+    pub fn carries(&self) -> bool {
+        let at = |r, c| self.matrix.fixed_view::<3, 3>(r, c).into_owned();
+        at(0, 0) != Matrix3::identity() * self.mass || at(0, 3) != Matrix3::zeros() || at(3, 3) != self.inertia
+    }
+
+    /// Returns the momenta of a velocity.
+    pub fn momentum_of(&self, velocity: &Vector6<f64>) -> Vector6<f64> {
+        self.matrix * velocity
+    }
+
     /// Returns momentum at the end of the step and mass, without what is carried.
     pub fn momentum(&self) -> (Vector3<f64>, f64) {
         (self.mass * split(&(self.velocity + self.change))[0], self.mass)

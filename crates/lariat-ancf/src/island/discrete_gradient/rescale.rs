@@ -6,17 +6,22 @@
 //! w = v - (V + W x (x - c))          a velocity beside a rigid motion; a slope's: t' - W x t
 //! ```
 //!
-//! Of an island that nothing holds, the rigid motion is the translation of its centre of mass, so its momentum stays. Of one whose driven
+//! Of an island that nothing holds, the rigid motion is the projection of all velocities onto rigid motions in the norm of the kinetic
+//! energy, so its momentum and its angular momentum stay; with reels, or with bodies that carry
+//! others, which joints may hold, the translation of its centre of mass. Of one whose driven
 //! bodies and supports all move as one rigid body, it is their motion. Of any other there is none, and all velocities that nothing
 //! prescribes are scaled. Scaling those of cables and bodies together keeps pinned points on their bodies.
+//!
+//! # Alternatives considered
+//! The translation alone: of two balls on a stiff cable of which one was kicked, a step took 0.19 of the angular momentum.
 
 use super::IslandStep;
 use super::body::BodyStep;
 use super::coupled::coupled_product;
 use crate::integrate::discrete_gradient::{Balance, share_to_take};
 use crate::island::hold::vector;
-use crate::system::{CableStep, dot};
-use nalgebra::Vector3;
+use crate::system::{CableStep, dot, solve_semidefinite as solve};
+use nalgebra::{Matrix6, Vector3, Vector6};
 
 /// Share of a velocity by which two that are the same may differ: bodies of an engine in single precision.
 const ROUNDING: f64 = 1e-6;
@@ -116,7 +121,54 @@ fn rigid_motion(island: &mut IslandStep<'_, '_>) -> RigidMotion {
             return RigidMotion::default();
         }
     }
-    common.unwrap_or_else(|| RigidMotion { velocity: mean_velocity(island), ..RigidMotion::default() })
+    common.unwrap_or_else(|| {
+        let reels = island.cables.iter_mut().any(|cable| !cable.step_parts().equations.system.flows.is_empty());
+        if reels || island.buffers.bodies.iter().any(BodyStep::carries) {
+            RigidMotion { velocity: mean_velocity(island), ..RigidMotion::default() }
+        } else {
+            projection(island)
+        }
+    })
+}
+
+/// Returns the rigid motion with the momenta of an island that nothing holds, at the end of the step.
+fn projection(island: &mut IslandStep<'_, '_>) -> RigidMotion {
+    let (mut matrix, mut momenta) = (Matrix6::zeros(), Vector6::zeros());
+    let centre = island.buffers.bodies.first().map_or_else(Vector3::zeros, |body| body.position + body.displacement());
+    let turning = |k: usize, arm: Vector3<f64>| Vector3::ith(k - 3, 1.0).cross(&arm);
+    for cable in island.cables.iter_mut() {
+        let CableStep { equations, state, buffers: b } = cable.step_parts();
+        let (system, change) = (&*equations.system, &b.change);
+        let at = |i: usize| vector(&state.q[i..]) + vector(&change[i..]);
+        let mode = |k: usize, i: usize| match (k < 3, i.is_multiple_of(6)) {
+            (true, true) => Vector3::ith(k, 1.0),
+            (true, false) => Vector3::zeros(),
+            (false, true) => turning(k, at(i) - centre),
+            (false, false) => turning(k, at(i)),
+        };
+        let vectors = || (0..change.len()).step_by(3);
+        let inner = |k: usize, p: &[f64]| vectors().map(|i| mode(k, i).dot(&vector(&p[i..]))).sum::<f64>();
+        for i in 0..change.len() {
+            b.external[i] = state.v[i] + b.velocity_change[i];
+        }
+        system.mass.multiply(system.level, &b.external, &mut b.product);
+        (0..6).for_each(|k| momenta[k] += inner(k, &b.product));
+        for k in 0..6 {
+            vectors().for_each(|i| b.external[i..i + 3].copy_from_slice(mode(k, i).as_slice()));
+            system.mass.multiply(system.level, &b.external, &mut b.product);
+            (0..6).for_each(|j| matrix[(j, k)] += inner(j, &b.product));
+        }
+    }
+    for body in &island.buffers.bodies {
+        for k in 0..6 {
+            let momentum = body.momentum_of(&body.velocity_in(k, &centre));
+            momenta[k] += momentum.dot(&body.final_velocity());
+            (0..6).for_each(|j| matrix[(j, k)] += momentum.dot(&body.velocity_in(j, &centre)));
+        }
+    }
+    let motion = solve(&mut matrix, momenta);
+    let [velocity, spin] = [0, 3].map(|k| motion.fixed_rows::<3>(k).into_owned());
+    RigidMotion { centre, velocity, spin }
 }
 
 /// Returns the velocity of the centre of mass of an island at the end of the step.
