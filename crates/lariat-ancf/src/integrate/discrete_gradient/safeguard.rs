@@ -163,8 +163,7 @@ pub(super) fn step(
         iteration += 1;
         last = system.iterate(fresh, if swings { RELAXATION } else { 1.0 });
         if let Ok(balance) = &last {
-            swings |=
-                balance.near && iteration - renewed >= WHOLE_INCREMENTS && balance.imbalance > SWINGING * left;
+            swings |= balance.near && iteration - renewed >= WHOLE_INCREMENTS && balance.imbalance > SWINGING * left;
             left = balance.imbalance;
         }
         if let Some(limit) = limit {
