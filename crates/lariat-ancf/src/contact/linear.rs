@@ -7,8 +7,15 @@
 //! ([`slide`](super::slide)) the row is half way between its place and the one whose depth counts, for the same reason.
 
 use super::path::ObstacleStep;
-use super::point::{ContactPoint, Evaluation, Row, Tangents};
-use nalgebra::Vector3;
+use super::point::{ContactPoint, Evaluation, Row};
+use nalgebra::{Matrix3, Vector3};
+
+/// Minus the derivatives of the normal force, by the motion of its row, and of friction.
+#[derive(Clone, Copy, Debug, Default)]
+pub(in crate::contact) struct Tangents {
+    pub normal: Matrix3<f64>,
+    pub friction: Matrix3<f64>,
+}
 
 /// A contact as a linear solve sees it.
 #[derive(Clone, Copy, Debug, Default)]

@@ -1,12 +1,12 @@
 //! One contact over a step: its force, its tangent, and what it does to the energy.
 
 use super::law::{NormalLaw, friction, spring_energy};
-use super::linear::{About, Linear};
+use super::linear::{About, Linear, Tangents};
 use super::memory::{ContactMemory, Key};
 use super::patch::Patch;
 use super::path::ObstacleStep;
 use super::roll::Roll;
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::Vector3;
 
 /// Time in s in which a body's displacement by others comes to the cable, as a motion of the body. An engine's contact and the cable would
 /// pump energy through each other if it came at once: each answers to what the other did a step before.
@@ -122,13 +122,6 @@ pub(in crate::contact) struct Evaluation {
     pub slope: f64,
 }
 
-/// Minus the derivatives of the normal force, by the motion of its row, and of friction.
-#[derive(Clone, Copy, Debug, Default)]
-pub(in crate::contact) struct Tangents {
-    pub normal: Matrix3<f64>,
-    pub friction: Matrix3<f64>,
-}
-
 impl ContactPoint {
     /// Takes up what was remembered of it: the spring and the bound of friction, and the depth, beyond which nothing counts: the offset. Of an
     /// obstacle on a body that was moved since then, by an engine, the difference has either sign, and closes by the engine's work.
@@ -182,7 +175,7 @@ impl ContactPoint {
         combine(change, self.key.0 as usize, &self.shape)
     }
 
-    /// Evaluates it for a change of its position over the step, with its tangents if they are asked for.
+    /// Evaluates it for a change of its position over the step, and sets its tangents, which are zero, if they are asked for.
     pub fn evaluate(
         &self,
         obstacle: &ObstacleStep,
@@ -190,9 +183,6 @@ impl ContactPoint {
         about: About,
         mut tangents: Option<&mut Tangents>,
     ) -> Evaluation {
-        if let Some(tangents) = &mut tangents {
-            **tangents = Tangents::default();
-        }
         if self.free_way > 0.0 && about.depth.is_none() && self.linear.slope == 0.0 {
             let slip = obstacle.slip(&self.start, change);
             if slip.norm_squared() < self.free_way * self.free_way {

@@ -1,11 +1,12 @@
 //! All contacts of a cable over a step.
 
 use super::border::{Border, Borders};
+use super::linear::Tangents;
 use super::memory::{ContactMemory, Key};
 use super::missed::Nearby;
 use super::obstacle::Obstacle;
 use super::path::{BodyPath, ObstacleStep};
-use super::point::{ContactPoint, Tangents, combine};
+use super::point::{ContactPoint, combine};
 use crate::integrate::discrete_gradient::BETA;
 use crate::linalg::BlockTridiagonal;
 use nalgebra::{Matrix3, Vector3};

@@ -39,7 +39,9 @@ fn a_rope_put_on_an_incline_below_the_friction_angle_does_not_slide() {
                 let made = cable.energy_law().made / (mass * 2.0 * GRAVITY * 1e-3);
                 let slid = (cable.node_position(10) - start).x.abs();
                 worst = worst.max(slid);
-                println!("mu {friction}, {mass} kg/m, {below} degrees below, 1/{rate} s: {slid:.2e} m, made {made:.0e}");
+                println!(
+                    "mu {friction}, {mass} kg/m, {below} degrees below, 1/{rate} s: {slid:.2e} m, made {made:.0e}"
+                );
                 assert!(made < 1e-8, "{made:e}");
             }
         }

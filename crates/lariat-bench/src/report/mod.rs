@@ -170,14 +170,14 @@ pub fn run(out: &Path, options: &Options, progress: &mut dyn FnMut(Progress<'_>)
     Ok(recorder.report)
 }
 
-/// Measures the section of [`claims`] alone, which needs no quiet machine, and replaces it in the page of a report that was made before.
+/// Measures a section alone, and replaces it in the page of a report that was made before.
 ///
 /// # Errors
-/// [`Error::Read`] without a page; [`Error::Output`]; as [`claims::section`].
-pub fn renew_claims(out: &Path, options: &Options) -> Result<(), Error> {
+/// [`Error::Read`] without a page; [`Error::Output`]; those of the section.
+pub fn renew(out: &Path, section: impl FnOnce() -> Result<Section, Error>) -> Result<(), Error> {
     let path = out.join("README.md");
     let page = std::fs::read_to_string(&path).map_err(|source| Error::Read { path: path.clone(), source })?;
-    let section = claims::section(options)?;
+    let section = section()?;
     section.save(out)?;
     page::write(&path, &page::replaced(&page, &section))
 }

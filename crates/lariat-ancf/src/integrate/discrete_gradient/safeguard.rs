@@ -23,6 +23,11 @@
 //! three times. A step in which some are missed still, or in which the centre lines of cables that may touch go through each other, or through such parts, is divided too; in the last division it is counted, and a warning says so.
 //! So is one in which the friction of a sheave stops it from running: a long step may have such a solution beside the one that runs on, and
 //! Newton's iteration end there.
+//!
+//! # Alternatives considered
+//!
+//! Whole increments again as soon as a half one improves: 15 % fewer iterations of ropes thrown at a floor and a drum, 40 % more in heaps, whose dearest host steps are those of a cable that
+//! kinks while its contacts are solved. A part broken off after six iterations without progress: no fewer iterations. Bounds of friction that reverse changed by half: no fewer.
 
 use super::law::{Balance, CLOSURE, Closing, DiscreteGradientSystem, Event};
 use crate::error::StepFailure;
@@ -163,8 +168,7 @@ pub(super) fn step(
         iteration += 1;
         last = system.iterate(fresh, if swings { RELAXATION } else { 1.0 });
         if let Ok(balance) = &last {
-            swings |=
-                balance.near && iteration - renewed >= WHOLE_INCREMENTS && balance.imbalance > SWINGING * left;
+            swings |= balance.near && iteration - renewed >= WHOLE_INCREMENTS && balance.imbalance > SWINGING * left;
             left = balance.imbalance;
         }
         if let Some(limit) = limit {

@@ -52,6 +52,9 @@ enum Command {
         /// Measure the errors of the scenes alone, which are counts, and replace that section of a page made before
         #[arg(long, conflicts_with_all = ["quick", "readme"])]
         claims: bool,
+        /// Measure cables that touch alone, and replace that section of a page made before
+        #[arg(long, conflicts_with_all = ["quick", "readme", "claims"])]
+        contact: bool,
         /// Put the tables of a README between their marks in this file too
         #[arg(long, value_name = "FILE")]
         readme: Option<PathBuf>,
@@ -65,7 +68,10 @@ fn main() -> ExitCode {
         Command::Coupling { out } => measure_coupling(&out),
         Command::Table1 { csv } => measure_table1(csv.as_deref()),
         Command::Report { out, claims: true, .. } => {
-            report::renew_claims(&out, &report::Options::full()).map(|()| String::new())
+            report::renew(&out, || report::claims::section(&report::Options::full())).map(|()| String::new())
+        }
+        Command::Report { out, contact: true, .. } => {
+            report::renew(&out, || report::contact::section(&report::Options::full())).map(|()| String::new())
         }
         Command::Report { out, quick, readme, .. } => make_report(&out, quick, readme.as_deref()),
     };
