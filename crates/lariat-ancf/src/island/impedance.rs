@@ -172,8 +172,10 @@ impl Impedance {
         let mut dv = core::mem::take(&mut cable.buffers.product);
         dv.clear();
         dv.resize(size, 0.0);
-        let scaled: Vec<f64> = impulses.iter().flatten().map(|p| self.factor * p).collect();
-        self.pins.expand(cable.system.level, &self.factorisation, &scaled, &mut dv);
+        let scaled = &mut cable.buffers.z;
+        scaled.clear();
+        scaled.extend(impulses.iter().flatten().map(|p| self.factor * p));
+        self.pins.expand(cable.system.level, &self.factorisation, scaled, &mut dv);
         let at_nodes = self.nodes.iter().zip(impulses);
         let given: f64 = at_nodes.map(|(n, p)| (0..3).map(|x| -p[x] * dv[6 * n + x]).sum::<f64>()).sum();
         let strain = |cable: &Cable| {

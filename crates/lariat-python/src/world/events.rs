@@ -78,7 +78,7 @@ impl World {
             }
             Event::AttachmentEnded { .. } => ("attachment ended".to_string(), None),
             Event::GapOpened { attachment, gap } => {
-                let cable = self.set.attachment(attachment).ok().map(|a| a.cable());
+                let cable = self.0.with(py, |contents| contents.set.attachment(attachment).map(|a| a.cable()).ok());
                 (format!("gap opened: {:.1e} m at {:.4} s", gap.gap, gap.time), cable)
             }
             Event::Warning { cable, warning } => (format!("warning: {warning}"), Some(cable)),
