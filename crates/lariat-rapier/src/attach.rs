@@ -1,6 +1,6 @@
 //! Attaching cables to bodies and detaching them.
 
-use crate::attachment::{Attachment, AttachmentKind, AttachmentOptions, AttachmentReading};
+use crate::attachment::{Attachment, AttachmentKind, AttachmentOptions, AttachmentReading, Gap};
 use crate::contents::Contents;
 use crate::convert::{rotation, vector};
 use crate::drum;
@@ -13,7 +13,7 @@ use crate::world_mark;
 use ::nalgebra::{Vector3, Vector6};
 use lariat_ancf::At;
 use lariat_ancf::island::PinAccount;
-use rapier::dynamics::RigidBodyHandle;
+use rapier::dynamics::{RigidBody, RigidBodyHandle};
 use rapier::pipeline::PhysicsWorld;
 
 /// Attaches a point of a cable to a point of a body.
@@ -24,17 +24,7 @@ pub(crate) fn attach(
     (body, anchor): (RigidBodyHandle, Vector3<f64>),
     AttachmentOptions { kind, gap }: AttachmentOptions,
 ) -> Result<AttachmentHandle, Error> {
-    if !world_mark::is_own(contents, world) {
-        return Err(Error::OtherWorld);
-    }
-    let rigid = world.bodies.get(body).ok_or(Error::NoBody(body))?;
-    if !anchor.iter().all(|x| x.is_finite()) {
-        return Err(Error::AnchorNotFinite { body, anchor });
-    }
-    check_free(contents, cable, at)?;
-    let existing = contents.cable(cable)?;
-    let point = existing.sample(existing.arc_length(at)?)?.position;
-    gap.check(existing, &point, &(vector(rigid.translation()) + rotation(*rigid.rotation()) * anchor))?;
+    let rigid = check(contents, world, (cable, at), (body, anchor), gap)?;
     let node = free_node(contents, cable, at)?;
     let attached = contents.cable_mut(cable)?;
     let arc_length = attached.node_arc_lengths()[node];
@@ -132,8 +122,30 @@ pub(crate) fn end_lost(
     drum::end_lost(contents, &world.bodies)
 }
 
+/// Checks that a point of a cable can be attached to a point of a body, and returns the body.
+pub(crate) fn check<'a>(
+    contents: &Contents,
+    world: &'a PhysicsWorld,
+    (cable, at): (CableHandle, At),
+    (body, anchor): (RigidBodyHandle, Vector3<f64>),
+    gap: Gap,
+) -> Result<&'a RigidBody, Error> {
+    if !world_mark::is_own(contents, world) {
+        return Err(Error::OtherWorld);
+    }
+    let rigid = world.bodies.get(body).ok_or(Error::NoBody(body))?;
+    if !anchor.iter().all(|x| x.is_finite()) {
+        return Err(Error::AnchorNotFinite { body, anchor });
+    }
+    check_free(contents, cable, at)?;
+    let existing = contents.cable(cable)?;
+    let point = existing.sample(existing.arc_length(at)?)?.position;
+    gap.check(existing, &point, &(vector(rigid.translation()) + rotation(*rigid.rotation()) * anchor))?;
+    Ok(rigid)
+}
+
 /// Checks that no attachment and no junction has the node at a point of a cable.
-pub(crate) fn check_free(contents: &Contents, cable: CableHandle, at: At) -> Result<(), Error> {
+fn check_free(contents: &Contents, cable: CableHandle, at: At) -> Result<(), Error> {
     let existing = contents.cable(cable)?;
     let Ok(node) = existing.node(at) else { return Ok(()) };
     let attached = contents.attachments.values().map(|a| (a.cable, a.node));

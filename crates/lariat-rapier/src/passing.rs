@@ -3,13 +3,12 @@
 use crate::attach;
 use crate::attachment::AttachmentKind;
 use crate::contents::Contents;
-use crate::convert::{rotation, vector};
+use crate::convert::vector;
 use crate::edit;
 use crate::error::Error;
 use crate::handle::{CableHandle, SheaveHandle};
 use crate::set::CableSet;
 use crate::sheave::{self, SheaveOptions};
-use crate::world_mark;
 use crate::{AttachmentOptions, Gap};
 use ::nalgebra::Vector3;
 use lariat_ancf::{At, Reel};
@@ -88,19 +87,9 @@ fn add(
     (body, anchor): (RigidBodyHandle, Vector3<f64>),
     options: SheaveOptions,
 ) -> Result<SheaveHandle, Error> {
-    if !world_mark::is_own(contents, world) {
-        return Err(Error::OtherWorld);
-    }
-    let rigid = world.bodies.get(body).ok_or(Error::NoBody(body))?;
-    if !anchor.iter().all(|x| x.is_finite()) {
-        return Err(Error::AnchorNotFinite { body, anchor });
-    }
-    attach::check_free(contents, cable, at)?;
-    let whole = contents.cable(cable)?;
-    let point = whole.sample(whole.arc_length(at)?)?.position;
-    Gap::default().check(whole, &point, &(vector(rigid.translation()) + rotation(*rigid.rotation()) * anchor))?;
+    attach::check(contents, world, (cable, at), (body, anchor), Gap::default())?;
     // what could fail below is tried on a copy
-    let mut before = whole.clone();
+    let mut before = contents.cable(cable)?.clone();
     let mut behind = before.cut(at)?;
     for (part, end) in [(&mut before, At::End), (&mut behind, At::Start)] {
         part.attach(end)?;

@@ -42,7 +42,7 @@ pub(crate) use equations::Equations;
 pub use flow::Sheave;
 pub(crate) use flow::{Flow, Law, Motor, MotorState, STOP, Source, Unknowns, Wheel, Winch, rates};
 pub(crate) use projection::{project_matrix, project_vector};
-pub(crate) use rigid_motion::{relative_velocities, solve as solve_semidefinite};
+pub(crate) use rigid_motion::{Modes, relative_velocities, solve as solve_semidefinite};
 
 use crate::cable::builder::STANDARD_GRAVITY;
 use crate::contact::StaticContact;

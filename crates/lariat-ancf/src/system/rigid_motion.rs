@@ -14,15 +14,15 @@
 use super::System;
 use crate::model::Model;
 use crate::support::SlopeSupport;
-use nalgebra::{SMatrix, SVector, Vector3};
+use nalgebra::{Matrix6, Vector3, Vector6};
 
 /// A pivot below this share of the largest is none: a straight cable has no inertia about its own axis.
 const LEAST_PIVOT: f64 = 1e-10;
 
 /// Translations and rotations about a point.
-struct Modes<'a> {
-    q: &'a [f64],
-    origin: Vector3<f64>,
+pub(crate) struct Modes<'a> {
+    pub q: &'a [f64],
+    pub origin: Vector3<f64>,
 }
 
 impl Modes<'_> {
@@ -34,6 +34,27 @@ impl Modes<'_> {
         }
         let arm = Vector3::from_column_slice(&self.q[i..i + 3]);
         Vector3::ith(k - 3, 1.0).cross(&if position { arm - self.origin } else { arm })
+    }
+
+    /// Adds the momenta of velocities `v` in the modes from `first` on, and the inertia of these; `momentum` and `mode` are buffers.
+    pub fn add_momenta(
+        &self,
+        system: &System,
+        (first, v): (usize, &[f64]),
+        [momentum, mode]: [&mut [f64]; 2],
+        (inertia, momenta): (&mut Matrix6<f64>, &mut Vector6<f64>),
+    ) {
+        let vectors = || (0..self.q.len()).step_by(3);
+        let inner = |k: usize, p: &[f64]| {
+            vectors().map(|i| self.at(k, i).dot(&Vector3::from_column_slice(&p[i..i + 3]))).sum::<f64>()
+        };
+        system.mass.multiply(system.level, v, momentum);
+        (first..6).for_each(|k| momenta[k] += inner(k, momentum));
+        for k in first..6 {
+            vectors().for_each(|i| mode[i..i + 3].copy_from_slice(self.at(k, i).as_slice()));
+            system.mass.multiply(system.level, mode, momentum);
+            (first..6).for_each(|j| inertia[(j, k)] += inner(j, momentum));
+        }
     }
 }
 
@@ -63,22 +84,8 @@ pub(crate) fn relative_velocities(
             return;
         }
     };
-    let inner = |k: usize, p: &[f64]| {
-        (0..q.len()).step_by(3).map(|i| modes.at(k, i).dot(&Vector3::from_column_slice(&p[i..i + 3]))).sum::<f64>()
-    };
-    let mut matrix = SMatrix::<f64, 6, 6>::identity();
-    let mut rhs = SVector::<f64, 6>::zeros();
-    system.mass.multiply(system.level, w, momentum);
-    (first..6).for_each(|k| rhs[k] = inner(k, momentum));
-    for k in first..6 {
-        for i in (0..q.len()).step_by(3) {
-            mode[i..i + 3].copy_from_slice(modes.at(k, i).as_slice());
-        }
-        system.mass.multiply(system.level, mode, momentum);
-        for j in first..6 {
-            matrix[(j, k)] = inner(j, momentum);
-        }
-    }
+    let (mut matrix, mut rhs) = (Matrix6::zeros(), Vector6::zeros());
+    modes.add_momenta(system, (first, &*w), [momentum, mode], (&mut matrix, &mut rhs));
     let c = solve(&mut matrix, rhs);
     for i in (0..q.len()).step_by(3) {
         let rigid: Vector3<f64> = (first..6).map(|k| modes.at(k, i) * c[k]).sum();
@@ -87,7 +94,7 @@ pub(crate) fn relative_velocities(
 }
 
 /// Solves a semi-definite system by L D L^T; what has no pivot stays zero.
-pub(crate) fn solve(a: &mut SMatrix<f64, 6, 6>, mut b: SVector<f64, 6>) -> SVector<f64, 6> {
+pub(crate) fn solve(a: &mut Matrix6<f64>, mut b: Vector6<f64>) -> Vector6<f64> {
     let diagonal = a.diagonal();
     let sound = |k: usize, pivot: f64| pivot > LEAST_PIVOT * diagonal[k];
     for k in 0..6 {
@@ -103,7 +110,7 @@ pub(crate) fn solve(a: &mut SMatrix<f64, 6, 6>, mut b: SVector<f64, 6>) -> SVect
             b[i] -= factor * b[k];
         }
     }
-    let mut x = SVector::<f64, 6>::zeros();
+    let mut x = Vector6::zeros();
     for k in (0..6).rev() {
         if sound(k, a[(k, k)]) {
             x[k] = (b[k] - (k + 1..6).map(|j| a[(k, j)] * x[j]).sum::<f64>()) / a[(k, k)];

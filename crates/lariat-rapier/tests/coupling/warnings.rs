@@ -5,16 +5,21 @@ use lariat_rapier::lariat_ancf::{At, Contact, Integrator, Method, Section, StepC
 use lariat_rapier::rapier::prelude::*;
 use lariat_rapier::{AttachmentKind, CableHandle, CableSet, Event, Gap, Warning};
 
-fn told(set: &mut CableSet, world: &mut PhysicsWorld, steps: usize) -> Vec<(CableHandle, CableWarning)> {
-    let mut told = Vec::new();
-    for _ in 0..steps {
+/// Runs a number of host steps, and returns all of their events.
+fn events(set: &mut CableSet, world: &mut PhysicsWorld, steps: usize) -> Vec<Event> {
+    let step = |_| {
         run(world, set, 1);
-        told.extend(set.take_events().into_iter().filter_map(|event| match event {
-            Event::Warning { cable, warning } => Some((cable, warning)),
-            _ => None,
-        }));
-    }
-    told
+        set.take_events()
+    };
+    (0..steps).flat_map(step).collect()
+}
+
+fn told(set: &mut CableSet, world: &mut PhysicsWorld, steps: usize) -> Vec<(CableHandle, CableWarning)> {
+    let warning = |event| match event {
+        Event::Warning { cable, warning } => Some((cable, warning)),
+        _ => None,
+    };
+    events(set, world, steps).into_iter().filter_map(warning).collect()
 }
 
 /// A load of 50 kg that swings on two elements and on twelve, on a cable that the load stretches by a tenth, and on one as thick as
@@ -185,15 +190,11 @@ fn shocks_and_gaps_of_attachments_are_told() {
         set.warnings(&world)
     );
     let opened = |set: &mut CableSet, world: &mut PhysicsWorld, steps| {
-        let mut opened = Vec::new();
-        for _ in 0..steps {
-            run(world, set, 1);
-            opened.extend(set.take_events().into_iter().filter_map(|event| match event {
-                Event::GapOpened { attachment, gap } => Some((attachment, gap)),
-                _ => None,
-            }));
-        }
-        opened
+        let gap = |event| match event {
+            Event::GapOpened { attachment, gap } => Some((attachment, gap)),
+            _ => None,
+        };
+        events(set, world, steps).into_iter().filter_map(gap).collect::<Vec<_>>()
     };
     assert_eq!(opened(&mut set, &mut world, 60), []);
     assert_eq!(set.open_gap(hook), Ok(None));

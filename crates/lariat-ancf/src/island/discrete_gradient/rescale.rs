@@ -18,9 +18,9 @@
 use super::IslandStep;
 use super::body::BodyStep;
 use super::coupled::coupled_product;
-use crate::integrate::discrete_gradient::{Balance, share_to_take};
+use crate::integrate::discrete_gradient::{Balance, Buffers, share_to_take};
 use crate::island::hold::vector;
-use crate::system::{CableStep, dot, solve_semidefinite as solve};
+use crate::system::{CableStep, Modes, dot, solve_semidefinite as solve};
 use nalgebra::{Matrix6, Vector3, Vector6};
 
 /// Share of a velocity by which two that are the same may differ: bodies of an engine in single precision.
@@ -122,7 +122,7 @@ fn rigid_motion(island: &mut IslandStep<'_, '_>) -> RigidMotion {
         }
     }
     common.unwrap_or_else(|| {
-        let reels = island.cables.iter_mut().any(|cable| !cable.step_parts().equations.system.flows.is_empty());
+        let reels = island.cables.iter().any(|cable| !cable.system.flows.is_empty());
         if reels || island.buffers.bodies.iter().any(BodyStep::carries) {
             RigidMotion { velocity: mean_velocity(island), ..RigidMotion::default() }
         } else {
@@ -135,29 +135,17 @@ fn rigid_motion(island: &mut IslandStep<'_, '_>) -> RigidMotion {
 fn projection(island: &mut IslandStep<'_, '_>) -> RigidMotion {
     let (mut matrix, mut momenta) = (Matrix6::zeros(), Vector6::zeros());
     let centre = island.buffers.bodies.first().map_or_else(Vector3::zeros, |body| body.position + body.displacement());
-    let turning = |k: usize, arm: Vector3<f64>| Vector3::ith(k - 3, 1.0).cross(&arm);
     for cable in island.cables.iter_mut() {
-        let CableStep { equations, state, buffers: b } = cable.step_parts();
-        let (system, change) = (&*equations.system, &b.change);
-        let at = |i: usize| vector(&state.q[i..]) + vector(&change[i..]);
-        let mode = |k: usize, i: usize| match (k < 3, i.is_multiple_of(6)) {
-            (true, true) => Vector3::ith(k, 1.0),
-            (true, false) => Vector3::zeros(),
-            (false, true) => turning(k, at(i) - centre),
-            (false, false) => turning(k, at(i)),
-        };
-        let vectors = || (0..change.len()).step_by(3);
-        let inner = |k: usize, p: &[f64]| vectors().map(|i| mode(k, i).dot(&vector(&p[i..]))).sum::<f64>();
+        let CableStep { equations, state, buffers } = cable.step_parts();
+        // the other buffers are free now
+        let Buffers { velocity_change, change, rhs, external, product, taken, .. } = &mut *buffers;
         for i in 0..change.len() {
-            b.external[i] = state.v[i] + b.velocity_change[i];
+            rhs[i] = state.v[i] + velocity_change[i];
         }
-        system.mass.multiply(system.level, &b.external, &mut b.product);
-        (0..6).for_each(|k| momenta[k] += inner(k, &b.product));
-        for k in 0..6 {
-            vectors().for_each(|i| b.external[i..i + 3].copy_from_slice(mode(k, i).as_slice()));
-            system.mass.multiply(system.level, &b.external, &mut b.product);
-            (0..6).for_each(|j| matrix[(j, k)] += inner(j, &b.product));
-        }
+        taken.clear();
+        taken.extend(state.q.iter().zip(&*change).map(|(q, change)| q + change));
+        let modes = Modes { q: taken, origin: centre };
+        modes.add_momenta(equations.system, (0, rhs), [product, external], (&mut matrix, &mut momenta));
     }
     for body in &island.buffers.bodies {
         for k in 0..6 {

@@ -85,8 +85,7 @@ impl IslandStep<'_, '_> {
             }
             let (level, factors) = (equations.system.level, &equations.system.step.factorisation);
             own.condensed.expand(level, factors, &own.at_bodies, rhs);
-            for hold in &own.holds {
-                let moved = hold.moved(rows);
+            for (hold, moved) in own.holds.iter().zip(own.at_bodies.chunks_exact(3)) {
                 for x in 0..3 {
                     // a slope is free along its direction
                     let along = if hold.slope { buffers.rhs[hold.at + x] } else { 0.0 };
