@@ -8,7 +8,7 @@ use crate::event::{CableBroken, CableFailed};
 use crate::interpolate::Interpolate;
 use crate::junction::Junction;
 use crate::sheave::Sheave;
-use bevy_ecs::component::Component;
+use crate::strength::{BreakStrain, BreakTension};
 use bevy_ecs::entity::Entity;
 use bevy_ecs::entity_disabling::Disabled;
 use bevy_ecs::name::Name;
@@ -16,19 +16,6 @@ use bevy_ecs::prelude::{Changed, Or, Query, RemovedComponents, ResMut, With, Wor
 use bevy_ecs::query::Allow;
 use lariat_ancf::{At, Strength};
 use lariat_rapier::CableHandle;
-
-/// The tension in N above which a cable breaks, compared after each host step; without it nothing
-/// is compared.
-///
-/// The cable breaks at the inner node nearest to the largest tension. The part behind the break is a
-/// new entity with the same components, and takes the attachments behind the break. A limit that is
-/// not positive, or on a cable of one element, is an error: [`CableFailed`](crate::event::CableFailed).
-#[derive(Component, Clone, Copy, Debug, PartialEq)]
-pub struct BreakTension(pub f64);
-
-/// The strain (stretch over rest stretch less 1) above which a cable breaks, as [`BreakTension`] says.
-#[derive(Component, Clone, Copy, Debug, PartialEq)]
-pub struct BreakStrain(pub f64);
 
 /// The limits of a cable.
 type Limits = (Option<&'static BreakTension>, Option<&'static BreakStrain>);

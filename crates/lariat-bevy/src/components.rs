@@ -4,11 +4,11 @@
 //! [`Bending`], [`PointLoads`], [`Reel`], [`ReelAtStart`], [`Drum`], [`BreakTension`] and [`BreakStrain`]. Building, updating, breaking, snapshots, change detection and
 //! reflection all use [`CableComponents`], so a new effect needs no further line in this crate.
 
-use crate::breaking::{BreakStrain, BreakTension};
 use crate::description::Description;
 use crate::drum::{Drum, is_of_island};
 use crate::effects::*;
 use crate::reel::{Reel, ReelAtStart};
+use crate::strength::{BreakStrain, BreakTension};
 use bevy_ecs::component::Component;
 use bevy_ecs::entity::Entity;
 use bevy_ecs::query::{Changed, Or};

@@ -101,13 +101,13 @@ mod schedule;
 mod sheave;
 mod snapshot;
 mod step;
+mod strength;
 
 pub use attachment::{
     Attachment, AttachmentDraft, AttachmentReading, BodyAttachments, BreakForce, CableAttachments, OnCable, ToBody,
     ToBodyBundle, ToWorldBundle,
 };
 pub use body::{Bodies, Body, BodyHandle, BodyPose, KinematicTarget};
-pub use breaking::{BreakStrain, BreakTension};
 pub use cable::Cable;
 pub use cables::Cables;
 pub use clock::{FixedClock, advance};
@@ -128,3 +128,4 @@ pub use rope::SpawnRope;
 pub use schedule::{AfterEngine, BeforeEngine, CableStep, CableSystems, RapierStep};
 pub use sheave::Sheave;
 pub use snapshot::Snapshot;
+pub use strength::{BreakStrain, BreakTension};

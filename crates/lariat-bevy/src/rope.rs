@@ -1,10 +1,10 @@
 //! The usual rope between two points, spawned in one call.
 
 use crate::attachment::Attachment;
-use crate::breaking::BreakTension;
 use crate::cable::Cable;
 use crate::description::Description;
 use crate::effects::{Bending, Damping};
+use crate::strength::BreakTension;
 use bevy_ecs::entity::Entity;
 use bevy_ecs::name::Name;
 use bevy_ecs::system::Commands;

@@ -22,7 +22,7 @@ use crate::axial::projected;
 use crate::bending::regularisation::RegularisedPower;
 use crate::effect::acts::SampledPoint;
 use crate::element::flow::flow_weights;
-use crate::element::kernel::gram_rates;
+use crate::element::gram::gram_rates;
 use crate::element::shape;
 use crate::error::Error;
 use nalgebra::Vector3;

@@ -182,7 +182,7 @@ fn meets(z0: &Vector3<f64>, z1: &Vector3<f64>, l0: f64, reach: f64) -> Option<Ve
 
 #[cfg(test)]
 mod tests {
-    use super::super::obstacle::RigidMotion;
+    use super::super::rigid_motion::RigidMotion;
     use super::*;
     use nalgebra::UnitQuaternion;
 

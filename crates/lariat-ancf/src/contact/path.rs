@@ -20,25 +20,11 @@
 //!
 //! Gonzalez, J. Nonlinear Sci. 6 (1996) 449 (discrete gradients of invariants); Simo & Wong, IJNME 31 (1991) 19.
 
-use super::obstacle::{Mount, RigidMotion};
+use super::rigid_motion::{Mount, Pose, RigidMotion};
 use nalgebra::{Matrix3, Quaternion, UnitQuaternion, Vector3};
 
 /// Largest half angle in rad of a prescribed turn in a step of which friction sees the size: the Cayley map has no half turns.
 const MAX_HALF_TURN: f64 = 1.2;
-
-/// Place and axes at a time.
-#[derive(Clone, Copy, Debug)]
-pub(in crate::contact) struct Pose {
-    pub position: Vector3<f64>,
-    pub rotation: Matrix3<f64>,
-}
-
-impl Pose {
-    /// Returns a point of the world in the body's axes.
-    pub fn own(&self, x: &Vector3<f64>) -> Vector3<f64> {
-        self.rotation.tr_mul(&(x - self.position))
-    }
-}
 
 /// The motion of a body of the island over a step.
 #[derive(Clone, Copy, Debug)]

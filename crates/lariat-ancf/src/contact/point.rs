@@ -287,8 +287,8 @@ pub(in crate::contact) fn combine(q: &[f64], element: usize, shape: &[f64; 4]) -
 
 #[cfg(test)]
 mod tests {
-    use super::super::obstacle::{Mount, RigidMotion};
     use super::super::path::BodyPath;
+    use super::super::rigid_motion::{Mount, RigidMotion};
     use super::*;
     use nalgebra::UnitQuaternion;
 

@@ -59,6 +59,20 @@ pub fn gram<T: Real>(d: &Control<T>) -> Six<T> {
     [dot(&d[0], &d[0]), dot(&d[0], &d[1]), dot(&d[0], &d[2]), dot(&d[1], &d[1]), dot(&d[1], &d[2]), dot(&d[2], &d[2])]
 }
 
+/// Rates of the Gram numbers: `g'_ij = d_i . v_j + v_i . d_j`.
+#[inline(always)]
+pub fn gram_rates<T: Real>(d: &Control<T>, v: &Control<T>) -> Six<T> {
+    // no closures: the compiler does not inline them into a function of another SIMD level
+    [
+        dot(&d[0], &v[0]) * PAIR_WEIGHT[0],
+        dot(&d[0], &v[1]) + dot(&v[0], &d[1]),
+        dot(&d[0], &v[2]) + dot(&v[0], &d[2]),
+        dot(&d[1], &v[1]) * PAIR_WEIGHT[0],
+        dot(&d[1], &v[2]) + dot(&v[1], &d[2]),
+        dot(&d[2], &v[2]) * PAIR_WEIGHT[0],
+    ]
+}
+
 /// Gradient of the energy with respect to the control vectors: `sum_j n_ij d_j`.
 #[inline(always)]
 pub fn gradient<T: Real>(n: &Six<T>, d: &Control<T>) -> Control<T> {

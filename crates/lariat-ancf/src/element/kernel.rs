@@ -10,7 +10,7 @@
 //!
 //! Any element state. Generic over [`Real`]: one element in `f64` or in dual numbers, eight in lanes.
 
-use super::gram::{Control, PAIR_WEIGHT, Six, Upper, dot, gradient, gram, hessian_block};
+use super::gram::{Control, Six, Upper, gradient, gram, gram_rates, hessian_block};
 use super::step::ElementStep;
 use crate::Real;
 use crate::axial::AxialTable;
@@ -244,18 +244,4 @@ impl<T: Real> Gradient<T> {
         }
         force
     }
-}
-
-/// Rates of the Gram numbers: `g'_ij = d_i . v_j + v_i . d_j`.
-#[inline(always)]
-pub(crate) fn gram_rates<T: Real>(d: &Control<T>, v: &Control<T>) -> Six<T> {
-    // no closures: the compiler does not inline them into a function of another SIMD level
-    [
-        dot(&d[0], &v[0]) * PAIR_WEIGHT[0],
-        dot(&d[0], &v[1]) + dot(&v[0], &d[1]),
-        dot(&d[0], &v[2]) + dot(&v[0], &d[2]),
-        dot(&d[1], &v[1]) * PAIR_WEIGHT[0],
-        dot(&d[1], &v[2]) + dot(&v[1], &d[2]),
-        dot(&d[2], &v[2]) * PAIR_WEIGHT[0],
-    ]
 }

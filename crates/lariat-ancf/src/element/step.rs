@@ -27,8 +27,7 @@
 //!
 //! Gonzalez, J. Nonlinear Sci. 6 (1996) 449, and CMAME 190 (2000) 1763; Simo & Tarnow, ZAMP 43 (1992) 757; Dahlquist, BIT 18 (1978) 384.
 
-use super::gram::{Control, Six, dot, gram};
-use super::kernel::gram_rates;
+use super::gram::{Control, Six, dot, gram, gram_rates};
 use crate::Real;
 
 /// Gram numbers of the straight unstretched element.

@@ -22,7 +22,7 @@
 //! A smaller tolerance of the residual: it is below rounding where the cable is stiff.
 
 use super::attempt::{Budget, largest_change};
-use super::pseudo_transient::Minimisation;
+use super::pseudo_transient::{Minimisation, Polished};
 use super::scale::largest_force;
 use crate::linalg::Definiteness;
 use crate::system::project_vector;
@@ -35,16 +35,6 @@ const ROUNDING: f64 = 1e-6;
 const MAX_STAGNATIONS: usize = 3;
 /// Change of slopes below which no further increment is needed: the next one is its square.
 const CONVERGED: f64 = 1e-12;
-
-/// The outcome.
-pub(super) enum Polished {
-    /// The increments are rounding; with the residual in N.
-    Converged(f64),
-    /// K is not positive definite.
-    Indefinite,
-    /// The increments did not fall; the shape is as it was.
-    Failed,
-}
 
 impl Minimisation<'_> {
     /// Improves `q` until the increments of Newton's method are rounding.

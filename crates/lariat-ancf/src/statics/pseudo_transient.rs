@@ -19,9 +19,7 @@
 //! Kelley & Keyes 1998 (pseudo-transient continuation); Rockafellar 1976 (proximal point).
 
 use super::attempt::{Budget, EquilibriumReport, Failure, MAX_SLOPE_CHANGE, largest_change};
-use super::polish::Polished;
 use super::potential::{moment_work, potential};
-use super::saddle::Saddle;
 use super::scale::{LoadScale, largest_force};
 use crate::cable::Cable;
 use crate::error::StepFailure;
@@ -50,6 +48,25 @@ enum Step {
     Accepted { energy: f64, residual: f64 },
     /// Rejected: mu must grow.
     Rejected,
+}
+
+/// The outcome of [`Minimisation::polish`].
+pub(super) enum Polished {
+    /// The increments are rounding; with the residual in N.
+    Converged(f64),
+    /// K is not positive definite.
+    Indefinite,
+    /// The increments did not fall; the shape is as it was.
+    Failed,
+}
+
+/// An equilibrium that was left, to return to if no lower one is found.
+pub(super) struct Saddle {
+    pub q: Vec<f64>,
+    /// Potential energy in J.
+    pub energy: f64,
+    /// Residual in N.
+    pub residual: f64,
 }
 
 /// The iteration at a share `load` of the point loads.

@@ -33,15 +33,6 @@ const NEGATIVE: f64 = -1e-6;
 /// Growth of mu.
 const GROWTH: f64 = 4.0;
 
-/// An equilibrium that was left, to return to if no lower one is found.
-pub(super) struct Saddle {
-    pub q: Vec<f64>,
-    /// Potential energy in J.
-    pub energy: f64,
-    /// Residual in N.
-    pub residual: f64,
-}
-
 impl Minimisation<'_> {
     /// Displaces `q` along its softest mode, and returns whether it has one of negative stiffness.
     pub(super) fn leave_saddle(&mut self, q: &mut [f64], budget: &mut Budget) -> bool {

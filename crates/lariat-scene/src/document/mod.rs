@@ -15,9 +15,11 @@ mod resolve;
 pub use path::KeyPath;
 
 use crate::error::{Error, Place, Problem, SceneError};
-use crate::schema::Table;
+use crate::schema::{ANY, Table};
 use crate::suggest::nearest;
+use lariat_ancf::Vector3;
 use path::Step;
+use serde::de::DeserializeOwned;
 use std::fmt::Write as _;
 use std::ops::Range;
 use toml::Spanned;
@@ -112,6 +114,19 @@ impl<'t> Document<'t> {
     /// Returns the error that the value at a path does not agree with the rest of the scene, in words.
     pub fn conflict(&self, path: &KeyPath, problem: impl Into<String>) -> Error {
         self.error(path, Problem::Conflict(problem.into()))
+    }
+
+    /// Reads the value at a path into a type.
+    pub fn typed<T: DeserializeOwned>(&self, path: &KeyPath, value: toml::Value) -> Result<T, Error> {
+        value.try_into().map_err(|error: toml::de::Error| self.conflict(path, error.message()))
+    }
+
+    /// Checks that the vector at a path stays finite in the single precision of Rapier.
+    pub fn check_single(&self, path: &KeyPath, vector: &Vector3<f64>) -> Result<(), Error> {
+        match vector.iter().find(|x| !ANY.single().contains(**x)) {
+            Some(x) => Err(self.error(path, Problem::BeyondSingle(*x))),
+            None => Ok(()),
+        }
     }
 
     /// Returns the error that a required key is missing.

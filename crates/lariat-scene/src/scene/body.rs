@@ -223,7 +223,7 @@ fn inertia(doc: &Document<'_>, at: &KeyPath, moments: Option<[f64; 3]>) -> Resul
 fn path(doc: &Document<'_>, at: &KeyPath, rows: &[[f64; 4]]) -> Result<Vec<(f64, Vector3<f64>)>, Error> {
     let row = |&[t, x, y, z]: &[f64; 4]| {
         let position = Vector3::new(x, y, z);
-        super::references::single(doc, at, &position)?;
+        doc.check_single(at, &position)?;
         Ok((t, position))
     };
     rows.iter().map(row).collect()

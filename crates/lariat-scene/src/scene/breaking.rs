@@ -1,6 +1,5 @@
 //! `[cable.break]`: when a cable becomes two.
 
-use super::effects::typed;
 use super::references::{Position, arc_length};
 use crate::document::{Document, KeyPath};
 use crate::error::{Error, Problem};
@@ -50,7 +49,7 @@ pub(super) fn read(
 ) -> Result<BreakScene, Error> {
     let at = at.key(BREAK.name);
     let Some(value) = rows.remove(BREAK.name) else { return Ok(BreakScene::default()) };
-    let table: BreakTable = typed(doc, &at, value)?;
+    let table: BreakTable = doc.typed(&at, value)?;
     let strength = Strength { tension: table.tension, strain: table.strain };
     if strength.is_limited() && elements < 2 {
         let problem = Problem::Conflict("a cable of one element has no inner node to break at".to_string());

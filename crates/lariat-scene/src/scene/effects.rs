@@ -12,7 +12,6 @@ use lariat_ancf::{
     BendingRule, Buoyancy, Contact, Damping, Drag, Effects, GravityScale, LineLoad, LineLoads, RestPiece, RestShape,
     RopeKind, Rule, Section, for_each_effect,
 };
-use serde::de::DeserializeOwned;
 use toml::Value;
 
 /// What effects need to know of their cable.
@@ -76,14 +75,9 @@ fn one<T: SceneEffect>(
         return Ok(None);
     };
     T::write_out(doc, at, &mut value, cable)?;
-    let effect: T = typed(doc, at, value)?;
+    let effect: T = doc.typed(at, value)?;
     SceneEffect::check(&effect, doc, at, cable)?;
     Ok(Some(effect))
-}
-
-/// Reads a value into a type.
-pub(super) fn typed<T: DeserializeOwned>(doc: &Document<'_>, at: &KeyPath, value: Value) -> Result<T, Error> {
-    value.try_into().map_err(|error: toml::de::Error| doc.conflict(at, error.message()))
 }
 
 table! {
@@ -106,7 +100,7 @@ impl SceneEffect for Damping {
     const WITHOUT: &'static str = "off";
 
     fn write_out(doc: &Document<'_>, at: &KeyPath, value: &mut Value, cable: &Context<'_>) -> Result<(), Error> {
-        let DampingTable { axial, bending, rope } = typed(doc, at, value.clone())?;
+        let DampingTable { axial, bending, rope } = doc.typed(at, value.clone())?;
         let mut damping = Damping { axial: axial.unwrap_or(0.0), bending: bending.unwrap_or(0.0) };
         if let Some(rope) = rope {
             for (key, given) in [("axial", axial), ("bending", bending)] {
@@ -222,7 +216,7 @@ impl SceneEffect for RestShape {
     const WITHOUT: &'static str = "straight and unstretched";
 
     fn write_out(doc: &Document<'_>, at: &KeyPath, value: &mut Value, _: &Context<'_>) -> Result<(), Error> {
-        let RestShapeTable { stretch, curvature, mut piece } = typed(doc, at, value.clone())?;
+        let RestShapeTable { stretch, curvature, mut piece } = doc.typed(at, value.clone())?;
         if stretch.is_some() || curvature.is_some() {
             if !piece.is_empty() {
                 return Err(doc.conflict(&at.key("piece"), "both pieces and numbers of the whole cable are given"));
@@ -322,7 +316,7 @@ impl ContactTable {
 /// Returns whether the cable of a row is to touch cables, others or itself.
 pub(super) fn touches_cables(doc: &Document<'_>, at: &KeyPath, row: &toml::Table) -> Result<bool, Error> {
     let Some(value) = row.get("contact") else { return Ok(false) };
-    let table: ContactTable = typed(doc, at, value.clone())?;
+    let table: ContactTable = doc.typed(at, value.clone())?;
     Ok(table.cables() || table.itself())
 }
 
@@ -331,7 +325,7 @@ impl SceneEffect for Contact {
     const WITHOUT: &'static str = "off";
 
     fn write_out(doc: &Document<'_>, at: &KeyPath, value: &mut Value, _: &Context<'_>) -> Result<(), Error> {
-        let table: ContactTable = typed(doc, at, value.clone())?;
+        let table: ContactTable = doc.typed(at, value.clone())?;
         let (cables, itself) = (table.cables(), table.itself());
         let ContactTable { radius, stiffness, friction, .. } = table;
         *value = Value::try_from(Contact { radius, stiffness, friction, cables, itself })

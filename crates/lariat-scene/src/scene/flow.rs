@@ -1,6 +1,5 @@
 //! `flow`: the velocity of a fluid, by three numbers or by a table with a profile in height and a history in time.
 
-use super::effects::typed;
 use crate::document::{Document, KeyPath};
 use crate::error::Error;
 use crate::schema::{Default, Key, Kind, NOT_NEGATIVE, POSITIVE, VECTOR, table};
@@ -64,14 +63,14 @@ pub(super) fn write_out(doc: &Document<'_>, at: &KeyPath, value: &mut Value) -> 
     };
     if let Some(profile) = flow.get("profile") {
         let at = at.key("profile");
-        check_up(doc, &at, &typed::<Profile>(doc, &at, profile.clone())?.up)?;
+        check_up(doc, &at, &doc.typed::<Profile>(&at, profile.clone())?.up)?;
     }
     let Some(law) = flow.remove("power_law") else { return Ok(()) };
     if flow.contains_key("profile") {
         return Err(doc.conflict(&at.key("profile"), "both profile and power_law are given"));
     }
     let at = at.key("power_law");
-    let PowerLawTable { up, reference, exponent, top } = typed(doc, &at, law)?;
+    let PowerLawTable { up, reference, exponent, top } = doc.typed(&at, law)?;
     check_up(doc, &at, &up)?;
     let profile = Flow::power_law(Vector3::zeros(), up, reference, exponent, top).profile;
     if !profile.iter().flat_map(|profile| &profile.rows).flatten().all(|x| x.is_finite()) {

@@ -2,7 +2,7 @@
 
 use super::Scene;
 use super::body::BodyKind;
-use super::references::{Position, body, cable, point, single};
+use super::references::{Position, body, cable, point};
 use crate::document::{Document, KeyPath};
 use crate::error::{Error, Problem};
 use crate::schema::{Choose, Kind, NOT_NEGATIVE, POSITION, VECTOR, table};
@@ -73,7 +73,7 @@ pub(super) fn read(doc: &Document<'_>, scene: &mut Scene, i: usize, row: LoadTab
         }
         let point = row.point.unwrap_or_default();
         for (key, vector) in [("point", &point), ("force", &force), ("moment", &moment)] {
-            single(doc, &at.key(key), vector)?;
+            doc.check_single(&at.key(key), vector)?;
         }
         scene.body_loads.push(BodyLoadScene { body, point, force, moment, ramp });
         return Ok(());

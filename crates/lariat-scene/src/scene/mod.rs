@@ -146,7 +146,7 @@ pub struct Scene {
 /// Checks the values of a document against each other; `fallback` names a scene without name, and files are named from `folder`.
 pub(crate) fn check(doc: &Document<'_>, fallback: &str, folder: &Path, purpose: Purpose) -> Result<Scene, Error> {
     let root = KeyPath::default();
-    let table: SceneTable = effects::typed(doc, &root, toml::Value::Table(doc.resolve()?))?;
+    let table: SceneTable = doc.typed(&root, toml::Value::Table(doc.resolve()?))?;
     let engine = engine(doc, &table)?;
     let duration = match (table.duration, purpose) {
         (Some(duration), _) => duration,
@@ -161,7 +161,7 @@ pub(crate) fn check(doc: &Document<'_>, fallback: &str, folder: &Path, purpose: 
         if f64::from(dt as f32) < f64::from(f32::MIN_POSITIVE) * 1e3 {
             return Err(doc.conflict(&root.key("dt"), format!("{dt} s is too short for Rapier, in single precision")));
         }
-        references::single(doc, &root.key("gravity"), &table.gravity)?;
+        doc.check_single(&root.key("gravity"), &table.gravity)?;
     }
     if table.cable.is_empty() {
         return Err(doc.missing(&root.key("cable")));

@@ -1,7 +1,6 @@
 //! `[cable.reel]`: a winch or a drum at the end of a cable.
 
 use super::body::BodyKind;
-use super::effects::typed;
 use super::references::body;
 use super::{Scene, integrator};
 use crate::document::{Document, KeyPath};
@@ -104,7 +103,7 @@ pub(super) const REEL: Key = Key {
 pub(super) fn read(doc: &Document<'_>, at: &KeyPath, rows: &mut toml::Table) -> Result<Option<Written>, Error> {
     let Some(value) = rows.remove(REEL.name) else { return Ok(None) };
     let at = at.key(REEL.name);
-    let ReelTable { end, rate, drum, acceleration, stock, max_force, inertia, feed } = typed(doc, &at, value)?;
+    let ReelTable { end, rate, drum, acceleration, stock, max_force, inertia, feed } = doc.typed(&at, value)?;
     if drum.is_some() {
         for key in ["acceleration", "max_force", "feed"].map(|key| at.key(key)) {
             if doc.contains(&key) {

@@ -3,8 +3,7 @@
 use super::Scene;
 use crate::document::{Document, KeyPath};
 use crate::error::{Error, Problem};
-use crate::schema::{ANY, choice};
-use lariat_ancf::Vector3;
+use crate::schema::choice;
 use serde::Deserialize;
 
 choice! {
@@ -105,12 +104,4 @@ pub(super) fn unique<'n>(
         return Err(doc.error(&at.key("name"), Problem::NameTaken(name.to_string())));
     }
     Ok(())
-}
-
-/// Checks that a vector stays finite in the single precision of Rapier.
-pub(super) fn single(doc: &Document<'_>, at: &KeyPath, vector: &Vector3<f64>) -> Result<(), Error> {
-    match vector.iter().find(|x| !ANY.single().contains(**x)) {
-        Some(x) => Err(doc.error(at, Problem::BeyondSingle(*x))),
-        None => Ok(()),
-    }
 }

@@ -1,8 +1,8 @@
 //! One contact of two cables over a step: its frame, its slip, and its forces on both.
 
-use super::super::obstacle::Mount;
 use super::super::path::{BodyPath, ObstacleStep};
 use super::super::point::{ContactPoint, combine};
+use super::super::rigid_motion::Mount;
 use super::Strand;
 use nalgebra::{Matrix3, UnitQuaternion, Vector3};
 

@@ -20,10 +20,8 @@ use crate::Real;
 use crate::bending::Bending;
 use crate::bending::t1::RHO;
 use crate::effect::tables::ElementTables;
-use crate::element::gram::{Control, PAIR_WEIGHT, Six, contract, form, gradient, gram, hessian_block};
-use crate::element::kernel::{
-    DiscreteGradientForce, Gradient, GramForce, GramStep, Hessian, Load, Stiffness, gram_rates,
-};
+use crate::element::gram::{Control, PAIR_WEIGHT, Six, contract, form, gradient, gram, gram_rates, hessian_block};
+use crate::element::kernel::{DiscreteGradientForce, Gradient, GramForce, GramStep, Hessian, Load, Stiffness};
 use crate::element::step::{ElementStep, STRAIGHT, combined, product, scaled, shifted};
 use crate::integrate::discrete_gradient::{ALPHA, BETA};
 use crate::linalg::Block;
