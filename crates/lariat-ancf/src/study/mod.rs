@@ -9,7 +9,7 @@
 //!   of their element lengths, found on the meshes themselves. The order p is 1: the whole difference of a mesh and its half. Where the last two
 //!   distances or the [mesh indicator](crate::Cable::mesh_indicator) of both runs show less than the first order, it is what they show, at least 1/4.
 //!   It is 2/3 at most with two meshes alone of a motion, where [velocities jump](Record::velocities_jump), and for an equilibrium that is held between the ends of a cable;
-//!   for one that is smooth there it is what both show, up to 2, with two meshes what the indicator shows, and then the claim is at least four times
+//!   for one that is smooth there it is what both show, up to 2, with two meshes what the indicator shows, as far as the claim is at least four times
 //!   the indicator of the finer one;
 //! - `e_time` from runs at `8 tau` and `tau` or, where the host step limits their steps, from one in shorter equal steps: see `time`.
 //!
@@ -219,8 +219,14 @@ impl<F> Study<F> {
             let factor = if refined { order::factor(&differences, indicated, largest) } else { f64::INFINITY };
             // an order that no distances show is believed as far as the indicator agrees with the claim
             let believed = differences.len() == 1 && largest > order::KINKS;
-            let least = if believed { fine.record.indicated_error() } else { 0.0 };
-            let mesh = if refined { (factor * difference).max(least) } else { f64::INFINITY };
+            let mesh = match refined {
+                true if believed => {
+                    let of_waves = order::factor(&differences, indicated, order::KINKS) * difference;
+                    (factor * difference).max(fine.record.indicated_error()).min(of_waves)
+                }
+                true => factor * difference,
+                false => f64::INFINITY,
+            };
             let apart = coarse.record.first_beyond(&fine.record, left / factor);
             let early = span.is_none_or(|span| apart.is_some_and(|time| time <= 0.1 * span.steps * span.host_step));
             let growth = if refined { order::growth(&differences, left, early) } else { 1.5 };
