@@ -6,7 +6,8 @@
 //! M dv = M J
 //! ```
 //!
-//! dv is the change of all velocities, J the velocity of the pinned nodes relative to their bodies.
+//! dv is the change of all velocities, J the velocity of the pinned nodes relative to their bodies. The impulses P on the pinned nodes lose the energy
+//! `-sum P . J / 2`: their work is that along the mean of the relative velocities before, J, and after, none.
 //!
 //! An inelastic impact: cable and body exchange the impulse that makes them move together, so that
 //! momentum is conserved when an engine, a user or a collision has changed a body's velocity.
@@ -69,13 +70,17 @@ impl IslandDynamics<'_, '_> {
         }
         equations.multiply_mass(z, velocity);
         accounts.add_impact(equations.layout, q, v, rhs, velocity);
-        // what sets driven nodes in motion, or stops them, is work of the bodies that drive them
+        // what sets driven nodes in motion, or stops them, is work of the bodies that drive them; others lose it
         let layout = equations.layout;
-        for (pin, of) in layout.pins.iter().enumerate().filter(|(_, pin)| layout.bodies[pin.body].is_driven()) {
+        for (pin, of) in layout.pins.iter().enumerate() {
             let at = layout.pin_at(pin);
             let rows = if layout.clamps[pin].is_some() { at..at + 6 } else { at..at + 3 };
-            let work: f64 = rows.map(|i| velocity[i] * (v[i] + 0.5 * (jump[i] + rhs[i]))).sum();
-            equations.cables[of.cable].equations().0.system.meter.law.supports += work;
+            let law = &mut equations.cables[of.cable].equations().0.system.meter.law;
+            if layout.bodies[of.body].is_driven() {
+                law.supports += rows.map(|i| velocity[i] * (v[i] + 0.5 * (jump[i] + rhs[i]))).sum::<f64>();
+            } else {
+                law.impacts -= 0.5 * rows.map(|i| velocity[i] * jump[i]).sum::<f64>();
+            }
         }
         // the chart is at its origin: rates of the rotation vector are angular velocities
         for (v, change) in v.iter_mut().zip(rhs.iter()) {

@@ -122,13 +122,20 @@ impl Record {
     }
 
     /// Returns the largest order of convergence that the motion, or the equilibrium, allows after a number of distances between meshes, of which one
-    /// shows no order; `seen` is the least that distances and indicator both show.
+    /// shows no order; `seen` is the least that distances and indicator both show, of one distance that of the indicator.
     pub(super) fn largest_order(&self, equilibrium: bool, distances: usize, seen: Option<f64>) -> f64 {
+        let smooth = equilibrium && !self.held && !self.kinked && !self.jumps;
         match seen {
+            Some(seen) if smooth && distances == 1 => seen.clamp(order::KINKS, order::SMOOTH),
             _ if distances == 1 || self.jumps || equilibrium && self.held => order::KINKS,
-            Some(seen) if equilibrium && !self.kinked => seen.clamp(1.0, order::SMOOTH),
+            Some(seen) if smooth => seen.clamp(1.0, order::SMOOTH),
             _ => 1.0,
         }
+    }
+
+    /// Returns what the mesh indicator allows to claim of an equilibrium, in m: the most by which it was found to fall below the error.
+    pub(super) fn indicated_error(&self) -> f64 {
+        order::INDICATED * self.indicator
     }
 
     /// Returns the largest distance between the points of two runs at a frame in m; infinite if they have not the same parts, or are not

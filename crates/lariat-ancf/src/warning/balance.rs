@@ -9,7 +9,8 @@
 //! ```
 //!
 //! The work on one cable is that of its effects, loads, supports and reels. A cable that exchanges energy with dynamic bodies or other cables has
-//! no balance of its own; a run of a scene has one of everything. Energy made above 1e-3 S, or lost above 1e-2 S, beyond what rounding may account for, is worth a warning.
+//! the balance of all that moves together with it, its island, of which the first cable tells ([`IslandChange`]); a run of a scene has one of everything.
+//! Energy made above 1e-3 S, or lost above 1e-2 S, beyond what rounding may account for, is worth a warning.
 //!
 //! # Validity
 //!
@@ -56,8 +57,9 @@ pub struct EnergyBalance {
     /// Energy of the run in J, to compare with: the largest of kinetic energy, changes of strain energy and of that of gravity, dissipated
     /// energy, work, all weight times 1 mm, and the energy of a strain of 1e-6 of all cables.
     pub scale_j: f64,
-    /// Rounding errors in J that the balance may have: of the energies, which are differences, and of the positions of bodies in single
-    /// precision, by which the forces of cables do work in every step.
+    /// Errors in J that the balance may have: rounding of the energies, which are differences, and of the positions of bodies in single
+    /// precision, by which the forces of cables do work in every step; and in steps that do not resolve the motion, of the quadrature of what damping
+    /// and drag take.
     pub rounding_j: f64,
     /// Energy that damping and drag took in J.
     pub dissipated_j: f64,
@@ -131,26 +133,125 @@ impl EnergyBalance {
     }
 }
 
-/// The balance of one cable.
+/// The balance of one cable, or of the island of which it is the first.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub(super) struct CableAccount {
     last: Option<Last>,
+    /// Of an island, what its energies are compared with.
+    #[serde(default)]
+    island: Option<Start>,
+    /// Largest rounding error of an energy, and the sum of what is uncertain, in J.
+    #[serde(default)]
+    errors: [f64; 2],
     #[serde(skip)]
     buffer: Vec<f64>,
     pub balance: EnergyBalance,
 }
 
-/// Sums at the last host time in J, and the revision of the cable then.
+/// Terms at the last host time, and the revision of the cable then.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 struct Last {
     revision: u64,
-    sum: f64,
-    law: f64,
-    dissipated: f64,
-    work: f64,
+    terms: CableTerms,
     /// At the first host time of those that are compared.
     strain: f64,
     gravity: f64,
+}
+
+/// Energies of an island in J when its cables and bodies were first read together, and their number.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+struct Start {
+    parts: [usize; 2],
+    strain: f64,
+    gravity: f64,
+}
+
+/// Energies of a cable, and works on it since it was built, in J: the terms of a balance.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct CableTerms {
+    /// Kinetic energy.
+    pub kinetic: f64,
+    /// Strain energy.
+    pub strain: f64,
+    /// Energy of gravity.
+    pub gravity: f64,
+    /// Energy that damping, drag, friction and impacts took.
+    pub dissipated: f64,
+    /// Work of loads, moving supports, flows, reels and other bodies.
+    pub work: f64,
+    /// Energy that the law of the discrete gradient says was made, less what it lost.
+    pub by_law: f64,
+    /// By how much the works may be wrong.
+    #[serde(default)]
+    pub uncertain: f64,
+}
+
+impl CableTerms {
+    /// Reads the works on a cable, without its energies.
+    pub fn of_works(cable: &Cable) -> Self {
+        let (effects, law) = (cable.effect_work(), cable.energy_law());
+        let dissipated = effects.dissipated() + law.contacts + law.impacts;
+        let reels: f64 = cable.reels().map(|reel| reel.work + reel.remeshed).sum();
+        // impacts do no work: they take energy
+        let of_effects = effects.total() + dissipated - law.impacts;
+        CableTerms {
+            dissipated,
+            work: of_effects + law.loads + law.supports + cable.inserted_energy() + reels,
+            by_law: law.residual - law.numerical - law.rescaled,
+            uncertain: law.uncertain,
+            ..CableTerms::default()
+        }
+    }
+
+    /// Reads energies and works of a cable; `buffer` is for its momenta.
+    pub fn of(cable: &Cable, buffer: &mut Vec<f64>) -> Self {
+        let energy = cable.energy_in(buffer);
+        let (kinetic, strain, gravity) = (energy.kinetic, energy.axial + energy.bending, energy.gravity);
+        CableTerms { kinetic, strain, gravity, ..CableTerms::of_works(cable) }
+    }
+
+    /// Returns the sum of energies and dissipated energy, less the work: constant but for what integration makes or loses.
+    pub fn sum(&self) -> f64 {
+        self.kinetic + self.strain + self.gravity + self.dissipated - self.work
+    }
+
+    /// Adds the terms of another cable.
+    pub fn add(&mut self, other: &CableTerms) {
+        self.kinetic += other.kinetic;
+        self.strain += other.strain;
+        self.gravity += other.gravity;
+        self.dissipated += other.dissipated;
+        self.work += other.work;
+        self.by_law += other.by_law;
+        self.uncertain += other.uncertain;
+    }
+}
+
+/// What a step of integration made of an island, cables and the bodies that move with them: for [`Cable::note_island`].
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct IslandChange {
+    /// Change of the balance in J.
+    pub made: f64,
+    /// True if that is the energy law of the discrete gradient.
+    pub by_law: bool,
+    /// Energy that damping, drag, friction and impacts took in the step, in J.
+    pub dissipated: f64,
+    /// Work on cables and bodies in the step in J, but that of gravity.
+    pub work: f64,
+    /// Energies at the end of the step in J, not their changes, and the weight.
+    pub sizes: Sizes,
+    /// By how much the works may be wrong, in J.
+    pub uncertain: f64,
+    /// Number of cables and of bodies.
+    pub parts: [usize; 2],
+}
+
+/// Returns the weight of a cable in N and its axial stiffness times its length in J.
+pub fn weight_and_stiffness(cable: &Cable) -> (f64, f64) {
+    let gravity = cable.gravity().norm();
+    let of_element =
+        |e: &crate::Element| (e.section.mass_per_length * e.length * gravity, e.section.axial_stiffness * e.length);
+    cable.elements().iter().map(of_element).fold((0.0, 0.0), |sum, part| (sum.0 + part.0, sum.1 + part.1))
 }
 
 impl CableAccount {
@@ -161,40 +262,63 @@ impl CableAccount {
 
     /// Reads the cable at a host time.
     pub fn note(&mut self, cable: &Cable) {
-        let (energy, effects, law) = (cable.energy_in(&mut self.buffer), cable.effect_work(), cable.energy_law());
-        let dissipated = effects.dissipated() + law.contacts;
-        let reels: f64 = cable.reels().map(|reel| reel.work + reel.remeshed).sum();
-        let work = effects.total() + dissipated + law.loads + law.supports + cable.inserted_energy() + reels;
-        let now = Last {
-            revision: cable.revision,
-            sum: energy.total() + dissipated - work,
-            law: law.residual - law.numerical - law.rescaled,
-            dissipated,
-            work,
-            strain: energy.axial + energy.bending,
-            gravity: energy.gravity,
-        };
-        let (strain, gravity) = (now.strain, now.gravity);
+        let terms = CableTerms::of(cable, &mut self.buffer);
+        let now = Last { revision: cable.revision, terms, strain: terms.strain, gravity: terms.gravity };
         let Some(last) = self.last.replace(now).filter(|last| last.revision == now.revision) else { return };
         self.last = Some(Last { strain: last.strain, gravity: last.gravity, ..now });
         let by_law = cable.integrator().method == Method::DiscreteGradient && !cable.has_reel();
-        let change = if by_law { now.law - last.law } else { now.sum - last.sum };
-        self.balance.dissipated_j += now.dissipated - last.dissipated;
-        self.balance.work_j += now.work - last.work;
-        let held = energy.kinetic + strain.abs() + gravity.abs();
-        self.balance.rounding_j = self.balance.rounding_j.max(ROUNDING * held);
-        let (mut weight, mut stiffness) = (0.0, 0.0);
-        for element in cable.elements() {
-            weight += element.section.mass_per_length * element.length * cable.gravity().norm();
-            stiffness += element.section.axial_stiffness * element.length;
-        }
+        let change = if by_law { terms.by_law - last.terms.by_law } else { terms.sum() - last.terms.sum() };
+        self.balance.dissipated_j += terms.dissipated - last.terms.dissipated;
+        self.balance.work_j += terms.work - last.terms.work;
+        self.note_errors(
+            terms.kinetic + terms.strain.abs() + terms.gravity.abs(),
+            terms.uncertain - last.terms.uncertain,
+        );
+        let (weight, stiffness) = weight_and_stiffness(cable);
         let sizes = Sizes {
-            kinetic: energy.kinetic,
-            strain: strain - last.strain,
-            gravity: gravity - last.gravity,
+            kinetic: terms.kinetic,
+            strain: terms.strain - last.strain,
+            gravity: terms.gravity - last.gravity,
             weight,
             stiffness,
         };
         self.balance.add(cable.time(), change, by_law, &sizes);
+    }
+
+    /// Notes the rounding errors of energies of this sum, and what is uncertain of a step, in J.
+    fn note_errors(&mut self, held: f64, uncertain: f64) {
+        let [rounding, sum] = self.errors;
+        self.errors = [rounding.max(ROUNDING * held), sum + uncertain];
+        self.balance.rounding_j = self.errors.iter().sum();
+    }
+
+    /// Adds a step of the island, which ended at a time in s. Differences are within steps alone: an island that changes between them needs no new
+    /// account, only other energies to begin with.
+    fn add(&mut self, time: f64, step: &IslandChange) {
+        let Sizes { kinetic, strain, gravity, .. } = step.sizes;
+        let parts = step.parts;
+        let start = self.island.filter(|start| start.parts == parts).unwrap_or(Start { parts, strain, gravity });
+        self.island = Some(start);
+        self.balance.dissipated_j += step.dissipated;
+        self.balance.work_j += step.work;
+        self.note_errors(kinetic + strain.abs() + gravity.abs(), step.uncertain);
+        let sizes = Sizes { strain: strain - start.strain, gravity: gravity - start.gravity, ..step.sizes };
+        self.balance.add(time, step.made, step.by_law, &sizes);
+    }
+}
+
+impl Cable {
+    /// Returns the energy balance since the cable is [watched](Self::set_watched): its own, or of the first cable of an [island](crate::island) that of
+    /// all that moves together with it; `None` if it is not watched.
+    pub fn energy_balance(&self) -> Option<EnergyBalance> {
+        self.watch.as_deref().map(|watch| watch.account.balance)
+    }
+
+    /// Adds a step of the [island](crate::island) of which it is the first cable to its energy balance, if it is watched: for those who step islands.
+    pub fn note_island(&mut self, step: &IslandChange) {
+        let time = self.time();
+        if let Some(watch) = &mut self.watch {
+            watch.account.add(time, step);
+        }
     }
 }

@@ -17,7 +17,7 @@ pub mod sizes;
 mod steps;
 mod watch;
 
-pub use balance::EnergyBalance;
+pub use balance::{EnergyBalance, IslandChange};
 pub use watch::Watch;
 
 use serde::{Deserialize, Serialize};
@@ -108,7 +108,7 @@ pub enum Warning {
     },
     /// Integration makes energy.
     #[error(
-        "cable {cable:?}: integration makes energy: {made_j:.1e} J until {time_s:.4} s, {percent:.2} % of its largest energy or work ({scale_j:.3e} J): take a \
+        "cable {cable:?}: integration of it, and of what moves with it, makes energy: {made_j:.1e} J until {time_s:.4} s, {percent:.2} % of its largest energy or work ({scale_j:.3e} J): take a \
          smaller tolerance, shorter steps, or the discrete gradient (fidelity = \"game\"), which makes none", percent = 100.0 * .made_j / .scale_j
     )]
     EnergyMade {
@@ -123,7 +123,7 @@ pub enum Warning {
     },
     /// Integration takes energy.
     #[error(
-        "cable {cable:?}: integration takes {lost_j:.1e} J until {time_s:.4} s, {percent:.1} % of its largest energy or work ({scale_j:.3e} J), besides damping \
+        "cable {cable:?}: integration of it, and of what moves with it, takes {lost_j:.1e} J until {time_s:.4} s, {percent:.1} % of its largest energy or work ({scale_j:.3e} J), besides damping \
          and drag: the motion is damped that much; take a smaller tolerance or shorter steps", percent = 100.0 * .lost_j / .scale_j
     )]
     EnergyLost {

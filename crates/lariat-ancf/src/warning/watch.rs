@@ -72,9 +72,9 @@ pub struct Watch {
     #[serde(default)]
     noise: (f64, f64),
     steps: Steps,
-    /// The energy, of a cable that notes its own steps.
+    /// The energy, of a cable that notes its own steps and of the first of an island.
     #[serde(default)]
-    account: CableAccount,
+    pub(super) account: CableAccount,
     #[serde(default)]
     contacts: Contacts,
     /// Time of the last note in s.

@@ -7,6 +7,7 @@
 //! | [`kinematic_ends`] | prescribes the ends of cables on them |
 //! | [`predict`] | reads cables and bodies before the step |
 //! | [`integrate`] | integrates them together, all islands at once |
+//! | [`energy`] | what integration made of their energy |
 //! | [`apply`] | gives Rapier the predicted motion; reverts it |
 //! | [`groups`] | the same for bodies that joints hold together, and what Rapier's step made of them |
 //! | [`impedance`] | lets a body that may deviate feel its cables within Rapier's step |
@@ -15,6 +16,7 @@
 //! | [`refused`] | holds the bodies of an island that cannot step |
 
 pub(crate) mod apply;
+pub(crate) mod energy;
 pub(crate) mod groups;
 pub(crate) mod impedance;
 pub(crate) mod integrate;

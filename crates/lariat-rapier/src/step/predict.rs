@@ -12,6 +12,7 @@ use crate::islands::{Island, Member};
 use crate::mechanism::{self, Group};
 use crate::proximity;
 use crate::spatial::stack_spatial;
+use crate::step::energy;
 use crate::step::kinematic_ends;
 use crate::step::prediction::{Prediction, StepParameters};
 use crate::step::prescribed_motion::PrescribedMotions;
@@ -58,6 +59,7 @@ pub(crate) fn prepare(
         }
     }
     prediction.integrator = Some(integrator);
+    energy::begin(contents, island, prediction);
     Ok(())
 }
 

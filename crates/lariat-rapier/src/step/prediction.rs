@@ -6,6 +6,7 @@ use crate::budget::Remaining;
 use crate::error::Error;
 use crate::mechanism::{Group, Mechanism};
 use crate::sleep::SleepState;
+use crate::step::energy::StepEnergy;
 use crate::step::refused::HeldBodies;
 use ::nalgebra::Vector3;
 use lariat_ancf::island::{CoupledInertia, Impedance, PinAccount, RigidBody};
@@ -66,6 +67,8 @@ pub(crate) struct Prediction {
     pub motors: Vec<bool>,
     /// By pin, the impulse of its motors in N s.
     pub impulses: Vec<Vector3<f64>>,
+    /// What its energy balance compares with.
+    pub energy: StepEnergy,
     pub sleep: SleepState,
     /// Whether the island could not step, and the bodies that are held meanwhile.
     pub refused: bool,

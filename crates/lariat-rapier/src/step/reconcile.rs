@@ -36,6 +36,7 @@ use crate::record::{BodyRecord, ExactState};
 use crate::sleep;
 use crate::spatial::{split_spatial, stack_spatial};
 use crate::step::apply::restore_cables;
+use crate::step::energy;
 use crate::step::groups;
 use crate::step::kinematic_ends;
 use crate::step::prediction::{AppliedMotion, BodyStep, Prediction};
@@ -88,6 +89,7 @@ pub(crate) fn reconcile(
         return;
     }
     if !island.members.is_empty() {
+        energy::note(contents, world, island, prediction, h);
         let rests = !prediction.sleep.disturbed && sleep::is_resting(contents, world, island, sleep_speed);
         read_members(contents, world, island, prediction, (h, rests));
         apply_motor_impulses(contents, island, prediction);

@@ -15,6 +15,7 @@ mod contact;
 mod determinism;
 mod draw;
 mod drums;
+mod energy;
 mod free_flight;
 mod hoist;
 mod joints;

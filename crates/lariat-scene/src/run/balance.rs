@@ -30,6 +30,8 @@ pub(super) struct Terms {
     pub work: f64,
     /// Energy that the discrete gradient made, less what it lost; only if all cables step by it.
     pub by_law: Option<f64>,
+    /// By how much the works may be wrong.
+    pub uncertain: f64,
     /// Work that a rounding error of the positions of bodies is worth, with the present forces.
     pub rounding: f64,
     /// By dynamic body, in the order of the scene.
@@ -43,6 +45,8 @@ pub(super) struct Account {
     last: Terms,
     /// Sum of [`Terms::rounding`] in J.
     steps_rounding: f64,
+    /// Largest rounding error of the energies in J.
+    largest_rounding: f64,
     pub balance: EnergyBalance,
 }
 
@@ -53,7 +57,7 @@ impl Account {
     /// [`Error::Coupling`]; not for a running scene.
     pub fn note(&mut self, world: &World) -> Result<(), Error> {
         let now = world.terms()?;
-        let Account { start, last, steps_rounding, balance } = self;
+        let Account { start, last, steps_rounding, largest_rounding, balance } = self;
         let start = start.get_or_insert_with(|| {
             last.clone_from(&now);
             now.clone()
@@ -81,7 +85,8 @@ impl Account {
         let bodies = sum(&now, |body| body.kinetic + body.gravity.abs());
         *steps_rounding += now.rounding;
         let differences = ROUNDING * held + f64::from(f32::EPSILON) * bodies;
-        balance.rounding_j = balance.rounding_j.max(*steps_rounding + differences);
+        *largest_rounding = largest_rounding.max(differences);
+        balance.rounding_j = *largest_rounding + *steps_rounding + now.uncertain - start.uncertain;
         let sizes = Sizes {
             kinetic,
             strain: now.strain - start.strain,

@@ -80,7 +80,10 @@ impl World {
             terms.gravity += energy.gravity;
             let dissipated = dissipated(cable);
             terms.dissipated += dissipated;
-            terms.work += effects.total() + dissipated + law.loads + law.supports + cable.inserted_energy();
+            let work = effects.total() + law.loads + law.supports + cable.inserted_energy();
+            // impacts do no work: they take energy
+            terms.work += work + dissipated - law.impacts;
+            terms.uncertain += law.uncertain;
             // the energy law of a step knows no winch
             all_by_law &= !cable.has_reel();
             terms.work += cable.reels().map(|reel| reel.work + reel.remeshed).sum::<f64>();
@@ -149,7 +152,7 @@ impl World {
 
 /// Returns the energy in J that damping, drag, friction and impacts have taken from a cable.
 fn dissipated(cable: &Cable) -> f64 {
-    cable.effect_work().dissipated() + cable.energy_law().contacts
+    cable.effect_work().dissipated() + cable.energy_law().contacts + cable.energy_law().impacts
 }
 
 /// Returns force (N) and moment (N m) of a cable on its support at an arc length; zero without one.

@@ -23,6 +23,11 @@ pub struct EnergyLaw {
     pub loads: f64,
     /// Energy that contacts lost: friction and impact. Never falls.
     pub contacts: f64,
+    /// Energy that the inelastic impacts lost by which pinned nodes and their bodies begin a step with one velocity, where an engine, a user or a
+    /// collision changed that of the body; of the methods with accelerations. Never falls.
+    pub impacts: f64,
+    /// By how much the works of effects may be wrong: the difference of two quadratures of each step; zero under the discrete gradient. Never falls.
+    pub uncertain: f64,
     /// Work of obstacles that move.
     pub obstacles: f64,
     /// Sum over all steps of the product of the residual and the velocity: energy by which the iteration missed the law.
@@ -52,15 +57,17 @@ impl EnergyLaw {
         self.supports += other.supports;
         self.loads += other.loads;
         self.contacts += other.contacts;
+        self.impacts += other.impacts;
+        self.uncertain += other.uncertain;
         self.obstacles += other.obstacles;
         self.residual += other.residual;
         self.made = self.made.max(other.made);
     }
 
     /// The terms, to check them.
-    pub(crate) fn terms(&self) -> [f64; 8] {
-        let EnergyLaw { numerical, rescaled, supports, loads, contacts, obstacles, residual, made } = *self;
-        [numerical, rescaled, supports, loads, contacts, obstacles, residual, made]
+    pub(crate) fn terms(&self) -> [f64; 10] {
+        let EnergyLaw { numerical, rescaled, supports, loads, contacts, impacts, uncertain, .. } = *self;
+        [numerical, rescaled, supports, loads, contacts, impacts, uncertain, self.obstacles, self.residual, self.made]
     }
 }
 
