@@ -21,7 +21,8 @@ impl CableSet {
     /// a part with a handle of its own, the second of [`Sheave::ends`](crate::Sheave::ends); all parts in order are [`parts`](Self::parts). An arc length in `at` counts
     /// along all of them, so several sheaves may be put along one cable; a node is one of `cable`. Attachments, junctions and loads stay with their material, and stop
     /// the cable before they come to the sheave. A cable that is drawn around a corner there needs a node at it
-    /// ([`CableBuilder::node_at`](lariat_ancf::CableBuilder::node_at)); both parts start with the slopes of their own sides, so that even a fold holds no energy, unless the cable has moved since. Needs the integrator `discrete-gradient`. The sheave ends as one between
+    /// ([`CableBuilder::node_at`](lariat_ancf::CableBuilder::node_at)); both parts start with the slopes of their own sides, so that even a
+    /// fold holds no energy, unless the cable has moved since. Needs the integrator `discrete-gradient`. The sheave ends as one between
     /// [two cables](Self::add_sheave) does, which the parts are then.
     ///
     /// # Errors

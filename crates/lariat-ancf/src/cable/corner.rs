@@ -1,11 +1,13 @@
 //! Corners of the drawn shape.
 //!
-//! A cable is smooth at its nodes, so one at a corner of the drawn polyline has the mean direction of both sides, and the elements beside it are bent. Where the cable is
-//! parted there, at a sheave, the parts need not be smooth together: each begins with the slope of its own side, as drawn.
+//! A cable is smooth at its nodes, so one at a corner of the drawn polyline has the mean direction of both sides, and the elements beside
+//! it are bent. Where the cable is parted there, at a sheave, the parts need not be smooth together: each begins with the slope of its own
+//! side, as drawn.
 //!
 //! # Alternatives considered
 //!
-//! The slope of least strain energy: a part that has moved since would jump, and one of a single element between two corners would be bent in an arc.
+//! The slope of least strain energy: a part that has moved since would jump, and one of a single element between two corners would be bent
+//! in an arc.
 
 use super::layout::Laid;
 use super::{At, Cable};
@@ -31,8 +33,8 @@ impl Corner {
 }
 
 impl Cable {
-    /// Gives an end at a corner of the drawn shape, where the cable was [cut](Self::cut), the slope of its own side, as drawn. Does nothing at another point, and where the
-    /// end has moved since the cable was built.
+    /// Gives an end at a corner of the drawn shape, where the cable was [cut](Self::cut), the slope of its own side, as drawn. Does nothing
+    /// at another point, and where the end has moved since the cable was built.
     pub fn open_corner(&mut self, at: impl Into<At>) {
         let Some(side) = self.side(at.into()) else { return };
         let [far, end] = side.nodes(self.nodes()).map(|node| 6 * node);

@@ -67,7 +67,8 @@ pub struct ReelReading {
     /// Rate in m/s: positive pays out.
     pub rate: f64,
     /// Pull of the winch on the cable along itself in N: with the discrete gradient the mean over its last step, but that at its end where
-    /// [`max_force`](Reel::max_force) was lowered, which a motor that slips follows linearly over a host step; else that at the present state.
+    /// [`max_force`](Reel::max_force) was lowered, which a motor that slips follows linearly over a host step; else that at the present
+    /// state.
     pub force: f64,
     /// Tension of the cable at the eye in N, from the pull: `T f - u = pull + 1/2 rho A rate^2 (f^2 - 1)`, u the strain
     /// energy per length. Smoother than what [`Cable::sample`] reads there, which depends on the length of the element.
