@@ -1,6 +1,6 @@
 //! What a cable is made of: plain data from which everything else is rebuilt.
 
-use crate::cable::Reels;
+use crate::cable::{Corner, Reels};
 use crate::contact::Obstacles;
 use crate::effect::force_density::ForceDensities;
 use crate::effect::{Effects, LineLoads, Target};
@@ -43,6 +43,9 @@ pub struct Model {
     pub(crate) strength: Strength,
     #[serde(default)]
     pub(crate) reels: Reels,
+    /// Corners at nodes of the drawn shape.
+    #[serde(default)]
+    pub(crate) corners: Vec<Corner>,
 }
 
 impl Model {

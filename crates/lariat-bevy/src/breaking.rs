@@ -53,7 +53,7 @@ pub(crate) fn split_entities(world: &mut World) {
 }
 
 /// Spawns the entity of the part behind a break.
-fn split_entity(world: &mut World, entity: Entity, cable: CableHandle, tail: CableHandle) -> Option<Entity> {
+pub(crate) fn split_entity(world: &mut World, entity: Entity, cable: CableHandle, tail: CableHandle) -> Option<Entity> {
     let description = world.get::<Cable>(entity)?.clone();
     let components = CableComponents::of(world.entity(entity));
     let cables = world.resource::<Cables>();

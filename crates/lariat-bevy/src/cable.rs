@@ -80,6 +80,12 @@ impl Cable {
         self
     }
 
+    /// Places a node at this arc length (m): where the cable is drawn around a corner at a sheave.
+    pub fn node_at(mut self, arc_length: f64) -> Self {
+        self.0.nodes_at.push(arc_length);
+        self
+    }
+
     /// Starts on the line from `a` to `b`, in m.
     pub fn between(self, a: impl Into<Point>, b: impl Into<Point>) -> Self {
         self.through([a.into(), b.into()])

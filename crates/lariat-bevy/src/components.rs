@@ -13,7 +13,7 @@ use bevy_ecs::component::Component;
 use bevy_ecs::entity::Entity;
 use bevy_ecs::query::{Changed, Or};
 use bevy_ecs::world::{EntityRef, EntityWorldMut};
-use lariat_ancf::{At, BendingRule, Effects, Error, PointLoad, Section};
+use lariat_ancf::{At, BendingRule, Effects, Error, Feed, PointLoad, Section};
 
 macro_rules! components {
     ($({ field: $field:ident, type: $type:ident, set: $set:ident, key: $key:literal, summary: $summary:literal })*) => {
@@ -67,14 +67,14 @@ macro_rules! components {
             /// Returns the components of a part of a cable that broke.
             pub fn of_part(&self, part: &lariat_ancf::Cable) -> Self {
                 let effects = part.effects();
-                let has_reel = |at: At| part.reel_description(at).is_some();
+                let has_reel = |at: At| part.reel_description(at).is_some_and(|reel| !is_of_island(reel));
                 CableComponents {
                     rule: self.rule,
                     bending: self.bending,
                     point_loads: self.point_loads.as_ref().map(|_| PointLoads(part.loads().to_vec())),
                     reel: self.reel.clone().filter(|_| has_reel(At::End)),
                     reel_at_start: self.reel_at_start.clone().filter(|_| has_reel(At::Start)),
-                    drum: self.drum.clone().filter(|drum| part.reel_description(drum.at()).is_some_and(is_of_island)),
+                    drum: self.drum.clone().filter(|drum| part.reel_description(drum.at()).is_some_and(|reel| reel.feed == Feed::BodyDrum)),
                     break_tension: self.break_tension,
                     break_strain: self.break_strain,
                     $($field: self.$field.as_ref().zip(effects.$field.as_ref()).map(|(c, effect)| c.of_part(effect)),)*

@@ -12,6 +12,8 @@ pub(crate) struct Description {
     /// Unstretched length in m; `None`: that of the initial shape.
     pub length: Option<f64>,
     pub elements: usize,
+    /// Arc lengths in m of nodes.
+    pub nodes_at: Vec<f64>,
     /// Whether it starts in static equilibrium between its ends.
     pub hanging: bool,
     pub integrator: IntegratorChoice,
@@ -28,6 +30,7 @@ impl Description {
             points: Vec::new(),
             length: None,
             elements: 10,
+            nodes_at: Vec::new(),
             hanging: false,
             integrator: Fidelity::Game.into(),
             gravity: None,
@@ -60,6 +63,7 @@ impl Description {
         if let Some(length) = self.length {
             builder = builder.length(length);
         }
+        builder = self.nodes_at.iter().fold(builder, |builder, &s| builder.node_at(s));
         if let Some(gravity) = self.gravity {
             builder = builder.gravity(gravity);
         }

@@ -119,8 +119,12 @@ impl EffectComponent for Damping {
         }
     }
 
-    fn of_part(&self, _: &lariat_ancf::Damping) -> Self {
-        *self
+    fn of_part(&self, effect: &lariat_ancf::Damping) -> Self {
+        match *self {
+            Damping::Times(times) => Damping::Times(times),
+            // of the material as it was, not of a cable of the part's length
+            Damping::CriticalFraction(_) => Damping::time(effect.axial),
+        }
     }
 }
 

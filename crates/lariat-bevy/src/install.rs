@@ -6,6 +6,7 @@ use crate::clock::FixedClock;
 use crate::diagnostics::Diagnostics;
 use crate::drum;
 use crate::event;
+use crate::passing;
 use crate::pending::Pending;
 use crate::physics::Physics;
 use crate::prepare::{self, attachments, bodies, effects, junctions, removals};
@@ -89,6 +90,7 @@ fn add_prepare(schedule: &mut Schedule) {
             junctions::update,
             sheave::update,
             attachments::update,
+            passing::update,
             drum::update,
             reel::set_reels::<Reel>,
             reel::set_reels::<ReelAtStart>,

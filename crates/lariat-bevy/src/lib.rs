@@ -41,7 +41,7 @@
 //! | spawn the usual rope in one line | [`SpawnRope::spawn_rope`], [`Rope`] |
 //! | tie cables to each other | [`Junction`] |
 //! | pay it out, take it in | [`Reel`], [`ReelAtStart`] |
-//! | wind it on a body that turns, run it over a wheel into another | [`Drum`], [`Sheave`] |
+//! | wind it on a body that turns, run it over a wheel into another | [`Drum`], [`Sheave`], [`SheaveAlong`] |
 //! | bound the work of a host step | [`Budget`] in [`Settings`], [`CableDegraded`](event::CableDegraded) |
 //! | let it break, cut it | [`BreakForce`], [`BreakTension`], [`BreakStrain`], [`Cables::cut`] |
 //! | make bodies | [`Body`], [`KinematicTarget`], [`BodyPose`], [`Bodies`] |
@@ -89,6 +89,7 @@ pub mod event;
 mod install;
 mod interpolate;
 mod junction;
+mod passing;
 mod pending;
 mod physics;
 #[cfg(feature = "bevy_app")]
@@ -120,6 +121,7 @@ pub use interpolate::{Interpolate, curve};
 pub use junction::Junction;
 pub use lariat_ancf::{self, At, Fidelity, Point};
 pub use lariat_rapier::{self, AttachmentKind, Budget, Gap, Rope, RopeEnd, Settings, SheaveOptions, rapier};
+pub use passing::SheaveAlong;
 pub use physics::Physics;
 #[cfg(feature = "bevy_app")]
 pub use plugin::{LariatPlugin, install_in};

@@ -14,6 +14,7 @@ use crate::components::{CableComponents, put};
 use crate::error::Error;
 use crate::interpolate::Interpolate;
 use crate::junction::{Joined, Junction, NotJoinable};
+use crate::passing::SheaveAlong;
 use crate::pending::Pending;
 use crate::physics::Physics;
 use crate::sheave::Sheave;
@@ -39,7 +40,7 @@ pub struct Snapshot {
     entities: Vec<Saved>,
 }
 
-type Ours = (With<Cable>, With<Attachment>, With<Junction>, With<Sheave>, With<Body>);
+type Ours = (With<Cable>, With<Attachment>, With<Junction>, With<Sheave>, With<SheaveAlong>, With<Body>);
 type AnyOfOurs = (Or<(Or<Ours>, With<BodyHandle>)>, Allow<Disabled>);
 type SpawnedByUser = (Or<Ours>, Allow<Disabled>);
 
@@ -160,6 +161,7 @@ struct Saved {
     body: Option<Body>,
     junction: Option<Junction>,
     sheave: Option<Sheave>,
+    along: Option<SheaveAlong>,
     cable: CableComponents,
     plain: Plain,
 }
@@ -173,6 +175,7 @@ impl Saved {
             body: entity.get().cloned(),
             junction: entity.get().cloned(),
             sheave: entity.get().copied(),
+            along: entity.get().copied(),
             cable: CableComponents::of(entity),
             plain: Plain::of(entity),
         }
@@ -204,6 +207,7 @@ impl Saved {
             sheave
         });
         put(&mut entity, sheave);
+        put(&mut entity, self.along.map(|along| along.renamed(name)));
         self.cable.rename(name);
         put(&mut entity, on);
         put(&mut entity, to);

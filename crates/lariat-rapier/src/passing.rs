@@ -11,7 +11,7 @@ use crate::set::CableSet;
 use crate::sheave::{self, SheaveOptions};
 use crate::{AttachmentOptions, Gap};
 use ::nalgebra::Vector3;
-use lariat_ancf::{At, Reel};
+use lariat_ancf::{At, Cable, Reel};
 use rapier::dynamics::RigidBodyHandle;
 use rapier::math::Vector;
 use rapier::pipeline::PhysicsWorld;
@@ -21,7 +21,8 @@ impl CableSet {
     /// a part with a handle of its own, the second of [`Sheave::ends`](crate::Sheave::ends); all parts in order are [`parts`](Self::parts). An arc length in `at` counts
     /// along all of them, so several sheaves may be put along one cable; a node is one of `cable`. Attachments, junctions and loads stay with their material, and stop
     /// the cable before they come to the sheave. A cable that is drawn around a corner there needs a node at it
-    /// ([`CableBuilder::node_at`](lariat_ancf::CableBuilder::node_at)). Needs the integrator `discrete-gradient`. The sheave ends as one between
+    /// ([`CableBuilder::node_at`](lariat_ancf::CableBuilder::node_at)); both parts start with the slopes of their own sides, so that even a
+    /// fold holds no energy, unless the cable has moved since. Needs the integrator `discrete-gradient`. The sheave ends as one between
     /// [two cables](Self::add_sheave) does, which the parts are then.
     ///
     /// # Errors
@@ -95,7 +96,12 @@ fn add(
         part.attach(end)?;
         part.add_reel(end, Reel::over_sheave())?;
     }
-    let cut = |cable: &mut lariat_ancf::Cable| cable.break_at(at).map(Some);
+    let cut = |cable: &mut Cable| {
+        let (mut rest, how) = cable.break_at(at)?;
+        cable.open_corner(At::End);
+        rest.open_corner(At::Start);
+        Ok(Some((rest, how)))
+    };
     let rest = edit::part(contents, cable, cut, &mut Vec::new())?.ok_or(Error::NoCable(cable))?;
     // both ends are where they are beside the anchor
     let held = AttachmentOptions { kind: AttachmentKind::Ball, gap: Gap::Close };

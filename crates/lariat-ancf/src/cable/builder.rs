@@ -1,6 +1,6 @@
 //! Building a cable.
 
-use super::{At, Cable, Reels, Snapshot, layout};
+use super::{At, Cable, Corner, Reels, Snapshot, layout};
 use crate::contact::Obstacles;
 use crate::effect::force_density::ForceDensities;
 use crate::effect::{Damping, Effects, ForceDensity, RopeKind};
@@ -272,10 +272,10 @@ impl CableBuilder {
             let limp = self.rule.bending == BendingRule::None;
             self.effects.damping = Some(if limp { Damping { bending: 0.0, ..damping } } else { damping });
         }
-        let (positions, slopes) = layout::along_polyline(&self.points, &s, self.gravity);
+        let laid = layout::along_polyline(&self.points, &s, self.gravity);
         let mut snapshot = Snapshot::default();
-        for (r, t) in positions.iter().zip(&slopes) {
-            snapshot.state.q.extend(r.iter().chain(t.iter()));
+        for node in &laid {
+            snapshot.state.q.extend(node.position.iter().chain(node.slope.iter()));
         }
         snapshot.state.v.resize(snapshot.state.q.len(), 0.0);
         let model = Model {
@@ -292,6 +292,7 @@ impl CableBuilder {
             contact_key: 0,
             strength: Default::default(),
             reels: Reels::default(),
+            corners: laid.iter().filter_map(Corner::of).collect(),
         };
         // contact has one method that can step it
         let default = match &model.effects.contact {
@@ -303,11 +304,11 @@ impl CableBuilder {
             let node = cable.node(At::ArcLength(arc_length(at)?.min(length)))?;
             let slope = match hold {
                 Hold::Pin => SlopeSupport::Free,
-                Hold::Clamp => SlopeSupport::Direction(slopes[node].normalize()),
+                Hold::Clamp => SlopeSupport::Direction(laid[node].slope.normalize()),
             };
             cable.set_support(
                 At::Node(node),
-                Support { position: Some(Motion::fixed(positions[node])), slope, attached: false },
+                Support { position: Some(Motion::fixed(laid[node].position)), slope, attached: false },
             )?;
         }
         cable.set_rigid_motion(self.velocity, self.angular_velocity)?;

@@ -6,12 +6,17 @@
 
 use nalgebra::Vector3;
 
+/// Where a node of a new cable lies.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Laid {
+    pub position: Vector3<f64>,
+    pub slope: Vector3<f64>,
+    /// At a corner the slopes of the cable before and behind it, of which `slope` is the mean.
+    pub corner: Option<[Vector3<f64>; 2]>,
+}
+
 /// Positions and slopes at the arc lengths `s` (ascending, from 0 to the unstretched length) of a cable through `points`.
-pub(crate) fn along_polyline(
-    points: &[Vector3<f64>],
-    s: &[f64],
-    gravity: Vector3<f64>,
-) -> (Vec<Vector3<f64>>, Vec<Vector3<f64>>) {
+pub(crate) fn along_polyline(points: &[Vector3<f64>], s: &[f64], gravity: Vector3<f64>) -> Vec<Laid> {
     let length = s[s.len() - 1];
     let chords: Vec<f64> = points.windows(2).map(|p| (p[1] - p[0]).norm()).collect();
     let drawn: f64 = chords.iter().sum();
@@ -36,13 +41,13 @@ pub(crate) fn along_polyline(
                 let (_, before) = evaluate(k - 1, s);
                 let mean = before + slope;
                 let size = 0.5 * (before.norm() + slope.norm());
-                if mean.norm() > 1e-6 * size {
-                    return (position, mean.normalize() * size);
-                }
+                let corner = ((before - slope).norm() > 1e-9 * size).then_some([before, slope]);
+                let slope = if mean.norm() > 1e-6 * size { mean.normalize() * size } else { slope };
+                return Laid { position, slope, corner };
             }
-            (position, slope)
+            Laid { position, slope, corner: None }
         })
-        .unzip()
+        .collect()
 }
 
 /// Position and slope at the share `x` of a segment from `a` to `b` that holds `arc` of cable; an arc of a circle towards
@@ -88,11 +93,15 @@ mod tests {
     use super::*;
     use approx::assert_relative_eq;
 
+    fn unzip(laid: &[Laid]) -> (Vec<Vector3<f64>>, Vec<Vector3<f64>>) {
+        laid.iter().map(|node| (node.position, node.slope)).unzip()
+    }
+
     #[test]
     fn a_slack_cable_is_laid_in_an_arc_of_its_own_length_below_the_chord() {
         let points = [Vector3::zeros(), Vector3::new(3.0, 0.0, 0.0)];
         let s: Vec<f64> = (0..=1000).map(|i| 4.0 * f64::from(i) / 1000.0).collect();
-        let (r, t) = along_polyline(&points, &s, Vector3::new(0.0, -9.81, 0.0));
+        let (r, t) = unzip(&along_polyline(&points, &s, Vector3::new(0.0, -9.81, 0.0)));
         let length: f64 = r.windows(2).map(|p| (p[1] - p[0]).norm()).sum();
         assert_relative_eq!(length, 4.0, max_relative = 1e-5);
         assert_relative_eq!(r[0], points[0], epsilon = 1e-12);
@@ -103,10 +112,13 @@ mod tests {
     #[test]
     fn a_taut_cable_follows_the_polyline_evenly_stretched() {
         let points = [Vector3::zeros(), Vector3::new(1.0, 0.0, 0.0), Vector3::new(1.0, 2.0, 0.0)];
-        let (r, t) = along_polyline(&points, &[0.0, 0.5, 1.0, 1.5], Vector3::zeros());
+        let laid = along_polyline(&points, &[0.0, 0.5, 1.0, 1.5], Vector3::zeros());
+        let (r, t) = unzip(&laid);
         assert_relative_eq!(r[1], Vector3::new(1.0, 0.0, 0.0), epsilon = 1e-12);
         assert_relative_eq!(r[2], Vector3::new(1.0, 1.0, 0.0), epsilon = 1e-12);
         assert_relative_eq!(t[0].norm(), 2.0, epsilon = 1e-12);
         assert_relative_eq!(t[1].x, t[1].y, epsilon = 1e-12);
+        assert_eq!(laid[1].corner, Some([2.0 * Vector3::x(), 2.0 * Vector3::y()]));
+        assert!([0, 2, 3].iter().all(|&k| laid[k].corner.is_none()));
     }
 }

@@ -3,6 +3,7 @@
 //! | file | what it holds |
 //! |---|---|
 //! | [`builder`], `layout` | building a cable |
+//! | `corner` | corners of the drawn shape, for parts that end there |
 //! | `step` | one host step of the cable by itself |
 //! | `state` | reading and changing the state; snapshots |
 //! | `supports`, `loads`, `effects` | what acts on it, changed between steps |
@@ -14,6 +15,7 @@
 //! | `workspace`, [`fleet`] | buffers of a step, shared by cables; a step of many |
 
 pub mod builder;
+mod corner;
 mod edit;
 mod effects;
 pub mod energy;
@@ -40,6 +42,7 @@ use crate::section::Element;
 use crate::system::{Buffers, System};
 use crate::warning::Watch;
 use builder::CableBuilder;
+pub(crate) use corner::Corner;
 use fearless_simd::Level;
 pub(crate) use layout::along_polyline;
 use nalgebra::Vector3;

@@ -91,10 +91,10 @@ fn lay_out_span(model: &Model, s: &[f64], q: &mut [f64], ends: Range<usize>) {
     // an arc needs two separate ends: a loop is laid out open, and closed linearly
     let open =
         if (b - a).norm() > MIN_OPENING * length { b } else { b + MIN_OPENING * length * normal(&model.gravity) };
-    let (positions, slopes) = along_polyline(&[a, open], &along, model.gravity);
+    let laid = along_polyline(&[a, open], &along, model.gravity);
     for (i, node) in (ends.start..=ends.end).enumerate() {
-        set_position(q, node, positions[i] + (b - open) * (along[i] / length));
-        set_slope(model, q, node, slopes[i]);
+        set_position(q, node, laid[i].position + (b - open) * (along[i] / length));
+        set_slope(model, q, node, laid[i].slope);
     }
     set_position(q, ends.end, b);
 }

@@ -14,6 +14,8 @@ pub struct Hoist {
     pins: Vec<PinConstraint>,
     island: Island,
     dt: f64,
+    /// Largest pull and tension in N that [`fall`](Self::fall) read.
+    pub most: f64,
 }
 
 impl Hoist {
@@ -46,7 +48,7 @@ impl Hoist {
             bodies[0].force = Vector3::new(0.0, -G * mass, 0.0);
             pins.push(PinConstraint { cable: 0, node: 0, body: 0, anchor: Vector3::zeros(), direction: None });
         }
-        Hoist { cable, bodies, pins, island: Island::default(), dt }
+        Hoist { cable, bodies, pins, island: Island::default(), dt, most: 0.0 }
     }
 
     pub fn step(&mut self) {
@@ -73,6 +75,8 @@ impl Hoist {
         let mut expected = 0.0;
         for _ in 0..(0.5 / self.dt) as usize {
             self.try_step()?;
+            let reel = reading(&self.cable);
+            self.most = self.most.max(reel.force).max(reel.tension);
             let strain = ((1.0 + 6.0 * force / stiffness).sqrt() - 1.0) / 3.0;
             let tension = stiffness * strain * (1.0 + 2.0 * strain).sqrt();
             let carried = mass + 0.15 * 0.5 * (out + self.cable.length());

@@ -122,6 +122,7 @@ fn what_makes_no_reel_is_a_typed_error_and_changes_nothing() {
         Reel { rate: vec![[1.0, 0.1], [0.5, 0.2]], ..Reel::default() },
         Reel { acceleration: 0.0, ..Reel::default() },
         Reel { stock: Some(-1.0), ..Reel::default() },
+        Reel { stock: Some(0.9), ..Reel::default() },
     ] {
         assert!(matches!(cable.add_reel(At::End, reel), Err(Error::InvalidValue { .. })));
     }

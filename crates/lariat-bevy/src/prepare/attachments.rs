@@ -111,7 +111,7 @@ fn attach(
 }
 
 /// Returns the fixed body that represents the world, and adds it if there is none.
-fn ground(cables: &mut Cables, physics: &mut Physics) -> RigidBodyHandle {
+pub(crate) fn ground(cables: &mut Cables, physics: &mut Physics) -> RigidBodyHandle {
     match cables.links.ground {
         Some(handle) if physics.bodies.contains(handle) => handle,
         _ => {

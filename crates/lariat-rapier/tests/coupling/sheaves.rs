@@ -1,7 +1,7 @@
 //! Sheaves in a world.
 
 use super::common::{add_cube, cable, run};
-use lariat_rapier::lariat_ancf::{At, Damping, Error as Mechanics, Section};
+use lariat_rapier::lariat_ancf::{At, Cable, Damping, Error as Mechanics, Section};
 use lariat_rapier::rapier::prelude::*;
 use lariat_rapier::{AttachmentKind, CableHandle, CableSet, Error, SheaveOptions};
 
@@ -219,5 +219,70 @@ fn a_running_sheave_does_not_lock() {
             before = rate;
         }
         assert!(before > 0.1, "case {case}: {before} m/s");
+    }
+}
+
+/// One rope that is drawn around a corner, up to a fold, starts at a sheave there and runs over it as two ropes that are drawn from either
+/// side of it.
+///
+/// *Source.* The two ropes on a sheave between them; a straight rope as long as drawn holds no energy.
+#[test]
+fn a_rope_drawn_around_a_corner_runs_as_two_ropes_drawn_from_either_side() {
+    for (feet, slack) in [
+        ([[0.0, -3.0, 0.0], [0.0, -1.0, 0.0]], 1.0),
+        ([[-1.0, -2.0, 0.5], [1.0, -2.5, 0.0]], 1.0),
+        ([[-0.1, -4.0, 0.0], [0.1, -1.5, 0.0]], 1.0),
+        ([[0.0, -2.0, 0.0], [2.0, 0.5, -0.5]], 1.02),
+    ] {
+        let section = Section::from_stiffness(1e5, 0.5, 0.05).unwrap();
+        let damping = Damping { axial: 5e-3, bending: 5e-3 };
+        let far = feet.map(|foot: [f64; 3]| foot.iter().map(|x| x * x).sum::<f64>().sqrt());
+        let mut ends = Vec::new();
+        for one in [true, false] {
+            let mut world = PhysicsWorld::new();
+            let eye = (world.insert_body(RigidBodyBuilder::fixed()), Vector::ZERO);
+            let mut set = CableSet::new();
+            let laid = |points: &[[f64; 3]], elements: usize| {
+                let drawn: f64 =
+                    points.windows(2).map(|p| (0..3).map(|i| (p[1][i] - p[0][i]).powi(2)).sum::<f64>().sqrt()).sum();
+                let rope =
+                    Cable::builder().points(points.iter().map(|&p| lariat_rapier::lariat_ancf::Vector3::from(p)));
+                rope.length(slack * drawn).section(section).damping(damping).elements(elements)
+            };
+            // so many elements that one falls on each half metre of each side
+            let counts = far.map(|far| (far * 3.0).round() as usize);
+            let parts = if one {
+                let all = laid(&[feet[0], [0.0; 3], feet[1]], (((far[0] + far[1]) * 3.0).round()) as usize);
+                let rope = set.insert(all.node_at(slack * far[0]).build().unwrap());
+                let at = At::ArcLength(slack * far[0]);
+                let sheave = set.add_sheave_at(&world, (rope, at), eye, SheaveOptions::default()).unwrap();
+                set.sheave(sheave).unwrap().ends().map(|(part, _)| part)
+            } else {
+                let up = set.insert(laid(&[feet[0], [0.0; 3]], counts[0]).build().unwrap());
+                let down = set.insert(laid(&[[0.0; 3], feet[1]], counts[1]).build().unwrap());
+                for (rope, at) in [(up, At::End), (down, At::Start)] {
+                    set.attach(&world, rope, at, eye.0, eye.1, AttachmentKind::Ball).unwrap();
+                }
+                set.add_sheave((up, At::End), (down, At::Start), SheaveOptions::default()).unwrap();
+                [up, down]
+            };
+            assert_eq!(parts.map(|part| set.get(part).unwrap().elements().len()), counts);
+            let strain = |part| set.get(part).unwrap().energy();
+            let strain: f64 = parts.map(strain).iter().map(|energy| energy.axial + energy.bending).sum();
+            for (k, foot) in feet.into_iter().enumerate() {
+                let load = add_cube(&mut world, [10.0, 17.0][k], 0.1, foot.map(|x| x as Real));
+                let at = [At::Start, At::End][k];
+                set.attach(&world, parts[k], at, load, Vector::ZERO, AttachmentKind::Ball).unwrap();
+            }
+            run(&mut world, &mut set, 20);
+            let state = parts.map(|part| set.get(part).unwrap().positions().to_vec()).concat();
+            ends.push((strain, state));
+        }
+        let [(one, of_one), (two, of_two)] = [&ends[0], &ends[1]];
+        println!("{feet:?}: {one:.3e} and {two:.3e} J");
+        assert!(slack > 1.0 || *one < 1e-9, "{one:e} J");
+        assert!((one - two).abs() <= 1e-9 * two + 1e-9, "{one:e} J of {two:e} J");
+        let moved = of_one.iter().zip(of_two).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        assert!(of_one.len() == of_two.len() && moved < 1e-5, "{moved:e} m");
     }
 }

@@ -18,7 +18,8 @@ pub struct Reel {
     /// is. On a body that moves freely, what is not out rides with it, so it must be given there. Default: no limit.
     pub stock: Option<f64>,
     /// Largest force of the motor in N: a clutch between the reel and a shaft that turns at the commanded rate. The reel slips where the cable pulls more, and is
-    /// pulled back by this force until it follows the shaft again; with a rate of zero a brake; 0 is a free spool. Needs the integrator `discrete-gradient`.
+    /// pulled back by this force until it follows the shaft again; with a rate of zero a brake; 0 is a free spool. A force that is lowered
+    /// falls linearly over the next host step, from what the motor pulls. Needs the integrator `discrete-gradient`.
     /// Default: as strong as it must be.
     pub max_force: Option<f64>,
     /// Inertia of the wheel over the square of its radius in kg; the stock on a drum is added, if `stock` says how much. It counts

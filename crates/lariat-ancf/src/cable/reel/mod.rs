@@ -36,7 +36,7 @@ pub(crate) use winding::Winding;
 use super::{At, Cable, Snapshot};
 use crate::effect::RestShape;
 use crate::element::side::Side;
-use crate::error::Error;
+use crate::error::{Error, require};
 use crate::model::Model;
 use crate::system::Source;
 
@@ -82,6 +82,12 @@ impl Cable {
         }
         let mut model = self.model.clone();
         let length = self.length();
+        if let Some(stock) = reel.stock {
+            // to rounding: a reel ends at its stock
+            let enough = stock >= length * (1.0 - 1e-9);
+            require("stock of a reel (m)", stock, enough, "at least the length that is out")
+                .map_err(|e| e.of_cable(self.name()))?;
+        }
         model.effects.line_loads.iter_mut().for_each(|loads| loads.extend(length));
         model.reels.add(side, reel, self.elements(), self.number(self.elements().len() - 1));
         model.check_effects().and_then(|()| model.check_loads_at_eyes()).map_err(|e| e.of_cable(self.name()))?;

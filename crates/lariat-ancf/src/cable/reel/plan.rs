@@ -82,7 +82,7 @@ impl Cable {
         let in_island = reel.needs_island();
         let limit = reel.max_force.or(in_island.then_some(0.0))?;
         // what was as strong as it must be had no limit
-        let held = |force| MotorState { commanded: rate, limit: f64::INFINITY, force };
+        let held = |force| MotorState { commanded: rate, limit: f64::INFINITY, force, excess: 0.0 };
         let before = winding.motor.or(winding.pull.map(held)).filter(|_| !in_island);
         let motor = Motor {
             limits: [before.map_or(limit, |before| before.limit_before(limit)), limit],
@@ -90,7 +90,7 @@ impl Cable {
             wheel: if reel.feed == Feed::Sheave { 0.0 } else { reel.inertia },
             asked: reel.asked(self.time()),
             acceleration: if in_island { STOP } else { reel.acceleration },
-            before: before.or((!in_island).then_some(MotorState { commanded: rate, limit, force: 0.0 })),
+            before: before.or((!in_island).then_some(MotorState { commanded: rate, limit, force: 0.0, excess: 0.0 })),
             bounds: [length - self.left(side, f64::INFINITY), length + self.left_of_stock(reel)],
         };
         Some(Law::new(motor, self.time()))

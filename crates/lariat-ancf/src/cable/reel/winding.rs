@@ -66,8 +66,9 @@ pub struct ReelReading {
     pub length_out: f64,
     /// Rate in m/s: positive pays out.
     pub rate: f64,
-    /// Pull of the winch on the cable along itself in N: with the discrete gradient the mean over its last step, else that at the
-    /// present state.
+    /// Pull of the winch on the cable along itself in N: with the discrete gradient the mean over its last step, but that at its end where
+    /// [`max_force`](Reel::max_force) was lowered, which a motor that slips follows linearly over a host step; else that at the present
+    /// state.
     pub force: f64,
     /// Tension of the cable at the eye in N, from the pull: `T f - u = pull + 1/2 rho A rate^2 (f^2 - 1)`, u the strain
     /// energy per length. Smoother than what [`Cable::sample`] reads there, which depends on the length of the element.
@@ -102,7 +103,8 @@ impl Cable {
         let (q, v) = (side.gather(self.positions()), side.gather(self.velocities()));
         let inertia = self.model.inertia(element);
         let present = || self.system.flow_force(&self.model, flow, self.time(), [&q, &v, &acceleration]).pull;
-        let force = winding.pull.unwrap_or_else(present);
+        let excess = winding.motor.map_or(0.0, |motor| motor.excess);
+        let force = winding.pull.map_or_else(present, |pull| pull - excess);
         let rate = winding.extent[1];
         // T f - u0 = EA (eps + 3/2 eps^2) with the strain eps at the eye
         let stiffness = element.section.axial_stiffness;
@@ -166,7 +168,7 @@ impl Cable {
     }
 
     /// Returns the end at a point.
-    pub(super) fn side(&self, at: At) -> Option<Side> {
+    pub(in crate::cable) fn side(&self, at: At) -> Option<Side> {
         let node = self.node(at).ok()?;
         Side::BOTH.into_iter().find(|side| side.nodes(self.nodes())[1] == node)
     }

@@ -76,6 +76,9 @@ pub(crate) struct MotorState {
     pub limit: f64,
     /// Force in N over the last step.
     pub force: f64,
+    /// By how much that exceeds in N what the motor has at its end, where its largest force was lowered.
+    #[serde(default)]
+    pub excess: f64,
 }
 
 impl MotorState {
@@ -89,6 +92,7 @@ impl MotorState {
     pub fn check(&self) -> Result<(), Error> {
         require("commanded rate of a reel (m/s)", self.commanded, true, "a number")?;
         require("force of a motor of a reel (N)", self.force, true, "a number")?;
+        require("force of a motor of a reel (N)", self.excess, true, "a number")?;
         require("largest force of a motor of a reel (N)", self.limit, self.limit >= 0.0, ">= 0")
     }
 }
@@ -193,7 +197,10 @@ impl Law {
 
     /// Returns what the motor leaves to the next host step.
     pub fn state(&self) -> MotorState {
-        MotorState { commanded: self.commanded, limit: self.motor.limits[1], force: self.force }
+        let limit = self.motor.limits[1];
+        // a stop pulls as it must, whatever the motor has
+        let beyond = (self.force.abs() - limit).clamp(0.0, (self.limit - limit).max(0.0));
+        MotorState { commanded: self.commanded, limit, force: self.force, excess: beyond.copysign(self.force) }
     }
 
     /// Begins a step of length `h` (s) at `time` (s) from an extent.
