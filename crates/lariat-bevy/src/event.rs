@@ -128,6 +128,20 @@ pub struct GapOpened {
     pub gap: f64,
 }
 
+/// A body on joints did not move as predicted for a second, so that the forces of the cable there are not to be trusted. Sent once for each attachment;
+/// take shorter steps or more solver iterations, or weld links into one body.
+#[derive(EntityEvent, Message, Clone, Debug, PartialEq)]
+pub struct MechanismUnsettled {
+    /// The attachment.
+    pub entity: Entity,
+    /// Its cable.
+    pub cable: Entity,
+    /// The body it is attached to; `None` for the world.
+    pub body: Option<Entity>,
+    /// When, and by how much.
+    pub how: lariat_rapier::Unsettled,
+}
+
 /// Reason why an attachment ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum EndReason {
@@ -215,6 +229,7 @@ macro_rules! for_each_event {
             ContactEnded,
             ContactIgnored,
             GapOpened,
+            MechanismUnsettled,
             AttachmentEnded,
             AttachmentFailed,
             JunctionFailed,

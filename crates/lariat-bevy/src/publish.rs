@@ -6,7 +6,7 @@ use crate::cables::{Cables, Parting};
 use crate::diagnostics::{Diagnostics, Stage};
 use crate::event::{
     AttachmentEnded, CableAsleep, CableAwake, CableDegraded, CableWarning, ContactEnded, ContactIgnored,
-    ContactStarted, EndReason, GapOpened, QueuedEvent,
+    ContactStarted, EndReason, GapOpened, MechanismUnsettled, QueuedEvent,
 };
 use crate::physics::Physics;
 use bevy_ecs::prelude::{DetectChangesMut, Query, Res, ResMut};
@@ -30,6 +30,10 @@ pub(crate) fn read_events(mut cables: ResMut<Cables>, physics: Res<Physics>) {
                 .attachments
                 .get(&attachment)
                 .map(|link| GapOpened { entity: link.entity, cable: link.cable, body: link.body, gap: gap.gap }.into()),
+            Event::Unsettled { attachment, how } => links
+                .attachments
+                .get(&attachment)
+                .map(|link| MechanismUnsettled { entity: link.entity, cable: link.cable, body: link.body, how }.into()),
             Event::Broken { cable, rest, how } => {
                 broken.push(Parting { cable, rest, how });
                 None

@@ -2,6 +2,7 @@
 
 use crate::gaps::OpenGap;
 use crate::handle::{AttachmentHandle, CableHandle};
+use crate::unsettled::Unsettled;
 use lariat_ancf::{Break, Warning};
 use rapier::dynamics::RigidBodyHandle;
 use rapier::geometry::ColliderHandle;
@@ -37,6 +38,14 @@ pub enum Event {
         attachment: AttachmentHandle,
         /// The gap.
         gap: OpenGap,
+    },
+    /// A body on joints did not move as predicted for half a second: the forces of its cables are not to be trusted. Once for each attachment; the warning
+    /// [`Unsettled`](crate::Warning::Unsettled) says what to do.
+    Unsettled {
+        /// The attachment.
+        attachment: AttachmentHandle,
+        /// When, and by how much.
+        how: Unsettled,
     },
     /// A cable began to touch a collider.
     ContactStarted {

@@ -150,6 +150,7 @@ mod statics;
 mod step;
 mod table;
 mod totals;
+mod unsettled;
 mod warnings;
 mod world_mark;
 
@@ -175,4 +176,5 @@ pub use sheave::{Sheave, SheaveOptions};
 pub use statics::Equilibrium;
 pub use step::HostStep;
 pub use totals::WorldEnergy;
+pub use unsettled::Unsettled;
 pub use warnings::Warning;

@@ -2,6 +2,7 @@
 
 use crate::convert::{rotation, to_pose, vector};
 use crate::step::prescribed_motion::{self, MotionMemory, OriginPose};
+use crate::unsettled::SettleWatch;
 use ::nalgebra::{UnitQuaternion, Vector3, Vector6};
 use lariat_ancf::island::{BodyMemory, RigidBody};
 use rapier::dynamics::{RigidBody as RapierBody, RigidBodyHandle, RigidBodyType};
@@ -29,6 +30,12 @@ pub(crate) struct BodyRecord {
     /// Of a kinematic body, its place after the Rapier step in progress.
     #[serde(skip)]
     pub next_place: Option<OriginPose>,
+    /// Of a body on joints, force in N and torque in N m of its cables, smoothed over the last steps.
+    #[serde(default = "Vector6::zeros")]
+    pub pull: Vector6<f64>,
+    /// Of a body on joints, what Rapier made of its predictions.
+    #[serde(default)]
+    pub settling: SettleWatch,
     /// Whether it is kinematic and has rotated: it then drives the cables on it.
     #[serde(default)]
     pub rotates: bool,
@@ -45,6 +52,8 @@ impl BodyRecord {
             motion: None,
             place: None,
             next_place: None,
+            pull: Vector6::zeros(),
+            settling: SettleWatch::default(),
             rotates: false,
         }
     }
@@ -205,6 +214,11 @@ impl Records {
             }
             record.place = Some((*body.position(), place));
         }
+    }
+
+    /// What was due to be told of bodies on joints has been.
+    pub fn settle_told(&mut self) {
+        self.0.iter_mut().for_each(|record| record.settling.set_told());
     }
 
     /// Drops the records of bodies that are no longer in the world.

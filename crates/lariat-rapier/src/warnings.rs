@@ -12,6 +12,7 @@ use crate::gaps::OpenGap;
 use crate::handle::{AttachmentHandle, CableHandle};
 use crate::inside::deepest_inside;
 use crate::set::CableSet;
+use crate::unsettled::Unsettled;
 use rapier::dynamics::RigidBodyType;
 use rapier::geometry::ColliderHandle;
 use rapier::math::Real;
@@ -61,6 +62,20 @@ pub enum Warning {
         name: String,
         /// The gap.
         gap: OpenGap,
+    },
+    /// What joints, limits and contacts do to a body on joints changed from step to step.
+    #[error(
+        "cable {name:?}: the body of an attachment is on joints that did not hold it as predicted: in {:.0} % of the steps before {:.3} s, and its \
+         forces are {:.1} % off those that moved it; do not trust them: take shorter host steps, more `rapier_steps` or solver iterations, weld links \
+         into one body, or keep heavy links away from light ones", 100.0 * how.steps, how.time, 100.0 * how.force
+    )]
+    Unsettled {
+        /// The attachment.
+        attachment: AttachmentHandle,
+        /// Name of its cable.
+        name: String,
+        /// When, and by how much.
+        how: Unsettled,
     },
     /// Cable and body of an attachment that has not been stepped have different velocities.
     #[error(
@@ -121,7 +136,13 @@ impl CableSet {
             }
         }
         let attachments = self.contents.attachments.iter();
-        warnings.extend(attachments.filter_map(|(i, a)| self.of_attachment(AttachmentHandle(i as u32), a, world)));
+        for (i, a) in attachments {
+            let attachment = AttachmentHandle(i as u32);
+            warnings.extend(self.of_attachment(attachment, a, world));
+            if let (Ok(Some(how)), Ok(cable)) = (self.unsettled(attachment), self.contents.cable(a.cable)) {
+                warnings.push(Warning::Unsettled { attachment, name: cable.name().to_string(), how });
+            }
+        }
         warnings
     }
 
@@ -133,6 +154,16 @@ impl CableSet {
     pub fn open_gap(&self, attachment: AttachmentHandle) -> Result<Option<OpenGap>, Error> {
         let own = self.contents.attachment(attachment)?;
         Ok(own.watch.open(self.contents.cable(own.cable)?.length()))
+    }
+
+    /// Returns the worst half second in which the body of an attachment, one that joints hold, did not move as predicted, if there was one: its cables'
+    /// forces are then not to be trusted.
+    ///
+    /// # Errors
+    /// [`Error::NoAttachment`].
+    pub fn unsettled(&self, attachment: AttachmentHandle) -> Result<Option<Unsettled>, Error> {
+        let own = self.contents.attachment(attachment)?;
+        Ok(self.contents.records.get(own.body).and_then(|record| record.settling.worst()))
     }
 
     fn of_attachment(&self, attachment: AttachmentHandle, own: &Attachment, world: &PhysicsWorld) -> Option<Warning> {
@@ -181,7 +212,12 @@ pub(crate) fn note(contents: &mut Contents, world: &PhysicsWorld, events: &mut V
         if let Some(gap) = opened.filter(|_| slot.cable.is_watched()) {
             events.push(Event::GapOpened { attachment: AttachmentHandle(index as u32), gap });
         }
+        let how = records.get(attachment.body).and_then(|record| record.settling.due());
+        if let Some(how) = how.filter(|_| slot.cable.is_watched()) {
+            events.push(Event::Unsettled { attachment: AttachmentHandle(index as u32), how });
+        }
     }
+    records.settle_told();
     for index in 0..cables.len() {
         let Some(slot) = cables.get_mut(index).filter(|slot| !slot.asleep) else { continue };
         let cable = CableHandle(index as u32);

@@ -63,6 +63,22 @@ pub enum Warning {
         /// Whether they met.
         closed: bool,
     },
+    /// An attachment to a body on joints that did not move as predicted for a second.
+    #[error(
+        "attachment {attachment:?}: the joints of its body did not hold it as predicted, in {:.0} % of the steps before {time_s:.3} s, and the forces there are \
+         {:.1} % off those that moved it; do not trust the forces of its cables: take a shorter `dt`, more iterations or a multibody, or weld links into one body",
+        100.0 * .steps, 100.0 * .force
+    )]
+    Unsettled {
+        /// Name of the attachment.
+        attachment: String,
+        /// Time in s at the end of the worst half second.
+        time_s: f64,
+        /// Share of the steps in which the body deviated from its prediction.
+        steps: f64,
+        /// Difference between the forces that were read and those that moved the body, as a share of these.
+        force: f64,
+    },
     /// A sheave that a point of its cable stopped.
     #[error(
         "sheave {sheave:?}: it stopped at {time_s:.3} s, before a held or loaded point of its cable, or its last element, came to the wheel"

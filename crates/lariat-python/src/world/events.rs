@@ -81,6 +81,11 @@ impl World {
                 let cable = self.0.with(py, |contents| contents.set.attachment(attachment).map(|a| a.cable()).ok());
                 (format!("gap opened: {:.1e} m at {:.4} s", gap.gap, gap.time), cable)
             }
+            Event::Unsettled { attachment, how } => {
+                let cable = self.0.with(py, |contents| contents.set.attachment(attachment).map(|a| a.cable()).ok());
+                let (steps, force) = (100.0 * how.steps, 100.0 * how.force);
+                (format!("unsettled: {steps:.0} % of the steps before {:.3} s, forces {force:.1} % off", how.time), cable)
+            }
             Event::Warning { cable, warning } => (format!("warning: {warning}"), Some(cable)),
             other => (format!("{other:?}"), None),
         };

@@ -36,7 +36,7 @@ mod loads;
 mod multibody;
 mod request;
 
-pub(crate) use group::{Group, own_inertia, velocity_of};
+pub(crate) use group::{Group, Jointed, own_inertia, velocity_of};
 pub(crate) use multibody::{prepare, refresh};
 pub(crate) use request::Request;
 

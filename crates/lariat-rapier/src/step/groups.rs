@@ -16,6 +16,7 @@ use crate::record::BodyRecord;
 use crate::spatial::stack_spatial;
 use crate::step::prediction::{AppliedMotion, Prediction};
 use crate::step::reconcile::{REACTION_GAIN, motor_impulse, persisting_share};
+use crate::unsettled::SettleStep;
 use ::nalgebra::{DVector, Vector6};
 use rapier::dynamics::RigidBodyHandle;
 use rapier::pipeline::PhysicsWorld;
@@ -99,6 +100,7 @@ pub(crate) fn read_back(
     let given = given(group, &parts);
     let deviation = group.stack_of(parts.iter().map(velocity)) - &given;
     let end = group.stack_of(parts.iter().map(|part| velocity_of(&prediction.end[part.m])));
+    watch(contents, world, (island, prediction, group, &parts), (&deviation, &end), h);
     update_reactions(contents, world, (island, prediction, group, &parts), (&deviation, &end), h);
     change(world, group, &parts, end - given, 0.5 * h);
     // Rapier does not damp links of a multibody
@@ -110,6 +112,47 @@ pub(crate) fn read_back(
             body.set_linvel(to_vector(&(vector(body.linvel()) * linear)), false);
             body.set_angvel(to_vector(&(vector(body.angvel()) * angular)), false);
         }
+    }
+}
+
+/// Reads of a group how far Rapier's step of `h` (s) was the predicted one.
+fn watch(
+    contents: &mut Contents,
+    world: &PhysicsWorld,
+    (island, prediction, group, parts): (&Island, &Prediction, &Group, &[Part]),
+    (deviation, end): (&DVector<f64>, &DVector<f64>),
+    h: f64,
+) {
+    let start = group.stack_of(parts.iter().map(|part| velocity_of(&prediction.start[part.m])));
+    let impulses = group.impulses(&(end - &start));
+    let time = contents.cables.get(island.cables[0]).map_or(0.0, |slot| slot.cable.time());
+    let of = |v: &DVector<f64>, k: usize| v.fixed_rows::<6>(6 * k).into_owned();
+    for (k, part) in parts.iter().enumerate() {
+        let body = &prediction.end[part.m];
+        let motors = motor_impulse(island, prediction, part.m);
+        let mut read = motors;
+        for pin in island.pins_on(part.m) {
+            if let Some(a) = island.attachments[pin].and_then(|a| contents.attachments.get(a)) {
+                let arm = body.rotation * island.pins[pin].anchor;
+                read += stack_spatial(&a.predicted.force, &(arm.cross(&a.predicted.force) + a.predicted.moment)) * h;
+            }
+        }
+        // all loads but those of cables
+        let given = stack_spatial(&prediction.start[part.m].force, &prediction.start[part.m].torque) * h;
+        let step = SettleStep {
+            body,
+            inertia: &mechanism::own_inertia(body),
+            gained: of(end, k) + of(deviation, k) - of(&start, k),
+            deviation: of(deviation, k),
+            pull: of(&impulses, k) - given + motors,
+            read,
+            gravity: vector(world.gravity).norm() * h,
+            h,
+            time,
+        };
+        let record = contents.records.record_mut(part.handle);
+        record.pull += REACTION_GAIN * (step.pull / h - record.pull);
+        record.settling.note(&step);
     }
 }
 

@@ -9,7 +9,7 @@ use crate::body;
 use crate::contents::Contents;
 use crate::error::Error;
 use crate::islands::{Island, Member};
-use crate::mechanism::{self, Group};
+use crate::mechanism::{self, Group, Jointed};
 use crate::proximity;
 use crate::spatial::stack_spatial;
 use crate::step::energy;
@@ -139,6 +139,10 @@ fn find_mechanisms(
     }
     let bodies = || island.members.iter().enumerate().filter_map(|(m, member)| Some((m, member.body()?)));
     let members: Vec<_> = bodies().map(|(m, handle)| (handle, cable_load(contents, island, m, &start[m]))).collect();
+    let of_cables =
+        |handle| contents.records.get(handle).map_or_else(Vector6::zeros, |record| record.pull - record.reaction);
+    let own: Vec<Vector6<f64>> = start.iter().map(|body| stack_spatial(&body.force, &body.torque)).collect();
+    let load_on = |m: usize| Some(own[m] + of_cables(island.members[m].body()?));
     let is_attached = |b| contents.attachments.values().any(|a| a.body == b);
     let substep = step.h / world.integration_parameters.num_solver_iterations.max(1) as f64;
     let request = |handle| mechanism::Request { handle, members: &members, substep, is_attached: &is_attached };
@@ -155,7 +159,10 @@ fn find_mechanisms(
         }
     }
     for members in together {
-        let jointed = members.iter().filter_map(|&m| Some((m, &start[m], mechanisms[m].as_ref()?)));
+        let jointed = members.iter().filter_map(|&member| {
+            let mechanism = mechanisms[member].as_ref()?;
+            Some(Jointed { member, body: &start[member], mechanism, load: load_on(member)? })
+        });
         match Group::new(world, &jointed.collect::<Vec<_>>()) {
             Some(group) => {
                 group.load(start, coupled);

@@ -14,32 +14,49 @@ pub enum Elbow {
     Limited,
     /// Hinges with both limits at 0.
     Locked,
+    /// Hinges that turn by this angle in rad to either side.
+    Loose(Real),
 }
 
 /// Adds links of 0.5 m along x, hinged to the world at the origin and joined to each other. The last one is the tip.
 pub fn add_links(world: &mut PhysicsWorld, masses: &[f64], elbow: Elbow, multibody: bool) -> Vec<RigidBodyHandle> {
+    let root = world.insert_body(RigidBodyBuilder::fixed());
+    join_links(world, masses, 0.25, elbow, multibody, Some(root))
+}
+
+/// Adds links of twice `half` (m) along x from the origin, joined to each other, and hinged to `root` if there is one.
+pub fn join_links(
+    world: &mut PhysicsWorld,
+    masses: &[f64],
+    half: f64,
+    elbow: Elbow,
+    multibody: bool,
+    root: Option<RigidBodyHandle>,
+) -> Vec<RigidBodyHandle> {
+    let half = half as Real;
     let mut links = Vec::new();
-    let mut before = world.insert_body(RigidBodyBuilder::fixed());
+    let mut before = root;
     for (k, &mass) in masses.iter().enumerate() {
-        let x = 0.25 + 0.5 * k as Real;
+        let x = half + 2.0 * half * k as Real;
         let body = RigidBodyBuilder::dynamic().translation(Vector::new(x, 0.0, 0.0)).can_sleep(false);
-        let collider = ColliderBuilder::cuboid(0.2, 0.05, 0.05).mass(mass as Real);
+        let collider = ColliderBuilder::cuboid(0.8 * half, 0.05, 0.05).mass(mass as Real);
         let link = world.insert(body.angular_damping(1.0), collider).0;
-        let (at, end) = (Vector::new(if k == 0 { 0.0 } else { 0.25 }, 0.0, 0.0), Vector::new(-0.25, 0.0, 0.0));
+        links.push(link);
+        let Some(body) = before.replace(link) else { continue };
+        let (at, end) = (Vector::new(if k == 0 { 0.0 } else { half }, 0.0, 0.0), Vector::new(-half, 0.0, 0.0));
         let hinge = RevoluteJointBuilder::new(Vector::Z).local_anchor1(at).local_anchor2(end);
         let joint: GenericJoint = match elbow {
             Elbow::Welded if k > 0 => FixedJointBuilder::new().local_anchor1(at).local_anchor2(end).into(),
             Elbow::Limited if k > 0 => hinge.limits([-1.0, 0.0]).into(),
             Elbow::Locked if k > 0 => hinge.limits([0.0, 0.0]).into(),
+            Elbow::Loose(angle) if k > 0 => hinge.limits([-angle, angle]).into(),
             _ => hinge.into(),
         };
         if multibody {
-            world.multibody_joints.insert(before, link, joint, true).unwrap();
+            world.multibody_joints.insert(body, link, joint, true).unwrap();
         } else {
-            world.insert_impulse_joint(before, link, joint);
+            world.insert_impulse_joint(body, link, joint);
         }
-        before = link;
-        links.push(link);
     }
     links
 }

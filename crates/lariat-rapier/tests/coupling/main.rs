@@ -9,6 +9,7 @@ mod budget;
 mod cable_contact;
 mod cable_contact_bodies;
 mod cable_contact_pairs;
+mod chains;
 mod clamps;
 mod common;
 mod contact;

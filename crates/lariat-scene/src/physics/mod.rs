@@ -11,6 +11,7 @@ mod joints;
 mod overlap;
 mod reading;
 mod statics;
+mod warnings;
 
 pub use build::collider;
 pub use energy::BodyTerms;
@@ -28,8 +29,8 @@ use lariat_rapier::rapier::dynamics::RigidBodyHandle;
 use lariat_rapier::rapier::math::Real;
 use lariat_rapier::rapier::prelude::PhysicsWorld;
 use lariat_rapier::{
-    AttachmentHandle, AttachmentKind, AttachmentReading, CableHandle, CableSet, Drum, Event, Gap, OpenGap,
-    SheaveHandle, SheaveOptions,
+    AttachmentHandle, AttachmentKind, AttachmentReading, CableHandle, CableSet, Drum, Event, Gap, SheaveHandle,
+    SheaveOptions,
 };
 
 /// Rapier steps of a host step: a run is for accuracy, in contacts too, and its cost is that of the cables.
@@ -347,16 +348,6 @@ impl Physics {
             (reading.force, reading.moment) = self.held_by[index];
         }
         Ok(Some(reading))
-    }
-
-    /// Returns a warning for each attachment whose two sides are apart.
-    pub fn open_gaps(&self, scene: &Scene) -> Vec<Warning> {
-        let attachments = self.attachments.iter().zip(&scene.attachments);
-        let open = attachments.filter_map(|(handle, attachment)| {
-            let OpenGap { gap, time, closed } = self.cables.open_gap((*handle)?).ok()??;
-            Some(Warning::OpenGap { attachment: attachment.name.clone(), time_s: time, gap_m: gap, closed })
-        });
-        open.collect()
     }
 
     /// Returns the largest gap of all attachments at the ends of all steps so far, in m.

@@ -68,12 +68,14 @@ impl Watch {
         });
         let of_wheels = self.wheels.iter().filter_map(|wheel| wheel.warning(world));
         let of_gaps = world.physics.iter().flat_map(|physics| physics.open_gaps(&world.scene));
+        let of_joints = world.physics.iter().flat_map(|physics| physics.unsettled(&world.scene));
         of_cables
             .map(Warning::Cable)
             .chain(self.energy_warning())
             .chain(of_wheels)
             .chain(of_stops)
             .chain(of_gaps)
+            .chain(of_joints)
             .collect()
     }
 }
