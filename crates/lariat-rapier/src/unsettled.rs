@@ -14,7 +14,7 @@
 //!
 //! # Validity
 //! Random chains of 2 to 14 links on one or two ropes, near a body or not, 30 to 240 Hz, both fidelities: where the force is right to 1 % and does not ripple, the first ratio is below 1e-2
-//! in nine steps of ten, in most chains below 1e-4; where it is wrong or ripples by more than 5 %, either of the two holds.
+//! in nine steps of ten, in most chains below 1e-4; where it is wrong by more than that or ripples by more than 10 %, either of the two holds (tests, chains.rs).
 
 use crate::spatial::split_spatial;
 use ::nalgebra::{Matrix6, Vector6};
