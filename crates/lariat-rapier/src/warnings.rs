@@ -90,10 +90,10 @@ pub enum Warning {
         /// Difference of the velocities in m/s.
         difference: f64,
     },
-    /// A cable that touches bodies would bounce off a collider, if contacts of cables had restitution.
+    /// A cable that touches bodies would bounce off a collider by its restitution, if contacts of cables had one.
     #[error(
-        "cable {name:?}: contacts of cables have no restitution, and a collider that it may touch has {restitution}: the cable does not bounce \
-         off it"
+        "cable {name:?}: contacts of cables have no coefficient of restitution, and a collider that it may touch has {restitution}: how the \
+         cable bounces off it is that of the step"
     )]
     Restitution {
         /// The cable.

@@ -209,7 +209,7 @@ pub enum Warning {
     },
     /// It touches something that bodies bounce off.
     #[error(
-        "cable {cable:?}: contacts of cables have no restitution, and what it touches has {restitution}: it does not bounce off it"
+        "cable {cable:?}: contacts of cables have no coefficient of restitution, and what it touches has {restitution}: how it bounces off it is that of the step"
     )]
     NoRestitution {
         /// Name of the cable.

@@ -1,6 +1,6 @@
 //! Floors and inclines: rest, sticking, sliding, being carried.
 
-use crate::bench::{GRAVITY, RADIUS, deepest, energies, rope, run, up, with};
+use crate::bench::{GRAVITY, RADIUS, deepest, energies, rope, run, steps, up, with};
 use lariat_ancf::contact::{HalfSpace, Obstacle, RigidMotion};
 use lariat_ancf::{At, Cable, Motion, Support, Vector3};
 
@@ -68,6 +68,28 @@ fn an_end_that_points_at_a_floor_touches_it() {
             assert!(end < 0.02 && rest < 0.05 && made < 1e-8, "{length} {speed} {tilt}: {end} {rest} {made:e}");
         }
     }
+}
+
+/// A stiff bar that lands flat leaves the floor with a share of its speed between 0 and 7/9, with any part of a step left when it lands.
+///
+/// *Source.* One contact under the one-leg formula with b = 9/16: `v1 = v0 (1 - (1 - s)/b)`, s the part of the step before it lands, so
+/// `-v1/v0 <= (1 - b)/b`.
+#[test]
+fn a_bar_that_lands_flat_leaves_with_at_most_seven_ninths_of_its_speed() {
+    let (mut least, mut most) = (f64::INFINITY, 0.0f64);
+    for rate in [60.0, 120.0, 240.0, 480.0] {
+        for i in 0..12 {
+            let (speed, gap) = (1.0 + 0.37 * f64::from(i), 0.02 * (1.0 + 0.083 * f64::from(i)));
+            let line = [up() * (RADIUS + gap), Vector3::new(0.2, RADIUS + gap, 0.0)];
+            let bar = rope(10.0, &line, 2).gravity(Vector3::zeros()).velocity(up() * -speed).integrator(steps(rate));
+            let mut bar = with(bar.build().unwrap(), vec![floor(0.0)]);
+            run(&mut bar, 30, |_| {});
+            let share = bar.velocities()[7] / speed;
+            (least, most) = (least.min(share), most.max(share));
+        }
+    }
+    println!("leaves with {least:.3} to {most:.3} of its speed");
+    assert!(least > 0.0 && most < 7.0 / 9.0, "{least} {most}");
 }
 
 fn incline(degrees: f64, friction: f64, at: Vector3<f64>) -> Cable {
