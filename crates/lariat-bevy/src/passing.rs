@@ -113,10 +113,10 @@ pub(crate) fn update(world: &mut World, asked: &mut QueryState<(Entity, Ref<Shea
         let body = |body: Entity| {
             world.get_entity(body).is_ok_and(|body| body.get_ref::<BodyHandle>().is_some_and(|own| own.is_changed()))
         };
-        if is_changed || changed(sheave.cable.0) || sheave.body.is_some_and(body) {
-            if let Err(error) = make(world, entity, sheave) {
-                world.resource_mut::<Cables>().events.push(SheaveFailed { entity, error }.into());
-            }
+        if (is_changed || changed(sheave.cable.0) || sheave.body.is_some_and(body))
+            && let Err(error) = make(world, entity, sheave)
+        {
+            world.resource_mut::<Cables>().events.push(SheaveFailed { entity, error }.into());
         }
     }
 }

@@ -20,8 +20,8 @@
 use super::{Group, middle_before, zero};
 use crate::Real;
 use crate::effect::tables::ElementTables;
-use crate::element::gram::{form, gradient};
-use crate::element::kernel::{DiscreteGradientForce, Load, gram_rates};
+use crate::element::gram::{form, gradient, gram_rates};
+use crate::element::kernel::{DiscreteGradientForce, Load};
 use crate::element::step::{ElementStep, combined, shifted};
 use crate::integrate::discrete_gradient::{ALPHA, BETA};
 use crate::simd::{LANES, dispatch};
