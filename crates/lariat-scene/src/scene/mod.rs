@@ -232,6 +232,7 @@ pub(crate) fn check(doc: &Document<'_>, fallback: &str, folder: &Path, purpose: 
         scene.probes.push(row);
     }
     check_start(doc, &scene, purpose)?;
+    reel::check_eyes(doc, &scene)?;
     Ok(scene)
 }
 

@@ -133,8 +133,7 @@ pub(super) fn put_on_drum(doc: &Document<'_>, scene: &mut Scene, cable: usize, r
         axis.ok_or_else(|| doc.conflict(&at.key("axis"), format!("{:?} has no direction", row.axis.as_slice())))?;
     let part = scene.reel_part(cable).unwrap_or(cable);
     let own = &scene.cables[part];
-    let eye = if own.reel_at_start { 0.0 } else { own.length };
-    let here = |a: &&super::AttachmentScene| a.cable == part && (a.arc_length - eye).abs() <= 1e-9 * own.length;
+    let here = |a: &&super::AttachmentScene| is_at_eye(scene, part, (a.cable, a.arc_length));
     let Some(holder) = scene.attachments.iter().find(here).map(|attachment| attachment.body) else {
         let problem = Problem::Conflict("no attachment holds the end of the cable on it".to_string());
         return Err(doc.error_accepting(
@@ -162,5 +161,32 @@ pub(super) fn put_on_drum(doc: &Document<'_>, scene: &mut Scene, cable: usize, r
         scene.cables[part].integrator = chosen;
     }
     scene.cables[part].drum = Some(DrumScene { body: drum, axis, radius: row.radius });
+    Ok(())
+}
+
+/// Returns whether a point of a part is the eye of its reel.
+fn is_at_eye(scene: &Scene, part: usize, (cable, s): (usize, f64)) -> bool {
+    let own = &scene.cables[part];
+    let eye = if own.reel_at_start { 0.0 } else { own.length };
+    cable == part && (s - eye).abs() <= 1e-9 * own.length
+}
+
+/// Refuses reels at ends that nothing holds, once attachments and junctions are known: cable would come from nowhere, and nothing would
+/// take what it pulls.
+pub(super) fn check_eyes(doc: &Document<'_>, scene: &Scene) -> Result<(), Error> {
+    for cable in 0..scene.parts.len() {
+        let Some(part) = scene.reel_part(cable) else { continue };
+        let attached = scene.attachments.iter().map(|a| (a.cable, a.arc_length));
+        let tied = scene.junctions.iter().flat_map(|junction| junction.points);
+        if !attached.chain(tied).any(|point| is_at_eye(scene, part, point)) {
+            let at = KeyPath::root("cable").item(cable).key(REEL.name);
+            let problem = Problem::Conflict("nothing holds the end of the cable at it".to_string());
+            return Err(doc.error_accepting(
+                &at,
+                problem,
+                "a reel, and an attachment of that end to the world or a body",
+            ));
+        }
+    }
     Ok(())
 }

@@ -156,6 +156,8 @@ const CASES: &[Case] = &[
         &["load.0.at", "element at the eye", "sling"],
     ),
     ("", "[cable.reel]\nrate = [[0.0, 0.1]]\nfeed = \"box\"", 21, &["cable.sling.reel.feed", "coil"]),
+    ("", "[cable.reel]\nrate = [[0.0, 0.1]]", 19, &["cable.sling.reel", "nothing holds the end", "attachment"]),
+    ("", "[cable.reel]\nrate = [[0.0, 0.1]]\nstock = 1.9", 6, &["stock of a reel", "length that is out"]),
     ("", "[cable.reel]\nrate = [[0.0, 0.1]]\nacceleration = 0.0", 21, &["cable.sling.reel.acceleration", "> 0"]),
     (
         "",

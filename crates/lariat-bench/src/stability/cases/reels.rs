@@ -1,4 +1,4 @@
-//! Reels and drums: fast, to the least length, cut, with slack rope.
+//! Reels and drums: fast, to the least length, by every implicit integrator, cut, with slack rope.
 
 use super::super::engine::Drum;
 use super::prelude::*;
@@ -20,6 +20,18 @@ fn carry(w: &mut TestWorld, rope: usize) -> Result<(), Fault> {
     effects.rest_shape = None;
     effects.buoyancy.iter_mut().for_each(|buoyancy| buoyancy.added_mass = 0.0);
     Ok(cable.set_effects(effects)?)
+}
+
+/// Returns every implicit integrator but that of the other cases, at the steps of games or to a tolerance.
+fn implicit() -> [(&'static str, Integrator); 4] {
+    let steps = |method| Integrator { method, control: StepControl::MaxStep(1.0 / 240.0) };
+    let tolerant = |method| Integrator { method, control: StepControl::Tolerance(1e-4) };
+    [
+        ("ESDIRK4", tolerant(Method::Esdirk4)),
+        ("TR-BDF2", tolerant(Method::TrBdf2)),
+        ("midpoint", steps(Method::Midpoint)),
+        ("generalised-alpha", steps(Method::GeneralisedAlpha { rho: 0.5 })),
+    ]
 }
 
 /// Returns what the reel at the end of a rope does.
@@ -70,6 +82,24 @@ pub fn cases() -> Vec<Case> {
         }))
     });
     cases.push(least);
+    for (name, integrator) in implicit() {
+        let case = case(Family::Reels, format!("to the least length with 5 kN and out, {name}"), 3.4, move |w| {
+            // slower than the load falls: the rope stays taut
+            let rate = vec![[0.1, -2.5], [1.7, 1.0], [3.0, 0.0]];
+            hang(w, (510.0, [0.05, -2.99, 0.03]), 6, Reel { rate, acceleration: 8.0, ..Reel::default() })?;
+            w.cable_mut(0)?.set_integrator(integrator)?;
+            Ok(Script::new().checks(|w| {
+                let reel = reel(w, 0);
+                let value = |of: fn(&ReelReading) -> f64| reel.as_ref().map_or(f64::NAN, of);
+                let source = "0.4 of an element, and 1.3 s at 1 m/s; rows may fall within a host step";
+                vec![
+                    Check::between("length out, m", value(|r| r.length_out), (1.47, 1.53), source),
+                    Check::between("rate, m/s", value(|r| r.rate), (-1e-9, 1e-9), "the table"),
+                ]
+            }))
+        });
+        cases.push(case.on(|host| is_short(host) && host.iterations == 4).budget(100));
+    }
     let cut = case(Family::Reels, "cut while it swings and is taken in", 1.4, |w| {
         let wound = Reel { rate: vec![[0.2, -0.5]], acceleration: 4.0, ..Reel::default() };
         let load = hang(w, (5.0, [1.2, -1.2, 0.9]), 8, wound)?;
