@@ -93,11 +93,8 @@ impl Equations<'_> {
         if let Some(effects) = &self.system.forces.in_element {
             effects.add_dissipated(loss.effects, work);
         }
-        let Buffers { h, velocity_change, rhs, external, product, impulse, .. } = b;
+        let Buffers { h, velocity_change, rhs, external, product, .. } = b;
         self.system.mass.multiply(self.system.level, velocity_change, product);
-        if matrix {
-            *impulse = sum_of_forces(product) + *h * sum_of_forces(external);
-        }
         for i in 0..rhs.len() {
             rhs[i] += *h * external[i] - product[i];
         }
@@ -305,7 +302,6 @@ impl DiscreteGradientSystem for CableStep<'_> {
     fn iterate(&mut self, fresh: bool, share: f64) -> Result<Balance, StepFailure> {
         let CableStep { equations, state, buffers: b } = self;
         equations.diagnostics.newton_iterations += 1;
-        let first = b.linearised.is_empty();
         if fresh {
             equations.linearise_pairs(state, b);
             equations.step_residual(state, b, true, &mut EffectWork::default());
@@ -319,7 +315,6 @@ impl DiscreteGradientSystem for CableStep<'_> {
             return Err(equations.not_finite("Newton increment", &b.rhs));
         }
         Equations::apply_increment(b, if b.unknowns.reels.is_empty() { share } else { 1.0 });
-        equations.correct(state, b, (first, fresh))?;
         let mut work = EffectWork::default();
         let pairs = equations.balance_pairs(state, b, &mut work);
         let mut balance = equations.step_balance(state, b, &mut work);

@@ -19,7 +19,6 @@
 //! | [`projection`] | supports in vectors and matrices |
 
 mod contacts;
-mod correction;
 mod discrete_gradient;
 pub(crate) mod dynamics;
 pub(crate) mod elements;
@@ -37,7 +36,6 @@ mod projection;
 mod rigid_motion;
 mod store;
 
-pub(crate) use correction::contracts;
 pub(crate) use discrete_gradient::{CableStep, dot};
 pub(crate) use dynamics::CableDynamics;
 pub(crate) use equations::Equations;

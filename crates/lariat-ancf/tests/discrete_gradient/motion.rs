@@ -2,7 +2,7 @@
 
 use crate::common::{EXACT_IN_TIME, pendulum, rule, soft_cable, tip};
 use crate::law::energies;
-use lariat_ancf::{At, Cable, Damping, Integrator, Method, Section, StepControl, Vector3};
+use lariat_ancf::{Cable, Damping, Integrator, Method, StepControl, Vector3};
 
 fn steps(longest: f64) -> Integrator {
     Integrator { method: Method::DiscreteGradient, control: StepControl::MaxStep(longest) }
@@ -64,40 +64,6 @@ fn a_minute_of_the_undamped_pendulum_has_constant_cost_and_falling_energy() {
     assert!(d.newton_iterations <= 14_400 * 4 / 3 && worst_second <= 3 * 240, "{worst_second}: {d:?}");
     assert!(d.factorisations <= 14_400 + 288, "{d:?}");
     assert_eq!((d.rescaled_steps, d.split_steps), (0, 0));
-}
-
-/// A stiff cable that swings and snaps straight for 10 s takes hardly more than one iteration per step: what a linear solve misses of its axial forces is taken away with
-/// the factors at hand, of which there are no more than steps. Its energy only falls.
-///
-/// *Source.* What was measured, 1.02 iterations and 1.00 factorisations; without it 1.59 and 1.02.
-#[test]
-fn a_stiff_cable_takes_one_iteration_per_step() {
-    let section = Section::square(0.01, 1e9, 4000.0).unwrap();
-    for name in ["projected-3", "projected-T1"] {
-        let mut cable = Cable::builder()
-            .points([Vector3::zeros(), Vector3::new(2.0, 0.0, 0.0)])
-            .section(section)
-            .elements(10)
-            .rule(rule(name))
-            .fix(At::Start)
-            .integrator(steps(1.0 / 240.0))
-            .build()
-            .unwrap();
-        let mut last = energies(&cable)[0];
-        for _ in 0..600 {
-            cable.step(1.0 / 60.0).unwrap();
-            let [energy, scale] = energies(&cable);
-            assert!(energy <= last + 1e-8 * scale, "{name}: {last} {energy}");
-            last = energy;
-        }
-        let d = cable.diagnostics();
-        println!(
-            "{name}: {} iterations, {} factorisations in {} steps",
-            d.newton_iterations, d.factorisations, d.steps
-        );
-        assert!(d.newton_iterations as f64 <= 1.1 * d.steps as f64, "{name}: {d:?}");
-        assert!(d.factorisations as f64 <= 1.01 * d.steps as f64, "{name}: {d:?}");
-    }
 }
 
 /// Linear momentum of a thrown cable is constant to rounding, angular momentum to the bound of the dissipation.

@@ -60,12 +60,6 @@ pub(crate) struct Buffers {
     pub change: Vec<f64>,
     /// D q of the iterate about which the last linear solve was made; empty before the first.
     pub linearised: Vec<f64>,
-    /// D q of the iterate about which the matrix was made.
-    pub about: Vec<f64>,
-    /// D q by the last linear solve, if coordinates of it follow a body; else empty.
-    pub solved: Vec<f64>,
-    /// Sum of the impulses in N s of inertia and external forces when the matrix was made.
-    pub impulse: f64,
     /// What is taken from the velocities at the end, if the step makes energy; else empty.
     pub taken: Vec<f64>,
     /// Minus the residual.
@@ -109,7 +103,6 @@ impl Buffers {
             own.resize(size, 0.0);
         }
         self.linearised.clear();
-        self.solved.clear();
         self.pair_impulses.clear();
         self.taken.clear();
         self.velocity_change.clone_from(&self.velocity_before);

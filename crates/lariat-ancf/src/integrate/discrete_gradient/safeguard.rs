@@ -42,7 +42,7 @@ use crate::integrate::WorkLimit;
 const TOLERANCE: f64 = 1e-9;
 /// Share of the impulses of a step that may be unbalanced. The energy law alone lets errors of tension pass where the motion turns fast:
 /// on a rotor, 0.13 rad per step, 20 N of 63.
-pub(crate) const FORCE_TOLERANCE: f64 = 0.01;
+const FORCE_TOLERANCE: f64 = 0.01;
 /// The same for the sum of all impulses, where stock of a reel rides with a body that moves freely.
 const DRIFT_TOLERANCE: f64 = 1e-9;
 /// Number of iterations after which the balance of impulses is no longer asked for: a slack cable has hardly any.

@@ -220,11 +220,6 @@ impl BodyStep {
         (0..6).filter(|&x| !self.free[x]).for_each(|x| row[x] = 0.0);
     }
 
-    /// Returns the sum of the impulses in N s of inertia and loads.
-    pub fn impulse(&self) -> f64 {
-        self.mass * self.change.fixed_rows::<3>(0).norm() + self.h * self.force.norm()
-    }
-
     /// Adds the terms of the energy law; `row` is the completed row.
     pub fn add_balance(&self, row: &mut [f64], total: &mut Balance) {
         let power = |row: &[f64]| stack(self.mean).iter().zip(row).map(|(u, r)| u * r).sum::<f64>();
@@ -234,7 +229,7 @@ impl BodyStep {
         // the locks take what is left
         total.supports -= all - power(row);
         total.imbalance += sum_of_forces(row);
-        total.impulse += self.impulse();
+        total.impulse += self.mass * self.change.fixed_rows::<3>(0).norm() + self.h * self.force.norm();
         let (second, start) = (self.second_difference(), self.velocity);
         total.numerical += 0.5 * ALPHA * second.dot(&(self.matrix * second));
         total.loads += self.h * (self.force.dot(&self.mean[0]) + self.torque.dot(&self.mean[1]));

@@ -14,7 +14,6 @@
 //! is that of the whole: forces and torques on the bodies do work, as do gaps that close and the axes along which a body is locked.
 
 mod body;
-mod correction;
 mod coupled;
 mod holds;
 mod host_step;
@@ -244,7 +243,6 @@ impl DiscreteGradientSystem for IslandStep<'_, '_> {
 
     fn iterate(&mut self, fresh: bool, share: f64) -> Result<Balance, StepFailure> {
         self.cables.iter_mut().for_each(|cable| cable.diagnostics_mut().newton_iterations += 1);
-        let first = self.cables[0].step_buffers.linearised.is_empty();
         if fresh {
             self.linearise_pairs();
             self.linearise()?;
@@ -254,7 +252,6 @@ impl DiscreteGradientSystem for IslandStep<'_, '_> {
         }
         self.add_increment(share)?;
         self.follow();
-        self.correct((first, fresh))?;
         Ok(self.balance())
     }
 

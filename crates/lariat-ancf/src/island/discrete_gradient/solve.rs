@@ -99,19 +99,14 @@ impl IslandStep<'_, '_> {
     pub(super) fn add_increment(&mut self, share: f64) -> Result<(), StepFailure> {
         self.solve();
         self.add_to_laws();
-        self.apply(if self.buffers.unknowns.reels.is_empty() { share } else { 1.0 })
-    }
-
-    /// Adds a share of the increments to the iterate.
-    pub(super) fn apply(&mut self, share: f64) -> Result<(), StepFailure> {
-        let StepBuffers { bodies, rows, .. } = &mut *self.buffers;
+        let StepBuffers { bodies, rows, unknowns, .. } = &mut *self.buffers;
+        let share = if unknowns.reels.is_empty() { share } else { 1.0 };
         for cable in self.cables.iter_mut() {
             let CableStep { equations, buffers, .. } = cable.step_parts();
             if !buffers.rhs.iter().all(|x| x.is_finite()) {
                 return Err(equations.not_finite("Newton increment", &buffers.rhs));
             }
             Equations::apply_increment(buffers, share);
-            buffers.solved.clone_from(&buffers.change);
         }
         rows.iter_mut().for_each(|x| *x *= share);
         for (body, increment) in bodies.iter_mut().zip(rows.chunks_exact(6)) {

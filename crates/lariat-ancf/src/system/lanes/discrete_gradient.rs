@@ -269,7 +269,7 @@ impl Elements {
         s: &ElementStep<f64x8<S>>,
     ) -> f64x8<S> {
         let g = if step.linearised.is_empty() {
-            middle_before(s)
+            combined(&s.start, &s.gram_before, -0.5)
         } else {
             let about = self.gather_control(group, step.linearised);
             let mean = shifted(&shifted(&s.mean, &s.change, -0.5), &about, 0.5);
@@ -287,12 +287,6 @@ impl Elements {
 #[inline(always)]
 fn zero<S: Simd>(simd: S) -> f64x8<S> {
     <f64x8<S> as SimdBase<S>>::splat(simd, 0.0)
-}
-
-/// Returns the Gram numbers in the middle of the step before.
-#[inline(always)]
-fn middle_before<T: Real>(s: &ElementStep<T>) -> Six<T> {
-    combined(&s.start, &s.gram_before, -0.5)
 }
 
 /// Returns the pairs of the numerical dissipation of bending: those of rule T1 times a.
@@ -315,8 +309,5 @@ fn over_straight<T: Real>(g: &Six<T>) -> Six<T> {
     y
 }
 
-mod remainder;
 #[cfg(test)]
 mod tests;
-
-pub(crate) use remainder::SolvedStep;
