@@ -84,7 +84,10 @@ impl World {
             Event::Unsettled { attachment, how } => {
                 let cable = self.0.with(py, |contents| contents.set.attachment(attachment).map(|a| a.cable()).ok());
                 let (steps, force) = (100.0 * how.steps, 100.0 * how.force);
-                (format!("unsettled: {steps:.0} % of the steps before {:.3} s, forces {force:.1} % off", how.time), cable)
+                (
+                    format!("unsettled: {steps:.0} % of the steps before {:.3} s, forces {force:.1} % off", how.time),
+                    cable,
+                )
             }
             Event::Warning { cable, warning } => (format!("warning: {warning}"), Some(cable)),
             other => (format!("{other:?}"), None),
