@@ -25,17 +25,13 @@
 //! both. Systems that read cables run in parallel with both; two systems that change different
 //! cables do so only with components, which nothing here needs.
 
-use crate::attachment::Attachment;
 use crate::error::Error;
 use crate::event::{QueuedEvent, StepFailed};
-use crate::junction::Junction;
-use crate::sheave::Sheave;
-use bevy_ecs::entity::{Entity, EntityHashMap};
+use crate::links::Links;
+use bevy_ecs::entity::Entity;
 use bevy_ecs::resource::Resource;
 use lariat_ancf::{At, Break};
-use lariat_rapier::rapier::dynamics::RigidBodyHandle;
-use lariat_rapier::{AttachmentHandle, CableHandle, CableSet, Event, HostStep, JunctionHandle, Settings, SheaveHandle};
-use std::collections::{BTreeMap, HashMap};
+use lariat_rapier::{CableHandle, CableSet, Event, HostStep, Settings};
 
 /// The cables of a world: a resource to read with `Res<Cables>` and to change with
 /// `ResMut<Cables>`.
@@ -130,11 +126,26 @@ impl Cables {
     /// # Errors
     /// [`Error::NotACable`]; [`Error::NotBuilt`] with the reason.
     pub fn handle(&self, entity: Entity) -> Result<CableHandle, Error> {
-        match self.links.built.get(&entity) {
-            Some(Ok(handle)) => Ok(*handle),
-            Some(Err(reason)) => Err(Error::NotBuilt { entity, reason: reason.clone() }),
-            None => Err(Error::NotACable(entity)),
-        }
+        self.links.handle(entity)
+    }
+
+    /// Returns what the sheave of an entity did so far: what passed, its friction, what that took.
+    ///
+    /// # Errors
+    /// [`Error::NotASheave`], also if it could not be made or has ended.
+    pub fn sheave(&self, entity: Entity) -> Result<&lariat_rapier::Sheave, Error> {
+        let handle = self.links.sheaves.get(&entity).and_then(|link| link.handle);
+        handle.and_then(|handle| self.set.sheave(handle).ok()).ok_or(Error::NotASheave(entity))
+    }
+
+    /// Returns the parts of a cable that runs over [sheaves along it](crate::SheaveAlong), from start to end; the cable alone if it runs over
+    /// none.
+    ///
+    /// # Errors
+    /// [`Error::NotACable`]; [`Error::NotBuilt`] with the reason.
+    pub fn parts(&self, entity: Entity) -> Result<Vec<Entity>, Error> {
+        let parts = self.set.parts(self.handle(entity)?)?;
+        Ok(parts.iter().filter_map(|part| self.links.cables.get(part)).map(|link| link.entity).collect())
     }
 
     /// Returns the set that owns the cables, to read energy and momentum of the world, and
@@ -178,95 +189,4 @@ pub(crate) struct Parting {
     pub rest: CableHandle,
     /// Why, where and under which load.
     pub how: Break,
-}
-
-/// Which entity stands for which object of the set and of Rapier's world.
-#[derive(Clone, Debug, Default)]
-pub(crate) struct Links {
-    /// In the order of handles, so that no result depends on the order of entities.
-    pub cables: BTreeMap<CableHandle, CableLink>,
-    /// Handle of each cable entity, or why its cable could not be built.
-    pub built: EntityHashMap<Result<CableHandle, lariat_ancf::Error>>,
-    pub attachments: BTreeMap<AttachmentHandle, AttachmentLink>,
-    pub junctions: BTreeMap<JunctionHandle, JunctionLink>,
-    /// By entity.
-    pub sheaves: BTreeMap<Entity, SheaveLink>,
-    pub bodies: HashMap<RigidBodyHandle, Entity>,
-    /// The fixed body to which cables are attached that are attached to the world.
-    pub ground: Option<RigidBodyHandle>,
-}
-
-/// A cable of the set.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct CableLink {
-    pub entity: Entity,
-    /// Unstretched length in m for which shares of effects are meant: that when it was built or broke, whatever reels do.
-    pub length: f64,
-    /// The cable's counters when they were last read.
-    pub counted: lariat_ancf::Diagnostics,
-}
-
-/// An attachment of the set.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct AttachmentLink {
-    pub entity: Entity,
-    pub cable: Entity,
-    /// `None` for the world.
-    pub body: Option<Entity>,
-    pub handle: RigidBodyHandle,
-    /// The component that it was made from.
-    pub made: Attachment,
-    /// Its work when it was last read, in J.
-    pub counted: f64,
-}
-
-/// A junction of the set.
-#[derive(Clone, Debug, PartialEq)]
-pub(crate) struct JunctionLink {
-    pub entity: Entity,
-    /// The component that it was made from.
-    pub made: Junction,
-}
-
-/// A sheave of an entity.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct SheaveLink {
-    /// The component that it was made from.
-    pub made: Sheave,
-    /// The sheave of the set; `None` if it could not be made or has ended.
-    pub handle: Option<SheaveHandle>,
-}
-
-impl Links {
-    /// Links an entity to its cable.
-    pub fn insert_cable(&mut self, entity: Entity, handle: CableHandle, length: f64) {
-        self.built.insert(entity, Ok(handle));
-        self.cables.insert(handle, CableLink { entity, length, counted: lariat_ancf::Diagnostics::default() });
-    }
-
-    /// Unlinks an entity from its cable, and returns the handle if there was one.
-    pub fn remove_cable(&mut self, entity: Entity) -> Option<CableHandle> {
-        let handle = self.built.remove(&entity)?.ok()?;
-        self.cables.remove(&handle);
-        Some(handle)
-    }
-
-    /// Renames entities.
-    pub fn renamed(&self, name: &impl Fn(Entity) -> Entity) -> Links {
-        let mut links = self.clone();
-        links.built = self.built.iter().map(|(entity, built)| (name(*entity), built.clone())).collect();
-        links.cables.values_mut().for_each(|link| link.entity = name(link.entity));
-        for link in links.junctions.values_mut() {
-            link.entity = name(link.entity);
-            link.made.rename(name);
-        }
-        links.sheaves = self.sheaves.iter().map(|(entity, link)| (name(*entity), *link)).collect();
-        links.sheaves.values_mut().for_each(|link| link.made.rename(name));
-        links.bodies.values_mut().for_each(|entity| *entity = name(*entity));
-        for link in links.attachments.values_mut() {
-            (link.entity, link.cable) = (name(link.entity), name(link.cable));
-            link.body = link.body.map(name);
-        }
-        links
-    }
 }

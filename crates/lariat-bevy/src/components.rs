@@ -5,7 +5,7 @@
 //! reflection all use [`CableComponents`], so a new effect needs no further line in this crate.
 
 use crate::description::Description;
-use crate::drum::{Drum, is_of_island};
+use crate::drum::Drum;
 use crate::effects::*;
 use crate::reel::{Reel, ReelAtStart};
 use crate::strength::{BreakStrain, BreakTension};
@@ -67,7 +67,7 @@ macro_rules! components {
             /// Returns the components of a part of a cable that broke.
             pub fn of_part(&self, part: &lariat_ancf::Cable) -> Self {
                 let effects = part.effects();
-                let has_reel = |at: At| part.reel_description(at).is_some_and(|reel| !is_of_island(reel));
+                let has_reel = |at: At| part.reel_description(at).is_some_and(|reel| !reel.needs_island());
                 CableComponents {
                     rule: self.rule,
                     bending: self.bending,

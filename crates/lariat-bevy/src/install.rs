@@ -4,16 +4,13 @@ use crate::breaking;
 use crate::cables::Cables;
 use crate::clock::FixedClock;
 use crate::diagnostics::Diagnostics;
-use crate::drum;
 use crate::event;
-use crate::passing;
 use crate::pending::Pending;
 use crate::physics::Physics;
-use crate::prepare::{self, attachments, bodies, effects, junctions, removals};
+use crate::prepare::{self, attachments, bodies, drums, effects, junctions, passing, reels, removals, sheaves};
 use crate::publish;
-use crate::reel::{self, Reel, ReelAtStart};
+use crate::reel::{Reel, ReelAtStart};
 use crate::schedule::{AfterEngine, BeforeEngine, CableStep, CableSystems, RapierStep};
-use crate::sheave;
 use crate::step;
 use bevy_ecs::schedule::{IntoScheduleConfigs, Schedule, Schedules};
 use bevy_ecs::world::World;
@@ -88,12 +85,12 @@ fn add_prepare(schedule: &mut Schedule) {
             effects::watch,
             effects::update,
             junctions::update,
-            sheave::update,
+            sheaves::update,
             attachments::update,
             passing::update,
-            drum::update,
-            reel::set_reels::<Reel>,
-            reel::set_reels::<ReelAtStart>,
+            drums::update,
+            reels::update::<Reel>,
+            reels::update::<ReelAtStart>,
             breaking::set_strengths,
             prepare::copy_coordinates,
             prepare::end,

@@ -89,6 +89,7 @@ pub mod event;
 mod install;
 mod interpolate;
 mod junction;
+mod links;
 mod passing;
 mod pending;
 mod physics;

@@ -1,18 +1,10 @@
 //! Reels at the ends of cables.
 
-use crate::cable::Cable;
-use crate::cables::Cables;
-use crate::drum::is_of_island;
-use crate::event::CableFailed;
 use bevy_ecs::component::Component;
-use bevy_ecs::entity::Entity;
-use bevy_ecs::entity_disabling::Disabled;
-use bevy_ecs::prelude::{Changed, Or, Query, RemovedComponents, ResMut, With};
-use bevy_ecs::query::Allow;
 use lariat_ancf::At;
 
 /// A reel at the end of a cable: change its rates as you like. `cables.get(entity)?.reel(At::End)` reads it. One that the cable cannot carry
-/// is an error: [`CableFailed`].
+/// is an error: [`CableFailed`](crate::CableFailed).
 ///
 /// ```
 /// use bevy_ecs::prelude::*;
@@ -72,36 +64,5 @@ impl EndReel for ReelAtStart {
 
     fn description(&self) -> &lariat_ancf::Reel {
         &self.0
-    }
-}
-
-/// Query filter: the reel of a cable was added or changed, or the cable was.
-type ReelChanged<R> = Or<(Changed<R>, Changed<Cable>)>;
-
-/// Gives cables their reels at an end, changes and removes them.
-pub(crate) fn set_reels<R: EndReel>(
-    mut cables: ResMut<Cables>,
-    reels: Query<&R, (With<Cable>, Allow<Disabled>)>,
-    changed: Query<Entity, (ReelChanged<R>, Allow<Disabled>)>,
-    mut removed: RemovedComponents<R>,
-) {
-    for entity in changed.iter().chain(removed.read()) {
-        let Ok(now) = cables.get(entity).map(|cable| cable.reel_description(R::AT).cloned()) else { continue };
-        let wanted = reels.get(entity).ok().map(|reel| reel.description().clone());
-        if now == wanted {
-            continue;
-        }
-        let Ok(cable) = cables.get_mut(entity) else { continue };
-        let outcome = match (now, wanted) {
-            // that of a drum or a sheave
-            (Some(now), None) if is_of_island(&now) => continue,
-            (Some(now), Some(reel)) if is_of_island(&now) => cable.add_reel(R::AT, reel),
-            (_, None) => cable.remove_reel(R::AT),
-            (None, Some(reel)) => cable.add_reel(R::AT, reel),
-            (Some(_), Some(reel)) => cable.set_reel(R::AT, reel),
-        };
-        if let Err(error) = outcome {
-            cables.events.push(CableFailed { entity, error }.into());
-        }
     }
 }

@@ -1,20 +1,12 @@
 //! Sheaves, as entities.
 
-use crate::cables::{Cables, SheaveLink};
-use crate::error::Error;
-use crate::event::SheaveFailed;
-use crate::pending::Pending;
-use bevy_ecs::change_detection::DetectChanges;
 use bevy_ecs::component::Component;
 use bevy_ecs::entity::Entity;
-use bevy_ecs::entity_disabling::Disabled;
-use bevy_ecs::prelude::{Query, Ref, Res, ResMut};
-use bevy_ecs::query::Allow;
 use lariat_ancf::At;
 use lariat_rapier::SheaveOptions;
 
 /// Lets a cable run into another over a wheel without extent: both ends are attached at one point, of a body or of the world.
-/// [`Cables::sheave`] reads it. It ends when this component is removed or its entity is despawned.
+/// [`Cables::sheave`](crate::Cables::sheave) reads it. It ends when this component is removed or its entity is despawned.
 ///
 /// ```
 /// # use bevy_ecs::prelude::*;
@@ -33,7 +25,7 @@ use lariat_rapier::SheaveOptions;
 /// ```
 ///
 /// Both cables need the integrator `discrete-gradient`, the default, and one mass per length. If a sheave cannot be made, or ends with
-/// one of its cables or attachments, [`SheaveFailed`] is sent; it is tried again when the component changes or a cable is spawned.
+/// one of its cables or attachments, [`SheaveFailed`](crate::SheaveFailed) is sent; it is tried again when the component changes or a cable is spawned.
 #[derive(Component, Clone, Copy, Debug, PartialEq)]
 pub struct Sheave {
     /// The cable that runs into the other at positive rates, and its end.
@@ -65,61 +57,5 @@ impl Sheave {
     /// Renames entities.
     pub(crate) fn rename(&mut self, name: &impl Fn(Entity) -> Entity) {
         (self.from.0, self.to.0) = (name(self.from.0), name(self.to.0));
-    }
-}
-
-impl Cables {
-    /// Returns what the sheave of an entity did so far: what passed, its friction, what that took.
-    ///
-    /// # Errors
-    /// [`Error::NotASheave`], also if it could not be made or has ended.
-    pub fn sheave(&self, entity: Entity) -> Result<&lariat_rapier::Sheave, Error> {
-        let handle = self.links.sheaves.get(&entity).and_then(|link| link.handle);
-        handle.and_then(|handle| self.set.sheave(handle).ok()).ok_or(Error::NotASheave(entity))
-    }
-}
-
-/// Makes the sheaves that the components ask for, and ends the others. `pending.new_cables` is still that of the attachments.
-pub(crate) fn update(
-    mut cables: ResMut<Cables>,
-    pending: Res<Pending>,
-    sheaves: Query<(Entity, Ref<Sheave>), Allow<Disabled>>,
-) {
-    let Cables { set, links, events, .. } = &mut *cables;
-    links.sheaves.retain(|entity, link| {
-        let stays = sheaves.get(*entity).is_ok_and(|(_, sheave)| *sheave == link.made);
-        if let Some(handle) = link.handle.filter(|_| !stays) {
-            // one that has ended already is what is wanted
-            let _ = set.remove_sheave(handle);
-        }
-        stays
-    });
-    for (entity, sheave) in &sheaves {
-        if let Some(link) = links.sheaves.get_mut(&entity) {
-            match link.handle.map(|handle| set.sheave(handle)) {
-                Some(Ok(_)) => continue,
-                Some(Err(error)) => {
-                    link.handle = None;
-                    events.push(SheaveFailed { entity, error: error.into() }.into());
-                    continue;
-                }
-                None if !pending.new_cables && !sheave.is_changed() => continue,
-                None => {}
-            }
-        }
-        let handle = |cable: Entity| match links.built.get(&cable) {
-            Some(Ok(handle)) => Ok(*handle),
-            Some(Err(reason)) => Err(Error::NotBuilt { entity: cable, reason: reason.clone() }),
-            None => Err(Error::NotACable(cable)),
-        };
-        let added = handle(sheave.from.0).and_then(|from| {
-            let to = handle(sheave.to.0)?;
-            Ok(set.add_sheave((from, sheave.from.1), (to, sheave.to.1), sheave.options)?)
-        });
-        let link = SheaveLink { made: *sheave, handle: added.as_ref().ok().copied() };
-        links.sheaves.insert(entity, link);
-        if let Err(error) = added {
-            events.push(SheaveFailed { entity, error }.into());
-        }
     }
 }

@@ -8,12 +8,13 @@
 use crate::attachment::{Attached, Attachment, AttachmentReading, BreakForce, NotAttachable, OnCable, ToBody};
 use crate::body::{Body, BodyHandle, BodyPose, KinematicTarget};
 use crate::cable::Cable;
-use crate::cables::{AttachmentLink, Cables, Links};
+use crate::cables::Cables;
 use crate::clock::FixedClock;
 use crate::components::{CableComponents, put};
 use crate::error::Error;
 use crate::interpolate::Interpolate;
 use crate::junction::{Joined, Junction, NotJoinable};
+use crate::links::{AttachmentLink, Links};
 use crate::passing::SheaveAlong;
 use crate::pending::Pending;
 use crate::physics::Physics;

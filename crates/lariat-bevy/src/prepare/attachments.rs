@@ -2,9 +2,10 @@
 
 use crate::attachment::{Attached, Attachment, NotAttachable, OnCable, ToBody};
 use crate::body::BodyHandle;
-use crate::cables::{AttachmentLink, Cables};
+use crate::cables::Cables;
 use crate::error::Error;
 use crate::event::{AttachmentEnded, AttachmentFailed, EndReason};
+use crate::links::AttachmentLink;
 use crate::pending::Pending;
 use crate::physics::Physics;
 use bevy_ecs::change_detection::DetectChanges;

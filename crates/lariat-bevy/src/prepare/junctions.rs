@@ -1,9 +1,10 @@
 //! Junctions that were spawned, changed, or lost a cable.
 
-use crate::cables::{Cables, JunctionLink};
+use crate::cables::Cables;
 use crate::error::Error;
 use crate::event::{JunctionEnded, JunctionFailed};
 use crate::junction::{Joined, Junction, NotJoinable};
+use crate::links::JunctionLink;
 use crate::pending::Pending;
 use bevy_ecs::change_detection::DetectChanges;
 use bevy_ecs::entity::Entity;

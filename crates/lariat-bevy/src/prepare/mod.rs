@@ -3,9 +3,13 @@
 
 pub(crate) mod attachments;
 pub(crate) mod bodies;
+pub(crate) mod drums;
 pub(crate) mod effects;
 pub(crate) mod junctions;
+pub(crate) mod passing;
+pub(crate) mod reels;
 pub(crate) mod removals;
+pub(crate) mod sheaves;
 
 use crate::cable::{Cable, build};
 use crate::cables::Cables;

@@ -86,7 +86,7 @@ impl Reel {
     }
 
     /// Returns whether its rate is that of a sheave or a drum of an island.
-    pub(crate) fn needs_island(&self) -> bool {
+    pub fn needs_island(&self) -> bool {
         matches!(self.feed, Feed::Sheave | Feed::BodyDrum)
     }
 

@@ -1,0 +1,110 @@
+//! Entities of the objects of the set and of Rapier's world.
+
+use crate::attachment::Attachment;
+use crate::error::Error;
+use crate::junction::Junction;
+use crate::sheave::Sheave;
+use bevy_ecs::entity::{Entity, EntityHashMap};
+use lariat_rapier::rapier::dynamics::RigidBodyHandle;
+use lariat_rapier::{AttachmentHandle, CableHandle, JunctionHandle, SheaveHandle};
+use std::collections::{BTreeMap, HashMap};
+
+/// Which entity stands for which object of the set and of Rapier's world.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Links {
+    /// In the order of handles, so that no result depends on the order of entities.
+    pub cables: BTreeMap<CableHandle, CableLink>,
+    /// Handle of each cable entity, or why its cable could not be built.
+    pub built: EntityHashMap<Result<CableHandle, lariat_ancf::Error>>,
+    pub attachments: BTreeMap<AttachmentHandle, AttachmentLink>,
+    pub junctions: BTreeMap<JunctionHandle, JunctionLink>,
+    /// By entity.
+    pub sheaves: BTreeMap<Entity, SheaveLink>,
+    pub bodies: HashMap<RigidBodyHandle, Entity>,
+    /// The fixed body to which cables are attached that are attached to the world.
+    pub ground: Option<RigidBodyHandle>,
+}
+
+/// A cable of the set.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct CableLink {
+    pub entity: Entity,
+    /// Unstretched length in m for which shares of effects are meant: that when it was built or broke, whatever reels do.
+    pub length: f64,
+    /// The cable's counters when they were last read.
+    pub counted: lariat_ancf::Diagnostics,
+}
+
+/// An attachment of the set.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct AttachmentLink {
+    pub entity: Entity,
+    pub cable: Entity,
+    /// `None` for the world.
+    pub body: Option<Entity>,
+    pub handle: RigidBodyHandle,
+    /// The component that it was made from.
+    pub made: Attachment,
+    /// Its work when it was last read, in J.
+    pub counted: f64,
+}
+
+/// A junction of the set.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct JunctionLink {
+    pub entity: Entity,
+    /// The component that it was made from.
+    pub made: Junction,
+}
+
+/// A sheave of an entity.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct SheaveLink {
+    /// The component that it was made from.
+    pub made: Sheave,
+    /// The sheave of the set; `None` if it could not be made or has ended.
+    pub handle: Option<SheaveHandle>,
+}
+
+impl Links {
+    /// Returns the handle of an entity's cable.
+    pub fn handle(&self, entity: Entity) -> Result<CableHandle, Error> {
+        match self.built.get(&entity) {
+            Some(Ok(handle)) => Ok(*handle),
+            Some(Err(reason)) => Err(Error::NotBuilt { entity, reason: reason.clone() }),
+            None => Err(Error::NotACable(entity)),
+        }
+    }
+
+    /// Links an entity to its cable.
+    pub fn insert_cable(&mut self, entity: Entity, handle: CableHandle, length: f64) {
+        self.built.insert(entity, Ok(handle));
+        self.cables.insert(handle, CableLink { entity, length, counted: lariat_ancf::Diagnostics::default() });
+    }
+
+    /// Unlinks an entity from its cable, and returns the handle if there was one.
+    pub fn remove_cable(&mut self, entity: Entity) -> Option<CableHandle> {
+        let handle = self.built.remove(&entity)?.ok()?;
+        self.cables.remove(&handle);
+        Some(handle)
+    }
+
+    /// Renames entities.
+    pub fn renamed(&self, name: &impl Fn(Entity) -> Entity) -> Links {
+        let mut links = self.clone();
+        links.built = self.built.iter().map(|(entity, built)| (name(*entity), built.clone())).collect();
+        links.cables.values_mut().for_each(|link| link.entity = name(link.entity));
+        for link in links.junctions.values_mut() {
+            link.entity = name(link.entity);
+            link.made.rename(name);
+        }
+        links.sheaves = self.sheaves.iter().map(|(entity, link)| (name(*entity), *link)).collect();
+        links.sheaves.values_mut().for_each(|link| link.made.rename(name));
+        links.bodies.values_mut().for_each(|entity| *entity = name(*entity));
+        for link in links.attachments.values_mut() {
+            (link.entity, link.cable) = (name(link.entity), name(link.cable));
+            link.body = link.body.map(name);
+        }
+        links
+    }
+}
