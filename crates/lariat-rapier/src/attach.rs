@@ -3,12 +3,11 @@
 use crate::attachment::{Attachment, AttachmentKind, AttachmentOptions, AttachmentReading, Gap};
 use crate::contents::Contents;
 use crate::convert::{rotation, vector};
-use crate::drum;
+use crate::edit::{drums, sheaves};
 use crate::error::Error;
 use crate::events::Event;
 use crate::gaps::GapWatch;
 use crate::handle::{AttachmentHandle, CableHandle};
-use crate::sheave;
 use crate::world_mark;
 use ::nalgebra::{Vector3, Vector6};
 use lariat_ancf::At;
@@ -84,7 +83,7 @@ pub(crate) fn detach(
     contents.changed = true;
     let held = contents.cable(cable)?;
     if node == 0 || node + 1 == held.nodes() {
-        sheave::remove_at(contents, cable, Some(node == 0))?;
+        sheaves::remove_at(contents, cable, Some(node == 0))?;
     }
     // the reaction estimate is invalid without this cable
     contents.records.record_mut(body).reaction = Vector6::zeros();
@@ -119,7 +118,7 @@ pub(crate) fn end_lost(
         }
     }
     contents.records.retain_existing(world);
-    drum::end_lost(contents, &world.bodies)
+    drums::end_lost(contents, &world.bodies)
 }
 
 /// Checks that a point of a cable can be attached to a point of a body, and returns the body.

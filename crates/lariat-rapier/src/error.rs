@@ -1,8 +1,6 @@
 //! The error type of this crate.
 
-use crate::contents::Contents;
 use crate::handle::{AttachmentHandle, CableHandle, JunctionHandle, SheaveHandle};
-use crate::islands::Island;
 use rapier::dynamics::RigidBodyHandle;
 use rapier::geometry::ColliderHandle;
 use thiserror::Error as ThisError;
@@ -154,16 +152,6 @@ pub struct Failure {
     pub cables: Vec<CableHandle>,
     /// The cause, an [`Error::StepRefused`] with the names of the cables.
     pub error: Error,
-}
-
-impl Failure {
-    pub(crate) fn new(contents: &Contents, island: &Island, cause: Error) -> Self {
-        let slots = || island.cables.iter().filter_map(|&c| contents.cables.get(c));
-        let cables = slots().map(|slot| slot.cable.name().to_string()).collect();
-        let time = slots().next().map_or(0.0, |slot| slot.cable.time());
-        let error = Error::StepRefused { cables, time, cause: Box::new(cause) };
-        Failure { cables: island.cables.iter().map(|&c| CableHandle(c as u32)).collect(), error }
-    }
 }
 
 /// A quantity of a body, named in an [`Error`].

@@ -10,7 +10,7 @@ use crate::attachment::Attachment;
 use crate::body::is_integrated;
 use crate::contents::{Contents, Slot};
 use crate::convert::vector;
-use crate::error::Error;
+use crate::error::{Error, Failure};
 use crate::handle::CableHandle;
 use crate::mechanism;
 use crate::proximity;
@@ -94,6 +94,15 @@ impl Island {
     /// Returns the handles of its integrated bodies.
     pub fn bodies(&self) -> impl Iterator<Item = RigidBodyHandle> {
         self.members.iter().filter_map(Member::body)
+    }
+
+    /// Returns that it could not step, with the names of its cables and their time.
+    pub fn failure(&self, contents: &Contents, cause: Error) -> Failure {
+        let slots = || self.cables.iter().filter_map(|&c| contents.cables.get(c));
+        let cables = slots().map(|slot| slot.cable.name().to_string()).collect();
+        let time = slots().next().map_or(0.0, |slot| slot.cable.time());
+        let error = Error::StepRefused { cables, time, cause: Box::new(cause) };
+        Failure { cables: self.cables.iter().map(|&c| CableHandle(c as u32)).collect(), error }
     }
 
     /// Returns the indices of the pins on a member.

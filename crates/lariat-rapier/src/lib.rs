@@ -135,6 +135,7 @@ mod islands;
 mod join;
 mod junction;
 mod ledger;
+mod mark;
 mod mechanism;
 mod passing;
 mod proximity;
@@ -152,6 +153,7 @@ mod table;
 mod totals;
 mod unsettled;
 mod warnings;
+mod wheels;
 mod world_mark;
 
 pub use attachment::{Attachment, AttachmentKind, AttachmentOptions, AttachmentReading, Gap};

@@ -4,11 +4,11 @@ use crate::attach;
 use crate::attachment::AttachmentKind;
 use crate::contents::Contents;
 use crate::convert::vector;
-use crate::edit;
+use crate::edit::{self, sheaves};
 use crate::error::Error;
 use crate::handle::{CableHandle, SheaveHandle};
 use crate::set::CableSet;
-use crate::sheave::{self, SheaveOptions};
+use crate::sheave::{Sheave, SheaveOptions};
 use crate::{AttachmentOptions, Gap};
 use ::nalgebra::Vector3;
 use lariat_ancf::{At, Cable, Reel};
@@ -50,7 +50,7 @@ impl CableSet {
     pub fn parts(&self, cable: CableHandle) -> Result<Vec<CableHandle>, Error> {
         self.contents.cable(cable)?;
         let beside = |cable: CableHandle, side: usize| {
-            let there = |sheave: &&sheave::Sheave| sheave.along && sheave.ends[side] == (cable, side == 1);
+            let there = |sheave: &&Sheave| sheave.along && sheave.ends[side] == (cable, side == 1);
             self.contents.sheaves.values().find(there).map(|sheave| sheave.ends[1 - side].0)
         };
         let mut first = cable;
@@ -108,7 +108,7 @@ fn add(
     for end in [(cable, At::End), (rest, At::Start)] {
         attach::attach(contents, world, end, (body, anchor), held)?;
     }
-    let sheave = sheave::add(contents, (cable, At::End), (rest, At::Start), options)?;
+    let sheave = sheaves::add(contents, (cable, At::End), (rest, At::Start), options)?;
     if let Some(own) = contents.sheaves.get_mut(sheave.0 as usize) {
         own.along = true;
     }

@@ -1,14 +1,8 @@
 //! The usual rope between two points, in one call.
 
-use crate::attachment::AttachmentKind;
-use crate::error::Error;
 use crate::handle::{AttachmentHandle, CableHandle};
-use crate::set::CableSet;
-use crate::world_mark;
 use lariat_ancf::{At, Cable, Damping, Fidelity, Point, Section, Vector3};
-use rapier::dynamics::RigidBodyHandle;
 use rapier::math::Vector;
-use rapier::pipeline::PhysicsWorld;
 
 /// Damping ratio of the first axial mode of a rope with one end fixed.
 pub const ROPE_DAMPING: f64 = 0.2;
@@ -88,6 +82,35 @@ impl Rope {
     pub fn length(&self, from: &Vector3<f64>, to: &Vector3<f64>) -> f64 {
         (to - from).norm() * (1.0 + self.slack)
     }
+
+    /// Builds its cable, fixed where no body holds it.
+    pub(crate) fn build<B>(&self, [from, to]: &[RopeEnd<B>; 2]) -> Result<Cable, lariat_ancf::Error> {
+        let length = self.length(&from.point, &to.point);
+        let section = self.section.clone()?;
+        let wave_speed = (section.axial_stiffness / section.mass_per_length).sqrt();
+        let mut builder = Cable::builder()
+            .name(self.name.as_str())
+            .points([from.point, to.point])
+            .length(length)
+            .section(section)
+            .elements(self.elements);
+        if let Some(fidelity) = self.fidelity {
+            builder = builder.fidelity(fidelity);
+        }
+        if length > 0.0 {
+            // a length that is not positive is an error of the builder
+            let first_mode = core::f64::consts::FRAC_PI_2 * wave_speed / length;
+            builder = builder.damping(Damping::from_ratio(ROPE_DAMPING, first_mode)?);
+        }
+        for (at, end) in [(At::Start, from), (At::End, to)] {
+            if end.body.is_none() {
+                builder = builder.fix(at);
+            }
+        }
+        let mut cable = builder.build()?;
+        cable.set_strength(self.strength)?;
+        Ok(cable)
+    }
 }
 
 /// An end of a rope: a point of the world in m, and the body that holds it there; without one the
@@ -126,50 +149,4 @@ pub struct RopeHandles {
     pub start: Option<AttachmentHandle>,
     /// The attachment of its end; `None` if the world holds it.
     pub end: Option<AttachmentHandle>,
-}
-
-/// Adds a rope between two points, held there by the world or by bodies.
-pub(crate) fn add(
-    set: &mut CableSet,
-    world: &PhysicsWorld,
-    [from, to]: [RopeEnd<RigidBodyHandle>; 2],
-    rope: &Rope,
-) -> Result<RopeHandles, Error> {
-    for body in [from.body, to.body].into_iter().flatten() {
-        if !world_mark::is_own(&set.contents, world) {
-            return Err(Error::OtherWorld);
-        }
-        world.bodies.get(body).ok_or(Error::NoBody(body))?;
-    }
-    let length = rope.length(&from.point, &to.point);
-    let section = rope.section.clone()?;
-    let wave_speed = (section.axial_stiffness / section.mass_per_length).sqrt();
-    let mut builder = Cable::builder()
-        .name(rope.name.as_str())
-        .points([from.point, to.point])
-        .length(length)
-        .section(section)
-        .elements(rope.elements);
-    if let Some(fidelity) = rope.fidelity {
-        builder = builder.fidelity(fidelity);
-    }
-    if length > 0.0 {
-        // a length that is not positive is an error of the builder
-        let first_mode = core::f64::consts::FRAC_PI_2 * wave_speed / length;
-        builder = builder.damping(Damping::from_ratio(ROPE_DAMPING, first_mode)?);
-    }
-    for (at, end) in [(At::Start, &from), (At::End, &to)] {
-        if end.body.is_none() {
-            builder = builder.fix(at);
-        }
-    }
-    let mut cable = builder.build()?;
-    cable.set_strength(rope.strength)?;
-    let cable = set.insert(cable);
-    let mut attach = |at, end: &RopeEnd<RigidBodyHandle>| {
-        end.body.map(|body| set.attach_here(world, cable, at, body, AttachmentKind::Ball)).transpose()
-    };
-    // the bodies exist and the ends are free: neither fails
-    let (start, end) = (attach(At::Start, &from)?, attach(At::End, &to)?);
-    Ok(RopeHandles { cable, start, end })
 }

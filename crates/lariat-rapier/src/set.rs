@@ -8,7 +8,7 @@ use crate::error::{Error, Failure};
 use crate::events::Event;
 use crate::handle::{AttachmentHandle, CableHandle, JunctionHandle};
 use crate::junction::Junction;
-use crate::rope::{self, Rope, RopeEnd, RopeHandles};
+use crate::rope::{Rope, RopeEnd, RopeHandles};
 use crate::settings::Settings;
 use crate::statics::{self, Equilibrium};
 use crate::step::Stepper;
@@ -101,7 +101,20 @@ impl CableSet {
         to: impl Into<RopeEnd<RigidBodyHandle>>,
         rope: Rope,
     ) -> Result<RopeHandles, Error> {
-        rope::add(self, world, [from.into(), to.into()], &rope)
+        let ends = [from.into(), to.into()];
+        for body in ends.iter().filter_map(|end| end.body) {
+            if !world_mark::is_own(&self.contents, world) {
+                return Err(Error::OtherWorld);
+            }
+            world.bodies.get(body).ok_or(Error::NoBody(body))?;
+        }
+        let cable = self.insert(rope.build(&ends)?);
+        let mut attach = |at, end: &RopeEnd<RigidBodyHandle>| {
+            end.body.map(|body| self.attach_here(world, cable, at, body, AttachmentKind::Ball)).transpose()
+        };
+        // the bodies exist and the ends are free: neither fails
+        let (start, end) = (attach(At::Start, &ends[0])?, attach(At::End, &ends[1])?);
+        Ok(RopeHandles { cable, start, end })
     }
 
     /// Sets what a cable withstands: a [`Strength`] or a tension in N, compared after each host step;

@@ -17,24 +17,10 @@
 
 use crate::contents::Contents;
 use crate::error::Error;
-use rapier::dynamics::{RigidBodyBuilder, RigidBodyHandle};
+use crate::mark::WorldMark;
+use rapier::dynamics::RigidBodyBuilder;
 use rapier::pipeline::PhysicsWorld;
-use serde::{Deserialize, Serialize};
 use std::hash::{DefaultHasher, Hash, Hasher};
-
-/// The mark of a set in its world.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub(crate) struct WorldMark {
-    body: RigidBodyHandle,
-    key: u64,
-}
-
-impl WorldMark {
-    /// Returns whether a world carries this mark.
-    fn is_in(&self, world: &PhysicsWorld) -> bool {
-        world.bodies.get(self.body).is_some_and(|body| !body.is_enabled() && body.user_data == u128::from(self.key))
-    }
-}
 
 /// Returns whether a world may be the one of the attachments: it carries their mark, or there is none
 /// yet.

@@ -228,7 +228,7 @@ fn predict_islands(
             apply::revert(contents, world, island, prediction);
             prediction.applied.clear();
             impedance::disable_motors(contents, world, island.attachments.iter().flatten().copied());
-            failures.push(Failure::new(contents, island, error));
+            failures.push(island.failure(contents, error));
             prediction.refused = true;
         }
         if prediction.refused {

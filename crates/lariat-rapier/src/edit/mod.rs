@@ -1,13 +1,14 @@
 //! Removing and cutting cables.
 
+pub(crate) mod drums;
+pub(crate) mod sheaves;
+
 use crate::attach::detach;
 use crate::contents::Contents;
-use crate::drum;
 use crate::error::Error;
 use crate::events::Event;
 use crate::handle::{AttachmentHandle, CableHandle, JunctionHandle};
 use crate::join::leave;
-use crate::sheave;
 use lariat_ancf::{Break, Cable};
 use rapier::pipeline::PhysicsWorld;
 
@@ -19,8 +20,8 @@ pub(crate) fn remove(contents: &mut Contents, world: &mut PhysicsWorld, cable: C
             detach(contents, world, AttachmentHandle(i as u32))?;
         }
     }
-    sheave::remove_at(contents, cable, None)?;
-    drum::remove_of(contents, cable)?;
+    sheaves::remove_at(contents, cable, None)?;
+    drums::remove_of(contents, cable)?;
     for i in 0..contents.junctions.len() {
         if contents.junctions.get(i).is_some_and(|j| j.nodes.iter().any(|(c, _)| *c == cable)) {
             leave(contents, JunctionHandle(i as u32), cable)?;
@@ -46,8 +47,8 @@ pub(crate) fn part(
     if let Some(slot) = contents.cables.get_mut(tail.0 as usize) {
         (slot.follows_gravity, slot.rules) = (follows_gravity, rules);
     }
-    sheave::follow_cut(contents, cable, tail);
-    drum::follow_cut(contents, cable, tail);
+    sheaves::follow_cut(contents, cable, tail);
+    drums::follow_cut(contents, cable, tail);
     let held = contents.attachments.values_mut().map(|a| (&mut a.cable, &mut a.arc_length));
     let tied = contents.junctions.values_mut().flat_map(|j| j.nodes.iter_mut().zip(&mut j.arc_lengths));
     for (of, s) in held.chain(tied.map(|((of, _), s)| (of, s))) {

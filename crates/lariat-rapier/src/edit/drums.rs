@@ -1,0 +1,39 @@
+//! Ending drums, and keeping them with the end of a cable that is cut.
+
+use crate::contents::Contents;
+use crate::drum::Wound;
+use crate::error::Error;
+use crate::handle::CableHandle;
+use rapier::dynamics::RigidBodySet;
+
+/// Ends the drums that `ends` names, and the reels on them.
+pub(crate) fn remove_where(contents: &mut Contents, mut ends: impl FnMut(&Wound) -> bool) -> Result<(), Error> {
+    for i in (0..contents.drums.len()).rev() {
+        let wound = contents.drums[i];
+        if ends(&wound) {
+            contents.drums.remove(i);
+            contents.changed = true;
+            if let Ok(cable) = contents.cable_mut(wound.cable) {
+                cable.remove_reel(wound.at())?;
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Ends the drums of a cable that is removed.
+pub(crate) fn remove_of(contents: &mut Contents, cable: CableHandle) -> Result<(), Error> {
+    remove_where(contents, |wound| wound.cable == cable)
+}
+
+/// Ends the drums whose bodies were removed from the world.
+pub(crate) fn end_lost(contents: &mut Contents, bodies: &RigidBodySet) -> Result<(), Error> {
+    remove_where(contents, |wound| !bodies.contains(wound.drum.body))
+}
+
+/// Gives the drum at the end of a cable that was cut to the part behind the cut.
+pub(crate) fn follow_cut(contents: &mut Contents, cable: CableHandle, tail: CableHandle) {
+    for wound in contents.drums.iter_mut().filter(|wound| wound.cable == cable && !wound.start) {
+        wound.cable = tail;
+    }
+}
