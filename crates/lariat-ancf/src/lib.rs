@@ -37,6 +37,7 @@
 //! in any release: [`element`] (one element as a function of six Gram numbers), [`axial`] and [`bending`] (one file per rule of the elastic
 //! forces), [`linalg`] (the block-tridiagonal solver).
 
+mod at;
 pub mod axial;
 pub mod bending;
 pub mod cable;
@@ -54,6 +55,7 @@ mod model;
 mod point;
 mod quadrature;
 mod real;
+mod reel;
 mod rule;
 mod section;
 mod simd;
@@ -64,14 +66,14 @@ mod support;
 mod system;
 pub mod warning;
 
-pub use cable::builder::{CableBuilder, STANDARD_GRAVITY};
+pub use at::At;
+pub use cable::builder::CableBuilder;
 pub use cable::energy::{Energy, Momentum};
 pub use cable::fleet::{FleetError, step_all};
 pub use cable::mesh::{MeshIndicator, MotionIndicator};
 pub use cable::reactions::Reaction;
 pub use cable::sample::Sample;
-pub use cable::{At, Cable, Snapshot};
-pub use cable::{Feed, Reel, ReelReading};
+pub use cable::{Cable, ReelReading, Snapshot};
 pub use diagnostics::Diagnostics;
 pub use effect::{
     Buoyancy, CablePoint, Contact, Damping, Drag, EffectCounts, EffectWork, Effects, Flow, ForceDensity,
@@ -80,10 +82,12 @@ pub use effect::{
 pub use error::{EquilibriumFailure, Error, PinProblem, Requirement, StepFailure};
 pub use integrate::{ErrorNorm, Fidelity, Integrator, IntegratorChoice, IntegratorRef, Method, StepControl};
 pub use load::PointLoad;
+pub use model::STANDARD_GRAVITY;
 /// The vector type of the public interface (nalgebra's).
 pub use nalgebra::Vector3;
 pub use point::Point;
 pub use real::Real;
+pub use reel::{Feed, Reel};
 pub use rule::{AxialRule, BendingRule, Rule};
 pub use section::{Element, Section, Shape};
 pub use statics::{EquilibriumOptions, EquilibriumReport};

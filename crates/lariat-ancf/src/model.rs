@@ -1,11 +1,11 @@
 //! What a cable is made of: plain data from which everything else is rebuilt.
 
-use crate::cable::{Corner, Reels};
 use crate::contact::Obstacles;
 use crate::effect::force_density::ForceDensities;
 use crate::effect::{Effects, LineLoads, Target};
 use crate::error::{Error, require, require_finite};
 use crate::load::PointLoad;
+use crate::reel::Reels;
 use crate::rule::Rule;
 use crate::section::Element;
 use crate::strength::Strength;
@@ -13,8 +13,21 @@ use crate::support::Support;
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
+/// Gravity that a cable has unless told otherwise, in m/s^2: (0, -9.81, 0). Not the standard 9.80665: the value that games and
+/// engines use.
+pub const STANDARD_GRAVITY: Vector3<f64> = Vector3::new(0.0, -9.81, 0.0);
+
 /// Largest number of elements of a cable.
 pub(crate) const MAX_ELEMENTS: usize = 1_000_000;
+
+/// A node at a corner of the drawn shape.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub(crate) struct Corner {
+    pub(crate) position: Vector3<f64>,
+    pub(crate) slope: Vector3<f64>,
+    /// Slopes of the cable before and behind it.
+    pub(crate) sides: [Vector3<f64>; 2],
+}
 
 /// The description of a cable; see [`CableBuilder`](crate::CableBuilder) for units and defaults.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

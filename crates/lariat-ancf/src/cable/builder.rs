@@ -1,24 +1,22 @@
 //! Building a cable.
 
-use super::{At, Cable, Corner, Reels, Snapshot, layout};
+use super::{Cable, Snapshot, layout};
+use crate::at::At;
 use crate::contact::Obstacles;
 use crate::effect::force_density::ForceDensities;
 use crate::effect::{Damping, Effects, ForceDensity, RopeKind};
 use crate::error::{Error, require, require_finite};
 use crate::integrate::{Fidelity, IntegratorChoice};
 use crate::load::PointLoad;
-use crate::model::{MAX_ELEMENTS, Model};
+use crate::model::{Corner, MAX_ELEMENTS, Model, STANDARD_GRAVITY};
 use crate::point::Point;
+use crate::reel::Reels;
 use crate::rule::{BendingRule, Rule};
 use crate::section::Element;
 use crate::section::Section;
 use crate::support::{Motion, SlopeSupport, Support};
 use nalgebra::Vector3;
 use std::sync::Arc;
-
-/// Gravity that a cable has unless told otherwise, in m/s^2: (0, -9.81, 0). Not the standard 9.80665: the value that games and
-/// engines use.
-pub const STANDARD_GRAVITY: Vector3<f64> = Vector3::new(0.0, -9.81, 0.0);
 
 /// How a node is held at the start; see [`CableBuilder::fix`] and [`CableBuilder::clamp`].
 #[derive(Clone, Copy, Debug)]

@@ -9,21 +9,13 @@
 //! The slope of least strain energy: a part that has moved since would jump, and one of a single element between two corners would be bent
 //! in an arc.
 
+use super::Cable;
 use super::layout::Laid;
-use super::{At, Cable};
+use crate::at::At;
 use crate::element::side::Side;
 use crate::integrate::State;
+use crate::model::Corner;
 use nalgebra::{Matrix3, Vector3};
-use serde::{Deserialize, Serialize};
-
-/// A node at a corner of the drawn shape.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub(crate) struct Corner {
-    position: Vector3<f64>,
-    slope: Vector3<f64>,
-    /// Slopes of the cable before and behind it.
-    sides: [Vector3<f64>; 2],
-}
 
 impl Corner {
     /// Returns the corner that a node was laid on; `None` on a smooth line.

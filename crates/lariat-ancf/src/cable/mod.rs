@@ -33,6 +33,7 @@ mod step;
 mod supports;
 mod workspace;
 
+pub(crate) use crate::at::At;
 use crate::diagnostics::Diagnostics;
 use crate::error::Error;
 use crate::integrate::{Integrator, IntegratorChoice, Scratch, State, discrete_gradient};
@@ -42,34 +43,13 @@ use crate::section::Element;
 use crate::system::{Buffers, System};
 use crate::warning::Watch;
 use builder::CableBuilder;
-pub(crate) use corner::Corner;
 use fearless_simd::Level;
 pub(crate) use layout::along_polyline;
 use nalgebra::Vector3;
-pub use reel::{Feed, Reel, ReelReading, Reels};
+pub use reel::ReelReading;
 use serde::{Deserialize, Serialize};
 pub use state::Snapshot;
 pub(crate) use step::{SHORTEST_STEP, check_integrator};
-
-/// A point of a cable.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum At {
-    /// The first node.
-    Start,
-    /// The last node.
-    End,
-    /// A node by number, from 0.
-    Node(usize),
-    /// An arc length of the unstretched cable in m.
-    ArcLength(f64),
-}
-
-impl From<f64> for At {
-    fn from(arc_length: f64) -> Self {
-        At::ArcLength(arc_length)
-    }
-}
 
 /// A cable of ANCF elements with its rule, integrator and state.
 ///

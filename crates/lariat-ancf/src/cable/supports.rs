@@ -1,6 +1,7 @@
 //! Supports of a cable, changed between steps.
 
-use super::{At, Cable};
+use super::Cable;
+use crate::at::At;
 use crate::error::Error;
 use crate::support::{Motion, SlopeSupport, Support};
 

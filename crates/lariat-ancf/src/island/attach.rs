@@ -1,7 +1,8 @@
 //! Giving nodes of a cable to an island, and taking them back.
 
 use super::hold::vector;
-use crate::cable::{At, Cable};
+use crate::at::At;
+use crate::cable::Cable;
 use crate::error::Error;
 use crate::support::{SlopeSupport, Support};
 

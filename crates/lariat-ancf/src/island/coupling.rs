@@ -22,7 +22,6 @@
 //! The other bodies' cables as loads that are known from the last step: they lag, and the forces of two ropes on one arm ripple by 0.39 of
 //! their sum.
 
-use super::layout::Layout;
 use crate::error::{Error, require};
 use nalgebra::{Matrix6, UnitQuaternion, Vector6};
 
@@ -63,20 +62,4 @@ pub(super) fn check(coupled: &[CoupledInertia], count: usize) -> Result<(), Erro
         require("coupled inertia (kg, kg m, kg m^2)", largest, matrix.iter().all(|x| x.is_finite()), "finite")?;
     }
     Ok(())
-}
-
-impl Layout {
-    /// Returns twice the kinetic energy in J of the coupled inertia at the velocities of the bodies.
-    pub(super) fn coupled_energy(&self, velocity: impl Fn(usize) -> Vector6<f64>) -> f64 {
-        let energy = |c: &CoupledInertia| velocity(c.bodies[0]).dot(&(c.matrix * velocity(c.bodies[1])));
-        2.0 * self.coupled.iter().map(energy).sum::<f64>()
-    }
-
-    /// Adds the momenta of the coupled inertia, times `factor`, to the rows of the bodies.
-    pub(super) fn add_coupled_momenta(&self, factor: f64, velocity: impl Fn(usize) -> Vector6<f64>, rows: &mut [f64]) {
-        for (body, momentum) in self.coupled.iter().flat_map(|c| c.momenta(&velocity)) {
-            let at = self.body_at(body);
-            rows[at..at + 6].iter_mut().zip(&momentum).for_each(|(row, p)| *row += factor * p);
-        }
-    }
 }

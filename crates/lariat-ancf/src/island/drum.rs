@@ -4,9 +4,10 @@
 
 use super::body::RigidBody;
 use super::pin::PinConstraint;
-use crate::cable::{Cable, Feed};
+use crate::cable::Cable;
 use crate::element::side::Side;
 use crate::error::{Error, require};
+use crate::reel::Feed;
 use crate::system::Winch;
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};

@@ -10,7 +10,7 @@ use super::hold::{Hold, direction, vector};
 use super::pin::PinConstraint;
 use super::rotation::{exponential, spin};
 use crate::cable::Cable;
-use nalgebra::{UnitQuaternion, Vector3};
+use nalgebra::{UnitQuaternion, Vector3, Vector6};
 
 /// Largest component of a gap in m that is rounding.
 const GAP_ROUNDING: f64 = 1e-12;
@@ -214,5 +214,21 @@ impl Layout {
     pub fn gap_acceleration(&self, pin: usize, time: f64) -> Vector3<f64> {
         let (s, h, [first, last]) = (self.elapsed(time), self.duration, self.rates[pin]);
         self.closing[pin] * (-6.0 * (1.0 - 2.0 * s) / (h * h)) + (first * (6.0 * s - 4.0) + last * (6.0 * s - 2.0)) / h
+    }
+}
+
+impl Layout {
+    /// Returns twice the kinetic energy in J of the coupled inertia at the velocities of the bodies.
+    pub(super) fn coupled_energy(&self, velocity: impl Fn(usize) -> Vector6<f64>) -> f64 {
+        let energy = |c: &CoupledInertia| velocity(c.bodies[0]).dot(&(c.matrix * velocity(c.bodies[1])));
+        2.0 * self.coupled.iter().map(energy).sum::<f64>()
+    }
+
+    /// Adds the momenta of the coupled inertia, times `factor`, to the rows of the bodies.
+    pub(super) fn add_coupled_momenta(&self, factor: f64, velocity: impl Fn(usize) -> Vector6<f64>, rows: &mut [f64]) {
+        for (body, momentum) in self.coupled.iter().flat_map(|c| c.momenta(&velocity)) {
+            let at = self.body_at(body);
+            rows[at..at + 6].iter_mut().zip(&momentum).for_each(|(row, p)| *row += factor * p);
+        }
     }
 }

@@ -3,8 +3,9 @@
 //! Cable ends at a sheave have a [reel over a sheave](crate::Reel::over_sheave), and are held at one point: by pins to one body, or by
 //! supports. Equation, validity and alternatives: `system/flow/wheel.rs`.
 
-use crate::cable::{Cable, Feed};
+use crate::cable::Cable;
 use crate::error::{Error, require};
+use crate::reel::Feed;
 use crate::system::Sheave;
 
 /// Largest distance in m between the two ends at a sheave.

@@ -44,11 +44,10 @@ pub(crate) use flow::{Flow, Law, Motor, MotorState, STOP, Source, Unknowns, Whee
 pub(crate) use projection::{project_matrix, project_vector};
 pub(crate) use rigid_motion::{Modes, relative_velocities, solve as solve_semidefinite};
 
-use crate::cable::builder::STANDARD_GRAVITY;
 use crate::contact::StaticContact;
 use crate::error::StepFailure;
 use crate::linalg::{BlockTridiagonal, Factorisation};
-use crate::model::Model;
+use crate::model::{Model, STANDARD_GRAVITY};
 use energy_balance::EnergyMeter;
 use fearless_simd::Level;
 use flow::Flows;

@@ -22,7 +22,8 @@
 //! Splitting the element at the reading: it is at a node already, since readings are largest at the ends of elements, and next to a
 //! support the part would be too short to step.
 
-use crate::cable::{At, Cable};
+use crate::at::At;
+use crate::cable::Cable;
 use crate::error::Error;
 use crate::strength::{Break, BreakCause, Strength};
 

@@ -11,7 +11,8 @@
 //! of the parts sum to those of the whole to rounding. So does elastic energy at a node; between two nodes the part before the cut
 //! records the difference ([`inserted_energy`](Cable::inserted_energy)).
 
-use crate::cable::{At, Cable, Snapshot};
+use crate::at::At;
+use crate::cable::{Cable, Snapshot};
 use crate::effect::Cut;
 use crate::error::Error;
 use crate::integrate::{Memory, State};

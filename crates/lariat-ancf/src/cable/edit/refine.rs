@@ -27,7 +27,8 @@
 //!
 //! A new node off the curve, where the energy is that of before: shape and angular momentum would jump instead.
 
-use crate::cable::{At, Cable};
+use crate::at::At;
+use crate::cable::Cable;
 use crate::element::shape;
 use crate::error::Error;
 use crate::integrate::State;

@@ -22,22 +22,22 @@
 //!
 //! Arc lengths from the far end of a reel at the start: a cable with two reels has none.
 
-mod description;
 mod plan;
 mod remesh;
 mod settle;
 mod step;
 mod winding;
 
-pub use description::{Feed, Reel, Reels};
 pub use winding::ReelReading;
 pub(crate) use winding::Winding;
 
-use super::{At, Cable, Snapshot};
+use super::{Cable, Snapshot};
+use crate::at::At;
 use crate::effect::RestShape;
 use crate::element::side::Side;
 use crate::error::{Error, require};
 use crate::model::Model;
+use crate::reel::{Feed, Reel, Reels};
 use crate::system::Source;
 
 /// Share of the length of an element within which a load is at its node.

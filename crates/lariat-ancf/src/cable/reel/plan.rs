@@ -4,9 +4,10 @@
 //!
 //! The rate is linear within a step of length h; its bounds are those of [`rates`].
 
-use super::{Feed, NEAR, Reel, Winding};
+use super::{NEAR, Winding};
 use crate::cable::Cable;
 use crate::element::side::Side;
+use crate::reel::{Feed, Reel};
 use crate::system::{Law, Motor, MotorState, STOP, rates};
 
 /// Least length of the element at the eye, as a share of its full length.

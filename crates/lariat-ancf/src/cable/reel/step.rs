@@ -1,10 +1,11 @@
 //! A host step of a cable with a reel: in parts in which little material passes the eye.
 
-use crate::cable::{Cable, Feed, Reel};
+use crate::cable::Cable;
 use crate::element::flow::Extent;
 use crate::element::side::Side;
 use crate::error::{Error, require};
 use crate::integrate::{IntegratorRef, OneStep, WorkLimit};
+use crate::reel::{Feed, Reel};
 
 /// Largest length of material that passes the eye in a part of a host step, as a share of an element.
 const PASSING: f64 = 0.15;

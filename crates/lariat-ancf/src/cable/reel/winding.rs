@@ -1,10 +1,11 @@
 //! The state of a reel, and what it does now.
 
-use super::description::Reel;
-use crate::cable::{At, Cable};
+use crate::at::At;
+use crate::cable::Cable;
 use crate::element::flow::Extent;
 use crate::element::side::Side;
 use crate::error::{Error, require};
+use crate::reel::Reel;
 use crate::system::MotorState;
 use serde::{Deserialize, Serialize};
 

@@ -26,10 +26,10 @@
 //! The midpoint rule in the rotation vector of the [other integrators](super::rotation): it keeps neither energy nor angular momentum.
 
 use super::rescale::RigidMotion;
-use crate::cable::builder::STANDARD_GRAVITY;
 use crate::contact::BodyPath;
 use crate::integrate::discrete_gradient::{ALPHA, BETA, Balance, sum_of_forces};
 use crate::island::body::{BodyDifferences, RigidBody};
+use crate::model::STANDARD_GRAVITY;
 use nalgebra::{Matrix3, Matrix6, Quaternion, UnitQuaternion, Vector3, Vector6};
 
 /// Height in m of the weight by which a body at rest is measured.

@@ -37,12 +37,12 @@
 //! so slowly that the rope falls slack, and a brake stops nothing faster than that limit.
 
 use super::{Flow, Flows};
-use crate::cable::Feed;
 use crate::element::flow::Extent;
 use crate::error::{Error, require};
 use crate::integrate::State;
 use crate::integrate::discrete_gradient::{Balance, Buffers};
 use crate::model::Model;
+use crate::reel::Feed;
 use crate::system::{Equations, System};
 use serde::{Deserialize, Serialize};
 

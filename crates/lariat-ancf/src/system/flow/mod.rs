@@ -45,7 +45,6 @@ pub(crate) use wheel::{STOP, Wheel};
 
 use super::System;
 use super::elements::with_bending;
-use crate::cable::Feed;
 use crate::effect::acts::{ForceInput, Single};
 use crate::element::flow::{Extent, FlowElement};
 use crate::element::gram::{Control, gram};
@@ -53,6 +52,7 @@ use crate::element::kernel::{ElementState, GramState, Kernel, NoEffects, Stiffne
 use crate::element::side::Side;
 use crate::linalg::BlockTridiagonal;
 use crate::model::Model;
+use crate::reel::Feed;
 
 /// The element at the eye of a reel during a step.
 #[derive(Clone, Copy, Debug)]

@@ -1,6 +1,6 @@
 //! What a [wheel](super::wheel) is and did, as its user has it.
 
-use crate::cable::At;
+use crate::at::At;
 use crate::element::side::Side;
 use serde::{Deserialize, Serialize};
 

@@ -34,12 +34,12 @@
 //! with the mean acceleration: misses 3e-4 still. The middle alone misses up to a third of the work of a rope that is paid out.
 
 use super::{Flow, Source, System, control};
-use crate::cable::Feed;
 use crate::effect::work::{POINTS, hermite};
 use crate::element::flow::{Extent, FlowElement};
 use crate::integrate::State;
 use crate::integrate::discrete_gradient::Buffers;
 use crate::model::Model;
+use crate::reel::Feed;
 use crate::system::Equations;
 
 /// What a reel does, at an instant.

@@ -91,7 +91,7 @@ impl Reel {
     }
 
     /// Refuses numbers that make no reel.
-    pub(super) fn check(&self) -> Result<(), Error> {
+    pub(crate) fn check(&self) -> Result<(), Error> {
         require("acceleration of a reel (m/s^2)", self.acceleration, self.acceleration > 0.0, "> 0")?;
         if let Some(stock) = self.stock {
             require("stock of a reel (m)", stock, stock > 0.0, "> 0")?;
@@ -113,7 +113,7 @@ impl Reel {
     }
 
     /// Returns the rate in m/s that the table asks for at a time in s.
-    pub(super) fn asked(&self, time: f64) -> f64 {
+    pub(crate) fn asked(&self, time: f64) -> f64 {
         let rows = self.rate.partition_point(|row| row[0] <= time);
         if rows == 0 { 0.0 } else { self.rate[rows - 1][1] }
     }
@@ -163,12 +163,12 @@ impl Reels {
     }
 
     /// Returns the reel at an end, to change it.
-    pub(super) fn get_mut(&mut self, side: Side) -> Option<&mut Reel> {
+    pub(crate) fn get_mut(&mut self, side: Side) -> Option<&mut Reel> {
         self.at[side as usize].as_mut().map(|own| &mut own.reel)
     }
 
     /// Adds a reel to a cable with these elements, whose last number is `last`.
-    pub(super) fn add(&mut self, side: Side, reel: Reel, elements: &[Element], last: i64) {
+    pub(crate) fn add(&mut self, side: Side, reel: Reel, elements: &[Element], last: i64) {
         if self.is_empty() {
             *self = Reels { mesh: elements.to_vec(), ..Reels::default() };
         }
@@ -177,7 +177,7 @@ impl Reels {
     }
 
     /// Removes a reel; the element `number` at its eye keeps its present length, and is 0 if the eye is at the start.
-    pub(super) fn remove(&mut self, side: Side, number: i64, element: Element) {
+    pub(crate) fn remove(&mut self, side: Side, number: i64, element: Element) {
         let at = self.reach(number);
         self.mesh[at] = element;
         self.at[side as usize] = None;
@@ -188,7 +188,7 @@ impl Reels {
     }
 
     /// Returns an element by its number, at its full length.
-    pub(super) fn element(&self, number: i64) -> Element {
+    pub(crate) fn element(&self, number: i64) -> Element {
         let at = number + self.origin;
         let side = if at < 0 { Side::Start } else { Side::End };
         let stock = |side: Side| self.at[side as usize].as_ref().map(|own| own.stock);
@@ -200,7 +200,7 @@ impl Reels {
     }
 
     /// Returns the least length of an element in m.
-    pub(super) fn least_length(&self) -> f64 {
+    pub(crate) fn least_length(&self) -> f64 {
         let stocks = self.at.iter().flatten().map(|own| own.stock);
         self.mesh.iter().copied().chain(stocks).map(|element| element.length).fold(f64::INFINITY, f64::min)
     }
