@@ -62,6 +62,7 @@
 
 mod border;
 mod find;
+mod impact;
 mod lag;
 mod law;
 mod linear;
@@ -95,6 +96,7 @@ pub use pairs::{CablePair, PairMemory, PairTouch};
 pub(crate) use pairs::{LowRank, PairStep, PairSystem, Row, Strand, Strands};
 pub use patch::Patch;
 pub(crate) use path::BodyPath;
+pub(crate) use point::combine;
 pub use rigid_motion::{Mount, RigidMotion};
 pub use shapes::{Ball, Capsule, Cuboid, Cylinder, HalfSpace};
 pub(crate) use statics::{Growth, StaticContact};

@@ -58,6 +58,8 @@ pub(in crate::contact) struct ObstacleStep {
     turn: Matrix3<f64>,
     /// Whether the axes turn.
     turns: bool,
+    /// Prescribed velocity of that point and angular velocity, at the end; zero if a body carries it.
+    velocity: [Vector3<f64>; 2],
     /// Whether its motion is prescribed, and not rest.
     pub driven: bool,
     /// The body of the island that carries it.
@@ -89,6 +91,7 @@ impl ObstacleStep {
             half: spin.try_normalize(0.0).unwrap_or_default() * angle.tan(),
             turn: end.rotation - start.rotation,
             turns,
+            velocity: [motion.velocity, spin],
             driven: turns || motion.velocity != Vector3::zeros(),
             body: None,
             moved: false,
@@ -115,6 +118,7 @@ impl ObstacleStep {
             half,
             turn: end.rotation - start.rotation,
             turns: half != Vector3::zeros(),
+            velocity: [Vector3::zeros(); 2],
             driven: false,
             body: Some(mount.body),
             moved,
@@ -148,6 +152,11 @@ impl ObstacleStep {
     /// Returns the mean place y_m of a point of the cable beside the material point c: of a body, its centre of mass.
     pub fn arm(&self, x: &Vector3<f64>, change: &Vector3<f64>) -> Vector3<f64> {
         x - self.centre[1] + 0.5 * (change - self.shift)
+    }
+
+    /// Returns its prescribed velocity in m/s at the end of the step, at an arm from the material point c.
+    pub fn velocity_at(&self, arm: &Vector3<f64>) -> Vector3<f64> {
+        self.velocity[0] + self.velocity[1].cross(arm)
     }
 
     /// Returns the motion s of a point of the cable beside its material.

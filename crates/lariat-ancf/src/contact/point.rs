@@ -1,5 +1,6 @@
 //! One contact over a step: its force, its tangent, and what it does to the energy.
 
+use super::impact::Impact;
 use super::law::{NormalLaw, friction, spring_energy};
 use super::linear::{About, Linear, Tangents};
 use super::memory::{ContactMemory, Key};
@@ -70,6 +71,8 @@ pub(in crate::contact) struct ContactPoint {
     pub about: About,
     /// At the end of the present iterate.
     pub now: Evaluation,
+    /// What it does to the velocity across it when the step ends.
+    pub impact: Impact,
 }
 
 /// Where a contact acts between two closest points ([`slide`](super::slide)).
@@ -279,7 +282,7 @@ impl ContactPoint {
 }
 
 /// Returns a nodal vector at a point of an element.
-pub(in crate::contact) fn combine(q: &[f64], element: usize, shape: &[f64; 4]) -> Vector3<f64> {
+pub(crate) fn combine(q: &[f64], element: usize, shape: &[f64; 4]) -> Vector3<f64> {
     let d = &q[6 * element..6 * element + 12];
     let part = |x: usize| shape[0] * d[x] + shape[1] * d[3 + x] + shape[2] * d[6 + x] + shape[3] * d[9 + x];
     Vector3::new(part(0), part(1), part(2))

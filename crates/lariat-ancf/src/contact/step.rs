@@ -185,7 +185,8 @@ pub(super) fn add_tangent(matrix: &mut BlockTridiagonal, element: usize, shape: 
     }
 }
 
-fn add_force(point: &ContactPoint, force: &Vector3<f64>, rhs: &mut [f64]) {
+/// Adds a force or impulse on a point to the rows of its element.
+pub(super) fn add_force(point: &ContactPoint, force: &Vector3<f64>, rhs: &mut [f64]) {
     let out = &mut rhs[6 * point.key.0 as usize..][..12];
     for (k, weight) in point.shape.iter().enumerate() {
         for x in 0..3 {

@@ -1,10 +1,11 @@
 //! Contacts of one cable with obstacles, in a step of the discrete gradient.
 
-use super::Equations;
-use crate::contact::{BodyPath, ContactStep, Motion};
+use super::{Equations, dot};
+use crate::contact::{BodyPath, ContactStep, Motion, combine};
 use crate::effect::EffectWork;
 use crate::integrate::State;
-use crate::integrate::discrete_gradient::{Balance, Buffers};
+use crate::integrate::discrete_gradient::{ALPHA, Balance, Buffers};
+use nalgebra::Vector3;
 
 impl Equations<'_> {
     /// Finds the contacts of a step, if the cable can have any, with obstacles and with bodies of an island; they close offsets if `close`.
@@ -51,5 +52,34 @@ impl Equations<'_> {
         b.lost = contacts.loss;
         balance.given_back = (-contacts.loss).max(0.0);
         balance.add_contacts(&contacts, b.h);
+    }
+
+    /// Computes the velocities at the end of the step into `external`, which is free then.
+    pub fn find_velocities(&self, state: &State, b: &mut Buffers) {
+        for i in 0..b.external.len() {
+            b.external[i] = state.v[i] + b.velocity_change[i] - b.taken.get(i).unwrap_or(&0.0);
+        }
+    }
+
+    /// Finds the impacts of these velocities and those of bodies, and returns their energy in J.
+    pub fn find_impacts(&self, b: &mut Buffers, body: impl Fn(usize, &Vector3<f64>) -> Vector3<f64>) -> f64 {
+        let Buffers { contact, external, .. } = b;
+        let mass = |element: usize| self.model.elements[element].section.mass_per_length;
+        contact.find_impacts(mass, |e, shape| combine(external, e, shape), body)
+    }
+
+    /// Solves for the velocities that impacts take, into `landed`.
+    pub fn solve_impacts(&mut self, b: &mut Buffers) {
+        let Buffers { contact, landed, rhs, .. } = &mut *b;
+        landed.clear();
+        landed.resize(rhs.len(), 0.0);
+        contact.pass_impacts(landed, &mut []);
+        self.solve_with_pairs(&mut b.pairs.low_rank, &mut b.landed, &mut b.product);
+    }
+
+    /// Returns what impacts take of the energy in J of velocities and store in proportion to their share, and in proportion to its square.
+    pub fn energy_of_impacts(&mut self, b: &mut Buffers) -> [f64; 2] {
+        let held = 0.5 * (1.0 + ALPHA) * self.system.mass_square(&b.landed, &mut b.product);
+        [dot(&b.external, &b.product) + ALPHA * dot(&b.velocity_change, &b.product), held]
     }
 }

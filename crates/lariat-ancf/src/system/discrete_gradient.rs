@@ -4,15 +4,18 @@ use super::lanes::MatrixOutput;
 use super::lanes::discrete_gradient::{CoordinateStep, ElementLoss};
 use super::rigid_motion::relative_velocities;
 use super::{Equations, System, Unknowns, project_vector};
+use crate::contact::combine;
 use crate::effect::EffectWork;
 use crate::effect::acts::{ForceInput, PointForce, StepInput};
 use crate::error::StepFailure;
 use crate::integrate::State;
 use crate::integrate::discrete_gradient::{
-    ALPHA, BETA, Balance, Buffers, Closing, DiscreteGradientSystem, Event, share_to_take, sum_of_forces,
+    ALPHA, BETA, Balance, Buffers, Closing, DiscreteGradientSystem, Event, share_of_impact, share_to_take,
+    sum_of_forces,
 };
 use crate::support::{SlopeSupport, Support};
 use core::ops::Range;
+use nalgebra::Vector3;
 
 /// A cable, its state and the buffers of a step.
 pub(crate) struct CableStep<'a> {
@@ -235,6 +238,7 @@ impl Equations<'_> {
             state.v[i] += b.velocity_change[i];
         }
         state.v.iter_mut().zip(&b.taken).for_each(|(v, taken)| *v -= taken);
+        state.v.iter_mut().zip(&b.landed).for_each(|(v, landed)| *v -= landed);
         state.time += b.h;
         // the sum above misses them by rounding: a cable between bodies at rest would never be still
         for (i, end) in self.prescribed_at(state.time) {
@@ -244,6 +248,7 @@ impl Equations<'_> {
         b.contact.remember(&mut memory.contacts);
         memory.lost = (b.lost / b.h).max(0.0);
         memory.differences.velocity.clone_from(&b.velocity_change);
+        memory.differences.velocity.iter_mut().zip(&b.landed).for_each(|(change, landed)| *change -= landed);
         memory.differences.displacement.clone_from(&b.change);
         memory.differences.step = b.h;
         memory.differences.revision = memory.revision;
@@ -362,6 +367,23 @@ impl DiscreteGradientSystem for CableStep<'_> {
                 false
             }
         }
+    }
+
+    fn land(&mut self, balance: &mut Balance, least: f64) {
+        let CableStep { equations, state, buffers: b } = self;
+        equations.find_velocities(state, b);
+        if equations.find_impacts(b, |_, _| Vector3::zeros()) <= least {
+            return;
+        }
+        equations.solve_impacts(b);
+        let Buffers { contact, landed, .. } = &mut **b;
+        if contact.settle_impacts(|e, shape| combine(landed, e, shape), |_, _| Vector3::zeros()) {
+            equations.solve_impacts(b);
+        }
+        let [taken, held] = equations.energy_of_impacts(b);
+        let work = b.contact.work_of_impacts(|e, shape| combine(&b.landed, e, shape));
+        let share = share_of_impact(balance, [taken, held, work]);
+        b.landed.iter_mut().for_each(|w| *w *= share);
     }
 
     fn accept(&mut self, balance: &Balance) {

@@ -51,7 +51,7 @@ fn a_fast_rope_does_not_pass_a_thin_wall() {
 fn a_thrown_rope_does_not_enter_a_box() {
     let mut random = Random::new(23);
     let mut deepest = 0.0f64;
-    for i in 0..40 {
+    for i in 0..120 {
         let speed = [3.0, 12.0, 40.0, 120.0][i % 4];
         let (middle, along) = (random.vector() * 0.3, random.vector().normalize() * 0.6);
         let from = (random.vector() + Vector3::y()).normalize();

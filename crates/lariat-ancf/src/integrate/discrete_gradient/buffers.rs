@@ -62,6 +62,8 @@ pub(crate) struct Buffers {
     pub linearised: Vec<f64>,
     /// What is taken from the velocities at the end, if the step makes energy; else empty.
     pub taken: Vec<f64>,
+    /// What contacts take from the velocities at the end, and from their changes; else empty.
+    pub landed: Vec<f64>,
     /// Minus the residual.
     pub rhs: Vec<f64>,
     /// Forces without potential.
@@ -105,6 +107,7 @@ impl Buffers {
         self.linearised.clear();
         self.pair_impulses.clear();
         self.taken.clear();
+        self.landed.clear();
         self.velocity_change.clone_from(&self.velocity_before);
         self.change.clear();
         self.change.extend(state.v.iter().zip(&self.velocity_before).map(|(v, before)| h * (v + 0.5 * before)));

@@ -216,6 +216,9 @@ pub(crate) trait DiscreteGradientSystem {
     /// would take a larger share of them than `largest_share` (0 to 1).
     fn rescale(&mut self, balance: &mut Balance, largest_share: f64) -> bool;
 
+    /// Takes the velocity across contacts that push at the end of the step, if it has more energy than `least` (J).
+    fn land(&mut self, balance: &mut Balance, least: f64);
+
     /// Makes the end of the step the present state.
     fn accept(&mut self, balance: &Balance);
 
@@ -246,6 +249,20 @@ pub(crate) enum Event {
     Crossed,
     /// Friction did not settle on the normal forces of the step itself.
     Lagging,
+}
+
+/// Returns the share of an impact that makes no energy but the work of obstacles ([`impact`](crate::contact)), and adds it to the balance:
+/// `[P, E, W]` are its terms.
+pub(crate) fn share_of_impact(balance: &mut Balance, [taken, held, work]: [f64; 3]) -> f64 {
+    let share = ((taken + work) / held).clamp(0.0, 1.0);
+    if share > 0.0 {
+        balance.contacts += share * (taken + work) - share * share * held;
+        balance.obstacles += share * work;
+        share
+    } else {
+        // also of what is no number
+        0.0
+    }
 }
 
 /// Returns the smaller share u for which v - u w has less kinetic energy than v by the excess, from `1/2 w.M w` and `v.M w`; `None` if

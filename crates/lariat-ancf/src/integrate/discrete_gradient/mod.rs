@@ -59,7 +59,7 @@ pub(crate) use advance::advance;
 pub(crate) use buffers::Buffers;
 pub use buffers::Differences;
 pub use law::EnergyLaw;
-pub(crate) use law::{Balance, Closing, DiscreteGradientSystem, Event, share_to_take, sum_of_forces};
+pub(crate) use law::{Balance, Closing, DiscreteGradientSystem, Event, share_of_impact, share_to_take, sum_of_forces};
 
 /// The guarded discrete gradient as a method; only [`Cable`](crate::Cable) and [`Island`](crate::island::Island) can take it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -143,10 +143,15 @@ fn accept(
     limit: Option<&WorkLimit>,
     crosses: bool,
 ) -> Result<bool, StepFailure> {
+    let mut balance = *balance;
+    if balance.near {
+        let least = TOLERANCE * balance.scale();
+        system.land(&mut balance, least);
+    }
     if crosses {
         system.count(Event::Crossed);
     }
-    system.accept(balance);
+    system.accept(&balance);
     limit.into_iter().for_each(WorkLimit::note_progress);
     Ok(true)
 }

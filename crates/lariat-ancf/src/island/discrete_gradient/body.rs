@@ -65,6 +65,8 @@ pub(in crate::island) struct BodyStep {
     pub end: UnitQuaternion<f64>,
     /// What is taken from u at the end.
     pub taken: Vector6<f64>,
+    /// What impacts of cables take from it, and from D u.
+    pub landed: Vector6<f64>,
 }
 
 fn split(x: &Vector6<f64>) -> [Vector3<f64>; 2] {
@@ -112,6 +114,7 @@ impl BodyStep {
             mean: [Vector3::zeros(); 2],
             end: body.rotation,
             taken: Vector6::zeros(),
+            landed: Vector6::zeros(),
         }
     }
 
@@ -137,7 +140,7 @@ impl BodyStep {
         }
         self.before = stack([v, self.rotation.inverse() * turned]);
         self.change = self.before;
-        self.taken = Vector6::zeros();
+        (self.taken, self.landed) = (Vector6::zeros(), Vector6::zeros());
         self.update();
     }
 
@@ -247,6 +250,23 @@ impl BodyStep {
         [velocity, self.end * spin]
     }
 
+    /// Returns its velocity at an arm about its centre in world axes, at the end of the step.
+    pub fn velocity_at_end(&self, arm: &Vector3<f64>) -> Vector3<f64> {
+        let [velocity, spin] = split(&(self.velocity + self.change - self.taken));
+        velocity + (self.end * spin).cross(arm)
+    }
+
+    /// Returns u at the end of the step, and the share of D u that the store holds.
+    pub fn carried_velocity(&self) -> Vector6<f64> {
+        self.velocity + self.change - self.taken + ALPHA * self.change
+    }
+
+    /// Sets what impacts take from its velocities, the rotation in world axes.
+    pub fn land(&mut self, taken: &[f64]) {
+        let turned = self.rotation.inverse() * Vector3::new(taken[3], taken[4], taken[5]);
+        self.landed = stack([Vector3::new(taken[0], taken[1], taken[2]), turned]);
+    }
+
     /// Takes all free velocities beside a rigid motion from the end of the step; returns their kinetic energy in J, and their product with
     /// all velocities.
     pub fn take_relative(&mut self, rigid: &RigidMotion) -> (f64, f64) {
@@ -296,7 +316,7 @@ impl BodyStep {
     /// Makes the end of the step the present state.
     pub fn accept(&mut self) {
         self.position += self.displacement();
-        let [v, spin] = split(&(self.velocity + self.change - self.taken));
+        let [v, spin] = split(&(self.velocity + self.change - self.taken - self.landed));
         let mut turned = self.end * spin;
         let [_, held] = split(&self.velocity);
         let held = self.rotation * held;
@@ -307,7 +327,7 @@ impl BodyStep {
         }
         self.rotation = self.end;
         self.velocity = stack([v, self.rotation.inverse() * turned]);
-        self.last = (self.change, self.h);
+        self.last = (self.change - self.landed, self.h);
     }
 
     /// Returns the angular velocity in world axes.

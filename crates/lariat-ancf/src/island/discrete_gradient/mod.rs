@@ -17,6 +17,7 @@ mod body;
 mod coupled;
 mod holds;
 mod host_step;
+mod impact;
 mod laws;
 mod pairs;
 mod rescale;
@@ -190,16 +191,14 @@ impl CableBuffers {
 
     /// Gives the momentum that the step leaves beside the reactions to the pins.
     fn give_momentum(&self, c: usize, system: &System, state: &State, b: &mut Buffers, accounts: &mut PinAccounts) {
-        let Buffers { rhs, external, product, velocity_change, taken, change, .. } = b;
-        if taken.is_empty() {
-            product.fill(0.0);
-        } else {
-            system.mass.multiply(system.level, taken, product);
-        }
+        let Buffers { rhs, external, product, velocity_change, taken, landed, change, .. } = b;
+        let taken_at = |i: usize| taken.get(i).unwrap_or(&0.0) + landed.get(i).unwrap_or(&0.0);
+        external.iter_mut().enumerate().for_each(|(i, w)| *w = taken_at(i));
+        system.mass.multiply(system.level, external, product);
         // the residual of free rows, and reactions of slopes
         rhs.iter_mut().zip(&*product).for_each(|(f, taken)| *f += taken);
         for i in 0..external.len() {
-            external[i] = state.v[i] + 0.5 * (velocity_change[i] - taken.get(i).unwrap_or(&0.0));
+            external[i] = state.v[i] + 0.5 * (velocity_change[i] - taken_at(i));
         }
         system.mass.multiply(system.level, external, product);
         let held = self.holds.iter().filter(|hold| !hold.slope).map(|hold| (hold.at, hold.impulse));
@@ -279,6 +278,10 @@ impl DiscreteGradientSystem for IslandStep<'_, '_> {
             equations.passes_obstacles(state, buffers) || any
         });
         self.do_pairs_cross() || passes
+    }
+
+    fn land(&mut self, balance: &mut Balance, least: f64) {
+        self.land_contacts(balance, least);
     }
 
     fn accept(&mut self, balance: &Balance) {

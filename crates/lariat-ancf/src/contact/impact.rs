@@ -1,0 +1,155 @@
+//! Impact: what contacts that push when a step ends leave of the velocity across them.
+//!
+//! # Equation
+//!
+//! A step ends with a contact that pushes at the surface, so its mean velocity is the way that was left: of a point that had the part s of
+//! the step to go, `v^ = s v0`, and the velocity at the end is `v1 = v0 (1 - (1 - s)/b)`, between `v0` and `-7/9 v0` by chance. It is no
+//! rebound, but the root of the one-leg formula. The contacts take it, all at once, by the impulses R on the cable and -R on what it touches:
+//!
+//! ```text
+//! (S + sum G) w = sum (G v1 + l f_t/f_n)         v1 <- v1 - w,   D v <- D v - w
+//! G = b h^2 (w p' n n^T + T)                     l = b h^2 w p' n . (v1 - w) <= h f_n
+//! -R = G (v1 - w) + l f_t/f_n                    the second term only where it slips
+//! ```
+//!
+//! v1 is relative to the obstacle, T the tangent of friction, S the step matrix without contacts; the sum is the matrix that the last iteration
+//! factored. So an impulse spreads through cable and bodies as those of the step did. Where a contact slips, the friction of the impulse that is taken
+//! back goes with it, with l of a first solve. `G/m` is `b (h omega)^2` with the frequency omega of the contact: the velocity of contacts that a
+//! step does not resolve is taken, and that of others left.
+//!
+//! The energy of motion and of the store change by
+//!
+//! ```text
+//! D H = -s P + s^2 E <= s W,     P = w . M (v1 + a D v),   E = (1 + a)/2 w . M w,   W = sum R . v_o
+//! ```
+//!
+//! where the share s is 1, or the largest for which that holds: an impact makes no energy but the work W of obstacles that move. Momentum is kept,
+//! since the impulses on cable and body are opposite and on one line.
+//!
+//! # Validity
+//!
+//! Restitution 0. Contacts with obstacles and bodies; those of cables with each other keep the velocity of the formula. Steps of which
+//! the velocity across contacts has less energy than the tolerance of the law take none, and do no work for it.
+//!
+//! # References
+//!
+//! Gear, Leimkuhler & Gupta, J. Comput. Appl. Math. 12 (1985) 77 (constraints of velocities beside those of positions); Moreau, in
+//! Nonsmooth Mechanics and Applications, 1988 (inelastic impact as a projection).
+//!
+//! # Alternatives considered
+//!
+//! The projection in the norm of the mass alone: it takes the velocity of an element of a bar that lands on its end, and the bar
+//! throws it up again.
+
+use super::point::ContactPoint;
+use super::step::{ContactStep, add_force};
+use crate::integrate::discrete_gradient::BETA;
+use nalgebra::{Matrix3, Vector3};
+
+/// A contact that pushes when the step ends.
+#[derive(Clone, Copy, Debug, Default)]
+pub(in crate::contact) struct Impact {
+    /// Velocity in m/s of the obstacle there.
+    obstacle: Vector3<f64>,
+    /// Velocity in m/s beside it.
+    beside: Vector3<f64>,
+    /// G in kg: its part along the normal, 0 if it does not push, and that of friction.
+    gain: f64,
+    friction: Matrix3<f64>,
+    /// What the linear solve sees of it, in N s: -R + G w.
+    row: Vector3<f64>,
+}
+
+impl Impact {
+    /// Returns G times a velocity.
+    fn gained(&self, normal: &Vector3<f64>, velocity: &Vector3<f64>) -> Vector3<f64> {
+        normal * (self.gain * normal.dot(velocity)) + self.friction * velocity
+    }
+}
+
+impl ContactStep {
+    /// Finds the velocities beside contacts that push, at the end of the step, and returns the energy in J of those that they oppose. `mass` is that of
+    /// an element per length, `velocity` that of a point of an element, `body` that of a body at an arm about its centre.
+    pub fn find_impacts(
+        &mut self,
+        mass: impl Fn(usize) -> f64,
+        velocity: impl Fn(usize, &[f64; 4]) -> Vector3<f64>,
+        body: impl Fn(usize, &Vector3<f64>) -> Vector3<f64>,
+    ) -> f64 {
+        let mut energy = 0.0;
+        for point in &mut self.points {
+            let ContactPoint { now, linear, weight, .. } = &*point;
+            let mut impact = Impact::default();
+            if now.normal_force > 0.0 && linear.slope > 0.0 {
+                let (element, step) = (point.key.0 as usize, &self.obstacles[point.obstacle]);
+                impact.obstacle = match step.body {
+                    Some(index) => body(index, &now.arm),
+                    None => step.velocity_at(&(now.arm + 0.5 * now.slip)),
+                };
+                impact.beside = velocity(element, &point.shape) - impact.obstacle;
+                let scale = BETA * self.h * self.h;
+                (impact.gain, impact.friction) = (scale * weight * linear.slope, linear.tangents.friction * scale);
+                let across = now.normal.dot(&impact.beside);
+                impact.row = impact.gained(&now.normal, &impact.beside);
+                if across > 0.0 {
+                    energy += 0.5 * mass(element) * weight * across * across;
+                } else {
+                    impact = Impact::default();
+                }
+            }
+            point.impact = impact;
+        }
+        energy
+    }
+
+    /// Adds what the linear solve sees of them to the rows of the cable, and its opposite to those of bodies.
+    pub fn pass_impacts(&self, rhs: &mut [f64], rows: &mut [f64]) {
+        for point in self.points.iter().filter(|point| point.impact.gain > 0.0) {
+            add_force(point, &point.impact.row, rhs);
+            if let Some(body) = self.obstacles[point.obstacle].body {
+                let angular = point.now.arm.cross(&point.impact.row);
+                for x in 0..3 {
+                    rows[6 * body + x] -= point.impact.row[x];
+                    rows[6 * body + 3 + x] -= angular[x];
+                }
+            }
+        }
+    }
+
+    /// Sets the impulses to those of the velocities that are left; `taken` and `of_body` are the changes of velocities by the linear solve. Returns
+    /// whether another solve sees more of them: the friction of what is taken back, or that a contact does not pull.
+    pub fn settle_impacts(
+        &mut self,
+        taken: impl Fn(usize, &[f64; 4]) -> Vector3<f64>,
+        of_body: impl Fn(usize, &Vector3<f64>) -> Vector3<f64>,
+    ) -> bool {
+        let mut changed = false;
+        for point in self.points.iter_mut().filter(|point| point.impact.gain > 0.0) {
+            let (now, impact) = (&point.now, &mut point.impact);
+            let body = self.obstacles[point.obstacle].body;
+            let of_obstacle = body.map_or_else(Vector3::zeros, |index| of_body(index, &now.arm));
+            let taken = taken(point.key.0 as usize, &point.shape) - of_obstacle;
+            let left = impact.beside - taken;
+            let (wanted, most) = (impact.gain * now.normal.dot(&left), self.h * now.normal_force);
+            let normal = wanted.clamp(0.0, most);
+            let mut impulse = now.normal * normal + impact.friction * left;
+            if now.slides.is_some() {
+                impulse += now.friction * (normal / now.normal_force);
+            }
+            impact.row = impulse + impact.gained(&now.normal, &taken);
+            changed |= now.slides.is_some() || wanted != normal;
+        }
+        changed
+    }
+
+    /// Returns the work W in J of obstacles that move as prescribed; `taken` are the changes of velocities by the last solve.
+    pub fn work_of_impacts(&self, taken: impl Fn(usize, &[f64; 4]) -> Vector3<f64>) -> f64 {
+        let pushing = self.points.iter().filter(|point| point.impact.gain > 0.0);
+        let prescribed = pushing.filter(|point| self.obstacles[point.obstacle].driven);
+        let work = prescribed.map(|point| {
+            let (impact, taken) = (&point.impact, taken(point.key.0 as usize, &point.shape));
+            (impact.gained(&point.now.normal, &taken) - impact.row).dot(&impact.obstacle)
+        });
+        work.sum()
+    }
+}

@@ -1,0 +1,86 @@
+//! [Impact](crate::contact) of the cables of an island on obstacles and on its bodies.
+
+use super::super::hold::vector;
+use super::IslandStep;
+use super::coupled::coupled_product;
+use crate::contact::combine;
+use crate::integrate::discrete_gradient::{ALPHA, Balance, Buffers, share_of_impact};
+use crate::system::CableStep;
+use nalgebra::Vector3;
+
+impl IslandStep<'_, '_> {
+    /// Takes the velocity across contacts that push at the end of the step, if it has more energy than `least` (J).
+    pub(super) fn land_contacts(&mut self, balance: &mut Balance, least: f64) {
+        let mut energy = 0.0;
+        let bodies = &self.buffers.bodies;
+        for cable in self.cables.iter_mut() {
+            let CableStep { equations, state, buffers: b } = cable.step_parts();
+            equations.find_velocities(state, b);
+            energy += equations.find_impacts(b, |i, arm| bodies[i].velocity_at_end(arm));
+        }
+        if energy <= least {
+            return;
+        }
+        self.solve_impacts();
+        if self.settle_impacts() {
+            self.solve_impacts();
+        }
+        let [mut taken, mut held, mut work] = [0.0; 3];
+        for cable in self.cables.iter_mut() {
+            let CableStep { mut equations, buffers, .. } = cable.step_parts();
+            let own = equations.energy_of_impacts(buffers);
+            (taken, held) = (taken + own[0], held + own[1]);
+            let Buffers { contact, landed, .. } = &*buffers;
+            work += contact.work_of_impacts(|e, shape| combine(landed, e, shape));
+        }
+        let coupled = &self.buffers.coupled;
+        let bodies = &self.buffers.bodies;
+        for body in bodies {
+            let momentum = body.momentum_of(&body.landed);
+            taken += momentum.dot(&body.carried_velocity());
+            held += 0.5 * (1.0 + ALPHA) * momentum.dot(&body.landed);
+        }
+        held += 0.5 * (1.0 + ALPHA) * coupled_product(coupled, |i| bodies[i].landed, |i| bodies[i].landed);
+        taken += coupled_product(coupled, |i| bodies[i].carried_velocity(), |i| bodies[i].landed);
+        let share = share_of_impact(balance, [taken, held, work]);
+        for cable in self.cables.iter_mut() {
+            cable.step_buffers.landed.iter_mut().for_each(|w| *w *= share);
+        }
+        self.buffers.bodies.iter_mut().for_each(|body| body.landed *= share);
+    }
+
+    /// Solves for the velocities that impacts take.
+    fn solve_impacts(&mut self) {
+        self.buffers.rows.fill(0.0);
+        for (cable, own) in self.cables.iter_mut().zip(&self.buffers.cables) {
+            let Buffers { contact, landed, rhs, .. } = &mut cable.step_buffers;
+            landed.clear();
+            landed.resize(rhs.len(), 0.0);
+            contact.pass_impacts(landed, &mut self.buffers.rows);
+            for hold in &own.holds {
+                hold.pass(&vector(&landed[hold.at..]), &mut self.buffers.rows);
+            }
+            // the solution is in the place of the residual, which is read when the step is accepted
+            core::mem::swap(landed, rhs);
+        }
+        self.solve();
+        for cable in self.cables.iter_mut() {
+            let Buffers { landed, rhs, .. } = &mut cable.step_buffers;
+            core::mem::swap(landed, rhs);
+        }
+        let rows = &self.buffers.rows;
+        for (body, row) in self.buffers.bodies.iter_mut().zip(rows.chunks_exact(6)) {
+            body.land(row);
+        }
+    }
+
+    /// Sets the impulses of impacts; returns whether another solve sees more of them.
+    fn settle_impacts(&mut self) -> bool {
+        let rows = &self.buffers.rows;
+        let of_body = |i: usize, arm: &Vector3<f64>| vector(&rows[6 * i..]) + vector(&rows[6 * i + 3..]).cross(arm);
+        self.cables.iter_mut().fold(false, |any, cable| {
+            let Buffers { contact, landed, .. } = &mut cable.step_buffers;
+            contact.settle_impacts(|e, shape| combine(landed, e, shape), of_body) || any
+        })
+    }
+}
