@@ -114,6 +114,9 @@ impl World {
             if !fully {
                 scene.add_loads(cable, i, true, false)?;
                 scene.set_in_motion(cable, i)?;
+                if !scene.cables[i].equilibrium {
+                    warnings.extend(scene.drawn_corner(i, cable));
+                }
             }
         }
         if let Some(physics) = physics {
