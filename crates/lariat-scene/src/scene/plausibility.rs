@@ -108,9 +108,9 @@ impl Scene {
         self.loads.iter().filter_map(|LoadScene { cable, load, .. }| {
             let cable = &self.cables[*cable];
             let (force_n, axial_stiffness_n) = (load.force.norm(), cable.section.axial_stiffness);
-            let (name, at_m) = (cable.name.clone(), load.arc_length);
+            let (name, at_m) = (|| cable.name.clone(), load.arc_length);
             let large = force_n > LOAD * axial_stiffness_n;
-            large.then(|| Warning::LargeLoad { cable: name, at_m, force_n, axial_stiffness_n })
+            large.then(|| Warning::LargeLoad { cable: name(), at_m, force_n, axial_stiffness_n })
         })
     }
 
