@@ -231,6 +231,77 @@ pub enum Warning {
         /// Difference of the velocities in m/s.
         difference_m_s: f64,
     },
+    /// A cable that is strained where its drawn shape has corners.
+    #[error(
+        "cable {cable:?}: it starts with {energy_j:.2e} J of strain at the corners of its points, enough to throw it at {speed_m_s:.1e} m/s; the sharpest, \
+         point {corner}, turns by {turn_rad:.2} rad within an element{}: draw an arc, with many points and some elements along it, or set initial = \"equilibrium\"",
+        if *.slack { ", and slack segments sag in arcs of their own, which meet at angles" } else { "" }
+    )]
+    DrawnCorner {
+        /// Name of the cable.
+        cable: String,
+        /// Row of `points` with the sharpest corner, counted from 0.
+        corner: usize,
+        /// Angle between the segments there in rad.
+        turn_rad: f64,
+        /// Whether the cable is longer than drawn, and its segments are arcs.
+        slack: bool,
+        /// Axial strain energy at the start beyond that of an even stretch in J.
+        energy_j: f64,
+        /// Speed of the whole cable with that energy in m/s.
+        speed_m_s: f64,
+    },
+    /// A radius of contact that no cable has.
+    #[error(
+        "cable {cable:?}: the radius of its contact is {radius_m} m, of a cable that is {length_m:.4} m long{}: it is in m; was {radius_m} mm meant?",
+        .diameter_m.map_or(String::new(), |d| format!(" and {d} m thick"))
+    )]
+    ThickContact {
+        /// Name of the cable.
+        cable: String,
+        /// Radius of contact in m.
+        radius_m: f64,
+        /// Unstretched length in m.
+        length_m: f64,
+        /// Outer diameter or side of the section in m, if it has one.
+        diameter_m: Option<f64>,
+    },
+    /// A damping time that no rope has.
+    #[error(
+        "cable {cable:?}: its axial damping is {axial_s} s: it stretches under a load only within such a time, and is stiff until then; it is the time of Kelvin \
+         and Voigt, not a share of the critical damping; for that of a rope set damping = {{ rope = \"wire-rope\" }}"
+    )]
+    SlowStretch {
+        /// Name of the cable.
+        cable: String,
+        /// Time of the axial strain in s.
+        axial_s: f64,
+    },
+    /// A force that strains the cable beyond its law.
+    #[error(
+        "cable {cable:?}: the force on it at {at_m:.4} m is {force_n:.3e} N, {percent:.0} % of EA = {axial_stiffness_n:.3e} N, and steps will be very short: check the force \
+         (N), Young's modulus (Pa) and section (m)", percent = 100.0 * .force_n / .axial_stiffness_n
+    )]
+    LargeLoad {
+        /// Name of the cable.
+        cable: String,
+        /// Arc length in m.
+        at_m: f64,
+        /// Force in N.
+        force_n: f64,
+        /// EA in N.
+        axial_stiffness_n: f64,
+    },
+    /// A rotation by more than a turn.
+    #[error(
+        "body {body:?}: its rotation is by {angle_rad} rad, more than a turn: it is in rad; was {angle_rad} degrees meant?"
+    )]
+    ManyTurns {
+        /// Name of the body.
+        body: String,
+        /// Angle in rad.
+        angle_rad: f64,
+    },
     /// What a cable says about its own mesh, steps, law and sizes.
     #[error(transparent)]
     #[serde(untagged)]

@@ -79,6 +79,11 @@ impl World {
     pub fn start(&mut self, purpose: Purpose) -> Result<(), Error> {
         let fully = purpose == Purpose::Static;
         let World { scene, alone, warnings, static_iterations, physics, .. } = self;
+        if fully && let Some(sheave) = scene.sheaves.first() {
+            let cable = scene.cables[sheave.cables[0]].name.clone();
+            let reason = "its end is at a sheave, whose equilibrium is not computed: run the scene until it rests";
+            return Err(lariat_ancf::Error::ReelPlace { cable, reason }.into());
+        }
         warnings.extend(scene.warnings(purpose));
         let mut held_by = vec![Default::default(); scene.attachments.len()];
         let mut reports = Vec::new();
@@ -114,6 +119,9 @@ impl World {
             if !fully {
                 scene.add_loads(cable, i, true, false)?;
                 scene.set_in_motion(cable, i)?;
+                if !scene.cables[i].equilibrium {
+                    warnings.extend(scene.drawn_corner(i, cable));
+                }
             }
         }
         if let Some(physics) = physics {

@@ -123,6 +123,8 @@ pub struct BodyScene {
     pub position: Vector3<f64>,
     /// Rotation at t = 0.
     pub rotation: UnitQuaternion<f64>,
+    /// Angle of the rotation in rad, as written.
+    pub angle: f64,
     /// Velocity of the origin in m/s.
     pub velocity: Vector3<f64>,
     /// Angular velocity in rad/s, world axes.
@@ -159,6 +161,7 @@ pub(super) fn read(doc: &Document<'_>, at: &KeyPath, row: BodyTable, folder: &Pa
         shape,
         position: row.position.unwrap_or_default(),
         rotation: UnitQuaternion::from_scaled_axis(row.rotation),
+        angle: row.rotation.norm(),
         velocity: row.velocity.unwrap_or_default(),
         angular_velocity: row.angular_velocity.unwrap_or_default(),
         friction: row.friction,
@@ -302,6 +305,7 @@ mod tests {
             inertia: None,
             position: Vector3::new(1.0, 2.0, 3.0),
             rotation: UnitQuaternion::from_scaled_axis(Vector3::new(0.0, 0.0, std::f64::consts::FRAC_PI_2)),
+            angle: std::f64::consts::FRAC_PI_2,
             velocity: Vector3::zeros(),
             angular_velocity: Vector3::zeros(),
             friction: None,

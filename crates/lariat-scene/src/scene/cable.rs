@@ -26,7 +26,7 @@ table! {
     struct CableTable("[[cable]]") {
         /// No other cable has it.
         name: String = required, Kind::Name(&["all"]);
-        /// Start shape: the polyline through these points, of which neighbours differ.
+        /// Start shape: the polyline through these points, of which neighbours differ. A cable is smooth: at a sharp corner it starts strained, which a warning tells.
         points: Vec<Vector3<f64>> = required, Kind::Rows(&["x", "y", "z"], 2), "m";
         /// Unstretched length: a cable shorter than drawn is taut at the start, a longer one hangs slack.
         length: Option<f64> = ("the length of the polyline"), Kind::Number(POSITIVE), "m";
@@ -172,6 +172,7 @@ pub(super) fn read(
     {
         integrator = integrator::by_discrete_gradient(doc, &at.key("integrator"), integrator, what)?;
     }
+    integrator::check_tolerance(doc, &at.key("integrator").key("tolerance"), &row.integrator, length)?;
     let cable = CableScene {
         points: row.points,
         length,

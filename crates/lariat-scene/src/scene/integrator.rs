@@ -5,12 +5,15 @@ use crate::error::{Error, Problem};
 use crate::schema::{Choose, Kind, MANY, POSITIVE, SHARE, parse_as, table};
 use lariat_ancf::{ErrorNorm, Fidelity, Integrator, IntegratorChoice, Method, StepControl};
 
+/// Least tolerance over the length of the cable: some tens of roundings of a position.
+const ROUNDING: f64 = 1e-14;
+
 table! {
     /// A method with a step control; or `fidelity`, which chooses both.
     struct IntegratorTable("[cable.integrator]") {
         /// Name of a method, required by all but `tolerance` and `fidelity`.
         method: Option<Method> = ("`\"esdirk4\"`"), Kind::Parsed { accepted: "a name of `lariat integrators`", parse: parse_as::<Method> };
-        /// Error of position per host step, for a method with an error estimate.
+        /// Error of position per host step, for a method with an error estimate; at least 1e-14 of the length of the cable.
         tolerance: Option<f64> = (), Kind::Number(POSITIVE), "m";
         /// Which errors the tolerance bounds: `"every"` node and body with its vibrations, the `"motion"` that is slow beside the host step, or the free `"bodies"` that the cable moves.
         norm: Option<ErrorNorm> = ("`\"every\"`"), Kind::Choice(|| ErrorNorm::ALL.map(ErrorNorm::name).to_vec());
@@ -60,6 +63,24 @@ pub(super) fn read(doc: &Document<'_>, at: &KeyPath, row: &IntegratorTable) -> R
     };
     let checked = Integrator { method, control }.checked();
     checked.map(IntegratorChoice::from).map_err(|error| doc.conflict(&at.key(key), error.to_string()))
+}
+
+/// Checks that a tolerance is above the rounding of positions on a cable of this length (m): below, steps get ever shorter for nothing.
+pub(super) fn check_tolerance(
+    doc: &Document<'_>,
+    at: &KeyPath,
+    row: &IntegratorTable,
+    length: f64,
+) -> Result<(), Error> {
+    let least = ROUNDING * length;
+    match row.tolerance.filter(|tolerance| *tolerance < least) {
+        Some(tolerance) => Err(doc.error_accepting(
+            at,
+            Problem::Conflict(format!("{tolerance:e} m is below the rounding of positions on a cable of {length} m")),
+            format!("at least {least:.1e} m, 1e-14 of the length"),
+        )),
+        None => Ok(()),
+    }
 }
 
 /// Returns the integrator of a cable with something that only the discrete gradient steps: the one at a path if it is that, and the

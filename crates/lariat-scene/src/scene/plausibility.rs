@@ -1,16 +1,40 @@
-//! What is probably not meant in a scene: sizes and materials that no cable has, bodies that nothing holds.
+//! What is probably not meant in a scene: sizes and materials that no cable has, bodies that nothing holds, shapes that are strained as drawn.
+//!
+//! # Validity
+//!
+//! A corner of the drawn shape is strained, because the elements beside it are smooth: a node on it turns by half the angle t on each side, and an
+//! element of length h stores about EA h (t/6)^4, one with the corner inside three to four times as much. Limits: a strain of 3e-3 on the mean of all of
+//! the cable, a third of that at which steel ropes break, and a tenth of the energies that the cable starts with otherwise. A radius of contact of
+//! ten diameters is more than any sheath; axial damping times of ropes are below 0.1 s, and a time in percent of critical is above one.
 
 use super::body::{BodyKind, BodyMass, BodyScene, BodyShape};
 use super::load::LoadScene;
 use super::{CableScene, Purpose, Scene};
 use crate::warning::Warning;
 use lariat_ancf::warning::sizes;
-use lariat_ancf::{Flow, Vector3};
+use lariat_ancf::{Cable, Flow, Vector3};
+use std::f64::consts::TAU;
+
+/// Largest axial strain, on the mean of a cable, that its drawn corners may make.
+const CORNER_STRAIN: f64 = 3e-3;
+/// Largest strain energy of drawn corners over the other energies at the start.
+const CORNER_ENERGY: f64 = 0.1;
+/// Largest diameter of contact over the length of a cable, and in m.
+const CONTACT: [f64; 2] = [0.2, 1.5];
+/// Largest radius of contact over the diameter of the section.
+const SHEATH: f64 = 10.0;
+/// Largest axial damping time in s.
+const SLOWEST_STRETCH: f64 = 1.0;
+/// Largest force over EA.
+const LOAD: f64 = 1.0;
 
 impl Scene {
     /// Returns warnings about what is probably not meant, as the scene is written.
     pub fn warnings(&self, purpose: Purpose) -> Vec<Warning> {
         let mut warnings: Vec<Warning> = self.cables.iter().flat_map(of_cable).map(Warning::Cable).collect();
+        warnings.extend(self.cables.iter().flat_map(contact_and_damping));
+        warnings.extend(self.large_loads());
+        warnings.extend(self.many_turns());
         warnings.extend(self.moments_along());
         if purpose == Purpose::Run {
             warnings.extend(self.falling());
@@ -79,6 +103,47 @@ impl Scene {
         })
     }
 
+    /// Returns a warning for each force beyond the axial stiffness of its cable.
+    fn large_loads(&self) -> impl Iterator<Item = Warning> {
+        self.loads.iter().filter_map(|LoadScene { cable, load, .. }| {
+            let cable = &self.cables[*cable];
+            let (force_n, axial_stiffness_n) = (load.force.norm(), cable.section.axial_stiffness);
+            let (name, at_m) = (|| cable.name.clone(), load.arc_length);
+            let large = force_n > LOAD * axial_stiffness_n;
+            large.then(|| Warning::LargeLoad { cable: name(), at_m, force_n, axial_stiffness_n })
+        })
+    }
+
+    /// Returns a warning for each body that is rotated by more than a turn.
+    fn many_turns(&self) -> impl Iterator<Item = Warning> {
+        let turned = self.bodies.iter().filter(|body| body.angle > TAU * (1.0 + 1e-6));
+        turned.map(|body| Warning::ManyTurns { body: body.name.clone(), angle_rad: body.angle })
+    }
+
+    /// Returns a warning about cable `i`, as drawn and in its initial motion, if corners of its points hold much of its energy.
+    pub(crate) fn drawn_corner(&self, i: usize, cable: &Cable) -> Option<Warning> {
+        let drawn = &self.cables[i];
+        let segments: Vec<Vector3<f64>> = drawn.points.windows(2).map(|p| p[1] - p[0]).collect();
+        if segments.len() < 2 || drawn.effects.rest_shape.is_some() {
+            return None;
+        }
+        let stiffness = drawn.section.axial_stiffness * drawn.length;
+        let stretch = segments.iter().map(Vector3::norm).sum::<f64>() / drawn.length;
+        let (slack, stretch) = (stretch < 1.0 - 1e-9, stretch.max(1.0));
+        let even = 0.125 * stiffness * (stretch * stretch - 1.0).powi(2);
+        let mass = drawn.section.mass_per_length * drawn.length;
+        let energy = cable.energy();
+        let energy_j = energy.axial - even;
+        let other = energy.kinetic + even + mass * self.gravity.norm() * drawn.length;
+        if energy_j <= CORNER_ENERGY * other || 2.0 * energy_j <= CORNER_STRAIN * CORNER_STRAIN * stiffness {
+            return None;
+        }
+        let turns = segments.windows(2).map(|s| s[0].angle(&s[1])).enumerate();
+        let (before, turn_rad) = turns.max_by(|a, b| a.1.total_cmp(&b.1))?;
+        let (cable, speed_m_s) = (drawn.name.clone(), (2.0 * energy_j / mass).sqrt());
+        Some(Warning::DrawnCorner { cable, corner: before + 1, turn_rad, slack, energy_j, speed_m_s })
+    }
+
     /// Returns a warning for each load whose ramp the run does not see the half of.
     fn unfinished_ramps(&self) -> impl Iterator<Item = Warning> {
         let cables = self.loads.iter().map(|load| (&self.cables[load.cable].name, load.load.ramp));
@@ -144,4 +209,17 @@ fn radius(body: &BodyScene) -> f64 {
 
 fn of_cable(cable: &CableScene) -> impl Iterator<Item = lariat_ancf::Warning> {
     sizes::warnings(&cable.name, &cable.section, cable.length)
+}
+
+/// Returns the warnings about a radius of contact in another unit, and about damping in another measure.
+fn contact_and_damping(cable: &CableScene) -> impl Iterator<Item = Warning> {
+    let name = || cable.name.clone();
+    let (length_m, diameter_m) = (cable.length, cable.section.diameter);
+    let radius = cable.effects.contact.as_ref().and_then(|contact| contact.radius);
+    let thick = radius.filter(|radius| {
+        2.0 * radius > CONTACT[1].min(CONTACT[0] * length_m) || diameter_m.is_some_and(|d| *radius > SHEATH * d)
+    });
+    let thick = thick.map(|radius_m| Warning::ThickContact { cable: name(), radius_m, length_m, diameter_m });
+    let axial = cable.effects.damping.map(|damping| damping.axial).filter(|axial| *axial > SLOWEST_STRETCH);
+    thick.into_iter().chain(axial.map(|axial_s| Warning::SlowStretch { cable: name(), axial_s }))
 }

@@ -48,6 +48,12 @@ const CASES: &[Case] = &[
     ),
     ("points = [[0.0, 0.0, 0.0], [2.0, 0.0, 0.0]]", "points = [[0, 0, 0], [0, 0, 0]]", 8, &["points 0 and 1 coincide"]),
     ("points = [[0.0, 0.0, 0.0], [2.0, 0.0, 0.0]]", "points = [[0, 0, 0], [inf, 0, 0]]", 8, &["points", "not finite"]),
+    (
+        "integrator = { tolerance = 1e-6 }",
+        "integrator = { tolerance = 1e-20 }",
+        15,
+        &["cable.sling.integrator.tolerance: 1e-20 m is below the rounding", "at least 2.0e-14 m"],
+    ),
     ("length = 2.0", "length = 0.0", 9, &["cable.sling.length: 0 ", "> 0, in m"]),
     ("length = 2.0", "lenght = 2.0", 9, &["cable.sling.lenght", "unknown key `lenght`", "Did you mean \"length\"?"]),
     ("elements = 10", "elements = 0", 10, &["cable.sling.elements: 0 is out of range", "whole number from 1"]),

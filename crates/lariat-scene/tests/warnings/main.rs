@@ -1,6 +1,7 @@
 //! Warnings: each kind where it is due, none in the scenes of assets/scenes that are resolved.
 
 mod bodies;
+mod drawn;
 mod mesh;
 mod through;
 mod units;

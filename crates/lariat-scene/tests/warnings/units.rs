@@ -85,3 +85,48 @@ fn a_density_in_grams_per_cubic_centimetre_is_told() {
         assert!(!heavy.iter().any(told), "{density} {heavy:?}");
     }
 }
+
+/// A radius of contact in mm, a damping time in percent of critical, a rotation in degrees, a force beyond EA; and none where they are in SI units.
+#[test]
+fn radius_damping_rotation_and_load_in_other_measures_are_told() {
+    // a rope of 2 m, EA = 1e5 N, and a box beside it
+    let text = |section: &str, table: &str, turn: f64, force: f64| {
+        format!(
+            "duration = 0.01\ngravity = [0.0, 0.0, 0.0]\n[[body]]\nname = \"box\"\nkind = \"fixed\"\nshape = {{ cuboid = [0.1, 0.1, 0.1] }}\nposition = [0.0, -90.0, 0.0]\n\
+             rotation = [0.0, {turn:?}, 0.0]\n[[cable]]\nname = \"rope\"\npoints = [[0.0, 0.0, 0.0], [2.0, 0.0, 0.0]]\n{section}\n{table}\n\
+             [[attachment]]\ncable = \"rope\"\nat = \"start\"\nbody = \"world\"\n[[load]]\ncable = \"rope\"\nat = \"end\"\nforce = [{force:?}, 0.0, 0.0]\n"
+        )
+    };
+    let kinds = |text: &str| -> Vec<&str> {
+        let kind = |w: &Warning| match w {
+            Warning::ThickContact { radius_m, .. } => {
+                assert!(w.to_string().contains(&format!("{radius_m} mm meant?")), "{w}");
+                "radius"
+            }
+            Warning::SlowStretch { .. } => "damping",
+            Warning::ManyTurns { .. } => "rotation",
+            Warning::LargeLoad { force_n, axial_stiffness_n, .. } => {
+                assert!((force_n / axial_stiffness_n - 2.0).abs() < 1e-9, "{w}");
+                "load"
+            }
+            _ => "",
+        };
+        warned(text, Purpose::Run).iter().map(kind).filter(|kind| !kind.is_empty()).collect()
+    };
+    let solid = "section = { square = 0.01 }\ndensity = 4000.0\nyoungs_modulus = 1e9";
+    let stiff = "axial_stiffness = 1e5\nbending_stiffness = 0.1\nmass_per_length = 0.4";
+    for section in [solid, stiff] {
+        for radius in [5.0, 1.0] {
+            assert_eq!(kinds(&text(section, &format!("contact = {{ radius = {radius:?} }}"), 0.0, 0.0)), ["radius"]);
+        }
+        assert_eq!(kinds(&text(section, "damping = { axial = 2.0 }", 90.0, 0.0)), ["damping", "rotation"]);
+        assert_eq!(kinds(&text(section, "damping = { axial = 0.02 }", 45.0, 2e5)), ["load", "rotation"]);
+        for radius in [0.005, 0.02] {
+            let fine = format!("contact = {{ radius = {radius:?} }}\ndamping = {{ axial = 0.1, bending = 0.5 }}");
+            assert!(kinds(&text(section, &fine, std::f64::consts::TAU, 1e3)).is_empty());
+        }
+    }
+    // thicker than ten diameters
+    assert_eq!(kinds(&text(solid, "contact = { radius = 0.15 }", 0.0, 0.0)), ["radius"]);
+    assert!(kinds(&text(stiff, "contact = { radius = 0.15 }", 0.0, 0.0)).is_empty());
+}
