@@ -68,14 +68,10 @@ impl Impedance {
         self.update_freed(cable, nodes, h, |attached| nodes.contains(&attached))
     }
 
-    /// Returns the largest stiffness in N/m that `cable` shows at a node over a step of `h` (s), its
-    /// inertia included: the largest eigenvalue of C^-1/h^2. All other attached nodes are held.
-    ///
-    /// # Errors
-    /// [`Error::StepFailed`] if the matrix is singular or not finite.
-    pub fn stiffness(&mut self, cable: &mut Cable, node: usize, h: f64) -> Result<f64, Error> {
-        self.update_held(cable, &[node], h)?;
-        Ok(1.0 / (h * h * self.compliance(0, 0).symmetric_eigenvalues().min()))
+    /// Returns the largest stiffness in N/m that the cable shows at the first of the nodes over the step, its inertia included: the largest
+    /// eigenvalue of C^-1/h^2 there. The other nodes are as free as it was updated with.
+    pub fn stiffness(&self) -> f64 {
+        1.0 / (self.step * self.step * self.compliance(0, 0).symmetric_eigenvalues().min())
     }
 
     /// Linearises `cable` with those of its attached nodes free that `is_free` names.

@@ -147,6 +147,7 @@ impl Island {
         }
         memory::keep(cables, bodies, pins, state);
         scatter(cables, bodies, state, layout);
+        self.accounts.balance(&self.layout, bodies, dt);
         self.accounts.end(cables, &self.layout);
         Ok(())
     }

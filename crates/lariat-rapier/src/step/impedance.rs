@@ -22,6 +22,7 @@ use crate::ledger::{Drive, Ledger};
 use crate::mechanism::{Group, Mechanism};
 use crate::proximity;
 use crate::step::prediction::{Prediction, StepParameters};
+use crate::step::substepping;
 use ::nalgebra::{DMatrix, Matrix3, Matrix6, Vector3};
 use lariat_ancf::Cable;
 use lariat_ancf::island::{Impedance, PinConstraint, RigidBody};
@@ -67,13 +68,17 @@ pub(crate) fn set_motors(
             if let Some(a) = island.attachments[pin].and_then(|a| contents.attachments.get_mut(a)) {
                 let ledger = a.ledger.get_or_insert_with(|| Ledger::insert(world, a.body));
                 ledger.set_motors(world, &a.anchor, &Drive { impedance, target, load: None }, step.h);
+                let cable = contents.cables.get(a.cable.0 as usize).map(|slot| &slot.cable);
+                let response = &prediction.impedances[island.pins[pin].cable];
+                a.shown = cable.and_then(|cable| substepping::shown_stiffness(cable, a.node, response, step.h));
                 prediction.motors[pin] = true;
             }
         }
     }
     prediction.deviating = deviating;
-    let off = island.attachments.iter().zip(&prediction.motors).filter(|(_, on)| !**on);
-    disable_motors(contents, world, off.filter_map(|(attachment, _)| *attachment));
+    let off = || island.attachments.iter().zip(&prediction.motors).filter(|(_, on)| !**on).filter_map(|(a, _)| *a);
+    off().for_each(|index| contents.attachments.get_mut(index).into_iter().for_each(|a| a.shown = None));
+    disable_motors(contents, world, off());
     Ok(())
 }
 

@@ -32,10 +32,10 @@
 //! A fine split always: a pile of 500 boxes costs 0.5 ms in each Rapier step. A bound of the gap that a collision at v opens before the
 //! cable follows, h v g/(1 + g) <= 1 mm with g = 0.1 h^2 k/m: with 32 steps at most, h w <= 0.6 asks for more of them below 50 m/s.
 
-use crate::attachment::Attachment;
+use crate::attachment::{Attachment, ShownStiffness};
 use crate::body::is_integrated;
 use crate::contact;
-use crate::contents::Contents;
+use crate::contents::{Contents, Slot};
 use crate::proximity;
 use crate::settings::Settings;
 use crate::spatial::split_spatial;
@@ -88,7 +88,7 @@ pub(crate) fn count(
             let reaction = contents.records.get(a.body).map_or(0.0, |r| split_spatial(&r.reaction).0.norm());
             let change = MAX_REBOUND * speed * dt + 0.5 * reaction * inverse_mass * dt * dt;
             if stays_slack(contents, a, dt, change) {
-                own = own.min(count(stiffness_over(contents, a.body, dt, impedance)));
+                own = own.min(count(stiffness_over(contents, a.body, (dt, change), impedance)));
             }
         }
         needed = needed.max(own);
@@ -174,16 +174,42 @@ fn stiffness(contents: &Contents, a: &Attachment) -> f64 {
     side(0..node) + side(node..elements.len())
 }
 
-/// Returns the stiffness in N/m that the cables of a body show over a step of `dt` (s).
-fn stiffness_over(contents: &mut Contents, body: RigidBodyHandle, dt: f64, impedance: &mut Impedance) -> f64 {
+/// Returns the stiffness in N/m that the cables of a body show over a step of `dt` (s), if it moves by `change` (m) beside its present motion.
+fn stiffness_over(
+    contents: &mut Contents,
+    body: RigidBodyHandle,
+    (dt, change): (f64, f64),
+    impedance: &mut Impedance,
+) -> f64 {
     let of_body = contents.attachments.values().filter(|a| a.body == body);
     let own = of_body.map(|a| {
         let Some(slot) = contents.cables.get_mut(a.cable.0 as usize) else { return 0.0 };
+        if let Some(known) = last_stiffness(slot, a, dt, change) {
+            return known;
+        }
         // the number may be that of before a change of the cable
         let node = a.node.min(slot.cable.elements().len());
-        impedance.stiffness(&mut slot.cable, node, dt).unwrap_or(f64::INFINITY)
+        impedance.update_held(&mut slot.cable, &[node], dt).map_or(f64::INFINITY, |()| impedance.stiffness())
     });
     own.sum()
+}
+
+/// Returns the stiffness of a cable at a node over a step of `h` (s) by its response there, which motors need anyway, for
+/// [`last_stiffness`]: of a cable with one other end.
+pub(super) fn shown_stiffness(cable: &Cable, node: usize, response: &Impedance, h: f64) -> Option<ShownStiffness> {
+    let mut parts = parts(cable, node);
+    let slack = parts.next()?.slack;
+    let alone = parts.next().is_none() && response.nodes() == [node] && !cable.has_reel();
+    alone.then(|| ShownStiffness { step: h, stiffness: response.stiffness(), slack })
+}
+
+/// Returns the stiffness that a cable showed in the last Rapier step, if that was as long as the coming one of `dt` (s) and the slack cannot
+/// have shrunk since by so much that the stiffness doubles.
+fn last_stiffness(slot: &Slot, a: &Attachment, dt: f64, change: f64) -> Option<f64> {
+    let shown = a.shown.filter(|shown| shown.step == dt && !slot.modified)?;
+    let part = parts(&slot.cable, a.node).next()?;
+    let lost = (shown.slack - part.slack).max(0.0) + part.speed * dt + change;
+    (lost <= SLACK_SHARE * shown.slack).then_some(shown.stiffness)
 }
 
 /// Returns whether the cable of an attachment is straight, or may become so within `dt` (s).
