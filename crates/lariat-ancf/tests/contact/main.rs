@@ -5,6 +5,7 @@ mod bodies;
 mod capstan;
 #[path = "../common/mod.rs"]
 mod common;
+mod cost;
 mod energy;
 mod features;
 mod first_touch;
