@@ -65,6 +65,11 @@ impl ContactStep {
         self.points.is_empty() && self.watched.is_empty()
     }
 
+    /// Returns whether an obstacle that no body of the island carries pushes the cable.
+    pub fn is_held(&self) -> bool {
+        self.points.iter().any(|point| point.now.normal_force > 0.0 && self.obstacles[point.obstacle].body.is_none())
+    }
+
     /// Returns the number of contacts that are evaluated.
     pub fn count(&self) -> u64 {
         self.points.len() as u64

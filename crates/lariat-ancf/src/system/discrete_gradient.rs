@@ -1,5 +1,6 @@
 //! One cable under the [discrete gradient](crate::integrate::discrete_gradient).
 
+use super::angular::{Momenta, outside_impulses};
 use super::lanes::MatrixOutput;
 use super::lanes::discrete_gradient::{CoordinateStep, ElementLoss};
 use super::rigid_motion::relative_velocities;
@@ -92,6 +93,9 @@ impl Equations<'_> {
         let loss = self.step_elements(state, b, matrix);
         self.end_flow_step(state, b, eyes);
         self.external_forces(state, b, matrix, work);
+        if !matrix && b.outside.is_some() {
+            b.outside = Some(outside_impulses(&state.q, b));
+        }
         self.add_flows_over_step(state, b, matrix);
         if let Some(effects) = &self.system.forces.in_element {
             effects.add_dissipated(loss.effects, work);
@@ -297,6 +301,14 @@ impl DiscreteGradientSystem for CableStep<'_> {
     }
 
     fn predict(&mut self, h: f64, closing: Closing) {
+        let CableStep { equations, state, buffers: b } = self;
+        let free = equations.model.supports.is_empty() && equations.system.flows.is_empty();
+        b.before = free.then(|| {
+            let mut momenta = Momenta::default();
+            momenta.add_cable(equations, state, b);
+            momenta.angular_and_centre()
+        });
+        b.outside = b.before.map(|_| Default::default());
         self.equations.begin_laws(self.state.time, h);
         self.buffers.recall(self.state, h);
         self.equations.prescribe_change(self.state, self.buffers);
@@ -389,7 +401,16 @@ impl DiscreteGradientSystem for CableStep<'_> {
     fn accept(&mut self, balance: &Balance) {
         self.equations.accept_step(self.state, self.buffers);
         self.buffers.pairs.remember(0, &mut self.state.memory.pairs);
-        self.equations.system.meter.law.add(balance);
+        let mut balance = *balance;
+        let CableStep { equations, state, buffers: b } = self;
+        if let (Some(before), Some(outside), true) = (b.before, b.outside, !b.contact.is_held()) {
+            let mut momenta = Momenta::default();
+            momenta.add_second_difference(equations.system, state, b);
+            momenta.add_cable(equations, state, b);
+            let turn = momenta.restore(&mut state.memory.differences.owed, (before, outside), &mut balance);
+            turn.turn_cable(state);
+        }
+        equations.system.meter.law.add(&balance);
     }
 
     fn count(&mut self, event: Event) {

@@ -18,6 +18,7 @@
 //! | [`frequency`] | a bound of the frequencies |
 //! | [`projection`] | supports in vectors and matrices |
 
+pub(crate) mod angular;
 mod contacts;
 mod discrete_gradient;
 pub(crate) mod dynamics;

@@ -79,8 +79,8 @@ impl Tow {
 
 /// A winch on a free body draws in and pays out a cable with a tumbling load, in space, off the centres of mass, over splits and merges, as
 /// strong as it must be or against a clutch: the momentum of cable, stock and bodies stays to 1e-8. Splits and merges keep the angular momentum to
-/// rounding; steps keep it, as those of a reel that stands do, to the second order of the step. The account of energy closes to that
-/// order.
+/// rounding; steps restore it, but for what is owed at times in which little moves beside the rigid motion. The account of energy closes to the second
+/// order of the step.
 ///
 /// *Source.* Conservation of momentum, angular momentum and energy.
 #[test]
@@ -114,13 +114,12 @@ fn a_winch_on_a_free_body_keeps_momentum_and_energy() {
         }
         println!("{missing:?}");
         assert!(
-            missing[0] < 1e-3 && missing[2] < 1e-4 && turned[0] < 2e-3 && turned[2] < 2e-4,
+            missing[0] < 1e-3 && missing[2] < 1e-4 && turned[0] < 1e-4 && turned[2] < 5e-6,
             "{missing:?} {turned:?}"
         );
         if max_force.is_none() {
             // but for what the bodies take of a merge
             assert!(missing[0] > 9.0 * missing[2] || missing[2] < 3e-6, "{missing:?}");
-            assert!(turned[0] > 9.0 * turned[2], "{turned:?}");
         }
     }
 }

@@ -3,6 +3,7 @@
 use crate::contact::{ContactStep, PairStep};
 use crate::integrate::State;
 use crate::system::Unknowns;
+use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
 /// Changes of velocities and coordinates over the last step: what the discrete gradient carries to the next one. Plain data, part of a
@@ -16,6 +17,8 @@ pub struct Differences {
     pub displacement: Vec<f64>,
     /// Length of the step in s.
     pub step: f64,
+    /// Angular momentum in kg m^2/s that this and earlier steps took and that is still to be [restored](crate::system::angular).
+    pub owed: [f64; 3],
     /// Revision of the system's description at that step.
     pub revision: u64,
 }
@@ -26,6 +29,7 @@ impl Differences {
         self.velocity.clear();
         self.displacement.clear();
         self.step = 0.0;
+        self.owed = [0.0; 3];
         self.revision = 0;
     }
 
@@ -39,6 +43,7 @@ impl Differences {
         self.velocity.clone_from(&other.velocity);
         self.displacement.clone_from(&other.displacement);
         self.step = other.step;
+        self.owed = other.owed;
         self.revision = other.revision;
     }
 }
@@ -84,6 +89,10 @@ pub(crate) struct Buffers {
     pub pair_impulses: Vec<f64>,
     /// Rates of reels that are unknown.
     pub unknowns: Unknowns,
+    /// Where nothing holds the cable, angular momentum about the centre of mass and this when the step begins.
+    pub before: Option<[Vector3<f64>; 2]>,
+    /// Impulse and angular impulse about the origin of the forces without potential, if they are asked for.
+    pub outside: Option<[Vector3<f64>; 2]>,
 }
 
 impl Buffers {

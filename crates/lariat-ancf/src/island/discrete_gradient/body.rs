@@ -30,6 +30,7 @@ use crate::contact::BodyPath;
 use crate::integrate::discrete_gradient::{ALPHA, BETA, Balance, sum_of_forces};
 use crate::island::body::{BodyDifferences, RigidBody};
 use crate::model::STANDARD_GRAVITY;
+use crate::system::angular::{Momenta, Turn};
 use nalgebra::{Matrix3, Matrix6, Quaternion, UnitQuaternion, Vector3, Vector6};
 
 /// Height in m of the weight by which a body at rest is measured.
@@ -328,6 +329,36 @@ impl BodyStep {
         self.rotation = self.end;
         self.velocity = stack([v, self.rotation.inverse() * turned]);
         self.last = (self.change - self.landed, self.h);
+    }
+
+    /// Adds its momenta at the present state.
+    pub fn add_momenta(&self, momenta: &mut Momenta) {
+        let turn = self.rotation.to_rotation_matrix();
+        let inertia = turn * self.inertia * turn.inverse();
+        momenta.add_body(self.mass, &inertia, &self.position, [split(&self.velocity)[0], self.spin()]);
+    }
+
+    /// Adds the second difference of its velocities in a step that has just ended.
+    pub fn add_second_difference(&self, momenta: &mut Momenta) {
+        let [v, spin] = split(&self.second_difference());
+        momenta.add_second_difference_of_body(&self.position, [v * self.mass, self.rotation * (self.inertia * spin)]);
+    }
+
+    /// Returns impulse and angular impulse about the origin of the loads over a step that has just ended.
+    pub fn outside_impulses(&self) -> [Vector3<f64>; 2] {
+        let (impulse, middle) = (self.force * self.h, self.position - 0.5 * self.displacement());
+        [impulse, middle.cross(&impulse) + self.torque * self.h]
+    }
+
+    /// Changes its velocities by a turn.
+    pub fn turn(&mut self, turn: &Turn) {
+        let [v, spin] = turn.of_body(&self.position, [split(&self.velocity)[0], self.spin()]);
+        self.set_velocity(&v, &spin);
+    }
+
+    /// Returns whether nothing but cables acts on it beside its loads, and it keeps its angular momentum.
+    pub fn is_free(&self) -> bool {
+        self.free == [true; 6] && self.gyroscopic && !self.carries()
     }
 
     /// Returns the angular velocity in world axes.

@@ -13,6 +13,7 @@
 //! step matrices of the cables are. A body that a cable touches has columns of its own beside the held coordinates, and G = 1. The energy law
 //! is that of the whole: forces and torques on the bodies do work, as do gaps that close and the axes along which a body is locked.
 
+mod angular;
 mod body;
 mod coupled;
 mod holds;
@@ -223,6 +224,7 @@ impl DiscreteGradientSystem for IslandStep<'_, '_> {
     }
 
     fn predict(&mut self, h: f64, closing: Closing) {
+        self.note_angular_momentum();
         for cable in self.cables.iter_mut() {
             let CableStep { mut equations, state, buffers } = cable.step_parts();
             equations.begin_laws(state.time, h);
@@ -299,8 +301,9 @@ impl DiscreteGradientSystem for IslandStep<'_, '_> {
         }
         self.remember_pairs();
         self.buffers.bodies.iter_mut().for_each(BodyStep::accept);
+        let balance = self.restore_angular_momentum(balance);
         // the law is that of the whole: the first cable keeps it
-        self.cables[0].system.meter.law.add(balance);
+        self.cables[0].system.meter.law.add(&balance);
     }
 
     fn count(&mut self, event: Event) {

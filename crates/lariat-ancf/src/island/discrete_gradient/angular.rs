@@ -1,0 +1,72 @@
+//! The angular momentum of an island that nothing holds, over a step. Equations: `system/angular.rs`.
+
+use super::IslandStep;
+use super::body::BodyStep;
+use crate::integrate::discrete_gradient::Balance;
+use crate::system::angular::Momenta;
+use crate::system::{CableStep, Source};
+
+impl IslandStep<'_, '_> {
+    /// Returns whether nothing holds the island, and all of it is in the equations.
+    fn is_free(&self) -> bool {
+        let supports = |attached: bool| {
+            let of = self.cables.iter().flat_map(|cable| &cable.model.supports);
+            of.filter(|(_, support)| support.attached == attached).count()
+        };
+        let outside = |cable: &crate::Cable| cable.system.flows.list.iter().any(|flow| flow.source == Source::Outside);
+        supports(false) == 0
+            && supports(true) == self.layout.pins.len()
+            && !self.cables.iter().any(|cable| outside(cable))
+            && self.buffers.coupled.is_empty()
+            && self.buffers.bodies.iter().all(BodyStep::is_free)
+    }
+
+    /// Returns the momenta of all at the present state.
+    fn momenta(&mut self, momenta: &mut Momenta) {
+        for cable in self.cables.iter_mut() {
+            let CableStep { mut equations, state, buffers } = cable.step_parts();
+            momenta.add_cable(&mut equations, state, buffers);
+        }
+        self.buffers.bodies.iter().for_each(|body| body.add_momenta(momenta));
+    }
+
+    /// Notes the angular momentum when a step begins, if nothing holds the island.
+    pub(super) fn note_angular_momentum(&mut self) {
+        let mut before = None;
+        if self.is_free() {
+            let mut momenta = Momenta::default();
+            self.momenta(&mut momenta);
+            before = Some(momenta.angular_and_centre());
+        }
+        for cable in self.cables.iter_mut() {
+            let b = &mut cable.step_buffers;
+            (b.before, b.outside) = (before, before.map(|_| Default::default()));
+        }
+    }
+
+    /// Restores the angular momentum after an accepted step, and returns its balance with what that does to the energy.
+    pub(super) fn restore_angular_momentum(&mut self, balance: &Balance) -> Balance {
+        let mut balance = *balance;
+        let Some(before) = self.cables[0].step_buffers.before else { return balance };
+        if self.cables.iter().any(|cable| cable.step_buffers.contact.is_held()) {
+            return balance;
+        }
+        let (mut momenta, mut outside) = (Momenta::default(), [nalgebra::Vector3::zeros(); 2]);
+        let mut add = |own: [nalgebra::Vector3<f64>; 2]| (0..2).for_each(|i| outside[i] += own[i]);
+        for cable in self.cables.iter_mut() {
+            let CableStep { equations, state, buffers } = cable.step_parts();
+            buffers.outside.iter().for_each(|own| add(*own));
+            momenta.add_second_difference(equations.system, state, buffers);
+        }
+        for body in &self.buffers.bodies {
+            add(body.outside_impulses());
+            body.add_second_difference(&mut momenta);
+        }
+        self.momenta(&mut momenta);
+        let owed = &mut self.cables[0].snapshot.state.memory.differences.owed;
+        let turn = momenta.restore(owed, (before, outside), &mut balance);
+        self.cables.iter_mut().for_each(|cable| turn.turn_cable(&mut cable.snapshot.state));
+        self.buffers.bodies.iter_mut().for_each(|body| body.turn(&turn));
+        balance
+    }
+}
