@@ -117,21 +117,6 @@ impl Point {
         }
     }
 
-    /// Adds the derivatives of the force `moment w_g`, at a constant moment by kappa, where it stiffens: across the curvature, of a positive one.
-    #[inline(always)]
-    pub fn add_stiffening<T: Real>(
-        &self,
-        g: &Six<T>,
-        at: &Squared<T>,
-        moment: T,
-        (geometric, h): (&mut Six<T>, &mut Upper<T>),
-    ) {
-        let moment = (moment + moment.abs()) * 0.5;
-        at.add_gradient(moment, geometric);
-        self.add_second(g, at, moment, h);
-        at.add_square(moment * -0.5 / (at.w + NOISE), h);
-    }
-
     /// Adds `scale w_gg` to a weighted Hessian.
     #[inline(always)]
     pub fn add_second<T: Real>(&self, g: &Six<T>, at: &Squared<T>, scale: T, h: &mut Upper<T>) {

@@ -18,21 +18,10 @@
 //! needs. In a plane both are the same and the force is EI tau kappa', without a kink where the curvature passes through zero. Both
 //! vanish at zero velocity.
 //!
-//! Over a step of the [discrete gradient](crate::integrate::discrete_gradient) the rate of the scalar acts along the mean n of the curvature,
-//! `f = c n (n.D k)`, c = EI tau/h. Where an element straightens, n.D k < 0, the derivative of f across n is *negative*, `c n.D k/(2 |k|)`: a strut
-//! that buckles sideways. Where c is more than what elasticity and inertia resist, the step has no solution near, or several. So the
-//! vector has a share of its own there, the least one that outweighs this,
-//!
-//! ```text
-//! s = r/(2 + r),   r = |D kappa|/kappa at the middle of the step          s >= (1 - s) r/2
-//! ```
-//!
-//! for either sign of D kappa. r is zero in rigid motions, spin included, and falls with the step.
-//!
 //! The derivative of the force by velocity is exact. By position the step takes the part that keeps its matrix symmetric: the
 //! geometric stiffness of the viscous stress, of bending that across the curvature and where it stiffens (along it, the derivative
 //! of g' cancels it). Left out is C (dg'/dq), which is unsymmetric; its symmetric half would make stiff matrices indefinite. The exact
-//! derivative is [`Cable::jacobians`](crate::Cable::jacobians)'s. The tangent of the discrete gradient takes the same parts.
+//! derivative is [`Cable::jacobians`](crate::Cable::jacobians)'s.
 //!
 //! # Validity
 //!
@@ -54,10 +43,6 @@
 //!   rope in 200 elements, released from horizontal in a breeze, tau = 1 ms, took 4111 steps for the first 1/60 s, against 39 for
 //!   30/60 s.
 //! - The vector rate for all curvatures: smooth, and a spinning bent cable heats up.
-//! - Over steps of the discrete gradient the scalar rate alone: a rope that falls on its end into a heap (assets/contact/heap.toml) took up to 1531
-//!   iterations in a host step, one that is drawn over a rod (rod.toml, 34 elements) 917; now 96 and 15. Without damping of bending they take 244 and 17.
-//!   The vector where the curvature turns by more than a share of a right angle: no fewer. Its share less what elasticity resists, h/tau: 542 in the heap.
-//!   The tangent without the stiffening part: 769.
 //! - Rayleigh damping by the mass matrix: it damps falling.
 //! - The exact, unsymmetric tangent in Newton's iteration: fewer iterations where drag or axial damping dominate the motion (up to
 //!   45 % at fidelity game), 0 to 10 % fewer elsewhere, while it stores nine blocks for six per element and is factored by L U in
@@ -198,8 +183,10 @@ impl GramForce for DampingTable {
             let shares = Shares::new(w.w);
             let moment = scale * shares.scalar * w.rate(rates);
             w.add_gradient(moment, &mut sum.n);
-            point.add_stiffening(&at.g, &w, moment, (&mut tangent.geometric, &mut tangent.h));
-            w.add_square(scale * shares.scalar * rate, &mut tangent.h);
+            let stiffening = (moment + moment.abs()) * 0.5;
+            w.add_gradient(stiffening, &mut tangent.geometric);
+            point.add_second(&at.g, &w, stiffening, &mut tangent.h);
+            w.add_square(scale * shares.scalar * rate - stiffening * 0.5 / (w.w + NOISE), &mut tangent.h);
             point.add_second_derivative(scale * shares.vector * w.inverse * w.inverse, &mut viscous);
         }
         for i in 0..6 {
@@ -238,9 +225,6 @@ impl DiscreteGradientForce for DampingTable {
             at,
             #[inline(always)]
             |point, w, scalar, vector| {
-                // at the middle of the step, which moves half as far as its end
-                let moment = scalar * w.rate(&at.rates) * 0.5;
-                point.add_stiffening(&at.middle, w, moment, (&mut tangent.geometric, &mut tangent.h));
                 w.add_square(scalar * at.rate, &mut tangent.h);
                 point.add_second_derivative(vector * at.rate, &mut tangent.geometric);
             },
@@ -258,7 +242,7 @@ impl DampingTable {
         for point in &self.points {
             let w = point.squared(&at.middle);
             let scale = at.stiffness.bending * (0.5 * self.damping.bending * point.weight);
-            let shares = Shares::new(w.w).over_step(w.w, w.rate(&at.rates) * (1.0 / at.rate));
+            let shares = Shares::new(w.w);
             visit(point, &w, scale * shares.scalar, scale * shares.vector * w.inverse * w.inverse);
         }
     }
@@ -316,16 +300,5 @@ impl<T: Real> Shares<T> {
         let y = (w * (-1.0 / STRAIGHT) + 1.0).at_least(0.0);
         let square = y * y;
         Shares { scalar: (square + y + 1.0) / w.at_least(STRAIGHT), vector: square * y * 4.0 }
-    }
-
-    /// Gives the vector its share in a step in which w, in the middle, changes at a rate that makes `change` of it: r = |change|/(2 w).
-    #[inline(always)]
-    fn over_step(self, w: T, change: T) -> Self {
-        let size = change.abs();
-        let share = size / (w * 4.0 + size + NOISE);
-        Shares {
-            scalar: self.scalar - self.scalar * share,
-            vector: self.vector + (self.vector.splat(4.0) - self.vector) * share,
-        }
     }
 }

@@ -5,7 +5,6 @@ mod bodies;
 mod capstan;
 #[path = "../common/mod.rs"]
 mod common;
-mod cost;
 mod energy;
 mod features;
 mod first_touch;

@@ -32,8 +32,7 @@
 //! Anderson's mixing of 3 to 8 increments, in the norm of kinetic energy, in place of half ones: a rope that falls on a rod 0.79 to 0.89 of
 //! the iterations, one that falls tilted on a floor 0.88 to 1.26, a heap 0.85 to 1.3. First iterates without acceleration, tangents without
 //! the second derivatives of bending or with the stiffness of compression, up to 12 iterations in place of 20, contact forces to 1e-2,
-//! closure to 0.1: the same scatter (heaps 0.96 to 1.47), and none takes less than a half in the dearest host steps of all three. What made those dear was the
-//! [damping of bending](crate::effect::damping), whose steps had no solution near; these figures are from before that was mended.
+//! closure to 0.1: the same scatter (heaps 0.96 to 1.47), and none takes less than a half in the dearest host steps of all three.
 
 use super::law::{Balance, CLOSURE, Closing, DiscreteGradientSystem, Event};
 use crate::error::StepFailure;

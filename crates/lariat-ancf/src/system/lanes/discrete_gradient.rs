@@ -10,7 +10,7 @@
 //! ```
 //!
 //! sigma is the mean axial stress. Left out are `B^T A (B(d1) - B)`, which is unsymmetric and of first order in the rotation per step, and
-//! the geometric stiffness of compression. Only the terms of bending and of its damping can make the matrix indefinite; that of T1 is positive.
+//! the geometric stiffness of compression. Only the bending term can make the matrix indefinite; that of T1 is positive.
 //!
 //! sigma is the stress of the last linear solve, and before the first the stress in the middle of the step before: the strains of an
 //! iterate whose slopes have rotated are far from those of the solution.

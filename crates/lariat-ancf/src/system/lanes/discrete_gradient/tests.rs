@@ -151,36 +151,6 @@ fn the_force_has_no_resultant_and_no_moment_about_the_mean_configuration() {
     }
 }
 
-/// A step that turns a bent cable rigidly, about any axis and by up to two right angles, is not damped.
-///
-/// *Source.* Objectivity: `D q = 2 tan(angle/2) axis x (q0 + q1)/2` turns by the angle. The bound is rounding.
-#[test]
-fn a_step_that_turns_the_cable_is_not_damped() {
-    let mut random = Random(3);
-    let damping = Some(Damping { axial: 0.03, bending: 0.02 });
-    for rule in ["projected-3", "projected-T1", "G5-3"] {
-        let damped = cable(rule, Effects { damping, ..Effects::default() }).system;
-        let n = 6 * (damped.forces.elements.count() + 1);
-        for angle in [0.1, 1.0, 3.0] {
-            let q = coordinates(&mut random, n, 0.2);
-            let axis = nalgebra::Unit::new_normalize(Vector3::new(random.next(), random.next(), random.next()));
-            let turn = nalgebra::Rotation3::from_axis_angle(&axis, angle);
-            let turned = |x: &[f64]| turn * Vector3::new(x[0], x[1], x[2]) - Vector3::new(x[0], x[1], x[2]);
-            let change: Vec<f64> = q.chunks_exact(3).flat_map(|x| <[f64; 3]>::from(turned(x))).collect();
-            let step =
-                CoordinateStep { start: &q, change: &change, before: &change, kept: 1.0, linearised: &[], h: 0.01 };
-            let forces = [damped.forces.in_element.as_ref(), None].map(|effects| {
-                let mut force = vec![0.0; n];
-                damped.forces.elements.add_discrete_gradient(damped.level, effects, step, &mut force);
-                force
-            });
-            let off = forces[0].iter().zip(&forces[1]).fold(0.0f64, |most, (a, b)| most.max((a - b).abs()));
-            let size = forces[1].iter().fold(0.0f64, |most, f| most.max(f.abs()));
-            assert!(off < 1e-10 * size, "{rule}, {angle}: {off:e} of {size:e}");
-        }
-    }
-}
-
 /// At rest, under a tension that is the same everywhere, the tangent is the derivative of the force by the change: that of a difference quotient.
 ///
 /// *Source.* Central differences, error 1e-8 of the largest entry.
