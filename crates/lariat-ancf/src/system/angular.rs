@@ -18,7 +18,7 @@
 //! V, W is the rigid motion with the momenta of all. The second term is orthogonal to rigid motions in the norm of the kinetic energy, so linear
 //! momentum stays, and u is what keeps the kinetic energy: the energy law is that of the step, exactly. Energy for w comes first from what the
 //! method took of the rigid rotation, `a/2 z.I z` with z the rotation in D v - O v: a body that tumbles alone loses angular momentum and
-//! energy together. The share that neither covers is owed to the next step.
+//! energy together; never more than the law of the step leaves, since a residual may have used it. The share that neither covers is owed to the next step.
 //!
 //! # Validity
 //!
@@ -192,7 +192,7 @@ impl Momenta {
         let product = self.squares[1] - velocity.dot(&with_flow) - spin.dot(&all);
         let taken = 0.5 * ALPHA * second.dot(&self.spin_of(&second));
         let wanted = turn.spin.dot(&all) + 0.5 * turn.spin.dot(&missing);
-        let given = wanted.clamp(0.0, taken.min(balance.numerical).max(0.0));
+        let given = wanted.clamp(0.0, taken.min(balance.numerical).min(-balance.excess()).max(0.0));
         let most = LARGEST_SHARE * (product - LARGEST_SHARE * energy);
         let available = given + most.max(0.0);
         if wanted > available {
