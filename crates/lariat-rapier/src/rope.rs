@@ -150,9 +150,10 @@ pub(crate) fn add(
         .length(length)
         .section(section)
         .elements(rope.elements);
-    if let Some(fidelity) = rope.fidelity {
-        builder = builder.fidelity(fidelity);
-    }
+    builder = match rope.fidelity {
+        Some(fidelity) => builder.fidelity(fidelity),
+        None => builder.rule(set.settings.fidelity.rule()),
+    };
     if length > 0.0 {
         // a length that is not positive is an error of the builder
         let first_mode = core::f64::consts::FRAC_PI_2 * wave_speed / length;
