@@ -22,12 +22,12 @@ use std::str::FromStr;
 
 /// A preset of accuracy against time.
 ///
-/// Each is measured in three scenes, with its own integrator and [rule](Self::rule), and the number of
+/// Each is measured in three scenes, with its own integrator, the default rule, and the number of
 /// elements in the table (`docs/accuracy`, CPU time of one thread): *pendulum*, the paper's, 2 s,
 /// against the beam without discretisation; *payload*, a crate of 50 kg in Rapier on a cable, 1 s,
 /// against an independent code; *taut steel*, a plucked cable of 10 mm, 0.1 s, against its analytic
 /// modes (amplitude 1e-4 m). The payload's cable vibrates undamped, and a tolerance resolves that
-/// vibration.
+/// vibration. `Game` was measured with the default rule as well, not yet with its [own](Self::rule).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Fidelity {
