@@ -53,7 +53,7 @@ fn thrown_cables_cost_less_by_the_rule_of_game_and_end_as_near() {
         };
         let run = |builder: CableBuilder| {
             let mut cable = builder.build().unwrap();
-            (0..18).for_each(|_| drop(cable.step(1.0 / 60.0).unwrap()));
+            (0..18).for_each(|_| cable.step(1.0 / 60.0).unwrap());
             cable
         };
         let game = Fidelity::Game.integrator(f64::INFINITY);
