@@ -15,14 +15,13 @@ fn cable(number: usize) -> Result<Cable, lariat_ancf::Error> {
     let x = number as f64;
     let middle = Vector3::new(1.0, -0.5 - 0.3 * (0.7 * x).sin(), 0.4 * (1.3 * x).cos());
     let end = Vector3::new(1.8 + 0.1 * (0.9 * x).sin(), 0.2, 0.3 * (0.4 * x).sin());
-    let mut cable = Cable::builder()
+    Cable::builder()
         .points([Vector3::zeros(), middle, end])
         .section(Section::round(0.01, 1.0e8, 1200.0)?)
         .elements(ELEMENTS)
         .fix(At::Start)
-        .build()?;
-    cable.set_integrator(cable.integrator_for(Fidelity::Game))?;
-    Ok(cable)
+        .fidelity(Fidelity::Game)
+        .build()
 }
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {

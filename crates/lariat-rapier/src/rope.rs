@@ -83,8 +83,12 @@ impl Rope {
         (to - from).norm() * (1.0 + self.slack)
     }
 
-    /// Builds its cable, fixed where no body holds it.
-    pub(crate) fn build<B>(&self, [from, to]: &[RopeEnd<B>; 2]) -> Result<Cable, lariat_ancf::Error> {
+    /// Builds its cable, fixed where no body holds it; `fidelity` is that of the set, whose rule it has if it has no fidelity of its own.
+    pub(crate) fn build<B>(
+        &self,
+        [from, to]: &[RopeEnd<B>; 2],
+        fidelity: Fidelity,
+    ) -> Result<Cable, lariat_ancf::Error> {
         let length = self.length(&from.point, &to.point);
         let section = self.section.clone()?;
         let wave_speed = (section.axial_stiffness / section.mass_per_length).sqrt();
@@ -94,9 +98,10 @@ impl Rope {
             .length(length)
             .section(section)
             .elements(self.elements);
-        if let Some(fidelity) = self.fidelity {
-            builder = builder.fidelity(fidelity);
-        }
+        builder = match self.fidelity {
+            Some(own) => builder.fidelity(own),
+            None => builder.rule(fidelity.rule()),
+        };
         if length > 0.0 {
             // a length that is not positive is an error of the builder
             let first_mode = core::f64::consts::FRAC_PI_2 * wave_speed / length;

@@ -58,7 +58,8 @@ impl CableSet {
 
     /// Adds a cable; its clock is set to that of the others. If its gravity is the builder's
     /// default, it follows the world's until the user sets it; else it keeps its own. If nobody
-    /// chose its integrator, it takes that of [`Settings::fidelity`].
+    /// chose its integrator, it takes that of [`Settings::fidelity`]; its [rule](Cable::rule) stays, so a cable for which
+    /// [`Fidelity::Game`](lariat_ancf::Fidelity::Game) is written when it is built costs less.
     pub fn insert(&mut self, mut cable: Cable) -> CableHandle {
         if cable.has_default_integrator() {
             // the integrator of a fidelity fits every cable, but one with contact keeps the one that can step it
@@ -108,7 +109,7 @@ impl CableSet {
             }
             world.bodies.get(body).ok_or(Error::NoBody(body))?;
         }
-        let cable = self.insert(rope.build(&ends)?);
+        let cable = self.insert(rope.build(&ends, self.settings.fidelity)?);
         let mut attach = |at, end: &RopeEnd<RigidBodyHandle>| {
             end.body.map(|body| self.attach_here(world, cable, at, body, AttachmentKind::Ball)).transpose()
         };

@@ -34,7 +34,7 @@ pub struct CableBuilder {
     elements: usize,
     sections: Vec<(f64, Section)>,
     nodes_at: Vec<f64>,
-    rule: Rule,
+    rule: Option<Rule>,
     allow_rank_deficient: bool,
     integrator: Option<IntegratorChoice>,
     gravity: Vector3<f64>,
@@ -56,7 +56,7 @@ impl Default for CableBuilder {
             elements: 10,
             sections: Vec::new(),
             nodes_at: Vec::new(),
-            rule: Rule::default(),
+            rule: None,
             allow_rank_deficient: false,
             integrator: None,
             gravity: STANDARD_GRAVITY,
@@ -114,9 +114,9 @@ impl CableBuilder {
         self
     }
 
-    /// Force strategy. Default `projected-3`.
+    /// Force strategy. Default: [`Fidelity::rule`] of the fidelity that is chosen as integrator, `projected-3` without one.
     pub fn rule(mut self, rule: Rule) -> Self {
-        self.rule = rule;
+        self.rule = Some(rule);
         self
     }
 
@@ -133,8 +133,8 @@ impl CableBuilder {
         self
     }
 
-    /// Time integrator of a fidelity. Default: as for [`integrator`](Self::integrator). The fidelity's rule is the builder's default; its number of elements is
-    /// a recommendation: [`Fidelity::elements`].
+    /// Time integrator of a fidelity. Default: as for [`integrator`](Self::integrator). Its rule is that of the cable unless another is
+    /// [chosen](Self::rule); its number of elements is a recommendation: [`Fidelity::elements`].
     pub fn fidelity(self, fidelity: Fidelity) -> Self {
         self.integrator(fidelity)
     }
@@ -230,9 +230,10 @@ impl CableBuilder {
         let length = self.length.unwrap_or(drawn);
         require("unstretched length (m)", length, length > 0.0, "> 0")?;
         require("length of the polyline (m)", drawn, drawn > 0.0, "> 0")?;
-        self.rule.check_points()?;
+        let rule = self.rule.unwrap_or_else(|| self.integrator.unwrap_or_default().rule());
+        rule.check_points()?;
         if !self.allow_rank_deficient {
-            self.rule.check()?;
+            rule.check()?;
         }
         let mut sections = self.sections.clone();
         sections.sort_by(|a, b| a.0.total_cmp(&b.0));
@@ -267,7 +268,7 @@ impl CableBuilder {
             .collect();
         if let Some(kind) = self.damped_as {
             let damping = kind.damping_of(&elements);
-            let limp = self.rule.bending == BendingRule::None;
+            let limp = rule.bending == BendingRule::None;
             self.effects.damping = Some(if limp { Damping { bending: 0.0, ..damping } } else { damping });
         }
         let laid = layout::along_polyline(&self.points, &s, self.gravity);
@@ -279,7 +280,7 @@ impl CableBuilder {
         let model = Model {
             name: self.name.clone(),
             elements,
-            rule: self.rule,
+            rule,
             gravity: self.gravity,
             supports: Vec::new(),
             loads: Vec::new(),

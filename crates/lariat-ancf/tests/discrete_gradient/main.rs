@@ -5,5 +5,6 @@ mod chain;
 mod common;
 mod law;
 mod motion;
+mod preset;
 mod recipe;
 mod thrown;
