@@ -35,7 +35,7 @@ use lariat_ancf::{Fidelity, IntegratorChoice, Point, Section};
 /// ```
 ///
 /// Without [`Bending`](crate::Bending) it has no bending stiffness; without [`Rule`](crate::Rule)
-/// the rule is `projected-3`; every other effect is absent unless its component is there. An
+/// the rule is that of its [fidelity](lariat_ancf::Fidelity::rule); every other effect is absent unless its component is there. An
 /// entity's [`Name`] is the name of the cable in error messages. If a description cannot be built,
 /// [`Cables::get`] returns the reason, and [`CableFailed`] is triggered.
 ///

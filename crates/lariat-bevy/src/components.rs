@@ -114,8 +114,9 @@ impl CableComponents {
         }
     }
 
-    fn rule(&self) -> lariat_ancf::Rule {
-        let mut rule = self.rule.unwrap_or_default().0;
+    /// Returns the rule: the component, or that of the described fidelity.
+    fn rule(&self, description: &Description) -> lariat_ancf::Rule {
+        let mut rule = self.rule.map_or_else(|| description.integrator.rule(), |rule| rule.0);
         if self.bending.is_none() {
             rule.bending = BendingRule::None;
         }
@@ -135,7 +136,7 @@ impl CableComponents {
             Ok(section) if length > 0.0 => self.effects(section, length)?,
             _ => Effects::default(),
         };
-        description.build(name, self.rule(), effects, self.loads())
+        description.build(name, self.rule(description), effects, self.loads())
     }
 
     /// Returns a cable changed to what these components say of one of this unstretched length (m); `None` if it does that already.
@@ -145,7 +146,7 @@ impl CableComponents {
         description: &Description,
         length: f64,
     ) -> Result<Option<lariat_ancf::Cable>, Error> {
-        let (rule, loads) = (self.rule(), self.loads());
+        let (rule, loads) = (self.rule(description), self.loads());
         let effects = self.effects(&description.section.clone()?, length)?;
         let same_rule = rule == cable.rule() && effects == *cable.effects();
         let same_loads =

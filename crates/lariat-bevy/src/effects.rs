@@ -32,7 +32,8 @@ pub(crate) trait EffectComponent: Component + Clone + PartialEq {
     fn of_part(&self, effect: &Self::Effect) -> Self;
 }
 
-/// Rule for the elastic forces; see [`lariat_ancf::Rule`]. Default: `projected-3`.
+/// Rule for the elastic forces; see [`lariat_ancf::Rule`]. Without it a cable has that of its [fidelity](lariat_ancf::Fidelity::rule),
+/// `projected-T1` for `game`.
 #[derive(Component, Clone, Copy, Debug, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[component(on_remove = note_removal)]
 #[cfg_attr(

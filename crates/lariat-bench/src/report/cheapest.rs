@@ -155,7 +155,7 @@ pub fn section(options: &Options, scenes: &[Scene<'_>]) -> Result<Section, Error
     let mut section = Section::new(TITLE);
     section.text(
         "`Fidelity::Game`, `Fidelity::Engineering` (the default) and `Fidelity::Reference` are presets: an integrator with its step control, \
-         the default rule, and a recommended number of elements. The scenes are those of the sections below, with host steps of 0.01 s, \
+         a rule (projected-T1 for `Game`, else the default), and a recommended number of elements. The scenes are those of the sections below, with host steps of 0.01 s, \
          1/60 s and 0.004 s (pendulum, payload and steel); the payload has the 10 elements of its reference, and the catenary is an \
          equilibrium without bending. *Cheapest* is the time of the cheapest setting below that is as accurate on that scene.",
     );

@@ -48,7 +48,7 @@ table! {
         /// Mass per unstretched length, with `axial_stiffness` and `bending_stiffness`, instead of `section`.
         mass_per_length: Option<f64> = ("required without `section`"), Kind::Number(POSITIVE), "kg/m";
         /// Force strategy.
-        rule: RuleTable = "projected-3", RULE;
+        rule: Option<RuleTable> = ("`\"projected-T1\"` with `{ fidelity = \"game\" }`, else `\"projected-3\"`"), RULE;
         /// `true` runs a rule with zero-energy modes.
         allow_rank_deficient: bool = false, Kind::Flag;
         /// Time integrator and step control. A cable with `contact`, a reel with `max_force` or a drum, or a sheave needs the method
@@ -157,7 +157,8 @@ pub(super) fn read(
     if !length.is_finite() {
         return Err(doc.error(&at.key("points"), Problem::NotFinite(vec![length])));
     }
-    let rule = rule(doc, &at.key("rule"), &row)?;
+    let mut integrator = integrator::read(doc, &at.key("integrator"), &row.integrator)?;
+    let rule = rule(doc, &at.key("rule"), &row, integrator.rule())?;
     let section = section(doc, at, &row)?;
     let breaking = breaking::read(doc, at, &mut row.effects, (length, row.elements))?;
     let (reel, reel_at_start, drum) = match reel::read(doc, at, &mut row.effects)? {
@@ -165,7 +166,6 @@ pub(super) fn read(
         None => (None, false, None),
     };
     let effects = effects::read(doc, at, row.effects, &effects::Context { section: &section, rule, length })?;
-    let mut integrator = integrator::read(doc, &at.key("integrator"), &row.integrator)?;
     let slips = reel.as_ref().is_some_and(|reel| reel.max_force.is_some());
     for (what, _) in
         [("contact", effects.contact.is_some()), ("a reel with a clutch", slips)].iter().filter(|(_, is)| *is)
@@ -225,10 +225,11 @@ fn section(doc: &Document<'_>, at: &KeyPath, row: &CableTable) -> Result<Section
     }
 }
 
-fn rule(doc: &Document<'_>, at: &KeyPath, row: &CableTable) -> Result<Rule, Error> {
+fn rule(doc: &Document<'_>, at: &KeyPath, row: &CableTable, default: Rule) -> Result<Rule, Error> {
     let rule = match &row.rule {
-        RuleTable::Name(rule) => *rule,
-        RuleTable::Pair(pair) => Rule::new(pair.axial, pair.bending),
+        Some(RuleTable::Name(rule)) => *rule,
+        Some(RuleTable::Pair(pair)) => Rule::new(pair.axial, pair.bending),
+        None => default,
     };
     match rule.spare_modes() {
         Some(reason) if !row.allow_rank_deficient => Err(doc.error_accepting(
