@@ -92,8 +92,8 @@ pub enum Warning {
     },
     /// A cable that touches bodies would bounce off a collider by its restitution, if contacts of cables had one.
     #[error(
-        "cable {name:?}: contacts of cables have no coefficient of restitution, and a collider that it may touch has {restitution}: how the \
-         cable bounces off it is that of the step"
+        "cable {name:?}: contacts of cables have no coefficient of restitution, and a collider that it may touch has {restitution}: the \
+         cable does not bounce off it"
     )]
     Restitution {
         /// The cable.

@@ -40,10 +40,9 @@
 //! # Validity
 //!
 //! `k = EA/(40 r^2)` per length: under the tension T around a radius R the depth is 40 (r/R) (T/EA) of the radius. First touch is of order
-//! 1 in the step; the bound of friction is that of the step itself, of a first touch too (lag.rs). There is no
-//! coefficient of restitution. Where the step does not resolve the contact, a stiff cable that lands flat leaves with a share of its speed
-//! between 0 and `(1 - b)/b = 7/9`, by the part s of the step before it meets the surface: the impulse is that which ends the step there,
-//! `v^ = s v0`, so `v1 = v0 (1 - (1 - s)/b)`. The element has no torsion: forces act on the centre line.
+//! 1 in the step; the bound of friction is that of the step itself, of a first touch too (lag.rs).
+//! Restitution is 0: what a step that does not resolve a contact leaves of the velocity away from it is taken when the step ends (impact.rs). Cables that
+//! touch each other leave with up to 7/9 of their speed, by the part of the step before they meet. The element has no torsion: forces act on the centre line.
 //!
 //! # References
 //!
@@ -57,8 +56,7 @@
 //! instead of the end-point derivative (rings), Hunt-Crossley damping (no gain).
 //!
 //! Restitution by a force that unloads along `e^2 W`: a contact of k = 1e9 N/m^2 lasts 40 us, and a step of 4 ms that begins and ends at the
-//! surface has no W to return, whatever its law. At 1/60 to 1/480 s a bar of 0.2 m leaves with 0.07 to 0.76 of its speed; only an impulse on the
-//! velocities at the end of the step, of all contacts at once, could set that.
+//! surface has no W to return, whatever its law.
 
 mod border;
 mod find;

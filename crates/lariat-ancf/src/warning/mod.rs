@@ -209,7 +209,7 @@ pub enum Warning {
     },
     /// It touches something that bodies bounce off.
     #[error(
-        "cable {cable:?}: contacts of cables have no coefficient of restitution, and what it touches has {restitution}: how it bounces off it is that of the step"
+        "cable {cable:?}: contacts of cables have no coefficient of restitution, and what it touches has {restitution}: it does not bounce off it"
     )]
     NoRestitution {
         /// Name of the cable.

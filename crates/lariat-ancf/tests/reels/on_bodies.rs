@@ -120,6 +120,7 @@ fn a_winch_on_a_free_body_keeps_momentum_and_energy() {
         if max_force.is_none() {
             // but for what the bodies take of a merge
             assert!(missing[0] > 9.0 * missing[2] || missing[2] < 3e-6, "{missing:?}");
+            assert!(turned[0] > 9.0 * turned[2], "{turned:?}");
         }
     }
 }
