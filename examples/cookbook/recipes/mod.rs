@@ -65,7 +65,7 @@ pub const ALL: [Recipe; 10] = [
     recipe!(cut, Cut, "1 x 12, then 2 x 6", 1, "game", 90),
     recipe!(crane, Crane, "1 x 10", 1, "generalised-alpha-0, 1/240 s", 900),
     recipe!(pulley, Pulley, "1 x 42", 2, "game", 45),
-    recipe!(net, Net, "40 x 4", 1, "game", 180),
+    recipe!(net, Net, "40 x 4", 1, "game", 360),
     recipe!(mooring, Mooring, "1 x 30", 0, "engineering, tolerance 1e-4 m", 600),
     recipe!(seabed, Seabed, "1 x 52", 0, "game", 1200),
 ];

@@ -65,9 +65,10 @@ impl ContactStep {
         self.points.is_empty() && self.watched.is_empty()
     }
 
-    /// Returns whether an obstacle that no body of the island carries pushes the cable.
+    /// Returns whether an obstacle is near that no body of the island carries.
     pub fn is_held(&self) -> bool {
-        self.points.iter().any(|point| point.now.normal_force > 0.0 && self.obstacles[point.obstacle].body.is_none())
+        let mut near = self.points.iter().chain(&self.watched);
+        near.any(|point| self.obstacles[point.obstacle].body.is_none())
     }
 
     /// Returns the number of contacts that are evaluated.
