@@ -9,7 +9,7 @@ use lariat_ancf::{At, Reel};
 ///
 /// The cable needs the integrator `discrete-gradient`, the default, and an attachment at that end to what the drum turns in; the body turns
 /// about an axis through its centre of mass, by an impulse joint to a fixed or kinematic body or with its other axes locked. A drum
-/// that cannot be is [`DrumFailed`](crate::DrumFailed); it is tried again when the component, the cable or the body changes. While its body is gone the
+/// that cannot be is [`DrumFailed`](crate::event::DrumFailed); it is tried again when the component, the cable or the body changes. While its body is gone the
 /// cable keeps its length.
 ///
 /// ```

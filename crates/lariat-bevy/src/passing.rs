@@ -29,7 +29,7 @@ use lariat_rapier::SheaveOptions;
 /// ```
 ///
 /// A cable that is drawn around a corner there needs a [node](crate::Cable::node_at) at it, and has no strain from the corner then. If the sheave
-/// cannot be made, [`SheaveFailed`](crate::SheaveFailed) is sent; it is tried again when this component, the cable or the body changes.
+/// cannot be made, [`SheaveFailed`](crate::event::SheaveFailed) is sent; it is tried again when this component, the cable or the body changes.
 #[derive(Component, Clone, Copy, Debug, PartialEq)]
 pub struct SheaveAlong {
     /// The cable, and the point that is at the sheave.

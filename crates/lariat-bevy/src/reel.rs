@@ -4,7 +4,7 @@ use bevy_ecs::component::Component;
 use lariat_ancf::At;
 
 /// A reel at the end of a cable: change its rates as you like. `cables.get(entity)?.reel(At::End)` reads it. One that the cable cannot carry
-/// is an error: [`CableFailed`](crate::CableFailed).
+/// is an error: [`CableFailed`](crate::event::CableFailed).
 ///
 /// ```
 /// use bevy_ecs::prelude::*;

@@ -25,7 +25,7 @@ use lariat_rapier::SheaveOptions;
 /// ```
 ///
 /// Both cables need the integrator `discrete-gradient`, the default, and one mass per length. If a sheave cannot be made, or ends with
-/// one of its cables or attachments, [`SheaveFailed`](crate::SheaveFailed) is sent; it is tried again when the component changes or a cable is spawned.
+/// one of its cables or attachments, [`SheaveFailed`](crate::event::SheaveFailed) is sent; it is tried again when the component changes or a cable is spawned.
 #[derive(Component, Clone, Copy, Debug, PartialEq)]
 pub struct Sheave {
     /// The cable that runs into the other at positive rates, and its end.

@@ -8,7 +8,7 @@ use rapier::math::Vector;
 pub const ROPE_DAMPING: f64 = 0.2;
 
 /// What a rope is made of, how slack it is, and what it bears: the description of the usual rope,
-/// with bending stiffness and a damping ratio of [`ROPE_DAMPING`]. See [`CableSet::add_rope`].
+/// with bending stiffness and a damping ratio of [`ROPE_DAMPING`]. See [`CableSet::add_rope`](crate::CableSet::add_rope).
 #[derive(Clone, Debug, PartialEq)]
 pub struct Rope {
     /// Name in errors and reports. Default "rope".
