@@ -17,7 +17,7 @@ pub struct Differences {
     pub displacement: Vec<f64>,
     /// Length of the step in s.
     pub step: f64,
-    /// Angular momentum in kg m^2/s that this and earlier steps took and that is still to be [restored](crate::system::angular).
+    /// Angular momentum in kg m^2/s that this and earlier steps took and that is still to be restored (`system/angular.rs`).
     pub owed: [f64; 3],
     /// Revision of the system's description at that step.
     pub revision: u64,
