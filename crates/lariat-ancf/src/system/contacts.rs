@@ -4,7 +4,7 @@ use super::{Equations, dot};
 use crate::contact::{BodyPath, ContactStep, Motion, combine};
 use crate::effect::EffectWork;
 use crate::integrate::State;
-use crate::integrate::discrete_gradient::{ALPHA, Balance, Buffers};
+use crate::integrate::discrete_gradient::{ALPHA, Balance, Buffers, share_of_impact};
 use nalgebra::Vector3;
 
 impl Equations<'_> {
@@ -52,6 +52,23 @@ impl Equations<'_> {
         b.lost = contacts.loss;
         balance.given_back = (-contacts.loss).max(0.0);
         balance.add_contacts(&contacts, b.h);
+    }
+
+    /// Takes the velocity across contacts that push at the end of the step, if it has more energy than `least` (J).
+    pub fn land(&mut self, state: &State, b: &mut Buffers, balance: &mut Balance, least: f64) {
+        self.find_velocities(state, b);
+        if self.find_impacts(b, |_, _| Vector3::zeros()) <= least {
+            return;
+        }
+        self.solve_impacts(b);
+        let Buffers { contact, landed, .. } = &mut *b;
+        if contact.settle_impacts(|e, shape| combine(landed, e, shape), |_, _| Vector3::zeros()) {
+            self.solve_impacts(b);
+        }
+        let [taken, held] = self.energy_of_impacts(b);
+        let work = b.contact.work_of_impacts(|e, shape| combine(&b.landed, e, shape));
+        let share = share_of_impact(balance, [taken, held, work]);
+        b.landed.iter_mut().for_each(|w| *w *= share);
     }
 
     /// Computes the velocities at the end of the step into `external`, which is free then.

@@ -3,20 +3,18 @@
 use super::angular::{Momenta, outside_impulses};
 use super::lanes::MatrixOutput;
 use super::lanes::discrete_gradient::{CoordinateStep, ElementLoss};
+use super::laws::{add_to_laws, linearise_laws};
 use super::rigid_motion::relative_velocities;
-use super::{Equations, System, Unknowns, project_vector};
-use crate::contact::combine;
+use super::{Equations, System, project_vector};
 use crate::effect::EffectWork;
 use crate::effect::acts::{ForceInput, PointForce, StepInput};
 use crate::error::StepFailure;
 use crate::integrate::State;
 use crate::integrate::discrete_gradient::{
-    ALPHA, BETA, Balance, Buffers, Closing, DiscreteGradientSystem, Event, share_of_impact, share_to_take,
-    sum_of_forces,
+    ALPHA, BETA, Balance, Buffers, Closing, DiscreteGradientSystem, Event, share_to_take, sum_of_forces,
 };
 use crate::support::{SlopeSupport, Support};
 use core::ops::Range;
-use nalgebra::Vector3;
 
 /// A cable, its state and the buffers of a step.
 pub(crate) struct CableStep<'a> {
@@ -261,32 +259,6 @@ impl Equations<'_> {
     }
 }
 
-/// Linearises the laws of reels whose rate is unknown, and solves for their columns.
-fn linearise_laws(equations: &mut Equations<'_>, state: &State, b: &mut Buffers) {
-    equations.read_motors(state, b);
-    let mut unknowns = core::mem::take(&mut b.unknowns);
-    unknowns.begin([&equations.system.flows].into_iter());
-    let Unknowns { reels, columns, .. } = &mut unknowns;
-    for (&(_, k), columns) in reels.iter().zip(columns) {
-        equations.linearise_law(k, state, b, &mut columns[0]);
-        equations.solve_with_pairs(&mut b.pairs.low_rank, &mut columns[0], &mut b.product);
-    }
-    b.unknowns = unknowns;
-}
-
-/// Solves for the rates of reels that are unknown, and completes the increment in `rhs`.
-fn add_to_laws(equations: &mut Equations<'_>, b: &mut Buffers) {
-    let Buffers { unknowns, rhs, h, .. } = b;
-    if unknowns.reels.is_empty() {
-        return;
-    }
-    unknowns.solve(|_| &equations.system.flows, |_| rhs, (&[], *h));
-    for ((&(_, k), columns), &increment) in unknowns.reels.iter().zip(&unknowns.columns).zip(&unknowns.increments) {
-        equations.add_to_law(k, increment);
-        rhs.iter_mut().zip(&columns[0]).for_each(|(x, y)| *x -= increment * y);
-    }
-}
-
 impl DiscreteGradientSystem for CableStep<'_> {
     fn time(&self) -> f64 {
         self.state.time
@@ -382,20 +354,7 @@ impl DiscreteGradientSystem for CableStep<'_> {
     }
 
     fn land(&mut self, balance: &mut Balance, least: f64) {
-        let CableStep { equations, state, buffers: b } = self;
-        equations.find_velocities(state, b);
-        if equations.find_impacts(b, |_, _| Vector3::zeros()) <= least {
-            return;
-        }
-        equations.solve_impacts(b);
-        let Buffers { contact, landed, .. } = &mut **b;
-        if contact.settle_impacts(|e, shape| combine(landed, e, shape), |_, _| Vector3::zeros()) {
-            equations.solve_impacts(b);
-        }
-        let [taken, held] = equations.energy_of_impacts(b);
-        let work = b.contact.work_of_impacts(|e, shape| combine(&b.landed, e, shape));
-        let share = share_of_impact(balance, [taken, held, work]);
-        b.landed.iter_mut().for_each(|w| *w *= share);
+        self.equations.land(self.state, self.buffers, balance, least);
     }
 
     fn accept(&mut self, balance: &Balance) {

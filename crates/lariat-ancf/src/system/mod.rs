@@ -30,6 +30,7 @@ pub(crate) mod forces;
 mod frequency;
 pub(crate) mod jacobian;
 mod lanes;
+mod laws;
 pub(crate) mod loads;
 pub(crate) mod mass;
 mod pairs;
