@@ -52,6 +52,11 @@ impl MassMatrix {
         self.multiply_at(Level::new(), x, y);
     }
 
+    /// Returns the mass of all.
+    pub fn total(&self) -> f64 {
+        self.diag.iter().map(|diag| diag[0]).sum::<f64>() + 2.0 * self.lower.iter().map(|lower| lower[0]).sum::<f64>()
+    }
+
     /// Computes y = M x as [`multiply`](Self::multiply) does, with the instructions of `level`.
     ///
     /// # Panics

@@ -270,15 +270,19 @@ impl DiscreteGradientSystem for CableStep<'_> {
 
     fn begin(&mut self) {
         self.equations.begin_host_step(self.state);
+        self.buffers.after = None;
     }
 
     fn predict(&mut self, h: f64, closing: Closing) {
         let CableStep { equations, state, buffers: b } = self;
         let free = equations.model.supports.is_empty() && equations.system.flows.is_empty();
+        let after = b.after.take();
         b.before = free.then(|| {
-            let mut momenta = Momenta::default();
-            momenta.add_cable(equations, state, b);
-            momenta.angular_and_centre()
+            after.unwrap_or_else(|| {
+                let mut momenta = Momenta::default();
+                momenta.add_cable(equations, state, b);
+                momenta.before()
+            })
         });
         b.outside = b.before.map(|_| Default::default());
         self.equations.begin_laws(self.state.time, h);
@@ -366,8 +370,9 @@ impl DiscreteGradientSystem for CableStep<'_> {
             let mut momenta = Momenta::default();
             momenta.add_second_difference(equations.system, state, b);
             momenta.add_cable(equations, state, b);
-            let turn = momenta.restore(&mut state.memory.differences.owed, (before, outside), &mut balance);
+            let (turn, after) = momenta.restore(&mut state.memory.differences.owed, (before, outside), &mut balance);
             turn.turn_cable(state);
+            b.after = Some(after);
         }
         equations.system.meter.law.add(&balance);
     }

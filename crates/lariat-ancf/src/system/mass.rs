@@ -99,6 +99,11 @@ impl Mass {
         held
     }
 
+    /// Returns the mass of all, added mass included.
+    pub fn total(&self) -> f64 {
+        self.matrix.total()
+    }
+
     /// Solves with the factors, in place.
     pub fn solve(&self, level: Level, rhs: &mut [f64]) {
         match &self.factors {

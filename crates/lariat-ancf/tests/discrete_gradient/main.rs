@@ -1,5 +1,6 @@
 //! The guarded discrete gradient.
 
+mod angular;
 mod chain;
 #[path = "../common/mod.rs"]
 mod common;

@@ -66,9 +66,9 @@ fn a_minute_of_the_undamped_pendulum_has_constant_cost_and_falling_energy() {
     assert_eq!((d.rescaled_steps, d.split_steps), (0, 0));
 }
 
-/// Linear momentum of a thrown cable is constant to rounding, angular momentum to the bound of the dissipation.
+/// Linear and angular momentum of a thrown cable are constant to rounding.
 ///
-/// *Source.* The forces sum to zero and have no moment about the mean configuration.
+/// *Source.* The forces sum to zero and have no moment about the mean configuration; what the dissipation takes is restored.
 #[test]
 fn a_thrown_cable_keeps_its_momentum() {
     let mut cable: Cable = soft_cable()
@@ -86,7 +86,7 @@ fn a_thrown_cable_keeps_its_momentum() {
     let linear = (after.linear - before.linear).norm() / before.linear.norm();
     let angular = (after.angular - before.angular).norm() / before.angular.norm();
     println!("linear momentum off by {linear:.1e}, angular by {angular:.1e}");
-    assert!(linear < 1e-13 && angular < 1e-3, "{linear:e} {angular:e}");
+    assert!(linear < 1e-13 && angular < 1e-12, "{linear:e} {angular:e}");
 }
 
 /// Internal damping takes as much energy from a bent and a stretched cable as with an accurate integrator.

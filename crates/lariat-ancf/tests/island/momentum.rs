@@ -83,10 +83,12 @@ fn changes(mut scene: Scene) -> (f64, f64, f64) {
 #[test]
 fn free_systems_conserve_momenta_and_energy() {
     let explicit = |method, share| Integrator { method, control: StepControl::Stable(share) };
+    let discrete_gradient = Integrator { method: Method::DiscreteGradient, control: StepControl::MaxStep(1.0 / 240.0) };
     let cases = [
         (Integrator::tolerance(Method::Esdirk4, 1e-8).unwrap(), 1e-11, 1e-11, 1e-7),
         (Integrator::default(), 1e-9, 1e-7, 1e-4),
         (Integrator { method: Method::TrBdf2, control: StepControl::MaxStep(1.0 / 240.0) }, 1e-5, 1e-4, 0.05),
+        (discrete_gradient, 1e-12, 1e-6, 0.05),
         (explicit(Method::Verlet, 0.5), 2e-5, 5e-5, 1e-4),
         (explicit(Method::Verlet, 0.25), 1e-5, 2.5e-5, 5e-5),
         (explicit(Method::Rkn6, 0.5), 1e-5, 2e-5, 5e-5),

@@ -3,6 +3,7 @@
 use crate::contact::{ContactStep, PairStep};
 use crate::integrate::State;
 use crate::system::Unknowns;
+use crate::system::angular::Before;
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
@@ -17,8 +18,9 @@ pub struct Differences {
     pub displacement: Vec<f64>,
     /// Length of the step in s.
     pub step: f64,
-    /// Angular momentum in kg m^2/s that this and earlier steps took and that is still to be restored (`system/angular.rs`).
-    pub owed: [f64; 3],
+    /// Linear momentum in kg m/s and angular momentum in kg m^2/s that this and earlier steps took and that are still to be restored
+    /// (`system/angular.rs`).
+    pub owed: [f64; 6],
     /// Revision of the system's description at that step.
     pub revision: u64,
 }
@@ -29,7 +31,7 @@ impl Differences {
         self.velocity.clear();
         self.displacement.clear();
         self.step = 0.0;
-        self.owed = [0.0; 3];
+        self.owed = [0.0; 6];
         self.revision = 0;
     }
 
@@ -89,8 +91,10 @@ pub(crate) struct Buffers {
     pub pair_impulses: Vec<f64>,
     /// Rates of reels that are unknown.
     pub unknowns: Unknowns,
-    /// Where nothing holds the cable, angular momentum about the centre of mass and this when the step begins.
-    pub before: Option<[Vector3<f64>; 2]>,
+    /// Where nothing holds the cable, the momenta when the step begins.
+    pub before: Option<Before>,
+    /// Those of the end of the step before, if it was in the same host step.
+    pub after: Option<Before>,
     /// Impulse and angular impulse about the origin of the forces without potential, if they are asked for.
     pub outside: Option<[Vector3<f64>; 2]>,
 }

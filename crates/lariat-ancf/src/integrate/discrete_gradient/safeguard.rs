@@ -33,6 +33,9 @@
 //! the iterations, one that falls tilted on a floor 0.88 to 1.26, a heap 0.85 to 1.3. First iterates without acceleration, tangents without
 //! the second derivatives of bending or with the stiffness of compression, up to 12 iterations in place of 20, contact forces to 1e-2,
 //! closure to 0.1: the same scatter (heaps 0.96 to 1.47), and none takes less than a half in the dearest host steps of all three.
+//!
+//! Impulses that a step leaves unbalanced, carried into the next one with the energy that they took: the example `fleet` takes 3.0 iterations per step for 2.7, and divides steps
+//! where it divided none; 400 cables that swing calmly 2.0 for 1.2. What is unbalanced along a stiff cable is already in its strain when the next step begins, so that it is not owed.
 
 use super::law::{Balance, CLOSURE, Closing, DiscreteGradientSystem, Event};
 use crate::error::StepFailure;

@@ -32,12 +32,14 @@ impl IslandStep<'_, '_> {
 
     /// Notes the angular momentum when a step begins, if nothing holds the island.
     pub(super) fn note_angular_momentum(&mut self) {
-        let mut before = None;
-        if self.is_free() {
-            let mut momenta = Momenta::default();
-            self.momenta(&mut momenta);
-            before = Some(momenta.angular_and_centre());
-        }
+        let after = self.cables[0].step_buffers.after.take();
+        let before = self.is_free().then(|| {
+            after.unwrap_or_else(|| {
+                let mut momenta = Momenta::default();
+                self.momenta(&mut momenta);
+                momenta.before()
+            })
+        });
         for cable in self.cables.iter_mut() {
             let b = &mut cable.step_buffers;
             (b.before, b.outside) = (before, before.map(|_| Default::default()));
@@ -64,7 +66,8 @@ impl IslandStep<'_, '_> {
         }
         self.momenta(&mut momenta);
         let owed = &mut self.cables[0].snapshot.state.memory.differences.owed;
-        let turn = momenta.restore(owed, (before, outside), &mut balance);
+        let (turn, after) = momenta.restore(owed, (before, outside), &mut balance);
+        self.cables[0].step_buffers.after = Some(after);
         self.cables.iter_mut().for_each(|cable| turn.turn_cable(&mut cable.snapshot.state));
         self.buffers.bodies.iter_mut().for_each(|body| body.turn(&turn));
         balance

@@ -221,6 +221,7 @@ impl DiscreteGradientSystem for IslandStep<'_, '_> {
             let CableStep { equations, state, .. } = cable.step_parts();
             equations.begin_host_step(state);
         }
+        self.cables[0].step_buffers.after = None;
     }
 
     fn predict(&mut self, h: f64, closing: Closing) {
