@@ -161,6 +161,15 @@ impl<T: Real> Squared<T> {
         }
     }
 
+    /// Adds `scale P_g/Q^3`: pairs of the squared change of `r' x r''`, never negative for a positive scale.
+    #[inline(always)]
+    pub fn add_minor(&self, scale: T, n: &mut Six<T>) {
+        let scale = scale * self.powers[0];
+        for i in 0..6 {
+            n[i] = n[i] + scale * self.minor[i];
+        }
+    }
+
     /// Adds `scale w_g w_g^T` to a weighted Hessian.
     #[inline(always)]
     pub fn add_square(&self, scale: T, h: &mut Upper<T>) {
