@@ -31,6 +31,9 @@ pub struct Diagnostics {
     pub bending_evaluations: u64,
     /// Point loads evaluated.
     pub load_evaluations: u64,
+    /// Elements whose load was compared with the [limits](crate::Cable::set_strength) of the cable; zero for a cable without limits.
+    #[serde(default)]
+    pub load_readings: u64,
     /// Steps of the discrete gradient whose velocities were scaled down to keep its energy law.
     #[serde(default)]
     pub rescaled_steps: u64,
@@ -58,7 +61,7 @@ macro_rules! by_field {
     ($a:expr, $b:expr, $op:expr, $effects:expr) => {
         by_field!(@ $a, $b, $op, $effects; host_steps, steps, rejected_steps, newton_iterations, factorisations,
             indefinite_factorisations, solves, mass_solves, force_evaluations, tangent_evaluations, bending_evaluations,
-            load_evaluations, rescaled_steps, split_steps, crossed_steps, lagging_steps, warnings)
+            load_evaluations, load_readings, rescaled_steps, split_steps, crossed_steps, lagging_steps, warnings)
     };
     (@ $a:expr, $b:expr, $op:expr, $effects:expr; $($field:ident),*) => {
         Diagnostics { $($field: $op($a.$field, $b.$field),)* effects: $effects }

@@ -91,7 +91,7 @@ pub use reel::{Feed, Reel};
 pub use rule::{AxialRule, BendingRule, Rule};
 pub use section::{Element, Section, Shape};
 pub use statics::{EquilibriumOptions, EquilibriumReport};
-pub use strength::{Break, BreakCause, Strength};
+pub use strength::{Break, BreakCause, Load, Strength};
 pub use support::{Motion, SlopeSupport, Support};
 pub use system::jacobian::Jacobians;
 pub use warning::{Warning, Watch};

@@ -129,6 +129,15 @@ impl Model {
         self.supports.iter().find(|(n, _)| *n == node).map(|(_, s)| s)
     }
 
+    /// Returns whether tension and shape have no reason to jump at a node between two elements, at an arc length in m: neither support, load nor
+    /// another section.
+    pub(crate) fn is_smooth_at(&self, node: usize, s: f64) -> bool {
+        let [a, b] = [&self.elements[node - 1], &self.elements[node]];
+        let is_held = || self.supports.iter().any(|(held, _)| *held == node);
+        let near = |load: &PointLoad| (load.arc_length - s).abs() <= 1e-9 * self.length();
+        a.section == b.section && !is_held() && !self.loads.iter().any(near)
+    }
+
     /// Sets the support of a node; a free one is removed.
     pub(crate) fn set_support(&mut self, node: usize, support: Support) {
         self.supports.retain(|(n, _)| *n != node);

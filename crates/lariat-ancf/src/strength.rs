@@ -80,6 +80,120 @@ impl BreakCause {
     }
 }
 
+/// The largest load of a cable, beside what it withstands.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Load {
+    /// Share of the limit that it reaches: above 1 the cable breaks.
+    pub share: f64,
+    /// Which limit that is.
+    pub cause: BreakCause,
+    /// Arc length in m.
+    pub arc_length: f64,
+    /// Tension in N.
+    pub tension: f64,
+    /// Strain, stretch over rest stretch less 1.
+    pub strain: f64,
+    /// Time in s.
+    pub time: f64,
+}
+
+impl Default for Load {
+    /// None.
+    fn default() -> Self {
+        let share = f64::NEG_INFINITY;
+        Load { share, cause: BreakCause::Tension, arc_length: 0.0, tension: 0.0, strain: 0.0, time: 0.0 }
+    }
+}
+
+/// What the integration steps saw of the load of a cable with limits.
+///
+/// # Equation
+///
+/// Between three readings x0, x1, x2 of the share of the limit, at equal distances, the load may have come to
+///
+/// ```text
+/// x1 + max(0, 2 x1 - x0 - x2)
+/// ```
+///
+/// The parabola through them exceeds x1 by at most an eighth of the last term: that is what steps miss which resolve the oscillation. A load that is
+/// applied at once, in a step that does not, is the jump x1 - x0 with x2 = x1, and doubles at most (dynamic factor 2, a rope without mass and
+/// damping): the term is then the jump. With unequal distances the second difference is that of the longer one.
+///
+/// # References
+///
+/// Timoshenko & Young 1955, section 1 (suddenly applied load).
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub(crate) struct LoadRecord {
+    /// The largest since the cable was compared with its limits; its arc length is counted from the material that was at the start at first.
+    worst: Option<Load>,
+    /// Arc length in m on the cable of the material that was at the start at first, when the present host step began.
+    origin: f64,
+    /// Times in s and shares of the last two readings.
+    recent: [Option<[f64; 2]>; 2],
+    /// What no reading saw, if that is above the limit.
+    unseen: Option<Unseen>,
+}
+
+/// A load above the limit that there may have been between readings below it.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub(crate) struct Unseen {
+    /// Time in s.
+    pub time: f64,
+    /// Share of the limit that was read, and that may have been reached.
+    pub shares: [f64; 2],
+    /// Time in s between readings.
+    pub step: f64,
+}
+
+impl LoadRecord {
+    /// Returns whether the last reading is of a time in s.
+    pub fn is_at(&self, time: f64) -> bool {
+        self.recent[1].is_some_and(|[last, _]| last == time)
+    }
+
+    /// Begins a host step of a cable on which the material that was at its start is at `origin` (m).
+    pub fn begin(&mut self, origin: f64) {
+        self.origin = origin;
+    }
+
+    /// Adds a reading.
+    pub fn note(&mut self, load: Load) {
+        if let [Some([t0, x0]), Some([t1, x1])] = self.recent {
+            let (t2, x2) = (load.time, load.share);
+            let step = (t1 - t0).max(t2 - t1);
+            let bend = step * ((x1 - x0) / (t1 - t0) - (x2 - x1) / (t2 - t1));
+            let reached = x1 + bend.max(0.0);
+            if x1 <= 1.0 && x2 <= 1.0 && reached > self.unseen.map_or(1.0, |unseen| unseen.shares[1]) {
+                self.unseen = Some(Unseen { time: t1, shares: [x1, reached], step });
+            }
+        }
+        self.recent = [self.recent[1], Some([load.time, load.share])];
+        if self.worst.is_none_or(|worst| load.share > worst.share) {
+            self.worst = Some(Load { arc_length: load.arc_length - self.origin, ..load });
+        }
+    }
+
+    /// Forgets the readings between which the load is judged, because a program changes the state.
+    pub fn interrupt(&mut self) {
+        self.recent = [None; 2];
+    }
+
+    /// Returns the largest load since it was taken last, and forgets it.
+    pub fn take(&mut self) -> Option<Load> {
+        self.worst.take()
+    }
+
+    /// Returns the largest load since it was taken last.
+    pub fn worst(&self) -> Option<Load> {
+        self.worst
+    }
+
+    /// Returns what no reading saw.
+    pub fn unseen(&self) -> Option<Unseen> {
+        self.unseen
+    }
+}
+
 /// Where, why and under which load a cable became two.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Break {
@@ -87,10 +201,12 @@ pub struct Break {
     pub cause: BreakCause,
     /// Arc length of the break in m, unstretched: the new length of the part before it.
     pub arc_length: f64,
-    /// Largest tension in N just before; of a cut, the tension at it.
+    /// Largest tension in N since the cable was compared with its limits last; of a cut, the tension at it.
     pub tension: f64,
     /// Strain there, stretch over rest stretch less 1.
     pub strain: f64,
+    /// Time in s of that load, which may lie within the last host step; of a cut, that of the cut.
+    pub time: f64,
     /// Strain energy in J of both parts at the break. No more than this, and their weight, is set free as motion.
     pub strain_energy: f64,
     /// Change of the total energy in J by the edit itself: zero at a node, else what a node placed there

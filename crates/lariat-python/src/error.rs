@@ -155,7 +155,7 @@ impl From<lariat_ancf::Error> for Raise {
             ContactMethod { cable, method }
             OneElement { cable }
             ExplicitReel { cable, method }
-            ReelMethod { cable, method }
+            ReelMethod { cable, method, reason: |x: &&'static str| *x }
             ReelPlace { cable, reason: |x: &&'static str| *x }
             NotWithReel { cable, what: |x: &&'static str| *x }
             UnknownRule { rule, expected: |x: &&'static str| *x, suggestion }

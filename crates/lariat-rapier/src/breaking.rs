@@ -1,7 +1,7 @@
 //! Cables that break where they are overloaded.
 //!
 //! # Validity
-//! Compared after each host step: a peak between two host steps is not seen.
+//! Broken at the end of a host step, by the largest load of its integration steps.
 
 use crate::contents::Contents;
 use crate::edit;

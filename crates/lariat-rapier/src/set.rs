@@ -118,7 +118,8 @@ impl CableSet {
         Ok(RopeHandles { cable, start, end })
     }
 
-    /// Sets what a cable withstands: a [`Strength`] or a tension in N, compared after each host step;
+    /// Sets what a cable withstands: a [`Strength`] or a tension in N, compared with the load after each
+    /// integration step: it breaks at the end of the host step;
     /// `None` and it does not break. It breaks at the inner node nearest to its largest load. The
     /// event is [`Event::Broken`]; the parts have the same strength. A sleeping cable sleeps on unless
     /// it breaks.

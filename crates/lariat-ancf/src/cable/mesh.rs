@@ -94,24 +94,12 @@ impl Cable {
         let mut largest: Option<f64> = None;
         self.visit_elements(|e, judged| {
             if judged {
-                let jump = (self.sample_in(e, 1.0).tension - self.sample_in(e + 1, 0.0).tension).abs();
+                let [before, behind] = [e, e + 1].map(|e| self.reading().ends(e));
+                let jump = (before[1].tension - behind[0].tension).abs();
                 largest = Some(largest.map_or(jump, |x| x.max(jump)));
             }
         });
         largest
-    }
-
-    /// Returns whether tension and shape have no reason to jump at a node between two elements: neither support, load nor another section.
-    pub(crate) fn is_smooth_at(&self, node: usize) -> bool {
-        let [a, b] = [&self.elements()[node - 1], &self.elements()[node]];
-        if a.section != b.section || self.model.supports.iter().any(|(held, _)| *held == node) {
-            return false;
-        }
-        if self.model.loads.is_empty() {
-            return true;
-        }
-        let s: f64 = self.elements()[..node].iter().map(|element| element.length).sum();
-        self.model.loads.iter().all(|load| (load.arc_length - s).abs() > 1e-9 * self.length())
     }
 
     /// Returns whether a node between the ends is held.

@@ -18,13 +18,12 @@
 //! Barlow 1976 (superconvergent points). Averages at nodes: Hinton and Campbell 1974.
 
 use super::Cable;
-use crate::axial::projected;
 use crate::bending::regularisation::RegularisedPower;
 use crate::effect::acts::SampledPoint;
 use crate::element::flow::flow_weights;
-use crate::element::gram::gram_rates;
 use crate::element::shape;
 use crate::error::Error;
+use crate::system::{NodeTension, Pull, Reading, missing_at_ends};
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
@@ -50,13 +49,6 @@ pub struct Sample {
     pub tension_uncertainty: f64,
 }
 
-/// Tension at a node in N: what the elements before and behind it miss to the average, and the jump between them.
-#[derive(Clone, Copy)]
-struct NodeTension {
-    missing: [f64; 2],
-    jump: f64,
-}
-
 /// A nodal quantity inside element `e`, by the weights of its four node vectors.
 pub(in crate::cable) fn combine(x: &[f64], e: usize, weights: [f64; 4]) -> Vector3<f64> {
     let n = &x[6 * e..6 * e + 12];
@@ -80,22 +72,25 @@ impl Cable {
         let (from, to) = (self.node_tension(e), self.node_tension(e + 1));
         let jumps = from.into_iter().chain(to).map(|node| node.jump);
         let Some(tension_uncertainty) = jumps.reduce(f64::max) else { return raw };
-        let [start, end] = [from.map(|node| node.missing[1]), to.map(|node| node.missing[0])];
-        let start = start.or(end.map(|end| -end)).unwrap_or(0.0);
-        let end = end.unwrap_or(-start);
+        let [start, end] = missing_at_ends(from, to);
         let missing = (1.0 - xi) * (1.0 - 2.0 * xi) * start + xi * (2.0 * xi - 1.0) * end;
         Sample { tension: raw.tension + missing, tension_uncertainty, ..raw }
     }
 
+    /// Returns the present state, to be read.
+    pub(crate) fn reading(&self) -> Reading<'_> {
+        let (q, v) = (self.positions(), self.velocities());
+        Reading { model: &self.model, system: &self.system, q, v, time: self.time() }
+    }
+
     /// Returns the tension at a node between two elements, if it is continuous there.
     fn node_tension(&self, node: usize) -> Option<NodeTension> {
-        if node == 0 || node == self.elements().len() || !self.is_smooth_at(node) {
+        if node == 0 || node == self.elements().len() {
             return None;
         }
-        let [a, b] = [node - 1, node].map(|e| self.elements()[e].length);
-        let (before, behind) = (self.sample_in(node - 1, 1.0).tension, self.sample_in(node, 0.0).tension);
-        let average = (b * before + a * behind) / (a + b);
-        Some(NodeTension { missing: [average - before, average - behind], jump: (before - behind).abs() })
+        let reading = self.reading();
+        let s = self.elements()[..node].iter().map(|element| element.length).sum();
+        reading.at_node(node, s, reading.ends(node - 1)[1], reading.ends(node)[0])
     }
 
     /// Returns the position at an arc length in m, which is on the cable.
@@ -113,20 +108,15 @@ impl Cable {
         let slope = combine(q, e, shape::slope(xi, length));
         let second = combine(q, e, shape::second_derivative(xi, length));
         let stretch = slope.norm();
-        let forces = &self.system.forces;
-        let mut at = forces.elements.gram_state(e, q, v);
+        let reading = self.reading();
+        let at = reading.state(e, true);
+        let Pull { tension, green_strain } = reading.pull(e, xi, &at);
         let mut velocity = combine(v, e, position);
         for flow in self.system.flows.list.iter().filter(|flow| flow.side.element(self.elements().len()) == e) {
             let extent = flow.extent;
             let local = flow.side.gather(q);
             velocity += extent.rate * combine(&local, 0, flow_weights(flow.side.local(xi), length)[0]);
-            // the control vector of the chord changes with the length, too
-            let d = forces.elements.control(e, q);
-            let chord = d[1].map(|x| -x * extent.rate / length);
-            let change = gram_rates(&d, &[[0.0; 3], chord, [0.0; 3]]);
-            at.rates.iter_mut().flatten().zip(change).for_each(|(rate, change)| *rate += change);
         }
-        let green_strain = projected::strain(&at.g, xi);
         // a collapsed element has no curvature
         let curvature = if stretch > 0.0 { slope.cross(&second) / stretch.powi(3) } else { Vector3::zeros() };
         // with 1/|r'|^3 as the energy has it: finite in a crumpled element
@@ -140,8 +130,6 @@ impl Cable {
             vector_rate: slope.cross(&combine(v, e, shape::second_derivative(xi, length))),
             power: RegularisedPower::new(slope.norm_squared()).cube().sqrt(),
         };
-        let stress = (green_strain + forces.strain_of_effects(&sampled)) * (1.0 + 2.0 * green_strain).max(0.0).sqrt();
-        let tension = element.section.axial_stiffness * stress;
         Sample {
             position: combine(q, e, position),
             velocity,
@@ -150,7 +138,7 @@ impl Cable {
             tension,
             tension_uncertainty: tension.abs(),
             curvature,
-            moment: (regular + forces.curvature_of_effects(&sampled)) * element.section.bending_stiffness,
+            moment: (regular + self.system.forces.curvature_of_effects(&sampled)) * element.section.bending_stiffness,
         }
     }
 

@@ -5,6 +5,7 @@ use super::reel::Winding;
 use crate::effect::EffectWork;
 use crate::error::{Error, require, require_finite};
 use crate::integrate::{EnergyLaw, State};
+use crate::strength::LoadRecord;
 use crate::support::SlopeSupport;
 use crate::system::System;
 use nalgebra::Vector3;
@@ -25,6 +26,9 @@ pub struct Snapshot {
     /// Elastic energy in J that inserted nodes added so far.
     #[serde(default)]
     pub(crate) inserted_energy: f64,
+    /// The load of a cable with limits since it was compared with them.
+    #[serde(default)]
+    pub(crate) load: LoadRecord,
     /// The reels, by end.
     #[serde(default)]
     pub(crate) windings: [Option<Winding>; 2],
@@ -37,9 +41,10 @@ impl Clone for Snapshot {
 
     /// Copies `other` into the existing vectors.
     fn clone_from(&mut self, other: &Self) {
-        let Snapshot { state, work, law, inserted_energy, windings } = other;
+        let Snapshot { state, work, law, inserted_energy, load, windings } = other;
         self.state.copy_from(state);
-        (self.work, self.law, self.inserted_energy, self.windings) = (*work, *law, *inserted_energy, *windings);
+        (self.work, self.law, self.inserted_energy) = (*work, *law, *inserted_energy);
+        (self.load, self.windings) = (*load, *windings);
     }
 }
 
@@ -52,6 +57,7 @@ impl Snapshot {
     /// Adds the work of effects in a host step that succeeded; `before` are the positions when it began.
     pub(crate) fn add_work_of_step(&mut self, system: &mut System, before: &[f64]) {
         self.work += core::mem::take(&mut system.meter.work);
+        self.load = system.load;
         self.law.merge(&core::mem::take(&mut system.meter.law));
         for (winding, work) in self.windings.iter_mut().zip(core::mem::take(&mut system.meter.reel_work)) {
             winding.iter_mut().for_each(|winding| winding.work += work);
@@ -152,6 +158,7 @@ impl Cable {
         memory.valid = false;
         memory.step = 0.0;
         memory.differences.clear();
+        self.snapshot.load.interrupt();
         if let Some(watch) = &mut self.watch {
             watch.interrupt();
         }

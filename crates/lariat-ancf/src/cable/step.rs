@@ -49,7 +49,7 @@ impl Cable {
     pub(super) fn step_in_workspace(&mut self, dt: f64, integrator: IntegratorRef<'_>) -> Result<(), Error> {
         self.before.copy_from(&self.snapshot.state);
         self.refresh_memory();
-        self.system.meter.begin();
+        self.begin_accounts();
         let equations = Equations { model: &self.model, system: &mut self.system, diagnostics: &mut self.diagnostics };
         let state = &mut self.snapshot.state;
         let (counts, outcome) = if integrator.method.uses_discrete_gradients() {
@@ -73,6 +73,13 @@ impl Cable {
                 Err(self.step_failed(failed.time, failed.step, failed.failure))
             }
         }
+    }
+
+    /// Begins what is summed and compared in a host step, and taken over if that succeeds.
+    pub(crate) fn begin_accounts(&mut self) {
+        self.system.meter.begin();
+        self.system.load = self.snapshot.load;
+        self.system.load.begin(self.snapshot.passed_at_start());
     }
 
     pub(crate) fn step_failed(&self, at: f64, step: f64, failure: StepFailure) -> Error {
@@ -109,7 +116,8 @@ impl Cable {
     }
 }
 
-/// Checks that a cable has an implicit method where an effect or a reel needs one, and the discrete gradient for contact.
+/// Checks that a cable has an implicit method where an effect or a reel needs one, the discrete gradient for contact, and with a reel a method by
+/// which its account of energy closes.
 pub(crate) fn check_integrator(model: &Model, method: &dyn OneStep) -> Result<(), Error> {
     if model.effects.contact.is_some() && !method.uses_discrete_gradients() {
         return Err(Error::ContactMethod { cable: model.name.clone(), method: method.name() });
@@ -120,8 +128,15 @@ pub(crate) fn check_integrator(model: &Model, method: &dyn OneStep) -> Result<()
     if !model.reels.is_empty() && method.stability_limit().is_some() {
         return Err(Error::ExplicitReel { cable: model.name.clone(), method: method.name() });
     }
+    let refused = |reason| Err(Error::ReelMethod { cable: model.name.clone(), method: method.name(), reason });
     if model.reels.have_laws() && !method.uses_discrete_gradients() {
-        return Err(Error::ReelMethod { cable: model.name.clone(), method: method.name() });
+        return refused("with max_force its rate is an unknown, which only discrete-gradient solves for");
+    }
+    if !model.reels.is_empty() && !method.uses_discrete_gradients() && method.estimate_order().is_none() {
+        return refused(
+            "its work is not accounted for where the steps do not resolve the waves of the mesh and the method leaves them ringing; use \
+             discrete-gradient, or an implicit method with an estimate of its error, as esdirk4",
+        );
     }
     Ok(())
 }

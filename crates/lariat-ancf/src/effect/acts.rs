@@ -100,7 +100,7 @@ impl Load<Dual> for Single {
     }
 }
 
-/// A point of an element at which strain and curvature are read.
+/// A point of an element at which curvature is read.
 pub(crate) struct SampledPoint<'a> {
     pub element: usize,
     /// Local coordinate in `[0, 1]`.
@@ -133,8 +133,8 @@ pub(crate) trait ElementForce: GramForce + DiscreteGradientForce + Clone + Debug
         0.0
     }
 
-    /// Strain that it adds to the one that makes tension.
-    fn strain(&self, at: &SampledPoint<'_>) -> f64;
+    /// Strain that it adds at a local coordinate of an element to the one that makes tension.
+    fn strain(&self, element: usize, xi: f64, at: &GramState<'_, f64>) -> f64;
 
     /// Curvature in 1/m that it adds to the one that makes the bending moment.
     fn curvature(&self, at: &SampledPoint<'_>) -> Vector3<f64>;
@@ -220,7 +220,7 @@ impl DiscreteGradientForce for Nothing {
 }
 
 impl ElementForce for Nothing {
-    fn strain(&self, _: &SampledPoint<'_>) -> f64 {
+    fn strain(&self, _: usize, _: f64, _: &GramState<'_, f64>) -> f64 {
         match *self {}
     }
     fn curvature(&self, _: &SampledPoint<'_>) -> Vector3<f64> {

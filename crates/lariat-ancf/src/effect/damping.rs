@@ -281,10 +281,10 @@ impl ElementForce for DampingTable {
         -(axial + at.stiffness.bending * bending.sum::<f64>())
     }
 
-    fn strain(&self, at: &SampledPoint<'_>) -> f64 {
-        let Some(rates) = &at.at.rates else { return 0.0 };
+    fn strain(&self, _: usize, xi: f64, at: &GramState<'_, f64>) -> f64 {
+        let Some(rates) = &at.rates else { return 0.0 };
         // linear in the Gram numbers, and -1/2 at zero
-        self.damping.axial * (projected::strain(rates, at.xi) + 0.5)
+        self.damping.axial * (projected::strain(rates, xi) + 0.5)
     }
 
     fn curvature(&self, at: &SampledPoint<'_>) -> Vector3<f64> {

@@ -286,8 +286,8 @@ impl ElementForce for RestTable {
         (self.excess.get(element).map_or(0.0, axial), bending)
     }
 
-    fn strain(&self, at: &SampledPoint<'_>) -> f64 {
-        self.excess.get(at.element).map_or(0.0, |x| -0.5 * x)
+    fn strain(&self, element: usize, _: f64, _: &GramState<'_, f64>) -> f64 {
+        self.excess.get(element).map_or(0.0, |x| -0.5 * x)
     }
 
     fn curvature(&self, at: &SampledPoint<'_>) -> Vector3<f64> {

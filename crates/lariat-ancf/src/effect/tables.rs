@@ -135,8 +135,8 @@ macro_rules! generate {
             }
 
             /// Strain that effects add to the one that makes tension.
-            pub fn strain(&self, at: &SampledPoint<'_>) -> f64 {
-                0.0 $(+ self.$field.as_ref().map_or(0.0, |table| table.strain(at)))*
+            pub fn strain(&self, element: usize, xi: f64, at: &GramState<'_, f64>) -> f64 {
+                0.0 $(+ self.$field.as_ref().map_or(0.0, |table| table.strain(element, xi, at)))*
             }
 
             /// Curvature in 1/m that effects add to the one that makes the bending moment.

@@ -84,15 +84,15 @@ pub enum Error {
         /// Name of the method.
         method: String,
     },
-    /// A reel with a largest force under a method that does not solve for its rate.
-    #[error(
-        "cable {cable:?}: the rate of a reel with max_force is an unknown, which {method} does not solve for; use discrete-gradient"
-    )]
+    /// A reel under a method that does not solve for its rate, or by which the account of its work does not close.
+    #[error("cable {cable:?}: a reel under the integrator {method}: {reason}")]
     ReelMethod {
         /// Name of the cable.
         cable: String,
         /// Name of the method.
         method: String,
+        /// The reason, and what to use.
+        reason: &'static str,
     },
     /// A reel where none can be.
     #[error("cable {cable:?}: reel: {reason}")]

@@ -119,7 +119,7 @@ impl Island {
         integrator: IntegratorRef<'_>,
         dt: f64,
     ) -> Result<(), Error> {
-        cables.iter_mut().for_each(|cable| cable.system.meter.begin());
+        cables.iter_mut().for_each(|cable| cable.begin_accounts());
         let Island { layout, matrices, accounts, vectors, by_discrete_gradient: buffers, scratch, state } = self;
         layout.begin(cables, bodies, pins, dt);
         matrices.begin(layout);

@@ -63,9 +63,10 @@ impl Record {
         match self.cables.get_mut(self.present) {
             Some(known) => (known.steps, known.evaluations) = (steps, evaluations),
             None => {
-                self.cables.push(CableRecord { nodes: cable.node_arc_lengths(), steps, evaluations });
+                let nodes = cable.node_arc_lengths();
                 self.held |= cable.is_held_between_ends();
-                self.kinked |= (1..cable.elements().len()).any(|node| !cable.is_smooth_at(node));
+                self.kinked |= (1..cable.elements().len()).any(|node| !cable.model.is_smooth_at(node, nodes[node]));
+                self.cables.push(CableRecord { nodes, steps, evaluations });
             }
         }
         self.present += 1;

@@ -271,6 +271,7 @@ impl DiscreteGradientSystem for CableStep<'_> {
     fn begin(&mut self) {
         self.equations.begin_host_step(self.state);
         self.buffers.after = None;
+        self.equations.note_load(self.state.time, &self.state.q, &self.state.v);
     }
 
     fn predict(&mut self, h: f64, closing: Closing) {
@@ -375,6 +376,7 @@ impl DiscreteGradientSystem for CableStep<'_> {
             b.after = Some(after);
         }
         equations.system.meter.law.add(&balance);
+        equations.note_load(state.time, &state.q, &state.v);
     }
 
     fn count(&mut self, event: Event) {

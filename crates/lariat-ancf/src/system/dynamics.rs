@@ -181,6 +181,10 @@ impl Dynamics for CableDynamics<'_> {
         self.equations.add_work(before, after, h, 0..after.q.len(), &[]);
     }
 
+    fn state_reached(&mut self, state: &State) {
+        self.equations.note_load(state.time, &state.q, &state.v);
+    }
+
     fn spurious_energy(&mut self, before: &State, after: &State, h: f64) -> Option<(f64, f64)> {
         let change = self.equations.energy_between(before, after, h, 0..after.q.len())?;
         Some((change.spurious, change.before.max(change.after)))

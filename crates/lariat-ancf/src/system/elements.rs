@@ -102,8 +102,12 @@ impl Elements {
 
     /// Returns the control vectors of element `e`.
     pub fn control(&self, e: usize, q: &[f64]) -> Control<f64> {
+        self.control_at(e, q, self.scale[e])
+    }
+
+    /// Returns the control vectors of element `e` with 3/l given.
+    pub fn control_at(&self, e: usize, q: &[f64], s: f64) -> Control<f64> {
         let n = &q[6 * e..6 * e + 12];
-        let s = self.scale[e];
         [[n[3], n[4], n[5]], core::array::from_fn(|x| s * (n[6 + x] - n[x])), [n[9], n[10], n[11]]]
     }
 

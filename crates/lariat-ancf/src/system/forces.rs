@@ -6,6 +6,7 @@ use crate::diagnostics::Diagnostics;
 use crate::effect::acts::{ForceInput, PointForce, SampledPoint};
 use crate::effect::force_density::ForceDensityTable;
 use crate::effect::tables::{ElementTables, PointTables};
+use crate::element::kernel::GramState;
 use crate::model::Model;
 use fearless_simd::Level;
 use nalgebra::Vector3;
@@ -79,8 +80,8 @@ impl Forces {
     }
 
     /// Returns the strain that effects add to the one that makes tension.
-    pub fn strain_of_effects(&self, at: &SampledPoint<'_>) -> f64 {
-        self.in_element.as_ref().map_or(0.0, |effects| effects.strain(at))
+    pub fn strain_of_effects(&self, element: usize, xi: f64, at: &GramState<'_, f64>) -> f64 {
+        self.in_element.as_ref().map_or(0.0, |effects| effects.strain(element, xi, at))
     }
 
     /// Returns the curvature in 1/m that effects add to the one that makes the bending moment.

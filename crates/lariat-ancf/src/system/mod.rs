@@ -16,6 +16,7 @@
 //! | [`flow`] | the elements at the eyes of reels |
 //! | [`jacobian`] | exact derivatives |
 //! | [`frequency`] | a bound of the frequencies |
+//! | [`reading`] | tension and strain, and the largest load |
 //! | [`projection`] | supports in vectors and matrices |
 
 pub(crate) mod angular;
@@ -35,6 +36,7 @@ pub(crate) mod loads;
 pub(crate) mod mass;
 mod pairs;
 mod projection;
+mod reading;
 mod rigid_motion;
 mod store;
 
@@ -44,12 +46,14 @@ pub(crate) use equations::Equations;
 pub use flow::Sheave;
 pub(crate) use flow::{Flow, Law, Motor, MotorState, STOP, Source, Unknowns, Wheel, Winch, rates};
 pub(crate) use projection::{project_matrix, project_vector};
+pub(crate) use reading::{NodeTension, Pull, Reading, missing_at_ends};
 pub(crate) use rigid_motion::{Modes, relative_velocities, solve as solve_semidefinite};
 
 use crate::contact::StaticContact;
 use crate::error::StepFailure;
 use crate::linalg::{BlockTridiagonal, Factorisation};
 use crate::model::{Model, STANDARD_GRAVITY};
+use crate::strength::LoadRecord;
 use energy_balance::EnergyMeter;
 use fearless_simd::Level;
 use flow::Flows;
@@ -67,6 +71,8 @@ pub(crate) struct System {
     pub step: StepMatrix,
     pub scales: Scales,
     pub meter: EnergyMeter,
+    /// The load of a cable with limits, in the present host step.
+    pub load: LoadRecord,
     /// The elements at the eyes of reels.
     pub flows: Flows,
     /// Time in s at which statics evaluate forces that depend on it.
@@ -128,6 +134,7 @@ impl System {
             step: StepMatrix::default(),
             scales: Scales::new(model),
             meter: EnergyMeter::default(),
+            load: LoadRecord::default(),
             flows: Flows::new(model),
             static_time: 0.0,
             static_contact: StaticContact::default(),

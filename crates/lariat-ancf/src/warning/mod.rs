@@ -149,6 +149,23 @@ pub enum Warning {
         /// Rate over the speed of transverse waves.
         ratio: f64,
     },
+    /// Its load may have exceeded what it withstands between two integration steps, and none of them saw it.
+    #[error(
+        "cable {cable:?}: near {time_s:.4} s its load came to {share:.2} of what it withstands, and with steps of {step_s:.1e} s may have come to {reached:.2} of it between two \
+         steps: whether it breaks there is not resolved; try shorter steps, or a tolerance"
+    )]
+    UnseenLoad {
+        /// Name of the cable.
+        cable: String,
+        /// Time in s.
+        time_s: f64,
+        /// Share of the limit that was read.
+        share: f64,
+        /// Share of the limit that may have been reached.
+        reached: f64,
+        /// Length of the integration steps in s.
+        step_s: f64,
+    },
     /// What holds a straight, stiff cable moves in jumps of its rounding.
     #[error(
         "cable {cable:?}: at {time_s:.3} s the rounding of what holds it, far from the origin in single precision, may pull at it by {noise_n:.1e} N, where its \

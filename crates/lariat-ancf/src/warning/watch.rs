@@ -11,6 +11,7 @@ use super::contact::Contacts;
 use super::steps::{Estimate, Steps};
 use super::{Warning, sizes};
 use crate::cable::Cable;
+use crate::strength::Unseen;
 use serde::{Deserialize, Serialize};
 
 /// Largest estimate of an error of position without a warning, as a share of the length.
@@ -88,7 +89,7 @@ pub struct Watch {
 type Law = fn(&Watch, &Cable, Option<f64>) -> Option<Warning>;
 
 /// Laws in the order of warnings; the flag says that one holds at every time, not for the whole run only.
-const LAWS: [(Law, bool); 12] = [
+const LAWS: [(Law, bool); 13] = [
     (Watch::strain, true),
     (Watch::mesh, true),
     (Watch::small_motion, false),
@@ -101,6 +102,7 @@ const LAWS: [(Law, bool); 12] = [
     (|watch, cable, _| watch.contacts.sinks(cable), true),
     (|watch, cable, _| watch.contacts.coarse(cable), true),
     (|_, cable, _| Contacts::lags(cable), true),
+    (|_, cable, _| unseen_load(cable), true),
 ];
 
 /// The bit of warnings about sizes.
@@ -238,6 +240,12 @@ impl Watch {
         let steps = cable.diagnostics().crossed_steps;
         (steps > 0).then(|| Warning::PassedThrough { cable: cable.name().to_string(), steps })
     }
+}
+
+/// Whether the load may have exceeded its limit between two integration steps.
+fn unseen_load(cable: &Cable) -> Option<Warning> {
+    let Unseen { time: time_s, shares: [share, reached], step: step_s } = cable.snapshot.load.unseen()?;
+    Some(Warning::UnseenLoad { cable: cable.name().to_string(), time_s, share, reached, step_s })
 }
 
 impl Watch {

@@ -34,13 +34,7 @@ fn hanging(at: At, integrator: Integrator, load: bool) -> Cable {
 #[test]
 fn a_reel_at_the_start_is_one_at_the_end_of_the_reversed_cable() {
     let fixed = |method| Integrator { method, control: StepControl::Substeps(2) };
-    for method in [
-        Method::Esdirk4,
-        Method::TrBdf2,
-        Method::GeneralisedAlpha { rho: 0.5 },
-        Method::Midpoint,
-        Method::DiscreteGradient,
-    ] {
+    for method in [Method::Esdirk4, Method::TrBdf2, Method::GeneralisedAlpha { rho: 0.5 }, Method::DiscreteGradient] {
         let mut cables = [At::Start, At::End].map(|at| hanging(at, fixed(method), true));
         let mut kept = None;
         for step in 0..160 {

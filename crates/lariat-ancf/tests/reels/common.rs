@@ -24,7 +24,6 @@ pub fn implicit() -> Vec<Integrator> {
     vec![
         Integrator::tolerance(Method::Esdirk4, 1e-7).unwrap(),
         Integrator::tolerance(Method::TrBdf2, 1e-6).unwrap(),
-        fine(Method::Midpoint),
         fine(Method::DiscreteGradient),
     ]
 }

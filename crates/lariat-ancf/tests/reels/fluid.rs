@@ -137,7 +137,6 @@ fn two_hundred_splits_and_merges_in_long_host_steps() {
     for integrator in [
         Integrator::tolerance(Method::Esdirk4, 1e-4).unwrap(),
         Integrator::tolerance(Method::TrBdf2, 1e-4).unwrap(),
-        fine(Method::Midpoint),
         fine(Method::GeneralisedAlpha { rho: 0.6 }),
         fine(Method::DiscreteGradient),
     ] {

@@ -73,7 +73,8 @@ class ExplicitReelError(Error, ValueError):
 
 
 class ReelMethodError(Error, ValueError):
-    """A reel with ``max_force`` under another method than "discrete-gradient": method."""
+    """A reel with ``max_force`` under another method than "discrete-gradient", or any under one by which its account of energy does not close: method,
+    reason."""
 
 
 class ReelPlaceError(Error, ValueError):

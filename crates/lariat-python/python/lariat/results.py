@@ -266,9 +266,11 @@ class Break(NamedTuple):
     arc_length: float
     """Of the break in m: the new length of the part before it."""
     tension: float
-    """Largest tension in N just before."""
+    """Largest tension in N since the end of the last host step; of a cut, the tension at it."""
     strain: float
     """Strain there."""
+    time: float
+    """Time in s of that tension, within the last host step."""
     strain_energy: float
     """Strain energy of both parts in J."""
     inserted_energy: float

@@ -14,8 +14,8 @@ fn description(reel: &Bound<'_, PyAny>) -> PyResult<Reel> {
 
 /// Makes the Python object of a break.
 pub fn broken<'py>(py: Python<'py>, how: &Break) -> PyResult<Bound<'py, PyAny>> {
-    let Break { cause, arc_length, tension, strain, strain_energy, inserted_energy } = *how;
-    result(py, "Break", (cause.name(), arc_length, tension, strain, strain_energy, inserted_energy))
+    let Break { cause, arc_length, tension, strain, time, strain_energy, inserted_energy } = *how;
+    result(py, "Break", (cause.name(), arc_length, tension, strain, time, strain_energy, inserted_energy))
 }
 
 #[pymethods]

@@ -24,7 +24,10 @@ pub struct Parted {
     pub cause: String,
     /// Arc length in m on the cable as the scene has it.
     pub arc_length_m: f64,
-    /// Largest tension in N just before; of a cut, the tension there.
+    /// Time in s of the load, within the last host step.
+    #[serde(default)]
+    pub load_time_s: f64,
+    /// Largest tension in N in the last host step; of a cut, the tension there.
     pub tension_n: f64,
     /// Strain there.
     pub strain: f64,
@@ -42,6 +45,7 @@ impl Parted {
             time_s: time,
             cause: how.cause.name().to_string(),
             arc_length_m: from + how.arc_length,
+            load_time_s: how.time,
             tension_n: how.tension,
             strain: how.strain,
             strain_energy_j: how.strain_energy,

@@ -8,8 +8,9 @@
 //!
 //! # Validity
 //!
-//! Compared when the caller asks, usually after each host step: a peak between is not seen. Breaking at a node changes neither shape
-//! nor motion, so mass, momenta and energy of the parts are those of the whole to rounding ([`Break`]); the strain energy becomes motion
+//! The load is [read](crate::system) after every integration step, and the cable breaks by the largest load since it was asked last, at the end
+//! of a host step usually: [`Break`] says when within it the limit was exceeded most. What the steps themselves do not resolve they do not see;
+//! [`Warning::UnseenLoad`](crate::Warning::UnseenLoad) says where that may have exceeded the limit. Breaking at a node changes neither shape nor motion, so mass, momenta and energy of the parts are those of the whole to rounding ([`Break`]); the strain energy becomes motion
 //! in the steps that follow. A cable of one element has no inner node: [`Cable::set_strength`] refuses it, and a part of one element
 //! stays whole.
 //!
@@ -25,7 +26,7 @@
 use crate::at::At;
 use crate::cable::Cable;
 use crate::error::Error;
-use crate::strength::{Break, BreakCause, Strength};
+use crate::strength::{Break, BreakCause, Load, LoadRecord, Strength};
 
 impl Cable {
     /// Returns what the cable withstands.
@@ -33,8 +34,8 @@ impl Cable {
         self.model.strength
     }
 
-    /// Sets what the cable withstands: a [`Strength`], or a tension in N. Nothing is compared until
-    /// [`break_overloaded`](Self::break_overloaded) is called; a `CableSet` of lariat-rapier does so after each host step.
+    /// Sets what the cable withstands: a [`Strength`], or a tension in N. The load is read after each
+    /// integration step, and the cable breaks when [`break_overloaded`](Self::break_overloaded) is called; a `CableSet` of lariat-rapier does so after each host step.
     ///
     /// # Errors
     /// [`Error::InvalidValue`] for a limit that is not positive, [`Error::OneElement`] for a limit on a cable of one element.
@@ -44,7 +45,9 @@ impl Cable {
         if strength.is_limited() && self.elements().len() < 2 {
             return Err(Error::OneElement { cable: self.name().to_string() });
         }
-        self.model.strength = strength;
+        if strength != self.model.strength {
+            (self.model.strength, self.snapshot.load) = (strength, LoadRecord::default());
+        }
         Ok(())
     }
 
@@ -58,21 +61,29 @@ impl Cable {
         if !strength.is_limited() {
             return Ok(None);
         }
-        let (mut worst, mut from) = (None::<(f64, BreakCause, f64, f64, f64)>, 0.0);
-        for (e, element) in self.elements().iter().enumerate() {
-            for xi in [0.0, 1.0] {
-                let s = from + xi * element.length;
-                let (tension, strain) = self.load_in(e, xi);
-                let (share, cause) = strength.share(tension, strain);
-                if share > 1.0 && worst.is_none_or(|(most, ..)| share > most) {
-                    worst = Some((share, cause, s, tension, strain));
-                }
-            }
-            from += element.length;
+        let Some(load) = self.peak_load().filter(|load| load.share > 1.0) else {
+            self.snapshot.load.take();
+            return Ok(None);
+        };
+        self.snapshot.load.take();
+        let Some(arc_length) = self.inner_node(load.arc_length) else { return Ok(None) };
+        let Load { cause, tension, strain, time, .. } = load;
+        self.part(arc_length, |cable| Break { cause, tension, strain, time, ..cable }).map(Some)
+    }
+
+    /// Returns the largest load since the cable was compared with its limits last, the present one included; `None` without a limit.
+    pub fn peak_load(&self) -> Option<Load> {
+        let strength = self.strength();
+        if !strength.is_limited() {
+            return None;
         }
-        let Some((_, cause, s, tension, strain)) = worst else { return Ok(None) };
-        let Some(arc_length) = self.inner_node(s) else { return Ok(None) };
-        self.part(arc_length, |cable| Break { cause, tension, strain, ..cable }).map(Some)
+        let now = self.reading().largest_load(strength);
+        let passed = self.snapshot.passed_at_start();
+        let before = self.snapshot.load.worst().filter(|worst| worst.share > now.share);
+        Some(before.map_or(now, |load| {
+            let arc_length = (load.arc_length + passed).clamp(0.0, self.length());
+            Load { arc_length, ..load }
+        }))
     }
 
     /// Cuts the cable at a point as [`cut`](Self::cut) does, and returns beside the rest what it carried there.
@@ -94,6 +105,7 @@ impl Cable {
             arc_length: self.length(),
             tension,
             strain,
+            time: self.time(),
             strain_energy: energy.axial + energy.bending,
             inserted_energy: self.inserted_energy() - inserted,
         };

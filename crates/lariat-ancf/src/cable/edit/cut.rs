@@ -16,6 +16,7 @@ use crate::cable::{Cable, Snapshot};
 use crate::effect::Cut;
 use crate::error::Error;
 use crate::integrate::{Memory, State};
+use crate::strength::LoadRecord;
 
 impl Cable {
     /// Cuts the cable at a point: this one keeps the part before it, the rest is returned. A support or load at the point itself stays with
@@ -60,6 +61,7 @@ impl Cable {
         let head_state = Snapshot {
             state: part(&state.q[..end], &state.v[..end]),
             windings: [at_start, None],
+            load: LoadRecord::default(),
             ..self.snapshot.clone()
         };
         let windings = [None, at_end];

@@ -68,7 +68,7 @@ impl Cable {
     /// # Errors
     /// [`Error::InvalidValue`] for numbers out of range, [`Error::ReelPlace`] for another place than an end, for a second reel there, or
     /// for two reels on one element, [`Error::ExplicitReel`] for an explicit integrator, [`Error::ReelMethod`] for a largest force under
-    /// another integrator than the discrete gradient, [`Error::NotWithReel`] for effects and point loads that the
+    /// another integrator than the discrete gradient, and for one without an estimate of its error, [`Error::NotWithReel`] for effects and point loads that the
     /// flowing element does not carry. The cable is then as before.
     pub fn add_reel(&mut self, at: impl Into<At>, reel: Reel) -> Result<(), Error> {
         reel.check().map_err(|e| e.of_cable(self.name()))?;

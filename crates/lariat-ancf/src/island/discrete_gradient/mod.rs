@@ -218,8 +218,9 @@ impl DiscreteGradientSystem for IslandStep<'_, '_> {
 
     fn begin(&mut self) {
         for cable in self.cables.iter_mut() {
-            let CableStep { equations, state, .. } = cable.step_parts();
+            let CableStep { mut equations, state, .. } = cable.step_parts();
             equations.begin_host_step(state);
+            equations.note_load(state.time, &state.q, &state.v);
         }
         self.cables[0].step_buffers.after = None;
     }
@@ -305,6 +306,10 @@ impl DiscreteGradientSystem for IslandStep<'_, '_> {
         let balance = self.restore_angular_momentum(balance);
         // the law is that of the whole: the first cable keeps it
         self.cables[0].system.meter.law.add(&balance);
+        for cable in self.cables.iter_mut() {
+            let CableStep { mut equations, state, .. } = cable.step_parts();
+            equations.note_load(state.time, &state.q, &state.v);
+        }
     }
 
     fn count(&mut self, event: Event) {

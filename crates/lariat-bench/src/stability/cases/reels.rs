@@ -22,14 +22,13 @@ fn carry(w: &mut TestWorld, rope: usize) -> Result<(), Fault> {
     Ok(cable.set_effects(effects)?)
 }
 
-/// Returns every implicit integrator but that of the other cases, at the steps of games or to a tolerance.
-fn implicit() -> [(&'static str, Integrator); 4] {
+/// Returns integrators that carry a reel beside that of the other cases, at the steps of games or to a tolerance.
+fn implicit() -> [(&'static str, Integrator); 3] {
     let steps = |method| Integrator { method, control: StepControl::MaxStep(1.0 / 240.0) };
     let tolerant = |method| Integrator { method, control: StepControl::Tolerance(1e-4) };
     [
         ("ESDIRK4", tolerant(Method::Esdirk4)),
         ("TR-BDF2", tolerant(Method::TrBdf2)),
-        ("midpoint", steps(Method::Midpoint)),
         ("generalised-alpha", steps(Method::GeneralisedAlpha { rho: 0.5 })),
     ]
 }

@@ -1,0 +1,140 @@
+//! Tension and strain read from the coordinates of a cable, between steps and within them, and the largest load.
+//!
+//! # Equation
+//!
+//! As [`Cable::sample`](crate::Cable::sample) reads them: `N = EA (eps + that of effects) f` with the projected Green strain eps, averaged at nodes, and the strain `f/f_0 - 1`, f_0 the
+//! rest stretch. Both are largest at ends of elements. An element at the eye of a reel is read at the length that it has at the time of the reading.
+//!
+//! # Validity
+//!
+//! A cable with a limit of its load is read at the beginning of a host step and after every integration step that is accepted, with each method; one without never, which the
+//! counter `load_readings` shows.
+//!
+//! # Alternatives considered
+//!
+//! Only the end of host steps: a rope that is loaded at once broke at 1.28 of its limit at 30 Hz, and a peak between two host steps broke nothing.
+
+use super::{Equations, System};
+use crate::axial::projected;
+use crate::element::flow::Extent;
+use crate::element::gram::{gram, gram_rates};
+use crate::element::kernel::GramState;
+use crate::model::Model;
+use crate::strength::{Load, Strength};
+
+/// A cable in a state, to be read.
+#[derive(Clone, Copy)]
+pub(crate) struct Reading<'a> {
+    pub model: &'a Model,
+    pub system: &'a System,
+    /// Nodal coordinates and velocities.
+    pub q: &'a [f64],
+    pub v: &'a [f64],
+    /// Time in s.
+    pub time: f64,
+}
+
+/// Tension in N and projected Green strain at a point of an element.
+#[derive(Clone, Copy)]
+pub(crate) struct Pull {
+    pub tension: f64,
+    pub green_strain: f64,
+}
+
+/// Tension at a node in N: what the elements before and behind it miss to the average, and the jump between them.
+#[derive(Clone, Copy)]
+pub(crate) struct NodeTension {
+    pub missing: [f64; 2],
+    pub jump: f64,
+}
+
+/// Returns what the tension of an element misses at both its ends to those averages that there are.
+pub(crate) fn missing_at_ends(before: Option<NodeTension>, behind: Option<NodeTension>) -> [f64; 2] {
+    let [start, end] = [before.map(|node| node.missing[1]), behind.map(|node| node.missing[0])];
+    let start = start.or(end.map(|end| -end)).unwrap_or(0.0);
+    [start, end.unwrap_or(-start)]
+}
+
+impl<'a> Reading<'a> {
+    /// Returns an element as effects see it, with rates of the Gram numbers if they are asked for.
+    pub fn state(&self, e: usize, rates: bool) -> GramState<'a, f64> {
+        let elements = &self.system.forces.elements;
+        let v = if rates { self.v } else { &[] };
+        let flow = self.system.flows.list.iter().find(|flow| flow.side.element(elements.count()) == e);
+        let Some(flow) = flow else { return elements.gram_state(e, self.q, v) };
+        let Extent { length, rate, .. } = flow.at(self.time);
+        let of = |x: &[f64]| elements.control_at(e, x, 3.0 / length);
+        let d = of(self.q);
+        let rates = rates.then(|| {
+            let mut rates = gram_rates(&d, &of(self.v));
+            // the control vector of the chord changes with the length, too
+            let change = gram_rates(&d, &[[0.0; 3], d[1].map(|x| -x * rate / length), [0.0; 3]]);
+            rates.iter_mut().zip(change).for_each(|(rate, change)| *rate += change);
+            rates
+        });
+        GramState { table: &elements.table, stiffness: elements.stiffness(e), g: gram(&d), rates }
+    }
+
+    /// Returns tension and strain at a local coordinate of an element, from its state.
+    pub fn pull(&self, e: usize, xi: f64, state: &GramState<'_, f64>) -> Pull {
+        let green_strain = projected::strain(&state.g, xi);
+        let of_effects = self.system.forces.strain_of_effects(e, xi, state);
+        let stress = (green_strain + of_effects) * (1.0 + 2.0 * green_strain).max(0.0).sqrt();
+        Pull { tension: self.model.elements[e].section.axial_stiffness * stress, green_strain }
+    }
+
+    /// Returns tension and strain at both ends of an element.
+    pub fn ends(&self, e: usize) -> [Pull; 2] {
+        let state = self.state(e, self.system.forces.in_element.is_some());
+        [0.0, 1.0].map(|xi| self.pull(e, xi, &state))
+    }
+
+    /// Returns the tension at a node between two elements at an arc length in m, if it is continuous there; `before` and `behind` are read there.
+    pub fn at_node(&self, node: usize, s: f64, before: Pull, behind: Pull) -> Option<NodeTension> {
+        if !self.model.is_smooth_at(node, s) {
+            return None;
+        }
+        let [a, b] = [node - 1, node].map(|e| self.model.elements[e].length);
+        let average = (b * before.tension + a * behind.tension) / (a + b);
+        let missing = [average - before.tension, average - behind.tension];
+        Some(NodeTension { missing, jump: (before.tension - behind.tension).abs() })
+    }
+
+    /// Returns the load that is the largest share of its limit, read at both ends of every element.
+    pub fn largest_load(&self, strength: Strength) -> Load {
+        let elements = &self.model.elements;
+        let rest_shape = self.model.effects.rest_shape.as_ref();
+        let mut worst = Load { time: self.time, ..Load::default() };
+        let (mut from, mut before, mut ends) = (0.0, None, self.ends(0));
+        for (e, element) in elements.iter().enumerate() {
+            let to = from + element.length;
+            let next = if e + 1 < elements.len() { Some(self.ends(e + 1)) } else { None };
+            let behind = next.and_then(|next| self.at_node(e + 1, to, ends[1], next[0]));
+            let rest = rest_shape.map_or(1.0, |shape| shape.at(from + 0.5 * element.length).0);
+            for ((s, pull), missing) in [from, to].into_iter().zip(ends).zip(missing_at_ends(before, behind)) {
+                let tension = pull.tension + missing;
+                let strain = (1.0 + 2.0 * pull.green_strain).max(0.0).sqrt() / rest - 1.0;
+                let (share, cause) = strength.share(tension, strain);
+                if share > worst.share {
+                    worst = Load { share, cause, arc_length: s, tension, strain, time: self.time };
+                }
+            }
+            (from, before) = (to, behind);
+            ends = next.unwrap_or(ends);
+        }
+        worst
+    }
+}
+
+impl Equations<'_> {
+    /// Reads the load of a cable that has a limit, once at each time.
+    pub fn note_load(&mut self, time: f64, q: &[f64], v: &[f64]) {
+        let strength = self.model.strength;
+        if !strength.is_limited() || self.system.load.is_at(time) {
+            return;
+        }
+        self.diagnostics.load_readings += self.model.elements.len() as u64;
+        let load = Reading { model: self.model, system: self.system, q, v, time }.largest_load(strength);
+        self.system.load.note(load);
+    }
+}
