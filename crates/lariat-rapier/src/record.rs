@@ -1,7 +1,8 @@
 //! What the coupling keeps of each body between steps.
 
 use crate::convert::{rotation, to_pose, vector};
-use crate::step::prescribed_motion::{self, MotionMemory, OriginPose};
+use crate::motion_memory::MotionMemory;
+use crate::pose::{self, OriginPose};
 use crate::unsettled::SettleWatch;
 use ::nalgebra::{UnitQuaternion, Vector3, Vector6};
 use lariat_ancf::island::{BodyMemory, RigidBody};
@@ -164,9 +165,7 @@ impl Records {
     pub fn place(&self, world: &PhysicsWorld, handle: RigidBodyHandle) -> OriginPose {
         let pose = world.bodies[handle].position();
         let known = self.get(handle).and_then(|record| record.place);
-        known
-            .filter(|(rounded, _)| rounded == pose)
-            .map_or_else(|| prescribed_motion::pose(world, handle), |(_, place)| place)
+        known.filter(|(rounded, _)| rounded == pose).map_or_else(|| pose::pose(world, handle), |(_, place)| place)
     }
 
     /// Returns by how much (m) an anchor on a body was rounded in a host step of `dt` (s): not at all if the body's place is known in `f64`, or
@@ -202,7 +201,7 @@ impl Records {
             let Some(body) = world.bodies.get_mut(record.handle).filter(|body| body.is_kinematic()) else { continue };
             let (origin, attitude) = (vector(body.translation()), rotation(*body.rotation()));
             let lever = vector(body.local_center_of_mass()).norm();
-            let rounding = prescribed_motion::rounding(substeps);
+            let rounding = pose::rounding(substeps);
             if (origin - place.0).norm() > 2.0 * rounding * (origin.norm() + lever)
                 || attitude.angle_to(&place.1) > 2.0 * rounding
             {

@@ -24,7 +24,7 @@
 //! # References
 //! Khatib 1987, the operational space inertia; Chang & Khatib 2000, of several points.
 
-use super::Mechanism;
+use super::of_body::Mechanism;
 use crate::spatial::stack_spatial;
 use ::nalgebra::{DMatrix, DVector, Matrix6, Vector6};
 use lariat_ancf::island::{CoupledInertia, RigidBody};

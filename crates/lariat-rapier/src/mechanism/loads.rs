@@ -22,7 +22,7 @@
 //! The loads of the others as a reaction estimate: it takes ten steps to settle; meanwhile joints
 //! that have not converged yield, and what Rapier corrects of it enters the estimate as a force.
 
-use super::multibody::edit_damping;
+use super::joint_damping::{JointDamping, edit_damping};
 use super::request::Request;
 use crate::body::{SavedBody, replace_loads};
 use crate::convert::vector;
@@ -33,9 +33,6 @@ use rapier::dynamics::RigidBodyHandle;
 use rapier::geometry::Collider;
 use rapier::math::{AngVector, Real};
 use rapier::pipeline::PhysicsWorld;
-
-/// Damping by degree of freedom, in N s/m or N m s.
-type JointDamping = DVector<Real>;
 
 /// The loads on the other bodies of a mechanism that the prediction includes.
 #[derive(Clone, Debug, Default)]

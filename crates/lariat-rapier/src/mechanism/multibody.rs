@@ -137,14 +137,6 @@ fn active_limits(multibody: &Multibody) -> Vec<(usize, Option<Limit>)> {
     active
 }
 
-/// Edits the damping of the joints of a link's multibody.
-pub(super) fn edit_damping(world: &mut PhysicsWorld, handle: RigidBodyHandle, edit: impl Fn(&mut DVector<Real>)) {
-    let Some(link) = world.multibody_joints.rigid_body_link(handle).copied() else { return };
-    if let Some(multibody) = world.multibody_joints.get_multibody_mut(link.multibody) {
-        edit(multibody.damping_mut());
-    }
-}
-
 /// Gives the bodies of a link's multibody the velocities of its generalised velocity; does nothing
 /// for other bodies.
 pub(crate) fn refresh(world: &mut PhysicsWorld, handle: RigidBodyHandle) {

@@ -17,17 +17,15 @@ use crate::body::{SavedBody, replace_loads};
 use crate::contents::Contents;
 use crate::convert::{rotation, to_vector, vector};
 use crate::islands::{Island, Member};
+use crate::pose::{MAX_HALF_ROTATION, MAX_ROTATION_PER_STEP};
 use crate::proximity;
 use crate::spatial::split_spatial;
 use crate::step::groups;
 use crate::step::prediction::{AppliedMotion, BodyStep, Prediction};
-use crate::step::prescribed_motion::MAX_ROTATION_PER_STEP;
 use ::nalgebra::{Vector3, Vector6};
 use rapier::math::Real;
 use rapier::pipeline::PhysicsWorld;
 
-/// Half of the rotation in a substep, in rad, up to which `angvel` is corrected.
-pub(crate) const MAX_HALF_ROTATION: f64 = 1.2;
 /// Share of Rapier's largest rotation in a step from which a body is allowed to rotate faster.
 const FAST_ROTATION: f64 = 0.9;
 

@@ -33,22 +33,11 @@ use crate::convert::vector;
 use crate::islands::{Island, Member};
 use crate::mechanism::velocity_of;
 use crate::step::prediction::Prediction;
-use ::nalgebra::Vector3;
 use lariat_ancf::Method;
 use lariat_ancf::island::RigidBody;
 use lariat_ancf::warning::IslandChange;
 use lariat_ancf::warning::balance::{CableTerms, Sizes, weight_and_stiffness};
 use rapier::pipeline::PhysicsWorld;
-
-/// What an island has when a step begins.
-#[derive(Clone, Debug, Default)]
-pub(crate) struct StepEnergy {
-    /// Terms of all cables; `None` if the island is not judged.
-    start: Option<CableTerms>,
-    /// By pin, its gap in m.
-    gaps: Vec<Vector3<f64>>,
-    buffer: Vec<f64>,
-}
 
 /// Returns whether an island has a balance.
 fn is_judged(contents: &Contents, island: &Island) -> bool {

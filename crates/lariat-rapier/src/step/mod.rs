@@ -12,6 +12,8 @@
 //! | [`groups`] | the same for bodies that joints hold together, and what Rapier's step made of them |
 //! | [`impedance`] | lets a body that may deviate feel its cables within Rapier's step |
 //! | [`reconcile`] | takes over what Rapier's step made of it |
+//! | [`reaction`] | what contacts and joints did to it, expected again |
+//! | [`motors`] | what the impedance did to it and to its cables |
 //! | [`waking`] | takes over bodies that it woke |
 //! | [`refused`] | holds the bodies of an island that cannot step |
 
@@ -21,11 +23,14 @@ pub(crate) mod groups;
 pub(crate) mod impedance;
 pub(crate) mod integrate;
 pub(crate) mod kinematic_ends;
+mod motors;
 pub(crate) mod predict;
 pub(crate) mod prediction;
 pub(crate) mod prescribed_motion;
+mod reaction;
 pub(crate) mod reconcile;
 pub(crate) mod refused;
+pub(crate) mod step_energy;
 pub(crate) mod substepping;
 mod waking;
 

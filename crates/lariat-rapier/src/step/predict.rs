@@ -141,8 +141,6 @@ fn find_mechanisms(
     let members: Vec<_> = bodies().map(|(m, handle)| (handle, cable_load(contents, island, m, &start[m]))).collect();
     let of_cables =
         |handle| contents.records.get(handle).map_or_else(Vector6::zeros, |record| record.pull - record.reaction);
-    let own: Vec<Vector6<f64>> = start.iter().map(|body| stack_spatial(&body.force, &body.torque)).collect();
-    let load_on = |m: usize| Some(own[m] + of_cables(island.members[m].body()?));
     let is_attached = |b| contents.attachments.values().any(|a| a.body == b);
     let substep = step.h / world.integration_parameters.num_solver_iterations.max(1) as f64;
     let request = |handle| mechanism::Request { handle, members: &members, substep, is_attached: &is_attached };
@@ -161,7 +159,9 @@ fn find_mechanisms(
     for members in together {
         let jointed = members.iter().filter_map(|&member| {
             let mechanism = mechanisms[member].as_ref()?;
-            Some(Jointed { member, body: &start[member], mechanism, load: load_on(member)? })
+            let body = &start[member];
+            let load = stack_spatial(&body.force, &body.torque) + of_cables(island.members[member].body()?);
+            Some(Jointed { member, body, mechanism, load })
         });
         match Group::new(world, &jointed.collect::<Vec<_>>()) {
             Some(group) => {

@@ -15,12 +15,7 @@
 //! (s = 0), its velocity jumps, as Rapier's does. A body that rotates steadily gives each anchor
 //! the velocity v + w x r at both ends of a step.
 //!
-//! The user's poses are in single precision. As long as they lie on a line in time, within their rounding, the body follows the line of least
-//! squares through all of them: after the k-th, with the residual e of the position that the last line gives,
-//! ```text
-//! x += 2 (2k - 1)/(k (k + 1)) e        V += 6/(k (k + 1)) e/H
-//! ```
-//! Taken for motion, the rounding u of a pose makes a straight cable of stiffness EA/L with axial retardation time T pull by u EA/L (1 + T/H).
+//! The poses lie on a line in time where they can, within their rounding ([`crate::motion_memory`]).
 //!
 //! # Validity
 //! A body that is slower than the rounding of its position per host step is at rest in some of them, and keeps that rounding; so does one that
@@ -38,73 +33,15 @@ use crate::attachment::Attachment;
 use crate::body::is_integrated;
 use crate::contents::Contents;
 use crate::convert::{rotation, to_pose, vector};
+use crate::motion_memory::{Line, MotionMemory, Velocities};
+use crate::pose::{MAX_ROTATION_PER_STEP, OriginPose, pose};
 use ::nalgebra::{UnitQuaternion, Vector3};
 use rapier::dynamics::{RigidBodyHandle, RigidBodyType};
 use rapier::math::Real;
 use rapier::pipeline::PhysicsWorld;
-use serde::{Deserialize, Serialize};
 
-/// Largest rotation of a body in a Rapier step, in rad, unless it is allowed to rotate faster.
-pub(crate) const MAX_ROTATION_PER_STEP: f64 = core::f64::consts::FRAC_PI_4;
 /// Change of a velocity that is rounding, in units of the rounding of positions over a step.
 pub(crate) const ROUNDING: f64 = 8.0;
-
-/// Position of the origin of a body in m, and its attitude.
-pub(crate) type OriginPose = (Vector3<f64>, UnitQuaternion<f64>);
-
-/// Velocity in m/s and angular velocity in rad/s.
-pub(crate) type Velocities = [Vector3<f64>; 2];
-
-/// Returns the largest rounding of a coordinate in a step of this many substeps, as a share of it: half a unit in the last place in each, and
-/// two for the way from the centre of mass to the origin and back.
-pub(crate) fn rounding(substeps: usize) -> f64 {
-    (0.5 * substeps as f64 + 2.0) * f64::from(Real::EPSILON)
-}
-
-/// The line of least squares through the last positions of a body: its velocity in m/s, and how many positions.
-#[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
-struct Line {
-    velocity: Vector3<f64>,
-    count: u32,
-}
-
-impl Line {
-    /// Returns the position on the line after a step of `h` (s) from `before` to about `to`.
-    fn follow(&mut self, before: &Vector3<f64>, to: Vector3<f64>, h: f64) -> Vector3<f64> {
-        let predicted = before + self.velocity * h;
-        let residual = to - predicted;
-        if self.count == 0 || residual.amax() > f64::from(Real::EPSILON) * to.amax() {
-            (self.velocity, self.count) = ((to - before) / h, 2);
-            return to;
-        }
-        self.count = self.count.saturating_add(1);
-        let k = f64::from(self.count);
-        self.velocity += residual * (6.0 / (k * (k + 1.0)) / h);
-        predicted + residual * (2.0 * (2.0 * k - 1.0) / (k * (k + 1.0)))
-    }
-}
-
-/// What is kept of a host step for the next: mean velocities and accelerations, the velocities at
-/// the end, and its length in s.
-#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
-pub(crate) struct MotionMemory {
-    mean: Velocities,
-    acceleration: Velocities,
-    end: Velocities,
-    step: f64,
-    #[serde(default)]
-    line: Line,
-    /// Whether its last two positions were on no line with those before.
-    #[serde(default)]
-    curved: bool,
-}
-
-impl MotionMemory {
-    /// Returns whether positions and attitudes of a body that is moved to poses are rounded.
-    pub fn is_rounded(&self) -> (bool, bool) {
-        (self.curved, self.mean[1] != Vector3::zeros())
-    }
-}
 
 /// The motion of one body over a host step.
 #[derive(Clone, Debug)]
@@ -124,12 +61,6 @@ struct BodyMotion {
 /// Bodies that the user moves to a pose are among them even without cables.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct PrescribedMotions(Vec<BodyMotion>);
-
-/// Returns the pose of a body.
-pub(crate) fn pose(world: &PhysicsWorld, body: RigidBodyHandle) -> OriginPose {
-    let body = &world.bodies[body];
-    (vector(body.translation()), rotation(*body.rotation()))
-}
 
 /// Returns the pose of a body with prescribed motion after a step of `h` (s).
 pub(crate) fn pose_after(world: &PhysicsWorld, handle: RigidBodyHandle, h: f64) -> OriginPose {

@@ -4,14 +4,10 @@
 //! ```text
 //! landed:    x, v = the predicted state, in f64
 //! deviated:  x = Rapier's, without its rounding      v = v1 + (v_after - v0)
-//!            r += 0.3 (L (v_after - v0 + (x_after - x1)/h) - p)/h
-//! cable:     dv = -A^-1 J^T p      dx = h dv
 //! ```
-//! v0 is the velocity that Rapier was given, x1 and v1 are the predicted state, p the impulse of
-//! the motors, L the inertia of the body with its mechanism, and c the impulse of contacts and
-//! joints in the step. The whole of the predicted change of velocity stays, so that bodies and
-//! cables keep their momentum. Of c, the share s is expected again: what bears a load leaves the
-//! motion of the body as it is (s = 1), a blow is gone with the momentum that it gave (s = 0).
+//! v0 is the velocity that Rapier was given, x1 and v1 are the predicted state. The whole of the predicted change of velocity
+//! stays, so that bodies and cables keep their momentum. What contacts and joints did is expected again ([`reaction`](super::reaction));
+//! what the motors did acts on the cables ([`motors`](super::motors)).
 //!
 //! # Validity
 //! With N substeps Rapier rounds each coordinate N times, by half a unit in the last place, and twice more between origin and centre of mass;
@@ -19,19 +15,15 @@
 //! Taken for motion, this rounding made a box of 4 kg at x = 8 m, which a rope of 3.75e6 N/m and T = 10 ms drags against 15.7 N of
 //! friction, pull by 46 N.
 //!
-//! p is left out for a body that is joined to others: in a chain of joints the motors work against
-//! each other, and the estimate settles on a wrong force with p.
-//!
 //! # Alternatives considered
-//! Leaving p out for bodies in contact: bodies of 1 to 5 kg on a steel wire leave a jam when the
-//! host step is not split. Keeping only a share of the predicted change of velocity of a body that
+//! Keeping only a share of the predicted change of velocity of a body that
 //! deviated, `v_after + s (v1 - v0)`, s = 1 where it landed and 0 where it was stopped: a random
 //! scene in free flight gained 8e-3 m/s per mass.
 
 use crate::contents::Contents;
 use crate::convert::{rotation, to_pose, to_vector, vector};
 use crate::islands::{Island, Member};
-use crate::mechanism::{own_inertia, velocity_of};
+use crate::pose::rounding;
 use crate::record::{BodyRecord, ExactState};
 use crate::sleep;
 use crate::spatial::{split_spatial, stack_spatial};
@@ -39,8 +31,9 @@ use crate::step::apply::restore_cables;
 use crate::step::energy;
 use crate::step::groups;
 use crate::step::kinematic_ends;
+use crate::step::motors::{apply_motor_impulses, motor_impulse, take_impulses};
 use crate::step::prediction::{AppliedMotion, BodyStep, Prediction};
-use crate::step::prescribed_motion::rounding;
+use crate::step::reaction::update_reaction;
 use crate::step::waking;
 use ::nalgebra::{UnitQuaternion, Vector3, Vector6};
 use lariat_ancf::island::RigidBody;
@@ -51,8 +44,6 @@ use rapier::pipeline::PhysicsWorld;
 /// Gap at a link of a multibody, as a share of the length of the cable, beyond which the island is refused if
 /// the gap grows.
 const MAX_LINK_GAP_SHARE: f64 = 2e-3;
-/// Share of the observed reaction that the estimate takes in a step.
-pub(super) const REACTION_GAIN: f64 = 0.3;
 /// A body landed where it was predicted if it is within this many units of rounding of its
 /// position, at [`USUAL_ITERATIONS`] or fewer solver iterations.
 const POSITION_ROUNDING: f64 = 32.0;
@@ -116,16 +107,6 @@ fn undo_for_sleep(contents: &mut Contents, world: &mut PhysicsWorld, island: &Is
     }
 }
 
-/// Reads the impulses of the motors of an island in a step of `h` (s).
-fn take_impulses(contents: &Contents, world: &mut PhysicsWorld, island: &Island, prediction: &mut Prediction, h: f64) {
-    prediction.impulses.clear();
-    for (pin, on) in prediction.motors.iter().enumerate() {
-        let attachment = island.attachments[pin].and_then(|a| contents.attachments.get(a));
-        let ledger = attachment.filter(|_| *on).and_then(|a| a.ledger);
-        prediction.impulses.push(ledger.map_or_else(Vector3::zeros, |ledger| ledger.take_impulse(world, h)));
-    }
-}
-
 /// Reads the bodies of an island after Rapier's step, and the impulses of their motors.
 fn read_members(
     contents: &mut Contents,
@@ -166,15 +147,6 @@ fn read_members(
     for group in &prediction.groups {
         groups::read_back(contents, world, island, prediction, group, h);
     }
-}
-
-/// Returns impulse and angular impulse of the motors on a member.
-pub(super) fn motor_impulse(island: &Island, prediction: &Prediction, m: usize) -> Vector6<f64> {
-    let of_pin = |pin: usize| {
-        let p = &prediction.impulses[pin];
-        stack_spatial(p, &(prediction.end[m].rotation * island.pins[pin].anchor).cross(p))
-    };
-    island.pins_on(m).map(of_pin).sum()
 }
 
 /// Updates the record of a body that Rapier put to sleep instead of stepping it: it is where it
@@ -280,51 +252,6 @@ fn unrounded(
     // a quaternion holds half the angle
     let turned = turned.zip_map(&largest.fixed_rows::<3>(3).into_owned(), |x, most| exact(x, most, 2.0 * rounding));
     (end.position + moved, UnitQuaternion::from_scaled_axis(turned) * end.rotation)
-}
-
-/// Updates the estimate of the force and torque of contacts and joints from the deviations of
-/// velocity and position of a body that is `settled`.
-fn update_reaction(
-    step: &BodyStep,
-    settled: &RigidBody,
-    record: &mut BodyRecord,
-    (deviation, velocity): (&Vector6<f64>, &Vector6<f64>),
-    motors: &Vector6<f64>,
-) {
-    let &BodyStep { start, end, h, .. } = step;
-    let moved = (settled.position - end.position) / h;
-    let turned = (settled.rotation * end.rotation.inverse()).scaled_axis() / h;
-    let (inertia, known) = (own_inertia(end), record.reaction * h - motors);
-    let whole = known + inertia * deviation;
-    let gained = velocity - velocity_of(start);
-    let square = inertia.cholesky().map_or(0.0, |inertia| whole.dot(&inertia.solve(&whole)));
-    let share = persisting_share(whole.dot(&gained), square);
-    let impulse = inertia * (deviation + stack_spatial(&moved, &turned));
-    record.reaction += REACTION_GAIN * ((known + impulse) * (share / h) - record.reaction);
-}
-
-/// Returns the share of an impulse that did not change the motion of what it acted on: `work` is its product with the velocities gained,
-/// `square` that with the velocities that it would give.
-pub(super) fn persisting_share(work: f64, square: f64) -> f64 {
-    if square > 0.0 { (1.0 - work / square).clamp(0.0, 1.0) } else { 1.0 }
-}
-
-/// Gives the cables the opposite of their motors' impulses on bodies that deviated.
-pub(super) fn apply_motor_impulses(contents: &mut Contents, island: &Island, prediction: &Prediction) {
-    let impulse_at = |c: usize, node: usize| {
-        let pin = island.pins.iter().position(|pin| pin.cable == c && pin.node == node);
-        pin.map_or_else(Vector3::zeros, |pin| prediction.impulses[pin])
-    };
-    let driven = |c: usize| {
-        island.pins.iter().zip(&prediction.impulses).any(|(pin, p)| pin.cable == c && *p != Vector3::zeros())
-    };
-    for (c, &cable) in island.cables.iter().enumerate().filter(|(c, _)| driven(*c)) {
-        let nodes = prediction.impedances[c].nodes();
-        let impulses: Vec<Vector3<f64>> = nodes.iter().map(|&node| impulse_at(c, node)).collect();
-        if let Some(slot) = contents.cables.get_mut(cable) {
-            prediction.impedances[c].apply_impulses(&mut slot.cable, &impulses);
-        }
-    }
 }
 
 /// Reads force, moment, gap and work at the pins of an island.

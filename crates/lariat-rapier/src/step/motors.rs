@@ -1,0 +1,57 @@
+//! The impulses of motors in a Rapier step: on bodies, and on their cables.
+//!
+//! # Equation
+//! ```text
+//! cable:     dv = -A^-1 J^T p      dx = h dv
+//! ```
+//! p is the impulse of the motors on a body that deviated from its prediction.
+
+use crate::contents::Contents;
+use crate::islands::Island;
+use crate::spatial::stack_spatial;
+use crate::step::prediction::Prediction;
+use ::nalgebra::{Vector3, Vector6};
+use rapier::pipeline::PhysicsWorld;
+
+/// Reads the impulses of the motors of an island in a step of `h` (s).
+pub(super) fn take_impulses(
+    contents: &Contents,
+    world: &mut PhysicsWorld,
+    island: &Island,
+    prediction: &mut Prediction,
+    h: f64,
+) {
+    prediction.impulses.clear();
+    for (pin, on) in prediction.motors.iter().enumerate() {
+        let attachment = island.attachments[pin].and_then(|a| contents.attachments.get(a));
+        let ledger = attachment.filter(|_| *on).and_then(|a| a.ledger);
+        prediction.impulses.push(ledger.map_or_else(Vector3::zeros, |ledger| ledger.take_impulse(world, h)));
+    }
+}
+
+/// Returns impulse and angular impulse of the motors on a member.
+pub(super) fn motor_impulse(island: &Island, prediction: &Prediction, m: usize) -> Vector6<f64> {
+    let of_pin = |pin: usize| {
+        let p = &prediction.impulses[pin];
+        stack_spatial(p, &(prediction.end[m].rotation * island.pins[pin].anchor).cross(p))
+    };
+    island.pins_on(m).map(of_pin).sum()
+}
+
+/// Gives the cables the opposite of their motors' impulses on bodies that deviated.
+pub(super) fn apply_motor_impulses(contents: &mut Contents, island: &Island, prediction: &Prediction) {
+    let impulse_at = |c: usize, node: usize| {
+        let pin = island.pins.iter().position(|pin| pin.cable == c && pin.node == node);
+        pin.map_or_else(Vector3::zeros, |pin| prediction.impulses[pin])
+    };
+    let driven = |c: usize| {
+        island.pins.iter().zip(&prediction.impulses).any(|(pin, p)| pin.cable == c && *p != Vector3::zeros())
+    };
+    for (c, &cable) in island.cables.iter().enumerate().filter(|(c, _)| driven(*c)) {
+        let nodes = prediction.impedances[c].nodes();
+        let impulses: Vec<Vector3<f64>> = nodes.iter().map(|&node| impulse_at(c, node)).collect();
+        if let Some(slot) = contents.cables.get_mut(cable) {
+            prediction.impedances[c].apply_impulses(&mut slot.cable, &impulses);
+        }
+    }
+}
