@@ -37,7 +37,7 @@ pub fn gauss_legendre(points: usize) -> Vec<(f64, f64)> {
 }
 
 /// Legendre polynomial P_n(x) and its derivative.
-fn legendre(n: usize, x: f64) -> (f64, f64) {
+pub(crate) fn legendre(n: usize, x: f64) -> (f64, f64) {
     let (mut p0, mut p1) = (1.0, x);
     for k in 2..=n {
         let k = k as f64;

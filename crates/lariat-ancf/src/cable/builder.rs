@@ -1,5 +1,6 @@
 //! Building a cable.
 
+use super::unstrained::{Kept, unstrain};
 use super::{Cable, Snapshot, layout};
 use crate::at::At;
 use crate::contact::Obstacles;
@@ -78,7 +79,8 @@ impl CableBuilder {
         self
     }
 
-    /// Start shape: a polyline through these points, in m. At least two.
+    /// Start shape: a polyline through these points, in m. At least two. The cable is smooth and starts without strain but an even stretch, so corners are rounded, within 0.6
+    /// elements; not those on a node that is held, clamped or asked for by [`node_at`](Self::node_at).
     pub fn points<P: Into<Point>>(mut self, points: impl IntoIterator<Item = P>) -> Self {
         self.points = points.into_iter().map(|p| p.into().0).collect();
         self
@@ -271,7 +273,11 @@ impl CableBuilder {
             let limp = rule.bending == BendingRule::None;
             self.effects.damping = Some(if limp { Damping { bending: 0.0, ..damping } } else { damping });
         }
-        let laid = layout::along_polyline(&self.points, &s, self.gravity);
+        let mut laid = layout::along_polyline(&self.points, &s, self.gravity);
+        if self.points.len() > 2 {
+            let kept = self.kept(&s, arc_length)?;
+            unstrain(&mut laid, &s, &kept, drawn / length);
+        }
         let mut snapshot = Snapshot::default();
         for node in &laid {
             snapshot.state.q.extend(node.position.iter().chain(node.slope.iter()));
@@ -317,6 +323,24 @@ impl CableBuilder {
         cable.set_integrator(cable.integrator_for(self.integrator.unwrap_or(default)))?;
         cable.default_integrator = self.integrator.is_none();
         Ok(cable)
+    }
+}
+
+impl CableBuilder {
+    /// Returns what of the nodes at arc lengths `s` (m) stays as drawn: ends, and nodes that are held or asked for.
+    fn kept(&self, s: &[f64], arc_length: impl Fn(At) -> Result<f64, Error>) -> Result<Vec<Kept>, Error> {
+        let length = s[s.len() - 1];
+        let mut kept = vec![Kept::default(); s.len()];
+        let near = |at: f64| s.partition_point(|&s| s < at - 1e-9 * length).min(s.len() - 1);
+        for &at in [0.0, length].iter().chain(&self.nodes_at) {
+            kept[near(at)].position = true;
+        }
+        for (at, hold) in &self.holds {
+            let kept = &mut kept[near(arc_length(*at)?)];
+            kept.position = true;
+            kept.slope |= matches!(hold, Hold::Clamp);
+        }
+        Ok(kept)
     }
 }
 

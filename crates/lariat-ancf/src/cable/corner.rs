@@ -1,6 +1,6 @@
 //! Corners of the drawn shape.
 //!
-//! A cable is smooth at its nodes, so one at a corner of the drawn polyline has the mean direction of both sides, and the elements beside
+//! Of those on nodes that are held or asked for: others are rounded by [`unstrained`](super::unstrained). A cable is smooth at its nodes, so one at a corner of the drawn polyline has the mean direction of both sides, and the elements beside
 //! it are bent. Where the cable is parted there, at a sheave, the parts need not be smooth together: each begins with the slope of its own
 //! side, as drawn.
 //!

@@ -2,7 +2,8 @@
 //!
 //! Nodes are at given arc lengths of the unstretched cable. Drawn between points that are as far apart as the cable is long,
 //! or farther, the cable follows the polyline, stretched evenly. If it is longer than the polyline, each segment becomes an
-//! arc of a circle of the right length, sagging along gravity, so that a slack cable starts unstrained.
+//! arc of a circle of the right length, sagging along gravity, so that a slack cable starts unstrained. Corners between segments are
+//! rounded by [`unstrained`](super::unstrained).
 
 use nalgebra::Vector3;
 

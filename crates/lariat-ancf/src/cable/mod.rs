@@ -3,6 +3,7 @@
 //! | file | what it holds |
 //! |---|---|
 //! | [`builder`], `layout` | building a cable |
+//! | `unstrained` | laying it around corners without strain |
 //! | `corner` | corners of the drawn shape, for parts that end there |
 //! | `step` | one host step of the cable by itself |
 //! | `state` | reading and changing the state; snapshots |
@@ -31,6 +32,7 @@ mod saved;
 mod state;
 mod step;
 mod supports;
+mod unstrained;
 mod workspace;
 
 pub(crate) use crate::at::At;

@@ -26,7 +26,7 @@ table! {
     struct CableTable("[[cable]]") {
         /// No other cable has it.
         name: String = required, Kind::Name(&["all"]);
-        /// Start shape: the polyline through these points, of which neighbours differ. A cable is smooth: at a sharp corner it starts strained, which a warning tells.
+        /// Start shape: the polyline through these points, of which neighbours differ. Corners are rounded, within 0.6 elements, but where the cable is held: there it starts strained, which a warning tells.
         points: Vec<Vector3<f64>> = required, Kind::Rows(&["x", "y", "z"], 2), "m";
         /// Unstretched length: a cable shorter than drawn is taut at the start, a longer one hangs slack.
         length: Option<f64> = ("the length of the polyline"), Kind::Number(POSITIVE), "m";

@@ -21,15 +21,28 @@ fn told(text: &str) -> Option<Warning> {
     warned(text, Purpose::Run).into_iter().find(|w| matches!(w, Warning::DrawnCorner { .. }))
 }
 
-/// A rope that lies unstretched around a corner, with a node there or not, holds energy that no rope has.
+/// The start, a point (m) and the end are held by the world.
+fn held_at(arc_length: f64) -> String {
+    let at = ["\"start\"".to_string(), format!("{arc_length:?}"), "\"end\"".to_string()];
+    at.map(|at| format!("[[attachment]]\ncable = \"rope\"\nat = {at}\nbody = \"world\"\n")).concat()
+}
+
+/// A rope that lies unstretched around a corner, with a node there or not, starts without energy; one that is held at the corner holds energy that no rope has,
+/// which is told.
 ///
 /// *Source.* An unstretched rope without bending stiffness at rest has no energy: all that it starts with is that of the corner.
 #[test]
-fn a_rope_drawn_around_a_corner_is_told_with_the_energy_it_starts_with() {
+fn a_rope_held_at_a_corner_is_told_with_the_energy_it_starts_with() {
     for (turn, elements, stiffness) in [(1.0, 10, 1e5), (1.6, 11, 1e6), (2.2, 20, 3e3), (2.8, 7, 1e7), (0.7, 9, 2e4)] {
-        let text = rope(&corner(turn), elements, stiffness, "");
-        let scene = Scene::parse("scene.toml", &text, &[], Purpose::Run).unwrap();
-        let energy = scene.build_cable(0).unwrap().energy().total();
+        let free = rope(&corner(turn), elements, stiffness, "");
+        let energy = |text: &str| {
+            let scene = Scene::parse("scene.toml", text, &[], Purpose::Run).unwrap();
+            scene.build_cable(0).unwrap().energy().total()
+        };
+        assert!(energy(&free) < 1e-6 * 2.0 * stiffness, "{:e} J", energy(&free));
+        assert_eq!(told(&free), None);
+        let text = rope(&corner(turn), elements, stiffness, &held_at(1.0));
+        let energy = energy(&text);
         let Some(Warning::DrawnCorner { cable, corner, turn_rad, slack: false, energy_j, speed_m_s }) = told(&text)
         else {
             panic!("not told: {text}")
@@ -65,10 +78,11 @@ fn straight_stretched_and_round_ropes_are_not_told() {
     }
 }
 
-/// Segments of a slack rope are arcs that meet at an angle, even on a straight line.
+/// Segments of a slack rope are arcs that meet at an angle, even on a straight line: told if it is held there.
 #[test]
-fn a_slack_rope_through_points_is_told() {
-    let text = rope(&[[-1.0, 0.0], [0.0, 0.0], [1.0, 0.0]], 10, 1e6, "length = 2.5\n");
-    let warning = told(&text);
+fn a_slack_rope_held_between_its_arcs_is_told() {
+    let points = [[-1.0, 0.0], [0.0, 0.0], [1.0, 0.0]];
+    assert_eq!(told(&rope(&points, 10, 1e6, "length = 2.5\n")), None);
+    let warning = told(&rope(&points, 10, 1e6, &format!("length = 2.5\n{}", held_at(1.25))));
     assert!(matches!(warning, Some(Warning::DrawnCorner { slack: true, .. })), "{warning:?}");
 }
