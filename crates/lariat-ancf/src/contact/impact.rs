@@ -28,7 +28,7 @@
 //!
 //! # Validity
 //!
-//! Restitution 0. Contacts with obstacles and bodies; those of cables with each other keep the velocity of the formula. Steps of which
+//! Restitution 0. Contacts with obstacles and bodies, and of cables with each other ([`pairs`](super::pairs)). Steps of which
 //! the velocity across contacts has less energy than the tolerance of the law take none, and do no work for it.
 //!
 //! # References
@@ -53,17 +53,67 @@ pub(in crate::contact) struct Impact {
     obstacle: Vector3<f64>,
     /// Velocity in m/s beside it.
     beside: Vector3<f64>,
+    /// Normal along which it acts.
+    normal: Vector3<f64>,
     /// G in kg: its part along the normal, 0 if it does not push, and that of friction.
     gain: f64,
     friction: Matrix3<f64>,
     /// What the linear solve sees of it, in N s: -R + G w.
-    row: Vector3<f64>,
+    pub row: Vector3<f64>,
 }
 
 impl Impact {
+    /// Returns whether the contact takes velocity.
+    pub fn acts(&self) -> bool {
+        self.gain > 0.0
+    }
+
     /// Returns G times a velocity.
-    fn gained(&self, normal: &Vector3<f64>, velocity: &Vector3<f64>) -> Vector3<f64> {
-        normal * (self.gain * normal.dot(velocity)) + self.friction * velocity
+    fn gained(&self, velocity: &Vector3<f64>) -> Vector3<f64> {
+        self.normal * (self.gain * self.normal.dot(velocity)) + self.friction * velocity
+    }
+}
+
+impl ContactPoint {
+    /// Returns whether it pushes at the end of the step, and did when the last matrix was made.
+    pub fn may_leave(&self) -> bool {
+        self.now.normal_force > 0.0 && self.linear.slope > 0.0
+    }
+
+    /// Finds its impact along a normal, at a velocity beside an obstacle with a velocity of its own (m/s), and returns the energy in J of what
+    /// it opposes: 0 if it does not leave. `h` is the length of the step, `mass` that per length.
+    pub fn find_impact(
+        &mut self,
+        normal: Vector3<f64>,
+        [beside, obstacle]: [Vector3<f64>; 2],
+        (h, mass): (f64, f64),
+    ) -> f64 {
+        let ContactPoint { linear, weight, .. } = *self;
+        let across = normal.dot(&beside);
+        if across <= 0.0 {
+            return 0.0;
+        }
+        let scale = BETA * h * h;
+        let (gain, friction) = (scale * weight * linear.slope, linear.tangents.friction * scale);
+        let mut impact = Impact { obstacle, beside, normal, gain, friction, row: Vector3::zeros() };
+        impact.row = impact.gained(&beside);
+        self.impact = impact;
+        0.5 * mass * weight * across * across
+    }
+
+    /// Sets its impulse to that of the velocity that is left if `taken` is taken (m/s); returns whether another solve sees more of it: the friction of
+    /// what is taken back, or that a contact does not pull.
+    pub fn settle_impact(&mut self, taken: &Vector3<f64>, h: f64) -> bool {
+        let (now, impact) = (&self.now, &mut self.impact);
+        let left = impact.beside - taken;
+        let (wanted, most) = (impact.gain * impact.normal.dot(&left), h * now.normal_force);
+        let normal = wanted.clamp(0.0, most);
+        let mut impulse = impact.normal * normal + impact.friction * left;
+        if now.slides.is_some() {
+            impulse += now.friction * (normal / now.normal_force);
+        }
+        impact.row = impulse + impact.gained(taken);
+        now.slides.is_some() || wanted != normal
     }
 }
 
@@ -78,33 +128,23 @@ impl ContactStep {
     ) -> f64 {
         let mut energy = 0.0;
         for point in &mut self.points {
-            let ContactPoint { now, linear, weight, .. } = &*point;
-            let mut impact = Impact::default();
-            if now.normal_force > 0.0 && linear.slope > 0.0 {
-                let (element, step) = (point.key.0 as usize, &self.obstacles[point.obstacle]);
-                impact.obstacle = match step.body {
+            point.impact = Impact::default();
+            if point.may_leave() {
+                let (element, step, now) = (point.key.0 as usize, &self.obstacles[point.obstacle], &point.now);
+                let obstacle = match step.body {
                     Some(index) => body(index, &now.arm),
                     None => step.velocity_at(&(now.arm + 0.5 * now.slip)),
                 };
-                impact.beside = velocity(element, &point.shape) - impact.obstacle;
-                let scale = BETA * self.h * self.h;
-                (impact.gain, impact.friction) = (scale * weight * linear.slope, linear.tangents.friction * scale);
-                let across = now.normal.dot(&impact.beside);
-                impact.row = impact.gained(&now.normal, &impact.beside);
-                if across > 0.0 {
-                    energy += 0.5 * mass(element) * weight * across * across;
-                } else {
-                    impact = Impact::default();
-                }
+                let beside = velocity(element, &point.shape) - obstacle;
+                energy += point.find_impact(point.now.normal, [beside, obstacle], (self.h, mass(element)));
             }
-            point.impact = impact;
         }
         energy
     }
 
     /// Adds what the linear solve sees of them to the rows of the cable, and its opposite to those of bodies.
     pub fn pass_impacts(&self, rhs: &mut [f64], rows: &mut [f64]) {
-        for point in self.points.iter().filter(|point| point.impact.gain > 0.0) {
+        for point in self.points.iter().filter(|point| point.impact.acts()) {
             add_force(point, &point.impact.row, rhs);
             if let Some(body) = self.obstacles[point.obstacle].body {
                 let angular = point.now.arm.cross(&point.impact.row);
@@ -117,38 +157,29 @@ impl ContactStep {
     }
 
     /// Sets the impulses to those of the velocities that are left; `taken` and `of_body` are the changes of velocities by the linear solve. Returns
-    /// whether another solve sees more of them: the friction of what is taken back, or that a contact does not pull.
+    /// whether another solve sees more of them.
     pub fn settle_impacts(
         &mut self,
         taken: impl Fn(usize, &[f64; 4]) -> Vector3<f64>,
         of_body: impl Fn(usize, &Vector3<f64>) -> Vector3<f64>,
     ) -> bool {
         let mut changed = false;
-        for point in self.points.iter_mut().filter(|point| point.impact.gain > 0.0) {
-            let (now, impact) = (&point.now, &mut point.impact);
+        for point in self.points.iter_mut().filter(|point| point.impact.acts()) {
             let body = self.obstacles[point.obstacle].body;
-            let of_obstacle = body.map_or_else(Vector3::zeros, |index| of_body(index, &now.arm));
+            let of_obstacle = body.map_or_else(Vector3::zeros, |index| of_body(index, &point.now.arm));
             let taken = taken(point.key.0 as usize, &point.shape) - of_obstacle;
-            let left = impact.beside - taken;
-            let (wanted, most) = (impact.gain * now.normal.dot(&left), self.h * now.normal_force);
-            let normal = wanted.clamp(0.0, most);
-            let mut impulse = now.normal * normal + impact.friction * left;
-            if now.slides.is_some() {
-                impulse += now.friction * (normal / now.normal_force);
-            }
-            impact.row = impulse + impact.gained(&now.normal, &taken);
-            changed |= now.slides.is_some() || wanted != normal;
+            changed |= point.settle_impact(&taken, self.h);
         }
         changed
     }
 
     /// Returns the work W in J of obstacles that move as prescribed; `taken` are the changes of velocities by the last solve.
     pub fn work_of_impacts(&self, taken: impl Fn(usize, &[f64; 4]) -> Vector3<f64>) -> f64 {
-        let pushing = self.points.iter().filter(|point| point.impact.gain > 0.0);
+        let pushing = self.points.iter().filter(|point| point.impact.acts());
         let prescribed = pushing.filter(|point| self.obstacles[point.obstacle].driven);
         let work = prescribed.map(|point| {
             let (impact, taken) = (&point.impact, taken(point.key.0 as usize, &point.shape));
-            (impact.gained(&point.now.normal, &taken) - impact.row).dot(&impact.obstacle)
+            (impact.gained(&taken) - impact.row).dot(&impact.obstacle)
         });
         work.sum()
     }

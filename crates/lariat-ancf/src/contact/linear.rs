@@ -14,6 +14,8 @@ use nalgebra::{Matrix3, Vector3};
 #[derive(Clone, Copy, Debug, Default)]
 pub(in crate::contact) struct Tangents {
     pub normal: Matrix3<f64>,
+    /// The vector m of it.
+    pub across: Vector3<f64>,
     pub friction: Matrix3<f64>,
 }
 

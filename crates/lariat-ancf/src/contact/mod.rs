@@ -41,8 +41,8 @@
 //!
 //! `k = EA/(40 r^2)` per length: under the tension T around a radius R the depth is 40 (r/R) (T/EA) of the radius. First touch is of order
 //! 1 in the step; the bound of friction is that of the step itself, of a first touch too (lag.rs).
-//! Restitution is 0: what a step that does not resolve a contact leaves of the velocity away from it is taken when the step ends (impact.rs). Cables that
-//! touch each other leave with up to 7/9 of their speed, by the part of the step before they meet. The element has no torsion: forces act on the centre line.
+//! Restitution is 0: what a step that does not resolve a contact leaves of the velocity away from it is taken when the step ends (impact.rs), of cables that hit each other too. The
+//! element has no torsion: forces act on the centre line.
 //!
 //! # References
 //!

@@ -213,7 +213,7 @@ impl ContactPoint {
         if let Some(tangents) = &mut tangents {
             // symmetric, of the derivative between the mean normal and the one of the end
             let row = 0.5 * (gap.mean + normal);
-            tangents.normal = row * row.transpose() * (self.weight * slope);
+            (tangents.normal, tangents.across) = (row * row.transpose() * (self.weight * slope), row);
         }
         let normal_force = self.weight * pressure;
         let after = self.weight * end.energy;

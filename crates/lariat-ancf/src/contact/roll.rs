@@ -22,7 +22,8 @@
 //! # Validity
 //!
 //! One maximum per element and feature. Where another one takes its place in a step the iteration may swing between both, and the step is
-//! divided. While the point passes to the other side of the core in a step, it stays.
+//! divided; an element that winds around a rod, longer than its circumference, may carry it in two places at once, for which no division helps: such a
+//! host step takes up to 2e5 iterations. While the point passes to the other side of the core in a step, it stays.
 
 use super::find::{Motion, one_sided};
 use super::missed::Nearby;

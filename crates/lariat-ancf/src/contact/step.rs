@@ -113,7 +113,7 @@ impl ContactStep {
         for point in &mut self.points {
             point.linearise(&self.obstacles[point.obstacle], |e, shape| combine(change, e, shape));
             let linear = &point.linear;
-            let Tangents { normal, friction } = linear.tangents;
+            let Tangents { normal, friction, .. } = linear.tangents;
             if normal == Matrix3::zeros() {
                 continue;
             }

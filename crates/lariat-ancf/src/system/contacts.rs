@@ -57,12 +57,14 @@ impl Equations<'_> {
     /// Takes the velocity across contacts that push at the end of the step, if it has more energy than `least` (J).
     pub fn land(&mut self, state: &State, b: &mut Buffers, balance: &mut Balance, least: f64) {
         self.find_velocities(state, b);
-        if self.find_impacts(b, |_, _| Vector3::zeros()) <= least {
+        let with_obstacles = self.find_impacts(b, |_, _| Vector3::zeros());
+        if with_obstacles + self.find_own_impacts(b) <= least {
             return;
         }
         self.solve_impacts(b);
-        let Buffers { contact, landed, .. } = &mut *b;
-        if contact.settle_impacts(|e, shape| combine(landed, e, shape), |_, _| Vector3::zeros()) {
+        let Buffers { contact, pairs, landed, .. } = &mut *b;
+        let obstacles = contact.settle_impacts(|e, shape| combine(landed, e, shape), |_, _| Vector3::zeros());
+        if pairs.settle_impacts(|_, e, shape| combine(landed, e, shape)) || obstacles {
             self.solve_impacts(b);
         }
         let [taken, held] = self.energy_of_impacts(b);
@@ -85,12 +87,22 @@ impl Equations<'_> {
         contact.find_impacts(mass, |e, shape| combine(external, e, shape), body)
     }
 
+    /// Finds the impacts of the cable on itself, and returns their energy in J.
+    fn find_own_impacts(&self, b: &mut Buffers) -> f64 {
+        let Buffers { pairs, external, .. } = b;
+        let mass = |_: usize, element: usize| self.model.elements[element].section.mass_per_length;
+        pairs.find_impacts(mass, |_, e, shape| combine(external, e, shape))
+    }
+
     /// Solves for the velocities that impacts take, into `landed`.
-    pub fn solve_impacts(&mut self, b: &mut Buffers) {
-        let Buffers { contact, landed, rhs, .. } = &mut *b;
+    fn solve_impacts(&mut self, b: &mut Buffers) {
+        let Buffers { contact, pairs, landed, rhs, .. } = &mut *b;
         landed.clear();
         landed.resize(rhs.len(), 0.0);
         contact.pass_impacts(landed, &mut []);
+        pairs.pass_impacts(|_, e, impulse| {
+            landed[6 * e..6 * e + 12].iter_mut().zip(impulse).for_each(|(x, impulse)| *x += impulse);
+        });
         self.solve_with_pairs(&mut b.pairs.low_rank, &mut b.landed, &mut b.product);
     }
 

@@ -24,9 +24,14 @@ impl World {
 
     /// A host step of 1/60 s; returns by how much its energy grew.
     pub fn step(&mut self) -> f64 {
+        self.part(1.0 / 60.0)
+    }
+
+    /// A host step of a length in s; returns by how much its energy grew.
+    pub fn part(&mut self, dt: f64) -> f64 {
         let before = self.energy();
         let mut cables: Vec<&mut Cable> = self.cables.iter_mut().collect();
-        self.island.step(&mut cables, &mut self.bodies, &[], self.integrator, 1.0 / 60.0).unwrap();
+        self.island.step(&mut cables, &mut self.bodies, &[], self.integrator, dt).unwrap();
         self.energy() - before
     }
 

@@ -1,10 +1,12 @@
 //! Contact and friction with obstacles.
 
 mod bench;
+mod blows;
 mod bodies;
 mod capstan;
 #[path = "../common/mod.rs"]
 mod common;
+mod cost;
 mod energy;
 mod features;
 mod first_touch;

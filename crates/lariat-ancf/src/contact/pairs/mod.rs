@@ -39,6 +39,7 @@
 
 mod chords;
 mod crossing;
+mod impact;
 mod memory;
 mod point;
 mod search;

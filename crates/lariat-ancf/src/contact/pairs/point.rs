@@ -35,6 +35,8 @@ pub(super) struct PairPoint {
     pub frame: ObstacleStep,
     /// What a force on the slip is on y and on the tangents.
     spread: [Matrix3<f64>; 3],
+    /// The same in the last linear solve.
+    linear_spread: [Matrix3<f64>; 3],
 }
 
 /// The frame of a pair that turns by twice the vector `half`, by the Cayley map.
@@ -47,7 +49,7 @@ pub(super) fn frame(half: Vector3<f64>, h: f64) -> ObstacleStep {
 impl PairPoint {
     pub fn new(ends: [End; 2], point: ContactPoint, tangents: [Vector3<f64>; 2], h: f64) -> Self {
         let spread = [Matrix3::identity(), Matrix3::zeros(), Matrix3::zeros()];
-        PairPoint { ends, point, tangents, frame: frame(Vector3::zeros(), h), spread }
+        PairPoint { ends, point, tangents, frame: frame(Vector3::zeros(), h), spread, linear_spread: spread }
     }
 
     /// Moves the frame with an iterate, and returns the change of y.
@@ -75,6 +77,7 @@ impl PairPoint {
     /// Makes it linear at an iterate.
     pub fn linearise(&mut self, strands: [&Strand<'_>; 2]) {
         let moved = self.turn(strands);
+        self.linear_spread = self.spread;
         self.point.linearise(&self.frame, |_, _| moved);
     }
 
@@ -87,7 +90,25 @@ impl PairPoint {
 
     /// Returns a force on the slip as forces on the coordinates of both elements.
     pub fn forces(&self, force: &Vector3<f64>) -> [[f64; 12]; 2] {
-        let [place, first, second] = self.spread.map(|part| part * force);
+        self.spread_forces(&self.spread, force)
+    }
+
+    /// The same as the last linear solve saw it.
+    pub fn linear_forces(&self, force: &Vector3<f64>) -> [[f64; 12]; 2] {
+        self.spread_forces(&self.linear_spread, force)
+    }
+
+    /// Returns the rate of the slip for velocities that are combined by strand, element and shape functions: what
+    /// [`linear_forces`](Self::linear_forces) are the transpose of.
+    pub fn rate(&self, velocity: impl Fn(usize, usize, &[f64; 4]) -> Vector3<f64>) -> Vector3<f64> {
+        let at = |k: usize, shape: &[f64; 4]| velocity(self.ends[k].strand, self.ends[k].element, shape);
+        let [place, first, second] = &self.linear_spread;
+        let apart = at(0, &self.ends[0].shape) - at(1, &self.ends[1].shape);
+        place.tr_mul(&apart) + first.tr_mul(&at(0, &self.ends[0].slope)) + second.tr_mul(&at(1, &self.ends[1].slope))
+    }
+
+    fn spread_forces(&self, spread: &[Matrix3<f64>; 3], force: &Vector3<f64>) -> [[f64; 12]; 2] {
+        let [place, first, second] = spread.map(|part| part * force);
         let nodal = |end: &End, place: Vector3<f64>, slope: Vector3<f64>| {
             let mut out = [0.0; 12];
             for k in 0..4 {

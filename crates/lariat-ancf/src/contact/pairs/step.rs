@@ -26,14 +26,14 @@ const DEVIATION: f64 = 0.5;
 /// The contacts between cables in a step; empty where none are near.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct PairStep {
-    points: Vec<PairPoint>,
+    pub(super) points: Vec<PairPoint>,
     search: Search,
     /// By strand, the change of its coordinates with which the search was made.
     searched: Vec<Vec<f64>>,
     /// By strand, what of its memory was taken up.
     taken: Vec<Vec<bool>>,
     /// Length of the step in s.
-    h: f64,
+    pub(super) h: f64,
     /// Energy in J that the contacts store at the beginning.
     before: f64,
     /// Strands that go through each other in the step.

@@ -1,4 +1,4 @@
-//! [Impact](crate::contact) of the cables of an island on obstacles and on its bodies.
+//! [Impact](crate::contact) of the cables of an island on obstacles, on its bodies and on each other.
 
 use super::super::hold::vector;
 use super::IslandStep;
@@ -18,6 +18,11 @@ impl IslandStep<'_, '_> {
             equations.find_velocities(state, b);
             energy += equations.find_impacts(b, |i, arm| bodies[i].velocity_at_end(arm));
         }
+        let cables = &*self.cables;
+        energy += self.buffers.pairs.find_impacts(
+            |c, e| cables[c].model.elements[e].section.mass_per_length,
+            |c, e, shape| combine(&cables[c].step_buffers.external, e, shape),
+        );
         if energy <= least {
             return;
         }
@@ -52,10 +57,18 @@ impl IslandStep<'_, '_> {
     /// Solves for the velocities that impacts take.
     fn solve_impacts(&mut self) {
         self.buffers.rows.fill(0.0);
-        for (cable, own) in self.cables.iter_mut().zip(&self.buffers.cables) {
-            let Buffers { contact, landed, rhs, .. } = &mut cable.step_buffers;
+        for cable in self.cables.iter_mut() {
+            let Buffers { landed, rhs, .. } = &mut cable.step_buffers;
             landed.clear();
             landed.resize(rhs.len(), 0.0);
+        }
+        let cables = &mut *self.cables;
+        self.buffers.pairs.pass_impacts(|c, e, impulse| {
+            let own = &mut cables[c].step_buffers.landed[6 * e..6 * e + 12];
+            own.iter_mut().zip(impulse).for_each(|(x, impulse)| *x += impulse);
+        });
+        for (cable, own) in self.cables.iter_mut().zip(&self.buffers.cables) {
+            let Buffers { contact, landed, rhs, .. } = &mut cable.step_buffers;
             contact.pass_impacts(landed, &mut self.buffers.rows);
             for hold in &own.holds {
                 hold.pass(&vector(&landed[hold.at..]), &mut self.buffers.rows);
@@ -78,9 +91,12 @@ impl IslandStep<'_, '_> {
     fn settle_impacts(&mut self) -> bool {
         let rows = &self.buffers.rows;
         let of_body = |i: usize, arm: &Vector3<f64>| vector(&rows[6 * i..]) + vector(&rows[6 * i + 3..]).cross(arm);
-        self.cables.iter_mut().fold(false, |any, cable| {
+        let on_obstacles = self.cables.iter_mut().fold(false, |any, cable| {
             let Buffers { contact, landed, .. } = &mut cable.step_buffers;
             contact.settle_impacts(|e, shape| combine(landed, e, shape), of_body) || any
-        })
+        });
+        let cables = &*self.cables;
+        let landed = |c: usize, e: usize, shape: &[f64; 4]| combine(&cables[c].step_buffers.landed, e, shape);
+        self.buffers.pairs.settle_impacts(landed) || on_obstacles
     }
 }
