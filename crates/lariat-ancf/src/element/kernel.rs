@@ -128,6 +128,8 @@ pub(crate) struct GramStep<'a, T> {
     pub rates: Six<T>,
     /// 1/h in 1/s.
     pub rate: f64,
+    /// Factor on the [stiffness of damping across the curvature](crate::effect::damping) in the tangent: 1 where contacts are near, else 0.
+    pub across: f64,
 }
 
 /// An effect with discrete gradients.

@@ -117,8 +117,10 @@ impl Equations<'_> {
         let (level, forces) = (system.level, &mut system.forces);
         let (elements, effects) = (&forces.elements, forces.in_element.as_ref());
         let count = elements.count() as u64;
+        let near = !(b.contact.is_empty() && b.pair_impulses.is_empty());
         let Buffers { h, change, change_before, kept, linearised, rhs, .. } = b;
-        let step = CoordinateStep { start: &state.q, change, before: change_before, kept: *kept, linearised, h: *h };
+        let step =
+            CoordinateStep { start: &state.q, change, before: change_before, kept: *kept, linearised, h: *h, near };
         rhs.fill(0.0);
         if elements.bends() {
             diagnostics.bending_evaluations += count;

@@ -24,7 +24,15 @@ impl Cable {
         let mut buffer = still.clone();
         let mut before = differences.displacement.clone();
         self.system.flows.shift_eyes_before(q, &mut before);
-        let step = CoordinateStep { start: q, change: &still, before: &before, kept: 1.0, linearised: &[], h: 1.0 };
+        let step = CoordinateStep {
+            start: q,
+            change: &still,
+            before: &before,
+            kept: 1.0,
+            linearised: &[],
+            h: 1.0,
+            near: false,
+        };
         let elastic =
             self.system.forces.elements.add_discrete_gradient(self.system.level, None, step, &mut buffer).numerical;
         elastic + 0.5 * ALPHA * self.system.mass_square(&differences.velocity, &mut buffer)

@@ -44,6 +44,8 @@ pub(crate) struct CoordinateStep<'a> {
     pub linearised: &'a [f64],
     /// Length of the step in s.
     pub h: f64,
+    /// Whether contacts are near.
+    pub near: bool,
 }
 
 /// What the elements of a cable lose in a step, in J.
@@ -112,7 +114,7 @@ impl Elements {
     fn gram_step<'a, T: Real>(&'a self, stiffness: Stiffness<T>, step: &'a ElementStep<T>, h: f64) -> GramStep<'a, T> {
         let rate = 1.0 / h;
         let rates = scaled(&step.gram_change, rate);
-        GramStep { table: &self.table, stiffness, step, middle: gram(&step.mean), rates, rate }
+        GramStep { table: &self.table, stiffness, step, middle: gram(&step.mean), rates, rate, across: 0.0 }
     }
 
     /// Returns h times the negative discrete-gradient force of one element on its control vectors; the stiffness has the factor h.
@@ -226,7 +228,9 @@ impl Elements {
                 force = shifted(&force, &gradient(&numerical, &s.second), 1.0);
             }
             if let Some(effects) = effects {
-                effects.add_step_tangent(&self.gram_step(stiffness, &s, step.h), &group, &mut tangent);
+                let at = self.gram_step(stiffness, &s, step.h);
+                let at = GramStep { across: if step.near { 1.0 } else { 0.0 }, ..at };
+                effects.add_step_tangent(&at, &group, &mut tangent);
             }
             if moving {
                 force = shifted(&force, &gradient(&sum.viscous, &s.change), 1.0 / step.h);

@@ -76,7 +76,8 @@ fn dot(x: &[f64], y: &[f64]) -> f64 {
 fn store(system: &System, q: &[f64], change: &[f64]) -> f64 {
     let still = vec![0.0; q.len()];
     let mut unused = still.clone();
-    let step = CoordinateStep { start: q, change: &still, before: change, kept: 1.0, linearised: &[], h: 1.0 };
+    let step =
+        CoordinateStep { start: q, change: &still, before: change, kept: 1.0, linearised: &[], h: 1.0, near: false };
     system.forces.elements.add_discrete_gradient(system.level, None, step, &mut unused).numerical
 }
 
@@ -99,8 +100,15 @@ fn the_work_of_the_force_is_the_change_of_energy_and_the_losses() {
                     let before: Vec<f64> = (0..n).map(|_| before * random.next()).collect();
                     let end: Vec<f64> = q.iter().zip(&change).map(|(q, d)| q + d).collect();
                     let h = 0.01;
-                    let step =
-                        CoordinateStep { start: &q, change: &change, before: &before, kept: 1.0, linearised: &[], h };
+                    let step = CoordinateStep {
+                        start: &q,
+                        change: &change,
+                        before: &before,
+                        kept: 1.0,
+                        linearised: &[],
+                        h,
+                        near: false,
+                    };
                     let mut force = vec![0.0; n];
                     let loss = system.forces.elements.add_discrete_gradient(
                         system.level,
@@ -136,7 +144,15 @@ fn the_force_has_no_resultant_and_no_moment_about_the_mean_configuration() {
         let q = coordinates(&mut random, n, 0.1);
         let change: Vec<f64> = (0..n).map(|_| 0.2 * random.next()).collect();
         // no second difference: nothing of bending is dissipated
-        let step = CoordinateStep { start: &q, change: &change, before: &change, kept: 1.0, linearised: &[], h: 1.0 };
+        let step = CoordinateStep {
+            start: &q,
+            change: &change,
+            before: &change,
+            kept: 1.0,
+            linearised: &[],
+            h: 1.0,
+            near: false,
+        };
         let mut force = vec![0.0; n];
         system.forces.elements.add_discrete_gradient(system.level, None, step, &mut force);
         let mean: Vec<f64> = q.iter().zip(&change).map(|(q, d)| q + 0.5 * d).collect();
@@ -179,7 +195,8 @@ fn the_tangent_at_rest_is_the_derivative_of_the_force() {
             let still = vec![0.0; n];
             let h = 0.1;
             let force = |change: &[f64]| {
-                let step = CoordinateStep { start: &q, change, before: &still, kept: 1.0, linearised: &[], h };
+                let step =
+                    CoordinateStep { start: &q, change, before: &still, kept: 1.0, linearised: &[], h, near: false };
                 let mut out = vec![0.0; n];
                 system.forces.elements.add_discrete_gradient(
                     system.level,
@@ -198,7 +215,15 @@ fn the_tangent_at_rest_is_the_derivative_of_the_force() {
                 let minus = force(&change);
                 columns.push(plus.iter().zip(&minus).map(|(p, m)| -(p - m) / 2e-6).collect::<Vec<f64>>());
             }
-            let step = CoordinateStep { start: &q, change: &still, before: &still, kept: 1.0, linearised: &[], h };
+            let step = CoordinateStep {
+                start: &q,
+                change: &still,
+                before: &still,
+                kept: 1.0,
+                linearised: &[],
+                h,
+                near: false,
+            };
             let mut out = vec![0.0; n];
             system.step.matrix.resize(n / 6);
             let (level, effects) = (system.level, system.forces.in_element.as_ref());
@@ -254,8 +279,15 @@ fn the_step_matrix_of_t1_and_of_no_bending_is_positive_definite() {
                 let change: Vec<f64> = (0..n).map(|_| random.next()).collect();
                 let before: Vec<f64> = (0..n).map(|_| random.next()).collect();
                 for h in [1e-3, 0.1, 10.0] {
-                    let step =
-                        CoordinateStep { start: &q, change: &change, before: &before, kept: 1.0, linearised: &[], h };
+                    let step = CoordinateStep {
+                        start: &q,
+                        change: &change,
+                        before: &before,
+                        kept: 1.0,
+                        linearised: &[],
+                        h,
+                        near: false,
+                    };
                     let mut out = vec![0.0; n];
                     system.step.matrix.resize(n / 6);
                     let (level, effects) = (system.level, system.forces.in_element.as_ref());
