@@ -3,6 +3,9 @@
 use crate::error::{Error, require};
 use serde::{Deserialize, Serialize};
 
+/// Share by which the mesh may read a known load too high, before the wave of the break comes.
+const KNOWN: f64 = 0.01;
+
 /// What a cable withstands; without limits, the default, it does not break. A number converts into a limit of the tension.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
@@ -130,6 +133,9 @@ pub(crate) struct LoadRecord {
     origin: f64,
     /// Times in s and shares of the last two readings.
     recent: [Option<[f64; 2]>; 2],
+    /// Of a part of a cable that broke: the share that it had then, and the time in s by which the wave of the break has run through it.
+    #[serde(default)]
+    known: Option<[f64; 2]>,
     /// What no reading saw, if that is above the limit.
     unseen: Option<Unseen>,
 }
@@ -168,9 +174,20 @@ impl LoadRecord {
             }
         }
         self.recent = [self.recent[1], Some([load.time, load.share])];
-        if self.worst.is_none_or(|worst| load.share > worst.share) {
+        if self.worst.is_none_or(|worst| load.share > worst.share) && !self.is_known(&load) {
             self.worst = Some(Load { arc_length: load.arc_length - self.origin, ..load });
         }
+    }
+
+    /// Begins that of a part of a cable that broke, under a load of this share: that is not new until the wave of the break has run through, at
+    /// `until` (s).
+    pub fn of_part(share: f64, until: f64) -> Self {
+        LoadRecord { known: Some([share, until]), ..LoadRecord::default() }
+    }
+
+    /// Returns whether a load is that which a part had when its cable broke, and which the break has not yet relieved.
+    pub fn is_known(&self, load: &Load) -> bool {
+        self.known.is_some_and(|[share, until]| load.share <= share * (1.0 + KNOWN) && load.time < until)
     }
 
     /// Forgets the readings between which the load is judged, because a program changes the state.

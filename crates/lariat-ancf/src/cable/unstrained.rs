@@ -91,7 +91,8 @@ pub(super) fn unstrain(laid: &mut [Laid], s: &[f64], kept: &[Kept], stretch: f64
 
 fn unstrain_span(laid: &mut [Laid], s: &[f64], kept: &[Kept], strain: f64) {
     let last = laid.len() - 1;
-    let is_open_end = |i: usize| i % last == 0 && laid[i].corner.is_some();
+    let is_end = |i: usize| i == 0 || i == last;
+    let is_open_end = |i: usize| is_end(i) && laid[i].corner.is_some();
     let weights = (0..=last).map(|i| {
         let (from, to) = (i.saturating_sub(1), (i + 1).min(last));
         let lever = (s[to] - s[from]) / (8.0 * (to - from) as f64);
@@ -119,7 +120,7 @@ fn unstrain_span(laid: &mut [Laid], s: &[f64], kept: &[Kept], strain: f64) {
         return;
     }
     for (i, (node, [position, slope])) in laid.iter_mut().zip(q).enumerate() {
-        if i % last != 0 || node.corner.is_none() {
+        if !is_end(i) || node.corner.is_none() {
             *node = Laid { position, slope, corner: None };
         }
     }

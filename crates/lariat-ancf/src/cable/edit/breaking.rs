@@ -10,7 +10,8 @@
 //!
 //! The load is [read](crate::system) after every integration step, and the cable breaks by the largest load since it was asked last, at the end
 //! of a host step usually: [`Break`] says when within it the limit was exceeded most. What the steps themselves do not resolve they do not see;
-//! [`Warning::UnseenLoad`](crate::Warning::UnseenLoad) says where that may have exceeded the limit. Breaking at a node changes neither shape nor motion, so mass, momenta and energy of the parts are those of the whole to rounding ([`Break`]); the strain energy becomes motion
+//! [`Warning::UnseenLoad`](crate::Warning::UnseenLoad) says where that may have exceeded the limit. A part keeps the load that it had at the break until the wave of
+//! the break, of the speed sqrt(EA/rho A), has run through: until then that load breaks it no more. Breaking at a node changes neither shape nor motion, so mass, momenta and energy of the parts are those of the whole to rounding ([`Break`]); the strain energy becomes motion
 //! in the steps that follow. A cable of one element has no inner node: [`Cable::set_strength`] refuses it, and a part of one element
 //! stays whole.
 //!
@@ -26,6 +27,7 @@
 use crate::at::At;
 use crate::cable::Cable;
 use crate::error::Error;
+use crate::section::Element;
 use crate::strength::{Break, BreakCause, Load, LoadRecord, Strength};
 
 impl Cable {
@@ -68,7 +70,17 @@ impl Cable {
         self.snapshot.load.take();
         let Some(arc_length) = self.inner_node(load.arc_length) else { return Ok(None) };
         let Load { cause, tension, strain, time, .. } = load;
-        self.part(arc_length, |cable| Break { cause, tension, strain, time, ..cable }).map(Some)
+        let (mut rest, how) = self.part(arc_length, |cable| Break { cause, tension, strain, time, ..cable })?;
+        [self, &mut rest].into_iter().for_each(Cable::know_load);
+        Ok(Some((rest, how)))
+    }
+
+    /// Lets the present load of a part of a cable that broke count no more until the wave of the break has run through it.
+    fn know_load(&mut self) {
+        let load = self.reading().largest_load(self.strength());
+        let passing = |e: &Element| e.length * (self.model.inertia(e) / e.section.axial_stiffness).sqrt();
+        let until = load.time + self.elements().iter().map(passing).sum::<f64>();
+        self.snapshot.load = LoadRecord::of_part(load.share, until);
     }
 
     /// Returns the largest load since the cable was compared with its limits last, the present one included; `None` without a limit.
