@@ -34,6 +34,9 @@ pub(crate) struct BodyRecord {
     /// Of a body on joints, force in N and torque in N m of its cables, smoothed over the last steps.
     #[serde(default = "Vector6::zeros")]
     pub pull: Vector6<f64>,
+    /// Of a body on joints, the error in rad of the attitude at which it was predicted in the last step, over the square of that step in s.
+    #[serde(default)]
+    pub turn_error: f64,
     /// Of a body on joints, what Rapier made of its predictions.
     #[serde(default)]
     pub settling: SettleWatch,
@@ -54,6 +57,7 @@ impl BodyRecord {
             place: None,
             next_place: None,
             pull: Vector6::zeros(),
+            turn_error: 0.0,
             settling: SettleWatch::default(),
             rotates: false,
         }

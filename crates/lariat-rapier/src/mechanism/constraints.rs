@@ -2,12 +2,12 @@
 //!
 //! # Equation
 //! ```text
-//! P = 1 - M^-1 G^T (G M^-1 G^T)^-1 G
+//! P = 1 - M^-1 G^T (G M^-1 G^T)^-1 G      a_c = -M^-1 G^T (G M^-1 G^T)^-1 G' v
 //! ```
 //! Each row of G is a locked axis or a limit. A limit is given up if the accelerations by all loads
-//! move the joint away from it.
+//! move the joint away from it. a_c keeps the velocities v on the motions that are free while G turns with the bodies, at the rate G'.
 
-use ::nalgebra::DMatrix;
+use ::nalgebra::{DMatrix, DVector};
 
 /// Share by which the diagonal of G M^-1 G^T is raised, since joints may lock the same motion
 /// twice.
@@ -26,6 +26,8 @@ pub(super) struct Constraints {
     pub rows: DMatrix<f64>,
     /// M^-1 G^T.
     pub spread: DMatrix<f64>,
+    /// G' v.
+    pub turning: DVector<f64>,
     /// By row, its limit; `None` for a locked axis.
     pub limits: Vec<Option<Limit>>,
     /// Time in s to which the impulses of the limits belong; 1 if there are none.
@@ -33,14 +35,14 @@ pub(super) struct Constraints {
 }
 
 impl Constraints {
-    /// Returns `P columns` and `P free`, with the limits that are active under the accelerations
+    /// Returns `P columns`, `P free` and a_c, with the limits that are active under the accelerations
     /// `all`.
     pub fn project(
         mut self,
         columns: &DMatrix<f64>,
         free: &DMatrix<f64>,
         all: &DMatrix<f64>,
-    ) -> Option<(DMatrix<f64>, DMatrix<f64>)> {
+    ) -> Option<(DMatrix<f64>, DMatrix<f64>, DVector<f64>)> {
         loop {
             let mut matrix = &self.rows * &self.spread;
             for i in 0..matrix.nrows() {
@@ -54,10 +56,12 @@ impl Constraints {
             };
             let Some(row) = self.limits.iter().enumerate().position(opens) else {
                 let project = |x: &DMatrix<f64>| x - &self.spread * matrix.solve(&(&self.rows * x));
-                return Some((project(columns), project(free)));
+                let turned = &self.spread * matrix.solve(&self.turning);
+                return Some((project(columns), project(free), -turned));
             };
             self.rows.row_mut(row).fill(0.0);
             self.spread.column_mut(row).fill(0.0);
+            self.turning[row] = 0.0;
             self.limits[row] = None;
         }
     }

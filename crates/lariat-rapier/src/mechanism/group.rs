@@ -26,9 +26,8 @@
 
 use super::of_body::Mechanism;
 use crate::spatial::stack_spatial;
-use ::nalgebra::{DMatrix, DVector, Matrix6, Vector6};
+use ::nalgebra::{DMatrix, DVector, Matrix6, UnitQuaternion, Vector6};
 use lariat_ancf::island::{CoupledInertia, RigidBody};
-use rapier::pipeline::PhysicsWorld;
 
 /// e: share of its own mobility that a body keeps along what its joints hold.
 const JOINT_COMPLIANCE: f64 = 1e-4;
@@ -40,6 +39,8 @@ const ISOLATED_COMPLIANCE: f64 = 0.1;
 pub(crate) struct Group {
     /// Indices of the members. The mechanism of the first holds the loads on the other bodies.
     pub members: Vec<usize>,
+    /// Half of the step in s.
+    half_step: f64,
     /// W.
     mobility: DMatrix<f64>,
     /// S.
@@ -62,24 +63,30 @@ pub(crate) struct Jointed<'a> {
 
 /// Returns the inertia of a body alone, in world axes.
 pub(crate) fn own_inertia(body: &RigidBody) -> Matrix6<f64> {
+    inertia_in(body, 0.0)
+}
+
+/// Returns the inertia of a body alone after a time (s) of the present motion.
+fn inertia_in(body: &RigidBody, time: f64) -> Matrix6<f64> {
     let mut inertia = Matrix6::identity() * body.mass;
-    inertia.fixed_view_mut::<3, 3>(3, 3).copy_from(&body.world_inertia(&body.rotation));
+    let attitude = UnitQuaternion::from_scaled_axis(body.angular_velocity * time) * body.rotation;
+    inertia.fixed_view_mut::<3, 3>(3, 3).copy_from(&body.world_inertia(&attitude));
     inertia
 }
 
 impl Group {
     /// Returns the group of members of one mechanism; `None` if a matrix is singular or not finite.
-    pub fn new(world: &PhysicsWorld, members: &[Jointed]) -> Option<Self> {
+    pub fn new(members: &[Jointed], half_step: f64) -> Option<Self> {
         let n = 6 * members.len();
         let (mut mobility, mut own) = (DMatrix::zeros(n, n), DMatrix::zeros(n, n));
         let mut acceleration = DVector::zeros(n);
         for (a, Jointed { body, mechanism, load, .. }) in members.iter().enumerate() {
-            let alone = own_inertia(body).try_inverse()?;
+            let alone = inertia_in(body, half_step).try_inverse()?;
             own.fixed_view_mut::<6, 6>(6 * a, 6 * a).copy_from(&alone);
             let yields = alone * load * JOINT_COMPLIANCE;
             acceleration.fixed_rows_mut::<6>(6 * a).copy_from(&(mechanism.loads.of_body - yields));
             for (b, other) in members.iter().enumerate() {
-                let mobility_of = mechanism.mobility_of(world, other.mechanism.handle)?;
+                let mobility_of = mechanism.mobility_of(other.mechanism.handle)?;
                 mobility.fixed_view_mut::<6, 6>(6 * b, 6 * a).copy_from(&mobility_of);
             }
         }
@@ -89,7 +96,7 @@ impl Group {
         let load = &inertia * &acceleration;
         let finite = inertia.iter().chain(load.iter()).all(|x| x.is_finite());
         let members = members.iter().map(|jointed| jointed.member).collect();
-        finite.then_some(Group { members, mobility, own, inertia, acceleration })
+        finite.then_some(Group { members, half_step, mobility, own, inertia, acceleration })
     }
 
     /// Returns the number of a member in the group.
@@ -107,7 +114,7 @@ impl Group {
         let loads = &self.inertia * &self.acceleration;
         for (a, &m) in self.members.iter().enumerate() {
             let body = &mut bodies[m];
-            body.carried = Some(Self::block(&self.inertia, a, a) - own_inertia(body));
+            body.carried = Some(Self::block(&self.inertia, a, a) - inertia_in(body, self.half_step));
             for x in 0..3 {
                 body.force[x] += loads[6 * a + x];
                 body.torque[x] += loads[6 * a + 3 + x];

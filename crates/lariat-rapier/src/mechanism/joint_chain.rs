@@ -2,7 +2,7 @@
 //!
 //! # Equation
 //! ```text
-//! W = E^T R      R = P M^-1 E      a = P M^-1 f
+//! W = E^T R      R = P M^-1 E      a = P M^-1 f      a0 = E^T (a + a_c)
 //! ```
 //! M holds the masses of all bodies that joints connect, G the rows of the locked axes and of the
 //! active limits ([`super::constraints`]), and E picks the attached body. Where the loads f of the
@@ -21,8 +21,8 @@ use super::loads::{CarriedLoads, are_isolated, can_predict_loads};
 use super::request::Request;
 use crate::convert::{rotation, to_vector, vector};
 use crate::ledger::is_ledger;
-use crate::spatial::split_spatial;
-use ::nalgebra::{DMatrix, DVector, Matrix3, Matrix6, Vector3, Vector6};
+use crate::spatial::{split_spatial, stack_spatial};
+use ::nalgebra::{DMatrix, DVector, Matrix3, Matrix6, UnitQuaternion, Vector3, Vector6};
 use rapier::dynamics::{ImpulseJoint, RigidBody, RigidBodyHandle};
 use rapier::math::{AngVector, Vector};
 use rapier::pipeline::PhysicsWorld;
@@ -54,7 +54,8 @@ pub(super) fn find(world: &PhysicsWorld, request: &Request) -> Option<(JointChai
     let handle = request.handle;
     let (bodies, joints) = connected(world, handle)?;
     let n = 6 * bodies.len();
-    let inverse = inverse_mass(world, &bodies);
+    let half = request.half_step;
+    let inverse = inverse_mass(world, &bodies, half);
     let predicts_loads = bodies.len() < MAX_BODIES && can_predict_loads(world, &bodies, request);
     let mut loads = CarriedLoads::default();
     // the loads on others alone, and those on all bodies
@@ -69,13 +70,15 @@ pub(super) fn find(world: &PhysicsWorld, request: &Request) -> Option<(JointChai
             forces[0].fixed_view_mut::<6, 1>(6 * i, 0).copy_from(&load);
         }
     }
-    let (rows, limits) = constraint_rows(world, &joints, n, predicts_loads)?;
+    let (rows, limits) = constraint_rows(world, &joints, n, predicts_loads, half)?;
+    let (rows_now, _) = constraint_rows(world, &joints, n, predicts_loads, 0.0)?;
+    let turning = (&rows - rows_now) * velocities(world, &bodies) / half;
     let spread = &inverse * rows.transpose();
     let columns = inverse.columns(0, 6).into_owned();
     let [free, all] = forces.map(|forces| &inverse * forces);
-    let constraints = Constraints { rows, spread, limits, substep: request.substep };
-    let (response, free) = constraints.project(&columns, &free, &all)?;
-    loads.of_body = free.fixed_view::<6, 1>(0, 0).into_owned();
+    let constraints = Constraints { rows, spread, turning, limits, substep: request.substep };
+    let (response, free, turned) = constraints.project(&columns, &free, &all)?;
+    loads.of_body = free.fixed_view::<6, 1>(0, 0) + turned.fixed_rows::<6>(0);
     loads.accelerations = free.column(0).into_owned();
     loads.isolated = predicts_loads && are_isolated(world, &bodies);
     let velocities_before = bodies.iter().map(|b| (world.bodies[*b].linvel(), world.bodies[*b].angvel())).collect();
@@ -117,8 +120,18 @@ fn connected(world: &PhysicsWorld, handle: RigidBodyHandle) -> Option<(Vec<Rigid
     (!has_link).then_some((bodies, joints))
 }
 
-/// Returns M^-1.
-fn inverse_mass(world: &PhysicsWorld, bodies: &[RigidBodyHandle]) -> DMatrix<f64> {
+/// Returns the velocities of all bodies.
+fn velocities(world: &PhysicsWorld, bodies: &[RigidBodyHandle]) -> DVector<f64> {
+    let of = |body: &RigidBodyHandle| {
+        stack_spatial(&vector(world.bodies[*body].linvel()), &vector(world.bodies[*body].angvel()))
+    };
+    let mut stacked = DVector::zeros(6 * bodies.len());
+    bodies.iter().enumerate().for_each(|(i, body)| stacked.fixed_rows_mut::<6>(6 * i).copy_from(&of(body)));
+    stacked
+}
+
+/// Returns M^-1 after a time (s) of the present motion.
+fn inverse_mass(world: &PhysicsWorld, bodies: &[RigidBodyHandle], time: f64) -> DMatrix<f64> {
     let mut inverse = DMatrix::<f64>::zeros(6 * bodies.len(), 6 * bodies.len());
     for (i, body) in bodies.iter().enumerate() {
         let properties = world.bodies[*body].mass_properties();
@@ -126,17 +139,31 @@ fn inverse_mass(world: &PhysicsWorld, bodies: &[RigidBodyHandle]) -> DMatrix<f64
         inverse.view_mut((6 * i, 6 * i), (3, 3)).copy_from(&linear);
         let s = &properties.effective_world_inv_inertia;
         let angular = Matrix3::new(s.m11, s.m12, s.m13, s.m12, s.m22, s.m23, s.m13, s.m23, s.m33).map(f64::from);
+        let turned = turn_in(&world.bodies[*body], time).to_rotation_matrix();
+        let angular = turned.matrix() * angular * turned.matrix().transpose();
         inverse.view_mut((6 * i + 3, 6 * i + 3), (3, 3)).copy_from(&angular);
     }
     inverse
 }
 
-/// Returns G with `n` columns, and by row its limit.
+/// Returns the rotation of a body in a time (s) of the present motion.
+fn turn_in(body: &RigidBody, time: f64) -> UnitQuaternion<f64> {
+    UnitQuaternion::from_scaled_axis(vector(body.angvel()) * time)
+}
+
+/// Returns centre of mass and attitude of a body after a time (s) of the present motion.
+fn place_in(body: &RigidBody, time: f64) -> (Vector3<f64>, UnitQuaternion<f64>) {
+    let centre = vector(body.center_of_mass()) + vector(body.linvel()) * time;
+    (centre, turn_in(body, time) * rotation(*body.rotation()))
+}
+
+/// Returns G with `n` columns after a time (s) of the present motion, and by row its limit.
 fn constraint_rows(
     world: &PhysicsWorld,
     joints: &[ChainJoint],
     n: usize,
     predicts_loads: bool,
+    time: f64,
 ) -> Option<(DMatrix<f64>, Vec<Option<Limit>>)> {
     let active =
         |joint: &ImpulseJoint| if predicts_loads { limits::reached(world, joint) } else { limits::pushing(joint) };
@@ -146,19 +173,18 @@ fn constraint_rows(
     let mut found: Vec<Option<Limit>> = Vec::with_capacity(count);
     for (ends, joint) in joints {
         let (a, b) = (world.bodies.get(joint.body1())?, world.bodies.get(joint.body2())?);
-        let (frame1, frame2) = (*a.position() * joint.data.local_frame1, *b.position() * joint.data.local_frame2);
-        let (basis, point) = (rotation(frame1.rotation).to_rotation_matrix(), vector(frame2.translation));
+        let places = [place_in(a, time), place_in(b, time)];
+        let basis = (places[0].1 * rotation(joint.data.local_frame1.rotation)).to_rotation_matrix();
+        let at = vector(joint.data.local_frame2.translation - b.local_center_of_mass());
+        let point = places[1].0 + places[1].1 * at;
         let held = held(joint);
         for axis in (0..6).filter(|axis| held & (1 << axis) != 0) {
             let row = found.len();
             let along = basis.matrix().column(axis % 3).into_owned();
-            for (index, body, sign) in [(ends[0], a, -1.0), (ends[1], b, 1.0)] {
+            for (index, (centre, _), sign) in [(ends[0], places[0], -1.0), (ends[1], places[1], 1.0)] {
                 let Some(index) = index else { continue };
-                let (linear, angular) = if axis < 3 {
-                    (along, (point - vector(body.center_of_mass())).cross(&along))
-                } else {
-                    (Vector3::zeros(), along)
-                };
+                let (linear, angular) =
+                    if axis < 3 { (along, (point - centre).cross(&along)) } else { (Vector3::zeros(), along) };
                 for x in 0..3 {
                     rows[(row, 6 * index + x)] = sign * linear[x];
                     rows[(row, 6 * index + 3 + x)] = sign * angular[x];

@@ -2,12 +2,13 @@
 //!
 //! # Equation
 //! ```text
-//! W = J R      R = P M^-1 J^T      a = P M^-1 (sum J_i^T f_i - D u)
+//! W = J R      R = P M^-1 J^T      a = P M^-1 (sum J_i^T f_i - D u)      a0 = J (a - M^-1 sum J_i^T M_i J_i' u) + J' u
 //! ```
 //! J is a link's Jacobian (velocity of its centre of mass before angular velocity) and M the mass
 //! matrix, both Rapier's; f_i are the loads on the other links, D the damping that Rapier gives the
 //! joints (0.1 N m s about axes unless the user changes it) and u the generalised velocity. Each active limit is a unit vector
-//! in G ([`super::constraints`]); limits count only where the loads on the other links are
+//! in G ([`super::constraints`]). All are those after half a step at the present u (a clone of the multibody is moved there), which makes the
+//! prediction one of second order; what u gains from J' u is Rapier's to do, so a0 alone contains it. Limits count only where the loads on the other links are
 //! included.
 //!
 //! Rapier overwrites the velocities of links by those of the generalised velocity, so a change must
@@ -26,9 +27,9 @@ use super::limits;
 use super::loads::{CarriedLoads, are_isolated, can_predict_loads};
 use super::request::Request;
 use crate::convert::to_vector;
-use crate::spatial::split_spatial;
-use ::nalgebra::{DMatrix, DVector, Matrix6, Vector6};
-use rapier::dynamics::{Multibody, RigidBodyHandle};
+use crate::spatial::{split_spatial, stack_spatial};
+use ::nalgebra::{DMatrix, DVector, Matrix3, Matrix6, Vector6};
+use rapier::dynamics::{Multibody, RigidBody, RigidBodyHandle};
 use rapier::math::Real;
 use rapier::pipeline::PhysicsWorld;
 
@@ -37,6 +38,8 @@ use rapier::pipeline::PhysicsWorld;
 pub(crate) struct MultibodyLink {
     /// R: change of the generalised velocity per impulse on the link.
     response: DMatrix<Real>,
+    /// Change of velocity of the members of the island per impulse on the link.
+    mobilities: Vec<(RigidBodyHandle, Matrix6<f64>)>,
     /// The generalised velocity before the step.
     velocity_before: Vec<Real>,
 }
@@ -70,10 +73,11 @@ pub(crate) fn prepare(world: &mut PhysicsWorld, handle: RigidBodyHandle) {
 pub(super) fn find(world: &PhysicsWorld, request: &Request) -> Option<(MultibodyLink, CarriedLoads)> {
     let (multibody, id) = multibody(world, request.handle)?;
     let n = multibody.ndofs();
-    let jacobian = |id: usize| multibody.body_jacobian(id).map(f64::from);
+    let halfway = halfway(world, multibody, request);
+    let jacobian = |id: usize| halfway.body_jacobian(id).map(f64::from);
     let inverse = |b: &DMatrix<f64>| {
         let mut x = b.map(|x| x as Real);
-        multibody.inv_augmented_mass().solve_mut(&mut x).then(|| x.map(f64::from))
+        halfway.inv_augmented_mass().solve_mut(&mut x).then(|| x.map(f64::from))
     };
     let handles: Vec<RigidBodyHandle> = multibody.links().map(|l| l.rigid_body_handle()).collect();
     let predicts_loads = can_predict_loads(world, &handles, request);
@@ -106,13 +110,53 @@ pub(super) fn find(world: &PhysicsWorld, request: &Request) -> Option<(Multibody
     let spread = inverse(&rows.transpose())?;
     let columns = inverse(&DMatrix::from_iterator(n, 6, own.transpose().iter().copied()))?;
     let [free, all] = forces.map(|forces| inverse(&DMatrix::from_column_slice(n, 1, forces.as_slice())));
-    let limits = active.into_iter().map(|(_, limit)| limit).collect();
-    let (response, free) = Constraints { rows, spread, limits, substep: 1.0 }.project(&columns, &free?, &all?)?;
-    loads.of_body = Vector6::from_iterator((&own * &free).iter().copied());
+    let limits = active.into_iter().map(|(_, limit)| limit).collect::<Vec<_>>();
+    let turning = DVector::zeros(limits.len());
+    let constraints = Constraints { rows, spread, turning, limits, substep: 1.0 };
+    let (response, free, _) = constraints.project(&columns, &free?, &all?)?;
+    // J' u, with which a link accelerates at a constant u
+    let turning = |id: usize| {
+        let change = (halfway.body_jacobian(id) - multibody.body_jacobian(id)) * multibody.generalized_velocity();
+        change.map(f64::from) / request.half_step
+    };
+    loads.of_body = Vector6::from_iterator((&own * &free).iter().copied()) + turning(id);
+    if !loads.limited {
+        let mut forces = DMatrix::<f64>::zeros(n, 1);
+        for (i, body) in handles.iter().enumerate().filter_map(|(i, b)| Some((i, world.bodies.get(*b)?))) {
+            forces -= jacobian(i).transpose() * inertial_force(body, &turning(i));
+        }
+        loads.of_body += &own * inverse(&forces)?.column(0);
+    }
     loads.accelerations = free.column(0).into_owned();
     loads.isolated = predicts_loads && are_isolated(world, &handles);
     let velocity_before = multibody.generalized_velocity().iter().copied().collect();
-    Some((MultibodyLink { response: response.map(|x| x as Real), velocity_before }, loads))
+    let members = handles.iter().enumerate().filter(|(_, body)| request.is_member(**body));
+    let mobilities =
+        members.map(|(i, body)| (*body, Matrix6::from_iterator((jacobian(i) * &response).iter().copied())));
+    let mobilities = mobilities.collect();
+    Some((MultibodyLink { response: response.map(|x| x as Real), mobilities, velocity_before }, loads))
+}
+
+/// Returns the force and the torque that accelerate a body; zero for one that is not dynamic.
+fn inertial_force(body: &RigidBody, acceleration: &Vector6<f64>) -> Vector6<f64> {
+    let s = &body.mass_properties().effective_world_inv_inertia;
+    let inverse = Matrix3::new(s.m11, s.m12, s.m13, s.m12, s.m22, s.m23, s.m13, s.m23, s.m33).map(f64::from);
+    let (linear, angular) = split_spatial(acceleration);
+    let inertia = inverse.try_inverse().filter(|_| body.is_dynamic()).unwrap_or_else(Matrix3::zeros);
+    let mass = if body.is_dynamic() { f64::from(body.mass()) } else { 0.0 };
+    stack_spatial(&(linear * mass), &(inertia * angular))
+}
+
+/// Returns a multibody as it is after half a step of its present motion: with the Jacobians and the mass matrix of then.
+fn halfway(world: &PhysicsWorld, multibody: &Multibody, request: &Request) -> Multibody {
+    let mut halfway = multibody.clone();
+    let turns: Vec<Real> = multibody.generalized_velocity().iter().map(|u| u * request.half_step as Real).collect();
+    halfway.apply_displacements(&turns);
+    // Rapier's mass matrix contains the damping of a substep
+    let damping = halfway.damping() * request.substep as Real;
+    *halfway.armature_mut() += damping;
+    halfway.dof_inverse_inertia(&world.bodies);
+    halfway
 }
 
 /// Returns the limits at which the joints of a multibody are, by degree of freedom; `None` for a joint that is at both.
@@ -155,17 +199,9 @@ pub(crate) fn refresh(world: &mut PhysicsWorld, handle: RigidBodyHandle) {
 }
 
 impl MultibodyLink {
-    /// Returns the change of velocity of another link of its multibody per impulse on the link.
-    pub(super) fn mobility_of(
-        &self,
-        world: &PhysicsWorld,
-        handle: RigidBodyHandle,
-        other: RigidBodyHandle,
-    ) -> Option<Matrix6<f64>> {
-        let (multibody, _) = multibody(world, handle)?;
-        let id = multibody.links().position(|link| link.rigid_body_handle() == other)?;
-        let jacobian = multibody.body_jacobian(id).map(f64::from);
-        Some(Matrix6::from_iterator((jacobian * self.response.map(f64::from)).iter().copied()))
+    /// Returns the change of velocity of a member of the island per impulse on the link; `None` for a body that is no link of its multibody.
+    pub(super) fn mobility_of(&self, other: RigidBodyHandle) -> Option<Matrix6<f64>> {
+        self.mobilities.iter().find(|(body, _)| *body == other).map(|(_, mobility)| *mobility)
     }
 
     /// Returns the change of the generalised velocity by an impulse on the link.

@@ -52,9 +52,9 @@ impl Mechanism {
     }
 
     /// Returns the change of velocity of a body of the mechanism per impulse on this one; `None` for another body.
-    pub fn mobility_of(&self, world: &PhysicsWorld, other: RigidBodyHandle) -> Option<Matrix6<f64>> {
+    pub fn mobility_of(&self, other: RigidBodyHandle) -> Option<Matrix6<f64>> {
         match &self.kind {
-            MechanismKind::Multibody(link) => link.mobility_of(world, self.handle, other),
+            MechanismKind::Multibody(link) => link.mobility_of(other),
             MechanismKind::JointChain(chain) => chain.mobility_of(other),
         }
     }
@@ -131,9 +131,10 @@ mod tests {
             world.gravity = Vector::new(0.0, -9.81, 0.0);
             let [one, two] = [here, there].map(|b| read(&world, b, &BodyRecord::new(b), 0.0).unwrap());
             let members = [(here, Vector6::zeros())];
-            let request = Request { handle: here, members: &members, substep: 1e-3, is_attached: &|_| false };
+            let request =
+                Request { handle: here, members: &members, half_step: 1e-3, substep: 1e-3, is_attached: &|_| false };
             let mechanism = find(&world, &request).unwrap();
-            let rigid = mechanism.mobility_of(&world, here).unwrap().try_inverse().unwrap();
+            let rigid = mechanism.mobility_of(here).unwrap().try_inverse().unwrap();
             let (carried, load) = (rigid - own_inertia(&one), rigid * mechanism.loads.of_body);
             let arm = two.position - one.position;
             let mut expected = Matrix6::identity() * two.mass;

@@ -6,6 +6,8 @@ use rapier::dynamics::RigidBodyHandle;
 /// A body whose mechanism is wanted.
 pub(crate) struct Request<'a> {
     pub handle: RigidBodyHandle,
+    /// Half of the step in s: after it, at the present motion, the mechanism is looked at.
+    pub half_step: f64,
     /// Rapier's substep in s.
     pub substep: f64,
     /// The bodies of its island, itself included, with force in N and torque in N m on each over the step, those of its cables included:

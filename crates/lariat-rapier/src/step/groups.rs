@@ -154,7 +154,19 @@ fn watch(
         let record = contents.records.record_mut(part.handle);
         record.pull += REACTION_GAIN * (step.pull / h - record.pull);
         record.settling.note(&step);
+        record.turn_error = turn_error(prediction, part.m, h) / (h * h);
     }
+}
+
+/// Returns by how much (rad) the attitude of a member halfway of a step of `h` (s) was another than that at which its mechanism was predicted.
+fn turn_error(prediction: &Prediction, m: usize, h: f64) -> f64 {
+    0.25 * h * (prediction.end[m].angular_velocity - prediction.start[m].angular_velocity).norm()
+}
+
+/// Returns the largest of these errors in an island.
+pub(crate) fn largest_turn_error(prediction: &Prediction, h: f64) -> f64 {
+    let members = prediction.groups.iter().flat_map(|group| &group.members);
+    members.map(|&m| turn_error(prediction, m, h)).fold(0.0, f64::max)
 }
 
 /// Updates the reaction estimates of a group from the deviations of velocity and position.

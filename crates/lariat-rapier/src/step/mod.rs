@@ -150,10 +150,17 @@ pub(crate) fn predict_next(
         return Ok(());
     }
     reels::remesh(contents)?;
-    host.motions.advance(contents, world, host.done, host.steps);
-    let outcome = predict_islands(stepper, contents, world, settings, host);
-    host.failed = outcome.is_err();
-    outcome
+    loop {
+        host.motions.advance(contents, world, host.done, host.steps);
+        let outcome = predict_islands(stepper, contents, world, settings, host);
+        host.failed = outcome.is_err();
+        let parts = outcome?;
+        if parts == 1 {
+            return Ok(());
+        }
+        (host.steps, host.done) = (host.steps * parts, (host.done - 1) * parts + 1);
+        world.integration_parameters.dt = host.dt / host.steps as Real;
+    }
 }
 
 /// Splits the rest of a host step finer, if a body met another since it began.
@@ -183,14 +190,14 @@ pub(crate) fn finish(contents: &mut Contents, world: &mut PhysicsWorld, host: &H
     }
 }
 
-/// Predicts the next Rapier step of all islands.
+/// Predicts the next Rapier step of all islands. Returns 1, or into how many parts it is to be divided and predicted anew.
 fn predict_islands(
     stepper: &mut Stepper,
     contents: &mut Contents,
     world: &mut PhysicsWorld,
     settings: &Settings,
     host: &HostStep,
-) -> Result<(), Error> {
+) -> Result<u32, Error> {
     if core::mem::take(&mut stepper.pending) {
         // predicted, and never reconciled
         for (island, prediction) in stepper.islands.list.iter().zip(&mut stepper.predictions) {
@@ -209,14 +216,21 @@ fn predict_islands(
         reels::mark(contents);
         let Stepper { islands, predictions, finder, .. } = &mut *stepper;
         integrate::integrate(contents, &islands.list, predictions, step.h);
-        if !finder.neighbours.complete(contents, &islands.list, predictions) {
+        let turn = predictions.iter().filter(|p| p.integrator.is_some() && p.error.is_none());
+        let turn = turn.map(|p| groups::largest_turn_error(p, step.h)).fold(0.0, f64::max);
+        let parts = (turn / substepping::MAX_TURN_ERROR).sqrt().ceil().min(f64::from(settings.max_rapier_steps)) as u32;
+        let parts = parts.min(settings.max_rapier_steps / host.steps).max(1);
+        if !finder.neighbours.complete(contents, &islands.list, predictions) && parts == 1 {
             break step;
         }
-        // cables met that were not expected to: they are united, and the step begins anew
+        // a mechanism turned otherwise, or cables met that were not expected to: they are united, and the step begins anew
         for (island, prediction) in islands.list.iter().zip(predictions.iter()).filter(|(_, p)| !p.refused) {
             apply::revert(contents, world, island, prediction);
             let disturbed = prediction.sleep.disturbed;
             contents.cables.get_many_mut(&island.cables).into_iter().for_each(|slot| slot.modified |= disturbed);
+        }
+        if parts > 1 {
+            return Ok(parts);
         }
     };
     let Stepper { islands, predictions, events, failures, .. } = &mut *stepper;
@@ -241,7 +255,7 @@ fn predict_islands(
         }
     }
     stepper.pending = true;
-    Ok(())
+    Ok(1)
 }
 
 /// Finds the islands of a Rapier step, and begins the prediction of all.

@@ -143,13 +143,14 @@ fn find_mechanisms(
         |handle| contents.records.get(handle).map_or_else(Vector6::zeros, |record| record.pull - record.reaction);
     let is_attached = |b| contents.attachments.values().any(|a| a.body == b);
     let substep = step.h / world.integration_parameters.num_solver_iterations.max(1) as f64;
-    let request = |handle| mechanism::Request { handle, members: &members, substep, is_attached: &is_attached };
+    let half_step = 0.5 * step.h;
+    let request =
+        |handle| mechanism::Request { handle, members: &members, half_step, substep, is_attached: &is_attached };
     let mut together: Vec<Vec<usize>> = Vec::new();
     for (m, handle) in bodies() {
         mechanisms[m] = mechanism::find(world, &request(handle));
         if mechanisms[m].is_some() {
-            let knows =
-                |&other: &usize| mechanisms[other].as_ref().is_some_and(|o| o.mobility_of(world, handle).is_some());
+            let knows = |&other: &usize| mechanisms[other].as_ref().is_some_and(|o| o.mobility_of(handle).is_some());
             match together.iter_mut().find(|group| group.iter().any(knows)) {
                 Some(group) => group.push(m),
                 None => together.push(vec![m]),
@@ -163,7 +164,7 @@ fn find_mechanisms(
             let load = stack_spatial(&body.force, &body.torque) + of_cables(island.members[member].body()?);
             Some(Jointed { member, body, mechanism, load })
         });
-        match Group::new(world, &jointed.collect::<Vec<_>>()) {
+        match Group::new(&jointed.collect::<Vec<_>>(), half_step) {
             Some(group) => {
                 group.load(start, coupled);
                 groups.push(group);

@@ -1,0 +1,89 @@
+//! Random numbers and what the families share.
+
+use lariat_rapier::lariat_ancf::{Cable, CableBuilder, Section, Vector3};
+use lariat_rapier::rapier::prelude::*;
+use lariat_rapier::{CableSet, Warning};
+use std::ops::Range;
+
+/// SplitMix64.
+pub struct Random(u64);
+
+impl Random {
+    pub fn new(seed: u64) -> Self {
+        Random(seed.wrapping_mul(0x9E37_79B9_7F4A_7C15))
+    }
+
+    fn next(&mut self) -> u64 {
+        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+        z ^ (z >> 31)
+    }
+
+    /// Returns a number between two.
+    pub fn between(&mut self, from: f64, to: f64) -> f64 {
+        from + (to - from) * (self.next() >> 11) as f64 / (1u64 << 53) as f64
+    }
+
+    /// Returns a number between two, its logarithm evenly spread.
+    pub fn log(&mut self, from: f64, to: f64) -> f64 {
+        self.between(from.ln(), to.ln()).exp()
+    }
+
+    /// Returns one of a list.
+    pub fn one<T: Copy>(&mut self, of: &[T]) -> T {
+        of[(self.next() % of.len() as u64) as usize]
+    }
+}
+
+/// Returns the seeds to run, and whether to print each: those of the test, or those that the user asks for.
+pub fn seeds(of_test: Range<u64>) -> (Range<u64>, bool) {
+    let asked = std::env::var("LARIAT_SEEDS").ok();
+    let range = asked
+        .as_deref()
+        .and_then(|range| range.split_once(".."))
+        .and_then(|(from, to)| Some(from.parse().ok()?..to.parse().ok()?));
+    (range.unwrap_or(of_test), asked.is_some())
+}
+
+/// Returns a cable along a straight line.
+pub fn cable(from: Vector3<f64>, to: Vector3<f64>, section: Section) -> CableBuilder {
+    Cable::builder().points([from, to]).section(section)
+}
+
+/// Returns by name what is told of the accuracy of a run. What is told of meshes is left out: what they are compared with has the same.
+pub fn told(set: &CableSet, world: &PhysicsWorld) -> Vec<String> {
+    let named = |warning: &Warning| {
+        let text = match warning {
+            Warning::Cable { warning, .. } => format!("{warning:?}"),
+            warning => format!("{warning:?}"),
+        };
+        text.split([' ', '(']).next().unwrap_or("").to_string()
+    };
+    let of_mesh = ["CoarseMesh", "CoarseMotion", "CoarseElement", "LargeStrain", "Stubby", "SoftMaterial"];
+    let mut names: Vec<String> = set.warnings(world).iter().map(named).collect();
+    names.retain(|name| !of_mesh.contains(&name.as_str()));
+    names
+}
+
+/// Notes a scene that is wrong with nothing told of it, and prints it if that is asked for.
+pub fn judge(wrong: &mut Vec<String>, print: bool, off: bool, told: &[String], case: String) {
+    let verdict = match (off, told.is_empty()) {
+        (true, true) => "wrong ",
+        (true, false) => "told ",
+        (false, false) => "right but told ",
+        (false, true) => "",
+    };
+    if print {
+        println!("{verdict}{case}");
+    }
+    if off && told.is_empty() {
+        wrong.push(case);
+    }
+}
+
+/// Returns where a body is, in double precision.
+pub fn place(world: &PhysicsWorld, body: RigidBodyHandle) -> Vector3<f64> {
+    lariat_rapier::convert::vector(world.bodies[body].translation())
+}
