@@ -186,8 +186,8 @@ fn a_constant_force_is_a_line_load_for_every_method() {
 #[test]
 fn a_conservative_force_keeps_the_energy() {
     for (method, substeps, bound) in [
-        (Method::Esdirk4, 20, 5e-5),
-        (Method::Trapezoid, 100, 2e-4),
+        (Method::Esdirk4, 30, 5e-5),
+        (Method::Trapezoid, 120, 2e-4),
         (Method::Verlet, 100, 3e-4),
         (Method::Rkn4, 20, 3e-7),
         (Method::Rkn6, 20, 1e-7),
@@ -228,7 +228,7 @@ fn implicit_methods_keep_their_order_with_a_force_that_depends_on_everything() {
     };
     let reference = run(Method::Esdirk4, 640);
     for method in implicit() {
-        let [coarse, fine] = [32, 64].map(|substeps| largest_difference(&run(method, substeps), &reference));
+        let [coarse, fine] = [40, 80].map(|substeps| largest_difference(&run(method, substeps), &reference));
         let order = (coarse / fine).log2();
         println!("{method}: {coarse:e} {fine:e}, order {order:.2}");
         assert!(fine < 1e-9 || order > f64::from(method.properties().order) - 0.4, "{method}: {coarse:e} {fine:e}");

@@ -12,7 +12,7 @@
 //! steel), 1.3 times with AVX2, and 1.05 times with SSE2: the kernels of the elements fill the lanes of a cable alone as well, and are half of
 //! its time. That is less than the twofold that would be worth a second copy of the factorisation.
 //!
-//! Fewer factorisations, on the same example with the rule `projected-3`, where a step takes 1.65 of them and 2.9 iterations because the first leaves a third of the impulses
+//! Fewer factorisations, on the same example, when its cables began strained at corners, with the rule `projected-3`, where a step takes 1.65 of them and 2.9 iterations because the first leaves a third of the impulses
 //! unbalanced (median): keeping the factors where the first iterate makes energy takes 1.46 and as much time, in more iterations; a first iterate by the
 //! acceleration extrapolated with a half or all of its last change takes 1.64 and 1.76.
 //!

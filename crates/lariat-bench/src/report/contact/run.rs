@@ -77,13 +77,17 @@ impl Run {
         self.rope().velocities().chunks_exact(6).map(|v| v[0].hypot(v[1]).hypot(v[2])).fold(0.0, largest)
     }
 
-    /// Returns the acceleration in m/s^2 of a body downwards between the times of [`STEADY`].
+    /// Returns the acceleration in m/s^2 of a body downwards between the times of [`STEADY`]: the slope of the line through its speeds, in which it
+    /// also vibrates on the rope, by least squares.
     pub fn fall(&mut self, body: usize) -> Result<f64, Error> {
-        let mut speeds = [0.0; 2];
-        for (speed, time) in speeds.iter_mut().zip(STEADY) {
-            self.advance(time, |_| ())?;
-            *speed = self.world.body(body).map_or(f64::NAN, |body| -body.velocity.y);
-        }
-        Ok((speeds[1] - speeds[0]) / (STEADY[1] - STEADY[0]))
+        let [from, to] = STEADY;
+        let (mut product, mut square) = (0.0, 0.0);
+        self.advance(from, |_| ())?;
+        self.advance(to, |run| {
+            let time = run.time() - 0.5 * (from + to + run.dt);
+            product += time * run.world.body(body).map_or(f64::NAN, |body| -body.velocity.y);
+            square += time * time;
+        })?;
+        Ok(product / square)
     }
 }
