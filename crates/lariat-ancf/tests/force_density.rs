@@ -188,7 +188,7 @@ fn a_conservative_force_keeps_the_energy() {
     for (method, substeps, bound) in [
         (Method::Esdirk4, 30, 5e-5),
         (Method::Trapezoid, 120, 2e-4),
-        (Method::Verlet, 100, 3e-4),
+        (Method::Verlet, 160, 3e-4),
         (Method::Rkn4, 20, 3e-7),
         (Method::Rkn6, 20, 1e-7),
     ] {

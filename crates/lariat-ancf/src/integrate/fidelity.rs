@@ -33,17 +33,17 @@ pub enum Fidelity {
     ///
     /// | scene | elements | error m | CPU ms |
     /// |---|---:|---:|---:|
-    /// | pendulum | 10 | 2.7e-3 | 2.48 |
-    /// | payload | 10 | 8.0e-3 | 2.97 |
-    /// | taut steel | 10 | 1.9e-4 | 0.113 |
+    /// | pendulum | 10 | 2.6e-3 | 2.32 |
+    /// | payload | 10 | 8.8e-3 | 3.08 |
+    /// | taut steel | 10 | 1.9e-4 | 0.107 |
     Game,
     /// Error-controlled ESDIRK4, 1e-6 m per host step of the motion: the default.
     ///
     /// | scene | elements | error m | CPU ms |
     /// |---|---:|---:|---:|
-    /// | pendulum | 20 | 3.7e-4 | 10.4 |
-    /// | payload | 10 | 8.7e-4 | 118 |
-    /// | taut steel | 20 | 5.6e-5 | 0.989 |
+    /// | pendulum | 20 | 3.7e-4 | 11.1 |
+    /// | payload | 10 | 8.7e-4 | 140 |
+    /// | taut steel | 20 | 5.6e-5 | 1.08 |
     #[default]
     Engineering,
     /// The symplectic explicit method of order 4 at half its stable step where the cable is soft
@@ -51,9 +51,9 @@ pub enum Fidelity {
     ///
     /// | scene | elements | error m | CPU ms |
     /// |---|---:|---:|---:|
-    /// | pendulum | 80 | 4.0e-6 | 1300 |
-    /// | payload | 10 | 1.3e-4 | 222 |
-    /// | taut steel | 80 | 2.0e-8 | 210 |
+    /// | pendulum | 80 | 4.0e-6 | 1400 |
+    /// | payload | 10 | 1.3e-4 | 264 |
+    /// | taut steel | 80 | 2.0e-8 | 227 |
     Reference,
 }
 
