@@ -186,11 +186,11 @@ fn a_constant_force_is_a_line_load_for_every_method() {
 #[test]
 fn a_conservative_force_keeps_the_energy() {
     for (method, substeps, bound) in [
-        (Method::Esdirk4, 30, 5e-5),
-        (Method::Trapezoid, 120, 2e-4),
+        (Method::Esdirk4, 32, 5e-5),
+        (Method::Trapezoid, 160, 2e-4),
         (Method::Verlet, 160, 3e-4),
-        (Method::Rkn4, 20, 3e-7),
-        (Method::Rkn6, 20, 1e-7),
+        (Method::Rkn4, 32, 3e-7),
+        (Method::Rkn6, 32, 1e-7),
     ] {
         let well = Well::new();
         let integrator = Integrator::substeps(method, substeps).unwrap();
