@@ -17,7 +17,7 @@
 //! more than half of the imbalance take half of the increment (under-relaxation: what the tangent leaves out makes a slack cable that is hit swing between two iterates for ever). After those the balance alone must close; and in the last
 //! division the energy law alone must hold. Motors of reels must have the forces of their laws likewise, to 1e-3, with a new
 //! tangent in every iteration that is needed for them. With stock of a reel on a body that moves freely the sum of all impulses must balance, to 1e-9
-//! of them, else the step is divided.
+//! of them.
 //!
 //! When the iteration ends, contacts with thin and sharp parts of obstacles are looked for again; if any were missed it goes on with them, up to
 //! three times. A step in which some are missed still, or in which the centre lines of cables that may touch go through each other, or through such parts, is divided too; in the last division it is counted, and a warning says so.
@@ -228,8 +228,7 @@ pub(super) fn step(
         && (system.crosses() || misses.unwrap_or_else(|| system.add_missed()));
     let stops = last.as_ref().is_ok_and(|balance| balance.stops);
     let gives_back = last.as_ref().is_ok_and(gives_back);
-    let drifts = last.as_ref().is_ok_and(|balance| !is_momentum_right(balance));
-    let may_end = !(crosses || stops || gives_back || drifts) || depth == MAX_DEPTH || reduced;
+    let may_end = !(crosses || stops || gives_back) || depth == MAX_DEPTH || reduced;
     if let Ok(balance) = &last
         && keeps_law(balance)
         && (is_dissipation_right(balance) && closes(balance) && is_consistent(balance) && are_motors_right(balance)
