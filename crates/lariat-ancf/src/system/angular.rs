@@ -195,9 +195,7 @@ impl Momenta {
         let [own, all] = self.angular();
         let middle = 0.5 * (centre + self.centre());
         let missing = before + moment - middle.cross(&force) - all + vector(&owed[3..]);
-        // with stock the step itself balances all impulses
-        let flows = self.own[0] != self.all[0];
-        let lost = if flows { Vector3::zeros() } else { momentum + force - self.all[0] + vector(owed) };
+        let lost = momentum + force - self.all[0] + vector(owed);
         let [p, l] = self.second_difference;
         let second = l - self.centre().cross(&p);
         let ([p, _], [with_flow, _]) = (self.own, self.all);

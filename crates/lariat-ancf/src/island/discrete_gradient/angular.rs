@@ -32,8 +32,7 @@ impl IslandStep<'_, '_> {
 
     /// Notes the angular momentum when a step begins, if nothing holds the island.
     pub(super) fn note_angular_momentum(&mut self) {
-        let flows = self.cables.iter().any(|cable| !cable.system.flows.is_empty());
-        let after = self.cables[0].step_buffers.after.take().filter(|_| !flows);
+        let after = self.cables[0].step_buffers.after.take();
         let before = self.is_free().then(|| {
             after.unwrap_or_else(|| {
                 let mut momenta = Momenta::default();
