@@ -17,7 +17,7 @@
 //! more than half of the imbalance take half of the increment (under-relaxation: what the tangent leaves out makes a slack cable that is hit swing between two iterates for ever). After those the balance alone must close; and in the last
 //! division the energy law alone must hold. Motors of reels must have the forces of their laws likewise, to 1e-3, with a new
 //! tangent in every iteration that is needed for them. With stock of a reel on a body that moves freely the sum of all impulses must balance, to 1e-9
-//! of them.
+//! of them, or the velocities are not scaled down.
 //!
 //! When the iteration ends, contacts with thin and sharp parts of obstacles are looked for again; if any were missed it goes on with them, up to
 //! three times. A step in which some are missed still, or in which the centre lines of cables that may touch go through each other, or through such parts, is divided too; in the last division it is counted, and a warning says so.
@@ -240,7 +240,10 @@ pub(super) fn step(
     let largest_share = if reduced { 1.0 } else { SHARE_OF_HALF_THE_ENERGY };
     if let Ok(balance) = &mut last
         && is_certain(balance)
-        && (is_consistent(balance) && are_motors_right(balance) && is_almost_solved(balance)
+        && (is_consistent(balance)
+            && are_motors_right(balance)
+            && is_almost_solved(balance)
+            && is_momentum_right(balance)
             || depth == MAX_DEPTH
             || reduced)
         && balance.to_take() > 0.0
