@@ -37,7 +37,7 @@ pub(crate) struct Slot {
     /// Keys of the colliders that it touched at the end of the last host step, and where.
     #[serde(default)]
     pub touched: Vec<(u64, f64)>,
-    /// Keys of the colliders in which it was found although it cannot touch them, or whose restitution it ignores.
+    /// Keys of the colliders in which it was found although it cannot touch them, or of whose restitution it was told.
     #[serde(default)]
     pub ignored: Vec<u64>,
     /// Whether neither dynamic bodies nor other cables acted on it in the last host step, so that its energy balance closes.

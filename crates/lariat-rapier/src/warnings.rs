@@ -13,6 +13,7 @@ use crate::handle::{AttachmentHandle, CableHandle};
 use crate::inside::deepest_inside;
 use crate::set::CableSet;
 use crate::unsettled::Unsettled;
+use lariat_ancf::contact::LARGEST_RESTITUTION;
 use rapier::dynamics::RigidBodyType;
 use rapier::geometry::ColliderHandle;
 use rapier::math::Real;
@@ -90,26 +91,26 @@ pub enum Warning {
         /// Difference of the velocities in m/s.
         difference: f64,
     },
-    /// A cable that touches bodies would bounce off a collider by its restitution, if contacts of cables had one.
+    /// A cable that touches bodies would bounce off a collider with more of its velocity than it can.
     #[error(
-        "cable {name:?}: contacts of cables have no coefficient of restitution, and a collider that it may touch has {restitution}: the \
-         cable does not bounce off it"
+        "cable {name:?}: with a collider that it may touch it has a coefficient of restitution of {restitution}, and impacts of cables have at \
+         most 15/17: it leaves with less"
     )]
-    Restitution {
+    HighRestitution {
         /// The cable.
         cable: CableHandle,
         /// Its name.
         name: String,
-        /// The collider with the largest restitution.
+        /// The collider with which it is largest.
         collider: ColliderHandle,
-        /// That restitution.
+        /// Their coefficient of restitution.
         restitution: f64,
     },
 }
 
 impl CableSet {
     /// Returns the warnings about all cables: those that the cables have
-    /// ([`Cable::warnings`](lariat_ancf::Cable::warnings)), places inside colliders, restitution that contacts of cables ignore, gaps, and attachments
+    /// ([`Cable::warnings`](lariat_ancf::Cable::warnings)), places inside colliders, restitution beyond what impacts of cables have, gaps, and attachments
     /// that start with a shock. Worth a look when a world has been built.
     pub fn warnings(&self, world: &PhysicsWorld) -> Vec<Warning> {
         let mut warnings = Vec::new();
@@ -126,12 +127,13 @@ impl CableSet {
                     warnings.push(Warning::InCollider { cable: handle, name, collider, arc_length, depth });
                 }
             }
-            if slot.cable.effects().contact.is_some() {
-                let touched = world.colliders.iter().filter(|(_, c)| c.restitution() > 0.0 && slot.rules.allow(c));
-                if let Some((collider, shape)) = touched.max_by(|a, b| a.1.restitution().total_cmp(&b.1.restitution()))
-                {
-                    let (name, restitution) = (slot.cable.name().to_string(), f64::from(shape.restitution()));
-                    warnings.push(Warning::Restitution { cable: handle, name, collider, restitution });
+            if let Some(contact) = slot.cable.effects().contact {
+                let allowed = world.colliders.iter().filter(|(_, collider)| slot.rules.allow(collider));
+                let bounces = allowed.map(|(h, collider)| (h, slot.rules.restitution(contact.restitution, collider)));
+                let largest = bounces.max_by(|a, b| a.1.total_cmp(&b.1)).filter(|found| found.1 > LARGEST_RESTITUTION);
+                if let Some((collider, restitution)) = largest {
+                    let name = slot.cable.name().to_string();
+                    warnings.push(Warning::HighRestitution { cable: handle, name, collider, restitution });
                 }
             }
         }

@@ -7,13 +7,14 @@
 //! rebound, but the root of the one-leg formula. The contacts take it, all at once, by the impulses R on the cable and -R on what it touches:
 //!
 //! ```text
-//! (S + sum G) w = sum (G v1 + l f_t/f_n)         v1 <- v1 - w,   D v <- D v - w
-//! G = b h^2 (w p' n n^T + T)                     l = b h^2 w p' n . (v1 - w) <= h f_n
-//! -R = G (v1 - w) + l f_t/f_n                    the second term only where it slips
+//! (S + sum G) w = sum (G (v1 - u n) + l f_t/f_n)      v1 <- v1 - w,   D v <- D v - w
+//! G = b h^2 (w p' n n^T + T)                          l = b h^2 w p' (n . (v1 - w) - u) <= h f_n
+//! -R = G (v1 - w - u n) + l f_t/f_n                   the last term only where it slips
 //! ```
 //!
-//! v1 is relative to the obstacle, T the tangent of friction, S the step matrix without contacts; the sum is the matrix that the last iteration
-//! factored. So an impulse spreads through cable and bodies as those of the step did. Where a contact slips, the friction of the impulse that is taken
+//! v1 is relative to the obstacle, `u = e max(0, -n . v0)` what Newton's coefficient of restitution e leaves of the velocity v0 with which a contact came, until it
+//! comes again. Until it leaves, an impact also gives what lacks of u; then it only takes what is more, so that what lies stays. T is the
+//! tangent of friction, S the step matrix without contacts; the sum is the matrix that the last iteration factored. So an impulse spreads through cable and bodies as those of the step did. Where a contact slips, the friction of the impulse that is taken
 //! back goes with it, with l of a first solve. `G/m` is `b (h omega)^2` with the frequency omega of the contact: the velocity of contacts that a
 //! step does not resolve is taken, and that of others left.
 //!
@@ -23,18 +24,20 @@
 //! D H = -s P + s^2 E <= s W,     P = w . M (v1 + a D v),   E = (1 + a)/2 w . M w,   W = sum R . v_o
 //! ```
 //!
-//! where the share s is 1, or the largest for which that holds: an impact makes no energy but the work W of obstacles that move. Momentum is kept,
+//! where the share s is 1, or the largest for which that holds: an impact makes no energy but the work W of obstacles that move. One with restitution may
+//! give back what the step itself lost, by its contacts and numerically: `D H <= s W + losses`, so that H does not rise over the step. Momentum is kept,
 //! since the impulses on cable and body are opposite and on one line.
 //!
 //! # Validity
 //!
-//! Restitution 0. Contacts with obstacles and bodies, and of cables with each other ([`pairs`](super::pairs)). Steps of which
+//! Restitution of contacts with obstacles and bodies up to `(1 - a)/(1 + a) = 15/17`: with more a mass that leaves has more of H than it came with, for H holds the
+//! store of its jump of velocity, `a/2 m (1 + e)^2 v0^2`, too. Of cables with each other ([`pairs`](super::pairs)) it is 0. Steps of which
 //! the velocity across contacts has less energy than the tolerance of the law take none, and do no work for it.
 //!
 //! # References
 //!
 //! Gear, Leimkuhler & Gupta, J. Comput. Appl. Math. 12 (1985) 77 (constraints of velocities beside those of positions); Moreau, in
-//! Nonsmooth Mechanics and Applications, 1988 (inelastic impact as a projection).
+//! Nonsmooth Mechanics and Applications, 1988 (inelastic impact as a projection, Newton's law of restitution).
 //!
 //! # Alternatives considered
 //!
@@ -43,8 +46,11 @@
 
 use super::point::ContactPoint;
 use super::step::{ContactStep, add_force};
-use crate::integrate::discrete_gradient::BETA;
+use crate::integrate::discrete_gradient::{ALPHA, BETA};
 use nalgebra::{Matrix3, Vector3};
+
+/// Largest coefficient of restitution with which the discrete gradient makes no energy.
+pub const LARGEST_RESTITUTION: f64 = (1.0 - ALPHA) / (1.0 + ALPHA);
 
 /// A contact that pushes when the step ends.
 #[derive(Clone, Copy, Debug, Default)]
@@ -55,6 +61,10 @@ pub(in crate::contact) struct Impact {
     beside: Vector3<f64>,
     /// Normal along which it acts.
     normal: Vector3<f64>,
+    /// Velocity in m/s along it that restitution leaves.
+    rebound: f64,
+    /// Whether it gives velocity that it lacks.
+    gives: bool,
     /// G in kg: its part along the normal, 0 if it does not push, and that of friction.
     gain: f64,
     friction: Matrix3<f64>,
@@ -66,6 +76,11 @@ impl Impact {
     /// Returns whether the contact takes velocity.
     pub fn acts(&self) -> bool {
         self.gain > 0.0
+    }
+
+    /// Returns whether it gives velocity that it lacks.
+    pub fn gives(&self) -> bool {
+        self.acts() && self.gives
     }
 
     /// Returns G times a velocity.
@@ -80,25 +95,31 @@ impl ContactPoint {
         self.now.normal_force > 0.0 && self.linear.slope > 0.0
     }
 
-    /// Finds its impact along a normal, at a velocity beside an obstacle with a velocity of its own (m/s), and returns the energy in J of what
-    /// it opposes: 0 if it does not leave. `h` is the length of the step, `mass` that per length.
+    /// Finds its impact along a normal, at velocities beside an obstacle when the step begins and ends, and one of the obstacle (m/s), and returns the energy
+    /// in J of what it opposes: 0 if it does not leave. `h` is the length of the step, `mass` that per length.
     pub fn find_impact(
         &mut self,
         normal: Vector3<f64>,
-        [beside, obstacle]: [Vector3<f64>; 2],
+        [before, beside, obstacle]: [Vector3<f64>; 3],
         (h, mass): (f64, f64),
     ) -> f64 {
         let ContactPoint { linear, weight, .. } = *self;
         let across = normal.dot(&beside);
-        if across <= 0.0 {
+        if self.recalls.is_none() && self.restitution > 0.0 {
+            self.came = (-normal.dot(&before)).max(0.0);
+        }
+        let (rebound, gives) = (self.restitution * self.came.abs(), self.restitution * self.came > 0.0);
+        self.came = if across > 0.0 { -self.came.abs() } else { self.came.max(0.0) };
+        let over = across - rebound;
+        if over <= 0.0 && !gives {
             return 0.0;
         }
         let scale = BETA * h * h;
         let (gain, friction) = (scale * weight * linear.slope, linear.tangents.friction * scale);
-        let mut impact = Impact { obstacle, beside, normal, gain, friction, row: Vector3::zeros() };
-        impact.row = impact.gained(&beside);
+        let mut impact = Impact { obstacle, beside, normal, rebound, gives, gain, friction, row: Vector3::zeros() };
+        impact.row = impact.gained(&beside) - normal * (gain * rebound);
         self.impact = impact;
-        0.5 * mass * weight * across * across
+        0.5 * mass * weight * over * over
     }
 
     /// Sets its impulse to that of the velocity that is left if `taken` is taken (m/s); returns whether another solve sees more of it: the friction of
@@ -106,8 +127,9 @@ impl ContactPoint {
     pub fn settle_impact(&mut self, taken: &Vector3<f64>, h: f64) -> bool {
         let (now, impact) = (&self.now, &mut self.impact);
         let left = impact.beside - taken;
-        let (wanted, most) = (impact.gain * impact.normal.dot(&left), h * now.normal_force);
-        let normal = wanted.clamp(0.0, most);
+        let (wanted, most) = (impact.gain * (impact.normal.dot(&left) - impact.rebound), h * now.normal_force);
+        let least = if impact.gives { f64::NEG_INFINITY } else { 0.0 };
+        let normal = wanted.clamp(least, most);
         let mut impulse = impact.normal * normal + impact.friction * left;
         if now.slides.is_some() {
             impulse += now.friction * (normal / now.normal_force);
@@ -119,27 +141,33 @@ impl ContactPoint {
 
 impl ContactStep {
     /// Finds the velocities beside contacts that push, at the end of the step, and returns the energy in J of those that they oppose. `mass` is that of
-    /// an element per length, `velocity` that of a point of an element, `body` that of a body at an arm about its centre.
+    /// an element per length, `velocity` that of a point of an element, `body` that of a body at an arm about its centre, each when the step begins and ends.
     pub fn find_impacts(
         &mut self,
         mass: impl Fn(usize) -> f64,
-        velocity: impl Fn(usize, &[f64; 4]) -> Vector3<f64>,
-        body: impl Fn(usize, &Vector3<f64>) -> Vector3<f64>,
+        velocity: impl Fn(usize, &[f64; 4]) -> [Vector3<f64>; 2],
+        body: impl Fn(usize, &Vector3<f64>) -> [Vector3<f64>; 2],
     ) -> f64 {
         let mut energy = 0.0;
         for point in &mut self.points {
             point.impact = Impact::default();
             if point.may_leave() {
                 let (element, step, now) = (point.key.0 as usize, &self.obstacles[point.obstacle], &point.now);
-                let obstacle = match step.body {
+                let [first, last] = match step.body {
                     Some(index) => body(index, &now.arm),
-                    None => step.velocity_at(&(now.arm + 0.5 * now.slip)),
+                    None => [step.velocity_at(&(now.arm + 0.5 * now.slip)); 2],
                 };
-                let beside = velocity(element, &point.shape) - obstacle;
-                energy += point.find_impact(point.now.normal, [beside, obstacle], (self.h, mass(element)));
+                let [before, after] = velocity(element, &point.shape);
+                let beside = [before - first, after - last, last];
+                energy += point.find_impact(point.now.normal, beside, (self.h, mass(element)));
             }
         }
         energy
+    }
+
+    /// Returns whether any gives velocity by its restitution.
+    pub fn rebound(&self) -> bool {
+        self.points.iter().any(|point| point.impact.gives())
     }
 
     /// Adds what the linear solve sees of them to the rows of the cable, and its opposite to those of bodies.

@@ -44,6 +44,9 @@ pub struct ContactMemory {
     pub(in crate::contact) friction: Vector3<f64>,
     /// Whether it slips.
     pub(in crate::contact) slips: bool,
+    /// Speed in m/s with which the cable came, for its restitution.
+    #[serde(default)]
+    pub(in crate::contact) came: f64,
 }
 
 /// Element, obstacle and place: no two contacts share them.
@@ -57,7 +60,8 @@ impl ContactMemory {
     pub(crate) fn check(&self, elements: usize) -> Result<(), Error> {
         let element = self.element as usize;
         require("element of a contact", element as f64, element < elements, "one of the cable")?;
-        let numbers = [self.xi, self.weight, self.depth, self.offset, self.force, self.energy, self.friction_power];
+        let numbers =
+            [self.xi, self.weight, self.depth, self.offset, self.force, self.energy, self.friction_power, self.came];
         let vectors = [self.normal, self.spring, self.direction, self.friction];
         let mut all = numbers.into_iter().chain(vectors.iter().flat_map(|v| [v.x, v.y, v.z]));
         all.try_for_each(|x| require("contact", x, true, "a number"))

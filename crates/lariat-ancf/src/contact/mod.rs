@@ -41,7 +41,8 @@
 //!
 //! `k = EA/(40 r^2)` per length: under the tension T around a radius R the depth is 40 (r/R) (T/EA) of the radius. First touch is of order
 //! 1 in the step; the bound of friction is that of the step itself, of a first touch too (lag.rs).
-//! Restitution is 0: what a step that does not resolve a contact leaves of the velocity away from it is taken when the step ends (impact.rs), of cables that hit each other too. The
+//! What a step that does not resolve a contact leaves of the velocity away from it, beyond what Newton's law of restitution leaves, is taken when the step ends
+//! (impact.rs); restitution is 0 by default, and between cables. The
 //! element has no torsion: forces act on the centre line.
 //!
 //! # References
@@ -84,6 +85,7 @@ mod trace;
 
 pub(crate) use border::Border;
 pub(crate) use find::Motion;
+pub use impact::LARGEST_RESTITUTION;
 pub(crate) use law::NormalLaw;
 pub(crate) use memory::split_element;
 pub use memory::{ContactMemory, Touch};

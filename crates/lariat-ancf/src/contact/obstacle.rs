@@ -1,5 +1,6 @@
 //! Obstacles: surfaces and how they move.
 
+use super::impact::LARGEST_RESTITUTION;
 use super::rigid_motion::{Mount, RigidMotion};
 use super::surface::Surface;
 use crate::cable::Cable;
@@ -20,6 +21,9 @@ pub struct Obstacle {
     pub mount: Option<Mount>,
     /// Coefficient of friction between it and the cable, >= 0.
     pub friction: f64,
+    /// Newton's coefficient of restitution between it and the cable, from 0 to [`LARGEST_RESTITUTION`](super::LARGEST_RESTITUTION): the share of the velocity with
+    /// which the cable comes that it leaves with. Default: 0.
+    pub restitution: f64,
     /// Distance in m that the cable keeps from it, >= 0.
     pub skin: f64,
     /// Pieces of the cable, by their arc lengths in m, that do not touch it: where it holds the cable. Default: none.
@@ -30,12 +34,27 @@ impl Obstacle {
     /// Creates an obstacle at rest, without skin.
     pub fn new(key: u64, surface: impl Surface + 'static, position: impl Into<Vector3<f64>>, friction: f64) -> Self {
         let motion = RigidMotion::at(position);
-        Obstacle { key, surface: Arc::new(surface), motion, mount: None, friction, skin: 0.0, except: Vec::new() }
+        let (restitution, skin) = (0.0, 0.0);
+        Obstacle {
+            key,
+            surface: Arc::new(surface),
+            motion,
+            mount: None,
+            friction,
+            restitution,
+            skin,
+            except: Vec::new(),
+        }
     }
 
     /// Returns it with a motion.
     pub fn moving(self, motion: RigidMotion) -> Self {
         Obstacle { motion, ..self }
+    }
+
+    /// Returns it with a coefficient of restitution.
+    pub fn with_restitution(self, restitution: f64) -> Self {
+        Obstacle { restitution, ..self }
     }
 
     /// Returns it carried by a body of the island, which is where the obstacle should be on it. The cable then steps only in an
@@ -51,6 +70,13 @@ impl Obstacle {
 
     fn check(&self) -> Result<(), Error> {
         require("friction of an obstacle", self.friction, self.friction >= 0.0, ">= 0")?;
+        let restitution = self.restitution;
+        require(
+            "restitution of an obstacle",
+            restitution,
+            (0.0..=LARGEST_RESTITUTION).contains(&restitution),
+            "from 0 to 15/17",
+        )?;
         require("skin of an obstacle (m)", self.skin, self.skin >= 0.0, ">= 0")?;
         let RigidMotion { start, centre, position, rotation, velocity, angular_velocity } = &self.motion;
         require("start of an obstacle's motion (s)", *start, true, "a number")?;
@@ -94,6 +120,7 @@ impl PartialEq for Obstacles {
                 a.key == b.key
                     && Arc::ptr_eq(&a.surface, &b.surface)
                     && (a.motion, a.mount, a.friction, a.skin) == (b.motion, b.mount, b.friction, b.skin)
+                    && a.restitution == b.restitution
                     && a.except == b.except
             })
     }

@@ -89,6 +89,7 @@ impl Pair<'_> {
             weight,
             law: self.contact.law_of(&self.section.section),
             friction: self.obstacle.friction,
+            restitution: self.obstacle.restitution,
             reach: self.radius + self.obstacle.skin,
             start: combine(self.motion.q, self.element, &shape),
             ..ContactPoint::default()

@@ -34,6 +34,10 @@ pub(in crate::contact) struct ContactPoint {
     pub law: NormalLaw,
     /// Coefficient of friction.
     pub friction: f64,
+    /// Coefficient of restitution.
+    pub restitution: f64,
+    /// Speed in m/s across it with which the cable came when it first touched, negative once it leaves; 0 without restitution, and if it comes again.
+    pub came: f64,
     /// Gap in m at which it touches: radius and skin.
     pub reach: f64,
     pub patch: Patch,
@@ -141,6 +145,7 @@ impl ContactPoint {
                 self.remembered = 0.0;
             }
             self.spring = memory.spring;
+            self.came = memory.came;
             self.bound = self.friction * memory.force;
         }
     }
@@ -277,6 +282,7 @@ impl ContactPoint {
             direction: now.normal,
             friction: now.friction,
             slips: now.slides.is_some(),
+            came: self.came,
         }
     }
 }

@@ -201,6 +201,7 @@ impl StaticContact {
                     direction: sample.normal,
                     friction: Vector3::zeros(),
                     slips: false,
+                    came: 0.0,
                 });
             }
         });

@@ -20,6 +20,9 @@ pub struct Contact {
     pub stiffness: Option<f64>,
     /// Coefficient of friction of the cable, >= 0, which a host combines with that of what it touches. Default: 0.5.
     pub friction: f64,
+    /// Coefficient of restitution of the cable, 0 to 1, which a host combines with that of a collider; [obstacles](crate::contact::Obstacle) have their own, and
+    /// between cables there is none. Default: 0.
+    pub restitution: f64,
     /// Whether it touches other cables that have this too. Default: false.
     pub cables: bool,
     /// Whether it touches itself. Default: false.
@@ -28,7 +31,7 @@ pub struct Contact {
 
 impl Default for Contact {
     fn default() -> Self {
-        Contact { radius: None, stiffness: None, friction: 0.5, cables: false, itself: false }
+        Contact { radius: None, stiffness: None, friction: 0.5, restitution: 0.0, cables: false, itself: false }
     }
 }
 
@@ -36,6 +39,11 @@ impl Contact {
     /// Creates contact with a coefficient of friction.
     pub fn with_friction(friction: f64) -> Self {
         Contact { friction, ..Contact::default() }
+    }
+
+    /// Returns it for a cable with a coefficient of restitution.
+    pub fn with_restitution(self, restitution: f64) -> Self {
+        Contact { restitution, ..self }
     }
 
     /// Returns it for a cable of this radius (m).
@@ -63,10 +71,11 @@ impl Effect for Contact {
     const DISSIPATIVE: bool = false;
 
     fn check(&self, cable: &Target<'_>) -> Result<(), Error> {
-        let Contact { radius, stiffness, friction, .. } = *self;
+        let Contact { radius, stiffness, friction, restitution, .. } = *self;
         require("radius of contact (m)", radius.unwrap_or(1.0), radius.is_none_or(|r| r > 0.0), "> 0")?;
         require("stiffness of contact (N/m^2)", stiffness.unwrap_or(1.0), stiffness.is_none_or(|k| k > 0.0), "> 0")?;
         require("coefficient of friction", friction, friction >= 0.0, ">= 0")?;
+        require("coefficient of restitution", restitution, (0.0..=1.0).contains(&restitution), "from 0 to 1")?;
         if radius.is_none() && cable.elements.iter().any(|e| e.section.diameter.is_none()) {
             return Err(cable.missing("contact", Requirement::Radius));
         }

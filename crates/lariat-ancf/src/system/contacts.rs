@@ -57,7 +57,7 @@ impl Equations<'_> {
     /// Takes the velocity across contacts that push at the end of the step, if it has more energy than `least` (J).
     pub fn land(&mut self, state: &State, b: &mut Buffers, balance: &mut Balance, least: f64) {
         self.find_velocities(state, b);
-        let with_obstacles = self.find_impacts(b, |_, _| Vector3::zeros());
+        let with_obstacles = self.find_impacts(state, b, |_, _| [Vector3::zeros(); 2]);
         if with_obstacles + self.find_own_impacts(b) <= least {
             return;
         }
@@ -69,7 +69,7 @@ impl Equations<'_> {
         }
         let [taken, held] = self.energy_of_impacts(b);
         let work = b.contact.work_of_impacts(|e, shape| combine(&b.landed, e, shape));
-        let share = share_of_impact(balance, [taken, held, work]);
+        let share = share_of_impact(balance, [taken, held, work], b.contact.rebound());
         b.landed.iter_mut().for_each(|w| *w *= share);
     }
 
@@ -80,11 +80,16 @@ impl Equations<'_> {
         }
     }
 
-    /// Finds the impacts of these velocities and those of bodies, and returns their energy in J.
-    pub fn find_impacts(&self, b: &mut Buffers, body: impl Fn(usize, &Vector3<f64>) -> Vector3<f64>) -> f64 {
+    /// Finds the impacts of these velocities, those at the beginning and those of bodies, and returns their energy in J.
+    pub fn find_impacts(
+        &self,
+        state: &State,
+        b: &mut Buffers,
+        body: impl Fn(usize, &Vector3<f64>) -> [Vector3<f64>; 2],
+    ) -> f64 {
         let Buffers { contact, external, .. } = b;
         let mass = |element: usize| self.model.elements[element].section.mass_per_length;
-        contact.find_impacts(mass, |e, shape| combine(external, e, shape), body)
+        contact.find_impacts(mass, |e, shape| [&state.v, external].map(|v| combine(v, e, shape)), body)
     }
 
     /// Finds the impacts of the cable on itself, and returns their energy in J.

@@ -224,14 +224,14 @@ pub enum Warning {
         /// Number of elements that would do.
         enough: usize,
     },
-    /// It touches something that bodies bounce off.
+    /// It touches something off which it should bounce with more of its velocity than it can.
     #[error(
-        "cable {cable:?}: contacts of cables have no coefficient of restitution, and what it touches has {restitution}: it does not bounce off it"
+        "cable {cable:?}: with what it touches it has a coefficient of restitution of {restitution}, and impacts of cables have at most 15/17: it leaves with less"
     )]
-    NoRestitution {
+    HighRestitution {
         /// Name of the cable.
         cable: String,
-        /// Restitution of what it touches.
+        /// Coefficient of restitution with what it touches.
         restitution: f64,
     },
     /// Friction does not settle on the normal forces.

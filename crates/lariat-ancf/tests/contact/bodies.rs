@@ -63,7 +63,7 @@ impl World {
 }
 
 /// A surface on the first body, with its axes.
-fn on_body(surface: impl Surface + 'static, friction: f64) -> Obstacle {
+pub fn on_body(surface: impl Surface + 'static, friction: f64) -> Obstacle {
     let mount = Mount { body: 0, position: Vector3::zeros(), rotation: UnitQuaternion::identity() };
     Obstacle::new(1, surface, Vector3::zeros(), friction).on(mount)
 }
@@ -72,7 +72,7 @@ fn ball(mass: f64, radius: f64, at: Vector3<f64>) -> RigidBody {
     RigidBody::new(mass, Matrix3::from_diagonal_element(0.4 * mass * radius * radius), at).unwrap()
 }
 
-fn cube(mass: f64, side: f64, at: Vector3<f64>) -> RigidBody {
+pub fn cube(mass: f64, side: f64, at: Vector3<f64>) -> RigidBody {
     RigidBody::new(mass, Matrix3::from_diagonal_element(mass * side * side / 6.0), at).unwrap()
 }
 

@@ -12,6 +12,7 @@ mod features;
 mod first_touch;
 mod floor;
 mod pairs;
+mod restitution;
 mod state;
 mod statics;
 mod wall;

@@ -540,9 +540,10 @@ class World:
         collision_groups: tuple[int, int] | None = None,
         solver_groups: tuple[int, int] | None = None,
         friction_combine_rule: Literal["average", "min", "multiply", "max"] = "average",
+        restitution_combine_rule: Literal["average", "min", "multiply", "max"] = "average",
     ) -> None:
-        """Sets the groups of a cable as bits (memberships, filter), None: all; and how its friction is combined with that of
-        colliders."""
+        """Sets the groups of a cable as bits (memberships, filter), None: all; and how its friction and restitution are combined
+        with those of colliders."""
 
     def contacts(self, cable: Cable) -> list[Touch]:
         """Returns what a cable touched at the end of the last step, each with its collider."""

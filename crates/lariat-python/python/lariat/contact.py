@@ -30,6 +30,8 @@ class Obstacle:
     """In rad/s, about its origin."""
     friction: float = 0.5
     """Coefficient of friction between it and the cable, >= 0; it counts alone."""
+    restitution: float = 0.0
+    """Coefficient of restitution between it and the cable, 0 to 15/17; it counts alone."""
     skin: float = 0.0
     """Distance in m that the cable keeps from it, >= 0."""
     except_at: Sequence[tuple[float, float]] = ()

@@ -55,6 +55,8 @@ class Contact:
 
     friction: float = 0.5
     """Coefficient of friction of the cable, >= 0, combined with that of a collider; obstacles have their own."""
+    restitution: float = 0.0
+    """Coefficient of restitution of the cable, 0 to 1, combined with that of a collider; obstacles have their own."""
     radius: float | None = None
     """In m, > 0; None: half the diameter of the section."""
     stiffness: float | None = None

@@ -21,6 +21,7 @@ struct Parameters {
     velocity: [f64; 3],
     angular_velocity: [f64; 3],
     friction: f64,
+    restitution: f64,
     skin: f64,
     except_at: Vec<[f64; 2]>,
 }
@@ -73,8 +74,8 @@ impl Parameters {
             angular_velocity: self.angular_velocity.into(),
         };
         let surface = self.surface()?;
-        let Parameters { friction, skin, except_at: except, .. } = self;
-        Ok(Obstacle { key, surface, motion, mount: None, friction, skin, except })
+        let Parameters { friction, restitution, skin, except_at: except, .. } = self;
+        Ok(Obstacle { key, surface, motion, mount: None, friction, restitution, skin, except })
     }
 }
 

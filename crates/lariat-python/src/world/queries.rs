@@ -56,8 +56,8 @@ impl World {
         self.0.compute(py, |contents| contents.set.set_contact(handle, contact)).map_err(raise)
     }
 
-    /// Sets the groups of a cable as (memberships, filter), and how its friction is combined.
-    #[pyo3(signature = (cable, *, collision_groups=None, solver_groups=None, friction_combine_rule="average"))]
+    /// Sets the groups of a cable as (memberships, filter), and how its friction and restitution are combined.
+    #[pyo3(signature = (cable, *, collision_groups=None, solver_groups=None, friction_combine_rule="average", restitution_combine_rule="average"))]
     fn set_contact_rules(
         &self,
         py: Python<'_>,
@@ -65,12 +65,14 @@ impl World {
         collision_groups: Option<(u32, u32)>,
         solver_groups: Option<(u32, u32)>,
         friction_combine_rule: &str,
+        restitution_combine_rule: &str,
     ) -> PyResult<()> {
         let handle = cable.handle_in(&self.0)?;
         let rules = ContactRules {
             collision_groups: collision_groups.map_or(InteractionGroups::all(), groups),
             solver_groups: solver_groups.map_or(InteractionGroups::all(), groups),
             friction_combine_rule: combine_rule(friction_combine_rule)?,
+            restitution_combine_rule: combine_rule(restitution_combine_rule)?,
         };
         self.0.compute(py, |contents| contents.set.set_contact_rules(handle, rules)).map_err(raise)
     }

@@ -19,7 +19,7 @@ use crate::step::prediction::StepParameters;
 use crate::step::prescribed_motion::{PrescribedMotions, reference};
 use ::nalgebra::{UnitQuaternion, Vector3};
 use lariat_ancf::Cable;
-use lariat_ancf::contact::{Mount, Obstacle, Overlap, RigidMotion, Surface};
+use lariat_ancf::contact::{LARGEST_RESTITUTION, Mount, Obstacle, Overlap, RigidMotion, Surface};
 use rapier::dynamics::{RigidBody, RigidBodyHandle};
 use rapier::geometry::{Aabb, BoundingVolume, Collider, ColliderHandle};
 use rapier::math::Real;
@@ -147,6 +147,7 @@ impl Finder {
                 motion: motion(world, collider, motions, step, time),
                 mount: collider.parent().and_then(|body| mount(world, collider, island, body)),
                 friction: slot.rules.friction(contact.friction, collider),
+                restitution: slot.rules.restitution(contact.restitution, collider).min(LARGEST_RESTITUTION),
                 skin: f64::from(collider.contact_skin()),
                 except,
             });
@@ -202,6 +203,7 @@ impl Finder {
             motion: still(collider, cable.time()),
             mount: None,
             friction: 0.0,
+            restitution: 0.0,
             skin: f64::from(collider.contact_skin()),
         })
     }

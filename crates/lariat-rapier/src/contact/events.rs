@@ -4,6 +4,7 @@ use super::collider;
 use crate::contents::Contents;
 use crate::events::Event;
 use crate::handle::CableHandle;
+use lariat_ancf::contact::LARGEST_RESTITUTION;
 use lariat_ancf::{Cable, Warning};
 use rapier::pipeline::PhysicsWorld;
 
@@ -11,7 +12,7 @@ use rapier::pipeline::PhysicsWorld;
 type Touched = (u64, f64, f64);
 
 /// Compares what cables touch with what they touched at the end of the last host step.
-/// The first touch of a collider with restitution, which contacts of cables do not have, is a warning.
+/// The first touch of a collider with more restitution than impacts of cables have is a warning.
 pub(crate) fn compare(contents: &mut Contents, world: &PhysicsWorld, events: &mut Vec<Event>) {
     for index in 0..contents.cables.len() {
         let Some(slot) = contents.cables.get_mut(index) else { continue };
@@ -23,11 +24,12 @@ pub(crate) fn compare(contents: &mut Contents, world: &PhysicsWorld, events: &mu
         for &(key, force, arc_length) in &now {
             if !slot.touched.iter().any(|(before, _)| *before == key) {
                 events.push(Event::ContactStarted { cable, collider: collider(key), arc_length, force });
-                let restitution =
-                    world.colliders.get(collider(key)).map_or(0.0, |found| f64::from(found.restitution()));
-                if restitution > 0.0 && !slot.ignored.contains(&key) {
+                let own = slot.cable.effects().contact.map_or(0.0, |contact| contact.restitution);
+                let found = world.colliders.get(collider(key));
+                let restitution = found.map_or(0.0, |found| slot.rules.restitution(own, found));
+                if restitution > LARGEST_RESTITUTION && !slot.ignored.contains(&key) {
                     slot.ignored.push(key);
-                    let warning = Warning::NoRestitution { cable: slot.cable.name().to_string(), restitution };
+                    let warning = Warning::HighRestitution { cable: slot.cable.name().to_string(), restitution };
                     events.push(Event::Warning { cable, warning });
                 }
             }

@@ -22,7 +22,7 @@
 //! A body that cables press on another one feels them in Rapier's step by the estimate of its reactions alone, without the motors of attachments:
 //! a load that is lashed to a vehicle slides too easily.
 //!
-//! Restitution of colliders does not count: impacts of cables have none.
+//! Restitution is combined as friction is, and at most 15/17.
 //!
 //! Rapier's tree holds the boxes of its last step. A fixed collider that is moved by hand is found a step later; a cable that is in
 //! it by then gets no energy from it, but stays as deep as it was found.

@@ -1,4 +1,4 @@
-//! Which colliders and cables a cable touches, and with which friction: as Rapier decides it for two colliders.
+//! Which colliders and cables a cable touches, and with which friction and restitution: as Rapier decides it for two colliders.
 
 use crate::handle::CableHandle;
 use rapier::dynamics::CoefficientCombineRule;
@@ -18,6 +18,8 @@ pub struct ContactRules {
     pub solver_groups: InteractionGroups,
     /// How its friction is combined with that of a collider or another cable. Default: the mean of both.
     pub friction_combine_rule: CoefficientCombineRule,
+    /// How its restitution is combined with that of a collider. Default: the mean of both.
+    pub restitution_combine_rule: CoefficientCombineRule,
 }
 
 impl ContactRules {
@@ -41,6 +43,13 @@ impl ContactRules {
     pub(crate) fn friction(&self, own: f64, collider: &Collider) -> f64 {
         let rules = (self.friction_combine_rule, collider.friction_combine_rule());
         let combined = CoefficientCombineRule::combine(own as Real, collider.friction(), rules.0, rules.1);
+        f64::from(combined).max(0.0)
+    }
+
+    /// Returns the coefficient of restitution between a cable with its own and a collider.
+    pub(crate) fn restitution(&self, own: f64, collider: &Collider) -> f64 {
+        let rules = (self.restitution_combine_rule, collider.restitution_combine_rule());
+        let combined = CoefficientCombineRule::combine(own as Real, collider.restitution(), rules.0, rules.1);
         f64::from(combined).max(0.0)
     }
 }

@@ -12,7 +12,7 @@ use rapier::geometry::ColliderHandle;
 impl CableSet {
     /// Lets a cable touch the colliders of the world, and other cables and itself if the contact says so, or no longer with `None`. Needs the method
     /// `discrete-gradient`, which a cable gets if nobody chose its integrator. The cable's own friction is combined
-    /// with that of a collider as [`set_contact_rules`](Self::set_contact_rules) say. Restitution does not count: impacts of cables have none.
+    /// with that of a collider as [`set_contact_rules`](Self::set_contact_rules) say. So is its restitution.
     ///
     /// # Errors
     /// [`Error::NoCable`]; [`Error::Cable`] for numbers out of range, for a cable without a diameter or a radius, and
@@ -21,7 +21,7 @@ impl CableSet {
         Ok(self.contents.cable_mut(cable)?.set_contact(contact)?)
     }
 
-    /// Sets the groups of a cable, and how its friction is combined, for its contacts with colliders and other cables.
+    /// Sets the groups of a cable, and how its friction and restitution are combined, for its contacts with colliders and other cables.
     ///
     /// # Errors
     /// [`Error::NoCable`].

@@ -44,6 +44,7 @@ pub fn collider(body: &BodyScene) -> Result<Option<ColliderBuilder>, String> {
         Some(friction) => builder.friction(real(friction)),
         None => builder,
     };
+    let builder = builder.restitution(real(body.restitution));
     let builder = match body.mass {
         None => return Ok(Some(builder.density(0.0))),
         Some(BodyMass::Mass(mass)) => builder.mass(real(mass)),

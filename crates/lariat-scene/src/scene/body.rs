@@ -3,7 +3,7 @@
 use super::mesh::Mesh;
 use crate::document::{Document, KeyPath};
 use crate::error::{Error, Problem};
-use crate::schema::{ANY, Choose, Kind, NOT_NEGATIVE, POSITIVE, choice, table};
+use crate::schema::{ANY, Choose, Kind, NOT_NEGATIVE, POSITIVE, UNIT, choice, table};
 use lariat_ancf::Vector3;
 use nalgebra::UnitQuaternion;
 use serde::Deserialize;
@@ -53,6 +53,8 @@ table! {
         angular_velocity: Option<Vector3<f64>> = ("`[0.0, 0.0, 0.0]`"), SINGLE, "rad/s";
         /// Coefficient of friction of a body with a shape.
         friction: Option<f64> = ("Rapier's"), Kind::Number(NOT_NEGATIVE.single());
+        /// Coefficient of restitution of a body with a shape.
+        restitution: f64 = 0.0, Kind::Number(UNIT.single());
         /// Path of the origin of a kinematic body. Linear between rows, at rest outside; put corners on multiples of `dt`.
         path: Option<Vec<[f64; 4]>> = ("none"), Kind::Ascending(&["t", "x", "y", "z"]), "s, m";
     }
@@ -131,6 +133,8 @@ pub struct BodyScene {
     pub angular_velocity: Vector3<f64>,
     /// Coefficient of friction; `None` = Rapier's.
     pub friction: Option<f64>,
+    /// Coefficient of restitution.
+    pub restitution: f64,
     /// Positions at times, in s and m, by ascending time. Empty for none.
     pub path: Vec<(f64, Vector3<f64>)>,
 }
@@ -147,6 +151,9 @@ pub(super) fn read(doc: &Document<'_>, at: &KeyPath, row: BodyTable, folder: &Pa
         }
         BodyShape::Mesh(mesh) => {
             mesh.read(folder).map_err(|problem| doc.conflict(&at.key("shape").key("mesh"), problem))?;
+        }
+        BodyShape::None if row.restitution > 0.0 => {
+            return Err(doc.conflict(&at.key("restitution"), "a body without shape touches nothing"));
         }
         BodyShape::None if row.friction.is_some() => {
             return Err(doc.conflict(&at.key("friction"), "a body without shape touches nothing"));
@@ -165,6 +172,7 @@ pub(super) fn read(doc: &Document<'_>, at: &KeyPath, row: BodyTable, folder: &Pa
         velocity: row.velocity.unwrap_or_default(),
         angular_velocity: row.angular_velocity.unwrap_or_default(),
         friction: row.friction,
+        restitution: row.restitution,
         path: path(doc, &at.key("path"), row.path.as_deref().unwrap_or_default())?,
     };
     if !body.path.is_empty() {
@@ -309,6 +317,7 @@ mod tests {
             velocity: Vector3::zeros(),
             angular_velocity: Vector3::zeros(),
             friction: None,
+            restitution: 0.0,
             path: Vec::new(),
         };
         let point = Vector3::new(1.0, 0.0, 0.0);

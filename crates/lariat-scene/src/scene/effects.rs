@@ -6,7 +6,7 @@
 use super::flow::{self, FLOW};
 use crate::document::{Document, KeyPath};
 use crate::error::{Error, Problem};
-use crate::schema::{ANY, Choose, Default, Key, Kind, NOT_NEGATIVE, POSITIVE, VECTOR, table};
+use crate::schema::{ANY, Choose, Default, Key, Kind, NOT_NEGATIVE, POSITIVE, UNIT, VECTOR, table};
 use lariat_ancf::effect::Effect;
 use lariat_ancf::{
     BendingRule, Buoyancy, Contact, Damping, Drag, Effects, GravityScale, LineLoad, LineLoads, RestPiece, RestShape,
@@ -292,6 +292,8 @@ table! {
         stiffness: Option<f64> = ("EA/(40 radius^2)"), Kind::Number(POSITIVE), "N/m^2";
         /// Coefficient of friction of the cable; that of a contact is the mean of both.
         friction: f64 = 0.5, Kind::Number(NOT_NEGATIVE);
+        /// Coefficient of restitution of the cable; that of a contact is the mean of both, at most 15/17, and 0 between cables.
+        restitution: f64 = 0.0, Kind::Number(UNIT);
         /// Whether the cable touches itself, and other cables that say so: both of the keys below.
         self_contact: bool = false, Kind::Flag;
         /// Whether the cable touches other cables that say so.
@@ -327,8 +329,8 @@ impl SceneEffect for Contact {
     fn write_out(doc: &Document<'_>, at: &KeyPath, value: &mut Value, _: &Context<'_>) -> Result<(), Error> {
         let table: ContactTable = doc.typed(at, value.clone())?;
         let (cables, itself) = (table.cables(), table.itself());
-        let ContactTable { radius, stiffness, friction, .. } = table;
-        *value = Value::try_from(Contact { radius, stiffness, friction, cables, itself })
+        let ContactTable { radius, stiffness, friction, restitution, .. } = table;
+        *value = Value::try_from(Contact { radius, stiffness, friction, restitution, cables, itself })
             .map_err(|error| doc.conflict(at, error.to_string()))?;
         Ok(())
     }

@@ -16,6 +16,8 @@ pub const ANY: Range = Range { text: "", inside: |_| true, single: false };
 pub const POSITIVE: Range = Range { text: "> 0", inside: |x| x > 0.0, single: false };
 /// Zero and positive numbers.
 pub const NOT_NEGATIVE: Range = Range { text: ">= 0", inside: |x| x >= 0.0, single: false };
+/// From 0 to 1.
+pub const UNIT: Range = Range { text: "from 0 to 1", inside: |x| (0.0..=1.0).contains(&x), single: false };
 /// Shares of a whole that are not zero.
 pub const SHARE: Range = Range { text: "in (0, 1]", inside: |x| x > 0.0 && x <= 1.0, single: false };
 

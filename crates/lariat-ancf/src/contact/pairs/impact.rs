@@ -29,7 +29,8 @@ impl PairStep {
             if pair.point.may_leave() {
                 let beside = pair.rate(&velocity);
                 let normal = pair.point.linear.tangents.across;
-                energy += pair.point.find_impact(normal, [beside, Vector3::zeros()], (self.h, reduced));
+                let zero = Vector3::zeros();
+                energy += pair.point.find_impact(normal, [zero, beside, zero], (self.h, reduced));
             }
         }
         energy

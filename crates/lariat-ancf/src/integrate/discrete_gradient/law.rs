@@ -252,12 +252,21 @@ pub(crate) enum Event {
 }
 
 /// Returns the share of an impact that makes no energy but the work of obstacles ([`impact`](crate::contact)), and adds it to the balance:
-/// `[P, E, W]` are its terms.
-pub(crate) fn share_of_impact(balance: &mut Balance, [taken, held, work]: [f64; 3]) -> f64 {
-    let share = ((taken + work) / held).clamp(0.0, 1.0);
+/// `[P, E, W]` are its terms. One that `rebounds` may give back what the step lost.
+pub(crate) fn share_of_impact(balance: &mut Balance, [taken, held, work]: [f64; 3], rebounds: bool) -> f64 {
+    let most = if rebounds {
+        let (half, losses) = (0.5 * (taken + work), balance.contacts + balance.numerical - balance.residual.max(0.0));
+        half + (half * half + held * losses.max(0.0)).sqrt()
+    } else {
+        taken + work
+    };
+    let share = (most / held).clamp(0.0, 1.0);
     if share > 0.0 {
         balance.contacts += share * (taken + work) - share * share * held;
         balance.obstacles += share * work;
+        if rebounds && balance.contacts < 0.0 {
+            balance.numerical += core::mem::take(&mut balance.contacts);
+        }
         share
     } else {
         // also of what is no number

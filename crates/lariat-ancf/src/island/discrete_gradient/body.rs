@@ -251,10 +251,13 @@ impl BodyStep {
         [velocity, self.end * spin]
     }
 
-    /// Returns its velocity at an arm about its centre in world axes, at the end of the step.
-    pub fn velocity_at_end(&self, arm: &Vector3<f64>) -> Vector3<f64> {
-        let [velocity, spin] = split(&(self.velocity + self.change - self.taken));
-        velocity + (self.end * spin).cross(arm)
+    /// Returns its velocities at an arm about its centre in world axes, when the step begins and ends.
+    pub fn velocities_at(&self, arm: &Vector3<f64>) -> [Vector3<f64>; 2] {
+        let ends = [(self.velocity, self.rotation), (self.velocity + self.change - self.taken, self.end)];
+        ends.map(|(velocity, rotation)| {
+            let [velocity, spin] = split(&velocity);
+            velocity + (rotation * spin).cross(arm)
+        })
     }
 
     /// Returns u at the end of the step, and the share of D u that the store holds.

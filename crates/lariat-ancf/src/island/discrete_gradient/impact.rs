@@ -16,7 +16,7 @@ impl IslandStep<'_, '_> {
         for cable in self.cables.iter_mut() {
             let CableStep { equations, state, buffers: b } = cable.step_parts();
             equations.find_velocities(state, b);
-            energy += equations.find_impacts(b, |i, arm| bodies[i].velocity_at_end(arm));
+            energy += equations.find_impacts(state, b, |i, arm| bodies[i].velocities_at(arm));
         }
         let cables = &*self.cables;
         energy += self.buffers.pairs.find_impacts(
@@ -31,12 +31,14 @@ impl IslandStep<'_, '_> {
             self.solve_impacts();
         }
         let [mut taken, mut held, mut work] = [0.0; 3];
+        let mut rebounds = false;
         for cable in self.cables.iter_mut() {
             let CableStep { mut equations, buffers, .. } = cable.step_parts();
             let own = equations.energy_of_impacts(buffers);
             (taken, held) = (taken + own[0], held + own[1]);
             let Buffers { contact, landed, .. } = &*buffers;
             work += contact.work_of_impacts(|e, shape| combine(landed, e, shape));
+            rebounds |= contact.rebound();
         }
         let coupled = &self.buffers.coupled;
         let bodies = &self.buffers.bodies;
@@ -47,7 +49,7 @@ impl IslandStep<'_, '_> {
         }
         held += 0.5 * (1.0 + ALPHA) * coupled_product(coupled, |i| bodies[i].landed, |i| bodies[i].landed);
         taken += coupled_product(coupled, |i| bodies[i].carried_velocity(), |i| bodies[i].landed);
-        let share = share_of_impact(balance, [taken, held, work]);
+        let share = share_of_impact(balance, [taken, held, work], rebounds);
         for cable in self.cables.iter_mut() {
             cable.step_buffers.landed.iter_mut().for_each(|w| *w *= share);
         }

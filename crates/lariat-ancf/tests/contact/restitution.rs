@@ -1,0 +1,205 @@
+//! Cables that bounce: Newton's coefficient of restitution.
+
+use crate::bench::{GRAVITY, RADIUS, rope, run, steps, up, with};
+use crate::bodies::{World, cube, on_body};
+use lariat_ancf::contact::{Cuboid, HalfSpace, Obstacle, RigidMotion};
+use lariat_ancf::{Cable, Contact, Section, Vector3};
+
+fn floor(friction: f64, restitution: f64) -> Obstacle {
+    Obstacle::new(1, HalfSpace { normal: up() }, Vector3::zeros(), friction).with_restitution(restitution)
+}
+
+/// A stiff bar of 0.2 m that flies flat towards a floor at a height in m, without gravity.
+fn flat_bar((axial, mass): (f64, f64), gap: f64, velocity: Vector3<f64>, rate: f64, floor: Obstacle) -> Cable {
+    let line = [up() * (RADIUS + gap), Vector3::new(0.2, RADIUS + gap, 0.0)];
+    let section = Section::from_stiffness(axial, 10.0, mass).unwrap();
+    let bar = rope(10.0, &line, 2).section(section).gravity(Vector3::zeros()).velocity(velocity);
+    let friction = floor.friction;
+    let mut bar = with(bar.integrator(steps(rate)).build().unwrap(), vec![floor]);
+    bar.set_contact(Contact::with_friction(friction).with_radius(RADIUS)).unwrap();
+    bar
+}
+
+/// A stiff bar that lands flat leaves with e times its speed, with any part of a step left when it lands, at any speed, mass, stiffness and step, from a floor at
+/// rest and from one that moves; no step makes energy.
+///
+/// *Source.* Newton's law of restitution.
+#[test]
+fn a_bar_that_lands_flat_leaves_with_its_share_of_the_speed() {
+    let mut worst = 0.0f64;
+    for rate in [30.0, 60.0, 120.0, 240.0, 960.0] {
+        for stiff in [(1e4, 0.02), (1e6, 0.14), (1e6, 5.0), (1e8, 0.14)] {
+            for i in 0..12 {
+                let restitution = [0.1, 0.35, 0.6, 0.88][i % 4];
+                let i = i as f64;
+                let (speed, gap) = (0.3 + 0.67 * i, 0.02 * (1.0 + 0.083 * i));
+                let lift = if i % 3.0 == 0.0 { 0.3 * speed } else { 0.0 };
+                let motion = RigidMotion { velocity: up() * lift, ..RigidMotion::at(Vector3::zeros()) };
+                let floor = floor(0.0, restitution).moving(motion);
+                let mut bar = flat_bar(stiff, gap, up() * (lift - speed), rate, floor);
+                let time = 2.0 * gap / (speed - lift).abs() + 4.0 / rate;
+                let made = run(&mut bar, (60.0 * time).ceil() as usize, |_| {});
+                let left = (bar.momentum().linear.y / (0.2 * stiff.1) - lift) / speed;
+                worst = worst.max((left - restitution).abs());
+                assert!(
+                    (left - restitution).abs() < 0.02,
+                    "{rate} Hz, {stiff:?}, {speed} m/s: {left} for {restitution}"
+                );
+                // what it cannot know of the strain energy by rounding
+                let rounding = 2.0 * f64::EPSILON * 0.2 * stiff.0 / (0.1 * stiff.1 * speed * speed);
+                assert!(made < 1e-8 + rounding, "{rate} Hz, {stiff:?}, {speed} m/s: {made:e}");
+                assert!(bar.energy_law().made <= 1e-9 * 0.1 * stiff.1 * speed * speed, "{:?}", bar.energy_law());
+            }
+        }
+    }
+    println!("differs by at most {worst:.1e} of the speed");
+}
+
+/// A stiff bar that lands on its end leaves as a rigid rod of which the end bounces, with any part of a step left when it lands.
+///
+/// *Source.* A uniform rod on a smooth floor: the impulse is `(1 + e) m v/(1 + 3 cos^2 a)`, a the angle to the floor.
+#[test]
+fn a_bar_that_bounces_on_its_end_turns_as_a_rod() {
+    let mut worst = 0.0f64;
+    for rate in [60.0, 240.0, 960.0] {
+        for (angle, restitution) in [(0.6f64, 0.3), (0.9, 0.8), (1.2, 0.5)] {
+            for i in 0..8 {
+                let (speed, gap) = (1.0 + 0.31 * f64::from(i), 1e-3 + 7e-3 * f64::from(i) / 8.0);
+                let (start, along) = (up() * (RADIUS + gap), Vector3::new(f64::cos(angle), f64::sin(angle), 0.0));
+                let line = [start, start + 0.4 * along];
+                let bar = rope(1e3, &line, 2).gravity(Vector3::zeros()).velocity(up() * -speed);
+                let mut bar = with(bar.integrator(steps(rate)).build().unwrap(), vec![floor(0.0, restitution)]);
+                while bar.contacts().next().is_none() {
+                    bar.step(1.0 / rate).unwrap();
+                }
+                bar.step(1.0 / rate).unwrap();
+                let left = -bar.momentum().linear.y / (0.4 * 0.14 * speed);
+                let ((sine, cosine), twice) = (angle.sin_cos(), 1.0 + restitution);
+                let lever = 1.0 + 3.0 * cosine * cosine;
+                let exact = 1.0 - twice / lever;
+                // the two steps in which it turns
+                let turned = 6.0 * speed * cosine * twice / (0.4 * lever) * 2.0 / rate;
+                let change = twice * 6.0 * cosine * sine / (lever * lever) * turned;
+                worst = worst.max((left - exact).abs() - change);
+                assert!((left - exact).abs() < 6e-3 + change, "{rate} Hz, {angle}, {speed} m/s: {left} for {exact}");
+            }
+        }
+    }
+    println!("differs by at most {worst:.1e} of the speed");
+}
+
+/// A bar that bounces while it moves along the floor loses `mu (1 + e) v` of the speed along it.
+///
+/// *Source.* Coulomb's law for impulses: the normal impulse is m (1 + e) v.
+#[test]
+fn a_bounce_takes_its_share_of_the_speed_along_the_floor() {
+    for (friction, restitution) in [(0.1, 0.8), (0.3, 0.5), (0.5, 0.2)] {
+        for rate in [60.0, 240.0, 960.0] {
+            for phase in [0.0, 0.23, 0.51, 0.87] {
+                let (fall, along) = (2.0, 5.0);
+                let gap = fall * (5.0 + phase) / rate;
+                let floor = floor(friction, restitution);
+                let mut bar = flat_bar((1e6, 0.14), gap, Vector3::new(along, -fall, 0.0), rate, floor);
+                let made = run(&mut bar, 12, |_| {});
+                let speed = bar.momentum().linear / (0.2 * 0.14);
+                let exact = along - friction * (1.0 + restitution) * fall;
+                println!(
+                    "mu {friction}, e {restitution}, 1/{rate} s: {:.4} m/s for {exact:.4}, made {made:.0e}",
+                    speed.x
+                );
+                assert!(made < 1e-8, "{made:e}");
+                assert!((speed.x - exact).abs() < 0.02 * fall, "{} for {exact}", speed.x);
+                assert!((speed.y - restitution * fall).abs() < 0.02 * fall, "{}", speed.y);
+            }
+        }
+    }
+}
+
+/// A rope that is dropped flat bounces to e^2 times the height of its fall, and comes to rest; no host step makes energy.
+///
+/// *Source.* Newton's law of restitution, free fall. A step takes the velocity at its beginning for that of the impact: the error is below e g h.
+#[test]
+fn a_rope_bounces_to_its_height_and_comes_to_rest() {
+    for restitution in [0.3, 0.6, 0.88] {
+        for rate in [60.0, 240.0, 960.0] {
+            let height = 0.5;
+            let line = [up() * (RADIUS + height), Vector3::new(1.0, RADIUS + height, 0.0)];
+            let cable = rope(0.1, &line, 10).integrator(steps(rate)).build().unwrap();
+            let mut cable = with(cable, vec![floor(0.5, restitution)]);
+            let (mut landed, mut top, mut time, mut rest) = (false, 0.0f64, 0.0, 0.0);
+            let made = run(&mut cable, 900, |cable| {
+                time += 1.0 / 60.0;
+                let (y, v) = (cable.node_position(5).y - RADIUS, cable.velocities()[31]);
+                if !landed && v > 0.0 {
+                    landed = true;
+                }
+                if landed && time < 1.2 {
+                    top = top.max(y);
+                }
+                if cable.energy().kinetic > 1e-6 {
+                    rest = time;
+                }
+            });
+            let impact = f64::sqrt(2.0 * GRAVITY * height);
+            let exact = (restitution * impact).powi(2) / (2.0 * GRAVITY);
+            // and 2 % by the rope's own damping and the host steps between which it turns
+            let error = restitution * restitution * impact / rate + 0.02 * exact;
+            println!(
+                "e {restitution}, 1/{rate} s: {top:.4} m for {exact:.4}, at rest after {rest:.2} s, made {made:.0e}"
+            );
+            assert!(made < 1e-8, "{made:e}");
+            assert!((top - exact).abs() < error, "{top} for {exact}, {error}");
+            assert!(rest < 14.0, "{rest}");
+        }
+    }
+}
+
+/// A bar that flies against a free box: momentum stays, and they part with e times the speed with which they met.
+///
+/// *Source.* Newton's law of restitution and the conservation of momentum.
+#[test]
+fn a_bar_bounces_off_a_free_box() {
+    for (mass, restitution) in [(0.01, 0.5), (0.1, 0.8), (3.0, 0.3)] {
+        for rate in [60.0, 240.0] {
+            for phase in [0.1, 0.42, 0.77] {
+                let speed = 2.0;
+                let gap = speed * (3.0 + phase) / rate;
+                let line = [Vector3::new(-0.1, 0.0, 0.0), Vector3::new(0.1, 0.0, 0.0)]
+                    .map(|x| x + up() * (0.1 + RADIUS + gap));
+                let bar = rope(10.0, &line, 2).gravity(Vector3::zeros()).velocity(up() * -speed).build().unwrap();
+                let box_ = on_body(Cuboid { half_extents: Vector3::repeat(0.1) }, 0.0).with_restitution(restitution);
+                let bar = with(bar, vec![box_]);
+                let mut world = World::new(vec![bar], vec![cube(mass, 0.2, Vector3::zeros())]);
+                world.integrator = steps(rate);
+                let before = world.momentum();
+                let made = world.run(20, |_| {});
+                let after = world.momentum();
+                let own = world.cables[0].momentum().linear.y / (0.2 * 0.14);
+                let other = (after.0.y - world.cables[0].momentum().linear.y) / mass;
+                println!(
+                    "{mass} kg, e {restitution}: part at {:.4} for {:.4}, made {made:.0e}",
+                    own - other,
+                    restitution * speed
+                );
+                assert!((after.0 - before.0).norm() < 1e-10 * before.0.norm(), "{:?} {:?}", before, after);
+                assert!(made < 1e-8, "{made:e}");
+                assert!((own - other - restitution * speed).abs() < 0.02 * speed, "{own} {other}");
+            }
+        }
+    }
+}
+
+/// More than the energy law allows, and what is no coefficient, is an error.
+#[test]
+fn restitution_out_of_range_is_an_error() {
+    for restitution in [-0.1, 0.89, f64::NAN] {
+        let line = [up(), up() + Vector3::x()];
+        let mut cable = rope(0.1, &line, 2).build().unwrap();
+        assert!(cable.set_obstacles([floor(0.0, restitution)]).is_err(), "{restitution}");
+    }
+    for restitution in [-0.1, 1.1, f64::NAN] {
+        let mut cable = rope(0.1, &[up(), up() + Vector3::x()], 2).build().unwrap();
+        let contact = Contact::default().with_radius(RADIUS).with_restitution(restitution);
+        assert!(cable.set_contact(contact).is_err(), "{restitution}");
+    }
+}
