@@ -13,7 +13,9 @@
 //! ```
 //!
 //! v1 is relative to the obstacle, `u = e max(0, -n . v0)` what Newton's coefficient of restitution e leaves of the velocity v0 with which a contact came, until it
-//! comes again. Until it leaves, an impact also gives what lacks of u; then it only takes what is more, so that what lies stays. T is the
+//! comes again. Until it leaves, an impact also gives what lacks of u, with the velocity at the beginning of the step if that is less; then it only takes what is
+//! more, so that what lies stays. What G is too soft to
+//! give is added to R and solved for again (augmented Lagrangian), until it changes by 1e-3. T is the
 //! tangent of friction, S the step matrix without contacts; the sum is the matrix that the last iteration factored. So an impulse spreads through cable and bodies as those of the step did. Where a contact slips, the friction of the impulse that is taken
 //! back goes with it, with l of a first solve. `G/m` is `b (h omega)^2` with the frequency omega of the contact: the velocity of contacts that a
 //! step does not resolve is taken, and that of others left.
@@ -21,12 +23,12 @@
 //! The energy of motion and of the store change by
 //!
 //! ```text
-//! D H = -s P + s^2 E <= s W,     P = w . M (v1 + a D v),   E = (1 + a)/2 w . M w,   W = sum R . v_o
+//! D H = -s P + s^2 E,     P = w . M (v1 + a D v),   E = (1 + a)/2 w . M w,   W = sum R . v_o
 //! ```
 //!
-//! where the share s is 1, or the largest for which that holds: an impact makes no energy but the work W of obstacles that move. One with restitution may
-//! give back what the step itself lost, by its contacts and numerically: `D H <= s W + losses`, so that H does not rise over the step. Momentum is kept,
-//! since the impulses on cable and body are opposite and on one line.
+//! where the share s is 1, or the largest for which `D H <= s W + lost`: an impact makes no energy but the work W of obstacles that move, and what contacts lost in the
+//! step itself, since friction of what is taken back did not act; one that gives velocity may also use what the step lost numerically. So H does not rise over the step.
+//! Momentum is kept, since the impulses on cable and body are opposite and on one line.
 //!
 //! # Validity
 //!
@@ -37,7 +39,8 @@
 //! # References
 //!
 //! Gear, Leimkuhler & Gupta, J. Comput. Appl. Math. 12 (1985) 77 (constraints of velocities beside those of positions); Moreau, in
-//! Nonsmooth Mechanics and Applications, 1988 (inelastic impact as a projection, Newton's law of restitution).
+//! Nonsmooth Mechanics and Applications, 1988 (inelastic impact as a projection, Newton's law of restitution); Simo & Laursen, Comput. Struct. 42 (1992) 97 (augmented
+//! Lagrangian).
 //!
 //! # Alternatives considered
 //!
@@ -52,6 +55,10 @@ use nalgebra::{Matrix3, Vector3};
 /// Largest coefficient of restitution with which the discrete gradient makes no energy.
 pub const LARGEST_RESTITUTION: f64 = (1.0 - ALPHA) / (1.0 + ALPHA);
 
+/// Largest number of solves for the impulses of impacts that give velocity, beside the first, and the share of them that the last may change.
+const MAX_SOLVES: usize = 8;
+const GIVEN: f64 = 1e-3;
+
 /// A contact that pushes when the step ends.
 #[derive(Clone, Copy, Debug, Default)]
 pub(in crate::contact) struct Impact {
@@ -65,6 +72,8 @@ pub(in crate::contact) struct Impact {
     rebound: f64,
     /// Whether it gives velocity that it lacks.
     gives: bool,
+    /// Of one that does, the impulse -R along the normal of the last solve, in N s.
+    given: f64,
     /// G in kg: its part along the normal, 0 if it does not push, and that of friction.
     gain: f64,
     friction: Matrix3<f64>,
@@ -105,18 +114,24 @@ impl ContactPoint {
     ) -> f64 {
         let ContactPoint { linear, weight, .. } = *self;
         let across = normal.dot(&beside);
-        if self.recalls.is_none() && self.restitution > 0.0 {
-            self.came = (-normal.dot(&before)).max(0.0);
+        let (mut rebound, mut gives) = (0.0, false);
+        if self.restitution > 0.0 {
+            let comes = (-normal.dot(&before)).max(0.0);
+            self.came = if self.touched { self.came } else { comes };
+            // one that presses on gives no more than what it comes with in this step
+            let least = self.restitution * comes.min(self.came);
+            gives = across < least;
+            rebound = if gives { least } else { self.restitution * self.came.abs() };
+            self.came = if across > 0.0 { -self.came.abs() } else { self.came.max(0.0) };
         }
-        let (rebound, gives) = (self.restitution * self.came.abs(), self.restitution * self.came > 0.0);
-        self.came = if across > 0.0 { -self.came.abs() } else { self.came.max(0.0) };
         let over = across - rebound;
         if over <= 0.0 && !gives {
             return 0.0;
         }
         let scale = BETA * h * h;
         let (gain, friction) = (scale * weight * linear.slope, linear.tangents.friction * scale);
-        let mut impact = Impact { obstacle, beside, normal, rebound, gives, gain, friction, row: Vector3::zeros() };
+        let mut impact =
+            Impact { obstacle, beside, normal, rebound, gives, given: 0.0, gain, friction, row: Vector3::zeros() };
         impact.row = impact.gained(&beside) - normal * (gain * rebound);
         self.impact = impact;
         0.5 * mass * weight * over * over
@@ -128,8 +143,17 @@ impl ContactPoint {
         let (now, impact) = (&self.now, &mut self.impact);
         let left = impact.beside - taken;
         let (wanted, most) = (impact.gain * (impact.normal.dot(&left) - impact.rebound), h * now.normal_force);
-        let least = if impact.gives { f64::NEG_INFINITY } else { 0.0 };
-        let normal = wanted.clamp(least, most);
+        if impact.gives {
+            let given = impact.given;
+            impact.given = (given + wanted).min(most);
+            let mut row = impact.normal * (impact.given - impact.gain * impact.rebound);
+            if now.slides.is_some() {
+                row += now.friction * (impact.given / now.normal_force);
+            }
+            impact.row = row + impact.gained(&impact.beside);
+            return (impact.given - given).abs() > GIVEN * impact.given.abs();
+        }
+        let normal = wanted.clamp(0.0, most);
         let mut impulse = impact.normal * normal + impact.friction * left;
         if now.slides.is_some() {
             impulse += now.friction * (normal / now.normal_force);
@@ -168,6 +192,11 @@ impl ContactStep {
     /// Returns whether any gives velocity by its restitution.
     pub fn rebound(&self) -> bool {
         self.points.iter().any(|point| point.impact.gives())
+    }
+
+    /// Returns how often impulses are solved for again.
+    pub fn solves(&self) -> usize {
+        if self.rebound() { MAX_SOLVES } else { 1 }
     }
 
     /// Adds what the linear solve sees of them to the rows of the cable, and its opposite to those of bodies.

@@ -47,6 +47,8 @@ pub(in crate::contact) struct ContactPoint {
     pub closing: f64,
     /// Whether losses pay for that, not what moved the obstacle.
     pub pays: bool,
+    /// Whether it touched when the last step ended.
+    pub touched: bool,
     /// Normal force in N at the end of the last step.
     pub remembered: f64,
     /// Where it acts, if that is between the closest points of beginning and end.
@@ -137,6 +139,7 @@ impl ContactPoint {
         self.free_way = if memory.is_none() { -depth } else { 0.0 };
         let difference = depth.max(0.0) - memory.map_or(0.0, |memory| memory.depth);
         (self.offset, self.closing, self.pays) = (difference.max(0.0), 0.0, false);
+        self.touched = memory.is_some();
         self.remembered = memory.map_or(0.0, |memory| memory.force);
         if let Some(memory) = memory {
             let difference = depth - memory.depth;

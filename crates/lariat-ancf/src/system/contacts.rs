@@ -62,9 +62,12 @@ impl Equations<'_> {
             return;
         }
         self.solve_impacts(b);
-        let Buffers { contact, pairs, landed, .. } = &mut *b;
-        let obstacles = contact.settle_impacts(|e, shape| combine(landed, e, shape), |_, _| Vector3::zeros());
-        if pairs.settle_impacts(|_, e, shape| combine(landed, e, shape)) || obstacles {
+        for _ in 0..b.contact.solves() {
+            let Buffers { contact, pairs, landed, .. } = &mut *b;
+            let obstacles = contact.settle_impacts(|e, shape| combine(landed, e, shape), |_, _| Vector3::zeros());
+            if !(pairs.settle_impacts(|_, e, shape| combine(landed, e, shape)) || obstacles) {
+                break;
+            }
             self.solve_impacts(b);
         }
         let [taken, held] = self.energy_of_impacts(b);

@@ -251,20 +251,17 @@ pub(crate) enum Event {
     Lagging,
 }
 
-/// Returns the share of an impact that makes no energy but the work of obstacles ([`impact`](crate::contact)), and adds it to the balance:
-/// `[P, E, W]` are its terms. One that `rebounds` may give back what the step lost.
-pub(crate) fn share_of_impact(balance: &mut Balance, [taken, held, work]: [f64; 3], rebounds: bool) -> f64 {
-    let most = if rebounds {
-        let (half, losses) = (0.5 * (taken + work), balance.contacts + balance.numerical - balance.residual.max(0.0));
-        half + (half * half + held * losses.max(0.0)).sqrt()
-    } else {
-        taken + work
-    };
+/// Returns the share of an impact that makes no energy ([`impact`](crate::contact)) but the work of obstacles and what contacts lost in the step, and adds it to
+/// the balance: `[P, E, W]` are its terms. One that `gives` velocity may also take back what the step lost numerically.
+pub(crate) fn share_of_impact(balance: &mut Balance, [taken, held, work]: [f64; 3], gives: bool) -> f64 {
+    let lost = balance.contacts + if gives { balance.numerical } else { 0.0 };
+    let (half, lost) = (0.5 * (taken + work), (lost - balance.residual.max(0.0)).max(0.0));
+    let most = half + (half * half + held * lost).sqrt();
     let share = (most / held).clamp(0.0, 1.0);
     if share > 0.0 {
         balance.contacts += share * (taken + work) - share * share * held;
         balance.obstacles += share * work;
-        if rebounds && balance.contacts < 0.0 {
+        if gives && balance.contacts < 0.0 {
             balance.numerical += core::mem::take(&mut balance.contacts);
         }
         share

@@ -27,7 +27,11 @@ impl IslandStep<'_, '_> {
             return;
         }
         self.solve_impacts();
-        if self.settle_impacts() {
+        let solves = self.cables.iter().map(|cable| cable.step_buffers.contact.solves()).max();
+        for _ in 0..solves.unwrap_or(1) {
+            if !self.settle_impacts() {
+                break;
+            }
             self.solve_impacts();
         }
         let [mut taken, mut held, mut work] = [0.0; 3];
