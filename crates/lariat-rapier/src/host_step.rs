@@ -76,7 +76,7 @@ impl CableSet {
     pub fn finish(&mut self, world: &mut PhysicsWorld, host: HostStep) -> Result<(), Error> {
         step::finish(&mut self.contents, world, &host);
         if host.is_complete() {
-            contact::events::compare(&mut self.contents, world, &mut self.stepper.events);
+            contact::events::compare(&mut self.contents, &mut self.stepper.events);
             warnings::note(&mut self.contents, world, &mut self.stepper.events);
             breaking::break_overloaded(&mut self.contents, &mut self.stepper.events);
         }

@@ -18,8 +18,8 @@ use crate::islands::{Island, Member};
 use crate::step::prediction::StepParameters;
 use crate::step::prescribed_motion::{PrescribedMotions, reference};
 use ::nalgebra::{UnitQuaternion, Vector3};
-use lariat_ancf::Cable;
 use lariat_ancf::contact::{LARGEST_RESTITUTION, Mount, Obstacle, Overlap, RigidMotion, Surface};
+use lariat_ancf::{Cable, Warning};
 use rapier::dynamics::{RigidBody, RigidBodyHandle};
 use rapier::geometry::{Aabb, BoundingVolume, Collider, ColliderHandle};
 use rapier::math::Real;
@@ -130,7 +130,7 @@ impl Finder {
         let Some(contact) = slot.cable.effects().contact else { return Ok(false) };
         self.find(world, &slot.cable, step.h);
         let (cable, time) = (CableHandle(index as u32), slot.cable.time());
-        let (mut obstacles, mut ignored) = (Vec::new(), Vec::new());
+        let (mut obstacles, mut ignored, mut high) = (Vec::new(), Vec::new(), Vec::new());
         for i in 0..self.found.len() {
             let handle = self.found[i];
             let Some(collider) = self.touched(world, cable, &slot.rules, handle) else { continue };
@@ -140,6 +140,10 @@ impl Finder {
                 }
                 continue;
             };
+            let restitution = slot.rules.restitution(contact.restitution, collider);
+            if restitution > LARGEST_RESTITUTION && !slot.ignored.contains(&key(handle)) {
+                high.push((key(handle), restitution));
+            }
             let except = held_pieces(contents, cable, collider, &*surface, slot.cable.contact_radius());
             obstacles.push(Obstacle {
                 key: key(handle),
@@ -147,7 +151,7 @@ impl Finder {
                 motion: motion(world, collider, motions, step, time),
                 mount: collider.parent().and_then(|body| mount(world, collider, island, body)),
                 friction: slot.rules.friction(contact.friction, collider),
-                restitution: slot.rules.restitution(contact.restitution, collider).min(LARGEST_RESTITUTION),
+                restitution: restitution.min(LARGEST_RESTITUTION),
                 skin: f64::from(collider.contact_skin()),
                 except,
             });
@@ -158,6 +162,11 @@ impl Finder {
             log::warn!("cable {name:?} passes through collider {collider:?}, whose shape is the program's own");
             slot.ignored.push(key(collider));
             events.push(Event::ContactIgnored { cable, collider });
+        }
+        for (key, restitution) in high {
+            slot.ignored.push(key);
+            let warning = Warning::HighRestitution { cable: slot.cable.name().to_string(), restitution };
+            events.push(Event::Warning { cable, warning });
         }
         obstacles.sort_unstable_by_key(|obstacle| obstacle.key);
         let still = |o: &Obstacle| [o.motion.velocity, o.motion.angular_velocity] == [Vector3::zeros(); 2];

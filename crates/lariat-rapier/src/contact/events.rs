@@ -4,16 +4,13 @@ use super::collider;
 use crate::contents::Contents;
 use crate::events::Event;
 use crate::handle::CableHandle;
-use lariat_ancf::contact::LARGEST_RESTITUTION;
-use lariat_ancf::{Cable, Warning};
-use rapier::pipeline::PhysicsWorld;
+use lariat_ancf::Cable;
 
 /// What a cable touches: key of the collider, sum of the normal forces in N, and the arc length in m of their centre.
 type Touched = (u64, f64, f64);
 
 /// Compares what cables touch with what they touched at the end of the last host step.
-/// The first touch of a collider with more restitution than impacts of cables have is a warning.
-pub(crate) fn compare(contents: &mut Contents, world: &PhysicsWorld, events: &mut Vec<Event>) {
+pub(crate) fn compare(contents: &mut Contents, events: &mut Vec<Event>) {
     for index in 0..contents.cables.len() {
         let Some(slot) = contents.cables.get_mut(index) else { continue };
         if slot.asleep || slot.touched.is_empty() && slot.cable.effects().contact.is_none() {
@@ -24,14 +21,6 @@ pub(crate) fn compare(contents: &mut Contents, world: &PhysicsWorld, events: &mu
         for &(key, force, arc_length) in &now {
             if !slot.touched.iter().any(|(before, _)| *before == key) {
                 events.push(Event::ContactStarted { cable, collider: collider(key), arc_length, force });
-                let own = slot.cable.effects().contact.map_or(0.0, |contact| contact.restitution);
-                let found = world.colliders.get(collider(key));
-                let restitution = found.map_or(0.0, |found| slot.rules.restitution(own, found));
-                if restitution > LARGEST_RESTITUTION && !slot.ignored.contains(&key) {
-                    slot.ignored.push(key);
-                    let warning = Warning::HighRestitution { cable: slot.cable.name().to_string(), restitution };
-                    events.push(Event::Warning { cable, warning });
-                }
             }
         }
         for &(key, arc_length) in &slot.touched {

@@ -26,6 +26,7 @@ mod payload;
 mod prescribed_motion;
 mod reels;
 mod refused;
+mod restitution;
 mod ropes;
 mod sheaves;
 mod single_precision;

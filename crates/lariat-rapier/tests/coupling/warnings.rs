@@ -99,9 +99,9 @@ fn a_cable_inside_a_collider_is_told() {
     assert!(set.warnings(&world).is_empty());
 }
 
-/// A cable that touches a collider with which it should bounce more than it can tells so in an event, once.
+/// A cable that comes near a collider with which it should bounce more than it can tells so in an event, once.
 #[test]
-fn more_restitution_than_cables_have_is_told_at_the_first_touch() {
+fn more_restitution_than_cables_have_is_told_once() {
     for (own, expected) in [(0.0, None), (0.75, None), (1.0, Some(1.0))] {
         let mut world = PhysicsWorld::new();
         world.insert_collider(ColliderBuilder::cuboid(3.0, 0.1, 1.0).restitution(1.0), None);
