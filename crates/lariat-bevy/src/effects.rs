@@ -200,6 +200,11 @@ impl Contact {
         Contact(lariat_ancf::Contact::with_friction(friction))
     }
 
+    /// With this coefficient of restitution, which is combined with that of what it touches.
+    pub fn with_restitution(self, restitution: f64) -> Self {
+        Contact(self.0.with_restitution(restitution))
+    }
+
     /// Contact with other cables that have it and with itself, too.
     pub fn with_cables(self) -> Self {
         Contact(self.0.with_cables())

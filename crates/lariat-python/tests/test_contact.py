@@ -180,3 +180,22 @@ def test_cables_that_are_stepped_together_hold_each_other() -> None:
         lariat.step_together([], 0.01)
     with pytest.raises(lariat.errors.DuplicateCableError):
         lariat.step_together([pair[0], pair[0]], 0.01)
+
+
+@pytest.mark.parametrize("restitution", [0.0, 0.4, 0.8])
+def test_a_bar_bounces_by_newtons_law(restitution: float) -> None:
+    bar = lariat.Cable([[0, 0.105, 0], [0.4, 0.105, 0]], lariat.Section(1e6, 1e3, 0.1, diameter=0.01), elements=2, fidelity="game", effects=Contact())
+    bar.set_obstacles([Obstacle.half_space([0, 1, 0], friction=0.0, restitution=restitution)])
+    bar.set_rigid_motion([0, -2, 0])
+    before, speed = 0.0, 0.0
+    for _ in range(60):
+        bar.step(1 / 240)
+        speed = bar.velocities[:, 1].mean()
+        if speed > before:
+            break
+        before = speed
+    assert 2.0 < -before < 2.6
+    # a step takes the velocity at its beginning for that of the impact
+    assert speed == pytest.approx(-restitution * before, abs=0.05)
+    with pytest.raises(errors.InvalidValueError):
+        bar.set_obstacles([Obstacle.half_space([0, 1, 0], restitution=0.9)])
