@@ -9,8 +9,8 @@
 //! m a = F - T        a = a_0 and |T| <= T_max,   or   T = T_max and a > a_0,   or   T = -T_max and a < a_0
 //! ```
 //!
-//! a_0 is what the *commanded rate* c needs. The shaft of the motor turns with it: c approaches the rate asked for within the limit on acceleration, whether the
-//! wheel follows or slips. At the end of the stock and at the least length the acceleration, and with it c, is bounded whatever T is. A slipping motor opposes the
+//! a_0 is what the *commanded rate* c needs. The shaft of the motor turns with it: c approaches the rate asked for, linearly over a host step and within the limit on
+//! acceleration, whether the wheel follows or slips. At the end of the stock and at the least length the acceleration, and with it c, is bounded whatever T is. A slipping motor opposes the
 //! slip, so it only dissipates. A T_max that the host lowers is approached linearly over a host step.
 //!
 //! # Solution
@@ -49,13 +49,18 @@ use serde::{Deserialize, Serialize};
 /// Least and largest length of an element at the end of an iterate, as a multiple of that at the beginning.
 const REACH: [f64; 2] = [0.5, 1.5];
 
+/// Share of a host step that is all of it.
+const ALL: f64 = 1.0 - 1e-9;
+
 /// What drives a reel during a host step.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Motor {
     /// Largest force of the motor in N at the beginning and at the end of the host step.
     pub limits: [f64; 2],
-    /// Length of the host step in s.
+    /// Length in s over which a lowered limit is approached.
     pub duration: f64,
+    /// What is left in s of the host step, over which the commanded rate approaches what is asked for.
+    pub host: f64,
     /// Inertia of the wheel in kg.
     pub wheel: f64,
     /// Rate in m/s asked for, and largest acceleration of the commanded rate to it in m/s^2.
@@ -206,12 +211,16 @@ impl Law {
     /// Begins a step of length `h` (s) at `time` (s) from an extent.
     fn begin(&mut self, flow: &Extent, time: f64, h: f64) {
         let Extent { length, rate, .. } = *flow;
-        let Motor { limits, duration, asked, acceleration, bounds, before, .. } = self.motor;
+        let Motor { limits, duration, host, asked, acceleration, bounds, before, .. } = self.motor;
         let left = [length - bounds[0], bounds[1] - length];
         let [least, largest] = rates(acceleration, rate, left, h);
-        let (from, passed) = before.map_or((rate, h), |before| (before.commanded, time + h - self.begun));
-        let within = acceleration * passed;
-        self.commanded = asked.clamp(from - within, from + within).clamp(least, largest);
+        let (from, over, share) = before.map_or((rate, h, 1.0), |before| {
+            let share = (time + h - self.begun) / host;
+            // a sum of steps ends there to rounding
+            (before.commanded, host, if share > ALL { 1.0 } else { share })
+        });
+        let target = asked.clamp(from - acceleration * over, from + acceleration * over);
+        self.commanded = if share == 1.0 { target } else { from + share * (target - from) }.clamp(least, largest);
         self.planned = [least, self.commanded, largest].map(|end| (end - rate) / h);
         let middle = (time + 0.5 * h - self.begun) / duration;
         self.limit = limits[1] + (1.0 - middle).clamp(0.0, 1.0) * (limits[0] - limits[1]);
