@@ -65,24 +65,30 @@ impl Cable {
         }
     }
 
-    /// Returns the length in m that the reel of an end can take in: up to the next held node, element with a load or of another section, or at another eye, less the
-    /// least element; or a length that is more than `enough` (m) and less than that.
-    fn left(&self, side: Side, enough: f64) -> f64 {
+    /// Returns the length in m that the reel of an end can take in beside the element at the eye: up to the next held node, element with a load or of another
+    /// section, or at another eye, less the least element; or a length with which that element makes more than `enough` (m), and less than that.
+    fn reach(&self, side: Side, enough: f64) -> f64 {
         let (model, count) = (&self.model, self.elements().len());
         let element = |k: usize| if side == Side::End { count - 1 - k } else { k };
+        let least = |e: usize| LEAST * model.reels.element(self.number(e)).length;
         let two = model.reels.sides().count() > 1;
-        let (mut left, mut last) = (0.0, 0);
+        let own = model.elements[element(0)].length;
+        let (mut beside, mut last) = (0.0, 0);
         for k in 0..count {
             last = element(k);
-            left += model.elements[last].length;
+            beside += if k > 0 { model.elements[last].length } else { 0.0 };
             let far = if side == Side::End { last } else { last + 1 };
-            let least = LEAST * model.reels.element(self.number(last)).length;
-            let held = model.support(far).is_some() || self.keeps_node_behind(side, left, k);
-            if left - least > enough || held || two && k + 2 == count {
+            let held = model.support(far).is_some() || self.keeps_node_behind(side, own + beside, k);
+            if own + beside - least(last) > enough || held || two && k + 2 == count {
                 break;
             }
         }
-        left - LEAST * model.reels.element(self.number(last)).length
+        beside - least(last)
+    }
+
+    /// Returns the length in m that the reel of an end can take in, or one that is more than `enough` (m) and less than that.
+    fn left(&self, side: Side, enough: f64) -> f64 {
+        self.elements()[side.element(self.elements().len())].length + self.reach(side, enough)
     }
 
     /// Returns whether the far node of element number `k` from the eye, `from_eye` m from there, has to stay: because the next element is of
@@ -120,14 +126,21 @@ impl Cable {
         stock.map_or(f64::INFINITY, |stock| stock - self.length())
     }
 
-    /// Returns what drives a reel whose rate is an unknown, for a part of a host step, of length `h` (s); so much in s is left of that.
-    pub(super) fn law(&self, side: Side, reel: &Reel, winding: &Winding, [h, host]: [f64; 2]) -> Option<Law> {
+    /// Returns what drives a reel whose rate is an unknown, for a part of a host step, of length `h` (s); so much in s is left of that. `reach` is what it can
+    /// take in beside the element at the eye, if that is known.
+    pub(super) fn law(
+        &self,
+        (side, reel, winding): (Side, &Reel, &Winding),
+        [h, host]: [f64; 2],
+        reach: Option<f64>,
+    ) -> Option<(Law, f64)> {
         let [length, rate, _] = winding.extent;
         let in_island = reel.needs_island();
         let limit = reel.max_force.or(in_island.then_some(0.0))?;
         // what was as strong as it must be had no limit
         let held = |force| MotorState { commanded: rate, limit: f64::INFINITY, force, excess: 0.0 };
         let before = winding.motor.or(winding.pull.map(held)).filter(|_| !in_island);
+        let reach = reach.unwrap_or_else(|| self.reach(side, f64::INFINITY));
         let motor = Motor {
             limits: [before.map_or(limit, |before| before.limit_before(limit)), limit],
             duration: h,
@@ -136,8 +149,8 @@ impl Cable {
             asked: reel.asked(self.time()),
             acceleration: if in_island { STOP } else { reel.acceleration },
             before: before.or((!in_island).then_some(MotorState { commanded: rate, limit, force: 0.0, excess: 0.0 })),
-            bounds: [length - self.left(side, f64::INFINITY), length + self.left_of_stock(reel)],
+            bounds: [-reach, length + self.left_of_stock(reel)],
         };
-        Some(Law::new(motor, self.time()))
+        Some((Law::new(motor, self.time()), reach))
     }
 }

@@ -46,11 +46,13 @@ impl Cable {
             };
             let planned = winding.plan.and_then(|plan| Some((plan, plan.left(self.time(), h)?)));
             let left = planned.map_or(h, |(_, left)| left);
-            let law = self.law(side, reel, winding, [h, left]);
+            let reach = self.system.flows.list[k].beside.filter(|(revision, _)| *revision == self.revision);
+            let law = self.law((side, reel, winding), [h, left], reach.map(|(_, reach)| reach));
             let plan = || planned.map_or_else(|| self.plan(side, reel, winding, h), |(plan, _)| plan);
             let plan = law.is_none().then(plan);
             let flow = &mut self.system.flows.list[k];
-            (flow.feed, flow.law, flow.pull) = (reel.feed, law, None);
+            (flow.feed, flow.law, flow.pull) = (reel.feed, law.map(|(law, _)| law), None);
+            flow.beside = law.map(|(_, reach)| (self.revision, reach));
             if let Some(plan) = plan {
                 flow.extent.acceleration = plan.acceleration(flow.extent.rate, left);
                 flow.stopped = plan.stopped;
@@ -190,6 +192,9 @@ impl Cable {
             let h = (end - self.time()) / (parts - part) as f64;
             self.begin_reel(h);
             let outcome = self.with_workspace(|cable| cable.step_in_workspace(h, integrator));
+            if outcome.is_ok() && part + 1 == parts && !integrator.limit.is_some_and(WorkLimit::has_stopped) {
+                self.snapshot.state.time = end;
+            }
             self.end_reel(outcome.is_ok());
             if let Err(error) = outcome.and_then(|()| self.remesh_reel()) {
                 if let Some(before) = before {
@@ -198,12 +203,9 @@ impl Cable {
                 return Err(error);
             }
             if integrator.limit.is_some_and(WorkLimit::has_stopped) {
-                self.sync_reel();
                 return Ok(());
             }
         }
-        self.snapshot.state.time = end;
-        self.sync_reel();
         Ok(())
     }
 }

@@ -23,7 +23,8 @@
 //!
 //! S > 0 is the apparent stiffness of all cables and bodies to the flow, so the alternative is decided by `T(a_0 - a)` exactly; several reels
 //! one after the other ([`unknowns`](super::unknowns)). c, row and T_a are of the element at the eye alone ([`linear`](super::linear)). Where all
-//! motors stick in an iterate, within their forces, da = 0 is tried first: such a reel costs what one with a given rate does.
+//! motors stick in an iterate, within the forces that are known of them last, da = 0 is tried first: such a reel costs what one with a given rate does. Whether the forces
+//! are within their limits is judged by the result.
 //!
 //! # Validity
 //!
@@ -43,7 +44,7 @@ use crate::integrate::State;
 use crate::integrate::discrete_gradient::{Balance, Buffers};
 use crate::model::Model;
 use crate::reel::Feed;
-use crate::system::{Equations, System};
+use crate::system::Equations;
 use serde::{Deserialize, Serialize};
 
 /// Least and largest length of an element at the end of an iterate, as a multiple of that at the beginning.
@@ -197,7 +198,8 @@ impl Flows {
 impl Law {
     /// Creates the law of a motor for a host step that begins at a time in s.
     pub fn new(motor: Motor, begun: f64) -> Self {
-        Law { motor, begun, ..Law::default() }
+        let force = motor.before.map_or(0.0, |before| before.force);
+        Law { motor, begun, force, ..Law::default() }
     }
 
     /// Returns what the motor leaves to the next host step.
@@ -279,16 +281,16 @@ impl Law {
     }
 }
 
-impl System {
-    /// Returns the force of the motor, or of a prescribed winch, less the part of the strain energy, at an extent.
-    pub(super) fn motor_of_inertia(&self, model: &Model, flow: &Flow, extent: Extent, motion: [&[f64; 12]; 3]) -> f64 {
-        let (element, dead) = (flow.with(model, extent), flow.dead(model));
-        let wheel = flow.law.map_or(0.0, |law| {
+impl Flow {
+    /// Returns the force in N of the motor at an extent, from the force on the length.
+    pub(super) fn motor(&self, model: &Model, extent: Extent, q: &[f64; 12], on_length: f64) -> f64 {
+        let element = self.with(model, extent);
+        let wheel = self.law.map_or(0.0, |law| {
             let stock = (law.motor.bounds[1] - extent.length).max(0.0);
-            let wound = matches!(flow.feed, Feed::Drum | Feed::BodyDrum) && stock.is_finite();
+            let wound = matches!(self.feed, Feed::Drum | Feed::BodyDrum) && stock.is_finite();
             law.motor.wheel + if wound { element.inertia * stock } else { 0.0 }
         });
-        flow.feed.pull(&element, motion[0], element.length_force(motion, &dead)) - wheel * extent.acceleration
+        self.feed.pull(&element, q, on_length) - wheel * extent.acceleration
     }
 }
 
@@ -302,6 +304,7 @@ impl Equations<'_> {
             }
             let extent = flow.at(time);
             let Some(law) = &mut flow.law else { continue };
+            flow.on_length.begin = None;
             if flow.feed == Feed::BodyDrum && (flow.start != time || flow.left_rate.is_none()) {
                 flow.left_rate = Some(extent.rate);
             }
@@ -316,28 +319,24 @@ impl Equations<'_> {
 
     /// Returns the middle and the mean rates of the element at an eye over the present iterate.
     pub(super) fn motion_of_step(&self, flow: &Flow, state: &State, b: &Buffers) -> [[f64; 12]; 3] {
-        let change = flow.side.gather(&b.change);
-        [
-            self.middle_of_step(flow, state, b),
-            change.map(|x| x / b.h),
-            flow.side.gather(&b.velocity_change).map(|x| x / b.h),
-        ]
+        let rate = 1.0 / b.h;
+        let [velocity, acceleration] = [&b.change, &b.velocity_change].map(|x| flow.side.gather(x).map(|x| rate * x));
+        [self.middle_of_step(flow, state, b), velocity, acceleration]
     }
 
     /// Computes the forces of the motors of the present iterate.
     pub fn read_motors(&mut self, state: &State, b: &Buffers) {
         for k in 0..self.system.flows.list.len() {
-            let flow = self.system.flows.list[k];
-            let Some(mut law) = flow.law else { continue };
-            let [on_length, _] = self.flow_force_of_step(&flow, state, b);
-            let (mean, _) = flow.over(state.time, b.h);
-            let [q, v, a] = self.motion_of_step(&flow, state, b);
-            let element = flow.with(self.model, mean);
-            let inertial = element.length_force([&q, &v, &a], &flow.dead(self.model));
-            // the pull is linear in the force on the length
-            law.force = self.system.motor_of_inertia(self.model, &flow, mean, [&q, &v, &a]) + inertial - on_length
-                + flow.lost(self.model, &q, mean.rate);
-            self.system.flows.list[k].law = Some(law);
+            let flow = &self.system.flows.list[k];
+            if flow.law.is_none() {
+                continue;
+            }
+            let on_length = self.on_length_of_step(flow, state, b);
+            let (mean, q) = (flow.over(state.time, b.h).0, self.middle_of_step(flow, state, b));
+            let force = flow.motor(self.model, mean, &q, on_length.force) + flow.lost(self.model, &q, mean.rate);
+            let flow = &mut self.system.flows.list[k];
+            flow.on_length = on_length;
+            flow.law.iter_mut().for_each(|law| law.force = force);
         }
     }
 
