@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 #[serde(default, deny_unknown_fields)]
 pub struct Reel {
     /// Rate in m/s by time in s, ascending: positive pays out; a rate holds until the next row. What is asked for when a host step begins is reached at its end,
-    /// linearly, if `acceleration` lets it, with any method. Default: no rows, at rest.
+    /// linearly, if `acceleration` lets it, with any method; a row within it counts from the next host step on, or earlier. Default: no rows, at rest.
     pub rate: Vec<[f64; 2]>,
     /// Largest acceleration of the rate in m/s^2. Default 2: a jump of the rate by dv is one of the tension by dv sqrt(EA rho A). With `max_force` it is that of
     /// the rate that the motor is commanded; a reel that slipped returns to it as fast as the force lets it.

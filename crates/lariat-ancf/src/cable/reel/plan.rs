@@ -3,7 +3,7 @@
 //! # Equation
 //!
 //! The rate is linear within a host step of length h, and so is the rate that a motor is commanded; the bounds of its end are those of [`rates`]. A host step that is
-//! taken in several steps is planned once, when it begins.
+//! taken in several steps is planned once, when it begins; where the table has a row in it, each of its steps is planned by itself, so that the row counts from the next one on.
 //!
 //! # Alternatives considered
 //!
@@ -52,16 +52,18 @@ impl Plan {
 }
 
 impl Cable {
-    /// Plans the rates of the reels for the coming host step of `dt` (s), which the caller takes in several steps: they are linear over all of it. A step that
-    /// nothing was planned for is planned by itself. Does nothing without a reel.
+    /// Plans the rates of the reels for the coming host step of `dt` (s), which the caller takes in several steps: they are linear over all of it, but for one in which
+    /// the table of the reel has a row. A step that nothing was planned for is planned by itself. Does nothing without a reel.
     pub fn plan_reels(&mut self, dt: f64) {
+        let (begin, end) = (self.time(), self.time() + dt);
+        let within = |row: &[f64; 2]| row[0] > begin && row[0] < end;
         for side in self.model.reels.sides() {
             let (Some(reel), Some(winding)) = (self.model.reels.get(side), &self.snapshot.windings[side as usize])
             else {
                 continue;
             };
-            let plan = self.plan(side, reel, winding, dt);
-            self.snapshot.windings[side as usize].iter_mut().for_each(|winding| winding.plan = Some(plan));
+            let plan = (!reel.rate.iter().any(within)).then(|| self.plan(side, reel, winding, dt));
+            self.snapshot.windings[side as usize].iter_mut().for_each(|winding| winding.plan = plan);
         }
     }
 
