@@ -103,7 +103,7 @@ impl Cable {
                 // the other element may be at an eye, too
                 !held && !self.keeps_node_behind(side, length, 0) && count > reels.sides().count()
             };
-            if !splits && !(short && can_merge()) {
+            if !(splits || short && can_merge()) {
                 return Ok(());
             }
             let energy = self.energy().total();
