@@ -9,7 +9,8 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Reel {
-    /// Rate in m/s by time in s, ascending: positive pays out; a rate holds until the next row. Default: no rows, at rest.
+    /// Rate in m/s by time in s, ascending: positive pays out; a rate holds until the next row. What is asked for when a host step begins is reached at its end,
+    /// linearly, if `acceleration` lets it, with any method; a row within it counts from the next host step on, or earlier. Default: no rows, at rest.
     pub rate: Vec<[f64; 2]>,
     /// Largest acceleration of the rate in m/s^2. Default 2: a jump of the rate by dv is one of the tension by dv sqrt(EA rho A). With `max_force` it is that of
     /// the rate that the motor is commanded; a reel that slipped returns to it as fast as the force lets it.

@@ -131,11 +131,13 @@ impl FlowElement {
     }
 
     /// Returns `l' G`.
+    #[inline(always)]
     pub fn momentum_matrix(&self) -> Table {
         self.weighted([(self.extent.rate, &G)])
     }
 
     /// Returns `l' G^T` and `l'^2 K`, which give the derivative of the kinetic energy by the coordinates.
+    #[inline(always)]
     pub fn gradient_matrices(&self) -> [Table; 2] {
         let Extent { length, rate, .. } = self.extent;
         [self.weighted([(rate, &G_T)]), self.weighted([(rate * rate / length, &K)])]
@@ -151,6 +153,7 @@ impl FlowElement {
     }
 
     /// Returns B without the strain energy, in N: inertia and weight, with accelerations `a` of the coordinates.
+    #[inline(always)]
     pub fn length_force(&self, [q, v, a]: [&[f64; 12]; 3], weight: &[f64; 3]) -> f64 {
         let Extent { length, rate, acceleration } = self.extent;
         let square = [(acceleration / length, &K), (rate * rate / (length * length), &J)];
@@ -165,6 +168,7 @@ impl FlowElement {
     }
 
     /// Returns the derivatives of the [force on the length](Self::length_force) by coordinates, velocities and accelerations.
+    #[inline(always)]
     pub fn length_force_gradient(&self, [q, v, a]: [&[f64; 12]; 3], weight: &[f64; 3]) -> [[f64; 12]; 3] {
         let Extent { length, rate, acceleration } = self.extent;
         let of_rate = self.weighted([(2.0 * rate / length, &K)]);
@@ -180,6 +184,7 @@ impl FlowElement {
     }
 
     /// Adds `scale` times `w^ D` times a force per length to 12 numbers.
+    #[inline(always)]
     fn add_weight(&self, scale: f64, weight: &[f64; 3], out: &mut [f64; 12]) {
         for b in 0..4 {
             let d = if b % 2 == 1 { self.extent.length } else { 1.0 };
@@ -191,6 +196,7 @@ impl FlowElement {
 }
 
 /// Returns the product of 12 numbers.
+#[inline(always)]
 pub(crate) fn dot(x: &[f64; 12], y: &[f64; 12]) -> f64 {
     let mut sums = [0.0; 3];
     for b in 0..4 {
@@ -202,6 +208,7 @@ pub(crate) fn dot(x: &[f64; 12], y: &[f64; 12]) -> f64 {
 }
 
 /// Adds `scale` times the product of a table and 12 coordinates.
+#[inline(always)]
 pub(crate) fn add_product(table: &Table, scale: f64, x: &[f64; 12], out: &mut [f64; 12]) {
     for a in 0..4 {
         for b in 0..4 {

@@ -13,6 +13,7 @@
 //! Lumping: order two in space, and the slopes would have no inertia, which limits the step.
 
 /// The 4x4 matrix over (r_i, t_i, r_j, t_j), for mass per length in kg/m and length in m.
+#[inline(always)]
 pub fn consistent(mass_per_length: f64, length: f64) -> [[f64; 4]; 4] {
     let l = length;
     let k = mass_per_length * l / 420.0;

@@ -45,6 +45,7 @@ impl Side {
     }
 
     /// Returns the vectors of the element at this end from those of a cable, as seen from its far node.
+    #[inline]
     pub fn gather(self, x: &[f64]) -> [f64; 12] {
         match self {
             Side::End => *x.last_chunk().expect("twelve coordinates"),
@@ -56,6 +57,7 @@ impl Side {
     }
 
     /// Adds vectors of the element, as seen from its far node, to those of a cable.
+    #[inline]
     pub fn add(self, local: &[f64; 12], x: &mut [f64]) {
         let from = if self == Side::End { x.len() - 12 } else { 0 };
         for (i, local) in local.iter().enumerate() {

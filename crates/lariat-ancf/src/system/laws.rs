@@ -6,9 +6,11 @@ use crate::integrate::discrete_gradient::Buffers;
 
 /// Linearises the laws of reels whose rate is unknown, and solves for their columns.
 pub(super) fn linearise_laws(equations: &mut Equations<'_>, state: &State, b: &mut Buffers) {
-    equations.read_motors(state, b);
     let mut unknowns = core::mem::take(&mut b.unknowns);
     unknowns.begin([&equations.system.flows].into_iter());
+    if !unknowns.reels.is_empty() {
+        equations.read_motors(state, b);
+    }
     let Unknowns { reels, columns, .. } = &mut unknowns;
     for (&(_, k), columns) in reels.iter().zip(columns) {
         equations.linearise_law(k, state, b, &mut columns[0]);

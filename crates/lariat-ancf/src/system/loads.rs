@@ -63,10 +63,11 @@ impl Loads {
         if loaded {
             self.of_effects.line_loads[own.clone()].fill(0.0);
         }
-        for node in [e, e + 1] {
-            // the element before the node, and the one behind it
-            for (i, k) in [(node.wrapping_sub(1), 2), (node, 0)].into_iter().filter(|(i, _)| *i < last) {
-                let (weight, shares) = (model.weight(&model.elements[i]), mass::load_weights(length(i)));
+        // the element, and both beside it
+        for i in e.saturating_sub(1)..(e + 2).min(last) {
+            let (weight, shares) = (model.weight(&model.elements[i]), mass::load_weights(length(i)));
+            for node in [i, i + 1].into_iter().filter(|node| (e..=e + 1).contains(node)) {
+                let k = if node == i { 0 } else { 2 };
                 for at in 0..6 {
                     self.gravity_force[6 * node + at] += shares[k + at / 3] * weight[at % 3];
                     if loaded {

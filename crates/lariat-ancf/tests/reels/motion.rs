@@ -107,6 +107,39 @@ fn a_pendulum_of_variable_length_follows_its_equation() {
     }
 }
 
+/// What is asked of a reel before a host step is reached at its end, linearly, into however many steps method, host and reel divide it; also by a motor that is strong enough.
+///
+/// *Source.* The integral of a rate that is linear in every host step.
+#[test]
+fn rates_are_linear_over_a_host_step() {
+    let methods = [
+        (Method::Esdirk4, StepControl::Tolerance(1e-5)),
+        (Method::DiscreteGradient, StepControl::Substeps(1)),
+        (Method::DiscreteGradient, StepControl::MaxStep(1.0 / 240.0)),
+    ];
+    for (method, control) in methods {
+        // more passes in a host step than an element takes at once
+        for (elements, motor) in [(4, false), (40, false), (4, true), (40, true)] {
+            if motor && method != Method::DiscreteGradient {
+                continue;
+            }
+            let mut cable = rope(1.0, elements, Integrator { method, control });
+            let max_force = motor.then_some(1e6);
+            cable.add_reel(At::End, Reel { acceleration: 1e3, max_force, ..Reel::default() }).unwrap();
+            let (dt, mut expected) = (1.0 / 60.0, 1.0);
+            let asked = |step: i32| 0.8 * (f64::from(step) * 0.1).sin();
+            for step in 0..90 {
+                cable.set_reel_rate(At::End, asked(step + 1)).unwrap();
+                cable.step(dt).unwrap();
+                expected += 0.5 * dt * (asked(step) + asked(step + 1));
+                let reel = cable.reel(At::End).unwrap();
+                let missed = [reel.rate - asked(step + 1), reel.length_out - expected].map(f64::abs);
+                assert!(missed.iter().all(|x| *x < 1e-12), "{method:?}, {elements}, {motor}, {step}: {missed:?}");
+            }
+        }
+    }
+}
+
 /// A reel that runs to the end of its stock, or takes in to the least length, ends exactly there, prescribed or with a motor, at any
 /// acceleration, rate and step.
 ///

@@ -303,6 +303,12 @@ fn prepare_island(
     (finder, events): (&mut Finder, &mut Vec<Event>),
 ) -> Result<(), Error> {
     contents.align_clocks(&island.cables)?;
+    if step.share.0 == 0.0 {
+        let host = step.h * f64::from(step.rapier_steps);
+        for &cable in &island.cables {
+            contents.cables.get_mut(cable).into_iter().for_each(|slot| slot.cable.plan_reels(host));
+        }
+    }
     prediction.snapshots.resize_with(island.cables.len(), Snapshot::default);
     for (snapshot, &cable) in prediction.snapshots.iter_mut().zip(&island.cables) {
         if let Some(slot) = contents.cables.get(cable) {

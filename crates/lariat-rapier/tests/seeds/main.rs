@@ -6,5 +6,6 @@
 mod blows;
 mod booms;
 mod common;
+mod pendulums;
 mod rotors;
 mod winches;

@@ -115,11 +115,14 @@ impl Cable {
         let outcome = super::check_integrator(&self.model, &self.integrator().method);
         if let (Err(_), Some(own)) = (&outcome, self.model.reels.get_mut(side)) {
             *own = before;
+        } else {
+            self.snapshot.windings[side as usize].iter_mut().for_each(|winding| winding.plan = None);
         }
         outcome
     }
 
-    /// Changes the rate of the reel at an end in m/s: positive pays out.
+    /// Changes the rate of the reel at an end in m/s: positive pays out. It is reached at the end of the next step, linearly, if the acceleration of the reel
+    /// lets it.
     ///
     /// # Errors
     /// As [`set_reel`](Self::set_reel).

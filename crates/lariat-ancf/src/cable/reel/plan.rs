@@ -2,45 +2,95 @@
 //!
 //! # Equation
 //!
-//! The rate is linear within a step of length h; its bounds are those of [`rates`].
+//! The rate is linear within a host step of length h, and so is the rate that a motor is commanded; the bounds of its end are those of [`rates`]. A host step that is
+//! taken in several steps is planned once, when it begins; where the table has a row in it, each of its steps is planned by itself, so that the row counts from the next one on.
+//!
+//! # Alternatives considered
+//!
+//! A plan for every step: what is asked for is reached within the first one. At 60 to 120 Hz in steps of 1/240 s a sine of the rate was followed by a staircase, and a
+//! pendulum whose length has that rate was off by up to 2e-3 of its length in 10 s.
 
 use super::{NEAR, Winding};
 use crate::cable::Cable;
 use crate::element::side::Side;
 use crate::reel::{Feed, Reel};
 use crate::system::{Law, Motor, MotorState, STOP, rates};
+use serde::{Deserialize, Serialize};
 
 /// Least length of the element at the eye, as a share of its full length.
 pub(super) const LEAST: f64 = 0.4;
 
-/// The rate of a step.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// The rate of a host step.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub(super) struct Plan {
-    /// Acceleration in m/s^2.
-    pub acceleration: f64,
-    /// Whether an end stops it.
+    /// Times in s at which the host step begins and ends.
+    begin: f64,
+    end: f64,
+    /// Rate in m/s at its end; without meaning for a motor.
+    rate: f64,
+    /// Whether an end of the cable stops it.
     pub stopped: bool,
 }
 
+impl Plan {
+    /// Returns what is left in s of the host step for a step of `h` (s) at `time` (s) and those after it; `None` if it has ended.
+    pub fn left(&self, time: f64, h: f64) -> Option<f64> {
+        let left = self.end - time;
+        // the last one ends with the host step, which is a sum with rounding
+        (time >= self.begin && left > 0.5 * h).then_some(if left < 1.5 * h { h } else { left })
+    }
+
+    /// Returns the acceleration in m/s^2 of a step from a rate in m/s, of which so much in s is left.
+    pub fn acceleration(&self, rate: f64, left: f64) -> f64 {
+        (self.rate - rate) / left
+    }
+
+    /// Returns the numbers, to check them.
+    pub fn numbers(&self) -> [f64; 3] {
+        [self.begin, self.end, self.rate]
+    }
+}
+
 impl Cable {
-    /// Returns the length in m that the reel of an end can take in: up to the next held node, element with a load or of another section, or at another eye, less the
-    /// least element; or a length that is more than `enough` (m) and less than that.
-    fn left(&self, side: Side, enough: f64) -> f64 {
+    /// Plans the rates of the reels for the coming host step of `dt` (s), which the caller takes in several steps: they are linear over all of it, but for one in which
+    /// the table of the reel has a row. A step that nothing was planned for is planned by itself. Does nothing without a reel.
+    pub fn plan_reels(&mut self, dt: f64) {
+        let (begin, end) = (self.time(), self.time() + dt);
+        let within = |row: &[f64; 2]| row[0] > begin && row[0] < end;
+        for side in self.model.reels.sides() {
+            let (Some(reel), Some(winding)) = (self.model.reels.get(side), &self.snapshot.windings[side as usize])
+            else {
+                continue;
+            };
+            let plan = (!reel.rate.iter().any(within)).then(|| self.plan(side, reel, winding, dt));
+            self.snapshot.windings[side as usize].iter_mut().for_each(|winding| winding.plan = plan);
+        }
+    }
+
+    /// Returns the length in m that the reel of an end can take in beside the element at the eye: up to the next held node, element with a load or of another
+    /// section, or at another eye, less the least element; or a length with which that element makes more than `enough` (m), and less than that.
+    fn reach(&self, side: Side, enough: f64) -> f64 {
         let (model, count) = (&self.model, self.elements().len());
         let element = |k: usize| if side == Side::End { count - 1 - k } else { k };
+        let least = |e: usize| LEAST * model.reels.element(self.number(e)).length;
         let two = model.reels.sides().count() > 1;
-        let (mut left, mut last) = (0.0, 0);
+        let own = model.elements[element(0)].length;
+        let (mut beside, mut last) = (0.0, 0);
         for k in 0..count {
             last = element(k);
-            left += model.elements[last].length;
+            beside += if k > 0 { model.elements[last].length } else { 0.0 };
             let far = if side == Side::End { last } else { last + 1 };
-            let least = LEAST * model.reels.element(self.number(last)).length;
-            let held = model.support(far).is_some() || self.keeps_node_behind(side, left, k);
-            if left - least > enough || held || two && k + 2 == count {
+            let held = model.support(far).is_some() || self.keeps_node_behind(side, own + beside, k);
+            if own + beside - least(last) > enough || held || two && k + 2 == count {
                 break;
             }
         }
-        left - LEAST * model.reels.element(self.number(last)).length
+        beside - least(last)
+    }
+
+    /// Returns the length in m that the reel of an end can take in, or one that is more than `enough` (m) and less than that.
+    fn left(&self, side: Side, enough: f64) -> f64 {
+        self.elements()[side.element(self.elements().len())].length + self.reach(side, enough)
     }
 
     /// Returns whether the far node of element number `k` from the eye, `from_eye` m from there, has to stay: because the next element is of
@@ -55,11 +105,12 @@ impl Cable {
         own.section != next.section || self.model.loads_from(side).any(loaded)
     }
 
-    /// Returns the rate of a reel for a step of length `h` (s).
+    /// Returns the rate of a reel for a host step of length `h` (s).
     pub(super) fn plan(&self, side: Side, reel: &Reel, winding: &Winding, h: f64) -> Plan {
         let (rate, asked, a) = (winding.extent[1], reel.asked(self.time()), reel.acceleration);
-        if rate == 0.0 && asked == 0.0 {
-            return Plan { acceleration: 0.0, stopped: false };
+        let plan = Plan { begin: self.time(), end: self.time() + h, rate: 0.0, stopped: false };
+        if reel.has_law() || rate == 0.0 && asked == 0.0 {
+            return plan;
         }
         // the way to brake from r in steps is at most r^2/2a + a h^2/8, and h r passes before
         let r = rate.abs().max(asked.abs());
@@ -68,7 +119,7 @@ impl Cable {
         let [lowest, highest] = rates(a, rate, left, h);
         let wanted = asked.clamp(rate - a * h, rate + a * h);
         let end = wanted.clamp(lowest, highest);
-        Plan { acceleration: (end - rate) / h, stopped: end != wanted }
+        Plan { rate: end, stopped: end != wanted, ..plan }
     }
 
     /// Returns the length in m that is left of the stock.
@@ -77,23 +128,31 @@ impl Cable {
         stock.map_or(f64::INFINITY, |stock| stock - self.length())
     }
 
-    /// Returns what drives a reel whose rate is an unknown, for a part of a host step, of length `h` (s).
-    pub(super) fn law(&self, side: Side, reel: &Reel, winding: &Winding, h: f64) -> Option<Law> {
+    /// Returns what drives a reel whose rate is an unknown, for a part of a host step, of length `h` (s); so much in s is left of that. `reach` is what it can
+    /// take in beside the element at the eye, if that is known.
+    pub(super) fn law(
+        &self,
+        (side, reel, winding): (Side, &Reel, &Winding),
+        [h, host]: [f64; 2],
+        reach: Option<f64>,
+    ) -> Option<(Law, f64)> {
         let [length, rate, _] = winding.extent;
         let in_island = reel.needs_island();
         let limit = reel.max_force.or(in_island.then_some(0.0))?;
         // what was as strong as it must be had no limit
         let held = |force| MotorState { commanded: rate, limit: f64::INFINITY, force, excess: 0.0 };
         let before = winding.motor.or(winding.pull.map(held)).filter(|_| !in_island);
+        let reach = reach.unwrap_or_else(|| self.reach(side, f64::INFINITY));
         let motor = Motor {
             limits: [before.map_or(limit, |before| before.limit_before(limit)), limit],
             duration: h,
+            host,
             wheel: if reel.feed == Feed::Sheave { 0.0 } else { reel.inertia },
             asked: reel.asked(self.time()),
             acceleration: if in_island { STOP } else { reel.acceleration },
             before: before.or((!in_island).then_some(MotorState { commanded: rate, limit, force: 0.0, excess: 0.0 })),
-            bounds: [length - self.left(side, f64::INFINITY), length + self.left_of_stock(reel)],
+            bounds: [-reach, length + self.left_of_stock(reel)],
         };
-        Some(Law::new(motor, self.time()))
+        Some((Law::new(motor, self.time()), reach))
     }
 }

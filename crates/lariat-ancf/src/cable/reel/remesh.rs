@@ -96,13 +96,14 @@ impl Cable {
             let full = reels.element(self.number(e));
             let inner = if side == Side::End { e.checked_sub(1) } else { Some(e + 1).filter(|&e| e < count) };
             let full_before = inner.map_or(0.0, |e| reels.element(self.number(e)).length);
-            let held = self.model.support(side.nodes(count + 1)[0]).is_some();
             let length = self.elements()[e].length;
-            // the other element may be at an eye, too
-            let can_merge = !held && !self.keeps_node_behind(side, length, 0) && count > reels.sides().count();
-            let splits = length > MOST * full.length;
-            let merges = can_merge && length < LEAST * full.length.min(full_before);
-            if !splits && !merges {
+            let (splits, short) = (length > MOST * full.length, length < LEAST * full.length.min(full_before));
+            let can_merge = || {
+                let held = self.model.support(side.nodes(count + 1)[0]).is_some();
+                // the other element may be at an eye, too
+                !held && !self.keeps_node_behind(side, length, 0) && count > reels.sides().count()
+            };
+            if !(splits || short && can_merge()) {
                 return Ok(());
             }
             let energy = self.energy().total();

@@ -1,5 +1,6 @@
 //! A host step of a cable with a reel: in parts in which little material passes the eye.
 
+use super::Winding;
 use crate::cable::Cable;
 use crate::element::flow::Extent;
 use crate::element::side::Side;
@@ -43,11 +44,17 @@ impl Cable {
             else {
                 continue;
             };
-            let (plan, law) = (self.plan(side, reel, winding, h), self.law(side, reel, winding, h));
+            let planned = winding.plan.and_then(|plan| Some((plan, plan.left(self.time(), h)?)));
+            let left = planned.map_or(h, |(_, left)| left);
+            let reach = self.system.flows.list[k].beside.filter(|(revision, _)| *revision == self.revision);
+            let law = self.law((side, reel, winding), [h, left], reach.map(|(_, reach)| reach));
+            let plan = || planned.map_or_else(|| self.plan(side, reel, winding, h), |(plan, _)| plan);
+            let plan = law.is_none().then(plan);
             let flow = &mut self.system.flows.list[k];
-            (flow.feed, flow.law, flow.pull) = (reel.feed, law, None);
-            if law.is_none() {
-                flow.extent.acceleration = plan.acceleration;
+            (flow.feed, flow.law, flow.pull) = (reel.feed, law.map(|(law, _)| law), None);
+            flow.beside = law.map(|(_, reach)| (self.revision, reach));
+            if let Some(plan) = plan {
+                flow.extent.acceleration = plan.acceleration(flow.extent.rate, left);
                 flow.stopped = plan.stopped;
             }
         }
@@ -69,6 +76,8 @@ impl Cable {
             winding.length_before = flow.length_before;
             winding.motor = flow.law.map(|law| law.state());
             (winding.stopped, winding.pull) = (flow.stopped, flow.pull);
+            let h = self.snapshot.state.time - flow.start;
+            winding.plan = winding.plan.filter(|plan| plan.left(self.snapshot.state.time, h).is_some());
             let e = flow.side.element(self.model.elements.len());
             self.model.elements[e].length = length;
         }
@@ -175,10 +184,17 @@ impl Cable {
         self.set_riding_stock(|_| false);
         let end = self.time() + dt;
         let before = (parts > 1).then(|| Box::new(self.clone()));
+        let is_planned = |winding: &Winding| winding.plan.is_some_and(|plan| plan.left(self.time(), dt).is_some());
+        if parts > 1 && !self.snapshot.windings.iter().flatten().any(is_planned) {
+            self.plan_reels(dt);
+        }
         for part in 0..parts {
             let h = (end - self.time()) / (parts - part) as f64;
             self.begin_reel(h);
             let outcome = self.with_workspace(|cable| cable.step_in_workspace(h, integrator));
+            if outcome.is_ok() && part + 1 == parts && !integrator.limit.is_some_and(WorkLimit::has_stopped) {
+                self.snapshot.state.time = end;
+            }
             self.end_reel(outcome.is_ok());
             if let Err(error) = outcome.and_then(|()| self.remesh_reel()) {
                 if let Some(before) = before {
@@ -187,12 +203,9 @@ impl Cable {
                 return Err(error);
             }
             if integrator.limit.is_some_and(WorkLimit::has_stopped) {
-                self.sync_reel();
                 return Ok(());
             }
         }
-        self.snapshot.state.time = end;
-        self.sync_reel();
         Ok(())
     }
 }

@@ -1,5 +1,6 @@
 //! The state of a reel, and what it does now.
 
+use super::plan::Plan;
 use crate::at::At;
 use crate::cable::Cable;
 use crate::element::flow::Extent;
@@ -33,6 +34,9 @@ pub(crate) struct Winding {
     /// Whether the stock rides with the body at the eye.
     #[serde(default)]
     pub rides: bool,
+    /// What it does in a host step that is taken in several steps.
+    #[serde(default)]
+    pub(super) plan: Option<Plan>,
 }
 
 impl Winding {
@@ -54,6 +58,9 @@ impl Winding {
         for x in
             [rate, acceleration, self.length_before, self.passed, self.work, self.remeshed, self.pull.unwrap_or(0.0)]
         {
+            require("number of a reel", x, true, "a number")?;
+        }
+        for x in self.plan.iter().flat_map(Plan::numbers) {
             require("number of a reel", x, true, "a number")?;
         }
         self.motor.map_or(Ok(()), |motor| motor.check())

@@ -78,12 +78,12 @@ impl IslandStep<'_, '_> {
 
     /// Linearises the laws of reels whose rate is unknown, and solves for their columns.
     pub(super) fn linearise_laws(&mut self) {
-        for cable in self.cables.iter_mut() {
+        let mut unknowns = core::mem::take(&mut self.buffers.unknowns);
+        unknowns.begin(self.cables.iter().map(|cable| &cable.system.flows));
+        for cable in self.cables.iter_mut().filter(|_| !unknowns.reels.is_empty()) {
             let CableStep { mut equations, state, buffers } = cable.step_parts();
             equations.read_motors(state, buffers);
         }
-        let mut unknowns = core::mem::take(&mut self.buffers.unknowns);
-        unknowns.begin(self.cables.iter().map(|cable| &cable.system.flows));
         let Unknowns { reels, columns, rows, .. } = &mut unknowns;
         for ((&(c, k), columns), rows) in reels.iter().zip(columns).zip(rows) {
             for (cable, column) in self.cables.iter().zip(columns.iter_mut()) {

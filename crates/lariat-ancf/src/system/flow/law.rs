@@ -9,8 +9,8 @@
 //! m a = F - T        a = a_0 and |T| <= T_max,   or   T = T_max and a > a_0,   or   T = -T_max and a < a_0
 //! ```
 //!
-//! a_0 is what the *commanded rate* c needs. The shaft of the motor turns with it: c approaches the rate asked for within the limit on acceleration, whether the
-//! wheel follows or slips. At the end of the stock and at the least length the acceleration, and with it c, is bounded whatever T is. A slipping motor opposes the
+//! a_0 is what the *commanded rate* c needs. The shaft of the motor turns with it: c approaches the rate asked for, linearly over a host step and within the limit on
+//! acceleration, whether the wheel follows or slips. At the end of the stock and at the least length the acceleration, and with it c, is bounded whatever T is. A slipping motor opposes the
 //! slip, so it only dissipates. A T_max that the host lowers is approached linearly over a host step.
 //!
 //! # Solution
@@ -23,7 +23,8 @@
 //!
 //! S > 0 is the apparent stiffness of all cables and bodies to the flow, so the alternative is decided by `T(a_0 - a)` exactly; several reels
 //! one after the other ([`unknowns`](super::unknowns)). c, row and T_a are of the element at the eye alone ([`linear`](super::linear)). Where all
-//! motors stick in an iterate, within their forces, da = 0 is tried first: such a reel costs what one with a given rate does.
+//! motors stick in an iterate, within the forces that are known of them last, da = 0 is tried first: such a reel costs what one with a given rate does. Whether the forces
+//! are within their limits is judged by the result.
 //!
 //! # Validity
 //!
@@ -43,19 +44,24 @@ use crate::integrate::State;
 use crate::integrate::discrete_gradient::{Balance, Buffers};
 use crate::model::Model;
 use crate::reel::Feed;
-use crate::system::{Equations, System};
+use crate::system::Equations;
 use serde::{Deserialize, Serialize};
 
 /// Least and largest length of an element at the end of an iterate, as a multiple of that at the beginning.
 const REACH: [f64; 2] = [0.5, 1.5];
+
+/// Share of a host step that is all of it.
+const ALL: f64 = 1.0 - 1e-9;
 
 /// What drives a reel during a host step.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Motor {
     /// Largest force of the motor in N at the beginning and at the end of the host step.
     pub limits: [f64; 2],
-    /// Length of the host step in s.
+    /// Length in s over which a lowered limit is approached.
     pub duration: f64,
+    /// What is left in s of the host step, over which the commanded rate approaches what is asked for.
+    pub host: f64,
     /// Inertia of the wheel in kg.
     pub wheel: f64,
     /// Rate in m/s asked for, and largest acceleration of the commanded rate to it in m/s^2.
@@ -192,7 +198,8 @@ impl Flows {
 impl Law {
     /// Creates the law of a motor for a host step that begins at a time in s.
     pub fn new(motor: Motor, begun: f64) -> Self {
-        Law { motor, begun, ..Law::default() }
+        let force = motor.before.map_or(0.0, |before| before.force);
+        Law { motor, begun, force, ..Law::default() }
     }
 
     /// Returns what the motor leaves to the next host step.
@@ -206,12 +213,16 @@ impl Law {
     /// Begins a step of length `h` (s) at `time` (s) from an extent.
     fn begin(&mut self, flow: &Extent, time: f64, h: f64) {
         let Extent { length, rate, .. } = *flow;
-        let Motor { limits, duration, asked, acceleration, bounds, before, .. } = self.motor;
+        let Motor { limits, duration, host, asked, acceleration, bounds, before, .. } = self.motor;
         let left = [length - bounds[0], bounds[1] - length];
         let [least, largest] = rates(acceleration, rate, left, h);
-        let (from, passed) = before.map_or((rate, h), |before| (before.commanded, time + h - self.begun));
-        let within = acceleration * passed;
-        self.commanded = asked.clamp(from - within, from + within).clamp(least, largest);
+        let (from, over, share) = before.map_or((rate, h, 1.0), |before| {
+            let share = (time + h - self.begun) / host;
+            // a sum of steps ends there to rounding
+            (before.commanded, host, if share > ALL { 1.0 } else { share })
+        });
+        let target = asked.clamp(from - acceleration * over, from + acceleration * over);
+        self.commanded = if share == 1.0 { target } else { from + share * (target - from) }.clamp(least, largest);
         self.planned = [least, self.commanded, largest].map(|end| (end - rate) / h);
         let middle = (time + 0.5 * h - self.begun) / duration;
         self.limit = limits[1] + (1.0 - middle).clamp(0.0, 1.0) * (limits[0] - limits[1]);
@@ -270,16 +281,16 @@ impl Law {
     }
 }
 
-impl System {
-    /// Returns the force of the motor, or of a prescribed winch, less the part of the strain energy, at an extent.
-    pub(super) fn motor_of_inertia(&self, model: &Model, flow: &Flow, extent: Extent, motion: [&[f64; 12]; 3]) -> f64 {
-        let (element, dead) = (flow.with(model, extent), flow.dead(model));
-        let wheel = flow.law.map_or(0.0, |law| {
+impl Flow {
+    /// Returns the force in N of the motor at an extent, from the force on the length.
+    pub(super) fn motor(&self, model: &Model, extent: Extent, q: &[f64; 12], on_length: f64) -> f64 {
+        let element = self.with(model, extent);
+        let wheel = self.law.map_or(0.0, |law| {
             let stock = (law.motor.bounds[1] - extent.length).max(0.0);
-            let wound = matches!(flow.feed, Feed::Drum | Feed::BodyDrum) && stock.is_finite();
+            let wound = matches!(self.feed, Feed::Drum | Feed::BodyDrum) && stock.is_finite();
             law.motor.wheel + if wound { element.inertia * stock } else { 0.0 }
         });
-        flow.feed.pull(&element, motion[0], element.length_force(motion, &dead)) - wheel * extent.acceleration
+        self.feed.pull(&element, q, on_length) - wheel * extent.acceleration
     }
 }
 
@@ -293,6 +304,7 @@ impl Equations<'_> {
             }
             let extent = flow.at(time);
             let Some(law) = &mut flow.law else { continue };
+            flow.on_length.begin = None;
             if flow.feed == Feed::BodyDrum && (flow.start != time || flow.left_rate.is_none()) {
                 flow.left_rate = Some(extent.rate);
             }
@@ -307,28 +319,24 @@ impl Equations<'_> {
 
     /// Returns the middle and the mean rates of the element at an eye over the present iterate.
     pub(super) fn motion_of_step(&self, flow: &Flow, state: &State, b: &Buffers) -> [[f64; 12]; 3] {
-        let change = flow.side.gather(&b.change);
-        [
-            self.middle_of_step(flow, state, b),
-            change.map(|x| x / b.h),
-            flow.side.gather(&b.velocity_change).map(|x| x / b.h),
-        ]
+        let rate = 1.0 / b.h;
+        let [velocity, acceleration] = [&b.change, &b.velocity_change].map(|x| flow.side.gather(x).map(|x| rate * x));
+        [self.middle_of_step(flow, state, b), velocity, acceleration]
     }
 
     /// Computes the forces of the motors of the present iterate.
     pub fn read_motors(&mut self, state: &State, b: &Buffers) {
         for k in 0..self.system.flows.list.len() {
-            let flow = self.system.flows.list[k];
-            let Some(mut law) = flow.law else { continue };
-            let [on_length, _] = self.flow_force_of_step(&flow, state, b);
-            let (mean, _) = flow.over(state.time, b.h);
-            let [q, v, a] = self.motion_of_step(&flow, state, b);
-            let element = flow.with(self.model, mean);
-            let inertial = element.length_force([&q, &v, &a], &flow.dead(self.model));
-            // the pull is linear in the force on the length
-            law.force = self.system.motor_of_inertia(self.model, &flow, mean, [&q, &v, &a]) + inertial - on_length
-                + flow.lost(self.model, &q, mean.rate);
-            self.system.flows.list[k].law = Some(law);
+            let flow = &self.system.flows.list[k];
+            if flow.law.is_none() {
+                continue;
+            }
+            let on_length = self.on_length_of_step(flow, state, b);
+            let (mean, q) = (flow.over(state.time, b.h).0, self.middle_of_step(flow, state, b));
+            let force = flow.motor(self.model, mean, &q, on_length.force) + flow.lost(self.model, &q, mean.rate);
+            let flow = &mut self.system.flows.list[k];
+            flow.on_length = on_length;
+            flow.law.iter_mut().for_each(|law| law.force = force);
         }
     }
 

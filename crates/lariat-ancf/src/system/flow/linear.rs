@@ -4,7 +4,7 @@
 //!
 //! An acceleration da changes the length at the end of a step of length h by `h^2/2 da`, the mean length by half of that, and the mean rate by `h/2
 //! da`. No other element feels it, so the column c is that of the element at the eye alone. Its strains are derived in
-//! [dual numbers](crate::dual). Forces with a potential, of strains or of their rates, and drag are symmetric: in the row they
+//! [dual numbers](crate::dual); what their forces change through both stiffnesses, in which they are linear, is proportional to them. Forces with a potential, of strains or of their rates, and drag are symmetric: in the row they
 //! are -2 b/h^2 times their part of the column, b the coefficient of the one-leg formula. Inertia is not: both its parts are derived by themselves.
 //!
 //! Material that runs through the element without a change of its strains meets no stiffness: the far node moves by `-d1/3` per length, and what the matrix and the row say of that
@@ -29,6 +29,7 @@ use crate::element::step::ElementStep;
 use crate::integrate::State;
 use crate::integrate::discrete_gradient::{BETA, Buffers};
 use crate::model::Model;
+use crate::simd::dispatch;
 use crate::system::{Equations, System};
 
 /// Increment of an acceleration in m/s^2 by which tangents of inertia are read.
@@ -49,22 +50,31 @@ struct OfLength {
 }
 
 impl Equations<'_> {
-    /// Linearises flow `k` about the present iterate, and writes the column c to `out`.
+    /// Linearises flow `k` about the present iterate, whose motors have been [read](Self::read_motors), and writes the column c to `out`.
     pub fn linearise_law(&mut self, k: usize, state: &State, b: &Buffers, out: &mut Vec<f64>) {
+        dispatch!(self.system.level, _simd => self.linearise_in_lanes(k, state, b, out));
+    }
+
+    #[inline(always)]
+    fn linearise_in_lanes(&mut self, k: usize, state: &State, b: &Buffers, out: &mut Vec<f64>) {
         let flow = self.system.flows.list[k];
         let Some(mut law) = flow.law else { return };
         let (model, system, h) = (self.model, &*self.system, b.h);
         let (mean, _) = flow.over(state.time, h);
         let motion = StepMotion::of(&flow, state, b);
         let [q, v, a] = self.motion_of_step(&flow, state, b);
-        let strains = system.strains_by_length(model, &flow, &motion, (&flow.side.gather(&b.change_before), b.kept));
+        let before = flow.side.gather(&b.change_before);
+        let strains = system.strains_by_length(model, &flow, (&motion, state.time, h), (&before, b.kept));
         let points = system.points_by_acceleration(&flow, model, state.time + 0.5 * h, h, [&q, &v]);
         let moved = Flow { extent: Extent { acceleration: flow.extent.acceleration + PROBE, ..flow.extent }, ..flow };
-        let impulses = [&flow, &moved].map(|flow| flow.impulse(model, &motion, true));
-        let motors =
-            [&flow, &moved].map(|flow| system.motor_of_inertia(model, flow, flow.over(state.time, h).0, [&q, &v, &a]));
+        let impulses = [&flow, &moved].map(|flow| flow.impulse(model, (state.time, h), true));
+        let by_acceleration = impulses[0].derivative(&impulses[1], PROBE).of(&motion);
         let dead = flow.dead_by_length(model, mean.length);
         let (element, weight) = (flow.with(model, mean), flow.dead(model));
+        let (moved, _) = moved.over(state.time, h);
+        let of_moved = flow.with(model, moved).length_force([&q, &v, &a], &weight);
+        let motors =
+            [(mean, flow.on_length.inertial), (moved, of_moved)].map(|(at, force)| flow.motor(model, at, &q, force));
         let [by_q, by_v, by_a] = element.length_force_gradient([&q, &v, &a], &weight);
         let [of_square, _] = flow.feed.momentum(mean.rate);
         let thrust = 2.0 * of_square * element.inertia * mean.rate * mean.rate;
@@ -72,7 +82,7 @@ impl Equations<'_> {
         for i in 0..12 {
             let symmetric = -(0.5 * h * h * strains.impulse[i] + h * points[i]);
             let in_matrix = -(0.5 * h * h * strains.impulse_in_matrix[i] + h * points[i]);
-            column[i] = in_matrix - 0.25 * h * h * h * dead[i] - (impulses[1][i] - impulses[0][i]) / PROBE;
+            column[i] = in_matrix - 0.25 * h * h * h * dead[i] - by_acceleration[i];
             let of_stretch = if i < 9 { 0.0 } else { thrust * q[i] };
             let motor = -0.5 * BETA * h * (by_q[i] + of_stretch) - BETA * by_v[i] - by_a[i] / h;
             row[i] = motor - 2.0 * BETA / (h * h) * symmetric;
@@ -98,38 +108,40 @@ impl Equations<'_> {
 impl System {
     /// Returns the derivatives of what strains and internal damping do over a step; `before` is the change of the coordinates in the step before,
     /// and the share of it that counts.
+    #[inline(always)]
     fn strains_by_length(
         &self,
         model: &Model,
         flow: &Flow,
-        motion: &StepMotion,
+        (motion, time, h): (&StepMotion, f64, f64),
         (before, kept): (&[f64; 12], f64),
     ) -> OfLength {
-        let StepMotion { time, h, q: [start, end], .. } = motion;
-        let (_, [l0, l1]) = flow.over(*time, *h);
+        let [start, change] = &motion.q;
+        let end: &[f64; 12] = &core::array::from_fn(|i| start[i] + change[i]);
+        let (_, [l0, l1]) = flow.over(time, h);
         let at_before = control(&core::array::from_fn(|i| start[i] - before[i]), flow.length_before);
         let (d0, d1) = (control(start, l0), control(end, l1));
-        let dual = |f: &dyn Fn(usize, usize) -> Dual| -> Control<Dual> {
-            core::array::from_fn(|k| core::array::from_fn(|x| f(k, x)))
+        let difference = |x: &Control<f64>, y: &Control<f64>| -> Control<f64> {
+            core::array::from_fn(|k| core::array::from_fn(|i| x[k][i] - y[k][i]))
         };
-        // the middle one of the control vectors is 3 (r_j - r_i)/l
-        let change =
-            dual(&|k, x| Dual { value: d1[k][x] - d0[k][x], slope: if k == 1 { -d1[1][x] / l1 } else { 0.0 } });
-        let begin = dual(&|k, x| constant(d0[k][x]));
-        let before = dual(&|k, x| constant(d0[k][x] - at_before[k][x]));
-        let still = change.map(|vector| vector.map(|x| constant(x.value)));
-        let inverse = Dual { value: 0.5 * (1.0 / l0 + 1.0 / l1), slope: -0.5 / (l1 * l1) };
+        let (change, before) = (difference(&d1, &d0), difference(&d0, &at_before));
+        let [mean, inverse] = [0.5 * (l0 + l1), 0.5 * (1.0 / l0 + 1.0 / l1)];
         let section = &model.elements[flow.element(model)].section;
-        let stiffness = Stiffness {
-            axial: Dual { value: 0.5 * (l0 + l1), slope: 0.5 } * (0.25 * section.axial_stiffness * h),
-            bending: inverse * (2.0 * section.bending_stiffness * h),
-        };
-        let elements = &self.forces.elements;
-        let effects = self.forces.in_element.as_ref();
-        let [pull, at_strains] = [&change, &still].map(|change| {
-            let step = ElementStep::new(&begin, change, &before, kept);
-            elements.discrete_gradient_of(effects, &Single(flow.element(model)), &step, stiffness, *h)
-        });
+        let [axial, bending] =
+            [0.25 * section.axial_stiffness * mean * h, 2.0 * section.bending_stiffness * inverse * h];
+        let (elements, effects) = (&self.forces.elements, self.forces.in_element.as_ref());
+        let from = Single(flow.element(model));
+        let fixed = |x: &Control<f64>| x.map(|vector| vector.map(constant));
+        // the middle one of the control vectors is 3 (r_j - r_i)/l
+        let mut moving = fixed(&change);
+        (0..3).for_each(|x| moving[1][x].slope = -d1[1][x] / l1);
+        let step = ElementStep::new(&fixed(&d0), &moving, &fixed(&before), kept);
+        let stiffness = Stiffness { axial: constant(axial), bending: constant(bending) };
+        let pull = elements.discrete_gradient_of(effects, &from, &step, stiffness, h);
+        // the force is linear in both stiffnesses
+        let step = ElementStep::new(&d0, &change, &before, kept);
+        let of_bending = elements.discrete_gradient_of(effects, &from, &step, Stiffness { axial: 0.0, bending }, h);
+        let [of_axial_length, of_inverse] = [0.5 / mean, -0.5 / (l1 * l1 * inverse)];
         let impulse = |slopes: &dyn Fn(usize, usize) -> f64, scale: f64| -> [f64; 12] {
             core::array::from_fn(|i| match (i / 3, i % 3) {
                 (0, x) => scale * slopes(1, x),
@@ -139,32 +151,37 @@ impl System {
             })
         };
         // of a change of the strains alone, as it is and in the matrix; and of the length alone
-        let of_strains = |k: usize, x: usize| pull[k][x].slope - at_strains[k][x].slope;
-        let of_length = |k: usize, x: usize| at_strains[k][x].slope;
-        let [by_strains, in_matrix] = [3.0 * inverse.value, 3.0 / l0].map(|scale| impulse(&of_strains, scale));
-        let mut by_length = impulse(&of_length, 3.0 * inverse.value);
+        let of_strains = |k: usize, x: usize| pull[k][x].slope;
+        let of_length = |k: usize, x: usize| {
+            let of_bending = of_bending[k][x];
+            of_axial_length * (pull[k][x].value - of_bending) + of_inverse * of_bending
+        };
+        let [by_strains, in_matrix] = [3.0 * inverse, 3.0 / l0].map(|scale| impulse(&of_strains, scale));
+        let mut by_length = impulse(&of_length, 3.0 * inverse);
         let mut eye = [0.0; 3];
         for x in 0..3 {
-            let along = 3.0 * inverse.slope * pull[1][x].value;
+            let along = -1.5 / (l1 * l1) * pull[1][x].value;
             by_length[x] += along;
             by_length[6 + x] -= along;
             let chord = 0.5 * (start[6 + x] - start[x] + end[6 + x] - end[x]);
             let scale = -3.0 / (l0 * h);
             eye[0] += scale * pull[1][x].value * chord;
-            eye[1] += scale * pull[1][x].slope * chord;
-            eye[2] += scale * (at_strains[1][x].slope * chord + pull[1][x].value * d1[1][x] / 6.0);
+            eye[1] += scale * (of_strains(1, x) + of_length(1, x)) * chord;
+            eye[2] += scale * (of_length(1, x) * chord + pull[1][x].value * d1[1][x] / 6.0);
         }
         let probe = STRAIN_PROBE * l1;
-        let u0 = self.flow_energy(model, flow, &d0, l0);
-        let at = |l1: f64, d: &Control<f64>, eye: f64| {
-            strain_on_length([u0, self.flow_energy(model, flow, d, l1)], [l0, l1], eye)
+        let u0 = flow.on_length.begin.unwrap_or_else(|| self.flow_energy(model, flow, &d0, l0));
+        let u1 = flow.on_length.end;
+        let present = strain_on_length([u0, u1], [l0, l1], eye[0]);
+        let moved = |u1: (f64, f64), by: f64| {
+            (strain_on_length([u0, u1], [l0, l1 + probe], eye[0] + probe * by) - present) / probe
         };
-        let present = at(l1, &d1, eye[0]);
-        let moved = |d: &Control<f64>, by: f64| (at(l1 + probe, d, eye[0] + probe * by) - present) / probe;
+        let strained = self.flow_energy(model, flow, &control(end, l1 + probe), l1 + probe);
+        let still = (u1.0 * (1.0 + probe / l1), u1.1 / (1.0 + probe / l1));
         OfLength {
             impulse: core::array::from_fn(|i| by_strains[i] + by_length[i]),
             impulse_in_matrix: core::array::from_fn(|i| l1 / l0 * in_matrix[i] + by_length[i]),
-            on_length: [moved(&control(end, l1 + probe), eye[1]), moved(&d1, eye[2])],
+            on_length: [moved(strained, eye[1]), moved(still, eye[2])],
             far: d1[1].map(|x| -x / 3.0),
         }
     }
@@ -248,6 +265,7 @@ mod tests {
                 let matrix = equations.system.step.matrix.clone();
                 let flow = equations.system.flows.list[0];
                 let end_length = flow.at(state.time + h).length;
+                equations.read_motors(state, b);
                 equations.linearise_law(0, state, b, &mut column);
                 let law = equations.system.flows.list[0].law.unwrap();
                 let present = equations.system.flows.list[0].extent.acceleration;

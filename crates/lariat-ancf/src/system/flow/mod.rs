@@ -78,10 +78,14 @@ pub(crate) struct Flow {
     pub feed: Feed,
     /// What drives it, if its rate is an unknown.
     pub law: Option<Law>,
+    /// Length in m that a reel with a motor can take in beside this element, with the revision of the cable of which that is.
+    pub beside: Option<(u64, f64)>,
     /// Acceleration of the iterate about which the equations of a step are linear.
     linearised: f64,
     /// Force in N of effects at Gauss points on the length, in the last iterate of the discrete gradient.
     of_points: f64,
+    /// Forces on the length in an iterate of the discrete gradient: of a reel with a motor in the last one.
+    on_length: OnLength,
     /// Mean pull of the winch over the last step of the discrete gradient in N.
     pub pull: Option<f64>,
     /// Where the material at the eye comes from and goes to.
@@ -100,10 +104,24 @@ pub(crate) enum Source {
     Cable,
 }
 
+/// Mean forces in N on the length of an element at an eye over a step of the discrete gradient.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct OnLength {
+    /// All: B.
+    force: f64,
+    /// Of inertia and weight.
+    inertial: f64,
+    /// Strain energies in J, axial and bending, at the beginning of the step, once they are known, and at its end.
+    begin: Option<(f64, f64)>,
+    end: (f64, f64),
+}
+
 /// The elements at eyes.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Flows {
     pub list: Vec<Flow>,
+    /// Impulses of their inertia over the last step of the discrete gradient.
+    impulses: Vec<step::Impulse>,
     /// Velocities as internal damping sees them, and those of the material.
     velocities: [Vec<f64>; 2],
 }
@@ -124,8 +142,10 @@ impl Flow {
             stopped: false,
             feed: Feed::Drum,
             law: None,
+            beside: None,
             linearised: 0.0,
             of_points: 0.0,
+            on_length: OnLength::default(),
             pull: None,
             source: Source::Outside,
         }
@@ -220,7 +240,7 @@ impl Flows {
     pub fn new(model: &Model) -> Self {
         let length = |side: Side| model.elements[side.element(model.elements.len())].length;
         let list = model.reels.sides().map(|side| Flow::new(side, length(side))).collect();
-        Flows { list, velocities: Default::default() }
+        Flows { list, ..Flows::default() }
     }
 
     /// Returns whether there are none.

@@ -6,6 +6,7 @@ use crate::element::mass;
 use crate::integrate::State;
 use crate::integrate::discrete_gradient::{BETA, Buffers};
 use crate::model::Model;
+use crate::simd::dispatch;
 use crate::system::Equations;
 
 /// True iterates of an eye: change, linearised, change of the step before.
@@ -17,9 +18,9 @@ impl Equations<'_> {
     pub fn begin_flow_step(&mut self, state: &State, b: &mut Buffers) -> [Iterates; 2] {
         let mut saved = [Iterates::default(); 2];
         for (k, saved) in (0..self.system.flows.list.len()).zip(&mut saved) {
-            let flow = self.system.flows.list[k];
-            let (mean, [l0, l1]) = flow.over(state.time, b.h);
+            let (mean, [l0, l1]) = self.system.flows.list[k].over(state.time, b.h);
             self.system.set_each_length(self.model, k, [l0, mean.length, 0.5 * (1.0 / l0 + 1.0 / l1)]);
+            let flow = &self.system.flows.list[k];
             if flow.stands() {
                 continue;
             }
@@ -68,11 +69,21 @@ impl Equations<'_> {
     /// matrix if it is asked for.
     pub fn add_flows_over_step(&mut self, state: &State, b: &mut Buffers, matrix: bool) {
         let (model, system) = (self.model, &mut *self.system);
-        for flow in system.flows.list.iter().filter(|flow| !flow.stands()) {
-            let impulse = flow.impulse(model, &StepMotion::of(flow, state, b), false);
-            flow.side.add(&impulse.map(|x| x / b.h), &mut b.external);
+        let (step, rate) = ((state.time, b.h), 1.0 / b.h);
+        let Flows { list, impulses, .. } = &mut system.flows;
+        impulses.resize(list.len(), Impulse::default());
+        for (flow, impulse) in list.iter().zip(impulses).filter(|(flow, _)| !flow.stands()) {
+            let motion = StepMotion::of(flow, state, b);
+            let own = dispatch!(system.level, _simd => {
+                // a given rate does not change within a step
+                if matrix || flow.law.is_some() || impulse.step != step {
+                    *impulse = flow.impulse(model, step, false);
+                }
+                impulse.of(&motion)
+            });
+            flow.side.add(&own.map(|x| rate * x), &mut b.external);
             if matrix {
-                let table = flow.impulse_table(model, state.time, b.h);
+                let table = flow.impulse_table(model, impulse);
                 flow.add_symmetric(model, &mut system.step.matrix, |r, c| table[r][c]);
             }
         }
@@ -93,11 +104,9 @@ impl Flows {
     }
 }
 
-/// Coordinates and velocities of the element at an eye at both ends of a step.
+/// Coordinates and velocities of the element at an eye at the beginning of a step, and their changes.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct StepMotion {
-    pub time: f64,
-    pub h: f64,
     pub q: [[f64; 12]; 2],
     pub v: [[f64; 12]; 2],
 }
@@ -106,9 +115,47 @@ impl StepMotion {
     /// Returns that of the present iterate.
     pub fn of(flow: &Flow, state: &State, b: &Buffers) -> Self {
         let of = |x: &[f64]| flow.side.gather(x);
-        let (q, v, change, velocity_change) = (of(&state.q), of(&state.v), of(&b.change), of(&b.velocity_change));
-        let sum = |x: [f64; 12], d: [f64; 12]| core::array::from_fn(|i| x[i] + d[i]);
-        StepMotion { time: state.time, h: b.h, q: [q, sum(q, change)], v: [v, sum(v, velocity_change)] }
+        StepMotion { q: [of(&state.q), of(&b.change)], v: [of(&state.v), of(&b.velocity_change)] }
+    }
+}
+
+/// The impulse of the inertia of an element at an eye over a step by the coordinates at its beginning, their change, velocities there, and
+/// their change.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Impulse {
+    /// Time and length of the step in s.
+    step: (f64, f64),
+    tables: [Table; 4],
+}
+
+/// Returns a table by its entries.
+#[inline(always)]
+fn table(entry: impl Fn(usize, usize) -> f64) -> Table {
+    let mut out = [[0.0; 4]; 4];
+    for a in 0..4 {
+        for b in 0..4 {
+            out[a][b] = entry(a, b);
+        }
+    }
+    out
+}
+
+impl Impulse {
+    #[inline(always)]
+    pub fn of(&self, motion: &StepMotion) -> [f64; 12] {
+        let mut out = [0.0; 12];
+        for (table, x) in self.tables.iter().zip(motion.q.iter().chain(&motion.v)) {
+            add_product(table, 1.0, x, &mut out);
+        }
+        out
+    }
+
+    /// Returns the derivative by a number that changed by `by` to that of `moved`.
+    #[inline(always)]
+    pub fn derivative(&self, moved: &Impulse, by: f64) -> Impulse {
+        let rate = 1.0 / by;
+        let of = |k: usize| table(|a, b| rate * (moved.tables[k][a][b] - self.tables[k][a][b]));
+        Impulse { tables: [of(0), of(1), of(2), of(3)], ..*self }
     }
 }
 
@@ -116,63 +163,49 @@ impl Flow {
     /// Returns the impulse of the inertia of the element over a step, `-D p + h l' (G^T v^ + l' K q_m)` and the momentum of the material that
     /// enters at the eye; that of riding stock is a part of p, and what enters comes from it. Without `all` it is less the part
     /// `-M_m D v`, which the mass matrix has.
-    pub(super) fn impulse(&self, model: &Model, motion: &StepMotion, all: bool) -> [f64; 12] {
-        let StepMotion { time, h, q, v } = *motion;
+    #[inline(always)]
+    pub(super) fn impulse(&self, model: &Model, (time, h): (f64, f64), all: bool) -> Impulse {
         let (mean, lengths) = self.over(time, h);
-        let mut out = [0.0; 12];
         let of_mean = self.with(model, mean);
         let inertia = of_mean.inertia;
-        for (end, sign) in [(0, 1.0), (1, -1.0)] {
-            let mut at = FlowElement { inertia, extent: self.at(time + h * end as f64) };
-            if let (0, Some(rate)) = (end, self.left_rate) {
-                at.extent.rate = rate;
-            }
-            let mut table = mass::consistent(inertia, lengths[end]);
-            let mut point = self.stock(lengths[end]) * inertia;
-            if !all {
-                let of_mean = mass::consistent(inertia, mean.length);
-                (0..16).for_each(|i| table[i / 4][i % 4] -= of_mean[i / 4][i % 4]);
-                point -= self.stock(mean.length) * inertia;
-            }
-            table[2][2] += point;
-            add_product(&table, sign, &v[end], &mut out);
-            add_product(&at.momentum_matrix(), sign, &q[end], &mut out);
+        let [mut first, last] = [time, time + h].map(|time| FlowElement { inertia, extent: self.at(time) });
+        first.extent.rate = self.left_rate.unwrap_or(first.extent.rate);
+        let mut mass_first = mass::consistent(inertia, lengths[0]);
+        let mut mass_last = mass::consistent(inertia, lengths[1]);
+        let mut in_matrix = [[0.0; 4]; 4];
+        mass_first[2][2] += self.stock(lengths[0]) * inertia;
+        mass_last[2][2] += self.stock(lengths[1]) * inertia;
+        if !all {
+            in_matrix = mass::consistent(inertia, mean.length);
+            in_matrix[2][2] += self.stock(mean.length) * inertia;
         }
-        let middle = core::array::from_fn(|i| 0.5 * (q[0][i] + q[1][i]));
-        let velocity = core::array::from_fn(|i| (q[1][i] - q[0][i]) / h);
-        let [by_velocity, by_position] = of_mean.gradient_matrices();
-        add_product(&by_velocity, h, &velocity, &mut out);
-        add_product(&by_position, h, &middle, &mut out);
+        let (momentum_first, momentum_last) = (first.momentum_matrix(), last.momentum_matrix());
+        let [mut by_change, mut by_position] = of_mean.gradient_matrices();
         if self.source == Source::Outside {
-            for x in 6..9 {
-                out[x] += inertia * h * mean.rate * (velocity[x] - mean.rate * middle[3 + x]);
-            }
+            by_change[2][2] += inertia * mean.rate;
+            by_position[2][3] -= inertia * mean.rate * mean.rate;
         }
-        out
+        let tables = [
+            table(|a, b| momentum_first[a][b] - momentum_last[a][b] + h * by_position[a][b]),
+            table(|a, b| by_change[a][b] + 0.5 * h * by_position[a][b] - momentum_last[a][b]),
+            table(|a, b| mass_first[a][b] - mass_last[a][b]),
+            table(|a, b| in_matrix[a][b] - mass_last[a][b]),
+        ];
+        Impulse { step: (time, h), tables }
     }
 
     /// Returns the negative derivatives of the [impulse](Self::impulse), without the part of the mass matrix, by the changes of velocity. With
     /// riding stock or a sheave it is changed to a table whose symmetric part has the same sums over the rows of positions: one linear solve
     /// then keeps the momentum.
-    fn impulse_table(&self, model: &Model, time: f64, h: f64) -> Table {
-        let (mean, [_, last]) = self.over(time, h);
-        let [end, middle] = [self.at(time + h), mean].map(|extent| self.with(model, extent));
-        let inertia = middle.inertia;
-        let (mut table, of_mean) = (mass::consistent(inertia, last), mass::consistent(inertia, mean.length));
-        let momentum = end.momentum_matrix();
-        let [by_velocity, by_position] = middle.gradient_matrices();
-        for (a, b) in (0..4).flat_map(|a| (0..4).map(move |b| (a, b))) {
-            table[a][b] +=
-                BETA * h * (momentum[a][b] - by_velocity[a][b] - 0.5 * h * by_position[a][b]) - of_mean[a][b];
-        }
-        let entering = inertia * h * mean.rate;
+    fn impulse_table(&self, model: &Model, impulse: &Impulse) -> Table {
+        let (time, h) = impulse.step;
+        let [_, by_change, _, by_velocity] = &impulse.tables;
+        let mut table = table(|a, b| -by_velocity[a][b] - BETA * h * by_change[a][b]);
         if self.source == Source::Outside {
-            table[2][2] -= entering * BETA;
-            table[2][3] += entering * 0.5 * BETA * h * mean.rate;
             return table;
         }
         // the elements put their own mass into the matrix, not that of the stock
-        table[2][2] += inertia * self.stock(last);
+        table[2][2] += self.with(model, self.extent).inertia * self.stock(self.over(time, h).0.length);
         let symmetric: Table = core::array::from_fn(|a| core::array::from_fn(|b| 0.5 * (table[a][b] + table[b][a])));
         let missed: [f64; 4] = core::array::from_fn(|b| table[0][b] + table[2][b] - symmetric[0][b] - symmetric[2][b]);
         let mut table = symmetric;

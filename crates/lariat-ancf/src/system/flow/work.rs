@@ -35,13 +35,14 @@
 //! 1e-5, generalised-alpha 5e-5 with rho 0.5 and up to 1.6 % with others, by the same points. Strains on the line, and inertia at both ends
 //! with the mean acceleration: misses 3e-4 still. The middle alone misses up to a third of the work of a rope that is paid out.
 
-use super::{Flow, Source, System, control};
+use super::{Flow, OnLength, Source, System, control};
 use crate::effect::work::{POINTS, hermite};
 use crate::element::flow::{Extent, FlowElement};
 use crate::integrate::State;
 use crate::integrate::discrete_gradient::Buffers;
 use crate::model::Model;
 use crate::reel::Feed;
+use crate::simd::dispatch;
 use crate::system::Equations;
 
 /// What a reel does, at an instant.
@@ -111,42 +112,58 @@ impl Equations<'_> {
         work + if (along - mean).abs() <= mean.abs() { along } else { mean }
     }
 
-    /// Returns the mean force B on the length over a step of the discrete gradient, and what entering material brings beside it, in N.
-    pub fn flow_force_of_step(&self, flow: &Flow, state: &State, b: &Buffers) -> [f64; 2] {
+    /// Returns the mean forces on the length over a step of the discrete gradient.
+    pub(super) fn on_length_of_step(&self, flow: &Flow, state: &State, b: &Buffers) -> OnLength {
         let (model, system) = (self.model, &*self.system);
         let (mean, [l0, l1]) = flow.over(state.time, b.h);
-        let (q, change) = (flow.side.gather(&state.q), flow.side.gather(&b.change));
-        let at = |share: f64| -> [f64; 12] { core::array::from_fn(|i| q[i] + share * change[i]) };
-        let (start, middle, end) = (at(0.0), at(0.5), at(1.0));
-        let [u0, u1] = [(&start, l0), (&end, l1)].map(|(q, l)| system.flow_energy(model, flow, &control(q, l), l));
+        let (start, change) = (flow.side.gather(&state.q), flow.side.gather(&b.change));
+        let (mut middle, mut end) = (start, start);
+        for i in 0..12 {
+            middle[i] += 0.5 * change[i];
+            end[i] += change[i];
+        }
+        let energy = |q: &[f64; 12], l: f64| system.flow_energy(model, flow, &control(q, l), l);
+        let begin = flow.on_length.begin.filter(|_| flow.law.is_some()).unwrap_or_else(|| energy(&start, l0));
+        let end = energy(&end, l1);
         let of_eye: f64 = (0..3).map(|x| flow.eye_force[x] * (middle[6 + x] - middle[x])).sum();
-        let elastic = strain_on_length([u0, u1], [l0, l1], of_eye);
-        let (element, weight) = (flow.with(model, mean), flow.weight(model));
-        let velocity = change.map(|x| x / b.h);
-        let acceleration = flow.side.gather(&b.velocity_change).map(|x| x / b.h);
-        let inertial = element.length_force([&middle, &velocity, &acceleration], &flow.dead(model));
-        let entering = match flow.source {
-            Source::Outside => entering(&element, &weight, &middle, &velocity),
-            // the stock, or the other cable, is a part of the system
-            Source::Stock(_) | Source::Cable => {
-                0.5 * element.inertia * mean.rate * mean.rate * square_of_stretch(&middle)
+        let elastic = strain_on_length([begin, end], [l0, l1], of_eye);
+        let rate = 1.0 / b.h;
+        let [velocity, acceleration] = [change, flow.side.gather(&b.velocity_change)].map(|x| x.map(|x| rate * x));
+        let (element, dead) = (flow.with(model, mean), flow.dead(model));
+        let inertial =
+            dispatch!(system.level, _simd => element.length_force([&middle, &velocity, &acceleration], &dead));
+        OnLength { force: elastic + inertial - flow.of_points, inertial, begin: Some(begin), end }
+    }
+
+    /// Returns what entering material brings in N beside the force on the length, in the mean of a step of the discrete gradient.
+    fn entering_in_step(&self, flow: &Flow, element: &FlowElement, q: &[f64; 12], b: &Buffers) -> f64 {
+        let rate = element.extent.rate;
+        match flow.source {
+            Source::Outside => {
+                let rate = 1.0 / b.h;
+                let velocity = flow.side.gather(&b.change).map(|x| rate * x);
+                entering(element, &flow.weight(self.model), q, &velocity)
             }
-        };
-        [elastic + inertial - flow.of_points, entering]
+            // the stock, or the other cable, is a part of the system
+            Source::Stock(_) | Source::Cable => 0.5 * element.inertia * rate * rate * square_of_stretch(q),
+        }
     }
 
     /// Adds the work of winches and entering material over a step of the discrete gradient, and notes its lengths for the next one.
     pub fn end_flows_of_step(&mut self, state: &State, b: &Buffers) {
         for k in 0..self.system.flows.list.len() {
-            let flow = self.system.flows.list[k];
+            let flow = &self.system.flows.list[k];
             let (mean, [l0, l1]) = flow.over(state.time, b.h);
-            let forces = self.flow_force_of_step(&flow, state, b);
-            let work = (l1 - l0) * (forces[0] + forces[1]);
-            self.system.meter.reel_work[flow.side as usize] += work;
-            let (element, q) = (flow.with(self.model, mean), self.middle_of_step(&flow, state, b));
-            let pull = flow.feed.pull(&element, &q, forces[0]) + flow.lost(self.model, &q, mean.rate);
+            let force = match flow.law {
+                Some(_) => flow.on_length.force,
+                None => self.on_length_of_step(flow, state, b).force,
+            };
+            let (element, q) = (flow.with(self.model, mean), self.middle_of_step(flow, state, b));
+            let work = (l1 - l0) * (force + self.entering_in_step(flow, &element, &q, b));
+            let pull = flow.feed.pull(&element, &q, force) + flow.lost(self.model, &q, mean.rate);
             let own = &mut self.system.flows.list[k];
             (own.length_before, own.pull) = (l0, Some(pull));
+            self.system.meter.reel_work[own.side as usize] += work;
         }
     }
 }

@@ -118,6 +118,7 @@ impl Elements {
     }
 
     /// Returns h times the negative discrete-gradient force of one element on its control vectors; the stiffness has the factor h.
+    #[inline(always)]
     pub fn discrete_gradient_of<T: Real, L: Load<T>>(
         &self,
         effects: Option<&ElementTables>,
