@@ -80,6 +80,11 @@ impl ContactPoint {
         self.now.normal_force > 0.0 && self.linear.slope > 0.0
     }
 
+    /// Forgets the impact of the last step.
+    pub fn clear_impact(&mut self) {
+        self.impact.gain = 0.0;
+    }
+
     /// Finds its impact along a normal, at a velocity beside an obstacle with a velocity of its own (m/s), and returns the energy in J of what
     /// it opposes: 0 if it does not leave. `h` is the length of the step, `mass` that per length.
     pub fn find_impact(
@@ -88,7 +93,7 @@ impl ContactPoint {
         [beside, obstacle]: [Vector3<f64>; 2],
         (h, mass): (f64, f64),
     ) -> f64 {
-        let ContactPoint { linear, weight, .. } = *self;
+        let (linear, weight) = (&self.linear, self.weight);
         let across = normal.dot(&beside);
         if across <= 0.0 {
             return 0.0;
@@ -128,7 +133,7 @@ impl ContactStep {
     ) -> f64 {
         let mut energy = 0.0;
         for point in &mut self.points {
-            point.impact = Impact::default();
+            point.clear_impact();
             if point.may_leave() {
                 let (element, step, now) = (point.key.0 as usize, &self.obstacles[point.obstacle], &point.now);
                 let obstacle = match step.body {
