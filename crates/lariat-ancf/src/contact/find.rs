@@ -88,10 +88,7 @@ impl ContactStep {
         }
         self.hand_over(motion.memory);
         self.close_offsets(PAID * motion.lost * motion.h);
-        for point in &self.points {
-            let y = self.obstacles[point.obstacle].start.own(&point.start);
-            self.before += point.energy_before(&y);
-        }
+        self.before = self.points.iter().map(ContactPoint::energy_before).sum();
         self.follow_closest(motion);
     }
 
@@ -109,7 +106,11 @@ impl ContactStep {
             if pair.is_apart(xi) {
                 continue;
             }
-            let mut point = pair.point(place, xi, weight);
+            // written where it stays: a contact is large
+            let count = self.points.len();
+            self.points.resize_with(count + 1, ContactPoint::default);
+            let point = &mut self.points[count];
+            pair.place(point, (place, xi, weight));
             let y = pair.step.start.own(&point.start);
             let nearest = pair.obstacle.surface.nearest(&y);
             point.distance = nearest.distance;
@@ -125,7 +126,7 @@ impl ContactStep {
                     match trace(&*pair.obstacle.surface, [&y, &end], point.reach, |found| !pair.is_thin(found)) {
                         Some(met) if !point.is_inside(&met.patch, &y) => point.patch = met.patch,
                         _ => {
-                            self.watched.push(point);
+                            self.watched.extend(self.points.pop());
                             continue;
                         }
                     }
@@ -133,7 +134,6 @@ impl ContactStep {
             }
             point.recall(&y, &pair.step, memory);
             index.into_iter().for_each(|i| self.recalled[i] = true);
-            self.points.push(point);
         }
     }
 
@@ -197,11 +197,11 @@ impl ContactStep {
             let met = trace(surface(point), [&y0, &y1], point.reach, |found| !thin(point, found))?;
             (point.is_inside(&met.patch, &y1) && !point.is_inside(&met.patch, &y0)).then_some((met.patch, y0))
         };
-        for point in self.points.iter_mut().filter(|point| point.key.2 < PLACES) {
+        let may_meet = |point: &&mut ContactPoint| point.key.2 < PLACES && point.depth_before <= 0.0;
+        for point in self.points.iter_mut().filter(may_meet) {
             let obstacle = &self.obstacles[point.obstacle];
-            let (y0, y1) = point.way(obstacle, change);
-            if !point.is_inside(&point.patch, &y0)
-                && !point.is_inside(&point.patch, &y1)
+            let (_, y1) = point.way(obstacle, change);
+            if !point.is_inside(&point.patch, &y1)
                 && let Some((patch, _)) = meets(point, obstacle)
             {
                 (point.patch, point.free_way) = (patch, 0.0);

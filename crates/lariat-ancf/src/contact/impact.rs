@@ -104,6 +104,11 @@ impl ContactPoint {
         self.now.normal_force > 0.0 && self.linear.slope > 0.0
     }
 
+    /// Forgets the impact of the last step.
+    pub fn clear_impact(&mut self) {
+        self.impact.gain = 0.0;
+    }
+
     /// Finds its impact along a normal, at velocities beside an obstacle when the step begins and ends, and one of the obstacle (m/s), and returns the energy
     /// in J of what it opposes: 0 if it does not leave. `h` is the length of the step, `mass` that per length.
     pub fn find_impact(
@@ -112,7 +117,7 @@ impl ContactPoint {
         [before, beside, obstacle]: [Vector3<f64>; 3],
         (h, mass): (f64, f64),
     ) -> f64 {
-        let ContactPoint { linear, weight, .. } = *self;
+        let (linear, weight) = (&self.linear, self.weight);
         let across = normal.dot(&beside);
         let (mut rebound, mut gives) = (0.0, false);
         if self.restitution > 0.0 {
@@ -174,7 +179,7 @@ impl ContactStep {
     ) -> f64 {
         let mut energy = 0.0;
         for point in &mut self.points {
-            point.impact = Impact::default();
+            point.clear_impact();
             if point.may_leave() {
                 let (element, step, now) = (point.key.0 as usize, &self.obstacles[point.obstacle], &point.now);
                 let [first, last] = match step.body {

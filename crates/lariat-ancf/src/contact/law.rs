@@ -91,6 +91,7 @@ pub(in crate::contact) struct Friction {
 
 /// Returns friction with the bound `bound` (N) on a surface with the unit normal `normal`, for a contact of the normal stiffness `stiffness` (N/m);
 /// `before` is the spring at the beginning (m), `slip` the motion beside the surface. With `sticks` the bound is ignored.
+#[inline]
 pub(in crate::contact) fn friction(
     stiffness: f64,
     bound: f64,
@@ -102,10 +103,10 @@ pub(in crate::contact) fn friction(
     let k = TANGENTIAL * stiffness;
     let tangential = |x: &Vector3<f64>| x - normal * normal.dot(x);
     let (slip, trial) = (tangential(slip), tangential(&(before + slip)));
-    let size = k * trial.norm();
-    let (spring, share, slides) = if size <= bound || sticks {
+    let (spring, share, slides) = if k * k * trial.norm_squared() <= bound * bound || sticks {
         (trial, 1.0, None)
     } else {
+        let size = k * trial.norm();
         (trial * (bound / size), bound / size, Some(trial * (k / size)))
     };
     let loss = k * (spring.dot(&slip) - 0.5 * (spring.norm_squared() - before.norm_squared()));

@@ -55,7 +55,8 @@ impl ContactPoint {
         let (element, row) = (self.key.0 as usize, self.row());
         let mut tangents = Tangents::default();
         let at = self.evaluate(obstacle, &changes(element, &self.shape), self.about, Some(&mut tangents));
-        let row_slip = obstacle.slip(&row.start, &changes(element, &row.shape));
+        let apart = self.between.is_some();
+        let row_slip = if apart { obstacle.slip(&row.start, &changes(element, &row.shape)) } else { at.slip };
         let Evaluation { force, slip, arm, normal, normal_force, .. } = at;
         let Evaluation { pressure, slope, depth, slides, .. } = at;
         self.linear = Linear {

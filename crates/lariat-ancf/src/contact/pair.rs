@@ -79,21 +79,20 @@ impl Pair<'_> {
     }
 
     pub fn point(&self, place: u32, xi: f64, weight: f64) -> ContactPoint {
-        let key = self.key(place);
-        let shape = shape::position(xi, self.section.length);
-        ContactPoint {
-            key,
-            obstacle: self.number,
-            xi,
-            shape,
-            weight,
-            law: self.contact.law_of(&self.section.section),
-            friction: self.obstacle.friction,
-            restitution: self.obstacle.restitution,
-            reach: self.radius + self.obstacle.skin,
-            start: combine(self.motion.q, self.element, &shape),
-            ..ContactPoint::default()
-        }
+        let mut point = ContactPoint::default();
+        self.place(&mut point, (place, xi, weight));
+        point
+    }
+
+    /// Puts a new point to a place of the element, with the length that it stands for.
+    pub fn place(&self, point: &mut ContactPoint, (place, xi, weight): (u32, f64, f64)) {
+        (point.key, point.obstacle) = (self.key(place), self.number);
+        (point.xi, point.weight) = (xi, weight);
+        point.shape = shape::position(xi, self.section.length);
+        point.law = self.contact.law_of(&self.section.section);
+        (point.friction, point.restitution) = (self.obstacle.friction, self.obstacle.restitution);
+        point.reach = self.radius + self.obstacle.skin;
+        point.start = combine(self.motion.q, self.element, &point.shape);
     }
 
     /// Returns a place of the element as a row of the matrix.

@@ -132,6 +132,7 @@ impl ObstacleStep {
     }
 
     /// Returns vectors in the world's axes from one of its points to a point of the cable, at both ends.
+    #[inline]
     pub fn beside(&self, own: &Vector3<f64>, x: &Vector3<f64>, change: &Vector3<f64>) -> [Vector3<f64>; 2] {
         let y0 = x - self.start.position - self.start.rotation * own;
         let moved = if self.turns { self.shift + self.turn * (own - self.centre[0]) } else { self.shift };
@@ -160,6 +161,7 @@ impl ObstacleStep {
     }
 
     /// Returns the motion s of a point of the cable beside its material.
+    #[inline]
     pub fn slip(&self, x: &Vector3<f64>, change: &Vector3<f64>) -> Vector3<f64> {
         let moved = change - self.shift;
         if self.turns { moved - 2.0 * self.half.cross(&self.arm(x, change)) } else { moved }

@@ -41,6 +41,8 @@ pub(in crate::contact) struct ContactPoint {
     /// Gap in m at which it touches: radius and skin.
     pub reach: f64,
     pub patch: Patch,
+    /// Depth in m at the beginning, offset and all; negative where there is a gap.
+    pub depth_before: f64,
     /// Depth in m that does not count, at the beginning.
     pub offset: f64,
     /// What of it counts at the end.
@@ -136,6 +138,7 @@ impl ContactPoint {
     /// obstacle on a body that was moved since then, by an engine, the difference has either sign, and closes by the engine's work.
     pub fn recall(&mut self, y: &Vector3<f64>, obstacle: &ObstacleStep, memory: Option<&ContactMemory>) {
         let depth = self.depth_at(self.patch.gap(y).0);
+        self.depth_before = depth;
         self.free_way = if memory.is_none() { -depth } else { 0.0 };
         let difference = depth.max(0.0) - memory.map_or(0.0, |memory| memory.depth);
         (self.offset, self.closing, self.pays) = (difference.max(0.0), 0.0, false);
@@ -171,8 +174,8 @@ impl ContactPoint {
     }
 
     /// Returns the energy in J that it stores at the beginning.
-    pub fn energy_before(&self, y: &Vector3<f64>) -> f64 {
-        let depth = self.depth_at(self.patch.gap(y).0) - self.offset;
+    pub fn energy_before(&self) -> f64 {
+        let depth = self.depth_before - self.offset;
         self.weight * self.law.at(depth).energy + spring_energy(self.law.stiffness * self.weight, &self.spring)
     }
 
@@ -246,7 +249,8 @@ impl ContactPoint {
             out.work = 0.0;
         }
         if self.friction > 0.0 {
-            let mean = gap.mean.try_normalize(0.0).unwrap_or(gap.normal);
+            let is_constant = gap.mean == gap.normal;
+            let mean = if is_constant { gap.mean } else { gap.mean.try_normalize(0.0).unwrap_or(gap.normal) };
             let friction = friction(stiffness, self.bound, &mean, &u0, &slip, about.sticks);
             out.friction = friction.spring * -friction.stiffness;
             out.force += out.friction;
@@ -305,17 +309,9 @@ mod tests {
     use nalgebra::UnitQuaternion;
 
     fn point(patch: Patch, friction: f64) -> ContactPoint {
+        let (xi, shape, weight, reach) = (0.5, [0.5, 0.0, 0.5, 0.0], 0.03, 5e-3);
         let law = NormalLaw::new(1e9, 5e-3);
-        ContactPoint {
-            xi: 0.5,
-            shape: [0.5, 0.0, 0.5, 0.0],
-            weight: 0.03,
-            law,
-            friction,
-            reach: 5e-3,
-            patch,
-            ..ContactPoint::default()
-        }
+        ContactPoint { xi, shape, weight, law, friction, reach, patch, ..ContactPoint::default() }
     }
 
     /// Without friction the tangent is minus the derivative of the force, but for the turn of the mean normal, on a plane; and no contact
@@ -351,7 +347,8 @@ mod tests {
                     p.start = height * normal;
                     p.spring = 1e-6 * Vector3::new(1.0, -0.8, 0.6) * f64::from(i % 3);
                     p.bound = f64::from(i % 4) * 20.0;
-                    let before = p.energy_before(&p.start);
+                    p.depth_before = p.depth_at(patch.gap(&p.start).0);
+                    let before = p.energy_before();
                     let change = Vector3::new(way(1, 3), way(2, 7), way(3, 2));
                     let now = p.evaluate(&step, &change, About::default(), None);
                     let way = step.slip(&p.start, &change);
@@ -375,7 +372,8 @@ mod tests {
             let mut p = point(Patch::Plane { point: Vector3::zeros(), normal: Vector3::y() }, 0.4);
             p.start = Vector3::new(0.0, 5e-3 - 6e-5, 0.0);
             (p.bound, p.offset, p.closing, p.pays) = (30.0, 4e-5, 1e-5, pays);
-            let before = p.energy_before(&p.start);
+            p.depth_before = p.depth_at(p.patch.gap(&p.start).0);
+            let before = p.energy_before();
             let change = Vector3::new(3e-4, -1e-5, 0.0);
             let now = p.evaluate(&step, &change, About::default(), None);
             let made = now.force.dot(&change) + now.energy - before + now.loss - now.work;

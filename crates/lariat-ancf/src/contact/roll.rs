@@ -128,7 +128,7 @@ impl ContactStep {
         }
         let old = &self.points[i];
         let ContactPoint { nearby: n, recalls, linear, about, now, bound, renewed, .. } = *old;
-        let before = old.energy_before(&pair.step.start.own(&old.start));
+        let before = old.energy_before();
         let mut point =
             ContactPoint { nearby: n, recalls, linear, about, now, ..pair.feature_point(&nearby.feature, place.xi) };
         let y = pair.step.start.own(&point.start);
@@ -145,7 +145,7 @@ impl ContactStep {
             (point.bound, point.renewed) = (bound, true);
         }
         point.roll = roll(&point, pair, nearby);
-        self.before += point.energy_before(&y) - before;
+        self.before += point.energy_before() - before;
         self.points[i] = point;
     }
 }

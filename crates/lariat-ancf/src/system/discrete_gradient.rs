@@ -322,8 +322,11 @@ impl DiscreteGradientSystem for CableStep<'_> {
         Ok(balance)
     }
 
-    fn renew_friction(&mut self) -> bool {
-        self.buffers.contact.renew_friction()
+    fn renew_friction(&mut self, least: f64) -> bool {
+        let contact = &mut self.buffers.contact;
+        contact.lags &= contact.find_lag() > least;
+        contact.renew_friction();
+        contact.lags
     }
 
     fn add_missed(&mut self) -> bool {

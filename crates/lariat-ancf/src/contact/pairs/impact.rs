@@ -25,7 +25,7 @@ impl PairStep {
         for pair in &mut self.points {
             let [one, other] = pair.ends.map(|end| mass(end.strand, end.element));
             let reduced = one * other / (one + other);
-            pair.point.impact = Default::default();
+            pair.point.clear_impact();
             if pair.point.may_leave() {
                 let beside = pair.rate(&velocity);
                 let normal = pair.point.linear.tangents.across;

@@ -167,7 +167,7 @@ impl PairStep {
             let paid = PAID * memory.friction_power * self.h;
             point.close((paid / point.cost()).min(self.h / OFFSET_TIME_OF_PAIRS).min(1.0));
         }
-        self.before += point.energy_before(&start);
+        self.before += point.energy_before();
         let tangents = [at(0, &ends[0].slope), at(1, &ends[1].slope)];
         self.points.push(PairPoint::new(ends, point, tangents, self.h));
     }

@@ -225,8 +225,9 @@ pub(crate) trait DiscreteGradientSystem {
     /// Adds contacts with what the iterate entered although they were not found before; returns whether there are any.
     fn add_missed(&mut self) -> bool;
 
-    /// Sets the bounds of friction of contacts with obstacles by their present normal forces, if they miss them; returns whether they did.
-    fn renew_friction(&mut self) -> bool;
+    /// Sets the bounds of friction of contacts with obstacles by their present normal forces, if they miss them, by more than `least` (N) in all;
+    /// returns whether they did.
+    fn renew_friction(&mut self, least: f64) -> bool;
 
     /// Returns whether centre lines of cables go through each other, or through thin parts of obstacles, in the step.
     fn crosses(&mut self) -> bool;

@@ -51,6 +51,7 @@
 mod advance;
 mod buffers;
 mod law;
+mod relaxation;
 mod safeguard;
 
 use super::{Dynamics, OneStep, Scratch, State, StepRequest};

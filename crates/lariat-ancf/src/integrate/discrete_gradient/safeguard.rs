@@ -13,8 +13,7 @@
 //! Damping, friction and impact lose so much that any error of the iteration hides behind them: on a rotor whose rope is damped, errors of
 //! the tension grow to a thousand times the tension. A step is therefore accepted only if its energy balance *closes*, to 1 % of what
 //! they lose. Near an obstacle it must close to 1 % of all that the step loses, and the contact forces must be those of the linear solve, to
-//! 1e-3 in sum; every iteration has a new tangent, and up to 20 are taken; from the fourth on, those after one that leaves
-//! more than half of the imbalance take half of the increment (under-relaxation: what the tangent leaves out makes a slack cable that is hit swing between two iterates for ever). After those the balance alone must close; and in the last
+//! 1e-3 in sum; every iteration has a new tangent, and up to 20 are taken, those that swing by halves (relaxation.rs). After those the balance alone must close; and in the last
 //! division the energy law alone must hold. Motors of reels must have the forces of their laws likewise, to 1e-3, with a new
 //! tangent in every iteration that is needed for them. With stock of a reel on a body that moves freely the sum of all impulses must balance, to 1e-9
 //! of them, or the velocities are not scaled down.
@@ -26,8 +25,7 @@
 //!
 //! # Alternatives considered
 //!
-//! Whole increments again as soon as a half one improves: 15 % fewer iterations of ropes thrown at a floor and a drum, 40 % more in heaps, whose dearest host steps are those of a cable that
-//! kinks while its contacts are solved. A part broken off after six iterations without progress: no fewer iterations. Bounds of friction that reverse changed by half: no fewer.
+//! A part broken off after six iterations without progress: no fewer iterations. Bounds of friction that reverse changed by half: no fewer.
 //!
 //! Anderson's mixing of 3 to 8 increments, in the norm of kinetic energy, in place of half ones: a rope that falls on a rod 0.79 to 0.89 of
 //! the iterations, one that falls tilted on a floor 0.88 to 1.26, a heap 0.85 to 1.3. First iterates without acceleration, tangents without
@@ -38,6 +36,7 @@
 //! where it divided none; 400 cables that swing calmly 2.0 for 1.2. What is unbalanced along a stiff cable is already in its strain when the next step begins, so that it is not owed.
 
 use super::law::{Balance, CLOSURE, Closing, DiscreteGradientSystem, Event};
+use super::relaxation::Relaxation;
 use crate::error::StepFailure;
 use crate::integrate::WorkLimit;
 
@@ -58,11 +57,6 @@ const ROUNDING: f64 = 1e-13;
 const MAX_ITERATIONS: usize = 8;
 /// Largest number of Newton iterations near an obstacle.
 const MAX_ITERATIONS_NEAR: usize = 20;
-/// Number of Newton iterations near an obstacle that take the whole increment; the share of the imbalance that one leaves where the iteration swings, and the share of the
-/// increment that those after it take.
-const WHOLE_INCREMENTS: usize = 4;
-const SWINGING: f64 = 0.5;
-const RELAXATION: f64 = 0.5;
 /// Number of times that contacts are looked for again when the iteration has ended.
 const MAX_SEARCHES: usize = 3;
 /// Largest number of times that the bounds of friction are set by the normal forces of the step itself.
@@ -71,7 +65,7 @@ const MAX_RENEWALS: usize = 40;
 const CLOSURE_OF_WEIGHT: f64 = 1e-6;
 /// Share of the impulses that may be unbalanced where velocities are rescaled near an obstacle.
 const LARGEST_IMBALANCE: f64 = 0.1;
-/// Share of the contact forces that the linear solve may miss.
+/// Share of the contact forces that the linear solve may miss, and of the other impulses that bounds of friction may.
 const CONSISTENCY: f64 = 1e-3;
 /// Share of the velocities relative to rigid motion that rescaling may take: that of half of their energy.
 const SHARE_OF_HALF_THE_ENERGY: f64 = 0.292_893_218_813_452_5;
@@ -175,14 +169,13 @@ pub(super) fn step(
     let (mut iteration, mut imbalance) = (0, f64::INFINITY);
     let (mut searches, mut misses) = (0, None);
     let (mut renewals, mut renewed) = (0, 0);
-    let (mut swings, mut left) = (false, f64::INFINITY);
+    let mut relaxation = Relaxation::new();
     let is_spent = || limit.is_some_and(WorkLimit::is_spent);
     while iteration < most && !(iteration > 0 && is_spent()) {
         iteration += 1;
-        last = system.iterate(fresh, if swings { RELAXATION } else { 1.0 });
+        last = system.iterate(fresh, relaxation.share);
         if let Ok(balance) = &last {
-            swings |= balance.near && iteration - renewed >= WHOLE_INCREMENTS && balance.imbalance > SWINGING * left;
-            left = balance.imbalance;
+            relaxation.note(balance);
         }
         if let Some(limit) = limit {
             limit.spend(1);
@@ -193,10 +186,12 @@ pub(super) fn step(
                 let forces = forces && is_momentum_right(balance);
                 let motors = are_motors_right(balance);
                 if is_dissipation_right(balance) && forces && closes(balance) && is_consistent(balance) && motors {
-                    if balance.near && renewals <= MAX_RENEWALS && system.renew_friction() {
+                    let least = CONSISTENCY * (balance.impulse / h - balance.forces);
+                    if balance.near && renewals <= MAX_RENEWALS && system.renew_friction(least) {
                         renewals += 1;
                         if renewals <= MAX_RENEWALS {
-                            (renewed, most, swings) = (iteration, iteration + MAX_ITERATIONS_NEAR, false);
+                            (renewed, most) = (iteration, iteration + MAX_ITERATIONS_NEAR);
+                            relaxation.restart();
                             (fresh, imbalance) = (true, f64::INFINITY);
                             continue;
                         }

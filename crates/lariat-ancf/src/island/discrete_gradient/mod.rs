@@ -262,10 +262,16 @@ impl DiscreteGradientSystem for IslandStep<'_, '_> {
         rescale::rescale(self, balance, largest_share)
     }
 
-    fn renew_friction(&mut self) -> bool {
-        // each cable, although one will do
-        let renewed = self.cables.iter_mut().map(|cable| cable.step_parts().buffers.contact.renew_friction());
-        renewed.fold(false, |any, one| any | one)
+    fn renew_friction(&mut self, least: f64) -> bool {
+        let missed: f64 = self.cables.iter_mut().map(|cable| cable.step_buffers.contact.find_lag()).sum();
+        let mut any = false;
+        for cable in self.cables.iter_mut() {
+            let contact = &mut cable.step_buffers.contact;
+            contact.lags &= missed > least;
+            contact.renew_friction();
+            any |= contact.lags;
+        }
+        any
     }
 
     fn add_missed(&mut self) -> bool {
