@@ -2,7 +2,8 @@
 
 use crate::bench::{GRAVITY, RADIUS, rope, run, steps, up, with};
 use crate::bodies::{World, cube, on_body};
-use lariat_ancf::contact::{Cuboid, HalfSpace, Obstacle, RigidMotion};
+use crate::common::Random;
+use lariat_ancf::contact::{Capsule, Cuboid, HalfSpace, LARGEST_RESTITUTION, Obstacle, RigidMotion};
 use lariat_ancf::{Cable, Contact, Section, Vector3};
 
 fn floor(friction: f64, restitution: f64) -> Obstacle {
@@ -202,4 +203,56 @@ fn restitution_out_of_range_is_an_error() {
         let contact = Contact::default().with_radius(RADIUS).with_restitution(restitution);
         assert!(cable.set_contact(contact).is_err(), "{restitution}");
     }
+}
+
+/// Ropes that are thrown at a floor, a box and a rod with any restitution and friction make no energy, and nothing is refused or sinks in.
+///
+/// *Source.* The energy law. Fresh seeds with `LARIAT_SEEDS=a..b`.
+#[test]
+fn thrown_ropes_that_bounce_make_no_energy() {
+    let seeds = std::env::var("LARIAT_SEEDS").ok().map(|range| {
+        let (first, last) = range.split_once("..").expect("LARIAT_SEEDS=a..b");
+        first.parse().unwrap()..last.parse().unwrap()
+    });
+    let (mut worst, mut deepest, mut split) = (0.0f64, 0.0f64, 0);
+    for seed in seeds.unwrap_or(500..540u64) {
+        let mut random = Random::new(seed);
+        let mut unit = || 0.5 * (random.next() + 1.0);
+        let power = |x: f64, low: f64, high: f64| 10f64.powf(low + (high - low) * x);
+        let (ea, ei, mass) = (power(unit(), 3.0, 7.0), power(unit(), -5.0, 0.0), power(unit(), -2.0, 0.5));
+        let elements = 4 + (unit() * 16.0) as usize;
+        let (friction, rate) = (unit(), [60.0, 120.0, 240.0][(3.0 * unit()) as usize]);
+        let mut vector = |size: f64| Vector3::new(unit() - 0.5, unit() - 0.5, unit() - 0.5) * size;
+        let along = vector(1.0).normalize();
+        let middle = vector(0.4) + up() * 1.3;
+        let (velocity, spin) = (vector(8.0) - 3.0 * up(), vector(6.0));
+        let cable = Cable::builder()
+            .points([middle - along, middle + along])
+            .section(Section::from_stiffness(ea, ei, mass).unwrap())
+            .elements(elements)
+            .gravity(-GRAVITY * up())
+            .velocity(velocity - spin.cross(&along))
+            .angular_velocity(spin)
+            .integrator(steps(rate));
+        let mut bounces = |obstacle: Obstacle| obstacle.with_restitution(LARGEST_RESTITUTION * unit());
+        let rod = Capsule { ends: [Vector3::z() * -3.0, Vector3::z() * 3.0], radius: 0.004 };
+        let floor = Obstacle::new(1, HalfSpace { normal: up() }, up() * -0.5, friction);
+        let block = Cuboid { half_extents: Vector3::new(0.3, 0.2, 0.4) };
+        let block = Obstacle::new(2, block, Vector3::new(0.5, -0.2, 0.0), friction);
+        let rod = Obstacle::new(3, rod, Vector3::new(-0.4, 0.0, 0.0), friction);
+        let obstacles = [floor, block, rod].map(&mut bounces);
+        let mut cable = with(cable.build().unwrap(), obstacles.to_vec());
+        cable.set_contact(Contact::with_friction(friction).with_radius(RADIUS)).unwrap();
+        let mut deep = 0;
+        let made = run(&mut cable, 60, |cable| {
+            let sinks = cable.contacts().any(|touch| touch.depth > 0.2 * RADIUS);
+            deep = if sinks { deep + 1 } else { 0 };
+            assert!(deep < 7, "seed {seed}: in an obstacle for 0.1 s");
+        });
+        worst = worst.max(made);
+        deepest = deepest.max(crate::bench::deepest(&cable) / RADIUS);
+        split += cable.diagnostics().split_steps;
+        assert!(made < 1e-7, "seed {seed}: {made:e}");
+    }
+    println!("made {worst:.1e}, at the end at most {deepest:.2} r deep, {split} divided steps");
 }
