@@ -195,7 +195,8 @@ def test_a_bar_bounces_by_newtons_law(restitution: float) -> None:
             break
         before = speed
     assert 2.0 < -before < 2.6
-    # a step takes the velocity at its beginning for that of the impact
-    assert speed == pytest.approx(-restitution * before, abs=0.05)
+    # the rest of an impact that is inelastic; gravity changes the velocity by 0.04 m/s in each step
+    bar.step(1 / 240)
+    assert bar.velocities[:, 1].mean() == pytest.approx(-restitution * before, abs=0.09)
     with pytest.raises(errors.InvalidValueError):
         bar.set_obstacles([Obstacle.half_space([0, 1, 0], restitution=0.9)])
