@@ -59,6 +59,18 @@ pub const LARGEST_RESTITUTION: f64 = (1.0 - ALPHA) / (1.0 + ALPHA);
 const MAX_SOLVES: usize = 8;
 const GIVEN: f64 = 1e-3;
 
+/// An end of a step.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum When {
+    Begin,
+    End,
+}
+
+/// Returns how often impulses are solved for again at most, where some give velocity or none.
+pub(crate) fn solves_again(gives: bool) -> usize {
+    if gives { MAX_SOLVES } else { 1 }
+}
+
 /// A contact that pushes when the step ends.
 #[derive(Clone, Copy, Debug, Default)]
 pub(in crate::contact) struct Impact {
@@ -87,11 +99,6 @@ impl Impact {
         self.gain > 0.0
     }
 
-    /// Returns whether it gives velocity that it lacks.
-    pub fn gives(&self) -> bool {
-        self.acts() && self.gives
-    }
-
     /// Returns G times a velocity.
     fn gained(&self, velocity: &Vector3<f64>) -> Vector3<f64> {
         self.normal * (self.gain * self.normal.dot(velocity)) + self.friction * velocity
@@ -109,22 +116,22 @@ impl ContactPoint {
         self.impact.gain = 0.0;
     }
 
-    /// Finds its impact along a normal, at velocities beside an obstacle when the step begins and ends, and one of the obstacle (m/s), and returns the energy
-    /// in J of what it opposes: 0 if it does not leave. `h` is the length of the step, `mass` that per length.
+    /// Finds its impact along a normal, at a velocity beside an obstacle with a velocity of its own (m/s), and returns the energy in J of what it opposes: 0 if it
+    /// does not leave. `came` is the speed across it when the step began, 0 without restitution; `h` is the length of the step, `mass` that per length.
     pub fn find_impact(
         &mut self,
         normal: Vector3<f64>,
-        [before, beside, obstacle]: [Vector3<f64>; 3],
+        [beside, obstacle]: [Vector3<f64>; 2],
+        came: f64,
         (h, mass): (f64, f64),
     ) -> f64 {
         let (linear, weight) = (&self.linear, self.weight);
         let across = normal.dot(&beside);
         let (mut rebound, mut gives) = (0.0, false);
         if self.restitution > 0.0 {
-            let comes = (-normal.dot(&before)).max(0.0);
-            self.came = if self.touched { self.came } else { comes };
+            self.came = if self.touched { self.came } else { came };
             // one that presses on gives no more than what it comes with in this step
-            let least = self.restitution * comes.min(self.came);
+            let least = self.restitution * came.min(self.came);
             gives = across < least;
             rebound = if gives { least } else { self.restitution * self.came.abs() };
             self.came = if across > 0.0 { -self.came.abs() } else { self.came.max(0.0) };
@@ -170,38 +177,40 @@ impl ContactPoint {
 
 impl ContactStep {
     /// Finds the velocities beside contacts that push, at the end of the step, and returns the energy in J of those that they oppose. `mass` is that of
-    /// an element per length, `velocity` that of a point of an element, `body` that of a body at an arm about its centre, each when the step begins and ends.
+    /// an element per length, `velocity` that of a point of an element, `body` that of a body at an arm about its centre, each when
+    /// the step begins or ends.
     pub fn find_impacts(
         &mut self,
         mass: impl Fn(usize) -> f64,
-        velocity: impl Fn(usize, &[f64; 4]) -> [Vector3<f64>; 2],
-        body: impl Fn(usize, &Vector3<f64>) -> [Vector3<f64>; 2],
+        velocity: impl Fn(When, usize, &[f64; 4]) -> Vector3<f64>,
+        body: impl Fn(When, usize, &Vector3<f64>) -> Vector3<f64>,
     ) -> f64 {
         let mut energy = 0.0;
         for point in &mut self.points {
             point.clear_impact();
             if point.may_leave() {
                 let (element, step, now) = (point.key.0 as usize, &self.obstacles[point.obstacle], &point.now);
-                let [first, last] = match step.body {
-                    Some(index) => body(index, &now.arm),
-                    None => [step.velocity_at(&(now.arm + 0.5 * now.slip)); 2],
+                let of_obstacle = |when: When| match step.body {
+                    Some(index) => body(when, index, &now.arm),
+                    None => step.velocity_at(&(now.arm + 0.5 * now.slip)),
                 };
-                let [before, after] = velocity(element, &point.shape);
-                let beside = [before - first, after - last, last];
-                energy += point.find_impact(point.now.normal, beside, (self.h, mass(element)));
+                let (shape, normal, obstacle) = (&point.shape, now.normal, of_obstacle(When::End));
+                let came = if point.restitution > 0.0 {
+                    let before = velocity(When::Begin, element, shape) - of_obstacle(When::Begin);
+                    (-normal.dot(&before)).max(0.0)
+                } else {
+                    0.0
+                };
+                let beside = velocity(When::End, element, shape) - obstacle;
+                energy += point.find_impact(normal, [beside, obstacle], came, (self.h, mass(element)));
             }
         }
         energy
     }
 
     /// Returns whether any gives velocity by its restitution.
-    pub fn rebound(&self) -> bool {
-        self.points.iter().any(|point| point.impact.gives())
-    }
-
-    /// Returns how often impulses are solved for again.
-    pub fn solves(&self) -> usize {
-        if self.rebound() { MAX_SOLVES } else { 1 }
+    pub fn gives_velocity(&self) -> bool {
+        self.points.iter().any(|point| point.impact.acts() && point.impact.gives)
     }
 
     /// Adds what the linear solve sees of them to the rows of the cable, and its opposite to those of bodies.

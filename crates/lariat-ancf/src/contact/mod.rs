@@ -86,6 +86,7 @@ mod trace;
 pub(crate) use border::Border;
 pub(crate) use find::Motion;
 pub use impact::LARGEST_RESTITUTION;
+pub(crate) use impact::{When, solves_again};
 pub(crate) use law::NormalLaw;
 pub(crate) use memory::split_element;
 pub use memory::{ContactMemory, Touch};

@@ -34,17 +34,8 @@ impl Obstacle {
     /// Creates an obstacle at rest, without skin.
     pub fn new(key: u64, surface: impl Surface + 'static, position: impl Into<Vector3<f64>>, friction: f64) -> Self {
         let motion = RigidMotion::at(position);
-        let (restitution, skin) = (0.0, 0.0);
-        Obstacle {
-            key,
-            surface: Arc::new(surface),
-            motion,
-            mount: None,
-            friction,
-            restitution,
-            skin,
-            except: Vec::new(),
-        }
+        let (surface, except) = (Arc::new(surface), Vec::new());
+        Obstacle { key, surface, motion, mount: None, friction, restitution: 0.0, skin: 0.0, except }
     }
 
     /// Returns it with a motion.
@@ -120,8 +111,7 @@ impl PartialEq for Obstacles {
                 a.key == b.key
                     && Arc::ptr_eq(&a.surface, &b.surface)
                     && (a.motion, a.mount, a.friction, a.skin) == (b.motion, b.mount, b.friction, b.skin)
-                    && a.restitution == b.restitution
-                    && a.except == b.except
+                    && (a.restitution, &a.except) == (b.restitution, &b.except)
             })
     }
 }

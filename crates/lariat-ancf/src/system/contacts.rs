@@ -1,7 +1,7 @@
 //! Contacts of one cable with obstacles, in a step of the discrete gradient.
 
 use super::{Equations, dot};
-use crate::contact::{BodyPath, ContactStep, Motion, combine};
+use crate::contact::{BodyPath, ContactStep, Motion, When, combine, solves_again};
 use crate::effect::EffectWork;
 use crate::integrate::State;
 use crate::integrate::discrete_gradient::{ALPHA, Balance, Buffers, share_of_impact};
@@ -57,12 +57,13 @@ impl Equations<'_> {
     /// Takes the velocity across contacts that push at the end of the step, if it has more energy than `least` (J).
     pub fn land(&mut self, state: &State, b: &mut Buffers, balance: &mut Balance, least: f64) {
         self.find_velocities(state, b);
-        let with_obstacles = self.find_impacts(state, b, |_, _| [Vector3::zeros(); 2]);
+        let with_obstacles = self.find_impacts(state, b, |_, _, _| Vector3::zeros());
         if with_obstacles + self.find_own_impacts(b) <= least {
             return;
         }
         self.solve_impacts(b);
-        for _ in 0..b.contact.solves() {
+        let gives = b.contact.gives_velocity();
+        for _ in 0..solves_again(gives) {
             let Buffers { contact, pairs, landed, .. } = &mut *b;
             let obstacles = contact.settle_impacts(|e, shape| combine(landed, e, shape), |_, _| Vector3::zeros());
             if !(pairs.settle_impacts(|_, e, shape| combine(landed, e, shape)) || obstacles) {
@@ -72,7 +73,7 @@ impl Equations<'_> {
         }
         let [taken, held] = self.energy_of_impacts(b);
         let work = b.contact.work_of_impacts(|e, shape| combine(&b.landed, e, shape));
-        let share = share_of_impact(balance, [taken, held, work], b.contact.rebound());
+        let share = share_of_impact(balance, [taken, held, work], gives);
         b.landed.iter_mut().for_each(|w| *w *= share);
     }
 
@@ -88,11 +89,12 @@ impl Equations<'_> {
         &self,
         state: &State,
         b: &mut Buffers,
-        body: impl Fn(usize, &Vector3<f64>) -> [Vector3<f64>; 2],
+        body: impl Fn(When, usize, &Vector3<f64>) -> Vector3<f64>,
     ) -> f64 {
         let Buffers { contact, external, .. } = b;
         let mass = |element: usize| self.model.elements[element].section.mass_per_length;
-        contact.find_impacts(mass, |e, shape| [&state.v, external].map(|v| combine(v, e, shape)), body)
+        let velocities = |when| if when == When::Begin { &state.v } else { &*external };
+        contact.find_impacts(mass, |when, e, shape| combine(velocities(when), e, shape), body)
     }
 
     /// Finds the impacts of the cable on itself, and returns their energy in J.

@@ -35,23 +35,25 @@ impl ContactRules {
     pub(crate) fn between((one, mine): (&Self, f64), (other, theirs): (&Self, f64)) -> Option<f64> {
         let allowed = one.collision_groups.test(other.collision_groups) && one.solver_groups.test(other.solver_groups);
         let rules = (one.friction_combine_rule, other.friction_combine_rule);
-        let combined = CoefficientCombineRule::combine(mine as Real, theirs as Real, rules.0, rules.1);
-        allowed.then(|| f64::from(combined).max(0.0))
+        allowed.then(|| combined(rules, mine, theirs as Real))
     }
 
     /// Returns the coefficient of friction between a cable with its own and a collider.
     pub(crate) fn friction(&self, own: f64, collider: &Collider) -> f64 {
         let rules = (self.friction_combine_rule, collider.friction_combine_rule());
-        let combined = CoefficientCombineRule::combine(own as Real, collider.friction(), rules.0, rules.1);
-        f64::from(combined).max(0.0)
+        combined(rules, own, collider.friction())
     }
 
     /// Returns the coefficient of restitution between a cable with its own and a collider.
     pub(crate) fn restitution(&self, own: f64, collider: &Collider) -> f64 {
         let rules = (self.restitution_combine_rule, collider.restitution_combine_rule());
-        let combined = CoefficientCombineRule::combine(own as Real, collider.restitution(), rules.0, rules.1);
-        f64::from(combined).max(0.0)
+        combined(rules, own, collider.restitution())
     }
+}
+
+/// Returns what two coefficients make, each with its rule: never below 0.
+fn combined(rules: (CoefficientCombineRule, CoefficientCombineRule), own: f64, other: Real) -> f64 {
+    f64::from(CoefficientCombineRule::combine(own as Real, other, rules.0, rules.1)).max(0.0)
 }
 
 /// Decides whether a cable may touch a collider, beyond the groups; for [`CableSet::set_contact_filter`](crate::CableSet::set_contact_filter). It must

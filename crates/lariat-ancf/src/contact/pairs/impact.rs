@@ -29,8 +29,7 @@ impl PairStep {
             if pair.point.may_leave() {
                 let beside = pair.rate(&velocity);
                 let normal = pair.point.linear.tangents.across;
-                let zero = Vector3::zeros();
-                energy += pair.point.find_impact(normal, [zero, beside, zero], (self.h, reduced));
+                energy += pair.point.find_impact(normal, [beside, Vector3::zeros()], 0.0, (self.h, reduced));
             }
         }
         energy

@@ -26,7 +26,7 @@
 //! The midpoint rule in the rotation vector of the [other integrators](super::rotation): it keeps neither energy nor angular momentum.
 
 use super::rescale::RigidMotion;
-use crate::contact::BodyPath;
+use crate::contact::{BodyPath, When};
 use crate::integrate::discrete_gradient::{ALPHA, BETA, Balance, sum_of_forces};
 use crate::island::body::{BodyDifferences, RigidBody};
 use crate::model::STANDARD_GRAVITY;
@@ -251,13 +251,14 @@ impl BodyStep {
         [velocity, self.end * spin]
     }
 
-    /// Returns its velocities at an arm about its centre in world axes, when the step begins and ends.
-    pub fn velocities_at(&self, arm: &Vector3<f64>) -> [Vector3<f64>; 2] {
-        let ends = [(self.velocity, self.rotation), (self.velocity + self.change - self.taken, self.end)];
-        ends.map(|(velocity, rotation)| {
-            let [velocity, spin] = split(&velocity);
-            velocity + (rotation * spin).cross(arm)
-        })
+    /// Returns its velocity at an arm about its centre in world axes, at an end of the step.
+    pub fn velocity_at(&self, when: When, arm: &Vector3<f64>) -> Vector3<f64> {
+        let (velocity, rotation) = match when {
+            When::Begin => (self.velocity, self.rotation),
+            When::End => (self.velocity + self.change - self.taken, self.end),
+        };
+        let [velocity, spin] = split(&velocity);
+        velocity + (rotation * spin).cross(arm)
     }
 
     /// Returns u at the end of the step, and the share of D u that the store holds.

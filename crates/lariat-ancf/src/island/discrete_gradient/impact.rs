@@ -3,7 +3,7 @@
 use super::super::hold::vector;
 use super::IslandStep;
 use super::coupled::coupled_product;
-use crate::contact::combine;
+use crate::contact::{combine, solves_again};
 use crate::integrate::discrete_gradient::{ALPHA, Balance, Buffers, share_of_impact};
 use crate::system::CableStep;
 use nalgebra::Vector3;
@@ -16,7 +16,7 @@ impl IslandStep<'_, '_> {
         for cable in self.cables.iter_mut() {
             let CableStep { equations, state, buffers: b } = cable.step_parts();
             equations.find_velocities(state, b);
-            energy += equations.find_impacts(state, b, |i, arm| bodies[i].velocities_at(arm));
+            energy += equations.find_impacts(state, b, |when, i, arm| bodies[i].velocity_at(when, arm));
         }
         let cables = &*self.cables;
         energy += self.buffers.pairs.find_impacts(
@@ -27,22 +27,20 @@ impl IslandStep<'_, '_> {
             return;
         }
         self.solve_impacts();
-        let solves = self.cables.iter().map(|cable| cable.step_buffers.contact.solves()).max();
-        for _ in 0..solves.unwrap_or(1) {
+        let gives = self.cables.iter().any(|cable| cable.step_buffers.contact.gives_velocity());
+        for _ in 0..solves_again(gives) {
             if !self.settle_impacts() {
                 break;
             }
             self.solve_impacts();
         }
         let [mut taken, mut held, mut work] = [0.0; 3];
-        let mut rebounds = false;
         for cable in self.cables.iter_mut() {
             let CableStep { mut equations, buffers, .. } = cable.step_parts();
             let own = equations.energy_of_impacts(buffers);
             (taken, held) = (taken + own[0], held + own[1]);
             let Buffers { contact, landed, .. } = &*buffers;
             work += contact.work_of_impacts(|e, shape| combine(landed, e, shape));
-            rebounds |= contact.rebound();
         }
         let coupled = &self.buffers.coupled;
         let bodies = &self.buffers.bodies;
@@ -53,7 +51,7 @@ impl IslandStep<'_, '_> {
         }
         held += 0.5 * (1.0 + ALPHA) * coupled_product(coupled, |i| bodies[i].landed, |i| bodies[i].landed);
         taken += coupled_product(coupled, |i| bodies[i].carried_velocity(), |i| bodies[i].landed);
-        let share = share_of_impact(balance, [taken, held, work], rebounds);
+        let share = share_of_impact(balance, [taken, held, work], gives);
         for cable in self.cables.iter_mut() {
             cable.step_buffers.landed.iter_mut().for_each(|w| *w *= share);
         }
