@@ -23,7 +23,7 @@ use crate::mechanism::{Group, Mechanism};
 use crate::proximity;
 use crate::step::prediction::{Prediction, StepParameters};
 use crate::step::substepping;
-use ::nalgebra::{DMatrix, Matrix3, Matrix6, Vector3};
+use ::nalgebra::{Cholesky, DMatrix, Matrix3, Matrix6, Vector3};
 use lariat_ancf::Cable;
 use lariat_ancf::island::{Impedance, PinConstraint, RigidBody};
 use rapier::dynamics::RigidBodyHandle;
@@ -52,17 +52,21 @@ pub(crate) fn set_motors(
         })?;
     }
     let mut deviating = core::mem::take(&mut prediction.deviating);
+    let mut point = core::mem::take(&mut prediction.driving_point);
     deviating.clear();
     deviating.extend((0..island.members.len()).filter(|&m| deviates(contents, world, island, prediction, m, step)));
     if !deviating.is_empty() {
-        let near = near_pins(island, &prediction.groups, &deviating);
-        linearise(contents, island, prediction, &near, |cable, nodes, impedance| {
-            impedance.update(cable, nodes, step.h)
-        })?;
+        point.find_pins(island, &prediction.groups, &deviating);
+        let update =
+            |cable: &mut Cable, nodes: &[usize], impedance: &mut Impedance| impedance.update(cable, nodes, step.h);
+        linearise(contents, island, prediction, &point.pins, update)?;
     }
     for &m in &deviating {
-        let near = near_pins(island, &prediction.groups, &[m]);
-        for (pin, impedance) in driving_point(island, prediction, m, &near) {
+        point.find_pins(island, &prediction.groups, &[m]);
+        if !point.solve(island, prediction, m) {
+            continue;
+        }
+        for (pin, impedance) in point.own(island, m) {
             let anchor = island.pins[pin].anchor;
             let target = (prediction.end[m].point(&anchor) - prediction.start[m].point(&anchor)) / step.h;
             if let Some(a) = island.attachments[pin].and_then(|a| contents.attachments.get_mut(a)) {
@@ -75,7 +79,7 @@ pub(crate) fn set_motors(
             }
         }
     }
-    prediction.deviating = deviating;
+    (prediction.deviating, prediction.driving_point) = (deviating, point);
     let off = || island.attachments.iter().zip(&prediction.motors).filter(|(_, on)| !**on).filter_map(|(a, _)| *a);
     off().for_each(|index| contents.attachments.get_mut(index).into_iter().for_each(|a| a.shown = None));
     disable_motors(contents, world, off());
@@ -162,24 +166,6 @@ fn bears_motors(prediction: &Prediction, m: usize) -> bool {
     prediction.mechanisms[m].as_ref().is_none_or(bears)
 }
 
-/// Returns the pins on members and on those of their mechanisms, and those next to them on the same cables, in ascending order.
-fn near_pins(island: &Island, groups: &[Group], members: &[usize]) -> Vec<usize> {
-    let pins = &island.pins;
-    let group = |m: &usize| groups.iter().find(|group| group.place(*m).is_some());
-    let together = |m| group(m).map_or_else(|| core::slice::from_ref(m), |group| &group.members);
-    let on_members = || members.iter().flat_map(together).flat_map(|&m| island.pins_on(m));
-    let mut near: Vec<usize> = on_members().collect();
-    for own in on_members() {
-        let others = (0..pins.len()).filter(|&p| pins[p].cable == pins[own].cable && pins[p].body != pins[own].body);
-        let before = others.clone().filter(|&p| pins[p].node < pins[own].node).max_by_key(|&p| pins[p].node);
-        let after = others.filter(|&p| pins[p].node > pins[own].node).min_by_key(|&p| pins[p].node);
-        near.extend(before.into_iter().chain(after));
-    }
-    near.sort_unstable();
-    near.dedup();
-    near
-}
-
 /// Linearises the cables of an island at their pins on `members` for a step of `h` (s); all others are held.
 pub(super) fn linearise_at(
     contents: &mut Contents,
@@ -201,60 +187,93 @@ fn linearise(
     pins: &[usize],
     update: impl Fn(&mut Cable, &[usize], &mut Impedance) -> Result<(), lariat_ancf::Error>,
 ) -> Result<(), Error> {
-    prediction.impedances.resize_with(island.cables.len(), Default::default);
-    for (c, cable) in contents.cables_at(&island.cables).into_iter().enumerate() {
-        let of_cable = pins.iter().filter(|&&p| island.pins[p].cable == c);
-        let nodes: Vec<usize> = of_cable.map(|&p| island.pins[p].node).collect();
-        if !nodes.is_empty() {
-            update(cable, &nodes, &mut prediction.impedances[c])?;
+    let Prediction { impedances, nodes, .. } = prediction;
+    impedances.resize_with(island.cables.len(), Default::default);
+    let mut outcome = Ok(());
+    contents.for_cables(&island.cables, |c, cable| {
+        nodes.clear();
+        nodes.extend(pins.iter().map(|&p| &island.pins[p]).filter(|pin| pin.cable == c).map(|pin| pin.node));
+        if outcome.is_ok() && !nodes.is_empty() {
+            outcome = update(cable, nodes, &mut impedances[c]);
         }
-    }
-    Ok(())
+    });
+    Ok(outcome?)
 }
 
-/// Returns D for every pin on a member, by the index of the pin; the pins `near` it move too.
-fn driving_point(
-    island: &Island,
-    prediction: &Prediction,
-    member: usize,
-    near: &[usize],
-) -> Vec<(usize, Matrix3<f64>)> {
-    let start = &prediction.start;
-    let n = 3 * near.len();
-    let mut m = DMatrix::<f64>::zeros(n, n);
-    for (a, &i) in near.iter().enumerate() {
-        for (b, &j) in near.iter().enumerate() {
-            let (p, q) = (&island.pins[i], &island.pins[j]);
-            let mut block = Matrix3::zeros();
-            let impedance = &prediction.impedances[p.cable];
-            let index = |node: usize| impedance.nodes().iter().position(|&n| n == node);
-            if p.cable == q.cable
-                && let (Some(one), Some(two)) = (index(p.node), index(q.node))
-            {
-                block += impedance.compliance(one, two);
-            }
-            let share = |body: usize| if body == member { OWN_MOBILITY_SHARE.sqrt() } else { 1.0 };
-            let levers = [start[p.body].rotation * p.anchor, start[q.body].rotation * q.anchor];
-            let in_group = |group: &Group| Some(group.mobility(group.place(p.body)?, group.place(q.body)?));
-            if let Some(mobility) = prediction.groups.iter().find_map(in_group) {
-                block += point_mobility(&mobility, &levers) * (share(p.body) * share(q.body));
-            } else if p.body == q.body {
-                block += mobility(&start[p.body], &levers) * (share(p.body) * share(q.body));
-            }
-            m.fixed_view_mut::<3, 3>(3 * a, 3 * b).copy_from(&block);
+/// Finds D for the pins of a member. Buffers only.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct DrivingPoint {
+    /// The pins that move, in ascending order.
+    pins: Vec<usize>,
+    /// C + B', and its inverse.
+    matrix: DMatrix<f64>,
+    inverse: DMatrix<f64>,
+}
+
+impl DrivingPoint {
+    /// Finds the pins on members and on those of their mechanisms, and those next to them on the same cables.
+    fn find_pins(&mut self, island: &Island, groups: &[Group], members: &[usize]) {
+        let pins = &island.pins;
+        let group = |m: &usize| groups.iter().find(|group| group.place(*m).is_some());
+        let together = |m| group(m).map_or_else(|| core::slice::from_ref(m), |group| &group.members);
+        let on_members = || members.iter().flat_map(together).flat_map(|&m| island.pins_on(m));
+        self.pins.clear();
+        self.pins.extend(on_members());
+        for own in on_members() {
+            let apart = |&p: &usize| pins[p].cable == pins[own].cable && pins[p].body != pins[own].body;
+            let others = (0..pins.len()).filter(apart);
+            let before = others.clone().filter(|&p| pins[p].node < pins[own].node).max_by_key(|&p| pins[p].node);
+            let after = others.filter(|&p| pins[p].node > pins[own].node).min_by_key(|&p| pins[p].node);
+            self.pins.extend(before.into_iter().chain(after));
         }
+        self.pins.sort_unstable();
+        self.pins.dedup();
     }
-    let own: Vec<(usize, usize)> =
-        near.iter().copied().enumerate().filter(|(_, pin)| island.pins[*pin].body == member).collect();
-    let mut columns = DMatrix::<f64>::zeros(n, 3 * own.len());
-    for (k, (a, _)) in own.iter().enumerate() {
-        columns.fixed_view_mut::<3, 3>(3 * a, 3 * k).fill_diagonal(1.0);
+
+    /// Inverts C + B' for a member. Returns whether it is positive definite.
+    fn solve(&mut self, island: &Island, prediction: &Prediction, member: usize) -> bool {
+        let start = &prediction.start;
+        let n = 3 * self.pins.len();
+        // a matrix of nalgebra is allocated anew when it is resized, even to the size that it has
+        for matrix in [&mut self.matrix, &mut self.inverse].into_iter().filter(|matrix| matrix.nrows() != n) {
+            matrix.resize_mut(n, n, 0.0);
+        }
+        let mut m = core::mem::take(&mut self.matrix);
+        for (a, &i) in self.pins.iter().enumerate() {
+            for (b, &j) in self.pins.iter().enumerate().take(a + 1) {
+                let (p, q) = (&island.pins[i], &island.pins[j]);
+                let mut block = Matrix3::zeros();
+                let impedance = &prediction.impedances[p.cable];
+                let index = |node: usize| impedance.nodes().iter().position(|&n| n == node);
+                if p.cable == q.cable
+                    && let (Some(one), Some(two)) = (index(p.node), index(q.node))
+                {
+                    block += impedance.compliance(one, two);
+                }
+                let share = |body: usize| if body == member { OWN_MOBILITY_SHARE.sqrt() } else { 1.0 };
+                let levers = [start[p.body].rotation * p.anchor, start[q.body].rotation * q.anchor];
+                let in_group = |group: &Group| Some(group.mobility(group.place(p.body)?, group.place(q.body)?));
+                if let Some(mobility) = prediction.groups.iter().find_map(in_group) {
+                    block += point_mobility(&mobility, &levers) * (share(p.body) * share(q.body));
+                } else if p.body == q.body {
+                    block += mobility(&start[p.body], &levers) * (share(p.body) * share(q.body));
+                }
+                m.fixed_view_mut::<3, 3>(3 * a, 3 * b).copy_from(&block);
+            }
+        }
+        // the upper triangle is not read
+        let Some(factors) = Cholesky::new(m) else { return false };
+        self.inverse.fill_with_identity();
+        factors.solve_mut(&mut self.inverse);
+        self.matrix = factors.unpack_dirty();
+        true
     }
-    if !m.lu().solve_mut(&mut columns) {
-        return Vec::new();
+
+    /// Returns D for every pin on a member, by the index of the pin.
+    fn own(&self, island: &Island, member: usize) -> impl Iterator<Item = (usize, Matrix3<f64>)> {
+        let own = self.pins.iter().enumerate().filter(move |(_, pin)| island.pins[**pin].body == member);
+        own.map(|(a, pin)| (*pin, self.inverse.fixed_view::<3, 3>(3 * a, 3 * a).into_owned()))
     }
-    let block = |k: usize, a: usize| columns.fixed_view::<3, 3>(3 * a, 3 * k).into_owned();
-    own.iter().enumerate().map(|(k, (a, pin))| (*pin, block(k, *a))).collect()
 }
 
 /// Returns the velocity at one point per impulse at another, in 1/kg, by the mobility of their bodies and the levers from
