@@ -61,8 +61,8 @@ fn host_step(set: &mut CableSet, world: &mut PhysicsWorld) -> (u64, u64) {
 
 const TOP: Vector = Vector::new(0.0, 0.2, 0.0);
 
-fn boxed(world: &mut PhysicsWorld, body: RigidBodyBuilder, x: f32, y: f32) -> RigidBodyHandle {
-    let body = body.translation(Vector::new(x as Real, y as Real, 0.0)).can_sleep(false);
+fn boxed(world: &mut PhysicsWorld, body: RigidBodyBuilder, x: Real, y: Real) -> RigidBodyHandle {
+    let body = body.translation(Vector::new(x, y, 0.0)).can_sleep(false);
     world.insert(body, ColliderBuilder::cuboid(0.2, 0.2, 0.2).mass(10.0)).0
 }
 
@@ -100,7 +100,7 @@ fn a_warm_host_step_does_not_allocate() {
                 "to poses" => RigidBodyBuilder::kinematic_position_based(),
                 _ => RigidBodyBuilder::dynamic(),
             };
-            let load = boxed(&mut world, kind, 0.0, y as f32);
+            let load = boxed(&mut world, kind, 0.0, y as Real);
             let top = Vector3::new(0.0, y + 0.2, 0.0);
             for side in if case == "two ropes" { vec![-0.5, 0.5] } else { vec![0.0] } {
                 let from = top + Vector3::new(side, 1.9, 0.0);
@@ -109,7 +109,7 @@ fn a_warm_host_step_does_not_allocate() {
                 set.attach(&world, rope, At::End, load, TOP, AttachmentKind::Ball).unwrap();
             }
             if case == "two bodies" {
-                let other = boxed(&mut world, RigidBodyBuilder::dynamic(), 1.5, y as f32);
+                let other = boxed(&mut world, RigidBodyBuilder::dynamic(), 1.5, y as Real);
                 let across = rope(top, top + Vector3::new(1.5, 0.0, 0.0)).integrator(fidelity).build().unwrap();
                 let across = set.insert(across);
                 set.attach(&world, across, At::Start, load, TOP, AttachmentKind::Ball).unwrap();
