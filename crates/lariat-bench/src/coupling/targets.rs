@@ -38,6 +38,8 @@ struct Rig {
     set: CableSet,
     winch: RigidBodyHandle,
     fidelity: Fidelity,
+    /// Of the wires in s.
+    damping: f64,
 }
 
 impl Rig {
@@ -47,7 +49,7 @@ impl Rig {
         world.gravity = Vector::new(0.0, -gravity as Real, 0.0);
         let winch = RigidBodyBuilder::kinematic_velocity_based().translation(Vector::new(0.0, y as Real, 0.0));
         let winch = world.insert_body(winch);
-        Rig { world, set: CableSet::new(), winch, fidelity }
+        Rig { world, set: CableSet::new(), winch, fidelity, damping: 1e-3 }
     }
 
     fn cube(&mut self, mass: f64, x: f64, y: f64) -> RigidBodyHandle {
@@ -64,12 +66,12 @@ impl Rig {
         self.cube(1.0, x - 0.25, 0.0)
     }
 
-    /// A steel wire of 3 mm and 2 m between two bodies, damped by 1 ms.
+    /// A steel wire of 3 mm and 2 m between two bodies.
     fn wire(&mut self, from: RigidBodyHandle, to: RigidBodyHandle, x: f64, y: f64) -> Result<CableHandle, Error> {
         let wire = Cable::builder()
             .points([Vector3::new(x, y, 0.0), Vector3::new(x - 2.0, y, 0.0)])
             .section(Section::round(0.003, 2e11, 7850.0)?)
-            .damping(Damping { axial: 1e-3, bending: 1e-3 })
+            .damping(Damping { axial: self.damping, bending: self.damping })
             .gravity(Vector3::zeros())
             .fidelity(self.fidelity)
             .elements(10);
@@ -120,8 +122,8 @@ fn jam(fidelity: Fidelity) -> Result<f64, Error> {
     Ok(deviation(5e3, rig.draw(5e3, WIRE + CONTACT)?))
 }
 
-fn two_bodies(fidelity: Fidelity) -> Result<f64, Error> {
-    let mut rig = Rig::new(fidelity, 0.0, 0.0);
+fn two_bodies(fidelity: Fidelity, damping: f64) -> Result<f64, Error> {
+    let mut rig = Rig { damping, ..Rig::new(fidelity, 0.0, 0.0) };
     let (near, far) = (rig.cube(1.0, -2.1, 0.0), rig.jammed_cube(-4.05));
     rig.wire(rig.winch, near, 0.0, 0.0)?;
     rig.wire(near, far, -2.2, 0.0)?;
@@ -209,13 +211,16 @@ fn lines() -> Option<[usize; 2]> {
 /// [`Error::Mechanics`], [`Error::Coupling`] if a run fails.
 pub fn table(scene: &Scene, centre: &Vector3<f64>, progress: &mut dyn FnMut(&str)) -> Result<Table, Error> {
     type Measure<'a> = &'a dyn Fn(Fidelity) -> Result<f64, Error>;
-    let cases: [(&str, &str, &str, Measure<'_>); 6] = [
+    let cases: [(&str, &str, &str, Measure<'_>); 7] = [
         ("payload, distance from the reference after 1 s in m", "1e-2 game, 1.5e-3 engineering", "1.2e-3", &|f| {
             payload(scene, centre, f)
         }),
         ("dumbbell, angular momentum lost in 10 s, relative", "1e-4 game, 5e-7 engineering", "4.3e-7", &dumbbell),
         ("jam of 1 kg at 5 kN, largest deviation, relative", "1e-3", "1.4e-4", &jam),
-        ("two bodies of 1 kg at 1 kN, one jammed, largest deviation, relative", "5e-4", "2e-4", &two_bodies),
+        ("two bodies of 1 kg at 1 kN, one jammed, undamped wires, largest deviation, relative", "5e-4", "2e-4", &|f| {
+            two_bodies(f, 0.0)
+        }),
+        ("the same on wires damped by 1 ms", "5e-4", "", &|f| two_bodies(f, 1e-3)),
         ("body of 1 kg on a fixed joint at 5 kN, gap in m", "1e-5", "4.3e-6", &fixed_joint),
         ("friction of 98.1 N, largest pull in N", "98.0 to 99.5", "98.59", &friction),
     ];

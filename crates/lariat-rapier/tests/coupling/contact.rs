@@ -40,7 +40,9 @@ fn jam(section: Section, mass: Real) {
     let (low, high) = held.iter().fold((f64::MAX, f64::MIN), |a, x| (a.0.min(*x), a.1.max(*x)));
     let case = format!("EA {:.2e} N, {mass} kg: {low:.2} to {high:.2} N, gap {widest:.1e} m", section.axial_stiffness);
     println!("{case}");
-    assert!(low > 0.98 * PULL && high < 1.02 * PULL, "{case}");
+    // a body of 1 kg vibrates faster on the bar than 32 Rapier steps resolve
+    let within = if section.axial_stiffness > 1e7 && mass < 10.0 { 2e-3 } else { 1e-3 };
+    assert!(low > (1.0 - within) * PULL && high < (1.0 + within) * PULL, "{case}");
     assert!(high - low < 1e-3 * PULL && widest < 1e-6, "{case}");
     assert!(world.bodies[load].linvel().length() < 1e-4, "{case}, {}", world.bodies[load].linvel());
 }
@@ -48,8 +50,7 @@ fn jam(section: Section, mass: Real) {
 /// A light and a heavy cube jammed between posts, on a soft rope, a steel wire of 3 mm and a steel
 /// bar of 1 cm: the tension is constant, the gap closed, and nothing moves.
 ///
-/// Reference: statics: the tension at which the winch stopped, within 2 % for the contact to
-/// settle.
+/// Reference: statics: the tension at which the winch stopped, within 0.1 %, of the light cube on the bar 0.2 %.
 #[test]
 fn a_jammed_cube_holds_the_tension_at_which_the_winch_stopped() {
     for section in [soft(), wire(), steel()] {
@@ -62,7 +63,7 @@ fn a_jammed_cube_holds_the_tension_at_which_the_winch_stopped() {
 /// A cube of 20 kg on the ground, friction 0.5; a winch increases the tension by 1 N per frame. The
 /// cube holds until the tension is mu m g, then slides.
 ///
-/// Reference: Coulomb friction, 98.10 N, within 2 %.
+/// Reference: Coulomb friction, 98.10 N; the pull grows by 1 N in each host step.
 #[test]
 fn a_cube_slides_when_the_pull_reaches_the_friction_limit() {
     let grip = 0.5 * 20.0 * 9.81;
@@ -101,7 +102,7 @@ fn a_cube_slides_when_the_pull_reaches_the_friction_limit() {
             "friction EA {:.1e}: peak {peak:.2} N, crept {crept:.1e} m, slid {slid:.1e} of {wound:.1e} m",
             section.axial_stiffness
         );
-        assert!(peak > 0.98 * grip && peak < 1.02 * grip, "peak {peak} N of {grip}");
+        assert!(peak > 98.0 && peak < 99.5, "peak {peak} N of {grip}");
         assert!(crept < 0.05 * wound, "crept {crept:.1e} m of {wound:.1e}");
         assert!((slid / wound - 0.67).abs() < 0.1, "slid {slid:.1e} m of {wound:.1e}");
     }
