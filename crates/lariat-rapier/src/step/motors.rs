@@ -5,6 +5,14 @@
 //! cable:     dv = -A^-1 J^T p      dx = h dv
 //! ```
 //! p is the impulse of the motors on a body that deviated from its prediction.
+//!
+//! # Validity
+//! Rapier solves joints before contacts, so that the motors on a jammed body carry 0.1 to 0.3 % of its load in every step. On a cable with 20 times the
+//! critical damping of its first mode the tension next to the body differs by 1 % from that in the rest of it, with twice the critical damping by 0.1 %.
+//!
+//! # Alternatives considered
+//! An offset learnt from p, loaded against it and taken from what the cable gets: exact where it settles, and a body of 1 kg that 1 kN press
+//! against a stop is thrown, with a discrete gradient on a wire with that damping, whatever share of p the offset takes in a step.
 
 use crate::contents::Contents;
 use crate::islands::Island;
