@@ -96,10 +96,13 @@ impl Rig {
             let speed = if k < 600 { speed } else { 0.0 };
             self.world.bodies[self.winch].set_linvel(Vector::new(speed as Real, 0.0, 0.0), true);
             self.set.step(&mut self.world)?;
-            for &cable in cables.iter().filter(|_| k >= 600) {
+            if k < 600 {
+                continue;
+            }
+            seen[2] = self.set.attachments().map(|(_, a)| a.gap()).fold(seen[2], f64::max);
+            for &cable in &cables {
                 let tension = self.tension(cable)?;
-                let gap = self.set.attachments().map(|(_, a)| a.gap()).fold(0.0, f64::max);
-                seen = [seen[0].min(tension), seen[1].max(tension), seen[2].max(gap)];
+                seen = [seen[0].min(tension), seen[1].max(tension), seen[2]];
             }
         }
         Ok(seen)
@@ -191,24 +194,24 @@ fn payload(scene: &Scene, centre: &Vector3<f64>, fidelity: Fidelity) -> Result<f
     Ok((world.centre() - centre).norm())
 }
 
-/// Returns the lines of the physics of lariat-rapier, comments included, and of what of them is for bodies on joints; `None` without its sources.
-fn lines() -> Option<[usize; 2]> {
-    fn count(path: &Path, root: &Path) -> Option<usize> {
-        if path.is_dir() {
-            return std::fs::read_dir(path).ok()?.flatten().map(|entry| count(&entry.path(), root)).sum();
-        }
-        let name = path.strip_prefix(root).ok()?.to_str()?;
-        if NO_PHYSICS.contains(&name) { Some(0) } else { Some(std::fs::read_to_string(path).ok()?.lines().count()) }
+/// Returns the lines of a file of lariat-rapier, or of all in a folder, comments included.
+fn lines(name: &str) -> Result<usize, Error> {
+    if NO_PHYSICS.contains(&name) {
+        return Ok(0);
     }
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../lariat-rapier/src");
-    let of = |names: &[&str]| names.iter().map(|name| count(&root.join(name), &root)).sum::<Option<usize>>();
-    Some([of(&PHYSICS)?, of(&JOINTS)?])
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../lariat-rapier/src").join(name);
+    let failed = |source| Error::Read { path: path.clone(), source };
+    if path.is_dir() {
+        let files = std::fs::read_dir(&path).map_err(failed)?.flatten();
+        return files.map(|file| lines(&format!("{name}/{}", file.file_name().display()))).sum();
+    }
+    Ok(std::fs::read_to_string(&path).map_err(failed)?.lines().count())
 }
 
 /// Returns the table of what the coupling must show; `progress` is called with a line for each row.
 ///
 /// # Errors
-/// [`Error::Mechanics`], [`Error::Coupling`] if a run fails.
+/// [`Error::Mechanics`], [`Error::Coupling`] if a run fails; [`Error::Read`] without the sources of lariat-rapier.
 pub fn table(scene: &Scene, centre: &Vector3<f64>, progress: &mut dyn FnMut(&str)) -> Result<Table, Error> {
     type Measure<'a> = &'a dyn Fn(Fidelity) -> Result<f64, Error>;
     let cases: [(&str, &str, &str, Measure<'_>); 7] = [
@@ -231,12 +234,12 @@ pub fn table(scene: &Scene, centre: &Vector3<f64>, progress: &mut dyn FnMut(&str
         progress(&format!("{name}: {game:.3e}, {engineering:.3e}"));
         rows.push(vec![name.into(), asked.into(), before.into(), game.into(), engineering.into()]);
     }
-    if let Some([all, joints]) = lines() {
-        let mut row = |name: &str, asked: &str, before: &str, lines: usize| {
-            rows.push(vec![name.into(), asked.into(), before.into(), lines.into(), Cell::Empty]);
-        };
-        row("lines of physics in lariat-rapier, comments included", "1500", "2109", all);
-        row("of them for bodies on joints", "", "716", joints);
+    for (name, asked, before, files) in [
+        ("lines of physics in lariat-rapier, comments included", "1500", "2109", &PHYSICS[..]),
+        ("of them for bodies on joints", "", "716", &JOINTS[..]),
+    ] {
+        let lines = files.iter().map(|file| lines(file)).sum::<Result<usize, Error>>()?;
+        rows.push(vec![name.into(), asked.into(), before.into(), lines.into(), Cell::Empty]);
     }
     let columns = vec![
         shown("quantity", "quantity", Format::Plain),
