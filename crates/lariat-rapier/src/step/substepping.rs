@@ -43,6 +43,7 @@ use crate::attachment::{Attachment, ShownStiffness};
 use crate::body::is_integrated;
 use crate::contact;
 use crate::contents::{Contents, Slot};
+use crate::islands::Island;
 use crate::pose::MAX_HALF_ROTATION;
 use crate::proximity;
 use crate::settings::Settings;
@@ -56,7 +57,7 @@ use rapier::pipeline::PhysicsWorld;
 /// Strain from which a cable counts as taut.
 const TAUT_STRAIN: f64 = 1e-5;
 /// Largest h w.
-const MAX_PHASE: f64 = 0.6;
+pub(super) const MAX_PHASE: f64 = 0.6;
 /// Steps of a host step of a body that joints hold: the reactions of joints are estimated from step
 /// to step. With one step, arms that close at a limit or are near a body blow up.
 const JOINTED_STEPS: f64 = 4.0;
@@ -170,15 +171,56 @@ fn deviation_speed(
     if !is_integrated(world, a.body) {
         return None;
     }
-    let force = a.reading.force.norm();
-    let section = &cable.elements()[a.node.min(cable.elements().len() - 1)].section;
-    let taut = force > TAUT_STRAIN * section.axial_stiffness;
-    if !taut && !may_tighten(contents, world, a, dt, fastest) {
+    if !is_taut(cable, a) && !may_tighten(contents, world, a, dt, fastest) {
         return None;
     }
-    let reacts = |reaction| split_spatial(reaction).0.norm() > MIN_REACTION * force;
-    let reaction = taut && contents.records.get(a.body).is_some_and(|record| reacts(&record.reaction));
-    proximity::collision(world, a.body, (dt, fastest())).or(reaction.then_some(0.0))
+    let held = is_held_against(contents, cable, a);
+    proximity::collision(world, a.body, (dt, fastest())).or(held.then_some(0.0))
+}
+
+/// Returns whether a cable pulls at an attachment.
+fn is_taut(cable: &Cable, a: &Attachment) -> bool {
+    let section = &cable.elements()[a.node.min(cable.elements().len() - 1)].section;
+    a.reading.force.norm() > TAUT_STRAIN * section.axial_stiffness
+}
+
+/// Returns whether the body of an attachment has a reaction estimate against a taut cable.
+fn is_held_against(contents: &Contents, cable: &Cable, a: &Attachment) -> bool {
+    let least = MIN_REACTION * a.reading.force.norm();
+    let reaction = contents.records.get(a.body).map_or(0.0, |record| split_spatial(&record.reaction).0.norm());
+    is_taut(cable, a) && reaction > least
+}
+
+/// A body that contacts hold against a taut cable.
+pub(super) struct Held {
+    /// h w.
+    pub phase: f64,
+    /// Mass in kg.
+    pub mass: f64,
+}
+
+/// Returns the bodies of an island, but those on joints, that contacts hold against taut cables in steps of `h` (s), with less kinetic energy than
+/// the strain of the cables has, once for each cable.
+pub(super) fn held<'a>(
+    contents: &'a Contents,
+    world: &'a PhysicsWorld,
+    island: &'a Island,
+    h: f64,
+) -> impl Iterator<Item = Held> + 'a {
+    let attached = move || island.attachments.iter().flatten().filter_map(|&index| contents.attachments.get(index));
+    let is_held = move |a: &&Attachment| {
+        is_integrated(world, a.body)
+            && proximity::is_unjointed(world, a.body)
+            && contents.slot(a.cable).is_some_and(|slot| is_held_against(contents, &slot.cable, a))
+            && !stays_slack(contents, a, h, 0.0)
+    };
+    attached().filter(is_held).filter_map(move |own| {
+        let stiffness: f64 = attached().filter(|a| a.body == own.body).map(|a| stiffness(contents, a)).sum();
+        let body = &world.bodies[own.body];
+        let (mass, speed) = (f64::from(body.mass()), f64::from(body.linvel().length()));
+        let rests = mass * speed * speed * stiffness < own.reading.force.norm_squared();
+        rests.then(|| Held { phase: h * (stiffness / mass).sqrt(), mass })
+    })
 }
 
 /// Returns an upper bound in N/m of the stiffness of the two parts of a cable at an attachment.
