@@ -1,8 +1,10 @@
 //! What a cable is made of: plain data from which everything else is rebuilt.
 
 use crate::contact::Obstacles;
+use crate::effect::acts::Acts;
 use crate::effect::force_density::ForceDensities;
-use crate::effect::{Effects, LineLoads, Target};
+use crate::effect::tables::ElementTables;
+use crate::effect::{Damping, Effects, LineLoads, Target};
 use crate::error::{Error, require, require_finite};
 use crate::load::PointLoad;
 use crate::reel::Reels;
@@ -59,6 +61,9 @@ pub struct Model {
     /// Corners at nodes of the drawn shape.
     #[serde(default)]
     pub(crate) corners: Vec<Corner>,
+    /// Axial damping time in s that the cable has at least; set by the host, no part of a file.
+    #[serde(skip)]
+    pub(crate) least_damping: f64,
 }
 
 impl Model {
@@ -152,6 +157,20 @@ impl Model {
         Target { name: &self.name, rule: self.rule, elements: &self.elements }
     }
 
+    /// Damping with the least time of the axial strain, if the cable's own has less.
+    fn least_damping(&self) -> Option<Damping> {
+        let own = self.effects.damping.unwrap_or_default();
+        (own.axial < self.least_damping).then_some(Damping { axial: self.least_damping, ..own })
+    }
+
+    /// Tables for the element kernel, if an effect acts there.
+    pub(crate) fn in_element(&self) -> Option<ElementTables> {
+        let (target, own) = (self.target(), self.effects.in_element(&self.target()));
+        let Some(damping) = self.least_damping() else { return own };
+        let alone = || Effects { damping: Some(damping), ..Effects::default() }.in_element(&target);
+        own.map(|tables| ElementTables { damping: damping.in_element(&target), ..tables }).or_else(alone)
+    }
+
     /// Rejects effects that are out of range or that the cable has no numbers for.
     pub(crate) fn check_effects(&self) -> Result<(), Error> {
         self.effects.check(&self.target())?;
@@ -160,12 +179,18 @@ impl Model {
 
     /// Returns whether a force depends on velocity.
     pub(crate) fn depends_on_velocity(&self) -> bool {
-        self.effects.depends_on_velocity() || self.force_densities.depend_on_velocity() || !self.reels.is_empty()
+        self.least_damping().is_some()
+            || self.effects.depends_on_velocity()
+            || self.force_densities.depend_on_velocity()
+            || !self.reels.is_empty()
     }
 
     /// Returns whether the step matrix holds the exact tangent of the force.
     pub(crate) fn has_exact_tangent(&self) -> bool {
-        self.effects.has_exact_tangent() && self.force_densities.is_empty() && self.reels.is_empty()
+        self.least_damping().is_none()
+            && self.effects.has_exact_tangent()
+            && self.force_densities.is_empty()
+            && self.reels.is_empty()
     }
 
     /// Returns the mass per length in kg/m that resists acceleration, added mass included.

@@ -76,8 +76,8 @@ pub enum Event {
         collider: ColliderHandle,
     },
     /// Accuracy was reduced: the [budget](crate::Budget) of the host step was spent, or a cable with error control holds a body in contact that is so
-    /// light that [`Settings::max_rapier_steps`](crate::Settings::max_rapier_steps) do not resolve its vibration, or holds it without damping
-    /// ([`Damping::axial`](lariat_ancf::Damping::axial) below 3 % of a Rapier step): it is then integrated as in fidelity game.
+    /// light that [`Settings::max_rapier_steps`](crate::Settings::max_rapier_steps) do not resolve its vibration: it is then integrated as in
+    /// fidelity game.
     Degraded(CableHandle),
     /// A cable woke up.
     Awake(CableHandle),

@@ -298,6 +298,7 @@ impl CableBuilder {
             strength: Default::default(),
             reels: Reels::default(),
             corners: laid.iter().filter_map(Corner::of).collect(),
+            least_damping: 0.0,
         };
         // contact has one method that can step it
         let default = match &model.effects.contact {

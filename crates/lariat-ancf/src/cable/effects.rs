@@ -157,6 +157,22 @@ impl Cable {
         Ok(())
     }
 
+    /// Sets the Kelvin-Voigt time in s that the axial strain has at least from the next step on: 0 by default and for numbers that are not positive.
+    /// For a host that can move the cable only in steps of its own: what these excite and do not resolve, a time of a few per cent of a step damps.
+    /// It is no effect and no part of a saved cable; what it takes is work of [`damping`](Self::effect_work).
+    pub fn set_least_damping(&mut self, time: f64) {
+        let time = if time.is_finite() { time.max(0.0) } else { 0.0 };
+        if self.model.least_damping != time {
+            self.model.least_damping = time;
+            self.system.forces.in_element = self.model.in_element();
+            self.buffers.resize(&self.model);
+        }
+        let memory = &mut self.snapshot.state.memory;
+        if memory.least_damping != time {
+            (memory.least_damping, memory.valid) = (time, false);
+        }
+    }
+
     /// Returns the Kelvin-Voigt times that damp the `mode`-th lowest natural frequency, counted from 1, by this damping ratio (fraction of
     /// critical): [`natural_frequencies`](Self::natural_frequencies) at the present state without zero-frequency modes, and
     /// [`Damping::from_ratio`]. In space a bending mode comes twice, once per plane. The curvature's time is 0 for a cable without bending.

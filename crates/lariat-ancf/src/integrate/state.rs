@@ -45,6 +45,9 @@ pub struct Memory {
     /// Contacts with other cables and with itself, likewise.
     #[serde(default)]
     pub pairs: Vec<PairMemory>,
+    /// Least axial damping time in s that the accelerations were computed with; see [`Cable::set_least_damping`](crate::Cable::set_least_damping).
+    #[serde(default)]
+    pub least_damping: f64,
 }
 
 fn coherent() -> f64 {
@@ -66,6 +69,7 @@ impl Default for Memory {
             lost: 0.0,
             contacts: Vec::new(),
             pairs: Vec::new(),
+            least_damping: 0.0,
         }
     }
 }
@@ -100,6 +104,7 @@ impl State {
             lost,
             contacts,
             pairs,
+            least_damping,
         } = memory;
         self.time = *time;
         self.q.clone_from(q);
@@ -116,6 +121,7 @@ impl State {
         self.memory.lost = *lost;
         self.memory.contacts.clone_from(contacts);
         self.memory.pairs.clone_from(pairs);
+        self.memory.least_damping = *least_damping;
     }
 
     /// Checks that this is a finite state of `size` coordinates; `cable` is the name for the error.

@@ -27,7 +27,7 @@ impl Forces {
     pub fn new(model: &Model) -> Self {
         Forces {
             elements: Elements::new(model),
-            in_element: model.effects.in_element(&model.target()),
+            in_element: model.in_element(),
             at_points: model.effects.at_points(&model.target()),
             densities: model.force_densities.at_points(&model.elements),
         }

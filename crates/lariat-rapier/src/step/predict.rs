@@ -6,19 +6,22 @@
 //! the inertia and the loads of its whole mechanism ([`crate::mechanism`]).
 //!
 //! # Validity
-//! What Rapier's step makes of a body that contacts hold moves its cables by one implicit step ([`Impedance`](lariat_ancf::island::Impedance)). Error
-//! control resolves waves that this step does not, and each correction gives them a share of up to 1e-2 of their energy: tension swings until it is
-//! lost. The waves are damped faster than they grow with a Kelvin-Voigt time of 0.03 h or more where h w <= 0.6 ([`substepping`]), without one where
-//! h w <= 0.15 or the cables have 1 % of the mass of the body. Elsewhere the island is integrated by the discrete gradient in Rapier's steps, of
-//! 1/240 s or less, as long as the body rests, and an [event](crate::Event::Degraded) says so (test contact.rs).
+//! What Rapier's step makes of a body that something holds moves its cables by one implicit step
+//! ([`Impedance`](lariat_ancf::island::Impedance)). Error control resolves waves that this step does not, and each correction adds a little to
+//! them: on undamped cables they grow until the tension is lost. As long as a contact or a limit of a multibody holds a body, cables under error control therefore have
+//! a Kelvin-Voigt time of 0.1 h or more, which adds 0.05 h w to the damping ratio of an axial wave of angular frequency w
+//! ([`Cable::set_least_damping`](lariat_ancf::Cable::set_least_damping)). For one body that is enough at any mass; where bodies are so light that
+//! Rapier's steps do not resolve their vibration (h w > 0.6, [`substepping`]), the island is integrated by the discrete gradient in
+//! Rapier's steps, of 1/240 s or less, while the light body rests, and an [event](crate::Event::Degraded) says so (test contact.rs).
 //!
 //! # Alternatives considered
 //! One step of ESDIRK4 per Rapier step: still two bodies of 100 g on undamped wires swing by the whole of their tension. The discrete gradient also for
-//! bodies that move: it takes 3 to 13 % of the energy of a box that falls on a floor on a taut rope.
+//! bodies that move: it takes 3 to 13 % of the energy of a box that falls on a floor on a taut rope. Motors with the impedance of the cable alone: the
+//! waves grow as fast.
 
 use crate::body;
 use crate::budget::CHEAPEST;
-use crate::contents::{Contents, Slot};
+use crate::contents::Contents;
 use crate::error::Error;
 use crate::islands::{Island, Member};
 use crate::mechanism::{self, Group, Jointed};
@@ -39,12 +42,8 @@ use rapier::pipeline::PhysicsWorld;
 /// chooses the step, and 4e-7 with this bound.
 const MAX_CONTROLLED_STEP: f64 = 1.0 / 240.0;
 
-/// Largest h w of a body that contacts hold against undamped cables, for an integrator with error control, and largest mass of these as a share
-/// of that of the body.
-const MAX_UNDAMPED_PHASE: f64 = 0.15;
-const MAX_UNDAMPED_MASS: f64 = 0.01;
-/// Kelvin-Voigt time, in Rapier steps, from which a cable counts as damped.
-const MIN_DAMPING: f64 = 0.03;
+/// Least Kelvin-Voigt time, in Rapier steps, of cables on a body with a reaction estimate, under error control.
+const MIN_DAMPING: f64 = 0.1;
 
 /// Reads members and integrator of an island that will be [integrated](crate::step::integrate) over a step.
 pub(crate) fn prepare(
@@ -82,9 +81,23 @@ pub(crate) fn prepare(
             integrator = share_of(integrator, prediction.parts);
         }
     }
+    let is_damped = is_controlled(&integrator) && is_held(contents, island, prediction);
+    let least = if is_damped { MIN_DAMPING * step.h } else { 0.0 };
+    contents.for_cables(&island.cables, |_, cable| cable.set_least_damping(least));
     prediction.integrator = Some(integrator);
     energy::begin(contents, island, prediction);
     Ok(())
+}
+
+/// Returns whether a contact, or the limit of a multibody, holds a body of an island against its cables.
+fn is_held(contents: &Contents, island: &Island, prediction: &Prediction) -> bool {
+    let mut attached = island.attachments.iter().zip(&island.pins);
+    attached.any(|(index, pin)| match &prediction.mechanisms[pin.body] {
+        Some(mechanism) => mechanism.loads.limited,
+        None => {
+            index.and_then(|index| contents.attachments.get(index)).is_some_and(|a| substepping::is_held(contents, a))
+        }
+    })
 }
 
 /// Takes over what the integration of an island tells about its attachments and junctions.
@@ -249,16 +262,7 @@ fn is_controlled(integrator: &Integrator) -> bool {
 /// Returns whether waves of the cables of an island that only an integrator with error control resolves would grow by the corrections of Rapier
 /// steps of `h` (s).
 fn outruns_correction(contents: &Contents, world: &PhysicsWorld, island: &Island, h: f64) -> bool {
-    let cables = || island.cables.iter().filter_map(|&cable| contents.cables.get(cable));
-    let axial = |slot: &Slot| slot.cable.effects().damping.map_or(0.0, |damping| damping.axial);
-    let undamped = || cables().any(|slot| axial(slot) < MIN_DAMPING * h);
-    let elements = || cables().flat_map(|slot| slot.cable.elements());
-    let mass = || elements().map(|e| e.length * e.section.mass_per_length).sum::<f64>();
-    let grows = |held: substepping::Held| {
-        held.phase > substepping::MAX_PHASE
-            || held.phase > MAX_UNDAMPED_PHASE && mass() > MAX_UNDAMPED_MASS * held.mass && undamped()
-    };
-    substepping::held(contents, world, island, h).any(grows)
+    substepping::held_phases(contents, world, island, h).any(|phase| phase > substepping::MAX_PHASE)
 }
 
 /// Returns the integrator for one of `count` equal parts of the step that `integrator` is meant

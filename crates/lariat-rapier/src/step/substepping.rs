@@ -174,7 +174,7 @@ fn deviation_speed(
     if !is_taut(cable, a) && !may_tighten(contents, world, a, dt, fastest) {
         return None;
     }
-    let held = is_held_against(contents, cable, a);
+    let held = is_taut(cable, a) && is_held(contents, a);
     proximity::collision(world, a.body, (dt, fastest())).or(held.then_some(0.0))
 }
 
@@ -184,34 +184,26 @@ fn is_taut(cable: &Cable, a: &Attachment) -> bool {
     a.reading.force.norm() > TAUT_STRAIN * section.axial_stiffness
 }
 
-/// Returns whether the body of an attachment has a reaction estimate against a taut cable.
-fn is_held_against(contents: &Contents, cable: &Cable, a: &Attachment) -> bool {
-    let least = MIN_REACTION * a.reading.force.norm();
+/// Returns whether the body of an attachment has a reaction estimate against the force there.
+pub(super) fn is_held(contents: &Contents, a: &Attachment) -> bool {
     let reaction = contents.records.get(a.body).map_or(0.0, |record| split_spatial(&record.reaction).0.norm());
-    is_taut(cable, a) && reaction > least
+    reaction > MIN_REACTION * a.reading.force.norm()
 }
 
-/// A body that contacts hold against a taut cable.
-pub(super) struct Held {
-    /// h w.
-    pub phase: f64,
-    /// Mass in kg.
-    pub mass: f64,
-}
-
-/// Returns the bodies of an island, but those on joints, that contacts hold against taut cables in steps of `h` (s), with less kinetic energy than
+/// Returns h w of the bodies of an island, but those on joints, that contacts hold against taut cables in steps of `h` (s), with less kinetic energy than
 /// the strain of the cables has, once for each cable.
-pub(super) fn held<'a>(
+pub(super) fn held_phases<'a>(
     contents: &'a Contents,
     world: &'a PhysicsWorld,
     island: &'a Island,
     h: f64,
-) -> impl Iterator<Item = Held> + 'a {
+) -> impl Iterator<Item = f64> + 'a {
     let attached = move || island.attachments.iter().flatten().filter_map(|&index| contents.attachments.get(index));
     let is_held = move |a: &&Attachment| {
         is_integrated(world, a.body)
             && proximity::is_unjointed(world, a.body)
-            && contents.slot(a.cable).is_some_and(|slot| is_held_against(contents, &slot.cable, a))
+            && contents.slot(a.cable).is_some_and(|slot| is_taut(&slot.cable, a))
+            && is_held(contents, a)
             && !stays_slack(contents, a, h, 0.0)
     };
     attached().filter(is_held).filter_map(move |own| {
@@ -219,7 +211,7 @@ pub(super) fn held<'a>(
         let body = &world.bodies[own.body];
         let (mass, speed) = (f64::from(body.mass()), f64::from(body.linvel().length()));
         let rests = mass * speed * speed * stiffness < own.reading.force.norm_squared();
-        rests.then(|| Held { phase: h * (stiffness / mass).sqrt(), mass })
+        rests.then(|| h * (stiffness / mass).sqrt())
     })
 }
 

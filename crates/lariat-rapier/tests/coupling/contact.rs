@@ -158,23 +158,24 @@ fn series(masses: &[Real], section: Section, damping: f64, pull: f64) -> ([f64; 
 }
 
 /// Undamped wires, light bodies of which 32 Rapier steps do not resolve the vibration, and a heavy rope: error control resolves waves of the cables
-/// that grow by the corrections of Rapier's steps. Without the discrete gradient in their place 1 kg on an undamped wire reaches a speed of 2 m/s in
-/// the wire, and bodies of 100 g and 50 g swing by half of the tension, damped or not.
+/// that grow by the corrections of Rapier's steps. Without the least damping of cables on bodies in contact 1 kg on an undamped wire reaches a speed of
+/// 2 m/s in the wire; without the discrete gradient for light bodies 100 g and 50 g swing by half of the tension, damped or not.
 ///
 /// Reference: statics: what the winch holds does not change when it stops.
 #[test]
 fn waves_between_jammed_bodies_do_not_grow_under_error_control() {
     let rope = Section::round(0.003, 2e9, 1e5).unwrap();
     for (masses, section, damping, pull, told) in [
-        (&[1.0][..], wire(), 0.0, 1e3, true),
+        (&[1.0][..], wire(), 0.0, 1e3, false),
         (&[1.0], wire(), 2e-4, 1e3, false),
-        (&[1.0, 1.0], wire(), 0.0, 1e3, true),
+        (&[1.0, 1.0], wire(), 0.0, 1e3, false),
         (&[0.1, 0.1], wire(), 0.0, 1e3, true),
         (&[0.1, 0.1], wire(), 1e-5, 1e3, true),
         (&[1.0, 0.05], wire(), 2e-4, 1e3, true),
         (&[0.1, 0.1, 0.1], wire(), 2e-4, 1e3, true),
-        (&[6.0], rope, 0.0, 200.0, true),
-        (&[0.5], rope, 0.0, 200.0, true),
+        (&[0.2], wire(), 0.0, 30.0, false),
+        (&[6.0], rope, 0.0, 200.0, false),
+        (&[0.5], rope, 0.0, 200.0, false),
     ] {
         let ([low, high, speed], degraded) = series(masses, section, damping, pull);
         let case =
