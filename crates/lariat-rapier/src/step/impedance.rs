@@ -3,14 +3,17 @@
 //!
 //! # Equation
 //! ```text
-//! D = the block of its pin in (C + B')^-1
-//! B'_ij = 1/m - [r_i]x I^-1 [r_j]x,   of the body itself times OWN_MOBILITY_SHARE
+//! D = (C + e B)^-1      B = 1/m - [r]x I^-1 [r]x      e = 0.1
 //! ```
-//! C is the compliance of the body's cables over the step ([`Impedance`]) at its pins and at the next
-//! ones on these cables, B' the mobility of the bodies at these pins. A [`Ledger`] acts on the body with D about the predicted velocity of the
+//! C is the compliance of the cable at a pin over the step ([`Impedance`]), its other pins free, B the mobility of the body alone. A
+//! [`Ledger`] acts on the body with D about the predicted velocity of the
 //! anchor: if the prediction was right it does nothing; if a contact or a joint makes the body
 //! deviate, the body feels the cable within the same step. A sleeping body is predicted to rest under the force of its
 //! cables, which stands in the motors for as long as it sleeps: should Rapier wake it within a step, it feels them.
+//!
+//! # Alternatives considered
+//! The block of the pin in (C + B)^-1 over all pins of the body and the next ones on its cables, with the mobilities of their bodies
+//! and of their mechanisms: no case was found in which it does better.
 //!
 //! [`Impedance`]: lariat_ancf::island::Impedance
 
@@ -19,66 +22,59 @@ use crate::contents::Contents;
 use crate::error::Error;
 use crate::islands::{Island, Member};
 use crate::ledger::{Drive, Ledger};
-use crate::mechanism::{Group, Mechanism};
+use crate::mechanism::Mechanism;
 use crate::proximity;
-use crate::step::prediction::{Prediction, StepParameters};
-use crate::step::substepping;
-use ::nalgebra::{DMatrix, Matrix3, Matrix6, Vector3};
+use crate::step::prediction::Prediction;
+use ::nalgebra::{Matrix3, Vector3};
 use lariat_ancf::Cable;
-use lariat_ancf::island::{Impedance, PinConstraint, RigidBody};
+use lariat_ancf::island::{Impedance, PinConstraint};
 use rapier::dynamics::RigidBodyHandle;
 use rapier::pipeline::PhysicsWorld;
 
-/// Mass in kg given to a junction, which has none, so that the matrix has an inverse.
-const JUNCTION_MASS: f64 = 1e-6;
-/// Share of the body's own mobility in B'.
-pub(crate) const OWN_MOBILITY_SHARE: f64 = 0.1;
+/// e: share of the body's mobility that its motors yield by.
+const MOBILITY_SHARE: f64 = 0.1;
 
-/// Sets the motors of all bodies of an island that may deviate from their prediction, and disables
+/// Linearises a cable at some nodes for a step: [`Impedance::update`] or [`Impedance::update_held`].
+pub(super) type Update = fn(&mut Impedance, &mut Cable, &[usize], f64) -> Result<(), lariat_ancf::Error>;
+
+/// Sets the motors of all bodies of an island that may deviate from their prediction in a step of `h` (s), and disables
 /// all others.
 pub(crate) fn set_motors(
     contents: &mut Contents,
     world: &mut PhysicsWorld,
     island: &Island,
     prediction: &mut Prediction,
-    step: &StepParameters,
+    h: f64,
 ) -> Result<(), Error> {
     prediction.motors.clear();
     prediction.motors.resize(island.pins.len(), false);
     let sleeps = |handle: RigidBodyHandle| world.bodies[handle].is_sleeping();
     if island.bodies().any(sleeps) {
-        hold(contents, world, island, prediction, step.h, |a| {
-            [a.predicted.impulse, a.predicted.angular_impulse].map(|p| p / step.h)
+        hold(contents, world, island, prediction, h, |a| {
+            [a.predicted.impulse, a.predicted.angular_impulse].map(|p| p / h)
         })?;
     }
     let mut deviating = core::mem::take(&mut prediction.deviating);
     deviating.clear();
-    deviating.extend((0..island.members.len()).filter(|&m| deviates(contents, world, island, prediction, m, step)));
-    if !deviating.is_empty() {
-        let near = near_pins(island, &prediction.groups, &deviating);
-        linearise(contents, island, prediction, &near, |cable, nodes, impedance| {
-            impedance.update(cable, nodes, step.h)
-        })?;
-    }
-    for &m in &deviating {
-        let near = near_pins(island, &prediction.groups, &[m]);
-        for (pin, impedance) in driving_point(island, prediction, m, &near) {
-            let anchor = island.pins[pin].anchor;
-            let target = (prediction.end[m].point(&anchor) - prediction.start[m].point(&anchor)) / step.h;
-            if let Some(a) = island.attachments[pin].and_then(|a| contents.attachments.get_mut(a)) {
-                let ledger = a.ledger.get_or_insert_with(|| Ledger::insert(world, a.body));
-                ledger.set_motors(world, &a.anchor, &Drive { impedance, target, load: None }, step.h);
-                let cable = contents.cables.get(a.cable.0 as usize).map(|slot| &slot.cable);
-                let response = &prediction.impedances[island.pins[pin].cable];
-                a.shown = cable.and_then(|cable| substepping::shown_stiffness(cable, a.node, response, step.h));
-                prediction.motors[pin] = true;
-            }
+    deviating.extend((0..island.members.len()).filter(|&m| deviates(contents, world, island, prediction, m)));
+    linearise(contents, island, prediction, &deviating, (Impedance::update, h))?;
+    for (pin, constraint) in island.pins.iter().enumerate().filter(|(_, pin)| deviating.contains(&pin.body)) {
+        let Some(a) = island.attachments[pin].and_then(|a| contents.attachments.get_mut(a)) else { continue };
+        let (start, end) = (&prediction.start[constraint.body], &prediction.end[constraint.body]);
+        let target = (end.point(&constraint.anchor) - start.point(&constraint.anchor)) / h;
+        let lever = (start.rotation * constraint.anchor).cross_matrix();
+        let inverse = start.world_inertia(&start.rotation).try_inverse().unwrap_or_else(Matrix3::zeros);
+        let mobility = Matrix3::identity() / start.mass - lever * inverse * lever;
+        let cable = &prediction.impedances[constraint.cable];
+        if let Some(impedance) = driving_point(cable, constraint.node, &(mobility * MOBILITY_SHARE)) {
+            let ledger = a.ledger.get_or_insert_with(|| Ledger::insert(world, a.body));
+            ledger.set_motors(world, &a.anchor, &Drive { impedance, target, load: None }, h);
+            prediction.motors[pin] = true;
         }
     }
     prediction.deviating = deviating;
-    let off = || island.attachments.iter().zip(&prediction.motors).filter(|(_, on)| !**on).filter_map(|(a, _)| *a);
-    off().for_each(|index| contents.attachments.get_mut(index).into_iter().for_each(|a| a.shown = None));
-    disable_motors(contents, world, off());
+    let off = island.attachments.iter().zip(&prediction.motors).filter(|(_, on)| !**on).filter_map(|(a, _)| *a);
+    disable_motors(contents, world, off);
     Ok(())
 }
 
@@ -94,17 +90,12 @@ pub(crate) fn hold(
 ) -> Result<(), Error> {
     let asleep = |member: &Member| member.body().is_some_and(|handle| world.bodies[handle].is_sleeping());
     let asleep: Vec<usize> = (0..island.members.len()).filter(|&m| asleep(&island.members[m])).collect();
-    linearise_at(contents, island, prediction, &asleep, h)?;
+    linearise(contents, island, prediction, &asleep, (Impedance::update_held, h))?;
     for (pin, constraint) in island.pins.iter().enumerate().filter(|(_, pin)| asleep.contains(&pin.body)) {
         let Some(a) = island.attachments[pin].and_then(|a| contents.attachments.get_mut(a)) else { continue };
-        let impedance = &prediction.impedances[constraint.cable];
-        let own = impedance.nodes().iter().position(|&node| node == constraint.node);
-        let compliance = own.map_or_else(Matrix3::zeros, |own| impedance.compliance(own, own));
-        let drive = Drive {
-            impedance: compliance.try_inverse().unwrap_or_else(Matrix3::zeros),
-            target: Vector3::zeros(),
-            load: Some(load(a)),
-        };
+        let impedance = driving_point(&prediction.impedances[constraint.cable], constraint.node, &Matrix3::zeros());
+        let impedance = impedance.unwrap_or_else(Matrix3::zeros);
+        let drive = Drive { impedance, target: Vector3::zeros(), load: Some(load(a)) };
         let ledger = a.ledger.unwrap_or_else(|| Ledger::insert(world, a.body));
         a.ledger.insert(ledger.asleep(world, a.body)).set_motors(world, &a.anchor, &drive, h);
     }
@@ -129,21 +120,13 @@ pub(crate) fn disable_motors(contents: &Contents, world: &mut PhysicsWorld, atta
 }
 
 /// Returns whether member `m` of an island is a body that may deviate from its prediction.
-fn deviates(
-    contents: &Contents,
-    world: &PhysicsWorld,
-    island: &Island,
-    prediction: &Prediction,
-    m: usize,
-    step: &StepParameters,
-) -> bool {
+fn deviates(contents: &Contents, world: &PhysicsWorld, island: &Island, prediction: &Prediction, m: usize) -> bool {
     let (Member::Body(handle), Some(_)) = (island.members[m], &prediction.applied[m]) else { return false };
     let displacement = prediction.end[m].position - prediction.start[m].position;
     if !bears_motors(prediction, m) {
         return false;
     }
     proximity::may_deviate(world, handle)
-        || proximity::unlisted_collision(world, handle, &displacement, (step.h, step.fastest)).is_some()
         || !contents.records.get(handle).is_some_and(|record| record.stepped)
             && proximity::overlaps(world, handle, &displacement)
 }
@@ -162,117 +145,27 @@ fn bears_motors(prediction: &Prediction, m: usize) -> bool {
     prediction.mechanisms[m].as_ref().is_none_or(bears)
 }
 
-/// Returns the pins on members and on those of their mechanisms, and those next to them on the same cables, in ascending order.
-fn near_pins(island: &Island, groups: &[Group], members: &[usize]) -> Vec<usize> {
-    let pins = &island.pins;
-    let group = |m: &usize| groups.iter().find(|group| group.place(*m).is_some());
-    let together = |m| group(m).map_or_else(|| core::slice::from_ref(m), |group| &group.members);
-    let on_members = || members.iter().flat_map(together).flat_map(|&m| island.pins_on(m));
-    let mut near: Vec<usize> = on_members().collect();
-    for own in on_members() {
-        let others = (0..pins.len()).filter(|&p| pins[p].cable == pins[own].cable && pins[p].body != pins[own].body);
-        let before = others.clone().filter(|&p| pins[p].node < pins[own].node).max_by_key(|&p| pins[p].node);
-        let after = others.filter(|&p| pins[p].node > pins[own].node).min_by_key(|&p| pins[p].node);
-        near.extend(before.into_iter().chain(after));
-    }
-    near.sort_unstable();
-    near.dedup();
-    near
-}
-
-/// Linearises the cables of an island at their pins on `members` for a step of `h` (s); all others are held.
-pub(super) fn linearise_at(
+/// Linearises the cables of an island at their pins on `members` for a step of `h` (s), with the other pins as `update` says.
+pub(super) fn linearise(
     contents: &mut Contents,
     island: &Island,
     prediction: &mut Prediction,
     members: &[usize],
-    h: f64,
-) -> Result<(), Error> {
-    let mut pins: Vec<usize> = members.iter().flat_map(|&m| island.pins_on(m)).collect();
-    pins.sort_unstable();
-    linearise(contents, island, prediction, &pins, |cable, nodes, impedance| impedance.update_held(cable, nodes, h))
-}
-
-/// Linearises the cables of an island that some of `pins` are on.
-fn linearise(
-    contents: &mut Contents,
-    island: &Island,
-    prediction: &mut Prediction,
-    pins: &[usize],
-    update: impl Fn(&mut Cable, &[usize], &mut Impedance) -> Result<(), lariat_ancf::Error>,
+    (update, h): (Update, f64),
 ) -> Result<(), Error> {
     prediction.impedances.resize_with(island.cables.len(), Default::default);
     for (c, cable) in contents.cables_at(&island.cables).into_iter().enumerate() {
-        let of_cable = pins.iter().filter(|&&p| island.pins[p].cable == c);
-        let nodes: Vec<usize> = of_cable.map(|&p| island.pins[p].node).collect();
+        let of_cable = island.pins.iter().filter(|pin| pin.cable == c && members.contains(&pin.body));
+        let nodes: Vec<usize> = of_cable.map(|pin| pin.node).collect();
         if !nodes.is_empty() {
-            update(cable, &nodes, &mut prediction.impedances[c])?;
+            update(&mut prediction.impedances[c], cable, &nodes, h)?;
         }
     }
     Ok(())
 }
 
-/// Returns D for every pin on a member, by the index of the pin; the pins `near` it move too.
-fn driving_point(
-    island: &Island,
-    prediction: &Prediction,
-    member: usize,
-    near: &[usize],
-) -> Vec<(usize, Matrix3<f64>)> {
-    let start = &prediction.start;
-    let n = 3 * near.len();
-    let mut m = DMatrix::<f64>::zeros(n, n);
-    for (a, &i) in near.iter().enumerate() {
-        for (b, &j) in near.iter().enumerate() {
-            let (p, q) = (&island.pins[i], &island.pins[j]);
-            let mut block = Matrix3::zeros();
-            let impedance = &prediction.impedances[p.cable];
-            let index = |node: usize| impedance.nodes().iter().position(|&n| n == node);
-            if p.cable == q.cable
-                && let (Some(one), Some(two)) = (index(p.node), index(q.node))
-            {
-                block += impedance.compliance(one, two);
-            }
-            let share = |body: usize| if body == member { OWN_MOBILITY_SHARE.sqrt() } else { 1.0 };
-            let levers = [start[p.body].rotation * p.anchor, start[q.body].rotation * q.anchor];
-            let in_group = |group: &Group| Some(group.mobility(group.place(p.body)?, group.place(q.body)?));
-            if let Some(mobility) = prediction.groups.iter().find_map(in_group) {
-                block += point_mobility(&mobility, &levers) * (share(p.body) * share(q.body));
-            } else if p.body == q.body {
-                block += mobility(&start[p.body], &levers) * (share(p.body) * share(q.body));
-            }
-            m.fixed_view_mut::<3, 3>(3 * a, 3 * b).copy_from(&block);
-        }
-    }
-    let own: Vec<(usize, usize)> =
-        near.iter().copied().enumerate().filter(|(_, pin)| island.pins[*pin].body == member).collect();
-    let mut columns = DMatrix::<f64>::zeros(n, 3 * own.len());
-    for (k, (a, _)) in own.iter().enumerate() {
-        columns.fixed_view_mut::<3, 3>(3 * a, 3 * k).fill_diagonal(1.0);
-    }
-    if !m.lu().solve_mut(&mut columns) {
-        return Vec::new();
-    }
-    let block = |k: usize, a: usize| columns.fixed_view::<3, 3>(3 * a, 3 * k).into_owned();
-    own.iter().enumerate().map(|(k, (a, pin))| (*pin, block(k, *a))).collect()
-}
-
-/// Returns the velocity at one point per impulse at another, in 1/kg, by the mobility of their bodies and the levers from
-/// the centres of mass.
-fn point_mobility(mobility: &Matrix6<f64>, [ra, rb]: &[Vector3<f64>; 2]) -> Matrix3<f64> {
-    let at = |r: usize, c: usize| mobility.fixed_view::<3, 3>(r, c).into_owned();
-    let linear = at(0, 0) + at(0, 3) * rb.cross_matrix();
-    linear - ra.cross_matrix() * (at(3, 0) + at(3, 3) * rb.cross_matrix())
-}
-
-/// Returns the velocity at one point of a free body per impulse at another, in 1/kg.
-fn mobility(body: &RigidBody, [ra, rb]: &[Vector3<f64>; 2]) -> Matrix3<f64> {
-    let mass = if body.mass > 0.0 { body.mass } else { JUNCTION_MASS };
-    let masked = Matrix3::from_diagonal(&Vector3::from_fn(|i, _| f64::from(u8::from(body.free[i])) / mass));
-    let mut inverse = body.world_inertia(&body.rotation).try_inverse().unwrap_or_else(Matrix3::zeros);
-    for x in (0..3).filter(|&x| !body.free[3 + x]) {
-        inverse.row_mut(x).fill(0.0);
-        inverse.column_mut(x).fill(0.0);
-    }
-    masked - ra.cross_matrix() * inverse * rb.cross_matrix()
+/// Returns the impedance in kg of a cable at a node, and of what has a `mobility` (1/kg) in series with it.
+fn driving_point(cable: &Impedance, node: usize, mobility: &Matrix3<f64>) -> Option<Matrix3<f64>> {
+    let own = cable.nodes().iter().position(|&n| n == node)?;
+    (cable.compliance(own, own) + mobility).try_inverse()
 }

@@ -43,15 +43,12 @@ use crate::error::{Error, Failure};
 use crate::events::Event;
 use crate::handle::CableHandle;
 use crate::islands::{Island, Islands};
-use crate::proximity;
 use crate::reels;
 use crate::settings::Settings;
 use crate::sleep;
 use lariat_ancf::Snapshot;
-use lariat_ancf::island::Impedance;
 use prediction::{Prediction, StepParameters};
 use prescribed_motion::PrescribedMotions;
-use rapier::dynamics::RigidBodyHandle;
 use rapier::math::Real;
 use rapier::pipeline::PhysicsWorld;
 
@@ -99,8 +96,6 @@ pub(crate) struct Stepper {
     pub failures: Vec<Failure>,
     /// Of the present host step.
     budget: Remaining,
-    /// A buffer.
-    impedance: Impedance,
 }
 
 /// Begins a host step of `world.integration_parameters.dt`, which becomes that of a Rapier step.
@@ -120,7 +115,7 @@ pub(crate) fn begin(
         stepper.failures.clear();
         stepper.budget = Remaining::new(settings.budget);
         stepper.predictions.iter_mut().for_each(|p| (p.budget, p.degraded) = (stepper.budget, false));
-        host.steps = substepping::count(contents, world, settings, f64::from(dt), &mut stepper.impedance);
+        host.steps = substepping::count(contents, world, settings, f64::from(dt));
         host.motions = PrescribedMotions::read(contents, world, f64::from(dt));
         if host.steps > 1 {
             host.motions.add_others(contents, world, f64::from(dt));
@@ -143,7 +138,7 @@ pub(crate) fn predict_next(
         return Ok(());
     }
     if host.done > 0 {
-        split_finer(contents, world, settings, host, &mut stepper.impedance);
+        split_finer(contents, world, settings, host);
     }
     host.done += 1;
     if host.dt == 0.0 {
@@ -164,15 +159,9 @@ pub(crate) fn predict_next(
 }
 
 /// Splits the rest of a host step finer, if a body met another since it began.
-fn split_finer(
-    contents: &mut Contents,
-    world: &mut PhysicsWorld,
-    settings: &Settings,
-    host: &mut HostStep,
-    impedance: &mut Impedance,
-) {
+fn split_finer(contents: &Contents, world: &mut PhysicsWorld, settings: &Settings, host: &mut HostStep) {
     let max = settings.max_rapier_steps / host.steps;
-    let needed = substepping::count(contents, world, settings, f64::from(host.dt), impedance);
+    let needed = substepping::count(contents, world, settings, f64::from(host.dt));
     let finer = needed.div_ceil(host.steps).min(max);
     if finer > 1 {
         (host.steps, host.done) = (host.steps * finer, host.done * finer);
@@ -271,13 +260,10 @@ fn prepare_islands(
     let budget = stepper.budget;
     stepper.predictions.resize_with(stepper.islands.list.len(), || Prediction { budget, ..Prediction::default() });
     stepper.predictions.iter_mut().for_each(|prediction| prediction.applied.clear());
-    let is_awake = |body: RigidBodyHandle| !world.bodies[body].is_sleeping();
-    let needs_speeds = stepper.islands.list.iter().any(|island| island.bodies().any(is_awake));
     let step = StepParameters {
         h: f64::from(world.integration_parameters.dt),
         rapier_steps: host.steps,
         share: (f64::from(host.done - 1) / f64::from(host.steps), f64::from(host.done) / f64::from(host.steps)),
-        fastest: if needs_speeds { proximity::fastest(world) } else { 0.0 },
         sleep_speed: settings.sleep_speed,
     };
     let Stepper { islands, predictions, events, failures, finder, .. } = &mut *stepper;
@@ -358,7 +344,7 @@ fn complete_island(
 ) -> Result<(), Error> {
     predict::complete(contents, island, prediction);
     apply::apply(contents, world, island, prediction, step.h);
-    impedance::set_motors(contents, world, island, prediction, step)?;
+    impedance::set_motors(contents, world, island, prediction, step.h)?;
     for (&i, wheel) in island.sheaves.iter().zip(&prediction.sheaves) {
         contents.sheaves.get_mut(i).into_iter().for_each(|sheave| sheave.wheel = *wheel);
     }

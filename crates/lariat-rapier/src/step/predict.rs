@@ -16,7 +16,7 @@ use crate::step::energy;
 use crate::step::kinematic_ends;
 use crate::step::prediction::{Prediction, StepParameters};
 use crate::step::prescribed_motion::PrescribedMotions;
-use ::nalgebra::{Matrix3, Vector6};
+use ::nalgebra::Vector6;
 use lariat_ancf::island::RigidBody;
 use lariat_ancf::{Integrator, StepControl};
 use rapier::pipeline::PhysicsWorld;
@@ -101,12 +101,7 @@ fn read_members(
                     // what the body was in contact with is gone
                     record.reaction = Vector6::zeros();
                 }
-                let mut body = body::read(world, *handle, record, time)?;
-                if body.inertia == Matrix3::zeros() {
-                    // a point mass does not rotate, but the solver needs an inverse
-                    body.inertia = Matrix3::identity();
-                }
-                body
+                body::read(world, *handle, record, time)?
             }
             Member::Driven(handle) => kinematic_ends::driven_body(world, motions, *handle, step)?,
             Member::Junction(j) => {

@@ -23,8 +23,6 @@ pub(crate) struct StepParameters {
     pub rapier_steps: u32,
     /// Share of the host step at which it begins and ends, 0 to 1.
     pub share: (f64, f64),
-    /// Speed in m/s of the fastest body that is awake.
-    pub fastest: f64,
     /// Speed in m/s below which bodies may sleep.
     pub sleep_speed: f64,
 }
@@ -80,16 +78,8 @@ pub(crate) struct Prediction {
 pub(crate) struct AppliedMotion {
     pub linvel: Vector,
     pub angvel: AngVector,
-    /// Centre of mass in body axes.
-    pub centre: Vector,
-    /// Whether it touches nothing and no joint holds it.
-    pub isolated: bool,
-    /// Whether it is a link of a multibody, or joined to a dynamic body.
-    pub linked: bool,
     /// Velocity in m/s that balanced forces add and remove within Rapier's step.
     pub balanced_velocity: f64,
-    /// Whether Rapier's step took it where it was predicted.
-    pub landed: bool,
     pub saved: SavedBody,
 }
 

@@ -336,3 +336,50 @@ fn a_flywheel_of_a_multibody_turns_as_fast_as_it_spins() {
         assert!(error.abs() < 5e-6, "{speed} rad/s: {error:.1e}");
     }
 }
+
+/// Two wheels on one axle, on impulse joints, with an angular damping of 1/s each; a rope ends in the middle of the first. After a second
+/// both have 1/e of their speed.
+///
+/// Reference: w' = -w, within 1 %.
+#[test]
+fn bodies_on_joints_are_damped_as_the_user_says() {
+    let mut world = weightless();
+    let post = world.insert_body(RigidBodyBuilder::fixed());
+    let wheels = [0.0, 0.5].map(|x| {
+        let body = RigidBodyBuilder::dynamic().translation(Vector::new(x, 0.0, 0.0)).angvel(Vector::new(4.0, 0.0, 0.0));
+        world.insert(body.angular_damping(1.0), ColliderBuilder::ball(0.1).mass(1.0)).0
+    });
+    world.insert_impulse_joint(post, wheels[0], RevoluteJointBuilder::new(Vector::X));
+    let axle = RevoluteJointBuilder::new(Vector::X).local_anchor1(Vector::new(0.5, 0.0, 0.0));
+    world.insert_impulse_joint(wheels[0], wheels[1], axle);
+    let mut set = CableSet::new();
+    let rope = set.insert(cable([0.0; 3], [0.0, 2.0, 0.0], soft()).gravity(Vector3::zeros()).build().unwrap());
+    set.attach(&world, rope, At::Start, wheels[0], Vector::ZERO, AttachmentKind::Ball).unwrap();
+    run(&mut world, &mut set, 60);
+    for wheel in wheels {
+        let spin = f64::from(world.bodies[wheel].angvel().x);
+        println!("{spin} rad/s");
+        assert!((spin * 1f64.exp() / 4.0 - 1.0).abs() < 1e-2, "{spin} rad/s");
+    }
+}
+
+/// A wheel of 0.004 kg m^2, in the middle of which a rope ends, is braked by a motor without a joint, of 0.004 N m s: after a second it has 1/e of
+/// its speed.
+///
+/// Reference: w' = -w, within 1 %.
+#[test]
+fn a_motor_brakes_a_wheel_that_stays_where_it_is() {
+    let mut world = weightless();
+    let post = world.insert_body(RigidBodyBuilder::fixed());
+    let wheel = RigidBodyBuilder::dynamic().angvel(Vector::new(4.0, 0.0, 0.0));
+    let (wheel, _) = world.insert(wheel, ColliderBuilder::ball(0.1).mass(1.0));
+    let brake = GenericJointBuilder::new(JointAxesMask::empty()).motor_model(JointAxis::AngX, MotorModel::ForceBased);
+    world.insert_impulse_joint(post, wheel, brake.motor_velocity(JointAxis::AngX, 0.0, 0.004));
+    let mut set = CableSet::new();
+    let rope = set.insert(cable([0.0; 3], [0.0, 2.0, 0.0], soft()).gravity(Vector3::zeros()).build().unwrap());
+    set.attach(&world, rope, At::Start, wheel, Vector::ZERO, AttachmentKind::Ball).unwrap();
+    run(&mut world, &mut set, 60);
+    let spin = f64::from(world.bodies[wheel].angvel().x);
+    println!("{spin} rad/s");
+    assert!((spin * 1f64.exp() / 4.0 - 1.0).abs() < 1e-2, "{spin} rad/s");
+}
