@@ -104,12 +104,12 @@ impl Model {
     }
 
     /// Arc length of each node in m.
-    pub(crate) fn node_arc_lengths(&self) -> Vec<f64> {
-        let mut s = vec![0.0];
-        for element in &self.elements {
-            s.push(s[s.len() - 1] + element.length);
-        }
-        s
+    pub(crate) fn node_arc_lengths(&self) -> impl Iterator<Item = f64> + '_ {
+        let add = |s: &mut f64, element: &Element| {
+            *s += element.length;
+            Some(*s)
+        };
+        core::iter::once(0.0).chain(self.elements.iter().scan(0.0, add))
     }
 
     /// Element and local coordinate xi of an arc length in `[0, length]`.

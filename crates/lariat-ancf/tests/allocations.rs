@@ -1,60 +1,16 @@
 //! Steps after the first do not allocate, and a cable holds little between them.
 
-#![allow(unsafe_code)] // a global allocator is unsafe by nature
-
 mod common;
+mod counting;
 
 use common::pendulum;
+use counting::{HELD, allocations};
 use lariat_ancf::contact::{Cuboid, HalfSpace, Obstacle};
 use lariat_ancf::island::{Island, PinConstraint, RigidBody};
 use lariat_ancf::{
     At, Contact, Damping, Drag, Effects, Fidelity, Flow, Integrator, LineLoad, Method, PointLoad, RestShape,
     StepControl, Vector3, step_all,
 };
-use std::alloc::{GlobalAlloc, Layout, System};
-use std::cell::Cell;
-
-/// The system's allocator, counting the requests of the present thread and the bytes that it holds.
-struct Counting;
-
-thread_local! {
-    static COUNT: Cell<u64> = const { Cell::new(0) };
-    static HELD: Cell<i64> = const { Cell::new(0) };
-}
-
-fn count(bytes: i64) {
-    let _ = COUNT.try_with(|c| c.set(c.get() + 1));
-    hold(bytes);
-}
-
-fn hold(bytes: i64) {
-    let _ = HELD.try_with(|held| held.set(held.get() + bytes));
-}
-
-// SAFETY: every call goes to the system's allocator unchanged
-unsafe impl GlobalAlloc for Counting {
-    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
-        count(layout.size() as i64);
-        unsafe { System.alloc(layout) }
-    }
-    unsafe fn dealloc(&self, pointer: *mut u8, layout: Layout) {
-        hold(-(layout.size() as i64));
-        unsafe { System.dealloc(pointer, layout) }
-    }
-    unsafe fn realloc(&self, pointer: *mut u8, layout: Layout, size: usize) -> *mut u8 {
-        count(size as i64 - layout.size() as i64);
-        unsafe { System.realloc(pointer, layout, size) }
-    }
-}
-
-#[global_allocator]
-static ALLOCATOR: Counting = Counting;
-
-fn allocations(run: impl FnOnce()) -> u64 {
-    let before = COUNT.get();
-    run();
-    COUNT.get() - before
-}
 
 /// The counter counts an allocation.
 ///

@@ -150,9 +150,13 @@ impl Contents {
         self.junctions.get(junction.0 as usize).ok_or(Error::NoJunction(junction))
     }
 
-    /// Returns the cables at `indices`, in that order, to step them.
-    pub fn cables_at(&mut self, indices: &[usize]) -> Vec<&mut Cable> {
-        self.cables.get_many_mut(indices).into_iter().map(|slot| &mut slot.cable).collect()
+    /// Calls `act` with each of the cables at `indices` and its place among them, in that order.
+    pub fn for_cables(&mut self, indices: &[usize], mut act: impl FnMut(usize, &mut Cable)) {
+        for (place, &index) in indices.iter().enumerate() {
+            if let Some(slot) = self.cables.get_mut(index) {
+                act(place, &mut slot.cable);
+            }
+        }
     }
 
     /// Sets the clocks of the cables of an island to the latest of them: one that could not step for a

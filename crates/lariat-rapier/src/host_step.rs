@@ -74,8 +74,9 @@ impl CableSet {
     /// # Errors
     /// The error of the first of [`failures`](Self::failures).
     pub fn finish(&mut self, world: &mut PhysicsWorld, host: HostStep) -> Result<(), Error> {
-        step::finish(&mut self.contents, world, &host);
-        if host.is_complete() {
+        let is_complete = host.is_complete();
+        step::finish(&mut self.stepper, &mut self.contents, world, host);
+        if is_complete {
             contact::events::compare(&mut self.contents, &mut self.stepper.events);
             warnings::note(&mut self.contents, world, &mut self.stepper.events);
             breaking::break_overloaded(&mut self.contents, &mut self.stepper.events);

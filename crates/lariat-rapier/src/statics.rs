@@ -122,7 +122,8 @@ fn solve<'a>(
     options: EquilibriumOptions,
     out: &mut Equilibrium,
 ) -> Result<Solved<'a>, Error> {
-    let mut cables: Vec<Cable> = contents.cables_at(&island.cables).into_iter().map(|cable| cable.clone()).collect();
+    let slots = island.cables.iter().filter_map(|&index| contents.cables.get(index));
+    let mut cables: Vec<Cable> = slots.map(|slot| slot.cable.clone()).collect();
     for (&index, cable) in island.cables.iter().zip(&mut cables) {
         finder.gather_for_statics(contents, world, index, cable)?;
     }

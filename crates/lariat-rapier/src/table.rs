@@ -39,24 +39,9 @@ impl<T> Table<T> {
         self.0.get_mut(index)?.as_mut()
     }
 
-    /// Returns the items at distinct `indices`, in that order, to change them; without those that are not there.
-    pub fn get_many_mut(&mut self, indices: &[usize]) -> Vec<&mut T> {
-        let mut ascending: Vec<usize> = (0..indices.len()).collect();
-        ascending.sort_by_key(|&k| indices[k]);
-        let mut found: Vec<Option<&mut T>> = indices.iter().map(|_| None).collect();
-        let (mut rest, mut first) = (&mut self.0[..], 0);
-        for k in ascending {
-            let ahead = indices[k].saturating_sub(first);
-            let Some((_, [item, behind @ ..])) = rest.split_at_mut_checked(ahead) else { break };
-            found[k] = item.as_mut();
-            (rest, first) = (behind, indices[k] + 1);
-        }
-        found.into_iter().flatten().collect()
-    }
-
     /// Returns all items by their indices, to change them.
-    pub fn all_mut(&mut self) -> Vec<Option<&mut T>> {
-        self.0.iter_mut().map(Option::as_mut).collect()
+    pub fn all_mut(&mut self) -> impl Iterator<Item = Option<&mut T>> {
+        self.0.iter_mut().map(Option::as_mut)
     }
 
     /// Removes an item.
@@ -77,21 +62,5 @@ impl<T> Table<T> {
     /// Returns all items, to change them.
     pub fn values_mut(&mut self) -> impl Iterator<Item = &mut T> {
         self.0.iter_mut().flatten()
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::Table;
-
-    /// *Source.* The items one by one.
-    #[test]
-    fn many_items_come_in_the_order_of_their_indices() {
-        let mut table = Table::default();
-        (0..6).for_each(|i| assert_eq!(table.push(10 * i), i));
-        table.remove(2);
-        assert_eq!(table.get_many_mut(&[4, 0, 2, 5, 9]), [&mut 40, &mut 0, &mut 50]);
-        assert_eq!(table.get_many_mut(&[]), Vec::<&mut usize>::new());
-        assert_eq!(table.all_mut().into_iter().flatten().count(), 5);
     }
 }

@@ -175,7 +175,7 @@ impl Cable {
 
     /// Returns the arc lengths of the nodes in m, ascending from 0.
     pub fn node_arc_lengths(&self) -> Vec<f64> {
-        self.model.node_arc_lengths()
+        self.model.node_arc_lengths().collect()
     }
 
     /// Returns the rule of the elastic forces.
@@ -257,7 +257,7 @@ impl Cable {
         match at.into() {
             At::Start => Ok(0.0),
             At::End => Ok(self.length()),
-            At::Node(i) => self.node_arc_lengths().get(i).copied().ok_or_else(|| self.no_node(i as f64)),
+            At::Node(i) => self.model.node_arc_lengths().nth(i).ok_or_else(|| self.no_node(i as f64)),
             At::ArcLength(s) => self.check_arc_length(s).map(|()| s),
         }
     }
@@ -273,9 +273,9 @@ impl Cable {
     /// [`Error::OutOfRange`] if it is not on the cable, [`Error::NoNode`] if no node is within 1e-9 of the length.
     pub fn node(&self, at: impl Into<At>) -> Result<usize, Error> {
         let s = self.arc_length(at)?;
-        let nodes = self.node_arc_lengths();
-        nodes.iter().position(|x| (x - s).abs() <= 1e-9 * self.length()).ok_or_else(|| {
-            let nearest = nodes.iter().copied().min_by(|a, b| (a - s).abs().total_cmp(&(b - s).abs())).unwrap_or(0.0);
+        let (nodes, within) = (|| self.model.node_arc_lengths(), 1e-9 * self.length());
+        nodes().position(|x| (x - s).abs() <= within).ok_or_else(|| {
+            let nearest = nodes().min_by(|a, b| (a - s).abs().total_cmp(&(b - s).abs())).unwrap_or(0.0);
             Error::NoNode { cable: self.name().to_string(), arc_length: s, nearest }
         })
     }

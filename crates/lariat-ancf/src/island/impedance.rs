@@ -46,6 +46,8 @@ pub struct Impedance {
     /// J times the inverse of the factored matrix times J^T, with the sign changed; row-major.
     response: Vec<f64>,
     nodes: Vec<usize>,
+    /// Nodes that are attached, and free here: a buffer.
+    freed: Vec<usize>,
     step: f64,
     /// What A is multiplied by in the factored matrix.
     factor: f64,
@@ -86,10 +88,14 @@ impl Impedance {
         self.nodes.clear();
         self.nodes.extend_from_slice(nodes);
         // with its pins free a cable has other supports; they are restored below
-        let supports = cable.model.supports.clone();
-        cable.model.supports.iter_mut().filter(|(n, _)| is_free(*n)).for_each(|(_, s)| s.attached = false);
+        self.freed.clear();
+        for (n, support) in cable.model.supports.iter_mut().filter(|(n, s)| s.attached && is_free(*n)) {
+            support.attached = false;
+            self.freed.push(*n);
+        }
         let outcome = cable.with_workspace(|cable| self.linearise(cable, h));
-        cable.model.supports = supports;
+        let freed = |n: &usize| self.freed.contains(n);
+        cable.model.supports.iter_mut().filter(|(n, _)| freed(n)).for_each(|(_, s)| s.attached = true);
         outcome.map_err(|failure| cable.step_failed(cable.time(), h, failure))
     }
 

@@ -45,7 +45,7 @@ pub(crate) fn move_with_supports(model: &Model, before: &[f64], q: &mut [f64]) {
     if held.iter().all(|&node| jump(q, node) == Vector3::zeros()) {
         return;
     }
-    let s = model.node_arc_lengths();
+    let s: Vec<f64> = model.node_arc_lengths().collect();
     for (end, nodes) in [(first, 0..first), (last, last + 1..model.nodes())] {
         let jump = jump(q, end);
         nodes.for_each(|node| set_position(q, node, position(before, node) + jump));
@@ -70,7 +70,7 @@ pub(crate) fn move_with_supports(model: &Model, before: &[f64], q: &mut [f64]) {
 pub(super) fn lay_out(model: &Model, q: &mut [f64]) {
     let held = held(model);
     let (Some(&first), Some(&last)) = (held.first(), held.last()) else { return };
-    let s = model.node_arc_lengths();
+    let s: Vec<f64> = model.node_arc_lengths().collect();
     let down = model.gravity.try_normalize(0.0);
     for (end, nodes, sign) in [(first, 0..first, -1.0), (last, last + 1..model.nodes(), 1.0)] {
         let Some(down) = down.filter(|_| !nodes.is_empty()) else { continue };

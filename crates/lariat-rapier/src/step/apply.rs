@@ -104,10 +104,8 @@ pub(crate) fn revert(contents: &mut Contents, world: &mut PhysicsWorld, island: 
 
 /// Restores the cables of an island to their states before the step.
 pub(crate) fn restore_cables(contents: &mut Contents, island: &Island, prediction: &Prediction) {
-    for (cable, snapshot) in contents.cables_at(&island.cables).into_iter().zip(&prediction.snapshots) {
-        // a snapshot of the cable itself always fits
-        let _ = cable.restore(snapshot.clone());
-    }
+    // a snapshot of the cable itself always fits
+    contents.for_cables(&island.cables, |c, cable| drop(cable.restore(prediction.snapshots[c].clone())));
 }
 
 /// Restores the bodies of an island to their states before the prediction.

@@ -153,15 +153,18 @@ pub(super) fn linearise(
     members: &[usize],
     (update, h): (Update, f64),
 ) -> Result<(), Error> {
-    prediction.impedances.resize_with(island.cables.len(), Default::default);
-    for (c, cable) in contents.cables_at(&island.cables).into_iter().enumerate() {
+    let Prediction { impedances, nodes, .. } = prediction;
+    impedances.resize_with(island.cables.len(), Default::default);
+    let mut outcome = Ok(());
+    contents.for_cables(&island.cables, |c, cable| {
         let of_cable = island.pins.iter().filter(|pin| pin.cable == c && members.contains(&pin.body));
-        let nodes: Vec<usize> = of_cable.map(|pin| pin.node).collect();
-        if !nodes.is_empty() {
-            update(&mut prediction.impedances[c], cable, &nodes, h)?;
+        nodes.clear();
+        nodes.extend(of_cable.map(|pin| pin.node));
+        if outcome.is_ok() && !nodes.is_empty() {
+            outcome = update(&mut impedances[c], cable, nodes, h);
         }
-    }
-    Ok(())
+    });
+    Ok(outcome?)
 }
 
 /// Returns the impedance in kg of a cable at a node, and of what has a `mobility` (1/kg) in series with it.

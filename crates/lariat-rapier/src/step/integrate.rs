@@ -6,7 +6,7 @@
 //! any number of threads.
 
 use crate::budget::step_within;
-use crate::contents::Contents;
+use crate::contents::{Contents, Slot};
 use crate::error::Error;
 use crate::islands::Island;
 use crate::step::prediction::Prediction;
@@ -25,6 +25,7 @@ thread_local! {
 }
 
 /// An island that is ready, with its cables.
+#[derive(Debug)]
 struct Job<'a> {
     island: &'a Island,
     cables: Vec<&'a mut Cable>,
@@ -82,16 +83,48 @@ impl Job<'_> {
     }
 }
 
+/// The memory of the vectors of references that a step needs; they are empty between steps.
+#[derive(Debug, Default)]
+pub(crate) struct Buffers {
+    slots: Vec<Option<&'static mut Slot>>,
+    jobs: Vec<Job<'static>>,
+    cables: Vec<Vec<&'static mut Cable>>,
+}
+
+impl Clone for Buffers {
+    fn clone(&self) -> Self {
+        Buffers::default()
+    }
+}
+
+/// Returns the memory of a vector for items of another lifetime: the standard library collects in place what has the same layout.
+fn recycled<A, B>(mut vector: Vec<A>) -> Vec<B> {
+    vector.clear();
+    vector.into_iter().map(|_| unreachable!("an empty vector")).collect()
+}
+
 /// Integrates the islands that are ready over a step of `h` (s), into their predictions.
-pub(crate) fn integrate(contents: &mut Contents, islands: &[Island], predictions: &mut [Prediction], h: f64) {
-    let mut slots = contents.cables.all_mut();
-    let ready = islands.iter().zip(predictions).filter_map(|(island, prediction)| {
-        let integrator = prediction.integrator?;
-        let own = island.cables.iter().filter_map(|&c| slots[c].take());
-        let cables = own.map(|slot| &mut slot.cable).collect();
-        Some(Job { island, cables, prediction, integrator, h })
-    });
-    run(&mut ready.collect::<Vec<_>>());
+pub(crate) fn integrate(
+    contents: &mut Contents,
+    islands: &[Island],
+    predictions: &mut [Prediction],
+    buffers: &mut Buffers,
+    h: f64,
+) {
+    let Buffers { slots, jobs, cables: unused } = buffers;
+    let mut free: Vec<Option<&mut Slot>> = recycled(core::mem::take(slots));
+    free.extend(contents.cables.all_mut());
+    let mut ready: Vec<Job<'_>> = recycled(core::mem::take(jobs));
+    for (island, prediction) in islands.iter().zip(predictions) {
+        let Some(integrator) = prediction.integrator else { continue };
+        let mut cables: Vec<&mut Cable> = recycled(unused.pop().unwrap_or_default());
+        cables.extend(island.cables.iter().filter_map(|&c| Some(&mut free[c].take()?.cable)));
+        ready.push(Job { island, cables, prediction, integrator, h });
+    }
+    run(&mut ready);
+    unused.extend(ready.drain(..).map(|job| recycled(job.cables)));
+    *jobs = recycled(ready);
+    *slots = recycled(free);
 }
 
 fn run(jobs: &mut [Job<'_>]) {

@@ -96,6 +96,9 @@ pub(crate) struct Stepper {
     pub failures: Vec<Failure>,
     /// Of the present host step.
     budget: Remaining,
+    /// Buffers.
+    buffers: integrate::Buffers,
+    motions: PrescribedMotions,
 }
 
 /// Begins a host step of `world.integration_parameters.dt`, which becomes that of a Rapier step.
@@ -116,7 +119,8 @@ pub(crate) fn begin(
         stepper.budget = Remaining::new(settings.budget);
         stepper.predictions.iter_mut().for_each(|p| (p.budget, p.degraded) = (stepper.budget, false));
         host.steps = substepping::count(contents, world, settings, f64::from(dt));
-        host.motions = PrescribedMotions::read(contents, world, f64::from(dt));
+        host.motions = core::mem::take(&mut stepper.motions);
+        host.motions.read(contents, world, f64::from(dt));
         if host.steps > 1 {
             host.motions.add_others(contents, world, f64::from(dt));
         }
@@ -170,13 +174,14 @@ fn split_finer(contents: &Contents, world: &mut PhysicsWorld, settings: &Setting
 }
 
 /// Ends a host step: `world.integration_parameters.dt` is the host's again.
-pub(crate) fn finish(contents: &mut Contents, world: &mut PhysicsWorld, host: &HostStep) {
+pub(crate) fn finish(stepper: &mut Stepper, contents: &mut Contents, world: &mut PhysicsWorld, host: HostStep) {
     world.integration_parameters.dt = host.dt;
     if host.is_unfinished() || host.failed {
         host.motions.restore(world);
     } else if host.dt > 0.0 {
         host.motions.remember(contents);
     }
+    stepper.motions = host.motions;
 }
 
 /// Predicts the next Rapier step of all islands. Returns 1, or into how many parts it is to be divided and predicted anew.
@@ -203,8 +208,8 @@ fn predict_islands(
     let step = loop {
         let step = prepare_islands(stepper, contents, world, settings, host)?;
         reels::mark(contents);
-        let Stepper { islands, predictions, finder, .. } = &mut *stepper;
-        integrate::integrate(contents, &islands.list, predictions, step.h);
+        let Stepper { islands, predictions, finder, buffers, .. } = &mut *stepper;
+        integrate::integrate(contents, &islands.list, predictions, buffers, step.h);
         let turn = predictions.iter().filter(|p| p.integrator.is_some() && p.error.is_none());
         let turn = turn.map(|p| groups::largest_turn_error(p, step.h)).fold(0.0, f64::max);
         let parts = (turn / substepping::MAX_TURN_ERROR).sqrt().ceil().min(f64::from(settings.max_rapier_steps)) as u32;
@@ -216,7 +221,9 @@ fn predict_islands(
         for (island, prediction) in islands.list.iter().zip(predictions.iter()).filter(|(_, p)| !p.refused) {
             apply::revert(contents, world, island, prediction);
             let disturbed = prediction.sleep.disturbed;
-            contents.cables.get_many_mut(&island.cables).into_iter().for_each(|slot| slot.modified |= disturbed);
+            for &cable in &island.cables {
+                contents.cables.get_mut(cable).into_iter().for_each(|slot| slot.modified |= disturbed);
+            }
         }
         if parts > 1 {
             return Ok(parts);
@@ -291,16 +298,11 @@ fn prepare_island(
     contents.align_clocks(&island.cables)?;
     if step.share.0 == 0.0 {
         let host = step.h * f64::from(step.rapier_steps);
-        for &cable in &island.cables {
-            contents.cables.get_mut(cable).into_iter().for_each(|slot| slot.cable.plan_reels(host));
-        }
+        contents.for_cables(&island.cables, |_, cable| cable.plan_reels(host));
     }
     prediction.snapshots.resize_with(island.cables.len(), Snapshot::default);
-    for (snapshot, &cable) in prediction.snapshots.iter_mut().zip(&island.cables) {
-        if let Some(slot) = contents.cables.get(cable) {
-            snapshot.clone_from(slot.cable.snapshot());
-        }
-    }
+    let snapshots = &mut prediction.snapshots;
+    contents.for_cables(&island.cables, |c, cable| snapshots[c].clone_from(cable.snapshot()));
     check_links(contents, island)?;
     let ends_moved =
         island.bodies().next().is_some() && kinematic_ends::have_moved(contents, world, motions, island, step.h);
@@ -313,7 +315,7 @@ fn prepare_island(
         if !impedance::are_held(contents, island, step.h) {
             impedance::hold(contents, world, island, prediction, step.h, |a| [a.reading.force, a.reading.moment])?;
         }
-        contents.cables_at(&island.cables).into_iter().for_each(|cable| cable.rest(step.h));
+        contents.for_cables(&island.cables, |_, cable| cable.rest(step.h));
         return Ok(());
     }
     kinematic_ends::prescribe(contents, world, motions, island, step)?;

@@ -5,6 +5,15 @@
 //! cable:     dv = -A^-1 J^T p      dx = h dv
 //! ```
 //! p is the impulse of the motors on a body that deviated from its prediction.
+//!
+//! # Validity
+//! Rapier solves joints before contacts, so that the motors on a jammed body carry a small share of its load in every step. In fidelity game
+//! the tension next to it therefore differs by 0.1 % on a wire with twice the critical damping of its first mode, and by 1 % with 20 times (test
+//! contact.rs); what is read at the body does not.
+//!
+//! # Alternatives considered
+//! An offset learnt from p, loaded against it and taken from what the cable gets: exact where it settles, and a body of 1 kg that 1 kN press
+//! against a stop is thrown, with a discrete gradient on a wire with that damping, whatever share of p the offset takes in a step.
 
 use crate::contents::Contents;
 use crate::islands::Island;
@@ -39,19 +48,15 @@ pub(super) fn motor_impulse(island: &Island, prediction: &Prediction, m: usize) 
 }
 
 /// Gives the cables the opposite of their motors' impulses on bodies that deviated.
-pub(super) fn apply_motor_impulses(contents: &mut Contents, island: &Island, prediction: &Prediction) {
-    let impulse_at = |c: usize, node: usize| {
-        let pin = island.pins.iter().position(|pin| pin.cable == c && pin.node == node);
-        pin.map_or_else(Vector3::zeros, |pin| prediction.impulses[pin])
-    };
-    let driven = |c: usize| {
-        island.pins.iter().zip(&prediction.impulses).any(|(pin, p)| pin.cable == c && *p != Vector3::zeros())
-    };
-    for (c, &cable) in island.cables.iter().enumerate().filter(|(c, _)| driven(*c)) {
-        let nodes = prediction.impedances[c].nodes();
-        let impulses: Vec<Vector3<f64>> = nodes.iter().map(|&node| impulse_at(c, node)).collect();
-        if let Some(slot) = contents.cables.get_mut(cable) {
-            prediction.impedances[c].apply_impulses(&mut slot.cable, &impulses);
+pub(super) fn apply_motor_impulses(contents: &mut Contents, island: &Island, prediction: &mut Prediction) {
+    let Prediction { impulses, impulses_at: at, impedances, .. } = prediction;
+    contents.for_cables(&island.cables, |c, cable| {
+        let on_cable = || island.pins.iter().zip(&*impulses).filter(|(pin, _)| pin.cable == c);
+        if on_cable().any(|(_, p)| *p != Vector3::zeros()) {
+            let of_node = |&node: &usize| on_cable().find(|(pin, _)| pin.node == node);
+            at.clear();
+            at.extend(impedances[c].nodes().iter().map(|node| of_node(node).map_or_else(Vector3::zeros, |(_, p)| *p)));
+            impedances[c].apply_impulses(cable, at);
         }
-    }
+    });
 }

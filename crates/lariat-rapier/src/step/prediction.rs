@@ -61,10 +61,14 @@ pub(crate) struct Prediction {
     pub accounts: Vec<PinAccount>,
     /// Indices of the members that may deviate from the prediction.
     pub deviating: Vec<usize>,
+    /// Nodes of a cable: a buffer.
+    pub nodes: Vec<usize>,
     /// By pin, whether its motors are on.
     pub motors: Vec<bool>,
     /// By pin, the impulse of its motors in N s.
     pub impulses: Vec<Vector3<f64>>,
+    /// By node of an impedance, the impulse on it in N s: a buffer.
+    pub impulses_at: Vec<Vector3<f64>>,
     /// What its energy balance compares with.
     pub energy: StepEnergy,
     pub sleep: SleepState,

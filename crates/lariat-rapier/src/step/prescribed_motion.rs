@@ -159,8 +159,9 @@ impl BodyMotion {
 
 impl PrescribedMotions {
     /// Reads the motions in a host step of `dt` (s).
-    pub fn read(contents: &Contents, world: &PhysicsWorld, dt: f64) -> Self {
-        let mut motions: Vec<BodyMotion> = Vec::new();
+    pub fn read(&mut self, contents: &Contents, world: &PhysicsWorld, dt: f64) {
+        let motions = &mut self.0;
+        motions.clear();
         let prescribed = |a: &&Attachment| {
             world.bodies.get(a.body).is_some_and(|b| b.is_kinematic()) && !is_integrated(world, a.body)
         };
@@ -169,7 +170,6 @@ impl PrescribedMotions {
                 motions.push(BodyMotion::read(contents, world, a.body, dt));
             }
         }
-        PrescribedMotions(motions)
     }
 
     /// Adds the bodies without cables that the user moves to a pose, since the host step is split.

@@ -87,7 +87,7 @@ fn is_sleeping(world: &PhysicsWorld, handle: RigidBodyHandle) -> bool {
 /// Undoes the prediction of an island whose bodies Rapier put to sleep instead of stepping them.
 fn undo_for_sleep(contents: &mut Contents, world: &mut PhysicsWorld, island: &Island, prediction: &Prediction, h: f64) {
     restore_cables(contents, island, prediction);
-    contents.cables_at(&island.cables).into_iter().for_each(|cable| cable.rest(h));
+    contents.for_cables(&island.cables, |_, cable| cable.rest(h));
     for (m, member) in island.members.iter().enumerate() {
         if let (Member::Body(handle), Some(applied)) = (member, &prediction.applied[m]) {
             let record = contents.records.record_mut(*handle);

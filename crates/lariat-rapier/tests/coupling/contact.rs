@@ -2,54 +2,85 @@
 
 use super::common::{add_cube, cable, gap, l_stable_integrator, run, soft, steel, tension, weightless, wire};
 use lariat_rapier::convert::vector;
-use lariat_rapier::lariat_ancf::{At, Section, Vector3};
+use lariat_rapier::lariat_ancf::{At, CableBuilder, Damping, Fidelity, Section, Vector3};
 use lariat_rapier::rapier::prelude::*;
-use lariat_rapier::{AttachmentKind, CableSet};
+use lariat_rapier::{AttachmentHandle, AttachmentKind, CableHandle, CableSet};
 
-/// A cube 5 cm behind two posts; a winch pulls until the cable carries 5 kN, and stops.
+/// A cube 5 cm behind two posts, on a rope to a winch that draws it against them.
+struct Jam {
+    world: PhysicsWorld,
+    set: CableSet,
+    load: RigidBodyHandle,
+    winch: RigidBodyHandle,
+    rope: CableHandle,
+    hook: AttachmentHandle,
+}
+
+impl Jam {
+    /// A cube of `mass` (kg), on `rope` from the origin to (-2, 0, 0).
+    fn new(mass: Real, rope: CableBuilder) -> Self {
+        let mut world = weightless();
+        for y in [-0.35, 0.35] {
+            let post = RigidBodyBuilder::fixed().translation(Vector::new(-1.85, y, 0.0));
+            world.insert(post, ColliderBuilder::cuboid(0.1, 0.3, 1.0));
+        }
+        let load = add_cube(&mut world, mass, 0.1, [-2.1, 0.0, 0.0]);
+        // the winch is near the origin, where single precision resolves the stretch of steel
+        let winch = world.insert_body(RigidBodyBuilder::kinematic_velocity_based());
+        let mut set = CableSet::new();
+        let rope = set.insert(rope.gravity(Vector3::zeros()).build().unwrap());
+        set.attach(&world, rope, At::Start, winch, Vector::ZERO, AttachmentKind::Ball).unwrap();
+        let hook = set.attach(&world, rope, At::End, load, Vector::new(0.1, 0.0, 0.0), AttachmentKind::Ball).unwrap();
+        Jam { world, set, load, winch, rope, hook }
+    }
+
+    /// Makes a host step in which the winch moves at `speed` (m/s).
+    fn draw(&mut self, speed: f64) {
+        self.world.bodies[self.winch].set_linvel(Vector::new(speed as Real, 0.0, 0.0), true);
+        self.set.step(&mut self.world).unwrap();
+    }
+
+    /// Returns the speed in m/s at which the winch closes the difference to `pull` (N) at a rate of 5/s, after 5 cm/s in the first 60 host steps.
+    fn speed(&self, k: usize, pull: f64, compliance: f64) -> f64 {
+        let missing = (pull - tension(&self.set, self.rope, 1.0)) * compliance;
+        if k < 60 { 0.05 } else { (5.0 * missing).clamp(-0.05, 0.05) }
+    }
+}
+
+/// Returns the rope of a jam.
+fn rope(section: Section) -> CableBuilder {
+    cable([0.0; 3], [-2.0, 0.0, 0.0], section)
+}
+
+/// A winch draws a cube against its posts until the rope carries 5 kN, and stops.
 fn jam(section: Section, mass: Real) {
     const PULL: f64 = 5e3;
-    let mut world = weightless();
-    for y in [-0.35, 0.35] {
-        let post = RigidBodyBuilder::fixed().translation(Vector::new(-1.85, y, 0.0));
-        world.insert(post, ColliderBuilder::cuboid(0.1, 0.3, 1.0));
-    }
-    let load = add_cube(&mut world, mass, 0.1, [-2.1, 0.0, 0.0]);
-    // the winch is near the origin, where single precision resolves the stretch of steel
-    let winch = world.insert_body(RigidBodyBuilder::kinematic_velocity_based());
-    let mut set = CableSet::new();
-    let rope = cable([0.0; 3], [-2.0, 0.0, 0.0], section).integrator(l_stable_integrator()).gravity(Vector3::zeros());
-    let rope = set.insert(rope.build().unwrap());
-    set.attach(&world, rope, At::Start, winch, Vector::ZERO, AttachmentKind::Ball).unwrap();
-    set.attach(&world, rope, At::End, load, Vector::new(0.1, 0.0, 0.0), AttachmentKind::Ball).unwrap();
+    let mut jam = Jam::new(mass, rope(section).integrator(l_stable_integrator()));
     // of the rope and of Rapier's contact, 15 mm for 5 kN on 1 kg
     let compliance = 2.0 / section.axial_stiffness + 3e-6 / f64::from(mass);
     let (mut widest, mut held) = (0.0f64, Vec::new());
     for k in 0..720 {
-        // the winch closes the difference at a rate of 5/s, after 5 cm/s at first, then stops
-        let missing = (PULL - tension(&set, rope, 1.0)) * compliance;
-        let speed = if k < 60 { 0.05 } else { (5.0 * missing).clamp(-0.05, 0.05) };
-        let speed = if k < 600 { speed } else { 0.0 };
-        world.bodies[winch].set_linvel(Vector::new(speed as Real, 0.0, 0.0), true);
-        set.step(&mut world).unwrap();
+        jam.draw(if k < 600 { jam.speed(k, PULL, compliance) } else { 0.0 });
         if k >= 600 {
-            widest = widest.max(gap(&set));
-            held.push(tension(&set, rope, 1.0));
+            widest = widest.max(gap(&jam.set));
+            held.push(tension(&jam.set, jam.rope, 1.0));
         }
     }
     let (low, high) = held.iter().fold((f64::MAX, f64::MIN), |a, x| (a.0.min(*x), a.1.max(*x)));
     let case = format!("EA {:.2e} N, {mass} kg: {low:.2} to {high:.2} N, gap {widest:.1e} m", section.axial_stiffness);
     println!("{case}");
-    assert!(low > 0.98 * PULL && high < 1.02 * PULL, "{case}");
+    // a body of 1 kg vibrates faster on the bar than 32 Rapier steps resolve
+    let within = if section.axial_stiffness > 1e7 && mass < 10.0 { 2e-3 } else { 1e-3 };
+    assert!(low > (1.0 - within) * PULL && high < (1.0 + within) * PULL, "{case}");
     assert!(high - low < 1e-3 * PULL && widest < 1e-6, "{case}");
-    assert!(world.bodies[load].linvel().length() < 1e-4, "{case}, {}", world.bodies[load].linvel());
+    let speed = jam.world.bodies[jam.load].linvel();
+    assert!(speed.length() < 1e-4, "{case}, {speed}");
 }
 
 /// A light and a heavy cube jammed between posts, on a soft rope, a steel wire of 3 mm and a steel
 /// bar of 1 cm: the tension is constant, the gap closed, and nothing moves.
 ///
-/// Reference: statics: the tension at which the winch stopped, within 2 % for the contact to
-/// settle.
+/// Reference: statics: the tension at which the winch stopped, within 0.1 %, of the light cube on the bar 0.2 %.
 #[test]
 fn a_jammed_cube_holds_the_tension_at_which_the_winch_stopped() {
     for section in [soft(), wire(), steel()] {
@@ -59,10 +90,33 @@ fn a_jammed_cube_holds_the_tension_at_which_the_winch_stopped() {
     }
 }
 
+/// A cube of 1 kg that a damped wire of 3 mm jams at 1 kN, with twice and with 20 times the critical damping of its first mode: what is read
+/// at the cube is right to 0.1 %, the tension along the wire to what the motors carry of the load.
+///
+/// Reference: statics: the tension at which the winch stopped.
+#[test]
+fn a_damped_wire_jams_a_cube() {
+    for (fidelity, damping, within) in [
+        (Fidelity::Game, 1e-3, 2e-3),
+        (Fidelity::Engineering, 1e-3, 1e-3),
+        (Fidelity::Game, 1e-2, 1.2e-2),
+        (Fidelity::Engineering, 1e-2, 1e-3),
+    ] {
+        let damping = Damping { axial: damping, bending: 1e-3 };
+        let mut jam = Jam::new(1.0, rope(wire()).fidelity(fidelity).elements(10).damping(damping));
+        (0..300).for_each(|k| jam.draw(jam.speed(k, 1e3, 4.4e-6)));
+        let read = jam.set.attachment(jam.hook).unwrap().force().x;
+        let near = tension(&jam.set, jam.rope, 1.9);
+        let case = format!("{fidelity:?}, {:.0e} s: read {read:.2} N, tension near it {near:.2} N", damping.axial);
+        println!("{case}");
+        assert!((read / 1e3 - 1.0).abs() < 1e-3 && (near / 1e3 - 1.0).abs() < within, "{case}");
+    }
+}
+
 /// A cube of 20 kg on the ground, friction 0.5; a winch increases the tension by 1 N per frame. The
 /// cube holds until the tension is mu m g, then slides.
 ///
-/// Reference: Coulomb friction, 98.10 N, within 2 %.
+/// Reference: Coulomb friction, 98.10 N; the pull grows by 1 N in each host step.
 #[test]
 fn a_cube_slides_when_the_pull_reaches_the_friction_limit() {
     let grip = 0.5 * 20.0 * 9.81;
@@ -101,7 +155,7 @@ fn a_cube_slides_when_the_pull_reaches_the_friction_limit() {
             "friction EA {:.1e}: peak {peak:.2} N, crept {crept:.1e} m, slid {slid:.1e} of {wound:.1e} m",
             section.axial_stiffness
         );
-        assert!(peak > 0.98 * grip && peak < 1.02 * grip, "peak {peak} N of {grip}");
+        assert!(peak > 98.0 && peak < 99.5, "peak {peak} N of {grip}");
         assert!(crept < 0.05 * wound, "crept {crept:.1e} m of {wound:.1e}");
         assert!((slid / wound - 0.67).abs() < 0.1, "slid {slid:.1e} m of {wound:.1e}");
     }
@@ -115,27 +169,14 @@ fn a_cube_slides_when_the_pull_reaches_the_friction_limit() {
 #[test]
 fn the_gap_stays_closed_at_the_first_contact_of_a_body() {
     for iterations in [1, 4] {
-        let mut world = weightless();
-        world.integration_parameters.dt = 1.0 / 30.0;
-        world.integration_parameters.num_solver_iterations = iterations;
-        for y in [-0.35, 0.35] {
-            let post = RigidBodyBuilder::fixed().translation(Vector::new(-1.85, y, 0.0));
-            world.insert(post, ColliderBuilder::cuboid(0.1, 0.3, 1.0));
-        }
-        let load = add_cube(&mut world, 1.0, 0.1, [-2.1, 0.0, 0.0]);
-        let winch = world.insert_body(RigidBodyBuilder::kinematic_velocity_based());
-        let mut set = CableSet::new();
-        let rope =
-            cable([0.0; 3], [-2.0, 0.0, 0.0], wire()).integrator(l_stable_integrator()).gravity(Vector3::zeros());
-        let rope = set.insert(rope.build().unwrap());
-        set.attach(&world, rope, At::Start, winch, Vector::ZERO, AttachmentKind::Ball).unwrap();
-        set.attach(&world, rope, At::End, load, Vector::new(0.1, 0.0, 0.0), AttachmentKind::Ball).unwrap();
+        let mut jam = Jam::new(1.0, rope(wire()).integrator(l_stable_integrator()));
+        jam.world.integration_parameters.dt = 1.0 / 30.0;
+        jam.world.integration_parameters.num_solver_iterations = iterations;
         let (mut widest, mut pulled) = (0.0f64, 0.0f64);
         for _ in 0..36 {
-            world.bodies[winch].set_linvel(Vector::new(0.05, 0.0, 0.0), true);
-            set.step(&mut world).unwrap();
-            widest = widest.max(gap(&set));
-            pulled = pulled.max(tension(&set, rope, 1.0));
+            jam.draw(0.05);
+            widest = widest.max(gap(&jam.set));
+            pulled = pulled.max(tension(&jam.set, jam.rope, 1.0));
         }
         println!("{iterations} iterations: gap {widest:.1e} m, pull {pulled:.0} N");
         assert!(pulled > 1e3, "no contact with the stop: {pulled} N");

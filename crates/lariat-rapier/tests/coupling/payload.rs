@@ -46,18 +46,18 @@ fn swing(section: Section, mass: Real, hz: usize, fidelity: Fidelity) -> Swing {
     out
 }
 
-/// Host steps of 1/60 s agree within 6 mm, of 1/240 s within 3 mm; the gap is closed, and no energy
-/// is gained.
+/// Host steps of 1/60 s agree within 1.5 mm, of 1/240 s within 2.5 mm, since the tolerance is for each.
+/// The gap is closed, and no energy is gained.
 ///
 /// Reference: [`CENTRES`]; energy is conserved, and zero at the start (Rapier's kinetic energy is
 /// read in single precision).
 #[test]
 fn a_payload_pendulum_agrees_with_a_monolithic_code() {
-    for (hz, most) in [(60, 6e-3), (240, 3e-3)] {
+    for (hz, most) in [(60, 1.5e-3), (240, 2.5e-3)] {
         let Swing { off, gap, energy, last } = swing(soft(), 50.0, hz, Fidelity::Engineering);
         println!("{hz} Hz: off {off:?} m, gap {gap:.1e} m, energy at most {energy:.1e} J, at last {last:.1e} J");
         assert!(off[0] < most && off[1] < most, "{hz} Hz: {off:?} m");
-        assert!(gap < 1e-3, "{hz} Hz: {gap:.1e} m");
+        assert!(gap < 1e-9, "{hz} Hz: {gap:.1e} m");
         assert!(energy < 1e-3 && last > -0.1, "{hz} Hz: {energy:.1e} J, {last:.1e} J");
     }
 }
