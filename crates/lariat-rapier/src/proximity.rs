@@ -119,7 +119,11 @@ pub(crate) fn overlaps(world: &PhysicsWorld, handle: RigidBodyHandle, displaceme
 
 /// Returns an upper bound in m/s of the speed at which a body may collide within `dt` (s) with one that Rapier lists no pair
 /// with yet, if no other is faster than `fastest` (m/s); `None` if it cannot. Slow bodies among slow ones need no look-up.
-fn unlisted_collision(world: &PhysicsWorld, handle: RigidBodyHandle, (dt, fastest): (f64, f64)) -> Option<f64> {
+pub(crate) fn unlisted_collision(
+    world: &PhysicsWorld,
+    handle: RigidBodyHandle,
+    (dt, fastest): (f64, f64),
+) -> Option<f64> {
     let velocity = vector(world.bodies[handle].linvel());
     let displacement = velocity * dt;
     let listed = f64::from(world.integration_parameters.prediction_distance());

@@ -3,17 +3,18 @@
 //!
 //! # Equation
 //! ```text
-//! D = (C + e B)^-1      B = 1/m - [r]x I^-1 [r]x      e = 0.1
+//! D = the block of a pin in (C + B)^-1
+//! B_i = 1/m - [r]x I^-1 [r]x,     of the body of the pin itself times MOBILITY_SHARE
 //! ```
-//! C is the compliance of the cable at a pin over the step ([`Impedance`]), its other pins free, B the mobility of the body alone. A
-//! [`Ledger`] acts on the body with D about the predicted velocity of the
+//! C is the compliance of the cable over the step ([`Impedance`]) at the pin and at the next ones on other bodies, B_i the mobility of
+//! the body of each, alone. A [`Ledger`] acts on the body with D about the predicted velocity of the
 //! anchor: if the prediction was right it does nothing; if a contact or a joint makes the body
 //! deviate, the body feels the cable within the same step. A sleeping body is predicted to rest under the force of its
 //! cables, which stands in the motors for as long as it sleeps: should Rapier wake it within a step, it feels them.
 //!
 //! # Alternatives considered
-//! The block of the pin in (C + B)^-1 over all pins of the body and the next ones on its cables, with the mobilities of their bodies
-//! and of their mechanisms: no case was found in which it does better.
+//! All pins of the body and of its mechanism at once, with the mobilities of mechanisms: no case was found in which it does better. The pin
+//! alone, the next ones free: of two cables in series, of which the last body is jammed, one carries 0.1 % less than the other.
 //!
 //! [`Impedance`]: lariat_ancf::island::Impedance
 
@@ -24,28 +25,31 @@ use crate::islands::{Island, Member};
 use crate::ledger::{Drive, Ledger};
 use crate::mechanism::Mechanism;
 use crate::proximity;
-use crate::step::prediction::Prediction;
-use ::nalgebra::{Matrix3, Vector3};
+use crate::step::prediction::{Prediction, StepParameters};
+use ::nalgebra::{Matrix3, SMatrix, Vector3};
 use lariat_ancf::Cable;
-use lariat_ancf::island::{Impedance, PinConstraint};
+use lariat_ancf::island::{Impedance, PinConstraint, RigidBody};
 use rapier::dynamics::RigidBodyHandle;
 use rapier::pipeline::PhysicsWorld;
 
-/// e: share of the body's mobility that its motors yield by.
+/// Share of the body's own mobility in B.
 const MOBILITY_SHARE: f64 = 0.1;
+/// Mass in kg given to a junction, which has none, so that the matrix is finite.
+const JUNCTION_MASS: f64 = 1e-6;
 
 /// Linearises a cable at some nodes for a step: [`Impedance::update`] or [`Impedance::update_held`].
 pub(super) type Update = fn(&mut Impedance, &mut Cable, &[usize], f64) -> Result<(), lariat_ancf::Error>;
 
-/// Sets the motors of all bodies of an island that may deviate from their prediction in a step of `h` (s), and disables
+/// Sets the motors of all bodies of an island that may deviate from their prediction, and disables
 /// all others.
 pub(crate) fn set_motors(
     contents: &mut Contents,
     world: &mut PhysicsWorld,
     island: &Island,
     prediction: &mut Prediction,
-    h: f64,
+    step: &StepParameters,
 ) -> Result<(), Error> {
+    let h = step.h;
     prediction.motors.clear();
     prediction.motors.resize(island.pins.len(), false);
     let sleeps = |handle: RigidBodyHandle| world.bodies[handle].is_sleeping();
@@ -54,25 +58,24 @@ pub(crate) fn set_motors(
             [a.predicted.impulse, a.predicted.angular_impulse].map(|p| p / h)
         })?;
     }
-    let mut deviating = core::mem::take(&mut prediction.deviating);
+    let (mut deviating, mut near) = (core::mem::take(&mut prediction.deviating), core::mem::take(&mut prediction.near));
     deviating.clear();
-    deviating.extend((0..island.members.len()).filter(|&m| deviates(contents, world, island, prediction, m)));
-    linearise(contents, island, prediction, &deviating, (Impedance::update, h))?;
-    for (pin, constraint) in island.pins.iter().enumerate().filter(|(_, pin)| deviating.contains(&pin.body)) {
+    deviating.extend((0..island.members.len()).filter(|&m| deviates(contents, world, island, prediction, m, step)));
+    near.clear();
+    let own = |pin: &usize| deviating.contains(&island.pins[*pin].body);
+    near.extend((0..island.pins.len()).filter(own).flat_map(|pin| with_next(&island.pins, pin)).flatten());
+    linearise(contents, island, prediction, |pin| near.contains(&pin), (Impedance::update, h))?;
+    for (pin, constraint) in island.pins.iter().enumerate().filter(|(pin, _)| own(pin)) {
         let Some(a) = island.attachments[pin].and_then(|a| contents.attachments.get_mut(a)) else { continue };
         let (start, end) = (&prediction.start[constraint.body], &prediction.end[constraint.body]);
         let target = (end.point(&constraint.anchor) - start.point(&constraint.anchor)) / h;
-        let lever = (start.rotation * constraint.anchor).cross_matrix();
-        let inverse = start.world_inertia(&start.rotation).try_inverse().unwrap_or_else(Matrix3::zeros);
-        let mobility = Matrix3::identity() / start.mass - lever * inverse * lever;
-        let cable = &prediction.impedances[constraint.cable];
-        if let Some(impedance) = driving_point(cable, constraint.node, &(mobility * MOBILITY_SHARE)) {
+        if let Some(impedance) = driving_point(island, prediction, pin) {
             let ledger = a.ledger.get_or_insert_with(|| Ledger::insert(world, a.body));
             ledger.set_motors(world, &a.anchor, &Drive { impedance, target, load: None }, h);
             prediction.motors[pin] = true;
         }
     }
-    prediction.deviating = deviating;
+    (prediction.deviating, prediction.near) = (deviating, near);
     let off = island.attachments.iter().zip(&prediction.motors).filter(|(_, on)| !**on).filter_map(|(a, _)| *a);
     disable_motors(contents, world, off);
     Ok(())
@@ -90,11 +93,13 @@ pub(crate) fn hold(
 ) -> Result<(), Error> {
     let asleep = |member: &Member| member.body().is_some_and(|handle| world.bodies[handle].is_sleeping());
     let asleep: Vec<usize> = (0..island.members.len()).filter(|&m| asleep(&island.members[m])).collect();
-    linearise(contents, island, prediction, &asleep, (Impedance::update_held, h))?;
+    let on_asleep = |pin: usize| asleep.contains(&island.pins[pin].body);
+    linearise(contents, island, prediction, on_asleep, (Impedance::update_held, h))?;
     for (pin, constraint) in island.pins.iter().enumerate().filter(|(_, pin)| asleep.contains(&pin.body)) {
         let Some(a) = island.attachments[pin].and_then(|a| contents.attachments.get_mut(a)) else { continue };
-        let impedance = driving_point(&prediction.impedances[constraint.cable], constraint.node, &Matrix3::zeros());
-        let impedance = impedance.unwrap_or_else(Matrix3::zeros);
+        let cable = &prediction.impedances[constraint.cable];
+        let own = cable.nodes().iter().position(|&node| node == constraint.node);
+        let impedance = own.and_then(|own| cable.compliance(own, own).try_inverse()).unwrap_or_else(Matrix3::zeros);
         let drive = Drive { impedance, target: Vector3::zeros(), load: Some(load(a)) };
         let ledger = a.ledger.unwrap_or_else(|| Ledger::insert(world, a.body));
         a.ledger.insert(ledger.asleep(world, a.body)).set_motors(world, &a.anchor, &drive, h);
@@ -120,13 +125,21 @@ pub(crate) fn disable_motors(contents: &Contents, world: &mut PhysicsWorld, atta
 }
 
 /// Returns whether member `m` of an island is a body that may deviate from its prediction.
-fn deviates(contents: &Contents, world: &PhysicsWorld, island: &Island, prediction: &Prediction, m: usize) -> bool {
+fn deviates(
+    contents: &Contents,
+    world: &PhysicsWorld,
+    island: &Island,
+    prediction: &Prediction,
+    m: usize,
+    step: &StepParameters,
+) -> bool {
     let (Member::Body(handle), Some(_)) = (island.members[m], &prediction.applied[m]) else { return false };
     let displacement = prediction.end[m].position - prediction.start[m].position;
     if !bears_motors(prediction, m) {
         return false;
     }
     proximity::may_deviate(world, handle)
+        || proximity::unlisted_collision(world, handle, (step.h, step.fastest)).is_some()
         || !contents.records.get(handle).is_some_and(|record| record.stepped)
             && proximity::overlaps(world, handle, &displacement)
 }
@@ -145,21 +158,21 @@ fn bears_motors(prediction: &Prediction, m: usize) -> bool {
     prediction.mechanisms[m].as_ref().is_none_or(bears)
 }
 
-/// Linearises the cables of an island at their pins on `members` for a step of `h` (s), with the other pins as `update` says.
+/// Linearises the cables of an island for a step of `h` (s) at the pins that `moves` names by their indices, with the others as `update` says.
 pub(super) fn linearise(
     contents: &mut Contents,
     island: &Island,
     prediction: &mut Prediction,
-    members: &[usize],
+    moves: impl Fn(usize) -> bool,
     (update, h): (Update, f64),
 ) -> Result<(), Error> {
     let Prediction { impedances, nodes, .. } = prediction;
     impedances.resize_with(island.cables.len(), Default::default);
     let mut outcome = Ok(());
     contents.for_cables(&island.cables, |c, cable| {
-        let of_cable = island.pins.iter().filter(|pin| pin.cable == c && members.contains(&pin.body));
+        let of_cable = island.pins.iter().enumerate().filter(|(index, pin)| pin.cable == c && moves(*index));
         nodes.clear();
-        nodes.extend(of_cable.map(|pin| pin.node));
+        nodes.extend(of_cable.map(|(_, pin)| pin.node));
         if outcome.is_ok() && !nodes.is_empty() {
             outcome = update(&mut impedances[c], cable, nodes, h);
         }
@@ -167,8 +180,39 @@ pub(super) fn linearise(
     Ok(outcome?)
 }
 
-/// Returns the impedance in kg of a cable at a node, and of what has a `mobility` (1/kg) in series with it.
-fn driving_point(cable: &Impedance, node: usize, mobility: &Matrix3<f64>) -> Option<Matrix3<f64>> {
-    let own = cable.nodes().iter().position(|&n| n == node)?;
-    (cable.compliance(own, own) + mobility).try_inverse()
+/// Returns a pin and the next ones on other bodies to both sides of it on its cable.
+fn with_next(pins: &[PinConstraint], pin: usize) -> [Option<usize>; 3] {
+    let own = &pins[pin];
+    let others = (0..pins.len()).filter(|&p| pins[p].cable == own.cable && pins[p].body != own.body);
+    let before = others.clone().filter(|&p| pins[p].node < own.node).max_by_key(|&p| pins[p].node);
+    let after = others.filter(|&p| pins[p].node > own.node).min_by_key(|&p| pins[p].node);
+    [Some(pin), before, after]
+}
+
+/// Returns D of a pin; `None` if there is no inverse.
+fn driving_point(island: &Island, prediction: &Prediction, pin: usize) -> Option<Matrix3<f64>> {
+    let cable = &prediction.impedances[island.pins[pin].cable];
+    let pins = with_next(&island.pins, pin).map(|pin| {
+        let pin = &island.pins[pin?];
+        Some((pin, cable.nodes().iter().position(|&node| node == pin.node)?))
+    });
+    // where there is no next pin, the rows are those of a unit matrix
+    let mut matrix = SMatrix::<f64, 9, 9>::identity();
+    for (a, (one, i)) in pins.iter().enumerate().filter_map(|(a, pin)| Some((a, pin.as_ref()?))) {
+        for (b, (_, j)) in pins.iter().enumerate().filter_map(|(b, pin)| Some((b, pin.as_ref()?))) {
+            matrix.fixed_view_mut::<3, 3>(3 * a, 3 * b).copy_from(&cable.compliance(*i, *j));
+        }
+        let share = if a == 0 { MOBILITY_SHARE } else { 1.0 };
+        let mut own = matrix.fixed_view_mut::<3, 3>(3 * a, 3 * a);
+        own += mobility(&prediction.start[one.body], &one.anchor) * share;
+    }
+    Some(matrix.try_inverse()?.fixed_view::<3, 3>(0, 0).into_owned())
+}
+
+/// Returns the velocity of a point of a body per impulse on it, in 1/kg, as far as its axes are free.
+fn mobility(body: &RigidBody, anchor: &Vector3<f64>) -> Matrix3<f64> {
+    let free = |from: usize| Matrix3::from_diagonal(&Vector3::from_fn(|x, _| f64::from(u8::from(body.free[from + x]))));
+    let lever = (body.rotation * anchor).cross_matrix();
+    let inverse = body.world_inertia(&body.rotation).try_inverse().unwrap_or_else(Matrix3::zeros);
+    free(0) / body.mass.max(JUNCTION_MASS) - lever * free(3) * inverse * free(3) * lever
 }

@@ -43,12 +43,14 @@ use crate::error::{Error, Failure};
 use crate::events::Event;
 use crate::handle::CableHandle;
 use crate::islands::{Island, Islands};
+use crate::proximity;
 use crate::reels;
 use crate::settings::Settings;
 use crate::sleep;
 use lariat_ancf::Snapshot;
 use prediction::{Prediction, StepParameters};
 use prescribed_motion::PrescribedMotions;
+use rapier::dynamics::RigidBodyHandle;
 use rapier::math::Real;
 use rapier::pipeline::PhysicsWorld;
 
@@ -267,10 +269,13 @@ fn prepare_islands(
     let budget = stepper.budget;
     stepper.predictions.resize_with(stepper.islands.list.len(), || Prediction { budget, ..Prediction::default() });
     stepper.predictions.iter_mut().for_each(|prediction| prediction.applied.clear());
+    let is_awake = |body: RigidBodyHandle| !world.bodies[body].is_sleeping();
+    let needs_speeds = stepper.islands.list.iter().any(|island| island.bodies().any(is_awake));
     let step = StepParameters {
         h: f64::from(world.integration_parameters.dt),
         rapier_steps: host.steps,
         share: (f64::from(host.done - 1) / f64::from(host.steps), f64::from(host.done) / f64::from(host.steps)),
+        fastest: if needs_speeds { proximity::fastest(world) } else { 0.0 },
         sleep_speed: settings.sleep_speed,
     };
     let Stepper { islands, predictions, events, failures, finder, .. } = &mut *stepper;
@@ -346,7 +351,7 @@ fn complete_island(
 ) -> Result<(), Error> {
     predict::complete(contents, island, prediction);
     apply::apply(contents, world, island, prediction, step.h);
-    impedance::set_motors(contents, world, island, prediction, step.h)?;
+    impedance::set_motors(contents, world, island, prediction, step)?;
     for (&i, wheel) in island.sheaves.iter().zip(&prediction.sheaves) {
         contents.sheaves.get_mut(i).into_iter().for_each(|sheave| sheave.wheel = *wheel);
     }

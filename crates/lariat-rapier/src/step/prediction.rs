@@ -23,6 +23,8 @@ pub(crate) struct StepParameters {
     pub rapier_steps: u32,
     /// Share of the host step at which it begins and ends, 0 to 1.
     pub share: (f64, f64),
+    /// Speed in m/s of the fastest body that is awake.
+    pub fastest: f64,
     /// Speed in m/s below which bodies may sleep.
     pub sleep_speed: f64,
 }
@@ -61,6 +63,8 @@ pub(crate) struct Prediction {
     pub accounts: Vec<PinAccount>,
     /// Indices of the members that may deviate from the prediction.
     pub deviating: Vec<usize>,
+    /// Indices of their pins, and of the next ones on the same cables.
+    pub near: Vec<usize>,
     /// Nodes of a cable: a buffer.
     pub nodes: Vec<usize>,
     /// By pin, whether its motors are on.

@@ -36,6 +36,7 @@ use crate::step::prediction::{AppliedMotion, BodyStep, Prediction};
 use crate::step::reaction::update_reaction;
 use crate::step::waking;
 use ::nalgebra::{Vector3, Vector6};
+use lariat_ancf::island::RigidBody;
 use rapier::dynamics::{RigidBody as RapierBody, RigidBodyHandle};
 use rapier::math::Real;
 use rapier::pipeline::PhysicsWorld;
@@ -43,8 +44,9 @@ use rapier::pipeline::PhysicsWorld;
 /// Gap at a link of a multibody, as a share of the length of the cable, beyond which the island is refused if
 /// the gap grows.
 const MAX_LINK_GAP_SHARE: f64 = 2e-3;
-/// A body landed where it was predicted if its velocity is within this many units of rounding of the one it was given: Rapier adds
-/// up balanced forces.
+/// A body landed where it was predicted if it is within this many units of rounding of its position and of the velocity that it
+/// was given: Rapier adds up balanced forces, and every substep rounds.
+const POSITION_ROUNDING: f64 = 32.0;
 const VELOCITY_ROUNDING: f64 = 256.0;
 
 /// Updates cables, bodies and attachments of an island after a Rapier step of `h` (s).
@@ -162,7 +164,7 @@ fn read_back(
     applied.saved.restore_settings(body);
     let after = stack_spatial(&vector(body.linvel()), &vector(body.angvel()));
     let deviation = after - stack_spatial(&vector(applied.linvel), &vector(applied.angvel));
-    let landed = has_landed(applied, &deviation);
+    let landed = has_landed(body, end, applied, &deviation);
     let velocity = stack_spatial(&end.velocity, &end.angular_velocity);
     let velocity = if landed { velocity } else { velocity + deviation };
     let mut settled = end.clone();
@@ -184,12 +186,18 @@ fn read_back(
     record.exact = Some(ExactState::new(&settled, (linear, angular), body));
 }
 
-/// Returns whether a body moves as it was told to, within rounding.
-fn has_landed(applied: &AppliedMotion, deviation: &Vector6<f64>) -> bool {
-    let tolerance = VELOCITY_ROUNDING * f64::from(Real::EPSILON);
+/// Returns whether a body is where it was predicted, and moves as it was told to, within rounding. Continuous collision detection stops a body
+/// at a wall without a change of its velocity.
+fn has_landed(body: &RapierBody, end: &RigidBody, applied: &AppliedMotion, deviation: &Vector6<f64>) -> bool {
+    let epsilon = f64::from(Real::EPSILON);
+    let centre = vector(body.center_of_mass());
+    let distance = (centre - end.position).norm();
+    let tolerance = VELOCITY_ROUNDING * epsilon;
     let (linear, angular) = split_spatial(deviation);
     let speed = vector(applied.linvel).norm() + applied.balanced_velocity;
-    linear.norm() <= tolerance * speed && angular.norm() <= tolerance * vector(applied.angvel).norm()
+    distance <= POSITION_ROUNDING * epsilon * centre.norm().max(1.0)
+        && linear.norm() <= tolerance * speed
+        && angular.norm() <= tolerance * vector(applied.angvel).norm()
 }
 
 /// Returns the position of a body that deviated from the predicted one in a step of `iterations` substeps. By how much depends on when it was

@@ -45,7 +45,10 @@ pub(super) fn wake_within_step(
     let woken: Vec<usize> = bodies.filter(|(m, handle)| is_woken(*m, *handle)).map(|(m, _)| m).collect();
     // what was linearised when the motors were set can be linearised again: it has not moved since
     let held = (Impedance::update_held as impedance::Update, h);
-    if woken.is_empty() || contents.changed || impedance::linearise(contents, island, prediction, &woken, held).is_err()
+    let on_woken = |pin: usize| woken.contains(&island.pins[pin].body);
+    if woken.is_empty()
+        || contents.changed
+        || impedance::linearise(contents, island, prediction, on_woken, held).is_err()
     {
         return;
     }
