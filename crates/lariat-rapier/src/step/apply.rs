@@ -75,6 +75,7 @@ fn apply_prediction(world: &mut PhysicsWorld, step: &BodyStep, reaction: &Vector
     let applied = AppliedMotion {
         linvel,
         angvel,
+        isolated,
         balanced_velocity: (weight + force.norm() / end.mass) * h,
         saved: SavedBody::of(body),
     };

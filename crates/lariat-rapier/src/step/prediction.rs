@@ -86,6 +86,8 @@ pub(crate) struct Prediction {
 pub(crate) struct AppliedMotion {
     pub linvel: Vector,
     pub angvel: AngVector,
+    /// Whether it touches nothing and no joint holds it.
+    pub isolated: bool,
     /// Velocity in m/s that balanced forces add and remove within Rapier's step.
     pub balanced_velocity: f64,
     pub saved: SavedBody,

@@ -149,8 +149,8 @@ fn put_to_rest(world: &mut PhysicsWorld, step: &BodyStep, applied: &AppliedMotio
 
 /// Restores the forces and settings of a body, and sets its state: the predicted one if it landed
 /// there, else Rapier's position with the velocity that contacts and joints left of the predicted
-/// one. `motors` is the impulse of its motors; a body that `rests` is left where Rapier holds it, which
-/// would wake all that it touches.
+/// one. `motors` is the impulse of its motors; a body that touched nothing, or that `rests`, is left where Rapier holds it, which
+/// would find its contacts anew, and wake all that it touches.
 fn read_back(
     world: &mut PhysicsWorld,
     step: &BodyStep,
@@ -179,7 +179,7 @@ fn read_back(
     let (linear, angular) = (linear * linear_damping, angular * angular_damping);
     body.set_linvel(to_vector(&linear), false);
     body.set_angvel(to_vector(&angular), false);
-    if !rests {
+    if !applied.isolated && !rests {
         let origin = settled.position - settled.rotation * vector(body.local_center_of_mass());
         body.set_position(to_pose(&origin, &settled.rotation), false);
     }
