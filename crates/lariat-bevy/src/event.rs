@@ -45,7 +45,8 @@ pub struct CableAwake {
     pub entity: Entity,
 }
 
-/// The [budget](lariat_rapier::Budget) of a host step was spent, and the accuracy of the cable was reduced.
+/// The accuracy of the cable was reduced, by the [budget](lariat_rapier::Budget) of a host step or by a body in contact; see
+/// [`Event::Degraded`](lariat_rapier::Event::Degraded).
 #[derive(EntityEvent, Message, Clone, Debug, PartialEq)]
 pub struct CableDegraded {
     /// The cable.

@@ -16,7 +16,7 @@ use serde::{Deserialize, Serialize};
 use std::time::{Duration, Instant};
 
 /// The integrator of what is left of a host step.
-const CHEAPEST: Integrator =
+pub(crate) const CHEAPEST: Integrator =
     Integrator { method: Method::DiscreteGradient, control: StepControl::MaxStep(1.0 / 240.0) };
 
 /// The largest amount of work in a host step; beyond it, accuracy is reduced.

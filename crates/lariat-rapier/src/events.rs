@@ -75,7 +75,9 @@ pub enum Event {
         /// The collider.
         collider: ColliderHandle,
     },
-    /// The [budget](crate::Budget) of the host step was spent, and accuracy was reduced.
+    /// Accuracy was reduced: the [budget](crate::Budget) of the host step was spent, or a cable with error control holds a body in contact that is so
+    /// light that [`Settings::max_rapier_steps`](crate::Settings::max_rapier_steps) do not resolve its vibration, or holds it without damping
+    /// ([`Damping::axial`](lariat_ancf::Damping::axial) below 3 % of a Rapier step): it is then integrated as in fidelity game.
     Degraded(CableHandle),
     /// A cable woke up.
     Awake(CableHandle),

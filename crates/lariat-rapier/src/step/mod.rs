@@ -235,8 +235,11 @@ fn predict_islands(
     reels::follow(contents);
     for (island, prediction) in islands.list.iter().zip(predictions.iter_mut()) {
         if core::mem::take(&mut prediction.degraded) {
-            let named = |&c: &usize| Event::Degraded(CableHandle(c as u32));
-            events.extend(island.cables.iter().map(named).filter(|event| !events.contains(event)).collect::<Vec<_>>());
+            for event in island.cables.iter().map(|&c| Event::Degraded(CableHandle(c as u32))) {
+                if !events.contains(&event) {
+                    events.push(event);
+                }
+            }
         }
         if prediction.integrator.is_some() && prediction.error.is_none() {
             prediction.error = complete_island(contents, world, island, prediction, &step).err();

@@ -39,16 +39,20 @@
 use crate::attachment::Attachment;
 use crate::body::is_integrated;
 use crate::contents::Contents;
+use crate::islands::Island;
 use crate::pose::MAX_HALF_ROTATION;
 use crate::proximity;
 use crate::settings::Settings;
 use crate::spatial::split_spatial;
 use ::nalgebra::Vector3;
 use lariat_ancf::At;
+use rapier::dynamics::RigidBodyHandle;
 use rapier::pipeline::PhysicsWorld;
 
+/// Strain from which a cable counts as taut.
+const TAUT_STRAIN: f64 = 1e-5;
 /// Largest h w.
-const MAX_PHASE: f64 = 0.6;
+pub(super) const MAX_PHASE: f64 = 0.6;
 /// Steps of a host step of a body that joints hold: the reactions of joints are estimated from step
 /// to step. With one step, arms that close at a limit or are near a body blow up.
 const JOINTED_STEPS: f64 = 4.0;
@@ -76,9 +80,7 @@ pub(crate) fn count(contents: &Contents, world: &PhysicsWorld, settings: &Settin
         let inverse_mass = f64::from(world.bodies[a.body].mass_properties().local_mprops.inv_mass);
         let reaction = split_spatial(&contents.records.reaction(a.body)).0.norm();
         let change = MAX_REBOUND * speed * dt + 0.5 * reaction * inverse_mass * dt * dt;
-        let on_body = contents.attachments.values().filter(|b| b.body == a.body);
-        let taut = on_body.flat_map(|b| parts(contents, b)).filter(|p| p.speed * dt + change > SLACK_SHARE * p.slack);
-        let stiffness: f64 = taut.map(|part| part.stiffness).sum();
+        let stiffness = taut_stiffness(contents, a.body, (dt, change));
         needed = needed.max(dt * (stiffness * inverse_mass).sqrt() / MAX_PHASE);
     }
     let jointed = |a: &Attachment| is_integrated(world, a.body) && !proximity::is_unjointed(world, a.body);
@@ -107,9 +109,61 @@ fn deviation_speed(
     a: &Attachment,
     (dt, fastest): (f64, f64),
 ) -> Option<f64> {
-    let (reaction, _) = split_spatial(&contents.records.reaction(a.body));
-    let reacts = reaction.norm() > MIN_REACTION * a.reading.force.norm();
-    proximity::collision(world, a.body, (dt, fastest)).or(reacts.then_some(0.0))
+    proximity::collision(world, a.body, (dt, fastest)).or(reacts(contents, a).then_some(0.0))
+}
+
+/// Returns whether a body has a reaction estimate that counts beside the force at its attachment.
+fn reacts(contents: &Contents, a: &Attachment) -> bool {
+    split_spatial(&contents.records.reaction(a.body)).0.norm() > MIN_REACTION * a.reading.force.norm()
+}
+
+/// Returns whether a cable pulls at an attachment.
+fn is_taut(contents: &Contents, a: &Attachment) -> bool {
+    let Some(slot) = contents.slot(a.cable) else { return false };
+    let elements = slot.cable.elements();
+    let section = &elements[a.node.min(elements.len() - 1)].section;
+    a.reading.force.norm() > TAUT_STRAIN * section.axial_stiffness
+}
+
+/// Returns an upper bound in N/m of the stiffness of the cables of a body that may be taut within `dt` (s), if the body moves by `change` (m) beside
+/// its present motion.
+fn taut_stiffness(contents: &Contents, body: RigidBodyHandle, (dt, change): (f64, f64)) -> f64 {
+    let on_body = contents.attachments.values().filter(|a| a.body == body);
+    let taut =
+        on_body.flat_map(|a| parts(contents, a)).filter(|part| part.speed * dt + change > SLACK_SHARE * part.slack);
+    taut.map(|part| part.stiffness).sum()
+}
+
+/// A body that contacts hold against a taut cable.
+pub(super) struct Held {
+    /// h w.
+    pub phase: f64,
+    /// Mass in kg.
+    pub mass: f64,
+}
+
+/// Returns the bodies of an island, but those on joints, that contacts hold against taut cables in steps of `h` (s), with less kinetic energy than
+/// the strain of the cables has, once for each cable.
+pub(super) fn held<'a>(
+    contents: &'a Contents,
+    world: &'a PhysicsWorld,
+    island: &'a Island,
+    h: f64,
+) -> impl Iterator<Item = Held> + 'a {
+    let attached = island.attachments.iter().flatten().filter_map(|&index| contents.attachments.get(index));
+    let is_held = move |a: &&Attachment| {
+        is_integrated(world, a.body)
+            && proximity::is_unjointed(world, a.body)
+            && is_taut(contents, a)
+            && reacts(contents, a)
+    };
+    attached.filter(is_held).filter_map(move |a| {
+        let stiffness = taut_stiffness(contents, a.body, (h, 0.0));
+        let body = &world.bodies[a.body];
+        let (mass, speed) = (f64::from(body.mass()), f64::from(body.linvel().length()));
+        let rests = mass * speed * speed * stiffness < a.reading.force.norm_squared();
+        (rests && stiffness > 0.0).then(|| Held { phase: h * (stiffness / mass).sqrt(), mass })
+    })
 }
 
 /// The part of a cable between a node and a held end.
