@@ -4,6 +4,7 @@
 //! ```text
 //! h w <= 0.6                      w^2 = k/m,   k = sum of EA/l over the pins of a body
 //! h |w|/(2 N) <= 1.2              in N solver iterations
+//! h |w|/(2 N) <= 0.005            of a body on impulse joints
 //! h |w1 - w0|/4 <= 0.01           of a body on joints, from one end of a Rapier step to the other
 //! ```
 //! *Vibration.* Between two Rapier steps the reaction estimate of a body in contact is constant. If
@@ -20,7 +21,8 @@
 //!
 //! *Turns.* A mechanism is predicted as it is halfway of a Rapier step, at the velocities with which that begins. If they change in it, by a line that snaps
 //! taut, bodies on joints have turned otherwise by the left side of the last line, by which share the directions in which they can move are wrong. Then the
-//! step is predicted anew, divided.
+//! step is predicted anew, divided. Impulse joints turn a velocity by removing what they do not allow of it, in each substep the share (w h/N)^2/2, which is the left
+//! side of the line before per radian.
 //!
 //! The collisions and the taut cables of the whole coming host step count ([`crate::proximity`]). All is evaluated again before each Rapier
 //! step, and the rest of the host step is split finer.
@@ -56,6 +58,8 @@ pub(super) const MAX_PHASE: f64 = 0.6;
 /// Steps of a host step of a body that joints hold: the reactions of joints are estimated from step
 /// to step. With one step, arms that close at a limit or are near a body blow up.
 const JOINTED_STEPS: f64 = 4.0;
+/// Largest share of its velocity that a body on impulse joints loses per radian.
+const MAX_LOSS: f64 = 5e-3;
 /// Largest error in rad of the attitude at which a mechanism is predicted.
 pub(super) const MAX_TURN_ERROR: f64 = 0.01;
 /// Share of a cable's slack by which its chord may grow, so that its stiffness does not double.
@@ -92,13 +96,17 @@ pub(crate) fn count(contents: &Contents, world: &PhysicsWorld, settings: &Settin
     (needed.ceil().min(f64::from(max)) as u32).max(min)
 }
 
-/// Returns the number of steps of `dt` (s) that attached bodies need so that none rotates by more
-/// than Rapier's linearised rotation can in a substep.
+/// Returns the number of steps of `dt` (s) that attached bodies need so that none rotates by more than Rapier's linearised rotation can in a substep, or
+/// its impulse joints can turn a velocity.
 fn rotation(contents: &Contents, world: &PhysicsWorld, dt: f64) -> f64 {
     let substeps = world.integration_parameters.num_solver_iterations.max(1) as f64;
-    let spins = contents.attachments.values().filter_map(|a| world.bodies.get(a.body));
-    let fastest = spins.filter(|b| b.is_dynamic()).map(|b| f64::from(b.angvel().length())).fold(0.0, f64::max);
-    0.5 * fastest * dt / substeps / MAX_HALF_ROTATION
+    let count = |a: &Attachment| {
+        let spin = world.bodies.get(a.body).filter(|body| body.is_dynamic()).map_or(0.0, |body| body.angvel().length());
+        let is_link = || world.multibody_joints.rigid_body_link(a.body).is_some();
+        let turned = proximity::is_unjointed(world, a.body) || is_link();
+        0.5 * f64::from(spin) * dt / substeps / if turned { MAX_HALF_ROTATION } else { MAX_LOSS }
+    };
+    contents.attachments.values().map(count).fold(0.0, f64::max)
 }
 
 /// Returns the speed in m/s at which the body of an attachment may collide within `dt` (s), if no other body is

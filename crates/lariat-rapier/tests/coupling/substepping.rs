@@ -108,3 +108,32 @@ fn a_slack_cable_does_not_split_the_host_step() {
         assert_eq!(steps, expected);
     }
 }
+
+/// A bar on a hinge, a light thread at its tip, spins freely for two turns, in host steps of 1/30 s with one solver iteration.
+///
+/// Reference: conservation of the angular momentum about the hinge; the thread has 1e-5 of the mass of the bar. Rapier's joints may take 0.005 of it
+/// per radian. In four Rapier steps at any speed it lost 10 % at 3 rad/s and 25 % at 10 rad/s.
+#[test]
+fn a_bar_on_a_hinge_keeps_its_spin() {
+    for spin in [3.0, 10.0] {
+        let mut world = weightless();
+        world.integration_parameters.num_solver_iterations = 1;
+        world.integration_parameters.dt = 1.0 / 30.0;
+        let post = world.insert_body(RigidBodyBuilder::fixed());
+        let bar = RigidBodyBuilder::dynamic().translation(Vector::new(0.5, 0.0, 0.0));
+        let bar = bar.linvel(Vector::new(0.0, 0.5 * spin as Real, 0.0)).angvel(Vector::new(0.0, 0.0, spin as Real));
+        let (bar, _) = world.insert(bar, ColliderBuilder::cuboid(0.5, 0.02, 0.02).mass(10.0));
+        let hinge = RevoluteJointBuilder::new(Vector::Z).local_anchor2(Vector::new(-0.5, 0.0, 0.0));
+        world.insert_impulse_joint(post, bar, hinge);
+        let mut set = CableSet::new();
+        let thread = Section::from_stiffness(1e3, 1e-5, 2e-4).unwrap();
+        let thread = cable([1.0, 0.0, 0.0], [1.5, 0.0, 0.0], thread).gravity(Vector3::zeros()).elements(4);
+        let thread = set.insert(thread.build().unwrap());
+        set.get_mut(thread).unwrap().set_rigid_motion(Vector3::y() * spin, Vector3::z() * spin).unwrap();
+        set.attach_here(&world, thread, At::Start, bar, AttachmentKind::Ball).unwrap();
+        run(&mut world, &mut set, (4.0 * std::f64::consts::PI / spin * 30.0) as usize);
+        let kept = f64::from(world.bodies[bar].angvel().z) / spin;
+        println!("{spin} rad/s: {kept:.4} kept");
+        assert!(kept > 1.0 - 0.005 * 4.0 * std::f64::consts::PI && kept < 1.0, "{spin} rad/s: {kept:.4}");
+    }
+}
