@@ -40,6 +40,7 @@
 
 use crate::attachment::Attachment;
 use crate::body::is_integrated;
+use crate::contact;
 use crate::contents::Contents;
 use crate::islands::Island;
 use crate::pose::MAX_HALF_ROTATION;
@@ -91,9 +92,33 @@ pub(crate) fn count(contents: &Contents, world: &PhysicsWorld, settings: &Settin
     if contents.attachments.values().any(jointed) {
         needed = needed.max(JOINTED_STEPS);
     }
-    let needed = needed.max(rotation(contents, world, dt));
+    let needed = needed.max(rotation(contents, world, dt)).max(pressed(contents, world, dt));
     // a value that is not a number, or too large, gives the maximum
     (needed.ceil().min(f64::from(max)) as u32).max(min)
+}
+
+/// Returns the number of steps of `dt` (s) that bodies need which cables press on others, so that none vibrates between
+/// them. A cable that touches a body is as stiff as one that is attached to it in the middle.
+fn pressed(contents: &Contents, world: &PhysicsWorld, dt: f64) -> f64 {
+    let mut stiffnesses: Vec<(RigidBodyHandle, f64)> = Vec::new();
+    for slot in contents.cables.values() {
+        let compliance: f64 = slot.cable.elements().iter().map(|e| e.length / e.section.axial_stiffness).sum();
+        let mut last = None;
+        for touch in slot.cable.contacts() {
+            let body = world.colliders.get(contact::collider(touch.obstacle)).and_then(|c| c.parent());
+            let Some(body) = body.filter(|body| is_integrated(world, *body) && last != Some(*body)) else { continue };
+            last = Some(body);
+            match stiffnesses.iter_mut().find(|(known, _)| *known == body) {
+                Some((_, sum)) => *sum += 4.0 / compliance,
+                None => stiffnesses.push((body, 4.0 / compliance)),
+            }
+        }
+    }
+    let near = stiffnesses.iter().filter(|(body, _)| proximity::may_deviate(world, *body));
+    let count = |(body, stiffness): &(RigidBodyHandle, f64)| {
+        dt * (stiffness * f64::from(world.bodies[*body].mass_properties().local_mprops.inv_mass)).sqrt() / MAX_PHASE
+    };
+    near.map(count).fold(0.0, f64::max)
 }
 
 /// Returns the number of steps of `dt` (s) that attached bodies need so that none rotates by more than Rapier's linearised rotation can in a substep, or
