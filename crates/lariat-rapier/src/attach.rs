@@ -53,7 +53,6 @@ pub(crate) fn attach(
         at_eye: false,
         from_start: 0,
         steady_force: Vector3::zeros(),
-        shown: None,
         predicted: PinAccount::default(),
     });
     contents.changed = true;

@@ -82,17 +82,6 @@ impl From<AttachmentKind> for AttachmentOptions {
     }
 }
 
-/// The stiffness that a cable shows at an attachment, all its other ends held.
-#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
-pub(crate) struct ShownStiffness {
-    /// Step in s over which it was found.
-    pub step: f64,
-    /// Stiffness in N/m, inertia included.
-    pub stiffness: f64,
-    /// Slack in m of the cable when it was found.
-    pub slack: f64,
-}
-
 /// A node of a cable attached to a point of a body.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Attachment {
@@ -121,9 +110,6 @@ pub struct Attachment {
     pub(crate) from_start: i64,
     /// Force in N when the time until sleep last began to count.
     pub(crate) steady_force: Vector3<f64>,
-    /// What the cable showed to motors in the last Rapier step; `None` if there were none.
-    #[serde(default)]
-    pub(crate) shown: Option<ShownStiffness>,
     /// Exchange between cable and body in the Rapier step that was predicted.
     #[serde(skip)]
     pub(crate) predicted: PinAccount,

@@ -16,7 +16,7 @@
 //! A function named after a type returns that of the mechanics; one with `to_` returns Rapier's.
 
 use ::nalgebra as na;
-use rapier::math::{Matrix, Pose, Real, Rotation, Vector};
+use rapier::math::{AngularInertia, Matrix, Pose, Real, Rotation, Vector};
 
 /// Conversion to Rapier's type, rounded to its precision.
 pub trait ToRapier {
@@ -67,6 +67,11 @@ pub fn to_rotation(r: &na::UnitQuaternion<f64>) -> Rotation {
 /// Converts Rapier's matrix to `f64`.
 pub fn matrix(m: &Matrix) -> na::Matrix3<f64> {
     na::Matrix3::from_fn(|r, c| f64::from(m.col(c)[r]))
+}
+
+/// Converts Rapier's symmetric matrix to `f64`.
+pub(crate) fn symmetric(s: &AngularInertia) -> na::Matrix3<f64> {
+    na::Matrix3::new(s.m11, s.m12, s.m13, s.m12, s.m22, s.m23, s.m13, s.m23, s.m33).map(f64::from)
 }
 
 /// Makes a pose of Rapier's from a translation in m and a rotation.

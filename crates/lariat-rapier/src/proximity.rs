@@ -4,9 +4,7 @@
 //! within its prediction distance. A body that moves farther than that in a step meets others
 //! before they are listed: its box, swept along its displacement, is looked up among all others.
 //!
-//! Boxes along the axes overlap long before bodies do: that of a long lever holds the loads below it. Of a body that joints hold,
-//! whose motion by its mechanism is exact until it touches something, the distance decides; of others the boxes, so that a body
-//! that chatters in a jam keeps its reaction.
+//! Boxes along the axes overlap long before bodies do: that of a long lever holds the loads below it. Therefore the distance decides.
 
 use crate::convert::{to_vector, vector};
 use crate::ledger::is_ledger;
@@ -50,8 +48,7 @@ pub(crate) fn is_unjointed(world: &PhysicsWorld, handle: RigidBodyHandle) -> boo
 /// Returns whether Rapier's next step may make contacts of a body with another, of those that it lists pairs of.
 /// It keeps the pairs of a removed collider until then.
 fn is_near_another(world: &PhysicsWorld, handle: RigidBodyHandle) -> bool {
-    let boxes = is_unjointed(world, handle);
-    pairs(world, handle).any(|(own, other, pair)| boxes || may_touch(world, own, other, pair))
+    pairs(world, handle).any(|(own, other, pair)| may_touch(world, own, other, pair))
 }
 
 /// Returns whether a pair that Rapier lists may touch in its next step or, at twice the present velocities, in the one after it: the reaction
@@ -120,18 +117,17 @@ pub(crate) fn overlaps(world: &PhysicsWorld, handle: RigidBodyHandle, displaceme
     })
 }
 
-/// Returns an upper bound in m/s of the speed at which a body with `displacement` (m) in a step may
-/// collide with one that Rapier lists no pair with yet; `None` if it cannot. Slow bodies among slow
-/// ones need no look-up.
+/// Returns an upper bound in m/s of the speed at which a body may collide within `dt` (s) with one that Rapier lists no pair
+/// with yet, if no other is faster than `fastest` (m/s); `None` if it cannot. Slow bodies among slow ones need no look-up.
 pub(crate) fn unlisted_collision(
     world: &PhysicsWorld,
     handle: RigidBodyHandle,
-    displacement: &Vector3<f64>,
     (dt, fastest): (f64, f64),
 ) -> Option<f64> {
+    let velocity = vector(world.bodies[handle].linvel());
+    let displacement = velocity * dt;
     let listed = f64::from(world.integration_parameters.prediction_distance());
     let others = dt * fastest;
-    let boxes = is_unjointed(world, handle);
     // the list of pairs may be one step old
     if 2.0 * (displacement.norm() + others) <= listed {
         return None;
@@ -140,16 +136,15 @@ pub(crate) fn unlisted_collision(
     let collides = colliders.filter(|c| c.is_enabled() && !c.is_sensor()).any(|collider| {
         let filter =
             QueryFilter::default().exclude_rigid_body(handle).exclude_sensors().groups(collider.collision_groups());
-        let own = swept(collider.compute_aabb(), displacement, listed);
+        let own = swept(collider.compute_aabb(), &displacement, listed);
         let reached = own.loosened(others as Real);
         world.intersect_aabb_conservative(reached, filter).any(|(_, other)| {
             let moved = velocity_of(world, other) * dt;
             let way = || (displacement - moved).norm() + turn(world, collider, dt) + turn(world, other, dt);
-            swept(other.compute_aabb(), &moved, 0.0).intersects(&own)
-                && (boxes || reaches(world, collider, other, way()))
+            swept(other.compute_aabb(), &moved, 0.0).intersects(&own) && reaches(world, collider, other, way())
         })
     });
-    collides.then(|| displacement.norm() / dt + fastest)
+    collides.then(|| velocity.norm() + fastest)
 }
 
 /// Returns the velocity in m/s of the body of a collider.
@@ -163,7 +158,6 @@ fn velocity_of(world: &PhysicsWorld, collider: &Collider) -> Vector3<f64> {
 pub(crate) fn collision(world: &PhysicsWorld, handle: RigidBodyHandle, (dt, fastest): (f64, f64)) -> Option<f64> {
     let velocity = vector(world.bodies[handle].linvel());
     let margin = f64::from(world.integration_parameters.prediction_distance());
-    let boxes = is_unjointed(world, handle);
     let speeds = pairs(world, handle).filter_map(|(own, other, pair)| {
         let relative = velocity - velocity_of(world, other);
         let normals = pair.manifolds().iter().filter(|m| !m.points.is_empty()).map(|m| vector(m.data.normal));
@@ -171,12 +165,12 @@ pub(crate) fn collision(world: &PhysicsWorld, handle: RigidBodyHandle, (dt, fast
         let way = || relative.norm() * dt + turn(world, own, dt) + turn(world, other, dt);
         let meets = || {
             swept(own.compute_aabb(), &(relative * dt), margin).intersects(&other.compute_aabb())
-                && (boxes || reaches(world, own, other, way()))
+                && reaches(world, own, other, way())
         };
         along.or_else(|| meets().then(|| relative.norm()))
     });
     let listed = speeds.reduce(f64::max);
-    let unlisted = unlisted_collision(world, handle, &(velocity * dt), (dt, fastest));
+    let unlisted = unlisted_collision(world, handle, (dt, fastest));
     listed.into_iter().chain(unlisted).reduce(f64::max)
 }
 

@@ -1,6 +1,6 @@
 //! What the coupling keeps of each body between steps.
 
-use crate::convert::{rotation, to_pose, vector};
+use crate::convert::{to_pose, vector};
 use crate::motion_memory::MotionMemory;
 use crate::pose::{self, OriginPose};
 use crate::unsettled::SettleWatch;
@@ -34,9 +34,6 @@ pub(crate) struct BodyRecord {
     /// Of a body on joints, force in N and torque in N m of its cables, smoothed over the last steps.
     #[serde(default = "Vector6::zeros")]
     pub pull: Vector6<f64>,
-    /// Of a body on joints, the error in rad of the attitude at which it was predicted in the last step, over the square of that step in s.
-    #[serde(default)]
-    pub turn_error: f64,
     /// Of a body on joints, what Rapier made of its predictions.
     #[serde(default)]
     pub settling: SettleWatch,
@@ -57,7 +54,6 @@ impl BodyRecord {
             place: None,
             next_place: None,
             pull: Vector6::zeros(),
-            turn_error: 0.0,
             settling: SettleWatch::default(),
             rotates: false,
         }
@@ -74,7 +70,6 @@ pub(crate) struct ExactState {
     /// Accelerations at the end of the step that produced this state.
     pub accelerations: Option<BodyMemory>,
     centre: Vector,
-    inverse_mass: Real,
     pose: Pose,
     linvel: Vector,
     angvel: AngVector,
@@ -83,20 +78,14 @@ pub(crate) struct ExactState {
 impl ExactState {
     /// The state `end`, with the velocities that damping left of it, beside `body`, which holds it
     /// rounded.
-    pub fn new(
-        end: &RigidBody,
-        (velocity, angular_velocity): (Vector3<f64>, Vector3<f64>),
-        centre: Vector,
-        body: &RapierBody,
-    ) -> Self {
+    pub fn new(end: &RigidBody, (velocity, angular_velocity): (Vector3<f64>, Vector3<f64>), body: &RapierBody) -> Self {
         ExactState {
             position: end.position,
             rotation: end.rotation,
             velocity,
             angular_velocity,
             accelerations: end.memory,
-            centre,
-            inverse_mass: body.mass_properties().local_mprops.inv_mass,
+            centre: body.local_center_of_mass(),
             pose: *body.position(),
             linvel: body.linvel(),
             angvel: body.angvel(),
@@ -111,29 +100,24 @@ impl ExactState {
     /// Replaces what `out` reads of `body` by this state, as far as `body` is still as it was
     /// written.
     pub fn apply_to(&self, body: &RapierBody, out: &mut RigidBody) {
-        if self.pose != *body.position()
-            || self.centre != body.local_center_of_mass()
-            || self.inverse_mass != body.mass_properties().local_mprops.inv_mass
-        {
+        if self.pose != *body.position() || self.centre != body.local_center_of_mass() {
             return;
         }
         out.position = self.position;
         out.rotation = self.rotation;
-        let (linear, angular) = (self.linvel == body.linvel(), self.angvel == body.angvel());
-        if linear {
+        out.memory = self.accelerations;
+        if self.linvel == body.linvel() {
             out.velocity = self.velocity;
         }
-        if angular {
+        if self.angvel == body.angvel() {
             out.angular_velocity = self.angular_velocity;
         }
-        out.memory = self.accelerations.filter(|_| linear && angular);
     }
 
     /// Sets the state to rest, as `body` is.
     pub fn stop(&mut self, body: &RapierBody) {
         (self.velocity, self.angular_velocity) = (Vector3::zeros(), Vector3::zeros());
         (self.linvel, self.angvel) = (body.linvel(), body.angvel());
-        self.accelerations = None;
     }
 
     /// Returns the position of a point given in body axes from the centre of mass.
@@ -156,6 +140,11 @@ impl Records {
         self.find(body).ok().map(|i| &self.0[i])
     }
 
+    /// Returns the estimate of the force and torque of contacts and joints on a body.
+    pub fn reaction(&self, body: RigidBodyHandle) -> Vector6<f64> {
+        self.get(body).map_or_else(Vector6::zeros, |record| record.reaction)
+    }
+
     /// Returns the record of a body, to change it; a new one if there is none.
     pub fn record_mut(&mut self, body: RigidBodyHandle) -> &mut BodyRecord {
         let i = self.find(body).unwrap_or_else(|i| {
@@ -172,45 +161,26 @@ impl Records {
         known.filter(|(rounded, _)| rounded == pose).map_or_else(|| pose::pose(world, handle), |(_, place)| place)
     }
 
-    /// Returns by how much (m) an anchor on a body was rounded in a host step of `dt` (s): not at all if the body's place is known in `f64`, or
-    /// if it moved by less.
-    pub fn rounding(&self, world: &PhysicsWorld, handle: RigidBodyHandle, anchor: &Vector3<f64>, dt: f64) -> f64 {
+    /// Returns by how much (m) an anchor on a body was rounded in a host step: of a body that the user moves to poses.
+    pub fn rounding(&self, world: &PhysicsWorld, handle: RigidBodyHandle, anchor: &Vector3<f64>) -> f64 {
         let Some(body) = world.bodies.get(handle) else { return 0.0 };
-        let unit = 0.5 * f64::from(Real::EPSILON);
+        if body.body_type() != RigidBodyType::KinematicPositionBased {
+            return 0.0;
+        }
+        let motion = self.get(handle).and_then(|record| record.motion);
+        let (position, attitude) = motion.map_or((false, false), |motion| motion.is_rounded());
         let (distance, lever) = (vector(body.translation()).amax(), 2.0 * anchor.norm());
-        let record = self.get(handle);
-        let (position, attitude) = match body.body_type() {
-            RigidBodyType::Dynamic => {
-                let rounded =
-                    !body.is_sleeping() && record.is_some_and(|record| record.stepped && record.exact.is_none());
-                let way = f64::from(body.linvel().length()) + f64::from(body.angvel().length()) * lever;
-                let moves = rounded && way * dt > unit * (distance + lever);
-                (moves, moves)
-            }
-            RigidBodyType::KinematicPositionBased => {
-                record.and_then(|record| record.motion).map_or((false, false), |motion| motion.is_rounded())
-            }
-            _ => (false, false),
-        };
+        let unit = 0.5 * f64::from(Real::EPSILON);
         unit * (if position { distance } else { 0.0 } + if attitude { lever } else { 0.0 })
     }
 
     /// Takes over where kinematic bodies went in a Rapier step: as prescribed, but for rounding. Rapier adds up the rounding of a body that it
     /// moves by its velocity; here it ends.
     pub fn follow_kinematic(&mut self, world: &mut PhysicsWorld) {
-        let substeps = world.integration_parameters.num_solver_iterations;
         for record in &mut self.0 {
             record.place = None;
             let Some(place) = record.next_place.take() else { continue };
             let Some(body) = world.bodies.get_mut(record.handle).filter(|body| body.is_kinematic()) else { continue };
-            let (origin, attitude) = (vector(body.translation()), rotation(*body.rotation()));
-            let lever = vector(body.local_center_of_mass()).norm();
-            let rounding = pose::rounding(substeps);
-            if (origin - place.0).norm() > 2.0 * rounding * (origin.norm() + lever)
-                || attitude.angle_to(&place.1) > 2.0 * rounding
-            {
-                continue;
-            }
             let rounded = to_pose(&place.0, &place.1);
             if body.body_type() == RigidBodyType::KinematicVelocityBased && *body.position() != rounded {
                 body.set_position(rounded, false);

@@ -22,7 +22,7 @@
 use crate::contents::Contents;
 use crate::events::Event;
 use crate::handle::CableHandle;
-use crate::islands::{Island, Member};
+use crate::islands::Island;
 use rapier::pipeline::PhysicsWorld;
 
 /// Relative change of the force at an attachment that is allowed while a body falls asleep.
@@ -54,7 +54,7 @@ pub(crate) fn update(
         let Some(slot) = contents.cables.get_mut(c) else { continue };
         disturbed |= core::mem::take(&mut slot.modified);
     }
-    let undisturbed = sleeping > 0 && !disturbed && is_quiet(contents, world, island, speed);
+    let undisturbed = sleeping > 0 && !disturbed && is_quiet(contents, island, speed);
     let asleep = undisturbed && sleeping == count;
     if !asleep {
         release(contents, island);
@@ -92,7 +92,7 @@ pub(crate) fn keep_awake(
     disturbed: bool,
     speed: f64,
 ) {
-    if island.bodies().next().is_none() || !disturbed && is_resting(contents, world, island, speed) {
+    if island.bodies().next().is_none() || !disturbed && is_resting(contents, island, speed) {
         return;
     }
     for index in island.attachments.iter().flatten() {
@@ -110,8 +110,8 @@ pub(crate) fn keep_awake(
 }
 
 /// Returns whether an island is slower than `speed` (m/s), under forces that do not change.
-pub(crate) fn is_resting(contents: &Contents, world: &PhysicsWorld, island: &Island, speed: f64) -> bool {
-    is_steady(contents, island) && is_quiet(contents, world, island, speed)
+pub(crate) fn is_resting(contents: &Contents, island: &Island, speed: f64) -> bool {
+    is_steady(contents, island) && is_quiet(contents, island, speed)
 }
 
 /// Returns whether the forces at the attachments of an island are those at which the time until
@@ -123,19 +123,9 @@ fn is_steady(contents: &Contents, island: &Island) -> bool {
     })
 }
 
-/// Returns whether cables and bodies of an island are slower than `speed` (m/s), and all loads at
+/// Returns whether the cables of an island are slower than `speed` (m/s), their ends held still, and all loads at
 /// their full value.
-fn is_quiet(contents: &Contents, world: &PhysicsWorld, island: &Island, speed: f64) -> bool {
-    let slow = |i: usize, member: &Member| match member {
-        Member::Body(handle) => world.bodies.get(*handle).is_none_or(|body| {
-            let lever = island.pins_on(i).map(|p| island.pins[p].anchor.norm()).fold(0.0, f64::max);
-            f64::from(body.linvel().length()) + f64::from(body.angvel().length()) * lever < speed
-        }),
-        _ => true,
-    };
-    island.members.iter().enumerate().all(|(i, member)| slow(i, member))
-        && island.cables.iter().filter_map(|&c| contents.cables.get(c)).all(|slot| {
-            let still = || slot.cable.speed() < speed && slot.cable.is_loaded_steadily() && slot.cable.is_held_still();
-            slot.cable.is_reel_still() && (slot.asleep || still())
-        })
+fn is_quiet(contents: &Contents, island: &Island, speed: f64) -> bool {
+    let mut cables = island.cables.iter().filter_map(|&c| contents.cables.get(c)).map(|slot| &slot.cable);
+    cables.all(|cable| cable.speed() < speed && cable.is_loaded_steadily() && cable.is_held_still())
 }

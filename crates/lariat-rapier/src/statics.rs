@@ -250,7 +250,7 @@ fn write(contents: &mut Contents, world: &mut PhysicsWorld, solved: Solved<'_>) 
         let record = contents.records.record_mut(handle);
         record.reaction = Vector6::zeros();
         let still = (Vector3::zeros(), Vector3::zeros());
-        record.exact = end.map(|end| ExactState::new(end, still, body.local_center_of_mass(), body));
+        record.exact = end.map(|end| ExactState::new(end, still, body));
     }
 }
 

@@ -206,7 +206,7 @@ pub(crate) fn note(contents: &mut Contents, world: &PhysicsWorld, events: &mut V
         let Some(attachment) = attachments.get_mut(index) else { continue };
         let Some(slot) = cables.get_mut(attachment.cable.0 as usize) else { continue };
         slot.alone &= !world.bodies.get(attachment.body).is_some_and(|body| body.is_dynamic());
-        slot.rounding = records.rounding(world, attachment.body, &attachment.anchor, dt).max(slot.rounding);
+        slot.rounding = records.rounding(world, attachment.body, &attachment.anchor).max(slot.rounding);
         if slot.asleep {
             continue;
         }

@@ -16,7 +16,7 @@ use crate::events::Event;
 use crate::handle::CableHandle;
 use crate::islands::{Island, Member};
 use crate::step::prediction::StepParameters;
-use crate::step::prescribed_motion::{PrescribedMotions, reference};
+use crate::step::prescribed_motion::PrescribedMotions;
 use ::nalgebra::{UnitQuaternion, Vector3};
 use lariat_ancf::contact::{LARGEST_RESTITUTION, Mount, Obstacle, Overlap, RigidMotion, Surface};
 use lariat_ancf::{Cable, Warning};
@@ -316,7 +316,8 @@ fn motion(
         return still(collider, time);
     }
     let [((from, attitude), _), ((to, turned), _)] = motions.ends(world, parent, step.share, step.h);
-    let point = reference(world, parent);
+    // it moves uniformly if nothing accelerates the body
+    let point = vector(world.bodies[parent].local_center_of_mass());
     let (offset, tilt): (Vector3<f64>, UnitQuaternion<f64>) = (vector(local.translation), rotation(local.rotation));
     let mut out = RigidMotion {
         start: time,

@@ -125,11 +125,6 @@ impl Group {
         }
     }
 
-    /// Returns the mobility of two members, by their numbers in the group, as the island knows it.
-    pub fn mobility(&self, a: usize, b: usize) -> Matrix6<f64> {
-        Self::block(&self.mobility, a, b) + Self::block(&self.own, a, b) * JOINT_COMPLIANCE
-    }
-
     /// Stacks a vector of each member, in their order.
     pub fn stack_of(&self, vectors: impl Iterator<Item = Vector6<f64>>) -> DVector<f64> {
         let mut stacked = DVector::zeros(6 * self.members.len());

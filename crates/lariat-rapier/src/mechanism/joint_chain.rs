@@ -18,28 +18,17 @@
 use super::constraints::{Constraints, Limit};
 use super::limits;
 use super::loads::{CarriedLoads, are_isolated, can_predict_loads};
+use super::of_body::{Mechanism, Velocities};
 use super::request::Request;
-use crate::convert::{rotation, to_vector, vector};
+use crate::convert::{rotation, symmetric, vector};
 use crate::ledger::is_ledger;
-use crate::spatial::{split_spatial, stack_spatial};
-use ::nalgebra::{DMatrix, DVector, Matrix3, Matrix6, UnitQuaternion, Vector3, Vector6};
+use crate::spatial::stack_spatial;
+use ::nalgebra::{DMatrix, DVector, Matrix3, UnitQuaternion, Vector3, Vector6};
 use rapier::dynamics::{ImpulseJoint, RigidBody, RigidBodyHandle};
-use rapier::math::{AngVector, Vector};
 use rapier::pipeline::PhysicsWorld;
 
 /// Largest number of bodies of a chain; those beyond count as free.
 const MAX_BODIES: usize = 24;
-
-/// Bodies held together by impulse joints.
-#[derive(Clone, Debug)]
-pub(crate) struct JointChain {
-    /// The attached body first.
-    bodies: Vec<RigidBodyHandle>,
-    /// R: change of the velocities per impulse on the attached body, 6 rows per body.
-    response: DMatrix<f64>,
-    /// Velocities before the step.
-    velocities_before: Vec<(Vector, AngVector)>,
-}
 
 /// A joint, and by its two bodies their index in the chain; `None` for one that is not part of it.
 type ChainJoint<'a> = ([Option<usize>; 2], &'a ImpulseJoint);
@@ -49,8 +38,8 @@ pub(super) fn bodies(world: &PhysicsWorld, handle: RigidBodyHandle) -> Vec<Rigid
     connected(world, handle).map_or_else(Vec::new, |(bodies, _)| bodies)
 }
 
-/// Returns the chain of a body and the loads on the others; `None` if no joint holds it.
-pub(super) fn find(world: &PhysicsWorld, request: &Request) -> Option<(JointChain, CarriedLoads)> {
+/// Returns the mechanism of a body; `None` if no joint holds it.
+pub(super) fn find(world: &PhysicsWorld, request: &Request) -> Option<Mechanism> {
     let handle = request.handle;
     let (bodies, joints) = connected(world, handle)?;
     let n = 6 * bodies.len();
@@ -81,8 +70,10 @@ pub(super) fn find(world: &PhysicsWorld, request: &Request) -> Option<(JointChai
     loads.of_body = free.fixed_view::<6, 1>(0, 0) + turned.fixed_rows::<6>(0);
     loads.accelerations = free.column(0).into_owned();
     loads.isolated = predicts_loads && are_isolated(world, &bodies);
-    let velocities_before = bodies.iter().map(|b| (world.bodies[*b].linvel(), world.bodies[*b].angvel())).collect();
-    Some((JointChain { bodies, response, velocities_before }, loads))
+    let members = bodies.iter().enumerate().filter(|(_, body)| request.is_member(**body));
+    let mobilities = members.map(|(i, body)| (*body, response.fixed_view::<6, 6>(6 * i, 0).into_owned())).collect();
+    let before = bodies.iter().map(|b| (*b, world.bodies[*b].linvel(), world.bodies[*b].angvel())).collect();
+    Some(Mechanism { handle, response, mobilities, before: Velocities::OfBodies(before), loads })
 }
 
 /// Returns the bodies that impulse joints connect with one, itself first, and the joints; `None` if
@@ -137,8 +128,7 @@ fn inverse_mass(world: &PhysicsWorld, bodies: &[RigidBodyHandle], time: f64) -> 
         let properties = world.bodies[*body].mass_properties();
         let linear = Matrix3::from_diagonal(&vector(properties.effective_inv_mass));
         inverse.view_mut((6 * i, 6 * i), (3, 3)).copy_from(&linear);
-        let s = &properties.effective_world_inv_inertia;
-        let angular = Matrix3::new(s.m11, s.m12, s.m13, s.m12, s.m22, s.m23, s.m13, s.m23, s.m33).map(f64::from);
+        let angular = symmetric(&properties.effective_world_inv_inertia);
         let turned = turn_in(&world.bodies[*body], time).to_rotation_matrix();
         let angular = turned.matrix() * angular * turned.matrix().transpose();
         inverse.view_mut((6 * i + 3, 6 * i + 3), (3, 3)).copy_from(&angular);
@@ -203,37 +193,4 @@ fn constraint_rows(
         }
     }
     Some((rows, found))
-}
-
-impl JointChain {
-    /// Returns the change of velocity of a body of the chain per impulse on the attached one.
-    pub(super) fn mobility_of(&self, body: RigidBodyHandle) -> Option<Matrix6<f64>> {
-        let i = self.bodies.iter().position(|b| *b == body)?;
-        Some(self.response.fixed_view::<6, 6>(6 * i, 0).into_owned())
-    }
-
-    /// Returns the change of all velocities by an impulse on the attached body.
-    pub(super) fn velocity_change(&self, impulse: &Vector6<f64>) -> DVector<f64> {
-        &self.response * impulse
-    }
-
-    /// Changes the velocities of all bodies.
-    pub(super) fn change_velocity(&self, world: &mut PhysicsWorld, change: &DVector<f64>) {
-        for (i, handle) in self.bodies.iter().enumerate() {
-            let Some(body) = world.bodies.get_mut(*handle) else { continue };
-            let (linear, angular) = split_spatial(&change.fixed_rows::<6>(6 * i).into_owned());
-            body.set_linvel(to_vector(&(vector(body.linvel()) + linear)), false);
-            body.set_angvel(to_vector(&(vector(body.angvel()) + angular)), false);
-        }
-    }
-
-    /// Restores the velocities before the step.
-    pub(super) fn revert(&self, world: &mut PhysicsWorld) {
-        for (handle, (linvel, angvel)) in self.bodies.iter().zip(&self.velocities_before) {
-            if let Some(body) = world.bodies.get_mut(*handle) {
-                body.set_linvel(*linvel, false);
-                body.set_angvel(*angvel, false);
-            }
-        }
-    }
 }

@@ -25,24 +25,14 @@
 use super::constraints::{Constraints, Limit};
 use super::limits;
 use super::loads::{CarriedLoads, are_isolated, can_predict_loads};
+use super::of_body::{Mechanism, Velocities};
 use super::request::Request;
-use crate::convert::to_vector;
+use crate::convert::{symmetric, to_vector};
 use crate::spatial::{split_spatial, stack_spatial};
 use ::nalgebra::{DMatrix, DVector, Matrix3, Matrix6, Vector6};
 use rapier::dynamics::{Multibody, RigidBody, RigidBodyHandle};
 use rapier::math::Real;
 use rapier::pipeline::PhysicsWorld;
-
-/// A link of a multibody.
-#[derive(Clone, Debug)]
-pub(crate) struct MultibodyLink {
-    /// R: change of the generalised velocity per impulse on the link.
-    response: DMatrix<Real>,
-    /// Change of velocity of the members of the island per impulse on the link.
-    mobilities: Vec<(RigidBodyHandle, Matrix6<f64>)>,
-    /// The generalised velocity before the step.
-    velocity_before: Vec<Real>,
-}
 
 /// Returns the multibody of a link and the index of the link, if its mass matrix is computed and
 /// covers all degrees of freedom.
@@ -69,8 +59,8 @@ pub(crate) fn prepare(world: &mut PhysicsWorld, handle: RigidBodyHandle) {
     }
 }
 
-/// Returns a link and the loads on the others.
-pub(super) fn find(world: &PhysicsWorld, request: &Request) -> Option<(MultibodyLink, CarriedLoads)> {
+/// Returns the mechanism of a link.
+pub(super) fn find(world: &PhysicsWorld, request: &Request) -> Option<Mechanism> {
     let (multibody, id) = multibody(world, request.handle)?;
     let n = multibody.ndofs();
     let halfway = halfway(world, multibody, request);
@@ -129,18 +119,17 @@ pub(super) fn find(world: &PhysicsWorld, request: &Request) -> Option<(Multibody
     }
     loads.accelerations = free.column(0).into_owned();
     loads.isolated = predicts_loads && are_isolated(world, &handles);
-    let velocity_before = multibody.generalized_velocity().iter().copied().collect();
     let members = handles.iter().enumerate().filter(|(_, body)| request.is_member(**body));
     let mobilities =
         members.map(|(i, body)| (*body, Matrix6::from_iterator((jacobian(i) * &response).iter().copied())));
     let mobilities = mobilities.collect();
-    Some((MultibodyLink { response: response.map(|x| x as Real), mobilities, velocity_before }, loads))
+    let before = Velocities::Generalised(multibody.generalized_velocity().iter().copied().collect());
+    Some(Mechanism { handle: request.handle, response, mobilities, before, loads })
 }
 
 /// Returns the force and the torque that accelerate a body; zero for one that is not dynamic.
 fn inertial_force(body: &RigidBody, acceleration: &Vector6<f64>) -> Vector6<f64> {
-    let s = &body.mass_properties().effective_world_inv_inertia;
-    let inverse = Matrix3::new(s.m11, s.m12, s.m13, s.m12, s.m22, s.m23, s.m13, s.m23, s.m33).map(f64::from);
+    let inverse = symmetric(&body.mass_properties().effective_world_inv_inertia);
     let (linear, angular) = split_spatial(acceleration);
     let inertia = inverse.try_inverse().filter(|_| body.is_dynamic()).unwrap_or_else(Matrix3::zeros);
     let mass = if body.is_dynamic() { f64::from(body.mass()) } else { 0.0 };
@@ -198,31 +187,9 @@ pub(crate) fn refresh(world: &mut PhysicsWorld, handle: RigidBodyHandle) {
     }
 }
 
-impl MultibodyLink {
-    /// Returns the change of velocity of a member of the island per impulse on the link; `None` for a body that is no link of its multibody.
-    pub(super) fn mobility_of(&self, other: RigidBodyHandle) -> Option<Matrix6<f64>> {
-        self.mobilities.iter().find(|(body, _)| *body == other).map(|(_, mobility)| *mobility)
-    }
-
-    /// Returns the change of the generalised velocity by an impulse on the link.
-    pub(super) fn velocity_change(&self, impulse: &Vector6<f64>) -> DVector<f64> {
-        self.response.map(f64::from) * impulse
-    }
-
-    /// Changes the generalised velocity.
-    pub(super) fn change_velocity(&self, world: &mut PhysicsWorld, handle: RigidBodyHandle, change: &DVector<f64>) {
-        edit_velocity(world, handle, change.iter(), |u, change| *u += *change as Real);
-    }
-
-    /// Restores the generalised velocity before the step.
-    pub(super) fn revert(&self, world: &mut PhysicsWorld, handle: RigidBodyHandle) {
-        edit_velocity(world, handle, self.velocity_before.iter(), |u, before| *u = *before);
-    }
-}
-
 /// Edits the components of the generalised velocity of a link's multibody with `values`, and
 /// refreshes its bodies.
-fn edit_velocity<T>(
+pub(super) fn edit_velocity<T>(
     world: &mut PhysicsWorld,
     handle: RigidBodyHandle,
     values: impl Iterator<Item = T>,

@@ -1,39 +1,44 @@
 //! The mechanism of one body: a link of a multibody, or a body of a chain of impulse joints.
 
-use super::joint_chain::{self, JointChain};
+use super::joint_chain;
 use super::loads::CarriedLoads;
-use super::multibody::{self, MultibodyLink};
+use super::multibody;
 use super::request::Request;
-use ::nalgebra::{Matrix6, Vector6};
+use crate::convert::{to_vector, vector};
+use crate::spatial::split_spatial;
+use ::nalgebra::{DMatrix, DVector, Matrix6, Vector6};
 use rapier::dynamics::RigidBodyHandle;
+use rapier::math::{AngVector, Real, Vector};
 use rapier::pipeline::PhysicsWorld;
 
 /// The bodies that a body moves with.
 #[derive(Clone, Debug)]
 pub(crate) struct Mechanism {
     pub handle: RigidBodyHandle,
-    kind: MechanismKind,
+    /// R: change of all velocities per impulse on the body.
+    pub(super) response: DMatrix<f64>,
+    /// Change of velocity of the members of the island per impulse on the body.
+    pub(super) mobilities: Vec<(RigidBodyHandle, Matrix6<f64>)>,
+    pub(super) before: Velocities,
     pub loads: CarriedLoads,
 }
 
-/// What holds a mechanism together.
+/// The velocities of a mechanism before the step.
 #[derive(Clone, Debug)]
-enum MechanismKind {
-    /// The body is a link of a multibody.
-    Multibody(MultibodyLink),
-    /// Impulse joints hold it.
-    JointChain(JointChain),
+pub(super) enum Velocities {
+    /// The generalised velocity of a multibody.
+    Generalised(Vec<Real>),
+    /// Those of bodies that impulse joints hold.
+    OfBodies(Vec<(RigidBodyHandle, Vector, AngVector)>),
 }
 
 /// Returns the mechanism of a body; `None` if it moves alone.
 pub(crate) fn find(world: &PhysicsWorld, request: &Request) -> Option<Mechanism> {
-    let handle = request.handle;
-    if world.multibody_joints.rigid_body_link(handle).is_some() {
-        let (link, loads) = multibody::find(world, request)?;
-        return Some(Mechanism { handle, kind: MechanismKind::Multibody(link), loads });
+    if world.multibody_joints.rigid_body_link(request.handle).is_some() {
+        multibody::find(world, request)
+    } else {
+        joint_chain::find(world, request)
     }
-    let (chain, loads) = joint_chain::find(world, request)?;
-    Some(Mechanism { handle, kind: MechanismKind::JointChain(chain), loads })
 }
 
 /// Returns the bodies that joints connect with one, itself included; empty if none does.
@@ -48,42 +53,55 @@ pub(crate) fn bodies(world: &PhysicsWorld, handle: RigidBodyHandle) -> Vec<Rigid
 impl Mechanism {
     /// Returns whether the body is a link of a multibody.
     pub fn is_multibody(&self) -> bool {
-        matches!(self.kind, MechanismKind::Multibody(_))
+        matches!(self.before, Velocities::Generalised(_))
     }
 
-    /// Returns the change of velocity of a body of the mechanism per impulse on this one; `None` for another body.
-    pub fn mobility_of(&self, other: RigidBodyHandle) -> Option<Matrix6<f64>> {
-        match &self.kind {
-            MechanismKind::Multibody(link) => link.mobility_of(other),
-            MechanismKind::JointChain(chain) => chain.mobility_of(other),
-        }
+    /// Returns the change of velocity of a member of the island per impulse on the body; `None` for one that is not of
+    /// the mechanism.
+    pub fn mobility_of(&self, member: RigidBodyHandle) -> Option<Matrix6<f64>> {
+        self.mobilities.iter().find(|(body, _)| *body == member).map(|(_, mobility)| *mobility)
     }
 
     /// Applies an impulse and its moment to the body; all that it moves with follows.
     pub fn apply_impulse(&self, world: &mut PhysicsWorld, impulse: &Vector6<f64>) {
-        match &self.kind {
-            MechanismKind::Multibody(link) => link.change_velocity(world, self.handle, &link.velocity_change(impulse)),
-            MechanismKind::JointChain(chain) => chain.change_velocity(world, &chain.velocity_change(impulse)),
-        }
+        self.change_velocities(world, &(&self.response * impulse));
     }
 
     /// Applies the change of velocity by the loads on the other bodies in `time` (s).
     pub fn apply_loads(&self, world: &mut PhysicsWorld, time: f64) {
-        if self.loads.bodies.is_empty() && self.loads.joint_damping.is_none() {
-            return;
-        }
-        let change = &self.loads.accelerations * time;
-        match &self.kind {
-            MechanismKind::Multibody(link) => link.change_velocity(world, self.handle, &change),
-            MechanismKind::JointChain(chain) => chain.change_velocity(world, &change),
+        self.change_velocities(world, &(&self.loads.accelerations * time));
+    }
+
+    /// Changes the velocities of all bodies.
+    fn change_velocities(&self, world: &mut PhysicsWorld, change: &DVector<f64>) {
+        match &self.before {
+            Velocities::Generalised(_) => {
+                multibody::edit_velocity(world, self.handle, change.iter(), |u, change| *u += *change as Real);
+            }
+            Velocities::OfBodies(bodies) => {
+                for (i, (handle, ..)) in bodies.iter().enumerate() {
+                    let Some(body) = world.bodies.get_mut(*handle) else { continue };
+                    let (linear, angular) = split_spatial(&change.fixed_rows::<6>(6 * i).into_owned());
+                    body.set_linvel(to_vector(&(vector(body.linvel()) + linear)), false);
+                    body.set_angvel(to_vector(&(vector(body.angvel()) + angular)), false);
+                }
+            }
         }
     }
 
     /// Restores the velocities before the step.
     pub fn revert(&self, world: &mut PhysicsWorld) {
-        match &self.kind {
-            MechanismKind::Multibody(link) => link.revert(world, self.handle),
-            MechanismKind::JointChain(chain) => chain.revert(world),
+        match &self.before {
+            Velocities::Generalised(before) => {
+                multibody::edit_velocity(world, self.handle, before.iter(), |u, before| *u = *before);
+            }
+            Velocities::OfBodies(bodies) => {
+                for (handle, linvel, angvel) in bodies {
+                    let Some(body) = world.bodies.get_mut(*handle) else { continue };
+                    body.set_linvel(*linvel, false);
+                    body.set_angvel(*angvel, false);
+                }
+            }
         }
     }
 }

@@ -17,7 +17,7 @@ use crate::body::{SavedBody, replace_loads};
 use crate::contents::Contents;
 use crate::convert::{rotation, to_vector, vector};
 use crate::islands::{Island, Member};
-use crate::pose::{MAX_HALF_ROTATION, MAX_ROTATION_PER_STEP};
+use crate::pose::MAX_HALF_ROTATION;
 use crate::proximity;
 use crate::spatial::split_spatial;
 use crate::step::groups;
@@ -26,12 +26,9 @@ use ::nalgebra::{Vector3, Vector6};
 use rapier::math::Real;
 use rapier::pipeline::PhysicsWorld;
 
-/// Share of Rapier's largest rotation in a step from which a body is allowed to rotate faster.
-const FAST_ROTATION: f64 = 0.9;
-
 /// Gives Rapier the predicted motion of all bodies of an island for a step of `h` (s).
 pub(crate) fn apply(
-    contents: &mut Contents,
+    contents: &Contents,
     world: &mut PhysicsWorld,
     island: &Island,
     prediction: &mut Prediction,
@@ -42,27 +39,22 @@ pub(crate) fn apply(
             Member::Body(handle) if !world.bodies[*handle].is_sleeping() => {
                 // the part of the reaction that joints bear needs no balance
                 let moving = groups::unconstrained_reaction(contents, island, &prediction.groups, m);
-                let record = contents.records.record_mut(*handle);
-                let reactions = (record.reaction, moving.unwrap_or(record.reaction));
-                Some(apply_prediction(world, &prediction.body_step(m, *handle, h), reactions))
+                let reaction = moving.unwrap_or_else(|| contents.records.reaction(*handle));
+                Some(apply_prediction(world, &prediction.body_step(m, *handle, h), &reaction))
             }
             _ => None,
         };
         prediction.applied.push(applied);
     }
-    prediction.groups.iter().for_each(|group| groups::apply(world, island, prediction, group, h));
+    prediction.groups.iter().for_each(|group| groups::apply(world, prediction, group, h));
 }
 
-/// Makes Rapier move a body uniformly to its predicted position and attitude. `reaction` is its reaction estimate, `moving`
-/// the part of it that moves the body. A body that joints hold gets its velocity with its [group](groups).
-fn apply_prediction(
-    world: &mut PhysicsWorld,
-    step: &BodyStep,
-    (reaction, moving): (Vector6<f64>, Vector6<f64>),
-) -> AppliedMotion {
+/// Makes Rapier move a body uniformly to its predicted position and attitude. `reaction` is the part of its reaction estimate
+/// that moves it. A body that joints hold gets its velocity with its [group](groups).
+fn apply_prediction(world: &mut PhysicsWorld, step: &BodyStep, reaction: &Vector6<f64>) -> AppliedMotion {
     let &BodyStep { handle, start, end, mechanism, h } = step;
     let gravity = world.gravity;
-    let (isolated, linked) = (proximity::is_isolated(world, handle), proximity::is_linked(world, handle));
+    let isolated = proximity::is_isolated(world, handle);
     let substeps = world.integration_parameters.num_solver_iterations.max(1) as f64;
     let body = &mut world.bodies[handle];
     // a body that meets nothing is led back from its rounded place; contacts and motors would feel that as a velocity
@@ -79,24 +71,18 @@ fn apply_prediction(
         _ => to_vector(&linearised(&turn, h / substeps)),
     };
     let weight = vector(gravity).norm() * f64::from(body.gravity_scale()).abs();
-    let (reaction_force, _) = split_spatial(&reaction);
+    let (force, torque) = split_spatial(reaction);
     let applied = AppliedMotion {
         linvel,
         angvel,
-        centre: body.local_center_of_mass(),
         isolated,
-        linked,
-        balanced_velocity: (weight + reaction_force.norm() / end.mass) * h,
-        landed: false,
+        balanced_velocity: (weight + force.norm() / end.mass) * h,
         saved: SavedBody::of(body),
     };
-    let (force, torque) = split_spatial(&moving);
     let own_weight = gravity * (end.mass as Real * body.gravity_scale());
     replace_loads(body, -to_vector(&force) - own_weight, -to_vector(&torque));
     body.enable_gyroscopic_forces(false);
-    if turn.norm() * h > FAST_ROTATION * MAX_ROTATION_PER_STEP {
-        body.set_allow_fast_rotation(true);
-    }
+    body.set_allow_fast_rotation(true);
     if mechanism.is_none() {
         body.set_linvel(linvel, false);
         body.set_angvel(angvel, false);
@@ -111,16 +97,9 @@ fn linearised(spin: &Vector3<f64>, h: f64) -> Vector3<f64> {
     if half > 0.0 { spin * (half.tan() / half) } else { *spin }
 }
 
-/// Reverts a prediction: cables, junctions and bodies are as they were before it.
+/// Reverts a prediction: cables and bodies are as they were before it.
 pub(crate) fn revert(contents: &mut Contents, world: &mut PhysicsWorld, island: &Island, prediction: &Prediction) {
     restore_cables(contents, island, prediction);
-    for member in &island.members {
-        if let Member::Junction(j) = member
-            && let Some(junction) = contents.junctions.get_mut(*j)
-        {
-            junction.memory = None;
-        }
-    }
     revert_bodies(world, island, prediction);
 }
 

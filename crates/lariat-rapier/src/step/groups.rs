@@ -12,32 +12,34 @@ use crate::contents::Contents;
 use crate::convert::{rotation, to_vector, vector};
 use crate::islands::{Island, Member};
 use crate::mechanism::{self, Group, Mechanism, velocity_of};
-use crate::record::BodyRecord;
 use crate::spatial::stack_spatial;
 use crate::step::motors::motor_impulse;
 use crate::step::prediction::{AppliedMotion, Prediction};
 use crate::step::reaction::{REACTION_GAIN, persisting_share};
 use crate::unsettled::SettleStep;
 use ::nalgebra::{DVector, Vector6};
-use rapier::dynamics::RigidBodyHandle;
+use lariat_ancf::island::RigidBody;
 use rapier::pipeline::PhysicsWorld;
 
 /// A member of a group in a step that Rapier has made.
 struct Part<'a> {
     m: usize,
-    handle: RigidBodyHandle,
     applied: &'a AppliedMotion,
     mechanism: &'a Mechanism,
 }
 
 /// Returns the members of a group; `None` if the prediction was not applied to all of them.
-fn parts<'a>(island: &Island, prediction: &'a Prediction, group: &Group) -> Option<Vec<Part<'a>>> {
+fn parts<'a>(prediction: &'a Prediction, group: &Group) -> Option<Vec<Part<'a>>> {
     let part = |&m: &usize| {
-        let Member::Body(handle) = island.members[m] else { return None };
         let applied = prediction.applied[m].as_ref()?;
-        Some(Part { m, handle, applied, mechanism: prediction.mechanisms[m].as_ref()? })
+        Some(Part { m, applied, mechanism: prediction.mechanisms[m].as_ref()? })
     };
     group.members.iter().map(part).collect()
+}
+
+/// Returns the velocities of the members among those of the island.
+fn velocities(group: &Group, members: &[RigidBody]) -> DVector<f64> {
+    group.stack_of(group.members.iter().map(|&m| velocity_of(&members[m])))
 }
 
 /// Returns the uniform velocities that the members are given.
@@ -56,11 +58,10 @@ fn change(world: &mut PhysicsWorld, group: &Group, parts: &[Part], changes: DVec
 }
 
 /// Gives Rapier the uniform motion of a group over a step of `h` (s).
-pub(crate) fn apply(world: &mut PhysicsWorld, island: &Island, prediction: &Prediction, group: &Group, h: f64) {
-    let Some(parts) = parts(island, prediction, group) else { return };
-    let before = group.stack_of(parts.iter().map(|part| velocity_of(&prediction.start[part.m])));
+pub(crate) fn apply(world: &mut PhysicsWorld, prediction: &Prediction, group: &Group, h: f64) {
+    let Some(parts) = parts(prediction, group) else { return };
     parts[0].mechanism.loads.balance(world);
-    change(world, group, &parts, given(group, &parts) - before, 0.5 * h);
+    change(world, group, &parts, given(group, &parts) - velocities(group, &prediction.start), 0.5 * h);
 }
 
 /// Restores the forces and settings of a group's bodies, and completes their velocities; updates their reaction estimates.
@@ -72,60 +73,56 @@ pub(crate) fn read_back(
     group: &Group,
     h: f64,
 ) {
-    let Some(parts) = parts(island, prediction, group) else { return };
+    let Some(parts) = parts(prediction, group) else { return };
     parts[0].mechanism.loads.restore(world);
     let mut intact = true;
     for part in &parts {
         let moves = |body: &&mut rapier::dynamics::RigidBody| !body.is_sleeping();
-        let Some(body) = world.bodies.get_mut(part.handle).filter(moves) else {
+        let Some(body) = world.bodies.get_mut(part.mechanism.handle).filter(moves) else {
             intact = false;
             continue;
         };
         part.applied.saved.restore_settings(body);
-        let record = contents.records.record_mut(part.handle);
+        let record = contents.records.record_mut(part.mechanism.handle);
         (record.stepped, record.exact) = (true, None);
-        if body.local_center_of_mass() != part.applied.centre {
-            // its mass changed during the step: its motion tells nothing about forces
-            *record = BodyRecord { stepped: true, ..BodyRecord::new(part.handle) };
-            intact = false;
-        }
     }
     if !intact {
         return;
     }
-    mechanism::refresh(world, parts[0].handle);
+    mechanism::refresh(world, parts[0].mechanism.handle);
     let velocity = |part: &Part| {
-        let body = &world.bodies[part.handle];
+        let body = &world.bodies[part.mechanism.handle];
         stack_spatial(&vector(body.linvel()), &vector(body.angvel()))
     };
     let given = given(group, &parts);
     let deviation = group.stack_of(parts.iter().map(velocity)) - &given;
-    let end = group.stack_of(parts.iter().map(|part| velocity_of(&prediction.end[part.m])));
-    watch(contents, world, (island, prediction, group, &parts), (&deviation, &end), h);
-    update_reactions(contents, world, (island, prediction, group, &parts), (&deviation, &end), h);
+    let end = velocities(group, &prediction.end);
+    let predicted = &end - velocities(group, &prediction.start);
+    watch(contents, world, (island, prediction, group, &parts), (&deviation, &predicted), h);
+    update_reactions(contents, world, (island, prediction, group, &parts), (&deviation, &predicted), h);
     change(world, group, &parts, end - given, 0.5 * h);
     // Rapier does not damp links of a multibody
     if !parts[0].mechanism.is_multibody() {
         parts[0].mechanism.loads.damp(world, h);
         for part in &parts {
             let (linear, angular) = part.applied.saved.damping_factors(h);
-            let body = &mut world.bodies[part.handle];
+            let body = &mut world.bodies[part.mechanism.handle];
             body.set_linvel(to_vector(&(vector(body.linvel()) * linear)), false);
             body.set_angvel(to_vector(&(vector(body.angvel()) * angular)), false);
         }
     }
 }
 
-/// Reads of a group how far Rapier's step of `h` (s) was the predicted one.
+/// Reads of a group how far Rapier's step of `h` (s) was the predicted one: the predicted change of velocity, and the deviation
+/// from it.
 fn watch(
     contents: &mut Contents,
     world: &PhysicsWorld,
     (island, prediction, group, parts): (&Island, &Prediction, &Group, &[Part]),
-    (deviation, end): (&DVector<f64>, &DVector<f64>),
+    (deviation, predicted): (&DVector<f64>, &DVector<f64>),
     h: f64,
 ) {
-    let start = group.stack_of(parts.iter().map(|part| velocity_of(&prediction.start[part.m])));
-    let impulses = group.impulses(&(end - &start));
+    let impulses = group.impulses(predicted);
     let time = contents.cables.get(island.cables[0]).map_or(0.0, |slot| slot.cable.time());
     let of = |v: &DVector<f64>, k: usize| v.fixed_rows::<6>(6 * k).into_owned();
     for (k, part) in parts.iter().enumerate() {
@@ -143,7 +140,7 @@ fn watch(
         let step = SettleStep {
             body,
             inertia: &mechanism::own_inertia(body),
-            gained: of(end, k) + of(deviation, k) - of(&start, k),
+            gained: of(predicted, k) + of(deviation, k),
             deviation: of(deviation, k),
             pull: of(&impulses, k) - given + motors,
             read,
@@ -151,22 +148,18 @@ fn watch(
             h,
             time,
         };
-        let record = contents.records.record_mut(part.handle);
+        let record = contents.records.record_mut(part.mechanism.handle);
         record.pull += REACTION_GAIN * (step.pull / h - record.pull);
         record.settling.note(&step);
-        record.turn_error = turn_error(prediction, part.m, h) / (h * h);
     }
 }
 
-/// Returns by how much (rad) the attitude of a member halfway of a step of `h` (s) was another than that at which its mechanism was predicted.
-fn turn_error(prediction: &Prediction, m: usize, h: f64) -> f64 {
-    0.25 * h * (prediction.end[m].angular_velocity - prediction.start[m].angular_velocity).norm()
-}
-
-/// Returns the largest of these errors in an island.
+/// Returns by how much (rad) the attitude of a member of an island halfway of a step of `h` (s) is at most another than that at which its
+/// mechanism was predicted.
 pub(crate) fn largest_turn_error(prediction: &Prediction, h: f64) -> f64 {
     let members = prediction.groups.iter().flat_map(|group| &group.members);
-    members.map(|&m| turn_error(prediction, m, h)).fold(0.0, f64::max)
+    let change = |&m: &usize| (prediction.end[m].angular_velocity - prediction.start[m].angular_velocity).norm();
+    0.25 * h * members.map(change).fold(0.0, f64::max)
 }
 
 /// Updates the reaction estimates of a group from the deviations of velocity and position.
@@ -174,25 +167,24 @@ fn update_reactions(
     contents: &mut Contents,
     world: &PhysicsWorld,
     (island, prediction, group, parts): (&Island, &Prediction, &Group, &[Part]),
-    (deviation, end): (&DVector<f64>, &DVector<f64>),
+    (deviation, predicted): (&DVector<f64>, &DVector<f64>),
     h: f64,
 ) {
     let moved = group.stack_of(parts.iter().map(|part| {
-        let (body, end) = (&world.bodies[part.handle], &prediction.end[part.m]);
+        let (body, end) = (&world.bodies[part.mechanism.handle], &prediction.end[part.m]);
         let turned = (rotation(*body.rotation()) * end.rotation.inverse()).scaled_axis();
         stack_spatial(&((vector(body.center_of_mass()) - end.position) / h), &(turned / h))
     }));
     let change = deviation + moved;
-    let known = group.stack_of(parts.iter().map(|part| {
-        let motors = if part.applied.linked { Vector6::zeros() } else { motor_impulse(island, prediction, part.m) };
-        contents.records.get(part.handle).map_or_else(Vector6::zeros, |record| record.reaction) * h - motors
-    }));
+    let known =
+        group.stack_of(parts.iter().map(|part| {
+            contents.records.reaction(part.mechanism.handle) * h - motor_impulse(island, prediction, part.m)
+        }));
     let whole = &known + group.impulses(deviation);
-    let start = group.stack_of(parts.iter().map(|part| velocity_of(&prediction.start[part.m])));
-    let share = persisting_share(whole.dot(&(end + deviation - start)), group.square(&whole));
+    let share = persisting_share(whole.dot(&(predicted + deviation)), group.square(&whole));
     let impulses = (known + group.implied_impulses(&change, parts[0].mechanism.loads.isolated)) * (share / h);
     for (part, impulse) in parts.iter().zip(impulses.as_slice().chunks_exact(6)) {
-        let record = contents.records.record_mut(part.handle);
+        let record = contents.records.record_mut(part.mechanism.handle);
         record.reaction += REACTION_GAIN * (Vector6::from_column_slice(impulse) - record.reaction);
     }
 }
@@ -206,7 +198,7 @@ pub(crate) fn unconstrained_reaction(
 ) -> Option<Vector6<f64>> {
     let (group, place) = groups.iter().find_map(|group| Some((group, group.place(m)?)))?;
     let reactions = group.stack_of(group.members.iter().map(|&m| match island.members[m] {
-        Member::Body(handle) => contents.records.get(handle).map_or_else(Vector6::zeros, |record| record.reaction),
+        Member::Body(handle) => contents.records.reaction(handle),
         _ => Vector6::zeros(),
     }));
     Some(group.unconstrained_part(&reactions).fixed_rows::<6>(6 * place).into_owned())

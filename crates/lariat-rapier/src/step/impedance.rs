@@ -3,14 +3,18 @@
 //!
 //! # Equation
 //! ```text
-//! D = the block of its pin in (C + B')^-1
-//! B'_ij = 1/m - [r_i]x I^-1 [r_j]x,   of the body itself times OWN_MOBILITY_SHARE
+//! D = the block of a pin in (C + B)^-1
+//! B_i = 1/m - [r]x I^-1 [r]x,     of the body of the pin itself times MOBILITY_SHARE
 //! ```
-//! C is the compliance of the body's cables over the step ([`Impedance`]) at its pins and at the next
-//! ones on these cables, B' the mobility of the bodies at these pins. A [`Ledger`] acts on the body with D about the predicted velocity of the
+//! C is the compliance of the cable over the step ([`Impedance`]) at the pin and at the next ones on other bodies, B_i the mobility of
+//! the body of each, alone. A [`Ledger`] acts on the body with D about the predicted velocity of the
 //! anchor: if the prediction was right it does nothing; if a contact or a joint makes the body
 //! deviate, the body feels the cable within the same step. A sleeping body is predicted to rest under the force of its
 //! cables, which stands in the motors for as long as it sleeps: should Rapier wake it within a step, it feels them.
+//!
+//! # Alternatives considered
+//! All pins of the body and of its mechanism at once, with the mobilities of mechanisms: no case was found in which it does better. The pin
+//! alone, the next ones free: of two cables in series, of which the last body is jammed, one carries 0.1 % less than the other.
 //!
 //! [`Impedance`]: lariat_ancf::island::Impedance
 
@@ -19,20 +23,22 @@ use crate::contents::Contents;
 use crate::error::Error;
 use crate::islands::{Island, Member};
 use crate::ledger::{Drive, Ledger};
-use crate::mechanism::{Group, Mechanism};
+use crate::mechanism::Mechanism;
 use crate::proximity;
 use crate::step::prediction::{Prediction, StepParameters};
-use crate::step::substepping;
-use ::nalgebra::{Cholesky, DMatrix, Matrix3, Matrix6, Vector3};
+use ::nalgebra::{Matrix3, SMatrix, Vector3};
 use lariat_ancf::Cable;
 use lariat_ancf::island::{Impedance, PinConstraint, RigidBody};
 use rapier::dynamics::RigidBodyHandle;
 use rapier::pipeline::PhysicsWorld;
 
-/// Mass in kg given to a junction, which has none, so that the matrix has an inverse.
+/// Share of the body's own mobility in B.
+const MOBILITY_SHARE: f64 = 0.1;
+/// Mass in kg given to a junction, which has none, so that the matrix is finite.
 const JUNCTION_MASS: f64 = 1e-6;
-/// Share of the body's own mobility in B'.
-pub(crate) const OWN_MOBILITY_SHARE: f64 = 0.1;
+
+/// Linearises a cable at some nodes for a step: [`Impedance::update`] or [`Impedance::update_held`].
+pub(super) type Update = fn(&mut Impedance, &mut Cable, &[usize], f64) -> Result<(), lariat_ancf::Error>;
 
 /// Sets the motors of all bodies of an island that may deviate from their prediction, and disables
 /// all others.
@@ -43,46 +49,35 @@ pub(crate) fn set_motors(
     prediction: &mut Prediction,
     step: &StepParameters,
 ) -> Result<(), Error> {
+    let h = step.h;
     prediction.motors.clear();
     prediction.motors.resize(island.pins.len(), false);
     let sleeps = |handle: RigidBodyHandle| world.bodies[handle].is_sleeping();
     if island.bodies().any(sleeps) {
-        hold(contents, world, island, prediction, step.h, |a| {
-            [a.predicted.impulse, a.predicted.angular_impulse].map(|p| p / step.h)
+        hold(contents, world, island, prediction, h, |a| {
+            [a.predicted.impulse, a.predicted.angular_impulse].map(|p| p / h)
         })?;
     }
-    let mut deviating = core::mem::take(&mut prediction.deviating);
-    let mut point = core::mem::take(&mut prediction.driving_point);
+    let (mut deviating, mut near) = (core::mem::take(&mut prediction.deviating), core::mem::take(&mut prediction.near));
     deviating.clear();
     deviating.extend((0..island.members.len()).filter(|&m| deviates(contents, world, island, prediction, m, step)));
-    if !deviating.is_empty() {
-        point.find_pins(island, &prediction.groups, &deviating);
-        let update =
-            |cable: &mut Cable, nodes: &[usize], impedance: &mut Impedance| impedance.update(cable, nodes, step.h);
-        linearise(contents, island, prediction, &point.pins, update)?;
-    }
-    for &m in &deviating {
-        point.find_pins(island, &prediction.groups, &[m]);
-        if !point.solve(island, prediction, m) {
-            continue;
-        }
-        for (pin, impedance) in point.own(island, m) {
-            let anchor = island.pins[pin].anchor;
-            let target = (prediction.end[m].point(&anchor) - prediction.start[m].point(&anchor)) / step.h;
-            if let Some(a) = island.attachments[pin].and_then(|a| contents.attachments.get_mut(a)) {
-                let ledger = a.ledger.get_or_insert_with(|| Ledger::insert(world, a.body));
-                ledger.set_motors(world, &a.anchor, &Drive { impedance, target, load: None }, step.h);
-                let cable = contents.cables.get(a.cable.0 as usize).map(|slot| &slot.cable);
-                let response = &prediction.impedances[island.pins[pin].cable];
-                a.shown = cable.and_then(|cable| substepping::shown_stiffness(cable, a.node, response, step.h));
-                prediction.motors[pin] = true;
-            }
+    near.clear();
+    let own = |pin: &usize| deviating.contains(&island.pins[*pin].body);
+    near.extend((0..island.pins.len()).filter(own).flat_map(|pin| with_next(&island.pins, pin)).flatten());
+    linearise(contents, island, prediction, |pin| near.contains(&pin), (Impedance::update, h))?;
+    for (pin, constraint) in island.pins.iter().enumerate().filter(|(pin, _)| own(pin)) {
+        let Some(a) = island.attachments[pin].and_then(|a| contents.attachments.get_mut(a)) else { continue };
+        let (start, end) = (&prediction.start[constraint.body], &prediction.end[constraint.body]);
+        let target = (end.point(&constraint.anchor) - start.point(&constraint.anchor)) / h;
+        if let Some(impedance) = driving_point(island, prediction, pin) {
+            let ledger = a.ledger.get_or_insert_with(|| Ledger::insert(world, a.body));
+            ledger.set_motors(world, &a.anchor, &Drive { impedance, target, load: None }, h);
+            prediction.motors[pin] = true;
         }
     }
-    (prediction.deviating, prediction.driving_point) = (deviating, point);
-    let off = || island.attachments.iter().zip(&prediction.motors).filter(|(_, on)| !**on).filter_map(|(a, _)| *a);
-    off().for_each(|index| contents.attachments.get_mut(index).into_iter().for_each(|a| a.shown = None));
-    disable_motors(contents, world, off());
+    (prediction.deviating, prediction.near) = (deviating, near);
+    let off = island.attachments.iter().zip(&prediction.motors).filter(|(_, on)| !**on).filter_map(|(a, _)| *a);
+    disable_motors(contents, world, off);
     Ok(())
 }
 
@@ -98,17 +93,14 @@ pub(crate) fn hold(
 ) -> Result<(), Error> {
     let asleep = |member: &Member| member.body().is_some_and(|handle| world.bodies[handle].is_sleeping());
     let asleep: Vec<usize> = (0..island.members.len()).filter(|&m| asleep(&island.members[m])).collect();
-    linearise_at(contents, island, prediction, &asleep, h)?;
+    let on_asleep = |pin: usize| asleep.contains(&island.pins[pin].body);
+    linearise(contents, island, prediction, on_asleep, (Impedance::update_held, h))?;
     for (pin, constraint) in island.pins.iter().enumerate().filter(|(_, pin)| asleep.contains(&pin.body)) {
         let Some(a) = island.attachments[pin].and_then(|a| contents.attachments.get_mut(a)) else { continue };
-        let impedance = &prediction.impedances[constraint.cable];
-        let own = impedance.nodes().iter().position(|&node| node == constraint.node);
-        let compliance = own.map_or_else(Matrix3::zeros, |own| impedance.compliance(own, own));
-        let drive = Drive {
-            impedance: compliance.try_inverse().unwrap_or_else(Matrix3::zeros),
-            target: Vector3::zeros(),
-            load: Some(load(a)),
-        };
+        let cable = &prediction.impedances[constraint.cable];
+        let own = cable.nodes().iter().position(|&node| node == constraint.node);
+        let impedance = own.and_then(|own| cable.compliance(own, own).try_inverse()).unwrap_or_else(Matrix3::zeros);
+        let drive = Drive { impedance, target: Vector3::zeros(), load: Some(load(a)) };
         let ledger = a.ledger.unwrap_or_else(|| Ledger::insert(world, a.body));
         a.ledger.insert(ledger.asleep(world, a.body)).set_motors(world, &a.anchor, &drive, h);
     }
@@ -147,7 +139,7 @@ fn deviates(
         return false;
     }
     proximity::may_deviate(world, handle)
-        || proximity::unlisted_collision(world, handle, &displacement, (step.h, step.fastest)).is_some()
+        || proximity::unlisted_collision(world, handle, (step.h, step.fastest)).is_some()
         || !contents.records.get(handle).is_some_and(|record| record.stepped)
             && proximity::overlaps(world, handle, &displacement)
 }
@@ -166,132 +158,61 @@ fn bears_motors(prediction: &Prediction, m: usize) -> bool {
     prediction.mechanisms[m].as_ref().is_none_or(bears)
 }
 
-/// Linearises the cables of an island at their pins on `members` for a step of `h` (s); all others are held.
-pub(super) fn linearise_at(
+/// Linearises the cables of an island for a step of `h` (s) at the pins that `moves` names by their indices, with the others as `update` says.
+pub(super) fn linearise(
     contents: &mut Contents,
     island: &Island,
     prediction: &mut Prediction,
-    members: &[usize],
-    h: f64,
-) -> Result<(), Error> {
-    let mut pins: Vec<usize> = members.iter().flat_map(|&m| island.pins_on(m)).collect();
-    pins.sort_unstable();
-    linearise(contents, island, prediction, &pins, |cable, nodes, impedance| impedance.update_held(cable, nodes, h))
-}
-
-/// Linearises the cables of an island that some of `pins` are on.
-fn linearise(
-    contents: &mut Contents,
-    island: &Island,
-    prediction: &mut Prediction,
-    pins: &[usize],
-    update: impl Fn(&mut Cable, &[usize], &mut Impedance) -> Result<(), lariat_ancf::Error>,
+    moves: impl Fn(usize) -> bool,
+    (update, h): (Update, f64),
 ) -> Result<(), Error> {
     let Prediction { impedances, nodes, .. } = prediction;
     impedances.resize_with(island.cables.len(), Default::default);
     let mut outcome = Ok(());
     contents.for_cables(&island.cables, |c, cable| {
+        let of_cable = island.pins.iter().enumerate().filter(|(index, pin)| pin.cable == c && moves(*index));
         nodes.clear();
-        nodes.extend(pins.iter().map(|&p| &island.pins[p]).filter(|pin| pin.cable == c).map(|pin| pin.node));
+        nodes.extend(of_cable.map(|(_, pin)| pin.node));
         if outcome.is_ok() && !nodes.is_empty() {
-            outcome = update(cable, nodes, &mut impedances[c]);
+            outcome = update(&mut impedances[c], cable, nodes, h);
         }
     });
     Ok(outcome?)
 }
 
-/// Finds D for the pins of a member. Buffers only.
-#[derive(Clone, Debug, Default)]
-pub(crate) struct DrivingPoint {
-    /// The pins that move, in ascending order.
-    pins: Vec<usize>,
-    /// C + B', and its inverse.
-    matrix: DMatrix<f64>,
-    inverse: DMatrix<f64>,
+/// Returns a pin and the next ones on other bodies to both sides of it on its cable.
+fn with_next(pins: &[PinConstraint], pin: usize) -> [Option<usize>; 3] {
+    let own = &pins[pin];
+    let others = (0..pins.len()).filter(|&p| pins[p].cable == own.cable && pins[p].body != own.body);
+    let before = others.clone().filter(|&p| pins[p].node < own.node).max_by_key(|&p| pins[p].node);
+    let after = others.filter(|&p| pins[p].node > own.node).min_by_key(|&p| pins[p].node);
+    [Some(pin), before, after]
 }
 
-impl DrivingPoint {
-    /// Finds the pins on members and on those of their mechanisms, and those next to them on the same cables.
-    fn find_pins(&mut self, island: &Island, groups: &[Group], members: &[usize]) {
-        let pins = &island.pins;
-        let group = |m: &usize| groups.iter().find(|group| group.place(*m).is_some());
-        let together = |m| group(m).map_or_else(|| core::slice::from_ref(m), |group| &group.members);
-        let on_members = || members.iter().flat_map(together).flat_map(|&m| island.pins_on(m));
-        self.pins.clear();
-        self.pins.extend(on_members());
-        for own in on_members() {
-            let apart = |&p: &usize| pins[p].cable == pins[own].cable && pins[p].body != pins[own].body;
-            let others = (0..pins.len()).filter(apart);
-            let before = others.clone().filter(|&p| pins[p].node < pins[own].node).max_by_key(|&p| pins[p].node);
-            let after = others.filter(|&p| pins[p].node > pins[own].node).min_by_key(|&p| pins[p].node);
-            self.pins.extend(before.into_iter().chain(after));
+/// Returns D of a pin; `None` if there is no inverse.
+fn driving_point(island: &Island, prediction: &Prediction, pin: usize) -> Option<Matrix3<f64>> {
+    let cable = &prediction.impedances[island.pins[pin].cable];
+    let pins = with_next(&island.pins, pin).map(|pin| {
+        let pin = &island.pins[pin?];
+        Some((pin, cable.nodes().iter().position(|&node| node == pin.node)?))
+    });
+    // where there is no next pin, the rows are those of a unit matrix
+    let mut matrix = SMatrix::<f64, 9, 9>::identity();
+    for (a, (one, i)) in pins.iter().enumerate().filter_map(|(a, pin)| Some((a, pin.as_ref()?))) {
+        for (b, (_, j)) in pins.iter().enumerate().filter_map(|(b, pin)| Some((b, pin.as_ref()?))) {
+            matrix.fixed_view_mut::<3, 3>(3 * a, 3 * b).copy_from(&cable.compliance(*i, *j));
         }
-        self.pins.sort_unstable();
-        self.pins.dedup();
+        let share = if a == 0 { MOBILITY_SHARE } else { 1.0 };
+        let mut own = matrix.fixed_view_mut::<3, 3>(3 * a, 3 * a);
+        own += mobility(&prediction.start[one.body], &one.anchor) * share;
     }
-
-    /// Inverts C + B' for a member. Returns whether it is positive definite.
-    fn solve(&mut self, island: &Island, prediction: &Prediction, member: usize) -> bool {
-        let start = &prediction.start;
-        let n = 3 * self.pins.len();
-        // a matrix of nalgebra is allocated anew when it is resized, even to the size that it has
-        for matrix in [&mut self.matrix, &mut self.inverse].into_iter().filter(|matrix| matrix.nrows() != n) {
-            matrix.resize_mut(n, n, 0.0);
-        }
-        let mut m = core::mem::take(&mut self.matrix);
-        for (a, &i) in self.pins.iter().enumerate() {
-            for (b, &j) in self.pins.iter().enumerate().take(a + 1) {
-                let (p, q) = (&island.pins[i], &island.pins[j]);
-                let mut block = Matrix3::zeros();
-                let impedance = &prediction.impedances[p.cable];
-                let index = |node: usize| impedance.nodes().iter().position(|&n| n == node);
-                if p.cable == q.cable
-                    && let (Some(one), Some(two)) = (index(p.node), index(q.node))
-                {
-                    block += impedance.compliance(one, two);
-                }
-                let share = |body: usize| if body == member { OWN_MOBILITY_SHARE.sqrt() } else { 1.0 };
-                let levers = [start[p.body].rotation * p.anchor, start[q.body].rotation * q.anchor];
-                let in_group = |group: &Group| Some(group.mobility(group.place(p.body)?, group.place(q.body)?));
-                if let Some(mobility) = prediction.groups.iter().find_map(in_group) {
-                    block += point_mobility(&mobility, &levers) * (share(p.body) * share(q.body));
-                } else if p.body == q.body {
-                    block += mobility(&start[p.body], &levers) * (share(p.body) * share(q.body));
-                }
-                m.fixed_view_mut::<3, 3>(3 * a, 3 * b).copy_from(&block);
-            }
-        }
-        // the upper triangle is not read
-        let Some(factors) = Cholesky::new(m) else { return false };
-        self.inverse.fill_with_identity();
-        factors.solve_mut(&mut self.inverse);
-        self.matrix = factors.unpack_dirty();
-        true
-    }
-
-    /// Returns D for every pin on a member, by the index of the pin.
-    fn own(&self, island: &Island, member: usize) -> impl Iterator<Item = (usize, Matrix3<f64>)> {
-        let own = self.pins.iter().enumerate().filter(move |(_, pin)| island.pins[**pin].body == member);
-        own.map(|(a, pin)| (*pin, self.inverse.fixed_view::<3, 3>(3 * a, 3 * a).into_owned()))
-    }
+    Some(matrix.try_inverse()?.fixed_view::<3, 3>(0, 0).into_owned())
 }
 
-/// Returns the velocity at one point per impulse at another, in 1/kg, by the mobility of their bodies and the levers from
-/// the centres of mass.
-fn point_mobility(mobility: &Matrix6<f64>, [ra, rb]: &[Vector3<f64>; 2]) -> Matrix3<f64> {
-    let at = |r: usize, c: usize| mobility.fixed_view::<3, 3>(r, c).into_owned();
-    let linear = at(0, 0) + at(0, 3) * rb.cross_matrix();
-    linear - ra.cross_matrix() * (at(3, 0) + at(3, 3) * rb.cross_matrix())
-}
-
-/// Returns the velocity at one point of a free body per impulse at another, in 1/kg.
-fn mobility(body: &RigidBody, [ra, rb]: &[Vector3<f64>; 2]) -> Matrix3<f64> {
-    let mass = if body.mass > 0.0 { body.mass } else { JUNCTION_MASS };
-    let masked = Matrix3::from_diagonal(&Vector3::from_fn(|i, _| f64::from(u8::from(body.free[i])) / mass));
-    let mut inverse = body.world_inertia(&body.rotation).try_inverse().unwrap_or_else(Matrix3::zeros);
-    for x in (0..3).filter(|&x| !body.free[3 + x]) {
-        inverse.row_mut(x).fill(0.0);
-        inverse.column_mut(x).fill(0.0);
-    }
-    masked - ra.cross_matrix() * inverse * rb.cross_matrix()
+/// Returns the velocity of a point of a body per impulse on it, in 1/kg, as far as its axes are free.
+fn mobility(body: &RigidBody, anchor: &Vector3<f64>) -> Matrix3<f64> {
+    let free = |from: usize| Matrix3::from_diagonal(&Vector3::from_fn(|x, _| f64::from(u8::from(body.free[from + x]))));
+    let lever = (body.rotation * anchor).cross_matrix();
+    let inverse = body.world_inertia(&body.rotation).try_inverse().unwrap_or_else(Matrix3::zeros);
+    free(0) / body.mass.max(JUNCTION_MASS) - lever * free(3) * inverse * free(3) * lever
 }

@@ -12,16 +12,12 @@ use crate::error::Error;
 use crate::islands::{Island, Member};
 use crate::pose::OriginPose;
 use crate::step::prediction::StepParameters;
-use crate::step::prescribed_motion::{PrescribedMotions, ROUNDING};
+use crate::step::prescribed_motion::PrescribedMotions;
 use ::nalgebra::{Matrix3, Vector3};
+use lariat_ancf::Motion;
 use lariat_ancf::island::{CLOSING_SPEED, RigidBody};
-use lariat_ancf::{At, Motion};
 use rapier::dynamics::RigidBodyHandle;
-use rapier::math::Real;
 use rapier::pipeline::PhysicsWorld;
-
-/// Distance in m within which an anchor counts as unmoved.
-const UNMOVED_DISTANCE: f64 = 1e-12;
 
 /// Returns a body with prescribed motion as a driven body of an island: its origin and attitude,
 /// and the motion of the coming step.
@@ -35,10 +31,7 @@ pub(crate) fn driven_body(
     let mut body = RigidBody::new(1.0, Matrix3::identity(), from)?;
     body.rotation = attitude;
     body.velocity = (to - from) / step.h;
-    // a body that stands still must get no angular velocity by rounding
-    if turned != attitude {
-        body.angular_velocity = (turned * attitude.inverse()).scaled_axis() / step.h;
-    }
+    body.angular_velocity = (turned * attitude.inverse()).scaled_axis() / step.h;
     let uniform = [body.velocity, body.angular_velocity];
     body.unsteadiness = [first, last].map(|end| [end[0] - uniform[0], end[1] - uniform[1]]);
     body.free = [false; 6];
@@ -54,9 +47,8 @@ pub(crate) fn have_moved(
     island: &Island,
     h: f64,
 ) -> bool {
-    let has_moved = |a: &Attachment, (origin, attitude): OriginPose| {
-        a.last_anchor.is_none_or(|before| (origin + attitude * a.anchor - before).norm() > UNMOVED_DISTANCE)
-    };
+    let has_moved =
+        |a: &Attachment, (origin, attitude): OriginPose| a.last_anchor != Some(origin + attitude * a.anchor);
     let mut supports = island.supports.iter().filter_map(|&i| contents.attachments.get(i));
     let mut clamps = island.pins.iter().zip(&island.attachments).filter_map(|(pin, index)| {
         let Member::Driven(body) = island.members[pin.body] else { return None };
@@ -92,23 +84,12 @@ pub(crate) fn prescribe(
                 (origin + arm, v + w.cross(&arm))
             });
         let from = cable.node_position(a.node);
-        let rests = start_velocity == Vector3::zeros() && end_velocity == Vector3::zeros() && start == end;
-        let present = Vector3::from_column_slice(&cable.velocities()[6 * a.node..6 * a.node + 3]);
-        let rounding = ROUNDING * f64::from(Real::EPSILON) * (start_velocity.norm() + start.norm().max(1.0) / step.h);
-        let continues = (present - start_velocity).norm() <= rounding;
-        let start_velocity = if continues { present } else { start_velocity };
         // after a teleport the node follows with CLOSING_SPEED at most
         let behind = from - start;
         let left = (1.0 - CLOSING_SPEED * step.h / (1.5 * behind.norm()).max(f64::MIN_POSITIVE)).max(0.0);
         let target = end + behind * left;
-        let motion = if rests && from == target {
-            Motion::fixed(end)
-        } else {
-            Motion::hermite(cable.time(), step.h, (from, start_velocity), (target, end_velocity))
-        };
-        if cable.support(At::Node(a.node))?.position != Some(motion) {
-            cable.set_motion(a.node, motion)?;
-        }
+        let motion = Motion::hermite(cable.time(), step.h, (from, start_velocity), (target, end_velocity));
+        cable.set_motion(a.node, motion)?;
         a.last_anchor.get_or_insert(start);
     }
     Ok(())

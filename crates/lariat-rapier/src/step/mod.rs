@@ -48,7 +48,6 @@ use crate::reels;
 use crate::settings::Settings;
 use crate::sleep;
 use lariat_ancf::Snapshot;
-use lariat_ancf::island::Impedance;
 use prediction::{Prediction, StepParameters};
 use prescribed_motion::PrescribedMotions;
 use rapier::dynamics::RigidBodyHandle;
@@ -100,7 +99,6 @@ pub(crate) struct Stepper {
     /// Of the present host step.
     budget: Remaining,
     /// Buffers.
-    impedance: Impedance,
     buffers: integrate::Buffers,
     motions: PrescribedMotions,
 }
@@ -122,7 +120,7 @@ pub(crate) fn begin(
         stepper.failures.clear();
         stepper.budget = Remaining::new(settings.budget);
         stepper.predictions.iter_mut().for_each(|p| (p.budget, p.degraded) = (stepper.budget, false));
-        host.steps = substepping::count(contents, world, settings, f64::from(dt), &mut stepper.impedance);
+        host.steps = substepping::count(contents, world, settings, f64::from(dt));
         host.motions = core::mem::take(&mut stepper.motions);
         host.motions.read(contents, world, f64::from(dt));
         if host.steps > 1 {
@@ -146,7 +144,7 @@ pub(crate) fn predict_next(
         return Ok(());
     }
     if host.done > 0 {
-        split_finer(contents, world, settings, host, &mut stepper.impedance);
+        split_finer(contents, world, settings, host);
     }
     host.done += 1;
     if host.dt == 0.0 {
@@ -167,15 +165,9 @@ pub(crate) fn predict_next(
 }
 
 /// Splits the rest of a host step finer, if a body met another since it began.
-fn split_finer(
-    contents: &mut Contents,
-    world: &mut PhysicsWorld,
-    settings: &Settings,
-    host: &mut HostStep,
-    impedance: &mut Impedance,
-) {
+fn split_finer(contents: &Contents, world: &mut PhysicsWorld, settings: &Settings, host: &mut HostStep) {
     let max = settings.max_rapier_steps / host.steps;
-    let needed = substepping::count(contents, world, settings, f64::from(host.dt), impedance);
+    let needed = substepping::count(contents, world, settings, f64::from(host.dt));
     let finer = needed.div_ceil(host.steps).min(max);
     if finer > 1 {
         (host.steps, host.done) = (host.steps * finer, host.done * finer);

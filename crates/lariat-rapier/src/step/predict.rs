@@ -8,15 +8,15 @@
 //! # Validity
 //! What Rapier's step makes of a body that something holds moves its cables by one implicit step
 //! ([`Impedance`](lariat_ancf::island::Impedance)). Error control resolves waves that this step does not, and each correction adds a little to
-//! them: on undamped cables they grow until the tension is lost. As long as a contact or a limit of a multibody holds a body, cables under error control therefore have
+//! them: on undamped cables they grow until the tension is lost. As long as a body rests against a contact or a limit of a multibody, cables under error control therefore have
 //! a Kelvin-Voigt time of 0.1 h or more, which adds 0.05 h w to the damping ratio of an axial wave of angular frequency w
 //! ([`Cable::set_least_damping`](lariat_ancf::Cable::set_least_damping)). For one body that is enough at any mass; where bodies are so light that
 //! Rapier's steps do not resolve their vibration (h w > 0.6, [`substepping`]), the island is integrated by the discrete gradient in
-//! Rapier's steps, of 1/240 s or less, while the light body rests, and an [event](crate::Event::Degraded) says so (test contact.rs).
+//! Rapier's steps, of 1/240 s or less, and an [event](crate::Event::Degraded) says so (test contact.rs).
 //!
 //! # Alternatives considered
-//! One step of ESDIRK4 per Rapier step: still two bodies of 100 g on undamped wires swing by the whole of their tension. The discrete gradient also for
-//! bodies that move: it takes 3 to 13 % of the energy of a box that falls on a floor on a taut rope. Motors with the impedance of the cable alone: the
+//! One step of ESDIRK4 per Rapier step: still two bodies of 100 g on undamped wires swing by the whole of their tension. Either of the two also
+//! for bodies that move: it takes 3 to 13 % of the energy of a box that falls on a floor on a taut rope. Motors with the impedance of the cable alone: the
 //! waves grow as fast.
 
 use crate::body;
@@ -32,8 +32,8 @@ use crate::step::kinematic_ends;
 use crate::step::prediction::{Prediction, StepParameters};
 use crate::step::prescribed_motion::PrescribedMotions;
 use crate::step::substepping;
-use ::nalgebra::{Matrix3, Vector6};
-use lariat_ancf::island::RigidBody;
+use ::nalgebra::Vector6;
+use lariat_ancf::island::{PinConstraint, RigidBody};
 use lariat_ancf::{Integrator, StepControl};
 use rapier::pipeline::PhysicsWorld;
 
@@ -55,6 +55,7 @@ pub(crate) fn prepare(
     step: &StepParameters,
 ) -> Result<(), Error> {
     let mut integrator = share_of(integrator(contents, island, step), step.rapier_steps);
+    let mut least = 0.0;
     prediction.parts = 1;
     prediction.sheaves.clear();
     prediction.start.clear();
@@ -73,31 +74,37 @@ pub(crate) fn prepare(
         }
         read_members(contents, world, motions, island, prediction, step)?;
         if island.bodies().next().is_some() {
-            if is_controlled(&integrator) && outruns_correction(contents, world, island, step.h) {
-                integrator = CHEAPEST;
-                prediction.degraded = true;
+            if is_controlled(&integrator) {
+                let held = held_phase(contents, world, island, prediction, step.h);
+                least = if held.is_some() { MIN_DAMPING * step.h } else { 0.0 };
+                if held.is_some_and(|phase| phase > substepping::MAX_PHASE) {
+                    integrator = CHEAPEST;
+                    prediction.degraded = true;
+                }
             }
             prediction.parts = parts(&integrator, step.h);
             integrator = share_of(integrator, prediction.parts);
         }
     }
-    let is_damped = is_controlled(&integrator) && is_held(contents, island, prediction);
-    let least = if is_damped { MIN_DAMPING * step.h } else { 0.0 };
     contents.for_cables(&island.cables, |_, cable| cable.set_least_damping(least));
     prediction.integrator = Some(integrator);
     energy::begin(contents, island, prediction);
     Ok(())
 }
 
-/// Returns whether a contact, or the limit of a multibody, holds a body of an island against its cables.
-fn is_held(contents: &Contents, island: &Island, prediction: &Prediction) -> bool {
-    let mut attached = island.attachments.iter().zip(&island.pins);
-    attached.any(|(index, pin)| match &prediction.mechanisms[pin.body] {
-        Some(mechanism) => mechanism.loads.limited,
-        None => {
-            index.and_then(|index| contents.attachments.get(index)).is_some_and(|a| substepping::is_held(contents, a))
-        }
-    })
+/// Returns the largest h w, in steps of `h` (s), of the bodies of an island that rest against a contact, 0 for those at limits of a multibody.
+fn held_phase(
+    contents: &Contents,
+    world: &PhysicsWorld,
+    island: &Island,
+    prediction: &Prediction,
+    h: f64,
+) -> Option<f64> {
+    let phase = |(index, pin): (&Option<usize>, &PinConstraint)| match &prediction.mechanisms[pin.body] {
+        Some(mechanism) => mechanism.loads.limited.then_some(0.0),
+        None => substepping::resting_phase(contents, world, contents.attachments.get((*index)?)?, h),
+    };
+    island.attachments.iter().zip(&island.pins).filter_map(phase).reduce(f64::max)
 }
 
 /// Takes over what the integration of an island tells about its attachments and junctions.
@@ -138,12 +145,7 @@ fn read_members(
                     // what the body was in contact with is gone
                     record.reaction = Vector6::zeros();
                 }
-                let mut body = body::read(world, *handle, record, time)?;
-                if body.inertia == Matrix3::zeros() {
-                    // a point mass does not rotate, but the solver needs an inverse
-                    body.inertia = Matrix3::identity();
-                }
-                body
+                body::read(world, *handle, record, time)?
             }
             Member::Driven(handle) => kinematic_ends::driven_body(world, motions, *handle, step)?,
             Member::Junction(j) => {
@@ -257,12 +259,6 @@ fn parts(integrator: &Integrator, h: f64) -> u32 {
 /// Returns whether an integrator controls its error.
 fn is_controlled(integrator: &Integrator) -> bool {
     matches!(integrator.control, StepControl::Tolerance(_) | StepControl::ToleranceOf(..))
-}
-
-/// Returns whether waves of the cables of an island that only an integrator with error control resolves would grow by the corrections of Rapier
-/// steps of `h` (s).
-fn outruns_correction(contents: &Contents, world: &PhysicsWorld, island: &Island, h: f64) -> bool {
-    substepping::held_phases(contents, world, island, h).any(|phase| phase > substepping::MAX_PHASE)
 }
 
 /// Returns the integrator for one of `count` equal parts of the step that `integrator` is meant

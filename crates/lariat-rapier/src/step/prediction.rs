@@ -6,7 +6,6 @@ use crate::budget::Remaining;
 use crate::error::Error;
 use crate::mechanism::{Group, Mechanism};
 use crate::sleep::SleepState;
-use crate::step::impedance::DrivingPoint;
 use crate::step::refused::HeldBodies;
 use crate::step::step_energy::StepEnergy;
 use ::nalgebra::Vector3;
@@ -64,6 +63,8 @@ pub(crate) struct Prediction {
     pub accounts: Vec<PinAccount>,
     /// Indices of the members that may deviate from the prediction.
     pub deviating: Vec<usize>,
+    /// Indices of their pins, and of the next ones on the same cables.
+    pub near: Vec<usize>,
     /// Nodes of a cable: a buffer.
     pub nodes: Vec<usize>,
     /// By pin, whether its motors are on.
@@ -72,8 +73,6 @@ pub(crate) struct Prediction {
     pub impulses: Vec<Vector3<f64>>,
     /// By node of an impedance, the impulse on it in N s: a buffer.
     pub impulses_at: Vec<Vector3<f64>>,
-    /// Buffers for the motors.
-    pub driving_point: DrivingPoint,
     /// What its energy balance compares with.
     pub energy: StepEnergy,
     pub sleep: SleepState,
@@ -87,16 +86,10 @@ pub(crate) struct Prediction {
 pub(crate) struct AppliedMotion {
     pub linvel: Vector,
     pub angvel: AngVector,
-    /// Centre of mass in body axes.
-    pub centre: Vector,
     /// Whether it touches nothing and no joint holds it.
     pub isolated: bool,
-    /// Whether it is a link of a multibody, or joined to a dynamic body.
-    pub linked: bool,
     /// Velocity in m/s that balanced forces add and remove within Rapier's step.
     pub balanced_velocity: f64,
-    /// Whether Rapier's step took it where it was predicted.
-    pub landed: bool,
     pub saved: SavedBody,
 }
 

@@ -5,10 +5,9 @@
 //! a = 2 (v - v')/(H + H')        s = a.a'/max(a.a, a'.a'), at least 0
 //! v0 = (1 - s) (v - s a H/2) + s v1'        v1 = v + s a H/2
 //! ```
-//! v is the mean velocity of the body's reference point over a host step of H, v0 and v1 are its
+//! v is the mean velocity of the body's origin over a host step of H, v0 and v1 are its
 //! velocities at both ends; the values of the last host step have a prime; angular velocities
-//! alike. The reference point is the one that moves uniformly if nothing accelerates: the centre of
-//! mass of a body that Rapier moves by its velocity, the origin of one that is moved to a pose.
+//! alike.
 //!
 //! Between the ends the body follows cubics, so that its motion is once continuously
 //! differentiable where it accelerates steadily (s = 1). Where it starts, stops or turns a corner
@@ -37,11 +36,7 @@ use crate::motion_memory::{Line, MotionMemory, Velocities};
 use crate::pose::{MAX_ROTATION_PER_STEP, OriginPose, pose};
 use ::nalgebra::{UnitQuaternion, Vector3};
 use rapier::dynamics::{RigidBodyHandle, RigidBodyType};
-use rapier::math::Real;
 use rapier::pipeline::PhysicsWorld;
-
-/// Change of a velocity that is rounding, in units of the rounding of positions over a step.
-pub(crate) const ROUNDING: f64 = 8.0;
 
 /// The motion of one body over a host step.
 #[derive(Clone, Debug)]
@@ -75,19 +70,14 @@ pub(crate) fn pose_after(world: &PhysicsWorld, handle: RigidBodyHandle, h: f64) 
     }
 }
 
-/// Returns the pose of a kinematic body after Rapier moved it from `start` by its velocity for `h` (s): no
-/// faster than Rapier's greatest velocity, with a linearised rotation in each substep.
+/// Returns the pose of a kinematic body after Rapier moved it from `start` by its velocity for `h` (s), with a
+/// linearised rotation in each substep.
 fn moved_by_velocity(world: &PhysicsWorld, handle: RigidBodyHandle, start: OriginPose, h: f64) -> OriginPose {
     let body = &world.bodies[handle];
-    let parameters = &world.integration_parameters;
-    let substeps = parameters.num_solver_iterations.max(1);
-    let (mut velocity, mut spin) = (vector(body.linvel()), vector(body.angvel()));
+    let substeps = world.integration_parameters.num_solver_iterations.max(1);
+    let (velocity, mut spin) = (vector(body.linvel()), vector(body.angvel()));
     if velocity == Vector3::zeros() && spin == Vector3::zeros() {
         return start;
-    }
-    let (max_speed, speed) = (f64::from(parameters.max_linear_velocity()), velocity.norm());
-    if speed > max_speed {
-        velocity *= max_speed / speed;
     }
     if !body.is_fast_rotation_allowed() && spin.norm() * h > MAX_ROTATION_PER_STEP {
         spin *= MAX_ROTATION_PER_STEP / (h * spin.norm());
@@ -102,12 +92,9 @@ fn moved_by_velocity(world: &PhysicsWorld, handle: RigidBodyHandle, start: Origi
     (centre - attitude * local, attitude)
 }
 
-/// Returns the uniform velocities of the body's point `local` from one pose to another in `h` (s).
-fn mean(from: &OriginPose, to: &OriginPose, local: &Vector3<f64>, h: f64) -> Velocities {
-    let point = |(origin, attitude): &OriginPose| origin + attitude * local;
-    // a body that does not rotate must get no angular velocity by rounding
-    let turn = if from.1 == to.1 { Vector3::zeros() } else { (to.1 * from.1.inverse()).scaled_axis() / h };
-    [(point(to) - point(from)) / h, turn]
+/// Returns the uniform velocities from one pose to another in `h` (s).
+fn mean([from, to]: &[OriginPose; 2], h: f64) -> Velocities {
+    [(to.0 - from.0) / h, (to.1 * from.1.inverse()).scaled_axis() / h]
 }
 
 /// Returns how far an acceleration continues that of the last step, 0 to 1.
@@ -121,7 +108,7 @@ impl BodyMotion {
         let by_pose = world.bodies[handle].body_type() == RigidBodyType::KinematicPositionBased;
         let start = contents.records.place(world, handle);
         let last = contents.records.get(handle).and_then(|record| record.motion);
-        let mut line = last.filter(|last| last.step == dt).map_or_else(Line::default, |last| last.line);
+        let mut line = last.map_or_else(Line::default, |last| last.line);
         let end = match world.bodies[handle].body_type() {
             RigidBodyType::KinematicVelocityBased if world.bodies[handle].is_enabled() => {
                 moved_by_velocity(world, handle, start, dt)
@@ -139,18 +126,12 @@ impl BodyMotion {
         };
         let curved = line.count == 2 && last.is_some_and(|last| last.line.count == 2);
         let poses = [start, end];
-        let mean = mean(&poses[0], &poses[1], &reference(world, handle), dt);
+        let mean = mean(&poses, dt);
         let mut memory = MotionMemory { mean, acceleration: Default::default(), end: mean, step: dt, line, curved };
         let mut beyond = [Velocities::default(); 2];
         if let Some(last) = last {
-            let extent = poses[0].0.norm().max(1.0);
-            for (x, size) in [extent, 1.0].into_iter().enumerate() {
-                let change = mean[x] - last.mean[x];
-                if change.norm() <= ROUNDING * f64::from(Real::EPSILON) * size / dt {
-                    beyond[0][x] = last.end[x] - mean[x];
-                    continue;
-                }
-                let a = change * (2.0 / (dt + last.step));
+            for x in 0..2 {
+                let a = (mean[x] - last.mean[x]) * (2.0 / (dt + last.step));
                 let s = steadiness(&a, &last.acceleration[x]);
                 let half = a * (0.5 * s * dt);
                 beyond[0][x] = (last.end[x] - mean[x]) * s - half * (1.0 - s);
@@ -164,26 +145,15 @@ impl BodyMotion {
 
     /// Returns pose and velocities at a share of the host step of a body that is moved to a pose.
     fn at(&self, share: f64) -> (OriginPose, Velocities) {
-        let [(x0, r0), (x1, r1)] = &self.poses;
+        let [(x0, r0), (x1, _)] = &self.poses;
         let ([first, last], h) = (self.beyond, self.memory.step);
         let (c0, c1) = (share * (1.0 - share) * (1.0 - share) * h, -share * share * (1.0 - share) * h);
         let (d0, d1) = ((1.0 - share) * (1.0 - 3.0 * share), share * (3.0 * share - 2.0));
         let turn = self.memory.mean[1] * (share * h) + first[1] * c0 + last[1] * c1;
         let origin = x0.lerp(x1, share) + first[0] * c0 + last[0] * c1;
         let attitude = UnitQuaternion::from_scaled_axis(turn) * r0;
-        let (origin, attitude) = if share == 1.0 { (*x1, *r1) } else { (origin, attitude) };
         let velocities = core::array::from_fn(|x| self.memory.mean[x] + first[x] * d0 + last[x] * d1);
         ((origin, attitude), velocities)
-    }
-}
-
-/// Returns the point that moves uniformly if nothing accelerates a body, in body axes.
-pub(crate) fn reference(world: &PhysicsWorld, handle: RigidBodyHandle) -> Vector3<f64> {
-    let body = &world.bodies[handle];
-    if body.body_type() == RigidBodyType::KinematicVelocityBased {
-        vector(body.local_center_of_mass())
-    } else {
-        Vector3::zeros()
     }
 }
 
@@ -230,7 +200,7 @@ impl PrescribedMotions {
                 [contents.records.place(world, motion.handle); 2]
             };
             contents.records.record_mut(motion.handle).next_place = Some(motion.step[1]);
-            if motion.by_pose && steps > 1 {
+            if motion.by_pose {
                 let (origin, attitude) = motion.step[1];
                 world.bodies[motion.handle].set_next_kinematic_position(to_pose(&origin, &attitude));
             }
@@ -270,9 +240,7 @@ impl PrescribedMotions {
         h: f64,
     ) -> [(OriginPose, Velocities); 2] {
         let poses = self.poses(world, handle, h);
-        let local = reference(world, handle);
-        let uniform = mean(&poses[0], &poses[1], &local, h);
-        let mut velocities = [uniform; 2];
+        let mut velocities = [mean(&poses, h); 2];
         if let Some(motion) = self.0.iter().find(|motion| motion.handle == handle) {
             if motion.by_pose {
                 velocities = [motion.at(from).1, motion.at(to).1];
@@ -282,9 +250,6 @@ impl PrescribedMotions {
                 }
             }
         }
-        core::array::from_fn(|i| {
-            let [v, w] = velocities[i];
-            (poses[i], [v - w.cross(&(poses[i].1 * local)), w])
-        })
+        core::array::from_fn(|i| (poses[i], velocities[i]))
     }
 }

@@ -8,12 +8,8 @@
 //! mechanism. Of the impulse of contacts and joints in the step, the share s is expected again: what bears a load leaves the motion of the
 //! body as it is (s = 1), a blow is gone with the momentum that it gave (s = 0).
 //!
-//! # Validity
-//! p is left out for a body that is joined to others: in a chain of joints the motors work against each other, and the estimate settles on a
-//! wrong force with p.
-//!
 //! # Alternatives considered
-//! Leaving p out for bodies in contact: bodies of 1 to 5 kg on a steel wire leave a jam when the host step is not split.
+//! Leaving p out: bodies of 1 to 5 kg on a steel wire leave a jam when the host step is not split.
 
 use crate::mechanism::{own_inertia, velocity_of};
 use crate::record::BodyRecord;

@@ -35,7 +35,7 @@ use crate::step::motors::{apply_motor_impulses, motor_impulse, take_impulses};
 use crate::step::prediction::{AppliedMotion, BodyStep, Prediction};
 use crate::step::reaction::update_reaction;
 use crate::step::waking;
-use ::nalgebra::{UnitQuaternion, Vector3, Vector6};
+use ::nalgebra::{Vector3, Vector6};
 use lariat_ancf::island::RigidBody;
 use rapier::dynamics::{RigidBody as RapierBody, RigidBodyHandle};
 use rapier::math::Real;
@@ -44,19 +44,10 @@ use rapier::pipeline::PhysicsWorld;
 /// Gap at a link of a multibody, as a share of the length of the cable, beyond which the island is refused if
 /// the gap grows.
 const MAX_LINK_GAP_SHARE: f64 = 2e-3;
-/// A body landed where it was predicted if it is within this many units of rounding of its
-/// position, at [`USUAL_ITERATIONS`] or fewer solver iterations.
+/// A body landed where it was predicted if it is within this many units of rounding of its position and of the velocity that it
+/// was given: Rapier adds up balanced forces, and every substep rounds.
 const POSITION_ROUNDING: f64 = 32.0;
-/// Factor from the tolerance of positions to that of velocities: Rapier adds up balanced forces.
-const VELOCITY_FACTOR: f64 = 8.0;
-/// Rapier's default number of solver iterations.
-const USUAL_ITERATIONS: usize = 4;
-/// Speed in m/s and angular speed in rad/s below which the tolerance of velocities is absolute.
-const MIN_SPEED: f64 = 1e-3;
-const MIN_SPIN: f64 = 1e-2;
-/// Angle in rad below which a rotation is equal to the predicted one, in units of the square root of
-/// the rounding: the angle between two quaternions is no more accurate.
-const MIN_ANGLE: f64 = 1e-3;
+const VELOCITY_ROUNDING: f64 = 256.0;
 
 /// Updates cables, bodies and attachments of an island after a Rapier step of `h` (s).
 pub(crate) fn reconcile(
@@ -81,7 +72,7 @@ pub(crate) fn reconcile(
     }
     if !island.members.is_empty() {
         energy::note(contents, world, island, prediction, h);
-        let rests = !prediction.sleep.disturbed && sleep::is_resting(contents, world, island, sleep_speed);
+        let rests = !prediction.sleep.disturbed && sleep::is_resting(contents, island, sleep_speed);
         read_members(contents, world, island, prediction, (h, rests));
         apply_motor_impulses(contents, island, prediction);
         read_attachments(contents, world, island, prediction, h);
@@ -136,13 +127,7 @@ fn read_members(
         }
         let motors = motor_impulse(island, prediction, m);
         record.stepped = true;
-        let landed = read_back(world, &step, applied, record, (&motors, rests));
-        if let Some(applied) = prediction.applied[m].as_mut() {
-            applied.landed = landed;
-        }
-        if landed {
-            island.pins_on(m).for_each(|pin| prediction.impulses[pin] = Vector3::zeros());
-        }
+        read_back(world, &step, applied, record, (&motors, rests));
     }
     for group in &prediction.groups {
         groups::read_back(contents, world, island, prediction, group, h);
@@ -164,36 +149,31 @@ fn put_to_rest(world: &mut PhysicsWorld, step: &BodyStep, applied: &AppliedMotio
 
 /// Restores the forces and settings of a body, and sets its state: the predicted one if it landed
 /// there, else Rapier's position with the velocity that contacts and joints left of the predicted
-/// one. `motors` is the impulse of its motors; a body that `rests` is left where Rapier holds it, which
-/// would wake all that it touches. Returns whether it landed.
+/// one. `motors` is the impulse of its motors; a body that touched nothing, or that `rests`, is left where Rapier holds it, which
+/// would find its contacts anew, and wake all that it touches.
 fn read_back(
     world: &mut PhysicsWorld,
     step: &BodyStep,
     applied: &AppliedMotion,
     record: &mut BodyRecord,
     (motors, rests): (&Vector6<f64>, bool),
-) -> bool {
+) {
     let &BodyStep { handle, end, h, .. } = step;
     let iterations = world.integration_parameters.num_solver_iterations;
     let body = &mut world.bodies[handle];
     applied.saved.restore_settings(body);
-    if body.local_center_of_mass() != applied.centre {
-        // its mass changed during the step: its motion tells nothing about forces
-        *record = BodyRecord { stepped: true, ..BodyRecord::new(handle) };
-        return false;
-    }
     let after = stack_spatial(&vector(body.linvel()), &vector(body.angvel()));
     let deviation = after - stack_spatial(&vector(applied.linvel), &vector(applied.angvel));
-    let landed = has_landed(body, end, applied, &deviation, iterations);
+    let landed = has_landed(body, end, applied, &deviation);
     let velocity = stack_spatial(&end.velocity, &end.angular_velocity);
     let velocity = if landed { velocity } else { velocity + deviation };
     let mut settled = end.clone();
     if !landed {
-        (settled.position, settled.rotation) = unrounded(body, end, &(deviation * h), iterations);
+        settled.position = unrounded(body, &end.position, &(split_spatial(&deviation).0 * h), iterations);
+        settled.rotation = rotation(*body.rotation());
         settled.memory = None;
     }
-    let motors = if applied.linked { Vector6::zeros() } else { *motors };
-    update_reaction(step, &settled, record, (&deviation, &velocity), &motors);
+    update_reaction(step, &settled, record, (&deviation, &velocity), motors);
     let (linear_damping, angular_damping) = applied.saved.damping_factors(h);
     let (linear, angular) = split_spatial(&velocity);
     let (linear, angular) = (linear * linear_damping, angular * angular_damping);
@@ -203,55 +183,34 @@ fn read_back(
         let origin = settled.position - settled.rotation * vector(body.local_center_of_mass());
         body.set_position(to_pose(&origin, &settled.rotation), false);
     }
-    record.exact = Some(ExactState::new(&settled, (linear, angular), applied.centre, body));
-    landed
+    record.exact = Some(ExactState::new(&settled, (linear, angular), body));
 }
 
-/// Returns whether a body is where it was predicted, and moves as it was told to, within rounding.
-fn has_landed(
-    body: &RapierBody,
-    end: &RigidBody,
-    applied: &AppliedMotion,
-    deviation: &Vector6<f64>,
-    iterations: usize,
-) -> bool {
-    // every substep rounds
-    let substeps = iterations.max(USUAL_ITERATIONS) as f64 / USUAL_ITERATIONS as f64;
-    let tolerance = f64::from(Real::EPSILON) * POSITION_ROUNDING * substeps;
-    let extent = vector(body.center_of_mass()).norm().max(1.0);
-    let distance = (vector(body.center_of_mass()) - end.position).norm();
-    let angle = (rotation(*body.rotation()).inverse() * end.rotation).angle();
-    let slow = tolerance * VELOCITY_FACTOR;
+/// Returns whether a body is where it was predicted, and moves as it was told to, within rounding. Continuous collision detection stops a body
+/// at a wall without a change of its velocity.
+fn has_landed(body: &RapierBody, end: &RigidBody, applied: &AppliedMotion, deviation: &Vector6<f64>) -> bool {
+    let epsilon = f64::from(Real::EPSILON);
+    let centre = vector(body.center_of_mass());
+    let distance = (centre - end.position).norm();
+    let tolerance = VELOCITY_ROUNDING * epsilon;
     let (linear, angular) = split_spatial(deviation);
     let speed = vector(applied.linvel).norm() + applied.balanced_velocity;
-    distance <= tolerance * extent
-        && angle <= tolerance.max(MIN_ANGLE * f64::from(Real::EPSILON).sqrt()) * 4.0
-        && linear.norm() <= slow * speed.max(MIN_SPEED)
-        && angular.norm() <= slow * vector(applied.angvel).norm().max(MIN_SPIN)
+    distance <= POSITION_ROUNDING * epsilon * centre.norm().max(1.0)
+        && linear.norm() <= tolerance * speed
+        && angular.norm() <= tolerance * vector(applied.angvel).norm()
 }
 
-/// Returns position and attitude of a body that deviated in a step of `iterations` substeps. By how much depends on when it was pushed:
-/// between nothing and `largest`, the deviation of its velocity times the step. Where Rapier's place is beyond that by no more than it is
+/// Returns the position of a body that deviated from the predicted one in a step of `iterations` substeps. By how much depends on when it was
+/// pushed: between nothing and `largest`, the deviation of its velocity times the step. Where Rapier's place is beyond that by no more than it is
 /// rounded, the nearer of the two is true.
-fn unrounded(
-    body: &RapierBody,
-    end: &RigidBody,
-    largest: &Vector6<f64>,
-    iterations: usize,
-) -> (Vector3<f64>, UnitQuaternion<f64>) {
-    let rounding = rounding(iterations);
-    let (position, attitude) = (vector(body.center_of_mass()), rotation(*body.rotation()));
-    let lever = vector(body.local_center_of_mass()).norm();
-    let moved = position - end.position;
-    let turned = (attitude * end.rotation.inverse()).scaled_axis();
-    let exact = |x: f64, most: f64, rounding: f64| {
-        let nearest = x.clamp(most.min(0.0), most.max(0.0));
-        if (x - nearest).abs() <= rounding { nearest } else { x }
-    };
-    let moved = Vector3::from_fn(|i, _| exact(moved[i], largest[i], rounding * (position[i].abs() + lever)));
-    // a quaternion holds half the angle
-    let turned = turned.zip_map(&largest.fixed_rows::<3>(3).into_owned(), |x, most| exact(x, most, 2.0 * rounding));
-    (end.position + moved, UnitQuaternion::from_scaled_axis(turned) * end.rotation)
+fn unrounded(body: &RapierBody, predicted: &Vector3<f64>, largest: &Vector3<f64>, iterations: usize) -> Vector3<f64> {
+    let position = vector(body.center_of_mass());
+    Vector3::from_fn(|i, _| {
+        let moved = position[i] - predicted[i];
+        let nearest = moved.clamp(largest[i].min(0.0), largest[i].max(0.0));
+        let rounded = (moved - nearest).abs() <= rounding(iterations) * position[i].abs();
+        if rounded { predicted[i] + nearest } else { position[i] }
+    })
 }
 
 /// Reads force, moment, gap and work at the pins of an island.
@@ -278,12 +237,8 @@ fn read_attachments(contents: &mut Contents, world: &PhysicsWorld, island: &Isla
         let mean = (a.predicted.impulse + prediction.impulses[i]) / h;
         let gap = slot.cable.node_position(a.node) - anchor;
         let reading = &mut a.reading;
-        reading.work += if prediction.applied[pin.body].as_ref().is_none_or(|applied| applied.landed) {
-            a.predicted.work
-        } else {
-            let turned = (attitude * start.rotation.inverse()).scaled_axis();
-            mean.dot(&(anchor - start.point(&pin.anchor))) + a.predicted.angular_impulse.dot(&turned) / h
-        };
+        let turned = (attitude * start.rotation.inverse()).scaled_axis();
+        reading.work += mean.dot(&(anchor - start.point(&pin.anchor))) + a.predicted.angular_impulse.dot(&turned) / h;
         // a gap that closes becomes smaller
         let opens = gap.norm() > (MAX_LINK_GAP_SHARE * slot.cable.length()).max(reading.gap.norm());
         reading.residual += mean.dot(&(reading.gap - gap));

@@ -11,14 +11,13 @@
 //! h is long compared with the period of the body on its taut cables, the estimate comes too late:
 //! two jammed bodies of 1 kg under 1 kN oscillate by half of it, and a body that is released
 //! suddenly is thrown by the old estimate (a gap of F h^2/2m). Therefore the host step is split
-//! finer where a body that is near others, or has a reaction estimate, hangs on a taut cable. l is
-//! the length of the cable to its end, which gives an upper bound of its stiffness. A cable that is
-//! pulled but not straight gives way by its sag: where the bound asks for a split, its own response
-//! over the host step decides ([`Impedance`]), if it stays what it is. The force of a shallow
-//! catenary of length L and chord c varies as (L - c)^-1/2, its stiffness as (L - c)^-3/2: this does not
-//! double while the chord grows by less than 1 - 2^(-2/3) = 0.37 of L - c. The growth is bounded by
-//! the present motion, a collision's change of velocity (2 v h), and a reaction estimate that is
-//! wrong altogether (F h^2/2m).
+//! finer where a body that is near others, or has a reaction estimate, hangs on a cable that is taut or
+//! may become so. l is the length of the cable to its end, which gives an upper bound of its stiffness.
+//! A cable that sags gives way: the force F of a shallow catenary of length L and chord c varies as
+//! (L - c)^-1/2, its stiffness F/(2 (L - c)) as (L - c)^-3/2, which does not double while the chord grows
+//! by less than 1 - 2^(-2/3) = 0.37 of L - c. The growth is bounded by the present motion, a collision's
+//! change of velocity (2 v h), and a reaction estimate r that is wrong altogether (r h^2/2m). A cable
+//! that stays slack by that asks for no split: of a body that it pulls into a stop, r = F, h w <= 0.61.
 //!
 //! *Turns.* A mechanism is predicted as it is halfway of a Rapier step, at the velocities with which that begins. If they change in it, by a line that snaps
 //! taut, bodies on joints have turned otherwise by the left side of the last line, by which share the directions in which they can move are wrong. Then the
@@ -39,18 +38,16 @@
 //! A fine split always: a pile of 500 boxes costs 0.5 ms in each Rapier step. A bound of the gap that a collision at v opens before the
 //! cable follows, h v g/(1 + g) <= 1 mm with g = 0.1 h^2 k/m: with 32 steps at most, h w <= 0.6 asks for more of them below 50 m/s.
 
-use crate::attachment::{Attachment, ShownStiffness};
+use crate::attachment::Attachment;
 use crate::body::is_integrated;
 use crate::contact;
-use crate::contents::{Contents, Slot};
-use crate::islands::Island;
+use crate::contents::Contents;
 use crate::pose::MAX_HALF_ROTATION;
 use crate::proximity;
 use crate::settings::Settings;
 use crate::spatial::split_spatial;
-use ::nalgebra::{Vector3, Vector6};
-use lariat_ancf::island::Impedance;
-use lariat_ancf::{At, Cable};
+use ::nalgebra::Vector3;
+use lariat_ancf::At;
 use rapier::dynamics::RigidBodyHandle;
 use rapier::pipeline::PhysicsWorld;
 
@@ -72,14 +69,8 @@ const MAX_REBOUND: f64 = 2.0;
 /// Share of the force at an attachment from which a reaction estimate counts.
 const MIN_REACTION: f64 = 0.1;
 
-/// Returns the number of Rapier steps for a host step of `dt` (s); `impedance` is a buffer.
-pub(crate) fn count(
-    contents: &mut Contents,
-    world: &PhysicsWorld,
-    settings: &Settings,
-    dt: f64,
-    impedance: &mut Impedance,
-) -> u32 {
+/// Returns the number of Rapier steps for a host step of `dt` (s).
+pub(crate) fn count(contents: &Contents, world: &PhysicsWorld, settings: &Settings, dt: f64) -> u32 {
     let min = settings.rapier_steps.max(1);
     let max = settings.max_rapier_steps;
     if max <= min {
@@ -87,42 +78,26 @@ pub(crate) fn count(
     }
     let mut fastest = None;
     let mut needed = f64::from(min);
-    for i in 0..contents.attachments.len() {
-        let Some(a) = contents.attachments.get(i) else { continue };
-        let mut fastest = || *fastest.get_or_insert_with(|| proximity::fastest(world));
-        let Some(speed) = deviation_speed(contents, world, a, dt, &mut fastest) else { continue };
+    for a in contents.attachments.values().filter(|a| is_integrated(world, a.body)) {
+        let fastest = *fastest.get_or_insert_with(|| proximity::fastest(world));
+        let Some(speed) = deviation_speed(contents, world, a, (dt, fastest)) else { continue };
         let inverse_mass = f64::from(world.bodies[a.body].mass_properties().local_mprops.inv_mass);
-        let count = |stiffness: f64| dt * (stiffness * inverse_mass).sqrt() / MAX_PHASE;
-        let on_body = contents.attachments.values().filter(|b| b.body == a.body);
-        let largest: f64 = on_body.map(|b| stiffness(contents, b)).sum();
-        let mut own = count(largest);
-        if own > needed {
-            let reaction = contents.records.get(a.body).map_or(0.0, |r| split_spatial(&r.reaction).0.norm());
-            let change = MAX_REBOUND * speed * dt + 0.5 * reaction * inverse_mass * dt * dt;
-            if stays_slack(contents, a, dt, change) {
-                own = own.min(count(stiffness_over(contents, a.body, (dt, change), impedance)));
-            }
-        }
-        needed = needed.max(own);
+        let reaction = split_spatial(&contents.records.reaction(a.body)).0.norm();
+        let change = MAX_REBOUND * speed * dt + 0.5 * reaction * inverse_mass * dt * dt;
+        let stiffness = taut_stiffness(contents, a.body, (dt, change));
+        needed = needed.max(dt * (stiffness * inverse_mass).sqrt() / MAX_PHASE);
     }
     let jointed = |a: &Attachment| is_integrated(world, a.body) && !proximity::is_unjointed(world, a.body);
-    let joints = contents.attachments.values().filter(|a| jointed(a)).map(|a| {
-        let substeps = world.integration_parameters.num_solver_iterations.max(1) as f64;
-        let is_link = world.multibody_joints.rigid_body_link(a.body).is_some();
-        let spin = if is_link { 0.0 } else { f64::from(world.bodies[a.body].angvel().length()) };
-        let least = JOINTED_STEPS.max(0.5 * spin * dt / substeps / MAX_LOSS);
-        let turn = contents.records.get(a.body).map_or(0.0, |record| record.turn_error * dt * dt);
-        least.max((turn / MAX_TURN_ERROR).sqrt())
-    });
-    let joints = joints.fold(1.0, f64::max);
-    let needed = needed.max(rotation(contents, world, dt)).max(joints).max(pressed(contents, world, dt));
+    if contents.attachments.values().any(jointed) {
+        needed = needed.max(JOINTED_STEPS);
+    }
+    let needed = needed.max(rotation(contents, world, dt)).max(pressed(contents, world, dt));
     // a value that is not a number, or too large, gives the maximum
     (needed.ceil().min(f64::from(max)) as u32).max(min)
 }
 
-/// Returns the number of steps of `dt` (s) that bodies need which cables press on others,
-/// so that none vibrates between them. A cable that touches a body is as stiff as one that is
-/// attached to it in the middle.
+/// Returns the number of steps of `dt` (s) that bodies need which cables press on others, so that none vibrates between
+/// them. A cable that touches a body is as stiff as one that is attached to it in the middle.
 fn pressed(contents: &Contents, world: &PhysicsWorld, dt: f64) -> f64 {
     let mut stiffnesses: Vec<(RigidBodyHandle, f64)> = Vec::new();
     for slot in contents.cables.values() {
@@ -138,174 +113,94 @@ fn pressed(contents: &Contents, world: &PhysicsWorld, dt: f64) -> f64 {
             }
         }
     }
+    let near = stiffnesses.iter().filter(|(body, _)| proximity::may_deviate(world, *body));
     let count = |(body, stiffness): &(RigidBodyHandle, f64)| {
-        let reacts = contents.records.get(*body).is_some_and(|record| record.reaction != Vector6::zeros());
-        if !reacts && !proximity::may_deviate(world, *body) {
-            return 0.0;
-        }
         dt * (stiffness * f64::from(world.bodies[*body].mass_properties().local_mprops.inv_mass)).sqrt() / MAX_PHASE
     };
-    stiffnesses.iter().map(count).fold(0.0, f64::max)
+    near.map(count).fold(0.0, f64::max)
 }
 
-/// Returns the number of steps of `dt` (s) that attached bodies need so that none rotates by more
-/// than Rapier's linearised rotation can in a substep.
+/// Returns the number of steps of `dt` (s) that attached bodies need so that none rotates by more than Rapier's linearised rotation can in a substep, or
+/// its impulse joints can turn a velocity.
 fn rotation(contents: &Contents, world: &PhysicsWorld, dt: f64) -> f64 {
     let substeps = world.integration_parameters.num_solver_iterations.max(1) as f64;
-    let spins = contents.attachments.values().filter_map(|a| world.bodies.get(a.body));
-    let fastest = spins.filter(|b| b.is_dynamic()).map(|b| f64::from(b.angvel().length())).fold(0.0, f64::max);
-    0.5 * fastest * dt / substeps / MAX_HALF_ROTATION
+    let count = |a: &Attachment| {
+        let spin = world.bodies.get(a.body).filter(|body| body.is_dynamic()).map_or(0.0, |body| body.angvel().length());
+        let is_link = || world.multibody_joints.rigid_body_link(a.body).is_some();
+        let turned = proximity::is_unjointed(world, a.body) || is_link();
+        0.5 * f64::from(spin) * dt / substeps / if turned { MAX_HALF_ROTATION } else { MAX_LOSS }
+    };
+    contents.attachments.values().map(count).fold(0.0, f64::max)
 }
 
-/// Returns the speed in m/s at which the body of an attachment may collide within `dt` (s), or 0 if
-/// it has a reaction estimate. `None` if it does not deviate, or hangs on no cable that is taut or
-/// becomes so.
+/// Returns the speed in m/s at which the body of an attachment may collide within `dt` (s), if no other body is
+/// faster than `fastest` (m/s), or 0 if it has a reaction estimate. `None` if it does not deviate.
 fn deviation_speed(
     contents: &Contents,
     world: &PhysicsWorld,
     a: &Attachment,
-    dt: f64,
-    fastest: &mut impl FnMut() -> f64,
+    (dt, fastest): (f64, f64),
 ) -> Option<f64> {
-    let cable = &contents.slot(a.cable)?.cable;
-    if !is_integrated(world, a.body) {
-        return None;
-    }
-    if !is_taut(cable, a) && !may_tighten(contents, world, a, dt, fastest) {
-        return None;
-    }
-    let held = is_taut(cable, a) && is_held(contents, a);
-    proximity::collision(world, a.body, (dt, fastest())).or(held.then_some(0.0))
-}
-
-/// Returns whether a cable pulls at an attachment.
-fn is_taut(cable: &Cable, a: &Attachment) -> bool {
-    let section = &cable.elements()[a.node.min(cable.elements().len() - 1)].section;
-    a.reading.force.norm() > TAUT_STRAIN * section.axial_stiffness
+    proximity::collision(world, a.body, (dt, fastest)).or(is_held(contents, a).then_some(0.0))
 }
 
 /// Returns whether the body of an attachment has a reaction estimate against the force there.
-pub(super) fn is_held(contents: &Contents, a: &Attachment) -> bool {
-    let reaction = contents.records.get(a.body).map_or(0.0, |record| split_spatial(&record.reaction).0.norm());
-    reaction > MIN_REACTION * a.reading.force.norm()
+fn is_held(contents: &Contents, a: &Attachment) -> bool {
+    split_spatial(&contents.records.reaction(a.body)).0.norm() > MIN_REACTION * a.reading.force.norm()
 }
 
-/// Returns h w of the bodies of an island, but those on joints, that contacts hold against taut cables in steps of `h` (s), with less kinetic energy than
-/// the strain of the cables has, once for each cable.
-pub(super) fn held_phases<'a>(
-    contents: &'a Contents,
-    world: &'a PhysicsWorld,
-    island: &'a Island,
-    h: f64,
-) -> impl Iterator<Item = f64> + 'a {
-    let attached = move || island.attachments.iter().flatten().filter_map(|&index| contents.attachments.get(index));
-    let is_held = move |a: &&Attachment| {
-        is_integrated(world, a.body)
-            && proximity::is_unjointed(world, a.body)
-            && contents.slot(a.cable).is_some_and(|slot| is_taut(&slot.cable, a))
-            && is_held(contents, a)
-            && !stays_slack(contents, a, h, 0.0)
-    };
-    attached().filter(is_held).filter_map(move |own| {
-        let stiffness: f64 = attached().filter(|a| a.body == own.body).map(|a| stiffness(contents, a)).sum();
-        let body = &world.bodies[own.body];
-        let (mass, speed) = (f64::from(body.mass()), f64::from(body.linvel().length()));
-        let rests = mass * speed * speed * stiffness < own.reading.force.norm_squared();
-        rests.then(|| h * (stiffness / mass).sqrt())
-    })
-}
-
-/// Returns an upper bound in N/m of the stiffness of the two parts of a cable at an attachment.
-fn stiffness(contents: &Contents, a: &Attachment) -> f64 {
-    let Some(slot) = contents.slot(a.cable) else { return 0.0 };
-    let elements = slot.cable.elements();
-    let side = |range: core::ops::Range<usize>| {
-        let compliance: f64 = elements[range].iter().map(|e| e.length / e.section.axial_stiffness).sum();
-        if compliance > 0.0 { 1.0 / compliance } else { 0.0 }
-    };
-    let node = a.node.min(elements.len());
-    side(0..node) + side(node..elements.len())
-}
-
-/// Returns the stiffness in N/m that the cables of a body show over a step of `dt` (s), if it moves by `change` (m) beside its present motion.
-fn stiffness_over(
-    contents: &mut Contents,
-    body: RigidBodyHandle,
-    (dt, change): (f64, f64),
-    impedance: &mut Impedance,
-) -> f64 {
-    let of_body = contents.attachments.values().filter(|a| a.body == body);
-    let own = of_body.map(|a| {
-        let Some(slot) = contents.cables.get_mut(a.cable.0 as usize) else { return 0.0 };
-        if let Some(known) = last_stiffness(slot, a, dt, change) {
-            return known;
-        }
-        // the number may be that of before a change of the cable
-        let node = a.node.min(slot.cable.elements().len());
-        impedance.update_held(&mut slot.cable, &[node], dt).map_or(f64::INFINITY, |()| impedance.stiffness())
-    });
-    own.sum()
-}
-
-/// Returns the stiffness of a cable at a node over a step of `h` (s) by its response there, which motors need anyway, for
-/// [`last_stiffness`]: of a cable with one other end.
-pub(super) fn shown_stiffness(cable: &Cable, node: usize, response: &Impedance, h: f64) -> Option<ShownStiffness> {
-    let mut parts = parts(cable, node);
-    let slack = parts.next()?.slack;
-    let alone = parts.next().is_none() && response.nodes() == [node] && !cable.has_reel();
-    alone.then(|| ShownStiffness { step: h, stiffness: response.stiffness(), slack })
-}
-
-/// Returns the stiffness that a cable showed in the last Rapier step, if that was as long as the coming one of `dt` (s) and the slack cannot
-/// have shrunk since by so much that the stiffness doubles.
-fn last_stiffness(slot: &Slot, a: &Attachment, dt: f64, change: f64) -> Option<f64> {
-    let shown = a.shown.filter(|shown| shown.step == dt && !slot.modified)?;
-    let part = parts(&slot.cable, a.node).next()?;
-    let lost = (shown.slack - part.slack).max(0.0) + part.speed * dt + change;
-    (lost <= SLACK_SHARE * shown.slack).then_some(shown.stiffness)
-}
-
-/// Returns whether the cable of an attachment is straight, or may become so within `dt` (s).
-fn may_tighten(
-    contents: &Contents,
-    world: &PhysicsWorld,
-    a: &Attachment,
-    dt: f64,
-    fastest: &mut impl FnMut() -> f64,
-) -> bool {
+/// Returns whether a cable pulls at an attachment.
+fn is_taut(contents: &Contents, a: &Attachment) -> bool {
     let Some(slot) = contents.slot(a.cable) else { return false };
-    let own = f64::from(world.bodies[a.body].linvel().length());
-    parts(&slot.cable, a.node).any(|part| part.speed * dt + (own + fastest()) * dt >= part.slack)
+    let elements = slot.cable.elements();
+    let section = &elements[a.node.min(elements.len() - 1)].section;
+    a.reading.force.norm() > TAUT_STRAIN * section.axial_stiffness
 }
 
-/// Returns whether all cables of the body of an attachment keep so much slack over `dt` (s) that
-/// their stiffness cannot double, if the body moves by `change` (m) beside its present motion.
-fn stays_slack(contents: &Contents, a: &Attachment, dt: f64, change: f64) -> bool {
-    let mut on_body = contents.attachments.values().filter(|b| b.body == a.body);
-    on_body.all(|b| {
-        let keeps = |part: Part| part.speed * dt + change <= SLACK_SHARE * part.slack;
-        contents.slot(b.cable).is_none_or(|slot| parts(&slot.cable, b.node).all(keeps))
-    })
+/// Returns an upper bound in N/m of the stiffness of the cables of a body that may be taut within `dt` (s), if the body moves by `change` (m) beside
+/// its present motion.
+fn taut_stiffness(contents: &Contents, body: RigidBodyHandle, (dt, change): (f64, f64)) -> f64 {
+    let on_body = contents.attachments.values().filter(|a| a.body == body);
+    let taut =
+        on_body.flat_map(|a| parts(contents, a)).filter(|part| part.speed * dt + change > SLACK_SHARE * part.slack);
+    taut.map(|part| part.stiffness).sum()
+}
+
+/// Returns h w in steps of `h` (s) of the body of an attachment that something holds, if that rests: it has less kinetic energy than a strain of its
+/// cables by the force there.
+pub(super) fn resting_phase(contents: &Contents, world: &PhysicsWorld, a: &Attachment, h: f64) -> Option<f64> {
+    let body = world.bodies.get(a.body).filter(|_| is_integrated(world, a.body) && is_held(contents, a))?;
+    let stiffness = taut_stiffness(contents, a.body, (h, 0.0));
+    let (mass, speed) = (f64::from(body.mass()), f64::from(body.linvel().length()));
+    let rests = mass * speed * speed * stiffness < a.reading.force.norm_squared();
+    rests.then(|| if is_taut(contents, a) { h * (stiffness / mass).sqrt() } else { 0.0 })
 }
 
 /// The part of a cable between a node and a held end.
 struct Part {
+    /// Upper bound of its stiffness in N/m.
+    stiffness: f64,
     /// Its length without strain less its chord, in m.
     slack: f64,
     /// Relative speed of its ends in m/s.
     speed: f64,
 }
 
-/// Returns the parts of a cable between a node and its held ends.
-fn parts(cable: &Cable, node: usize) -> impl Iterator<Item = Part> + '_ {
-    let velocity = |n: usize| Vector3::from_column_slice(&cable.velocities()[6 * n..6 * n + 3]);
-    let last = cable.elements().len();
+/// Returns the parts of a cable between an attachment and the held ends.
+fn parts<'a>(contents: &'a Contents, a: &Attachment) -> impl Iterator<Item = Part> + use<'a> {
     // the number may be that of before a change of the cable
-    let node = node.min(last);
-    let held = |end: usize| cable.support(At::Node(end)).is_ok_and(|s| s.attached || s.position.is_some());
-    [0, last].into_iter().filter(move |end| *end != node && held(*end)).map(move |end| {
-        let length: f64 = cable.elements()[node.min(end)..node.max(end)].iter().map(|e| e.length).sum();
-        let chord = (cable.node_position(node) - cable.node_position(end)).norm();
-        Part { slack: length - chord, speed: (velocity(node) - velocity(end)).norm() }
+    let (cable, node) = (contents.slot(a.cable).map(|slot| &slot.cable), a.node);
+    cable.into_iter().flat_map(move |cable| {
+        let velocity = |n: usize| Vector3::from_column_slice(&cable.velocities()[6 * n..6 * n + 3]);
+        let last = cable.elements().len();
+        let node = node.min(last);
+        let held = |end: usize| cable.support(At::Node(end)).is_ok_and(|s| s.attached || s.position.is_some());
+        [0, last].into_iter().filter(move |end| *end != node && held(*end)).map(move |end| {
+            let elements = &cable.elements()[node.min(end)..node.max(end)];
+            let length: f64 = elements.iter().map(|e| e.length).sum();
+            let compliance: f64 = elements.iter().map(|e| e.length / e.section.axial_stiffness).sum();
+            let chord = (cable.node_position(node) - cable.node_position(end)).norm();
+            Part { stiffness: 1.0 / compliance, slack: length - chord, speed: (velocity(node) - velocity(end)).norm() }
+        })
     })
 }

@@ -24,6 +24,7 @@ use crate::step::impedance;
 use crate::step::motors::apply_motor_impulses;
 use crate::step::prediction::Prediction;
 use ::nalgebra::Vector3;
+use lariat_ancf::island::Impedance;
 use rapier::dynamics::RigidBodyHandle;
 use rapier::pipeline::PhysicsWorld;
 
@@ -43,7 +44,11 @@ pub(super) fn wake_within_step(
     let bodies = island.members.iter().enumerate().filter_map(|(m, member)| Some((m, member.body()?)));
     let woken: Vec<usize> = bodies.filter(|(m, handle)| is_woken(*m, *handle)).map(|(m, _)| m).collect();
     // what was linearised when the motors were set can be linearised again: it has not moved since
-    if woken.is_empty() || contents.changed || impedance::linearise_at(contents, island, prediction, &woken, h).is_err()
+    let held = (Impedance::update_held as impedance::Update, h);
+    let on_woken = |pin: usize| woken.contains(&island.pins[pin].body);
+    if woken.is_empty()
+        || contents.changed
+        || impedance::linearise(contents, island, prediction, on_woken, held).is_err()
     {
         return;
     }

@@ -4,7 +4,7 @@ use lariat_rapier::convert::vector;
 use lariat_rapier::lariat_ancf::{At, CableBuilder, Contact, Damping, Section, Vector3};
 use lariat_rapier::rapier::math::Vector as RVector;
 use lariat_rapier::rapier::prelude::*;
-use lariat_rapier::{CableHandle, CableSet, Event};
+use lariat_rapier::{AttachmentKind, CableHandle, CableSet, Event};
 
 const RADIUS: f64 = 5e-3;
 
@@ -175,4 +175,43 @@ fn a_rope_wakes_a_sleeping_crate() {
     assert!(cables.get(cable).unwrap().contacts().count() > 0);
     assert!(vector(world.bodies[load].translation()).y > 0.098);
     assert!(world.bodies[load].is_sleeping() && events.contains(&Event::Asleep(cable)), "{events:?}");
+}
+
+/// A rope that touches a light cube presses it on the ground with some hundred times its weight, in host steps of 1/30 s.
+///
+/// *Source.* Statics: the cube stays where it is, and the rope carries what its stretch over the cube says; friction at the edges takes up to 2 % of it.
+#[test]
+fn a_rope_presses_a_light_cube_on_the_ground() {
+    for mass in [0.1, 1.0] {
+        let mut world = PhysicsWorld::new();
+        world.integration_parameters.dt = 1.0 / 30.0;
+        let ground = RigidBodyBuilder::fixed().translation(RVector::new(0.0, -0.5, 0.0));
+        world.insert(ground, ColliderBuilder::cuboid(5.0, 0.5, 5.0));
+        let cube = RigidBodyBuilder::dynamic().translation(RVector::new(0.0, 0.1, 0.0)).can_sleep(false);
+        let (cube, _) = world.insert(cube, ColliderBuilder::cuboid(0.1, 0.1, 0.1).mass(mass));
+        let mut cables = CableSet::new();
+        let cable = touching(&mut cables, rope(Vector3::new(-1.0, 0.3, 0.0), Vector3::new(1.0, 0.3, 0.0), 20), 0.3);
+        let ends = [(At::Start, -1.0), (At::End, 1.0)].map(|(end, x)| {
+            let body = RigidBodyBuilder::kinematic_velocity_based().translation(RVector::new(x, 0.3, 0.0));
+            let body = world.insert_body(body.linvel(RVector::new(0.0, -0.15, 0.0)));
+            cables.attach_here(&world, cable, end, body, AttachmentKind::Ball).unwrap();
+            body
+        });
+        let mut off = [0.0f64; 2];
+        for step in 0..120 {
+            if step == 30 {
+                ends.into_iter().for_each(|end| world.bodies[end].set_linvel(RVector::ZERO, true));
+            }
+            cables.step(&mut world).unwrap();
+            if step >= 90 {
+                let at = f64::from(world.bodies[cube].translation().y) - 0.1;
+                let strain = 0.9f64.hypot(0.05 + RADIUS + at) - 0.9;
+                let carried = cables.get(cable).unwrap().sample(0.5).unwrap().tension;
+                off = [off[0].max(at.abs()), off[1].max((carried / (1e6 * strain) - 1.0).abs())];
+            }
+        }
+        let case = format!("{mass} kg: {:.1} mm off, force {:.1} % off", 1e3 * off[0], 1e2 * off[1]);
+        println!("{case}");
+        assert!(off[0] < 0.015 && off[1] < 0.03, "{case}");
+    }
 }

@@ -173,7 +173,7 @@ fn waves_between_jammed_bodies_do_not_grow_under_error_control() {
         (&[0.1, 0.1], wire(), 1e-5, 1e3, true),
         (&[1.0, 0.05], wire(), 2e-4, 1e3, true),
         (&[0.1, 0.1, 0.1], wire(), 2e-4, 1e3, true),
-        (&[0.2], wire(), 0.0, 30.0, false),
+        (&[0.2], wire(), 0.0, 300.0, true),
         (&[6.0], rope, 0.0, 200.0, false),
         (&[0.5], rope, 0.0, 200.0, false),
     ] {

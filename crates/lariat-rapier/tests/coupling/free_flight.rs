@@ -138,3 +138,34 @@ fn a_rotating_dumbbell_keeps_its_momenta_and_its_tension() {
         );
     }
 }
+
+/// A brick tumbles in space, about its middle axis at first, with a cable at rest tied to its centre of mass: angular momentum and kinetic energy
+/// stay.
+///
+/// Reference: conservation laws.
+#[test]
+fn a_tumbling_brick_keeps_its_angular_momentum_and_energy() {
+    let mut world = weightless();
+    let body = RigidBodyBuilder::dynamic().angvel(Vector::new(0.1, 5.0, 0.1));
+    let (brick, _) = world.insert(body, ColliderBuilder::cuboid(0.1, 0.2, 0.3).mass(1.0));
+    let mut set = CableSet::new();
+    let rope = cable([0.0; 3], [1.0, 0.0, 0.0], soft()).gravity(Vector3::zeros()).fidelity(Fidelity::Engineering);
+    let rope = set.insert(rope.build().unwrap());
+    set.attach(&world, rope, At::Start, brick, Vector::ZERO, AttachmentKind::Ball).unwrap();
+    let inertia = Vector3::new(0.13, 0.10, 0.05) / 3.0;
+    let read = |world: &PhysicsWorld| {
+        let body = &world.bodies[brick];
+        let rotation = lariat_rapier::convert::rotation(*body.rotation());
+        let spin = rotation.inverse() * vector(body.angvel());
+        let momentum = inertia.component_mul(&spin);
+        (rotation * momentum, 0.5 * spin.dot(&momentum))
+    };
+    let (l0, t0) = read(&world);
+    for _ in 0..300 {
+        set.step(&mut world).unwrap();
+    }
+    let (l, t) = read(&world);
+    let (turned, gained) = ((l - l0).norm() / l0.norm(), t / t0 - 1.0);
+    println!("dL/L {turned:.1e}, dT/T {gained:.1e}");
+    assert!(turned < 1e-4 && gained.abs() < 1e-4, "dL/L {turned:.1e}, dT/T {gained:.1e}");
+}

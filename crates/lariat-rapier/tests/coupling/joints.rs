@@ -248,30 +248,37 @@ fn a_motor_pulls_a_rope_with_its_maximum_force() {
     assert!(gap(&set) < 1e-3);
 }
 
-/// A small fast body with CCD and a rope is thrown at a thin wall: it does not pass, and the rope
+/// A small fast body with CCD and a rope is thrown at a thin wall, in space or along a floor that it touches: it does not pass, and the rope
 /// stays on it.
 ///
 /// Reference: the contract of CCD.
 #[test]
 fn a_body_with_ccd_and_a_rope_stops_at_a_thin_wall() {
-    let mut world = weightless();
-    let wall = RigidBodyBuilder::fixed().translation(Vector::new(1.0, 0.0, 0.0));
-    world.insert(wall, ColliderBuilder::cuboid(0.005, 1.0, 1.0));
-    let body = RigidBodyBuilder::dynamic().linvel(Vector::new(30.0, 0.0, 0.0)).ccd_enabled(true);
-    let (bullet, _) = world.insert(body, ColliderBuilder::ball(0.02).mass(0.1));
-    let mut set = CableSet::new();
-    let tail = cable([0.0; 3], [0.0, -0.5, 0.0], Section::from_stiffness(1e4, 0.1, 0.01).unwrap());
-    let tail = tail.gravity(Vector3::zeros()).velocity(Vector3::new(30.0, 0.0, 0.0)).elements(4).build().unwrap();
-    let tail = set.insert(tail);
-    set.attach(&world, tail, At::Start, bullet, Vector::ZERO, AttachmentKind::Ball).unwrap();
-    let mut farthest = 0.0;
-    for _ in 0..30 {
-        set.step(&mut world).unwrap();
-        farthest = world.bodies[bullet].translation().x.max(farthest);
+    for floor in [false, true] {
+        let mut world = weightless();
+        let wall = RigidBodyBuilder::fixed().translation(Vector::new(1.0, 0.0, 0.0));
+        world.insert(wall, ColliderBuilder::cuboid(0.005, 1.0, 1.0));
+        if floor {
+            let floor = RigidBodyBuilder::fixed().translation(Vector::new(0.0, -0.52, 0.0));
+            world.insert(floor, ColliderBuilder::cuboid(5.0, 0.5, 5.0).friction(0.0));
+        }
+        let body = RigidBodyBuilder::dynamic().linvel(Vector::new(30.0, 0.0, 0.0)).ccd_enabled(true);
+        let (bullet, _) = world.insert(body, ColliderBuilder::ball(0.02).mass(0.1).friction(0.0));
+        let mut set = CableSet::new();
+        let tail = cable([0.0; 3], [0.0, 0.5, 0.0], Section::from_stiffness(1e4, 0.1, 0.01).unwrap());
+        let tail = tail.gravity(Vector3::zeros()).velocity(Vector3::new(30.0, 0.0, 0.0)).elements(4).build().unwrap();
+        let tail = set.insert(tail);
+        set.attach(&world, tail, At::Start, bullet, Vector::ZERO, AttachmentKind::Ball).unwrap();
+        let mut farthest = 0.0;
+        for _ in 0..30 {
+            set.step(&mut world).unwrap();
+            farthest = world.bodies[bullet].translation().x.max(farthest);
+        }
+        println!("floor {floor}: {farthest} m, gap {:.1e} m", gap(&set));
+        assert!(farthest > 0.5 && farthest < 1.0, "floor {floor}: {farthest}");
+        assert!(gap(&set) < 1e-3, "floor {floor}: {:.1e}", gap(&set));
+        assert!(set.get(tail).unwrap().positions().iter().all(|x| x.is_finite()));
     }
-    assert!(farthest > 0.5 && farthest < 1.0, "{farthest}");
-    assert!(gap(&set) < 1e-3, "{:.1e}", gap(&set));
-    assert!(set.get(tail).unwrap().positions().iter().all(|x| x.is_finite()));
 }
 
 /// A bead that may move along x only is tied to a point above its rail and pushed: it oscillates on
@@ -335,4 +342,51 @@ fn a_flywheel_of_a_multibody_turns_as_fast_as_it_spins() {
         println!("{speed} rad/s: {angle:.5} rad, {error:.1e} off");
         assert!(error.abs() < 5e-6, "{speed} rad/s: {error:.1e}");
     }
+}
+
+/// Two wheels on one axle, on impulse joints, with an angular damping of 1/s each; a rope ends in the middle of the first. After a second
+/// both have 1/e of their speed.
+///
+/// Reference: w' = -w, within 1 %.
+#[test]
+fn bodies_on_joints_are_damped_as_the_user_says() {
+    let mut world = weightless();
+    let post = world.insert_body(RigidBodyBuilder::fixed());
+    let wheels = [0.0, 0.5].map(|x| {
+        let body = RigidBodyBuilder::dynamic().translation(Vector::new(x, 0.0, 0.0)).angvel(Vector::new(4.0, 0.0, 0.0));
+        world.insert(body.angular_damping(1.0), ColliderBuilder::ball(0.1).mass(1.0)).0
+    });
+    world.insert_impulse_joint(post, wheels[0], RevoluteJointBuilder::new(Vector::X));
+    let axle = RevoluteJointBuilder::new(Vector::X).local_anchor1(Vector::new(0.5, 0.0, 0.0));
+    world.insert_impulse_joint(wheels[0], wheels[1], axle);
+    let mut set = CableSet::new();
+    let rope = set.insert(cable([0.0; 3], [0.0, 2.0, 0.0], soft()).gravity(Vector3::zeros()).build().unwrap());
+    set.attach(&world, rope, At::Start, wheels[0], Vector::ZERO, AttachmentKind::Ball).unwrap();
+    run(&mut world, &mut set, 60);
+    for wheel in wheels {
+        let spin = f64::from(world.bodies[wheel].angvel().x);
+        println!("{spin} rad/s");
+        assert!((spin * 1f64.exp() / 4.0 - 1.0).abs() < 1e-2, "{spin} rad/s");
+    }
+}
+
+/// A wheel of 0.004 kg m^2, in the middle of which a rope ends, is braked by a motor without a joint, of 0.004 N m s: after a second it has 1/e of
+/// its speed.
+///
+/// Reference: w' = -w, within 1 %.
+#[test]
+fn a_motor_brakes_a_wheel_that_stays_where_it_is() {
+    let mut world = weightless();
+    let post = world.insert_body(RigidBodyBuilder::fixed());
+    let wheel = RigidBodyBuilder::dynamic().angvel(Vector::new(0.02, 0.0, 0.0));
+    let (wheel, _) = world.insert(wheel, ColliderBuilder::ball(0.1).mass(1.0));
+    let brake = GenericJointBuilder::new(JointAxesMask::empty()).motor_model(JointAxis::AngX, MotorModel::ForceBased);
+    world.insert_impulse_joint(post, wheel, brake.motor_velocity(JointAxis::AngX, 0.0, 0.004));
+    let mut set = CableSet::new();
+    let rope = set.insert(cable([0.0; 3], [0.0, 2.0, 0.0], soft()).gravity(Vector3::zeros()).build().unwrap());
+    set.attach(&world, rope, At::Start, wheel, Vector::ZERO, AttachmentKind::Ball).unwrap();
+    run(&mut world, &mut set, 60);
+    let spin = f64::from(world.bodies[wheel].angvel().x);
+    println!("{spin} rad/s");
+    assert!((spin * 1f64.exp() / 0.02 - 1.0).abs() < 1e-2, "{spin} rad/s");
 }

@@ -2,7 +2,7 @@
 
 use super::common::{add_cube, cable, gap, run, soft, tension};
 use lariat_rapier::convert::vector;
-use lariat_rapier::lariat_ancf::{At, Damping, PointLoad, Vector3};
+use lariat_rapier::lariat_ancf::{At, Damping, Motion, PointLoad, Vector3};
 use lariat_rapier::rapier::prelude::*;
 use lariat_rapier::{AttachmentKind, CableHandle, CableSet, Event, Gap};
 
@@ -134,4 +134,77 @@ fn a_slow_pendulum_does_not_fall_asleep() {
         least = least.min(vector(world.bodies[load].translation()).x);
     }
     assert!(least < -0.04, "{least}");
+}
+
+/// A load that hangs at rest on a cable clamped to a body wakes up when that body moves, turns, or is moved.
+///
+/// Reference: the contract.
+#[test]
+fn a_moved_clamp_wakes_a_load() {
+    type Disturbance = fn(&mut PhysicsWorld, RigidBodyHandle);
+    let disturbances: [(&str, Disturbance); 3] = [
+        ("moves", |world, post| world.bodies[post].set_linvel(Vector::new(0.0, 0.1, 0.0), true)),
+        ("turns", |world, post| world.bodies[post].set_angvel(Vector::new(0.0, 0.0, 1.0), true)),
+        ("is moved", |world, post| world.bodies[post].set_translation(Vector::new(0.1, 0.0, 0.0), true)),
+    ];
+    for (what, disturb) in disturbances {
+        let mut world = PhysicsWorld::new();
+        let load = add_cube(&mut world, 10.0, 0.1, [0.0, -2.1, 0.0]);
+        let post = world.insert_body(RigidBodyBuilder::kinematic_velocity_based());
+        let mut set = CableSet::new();
+        let rope = cable([0.0; 3], [0.0, -2.0, 0.0], soft()).damping(Damping::from_ratio(0.1, 70.0).unwrap());
+        let rope = set.insert(rope.build().unwrap());
+        set.attach(&world, rope, At::Start, post, Vector::ZERO, AttachmentKind::Clamp).unwrap();
+        set.attach(&world, rope, At::End, load, Vector::new(0.0, 0.1, 0.0), AttachmentKind::Ball).unwrap();
+        run(&mut world, &mut set, 900);
+        assert!(set.is_asleep(rope).unwrap(), "{what}");
+        disturb(&mut world, post);
+        run(&mut world, &mut set, 2);
+        assert!(!set.is_asleep(rope).unwrap(), "{what}");
+    }
+}
+
+/// A load on a winch that is moved to poses, to 8.3 m from the origin, falls asleep when the winch has stopped.
+///
+/// Reference: the contract.
+#[test]
+fn a_winch_that_stopped_at_a_pose_lets_its_load_sleep() {
+    let mut world = PhysicsWorld::new();
+    let load = add_cube(&mut world, 10.0, 0.1, [0.0, -2.1, 0.0]);
+    let winch = world.insert_body(RigidBodyBuilder::kinematic_position_based());
+    let mut set = CableSet::new();
+    let rope = cable([0.0; 3], [0.0, -2.0, 0.0], soft()).damping(Damping::from_ratio(0.1, 70.0).unwrap());
+    let rope = set.insert(rope.build().unwrap());
+    set.attach(&world, rope, At::Start, winch, Vector::ZERO, AttachmentKind::Ball).unwrap();
+    set.attach(&world, rope, At::End, load, Vector::new(0.0, 0.1, 0.0), AttachmentKind::Ball).unwrap();
+    for k in 0..1200 {
+        let height = 8.3 * (k as Real / 600.0).min(1.0);
+        world.bodies[winch].set_next_kinematic_translation(Vector::new(0.0, height, 0.0));
+        set.step(&mut world).unwrap();
+    }
+    assert!(set.is_asleep(rope).unwrap());
+}
+
+/// A load that is let down at 1 mm/s by the prescribed motion of an end of its cable, or on which a force grows by 0.01 N/s, stays awake.
+///
+/// Reference: the contract.
+#[test]
+fn a_slow_motion_or_a_slow_ramp_keeps_a_load_awake() {
+    for ramp in [false, true] {
+        let mut world = PhysicsWorld::new();
+        let load = add_cube(&mut world, 10.0, 0.1, [0.0, -2.1, 0.0]);
+        let mut set = CableSet::new();
+        let rope = cable([0.0; 3], [0.0, -2.0, 0.0], soft()).fix(At::Start);
+        let mut rope = rope.damping(Damping::from_ratio(0.1, 70.0).unwrap()).build().unwrap();
+        if ramp {
+            let force = PointLoad::force(1.0, Vector3::new(0.0, -1.0, 0.0));
+            rope.add_load(PointLoad { ramp: 100.0, ..force }).unwrap();
+        } else {
+            rope.set_motion(0, Motion::uniform(0.0, Vector3::zeros(), Vector3::new(0.0, -1e-3, 0.0))).unwrap();
+        }
+        let rope = set.insert(rope);
+        set.attach(&world, rope, At::End, load, Vector::new(0.0, 0.1, 0.0), AttachmentKind::Ball).unwrap();
+        run(&mut world, &mut set, 1200);
+        assert!(!set.is_asleep(rope).unwrap(), "ramp: {ramp}");
+    }
 }

@@ -2,7 +2,7 @@
 
 use super::common::{add_cube, cable, gap, l_stable_integrator, run, soft, steel, tension, wire};
 use lariat_rapier::convert::vector;
-use lariat_rapier::lariat_ancf::{At, Section, Vector3};
+use lariat_rapier::lariat_ancf::{At, Integrator, Section, StepControl, Vector3};
 use lariat_rapier::rapier::prelude::*;
 use lariat_rapier::{AttachmentKind, CableSet, Error};
 
@@ -226,4 +226,28 @@ fn equilibrium_refuses_joints_and_contacts_and_lists_what_it_held() {
     let error = set.equilibrium(&mut world).unwrap_err();
     assert!(matches!(error, Error::Cable(lariat_rapier::lariat_ancf::Error::NoEquilibrium { .. })), "{error}");
     assert_eq!(*world.bodies[load].position(), before);
+}
+
+/// A load on two ropes of different integrators moves by the finer one, whichever of the ropes comes first.
+///
+/// Reference: the same with two ropes of the finer integrator, to the bit.
+#[test]
+fn the_finer_integrator_of_two_ropes_on_a_body_steps_both() {
+    let height = |integrators: [Integrator; 2]| {
+        let mut world = PhysicsWorld::new();
+        let load = add_cube(&mut world, 5.0, 0.1, [0.0; 3]);
+        let mut set = CableSet::new();
+        for (x, integrator) in [-0.1, 0.1].into_iter().zip(integrators) {
+            let rope = cable([10.0 * x, 1.0, 0.0], [x, 0.0, 0.0], soft()).fix(At::Start).integrator(integrator);
+            let rope = set.insert(rope.build().unwrap());
+            set.attach_here(&world, rope, At::End, load, AttachmentKind::Ball).unwrap();
+        }
+        run(&mut world, &mut set, 60);
+        world.bodies[load].translation().y
+    };
+    let coarse = Integrator { control: StepControl::MaxStep(1.0 / 240.0), ..l_stable_integrator() };
+    let fine = Integrator { control: StepControl::MaxStep(1.0 / 960.0), ..l_stable_integrator() };
+    let expected = height([fine; 2]);
+    assert!(height([coarse; 2]) != expected);
+    assert_eq!([height([coarse, fine]), height([fine, coarse])], [expected; 2]);
 }

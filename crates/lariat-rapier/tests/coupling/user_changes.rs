@@ -191,3 +191,51 @@ fn a_box_hangs_on_its_rope_when_the_ground_is_removed() {
     assert!((borne / weight - 0.5).abs() < 0.02 && widest < 1e-6, "{borne} N, {widest:.1e} m");
     assert!((largest / (2.0 * weight - borne) - 1.0).abs() < 0.03, "{largest} N");
 }
+
+/// Of two balls of 1 kg that are one body on a rope, the lower is removed, so that the centre of mass jumps, and the user has the mass computed
+/// anew: the body stays where it is, and the gap closed.
+///
+/// Reference: the contract.
+#[test]
+fn a_body_that_loses_half_its_mass_hangs_on_with_the_other() {
+    let mut world = PhysicsWorld::new();
+    let ball = || ColliderBuilder::ball(0.1).mass(1.0);
+    let (load, _) = world.insert(RigidBodyBuilder::dynamic().translation(Vector::new(0.0, -2.0, 0.0)), ball());
+    let lower = world.insert_collider(ball().translation(Vector::new(0.0, -0.4, 0.0)), Some(load));
+    let mut set = CableSet::new();
+    let rope = set.insert(cable([0.0; 3], [0.0, -2.0, 0.0], soft()).fix(At::Start).build().unwrap());
+    set.attach(&world, rope, At::End, load, Vector::ZERO, AttachmentKind::Ball).unwrap();
+    run(&mut world, &mut set, 30);
+    world.remove_collider(lower);
+    let PhysicsWorld { bodies, colliders, .. } = &mut world;
+    bodies[load].recompute_mass_properties_from_colliders(colliders);
+    for _ in 0..60 {
+        set.step(&mut world).unwrap();
+        let height = world.bodies[load].translation().y;
+        assert!((height + 2.0).abs() < 2e-3 && gap(&set) < 1e-6, "{height} m, {:.1e} m", gap(&set));
+    }
+}
+
+/// A cable is cut between the prediction of a step and its reconciliation.
+///
+/// Reference: the contract; the load falls, by g t^2/2 within 10 % for the swing of the cut end.
+#[test]
+fn a_cable_may_be_cut_while_rapier_steps() {
+    let mut h = hanging_load();
+    let start = h.world.bodies[h.load].linvel().y;
+    let mut host = h.set.begin(&mut h.world).unwrap();
+    let mut cut = false;
+    while host.is_unfinished() {
+        h.set.predict_next(&mut h.world, &mut host).unwrap();
+        if !core::mem::replace(&mut cut, true) {
+            h.set.cut(h.rope, 1.0).unwrap();
+        }
+        h.world.step();
+        h.set.reconcile(&mut h.world);
+    }
+    h.set.finish(&mut h.world, host).unwrap();
+    h.run(29);
+    let fallen = f64::from(h.world.bodies[h.load].linvel().y - start);
+    println!("{fallen} m/s");
+    assert!((fallen / (-9.81 * 0.5) - 1.0).abs() < 0.1, "{fallen} m/s");
+}
