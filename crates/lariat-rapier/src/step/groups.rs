@@ -13,7 +13,7 @@ use crate::convert::{rotation, to_vector, vector};
 use crate::islands::{Island, Member};
 use crate::mechanism::{self, Group, Mechanism, velocity_of};
 use crate::spatial::stack_spatial;
-use crate::step::motors::motor_impulse;
+use crate::step::impedance::motor_impulse;
 use crate::step::prediction::{AppliedMotion, Prediction};
 use crate::step::reaction::{REACTION_GAIN, persisting_share};
 use crate::unsettled::SettleStep;

@@ -1,21 +1,26 @@
 //! The host step: predict, Rapier's step, reconcile, as many times as a host step has Rapier steps.
 //!
+//! A body that is free, or touches something, goes through eight files, of which this is the first:
+//!
 //! | file | per Rapier step |
 //! |---|---|
-//! | [`substepping`] | how many Rapier steps the host step has; [`proximity`](crate::proximity): which bodies will collide |
-//! | [`prescribed_motion`] | how fixed and kinematic bodies move over the host step |
-//! | [`kinematic_ends`] | prescribes the ends of cables on them |
+//! | [`substepping`] | how many Rapier steps the host step has |
 //! | [`predict`] | reads cables and bodies before the step |
 //! | [`integrate`] | integrates them together, all islands at once |
-//! | [`energy`] | what integration made of their energy |
 //! | [`apply`] | gives Rapier the predicted motion; reverts it |
-//! | [`groups`] | the same for bodies that joints hold together, and what Rapier's step made of them |
-//! | [`impedance`] | lets a body that may deviate feel its cables within Rapier's step |
+//! | [`impedance`] | lets a body that may deviate feel its cables within Rapier's step, and the cables what that did |
 //! | [`reconcile`] | takes over what Rapier's step made of it |
 //! | [`reaction`] | what contacts and joints did to it, expected again |
-//! | [`motors`] | what the impedance did to it and to its cables |
-//! | [`waking`] | takes over bodies that it woke |
-//! | [`refused`] | holds the bodies of an island that cannot step |
+//!
+//! The others hold only for what they name:
+//!
+//! | file | |
+//! |---|---|
+//! | [`prescribed_motion`], [`kinematic_ends`] | ends of cables on fixed and kinematic bodies |
+//! | [`groups`], [`mechanism`](crate::mechanism) | bodies on joints |
+//! | [`waking`] | bodies that Rapier's step woke |
+//! | [`energy`] | the energy balance of watched cables |
+//! | [`refused`] | bodies of an island that cannot step |
 
 pub(crate) mod apply;
 pub(crate) mod energy;
@@ -23,14 +28,12 @@ pub(crate) mod groups;
 pub(crate) mod impedance;
 pub(crate) mod integrate;
 pub(crate) mod kinematic_ends;
-mod motors;
 pub(crate) mod predict;
 pub(crate) mod prediction;
 pub(crate) mod prescribed_motion;
 mod reaction;
 pub(crate) mod reconcile;
 pub(crate) mod refused;
-pub(crate) mod step_energy;
 pub(crate) mod substepping;
 mod waking;
 

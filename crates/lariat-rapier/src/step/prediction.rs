@@ -7,9 +7,9 @@ use crate::error::Error;
 use crate::mechanism::{Group, Mechanism};
 use crate::sleep::SleepState;
 use crate::step::refused::HeldBodies;
-use crate::step::step_energy::StepEnergy;
 use ::nalgebra::Vector3;
 use lariat_ancf::island::{CoupledInertia, Impedance, PinAccount, RigidBody};
+use lariat_ancf::warning::balance::CableTerms;
 use lariat_ancf::{Integrator, Snapshot};
 use rapier::dynamics::RigidBodyHandle;
 use rapier::math::{AngVector, Vector};
@@ -111,4 +111,14 @@ impl Prediction {
     pub fn body_step(&self, m: usize, handle: RigidBodyHandle, h: f64) -> BodyStep<'_> {
         BodyStep { handle, start: &self.start[m], end: &self.end[m], mechanism: self.mechanisms[m].as_ref(), h }
     }
+}
+
+/// What the energy balance of an island has when a step begins.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct StepEnergy {
+    /// Terms of all cables; `None` if the island is not judged.
+    pub start: Option<CableTerms>,
+    /// By pin, its gap in m.
+    pub gaps: Vec<Vector3<f64>>,
+    pub buffer: Vec<f64>,
 }

@@ -7,7 +7,7 @@
 //! ```
 //! v0 is the velocity that Rapier was given, x1 and v1 are the predicted state. The whole of the predicted change of velocity
 //! stays, so that bodies and cables keep their momentum. What contacts and joints did is expected again ([`reaction`](super::reaction));
-//! what the motors did acts on the cables ([`motors`](super::motors)).
+//! what the motors did acts on the cables ([`motors`](super::impedance)).
 //!
 //! # Validity
 //! With N substeps Rapier rounds each coordinate N times, by half a unit in the last place, and twice more between origin and centre of mass;
@@ -30,8 +30,8 @@ use crate::spatial::{split_spatial, stack_spatial};
 use crate::step::apply::restore_cables;
 use crate::step::energy;
 use crate::step::groups;
+use crate::step::impedance::{apply_motor_impulses, motor_impulse, take_impulses};
 use crate::step::kinematic_ends;
-use crate::step::motors::{apply_motor_impulses, motor_impulse, take_impulses};
 use crate::step::prediction::{AppliedMotion, BodyStep, Prediction};
 use crate::step::reaction::update_reaction;
 use crate::step::waking;

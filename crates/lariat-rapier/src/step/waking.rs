@@ -21,7 +21,7 @@ use crate::attachment::Attachment;
 use crate::contents::Contents;
 use crate::islands::Island;
 use crate::step::impedance;
-use crate::step::motors::apply_motor_impulses;
+use crate::step::impedance::apply_motor_impulses;
 use crate::step::prediction::Prediction;
 use ::nalgebra::Vector3;
 use lariat_ancf::island::Impedance;
