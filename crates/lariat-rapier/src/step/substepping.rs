@@ -80,11 +80,18 @@ pub(crate) fn count(contents: &Contents, world: &PhysicsWorld, settings: &Settin
     let mut needed = f64::from(min);
     for a in contents.attachments.values().filter(|a| is_integrated(world, a.body)) {
         let fastest = *fastest.get_or_insert_with(|| proximity::fastest(world));
-        let Some(speed) = deviation_speed(contents, world, a, (dt, fastest)) else { continue };
         let inverse_mass = f64::from(world.bodies[a.body].mass_properties().local_mprops.inv_mass);
         let reaction = split_spatial(&contents.records.reaction(a.body)).0.norm();
-        let change = MAX_REBOUND * speed * dt + 0.5 * reaction * inverse_mass * dt * dt;
-        let stiffness = taut_stiffness(contents, a.body, (dt, change));
+        let stiffness = |speed: f64| {
+            let change = MAX_REBOUND * speed * dt + 0.5 * reaction * inverse_mass * dt * dt;
+            taut_stiffness(contents, a.body, (dt, change))
+        };
+        // most cables stay slack whatever their body meets, and collisions take longer to find
+        if stiffness(f64::from(world.bodies[a.body].linvel().length()) + fastest) == 0.0 {
+            continue;
+        }
+        let Some(speed) = deviation_speed(contents, world, a, (dt, fastest)) else { continue };
+        let stiffness = stiffness(speed);
         needed = needed.max(dt * (stiffness * inverse_mass).sqrt() / MAX_PHASE);
     }
     let jointed = |a: &Attachment| is_integrated(world, a.body) && !proximity::is_unjointed(world, a.body);
