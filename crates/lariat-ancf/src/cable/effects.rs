@@ -158,7 +158,7 @@ impl Cable {
     }
 
     /// Sets the Kelvin-Voigt time in s that the axial strain has at least from the next step on: 0 by default and for numbers that are not positive.
-    /// For a host that can move the cable only in steps of its own: what these excite and do not resolve, a time of a few per cent of a step damps.
+    /// For a host that can move the cable only in steps of its own: what these excite and do not resolve, a time of a tenth of a step damps.
     /// It is no effect and no part of a saved cable; what it takes is work of [`damping`](Self::effect_work).
     pub fn set_least_damping(&mut self, time: f64) {
         let time = if time.is_finite() { time.max(0.0) } else { 0.0 };

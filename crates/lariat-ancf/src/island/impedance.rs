@@ -70,12 +70,6 @@ impl Impedance {
         self.update_freed(cable, nodes, h, |attached| nodes.contains(&attached))
     }
 
-    /// Returns the largest stiffness in N/m that the cable shows at the first of the nodes over the step, its inertia included: the largest
-    /// eigenvalue of C^-1/h^2 there. The other nodes are as free as it was updated with.
-    pub fn stiffness(&self) -> f64 {
-        1.0 / (self.step * self.step * self.compliance(0, 0).symmetric_eigenvalues().min())
-    }
-
     /// Linearises `cable` with those of its attached nodes free that `is_free` names.
     fn update_freed(
         &mut self,

@@ -28,7 +28,9 @@ pub(crate) fn remove(contents: &mut Contents, world: &mut PhysicsWorld, cable: C
         }
     }
     contents.changed = true;
-    contents.cables.remove(cable.0 as usize).map(|slot| slot.cable).ok_or(Error::NoCable(cable))
+    let mut removed = contents.cables.remove(cable.0 as usize).ok_or(Error::NoCable(cable))?.cable;
+    removed.set_least_damping(0.0);
+    Ok(removed)
 }
 
 /// Makes two cables of one, if `how` does; `cable` keeps the part before the break. Returns the handle of

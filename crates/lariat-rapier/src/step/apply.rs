@@ -77,6 +77,7 @@ fn apply_prediction(world: &mut PhysicsWorld, step: &BodyStep, reaction: &Vector
         angvel,
         isolated,
         balanced_velocity: (weight + force.norm() / end.mass) * h,
+        landed: false,
         saved: SavedBody::of(body),
     };
     let own_weight = gravity * (end.mass as Real * body.gravity_scale());

@@ -90,6 +90,8 @@ pub(crate) struct AppliedMotion {
     pub isolated: bool,
     /// Velocity in m/s that balanced forces add and remove within Rapier's step.
     pub balanced_velocity: f64,
+    /// Whether Rapier's step took it where it was predicted.
+    pub landed: bool,
     pub saved: SavedBody,
 }
 

@@ -7,7 +7,7 @@
 //! ```
 //! v0 is the velocity that Rapier was given, x1 and v1 are the predicted state. The whole of the predicted change of velocity
 //! stays, so that bodies and cables keep their momentum. What contacts and joints did is expected again ([`reaction`](super::reaction));
-//! what the motors did acts on the cables ([`motors`](super::impedance)).
+//! what the motors did acts on the cables ([`impedance`](super::impedance)).
 //!
 //! # Validity
 //! With N substeps Rapier rounds each coordinate N times, by half a unit in the last place, and twice more between origin and centre of mass;
@@ -127,7 +127,13 @@ fn read_members(
         }
         let motors = motor_impulse(island, prediction, m);
         record.stepped = true;
-        read_back(world, &step, applied, record, (&motors, rests));
+        let landed = read_back(world, &step, applied, record, (&motors, rests));
+        if let Some(applied) = prediction.applied[m].as_mut() {
+            applied.landed = landed;
+        }
+        if landed {
+            island.pins_on(m).for_each(|pin| prediction.impulses[pin] = Vector3::zeros());
+        }
     }
     for group in &prediction.groups {
         groups::read_back(contents, world, island, prediction, group, h);
@@ -150,14 +156,14 @@ fn put_to_rest(world: &mut PhysicsWorld, step: &BodyStep, applied: &AppliedMotio
 /// Restores the forces and settings of a body, and sets its state: the predicted one if it landed
 /// there, else Rapier's position with the velocity that contacts and joints left of the predicted
 /// one. `motors` is the impulse of its motors; a body that touched nothing, or that `rests`, is left where Rapier holds it, which
-/// would find its contacts anew, and wake all that it touches.
+/// would find its contacts anew, and wake all that it touches. Returns whether it landed.
 fn read_back(
     world: &mut PhysicsWorld,
     step: &BodyStep,
     applied: &AppliedMotion,
     record: &mut BodyRecord,
     (motors, rests): (&Vector6<f64>, bool),
-) {
+) -> bool {
     let &BodyStep { handle, end, h, .. } = step;
     let iterations = world.integration_parameters.num_solver_iterations;
     let body = &mut world.bodies[handle];
@@ -184,6 +190,7 @@ fn read_back(
         body.set_position(to_pose(&origin, &settled.rotation), false);
     }
     record.exact = Some(ExactState::new(&settled, (linear, angular), body));
+    landed
 }
 
 /// Returns whether a body is where it was predicted, and moves as it was told to, within rounding. Continuous collision detection stops a body
@@ -237,8 +244,12 @@ fn read_attachments(contents: &mut Contents, world: &PhysicsWorld, island: &Isla
         let mean = (a.predicted.impulse + prediction.impulses[i]) / h;
         let gap = slot.cable.node_position(a.node) - anchor;
         let reading = &mut a.reading;
-        let turned = (attitude * start.rotation.inverse()).scaled_axis();
-        reading.work += mean.dot(&(anchor - start.point(&pin.anchor))) + a.predicted.angular_impulse.dot(&turned) / h;
+        reading.work += if prediction.applied[pin.body].as_ref().is_none_or(|applied| applied.landed) {
+            a.predicted.work
+        } else {
+            let turned = (attitude * start.rotation.inverse()).scaled_axis();
+            mean.dot(&(anchor - start.point(&pin.anchor))) + a.predicted.angular_impulse.dot(&turned) / h
+        };
         // a gap that closes becomes smaller
         let opens = gap.norm() > (MAX_LINK_GAP_SHARE * slot.cable.length()).max(reading.gap.norm());
         reading.residual += mean.dot(&(reading.gap - gap));

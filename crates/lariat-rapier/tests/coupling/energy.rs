@@ -94,6 +94,34 @@ fn the_balance_of_a_load_closes_whatever_moves_it() {
     }
 }
 
+/// A load swings on a rope for 1.5 s: the work that is read at its attachment is what it gained.
+///
+/// *Source.* The work-energy theorem.
+#[test]
+fn the_work_at_an_attachment_is_what_its_body_gained() {
+    for mass in [0.7, 30.0] {
+        for integrator in
+            [controlled(), Integrator { method: Method::DiscreteGradient, control: StepControl::MaxStep(1.0 / 240.0) }]
+        {
+            let (mut world, mut set, _, load) = swing(mass, integrator);
+            let energy = |world: &PhysicsWorld| {
+                let body = &world.bodies[load];
+                f64::from(body.kinetic_energy()) + f64::from(mass * body.center_of_mass().y) * 9.81
+            };
+            let (before, mut most, mut size) = (energy(&world), 0.0f64, 0.0f64);
+            let hook = set.attachments().next().unwrap().0;
+            for _ in 0..90 {
+                run(&mut world, &mut set, 1);
+                let gained = energy(&world) - before;
+                most = most.max((set.attachment(hook).unwrap().work() - gained).abs());
+                size = size.max(f64::from(world.bodies[load].kinetic_energy()));
+            }
+            println!("{mass} kg, {:?}: off by {most:.1e} J, kinetic energy {size:.1} J", integrator.method);
+            assert!(most < 5e-4 * size, "{mass} kg, {:?}: off by {most:.1e} J of {size:.1}", integrator.method);
+        }
+    }
+}
+
 fn to_vector(v: &Vector3<f64>) -> Vector {
     Vector::new(v.x as Real, v.y as Real, v.z as Real)
 }

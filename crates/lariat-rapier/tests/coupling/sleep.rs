@@ -17,13 +17,18 @@ struct Hoist {
 /// Returns 10 kg on a damped rope of 2 m under a kinematic winch, released at its natural length:
 /// it bounces and comes to rest.
 fn hoist() -> Hoist {
+    hoist_under(RigidBodyBuilder::kinematic_velocity_based(), AttachmentKind::Ball)
+}
+
+/// The same under another winch, or clamped to it.
+fn hoist_under(winch: RigidBodyBuilder, kind: AttachmentKind) -> Hoist {
     let mut world = PhysicsWorld::new();
     let load = add_cube(&mut world, 10.0, 0.1, [0.0, -2.1, 0.0]);
-    let winch = world.insert_body(RigidBodyBuilder::kinematic_velocity_based());
+    let winch = world.insert_body(winch);
     let mut set = CableSet::new();
     let rope = cable([0.0; 3], [0.0, -2.0, 0.0], soft()).damping(Damping::from_ratio(0.1, 70.0).unwrap());
     let rope = set.insert(rope.build().unwrap());
-    set.attach(&world, rope, At::Start, winch, Vector::ZERO, AttachmentKind::Ball).unwrap();
+    set.attach(&world, rope, At::Start, winch, Vector::ZERO, kind).unwrap();
     set.attach(&world, rope, At::End, load, Vector::new(0.0, 0.1, 0.0), AttachmentKind::Ball).unwrap();
     Hoist { world, set, load, winch, rope }
 }
@@ -148,14 +153,8 @@ fn a_moved_clamp_wakes_a_load() {
         ("is moved", |world, post| world.bodies[post].set_translation(Vector::new(0.1, 0.0, 0.0), true)),
     ];
     for (what, disturb) in disturbances {
-        let mut world = PhysicsWorld::new();
-        let load = add_cube(&mut world, 10.0, 0.1, [0.0, -2.1, 0.0]);
-        let post = world.insert_body(RigidBodyBuilder::kinematic_velocity_based());
-        let mut set = CableSet::new();
-        let rope = cable([0.0; 3], [0.0, -2.0, 0.0], soft()).damping(Damping::from_ratio(0.1, 70.0).unwrap());
-        let rope = set.insert(rope.build().unwrap());
-        set.attach(&world, rope, At::Start, post, Vector::ZERO, AttachmentKind::Clamp).unwrap();
-        set.attach(&world, rope, At::End, load, Vector::new(0.0, 0.1, 0.0), AttachmentKind::Ball).unwrap();
+        let post = RigidBodyBuilder::kinematic_velocity_based();
+        let Hoist { mut world, mut set, winch: post, rope, .. } = hoist_under(post, AttachmentKind::Clamp);
         run(&mut world, &mut set, 900);
         assert!(set.is_asleep(rope).unwrap(), "{what}");
         disturb(&mut world, post);
@@ -169,14 +168,8 @@ fn a_moved_clamp_wakes_a_load() {
 /// Reference: the contract.
 #[test]
 fn a_winch_that_stopped_at_a_pose_lets_its_load_sleep() {
-    let mut world = PhysicsWorld::new();
-    let load = add_cube(&mut world, 10.0, 0.1, [0.0, -2.1, 0.0]);
-    let winch = world.insert_body(RigidBodyBuilder::kinematic_position_based());
-    let mut set = CableSet::new();
-    let rope = cable([0.0; 3], [0.0, -2.0, 0.0], soft()).damping(Damping::from_ratio(0.1, 70.0).unwrap());
-    let rope = set.insert(rope.build().unwrap());
-    set.attach(&world, rope, At::Start, winch, Vector::ZERO, AttachmentKind::Ball).unwrap();
-    set.attach(&world, rope, At::End, load, Vector::new(0.0, 0.1, 0.0), AttachmentKind::Ball).unwrap();
+    let winch = RigidBodyBuilder::kinematic_position_based();
+    let Hoist { mut world, mut set, winch, rope, .. } = hoist_under(winch, AttachmentKind::Ball);
     for k in 0..1200 {
         let height = 8.3 * (k as Real / 600.0).min(1.0);
         world.bodies[winch].set_next_kinematic_translation(Vector::new(0.0, height, 0.0));
