@@ -11,7 +11,7 @@ use crate::ledger::is_ledger;
 use ::nalgebra::Vector3;
 use rapier::dynamics::RigidBodyHandle;
 use rapier::geometry::{Aabb, BoundingVolume, Collider, ColliderHandle, ContactPair};
-use rapier::math::Real;
+use rapier::math::{Real, Vector};
 use rapier::parry::query::distance;
 use rapier::pipeline::{PhysicsWorld, QueryFilter};
 
@@ -48,18 +48,27 @@ pub(crate) fn is_unjointed(world: &PhysicsWorld, handle: RigidBodyHandle) -> boo
 /// Returns whether Rapier's next step may make contacts of a body with another, of those that it lists pairs of.
 /// It keeps the pairs of a removed collider until then.
 fn is_near_another(world: &PhysicsWorld, handle: RigidBodyHandle) -> bool {
-    pairs(world, handle).any(|(own, other, pair)| may_touch(world, own, other, pair))
+    // contacts first: a body of a pile has some, and the distances of its other neighbours take longer to find
+    pairs(world, handle).any(|(_, _, pair)| touches(pair))
+        || pairs(world, handle).any(|(own, other, _)| may_reach(world, own, other))
+}
+
+/// Returns whether a pair has points of contact.
+fn touches(pair: &ContactPair) -> bool {
+    pair.manifolds().iter().any(|m| !m.points.is_empty())
 }
 
 /// Returns whether a pair that Rapier lists may touch in its next step or, at twice the present velocities, in the one after it: the reaction
 /// of a body that chatters is expected again.
 pub(crate) fn may_touch(world: &PhysicsWorld, one: &Collider, two: &Collider, pair: &ContactPair) -> bool {
-    let way = || {
-        let dt = f64::from(world.integration_parameters.dt);
-        let linear = (velocity_of(world, one) - velocity_of(world, two)).norm() * dt;
-        2.0 * (linear + turn(world, one, dt) + turn(world, two, dt))
-    };
-    pair.manifolds().iter().any(|m| !m.points.is_empty()) || reaches(world, one, two, way())
+    touches(pair) || may_reach(world, one, two)
+}
+
+/// Returns whether two colliders without points of contact may touch, as [`may_touch`].
+fn may_reach(world: &PhysicsWorld, one: &Collider, two: &Collider) -> bool {
+    let dt = f64::from(world.integration_parameters.dt);
+    let linear = (velocity_of(world, one) - velocity_of(world, two)).norm() * dt;
+    reaches(world, one, two, 2.0 * (linear + turn(world, one, dt) + turn(world, two, dt)))
 }
 
 /// Returns whether two colliders that come closer by `way` (m) may touch: within twice the distance at which Rapier makes contacts.
@@ -68,10 +77,15 @@ fn reaches(world: &PhysicsWorld, one: &Collider, two: &Collider, way: f64) -> bo
     let sweeps = |c: &Collider| body(c).is_some_and(|b| b.is_ccd_enabled() || b.soft_ccd_prediction() > 0.0);
     let skins = f64::from(one.contact_skin() + two.contact_skin());
     let listed = 2.0 * f64::from(world.integration_parameters.prediction_distance()) + skins;
+    let within = |found: Real| f64::from(found) <= way + listed;
+    // the distance of the boxes along the axes is a lower bound
+    let boxes = [one, two].map(Collider::compute_aabb);
+    let gap = (boxes[0].mins - boxes[1].maxs).max(boxes[1].mins - boxes[0].maxs).max(Vector::ZERO).length();
     sweeps(one)
         || sweeps(two)
-        || distance(one.position(), one.shape(), two.position(), two.shape())
-            .map_or(true, |found| f64::from(found.distance) <= way + listed)
+        || within(gap)
+            && distance(one.position(), one.shape(), two.position(), two.shape())
+                .map_or(true, |found| within(found.distance))
 }
 
 /// Returns by how much a point of a collider rotates at most within `dt` (s), in m.
