@@ -8,6 +8,7 @@
 //! ```
 //! Taken for motion, the rounding u of a pose makes a straight cable of stiffness EA/L with axial retardation time T pull by u EA/L (1 + T/H).
 
+use crate::pose::OriginPose;
 use ::nalgebra::Vector3;
 use rapier::math::Real;
 use serde::{Deserialize, Serialize};
@@ -38,11 +39,11 @@ impl Line {
     }
 }
 
-/// What is kept of a host step for the next: mean velocities and accelerations, the velocities at
-/// the end, and its length in s.
+/// What is kept of a host step for the next: the poses at both ends, the accelerations of the reference point and of the rotation, the velocities
+/// of the origin at the end, and its length in s.
 #[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 pub(crate) struct MotionMemory {
-    pub mean: Velocities,
+    pub poses: [OriginPose; 2],
     pub acceleration: Velocities,
     pub end: Velocities,
     pub step: f64,
@@ -56,6 +57,6 @@ pub(crate) struct MotionMemory {
 impl MotionMemory {
     /// Returns whether positions and attitudes of a body that is moved to poses are rounded.
     pub fn is_rounded(&self) -> (bool, bool) {
-        (self.curved, self.mean[1] != Vector3::zeros())
+        (self.curved, self.poses[0].1 != self.poses[1].1)
     }
 }

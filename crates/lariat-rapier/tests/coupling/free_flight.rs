@@ -1,8 +1,8 @@
 //! Free flight: momenta and tension of a rotating dumbbell.
 
-use super::common::{cable, gap, soft, tension, weightless, wire};
+use super::common::{add_cube, cable, gap, soft, tension, weightless, wire};
 use lariat_rapier::convert::vector;
-use lariat_rapier::lariat_ancf::{At, Cable, Fidelity, Section, Vector3};
+use lariat_rapier::lariat_ancf::{At, Cable, Damping, Fidelity, Section, Vector3};
 use lariat_rapier::rapier::prelude::*;
 use lariat_rapier::{AttachmentKind, CableSet};
 
@@ -168,4 +168,39 @@ fn a_tumbling_brick_keeps_its_angular_momentum_and_energy() {
     let (turned, gained) = ((l - l0).norm() / l0.norm(), t / t0 - 1.0);
     println!("dL/L {turned:.1e}, dT/T {gained:.1e}");
     assert!(turned < 1e-4 && gained.abs() < 1e-4, "dL/L {turned:.1e}, dT/T {gained:.1e}");
+}
+
+/// A point mass, a body without collider or inertia, swings on a light cord; and one that a spherical joint hangs below a cube on a cord.
+///
+/// Reference: energy, and the cord's pull at the lowest point, m g (3 - 2 cos 60 deg) = 2 m g, of all that hangs on it.
+#[test]
+fn a_point_mass_swings() {
+    for joint in [false, true] {
+        let mut world = PhysicsWorld::new();
+        let mut set = CableSet::new();
+        let out = [3f64.sqrt(), -1.0, 0.0].map(|x| x as Real);
+        let at = Vector::from(out);
+        let point = RigidBodyBuilder::dynamic().translation(at).additional_mass(2.0);
+        let point = world.insert_body(point);
+        let held = if joint {
+            let cube = add_cube(&mut world, 3.0, 0.05, out);
+            world.insert_impulse_joint(cube, point, SphericalJointBuilder::new());
+            cube
+        } else {
+            point
+        };
+        let cord = cable([0.0; 3], [3f64.sqrt(), -1.0, 0.0], Section::from_stiffness(1e5, 1e-3, 1e-3).unwrap());
+        let cord = set.insert(cord.damping(Damping { axial: 1e-3, bending: 1e-3 }).fix(At::Start).build().unwrap());
+        set.attach(&world, cord, At::End, held, Vector::ZERO, AttachmentKind::Ball).unwrap();
+        let (mut largest, mut lowest) = (0.0f64, 0.0f64);
+        for _ in 0..240 {
+            set.step(&mut world).unwrap();
+            largest = largest.max(tension(&set, cord, 1.0));
+            lowest = lowest.min(f64::from(world.bodies[point].translation().y));
+        }
+        let weight = if joint { 5.0 } else { 2.0 } * 9.81;
+        println!("joint {joint}: {largest:.3} N of {:.3}, lowest {lowest:.4} m", 2.0 * weight);
+        assert!((largest / (2.0 * weight) - 1.0).abs() < 0.03, "joint {joint}: {largest} N");
+        assert!((lowest + 2.0).abs() < 0.01, "joint {joint}: {lowest} m");
+    }
 }

@@ -19,8 +19,20 @@ fn rope(from: [f64; 3], to: [f64; 3]) -> CableBuilder {
     cable(from, to, section).damping(Damping { axial: 1e-3, bending: 1e-3 })
 }
 
-/// Returns the force that the end of a rope on a rotor reads after a second.
+/// Returns the force that the end of a rope on a rotor reads after a second, if the rotor's centre of mass is on its axis.
 fn pull_on_rotor(fidelity: Fidelity, by_pose: bool, clamp: bool, speed: f64, frequency: f64) -> f64 {
+    pull_on_eccentric_rotor(fidelity, by_pose, clamp, (speed, 0.0), frequency)
+}
+
+/// Returns the force that the end of a rope on a rotor reads after a second. The rotor turns about its centre of mass, `offset` (m) from its
+/// origin.
+fn pull_on_eccentric_rotor(
+    fidelity: Fidelity,
+    by_pose: bool,
+    clamp: bool,
+    (speed, offset): (f64, f64),
+    frequency: f64,
+) -> f64 {
     let mut world = weightless();
     world.integration_parameters.dt = 1.0 / frequency as Real;
     let builder = if by_pose {
@@ -28,18 +40,21 @@ fn pull_on_rotor(fidelity: Fidelity, by_pose: bool, clamp: bool, speed: f64, fre
     } else {
         RigidBodyBuilder::kinematic_velocity_based()
     };
-    let rotor = world.insert_body(builder.angvel(Vector::new(0.0, 0.0, speed as Real)));
+    let centre = Vector::new(0.0, offset as Real, 0.0);
+    let builder = builder.translation(-centre).angvel(Vector::new(0.0, 0.0, speed as Real));
+    let (rotor, _) = world.insert(builder, ColliderBuilder::ball(0.05).translation(centre).mass(1.0));
     let mut set = CableSet::new();
     let lash = rope([0.2, 0.0, 0.0], [1.2, 0.0, 0.0]).gravity(Vector3::zeros()).fidelity(fidelity);
     let lash = set.insert(lash.build().unwrap());
     let spin = Vector3::new(0.0, 0.0, speed);
     set.get_mut(lash).unwrap().set_rigid_motion(spin.cross(&Vector3::new(0.2, 0.0, 0.0)), spin).unwrap();
     let kind = if clamp { AttachmentKind::Clamp } else { AttachmentKind::Ball };
-    let end = set.attach(&world, lash, At::Start, rotor, Vector::new(0.2, 0.0, 0.0), kind).unwrap();
+    let rim = Vector::new(0.2, 0.0, 0.0) + centre;
+    let end = set.attach(&world, lash, At::Start, rotor, rim, kind).unwrap();
     for k in 1..=frequency as usize {
         if by_pose {
-            let angle = (speed * k as f64 / frequency) as Real;
-            let pose = Pose::new(Vector::ZERO, Vector::new(0.0, 0.0, angle));
+            let turned = Pose::new(Vector::ZERO, Vector::new(0.0, 0.0, (speed * k as f64 / frequency) as Real));
+            let pose = Pose::from_parts(turned.rotation * -centre, turned.rotation);
             world.bodies[rotor].set_next_kinematic_position(pose);
         }
         set.step(&mut world).unwrap();
@@ -79,6 +94,33 @@ fn a_rope_on_a_rotor_pulls_with_its_force_of_inertia() {
         let pull = pull_on_rotor(Fidelity::Game, by_pose, clamp, speed, frequency);
         println!("game: {pull:.4} N");
         assert!((pull / expected - 1.0).abs() < 2e-2, "game: {pull:.4} N; {case}");
+    }
+}
+
+/// A rotor whose centre of mass is half a metre or more from its origin, as of an arm that is drawn from its hub: Rapier turns it about the
+/// centre of mass, and the origin moves on a circle.
+///
+/// Reference: the force of inertia, as above.
+#[test]
+fn a_rope_on_an_eccentric_rotor_pulls_with_its_force_of_inertia() {
+    for fidelity in [Fidelity::Engineering, Fidelity::Game] {
+        for (by_pose, clamp, speed, offset, frequency) in [
+            (false, false, 10.0, 0.5, 60.0),
+            (false, true, 10.0, 0.5, 60.0),
+            (false, false, 20.0, 2.0, 60.0),
+            (false, true, 15.0, 1.0, 30.0),
+            (false, false, 3.0, 5.0, 240.0),
+            (true, false, 10.0, 0.5, 60.0),
+            (true, true, 20.0, 1.0, 60.0),
+        ] {
+            let expected = speed * speed * 0.1 * (1.2f64.powi(2) - 0.04) / 2.0;
+            let pull = pull_on_eccentric_rotor(fidelity, by_pose, clamp, (speed, offset), frequency);
+            let case = format!(
+                "{fidelity:?}, by pose {by_pose}, clamp {clamp}, {speed} rad/s, offset {offset} m, {frequency} Hz: {pull:.4} N of {expected:.4}"
+            );
+            println!("{case}");
+            assert!((pull / expected - 1.0).abs() < 2e-2, "{case}");
+        }
     }
 }
 
