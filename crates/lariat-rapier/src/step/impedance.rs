@@ -37,6 +37,7 @@ use crate::islands::{Island, Member};
 use crate::ledger::{Drive, Ledger};
 use crate::mechanism::Mechanism;
 use crate::proximity;
+use crate::record::ExactState;
 use crate::spatial::stack_spatial;
 use crate::step::prediction::{Prediction, StepParameters};
 use ::nalgebra::{Matrix3, SMatrix, Vector3, Vector6};
@@ -253,6 +254,16 @@ pub(super) fn motor_impulse(island: &Island, prediction: &Prediction, m: usize) 
         stack_spatial(p, &(prediction.end[m].rotation * island.pins[pin].anchor).cross(p))
     };
     island.pins_on(m).map(of_pin).sum()
+}
+
+/// Replaces the impulses of the motors on a member by those that let its cables follow it where it is `exact`ly, after a step of `h` (s).
+pub(super) fn follow_body(island: &Island, prediction: &mut Prediction, (m, exact): (usize, &ExactState), h: f64) {
+    for pin in island.pins_on(m).filter(|pin| prediction.motors[*pin]) {
+        let anchor = &island.pins[pin].anchor;
+        if let Some(impedance) = driving_point(island, prediction, pin) {
+            prediction.impulses[pin] = impedance * (prediction.end[m].point(anchor) - exact.point(anchor)) / h;
+        }
+    }
 }
 
 /// Gives the cables the opposite of their motors' impulses on bodies that deviated.

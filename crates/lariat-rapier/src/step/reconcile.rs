@@ -30,12 +30,12 @@ use crate::spatial::{split_spatial, stack_spatial};
 use crate::step::apply::restore_cables;
 use crate::step::energy;
 use crate::step::groups;
-use crate::step::impedance::{apply_motor_impulses, motor_impulse, take_impulses};
+use crate::step::impedance::{apply_motor_impulses, follow_body, motor_impulse, take_impulses};
 use crate::step::kinematic_ends;
 use crate::step::prediction::{AppliedMotion, BodyStep, Prediction};
 use crate::step::reaction::update_reaction;
 use crate::step::waking;
-use ::nalgebra::{Vector3, Vector6};
+use ::nalgebra::{UnitQuaternion, Vector3, Vector6};
 use lariat_ancf::island::RigidBody;
 use rapier::dynamics::{RigidBody as RapierBody, RigidBodyHandle};
 use rapier::math::Real;
@@ -133,6 +133,10 @@ fn read_members(
         }
         if landed {
             island.pins_on(m).for_each(|pin| prediction.impulses[pin] = Vector3::zeros());
+        } else if world.bodies[*handle].is_ccd_active()
+            && let Some(exact) = &record.exact
+        {
+            follow_body(island, prediction, (m, exact), h);
         }
     }
     for group in &prediction.groups {
@@ -244,12 +248,17 @@ fn read_attachments(contents: &mut Contents, world: &PhysicsWorld, island: &Isla
         let mean = (a.predicted.impulse + prediction.impulses[i]) / h;
         let gap = slot.cable.node_position(a.node) - anchor;
         let reading = &mut a.reading;
-        reading.work += if prediction.applied[pin.body].as_ref().is_none_or(|applied| applied.landed) {
-            a.predicted.work
-        } else {
-            let turned = (attitude * start.rotation.inverse()).scaled_axis();
-            mean.dot(&(anchor - start.point(&pin.anchor))) + a.predicted.angular_impulse.dot(&turned) / h
-        };
+        let deviated = prediction.applied[pin.body].as_ref().is_some_and(|applied| !applied.landed);
+        reading.work += a.predicted.work;
+        if deviated {
+            let work = |impulse: &Vector3<f64>, place: &Vector3<f64>, attitude: UnitQuaternion<f64>| {
+                let turned = (attitude * start.rotation.inverse()).scaled_axis();
+                impulse.dot(&(place - start.point(&pin.anchor))) + a.predicted.angular_impulse.dot(&turned)
+            };
+            let end = &prediction.end[pin.body];
+            let predicted = work(&a.predicted.impulse, &end.point(&pin.anchor), end.rotation);
+            reading.work += (work(&(mean * h), &anchor, attitude) - predicted) / h;
+        }
         // a gap that closes becomes smaller
         let opens = gap.norm() > (MAX_LINK_GAP_SHARE * slot.cable.length()).max(reading.gap.norm());
         reading.residual += mean.dot(&(reading.gap - gap));

@@ -6,6 +6,7 @@
 //! h |w|/(2 N) <= 1.2              in N solver iterations
 //! h |w|/(2 N) <= 0.005            of a body on impulse joints
 //! h |w1 - w0|/4 <= 0.01           of a body on joints, from one end of a Rapier step to the other
+//! h v <= l/2                      of a body that collides at v, l the elements at its pins
 //! ```
 //! *Vibration.* Between two Rapier steps the reaction estimate of a body in contact is constant. If
 //! h is long compared with the period of the body on its taut cables, the estimate comes too late:
@@ -19,10 +20,13 @@
 //! change of velocity (2 v h), and a reaction estimate r that is wrong altogether (r h^2/2m). A cable
 //! that stays slack by that asks for no split: of a body that it pulls into a stop, r = F, h w <= 0.61.
 //!
+//! *Blows.* A cable follows a body that deviates by its linear response. A collision displaces an end by v h at most; by more than half an
+//! element it would fold that.
+//!
 //! *Turns.* A mechanism is predicted as it is halfway of a Rapier step, at the velocities with which that begins. If they change in it, by a line that snaps
-//! taut, bodies on joints have turned otherwise by the left side of the last line, by which share the directions in which they can move are wrong. Then the
+//! taut, bodies on joints have turned otherwise by the left side of the fourth line, by which share the directions in which they can move are wrong. Then the
 //! step is predicted anew, divided. Impulse joints turn a velocity by removing what they do not allow of it, in each substep the share (w h/N)^2/2, which is the left
-//! side of the line before per radian.
+//! side of the third line per radian.
 //!
 //! The collisions and the taut cables of the whole coming host step count ([`crate::proximity`]). All is evaluated again before each Rapier
 //! step, and the rest of the host step is split finer.
@@ -64,6 +68,8 @@ const MAX_LOSS: f64 = 5e-3;
 pub(super) const MAX_TURN_ERROR: f64 = 0.01;
 /// Share of a cable's slack by which its chord may grow, so that its stiffness does not double.
 const SLACK_SHARE: f64 = 0.37;
+/// Share of the length of an element by which a collision may displace its end in a Rapier step.
+const DEVIATION_SHARE: f64 = 0.5;
 /// Largest change of velocity of a body that collides, per speed of the collision.
 const MAX_REBOUND: f64 = 2.0;
 /// Share of the force at an attachment from which a reaction estimate counts.
@@ -86,13 +92,15 @@ pub(crate) fn count(contents: &Contents, world: &PhysicsWorld, settings: &Settin
             let change = MAX_REBOUND * speed * dt + 0.5 * reaction * inverse_mass * dt * dt;
             taut_stiffness(contents, a.body, (dt, change))
         };
-        // most cables stay slack whatever their body meets, and collisions take longer to find
-        if stiffness(f64::from(world.bodies[a.body].linvel().length()) + fastest) == 0.0 {
+        // most cables stay slack and hardly move whatever their body meets, and collisions take longer to find
+        let most = f64::from(world.bodies[a.body].linvel().length()) + fastest;
+        let longest = max_deviation(contents, a);
+        if stiffness(most) == 0.0 && most * dt <= longest {
             continue;
         }
         let Some(speed) = deviation_speed(contents, world, a, (dt, fastest)) else { continue };
         let stiffness = stiffness(speed);
-        needed = needed.max(dt * (stiffness * inverse_mass).sqrt() / MAX_PHASE);
+        needed = needed.max(dt * (stiffness * inverse_mass).sqrt() / MAX_PHASE).max(speed * dt / longest);
     }
     let jointed = |a: &Attachment| is_integrated(world, a.body) && !proximity::is_unjointed(world, a.body);
     if contents.attachments.values().any(jointed) {
@@ -154,6 +162,14 @@ fn deviation_speed(
 /// Returns whether the body of an attachment has a reaction estimate against the force there.
 fn is_held(contents: &Contents, a: &Attachment) -> bool {
     split_spatial(&contents.records.reaction(a.body)).0.norm() > MIN_REACTION * a.reading.force.norm()
+}
+
+/// Returns the way in m by which a collision may displace an attachment in a Rapier step.
+fn max_deviation(contents: &Contents, a: &Attachment) -> f64 {
+    let Some(slot) = contents.slot(a.cable) else { return f64::INFINITY };
+    let elements = slot.cable.elements();
+    let next = &elements[a.node.saturating_sub(1).min(elements.len() - 1)..(a.node + 1).min(elements.len())];
+    DEVIATION_SHARE * next.iter().map(|element| element.length).fold(f64::INFINITY, f64::min)
 }
 
 /// Returns whether a cable pulls at an attachment.

@@ -135,17 +135,17 @@ fn a_kicked_pair_keeps_its_angular_momentum() {
     }
 }
 
-/// A ball falls on the ground, in a step in which it moves farther than Rapier looks for collisions, with a thread that trails behind it: the
-/// thread stays on it, and it does not rebound.
+/// A ball with a thread that trails behind it falls on the ground, which it meets anywhere in a step: within the distance at which Rapier lists
+/// the collision, and farther on, where continuous collision detection stops the ball with its velocity. The thread stays on it, and it does not
+/// rebound.
 ///
-/// Reference: the contract, and Rapier alone, restitution 0. The gap was 25 cm when its motors did not expect the ground; the lighter ball
-/// was 30 cm off its thread and rebounded with 14 % of its speed when it was set to its exact place in the step before.
+/// Reference: the contract, and Rapier alone, restitution 0; a thread of m_t that rebounds as an elastic bar takes the ball of m_b along with
+/// m_t/(m_b + m_t) of the speed. The gap was 28 cm and the rebound 0.14 when the place at which the ball was stopped counted as pushed there by
+/// a force, the thread did not follow, and the step was not divided.
 #[test]
 fn a_thread_stays_on_a_ball_that_hits_the_ground_within_a_step() {
-    // a little above the ground Rapier lists the collision, from 0.02 m on it lets the ball pass into the ground, which opens a gap that is told
-    for (above, radius, mass, speed, [length, stiffness, density], rate) in [
-        (0.0199, 0.1, 1.0, 8.0, [1.0, 1e5, 1e-3], 30.0),
-        (0.0199, 0.1, 1.0, 8.0, [1.0, 1e5, 1e-3], 60.0),
+    let plain = |above, rate, density| (above, 0.1, 1.0, 8.0, [1.0, 1e5, density], rate);
+    let mut cases = vec![
         // the fall of seed 9015
         (
             0.02,
@@ -155,32 +155,43 @@ fn a_thread_stays_on_a_ball_that_hits_the_ground_within_a_step() {
             [0.3225429109282053, 30021.23007976275, 0.004060327941020093],
             30.0,
         ),
-    ] {
-        if above == 0.02 && size_of::<Real>() == 8 {
-            // on the edge of that only as single precision rounds it
-            continue;
-        }
+        (0.3, 0.05, 0.1, 25.0, [0.5, 2e4, 1e-4], 60.0),
+        (0.01, 0.3, 40.0, 15.0, [3.0, 1e6, 0.02], 30.0),
+    ];
+    for rate in [30.0, 60.0, 120.0] {
+        let places = [0.0, 0.0199, 0.021, 0.05, 0.1, 0.2].into_iter().filter(|above| above * rate < 8.0);
+        cases.extend(places.flat_map(|above| [plain(above, rate, 1e-3), plain(above, rate, 0.1)]));
+    }
+    for (fidelity, (above, radius, mass, speed, [length, stiffness, density], rate)) in
+        [Fidelity::Engineering, Fidelity::Game]
+            .into_iter()
+            .flat_map(|fidelity| cases.iter().map(move |case| (fidelity, *case)))
+    {
         let mut world = weightless();
-        world.integration_parameters.dt = 1.0 / rate;
+        world.integration_parameters.dt = 1.0 / rate as Real;
         world.insert_collider(ColliderBuilder::cuboid(10.0, 0.5, 10.0).translation(Vector::new(0.0, -0.5, 0.0)), None);
-        let start = radius + 0.1 * speed + above;
+        let start = radius + 4.0 * speed / rate + above;
         let body = RigidBodyBuilder::dynamic().translation(Vector::new(0.0, start as Real, 0.0));
         let body = body.linvel(Vector::new(0.0, -speed as Real, 0.0));
         let (ball, _) = world.insert(body, ColliderBuilder::ball(radius as Real).mass(mass));
         let mut set = CableSet::new();
         let section = Section::from_stiffness(stiffness, 1e-8 * stiffness, density).unwrap();
         let thread = cable([0.0, start + radius, 0.0], [0.0, start + radius + length, 0.0], section).elements(8);
-        let thread = thread.gravity(Vector3::zeros()).fidelity(Fidelity::Engineering);
+        let thread = thread.gravity(Vector3::zeros()).fidelity(fidelity);
         let thread = set.insert(thread.velocity(Vector3::new(0.0, -speed, 0.0)).build().unwrap());
         set.attach_here(&world, thread, At::Start, ball, AttachmentKind::Clamp).unwrap();
         let (mut widest, mut fastest) = (0.0f64, f64::NEG_INFINITY);
-        for _ in 0..(0.2 * rate) as u32 {
+        for _ in 0..(0.3 * rate) as u32 {
             set.step(&mut world).unwrap();
             widest = widest.max(gap(&set));
             fastest = fastest.max(f64::from(world.bodies[ball].linvel().y) / speed);
         }
-        let case = format!("{mass} kg, {speed} m/s, {rate} Hz: gap {widest:.1e} m, rebound {fastest:.4}");
+        let share = density * length / (f64::from(mass) + density * length);
+        let case = format!(
+            "{fidelity:?}, {mass} kg, {speed} m/s, {rate} Hz, {above} m above, thread {share:.0e}: gap {widest:.1e} m, rebound {fastest:.4}"
+        );
         println!("{case}");
-        assert!(widest < 1e-3 && fastest < 0.02, "{case}");
+        // a heavy thread that stands on the ball folds: its gaps are told
+        assert!((widest < 1e-4 || share > 0.05) && fastest < 0.02 + share, "{case}");
     }
 }
