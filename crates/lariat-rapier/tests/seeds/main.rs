@@ -6,6 +6,7 @@
 mod blows;
 mod booms;
 mod common;
+mod contacts;
 mod pendulums;
 mod rotors;
 mod winches;
