@@ -20,6 +20,16 @@ struct Series {
     rate: usize,
 }
 
+/// What is read at a rope.
+#[derive(Clone, Copy, Debug)]
+struct Pull {
+    /// Force in N on the body before it at its least and most, in the second half second after the winch stops, and in the last of two and a half.
+    early: [f64; 2],
+    late: [f64; 2],
+    /// Force in N by its stretch in the end.
+    of_stretch: f64,
+}
+
 impl Series {
     fn random(seed: u64) -> Self {
         let mut r = Random::new(seed);
@@ -28,7 +38,9 @@ impl Series {
         let stiffness = r.log(3e4, 3e6);
         let section = Section::from_stiffness(stiffness, 1e-8 * stiffness, r.log(0.003, 0.1)).unwrap();
         Series {
-            tension: r.log(0.5, 50.0) * 9.81 * masses.iter().fold(0.0, |a: f64, b| a.max(*b)).min(10.0),
+            // a stretch far above what Rapier rounds places to
+            tension: (r.log(0.5, 50.0) * 9.81 * masses.iter().copied().fold(0.0, f64::max).min(10.0))
+                .max(3e-5 * stiffness),
             masses,
             ropes,
             section,
@@ -39,9 +51,8 @@ impl Series {
         }
     }
 
-    /// Returns by rope the force on the body before it, at its least and most in the second half second after the winch stops and in the last one,
-    /// the force by its stretch in the end, and what was told.
-    fn run(&self) -> (Vec<([[f64; 2]; 2], f64)>, Vec<String>) {
+    /// Returns what is read at each rope, and what was told.
+    fn run(&self) -> (Vec<Pull>, Vec<String>) {
         let mut world = PhysicsWorld::new();
         world.gravity = Vector::ZERO;
         world.integration_parameters.num_solver_iterations = self.iterations;
@@ -83,7 +94,8 @@ impl Series {
         let stretch = self.tension / self.section.axial_stiffness * self.ropes.iter().sum::<f64>();
         let half_second = self.rate / 2;
         let mut degraded = false;
-        let mut seen = vec![[[f64::INFINITY, f64::NEG_INFINITY]; 2]; hooks.len()];
+        let none = [f64::INFINITY, f64::NEG_INFINITY];
+        let mut pulls = vec![Pull { early: none, late: none, of_stretch: 0.0 }; hooks.len()];
         for k in 0..8 * half_second {
             let t = (k as f64 + 0.5) / half_second as f64;
             // smooth, so that little swings on
@@ -93,23 +105,23 @@ impl Series {
                 return (vec![], vec![error.to_string()]);
             }
             degraded |= set.events().iter().any(|event| matches!(event, Event::Degraded(_)));
-            for (hook, seen) in hooks.iter().zip(&mut seen) {
+            for (hook, pull) in hooks.iter().zip(&mut pulls) {
                 let force = set.attachment(*hook).unwrap().force().x;
                 let window = match k / half_second {
-                    3 => &mut seen[0],
-                    7 => &mut seen[1],
+                    3 => &mut pull.early,
+                    7 => &mut pull.late,
                     _ => continue,
                 };
                 *window = [window[0].min(force), window[1].max(force)];
             }
         }
-        let forces = ropes.iter().zip(&self.ropes).zip(seen).map(|((rope, length), seen)| {
+        for ((rope, length), pull) in ropes.iter().zip(&self.ropes).zip(&mut pulls) {
             let rope = set.get(*rope).unwrap();
             let stretch = (rope.node_position(6) - rope.node_position(0)).norm() / length;
-            (seen, self.section.axial_stiffness * 0.5 * (stretch * stretch - 1.0) * stretch)
-        });
+            pull.of_stretch = self.section.axial_stiffness * 0.5 * (stretch * stretch - 1.0) * stretch;
+        }
         let degraded = degraded.then(|| "Degraded".to_string());
-        (forces.collect(), told(&set, &world).into_iter().chain(degraded).collect())
+        (pulls, told(&set, &world).into_iter().chain(degraded).collect())
     }
 }
 
@@ -123,16 +135,16 @@ fn bodies_in_series_are_jammed_with_the_same_force_or_tell() {
     let mut wrong = Vec::new();
     for seed in seeds {
         let series = Series::random(seed);
-        let (ropes, told) = series.run();
-        let mean = ropes.iter().map(|(_, stretch)| stretch).sum::<f64>() / ropes.len() as f64;
-        let off = ropes.is_empty()
-            || ropes.iter().any(|([first, last], stretch)| {
-                // what the winch left swinging goes on without damping, and does not grow
-                let swings = if series.damping > 0.0 { 0.0 } else { 0.5 * (first[1] - first[0]) };
-                let far = |force: f64| (force - mean).abs() > 0.05 * mean + swings;
-                far(last[0]) || far(last[1]) || far(*stretch)
-            });
-        let case = format!("{seed}: {:.2} N: {ropes:.2?}, told {told:?}: {series:?}", series.tension);
+        let (pulls, told) = series.run();
+        let mean = pulls.iter().map(|pull| pull.of_stretch).sum::<f64>() / pulls.len() as f64;
+        let same = pulls.iter().all(|pull| {
+            // what the winch left swinging goes on without damping, and does not grow
+            let swings = if series.damping > 0.0 { 0.0 } else { 0.5 * (pull.early[1] - pull.early[0]) };
+            let near = |force: f64| (force - mean).abs() < 0.05 * mean + swings;
+            pull.late.into_iter().all(near) && near(pull.of_stretch)
+        });
+        let off = pulls.is_empty() || !same;
+        let case = format!("{seed}: {:.2} N: {pulls:.2?}, told {told:?}: {series:?}", series.tension);
         judge(&mut wrong, print, off, &told, case);
     }
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
@@ -223,7 +235,7 @@ fn a_dragged_crate_pulls_with_its_friction_or_tells() {
         let drag = Drag::random(seed);
         let (force, told) = drag.run();
         let expected = drag.friction * drag.mass * 9.81;
-        let off = !((force / expected - 1.0).abs() < 0.05);
+        let off = force.is_nan() || (force / expected - 1.0).abs() > 0.05;
         judge(&mut wrong, print, off, &told, format!("{seed}: {force:.2} of {expected:.2} N, told {told:?}: {drag:?}"));
     }
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
@@ -312,7 +324,7 @@ fn a_crate_is_set_down_and_lifted_or_tells() {
     for seed in seeds {
         let hoist = Hoist::random(seed);
         let ([off_place, tilt], told) = hoist.run();
-        let off = !(off_place.abs() < 0.01 && tilt < 0.05);
+        let off = off_place.is_nan() || off_place.abs() > 0.01 || tilt > 0.05;
         let case = format!("{seed}: {off_place:.1e} m off, tilt {tilt:.1e}, told {told:?}: {hoist:?}");
         judge(&mut wrong, print, off, &told, case);
     }
