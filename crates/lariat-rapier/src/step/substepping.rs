@@ -55,8 +55,6 @@ use lariat_ancf::At;
 use rapier::dynamics::RigidBodyHandle;
 use rapier::pipeline::PhysicsWorld;
 
-/// Strain from which a cable counts as taut.
-const TAUT_STRAIN: f64 = 1e-5;
 /// Largest h w.
 pub(super) const MAX_PHASE: f64 = 0.6;
 /// Steps of a host step of a body that joints hold: the reactions of joints are estimated from step
@@ -172,14 +170,6 @@ fn max_deviation(contents: &Contents, a: &Attachment) -> f64 {
     DEVIATION_SHARE * next.iter().map(|element| element.length).fold(f64::INFINITY, f64::min)
 }
 
-/// Returns whether a cable pulls at an attachment.
-fn is_taut(contents: &Contents, a: &Attachment) -> bool {
-    let Some(slot) = contents.slot(a.cable) else { return false };
-    let elements = slot.cable.elements();
-    let section = &elements[a.node.min(elements.len() - 1)].section;
-    a.reading.force.norm() > TAUT_STRAIN * section.axial_stiffness
-}
-
 /// Returns an upper bound in N/m of the stiffness of the cables of a body that may be taut within `dt` (s), if the body moves by `change` (m) beside
 /// its present motion.
 fn taut_stiffness(contents: &Contents, body: RigidBodyHandle, (dt, change): (f64, f64)) -> f64 {
@@ -196,7 +186,7 @@ pub(super) fn resting_phase(contents: &Contents, world: &PhysicsWorld, a: &Attac
     let stiffness = taut_stiffness(contents, a.body, (h, 0.0));
     let (mass, speed) = (f64::from(body.mass()), f64::from(body.linvel().length()));
     let rests = mass * speed * speed * stiffness < a.reading.force.norm_squared();
-    rests.then(|| if is_taut(contents, a) { h * (stiffness / mass).sqrt() } else { 0.0 })
+    rests.then(|| h * (stiffness / mass).sqrt())
 }
 
 /// The part of a cable between a node and a held end.

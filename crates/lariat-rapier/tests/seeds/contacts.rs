@@ -186,7 +186,8 @@ impl Drag {
         }
     }
 
-    /// Returns the mean force on the crate along the floor in the last second of three, and what was told.
+    /// Returns the mean force on the crate along the floor in the last two seconds of four, by a Hann window since a soft rope swings, and what was
+    /// told.
     fn run(&self) -> (f64, Vec<String>) {
         let mut world = PhysicsWorld::new();
         world.integration_parameters.num_solver_iterations = self.iterations;
@@ -210,14 +211,16 @@ impl Drag {
         let hook = set.attach_here(&world, rope, At::Start, crate_, kind).unwrap();
         set.attach_here(&world, rope, At::End, winch, AttachmentKind::Ball).unwrap();
         let mut mean = 0.0;
-        for k in 0..3 * self.rate {
-            let share = (k as f64 / self.rate as f64).min(1.0);
+        for k in 0..4 * self.rate {
+            let t = k as f64 / self.rate as f64;
+            let share = t.min(1.0);
             world.bodies[winch].set_linvel(Vector::new((self.speed * share) as Real, 0.0, 0.0), true);
             if let Err(error) = set.step(&mut world) {
                 return (f64::NAN, vec![error.to_string()]);
             }
-            if k >= 2 * self.rate {
-                mean += set.attachment(hook).unwrap().force().x / self.rate as f64;
+            if t >= 2.0 {
+                let weight = 1.0 - (std::f64::consts::PI * t).cos();
+                mean += weight * set.attachment(hook).unwrap().force().x / (2 * self.rate) as f64;
             }
         }
         (mean, told(&set, &world))
