@@ -5,6 +5,7 @@
 
 mod blows;
 mod booms;
+mod bridges;
 mod common;
 mod contacts;
 mod pendulums;
