@@ -25,8 +25,8 @@
 //!
 //! # Validity
 //! A body that is slower than the rounding of its position per host step is at rest in some of them, and keeps that rounding; so does one that
-//! accelerates, and attitudes do. The error of the velocities of the reference point is of second order in H. If a host step is split, a body that Rapier
-//! moves by its velocity is between the ends where Rapier moves it to: uniformly from its first
+//! accelerates, and attitudes do. The error of the velocities of the reference point is of second order in H: a winch that circles without turning
+//! keeps it. If a host step is split, a body that Rapier moves by its velocity is between the ends where Rapier moves it to: uniformly from its first
 //! to its last pose.
 //!
 //! # Alternatives considered

@@ -11,7 +11,8 @@
 //! both without a force.
 //!
 //! # Alternatives considered
-//! The share s for places too: a ball with a thread rebounds with 0.09 to 0.14 of its speed where continuous collision detection stops it. Leaving p out: bodies of 1 to 5 kg on a steel wire leave a jam when the host step is not split.
+//! The share s for places too: a ball with a thread rebounds with 0.09 to 0.14 of its speed where continuous collision detection stops it.
+//! Leaving p out: bodies of 1 to 5 kg on a steel wire leave a jam when the host step is not split.
 
 use crate::mechanism::{own_inertia, velocity_of};
 use crate::record::BodyRecord;
