@@ -55,8 +55,7 @@ struct BodyMotion {
     by_pose: bool,
     /// The reference point, in body axes.
     reference: Vector3<f64>,
-    poses: [OriginPose; 2],
-    /// Those of the Rapier step in progress.
+    /// Poses at both ends of the Rapier step in progress; those of the host step are in the memory.
     step: [OriginPose; 2],
     /// Velocities at both ends beyond the mean.
     beyond: [Velocities; 2],
@@ -162,14 +161,14 @@ impl BodyMotion {
         let [v, w] = [0, 1].map(|x| mean[x] + beyond[1][x]);
         let end = [v - w.cross(&(poses[1].1 * reference)), w];
         let memory = MotionMemory { poses, acceleration, end, step: dt, line, curved };
-        BodyMotion { handle, by_pose, reference, poses, step: poses, beyond, memory }
+        BodyMotion { handle, by_pose, reference, step: poses, beyond, memory }
     }
 
     /// Returns pose and velocities at a share of the host step of a body that is moved to a pose.
     fn at(&self, share: f64) -> (OriginPose, Velocities) {
         let ([first, last], h) = (self.beyond, self.memory.step);
-        let [v, w] = mean(&self.poses, &self.reference, h);
-        let (x0, r0) = &self.poses[0];
+        let [v, w] = mean(&self.memory.poses, &self.reference, h);
+        let (x0, r0) = &self.memory.poses[0];
         let (c0, c1) = (share * (1.0 - share) * (1.0 - share) * h, -share * share * (1.0 - share) * h);
         let (d0, d1) = ((1.0 - share) * (1.0 - 3.0 * share), share * (3.0 * share - 2.0));
         let turn = w * (share * h) + first[1] * c0 + last[1] * c1;
@@ -183,12 +182,11 @@ impl BodyMotion {
 
 /// Returns the reference point, in body axes, of a body that is moved to poses in a host step of `h` (s) after the `last`.
 fn least_accelerated_point(poses: &[OriginPose; 2], h: f64, last: &MotionMemory) -> Vector3<f64> {
-    let rates = |[from, to]: &[OriginPose; 2], h: f64| {
-        let matrix = |pose: &OriginPose| pose.1.to_rotation_matrix().into_inner();
-        let spin = (to.1 * from.1.inverse()).scaled_axis() / h;
-        ((to.0 - from.0) / h, (matrix(to) - matrix(from)) / h, spin)
+    let rates = |poses: &[OriginPose; 2], h: f64| {
+        let [start, end] = [0, 1].map(|i| poses[i].1.to_rotation_matrix().into_inner());
+        (mean(poses, &Vector3::zeros(), h), (end - start) / h)
     };
-    let ((v1, turning1, w), (v0, turning0, w0)) = (rates(poses, h), rates(&last.poses, last.step));
+    let (([v1, w], turning1), ([v0, w0], turning0)) = (rates(poses, h), rates(&last.poses, last.step));
     let (change, turning) = (v1 - v0, turning1 - turning0);
     let unsteady = (w - w0 - last.acceleration[1] * (0.5 * (h + last.step))).norm() / 4.0;
     let weight = 12.0 * (f64::from(Real::EPSILON) / h + unsteady) / (w.norm() * h);
@@ -251,7 +249,7 @@ impl PrescribedMotions {
     pub fn restore(&self, world: &mut PhysicsWorld) {
         for motion in self.0.iter().filter(|motion| motion.by_pose) {
             if let Some(body) = world.bodies.get_mut(motion.handle) {
-                let (origin, attitude) = &motion.poses[1];
+                let (origin, attitude) = &motion.memory.poses[1];
                 body.set_next_kinematic_position(to_pose(origin, attitude));
             }
         }

@@ -37,16 +37,6 @@ impl Random {
     }
 }
 
-/// Returns the seeds to run, and whether to print each: those of the test, or those that the user asks for.
-pub fn seeds(of_test: Range<u64>) -> (Range<u64>, bool) {
-    let asked = std::env::var("LARIAT_SEEDS").ok();
-    let range = asked
-        .as_deref()
-        .and_then(|range| range.split_once(".."))
-        .and_then(|(from, to)| Some(from.parse().ok()?..to.parse().ok()?));
-    (range.unwrap_or(of_test), asked.is_some())
-}
-
 /// Returns a cable along a straight line.
 pub fn cable(from: Vector3<f64>, to: Vector3<f64>, section: Section) -> CableBuilder {
     Cable::builder().points([from, to]).section(section)
@@ -67,20 +57,34 @@ pub fn told(set: &CableSet, world: &PhysicsWorld) -> Vec<String> {
     names
 }
 
-/// Notes a scene that is wrong with nothing told of it, and prints it if that is asked for.
-pub fn judge(wrong: &mut Vec<String>, print: bool, off: bool, told: &[String], case: String) {
-    let verdict = match (off, told.is_empty()) {
-        (true, true) => "wrong ",
-        (true, false) => "told ",
-        (false, false) => "right but told ",
-        (false, true) => "",
-    };
-    if print {
-        println!("{verdict}{case}");
+/// Runs the scenes of seeds, those of the test or those that the user asks for in `LARIAT_SEEDS`, of which it prints each: `run` returns whether a scene
+/// is off, what was told, and what to say of it.
+///
+/// # Panics
+/// If a scene is off with nothing told of it.
+pub fn judge(of_test: Range<u64>, run: impl Fn(u64) -> (bool, Vec<String>, String)) {
+    let asked = std::env::var("LARIAT_SEEDS").ok();
+    let range = asked
+        .as_deref()
+        .and_then(|range| range.split_once(".."))
+        .and_then(|(from, to)| Some(from.parse().ok()?..to.parse().ok()?));
+    let mut wrong = Vec::new();
+    for seed in range.unwrap_or(of_test) {
+        let (off, told, case) = run(seed);
+        let verdict = match (off, told.is_empty()) {
+            (true, true) => "wrong ",
+            (true, false) => "told ",
+            (false, false) => "right but told ",
+            (false, true) => "",
+        };
+        if asked.is_some() {
+            println!("{verdict}{case}");
+        }
+        if off && told.is_empty() {
+            wrong.push(case);
+        }
     }
-    if off && told.is_empty() {
-        wrong.push(case);
-    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
 
 /// Returns where a body is, in double precision.

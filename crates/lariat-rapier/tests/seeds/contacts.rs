@@ -1,6 +1,6 @@
 //! Bodies in contact: several in series on ropes, the last jammed; a crate that is dragged over a floor; one that is set down and lifted.
 
-use super::common::{Random, cable, judge, place, seeds, told};
+use super::common::{Random, cable, judge, place, told};
 use lariat_rapier::convert::to_vector;
 use lariat_rapier::lariat_ancf::{At, Damping, Fidelity, Section, Vector3};
 use lariat_rapier::rapier::prelude::*;
@@ -131,9 +131,7 @@ impl Series {
 /// Reference: equilibrium, and the law of each rope.
 #[test]
 fn bodies_in_series_are_jammed_with_the_same_force_or_tell() {
-    let (seeds, print) = seeds(0..40);
-    let mut wrong = Vec::new();
-    for seed in seeds {
+    judge(0..40, |seed| {
         let series = Series::random(seed);
         let (pulls, told) = series.run();
         let mean = pulls.iter().map(|pull| pull.of_stretch).sum::<f64>() / pulls.len() as f64;
@@ -145,9 +143,8 @@ fn bodies_in_series_are_jammed_with_the_same_force_or_tell() {
         });
         let off = pulls.is_empty() || !same;
         let case = format!("{seed}: {:.2} N: {pulls:.2?}, told {told:?}: {series:?}", series.tension);
-        judge(&mut wrong, print, off, &told, case);
-    }
-    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+        (off, told, case)
+    });
 }
 
 /// A crate that a rope from a winch drags over a floor.
@@ -232,16 +229,14 @@ impl Drag {
 /// Reference: mu m g, by Coulomb.
 #[test]
 fn a_dragged_crate_pulls_with_its_friction_or_tells() {
-    let (seeds, print) = seeds(0..40);
-    let mut wrong = Vec::new();
-    for seed in seeds {
+    judge(0..40, |seed| {
         let drag = Drag::random(seed);
         let (force, told) = drag.run();
         let expected = drag.friction * drag.mass * 9.81;
         let off = force.is_nan() || (force / expected - 1.0).abs() > 0.05;
-        judge(&mut wrong, print, off, &told, format!("{seed}: {force:.2} of {expected:.2} N, told {told:?}: {drag:?}"));
-    }
-    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+        let case = format!("{seed}: {force:.2} of {expected:.2} N, told {told:?}: {drag:?}");
+        (off, told, case)
+    });
 }
 
 /// A crate on a rope from a winch that sets it down on a floor and lifts it again.
@@ -322,14 +317,11 @@ impl Hoist {
 /// Reference: statics.
 #[test]
 fn a_crate_is_set_down_and_lifted_or_tells() {
-    let (seeds, print) = seeds(0..40);
-    let mut wrong = Vec::new();
-    for seed in seeds {
+    judge(0..40, |seed| {
         let hoist = Hoist::random(seed);
         let ([off_place, tilt], told) = hoist.run();
         let off = off_place.is_nan() || off_place.abs() > 0.01 || tilt > 0.05;
         let case = format!("{seed}: {off_place:.1e} m off, tilt {tilt:.1e}, told {told:?}: {hoist:?}");
-        judge(&mut wrong, print, off, &told, case);
-    }
-    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+        (off, told, case)
+    });
 }

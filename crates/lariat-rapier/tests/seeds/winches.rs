@@ -1,6 +1,6 @@
 //! Winches: a crane that slews with a load on its rope, and a rope that is drawn tight on a body in front of a stop.
 
-use super::common::{Random, cable, judge, place, seeds, told};
+use super::common::{Random, cable, judge, place, told};
 use lariat_rapier::convert::to_vector;
 use lariat_rapier::lariat_ancf::{At, Damping, Fidelity, Integrator, Section, StepControl, Vector3};
 use lariat_rapier::rapier::prelude::*;
@@ -97,9 +97,7 @@ impl Crane {
 /// Reference: the same with 960 host steps per second by poses, and an integrator that controls its error.
 #[test]
 fn the_load_of_a_slewing_crane_moves_as_in_fine_steps_or_tells() {
-    let (seeds, print) = seeds(0..12);
-    let mut wrong = Vec::new();
-    for seed in seeds {
+    judge(0..12, |seed| {
         let crane = Crane::random(seed);
         let ((path, told), (fine, _)) = (crane.run(false), Crane { by_pose: true, rate: 960, ..crane }.run(true));
         let way = fine.iter().map(|x| (x - fine[0]).norm()).fold(0.0, f64::max);
@@ -107,9 +105,8 @@ fn the_load_of_a_slewing_crane_moves_as_in_fine_steps_or_tells() {
         let error = apart.fold(0.0, f64::max) / way;
         let case = format!("{seed}: {error:.4} of {way:.3} m, told {told:?}: {crane:?}");
         let off = !error.is_finite() || error > 0.05;
-        judge(&mut wrong, print, off, &told, case);
-    }
-    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+        (off, told, case)
+    });
 }
 
 /// A box that a rope pulls against a stop, by a winch that draws the rope tight and stops.
@@ -201,14 +198,11 @@ impl Jam {
 /// Reference: the law of the rope, between where body and winch hold it.
 #[test]
 fn a_rope_jams_a_body_with_the_force_of_its_stretch_or_tells() {
-    let (seeds, print) = seeds(0..40);
-    let mut wrong = Vec::new();
-    for seed in seeds {
+    judge(0..40, |seed| {
         let jam = Jam::random(seed);
         let (seen, expected, told) = jam.run();
         let off = !seen.iter().all(|force| (force / expected - 1.0).abs() < 0.05);
         let case = format!("{seed}: {:.2} to {:.2} of {expected:.2} N, told {told:?}: {jam:?}", seen[0], seen[1]);
-        judge(&mut wrong, print, off, &told, case);
-    }
-    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+        (off, told, case)
+    });
 }
