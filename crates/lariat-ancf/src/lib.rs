@@ -38,12 +38,12 @@
 //! forces), [`linalg`] (the block-tridiagonal solver).
 
 mod at;
-pub mod axial;
-pub mod bending;
+
 pub mod cable;
 pub mod contact;
 mod diagnostics;
 mod dual;
+mod edit;
 pub mod effect;
 pub mod element;
 mod error;
@@ -52,6 +52,8 @@ pub mod island;
 pub mod linalg;
 mod load;
 mod model;
+mod obstacle;
+mod one_leg;
 mod point;
 mod quadrature;
 mod real;
@@ -59,17 +61,19 @@ mod reel;
 mod rule;
 mod section;
 mod simd;
+mod state;
 mod statics;
+mod step;
 mod strength;
 pub mod study;
 mod support;
 mod system;
 pub mod warning;
+mod watch;
 
 pub use at::At;
 pub use cable::builder::CableBuilder;
 pub use cable::energy::{Energy, Momentum};
-pub use cable::fleet::{FleetError, step_all};
 pub use cable::mesh::{MeshIndicator, MotionIndicator};
 pub use cable::reactions::Reaction;
 pub use cable::sample::Sample;
@@ -79,6 +83,7 @@ pub use effect::{
     Buoyancy, CablePoint, Contact, Damping, Drag, EffectCounts, EffectWork, Effects, Flow, ForceDensity,
     ForceDerivatives, GravityScale, LineLoad, LineLoads, RestPiece, RestShape, RopeKind,
 };
+pub use element::{axial, bending};
 pub use error::{EquilibriumFailure, Error, PinProblem, Requirement, StepFailure};
 pub use integrate::{ErrorNorm, Fidelity, Integrator, IntegratorChoice, IntegratorRef, Method, StepControl};
 pub use load::PointLoad;
@@ -91,6 +96,7 @@ pub use reel::{Feed, Reel};
 pub use rule::{AxialRule, BendingRule, Rule};
 pub use section::{Element, Section, Shape};
 pub use statics::{EquilibriumOptions, EquilibriumReport};
+pub use step::{FleetError, step_all};
 pub use strength::{Break, BreakCause, Load, Strength};
 pub use support::{Motion, SlopeSupport, Support};
 pub use system::jacobian::Jacobians;

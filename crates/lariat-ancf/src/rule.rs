@@ -8,7 +8,7 @@
 //! | `L2T2` | mean strain | T2 | the paper's simplified model |
 //! | `exact-3`, `mean-T1`, `G5-none` ... | any | any | free choice |
 
-use crate::axial::{self, AxialTable};
+use crate::element::axial::{self, AxialTable};
 use crate::error::{Error, nearest};
 use serde::{Deserialize, Serialize};
 use std::fmt;
@@ -17,7 +17,7 @@ use std::str::FromStr;
 /// Largest number of Gauss points of a rule.
 pub const MAX_POINTS: u8 = 10;
 
-/// How the axial energy is integrated; see [`axial`](crate::axial).
+/// How the axial energy is integrated; see [`axial`](crate::element::axial).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(into = "String", try_from = "String")]
 pub enum AxialRule {
@@ -31,7 +31,7 @@ pub enum AxialRule {
     Gauss(u8),
 }
 
-/// How the bending energy is integrated; see [`bending`](crate::bending).
+/// How the bending energy is integrated; see [`bending`](crate::element::bending).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(into = "String", try_from = "String")]
 pub enum BendingRule {

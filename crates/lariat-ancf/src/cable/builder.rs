@@ -3,13 +3,13 @@
 use super::unstrained::{Kept, unstrain};
 use super::{Cable, Snapshot, layout};
 use crate::at::At;
-use crate::contact::Obstacles;
 use crate::effect::force_density::ForceDensities;
 use crate::effect::{Damping, Effects, ForceDensity, RopeKind};
 use crate::error::{Error, require, require_finite};
 use crate::integrate::{Fidelity, IntegratorChoice};
 use crate::load::PointLoad;
 use crate::model::{Corner, MAX_ELEMENTS, Model, STANDARD_GRAVITY};
+use crate::obstacle::Obstacles;
 use crate::point::Point;
 use crate::reel::Reels;
 use crate::rule::{BendingRule, Rule};
@@ -69,6 +69,13 @@ impl Default for CableBuilder {
             damped_as: None,
             force_densities: ForceDensities::default(),
         }
+    }
+}
+
+impl Cable {
+    /// Starts building a cable.
+    pub fn builder() -> CableBuilder {
+        CableBuilder::default()
     }
 }
 

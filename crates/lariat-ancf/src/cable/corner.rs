@@ -13,8 +13,8 @@ use super::Cable;
 use super::layout::Laid;
 use crate::at::At;
 use crate::element::side::Side;
-use crate::integrate::State;
 use crate::model::Corner;
+use crate::state::State;
 use nalgebra::{Matrix3, Vector3};
 
 impl Corner {

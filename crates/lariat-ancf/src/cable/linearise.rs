@@ -2,8 +2,8 @@
 
 use super::Cable;
 use crate::effect::acts::ForceInput;
-use crate::integrate::State;
 use crate::linalg::BlockTridiagonal;
+use crate::state::State;
 use crate::system::jacobian::Jacobians;
 use crate::system::project_matrix;
 use nalgebra::DMatrix;

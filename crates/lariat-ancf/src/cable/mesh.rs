@@ -29,7 +29,7 @@
 
 use super::Cable;
 use super::sample::combine;
-use crate::axial::projected;
+use crate::element::axial::projected;
 use crate::error::Error;
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};

@@ -5,32 +5,34 @@
 //! | [`builder`], `layout` | building a cable |
 //! | `unstrained` | laying it around corners without strain |
 //! | `corner` | corners of the drawn shape, for parts that end there |
-//! | `step` | one host step of the cable by itself |
-//! | `state` | reading and changing the state; snapshots |
+//! | `parts`, `check` | what steps it: its parts lent apart, and whether it can be stepped |
+//! | `state`, `snapshot` | reading and changing the state; snapshots |
 //! | `supports`, `loads`, `effects` | what acts on it, changed between steps |
-//! | `edit` | breaking, cutting, refining, changing the rule |
+//! | `contact`, `overlap` | what it can touch, and what it touches |
 //! | `reel` | reels at the ends, which change the length |
 //! | [`sample`], [`reactions`], [`energy`] | reading results |
 //! | [`mesh`] | how far the mesh resolves the shape |
 //! | [`linearise`] | matrices at the present state |
-//! | `workspace`, [`fleet`] | buffers of a step, shared by cables; a step of many |
+//! | `workspace` | buffers of a step, shared by cables |
 
 pub mod builder;
+mod check;
+mod contact;
 mod corner;
-mod edit;
 mod effects;
 pub mod energy;
-pub mod fleet;
 mod layout;
 pub mod linearise;
 mod loads;
 pub mod mesh;
+mod overlap;
+mod parts;
 pub mod reactions;
 mod reel;
 pub mod sample;
 mod saved;
+mod snapshot;
 mod state;
-mod step;
 mod supports;
 mod unstrained;
 mod workspace;
@@ -38,20 +40,20 @@ mod workspace;
 pub(crate) use crate::at::At;
 use crate::diagnostics::Diagnostics;
 use crate::error::Error;
-use crate::integrate::{Integrator, IntegratorChoice, Scratch, State, discrete_gradient};
+use crate::integrate::{Integrator, IntegratorChoice, Scratch};
 use crate::model::Model;
 use crate::rule::Rule;
 use crate::section::Element;
-use crate::system::{Buffers, System};
-use crate::warning::Watch;
-use builder::CableBuilder;
+use crate::state::State;
+use crate::system::{Buffers, StepVectors, System};
+use crate::watch::Watch;
+pub(crate) use check::check_integrator;
 use fearless_simd::Level;
 pub(crate) use layout::along_polyline;
 use nalgebra::Vector3;
 pub use reel::ReelReading;
 use serde::{Deserialize, Serialize};
-pub use state::Snapshot;
-pub(crate) use step::{SHORTEST_STEP, check_integrator};
+pub use snapshot::Snapshot;
 
 /// A cable of ANCF elements with its rule, integrator and state.
 ///
@@ -70,17 +72,17 @@ pub(crate) use step::{SHORTEST_STEP, check_integrator};
 pub struct Cable {
     pub(crate) model: Model,
     pub(crate) snapshot: Snapshot,
-    integrator: Integrator,
+    pub(crate) integrator: Integrator,
     /// Whether the integrator is the default, because nobody chose one.
     pub(crate) default_integrator: bool,
-    diagnostics: Diagnostics,
+    pub(crate) diagnostics: Diagnostics,
     pub(crate) system: System,
     // The rest of a [workspace](self::workspace): empty between two steps.
     pub(crate) buffers: Buffers,
-    pub(crate) step_buffers: discrete_gradient::Buffers,
-    scratch: Scratch,
+    pub(crate) step_buffers: StepVectors,
+    pub(crate) scratch: Scratch,
     /// State at the beginning of the host step, restored if it fails.
-    before: State,
+    pub(crate) before: State,
     /// Readings of the host steps, if they are asked for.
     pub(crate) watch: Option<Box<Watch>>,
     /// Force in N that the rounding of what holds it may make in a host step, if it is straight.
@@ -90,11 +92,6 @@ pub struct Cable {
 }
 
 impl Cable {
-    /// Starts building a cable.
-    pub fn builder() -> CableBuilder {
-        CableBuilder::default()
-    }
-
     pub(crate) fn from_parts(mut model: Model, snapshot: Snapshot, integrator: Integrator) -> Result<Self, Error> {
         model.check().map_err(|e| e.of_cable(&model.name))?;
         snapshot.state.check(&model.name, 6 * model.nodes())?;
@@ -115,7 +112,7 @@ impl Cable {
             diagnostics: Diagnostics::default(),
             system,
             buffers: Buffers::default(),
-            step_buffers: discrete_gradient::Buffers::default(),
+            step_buffers: StepVectors::default(),
             scratch: Scratch::default(),
             before: State::default(),
             watch: None,
@@ -129,7 +126,7 @@ impl Cable {
     }
 
     /// Replaces the description, and builds everything anew that is derived from it.
-    fn rebuild(&mut self, model: Model) -> Result<(), Error> {
+    pub(crate) fn rebuild(&mut self, model: Model) -> Result<(), Error> {
         let system = System::with_level(&model, self.system.level);
         self.system = system.map_err(|failure| self.step_failed(self.time(), 0.0, failure))?;
         self.model = model;

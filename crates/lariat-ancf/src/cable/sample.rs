@@ -18,8 +18,8 @@
 //! Barlow 1976 (superconvergent points). Averages at nodes: Hinton and Campbell 1974.
 
 use super::Cable;
-use crate::bending::regularisation::RegularisedPower;
 use crate::effect::acts::SampledPoint;
+use crate::element::bending::regularisation::RegularisedPower;
 use crate::element::flow::flow_weights;
 use crate::element::shape;
 use crate::error::Error;

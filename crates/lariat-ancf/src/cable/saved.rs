@@ -5,7 +5,7 @@ use crate::diagnostics::Diagnostics;
 use crate::error::Error;
 use crate::integrate::Integrator;
 use crate::model::Model;
-use crate::warning::Watch;
+use crate::watch::Watch;
 use serde::{Deserialize, Serialize};
 
 /// A cable as it is serialised.

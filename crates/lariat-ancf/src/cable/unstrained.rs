@@ -3,7 +3,7 @@
 //! # Equation
 //!
 //! A cable is smooth at its nodes, and a polyline is not: elements at its corners, laid on it, are too long or too short. The nodes are moved until the axial energy of the
-//! rule [`projected`](crate::axial::projected), beyond that of the even stretch f_0 of the drawing, is below 1e-8 EA L. It is a sum of squares of the Green strain, in Legendre
+//! rule [`projected`](crate::element::axial::projected), beyond that of the even stretch f_0 of the drawing, is below 1e-8 EA L. It is a sum of squares of the Green strain, in Legendre
 //! polynomials over the element,
 //!
 //! ```text
@@ -33,7 +33,7 @@
 //! strain to zero by the least change, without the rest: a corner then bends the two elements beside it, which hold up to 5e-5 EA L.
 
 use super::layout::Laid;
-use crate::axial::projected::DELTA;
+use crate::element::axial::projected::DELTA;
 use crate::element::shape;
 use crate::quadrature::{gauss_legendre, legendre};
 use nalgebra::{SMatrix, SVector, Vector3};

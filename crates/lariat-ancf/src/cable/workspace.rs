@@ -5,8 +5,9 @@
 //! unspecified, and nothing of it reaches a result.
 
 use super::Cable;
-use crate::integrate::{Scratch, State, discrete_gradient};
-use crate::system::{Buffers, StepMatrix};
+use crate::integrate::Scratch;
+use crate::state::State;
+use crate::system::{Buffers, StepMatrix, StepVectors};
 use core::cell::RefCell;
 use core::mem::swap;
 
@@ -15,7 +16,7 @@ use core::mem::swap;
 pub(crate) struct Workspace {
     matrix: StepMatrix,
     buffers: Buffers,
-    step_buffers: discrete_gradient::Buffers,
+    step_buffers: StepVectors,
     scratch: Scratch,
     before: State,
 }

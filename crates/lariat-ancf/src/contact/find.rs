@@ -6,16 +6,16 @@
 //! point cannot reach in the way that it moves (distances grow no faster than the way) is not looked at again; the rest is traced along its
 //! way to the surface, at every iterate.
 
-use super::memory::ContactMemory;
-use super::missed::Nearby;
+use super::motion::Motion;
+use super::nearby::Nearby;
 use super::pair::{PLACES, Pair, bounding_ball, is_thin, samples};
-use super::patch::Patch;
-use super::path::{BodyPath, ObstacleStep};
+use super::path::ObstacleStep;
 use super::point::{ContactPoint, OFFSET_TIME, PAID};
 use super::step::{ContactStep, find, find_from};
-use super::surface::{Feature, Nearest};
-use super::trace::{comes_near, trace};
-use crate::model::Model;
+use crate::obstacle::Patch;
+use crate::obstacle::{Feature, Nearest};
+use crate::obstacle::{comes_near, trace};
+use crate::state::ContactMemory;
 use nalgebra::Vector3;
 
 /// Gap in radii of the cable below which a sample is a contact.
@@ -24,21 +24,6 @@ const NEAR: f64 = 2.0;
 const NEAR_FEATURE: f64 = 4.0;
 /// Factor on the way that is expected in a step.
 const SWEEP: f64 = 1.5;
-
-/// A step of a cable, as the search sees it.
-pub(crate) struct Motion<'a> {
-    pub model: &'a Model,
-    pub time: f64,
-    pub h: f64,
-    pub q: &'a [f64],
-    /// Change of the coordinates in the first iterate.
-    pub change: &'a [f64],
-    pub memory: &'a [ContactMemory],
-    /// Power in W of contacts in the last step that may close offsets.
-    pub lost: f64,
-    /// The bodies of the island as they move in the first iterate.
-    pub bodies: &'a [BodyPath],
-}
 
 impl ContactStep {
     /// Begins a step.

@@ -47,13 +47,11 @@
 //! The projection in the norm of the mass alone: it takes the velocity of an element of a bar that lands on its end, and the bar
 //! throws it up again.
 
+use super::impulse::Impact;
 use super::point::ContactPoint;
 use super::step::{ContactStep, add_force};
-use crate::integrate::discrete_gradient::{ALPHA, BETA};
-use nalgebra::{Matrix3, Vector3};
-
-/// Largest coefficient of restitution with which the discrete gradient makes no energy.
-pub const LARGEST_RESTITUTION: f64 = (1.0 - ALPHA) / (1.0 + ALPHA);
+use crate::one_leg::BETA;
+use nalgebra::Vector3;
 
 /// Largest number of solves for the impulses of impacts that give velocity, beside the first, and the share of them that the last may change.
 const MAX_SOLVES: usize = 8;
@@ -69,40 +67,6 @@ pub(crate) enum When {
 /// Returns how often impulses are solved for again at most, where some give velocity or none.
 pub(crate) fn solves_again(gives: bool) -> usize {
     if gives { MAX_SOLVES } else { 1 }
-}
-
-/// A contact that pushes when the step ends.
-#[derive(Clone, Copy, Debug, Default)]
-pub(in crate::contact) struct Impact {
-    /// Velocity in m/s of the obstacle there.
-    obstacle: Vector3<f64>,
-    /// Velocity in m/s beside it.
-    beside: Vector3<f64>,
-    /// Normal along which it acts.
-    normal: Vector3<f64>,
-    /// Velocity in m/s along it that restitution leaves.
-    rebound: f64,
-    /// Whether it gives velocity that it lacks.
-    gives: bool,
-    /// Of one that does, the impulse -R along the normal of the last solve, in N s.
-    given: f64,
-    /// G in kg: its part along the normal, 0 if it does not push, and that of friction.
-    gain: f64,
-    friction: Matrix3<f64>,
-    /// What the linear solve sees of it, in N s: -R + G w.
-    pub row: Vector3<f64>,
-}
-
-impl Impact {
-    /// Returns whether the contact takes velocity.
-    pub fn acts(&self) -> bool {
-        self.gain > 0.0
-    }
-
-    /// Returns G times a velocity.
-    fn gained(&self, velocity: &Vector3<f64>) -> Vector3<f64> {
-        self.normal * (self.gain * self.normal.dot(velocity)) + self.friction * velocity
-    }
 }
 
 impl ContactPoint {

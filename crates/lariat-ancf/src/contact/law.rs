@@ -10,6 +10,8 @@
 //! c is the bound of friction. The tangents `-df/ds` are `k_t P` while it sticks and `c k_t/|k_t t| (P - e e^T)` while it slips: both
 //! positive semi-definite.
 
+use crate::effect::Contact;
+use crate::section::Section;
 use nalgebra::{Matrix3, Vector3};
 
 /// Share of the normal stiffness that friction has.
@@ -35,6 +37,11 @@ pub(in crate::contact) struct Pressure {
 }
 
 impl NormalLaw {
+    /// Of a cable of this section.
+    pub fn of(contact: &Contact, section: &Section) -> Self {
+        NormalLaw::new(contact.stiffness_of(section), contact.radius_of(section))
+    }
+
     /// For a cable of radius `radius` (m).
     pub fn new(stiffness: f64, radius: f64) -> Self {
         NormalLaw { stiffness, ramp: RAMP * radius }

@@ -17,52 +17,20 @@
 //! A contact is added up to three times per step; what is inside then is inside in the next step, too, and its depth an offset. Balls and circles are
 //! not asked whether an element went through them.
 
-use super::find::Motion;
+use super::motion::Motion;
+use super::nearby::Nearby;
 use super::pair::{PLACES, Pair, feature_place};
 use super::pairs::crossing;
 use super::path::ObstacleStep;
 use super::point::ContactPoint;
 use super::step::ContactStep;
-use super::surface::{Feature, FeatureShape};
+use crate::obstacle::FeatureShape;
 use nalgebra::Vector3;
 
 /// Share of the cable's radius by which a point is deeper than the contacts of its element where it is missed.
 const MISSED: f64 = 0.02;
 /// Number of chords of an element.
 const CHORDS: usize = 4;
-
-/// A feature that an element may touch in the step.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Nearby {
-    pub element: usize,
-    /// Arc length in m at which the element begins.
-    pub from: f64,
-    /// Number of the obstacle.
-    pub obstacle: usize,
-    pub feature: Feature,
-    /// Element, where it begins, and local coordinate of the point that is closest when the step begins; `None` until it is asked for.
-    pub start: Option<Option<(usize, f64, f64)>>,
-}
-
-impl Nearby {
-    /// Returns the same feature beside the element behind this one, or before it.
-    pub fn neighbour(&self, motion: &Motion<'_>, behind: bool) -> Option<Nearby> {
-        let elements = &motion.model.elements;
-        let (element, from) = if behind {
-            (self.element + 1, self.from + elements[self.element].length)
-        } else {
-            let element = self.element.checked_sub(1)?;
-            (element, self.from - elements[element].length)
-        };
-        (element < elements.len()).then_some(Nearby { element, from, start: None, ..*self })
-    }
-
-    /// Returns whether it is the same element and feature.
-    pub fn is_same(&self, other: &Nearby) -> bool {
-        let key = |nearby: &Nearby| (nearby.element, nearby.obstacle, nearby.feature.id);
-        key(self) == key(other)
-    }
-}
 
 impl ContactStep {
     /// Adds the points that are inside a feature at the end of an iterate, deeper than the contacts of their elements; returns whether there are

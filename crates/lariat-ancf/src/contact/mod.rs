@@ -60,46 +60,40 @@
 //! surface has no W to return, whatever its law.
 
 mod border;
+mod evaluation;
 mod find;
 mod impact;
+mod impulse;
 mod lag;
 mod law;
 mod linear;
-mod memory;
 mod missed;
-mod obstacle;
-mod overlap;
+mod motion;
+mod nearby;
+mod newton;
 mod pair;
 mod pairs;
 mod patch;
 mod path;
 mod point;
-mod rigid_motion;
 mod roll;
-mod shapes;
 mod slide;
 mod statics;
 mod step;
-mod surface;
-mod trace;
+mod touch;
 
+pub use crate::obstacle::{
+    Ball, Capsule, Cuboid, Cylinder, Feature, FeatureShape, HalfSpace, LARGEST_RESTITUTION, Mount, Nearest, Obstacle,
+    Patch, RigidMotion, Surface,
+};
+pub use crate::state::{ContactMemory, PairMemory};
 pub(crate) use border::Border;
-pub(crate) use find::Motion;
-pub use impact::LARGEST_RESTITUTION;
 pub(crate) use impact::{When, solves_again};
-pub(crate) use law::NormalLaw;
-pub(crate) use memory::split_element;
-pub use memory::{ContactMemory, Touch};
-pub use obstacle::Obstacle;
-pub(crate) use obstacle::Obstacles;
-pub use overlap::Overlap;
-pub use pairs::{CablePair, PairMemory, PairTouch};
+pub(crate) use motion::Motion;
+pub(crate) use pair::between_samples;
+pub use pairs::{CablePair, PairTouch};
 pub(crate) use pairs::{LowRank, PairStep, PairSystem, Row, Strand, Strands};
-pub use patch::Patch;
 pub(crate) use path::BodyPath;
-pub(crate) use point::combine;
-pub use rigid_motion::{Mount, RigidMotion};
-pub use shapes::{Ball, Capsule, Cuboid, Cylinder, HalfSpace};
 pub(crate) use statics::{Growth, StaticContact};
 pub(crate) use step::{ContactBalance, ContactStep};
-pub use surface::{Feature, FeatureShape, Nearest, Surface};
+pub use touch::{Overlap, Touch};

@@ -1,14 +1,17 @@
 //! An element and an obstacle: the points of the one that can touch the other.
 
-use super::find::Motion;
-use super::memory::Key;
-use super::obstacle::Obstacle;
+use super::evaluation::Row;
+use super::law::NormalLaw;
+use super::motion::Motion;
 use super::path::ObstacleStep;
-use super::point::{ContactPoint, Row, combine};
-use super::surface::{Feature, Nearest};
+use super::point::ContactPoint;
 use crate::effect::Contact;
 use crate::element::shape;
+use crate::element::shape::combine;
+use crate::obstacle::Obstacle;
+use crate::obstacle::{Feature, Nearest};
 use crate::section::Element;
+use crate::state::Key;
 use nalgebra::Vector3;
 
 /// The points of Lobatto's rule (five, exact to degree seven) with their shares of the length of an element. The last is the first of the next element: only
@@ -42,7 +45,7 @@ pub(super) fn samples(
     element: usize,
 ) -> impl Iterator<Item = (u32, f64, f64)> {
     let own = elements[element];
-    let stiffness = |element: &Element| contact.law_of(&element.section).stiffness;
+    let stiffness = |element: &Element| contact.stiffness_of(&element.section);
     let before = element.checked_sub(1).map_or(0.0, |e| elements[e].length * stiffness(&elements[e]) / stiffness(&own));
     let last = element + 1 == elements.len();
     let own_samples = SAMPLES.into_iter().enumerate().take(if last { SAMPLES.len() } else { SAMPLES.len() - 1 });
@@ -53,7 +56,7 @@ pub(super) fn samples(
 }
 
 /// Returns the local coordinates a quarter, half and three quarters of the way between the samples of an element: half way alone may be where a line turns that is deep on one side of it.
-pub(super) fn between_samples() -> impl Iterator<Item = f64> {
+pub(crate) fn between_samples() -> impl Iterator<Item = f64> {
     let shares = [0.25, 0.5, 0.75];
     SAMPLES.windows(2).flat_map(move |pair| shares.map(|share| pair[0].0 + share * (pair[1].0 - pair[0].0)))
 }
@@ -89,7 +92,7 @@ impl Pair<'_> {
         (point.key, point.obstacle) = (self.key(place), self.number);
         (point.xi, point.weight) = (xi, weight);
         point.shape = shape::position(xi, self.section.length);
-        point.law = self.contact.law_of(&self.section.section);
+        point.law = NormalLaw::of(self.contact, &self.section.section);
         (point.friction, point.restitution) = (self.obstacle.friction, self.obstacle.restitution);
         point.reach = self.radius + self.obstacle.skin;
         point.start = combine(self.motion.q, self.element, &point.shape);

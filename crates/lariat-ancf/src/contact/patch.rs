@@ -14,40 +14,12 @@
 //! A point that slides would be braked there: the step of one that touched before is divided.
 
 use super::path::ObstacleStep;
+use crate::obstacle::Patch;
 use nalgebra::Vector3;
-use serde::{Deserialize, Serialize};
 
 /// Cosine of the angle by which z may turn in a step, and how deep its way may then go below where it touches, in reaches.
 const MAX_TURN: f64 = 0.94;
 const MAX_DEPTH: f64 = 0.5;
-
-/// A part of a surface, in the obstacle's axes; lengths in m, unit directions.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub enum Patch {
-    /// A face.
-    Plane {
-        /// A point of it.
-        point: Vector3<f64>,
-        /// Its outward normal.
-        normal: Vector3<f64>,
-    },
-    /// A cylinder; an edge if its radius is 0.
-    Line {
-        /// A point of its axis.
-        point: Vector3<f64>,
-        /// Its axis.
-        direction: Vector3<f64>,
-        /// Its radius.
-        radius: f64,
-    },
-    /// A ball; a corner if its radius is 0.
-    Point {
-        /// Its centre.
-        point: Vector3<f64>,
-        /// Its radius.
-        radius: f64,
-    },
-}
 
 /// The gap between a point of the centre line and a patch over a step.
 #[derive(Clone, Copy, Debug)]
@@ -64,33 +36,7 @@ pub(in crate::contact) struct GapStep {
     pub replaced: bool,
 }
 
-impl Default for Patch {
-    fn default() -> Patch {
-        Patch::Point { point: Vector3::zeros(), radius: 0.0 }
-    }
-}
-
 impl Patch {
-    /// Returns the gap and the outward normal at a point in the obstacle's axes.
-    pub(in crate::contact) fn gap(&self, y: &Vector3<f64>) -> (f64, Vector3<f64>) {
-        match *self {
-            Patch::Plane { point, normal } => (normal.dot(&(y - point)), normal),
-            Patch::Line { point, direction, radius } => {
-                let z = y - point;
-                away(&(z - direction * direction.dot(&z)), radius)
-            }
-            Patch::Point { point, radius } => away(&(y - point), radius),
-        }
-    }
-
-    /// Returns its radius in m; `None` for a plane.
-    pub(in crate::contact) fn radius(&self) -> Option<f64> {
-        match *self {
-            Patch::Plane { .. } => None,
-            Patch::Line { radius, .. } | Patch::Point { radius, .. } => Some(radius),
-        }
-    }
-
     /// Returns the gap over a step in which the point at `x` moves by `change`; the surface is met at the gap `reach`; without
     /// one the way is not asked whether it goes through.
     pub(in crate::contact) fn over_step(
@@ -120,12 +66,6 @@ impl Patch {
             }
         }
     }
-}
-
-/// Returns the gap and the direction of z.
-fn away(z: &Vector3<f64>, radius: f64) -> (f64, Vector3<f64>) {
-    let l = z.norm();
-    (l - radius, if l > 0.0 { z / l } else { Vector3::x() })
 }
 
 /// Returns the gap |z| - R over a step; `half` times the relative motion is half the change of |z|^2.
@@ -182,8 +122,8 @@ fn meets(z0: &Vector3<f64>, z1: &Vector3<f64>, l0: f64, reach: f64) -> Option<Ve
 
 #[cfg(test)]
 mod tests {
-    use super::super::rigid_motion::RigidMotion;
     use super::*;
+    use crate::obstacle::RigidMotion;
     use nalgebra::UnitQuaternion;
 
     fn patches() -> [Patch; 3] {

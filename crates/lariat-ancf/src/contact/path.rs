@@ -20,7 +20,7 @@
 //!
 //! Gonzalez, J. Nonlinear Sci. 6 (1996) 449 (discrete gradients of invariants); Simo & Wong, IJNME 31 (1991) 19.
 
-use super::rigid_motion::{Mount, Pose, RigidMotion};
+use crate::obstacle::{Mount, Pose, RigidMotion};
 use nalgebra::{Matrix3, Quaternion, UnitQuaternion, Vector3};
 
 /// Largest half angle in rad of a prescribed turn in a step of which friction sees the size: the Cayley map has no half turns.

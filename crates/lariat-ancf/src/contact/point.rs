@@ -1,12 +1,13 @@
 //! One contact over a step: its force, its tangent, and what it does to the energy.
 
-use super::impact::Impact;
+use super::evaluation::{Between, Evaluation, Row};
+use super::impulse::Impact;
 use super::law::{NormalLaw, friction, spring_energy};
-use super::linear::{About, Linear, Tangents};
-use super::memory::{ContactMemory, Key};
-use super::patch::Patch;
+use super::linear::{About, Linear, Roll, Tangents};
 use super::path::ObstacleStep;
-use super::roll::Roll;
+use crate::element::shape::combine;
+use crate::obstacle::Patch;
+use crate::state::{ContactMemory, Key};
 use nalgebra::Vector3;
 
 /// Time in s in which a body's displacement by others comes to the cable, as a motion of the body. An engine's contact and the cable would
@@ -81,56 +82,6 @@ pub(in crate::contact) struct ContactPoint {
     pub now: Evaluation,
     /// What it does to the velocity across it when the step ends.
     pub impact: Impact,
-}
-
-/// Where a contact acts between two closest points ([`slide`](super::slide)).
-#[derive(Clone, Copy, Debug)]
-pub(in crate::contact) struct Between {
-    /// What its gap has more than that of the closest points, in m.
-    pub excess: f64,
-    /// Outward normal at the closest point of the end, in the obstacle's axes.
-    pub normal: Vector3<f64>,
-    /// The row of the normal force in the matrix.
-    pub row: Row,
-}
-
-/// A place of an element: shape functions, and position at the beginning.
-#[derive(Clone, Copy, Debug, Default)]
-pub(in crate::contact) struct Row {
-    pub shape: [f64; 4],
-    pub start: Vector3<f64>,
-}
-
-/// A contact at the end of an iterate.
-#[derive(Clone, Copy, Debug, Default)]
-pub(in crate::contact) struct Evaluation {
-    /// Force on the cable in N.
-    pub force: Vector3<f64>,
-    /// Friction alone.
-    pub friction: Vector3<f64>,
-    pub normal_force: f64,
-    /// Outward normal.
-    pub normal: Vector3<f64>,
-    pub depth: f64,
-    /// Spring of friction in the obstacle's axes half way.
-    pub spring: Vector3<f64>,
-    pub slides: Option<Vector3<f64>>,
-    /// Motion beside the obstacle.
-    pub slip: Vector3<f64>,
-    /// Whether a plane took the place of its patch.
-    pub replaced: bool,
-    /// Arm of the force about the centre of the body that carries the obstacle.
-    pub arm: Vector3<f64>,
-    /// Energy in J that it stores.
-    pub energy: f64,
-    /// Energy in J that it lost.
-    pub loss: f64,
-    /// What of it friction took.
-    pub friction_loss: f64,
-    /// Work in J of the obstacle's motion.
-    pub work: f64,
-    pub pressure: f64,
-    pub slope: f64,
 }
 
 impl ContactPoint {
@@ -292,13 +243,6 @@ impl ContactPoint {
             came: self.came,
         }
     }
-}
-
-/// Returns a nodal vector at a point of an element.
-pub(crate) fn combine(q: &[f64], element: usize, shape: &[f64; 4]) -> Vector3<f64> {
-    let d = &q[6 * element..6 * element + 12];
-    let part = |x: usize| shape[0] * d[x] + shape[1] * d[3 + x] + shape[2] * d[6 + x] + shape[3] * d[9 + x];
-    Vector3::new(part(0), part(1), part(2))
 }
 
 #[cfg(test)]

@@ -25,28 +25,20 @@
 //! divided; an element that winds around a rod, longer than its circumference, may carry it in two places at once, for which no division helps: such a
 //! host step takes up to 2e5 iterations. While the point passes to the other side of the core in a step, it stays.
 
-use super::find::{Motion, one_sided};
-use super::missed::Nearby;
+use super::evaluation::Between;
+use super::find::one_sided;
+use super::linear::Roll;
+use super::motion::Motion;
+use super::nearby::Nearby;
 use super::pair::{Pair, feature_place};
-use super::patch::Patch;
-use super::point::{Between, ContactPoint, combine};
+use super::point::ContactPoint;
 use super::slide::{Place, between, mean_point};
 use super::step::ContactStep;
-use crate::element::shape;
+use crate::element::shape::{self, combine};
+use crate::obstacle::Patch;
 
 /// Least D beside the curvature of the feature: beyond it the element follows the feature's curvature, and every point is the closest.
 const LEAST: f64 = 0.05;
-
-/// How the closest point of an element moves with it.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Roll {
-    /// Shape functions of the slope.
-    pub slope: [f64; 4],
-    /// 1/D in m.
-    pub length: f64,
-    /// Share of the closest point's motion by which the contact moves.
-    pub share: f64,
-}
 
 impl ContactStep {
     /// Moves contacts with features to where they act at an iterate: between the points that are closest at the beginning and at the end.

@@ -20,7 +20,7 @@
 //! and so the force at the same depth.
 
 use super::pair::Pair;
-use super::surface::Feature;
+use crate::obstacle::Feature;
 use nalgebra::Vector3;
 
 /// Largest number of steps of the search, and the share of the distance to which it goes.

@@ -27,16 +27,17 @@
 //!
 //! Motion with damping until it rests: its last digits take as long as all before.
 
-use super::memory::ContactMemory;
-use super::obstacle::Obstacle;
+use super::law::NormalLaw;
 use super::pair::{is_thin, samples};
-use super::patch::Patch;
-use super::point::combine;
 use super::step::add_tangent;
 use crate::element::shape;
+use crate::element::shape::combine;
 use crate::linalg::BlockTridiagonal;
+use crate::model::LoadScale;
 use crate::model::Model;
-use crate::statics::LoadScale;
+use crate::obstacle::Obstacle;
+use crate::obstacle::Patch;
+use crate::state::ContactMemory;
 use nalgebra::{Matrix3, UnitQuaternion, Vector3};
 
 /// Largest and smallest growth of the stiffness from one search to the next.
@@ -134,7 +135,7 @@ impl StaticContact {
         let contact = model.effects.contact.filter(|_| self.on && self.depth > 0.0)?;
         let before = self.depth;
         self.depth /= growth.0;
-        let mut laws = model.elements.iter().map(|element| contact.law_of(&element.section));
+        let mut laws = model.elements.iter().map(|element| NormalLaw::of(&contact, &element.section));
         if laws.all(|law| law.softened(self.load, self.depth).stiffness == law.stiffness) {
             self.depth = 0.0;
         }
@@ -215,7 +216,7 @@ impl StaticContact {
         for (element, section) in model.elements.iter().enumerate() {
             let from = begin;
             begin += section.length;
-            let (radius, law) = (contact.radius_of(&section.section), contact.law_of(&section.section));
+            let (radius, law) = (contact.radius_of(&section.section), NormalLaw::of(&contact, &section.section));
             let law = if self.depth > 0.0 { law.softened(self.load, self.depth) } else { law };
             let third = section.length / 3.0;
             let d: [Vector3<f64>; 4] =

@@ -2,13 +2,15 @@
 
 use super::border::{Border, Borders};
 use super::linear::Tangents;
-use super::memory::{ContactMemory, Key};
-use super::missed::Nearby;
-use super::obstacle::Obstacle;
+use super::nearby::Nearby;
 use super::path::{BodyPath, ObstacleStep};
-use super::point::{ContactPoint, combine};
-use crate::integrate::discrete_gradient::BETA;
+use super::point::ContactPoint;
+use crate::element::shape::combine;
+use crate::integrate::discrete_gradient::Balance;
 use crate::linalg::BlockTridiagonal;
+use crate::obstacle::Obstacle;
+use crate::one_leg::BETA;
+use crate::state::{ContactMemory, Key};
 use nalgebra::{Matrix3, Vector3};
 
 /// The contacts of a step, and what may become one; empty for a cable that is near nothing.
@@ -57,6 +59,20 @@ pub(crate) struct ContactBalance {
     pub missed: f64,
     /// Sum in N of their forces.
     pub forces: f64,
+}
+
+impl ContactBalance {
+    /// Adds what contacts do in a step of length `h` (s) to its balance.
+    pub fn add_to(&self, balance: &mut Balance, h: f64) {
+        balance.near = true;
+        balance.held += self.before;
+        balance.contacts += self.loss;
+        balance.left += self.left;
+        balance.obstacles += self.obstacles;
+        balance.missed += self.missed;
+        balance.forces += self.forces;
+        balance.impulse += h * self.forces;
+    }
 }
 
 impl ContactStep {

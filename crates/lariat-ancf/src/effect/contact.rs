@@ -2,7 +2,6 @@
 
 use super::acts::{Acts, Nothing};
 use super::{Cut, Effect, Target};
-use crate::contact::NormalLaw;
 use crate::error::{Error, Requirement, require};
 use crate::section::Section;
 use serde::{Deserialize, Serialize};
@@ -60,9 +59,10 @@ impl Contact {
         self.radius.or(section.diameter.map(|d| 0.5 * d)).unwrap_or(0.0)
     }
 
-    pub(crate) fn law_of(&self, section: &Section) -> NormalLaw {
+    /// Returns the stiffness in N/m^2 of a cable of this section.
+    pub(crate) fn stiffness_of(&self, section: &Section) -> f64 {
         let r = self.radius_of(section);
-        NormalLaw::new(self.stiffness.unwrap_or(section.axial_stiffness / (SOFTNESS * r * r)), r)
+        self.stiffness.unwrap_or(section.axial_stiffness / (SOFTNESS * r * r))
     }
 }
 

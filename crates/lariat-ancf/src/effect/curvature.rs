@@ -2,23 +2,23 @@
 //!
 //! # Equation
 //!
-//! `w = (kappa l/2)^2 = P/Q^3` ([`gauss`](crate::bending::gauss) for P, Q), so a function f(w) has the weighted derivatives
+//! `w = (kappa l/2)^2 = P/Q^3` ([`gauss`](crate::element::bending::gauss) for P, Q), so a function f(w) has the weighted derivatives
 //!
 //! ```text
 //! n = f' w_g        h = f' w_gg + f'' w_g w_g^T        w_g = P_g/Q^3 - 3 P b/Q^4
 //! w_gg = P_gg/Q^3 - 3 (P_g b^T + b P_g^T)/Q^4 + 12 P b b^T/Q^5
 //! ```
 //!
-//! with Q^-3 and its derivatives continued where an element is crumpled ([`regularisation`](crate::bending::regularisation)).
+//! with Q^-3 and its derivatives continued where an element is crumpled ([`regularisation`](crate::element::bending::regularisation)).
 //!
 //! # Validity
 //!
 //! Any element state.
 
 use crate::Real;
-use crate::bending::PowerSecant;
-use crate::bending::gauss::{add_weighted_minor_hessian, minor_coefficients, minors, weighted_minor_gradient};
-use crate::bending::regularisation::RegularisedPower;
+use crate::element::bending::PowerSecant;
+use crate::element::bending::gauss::{add_weighted_minor_hessian, minor_coefficients, minors, weighted_minor_gradient};
+use crate::element::bending::regularisation::RegularisedPower;
 use crate::element::gram::{PAIR_WEIGHT, Six, Upper, form, slope_square, upper, weighted};
 use crate::quadrature::gauss_legendre;
 use crate::rule::BendingRule;

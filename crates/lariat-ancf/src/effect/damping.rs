@@ -62,7 +62,7 @@ use super::acts::{Acts, ElementForce, Nothing, SampledPoint};
 use super::curvature::{self, NOISE, Point, Squared};
 use super::{Cut, Effect, Target};
 use crate::Real;
-use crate::axial::projected;
+use crate::element::axial::projected;
 use crate::element::gram::{Control, contract, dot, gradient, quadratic_form};
 use crate::element::kernel::{DiscreteGradientForce, Gradient, GramForce, GramState, GramStep, Hessian, Load};
 use crate::element::step::combined;

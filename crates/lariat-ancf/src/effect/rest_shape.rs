@@ -40,7 +40,7 @@ use super::acts::{Acts, ElementForce, Nothing, SampledPoint};
 use super::curvature::{self, NOISE, Point};
 use super::{Cut, Effect, Target};
 use crate::Real;
-use crate::bending::gauss::middle;
+use crate::element::bending::gauss::middle;
 use crate::element::gram::{Six, form};
 use crate::element::kernel::{DiscreteGradientForce, Gradient, GramForce, GramState, GramStep, Hessian, Load};
 use crate::error::{Error, Requirement, require};

@@ -2,7 +2,7 @@
 //!
 //! # Equation
 //!
-//! `U = EA l/8 (g.A.g - 2 a.g + 1) + (2 EI/l) u(g)` ([`axial`](crate::axial), [`bending`](crate::bending)); derivatives with respect to the
+//! `U = EA l/8 (g.A.g - 2 a.g + 1) + (2 EI/l) u(g)` ([`axial`](crate::element::axial), [`bending`](crate::element::bending)); derivatives with respect to the
 //! control vectors by [`gram`](super::gram). The nodes follow by the constant map d1 = 3 (r_j - r_i)/l, done where the result is
 //! scattered.
 //!
@@ -13,8 +13,8 @@
 use super::gram::{Control, Six, Upper, gradient, gram, gram_rates, hessian_block};
 use super::step::ElementStep;
 use crate::Real;
-use crate::axial::AxialTable;
-use crate::bending::Bending;
+use crate::element::axial::AxialTable;
+use crate::element::bending::Bending;
 
 /// Stiffness of one element: `axial = EA l/4` (J), `bending = 2 EI/l` (J).
 #[derive(Clone, Copy, Debug)]

@@ -28,8 +28,8 @@
 
 use super::dynamics::{Dynamics, Stage};
 use super::one_step::{OneStep, Scratch, StepRequest, add_scaled};
-use super::state::State;
 use crate::error::StepFailure;
+use crate::state::State;
 
 /// An embedded error estimate.
 #[derive(Clone, Copy, Debug)]

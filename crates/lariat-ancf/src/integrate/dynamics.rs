@@ -1,7 +1,7 @@
 //! The interface of a mechanical system to the integrators.
 
-use super::state::State;
 use crate::error::StepFailure;
+use crate::state::State;
 
 /// An implicit stage: find z with `M z = c2 F(base + z, velocity_base + dv_dq z, time)`, `z = y -
 /// base`.

@@ -39,8 +39,8 @@
 //! - Scaling velocities down by the excess: it hides a step that is wrong.
 
 use super::dynamics::Dynamics;
-use super::state::{Memory, State};
 use crate::error::StepFailure;
+use crate::state::{Memory, State};
 
 /// Largest spurious energy in any interval of time, as a share of the largest kinetic and strain
 /// energy so far.

@@ -30,8 +30,8 @@
 
 use super::dynamics::Dynamics;
 use super::one_step::{OneStep, Scratch, StepRequest, add_scaled, set_sum};
-use super::state::State;
 use crate::error::StepFailure;
+use crate::state::State;
 
 /// Weights of the first half of a symmetric composition b1 a1 b2 a2 ...; the rest follows by
 /// symmetry.

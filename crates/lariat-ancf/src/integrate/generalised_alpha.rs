@@ -34,8 +34,8 @@
 
 use super::dynamics::{Dynamics, Stage};
 use super::one_step::{OneStep, Scratch, StepRequest, add_scaled};
-use super::state::State;
 use crate::error::{Error, StepFailure, require};
+use crate::state::State;
 
 /// Generalised-alpha.
 #[derive(Clone, Copy, Debug, PartialEq)]

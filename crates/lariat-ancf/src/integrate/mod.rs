@@ -51,14 +51,14 @@ pub mod midpoint;
 pub(crate) mod newton;
 mod one_step;
 pub mod rkn;
-mod state;
 pub mod step_control;
 pub mod tr_bdf2;
 pub mod trapezoid;
 pub mod verlet;
 mod work_limit;
 
-pub use discrete_gradient::{Differences, EnergyLaw};
+pub use crate::state::{Differences, Memory, State};
+pub use discrete_gradient::EnergyLaw;
 pub use dynamics::{Dynamics, Stage};
 pub use error_norm::ErrorNorm;
 pub use fidelity::{Fidelity, IntegratorChoice};
@@ -66,5 +66,5 @@ pub use integrator::{Integrator, IntegratorRef, StepControl};
 pub use method::{Method, Properties};
 pub(crate) use one_step::add_scaled;
 pub use one_step::{OneStep, Scratch, StepRequest};
-pub use state::{Memory, State};
+
 pub use work_limit::WorkLimit;

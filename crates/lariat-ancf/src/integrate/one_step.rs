@@ -1,8 +1,8 @@
 //! The trait that every integration method implements, inside this crate or outside.
 
 use super::dynamics::Dynamics;
-use super::state::State;
 use crate::error::{Error, StepFailure};
+use crate::state::State;
 use std::fmt;
 
 /// What step control asks of one step.

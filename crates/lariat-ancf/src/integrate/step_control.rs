@@ -37,8 +37,8 @@ use super::error_budget::ErrorBudget;
 use super::error_norm::ErrorNorm;
 use super::integrator::{IntegratorRef, StepControl};
 use super::one_step::{Scratch, StepRequest};
-use super::state::State;
 use crate::error::StepFailure;
+use crate::state::State;
 
 /// Shortest step, as a share of the host step.
 pub(super) const MIN_STEP_SHARE: f64 = 1.0 / (1u64 << 20) as f64;

@@ -12,7 +12,7 @@
 //! Khatib 1987, the operational space inertia.
 
 use crate::error::{Error, require, require_finite};
-use crate::integrate::discrete_gradient::ALPHA;
+use crate::one_leg::ALPHA;
 use nalgebra::{Matrix3, Matrix6, UnitQuaternion, Vector3, Vector6};
 use serde::{Deserialize, Serialize};
 

@@ -8,7 +8,8 @@ use super::rotation::{jacobian_inverse, jacobian_rate};
 use crate::effect::acts::ForceInput;
 use crate::error::StepFailure;
 use crate::integrate::newton::{self, Increment, Linearised};
-use crate::integrate::{Dynamics, ErrorNorm, Stage, State};
+use crate::integrate::{Dynamics, ErrorNorm, Stage};
+use crate::state::State;
 
 /// Vectors over all coordinates, reused from step to step.
 #[derive(Clone, Debug, Default)]

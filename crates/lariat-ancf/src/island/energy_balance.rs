@@ -19,7 +19,7 @@ use super::equations::IslandEquations;
 use super::hold::{stack, vector};
 use super::layout::Motion;
 use crate::effect::acts::ForceInput;
-use crate::integrate::State;
+use crate::state::State;
 use nalgebra::Vector3;
 
 /// Closing speed of a gap in m/s above which its work is included.

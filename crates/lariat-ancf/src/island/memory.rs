@@ -13,7 +13,7 @@ use super::layout::Layout;
 use super::pin::PinConstraint;
 use super::rotation::angular_acceleration;
 use crate::cable::Cable;
-use crate::integrate::State;
+use crate::state::State;
 use nalgebra::Vector3;
 
 /// Returns the number of pins of a body.

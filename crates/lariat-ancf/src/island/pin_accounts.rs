@@ -34,7 +34,7 @@ use super::layout::Layout;
 use super::pin_momentum::PinMomentum;
 use crate::cable::Cable;
 use crate::effect::acts::ForceInput;
-use crate::integrate::State;
+use crate::state::State;
 use nalgebra::Vector3;
 
 /// What the cable did to the body at one pin during the last step. World axes.

@@ -29,7 +29,7 @@
 
 use super::layout::Layout;
 use crate::cable::Cable;
-use crate::integrate::State;
+use crate::state::State;
 use nalgebra::Vector3;
 
 use super::hold::vector;

@@ -16,7 +16,8 @@ use super::dynamics::IslandDynamics;
 use super::equations::MatrixKind;
 use super::hold::vector;
 use crate::error::StepFailure;
-use crate::integrate::{Dynamics, State};
+use crate::integrate::Dynamics;
+use crate::state::State;
 
 /// Largest jump of velocity at a pin in m/s that is rounding.
 const JUMP_ROUNDING: f64 = 1e-10;

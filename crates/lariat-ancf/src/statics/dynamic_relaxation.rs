@@ -6,9 +6,9 @@
 //! Barnes 1999.
 
 use super::attempt::{Budget, Failure};
-use super::scale::LoadScale;
 use crate::cable::Cable;
 use crate::integrate::{Integrator, Method, StepControl};
+use crate::model::LoadScale;
 
 /// Largest number of steps.
 const MAX_STEPS: usize = 400;

@@ -9,9 +9,9 @@
 //! Crisfield 1991, section 9.4 (load incrementation with automatic steps).
 
 use super::attempt::{Budget, EquilibriumReport, Failure, MAX_SLOPE_CHANGE, largest_change};
-use super::scale::{LoadScale, largest_force};
 use crate::cable::Cable;
 use crate::linalg::Definiteness;
+use crate::model::{LoadScale, largest_force};
 use crate::system::project_vector;
 
 /// First increment, as a share of the loads.

@@ -37,12 +37,10 @@ mod potential;
 mod pseudo_transient;
 mod rest_in_flow;
 mod saddle;
-mod scale;
 mod start_shape;
 
 pub use attempt::EquilibriumReport;
 pub use equilibrium::EquilibriumOptions;
 pub(crate) use folds::{first_fold, straighten};
 pub(crate) use potential::potential;
-pub(crate) use scale::{LoadScale, largest_force};
 pub(crate) use start_shape::move_with_supports;

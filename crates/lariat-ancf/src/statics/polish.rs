@@ -23,8 +23,8 @@
 
 use super::attempt::{Budget, largest_change};
 use super::pseudo_transient::{Minimisation, Polished};
-use super::scale::largest_force;
 use crate::linalg::Definiteness;
+use crate::model::largest_force;
 use crate::system::project_vector;
 
 /// Largest number of iterations.

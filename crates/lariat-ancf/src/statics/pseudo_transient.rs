@@ -20,10 +20,10 @@
 
 use super::attempt::{Budget, EquilibriumReport, Failure, MAX_SLOPE_CHANGE, largest_change};
 use super::potential::{moment_work, potential};
-use super::scale::{LoadScale, largest_force};
 use crate::cable::Cable;
 use crate::error::StepFailure;
 use crate::linalg::Definiteness;
+use crate::model::{LoadScale, largest_force};
 use crate::system::{Equations, project_vector};
 use nalgebra::Vector3;
 

@@ -20,9 +20,9 @@
 //! Newton's method with the symmetric part of the tangent: it ends in a cycle on a towed cable.
 
 use super::attempt::{Budget, EquilibriumReport, Failure, largest_change};
-use super::scale::{LoadScale, largest_force};
 use crate::cable::Cable;
 use crate::integrate::{Integrator, Method, StepControl};
+use crate::model::{LoadScale, largest_force};
 use crate::system::project_vector;
 
 /// Factor on the step after a success, and after a failure.

@@ -49,13 +49,15 @@
 mod claim;
 mod order;
 mod record;
+mod runs;
 mod time;
 
 pub use claim::{Claim, Outcome, Proof, StudyError};
 pub use record::Record;
+pub use runs::Resolution;
 
-use crate::integrate::{Integrator, Method, StepControl};
 use order::Difference;
+use runs::{Runs, Span};
 use time::{Pilots, Time};
 
 /// Elements of the first run.
@@ -68,31 +70,6 @@ const LIMIT: usize = 160;
 const REFINED: f64 = 1.2;
 /// A difference of this share of the longest cable is another branch.
 const BRANCH: f64 = 0.1;
-
-/// The mesh and the tolerance of a run of a [`Study`].
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Resolution {
-    /// Number of elements of the cable that has most.
-    pub elements: usize,
-    /// Error of position per host step in m; `None` for an equilibrium, and for equal steps.
-    pub tolerance: Option<f64>,
-    /// Length of equal steps in s, in the run that judges steps which the host step limits.
-    pub max_step: Option<f64>,
-}
-
-impl Resolution {
-    /// Returns the number of elements of a cable that would have `own` of them in a world where the largest has `largest`: in this
-    /// proportion, but not below half of [`elements`](Self::elements), because a mesh that is not refined shows no error.
-    pub fn elements_of(&self, own: usize, largest: usize) -> usize {
-        (self.elements * own).div_ceil(largest.max(1)).max(self.elements.div_ceil(2))
-    }
-
-    /// Returns the integrator: ESDIRK4 with the tolerance for every node and body, or in equal steps; for an equilibrium the default one.
-    pub fn integrator(&self) -> Integrator {
-        let control = self.max_step.map(StepControl::MaxStep).or(self.tolerance.map(StepControl::Tolerance));
-        control.map_or(Integrator::default(), |control| Integrator { method: Method::Esdirk4, control })
-    }
-}
 
 /// A program that builds a world at a resolution and runs it, and the error that is asked of it.
 ///
@@ -129,22 +106,6 @@ pub struct Study<F> {
     run: F,
     error: f64,
     limit: usize,
-}
-
-/// Host steps.
-#[derive(Clone, Copy, Debug)]
-struct Span {
-    /// Their number; a fraction is a shorter step.
-    steps: f64,
-    /// Their length in s.
-    host_step: f64,
-}
-
-/// One run.
-struct Run<W> {
-    elements: usize,
-    world: W,
-    record: Record,
 }
 
 impl<F> Study<F> {
@@ -278,15 +239,6 @@ impl<F> Study<F> {
     }
 }
 
-/// The runs so far.
-struct Runs<F> {
-    run: F,
-    error: f64,
-    span: Option<Span>,
-    count: usize,
-    evaluations: u64,
-}
-
 impl<F> Runs<F> {
     /// Returns the runs with `first` and twice as many elements, and the error in time.
     fn pilots<W, E>(&mut self, first: usize) -> Result<Pilots<W>, StudyError<E>>
@@ -299,22 +251,5 @@ impl<F> Runs<F> {
         let [coarse, fine] =
             [first, 2 * first].map(|elements| self.run(Resolution { elements, ..Resolution::default() }));
         Ok((coarse?, fine?, Time::default()))
-    }
-
-    /// Runs the world at a resolution.
-    fn run<W, E>(&mut self, resolution: Resolution) -> Result<Run<W>, StudyError<E>>
-    where
-        F: FnMut(&Resolution, &mut Record) -> Result<W, E>,
-    {
-        let mut record = Record::default();
-        let Resolution { elements, tolerance, .. } = resolution;
-        self.count += 1;
-        let failed = |source| StudyError::Run { elements, tolerance, source };
-        let world = (self.run)(&resolution, &mut record).map_err(failed)?;
-        self.evaluations += record.evaluations();
-        if record.is_empty() {
-            return Err(StudyError::NothingRecorded);
-        }
-        Ok(Run { elements, world, record })
     }
 }

@@ -32,7 +32,9 @@
 //!
 //! - A run at a smaller tolerance instead of equal steps: up to 115 times the cost of the run it judges, where a stiff cable then rings.
 
-use super::{Record, Resolution, Run, Runs, Span, StudyError};
+use super::claim::StudyError;
+use super::record::Record;
+use super::runs::{Resolution, Run, Runs, Span};
 
 /// Ratio of the first two tolerances.
 const LOOSER: f64 = 8.0;

@@ -39,8 +39,10 @@
 //! rigid rotation: where some is owed, there is no more.
 
 use super::{Equations, System, dot, solve_semidefinite};
-use crate::integrate::State;
-use crate::integrate::discrete_gradient::{ALPHA, Balance, Buffers};
+use crate::integrate::discrete_gradient::Balance;
+use crate::one_leg::ALPHA;
+use crate::state::State;
+use crate::system::step_vectors::{Before, StepVectors};
 use nalgebra::{Matrix3, Matrix6, Vector3, Vector6};
 
 /// Largest share u: what the method itself takes of the second difference of a velocity.
@@ -63,9 +65,6 @@ pub(crate) struct Momenta {
     /// Momentum and angular momentum about the origin of the second difference of velocities.
     second_difference: [Vector3<f64>; 2],
 }
-
-/// Linear momentum, angular momentum about the centre of mass, and the centre.
-pub(crate) type Before = [Vector3<f64>; 3];
 
 /// A change of velocities.
 #[derive(Clone, Copy, Debug)]
@@ -94,7 +93,7 @@ fn add_sums(sums: &mut [Vector3<f64>; 2], q: &[f64], p: &[f64]) {
 }
 
 /// Returns impulse and angular impulse about the origin of the forces without potential of an iterate.
-pub(crate) fn outside_impulses(q: &[f64], b: &Buffers) -> [Vector3<f64>; 2] {
+pub(crate) fn outside_impulses(q: &[f64], b: &StepVectors) -> [Vector3<f64>; 2] {
     let mut sums = [Vector3::zeros(); 2];
     for ((q, d), f) in q.chunks_exact(3).zip(b.change.chunks_exact(3)).zip(b.external.chunks_exact(3)) {
         sums[1] += (vector(q) + 0.5 * vector(d)).cross(&vector(f));
@@ -105,8 +104,8 @@ pub(crate) fn outside_impulses(q: &[f64], b: &Buffers) -> [Vector3<f64>; 2] {
 
 impl Momenta {
     /// Adds the second difference of the velocities of a cable whose step has just ended.
-    pub fn add_second_difference(&mut self, system: &System, state: &State, b: &mut Buffers) {
-        let Buffers { velocity_change, velocity_before, external, product, .. } = b;
+    pub fn add_second_difference(&mut self, system: &System, state: &State, b: &mut StepVectors) {
+        let StepVectors { velocity_change, velocity_before, external, product, .. } = b;
         external.clear();
         external.extend(velocity_change.iter().zip(&*velocity_before).map(|(d, o)| d - o));
         system.mass.multiply(system.level, external, product);
@@ -120,9 +119,9 @@ impl Momenta {
     }
 
     /// Adds a cable at its present state.
-    pub fn add_cable(&mut self, equations: &mut Equations<'_>, state: &State, b: &mut Buffers) {
+    pub fn add_cable(&mut self, equations: &mut Equations<'_>, state: &State, b: &mut StepVectors) {
         let (model, system) = (equations.model, &mut *equations.system);
-        let Buffers { product: p, external: full, .. } = b;
+        let StepVectors { product: p, external: full, .. } = b;
         p.resize(state.q.len(), 0.0);
         full.resize(state.q.len(), 0.0);
         if !system.flows.is_empty() {

@@ -1,26 +1,29 @@
 //! Contacts of one cable with obstacles, in a step of the discrete gradient.
 
 use super::{Equations, dot};
-use crate::contact::{BodyPath, ContactStep, Motion, When, combine, solves_again};
+use crate::contact::{BodyPath, ContactStep, Motion, When, solves_again};
 use crate::effect::EffectWork;
-use crate::integrate::State;
-use crate::integrate::discrete_gradient::{ALPHA, Balance, Buffers, share_of_impact};
+use crate::element::shape::combine;
+use crate::integrate::discrete_gradient::{Balance, share_of_impact};
+use crate::one_leg::ALPHA;
+use crate::state::State;
+use crate::system::StepVectors;
 use nalgebra::Vector3;
 
 impl Equations<'_> {
     /// Finds the contacts of a step, if the cable can have any, with obstacles and with bodies of an island; they close offsets if `close`.
-    pub fn find_contacts(&self, state: &State, b: &mut Buffers, (bodies, close): (&[BodyPath], bool)) {
+    pub fn find_contacts(&self, state: &State, b: &mut StepVectors, (bodies, close): (&[BodyPath], bool)) {
         let lost = if close { state.memory.lost } else { 0.0 };
         self.with_contacts(state, b, (bodies, lost), |contact, motion| contact.begin(motion));
     }
 
     /// Adds contacts with thin parts of obstacles that the iterate entered; returns whether there are any.
-    pub fn add_missed_contacts(&self, state: &State, b: &mut Buffers) -> bool {
+    pub fn add_missed_contacts(&self, state: &State, b: &mut StepVectors) -> bool {
         self.with_contacts(state, b, (&[], 0.0), ContactStep::add_missed)
     }
 
     /// Returns whether the iterate goes through thin parts of obstacles.
-    pub fn passes_obstacles(&self, state: &State, b: &mut Buffers) -> bool {
+    pub fn passes_obstacles(&self, state: &State, b: &mut StepVectors) -> bool {
         self.with_contacts(state, b, (&[], 0.0), ContactStep::passes)
     }
 
@@ -28,11 +31,11 @@ impl Equations<'_> {
     fn with_contacts<T>(
         &self,
         state: &State,
-        b: &mut Buffers,
+        b: &mut StepVectors,
         (bodies, lost): (&[BodyPath], f64),
         f: impl FnOnce(&mut ContactStep, &Motion<'_>) -> T,
     ) -> T {
-        let Buffers { contact, change, h, .. } = b;
+        let StepVectors { contact, change, h, .. } = b;
         let (q, memory) = (&state.q[..], &state.memory.contacts[..]);
         f(contact, &Motion { model: self.model, time: state.time, h: *h, q, change, memory, lost, bodies })
     }
@@ -41,7 +44,7 @@ impl Equations<'_> {
     pub(super) fn balance_contacts(
         &mut self,
         state: &State,
-        b: &mut Buffers,
+        b: &mut StepVectors,
         balance: &mut Balance,
         work: &mut EffectWork,
     ) {
@@ -51,11 +54,11 @@ impl Equations<'_> {
         work.contact += contacts.work;
         b.lost = contacts.loss;
         balance.given_back = (-contacts.loss).max(0.0);
-        balance.add_contacts(&contacts, b.h);
+        contacts.add_to(balance, b.h);
     }
 
     /// Takes the velocity across contacts that push at the end of the step, if it has more energy than `least` (J).
-    pub fn land(&mut self, state: &State, b: &mut Buffers, balance: &mut Balance, least: f64) {
+    pub fn land(&mut self, state: &State, b: &mut StepVectors, balance: &mut Balance, least: f64) {
         self.find_velocities(state, b);
         let with_obstacles = self.find_impacts(state, b, |_, _, _| Vector3::zeros());
         if with_obstacles + self.find_own_impacts(b) <= least {
@@ -64,7 +67,7 @@ impl Equations<'_> {
         self.solve_impacts(b);
         let gives = b.contact.gives_velocity();
         for _ in 0..solves_again(gives) {
-            let Buffers { contact, pairs, landed, .. } = &mut *b;
+            let StepVectors { contact, pairs, landed, .. } = &mut *b;
             let obstacles = contact.settle_impacts(|e, shape| combine(landed, e, shape), |_, _| Vector3::zeros());
             if !(pairs.settle_impacts(|_, e, shape| combine(landed, e, shape)) || obstacles) {
                 break;
@@ -78,7 +81,7 @@ impl Equations<'_> {
     }
 
     /// Computes the velocities at the end of the step into `external`, which is free then.
-    pub fn find_velocities(&self, state: &State, b: &mut Buffers) {
+    pub fn find_velocities(&self, state: &State, b: &mut StepVectors) {
         for i in 0..b.external.len() {
             b.external[i] = state.v[i] + b.velocity_change[i] - b.taken.get(i).unwrap_or(&0.0);
         }
@@ -88,25 +91,25 @@ impl Equations<'_> {
     pub fn find_impacts(
         &self,
         state: &State,
-        b: &mut Buffers,
+        b: &mut StepVectors,
         body: impl Fn(When, usize, &Vector3<f64>) -> Vector3<f64>,
     ) -> f64 {
-        let Buffers { contact, external, .. } = b;
+        let StepVectors { contact, external, .. } = b;
         let mass = |element: usize| self.model.elements[element].section.mass_per_length;
         let velocities = |when| if when == When::Begin { &state.v } else { &*external };
         contact.find_impacts(mass, |when, e, shape| combine(velocities(when), e, shape), body)
     }
 
     /// Finds the impacts of the cable on itself, and returns their energy in J.
-    fn find_own_impacts(&self, b: &mut Buffers) -> f64 {
-        let Buffers { pairs, external, .. } = b;
+    fn find_own_impacts(&self, b: &mut StepVectors) -> f64 {
+        let StepVectors { pairs, external, .. } = b;
         let mass = |_: usize, element: usize| self.model.elements[element].section.mass_per_length;
         pairs.find_impacts(mass, |_, e, shape| combine(external, e, shape))
     }
 
     /// Solves for the velocities that impacts take, into `landed`.
-    fn solve_impacts(&mut self, b: &mut Buffers) {
-        let Buffers { contact, pairs, landed, rhs, .. } = &mut *b;
+    fn solve_impacts(&mut self, b: &mut StepVectors) {
+        let StepVectors { contact, pairs, landed, rhs, .. } = &mut *b;
         landed.clear();
         landed.resize(rhs.len(), 0.0);
         contact.pass_impacts(landed, &mut []);
@@ -117,7 +120,7 @@ impl Equations<'_> {
     }
 
     /// Returns what impacts take of the energy in J of velocities and store in proportion to their share, and in proportion to its square.
-    pub fn energy_of_impacts(&mut self, b: &mut Buffers) -> [f64; 2] {
+    pub fn energy_of_impacts(&mut self, b: &mut StepVectors) -> [f64; 2] {
         let held = 0.5 * (1.0 + ALPHA) * self.system.mass_square(&b.landed, &mut b.product);
         [dot(&b.external, &b.product) + ALPHA * dot(&b.velocity_change, &b.product), held]
     }

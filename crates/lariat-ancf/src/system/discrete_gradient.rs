@@ -5,22 +5,25 @@ use super::lanes::MatrixOutput;
 use super::lanes::discrete_gradient::{CoordinateStep, ElementLoss};
 use super::laws::{add_to_laws, linearise_laws};
 use super::rigid_motion::relative_velocities;
+use super::vectors::dot;
 use super::{Equations, System, project_vector};
 use crate::effect::EffectWork;
 use crate::effect::acts::{ForceInput, PointForce, StepInput};
 use crate::error::StepFailure;
-use crate::integrate::State;
 use crate::integrate::discrete_gradient::{
-    ALPHA, BETA, Balance, Buffers, Closing, DiscreteGradientSystem, Event, share_to_take, sum_of_forces,
+    Balance, Closing, DiscreteGradientSystem, Event, share_to_take, sum_of_forces,
 };
+use crate::one_leg::{ALPHA, BETA};
+use crate::state::State;
 use crate::support::{SlopeSupport, Support};
+use crate::system::StepVectors;
 use core::ops::Range;
 
 /// A cable, its state and the buffers of a step.
 pub(crate) struct CableStep<'a> {
     pub equations: Equations<'a>,
     pub state: &'a mut State,
-    pub buffers: &'a mut Buffers,
+    pub buffers: &'a mut StepVectors,
 }
 
 /// Returns the components of a node (r, t) that a support prescribes.
@@ -28,18 +31,6 @@ fn prescribed(support: &Support) -> Range<usize> {
     let first = if support.position.is_some() { 0 } else { 3 };
     let last = if matches!(support.slope, SlopeSupport::Prescribed(_)) { 6 } else { 3 };
     first..last
-}
-
-/// Returns the product of nodal vectors, summed by coordinate of the node first: one sum would wait for every addition.
-pub(crate) fn dot(x: &[f64], y: &[f64]) -> f64 {
-    let ((x, _), (y, _)) = (x.as_chunks::<6>(), y.as_chunks::<6>());
-    let mut sums = [0.0; 6];
-    for (x, y) in x.iter().zip(y) {
-        for k in 0..6 {
-            sums[k] += x[k] * y[k];
-        }
-    }
-    sums.iter().sum()
 }
 
 impl System {
@@ -71,7 +62,7 @@ impl Equations<'_> {
     }
 
     /// Sets the changes of prescribed coordinates, so that they end where their supports are.
-    pub fn prescribe_change(&self, state: &State, b: &mut Buffers) {
+    pub fn prescribe_change(&self, state: &State, b: &mut StepVectors) {
         for (i, end) in self.prescribed_at(state.time + b.h) {
             b.change[i] = end - state.q[i];
             b.velocity_change[i] = (b.change[i] / b.h - state.v[i] + ALPHA * b.velocity_before[i]) / BETA;
@@ -83,7 +74,7 @@ impl Equations<'_> {
     pub fn step_residual(
         &mut self,
         state: &State,
-        b: &mut Buffers,
+        b: &mut StepVectors,
         matrix: bool,
         work: &mut EffectWork,
     ) -> ElementLoss {
@@ -98,7 +89,7 @@ impl Equations<'_> {
         if let Some(effects) = &self.system.forces.in_element {
             effects.add_dissipated(loss.effects, work);
         }
-        let Buffers { h, velocity_change, rhs, external, product, .. } = b;
+        let StepVectors { h, velocity_change, rhs, external, product, .. } = b;
         self.system.mass.multiply(self.system.level, velocity_change, product);
         for i in 0..rhs.len() {
             rhs[i] += *h * external[i] - product[i];
@@ -112,13 +103,13 @@ impl Equations<'_> {
     }
 
     /// Computes the part of the elements.
-    fn step_elements(&mut self, state: &State, b: &mut Buffers, matrix: bool) -> ElementLoss {
+    fn step_elements(&mut self, state: &State, b: &mut StepVectors, matrix: bool) -> ElementLoss {
         let (system, diagnostics) = (&mut *self.system, &mut *self.diagnostics);
         let (level, forces) = (system.level, &mut system.forces);
         let (elements, effects) = (&forces.elements, forces.in_element.as_ref());
         let count = elements.count() as u64;
         let near = !(b.contact.is_empty() && b.pair_impulses.is_empty());
-        let Buffers { h, change, change_before, kept, linearised, rhs, .. } = b;
+        let StepVectors { h, change, change_before, kept, linearised, rhs, .. } = b;
         let step =
             CoordinateStep { start: &state.q, change, before: change_before, kept: *kept, linearised, h: *h, near };
         rhs.fill(0.0);
@@ -141,7 +132,7 @@ impl Equations<'_> {
 
     /// Computes the forces of everything else, G + F, into `external`. Loads and the coefficients of drag are those of the iterate about
     /// which the step is linear: the present one if the matrix is asked for.
-    fn external_forces(&mut self, state: &State, b: &mut Buffers, matrix: bool, work: &mut EffectWork) {
+    fn external_forces(&mut self, state: &State, b: &mut StepVectors, matrix: bool, work: &mut EffectWork) {
         let (system, diagnostics) = (&mut *self.system, &mut *self.diagnostics);
         let (level, forces) = (system.level, &mut system.forces);
         let count = forces.elements.count() as u64;
@@ -190,11 +181,11 @@ impl Equations<'_> {
 
     /// Returns what the present iterate does to the energy, but for the product of residual and velocity: `rhs` is then the residual of
     /// all coordinates.
-    pub fn step_balance(&mut self, state: &State, b: &mut Buffers, work: &mut EffectWork) -> Balance {
+    pub fn step_balance(&mut self, state: &State, b: &mut StepVectors, work: &mut EffectWork) -> Balance {
         let loss = self.step_residual(state, b, false, work);
         b.lost = 0.0;
         let mut balance = Balance { numerical: loss.numerical, effects: loss.effects, ..Balance::default() };
-        let Buffers { h, external, product, .. } = &*b;
+        let StepVectors { h, external, product, .. } = &*b;
         balance.impulse = sum_of_forces(product) + *h * sum_of_forces(external);
         if !self.model.loads.is_empty() {
             balance.loads = b.load_work;
@@ -204,7 +195,7 @@ impl Equations<'_> {
         }
         self.balance_motors(state, b, &mut balance);
         let system = &*self.system;
-        let Buffers { h, velocity_before, velocity_change, change, rhs, external, product, .. } = b;
+        let StepVectors { h, velocity_before, velocity_change, change, rhs, external, product, .. } = b;
         for (node, support) in &self.model.supports {
             if support.position.is_some() {
                 balance.impulse += sum_of_forces(&rhs[6 * node..6 * node + 6]);
@@ -225,7 +216,7 @@ impl Equations<'_> {
     }
 
     /// Adds a share of the increment of the velocity change in `rhs` to the iterate, which becomes the one about which it was linearised.
-    pub fn apply_increment(b: &mut Buffers, share: f64) {
+    pub fn apply_increment(b: &mut StepVectors, share: f64) {
         b.linearised.clone_from(&b.change);
         for i in 0..b.rhs.len() {
             let increment = share * b.rhs[i];
@@ -235,7 +226,7 @@ impl Equations<'_> {
     }
 
     /// Makes the end of the step the state.
-    pub fn accept_step(&mut self, state: &mut State, b: &Buffers) {
+    pub fn accept_step(&mut self, state: &mut State, b: &StepVectors) {
         self.end_flows_of_step(state, b);
         for i in 0..b.change.len() {
             state.q[i] += b.change[i];
@@ -314,7 +305,7 @@ impl DiscreteGradientSystem for CableStep<'_> {
         let mut work = EffectWork::default();
         let pairs = equations.balance_pairs(state, b, &mut work);
         let mut balance = equations.step_balance(state, b, &mut work);
-        pairs.iter().for_each(|pairs| balance.add_contacts(pairs, b.h));
+        pairs.iter().for_each(|pairs| pairs.add_to(&mut balance, b.h));
         equations.system.meter.work_of_step = work;
         project_vector(equations.model, &mut b.rhs);
         balance.residual = -dot(&b.rhs, &b.change) / b.h;
@@ -341,7 +332,7 @@ impl DiscreteGradientSystem for CableStep<'_> {
     fn rescale(&mut self, balance: &mut Balance, largest_share: f64) -> bool {
         let CableStep { equations, state, buffers } = self;
         // the other buffers are free now
-        let Buffers { velocity_change, change, rhs, external, product, taken, linearised, .. } = &mut **buffers;
+        let StepVectors { velocity_change, change, rhs, external, product, taken, linearised, .. } = &mut **buffers;
         for i in 0..change.len() {
             product[i] = state.q[i] + change[i];
             rhs[i] = state.v[i] + velocity_change[i];

@@ -9,7 +9,8 @@ use super::{Buffers, Equations, project_vector};
 use crate::effect::acts::ForceInput;
 use crate::error::StepFailure;
 use crate::integrate::newton::{self, Increment, Linearised};
-use crate::integrate::{Dynamics, Stage, State};
+use crate::integrate::{Dynamics, Stage};
+use crate::state::State;
 use crate::support::Support;
 
 /// The equations of a cable with the buffers that a step needs.

@@ -1,12 +1,12 @@
 //! The numbers of all elements of a cable, ready for the kernels.
 
-use crate::axial::AxialTable;
-use crate::bending::gauss::Gauss;
-use crate::bending::t1::T1;
-use crate::bending::t2::T2;
-use crate::bending::{Bending, NoBending};
 use crate::effect::EffectWork;
 use crate::effect::tables::ElementTables;
+use crate::element::axial::AxialTable;
+use crate::element::bending::gauss::Gauss;
+use crate::element::bending::t1::T1;
+use crate::element::bending::t2::T2;
+use crate::element::bending::{Bending, NoBending};
 use crate::element::gram::{Control, gram, gram_rates};
 use crate::element::kernel::{self, GramState, Stiffness};
 use crate::element::mass;

@@ -34,41 +34,15 @@
 //! known well enough.
 
 use super::Equations;
+use super::meter::EnergyMeter;
 use crate::effect::EffectWork;
 use crate::effect::acts::{ForceInput, PointForce};
 use crate::effect::work::{POINTS, hermite};
-use crate::integrate::{EnergyLaw, State};
 use crate::load::PointLoad;
+use crate::state::State;
 use crate::support::Support;
 use core::ops::Range;
 use nalgebra::Vector3;
-
-/// The work of effects in the present host step, and the vectors to compute work and energy.
-#[derive(Clone, Debug, Default)]
-pub(crate) struct EnergyMeter {
-    pub work: EffectWork,
-    /// The work of effects in a step of the discrete gradient.
-    pub work_of_step: EffectWork,
-    /// By end, work of a reel and of the material that enters in the present host step, in J.
-    pub reel_work: [f64; 2],
-    /// The energy law of the present host step.
-    pub law: EnergyLaw,
-    q: Vec<f64>,
-    v: Vec<f64>,
-    force: Vec<f64>,
-    /// Reactions at both ends of a step, and the momentum that the forces at hand miss.
-    reactions: [Vec<f64>; 2],
-    missed: Vec<f64>,
-}
-
-impl EnergyMeter {
-    /// Begins a host step.
-    pub fn begin(&mut self) {
-        self.work = EffectWork::default();
-        self.reel_work = [0.0; 2];
-        self.law = EnergyLaw::default();
-    }
-}
 
 /// Returns whether a support does work: it moves, and is none of an island's.
 fn moves((_, support): &(usize, Support)) -> bool {

@@ -18,9 +18,9 @@
 pub(crate) mod discrete_gradient;
 
 use super::elements::{Elements, with_bending};
-use crate::bending::Bending;
 use crate::effect::acts::ForceInput;
 use crate::effect::tables::ElementTables;
+use crate::element::bending::Bending;
 use crate::element::gram::Control;
 use crate::element::kernel::{Blocks, ElementState, GramForce, Kernel, Load, NoEffects, Stiffness};
 use crate::linalg::{Block, BlockTridiagonal};

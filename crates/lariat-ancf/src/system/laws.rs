@@ -1,11 +1,11 @@
 //! Unknown rates of reels in an iteration of one cable.
 
 use super::{Equations, Unknowns};
-use crate::integrate::State;
-use crate::integrate::discrete_gradient::Buffers;
+use crate::state::State;
+use crate::system::StepVectors;
 
 /// Linearises the laws of reels whose rate is unknown, and solves for their columns.
-pub(super) fn linearise_laws(equations: &mut Equations<'_>, state: &State, b: &mut Buffers) {
+pub(super) fn linearise_laws(equations: &mut Equations<'_>, state: &State, b: &mut StepVectors) {
     let mut unknowns = core::mem::take(&mut b.unknowns);
     unknowns.begin([&equations.system.flows].into_iter());
     if !unknowns.reels.is_empty() {
@@ -20,8 +20,8 @@ pub(super) fn linearise_laws(equations: &mut Equations<'_>, state: &State, b: &m
 }
 
 /// Solves for the rates of reels that are unknown, and completes the increment in `rhs`.
-pub(super) fn add_to_laws(equations: &mut Equations<'_>, b: &mut Buffers) {
-    let Buffers { unknowns, rhs, h, .. } = b;
+pub(super) fn add_to_laws(equations: &mut Equations<'_>, b: &mut StepVectors) {
+    let StepVectors { unknowns, rhs, h, .. } = b;
     if unknowns.reels.is_empty() {
         return;
     }

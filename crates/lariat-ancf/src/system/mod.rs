@@ -34,13 +34,16 @@ mod lanes;
 mod laws;
 pub(crate) mod loads;
 pub(crate) mod mass;
+mod meter;
 mod pairs;
 mod projection;
 mod reading;
 mod rigid_motion;
+mod step_vectors;
 mod store;
+mod vectors;
 
-pub(crate) use discrete_gradient::{CableStep, dot};
+pub(crate) use discrete_gradient::CableStep;
 pub(crate) use dynamics::CableDynamics;
 pub(crate) use equations::Equations;
 pub use flow::Sheave;
@@ -48,18 +51,20 @@ pub(crate) use flow::{Flow, Law, Motor, MotorState, STOP, Source, Unknowns, Whee
 pub(crate) use projection::{project_matrix, project_vector};
 pub(crate) use reading::{NodeTension, Pull, Reading, missing_at_ends};
 pub(crate) use rigid_motion::{Modes, relative_velocities, solve as solve_semidefinite};
+pub(crate) use step_vectors::StepVectors;
+pub(crate) use vectors::dot;
 
 use crate::contact::StaticContact;
 use crate::error::StepFailure;
 use crate::linalg::{BlockTridiagonal, Factorisation};
 use crate::model::{Model, STANDARD_GRAVITY};
 use crate::strength::LoadRecord;
-use energy_balance::EnergyMeter;
 use fearless_simd::Level;
 use flow::Flows;
 use forces::Forces;
 use loads::Loads;
 use mass::Mass;
+use meter::EnergyMeter;
 
 /// Everything derived from a [`Model`].
 #[derive(Clone, Debug)]

@@ -4,8 +4,8 @@ use super::Equations;
 use crate::contact::{ContactBalance, LowRank, PairStep, PairSystem, Row, Strand, Strands};
 use crate::effect::EffectWork;
 use crate::error::StepFailure;
-use crate::integrate::State;
-use crate::integrate::discrete_gradient::Buffers;
+use crate::state::State;
+use crate::system::StepVectors;
 
 /// The equations with the factored matrix of a cable.
 struct OnCable<'a, 'b> {
@@ -44,20 +44,25 @@ impl PairSystem for OnCable<'_, '_> {
 
 impl<'b> Equations<'b> {
     /// Calls `f` with the contacts of the cable with itself, and the cable.
-    fn with_pairs<T>(&self, state: &State, b: &mut Buffers, f: impl FnOnce(&mut PairStep, &Strands<'_, '_>) -> T) -> T {
-        let (model, Buffers { pairs, change, .. }) = (self.model, b);
+    fn with_pairs<T>(
+        &self,
+        state: &State,
+        b: &mut StepVectors,
+        f: impl FnOnce(&mut PairStep, &Strands<'_, '_>) -> T,
+    ) -> T {
+        let (model, StepVectors { pairs, change, .. }) = (self.model, b);
         let strand = Strand { key: model.contact_key, model, q: &state.q, change, memory: &state.memory.pairs };
         f(pairs, &Strands { count: 1, get: &|_| strand, over_bodies: &|_, _| f64::INFINITY, pairs: None })
     }
 
     /// Finds the contacts of a step of the cable with itself.
-    pub fn find_pairs(&self, state: &State, b: &mut Buffers, close: bool) {
+    pub fn find_pairs(&self, state: &State, b: &mut StepVectors, close: bool) {
         let h = b.h;
         self.with_pairs(state, b, |pairs, strands| pairs.begin(h, close, strands));
     }
 
     /// Makes them linear.
-    pub fn linearise_pairs(&mut self, state: &State, b: &mut Buffers) {
+    pub fn linearise_pairs(&mut self, state: &State, b: &mut StepVectors) {
         b.pair_impulses.clear();
         if !b.pairs.is_empty() {
             self.diagnostics.effects.contact += b.pairs.count();
@@ -70,8 +75,8 @@ impl<'b> Equations<'b> {
     ///
     /// # Errors
     /// If it is singular.
-    pub fn factor_pairs(&mut self, b: &mut Buffers) -> Result<(), StepFailure> {
-        let Buffers { pairs, product, external, .. } = b;
+    pub fn factor_pairs(&mut self, b: &mut StepVectors) -> Result<(), StepFailure> {
+        let StepVectors { pairs, product, external, .. } = b;
         pairs.low_rank.factor(&mut OnCable { equations: self, x: product, saved: external })
     }
 
@@ -82,12 +87,17 @@ impl<'b> Equations<'b> {
     }
 
     /// Returns whether the centre line goes through itself in the step.
-    pub fn do_pairs_cross(&self, state: &State, b: &mut Buffers) -> bool {
+    pub fn do_pairs_cross(&self, state: &State, b: &mut StepVectors) -> bool {
         self.with_pairs(state, b, PairStep::crosses)
     }
 
     /// Evaluates them at the present iterate, and returns what they do, if any are near.
-    pub fn balance_pairs(&mut self, state: &State, b: &mut Buffers, work: &mut EffectWork) -> Option<ContactBalance> {
+    pub fn balance_pairs(
+        &mut self,
+        state: &State,
+        b: &mut StepVectors,
+        work: &mut EffectWork,
+    ) -> Option<ContactBalance> {
         self.with_pairs(state, b, PairStep::complete);
         b.pair_impulses.clear();
         if b.pairs.is_empty() {
@@ -102,8 +112,8 @@ impl<'b> Equations<'b> {
 }
 
 /// Passes their impulses to the residual.
-fn pass(b: &mut Buffers, linear: bool) {
-    let Buffers { pairs, pair_impulses, change, .. } = b;
+fn pass(b: &mut StepVectors, linear: bool) {
+    let StepVectors { pairs, pair_impulses, change, .. } = b;
     pair_impulses.resize(change.len(), 0.0);
     pairs.pass_impulses(linear, |_, element, impulse| {
         let out = &mut pair_impulses[6 * element..6 * element + 12];

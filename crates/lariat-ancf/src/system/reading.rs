@@ -15,7 +15,7 @@
 //! Only the end of host steps: a rope that is loaded at once broke at 1.28 of its limit at 30 Hz, and a peak between two host steps broke nothing.
 
 use super::{Equations, System};
-use crate::axial::projected;
+use crate::element::axial::projected;
 use crate::element::flow::Extent;
 use crate::element::gram::{gram, gram_rates};
 use crate::element::kernel::GramState;

@@ -8,22 +8,22 @@
 //!
 //! of the last step; its energy law is about the sum of mechanical energy and S.
 
+use super::System;
 use super::lanes::discrete_gradient::CoordinateStep;
-use crate::cable::Cable;
-use crate::integrate::discrete_gradient::ALPHA;
+use crate::one_leg::ALPHA;
+use crate::state::State;
 
-impl Cable {
-    /// Returns the energy in J that the method `discrete-gradient` holds beyond the mechanical energy: S of the last step. Its law is about
-    /// the sum of both.
-    pub fn energy_in_store(&self) -> f64 {
-        let (q, differences) = (self.positions(), &self.snapshot().state.memory.differences);
+impl System {
+    /// Returns S of the last step in J.
+    pub fn energy_in_store(&self, state: &State) -> f64 {
+        let (q, differences) = (&state.q, &state.memory.differences);
         if differences.is_empty() {
             return 0.0;
         }
         let still = vec![0.0; q.len()];
         let mut buffer = still.clone();
         let mut before = differences.displacement.clone();
-        self.system.flows.shift_eyes_before(q, &mut before);
+        self.flows.shift_eyes_before(q, &mut before);
         let step = CoordinateStep {
             start: q,
             change: &still,
@@ -33,8 +33,7 @@ impl Cable {
             h: 1.0,
             near: false,
         };
-        let elastic =
-            self.system.forces.elements.add_discrete_gradient(self.system.level, None, step, &mut buffer).numerical;
-        elastic + 0.5 * ALPHA * self.system.mass_square(&differences.velocity, &mut buffer)
+        let elastic = self.forces.elements.add_discrete_gradient(self.level, None, step, &mut buffer).numerical;
+        elastic + 0.5 * ALPHA * self.mass_square(&differences.velocity, &mut buffer)
     }
 }

@@ -8,8 +8,8 @@
 
 use super::Warning;
 use crate::cable::Cable;
+use crate::watch::{Contacts, Excess};
 use core::f64::consts::TAU;
-use serde::{Deserialize, Serialize};
 
 /// Largest depth as a share of the radius.
 const DEPTH: f64 = 0.2;
@@ -18,23 +18,6 @@ const TURN: f64 = TAU / 9.0;
 const ADVISED: f64 = TAU / 12.0;
 /// For how long in s they may be larger.
 const DURATION: f64 = 0.1;
-
-/// What a cable did beside what it touches.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub(super) struct Contacts {
-    depth: Excess,
-    turn: Excess,
-}
-
-/// How far a reading exceeds its limit, and since when.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-struct Excess {
-    since: Option<f64>,
-    /// The least of the readings since then, with its arc length in m.
-    least: [f64; 2],
-    /// The largest that lasted long enough, with its arc length in m.
-    worst: [f64; 2],
-}
 
 impl Excess {
     fn note(&mut self, time: f64, [arc_length, reading]: [f64; 2], limit: f64) {

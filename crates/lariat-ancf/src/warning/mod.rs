@@ -17,8 +17,7 @@ pub mod sizes;
 mod steps;
 mod watch;
 
-pub use balance::{EnergyBalance, IslandChange};
-pub use watch::Watch;
+pub use crate::watch::{EnergyBalance, IslandChange, Watch};
 
 use serde::{Deserialize, Serialize};
 

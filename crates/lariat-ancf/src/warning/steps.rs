@@ -37,37 +37,7 @@
 
 use crate::cable::Cable;
 use crate::integrate::StepControl;
-use serde::{Deserialize, Serialize};
-
-/// What the velocities of a cable say about its steps.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub(super) struct Steps {
-    /// Velocities four and two host times ago, when both are known, in m/s.
-    before: [Vec<f64>; 2],
-    /// How many of them are known.
-    known: u8,
-    /// Whether a host time has passed since the latter.
-    between: bool,
-    /// Time in s and integration steps at the last note.
-    time: f64,
-    /// Host step in s.
-    host_step: f64,
-    /// Integration steps of the cable when velocities were last kept.
-    steps: u64,
-    /// Worst so far.
-    pub worst: Estimate,
-}
-
-/// Error of a motion per oscillation.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub(super) struct Estimate {
-    /// In m.
-    pub error: f64,
-    /// Time in s.
-    pub time: f64,
-    /// Length of the integration steps in s.
-    pub step: f64,
-}
+use crate::watch::{Estimate, Steps};
 
 impl Steps {
     /// Reads the velocities at a host time.

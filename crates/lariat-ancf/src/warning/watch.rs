@@ -6,13 +6,10 @@
 //! them was off by 0.2 to 11 % of the length, what does not by less than 0.25 %. A mesh is judged as
 //! [`Cable::mesh_indicator`] says, steps as `steps` says; the strain by the law of the material, which is 7.5 % above Hooke's at 5 %.
 
-use super::balance::{CableAccount, Verdict};
-use super::contact::Contacts;
-use super::steps::{Estimate, Steps};
 use super::{Warning, sizes};
 use crate::cable::Cable;
 use crate::strength::Unseen;
-use serde::{Deserialize, Serialize};
+use crate::watch::{Contacts, Estimate, Verdict, Watch};
 
 /// Largest estimate of an error of position without a warning, as a share of the length.
 const ERROR: f64 = 2e-3;
@@ -32,58 +29,6 @@ const NOISE: f64 = 0.01;
 const STRAIGHT: f64 = 1e-4;
 /// Largest number of elements that is advised.
 const MOST: f64 = 1e6;
-
-/// The worst readings of a cable so far.
-///
-/// ```
-/// use lariat_ancf::{At, Cable, Section, Vector3, Warning, Watch};
-///
-/// let mut cable = Cable::builder()
-///     .points([Vector3::zeros(), Vector3::new(2.0, 0.0, 0.0)])
-///     .section(Section::square(0.01, 1.0e8, 4000.0)?)
-///     .fix(At::Start)
-///     .elements(3)
-///     .build()?;
-/// let mut watch = Watch::new(&cable);
-/// for _ in 0..100 {
-///     cable.step(0.01)?;
-///     watch.note(&cable);
-/// }
-/// let warnings = watch.warnings(&cable, None);
-/// assert!(matches!(&warnings[..], [Warning::CoarseMesh { elements: 3, enough, .. }] if *enough > 6));
-/// # Ok::<(), lariat_ancf::Error>(())
-/// ```
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Watch {
-    /// Positions that displacements are counted from; `None` if they are a guess of the shape.
-    start: Option<Vec<f64>>,
-    /// Estimate of the error of position in m.
-    position: f64,
-    /// Estimate of the error of the displacement in m: the less of those of the shape and of its change.
-    motion: f64,
-    /// Largest displacement in m.
-    displacement: f64,
-    /// Angle in rad between the end slopes of an element.
-    turn: f64,
-    /// Largest tension over EA, the tension in N, EA in N, and its time in s.
-    tension: [f64; 4],
-    /// Largest rate of a reel over the speed of transverse waves, and its time in s.
-    reel: (f64, f64),
-    /// Largest force in N that the rounding of what holds it made, and its time in s.
-    #[serde(default)]
-    noise: (f64, f64),
-    steps: Steps,
-    /// The energy, of a cable that notes its own steps and of the first of an island.
-    #[serde(default)]
-    pub(super) account: CableAccount,
-    #[serde(default)]
-    contacts: Contacts,
-    /// Time of the last note in s.
-    noted: Option<f64>,
-    /// Laws that were counted, and told of, by bit.
-    counted: u16,
-    told: u16,
-}
 
 /// A law that judges the readings; the error (m) that is asked for takes the place of its limit.
 type Law = fn(&Watch, &Cable, Option<f64>) -> Option<Warning>;
@@ -249,11 +194,6 @@ fn unseen_load(cable: &Cable) -> Option<Warning> {
 }
 
 impl Watch {
-    /// Leaves the coming step out of the energy balance, because a program changes the state before it.
-    pub(crate) fn interrupt(&mut self) {
-        self.account.interrupt();
-    }
-
     fn energy(&self, cable: &Cable, _: Option<f64>) -> Option<Warning> {
         let cable = || cable.name().to_string();
         Some(match self.account.balance.verdict()? {

@@ -28,6 +28,12 @@ pub struct Summary {
     pub newton_iterations: u64,
     /// Factorisations of step matrices.
     pub factorisations: u64,
+    /// Solutions with their factors.
+    #[serde(default)]
+    pub solves: u64,
+    /// Steps that were divided.
+    #[serde(default)]
+    pub divided_steps: u64,
     /// Elements evaluated, with or without tangent.
     pub element_evaluations: u64,
     /// Elements evaluated by effect, for the effects that are on.
@@ -77,6 +83,8 @@ impl Summary {
             rejected_steps: count(|d| d.rejected_steps),
             newton_iterations: count(|d| d.newton_iterations) + world.static_iterations,
             factorisations: count(|d| d.factorisations),
+            solves: count(|d| d.solves),
+            divided_steps: count(|d| d.split_steps),
             element_evaluations: count(|d| d.element_evaluations()),
             effect_evaluations: world.effect_evaluations(),
             max_gap_m: world.max_gap(),

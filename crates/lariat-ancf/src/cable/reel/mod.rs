@@ -23,12 +23,13 @@
 //! Arc lengths from the far end of a reel at the start: a cable with two reels has none.
 
 mod plan;
+mod reading;
 mod remesh;
 mod settle;
 mod step;
 mod winding;
 
-pub use winding::ReelReading;
+pub use reading::ReelReading;
 pub(crate) use winding::Winding;
 
 use super::{Cable, Snapshot};
@@ -39,9 +40,7 @@ use crate::error::{Error, require};
 use crate::model::Model;
 use crate::reel::{Feed, Reel, Reels};
 use crate::system::Source;
-
-/// Share of the length of an element within which a load is at its node.
-const NEAR: f64 = 1e-9;
+use plan::NEAR;
 
 impl Snapshot {
     /// Returns the number of nodes that the state must have: its own with a reel, else that of the cable.
@@ -56,7 +55,7 @@ impl Snapshot {
     }
 
     /// Returns the length in m that came through the eye at the start, on balance.
-    pub(super) fn passed_at_start(&self) -> f64 {
+    pub(crate) fn passed_at_start(&self) -> f64 {
         self.windings[Side::Start as usize].map_or(0.0, |winding| winding.passed)
     }
 }

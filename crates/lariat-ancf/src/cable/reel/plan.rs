@@ -10,46 +10,16 @@
 //! A plan for every step: what is asked for is reached within the first one. At 60 to 120 Hz in steps of 1/240 s a sine of the rate was followed by a staircase, and a
 //! pendulum whose length has that rate was off by up to 2e-3 of its length in 10 s.
 
-use super::{NEAR, Winding};
+use super::winding::{Plan, Winding};
 use crate::cable::Cable;
 use crate::element::side::Side;
 use crate::reel::{Feed, Reel};
 use crate::system::{Law, Motor, MotorState, STOP, rates};
-use serde::{Deserialize, Serialize};
 
+/// Share of the length of an element within which a load is at its node.
+pub(super) const NEAR: f64 = 1e-9;
 /// Least length of the element at the eye, as a share of its full length.
 pub(super) const LEAST: f64 = 0.4;
-
-/// The rate of a host step.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub(super) struct Plan {
-    /// Times in s at which the host step begins and ends.
-    begin: f64,
-    end: f64,
-    /// Rate in m/s at its end; without meaning for a motor.
-    rate: f64,
-    /// Whether an end of the cable stops it.
-    pub stopped: bool,
-}
-
-impl Plan {
-    /// Returns what is left in s of the host step for a step of `h` (s) at `time` (s) and those after it; `None` if it has ended.
-    pub fn left(&self, time: f64, h: f64) -> Option<f64> {
-        let left = self.end - time;
-        // the last one ends with the host step, which is a sum with rounding
-        (time >= self.begin && left > 0.5 * h).then_some(if left < 1.5 * h { h } else { left })
-    }
-
-    /// Returns the acceleration in m/s^2 of a step from a rate in m/s, of which so much in s is left.
-    pub fn acceleration(&self, rate: f64, left: f64) -> f64 {
-        (self.rate - rate) / left
-    }
-
-    /// Returns the numbers, to check them.
-    pub fn numbers(&self) -> [f64; 3] {
-        [self.begin, self.end, self.rate]
-    }
-}
 
 impl Cable {
     /// Plans the rates of the reels for the coming host step of `dt` (s), which the caller takes in several steps: they are linear over all of it, but for one in which

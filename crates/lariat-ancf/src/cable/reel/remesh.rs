@@ -36,9 +36,9 @@ use crate::element::flow::flow_weights;
 use crate::element::shape;
 use crate::element::side::Side;
 use crate::error::Error;
-use crate::integrate::discrete_gradient::Differences;
 use crate::quadrature::gauss_legendre;
 use crate::section::Element;
+use crate::state::Differences;
 use crate::system::project_vector;
 use nalgebra::Vector3;
 

@@ -1,11 +1,10 @@
-//! A host step of a cable with a reel: in parts in which little material passes the eye.
+//! The reels of a cable in a part of a host step, in which little material passes the eye.
 
-use super::Winding;
 use crate::cable::Cable;
 use crate::element::flow::Extent;
 use crate::element::side::Side;
 use crate::error::{Error, require};
-use crate::integrate::{IntegratorRef, OneStep, WorkLimit};
+use crate::integrate::OneStep;
 use crate::reel::{Feed, Reel};
 
 /// Largest length of material that passes the eye in a part of a host step, as a share of an element.
@@ -20,7 +19,7 @@ impl Cable {
     ///
     /// # Errors
     /// [`Error::InvalidValue`] for a rate that needs more than 1e5.
-    fn reel_parts(&self, dt: f64) -> Result<usize, Error> {
+    pub(crate) fn reel_parts(&self, dt: f64) -> Result<usize, Error> {
         let mut most = 1.0;
         for side in self.model.reels.sides() {
             let full = self.model.reels.least_length();
@@ -30,6 +29,12 @@ impl Cable {
             most = f64::max(most, parts);
         }
         Ok(most as usize)
+    }
+
+    /// Returns whether the rate of a reel in the coming `dt` (s) is planned already.
+    pub(crate) fn is_reel_planned(&self, dt: f64) -> bool {
+        let plans = self.snapshot.windings.iter().flatten().filter_map(|winding| winding.plan);
+        plans.into_iter().any(|plan| plan.left(self.time(), dt).is_some())
     }
 
     /// Sets the rates of the reels for a part of length `h` (s).
@@ -176,37 +181,6 @@ impl Cable {
         let rows = reel.rate.iter().filter(|row| row[0] > self.time() && row[0] < self.time() + dt);
         let asked = rows.map(|row| row[1].abs()).fold(reel.asked(self.time()).abs(), f64::max);
         rate.max(asked.min(rate + reel.acceleration * dt))
-    }
-
-    /// Advances a cable with a reel by `dt` (s).
-    pub(crate) fn step_with_reel(&mut self, dt: f64, integrator: IntegratorRef<'_>) -> Result<(), Error> {
-        let parts = self.reel_parts(dt)?;
-        self.set_riding_stock(|_| false);
-        let end = self.time() + dt;
-        let before = (parts > 1).then(|| Box::new(self.clone()));
-        let is_planned = |winding: &Winding| winding.plan.is_some_and(|plan| plan.left(self.time(), dt).is_some());
-        if parts > 1 && !self.snapshot.windings.iter().flatten().any(is_planned) {
-            self.plan_reels(dt);
-        }
-        for part in 0..parts {
-            let h = (end - self.time()) / (parts - part) as f64;
-            self.begin_reel(h);
-            let outcome = self.with_workspace(|cable| cable.step_in_workspace(h, integrator));
-            if outcome.is_ok() && part + 1 == parts && !integrator.limit.is_some_and(WorkLimit::has_stopped) {
-                self.snapshot.state.time = end;
-            }
-            self.end_reel(outcome.is_ok());
-            if let Err(error) = outcome.and_then(|()| self.remesh_reel()) {
-                if let Some(before) = before {
-                    *self = *before;
-                }
-                return Err(error);
-            }
-            if integrator.limit.is_some_and(WorkLimit::has_stopped) {
-                return Ok(());
-            }
-        }
-        Ok(())
     }
 }
 

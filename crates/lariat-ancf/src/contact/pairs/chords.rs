@@ -13,10 +13,10 @@
 //!
 //! Ericson, Real-Time Collision Detection, 2005, section 5.1.9.
 
-use super::super::point::combine;
-use super::memory::PairMemory;
 use crate::element::shape;
+use crate::element::shape::combine;
 use crate::model::Model;
+use crate::state::PairMemory;
 use nalgebra::Vector3;
 
 /// Longest chord in radii.

@@ -40,11 +40,11 @@
 mod chords;
 mod crossing;
 mod impact;
-mod memory;
 mod point;
 mod search;
 mod solve;
 mod step;
+mod touch;
 
 /// Cables of an island that may touch each other.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -57,7 +57,7 @@ pub struct CablePair {
 
 pub(crate) use chords::Strand;
 pub(in crate::contact) use crossing::crossing;
-pub use memory::{PairMemory, PairTouch};
 pub(crate) use search::Strands;
 pub(crate) use solve::{LowRank, PairSystem, Row};
 pub(crate) use step::PairStep;
+pub use touch::PairTouch;

@@ -1,9 +1,10 @@
 //! One contact of two cables over a step: its frame, its slip, and its forces on both.
 
 use super::super::path::{BodyPath, ObstacleStep};
-use super::super::point::{ContactPoint, combine};
-use super::super::rigid_motion::Mount;
+use super::super::point::ContactPoint;
 use super::Strand;
+use crate::element::shape::combine;
+use crate::obstacle::Mount;
 use nalgebra::{Matrix3, UnitQuaternion, Vector3};
 
 /// Weight e of the direction of y beside those of the tangents.

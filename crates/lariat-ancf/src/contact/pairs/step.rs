@@ -2,16 +2,16 @@
 
 use super::super::ContactBalance;
 use super::super::law::NormalLaw;
-use super::super::memory::ContactMemory;
-use super::super::patch::Patch;
-use super::super::point::{ContactPoint, OFFSET_TIME_OF_PAIRS, PAID, combine};
+use super::super::point::{ContactPoint, OFFSET_TIME_OF_PAIRS, PAID};
 use super::chords::{Piece, Strand};
-use super::memory::PairMemory;
 use super::point::{End, PairPoint, frame};
 use super::search::{Candidate, NEAR, Search, Strands};
 use super::solve::LowRank;
-use crate::element::shape;
-use crate::integrate::discrete_gradient::BETA;
+use crate::element::shape::{self, combine};
+use crate::obstacle::Patch;
+use crate::one_leg::BETA;
+use crate::state::ContactMemory;
+use crate::state::PairMemory;
 use nalgebra::Vector3;
 
 /// Distance in reaches along both cables over which a contact hands on what it remembers, beside the way of the step: a little less than the longest
@@ -154,7 +154,10 @@ impl PairStep {
             xi: candidate.xi[0],
             shape: ends[0].shape,
             weight: sections[0].length / chords as f64,
-            law: NormalLaw::in_series(one.law_of(&sections[0].section), other.law_of(&sections[1].section)),
+            law: NormalLaw::in_series(
+                NormalLaw::of(&one, &sections[0].section),
+                NormalLaw::of(&other, &sections[1].section),
+            ),
             friction,
             reach: candidate.reach,
             patch: Patch::Plane { point: Vector3::zeros(), normal },

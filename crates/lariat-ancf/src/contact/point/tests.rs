@@ -1,8 +1,8 @@
 //! A contact over a step: its tangent, and its energy.
 
 use super::super::path::BodyPath;
-use super::super::rigid_motion::{Mount, RigidMotion};
 use super::*;
+use crate::obstacle::{Mount, RigidMotion};
 use nalgebra::UnitQuaternion;
 
 fn point(patch: Patch, friction: f64) -> ContactPoint {

@@ -14,8 +14,8 @@ use super::Split;
 use super::lanes::{DragTable, Lanes, PAIRS, combine};
 use crate::effect::acts::StepInput;
 use crate::element::gram::dot;
-use crate::integrate::discrete_gradient::BETA;
 use crate::linalg::BlockTridiagonal;
+use crate::one_leg::BETA;
 use crate::simd::{LANES, load};
 use fearless_simd::{Simd, SimdBase};
 

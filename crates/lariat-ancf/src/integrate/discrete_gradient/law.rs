@@ -1,6 +1,5 @@
 //! The energy law of a step by its terms, and what a system must be able to do.
 
-use crate::contact::ContactBalance;
 use crate::error::StepFailure;
 use serde::{Deserialize, Serialize};
 
@@ -141,18 +140,6 @@ impl Balance {
         self.imbalance += other.imbalance;
         (0..3).for_each(|i| self.drift[i] += other.drift[i]);
         self.impulse += other.impulse;
-    }
-
-    /// Adds what contacts do in a step of length `h` (s).
-    pub fn add_contacts(&mut self, contacts: &ContactBalance, h: f64) {
-        self.near = true;
-        self.held += contacts.before;
-        self.contacts += contacts.loss;
-        self.left += contacts.left;
-        self.obstacles += contacts.obstacles;
-        self.missed += contacts.missed;
-        self.forces += contacts.forces;
-        self.impulse += h * contacts.forces;
     }
 
     /// Returns what the method itself loses.

@@ -49,16 +49,14 @@
 //! energy instead of a quarter; three factorisations per step instead of 1.65.
 
 mod advance;
-mod buffers;
 mod law;
 mod relaxation;
 mod safeguard;
 
 use super::{Dynamics, OneStep, Scratch, State, StepRequest};
 use crate::error::StepFailure;
+pub use crate::state::Differences;
 pub(crate) use advance::advance;
-pub(crate) use buffers::Buffers;
-pub use buffers::Differences;
 pub use law::EnergyLaw;
 pub(crate) use law::{Balance, Closing, DiscreteGradientSystem, Event, share_of_impact, share_to_take, sum_of_forces};
 
@@ -85,8 +83,3 @@ impl OneStep for DiscreteGradient {
         Err(StepFailure::NoDiscreteGradient)
     }
 }
-
-/// Coefficient a of the one-leg formula.
-pub(crate) const ALPHA: f64 = 1.0 / 16.0;
-/// Coefficient b = 1/2 + a.
-pub(crate) const BETA: f64 = 0.5 + ALPHA;

@@ -25,11 +25,12 @@
 //!
 //! The midpoint rule in the rotation vector of the [other integrators](super::rotation): it keeps neither energy nor angular momentum.
 
-use super::rescale::RigidMotion;
+use super::rigid::RigidMotion;
 use crate::contact::{BodyPath, When};
-use crate::integrate::discrete_gradient::{ALPHA, BETA, Balance, sum_of_forces};
+use crate::integrate::discrete_gradient::{Balance, sum_of_forces};
 use crate::island::body::{BodyDifferences, RigidBody};
 use crate::model::STANDARD_GRAVITY;
+use crate::one_leg::{ALPHA, BETA};
 use crate::system::angular::{Momenta, Turn};
 use nalgebra::{Matrix3, Matrix6, Quaternion, UnitQuaternion, Vector3, Vector6};
 

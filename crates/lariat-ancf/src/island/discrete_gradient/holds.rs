@@ -13,10 +13,11 @@
 //! closing of a gap and the rotation of a clamp into its direction do work, which counts as that of a support.
 
 use super::body::BodyStep;
-use crate::integrate::State;
-use crate::integrate::discrete_gradient::{ALPHA, BETA, Buffers};
 use crate::island::hold::{Hold, vector};
 use crate::island::layout::Layout;
+use crate::one_leg::{ALPHA, BETA};
+use crate::state::State;
+use crate::system::StepVectors;
 use nalgebra::{Matrix3, Vector3};
 
 /// A hold over a step.
@@ -49,7 +50,7 @@ impl HoldStep {
     }
 
     /// Sets the held coordinates of the iterate to where the body is.
-    pub fn follow(&mut self, layout: &Layout, body: &BodyStep, state: &State, b: &mut Buffers) {
+    pub fn follow(&mut self, layout: &Layout, body: &BodyStep, state: &State, b: &mut StepVectors) {
         let (time, h) = (state.time, b.h);
         let start = vector(&state.q[self.at..]);
         let change = if self.slope {

@@ -7,13 +7,14 @@
 use super::{IslandStep, StepBuffers};
 use crate::cable::Cable;
 use crate::error::{Error, StepFailure};
-use crate::integrate::{ErrorNorm, IntegratorRef, State, discrete_gradient};
+use crate::integrate::{ErrorNorm, IntegratorRef, discrete_gradient};
 use crate::island::body::{BodyMemory, RigidBody};
 use crate::island::dynamics::{IslandDynamics, Vectors};
 use crate::island::equations::{IslandEquations, Matrices};
 use crate::island::hold::vector;
 use crate::island::layout::Layout;
 use crate::island::pin_accounts::PinAccounts;
+use crate::state::State;
 use nalgebra::Vector3;
 
 /// The parts of an island that a host step needs.

@@ -3,9 +3,12 @@
 use super::super::hold::vector;
 use super::IslandStep;
 use super::coupled::coupled_product;
-use crate::contact::{combine, solves_again};
-use crate::integrate::discrete_gradient::{ALPHA, Balance, Buffers, share_of_impact};
+use crate::contact::solves_again;
+use crate::element::shape::combine;
+use crate::integrate::discrete_gradient::{Balance, share_of_impact};
+use crate::one_leg::ALPHA;
 use crate::system::CableStep;
+use crate::system::StepVectors;
 use nalgebra::Vector3;
 
 impl IslandStep<'_, '_> {
@@ -39,7 +42,7 @@ impl IslandStep<'_, '_> {
             let CableStep { mut equations, buffers, .. } = cable.step_parts();
             let own = equations.energy_of_impacts(buffers);
             (taken, held) = (taken + own[0], held + own[1]);
-            let Buffers { contact, landed, .. } = &*buffers;
+            let StepVectors { contact, landed, .. } = &*buffers;
             work += contact.work_of_impacts(|e, shape| combine(landed, e, shape));
         }
         let coupled = &self.buffers.coupled;
@@ -62,7 +65,7 @@ impl IslandStep<'_, '_> {
     fn solve_impacts(&mut self) {
         self.buffers.rows.fill(0.0);
         for cable in self.cables.iter_mut() {
-            let Buffers { landed, rhs, .. } = &mut cable.step_buffers;
+            let StepVectors { landed, rhs, .. } = &mut cable.step_buffers;
             landed.clear();
             landed.resize(rhs.len(), 0.0);
         }
@@ -72,7 +75,7 @@ impl IslandStep<'_, '_> {
             own.iter_mut().zip(impulse).for_each(|(x, impulse)| *x += impulse);
         });
         for (cable, own) in self.cables.iter_mut().zip(&self.buffers.cables) {
-            let Buffers { contact, landed, rhs, .. } = &mut cable.step_buffers;
+            let StepVectors { contact, landed, rhs, .. } = &mut cable.step_buffers;
             contact.pass_impacts(landed, &mut self.buffers.rows);
             for hold in &own.holds {
                 hold.pass(&vector(&landed[hold.at..]), &mut self.buffers.rows);
@@ -82,7 +85,7 @@ impl IslandStep<'_, '_> {
         }
         self.solve();
         for cable in self.cables.iter_mut() {
-            let Buffers { landed, rhs, .. } = &mut cable.step_buffers;
+            let StepVectors { landed, rhs, .. } = &mut cable.step_buffers;
             core::mem::swap(landed, rhs);
         }
         let rows = &self.buffers.rows;
@@ -96,7 +99,7 @@ impl IslandStep<'_, '_> {
         let rows = &self.buffers.rows;
         let of_body = |i: usize, arm: &Vector3<f64>| vector(&rows[6 * i..]) + vector(&rows[6 * i + 3..]).cross(arm);
         let on_obstacles = self.cables.iter_mut().fold(false, |any, cable| {
-            let Buffers { contact, landed, .. } = &mut cable.step_buffers;
+            let StepVectors { contact, landed, .. } = &mut cable.step_buffers;
             contact.settle_impacts(|e, shape| combine(landed, e, shape), of_body) || any
         });
         let cables = &*self.cables;

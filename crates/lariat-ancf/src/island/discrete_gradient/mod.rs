@@ -22,6 +22,7 @@ mod impact;
 mod laws;
 mod pairs;
 mod rescale;
+mod rigid;
 mod solve;
 
 pub(super) use host_step::HostStep;
@@ -36,9 +37,10 @@ use crate::cable::Cable;
 use crate::contact::{BodyPath, CablePair, PairStep};
 use crate::effect::EffectWork;
 use crate::error::StepFailure;
-use crate::integrate::State;
-use crate::integrate::discrete_gradient::{Balance, Buffers, Closing, DiscreteGradientSystem, Event, sum_of_forces};
+use crate::integrate::discrete_gradient::{Balance, Closing, DiscreteGradientSystem, Event, sum_of_forces};
+use crate::state::State;
 use crate::support::SlopeSupport;
+use crate::system::StepVectors;
 use crate::system::{CableStep, System, Unknowns, dot, project_vector};
 use body::BodyStep;
 use coupled::{add_coupled_energies, complete_rows};
@@ -174,7 +176,7 @@ impl IslandStep<'_, '_> {
         }
         self.balance_wheels(&mut total);
         if let Some(pairs) = pairs {
-            total.add_contacts(&pairs, self.cables[0].step_buffers.h);
+            pairs.add_to(&mut total, self.cables[0].step_buffers.h);
             self.cables[0].system.meter.work_of_step.contact += pairs.work;
         }
         total
@@ -191,8 +193,8 @@ impl CableBuffers {
     }
 
     /// Gives the momentum that the step leaves beside the reactions to the pins.
-    fn give_momentum(&self, c: usize, system: &System, state: &State, b: &mut Buffers, accounts: &mut PinAccounts) {
-        let Buffers { rhs, external, product, velocity_change, taken, landed, change, .. } = b;
+    fn give_momentum(&self, c: usize, system: &System, state: &State, b: &mut StepVectors, accounts: &mut PinAccounts) {
+        let StepVectors { rhs, external, product, velocity_change, taken, landed, change, .. } = b;
         let taken_at = |i: usize| taken.get(i).unwrap_or(&0.0) + landed.get(i).unwrap_or(&0.0);
         external.iter_mut().enumerate().for_each(|(i, w)| *w = taken_at(i));
         system.mass.multiply(system.level, external, product);

@@ -18,40 +18,12 @@
 use super::IslandStep;
 use super::body::BodyStep;
 use super::coupled::coupled_product;
-use crate::integrate::discrete_gradient::{Balance, Buffers, share_to_take};
+use super::rigid::RigidMotion;
+use crate::integrate::discrete_gradient::{Balance, share_to_take};
 use crate::island::hold::vector;
+use crate::system::StepVectors;
 use crate::system::{CableStep, Modes, dot, solve_semidefinite as solve};
 use nalgebra::{Matrix6, Vector3, Vector6};
-
-/// Share of a velocity by which two that are the same may differ: bodies of an engine in single precision.
-const ROUNDING: f64 = 1e-6;
-
-/// A rigid motion.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(in crate::island) struct RigidMotion {
-    centre: Vector3<f64>,
-    velocity: Vector3<f64>,
-    pub spin: Vector3<f64>,
-}
-
-impl RigidMotion {
-    /// Returns the velocity in m/s at a point.
-    pub fn at(&self, point: &Vector3<f64>) -> Vector3<f64> {
-        self.velocity + self.spin.cross(&(point - self.centre))
-    }
-
-    /// Returns whether it is that of another, but for rounding: what holds a node is prescribed in any case.
-    fn agrees_with(&self, other: &RigidMotion) -> bool {
-        let same = |a: Vector3<f64>, b: Vector3<f64>| (a - b).norm() <= ROUNDING * a.norm().max(b.norm());
-        same(self.spin, other.spin) && same(self.at(&self.centre), other.at(&self.centre))
-    }
-
-    /// Returns that of a body at the end of the step.
-    fn of(body: &BodyStep) -> Self {
-        let [velocity, spin] = body.end_velocity();
-        RigidMotion { centre: body.position + body.displacement(), velocity, spin }
-    }
-}
 
 /// See [`DiscreteGradientSystem::rescale`](crate::integrate::discrete_gradient::DiscreteGradientSystem::rescale).
 pub(in crate::island) fn rescale(island: &mut IslandStep<'_, '_>, balance: &mut Balance, largest_share: f64) -> bool {
@@ -116,7 +88,7 @@ fn rigid_motion(island: &mut IslandStep<'_, '_>) -> RigidMotion {
         }
     }
     for body in island.buffers.bodies.iter().filter(|body| body.free != [true; 6]) {
-        let motion = RigidMotion::of(body);
+        let motion = motion_of(body);
         if !body.is_driven() || !motion.agrees_with(common.get_or_insert(motion)) {
             return RigidMotion::default();
         }
@@ -138,7 +110,7 @@ fn projection(island: &mut IslandStep<'_, '_>) -> RigidMotion {
     for cable in island.cables.iter_mut() {
         let CableStep { equations, state, buffers } = cable.step_parts();
         // the other buffers are free now
-        let Buffers { velocity_change, change, rhs, external, product, taken, .. } = &mut *buffers;
+        let StepVectors { velocity_change, change, rhs, external, product, taken, .. } = &mut *buffers;
         for i in 0..change.len() {
             rhs[i] = state.v[i] + velocity_change[i];
         }
@@ -185,4 +157,10 @@ fn mean_velocity(island: &mut IslandStep<'_, '_>) -> Vector3<f64> {
         mass += own;
     }
     momentum / mass
+}
+
+/// Returns the rigid motion of a body at the end of the step.
+fn motion_of(body: &BodyStep) -> RigidMotion {
+    let [velocity, spin] = body.end_velocity();
+    RigidMotion { centre: body.position + body.displacement(), velocity, spin }
 }

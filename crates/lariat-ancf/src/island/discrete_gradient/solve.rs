@@ -6,7 +6,8 @@ use super::coupled::complete_rows;
 use super::{CableBuffers, IslandStep, StepBuffers};
 use crate::effect::EffectWork;
 use crate::error::StepFailure;
-use crate::integrate::discrete_gradient::{BETA, Buffers};
+use crate::one_leg::BETA;
+use crate::system::StepVectors;
 use crate::system::{CableStep, Equations, project_vector};
 
 impl IslandStep<'_, '_> {
@@ -79,7 +80,7 @@ impl IslandStep<'_, '_> {
             let CableStep { equations, buffers, .. } = cable.step_parts();
             own.at_bodies.clear();
             own.at_bodies.extend(own.holds.iter().flat_map(|hold| <[f64; 3]>::from(hold.moved(rows))));
-            let Buffers { contact, rhs, .. } = &mut *buffers;
+            let StepVectors { contact, rhs, .. } = &mut *buffers;
             for border in contact.borders() {
                 own.at_bodies.extend_from_slice(&rows[6 * border.body..6 * border.body + 6]);
             }

@@ -9,7 +9,8 @@ use crate::island::hold::vector;
 use crate::island::layout::Layout;
 use crate::island::pin::PinConstraint;
 use crate::island::rotation::{exponential, jacobian_inverse};
-use crate::statics::{LoadScale, first_fold, largest_force, move_with_supports, potential, straighten};
+use crate::model::{LoadScale, largest_force};
+use crate::statics::{first_fold, move_with_supports, potential, straighten};
 use crate::system::project_vector;
 use nalgebra::Vector3;
 

@@ -34,9 +34,10 @@
 //!
 //! A rate that follows the spin of the step before: it makes energy with a light drum.
 
-use super::{Flow, Unknowns};
+use super::Flow;
 use crate::element::side::Side;
-use crate::integrate::discrete_gradient::{BETA, Balance};
+use crate::integrate::discrete_gradient::Balance;
+use crate::one_leg::BETA;
 use nalgebra::Vector3;
 
 /// A drum in a step.
@@ -59,7 +60,7 @@ pub(crate) struct Winch {
     /// Unknown of its flow.
     pub reel: usize,
     /// Sign of the stop at which it is, or 0.
-    stop: f64,
+    pub(super) stop: f64,
 }
 
 impl Winch {
@@ -93,7 +94,7 @@ impl Winch {
     }
 
     /// Returns s.x: the increment of the acceleration by increments of the bodies over a step of `h` (s).
-    fn turned(&self, rows: &[f64], h: f64) -> f64 {
+    pub(super) fn turned(&self, rows: &[f64], h: f64) -> f64 {
         let along = |body: usize| (0..3).map(|x| self.arm[x] * rows[6 * body + 3 + x]).sum::<f64>();
         2.0 * BETA / h * self.signs().map(|(body, sign)| sign * along(body)).sum::<f64>()
     }
@@ -128,26 +129,6 @@ impl Pair {
         match stop(x) {
             Some(x) if q != 0.0 => ([x, (self.spin - (1.0 + p) * x) / q], (free[0] - x).signum()),
             _ => (free, 0.0),
-        }
-    }
-}
-
-impl Unknowns {
-    /// Computes what increments of the bodies turn the drums by: `rows` are those with all rates as they are.
-    pub(super) fn turn_drums(&mut self, rows: &[f64], h: f64) {
-        self.turned.clear();
-        for winch in &self.winches {
-            self.turned.push(winch.turned(rows, h));
-            self.turned.extend(self.rows.iter().map(|column| winch.turned(column, h)));
-        }
-    }
-
-    /// Adds the increments of T to the iterate.
-    pub fn add_to_drums(&mut self) {
-        let count = self.reels.len();
-        for (k, winch) in self.winches.iter_mut().enumerate() {
-            winch.force += self.increments[count + k];
-            winch.stop = self.stops[k];
         }
     }
 }

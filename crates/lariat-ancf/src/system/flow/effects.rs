@@ -29,9 +29,9 @@ use crate::dual::{Dual, constant};
 use crate::effect::acts::ForceInput;
 use crate::element::flow::{Extent, dot};
 use crate::element::shape;
-use crate::integrate::State;
-use crate::integrate::discrete_gradient::Buffers;
 use crate::model::Model;
+use crate::state::State;
+use crate::system::StepVectors;
 use crate::system::System;
 
 /// Returns e_w of coordinates seen from the far node.
@@ -82,7 +82,7 @@ impl Flows {
 
     /// Makes of the mean velocities of a step of the discrete gradient those of the material; its lengths are those of the present iterate
     /// from now on if the equations are made linear about it.
-    pub fn add_drift_over_step(&mut self, state: &State, b: &mut Buffers, linearise: bool) {
+    pub fn add_drift_over_step(&mut self, state: &State, b: &mut StepVectors, linearise: bool) {
         let [middle, velocity, middle_before, velocity_before] = &mut b.means;
         for flow in &mut self.list {
             if linearise {
@@ -104,7 +104,7 @@ impl Flows {
     }
 
     /// Returns the work in J that constant forces on the nodes do through the changes of lengths in a step of the discrete gradient.
-    pub fn work_on_lengths(&self, state: &State, b: &Buffers, force: &[f64]) -> f64 {
+    pub fn work_on_lengths(&self, state: &State, b: &StepVectors, force: &[f64]) -> f64 {
         let work = |flow: &Flow| {
             let mean = flow.over(state.time, b.h).0;
             b.h * mean.rate * flow.on_length(mean.length, &b.means[0], force)

@@ -37,14 +37,8 @@
 //! coordinate of every integrator. A limit on acceleration that begins at the rate of the wheel: a wheel that has slipped, because stretch was let go, is led back
 //! so slowly that the rope falls slack, and a brake stops nothing faster than that limit.
 
-use super::{Flow, Flows};
 use crate::element::flow::Extent;
 use crate::error::{Error, require};
-use crate::integrate::State;
-use crate::integrate::discrete_gradient::{Balance, Buffers};
-use crate::model::Model;
-use crate::reel::Feed;
-use crate::system::Equations;
 use serde::{Deserialize, Serialize};
 
 /// Least and largest length of an element at the end of an iterate, as a multiple of that at the beginning.
@@ -106,63 +100,22 @@ impl MotorState {
 /// A motor, and the unknown over a step of the integrator.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Law {
-    motor: Motor,
+    pub(super) motor: Motor,
     /// Time in s at which the host step began.
-    begun: f64,
+    pub(super) begun: f64,
     /// Commanded rate in m/s at the end of the step.
-    commanded: f64,
+    pub(super) commanded: f64,
     /// Largest force of the motor in N, in the mean of the step.
-    limit: f64,
+    pub(super) limit: f64,
     /// Accelerations of the step: least, wanted, largest.
-    planned: [f64; 3],
+    pub(super) planned: [f64; 3],
     /// Accelerations beyond which no iterate goes.
-    reach: [f64; 2],
+    pub(super) reach: [f64; 2],
     /// Derivatives of the force of the motor by the velocity changes of the element, and by the acceleration.
     pub(super) row: [f64; 12],
     pub(super) own: f64,
     /// Force of the motor in the last iterate, in N; at a sheave the pull.
     pub(super) force: f64,
-}
-
-impl Flow {
-    /// Returns the pull in N in the last iterate, at a sheave.
-    pub(super) fn pull_of_iterate(&self) -> f64 {
-        self.law.map_or(0.0, |law| law.force)
-    }
-
-    /// Begins a step of length `h` (s) with another rate in m/s, that of a drum.
-    pub fn restart(&mut self, rate: f64, h: f64) {
-        self.extent.rate = rate;
-        if let Some(law) = &mut self.law {
-            law.begin(&self.extent, self.start, h);
-        }
-    }
-
-    /// Sets the acceleration that a drum gives; one beyond the reach of an iterate divides the step.
-    pub fn follow(&mut self, acceleration: f64) {
-        let [least, largest] = self.reach();
-        self.linearised = self.extent.acceleration;
-        self.extent.acceleration = acceleration.max(least).min(largest);
-        self.stopped = self.law.is_some_and(|law| law.stop(acceleration).is_some());
-    }
-
-    /// Returns whether a motor holds the rate that is asked for, with a force in N of the last iterate that it has.
-    fn sticks(&self) -> bool {
-        self.law.is_none_or(|law| {
-            let alone = !matches!(self.feed, Feed::Sheave | Feed::BodyDrum);
-            alone && self.extent.acceleration == law.bounded(law.planned[1]) && law.force.abs() <= law.limit
-        })
-    }
-
-    /// Returns the length in m that it can still take in.
-    pub(super) fn left(&self) -> f64 {
-        self.law.map_or(0.0, |law| self.extent.length - law.motor.bounds[0])
-    }
-
-    /// Returns the accelerations beyond which no iterate goes.
-    pub(super) fn reach(&self) -> [f64; 2] {
-        self.law.map_or([0.0; 2], |law| law.reach)
-    }
 }
 
 /// Returns the least and the largest rate in m/s after a step of length `h` (s) from where a reel can still stop, by an acceleration, within what is `left` of
@@ -187,14 +140,6 @@ pub(crate) fn rates(acceleration: f64, rate: f64, left: [f64; 2], h: f64) -> [f6
     [least, largest.max(least)]
 }
 
-impl Flows {
-    /// Returns whether all rates that could be unknown are as the last iterate has them: the motors of all [stick](Flow::sticks). If the result
-    /// of an iteration breaks a law, the next one solves for the rates.
-    pub fn stick(&self) -> bool {
-        self.list.iter().all(Flow::sticks)
-    }
-}
-
 impl Law {
     /// Creates the law of a motor for a host step that begins at a time in s.
     pub fn new(motor: Motor, begun: f64) -> Self {
@@ -211,7 +156,7 @@ impl Law {
     }
 
     /// Begins a step of length `h` (s) at `time` (s) from an extent.
-    fn begin(&mut self, flow: &Extent, time: f64, h: f64) {
+    pub(super) fn begin(&mut self, flow: &Extent, time: f64, h: f64) {
         let Extent { length, rate, .. } = *flow;
         let Motor { limits, duration, host, asked, acceleration, bounds, before, .. } = self.motor;
         let left = [length - bounds[0], bounds[1] - length];
@@ -230,7 +175,7 @@ impl Law {
     }
 
     /// Returns the acceleration that is nearest to one, within the stops and the reach of an iterate.
-    fn bounded(&self, acceleration: f64) -> f64 {
+    pub(super) fn bounded(&self, acceleration: f64) -> f64 {
         let [least, _, largest] = self.planned;
         acceleration.max(least).min(largest).max(self.reach[0]).min(self.reach[1])
     }
@@ -255,13 +200,8 @@ impl Law {
         self.bounded(wished)
     }
 
-    /// Returns the product of the row of a flow and the increments of the velocity changes of its cable.
-    pub(super) fn along_row(&self, flow: &Flow, increment: &[f64]) -> f64 {
-        self.row.iter().zip(flow.side.gather(increment)).map(|(a, b)| a * b).sum()
-    }
-
     /// Returns by how much the force of the motor in N breaks the law at an acceleration.
-    fn violation(&self, acceleration: f64) -> f64 {
+    pub(super) fn violation(&self, acceleration: f64) -> f64 {
         let [least, wanted, largest] = self.planned;
         let rounding = 1e-12 * (1.0 + acceleration.abs());
         let limit = self.limit;
@@ -278,91 +218,5 @@ impl Law {
         } else {
             (self.force - limit.copysign(acceleration - wanted)).abs()
         }
-    }
-}
-
-impl Flow {
-    /// Returns the force in N of the motor at an extent, from the force on the length.
-    pub(super) fn motor(&self, model: &Model, extent: Extent, q: &[f64; 12], on_length: f64) -> f64 {
-        let element = self.with(model, extent);
-        let wheel = self.law.map_or(0.0, |law| {
-            let stock = (law.motor.bounds[1] - extent.length).max(0.0);
-            let wound = matches!(self.feed, Feed::Drum | Feed::BodyDrum) && stock.is_finite();
-            law.motor.wheel + if wound { element.inertia * stock } else { 0.0 }
-        });
-        self.feed.pull(&element, q, on_length) - wheel * extent.acceleration
-    }
-}
-
-impl Equations<'_> {
-    /// Begins a step of length `h` (s) for reels whose rate is unknown: sets the first iterate.
-    pub fn begin_laws(&mut self, time: f64, h: f64) {
-        for flow in self.system.flows.list.iter_mut() {
-            if !flow.extent.acceleration.is_finite() {
-                // left by the last iterate of a step that failed
-                flow.extent.acceleration = 0.0;
-            }
-            let extent = flow.at(time);
-            let Some(law) = &mut flow.law else { continue };
-            flow.on_length.begin = None;
-            if flow.feed == Feed::BodyDrum && (flow.start != time || flow.left_rate.is_none()) {
-                flow.left_rate = Some(extent.rate);
-            }
-            let slipped = flow.extent.acceleration != law.planned[1];
-            (flow.start, flow.extent) = (time, extent);
-            law.begin(&extent, time, h);
-            let [least, wanted, largest] = law.planned;
-            flow.extent.acceleration = law.bounded(if slipped { extent.acceleration } else { wanted });
-            flow.stopped = wanted == least || wanted == largest;
-        }
-    }
-
-    /// Returns the middle and the mean rates of the element at an eye over the present iterate.
-    pub(super) fn motion_of_step(&self, flow: &Flow, state: &State, b: &Buffers) -> [[f64; 12]; 3] {
-        let rate = 1.0 / b.h;
-        let [velocity, acceleration] = [&b.change, &b.velocity_change].map(|x| flow.side.gather(x).map(|x| rate * x));
-        [self.middle_of_step(flow, state, b), velocity, acceleration]
-    }
-
-    /// Computes the forces of the motors of the present iterate.
-    pub fn read_motors(&mut self, state: &State, b: &Buffers) {
-        for k in 0..self.system.flows.list.len() {
-            let flow = &self.system.flows.list[k];
-            if flow.law.is_none() {
-                continue;
-            }
-            let on_length = self.on_length_of_step(flow, state, b);
-            let (mean, q) = (flow.over(state.time, b.h).0, self.middle_of_step(flow, state, b));
-            let force = flow.motor(self.model, mean, &q, on_length.force) + flow.lost(self.model, &q, mean.rate);
-            let flow = &mut self.system.flows.list[k];
-            flow.on_length = on_length;
-            flow.law.iter_mut().for_each(|law| law.force = force);
-        }
-    }
-
-    /// Adds to a balance by how much the motors break their laws.
-    pub fn balance_motors(&mut self, state: &State, b: &Buffers, balance: &mut Balance) {
-        self.read_motors(state, b);
-        for flow in &self.system.flows.list {
-            if let Some(law) = &flow.law {
-                let acceleration = flow.extent.acceleration;
-                // a sheave has one law for both of its flows, and a drum that of its body
-                if !matches!(flow.feed, Feed::Sheave | Feed::BodyDrum) {
-                    balance.slip[0] += law.violation(acceleration);
-                    balance.slip[1] += law.force.abs();
-                }
-                if law.reach.contains(&acceleration) {
-                    // no law of energy: the step is divided
-                    balance.residual = f64::NAN;
-                }
-            }
-        }
-    }
-
-    /// Adds an increment to the acceleration of the iterate.
-    pub fn add_to_law(&mut self, k: usize, increment: f64) {
-        let flow = &mut self.system.flows.list[k];
-        flow.linearised = flow.extent.acceleration;
-        flow.extent.acceleration += increment;
     }
 }

@@ -17,19 +17,21 @@
 //! Exact for the motion above, else to first order of the step; but for drag, whose coefficients in the step are those of the iterate before, and for its dependence on the length.
 
 use super::effects::drift;
+use super::flows::control;
 use super::step::StepMotion;
 use super::work::strain_on_length;
-use super::{Flow, Source, control};
+use super::{Flow, Source};
 use crate::dual::{Dual, constant};
 use crate::effect::acts::Single;
 use crate::element::flow::{Extent, dot};
 use crate::element::gram::Control;
 use crate::element::kernel::Stiffness;
 use crate::element::step::ElementStep;
-use crate::integrate::State;
-use crate::integrate::discrete_gradient::{BETA, Buffers};
 use crate::model::Model;
+use crate::one_leg::BETA;
 use crate::simd::dispatch;
+use crate::state::State;
+use crate::system::StepVectors;
 use crate::system::{Equations, System};
 
 /// Increment of an acceleration in m/s^2 by which tangents of inertia are read.
@@ -51,12 +53,12 @@ struct OfLength {
 
 impl Equations<'_> {
     /// Linearises flow `k` about the present iterate, whose motors have been [read](Self::read_motors), and writes the column c to `out`.
-    pub fn linearise_law(&mut self, k: usize, state: &State, b: &Buffers, out: &mut Vec<f64>) {
+    pub fn linearise_law(&mut self, k: usize, state: &State, b: &StepVectors, out: &mut Vec<f64>) {
         dispatch!(self.system.level, _simd => self.linearise_in_lanes(k, state, b, out));
     }
 
     #[inline(always)]
-    fn linearise_in_lanes(&mut self, k: usize, state: &State, b: &Buffers, out: &mut Vec<f64>) {
+    fn linearise_in_lanes(&mut self, k: usize, state: &State, b: &StepVectors, out: &mut Vec<f64>) {
         let flow = self.system.flows.list[k];
         let Some(mut law) = flow.law else { return };
         let (model, system, h) = (self.model, &*self.system, b.h);
@@ -269,7 +271,7 @@ mod tests {
                 equations.linearise_law(0, state, b, &mut column);
                 let law = equations.system.flows.list[0].law.unwrap();
                 let present = equations.system.flows.list[0].extent.acceleration;
-                let mut at = |b: &mut Buffers, acceleration: f64| {
+                let mut at = |b: &mut StepVectors, acceleration: f64| {
                     equations.system.flows.list[0].extent.acceleration = acceleration;
                     equations.step_residual(state, b, false, &mut EffectWork::default());
                     equations.read_motors(state, b);
@@ -289,7 +291,7 @@ mod tests {
                         local[i] = 1e-6;
                         let mut moved = vec![0.0; b.change.len()];
                         side.add(&local, &mut moved);
-                        let by = |b: &mut Buffers, sign: f64| {
+                        let by = |b: &mut StepVectors, sign: f64| {
                             for k in 0..moved.len() {
                                 b.velocity_change[k] += sign * moved[k];
                                 b.change[k] += sign * BETA * h * moved[k];
@@ -315,7 +317,7 @@ mod tests {
                 let mut local = [0.0; 12];
                 local.iter_mut().zip(moving).for_each(|(own, x)| *own = x);
                 side.add(&local, &mut motion);
-                let along = |b: &mut Buffers, by: f64| {
+                let along = |b: &mut StepVectors, by: f64| {
                     for k in 0..motion.len() {
                         b.velocity_change[k] += by * motion[k];
                         b.change[k] += by * BETA * h * motion[k];

@@ -1,13 +1,15 @@
 //! Elements at eyes over a step of the [discrete gradient](crate::integrate::discrete_gradient): see [`flow`](super).
 
+use super::flows::Impulse;
 use super::{Flow, Flows, Source};
 use crate::element::flow::{FlowElement, Table, add_product};
 use crate::element::mass;
-use crate::integrate::State;
-use crate::integrate::discrete_gradient::{BETA, Buffers};
 use crate::model::Model;
+use crate::one_leg::BETA;
 use crate::simd::dispatch;
+use crate::state::State;
 use crate::system::Equations;
+use crate::system::StepVectors;
 
 /// True iterates of an eye: change, linearised, change of the step before.
 type Iterates = [[f64; 3]; 3];
@@ -15,7 +17,7 @@ type Iterates = [[f64; 3]; 3];
 impl Equations<'_> {
     /// Sets the lengths of a step of the discrete gradient, and moves the eyes in its iterates to where they are on elements of the
     /// lengths at the beginning; returns the true iterates by flow.
-    pub fn begin_flow_step(&mut self, state: &State, b: &mut Buffers) -> [Iterates; 2] {
+    pub fn begin_flow_step(&mut self, state: &State, b: &mut StepVectors) -> [Iterates; 2] {
         let mut saved = [Iterates::default(); 2];
         for (k, saved) in (0..self.system.flows.list.len()).zip(&mut saved) {
             let (mean, [l0, l1]) = self.system.flows.list[k].over(state.time, b.h);
@@ -42,7 +44,7 @@ impl Equations<'_> {
     }
 
     /// Ends what [`begin_flow_step`](Self::begin_flow_step) began, and scales the forces of the elements on the eyes in the residual.
-    pub fn end_flow_step(&mut self, state: &State, b: &mut Buffers, saved: [Iterates; 2]) {
+    pub fn end_flow_step(&mut self, state: &State, b: &mut StepVectors, saved: [Iterates; 2]) {
         for (flow, saved) in self.system.flows.list.iter_mut().zip(saved) {
             let (_, [l0, l1]) = flow.over(state.time, b.h);
             let share = 0.5 * (1.0 + l0 / l1);
@@ -67,7 +69,7 @@ impl Equations<'_> {
 
     /// Adds the forces of the flows over a step of the discrete gradient to those without potential, and their derivatives to the
     /// matrix if it is asked for.
-    pub fn add_flows_over_step(&mut self, state: &State, b: &mut Buffers, matrix: bool) {
+    pub fn add_flows_over_step(&mut self, state: &State, b: &mut StepVectors, matrix: bool) {
         let (model, system) = (self.model, &mut *self.system);
         let (step, rate) = ((state.time, b.h), 1.0 / b.h);
         let Flows { list, impulses, .. } = &mut system.flows;
@@ -113,19 +115,10 @@ pub(super) struct StepMotion {
 
 impl StepMotion {
     /// Returns that of the present iterate.
-    pub fn of(flow: &Flow, state: &State, b: &Buffers) -> Self {
+    pub fn of(flow: &Flow, state: &State, b: &StepVectors) -> Self {
         let of = |x: &[f64]| flow.side.gather(x);
         StepMotion { q: [of(&state.q), of(&b.change)], v: [of(&state.v), of(&b.velocity_change)] }
     }
-}
-
-/// The impulse of the inertia of an element at an eye over a step by the coordinates at its beginning, their change, velocities there, and
-/// their change.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Impulse {
-    /// Time and length of the step in s.
-    step: (f64, f64),
-    tables: [Table; 4],
 }
 
 /// Returns a table by its entries.

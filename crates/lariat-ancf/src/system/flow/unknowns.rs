@@ -77,6 +77,24 @@ impl Unknowns {
         }
     }
 
+    /// Computes what increments of the bodies turn the drums by: `rows` are those with all rates as they are.
+    pub(super) fn turn_drums(&mut self, rows: &[f64], h: f64) {
+        self.turned.clear();
+        for winch in &self.winches {
+            self.turned.push(winch.turned(rows, h));
+            self.turned.extend(self.rows.iter().map(|column| winch.turned(column, h)));
+        }
+    }
+
+    /// Adds the increments of T to the iterate.
+    pub fn add_to_drums(&mut self) {
+        let count = self.reels.len();
+        for (k, winch) in self.winches.iter_mut().enumerate() {
+            winch.force += self.increments[count + k];
+            winch.stop = self.stops[k];
+        }
+    }
+
     /// Solves for the increments of all accelerations and adds them to the iterate. `flows` and `increment` return those of a cable,
     /// the increments of its velocity changes with all rates as they are; `rows` are those of the bodies over a step of `h` (s).
     pub fn solve<'a>(

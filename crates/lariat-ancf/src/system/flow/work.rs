@@ -35,15 +35,16 @@
 //! 1e-5, generalised-alpha 5e-5 with rho 0.5 and up to 1.6 % with others, by the same points. Strains on the line, and inertia at both ends
 //! with the mean acceleration: misses 3e-4 still. The middle alone misses up to a third of the work of a rope that is paid out.
 
-use super::{Flow, OnLength, Source, System, control};
+use super::flows::{OnLength, control};
+use super::{Flow, Source};
 use crate::effect::work::{POINTS, hermite};
 use crate::element::flow::{Extent, FlowElement};
-use crate::integrate::State;
-use crate::integrate::discrete_gradient::Buffers;
 use crate::model::Model;
 use crate::reel::Feed;
 use crate::simd::dispatch;
+use crate::state::State;
 use crate::system::Equations;
+use crate::system::{StepVectors, System};
 
 /// What a reel does, at an instant.
 #[derive(Clone, Copy, Debug, Default)]
@@ -113,7 +114,7 @@ impl Equations<'_> {
     }
 
     /// Returns the mean forces on the length over a step of the discrete gradient.
-    pub(super) fn on_length_of_step(&self, flow: &Flow, state: &State, b: &Buffers) -> OnLength {
+    pub(super) fn on_length_of_step(&self, flow: &Flow, state: &State, b: &StepVectors) -> OnLength {
         let (model, system) = (self.model, &*self.system);
         let (mean, [l0, l1]) = flow.over(state.time, b.h);
         let (start, change) = (flow.side.gather(&state.q), flow.side.gather(&b.change));
@@ -136,7 +137,7 @@ impl Equations<'_> {
     }
 
     /// Returns what entering material brings in N beside the force on the length, in the mean of a step of the discrete gradient.
-    fn entering_in_step(&self, flow: &Flow, element: &FlowElement, q: &[f64; 12], b: &Buffers) -> f64 {
+    fn entering_in_step(&self, flow: &Flow, element: &FlowElement, q: &[f64; 12], b: &StepVectors) -> f64 {
         let rate = element.extent.rate;
         match flow.source {
             Source::Outside => {
@@ -150,7 +151,7 @@ impl Equations<'_> {
     }
 
     /// Adds the work of winches and entering material over a step of the discrete gradient, and notes its lengths for the next one.
-    pub fn end_flows_of_step(&mut self, state: &State, b: &Buffers) {
+    pub fn end_flows_of_step(&mut self, state: &State, b: &StepVectors) {
         for k in 0..self.system.flows.list.len() {
             let flow = &self.system.flows.list[k];
             let (mean, [l0, l1]) = flow.over(state.time, b.h);
@@ -170,7 +171,7 @@ impl Equations<'_> {
 
 impl Equations<'_> {
     /// Returns the middle of the coordinates of the element at an eye over a step of the discrete gradient.
-    pub fn middle_of_step(&self, flow: &Flow, state: &State, b: &Buffers) -> [f64; 12] {
+    pub fn middle_of_step(&self, flow: &Flow, state: &State, b: &StepVectors) -> [f64; 12] {
         let (q, change) = (flow.side.gather(&state.q), flow.side.gather(&b.change));
         core::array::from_fn(|i| q[i] + 0.5 * change[i])
     }

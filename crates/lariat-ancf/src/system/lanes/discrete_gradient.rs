@@ -17,14 +17,14 @@
 
 use super::{Elements, Group, MatrixOutput};
 use crate::Real;
-use crate::bending::Bending;
-use crate::bending::t1::RHO;
 use crate::effect::tables::ElementTables;
+use crate::element::bending::Bending;
+use crate::element::bending::t1::RHO;
 use crate::element::gram::{Control, PAIR_WEIGHT, Six, contract, form, gradient, gram, gram_rates, hessian_block};
 use crate::element::kernel::{DiscreteGradientForce, Gradient, GramForce, GramStep, Hessian, Load, Stiffness};
 use crate::element::step::{ElementStep, STRAIGHT, combined, product, scaled, shifted};
-use crate::integrate::discrete_gradient::{ALPHA, BETA};
 use crate::linalg::Block;
+use crate::one_leg::{ALPHA, BETA};
 use crate::simd::{LANES, dispatch};
 use crate::system::elements::with_bending;
 use fearless_simd::{Level, Simd, SimdBase, f64x8};

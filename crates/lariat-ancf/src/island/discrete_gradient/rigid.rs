@@ -1,0 +1,27 @@
+//! Rigid motions of an island.
+
+use nalgebra::Vector3;
+
+/// Share of a velocity by which two that are the same may differ: bodies of an engine in single precision.
+const ROUNDING: f64 = 1e-6;
+
+/// A rigid motion.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(in crate::island) struct RigidMotion {
+    pub centre: Vector3<f64>,
+    pub velocity: Vector3<f64>,
+    pub spin: Vector3<f64>,
+}
+
+impl RigidMotion {
+    /// Returns the velocity in m/s at a point.
+    pub fn at(&self, point: &Vector3<f64>) -> Vector3<f64> {
+        self.velocity + self.spin.cross(&(point - self.centre))
+    }
+
+    /// Returns whether it is that of another, but for rounding: what holds a node is prescribed in any case.
+    pub fn agrees_with(&self, other: &RigidMotion) -> bool {
+        let same = |a: Vector3<f64>, b: Vector3<f64>| (a - b).norm() <= ROUNDING * a.norm().max(b.norm());
+        same(self.spin, other.spin) && same(self.at(&self.centre), other.at(&self.centre))
+    }
+}

@@ -1,0 +1,226 @@
+//! What a cable is made of: plain data from which everything else is rebuilt.
+
+mod scale;
+
+pub(crate) use scale::{LoadScale, largest_force};
+
+use crate::effect::acts::Acts;
+use crate::effect::force_density::ForceDensities;
+use crate::effect::tables::ElementTables;
+use crate::effect::{Damping, Effects, LineLoads, Target};
+use crate::error::{Error, require, require_finite};
+use crate::load::PointLoad;
+use crate::obstacle::Obstacles;
+use crate::reel::Reels;
+use crate::rule::Rule;
+use crate::section::Element;
+use crate::strength::Strength;
+use crate::support::Support;
+use nalgebra::Vector3;
+use serde::{Deserialize, Serialize};
+
+/// Gravity that a cable has unless told otherwise, in m/s^2: (0, -9.81, 0). Not the standard 9.80665: the value that games and
+/// engines use.
+pub const STANDARD_GRAVITY: Vector3<f64> = Vector3::new(0.0, -9.81, 0.0);
+
+/// Largest number of elements of a cable.
+pub(crate) const MAX_ELEMENTS: usize = 1_000_000;
+
+/// A node at a corner of the drawn shape.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub(crate) struct Corner {
+    pub(crate) position: Vector3<f64>,
+    pub(crate) slope: Vector3<f64>,
+    /// Slopes of the cable before and behind it.
+    pub(crate) sides: [Vector3<f64>; 2],
+}
+
+/// The description of a cable; see [`CableBuilder`](crate::CableBuilder) for units and defaults.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Model {
+    pub(crate) name: String,
+    pub(crate) elements: Vec<Element>,
+    pub(crate) rule: Rule,
+    pub(crate) gravity: Vector3<f64>,
+    /// Supports by node, ascending, none of them free.
+    pub(crate) supports: Vec<(usize, Support)>,
+    pub(crate) loads: Vec<PointLoad>,
+    /// By point load, the arc length in m of its material less what had come through the eye of a reel at the start when it was given: it stays.
+    #[serde(default)]
+    pub(crate) load_origins: Vec<f64>,
+    #[serde(default)]
+    pub(crate) effects: Effects,
+    #[serde(default)]
+    pub(crate) force_densities: ForceDensities,
+    /// What it can touch; set by the host, no part of a file.
+    #[serde(skip)]
+    pub(crate) obstacles: Obstacles,
+    /// By which other cables remember contacts with it.
+    #[serde(default)]
+    pub(crate) contact_key: u64,
+    #[serde(default)]
+    pub(crate) strength: Strength,
+    #[serde(default)]
+    pub(crate) reels: Reels,
+    /// Corners at nodes of the drawn shape.
+    #[serde(default)]
+    pub(crate) corners: Vec<Corner>,
+    /// Axial damping time in s that the cable has at least; set by the host, no part of a file.
+    #[serde(skip)]
+    pub(crate) least_damping: f64,
+}
+
+impl Model {
+    /// Refuses numbers that make no cable: for descriptions that come from a file.
+    pub(crate) fn check(&self) -> Result<(), Error> {
+        let cable = || self.name.clone();
+        if self.elements.is_empty() {
+            return Err(Error::ElementCount { cable: cable(), count: 0, most: MAX_ELEMENTS });
+        }
+        self.rule.check_points()?;
+        for element in &self.elements {
+            require("element length (m)", element.length, element.length > 0.0, "> 0")?;
+            element.section.checked()?;
+        }
+        require_finite("gravity (m/s^2)", &self.gravity)?;
+        let length = self.length();
+        for load in &self.loads {
+            let s = load.arc_length;
+            require("arc length of a load (m)", s, s >= 0.0 && s <= length * (1.0 + 1e-12), "on the cable")?;
+            require_finite("force (N)", &load.force)?;
+            require_finite("moment (N m)", &load.moment)?;
+            require("ramp (s)", load.ramp, load.ramp >= 0.0, ">= 0")?;
+        }
+        let nodes = self.nodes();
+        let unordered = self.supports.windows(2).find(|s| s[0].0 >= s[1].0).map(|s| s[1].0);
+        let outside = self.supports.iter().map(|(node, _)| *node).find(|node| *node >= nodes);
+        if let Some(node) = unordered.or(outside) {
+            return Err(Error::SupportOrder { cable: cable(), node, nodes });
+        }
+        self.supports.iter().try_for_each(|(_, support)| support.check())?;
+        self.strength.check()?;
+        self.check_effects()
+    }
+
+    /// Number of nodes.
+    pub(crate) fn nodes(&self) -> usize {
+        self.elements.len() + 1
+    }
+
+    /// Unstretched length in m.
+    pub(crate) fn length(&self) -> f64 {
+        self.elements.iter().map(|e| e.length).sum()
+    }
+
+    /// Arc length of each node in m.
+    pub(crate) fn node_arc_lengths(&self) -> impl Iterator<Item = f64> + '_ {
+        let add = |s: &mut f64, element: &Element| {
+            *s += element.length;
+            Some(*s)
+        };
+        core::iter::once(0.0).chain(self.elements.iter().scan(0.0, add))
+    }
+
+    /// Element and local coordinate xi of an arc length in `[0, length]`.
+    pub(crate) fn locate(&self, arc_length: f64) -> (usize, f64) {
+        let mut rest = arc_length;
+        for (e, element) in self.elements.iter().enumerate() {
+            if rest <= element.length || e + 1 == self.elements.len() {
+                return (e, (rest / element.length).clamp(0.0, 1.0));
+            }
+            rest -= element.length;
+        }
+        unreachable!("a cable has at least one element")
+    }
+
+    /// The support of a node, if any.
+    pub(crate) fn support(&self, node: usize) -> Option<&Support> {
+        self.supports.iter().find(|(n, _)| *n == node).map(|(_, s)| s)
+    }
+
+    /// Returns whether tension and shape have no reason to jump at a node between two elements, at an arc length in m: neither support, load nor
+    /// another section.
+    pub(crate) fn is_smooth_at(&self, node: usize, s: f64) -> bool {
+        let [a, b] = [&self.elements[node - 1], &self.elements[node]];
+        let is_held = || self.supports.iter().any(|(held, _)| *held == node);
+        let near = |load: &PointLoad| (load.arc_length - s).abs() <= 1e-9 * self.length();
+        a.section == b.section && !is_held() && !self.loads.iter().any(near)
+    }
+
+    /// Sets the support of a node; a free one is removed.
+    pub(crate) fn set_support(&mut self, node: usize, support: Support) {
+        self.supports.retain(|(n, _)| *n != node);
+        if !support.is_free() {
+            let at = self.supports.partition_point(|(n, _)| *n < node);
+            self.supports.insert(at, (node, support));
+        }
+    }
+
+    /// The cable as effects see it.
+    pub(crate) fn target(&self) -> Target<'_> {
+        Target { name: &self.name, rule: self.rule, elements: &self.elements }
+    }
+
+    /// Damping with the least time of the axial strain, if the cable's own has less.
+    fn least_damping(&self) -> Option<Damping> {
+        let own = self.effects.damping.unwrap_or_default();
+        (own.axial < self.least_damping).then_some(Damping { axial: self.least_damping, ..own })
+    }
+
+    /// Tables for the element kernel, if an effect acts there.
+    pub(crate) fn in_element(&self) -> Option<ElementTables> {
+        let (target, own) = (self.target(), self.effects.in_element(&self.target()));
+        let Some(damping) = self.least_damping() else { return own };
+        let alone = || Effects { damping: Some(damping), ..Effects::default() }.in_element(&target);
+        own.map(|tables| ElementTables { damping: damping.in_element(&target), ..tables }).or_else(alone)
+    }
+
+    /// Rejects effects that are out of range or that the cable has no numbers for.
+    pub(crate) fn check_effects(&self) -> Result<(), Error> {
+        self.effects.check(&self.target())?;
+        if self.reels.is_empty() { Ok(()) } else { self.check_with_reel() }
+    }
+
+    /// Returns whether a force depends on velocity.
+    pub(crate) fn depends_on_velocity(&self) -> bool {
+        self.least_damping().is_some()
+            || self.effects.depends_on_velocity()
+            || self.force_densities.depend_on_velocity()
+            || !self.reels.is_empty()
+    }
+
+    /// Returns whether the step matrix holds the exact tangent of the force.
+    pub(crate) fn has_exact_tangent(&self) -> bool {
+        self.least_damping().is_none()
+            && self.effects.has_exact_tangent()
+            && self.force_densities.is_empty()
+            && self.reels.is_empty()
+    }
+
+    /// Returns the mass per length in kg/m that resists acceleration, added mass included.
+    pub(crate) fn inertia(&self, element: &Element) -> f64 {
+        element.section.mass_per_length + self.effects.added_mass(&element.section)
+    }
+
+    /// Returns the weight per length in N/m: scaled gravity less buoyancy.
+    pub(crate) fn weight(&self, element: &Element) -> Vector3<f64> {
+        self.effects.weight(&element.section, self.gravity)
+    }
+
+    /// Returns the constant force per length in N/m of a cable with a reel, beside its weight.
+    pub(crate) fn line_force(&self) -> Vector3<f64> {
+        self.effects.line_loads.as_ref().map_or_else(Vector3::zeros, LineLoads::sum)
+    }
+
+    /// Returns the sum of weights and constant forces in N, and the sum of their sizes.
+    pub(crate) fn dead_resultant(&self) -> (Vector3<f64>, f64) {
+        let mut sum = (Vector3::zeros(), 0.0);
+        for element in &self.elements {
+            // a neutrally buoyant cable is measured by its weight in air
+            let size = element.length * element.section.mass_per_length * self.gravity.norm();
+            sum = (sum.0 + element.length * self.weight(element), sum.1 + size * self.effects.gravity_factor().abs());
+        }
+        self.effects.add_resultant(&self.target(), &mut sum.0, &mut sum.1);
+        sum
+    }
+}

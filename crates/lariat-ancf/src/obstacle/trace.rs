@@ -1,0 +1,49 @@
+//! Where the way of a point meets a surface, by distances.
+//!
+//! # References
+//!
+//! Hart, The Visual Computer 12 (1996) 527 (tracing by distances).
+
+use super::surface::{Nearest, Surface};
+use nalgebra::Vector3;
+
+/// Steps along the way to a surface.
+const TRACES: usize = 64;
+/// Least step of these, as a share of the distance at which the surface is met.
+const PAST: f64 = 0.02;
+
+/// Returns whether a ball comes near a surface.
+pub(crate) fn comes_near(surface: &dyn Surface, centre: &Vector3<f64>, radius: f64) -> bool {
+    match surface.bounds() {
+        Some([low, high]) => {
+            let outside = (low - centre).sup(&(centre - high)).sup(&Vector3::zeros());
+            outside.norm_squared() <= radius * radius
+        }
+        None => surface.nearest(centre).distance <= radius,
+    }
+}
+
+/// Returns the surface where the way from `start` to `end` comes within `reach` of a part that `counts`; past others it goes on.
+pub(crate) fn trace(
+    surface: &dyn Surface,
+    [start, end]: [&Vector3<f64>; 2],
+    reach: f64,
+    counts: impl Fn(&Nearest) -> bool,
+) -> Option<Nearest> {
+    let way = end - start;
+    let length = way.norm();
+    let (mut done, close) = (0.0, 0.02 * reach);
+    for _ in 0..TRACES {
+        if done >= length {
+            return None;
+        }
+        let nearest = surface.nearest(&(start + way * (done / length)));
+        let gap = nearest.distance - reach;
+        if gap <= close && counts(&nearest) {
+            return Some(nearest);
+        }
+        done += gap.max(PAST * reach);
+    }
+    let nearest = surface.nearest(end);
+    (nearest.distance <= reach && counts(&nearest)).then_some(nearest)
+}

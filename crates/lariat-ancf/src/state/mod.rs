@@ -1,0 +1,179 @@
+//! The state of a mechanical system between two steps: positions, velocities, and what a method
+//! carries from step to step.
+
+mod contact;
+mod differences;
+
+pub use contact::{ContactMemory, PairMemory};
+pub(crate) use contact::{Key, split_element};
+pub use differences::Differences;
+
+use crate::error::{Error, require};
+use serde::{Deserialize, Serialize};
+
+/// What a method carries from step to step, besides positions and velocities. Plain data, part of a
+/// snapshot.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Memory {
+    /// Acceleration at the present state, if `valid`.
+    pub acceleration: Vec<f64>,
+    /// Algorithmic acceleration of a method that [has
+    /// one](crate::integrate::OneStep::has_algorithmic_acceleration), as generalised-alpha; else empty.
+    pub algorithmic: Vec<f64>,
+    /// Whether the accelerations belong to the present state.
+    pub valid: bool,
+    /// Revision of the system's description that the accelerations belong to: every change of
+    /// supports, loads or method makes another.
+    #[serde(default)]
+    pub revision: u64,
+    /// Length in s that error control proposes for the next step; 0 = no proposal.
+    pub step: f64,
+    /// Coherence of the errors of the last host step, 0 to 1; see
+    /// [`error_budget`](crate::integrate::error_budget).
+    #[serde(default = "coherent")]
+    pub coherence: f64,
+    /// Spurious energy in J on the account of the [check](crate::integrate::energy_check).
+    #[serde(default)]
+    pub energy_made: f64,
+    /// Largest kinetic and strain energy in J so far, for that check.
+    #[serde(default)]
+    pub largest_energy: f64,
+    /// The last step of the discrete gradient.
+    #[serde(default)]
+    pub differences: Differences,
+    /// Power in W that contacts with obstacles took in the last step of the discrete gradient.
+    #[serde(default)]
+    pub lost: f64,
+    /// Contacts at the end of the last step of the discrete gradient.
+    #[serde(default)]
+    pub contacts: Vec<ContactMemory>,
+    /// Contacts with other cables and with itself, likewise.
+    #[serde(default)]
+    pub pairs: Vec<PairMemory>,
+    /// Least axial damping time in s that the accelerations were computed with; see [`Cable::set_least_damping`](crate::Cable::set_least_damping).
+    #[serde(default)]
+    pub least_damping: f64,
+}
+
+fn coherent() -> f64 {
+    1.0
+}
+
+impl Default for Memory {
+    fn default() -> Self {
+        Memory {
+            acceleration: Vec::new(),
+            algorithmic: Vec::new(),
+            valid: false,
+            revision: 0,
+            step: 0.0,
+            coherence: coherent(),
+            energy_made: 0.0,
+            largest_energy: 0.0,
+            differences: Differences::default(),
+            lost: 0.0,
+            contacts: Vec::new(),
+            pairs: Vec::new(),
+            least_damping: 0.0,
+        }
+    }
+}
+
+/// Positions, velocities and method memory at a time.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct State {
+    /// Time in s.
+    pub time: f64,
+    /// Positions: flat (r, t) by node, m and 1.
+    pub q: Vec<f64>,
+    /// Velocities: flat (r', t') by node, m/s and 1/s.
+    pub v: Vec<f64>,
+    /// Memory of the method.
+    pub memory: Memory,
+}
+
+impl State {
+    /// Copies `other` into the existing buffers; the derived `clone_from` would allocate new ones.
+    pub(crate) fn copy_from(&mut self, other: &State) {
+        let State { time, q, v, memory } = other;
+        let Memory {
+            acceleration,
+            algorithmic,
+            valid,
+            step,
+            coherence,
+            revision,
+            energy_made,
+            largest_energy,
+            differences,
+            lost,
+            contacts,
+            pairs,
+            least_damping,
+        } = memory;
+        self.time = *time;
+        self.q.clone_from(q);
+        self.v.clone_from(v);
+        self.memory.revision = *revision;
+        self.memory.acceleration.clone_from(acceleration);
+        self.memory.algorithmic.clone_from(algorithmic);
+        self.memory.valid = *valid;
+        self.memory.step = *step;
+        self.memory.coherence = *coherence;
+        self.memory.energy_made = *energy_made;
+        self.memory.largest_energy = *largest_energy;
+        self.memory.differences.copy_from(differences);
+        self.memory.lost = *lost;
+        self.memory.contacts.clone_from(contacts);
+        self.memory.pairs.clone_from(pairs);
+        self.memory.least_damping = *least_damping;
+    }
+
+    /// Checks that this is a finite state of `size` coordinates; `cable` is the name for the error.
+    pub(crate) fn check(&self, cable: &str, size: usize) -> Result<(), Error> {
+        let Memory {
+            acceleration,
+            algorithmic,
+            valid,
+            step,
+            coherence,
+            energy_made,
+            largest_energy,
+            differences,
+            lost,
+            ..
+        } = &self.memory;
+        let lists = [
+            ("positions", &self.q, false),
+            ("velocities", &self.v, false),
+            ("accelerations", acceleration, !valid),
+            ("algorithmic accelerations", algorithmic, true),
+            ("changes of velocities", &differences.velocity, true),
+            ("changes of positions", &differences.displacement, differences.is_empty()),
+        ];
+        for (what, list, may_be_empty) in lists {
+            let count = list.len();
+            if count != size && !(may_be_empty && count == 0) {
+                return Err(Error::WrongCount { cable: cable.to_string(), what, count, expected: size });
+            }
+        }
+        let finite = |what: &str, x: f64| require(what, x, true, "a number");
+        finite("time (s)", self.time)
+            .and_then(|()| require("proposed step (s)", *step, *step >= 0.0, ">= 0"))
+            .and_then(|()| require("coherence of errors", *coherence, *coherence >= 0.0 && *coherence <= 1.0, "0 to 1"))
+            .and_then(|()| require("energy made (J)", *energy_made, *energy_made >= 0.0, ">= 0"))
+            .and_then(|()| require("largest energy (J)", *largest_energy, *largest_energy >= 0.0, ">= 0"))
+            .and_then(|()| require("power lost (W)", *lost, *lost >= 0.0, ">= 0"))
+            .and_then(|()| self.q.iter().try_for_each(|&x| finite("position", x)))
+            .and_then(|()| self.v.iter().try_for_each(|&x| finite("velocity", x)))
+            .and_then(|()| acceleration.iter().chain(algorithmic).try_for_each(|&x| finite("acceleration", x)))
+            .and_then(|()| {
+                let Differences { velocity, displacement, step, .. } = differences;
+                let mut all = velocity.iter().chain(displacement).chain([step]);
+                all.try_for_each(|&x| finite("change of the last step", x))
+            })
+            .and_then(|()| self.memory.contacts.iter().try_for_each(|contact| contact.check(size / 6 - 1)))
+            .and_then(|()| self.memory.pairs.iter().try_for_each(|contact| contact.check(size / 6 - 1)))
+            .map_err(|error| error.of_cable(cable))
+    }
+}

@@ -1,0 +1,74 @@
+//! The runs of a [study](super): their mesh, their tolerance, and what they recorded.
+
+use super::claim::StudyError;
+use super::record::Record;
+use crate::integrate::{Integrator, Method, StepControl};
+
+/// The mesh and the tolerance of a run of a [`Study`](super::Study).
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Resolution {
+    /// Number of elements of the cable that has most.
+    pub elements: usize,
+    /// Error of position per host step in m; `None` for an equilibrium, and for equal steps.
+    pub tolerance: Option<f64>,
+    /// Length of equal steps in s, in the run that judges steps which the host step limits.
+    pub max_step: Option<f64>,
+}
+
+impl Resolution {
+    /// Returns the number of elements of a cable that would have `own` of them in a world where the largest has `largest`: in this
+    /// proportion, but not below half of [`elements`](Self::elements), because a mesh that is not refined shows no error.
+    pub fn elements_of(&self, own: usize, largest: usize) -> usize {
+        (self.elements * own).div_ceil(largest.max(1)).max(self.elements.div_ceil(2))
+    }
+
+    /// Returns the integrator: ESDIRK4 with the tolerance for every node and body, or in equal steps; for an equilibrium the default one.
+    pub fn integrator(&self) -> Integrator {
+        let control = self.max_step.map(StepControl::MaxStep).or(self.tolerance.map(StepControl::Tolerance));
+        control.map_or(Integrator::default(), |control| Integrator { method: Method::Esdirk4, control })
+    }
+}
+
+/// Host steps.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Span {
+    /// Their number; a fraction is a shorter step.
+    pub(super) steps: f64,
+    /// Their length in s.
+    pub(super) host_step: f64,
+}
+
+/// One run.
+pub(super) struct Run<W> {
+    pub(super) elements: usize,
+    pub(super) world: W,
+    pub(super) record: Record,
+}
+
+/// The runs so far.
+pub(super) struct Runs<F> {
+    pub(super) run: F,
+    pub(super) error: f64,
+    pub(super) span: Option<Span>,
+    pub(super) count: usize,
+    pub(super) evaluations: u64,
+}
+
+impl<F> Runs<F> {
+    /// Runs the world at a resolution.
+    pub(super) fn run<W, E>(&mut self, resolution: Resolution) -> Result<Run<W>, StudyError<E>>
+    where
+        F: FnMut(&Resolution, &mut Record) -> Result<W, E>,
+    {
+        let mut record = Record::default();
+        let Resolution { elements, tolerance, .. } = resolution;
+        self.count += 1;
+        let failed = |source| StudyError::Run { elements, tolerance, source };
+        let world = (self.run)(&resolution, &mut record).map_err(failed)?;
+        self.evaluations += record.evaluations();
+        if record.is_empty() {
+            return Err(StudyError::NothingRecorded);
+        }
+        Ok(Run { elements, world, record })
+    }
+}

@@ -1,0 +1,118 @@
+//! What depends on the lengths of the elements at eyes: their stiffness, mass and weight, energies and momenta.
+
+use super::Flow;
+use super::flows::control;
+use crate::effect::acts::Single;
+use crate::element::flow::Extent;
+use crate::element::gram::{Control, gram};
+use crate::element::kernel::{ElementState, GramState, Kernel, NoEffects, energy};
+use crate::element::side::Side;
+use crate::model::Model;
+use crate::system::System;
+use crate::system::elements::with_bending;
+
+impl System {
+    /// Sets what depends on the lengths of the elements at eyes to `time` (s).
+    pub fn set_flows(&mut self, model: &Model, time: f64) {
+        for k in 0..self.flows.list.len() {
+            let length = self.flows.list[k].at(time).length;
+            self.set_each_length(model, k, [length, length, 1.0 / length]);
+        }
+    }
+
+    /// Sets what depends on the lengths of the elements at eyes to those at the beginning of the host step.
+    pub fn set_flows_at_start(&mut self, model: &Model) {
+        for k in 0..self.flows.list.len() {
+            let length = self.flows.list[k].extent.length;
+            self.set_each_length(model, k, [length, length, 1.0 / length]);
+        }
+    }
+
+    /// Sets the lengths of an element at an eye: that of its control vectors, that of axial stiffness and mass, and the inverse of that
+    /// of bending.
+    pub(super) fn set_each_length(&mut self, model: &Model, k: usize, [shape, mean, inverse]: [f64; 3]) {
+        let System { flows, forces, mass, loads, .. } = self;
+        let set = Some([shape, mean, inverse, flows.list[k].stock(mean)]);
+        if flows.list[k].set == set {
+            return;
+        }
+        (flows.list[k].set, flows.list[k].weighed) = (set, mean);
+        let e = flows.list[k].element(model);
+        let element = &model.elements[e];
+        let elements = &mut forces.elements;
+        elements.scale[e] = 3.0 / shape;
+        elements.axial[e] = 0.25 * element.section.axial_stiffness * mean;
+        elements.flexural[e] = 2.0 * element.section.bending_stiffness * inverse;
+        elements.set_mass(e, model.inertia(element), mean);
+        forces.at_points.set_length(e, mean);
+        let length = |e: usize| {
+            let flow = flows.list.iter().find(|flow| flow.element(model) == e);
+            flow.map_or(model.elements[e].length, |flow| flow.weighed)
+        };
+        let stock = Side::BOTH.map(|side| {
+            let flow = flows.list.iter().find(|flow| flow.side == side);
+            flow.map_or(0.0, |flow| flow.stock(flow.weighed))
+        });
+        let inertia = |side: Side| model.inertia(&model.elements[side.element(model.elements.len())]);
+        mass.set_element(model, e, length, Side::BOTH.map(|side| stock[side as usize] * inertia(side)));
+        loads.weigh_element(model, e, length, stock);
+    }
+
+    /// Returns the kinetic energy in J that the flows add to that of the mass matrix.
+    pub fn flow_kinetic(&self, model: &Model, time: f64, q: &[f64], v: &[f64]) -> f64 {
+        let kinetic = |f: &Flow| f.with(model, f.at(time)).kinetic_energy(&f.side.gather(q), &f.side.gather(v));
+        self.flows.list.iter().map(kinetic).sum()
+    }
+
+    /// Adds the momentum of the flows at `time` (s) to `p`.
+    pub fn add_flow_momentum(&self, model: &Model, time: f64, q: &[f64], p: &mut [f64]) {
+        for flow in &self.flows.list {
+            let mut own = [0.0; 12];
+            flow.with(model, flow.at(time)).add_momentum(&flow.side.gather(q), &mut own);
+            flow.side.add(&own, p);
+        }
+    }
+
+    /// Returns the strain energy in J of an element at an eye, axial and bending, at a length and control vectors.
+    pub(super) fn flow_energy(&self, model: &Model, flow: &Flow, d: &Control<f64>, length: f64) -> (f64, f64) {
+        let stiffness = flow.stiffness(model, length);
+        let elements = &self.forces.elements;
+        let own = with_bending!(&elements.bending, bending => energy(&elements.table, bending, stiffness, d));
+        let state = GramState { table: &elements.table, stiffness, g: gram(d), rates: None };
+        let e = flow.element(model);
+        let of_effects = self.forces.in_element.as_ref().map_or((0.0, 0.0), |effects| effects.energy(e, &state));
+        (own.0 + of_effects.0, own.1 + of_effects.1)
+    }
+
+    /// Returns the forces in N that strains and internal damping exert on the length of an element at an eye: dU/dl at fixed coordinates,
+    /// and the power that damping loses by a rate of the length, over the rate.
+    pub(super) fn strain_length_force(
+        &self,
+        model: &Model,
+        flow: &Flow,
+        extent: &Extent,
+        [q, v]: [&[f64; 12]; 2],
+    ) -> [f64; 2] {
+        let Extent { length, rate, .. } = *extent;
+        let (d, mut velocity) = (control(q, length), control(v, length));
+        (0..3).for_each(|x| velocity[1][x] -= rate / length * d[1][x]);
+        let stiffness = flow.stiffness(model, length);
+        let (axial, bending) = self.flow_energy(model, flow, &d, length);
+        let along = |velocity: Option<Control<f64>>| {
+            let gradient = self.flow_gradient(flow.element(model), &ElementState { stiffness, d, velocity });
+            (0..3).map(|x| d[1][x] * gradient[1][x]).sum::<f64>() / length
+        };
+        let elastic = along(None);
+        let damping = if self.forces.in_element.is_some() { elastic - along(Some(velocity)) } else { 0.0 };
+        [(axial - bending) / length - elastic, damping]
+    }
+
+    /// Returns the forces that oppose changes of the control vectors of an element.
+    pub(super) fn flow_gradient(&self, element: usize, state: &ElementState<f64>) -> Control<f64> {
+        let table = &self.forces.elements.table;
+        with_bending!(&self.forces.elements.bending, bending => match &self.forces.in_element {
+            None => Kernel { table, bending, effects: &NoEffects }.force(state, &NoEffects),
+            Some(effects) => Kernel { table, bending, effects }.force(state, &Single(element)),
+        })
+    }
+}

@@ -1,0 +1,130 @@
+//! The energy balance of a run: what integration made or lost.
+//!
+//! # Equation
+//!
+//! ```text
+//! B(t) = change of (kinetic + strain + gravity) + dissipated - work
+//! S(t) = largest of kinetic energy, change of strain energy, change of gravity's, dissipated energy, work, weight times 1 mm, the energy of
+//!                a strain of 1e-6, so far
+//! ```
+//!
+//! The work on one cable is that of its effects, loads, supports and reels. A cable that exchanges energy with dynamic bodies or other cables has
+//! the balance of all that moves together with it, its island, of which the first cable tells ([`IslandChange`]); a run of a scene has one of everything.
+//! Energy made above 1e-3 S, or lost above 1e-2 S, beyond what rounding may account for, is worth a warning.
+//!
+//! # Validity
+//!
+//! The discrete gradient has an energy law: B is then its residual less what it lost, and counts as made beyond the energy that damping took,
+//! because the residual of a step may be as large. A step in which a program changes positions, velocities, loads, supports or effects is left
+//! out. The balance is no estimate of the error of positions.
+//!
+//! # References
+//!
+//! Work-energy theorem; quadratures: [`Cable::effect_work`](crate::Cable::effect_work), [`Cable::energy_law`](crate::Cable::energy_law).
+//!
+//! # Alternatives considered
+//!
+//! The total energy alone: it changes by the work of loads and moving supports, and by damping.
+
+use serde::{Deserialize, Serialize};
+
+/// Share of the energy of a run above which energy that it makes is warned of.
+const MADE: f64 = 1e-3;
+/// Share of the energy of a run above which energy that integration takes is warned of.
+const LOST: f64 = 1e-2;
+/// Height in m over which all weight is the least energy to compare with, as in the law of the discrete gradient.
+const LEAST_HEIGHT: f64 = 1e-3;
+/// Strain of all cables that is the least energy to compare with, where nothing has weight and all is at rest.
+const LEAST_STRAIN: f64 = 1e-6;
+
+/// The energy of a run: what integration made or lost, and what to compare it with.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct EnergyBalance {
+    /// Change of the energy less the work at the end, in J: what integration made, or lost.
+    pub balance_j: f64,
+    /// Most that it had made at a host time in J.
+    pub made_j: f64,
+    /// Host time of that in s.
+    pub made_at_s: f64,
+    /// Most that it had lost at a host time in J.
+    pub lost_j: f64,
+    /// Host time of that in s.
+    pub lost_at_s: f64,
+    /// Energy of the run in J, to compare with: the largest of kinetic energy, changes of strain energy and of that of gravity, dissipated
+    /// energy, work, all weight times 1 mm, and the energy of a strain of 1e-6 of all cables.
+    pub scale_j: f64,
+    /// Errors in J that the balance may have: rounding of the energies, which are differences, and of the positions of bodies in single
+    /// precision, by which the forces of cables do work in every step; and in steps that do not resolve the motion, of the quadrature of what damping
+    /// and drag take.
+    pub rounding_j: f64,
+    /// Energy that damping and drag took in J.
+    pub dissipated_j: f64,
+    /// Work of loads, moving supports, flows and other bodies in J.
+    pub work_j: f64,
+}
+
+/// Energies (J) and sizes at a host time, to compare a balance with.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Sizes {
+    /// Kinetic energy in J.
+    pub kinetic: f64,
+    /// Change of the strain energy in J.
+    pub strain: f64,
+    /// Change of the energy of gravity in J.
+    pub gravity: f64,
+    /// Weight of everything in N.
+    pub weight: f64,
+    /// Sum of axial stiffness times length in J.
+    pub stiffness: f64,
+}
+
+/// What a balance is worth a warning for: time (s), energy (J), and the energy to compare with (J).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Verdict {
+    /// Integration made this energy.
+    Made(f64, f64, f64),
+    /// Integration lost this energy.
+    Lost(f64, f64, f64),
+}
+
+impl EnergyBalance {
+    /// Returns the share of the energy of the run that integration made, beyond rounding errors.
+    pub fn made(&self) -> f64 {
+        self.share(self.made_j)
+    }
+
+    /// Returns the share of the energy of the run that integration lost at most, beyond rounding errors.
+    pub fn lost(&self) -> f64 {
+        self.share(self.lost_j)
+    }
+
+    fn share(&self, energy: f64) -> f64 {
+        let beyond = energy - self.rounding_j;
+        if beyond > 0.0 { beyond / self.scale_j } else { 0.0 }
+    }
+
+    /// Adds the change (J) of the balance in the host step that ended at a time in s, after dissipated energy and work were set; `by_law` if it is
+    /// that of the energy law of the discrete gradient, which sees to it that a step makes no more than damping takes.
+    pub fn add(&mut self, time: f64, change: f64, by_law: bool, sizes: &Sizes) {
+        self.balance_j += change;
+        let Sizes { kinetic, strain, gravity, weight, stiffness } = *sizes;
+        let least = (weight * LEAST_HEIGHT).max(0.5 * stiffness * LEAST_STRAIN * LEAST_STRAIN);
+        let sizes = [least, kinetic, strain, gravity, self.dissipated_j, self.work_j];
+        self.scale_j = sizes.iter().fold(self.scale_j, |largest, size| largest.max(size.abs()));
+        let made = self.balance_j - if by_law { self.dissipated_j.max(0.0) } else { 0.0 };
+        if made > self.made_j {
+            (self.made_j, self.made_at_s) = (made, time);
+        }
+        if -self.balance_j > self.lost_j {
+            (self.lost_j, self.lost_at_s) = (-self.balance_j, time);
+        }
+    }
+
+    /// Returns what is worth a warning: energy made, or else energy lost.
+    pub fn verdict(&self) -> Option<Verdict> {
+        if self.made() > MADE {
+            return Some(Verdict::Made(self.made_at_s, self.made_j, self.scale_j));
+        }
+        (self.lost() > LOST).then_some(Verdict::Lost(self.lost_at_s, self.lost_j, self.scale_j))
+    }
+}

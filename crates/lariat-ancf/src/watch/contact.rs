@@ -1,0 +1,20 @@
+//! What is kept of contacts to judge the mesh beside them.
+
+use serde::{Deserialize, Serialize};
+
+/// What a cable did beside what it touches.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub(crate) struct Contacts {
+    pub(crate) depth: Excess,
+    pub(crate) turn: Excess,
+}
+
+/// How far a reading exceeds its limit, and since when.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub(crate) struct Excess {
+    pub(crate) since: Option<f64>,
+    /// The least of the readings since then, with its arc length in m.
+    pub(crate) least: [f64; 2],
+    /// The largest that lasted long enough, with its arc length in m.
+    pub(crate) worst: [f64; 2],
+}
