@@ -81,7 +81,7 @@ pub use cable::{Cable, ReelReading, Snapshot};
 pub use diagnostics::Diagnostics;
 pub use effect::{
     Buoyancy, CablePoint, Contact, Damping, Drag, EffectCounts, EffectWork, Effects, Flow, ForceDensity,
-    ForceDerivatives, GravityScale, LineLoad, LineLoads, RestPiece, RestShape, RopeKind,
+    ForceDerivatives, GravityScale, LineLoad, LineLoads, Potential, RestPiece, RestShape, RopeKind,
 };
 pub use element::{axial, bending};
 pub use error::{EquilibriumFailure, Error, PinProblem, Requirement, StepFailure};

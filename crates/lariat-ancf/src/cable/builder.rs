@@ -4,6 +4,7 @@ use super::unstrained::{Kept, unstrain};
 use super::{Cable, Snapshot, layout};
 use crate::at::At;
 use crate::effect::force_density::ForceDensities;
+use crate::effect::potential::Potentials;
 use crate::effect::{Damping, Effects, ForceDensity, RopeKind};
 use crate::error::{Error, require, require_finite};
 use crate::integrate::{Fidelity, IntegratorChoice};
@@ -300,6 +301,7 @@ impl CableBuilder {
             load_origins: Vec::new(),
             effects: self.effects,
             force_densities: self.force_densities,
+            potentials: Potentials::default(),
             obstacles: Obstacles::default(),
             contact_key: 0,
             strength: Default::default(),

@@ -111,7 +111,7 @@ impl Cable {
 
     /// Rejects a cable that was read back without its functions.
     pub(crate) fn check_forces(&self) -> Result<(), Error> {
-        match self.model.force_densities.missing() {
+        match self.model.force_densities.missing() + self.model.potentials.missing() {
             0 => Ok(()),
             count => Err(Error::MissingForceDensities { cable: self.name().to_string(), count }),
         }

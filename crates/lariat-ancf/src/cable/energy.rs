@@ -15,12 +15,14 @@ pub struct Energy {
     pub bending: f64,
     /// Gravity, less buoyancy.
     pub gravity: f64,
+    /// [Potentials](crate::Potential) of your own.
+    pub potentials: f64,
 }
 
 impl Energy {
     /// Returns the sum of all, in J.
     pub fn total(&self) -> f64 {
-        self.kinetic + self.axial + self.bending + self.gravity
+        self.kinetic + self.axial + self.bending + self.gravity + self.potentials
     }
 }
 
@@ -30,6 +32,7 @@ impl core::ops::AddAssign for Energy {
         self.axial += other.axial;
         self.bending += other.bending;
         self.gravity += other.gravity;
+        self.potentials += other.potentials;
     }
 }
 
@@ -63,7 +66,8 @@ impl Cable {
         let kinetic = 0.5 * momentum.iter().zip(v).map(|(p, v)| p * v).sum::<f64>()
             + self.system.flow_kinetic(&self.model, time, q, v);
         let gravity = -self.system.loads.gravity_work(self.positions());
-        Energy { kinetic, axial, bending, gravity }
+        let potentials = self.system.potentials.energy(&self.model, self.positions());
+        Energy { kinetic, axial, bending, gravity, potentials }
     }
 
     /// Returns linear and angular momentum of the present state.

@@ -7,7 +7,7 @@
 //! | `corner` | corners of the drawn shape, for parts that end there |
 //! | `parts`, `check` | what steps it: its parts lent apart, and whether it can be stepped |
 //! | `state`, `snapshot` | reading and changing the state; snapshots |
-//! | `supports`, `loads`, `effects` | what acts on it, changed between steps |
+//! | `supports`, `loads`, `potentials`, `effects` | what acts on it, changed between steps |
 //! | `contact`, `overlap` | what it can touch, and what it touches |
 //! | `reel` | reels at the ends, which change the length |
 //! | [`sample`], [`reactions`], [`energy`] | reading results |
@@ -27,6 +27,7 @@ mod loads;
 pub mod mesh;
 mod overlap;
 mod parts;
+mod potentials;
 pub mod reactions;
 mod reel;
 pub mod sample;
@@ -47,7 +48,7 @@ use crate::section::Element;
 use crate::state::State;
 use crate::system::{Buffers, StepVectors, System};
 use crate::watch::Watch;
-pub(crate) use check::check_integrator;
+pub(crate) use check::{SHORTEST_STEP, check_integrator};
 use fearless_simd::Level;
 pub(crate) use layout::along_polyline;
 use nalgebra::Vector3;

@@ -49,7 +49,8 @@
 
 use super::impulse::Impact;
 use super::point::ContactPoint;
-use super::step::{ContactStep, add_force};
+use super::step::ContactStep;
+use crate::element::assembly::add_force;
 use crate::one_leg::BETA;
 use nalgebra::Vector3;
 
@@ -180,7 +181,7 @@ impl ContactStep {
     /// Adds what the linear solve sees of them to the rows of the cable, and its opposite to those of bodies.
     pub fn pass_impacts(&self, rhs: &mut [f64], rows: &mut [f64]) {
         for point in self.points.iter().filter(|point| point.impact.acts()) {
-            add_force(point, &point.impact.row, rhs);
+            add_force(rhs, point.key.0 as usize, &point.shape, &point.impact.row);
             if let Some(body) = self.obstacles[point.obstacle].body {
                 let angular = point.now.arm.cross(&point.impact.row);
                 for x in 0..3 {

@@ -59,7 +59,8 @@ impl ContactStep {
                 self.points.push(point);
             }
         }
-        self.points.len() > known
+        self.missed = self.points.len() > known;
+        self.missed
     }
 
     /// Returns whether an element went through the core of a feature, or slid so fast over a round surface that the plane of a contact braked it.

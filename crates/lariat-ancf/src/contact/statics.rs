@@ -29,7 +29,7 @@
 
 use super::law::NormalLaw;
 use super::pair::{is_thin, samples};
-use super::step::add_tangent;
+use crate::element::assembly::add_tangent;
 use crate::element::shape;
 use crate::element::shape::combine;
 use crate::linalg::BlockTridiagonal;

@@ -5,13 +5,14 @@ use super::linear::Tangents;
 use super::nearby::Nearby;
 use super::path::{BodyPath, ObstacleStep};
 use super::point::ContactPoint;
+use crate::element::assembly::{add_force, add_tangent};
 use crate::element::shape::combine;
 use crate::integrate::discrete_gradient::Balance;
 use crate::linalg::BlockTridiagonal;
 use crate::obstacle::Obstacle;
 use crate::one_leg::BETA;
 use crate::state::{ContactMemory, Key};
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::Matrix3;
 
 /// The contacts of a step, and what may become one; empty for a cable that is near nothing.
 #[derive(Clone, Debug, Default)]
@@ -23,6 +24,8 @@ pub(crate) struct ContactStep {
     pub(super) nearby: Vec<Nearby>,
     /// Whether an element went through one when that was last asked.
     pub passed: bool,
+    /// Whether an element entered one that was not found before, when that was last asked.
+    pub missed: bool,
     /// Whether friction missed its bounds when that was last asked.
     pub lags: bool,
     pub(super) obstacles: Vec<ObstacleStep>,
@@ -133,7 +136,7 @@ impl ContactStep {
             if normal == Matrix3::zeros() {
                 continue;
             }
-            add_force(point, &(linear.force * h), rhs);
+            add_force(rhs, point.key.0 as usize, &point.shape, &(linear.force * h));
             let element = point.key.0 as usize;
             // one matrix where both act at the same place
             let parts = match point.between {
@@ -169,7 +172,7 @@ impl ContactStep {
             sum.work += now.force.dot(&moved);
             if now.normal_force > 0.0 {
                 let force = now.force * self.h;
-                add_force(point, &force, rhs);
+                add_force(rhs, point.key.0 as usize, &point.shape, &force);
             }
         }
         sum
@@ -184,36 +187,6 @@ impl ContactStep {
         // of several points on a feature the one that carries most
         memory.sort_unstable_by(|a, b| a.key().cmp(&b.key()).then(b.force.total_cmp(&a.force)));
         memory.dedup_by_key(|contact| contact.key());
-    }
-}
-
-/// Adds the tangent of a force on a point of an element to its blocks.
-pub(super) fn add_tangent(matrix: &mut BlockTridiagonal, element: usize, shape: &[f64; 4], tangent: &Matrix3<f64>) {
-    for (p, left) in shape.iter().enumerate() {
-        for (q, right) in shape.iter().enumerate() {
-            let block = match (p / 2, q / 2) {
-                (0, 0) => &mut matrix.diag[element],
-                (1, 1) => &mut matrix.diag[element + 1],
-                (1, 0) => &mut matrix.lower[element],
-                _ => continue,
-            };
-            let (row, column, weight) = (3 * (p % 2), 3 * (q % 2), left * right);
-            for c in 0..3 {
-                for r in 0..3 {
-                    block.0[column + c][row + r] += weight * tangent[(r, c)];
-                }
-            }
-        }
-    }
-}
-
-/// Adds a force or impulse on a point to the rows of its element.
-pub(super) fn add_force(point: &ContactPoint, force: &Vector3<f64>, rhs: &mut [f64]) {
-    let out = &mut rhs[6 * point.key.0 as usize..][..12];
-    for (k, weight) in point.shape.iter().enumerate() {
-        for x in 0..3 {
-            out[3 * k + x] += weight * force[x];
-        }
     }
 }
 

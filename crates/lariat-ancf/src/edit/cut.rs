@@ -53,6 +53,7 @@ impl Cable {
         [head.effects, tail.effects] = self.model.effects.cut(Cut { node, elements: &self.model.elements });
         [head.reels, tail.reels] = self.model.reels.cut(self.number(node));
         tail.force_densities = self.model.force_densities.behind(s);
+        tail.potentials = head.potentials.cut(s);
         let state = &self.snapshot.state;
         let part =
             |q: &[f64], v: &[f64]| State { time: state.time, q: q.to_vec(), v: v.to_vec(), memory: Memory::default() };

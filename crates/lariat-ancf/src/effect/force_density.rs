@@ -29,6 +29,7 @@
 
 use super::acts::{ForceInput, PointForce};
 use crate::dual::{Dual, constant};
+use crate::element::assembly::add_tangent;
 use crate::element::shape;
 use crate::linalg::BlockTridiagonal;
 use crate::quadrature::gauss_legendre;
@@ -282,7 +283,7 @@ impl PointForce for ForceDensityTable {
                 if let Some(matrix) = matrix.as_deref_mut() {
                     let of = self.derivatives(&point, time, position, velocity);
                     let block = (of.position + of.velocity * dv_dq) * (-scale * point.weight);
-                    add_to_matrix(matrix, e, &point.shape, &((block + block.transpose()) * 0.5));
+                    add_tangent(matrix, e, &point.shape, &((block + block.transpose()) * 0.5));
                     finite &= block.iter().all(|x| x.is_finite());
                 }
                 if !finite && self.not_finite.is_none() {
@@ -314,20 +315,5 @@ impl PointForce for ForceDensityTable {
 
     fn hold(&mut self, time: f64) {
         self.held = Some(time);
-    }
-}
-
-/// Adds `H_k H_m block` for the coordinates k and m of an element, one triangle of the blocks over nodes.
-fn add_to_matrix(matrix: &mut BlockTridiagonal, element: usize, weights: &[f64; 4], block: &Matrix3<f64>) {
-    for (k, m) in (0..4).flat_map(|k| (0..4).map(move |m| (k, m))) {
-        let to = match (k / 2, m / 2) {
-            (0, 0) => &mut matrix.diag[element].0,
-            (1, 1) => &mut matrix.diag[element + 1].0,
-            (1, 0) => &mut matrix.lower[element].0,
-            _ => continue,
-        };
-        for (r, c) in (0..3).flat_map(|r| (0..3).map(move |c| (r, c))) {
-            to[3 * (m % 2) + c][3 * (k % 2) + r] += weights[k] * weights[m] * block[(r, c)];
-        }
     }
 }

@@ -42,6 +42,7 @@ pub mod force_density;
 pub mod gravity;
 pub mod line_load;
 mod list;
+pub mod potential;
 pub mod rest_shape;
 pub mod rope_kind;
 pub(crate) mod tables;
@@ -56,6 +57,7 @@ pub use force_density::{CablePoint, ForceDensity, ForceDerivatives};
 pub use gravity::GravityScale;
 pub use line_load::{LineLoad, LineLoads};
 pub use list::{EffectCounts, EffectWork, Effects};
+pub use potential::Potential;
 pub use rest_shape::{RestPiece, RestShape};
 pub use rope_kind::RopeKind;
 

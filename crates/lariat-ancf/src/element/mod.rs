@@ -4,10 +4,12 @@
 //! - [`kernel`]: energy, force and tangent of an element for any pair of rules, over any [`Real`](crate::Real)
 //! - [`shape`]: shape functions and their derivatives
 //! - [`mass`]: the consistent mass matrix in closed form
+//! - `assembly`: forces at points, added to the coordinates of the nodes
 //! - [`axial`], [`bending`]: one file per rule of the elastic forces
 //! - `flow`: the element into which material flows from a reel
 //! - `side`: the end of the cable at which it is
 
+pub(crate) mod assembly;
 pub mod axial;
 pub mod bending;
 pub(crate) mod flow;

@@ -145,8 +145,8 @@ pub enum Error {
         /// What it needs.
         requirement: Requirement,
     },
-    /// A cable that was read back without its forces per length of the user's own: functions are not serialised.
-    #[error("cable {cable:?}: {count} force densities must be attached again: functions are not serialised")]
+    /// A cable that was read back without its forces per length or potentials of the user's own: functions are not serialised.
+    #[error("cable {cable:?}: {count} force densities or potentials must be added again: functions are not serialised")]
     MissingForceDensities {
         /// Name of the cable.
         cable: String,

@@ -34,6 +34,7 @@
 //!
 //! [`Dynamics`]: crate::integrate::Dynamics
 
+mod alone;
 mod attach;
 mod body;
 mod body_matrix;
@@ -60,6 +61,7 @@ mod statics;
 mod step;
 mod velocities;
 
+pub(crate) use alone::advance as advance_alone;
 pub use body::{BodyMemory, RigidBody};
 pub use coupling::CoupledInertia;
 pub use drum::Drum;

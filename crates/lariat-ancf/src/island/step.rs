@@ -11,12 +11,11 @@ use super::pin::{PinConstraint, check, is_on_free_body};
 use super::pin_accounts::{PinAccount, PinAccounts};
 use super::sheave;
 use super::{Drum, drum};
-use crate::cable::{Cable, check_integrator};
+use crate::cable::{Cable, SHORTEST_STEP, check_integrator};
 use crate::contact::CablePair;
 use crate::error::{Error, require};
 use crate::integrate::{Integrator, IntegratorRef, Scratch, step_control};
 use crate::state::State;
-use crate::step::SHORTEST_STEP;
 use crate::system::{Sheave, Wheel};
 
 /// Buffers of an island, reused from step to step; nothing in them is state.

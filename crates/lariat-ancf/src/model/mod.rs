@@ -6,6 +6,7 @@ pub(crate) use scale::{LoadScale, largest_force};
 
 use crate::effect::acts::Acts;
 use crate::effect::force_density::ForceDensities;
+use crate::effect::potential::Potentials;
 use crate::effect::tables::ElementTables;
 use crate::effect::{Damping, Effects, LineLoads, Target};
 use crate::error::{Error, require, require_finite};
@@ -52,6 +53,8 @@ pub struct Model {
     pub(crate) effects: Effects,
     #[serde(default)]
     pub(crate) force_densities: ForceDensities,
+    #[serde(default)]
+    pub(crate) potentials: Potentials,
     /// What it can touch; set by the host, no part of a file.
     #[serde(skip)]
     pub(crate) obstacles: Obstacles,
@@ -90,6 +93,9 @@ impl Model {
             require_finite("force (N)", &load.force)?;
             require_finite("moment (N m)", &load.moment)?;
             require("ramp (s)", load.ramp, load.ramp >= 0.0, ">= 0")?;
+        }
+        for s in self.potentials.arc_lengths() {
+            require("arc length of a potential (m)", s, s >= 0.0 && s <= length * (1.0 + 1e-12), "on the cable")?;
         }
         let nodes = self.nodes();
         let unordered = self.supports.windows(2).find(|s| s[0].0 >= s[1].0).map(|s| s[1].0);
@@ -143,8 +149,13 @@ impl Model {
     pub(crate) fn is_smooth_at(&self, node: usize, s: f64) -> bool {
         let [a, b] = [&self.elements[node - 1], &self.elements[node]];
         let is_held = || self.supports.iter().any(|(held, _)| *held == node);
-        let near = |load: &PointLoad| (load.arc_length - s).abs() <= 1e-9 * self.length();
-        a.section == b.section && !is_held() && !self.loads.iter().any(near)
+        let near = |at: f64| (at - s).abs() <= 1e-9 * self.length();
+        a.section == b.section && !is_held() && !self.pulled_points().any(near)
+    }
+
+    /// Returns the arc lengths in m of point loads and potentials.
+    pub(crate) fn pulled_points(&self) -> impl Iterator<Item = f64> {
+        self.loads.iter().map(|load| load.arc_length).chain(self.potentials.arc_lengths())
     }
 
     /// Sets the support of a node; a free one is removed.

@@ -1,6 +1,8 @@
 //! Reference magnitudes of force and energy for the tolerances of the iterations.
 
 use super::Model;
+use crate::effect::potential::Attached;
+use crate::element::shape::{self, combine};
 use crate::section::Element;
 
 /// Reference magnitudes of a cable under its loads.
@@ -31,7 +33,12 @@ impl LoadScale {
         let bend = |e: &Element| 12.0 * e.section.bending_stiffness / (e.length * e.length);
         let steepest = model.elements.iter().map(bend).fold(stiffest, f64::max);
         let shortest = model.elements.iter().map(|e| e.length).fold(f64::INFINITY, f64::min);
+        let pull = |own: &Attached| {
+            let (e, xi) = model.locate(own.arc_length);
+            own.potential.gradient(&combine(q, e, &shape::position(xi, model.elements[e].length))).norm()
+        };
         let loads: f64 = model.loads.iter().map(|l| l.force.norm() + l.moment.norm() / length).sum();
+        let loads = loads + model.potentials.list.iter().map(pull).sum::<f64>();
         let strain = q
             .chunks_exact(6)
             .map(|x| 0.5 * (x[3] * x[3] + x[4] * x[4] + x[5] * x[5] - 1.0).abs())

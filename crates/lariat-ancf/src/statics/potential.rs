@@ -31,7 +31,10 @@ pub(super) fn moment_work(model: &Model, from: &[f64], to: &[f64]) -> f64 {
 /// Returns the potential energy in J, with point forces at a share `load`.
 pub(crate) fn potential(equations: &Equations<'_>, load: f64, q: &[f64]) -> f64 {
     let (axial, bending) = equations.system.forces.strain_energy(q);
-    axial + bending + equations.system.static_contact.energy(equations.model, q)
+    axial
+        + bending
+        + equations.system.static_contact.energy(equations.model, q)
+        + equations.system.potentials.energy(equations.model, q)
         - equations.system.loads.gravity_work(q)
         - equations.system.loads.effect_work(q)
         - equations.system.loads.point_work(equations.model, load, q)

@@ -5,13 +5,11 @@ mod reel;
 
 pub use fleet::{FleetError, step_all};
 
-use crate::cable::{Cable, check_integrator};
+use crate::cable::{Cable, SHORTEST_STEP, check_integrator};
 use crate::error::{Error, require};
-use crate::integrate::{IntegratorRef, discrete_gradient, step_control};
-use crate::system::{CableDynamics, CableStep, Equations};
-
-/// Shortest step in s: squares of its smallest part must not vanish.
-pub(crate) const SHORTEST_STEP: f64 = 1e-100;
+use crate::integrate::{IntegratorRef, step_control};
+use crate::island::advance_alone;
+use crate::system::{CableDynamics, Equations};
 
 impl Cable {
     /// Advances the cable by `dt` (s), the host's step, with its integrator. `dt` = 0 does nothing.
@@ -54,12 +52,11 @@ impl Cable {
         self.before.copy_from(&self.snapshot.state);
         self.refresh_memory();
         self.begin_accounts();
-        let equations = Equations { model: &self.model, system: &mut self.system, diagnostics: &mut self.diagnostics };
-        let state = &mut self.snapshot.state;
         let (counts, outcome) = if integrator.method.uses_discrete_gradients() {
-            let mut cable = CableStep { equations, state, buffers: &mut self.step_buffers };
-            discrete_gradient::advance(&mut cable, integrator, dt)
+            advance_alone(self, integrator, dt)
         } else {
+            let (model, state) = (&self.model, &mut self.snapshot.state);
+            let equations = Equations { model, system: &mut self.system, diagnostics: &mut self.diagnostics };
             state.memory.differences.clear();
             let mut dynamics = CableDynamics { equations, buffers: &mut self.buffers };
             step_control::advance(&mut dynamics, integrator, state, dt, &mut self.scratch)

@@ -1,10 +1,10 @@
 //! Contacts of one cable with obstacles, in a step of the discrete gradient.
 
 use super::{Equations, dot};
-use crate::contact::{BodyPath, ContactStep, Motion, When, solves_again};
+use crate::contact::{BodyPath, ContactStep, Motion, When};
 use crate::effect::EffectWork;
 use crate::element::shape::combine;
-use crate::integrate::discrete_gradient::{Balance, share_of_impact};
+use crate::integrate::discrete_gradient::Balance;
 use crate::one_leg::ALPHA;
 use crate::state::State;
 use crate::system::StepVectors;
@@ -57,29 +57,6 @@ impl Equations<'_> {
         contacts.add_to(balance, b.h);
     }
 
-    /// Takes the velocity across contacts that push at the end of the step, if it has more energy than `least` (J).
-    pub fn land(&mut self, state: &State, b: &mut StepVectors, balance: &mut Balance, least: f64) {
-        self.find_velocities(state, b);
-        let with_obstacles = self.find_impacts(state, b, |_, _, _| Vector3::zeros());
-        if with_obstacles + self.find_own_impacts(b) <= least {
-            return;
-        }
-        self.solve_impacts(b);
-        let gives = b.contact.gives_velocity();
-        for _ in 0..solves_again(gives) {
-            let StepVectors { contact, pairs, landed, .. } = &mut *b;
-            let obstacles = contact.settle_impacts(|e, shape| combine(landed, e, shape), |_, _| Vector3::zeros());
-            if !(pairs.settle_impacts(|_, e, shape| combine(landed, e, shape)) || obstacles) {
-                break;
-            }
-            self.solve_impacts(b);
-        }
-        let [taken, held] = self.energy_of_impacts(b);
-        let work = b.contact.work_of_impacts(|e, shape| combine(&b.landed, e, shape));
-        let share = share_of_impact(balance, [taken, held, work], gives);
-        b.landed.iter_mut().for_each(|w| *w *= share);
-    }
-
     /// Computes the velocities at the end of the step into `external`, which is free then.
     pub fn find_velocities(&self, state: &State, b: &mut StepVectors) {
         for i in 0..b.external.len() {
@@ -98,25 +75,6 @@ impl Equations<'_> {
         let mass = |element: usize| self.model.elements[element].section.mass_per_length;
         let velocities = |when| if when == When::Begin { &state.v } else { &*external };
         contact.find_impacts(mass, |when, e, shape| combine(velocities(when), e, shape), body)
-    }
-
-    /// Finds the impacts of the cable on itself, and returns their energy in J.
-    fn find_own_impacts(&self, b: &mut StepVectors) -> f64 {
-        let StepVectors { pairs, external, .. } = b;
-        let mass = |_: usize, element: usize| self.model.elements[element].section.mass_per_length;
-        pairs.find_impacts(mass, |_, e, shape| combine(external, e, shape))
-    }
-
-    /// Solves for the velocities that impacts take, into `landed`.
-    fn solve_impacts(&mut self, b: &mut StepVectors) {
-        let StepVectors { contact, pairs, landed, rhs, .. } = &mut *b;
-        landed.clear();
-        landed.resize(rhs.len(), 0.0);
-        contact.pass_impacts(landed, &mut []);
-        pairs.pass_impacts(|_, e, impulse| {
-            landed[6 * e..6 * e + 12].iter_mut().zip(impulse).for_each(|(x, impulse)| *x += impulse);
-        });
-        self.solve_with_pairs(&mut b.pairs.low_rank, &mut b.landed, &mut b.product);
     }
 
     /// Returns what impacts take of the energy in J of velocities and store in proportion to their share, and in proportion to its square.

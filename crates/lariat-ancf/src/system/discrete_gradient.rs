@@ -1,18 +1,13 @@
 //! One cable under the [discrete gradient](crate::integrate::discrete_gradient).
 
-use super::angular::{Momenta, outside_impulses};
+use super::angular::outside_impulses;
 use super::lanes::MatrixOutput;
 use super::lanes::discrete_gradient::{CoordinateStep, ElementLoss};
-use super::laws::{add_to_laws, linearise_laws};
-use super::rigid_motion::relative_velocities;
 use super::vectors::dot;
-use super::{Equations, System, project_vector};
+use super::{Equations, System};
 use crate::effect::EffectWork;
 use crate::effect::acts::{ForceInput, PointForce, StepInput};
-use crate::error::StepFailure;
-use crate::integrate::discrete_gradient::{
-    Balance, Closing, DiscreteGradientSystem, Event, share_to_take, sum_of_forces,
-};
+use crate::integrate::discrete_gradient::{Balance, sum_of_forces};
 use crate::one_leg::{ALPHA, BETA};
 use crate::state::State;
 use crate::support::{SlopeSupport, Support};
@@ -82,6 +77,10 @@ impl Equations<'_> {
         let loss = self.step_elements(state, b, matrix);
         self.end_flow_step(state, b, eyes);
         self.external_forces(state, b, matrix, work);
+        let (system, to) = (&mut *self.system, matrix);
+        let to = to.then_some(&mut system.step.matrix);
+        self.diagnostics.load_evaluations += system.potentials.count();
+        system.potentials.add_over_step(self.model, &state.q, b, to);
         if !matrix && b.outside.is_some() {
             b.outside = Some(outside_impulses(&state.q, b));
         }
@@ -249,142 +248,5 @@ impl Equations<'_> {
         memory.differences.revision = memory.revision;
         let meter = &mut self.system.meter;
         meter.work += meter.work_of_step;
-    }
-}
-
-impl DiscreteGradientSystem for CableStep<'_> {
-    fn time(&self) -> f64 {
-        self.state.time
-    }
-
-    fn set_time(&mut self, time: f64) {
-        self.state.time = time;
-    }
-
-    fn begin(&mut self) {
-        self.equations.begin_host_step(self.state);
-        self.buffers.after = None;
-        self.equations.note_load(self.state.time, &self.state.q, &self.state.v);
-    }
-
-    fn predict(&mut self, h: f64, closing: Closing) {
-        let CableStep { equations, state, buffers: b } = self;
-        let free = equations.model.supports.is_empty() && equations.system.flows.is_empty();
-        let after = b.after.take();
-        b.before = free.then(|| {
-            after.unwrap_or_else(|| {
-                let mut momenta = Momenta::default();
-                momenta.add_cable(equations, state, b);
-                momenta.before()
-            })
-        });
-        b.outside = b.before.map(|_| Default::default());
-        self.equations.begin_laws(self.state.time, h);
-        self.buffers.recall(self.state, h);
-        self.equations.prescribe_change(self.state, self.buffers);
-        self.equations.find_contacts(self.state, self.buffers, (&[], closing.obstacles));
-        self.equations.find_pairs(self.state, self.buffers, closing.cables);
-    }
-
-    fn iterate(&mut self, fresh: bool, share: f64) -> Result<Balance, StepFailure> {
-        let CableStep { equations, state, buffers: b } = self;
-        equations.diagnostics.newton_iterations += 1;
-        if fresh {
-            equations.linearise_pairs(state, b);
-            equations.step_residual(state, b, true, &mut EffectWork::default());
-            equations.factor_to_solve()?;
-            equations.factor_pairs(b)?;
-            linearise_laws(equations, state, b);
-        }
-        equations.solve_with_pairs(&mut b.pairs.low_rank, &mut b.rhs, &mut b.product);
-        add_to_laws(equations, b);
-        if !b.rhs.iter().all(|x| x.is_finite()) {
-            return Err(equations.not_finite("Newton increment", &b.rhs));
-        }
-        Equations::apply_increment(b, if b.unknowns.reels.is_empty() { share } else { 1.0 });
-        let mut work = EffectWork::default();
-        let pairs = equations.balance_pairs(state, b, &mut work);
-        let mut balance = equations.step_balance(state, b, &mut work);
-        pairs.iter().for_each(|pairs| pairs.add_to(&mut balance, b.h));
-        equations.system.meter.work_of_step = work;
-        project_vector(equations.model, &mut b.rhs);
-        balance.residual = -dot(&b.rhs, &b.change) / b.h;
-        balance.imbalance = sum_of_forces(&b.rhs);
-        Ok(balance)
-    }
-
-    fn renew_friction(&mut self, least: f64) -> bool {
-        let contact = &mut self.buffers.contact;
-        contact.lags &= contact.find_lag() > least;
-        contact.renew_friction();
-        contact.lags
-    }
-
-    fn add_missed(&mut self) -> bool {
-        self.equations.add_missed_contacts(self.state, self.buffers)
-    }
-
-    fn crosses(&mut self) -> bool {
-        let passes = self.equations.passes_obstacles(self.state, self.buffers);
-        self.equations.do_pairs_cross(self.state, self.buffers) || passes
-    }
-
-    fn rescale(&mut self, balance: &mut Balance, largest_share: f64) -> bool {
-        let CableStep { equations, state, buffers } = self;
-        // the other buffers are free now
-        let StepVectors { velocity_change, change, rhs, external, product, taken, linearised, .. } = &mut **buffers;
-        for i in 0..change.len() {
-            product[i] = state.q[i] + change[i];
-            rhs[i] = state.v[i] + velocity_change[i];
-        }
-        taken.clone_from(rhs);
-        relative_velocities(equations.model, equations.system, product, taken, external, linearised);
-        let energy = 0.5 * equations.system.mass_square(taken, external);
-        let share = share_to_take(energy, dot(rhs, external), balance.to_take(), largest_share);
-        match share {
-            Some(share) => {
-                taken.iter_mut().for_each(|x| *x *= share);
-                balance.rescaled += balance.to_take();
-                true
-            }
-            None => {
-                taken.clear();
-                false
-            }
-        }
-    }
-
-    fn land(&mut self, balance: &mut Balance, least: f64) {
-        self.equations.land(self.state, self.buffers, balance, least);
-    }
-
-    fn accept(&mut self, balance: &Balance) {
-        self.equations.accept_step(self.state, self.buffers);
-        self.buffers.pairs.remember(0, &mut self.state.memory.pairs);
-        let mut balance = *balance;
-        let CableStep { equations, state, buffers: b } = self;
-        if let (Some(before), Some(outside), true) = (b.before, b.outside, !b.contact.is_held()) {
-            let mut momenta = Momenta::default();
-            momenta.add_second_difference(equations.system, state, b);
-            momenta.add_cable(equations, state, b);
-            let (turn, after) = momenta.restore(&mut state.memory.differences.owed, (before, outside), &mut balance);
-            turn.turn_cable(state);
-            b.after = Some(after);
-        }
-        equations.system.meter.law.add(&balance);
-        equations.note_load(state.time, &state.q, &state.v);
-    }
-
-    fn count(&mut self, event: Event) {
-        match event {
-            Event::Rescaled => self.equations.diagnostics.rescaled_steps += 1,
-            Event::Crossed => self.equations.diagnostics.crossed_steps += 1,
-            Event::Lagging => self.equations.diagnostics.lagging_steps += 1,
-            Event::Split => self.equations.diagnostics.split_steps += 1,
-        }
-    }
-
-    fn splits(&self) -> u64 {
-        self.equations.diagnostics.split_steps
     }
 }

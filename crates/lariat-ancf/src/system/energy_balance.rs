@@ -251,7 +251,7 @@ impl Equations<'_> {
         let own = kinetic + axial + bending;
         let loads = &system.loads;
         let work = loads.gravity_work(q) + loads.effect_work(q) + loads.point_work(self.model, 1.0, q);
-        (own, own - work)
+        (own, own + system.potentials.energy(self.model, q) - work)
     }
 
     /// Returns the power in W that effects at Gauss points give to the cable.

@@ -86,6 +86,8 @@ impl Equations<'_> {
         let loads = ForceInput { time: load_time, ..input };
         system.loads.add(&self.model.loads, loads, out, mass_scale.map(|_| &mut *matrix), diagnostics);
         let (q, scale) = (input.q, input.scale);
+        diagnostics.load_evaluations += system.potentials.count();
+        system.potentials.add(self.model, (q, scale), out, mass_scale.map(|_| &mut *matrix));
         system.static_contact.add(self.model, (q, scale), out, mass_scale.map(|_| &mut *matrix));
         system.flows.add(self.model, &input, out, mass_scale.map(|_| matrix));
     }

@@ -3,7 +3,7 @@
 //! # Equation
 //!
 //! ```text
-//! K = -dF/dq        C = -dF/dq'        F = elastic + rest shape + damping + drag + own force densities + moments of point loads
+//! K = -dF/dq        C = -dF/dq'        F = elastic + rest shape + damping + drag + own force densities + potentials + moments of point loads
 //! ```
 //!
 //! K is not symmetric with damping, drag or moments: they are no gradients. Each element is evaluated by the scalar form of its
@@ -47,6 +47,7 @@ impl Jacobians {
         add_elements(&system.forces, at, [1.0, 0.0], &mut out.stiffness);
         add_elements(&system.forces, at, [0.0, 1.0], &mut out.damping);
         add_moments(model, at, &mut out.stiffness);
+        system.potentials.add_stiffness(model, at.q, &mut out.stiffness);
         out
     }
 }

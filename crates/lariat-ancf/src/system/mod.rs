@@ -8,7 +8,7 @@
 //! | [`elements`] | numbers of the elements |
 //! | [`lanes`] | the loop over the elements, eight at a time |
 //! | [`forces`] | elastic forces and effects |
-//! | [`loads`] | weight, constant forces, point loads |
+//! | [`loads`], `potentials` | weight, constant forces, point loads; potentials of the user's own |
 //! | [`mass`] | mass matrix and its factors |
 //! | [`equations`] | one evaluation of everything, factorisation, solution |
 //! | [`dynamics`] | the equations as integrators see them |
@@ -31,11 +31,10 @@ pub(crate) mod forces;
 mod frequency;
 pub(crate) mod jacobian;
 mod lanes;
-mod laws;
 pub(crate) mod loads;
 pub(crate) mod mass;
 mod meter;
-mod pairs;
+mod potentials;
 mod projection;
 mod reading;
 mod rigid_motion;
@@ -65,6 +64,7 @@ use forces::Forces;
 use loads::Loads;
 use mass::Mass;
 use meter::EnergyMeter;
+use potentials::PointPotentials;
 
 /// Everything derived from a [`Model`].
 #[derive(Clone, Debug)]
@@ -72,6 +72,7 @@ pub(crate) struct System {
     pub level: Level,
     pub forces: Forces,
     pub loads: Loads,
+    pub potentials: PointPotentials,
     pub mass: Mass,
     pub step: StepMatrix,
     pub scales: Scales,
@@ -135,6 +136,7 @@ impl System {
             level,
             forces: Forces::new(model),
             loads: Loads::new(model),
+            potentials: PointPotentials::new(model),
             mass: Mass::new(level, model)?,
             step: StepMatrix::default(),
             scales: Scales::new(model),

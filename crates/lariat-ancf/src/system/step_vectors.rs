@@ -1,7 +1,6 @@
 //! The buffers of a step of the [discrete gradient](crate::integrate::discrete_gradient).
 
-use super::flow::Unknowns;
-use crate::contact::{ContactStep, PairStep};
+use crate::contact::ContactStep;
 use crate::state::State;
 use nalgebra::Vector3;
 
@@ -43,12 +42,8 @@ pub(crate) struct StepVectors {
     pub product: Vec<f64>,
     /// Contacts.
     pub contact: ContactStep,
-    /// Contacts of the cable with itself.
-    pub pairs: PairStep,
     /// Impulses of contacts with cables; empty without any.
     pub pair_impulses: Vec<f64>,
-    /// Rates of reels that are unknown.
-    pub unknowns: Unknowns,
     /// Where nothing holds the cable, the momenta when the step begins.
     pub before: Option<Before>,
     /// Those of the end of the step before, if it was in the same host step.

@@ -34,7 +34,8 @@ impl CableTerms {
     /// Reads energies and works of a cable; `buffer` is for its momenta.
     pub fn of(cable: &Cable, buffer: &mut Vec<f64>) -> Self {
         let energy = cable.energy_in(buffer);
-        let (kinetic, strain, gravity) = (energy.kinetic, energy.axial + energy.bending, energy.gravity);
+        let (kinetic, strain, gravity) =
+            (energy.kinetic, energy.axial + energy.bending + energy.potentials, energy.gravity);
         CableTerms { kinetic, strain, gravity, ..CableTerms::of_works(cable) }
     }
 }

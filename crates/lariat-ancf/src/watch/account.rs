@@ -44,7 +44,7 @@ pub(crate) struct Start {
 pub struct CableTerms {
     /// Kinetic energy.
     pub kinetic: f64,
-    /// Strain energy.
+    /// Strain energy, and that of potentials.
     pub strain: f64,
     /// Energy of gravity.
     pub gravity: f64,

@@ -219,6 +219,7 @@ impl Model {
     /// Puts the loads where their material is after a length in m came through the eye at the start: whatever the way to it, to the last bit.
     pub(super) fn move_loads(&mut self, passed: f64) {
         let length = self.length();
+        self.potentials.move_to(passed, length);
         for (load, origin) in self.loads.iter_mut().zip(&self.load_origins) {
             load.arc_length = (origin + passed).clamp(0.0, length);
         }
@@ -230,10 +231,10 @@ impl Model {
         self.load_origins.extend(self.loads.iter().map(|load| load.arc_length - passed));
     }
 
-    /// Returns the distances in m of the point loads from the end at a side.
+    /// Returns the distances in m of the point loads and potentials from the end at a side.
     pub(super) fn loads_from(&self, side: Side) -> impl Iterator<Item = f64> {
-        let length = if self.loads.is_empty() { 0.0 } else { self.length() };
-        self.loads.iter().map(move |load| if side == Side::End { length - load.arc_length } else { load.arc_length })
+        let length = if self.pulled_points().next().is_none() { 0.0 } else { self.length() };
+        self.pulled_points().map(move |at| if side == Side::End { length - at } else { at })
     }
 
     /// Refuses point loads on elements at eyes: their force on its length is not there.
@@ -243,7 +244,7 @@ impl Model {
             if self.loads_from(side).any(|distance| distance < length - NEAR * length) {
                 return Err(Error::NotWithReel {
                     cable: self.name.clone(),
-                    what: "a point load on the element at the eye",
+                    what: "a point load or potential on the element at the eye",
                 });
             }
         }

@@ -86,9 +86,10 @@ impl Cable {
             let e = flow.side.element(self.model.elements.len());
             self.model.elements[e].length = length;
         }
-        if succeeded && !self.model.loads.is_empty() {
+        if succeeded && self.model.pulled_points().next().is_some() {
             self.model.move_loads(self.snapshot.passed_at_start());
             self.system.loads.locate(&self.model);
+            self.system.potentials.locate(&self.model);
         }
         self.sync_reel();
     }

@@ -33,7 +33,10 @@ pub(in crate::island) struct HostStep<'a, 'b> {
 impl HostStep<'_, '_> {
     /// Advances by `dt` (s). Cables and bodies are as before if it fails.
     pub fn run(mut self, integrator: IntegratorRef<'_>, dt: f64) -> Result<(), Error> {
-        self.buffers.begin(self.cables, self.layout);
+        self.buffers.begin(self.layout);
+        for (own, cable) in self.buffers.cables.iter_mut().zip(self.cables.iter()) {
+            own.start.copy_from(&cable.snapshot.state);
+        }
         self.cables.iter_mut().for_each(|cable| cable.refresh_memory());
         let time = self.cables[0].time();
         if let Err(failure) = self.match_velocities() {

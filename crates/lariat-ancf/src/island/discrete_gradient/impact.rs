@@ -65,9 +65,10 @@ impl IslandStep<'_, '_> {
     fn solve_impacts(&mut self) {
         self.buffers.rows.fill(0.0);
         for cable in self.cables.iter_mut() {
-            let StepVectors { landed, rhs, .. } = &mut cable.step_buffers;
+            let StepVectors { contact, landed, rhs, .. } = &mut cable.step_buffers;
             landed.clear();
             landed.resize(rhs.len(), 0.0);
+            contact.pass_impacts(landed, &mut self.buffers.rows);
         }
         let cables = &mut *self.cables;
         self.buffers.pairs.pass_impacts(|c, e, impulse| {
@@ -75,8 +76,7 @@ impl IslandStep<'_, '_> {
             own.iter_mut().zip(impulse).for_each(|(x, impulse)| *x += impulse);
         });
         for (cable, own) in self.cables.iter_mut().zip(&self.buffers.cables) {
-            let StepVectors { contact, landed, rhs, .. } = &mut cable.step_buffers;
-            contact.pass_impacts(landed, &mut self.buffers.rows);
+            let StepVectors { landed, rhs, .. } = &mut cable.step_buffers;
             for hold in &own.holds {
                 hold.pass(&vector(&landed[hold.at..]), &mut self.buffers.rows);
             }

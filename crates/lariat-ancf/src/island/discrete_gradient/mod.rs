@@ -94,18 +94,17 @@ pub(super) struct IslandStep<'a, 'b> {
 
 impl StepBuffers {
     /// Begins a host step.
-    pub fn begin(&mut self, cables: &[&mut Cable], layout: &Layout) {
+    pub fn begin(&mut self, layout: &Layout) {
         self.bodies.clear();
         self.bodies.extend(layout.bodies.iter().map(BodyStep::new));
         self.coupled.clear();
         let inverse = |i: usize| layout.bodies[i].rotation.inverse();
         self.coupled.extend(layout.coupled.iter().map(|coupled| coupled.turned(coupled.bodies.map(inverse))));
         self.rows.resize(6 * layout.bodies.len(), 0.0);
-        self.cables.resize_with(cables.len(), CableBuffers::default);
-        for ((own, part), cable) in self.cables.iter_mut().zip(&layout.parts).zip(cables) {
+        self.cables.resize_with(layout.parts.len(), CableBuffers::default);
+        for (own, part) in self.cables.iter_mut().zip(&layout.parts) {
             own.holds.clear();
             own.holds.extend(part.holds.iter().map(|hold| HoldStep::new(hold, part.at, layout.pins[hold.pin].body)));
-            own.start.copy_from(&cable.snapshot.state);
         }
     }
 }

@@ -5,8 +5,9 @@ use super::super::layout::Layout;
 use super::{IslandStep, StepBuffers};
 use crate::cable::Cable;
 use crate::contact::{CablePair, ContactBalance, LowRank, PairStep, PairSystem, Row, Strand, Strands};
+use crate::diagnostics::Diagnostics;
 use crate::error::StepFailure;
-use crate::integrate::discrete_gradient::{DiscreteGradientSystem, Event};
+use crate::integrate::discrete_gradient::Event;
 use core::mem::{swap, take};
 
 /// Right-hand sides that are put aside, by cable, and of the bodies.
@@ -182,12 +183,14 @@ impl IslandStep<'_, '_> {
         for (c, cable) in self.cables.iter_mut().enumerate() {
             let contact = &cable.step_buffers.contact;
             let is_its = match event {
-                Event::Crossed => crossed.is_some_and(|crossed| crossed.contains(&c)) || contact.passed,
+                Event::Crossed => {
+                    crossed.is_some_and(|crossed| crossed.contains(&c)) || contact.passed || contact.missed
+                }
                 Event::Lagging => contact.lags,
                 Event::Rescaled | Event::Split => true,
             };
             if is_its {
-                cable.step_parts().count(event);
+                count(cable.diagnostics_mut(), event);
             }
         }
     }
@@ -208,5 +211,15 @@ impl IslandStep<'_, '_> {
         let contacts = self.with_pairs(PairStep::balance);
         self.pass_pairs(false);
         Some(contacts)
+    }
+}
+
+/// Counts an event.
+fn count(diagnostics: &mut Diagnostics, event: Event) {
+    match event {
+        Event::Rescaled => diagnostics.rescaled_steps += 1,
+        Event::Crossed => diagnostics.crossed_steps += 1,
+        Event::Lagging => diagnostics.lagging_steps += 1,
+        Event::Split => diagnostics.split_steps += 1,
     }
 }

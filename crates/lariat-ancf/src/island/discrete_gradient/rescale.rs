@@ -19,14 +19,18 @@ use super::IslandStep;
 use super::body::BodyStep;
 use super::coupled::coupled_product;
 use super::rigid::RigidMotion;
+use crate::cable::Cable;
 use crate::integrate::discrete_gradient::{Balance, share_to_take};
 use crate::island::hold::vector;
 use crate::system::StepVectors;
-use crate::system::{CableStep, Modes, dot, solve_semidefinite as solve};
+use crate::system::{CableStep, Modes, dot, relative_velocities, solve_semidefinite as solve};
 use nalgebra::{Matrix6, Vector3, Vector6};
 
 /// See [`DiscreteGradientSystem::rescale`](crate::integrate::discrete_gradient::DiscreteGradientSystem::rescale).
 pub(in crate::island) fn rescale(island: &mut IslandStep<'_, '_>, balance: &mut Balance, largest_share: f64) -> bool {
+    if island.cables.len() == 1 && island.buffers.bodies.is_empty() {
+        return rescale_alone(island.cables[0], balance, largest_share);
+    }
     let rigid = rigid_motion(island);
     let (mut energy, mut product) = (0.0, 0.0);
     for (cable, own) in island.cables.iter_mut().zip(&island.buffers.cables) {
@@ -69,6 +73,28 @@ pub(in crate::island) fn rescale(island: &mut IslandStep<'_, '_>, balance: &mut 
     island.buffers.bodies.iter_mut().for_each(|body| body.taken *= factor);
     if share.is_some() {
         balance.rescaled += balance.to_take();
+    }
+    share.is_some()
+}
+
+/// Without bodies, the rotations about the one point that is held are rigid motions too.
+fn rescale_alone(cable: &mut Cable, balance: &mut Balance, largest_share: f64) -> bool {
+    let CableStep { equations, state, buffers } = cable.step_parts();
+    // the other buffers are free now
+    let StepVectors { velocity_change, change, rhs, external, product, taken, linearised, .. } = buffers;
+    for i in 0..change.len() {
+        product[i] = state.q[i] + change[i];
+        rhs[i] = state.v[i] + velocity_change[i];
+    }
+    taken.clone_from(rhs);
+    relative_velocities(equations.model, equations.system, product, taken, external, linearised);
+    let energy = 0.5 * equations.system.mass_square(taken, external);
+    let share = share_to_take(energy, dot(rhs, external), balance.to_take(), largest_share);
+    if let Some(share) = share {
+        taken.iter_mut().for_each(|x| *x *= share);
+        balance.rescaled += balance.to_take();
+    } else {
+        taken.clear();
     }
     share.is_some()
 }
