@@ -113,72 +113,42 @@
 //! iterating, at four times the cost and still failing in jams. Motors on a body that a joint holds
 //! to the world: a gap of 1e-2 m at 5 kN, 4e-6 m without.
 
-mod attach;
-mod attachment;
 mod body;
-mod breaking;
-mod budget;
 mod contact;
 mod contents;
 pub mod convert;
-#[cfg(feature = "debug-render")]
-mod draw;
-mod drum;
 mod edit;
 mod error;
 mod events;
-mod gaps;
 mod handle;
-mod host_step;
-mod inside;
 mod islands;
-mod join;
-mod junction;
-mod ledger;
-mod mark;
 mod mechanism;
-mod motion_memory;
-mod passing;
-mod pose;
-mod proximity;
-mod record;
-mod reels;
-mod rope;
+mod read;
 mod set;
-mod settings;
-mod sheave;
-mod sleep;
-mod spatial;
 mod statics;
 mod step;
-mod table;
-mod totals;
-mod unsettled;
-mod warnings;
-mod wheels;
-mod world_mark;
 
-pub use attachment::{Attachment, AttachmentKind, AttachmentOptions, AttachmentReading, Gap};
 pub use body::rigid_body;
-pub use budget::Budget;
-pub use contact::{ContactFilter, ContactRules};
-#[cfg(feature = "debug-render")]
-pub use draw::DrawStyle;
-pub use drum::Drum;
+pub use body::unsettled::Unsettled;
+pub use contents::attachment::{Attachment, AttachmentKind, AttachmentOptions, AttachmentReading, Gap};
+pub use contents::drum::Drum;
+pub use contents::gaps::OpenGap;
+pub use contents::junction::Junction;
+pub use contents::rules::{ContactFilter, ContactRules};
+pub use contents::sheave::{Sheave, SheaveOptions};
 pub use error::{BodyQuantity, Error, Failure};
 pub use events::Event;
-pub use gaps::OpenGap;
 pub use handle::{AttachmentHandle, CableHandle, JunctionHandle, SheaveHandle};
-pub use inside::deepest_inside;
-pub use junction::Junction;
 pub use lariat_ancf;
 pub use rapier;
-pub use rope::{ROPE_DAMPING, Rope, RopeEnd, RopeHandles};
+#[cfg(feature = "debug-render")]
+pub use read::draw::DrawStyle;
+pub use read::inside::deepest_inside;
+pub use read::totals::WorldEnergy;
+pub use read::warnings::Warning;
 pub use set::CableSet;
-pub use settings::Settings;
-pub use sheave::{Sheave, SheaveOptions};
+pub use set::rope::{ROPE_DAMPING, Rope, RopeEnd, RopeHandles};
 pub use statics::Equilibrium;
 pub use step::HostStep;
-pub use totals::WorldEnergy;
-pub use unsettled::Unsettled;
-pub use warnings::Warning;
+pub use step::budget::Budget;
+pub use step::settings::Settings;

@@ -7,16 +7,15 @@
 //! and while it does not know all colliders, every one of them is looked at.
 
 use super::neighbours::Neighbours;
-use super::rules::{ContactFilter, ContactRules};
 use super::{Surfaces, key};
+use crate::body::prescribed_motion::PrescribedMotions;
 use crate::contents::Contents;
+use crate::contents::rules::{ContactFilter, ContactRules};
 use crate::convert::{rotation, to_vector, vector};
 use crate::error::Error;
 use crate::events::Event;
 use crate::handle::CableHandle;
 use crate::islands::{Island, Member};
-use crate::step::prediction::StepParameters;
-use crate::step::prescribed_motion::PrescribedMotions;
 use ::nalgebra::{UnitQuaternion, Vector3};
 use lariat_ancf::contact::{LARGEST_RESTITUTION, Mount, Obstacle, Overlap, RigidMotion, Surface};
 use lariat_ancf::{Cable, Warning};
@@ -116,19 +115,19 @@ impl Finder {
         self.known = Some(world.colliders.len());
     }
 
-    /// Gives a cable of an island the colliders that it can reach as obstacles, and returns whether one moves, or one that it touched is gone. A
+    /// Gives a cable of an island the colliders that it can reach in a Rapier step of `h` (s), at a share of the host step, as obstacles, and returns whether one moves, or one that it touched is gone. A
     /// collider with a shape of the program's own in which the cable is found is an event, once.
     pub fn gather(
         &mut self,
         contents: &mut Contents,
         world: &PhysicsWorld,
         (index, island): (usize, &Island),
-        (motions, step): (&PrescribedMotions, &StepParameters),
+        (motions, share, h): (&PrescribedMotions, (f64, f64), f64),
         events: &mut Vec<Event>,
     ) -> Result<bool, lariat_ancf::Error> {
         let Some(slot) = contents.cables.get(index) else { return Ok(false) };
         let Some(contact) = slot.cable.effects().contact else { return Ok(false) };
-        self.find(world, &slot.cable, step.h);
+        self.find(world, &slot.cable, h);
         let (cable, time) = (CableHandle(index as u32), slot.cable.time());
         let (mut obstacles, mut ignored, mut high) = (Vec::new(), Vec::new(), Vec::new());
         for i in 0..self.found.len() {
@@ -148,7 +147,7 @@ impl Finder {
             obstacles.push(Obstacle {
                 key: key(handle),
                 surface,
-                motion: motion(world, collider, motions, step, time),
+                motion: motion(world, collider, (motions, share, h), time),
                 mount: collider.parent().and_then(|body| mount(world, collider, island, body)),
                 friction: slot.rules.friction(contact.friction, collider),
                 restitution: restitution.min(LARGEST_RESTITUTION),
@@ -305,8 +304,7 @@ fn is_inside(cable: &Cable, collider: &Collider) -> bool {
 fn motion(
     world: &PhysicsWorld,
     collider: &Collider,
-    motions: &PrescribedMotions,
-    step: &StepParameters,
+    (motions, share, h): (&PrescribedMotions, (f64, f64), f64),
     time: f64,
 ) -> RigidMotion {
     let (Some(parent), Some(local)) = (collider.parent(), collider.position_wrt_parent()) else {
@@ -315,7 +313,7 @@ fn motion(
     if !world.bodies.get(parent).is_some_and(|body| body.is_kinematic() && body.is_enabled()) {
         return still(collider, time);
     }
-    let [((from, attitude), _), ((to, turned), _)] = motions.ends(world, parent, step.share, step.h);
+    let [((from, attitude), _), ((to, turned), _)] = motions.ends(world, parent, share, h);
     // it moves uniformly if nothing accelerates the body
     let point = vector(world.bodies[parent].local_center_of_mass());
     let (offset, tilt): (Vector3<f64>, UnitQuaternion<f64>) = (vector(local.translation), rotation(local.rotation));
@@ -324,11 +322,11 @@ fn motion(
         centre: tilt.inverse() * (point - offset),
         position: from + attitude * point,
         rotation: attitude * tilt,
-        velocity: (to + turned * point - from - attitude * point) / step.h,
+        velocity: (to + turned * point - from - attitude * point) / h,
         angular_velocity: Vector3::zeros(),
     };
     if turned != attitude {
-        out.angular_velocity = (turned * attitude.inverse()).scaled_axis() / step.h;
+        out.angular_velocity = (turned * attitude.inverse()).scaled_axis() / h;
     } else if to == from {
         out.velocity = Vector3::zeros();
     }

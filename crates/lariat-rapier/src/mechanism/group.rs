@@ -25,7 +25,7 @@
 //! Khatib 1987, the operational space inertia; Chang & Khatib 2000, of several points.
 
 use super::of_body::Mechanism;
-use crate::spatial::stack_spatial;
+use crate::body::spatial::stack_spatial;
 use ::nalgebra::{DMatrix, DVector, Matrix6, UnitQuaternion, Vector6};
 use lariat_ancf::island::{CoupledInertia, RigidBody};
 

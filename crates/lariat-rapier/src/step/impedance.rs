@@ -30,15 +30,15 @@
 //!
 //! [`Impedance`]: lariat_ancf::island::Impedance
 
-use crate::attachment::Attachment;
+use crate::body::ledger::{Drive, Ledger};
+use crate::body::proximity;
+use crate::body::record::ExactState;
+use crate::body::spatial::stack_spatial;
 use crate::contents::Contents;
+use crate::contents::attachment::Attachment;
 use crate::error::Error;
 use crate::islands::{Island, Member};
-use crate::ledger::{Drive, Ledger};
 use crate::mechanism::Mechanism;
-use crate::proximity;
-use crate::record::ExactState;
-use crate::spatial::stack_spatial;
 use crate::step::prediction::{Prediction, StepParameters};
 use ::nalgebra::{Matrix3, SMatrix, Vector3, Vector6};
 use lariat_ancf::Cable;

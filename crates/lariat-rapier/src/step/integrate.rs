@@ -5,10 +5,10 @@
 //! reads and writes nothing of another, nor of Rapier's world, so results are bitwise the same for
 //! any number of threads.
 
-use crate::budget::step_within;
 use crate::contents::{Contents, Slot};
 use crate::error::Error;
 use crate::islands::Island;
+use crate::step::budget::step_within;
 use crate::step::prediction::Prediction;
 use core::cell::RefCell;
 use lariat_ancf::integrate::WorkLimit;

@@ -20,17 +20,17 @@
 //! waves grow as fast.
 
 use crate::body;
-use crate::budget::CHEAPEST;
+use crate::body::prescribed_motion::PrescribedMotions;
+use crate::body::proximity;
+use crate::body::spatial::stack_spatial;
 use crate::contents::Contents;
 use crate::error::Error;
 use crate::islands::{Island, Member};
 use crate::mechanism::{self, Group, Jointed};
-use crate::proximity;
-use crate::spatial::stack_spatial;
+use crate::step::budget::CHEAPEST;
 use crate::step::energy;
 use crate::step::kinematic_ends;
 use crate::step::prediction::{Prediction, StepParameters};
-use crate::step::prescribed_motion::PrescribedMotions;
 use crate::step::substepping;
 use ::nalgebra::Vector6;
 use lariat_ancf::island::{PinConstraint, RigidBody};

@@ -14,9 +14,9 @@
 //! The share s for places too: a ball with a thread rebounds with 0.09 to 0.14 of its speed where continuous collision detection stops it.
 //! Leaving p out: bodies of 1 to 5 kg on a steel wire leave a jam when the host step is not split.
 
+use crate::body::record::BodyRecord;
+use crate::body::spatial::stack_spatial;
 use crate::mechanism::{own_inertia, velocity_of};
-use crate::record::BodyRecord;
-use crate::spatial::stack_spatial;
 use crate::step::prediction::BodyStep;
 use ::nalgebra::Vector6;
 use lariat_ancf::island::RigidBody;

@@ -20,13 +20,12 @@
 //! deviated, `v_after + s (v1 - v0)`, s = 1 where it landed and 0 where it was stopped: a random
 //! scene in free flight gained 8e-3 m/s per mass.
 
+use crate::body::pose::rounding;
+use crate::body::record::{BodyRecord, ExactState};
+use crate::body::spatial::{split_spatial, stack_spatial};
 use crate::contents::Contents;
 use crate::convert::{rotation, to_pose, to_vector, vector};
 use crate::islands::{Island, Member};
-use crate::pose::rounding;
-use crate::record::{BodyRecord, ExactState};
-use crate::sleep;
-use crate::spatial::{split_spatial, stack_spatial};
 use crate::step::apply::restore_cables;
 use crate::step::energy;
 use crate::step::groups;
@@ -34,6 +33,7 @@ use crate::step::impedance::{apply_motor_impulses, follow_body, motor_impulse, t
 use crate::step::kinematic_ends;
 use crate::step::prediction::{AppliedMotion, BodyStep, Prediction};
 use crate::step::reaction::update_reaction;
+use crate::step::sleep;
 use crate::step::waking;
 use ::nalgebra::{UnitQuaternion, Vector3, Vector6};
 use lariat_ancf::island::RigidBody;

@@ -28,7 +28,7 @@
 //! step is predicted anew, divided. Impulse joints turn a velocity by removing what they do not allow of it, in each substep the share (w h/N)^2/2, which is the left
 //! side of the third line per radian.
 //!
-//! The collisions and the taut cables of the whole coming host step count ([`crate::proximity`]). All is evaluated again before each Rapier
+//! The collisions and the taut cables of the whole coming host step count ([`crate::body::proximity`]). All is evaluated again before each Rapier
 //! step, and the rest of the host step is split finer.
 //!
 //! # Validity
@@ -42,14 +42,14 @@
 //! A fine split always: a pile of 500 boxes costs 0.5 ms in each Rapier step. A bound of the gap that a collision at v opens before the
 //! cable follows, h v g/(1 + g) <= 1 mm with g = 0.1 h^2 k/m: with 32 steps at most, h w <= 0.6 asks for more of them below 50 m/s.
 
-use crate::attachment::Attachment;
 use crate::body::is_integrated;
+use crate::body::pose::MAX_HALF_ROTATION;
+use crate::body::proximity;
+use crate::body::spatial::split_spatial;
 use crate::contact;
 use crate::contents::Contents;
-use crate::pose::MAX_HALF_ROTATION;
-use crate::proximity;
-use crate::settings::Settings;
-use crate::spatial::split_spatial;
+use crate::contents::attachment::Attachment;
+use crate::step::settings::Settings;
 use ::nalgebra::Vector3;
 use lariat_ancf::At;
 use rapier::dynamics::RigidBodyHandle;
