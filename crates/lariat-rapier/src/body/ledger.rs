@@ -20,6 +20,7 @@
 //! the second frame as lever of both bodies.
 
 use crate::convert::{to_pose, to_vector, vector};
+use crate::scales::body::{FORCE_TARGET, LEDGER_MASS, LEDGER_SHARE, MIN_MOTOR_DAMPING};
 use ::nalgebra::{Matrix3, Rotation3, UnitQuaternion, Vector3};
 use rapier::dynamics::{
     GenericJointBuilder, ImpulseJointHandle, JointAxesMask, JointAxis, MotorModel, RigidBody, RigidBodyBuilder,
@@ -29,16 +30,8 @@ use rapier::math::{Real, Vector};
 use rapier::pipeline::PhysicsWorld;
 use serde::{Deserialize, Serialize};
 
-/// Mass of a ledger in kg.
-const LEDGER_MASS: f64 = 1e9;
 const AXES: [JointAxis; 3] = [JointAxis::LinX, JointAxis::LinY, JointAxis::LinZ];
 const ANGULAR_AXES: [JointAxis; 3] = [JointAxis::AngX, JointAxis::AngY, JointAxis::AngZ];
-/// Target in m/s or rad/s of a motor that exerts a force or moment alone: far above any velocity, so
-/// that it hardly depends on that of the body.
-const FORCE_TARGET: f64 = 1e6;
-/// Damping in N s/m or N m s below which there is no motor: Rapier takes one whose product with a substep is below 1e-20
-/// for a rigid one.
-const MIN_DAMPING: f64 = 1e-14;
 
 /// The heavy body of an attachment and the joint whose motors act on the attached body.
 #[derive(Clone, Copy, Debug, Serialize, Deserialize)]
@@ -64,7 +57,7 @@ pub(crate) struct Drive {
 
 /// Returns whether a body is the ledger of an attachment, and so none of the user's.
 pub(crate) fn is_ledger(body: &RigidBody) -> bool {
-    f64::from(body.mass()) >= 0.5 * LEDGER_MASS
+    f64::from(body.mass()) >= LEDGER_SHARE * LEDGER_MASS
 }
 
 impl Ledger {
@@ -113,14 +106,14 @@ impl Ledger {
         let [force, moment] = drive.load.unwrap_or_default().map(|v| frame.inverse() * v);
         data.motor_axes = JointAxesMask::empty();
         let mut set = |axis, target: f64, damping: f64| {
-            if damping > MIN_DAMPING {
+            if damping > MIN_MOTOR_DAMPING {
                 data.set_motor_model(axis, MotorModel::ForceBased);
                 data.set_motor(axis, 0.0, target as Real, 0.0, damping as Real);
             }
         };
         for i in 0..3 {
             let damping = (eigen.eigenvalues[i] / h).max(force[i].abs() / FORCE_TARGET);
-            set(AXES[i], target[i] + force[i] / damping.max(MIN_DAMPING), damping);
+            set(AXES[i], target[i] + force[i] / damping.max(MIN_MOTOR_DAMPING), damping);
             set(ANGULAR_AXES[i], FORCE_TARGET.copysign(moment[i]), moment[i].abs() / FORCE_TARGET);
         }
     }

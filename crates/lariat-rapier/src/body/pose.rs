@@ -6,11 +6,6 @@ use rapier::dynamics::RigidBodyHandle;
 use rapier::math::Real;
 use rapier::pipeline::PhysicsWorld;
 
-/// Largest rotation of a body in a Rapier step, in rad, unless it is allowed to rotate faster.
-pub(crate) const MAX_ROTATION_PER_STEP: f64 = core::f64::consts::FRAC_PI_4;
-/// Half of the rotation in a substep, in rad, up to which angular velocities are corrected for Rapier's linearised rotation.
-pub(crate) const MAX_HALF_ROTATION: f64 = 1.2;
-
 /// Position of the origin of a body in m, and its attitude.
 pub(crate) type OriginPose = (Vector3<f64>, UnitQuaternion<f64>);
 

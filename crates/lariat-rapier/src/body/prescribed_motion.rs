@@ -38,9 +38,10 @@
 
 use crate::body::is_integrated;
 use crate::body::motion_memory::{Line, MotionMemory, Velocities};
-use crate::body::pose::{MAX_ROTATION_PER_STEP, OriginPose, pose};
+use crate::body::pose::{OriginPose, pose};
 use crate::body::record::Records;
 use crate::convert::{rotation, to_pose, vector};
+use crate::scales::body::MAX_ROTATION_PER_STEP;
 use ::nalgebra::{Matrix3, UnitQuaternion, Vector3};
 use rapier::dynamics::{RigidBodyHandle, RigidBodyType};
 use rapier::math::Real;

@@ -8,6 +8,7 @@
 
 use crate::body::ledger::is_ledger;
 use crate::convert::{to_vector, vector};
+use crate::scales::body::{PREDICTION_DISTANCES, STEPS_AHEAD};
 use ::nalgebra::Vector3;
 use rapier::dynamics::RigidBodyHandle;
 use rapier::geometry::{Aabb, BoundingVolume, Collider, ColliderHandle, ContactPair};
@@ -68,7 +69,7 @@ pub(crate) fn may_touch(world: &PhysicsWorld, one: &Collider, two: &Collider, pa
 fn may_reach(world: &PhysicsWorld, one: &Collider, two: &Collider) -> bool {
     let dt = f64::from(world.integration_parameters.dt);
     let linear = (velocity_of(world, one) - velocity_of(world, two)).norm() * dt;
-    reaches(world, one, two, 2.0 * (linear + turn(world, one, dt) + turn(world, two, dt)))
+    reaches(world, one, two, STEPS_AHEAD * (linear + turn(world, one, dt) + turn(world, two, dt)))
 }
 
 /// Returns whether two colliders that come closer by `way` (m) may touch: within twice the distance at which Rapier makes contacts.
@@ -76,7 +77,7 @@ fn reaches(world: &PhysicsWorld, one: &Collider, two: &Collider, way: f64) -> bo
     let body = |c: &Collider| c.parent().and_then(|b| world.bodies.get(b));
     let sweeps = |c: &Collider| body(c).is_some_and(|b| b.is_ccd_enabled() || b.soft_ccd_prediction() > 0.0);
     let skins = f64::from(one.contact_skin() + two.contact_skin());
-    let listed = 2.0 * f64::from(world.integration_parameters.prediction_distance()) + skins;
+    let listed = PREDICTION_DISTANCES * f64::from(world.integration_parameters.prediction_distance()) + skins;
     let within = |found: Real| f64::from(found) <= way + listed;
     // the distance of the boxes along the axes is a lower bound
     let boxes = [one, two].map(Collider::compute_aabb);
@@ -143,7 +144,7 @@ pub(crate) fn unlisted_collision(
     let listed = f64::from(world.integration_parameters.prediction_distance());
     let others = dt * fastest;
     // the list of pairs may be one step old
-    if 2.0 * (displacement.norm() + others) <= listed {
+    if STEPS_AHEAD * (displacement.norm() + others) <= listed {
         return None;
     }
     let colliders = world.bodies[handle].colliders().iter().filter_map(|c| world.colliders.get(*c));

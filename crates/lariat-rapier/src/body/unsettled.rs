@@ -17,18 +17,11 @@
 //! in nine steps of ten, in most chains below 1e-4; where it is wrong by more than that or ripples by more than 10 %, either of the two holds (tests, chains.rs).
 
 use crate::body::spatial::split_spatial;
+use crate::scales::TIME_ROUNDING;
+use crate::scales::body::{SETTLE_SHARE, SETTLE_SPEED, SETTLE_SPEED_SHARE, SETTLE_STEPS, SETTLE_WINDOW};
 use ::nalgebra::{Matrix6, Vector6};
 use lariat_ancf::island::RigidBody;
 use serde::{Deserialize, Serialize};
-
-/// Time in s over which steps are counted.
-const WINDOW: f64 = 0.5;
-/// Share of the impulses on a body from which a deviation counts, and share of the impulses of cables from which what is read of them is wrong.
-const SHARE: f64 = 0.05;
-/// Share of steps that deviate from which a body is unsettled.
-const STEPS: f64 = 0.25;
-/// Speed in m/s, and share of the speed, below which a deviation is rounding.
-const ROUNDING: (f64, f64) = (1e-4, 1e-4);
 
 /// A body on joints whose motion was not the predicted one for half a second, so that forces and tensions of its cables are not to be trusted.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -88,20 +81,20 @@ impl SettleWatch {
         let (pull, weight) = (of_impulse(&step.pull), root * step.gravity);
         let speed = split_spatial(&step.gained).0.norm().max(step.body.velocity.norm());
         let scale = pull + weight + of_velocity(&step.gained);
-        let rounding = root * (ROUNDING.0 + ROUNDING.1 * speed);
-        let deviates = pull > SHARE * weight && of_velocity(&step.deviation) > SHARE * scale + rounding;
+        let rounding = root * (SETTLE_SPEED + SETTLE_SPEED_SHARE * speed);
+        let deviates = pull > SETTLE_SHARE * weight && of_velocity(&step.deviation) > SETTLE_SHARE * scale + rounding;
         self.deviating += u32::from(deviates);
         self.steps += 1;
-        self.pull += pull.max(SHARE * weight);
+        self.pull += pull.max(SETTLE_SHARE * weight);
         self.difference += (step.read + self.last.unwrap_or(step.read)) * 0.5 - step.pull;
         self.last = Some(step.read);
         self.time += step.h;
-        if self.time >= WINDOW * (1.0 - 1e-6) {
+        if self.time >= SETTLE_WINDOW * (1.0 - TIME_ROUNDING) {
             let steps = f64::from(self.deviating) / f64::from(self.steps);
             let force = if self.pull > 0.0 { of_impulse(&self.difference) / self.pull } else { 0.0 };
             let found = Unsettled { time: step.time, steps, force };
             let kept = self.worst.is_some_and(|worst| worst.steps.max(worst.force) >= steps.max(force));
-            let unsettled = steps > STEPS || force > SHARE;
+            let unsettled = steps > SETTLE_STEPS || force > SETTLE_SHARE;
             if unsettled && self.before && !kept {
                 (self.worst, self.due) = (Some(found), !self.told);
             }

@@ -16,6 +16,7 @@ use crate::error::Error;
 use crate::events::Event;
 use crate::handle::CableHandle;
 use crate::islands::{Island, Member};
+use crate::scales::contact::{CHUNK, HELD, IGNORED, MARGIN, SWEEP};
 use ::nalgebra::{UnitQuaternion, Vector3};
 use lariat_ancf::contact::{LARGEST_RESTITUTION, Mount, Obstacle, Overlap, RigidMotion, Surface};
 use lariat_ancf::{Cable, Warning};
@@ -23,15 +24,6 @@ use rapier::dynamics::{RigidBody, RigidBodyHandle};
 use rapier::geometry::{Aabb, BoundingVolume, Collider, ColliderHandle};
 use rapier::math::Real;
 use rapier::pipeline::{PhysicsWorld, QueryFilter};
-
-/// Number of elements in a box.
-const CHUNK: usize = 8;
-/// Radii of a cable by which its boxes are grown: features are looked for from four on.
-const MARGIN: f64 = 6.0;
-/// Radii of a cable beside an attachment that do not touch the body.
-const HELD: f64 = 4.0;
-/// Factor on the way of a cable in a step.
-const SWEEP: f64 = 2.0;
 
 /// Buffers and surfaces. Nothing in them is state.
 #[derive(Clone, Debug, Default)]
@@ -296,7 +288,7 @@ fn is_inside(cable: &Cable, collider: &Collider) -> bool {
     (0..cable.nodes()).any(|node| {
         let y = to_vector(&(axes.inverse() * (cable.node_position(node) - origin)));
         let distance = f64::from(collider.shape().distance_to_local_point(y, true));
-        distance < 0.5 * cable.contact_radius()
+        distance < IGNORED * cable.contact_radius()
     })
 }
 

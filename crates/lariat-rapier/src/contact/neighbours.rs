@@ -14,18 +14,10 @@
 use crate::contents::rules::ContactRules;
 use crate::contents::{Contents, Slot};
 use crate::islands::Island;
+use crate::scales::contact::{CHUNK, MARGIN, REACH, SWEEP};
 use ::nalgebra::Vector3;
 use lariat_ancf::Cable;
 use lariat_ancf::contact::CablePair;
-
-/// Number of elements in a box.
-const CHUNK: usize = 8;
-/// Radii by which the boxes of the beginning are grown: what the cable and its ends may do beyond their velocities.
-const MARGIN: f64 = 6.0;
-/// Radii by which those of the whole step are grown: contacts are looked for within two.
-const REACH: f64 = 2.0;
-/// Factor on the way of the step.
-const SWEEP: f64 = 2.0;
 
 /// A piece of a cable with the box that it is in.
 #[derive(Clone, Copy, Debug)]

@@ -4,6 +4,8 @@ use crate::body::ledger::Ledger;
 use crate::contents::gaps::GapWatch;
 use crate::error::Error;
 use crate::handle::CableHandle;
+use crate::scales::HOST_ROUNDING;
+use crate::scales::contents::ATTACHMENT_GAP;
 use ::nalgebra::Vector3;
 use lariat_ancf::island::PinAccount;
 use rapier::dynamics::RigidBodyHandle;
@@ -44,7 +46,7 @@ pub enum Gap {
 impl Default for Gap {
     /// Rejects gaps of more than 1e-3 m.
     fn default() -> Self {
-        Gap::Refuse(1e-3)
+        Gap::Refuse(ATTACHMENT_GAP)
     }
 }
 
@@ -59,7 +61,7 @@ impl Gap {
         let Gap::Refuse(limit) = self else { return Ok(()) };
         let gap = (point - target).norm();
         // far from the origin, Rapier's positions are no more accurate
-        let rounding = 4.0 * f64::from(Real::EPSILON) * target.amax();
+        let rounding = HOST_ROUNDING * f64::from(Real::EPSILON) * target.amax();
         if gap <= limit + rounding {
             return Ok(());
         }

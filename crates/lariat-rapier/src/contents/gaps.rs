@@ -5,10 +5,8 @@
 //! A gap is an error of position. Once an attachment has been closed to within the limit that positions are warned at, 2e-3 of the length of the
 //! cable, a larger gap is told; so is an attachment that never closed.
 
+use crate::scales::contents::OPEN_GAP;
 use serde::{Deserialize, Serialize};
-
-/// Largest gap without a warning, as a share of the length of the cable.
-const GAP: f64 = 2e-3;
 
 /// A gap of an attachment that is longer than its limit.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -35,7 +33,7 @@ impl GapWatch {
     /// Reads a gap in m at the end of a host step at a time in s, with a cable of a length in m. Returns what to tell: once, a gap that opened after
     /// it had closed.
     pub fn note(&mut self, gap: f64, time: f64, length: f64) -> Option<OpenGap> {
-        if !self.closed && gap <= GAP * length {
+        if !self.closed && gap <= OPEN_GAP * length {
             *self = GapWatch { closed: true, ..GapWatch::default() };
         }
         let keep = self.worst.is_some_and(|(worst, _)| if self.closed { worst >= gap } else { worst <= gap });
@@ -54,7 +52,7 @@ impl GapWatch {
 
     /// Returns the gap if it is longer than its limit.
     pub fn open(&self, length: f64) -> Option<OpenGap> {
-        let (gap, time) = self.worst.filter(|(gap, _)| *gap > GAP * length)?;
+        let (gap, time) = self.worst.filter(|(gap, _)| *gap > OPEN_GAP * length)?;
         Some(OpenGap { gap, time, closed: self.closed })
     }
 }

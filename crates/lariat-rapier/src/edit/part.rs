@@ -5,6 +5,7 @@ use crate::contents::Contents;
 use crate::error::Error;
 use crate::events::Event;
 use crate::handle::CableHandle;
+use crate::scales::edit::AT_CUT;
 use lariat_ancf::{Break, Cable};
 
 /// Makes two cables of one, if `how` does; `cable` keeps the part before the break. Returns the handle of
@@ -28,7 +29,7 @@ pub(crate) fn part(
     let held = contents.attachments.values_mut().map(|a| (&mut a.cable, &mut a.arc_length));
     let tied = contents.junctions.values_mut().flat_map(|j| j.nodes.iter_mut().zip(&mut j.arc_lengths));
     for (of, s) in held.chain(tied.map(|((of, _), s)| (of, s))) {
-        if *of == cable && *s > length * (1.0 + 1e-9) {
+        if *of == cable && *s > length * (1.0 + AT_CUT) {
             (*of, *s) = (tail, *s - length);
         }
     }

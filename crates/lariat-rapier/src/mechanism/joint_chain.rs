@@ -23,12 +23,10 @@ use super::request::Request;
 use crate::body::ledger::is_ledger;
 use crate::body::spatial::stack_spatial;
 use crate::convert::{rotation, symmetric, vector};
+use crate::scales::mechanism::MAX_BODIES;
 use ::nalgebra::{DMatrix, DVector, Matrix3, UnitQuaternion, Vector3, Vector6};
 use rapier::dynamics::{ImpulseJoint, RigidBody, RigidBodyHandle};
 use rapier::pipeline::PhysicsWorld;
-
-/// Largest number of bodies of a chain; those beyond count as free.
-const MAX_BODIES: usize = 24;
 
 /// A joint, and by its two bodies their index in the chain; `None` for one that is not part of it.
 type ChainJoint<'a> = ([Option<usize>; 2], &'a ImpulseJoint);

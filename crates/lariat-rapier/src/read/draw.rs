@@ -1,6 +1,7 @@
 //! Drawing of cables through Rapier's debug renderer, coloured by tension, and of the forces of their contacts.
 
 use crate::convert::to_vector;
+use crate::scales::read::{DRAWN_LINES, FORCE_LENGTH};
 use ::nalgebra::Vector3;
 use lariat_ancf::Cable;
 use rapier::dynamics::{RigidBodyBuilder, RigidBodyHandle};
@@ -19,7 +20,7 @@ pub struct DrawStyle {
 
 impl Default for DrawStyle {
     fn default() -> Self {
-        DrawStyle { lines: 4, red: None, force_length: 5e-3 }
+        DrawStyle { lines: DRAWN_LINES, red: None, force_length: FORCE_LENGTH }
     }
 }
 

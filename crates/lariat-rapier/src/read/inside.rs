@@ -7,17 +7,11 @@
 //! face and leaves by an opposite one. An edge sharper than 60 degrees that only touches the cable is taken for such a collider.
 
 use crate::convert::{to_vector, vector};
+use crate::scales::read::{DEEPER, OPPOSITE, POINTS, TOUCHING};
 use lariat_ancf::Cable;
 use nalgebra::Vector3;
 use rapier::geometry::{Aabb, BoundingVolume, Collider, Ray};
 use rapier::math::Real;
-
-/// Depth in m, besides half the thickness of the cable, that is not taken for touching.
-const TOUCHING: f64 = 1e-3;
-/// Points per element, of which one is a node.
-const POINTS: usize = 4;
-/// Largest product of the normals of two faces that are opposite.
-const OPPOSITE: Real = -0.5;
 
 /// Returns arc length and depth in m of the place where a cable is deepest in a collider, if it runs through it.
 pub fn deepest_inside(cable: &Cable, collider: &Collider) -> Option<(f64, f64)> {
@@ -32,7 +26,7 @@ pub fn deepest_inside(cable: &Cable, collider: &Collider) -> Option<(f64, f64)> 
     let touching = cable.elements().iter().map(diameter).fold(2.0 * TOUCHING, f64::max) * 0.5;
     let mut deepest: Option<(f64, f64)> = None;
     let mut note = |s: f64, depth: f64| {
-        if deepest.is_none_or(|(_, known)| depth > known * (1.0 + 1e-6)) {
+        if deepest.is_none_or(|(_, known)| depth > known * (1.0 + DEEPER)) {
             deepest = Some((s, depth));
         }
     };

@@ -12,14 +12,13 @@ use crate::error::Error;
 use crate::events::Event;
 use crate::handle::{AttachmentHandle, CableHandle};
 use crate::read::inside::deepest_inside;
+use crate::scales::HOST_ROUNDING;
+use crate::scales::read::JOLT;
 use lariat_ancf::contact::LARGEST_RESTITUTION;
 use rapier::dynamics::RigidBodyType;
 use rapier::geometry::ColliderHandle;
 use rapier::math::Real;
 use rapier::pipeline::PhysicsWorld;
-
-/// Largest difference of velocities at the start without a warning, in m/s.
-const JOLT: f64 = 1e-5;
 
 /// A warning about a cable of a set; its text says what to do.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -175,7 +174,7 @@ fn of_attachment(
     let anchor = vector(body.translation()) + rotation(*body.rotation()) * own.anchor;
     let there = vector(body.velocity_at_point(to_vector(&anchor)));
     let difference = (cable.sample(own.arc_length).ok()?.velocity - there).norm();
-    let rounding = 4.0 * f64::from(Real::EPSILON) * there.amax();
+    let rounding = HOST_ROUNDING * f64::from(Real::EPSILON) * there.amax();
     (difference > JOLT + rounding).then_some(Warning::VelocityJump { attachment, name, difference })
 }
 

@@ -1,11 +1,9 @@
 //! The usual rope between two points, in one call.
 
 use crate::handle::{AttachmentHandle, CableHandle};
+use crate::scales::set::ROPE_DAMPING;
 use lariat_ancf::{At, Cable, Damping, Fidelity, Point, Section, Vector3};
 use rapier::math::Vector;
-
-/// Damping ratio of the first axial mode of a rope with one end fixed.
-pub const ROPE_DAMPING: f64 = 0.2;
 
 /// What a rope is made of, how slack it is, and what it bears: the description of the usual rope,
 /// with bending stiffness and a damping ratio of [`ROPE_DAMPING`]. See [`CableSet::add_rope`](crate::CableSet::add_rope).

@@ -1,14 +1,12 @@
 //! Contacts of bodies that were moved to their place, which statics do not compute.
 
 use crate::error::Error;
+use crate::scales::statics::TOUCH;
 use rapier::dynamics::RigidBodyHandle;
 use rapier::geometry::{BoundingVolume, Collider};
 use rapier::math::{Pose, Real};
 use rapier::parry::query::contact;
 use rapier::pipeline::PhysicsWorld;
-
-/// Distance in m within which two colliders count as touching.
-const TOUCH: f64 = 1e-3;
 
 /// Rejects moved bodies that touch another, where they were or where they are to be.
 pub(super) fn check_contacts(world: &PhysicsWorld, poses: &[(RigidBodyHandle, Pose)]) -> Result<(), Error> {

@@ -10,6 +10,7 @@
 //! The budget is that of integration; Rapier's own steps, whose number [`Settings::max_rapier_steps`](crate::Settings::max_rapier_steps)
 //! bounds, are not in it. By how much it can be exceeded: [`WorkLimit`].
 
+use crate::scales::step::CHEAPEST_STEP;
 use lariat_ancf::integrate::WorkLimit;
 use lariat_ancf::{Error, Integrator, IntegratorRef, Method, StepControl, StepFailure};
 use serde::{Deserialize, Serialize};
@@ -17,7 +18,7 @@ use std::time::{Duration, Instant};
 
 /// The integrator of what is left of a host step.
 pub(crate) const CHEAPEST: Integrator =
-    Integrator { method: Method::DiscreteGradient, control: StepControl::MaxStep(1.0 / 240.0) };
+    Integrator { method: Method::DiscreteGradient, control: StepControl::MaxStep(CHEAPEST_STEP) };
 
 /// The largest amount of work in a host step; beyond it, accuracy is reduced.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]

@@ -52,6 +52,7 @@ use crate::error::{Error, Failure};
 use crate::events::Event;
 use crate::handle::CableHandle;
 use crate::islands::{Island, Islands};
+use crate::scales::step::MAX_TURN_ERROR;
 use budget::Remaining;
 use lariat_ancf::Snapshot;
 use prediction::{Prediction, StepParameters};
@@ -221,7 +222,7 @@ fn predict_islands(
         integrate::integrate(contents, &islands.list, predictions, buffers, step.h);
         let turn = predictions.iter().filter(|p| p.integrator.is_some() && p.error.is_none());
         let turn = turn.map(|p| groups::largest_turn_error(p, step.h)).fold(0.0, f64::max);
-        let parts = (turn / substepping::MAX_TURN_ERROR).sqrt().ceil().min(f64::from(settings.max_rapier_steps)) as u32;
+        let parts = (turn / MAX_TURN_ERROR).sqrt().ceil().min(f64::from(settings.max_rapier_steps)) as u32;
         let parts = parts.min(settings.max_rapier_steps / host.steps).max(1);
         // an island that cannot step has no motion, and no state from before it
         let before = |island: usize, cable: usize| {

@@ -17,12 +17,10 @@
 use crate::body::record::BodyRecord;
 use crate::body::spatial::stack_spatial;
 use crate::mechanism::{own_inertia, velocity_of};
+use crate::scales::step::REACTION_GAIN;
 use crate::step::prediction::BodyStep;
 use ::nalgebra::Vector6;
 use lariat_ancf::island::RigidBody;
-
-/// Share of the observed reaction that the estimate takes in a step.
-pub(super) const REACTION_GAIN: f64 = 0.3;
 
 /// Updates the estimate of the force and torque of contacts and joints from the deviations of
 /// velocity and position of a body that is `settled`.

@@ -26,6 +26,7 @@ use crate::body::spatial::{split_spatial, stack_spatial};
 use crate::contents::Contents;
 use crate::convert::{rotation, to_pose, to_vector, vector};
 use crate::islands::{Island, Member};
+use crate::scales::step::{MAX_LINK_GAP_SHARE, POSITION_ROUNDING, VELOCITY_ROUNDING};
 use crate::step::apply::restore_cables;
 use crate::step::energy;
 use crate::step::groups;
@@ -40,14 +41,6 @@ use lariat_ancf::island::RigidBody;
 use rapier::dynamics::{RigidBody as RapierBody, RigidBodyHandle};
 use rapier::math::Real;
 use rapier::pipeline::PhysicsWorld;
-
-/// Gap at a link of a multibody, as a share of the length of the cable, beyond which the island is refused if
-/// the gap grows.
-const MAX_LINK_GAP_SHARE: f64 = 2e-3;
-/// A body landed where it was predicted if it is within this many units of rounding of its position and of the velocity that it
-/// was given: Rapier adds up balanced forces, and every substep rounds.
-const POSITION_ROUNDING: f64 = 32.0;
-const VELOCITY_ROUNDING: f64 = 256.0;
 
 /// Updates cables, bodies and attachments of an island after a Rapier step of `h` (s).
 pub(crate) fn reconcile(

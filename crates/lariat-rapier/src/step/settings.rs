@@ -1,5 +1,6 @@
 //! Settings of a set.
 
+use crate::scales::step::{MAX_RAPIER_STEPS, RAPIER_STEPS, SLEEP_SPEED};
 use crate::step::budget::Budget;
 use lariat_ancf::Fidelity;
 use serde::{Deserialize, Serialize};
@@ -41,15 +42,15 @@ fn fidelity() -> Fidelity {
 }
 
 fn max_rapier_steps() -> u32 {
-    32
+    MAX_RAPIER_STEPS
 }
 
 impl Default for Settings {
     fn default() -> Self {
         Settings {
-            rapier_steps: 1,
+            rapier_steps: RAPIER_STEPS,
             max_rapier_steps: max_rapier_steps(),
-            sleep_speed: 2e-3,
+            sleep_speed: SLEEP_SPEED,
             fidelity: fidelity(),
             watch: watch(),
             budget: None,

@@ -23,10 +23,8 @@ use crate::contents::Contents;
 use crate::events::Event;
 use crate::handle::CableHandle;
 use crate::islands::Island;
+use crate::scales::step::STEADY_FORCE_CHANGE;
 use rapier::pipeline::PhysicsWorld;
-
-/// Relative change of the force at an attachment that is allowed while a body falls asleep.
-const STEADY_FORCE_CHANGE: f64 = 2e-3;
 
 /// Whether an island sleeps through a step.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
