@@ -1,8 +1,8 @@
 //! Events of a host step.
 
-use crate::gaps::OpenGap;
+use crate::body::unsettled::Unsettled;
+use crate::contents::gaps::OpenGap;
 use crate::handle::{AttachmentHandle, CableHandle};
-use crate::unsettled::Unsettled;
 use lariat_ancf::{Break, Warning};
 use rapier::dynamics::RigidBodyHandle;
 use rapier::geometry::ColliderHandle;

@@ -11,23 +11,20 @@ use lariat_rapier::{AttachmentKind, CableHandle, CableSet};
 use std::path::Path;
 
 const FIDELITIES: [Fidelity; 2] = [Fidelity::Game, Fidelity::Engineering];
-/// Files of the folders below in which no body and no cable is moved or held: the order of a host step, readings, and what is done about a step
-/// that is refused.
-const NO_PHYSICS: [&str; 3] = ["step/mod.rs", "step/energy.rs", "step/refused.rs"];
-/// Files and folders of lariat-rapier that are physics. The others are its interface, the search of islands, contact of cables with colliders,
-/// statics and warnings.
-const PHYSICS: [&str; 10] = [
-    "step",
-    "mechanism",
-    "body.rs",
-    "ledger.rs",
-    "motion_memory.rs",
-    "pose.rs",
-    "proximity.rs",
-    "record.rs",
-    "sleep.rs",
-    "spatial.rs",
+/// Files of the folders below in which no body and no cable is moved or held: the order of a host step, its settings and its budget, readings, and
+/// what is done about a step that is refused.
+const NO_PHYSICS: [&str; 7] = [
+    "step/mod.rs",
+    "step/budget.rs",
+    "step/energy.rs",
+    "step/reels.rs",
+    "step/refused.rs",
+    "step/settings.rs",
+    "body/unsettled.rs",
 ];
+/// Folders of lariat-rapier that are physics. The others are its interface, the search of islands, contact of cables with colliders,
+/// statics and warnings.
+const PHYSICS: [&str; 3] = ["step", "mechanism", "body"];
 
 /// Those of them that are for bodies on joints.
 const JOINTS: [&str; 2] = ["mechanism", "step/groups.rs"];

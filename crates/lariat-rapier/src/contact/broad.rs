@@ -7,16 +7,16 @@
 //! and while it does not know all colliders, every one of them is looked at.
 
 use super::neighbours::Neighbours;
-use super::rules::{ContactFilter, ContactRules};
 use super::{Surfaces, key};
+use crate::body::prescribed_motion::PrescribedMotions;
 use crate::contents::Contents;
+use crate::contents::rules::{ContactFilter, ContactRules};
 use crate::convert::{rotation, to_vector, vector};
 use crate::error::Error;
 use crate::events::Event;
 use crate::handle::CableHandle;
 use crate::islands::{Island, Member};
-use crate::step::prediction::StepParameters;
-use crate::step::prescribed_motion::PrescribedMotions;
+use crate::scales::contact::{CHUNK, HELD, IGNORED, MARGIN, SWEEP};
 use ::nalgebra::{UnitQuaternion, Vector3};
 use lariat_ancf::contact::{LARGEST_RESTITUTION, Mount, Obstacle, Overlap, RigidMotion, Surface};
 use lariat_ancf::{Cable, Warning};
@@ -24,15 +24,6 @@ use rapier::dynamics::{RigidBody, RigidBodyHandle};
 use rapier::geometry::{Aabb, BoundingVolume, Collider, ColliderHandle};
 use rapier::math::Real;
 use rapier::pipeline::{PhysicsWorld, QueryFilter};
-
-/// Number of elements in a box.
-const CHUNK: usize = 8;
-/// Radii of a cable by which its boxes are grown: features are looked for from four on.
-const MARGIN: f64 = 6.0;
-/// Radii of a cable beside an attachment that do not touch the body.
-const HELD: f64 = 4.0;
-/// Factor on the way of a cable in a step.
-const SWEEP: f64 = 2.0;
 
 /// Buffers and surfaces. Nothing in them is state.
 #[derive(Clone, Debug, Default)]
@@ -116,19 +107,19 @@ impl Finder {
         self.known = Some(world.colliders.len());
     }
 
-    /// Gives a cable of an island the colliders that it can reach as obstacles, and returns whether one moves, or one that it touched is gone. A
+    /// Gives a cable of an island the colliders that it can reach in a Rapier step of `h` (s), at a share of the host step, as obstacles, and returns whether one moves, or one that it touched is gone. A
     /// collider with a shape of the program's own in which the cable is found is an event, once.
     pub fn gather(
         &mut self,
         contents: &mut Contents,
         world: &PhysicsWorld,
         (index, island): (usize, &Island),
-        (motions, step): (&PrescribedMotions, &StepParameters),
+        (motions, share, h): (&PrescribedMotions, (f64, f64), f64),
         events: &mut Vec<Event>,
     ) -> Result<bool, lariat_ancf::Error> {
         let Some(slot) = contents.cables.get(index) else { return Ok(false) };
         let Some(contact) = slot.cable.effects().contact else { return Ok(false) };
-        self.find(world, &slot.cable, step.h);
+        self.find(world, &slot.cable, h);
         let (cable, time) = (CableHandle(index as u32), slot.cable.time());
         let (mut obstacles, mut ignored, mut high) = (Vec::new(), Vec::new(), Vec::new());
         for i in 0..self.found.len() {
@@ -148,7 +139,7 @@ impl Finder {
             obstacles.push(Obstacle {
                 key: key(handle),
                 surface,
-                motion: motion(world, collider, motions, step, time),
+                motion: motion(world, collider, (motions, share, h), time),
                 mount: collider.parent().and_then(|body| mount(world, collider, island, body)),
                 friction: slot.rules.friction(contact.friction, collider),
                 restitution: restitution.min(LARGEST_RESTITUTION),
@@ -297,7 +288,7 @@ fn is_inside(cable: &Cable, collider: &Collider) -> bool {
     (0..cable.nodes()).any(|node| {
         let y = to_vector(&(axes.inverse() * (cable.node_position(node) - origin)));
         let distance = f64::from(collider.shape().distance_to_local_point(y, true));
-        distance < 0.5 * cable.contact_radius()
+        distance < IGNORED * cable.contact_radius()
     })
 }
 
@@ -305,8 +296,7 @@ fn is_inside(cable: &Cable, collider: &Collider) -> bool {
 fn motion(
     world: &PhysicsWorld,
     collider: &Collider,
-    motions: &PrescribedMotions,
-    step: &StepParameters,
+    (motions, share, h): (&PrescribedMotions, (f64, f64), f64),
     time: f64,
 ) -> RigidMotion {
     let (Some(parent), Some(local)) = (collider.parent(), collider.position_wrt_parent()) else {
@@ -315,7 +305,7 @@ fn motion(
     if !world.bodies.get(parent).is_some_and(|body| body.is_kinematic() && body.is_enabled()) {
         return still(collider, time);
     }
-    let [((from, attitude), _), ((to, turned), _)] = motions.ends(world, parent, step.share, step.h);
+    let [((from, attitude), _), ((to, turned), _)] = motions.ends(world, parent, share, h);
     // it moves uniformly if nothing accelerates the body
     let point = vector(world.bodies[parent].local_center_of_mass());
     let (offset, tilt): (Vector3<f64>, UnitQuaternion<f64>) = (vector(local.translation), rotation(local.rotation));
@@ -324,11 +314,11 @@ fn motion(
         centre: tilt.inverse() * (point - offset),
         position: from + attitude * point,
         rotation: attitude * tilt,
-        velocity: (to + turned * point - from - attitude * point) / step.h,
+        velocity: (to + turned * point - from - attitude * point) / h,
         angular_velocity: Vector3::zeros(),
     };
     if turned != attitude {
-        out.angular_velocity = (turned * attitude.inverse()).scaled_axis() / step.h;
+        out.angular_velocity = (turned * attitude.inverse()).scaled_axis() / h;
     } else if to == from {
         out.velocity = Vector3::zeros();
     }

@@ -6,6 +6,7 @@
 //! feature, if it has one triangle, or two that meet with an outward angle above [`FLAT`]; edges that point inwards are none.
 
 use crate::convert::{to_vector, vector};
+use crate::scales::contact::FLAT;
 use ::nalgebra::Vector3;
 use lariat_ancf::contact::{Feature, FeatureShape, Nearest, Patch, Surface};
 use rapier::geometry::{Aabb, TriMesh};
@@ -13,9 +14,6 @@ use rapier::math::Vector;
 use rapier::parry::query::PointQueryWithLocation;
 use rapier::parry::shape::TrianglePointLocation;
 use std::collections::BTreeMap;
-
-/// Sine of the angle between two triangles below which they are one face.
-const FLAT: f64 = 1e-3;
 
 /// Triangles.
 #[derive(Debug)]

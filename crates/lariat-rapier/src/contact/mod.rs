@@ -7,10 +7,10 @@
 //! |---|---|
 //! | [`broad`] | finds the colliders that a cable can reach, by Rapier's tree |
 //! | [`neighbours`] | finds the cables that can touch each other |
-//! | [`rules`] | which of them it touches, and with which friction, as Rapier decides it |
 //! | [`shape`], [`mesh`], [`compound`], [`cone`] | the surface of a collider in `f64`, from the exact numbers of its shape |
 //! | [`events`] | contacts that began and ended |
-//! | [`set`] | the calls of [`CableSet`](crate::CableSet) |
+//!
+//! Which of them a cable touches, and with which friction, is said by its [rules](crate::contents::rules), as Rapier decides it.
 //!
 //! # Validity
 //!
@@ -33,11 +33,8 @@ mod cone;
 pub(crate) mod events;
 mod mesh;
 mod neighbours;
-pub(crate) mod rules;
-mod set;
 mod shape;
 
-pub use rules::{ContactFilter, ContactRules};
 pub(crate) use shape::Surfaces;
 
 use rapier::geometry::ColliderHandle;

@@ -11,22 +11,13 @@
 //! A cable that leaves the hull of its beginning and its end within the step, and is back by then, may be missed. The order of pairs does not depend on the order of
 //! insertion once they are numbered within an island.
 
-use super::rules::ContactRules;
+use crate::contents::rules::ContactRules;
 use crate::contents::{Contents, Slot};
 use crate::islands::Island;
-use crate::step::prediction::Prediction;
+use crate::scales::contact::{CHUNK, MARGIN, REACH, SWEEP};
 use ::nalgebra::Vector3;
 use lariat_ancf::Cable;
 use lariat_ancf::contact::CablePair;
-
-/// Number of elements in a box.
-const CHUNK: usize = 8;
-/// Radii by which the boxes of the beginning are grown: what the cable and its ends may do beyond their velocities.
-const MARGIN: f64 = 6.0;
-/// Radii by which those of the whole step are grown: contacts are looked for within two.
-const REACH: f64 = 2.0;
-/// Factor on the way of the step.
-const SWEEP: f64 = 2.0;
 
 /// A piece of a cable with the box that it is in.
 #[derive(Clone, Copy, Debug)]
@@ -62,27 +53,30 @@ impl Neighbours {
         self.take(contents);
     }
 
-    /// Adds the pairs that the islands met in a step and that were not known, and returns whether there are any.
-    pub fn complete(&mut self, contents: &Contents, islands: &[Island], predictions: &[Prediction]) -> bool {
+    /// Adds the pairs that the islands met in a step and that were not known, and returns whether there are any. `before` returns the coordinates
+    /// before the step, by island and cable in it; `None` for an island that did not move.
+    pub fn complete<'a>(
+        &mut self,
+        contents: &Contents,
+        islands: &[Island],
+        before: impl Fn(usize, usize) -> Option<&'a [f64]>,
+    ) -> bool {
         if self.boxes.is_empty() {
             return false;
         }
         self.boxes.clear();
-        for (island, prediction) in islands.iter().zip(predictions) {
-            // an island that cannot step has no motion, and no state from before it
-            let moves = !prediction.refused && prediction.error.is_none();
+        for (i, island) in islands.iter().enumerate() {
             for (k, &index) in island.cables.iter().enumerate() {
                 let Some(slot) = contents.cables.get(index).filter(|slot| touches(slot)) else { continue };
                 let end = slot.cable.positions();
-                let start = prediction.snapshots.get(k).map(|snapshot| snapshot.positions());
-                let start = start.filter(|start| moves && start.len() == end.len()).unwrap_or(end);
+                let start = before(i, k).filter(|start| start.len() == end.len()).unwrap_or(end);
                 self.add(&slot.cable, index, REACH, |i| [start[i], end[i]]);
             }
         }
         self.sweep();
-        let before = self.pairs.len();
+        let known = self.pairs.len();
         self.take(contents);
-        self.pairs.len() > before
+        self.pairs.len() > known
     }
 
     /// Adds the boxes of a cable, whose coordinates have two values each, grown by radii.

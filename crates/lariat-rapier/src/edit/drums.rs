@@ -1,7 +1,7 @@
 //! Ending drums, and keeping them with the end of a cable that is cut.
 
 use crate::contents::Contents;
-use crate::drum::Wound;
+use crate::contents::drum::Wound;
 use crate::error::Error;
 use crate::handle::CableHandle;
 use rapier::dynamics::RigidBodySet;

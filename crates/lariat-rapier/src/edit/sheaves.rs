@@ -1,9 +1,9 @@
 //! Adding and ending sheaves, and keeping them with the end of a cable that is cut.
 
 use crate::contents::Contents;
+use crate::contents::sheave::{Sheave, SheaveOptions};
 use crate::error::Error;
 use crate::handle::{CableHandle, SheaveHandle};
-use crate::sheave::{Sheave, SheaveOptions};
 use lariat_ancf::island::Sheave as Wheel;
 use lariat_ancf::{At, Reel};
 

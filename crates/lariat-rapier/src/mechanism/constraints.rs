@@ -7,11 +7,8 @@
 //! Each row of G is a locked axis or a limit. A limit is given up if the accelerations by all loads
 //! move the joint away from it. a_c keeps the velocities v on the motions that are free while G turns with the bodies, at the rate G'.
 
+use crate::scales::mechanism::REGULARISATION;
 use ::nalgebra::{DMatrix, DVector};
-
-/// Share by which the diagonal of G M^-1 G^T is raised, since joints may lock the same motion
-/// twice.
-const REGULARISATION: f64 = 1e-12;
 
 /// A limit of a joint: the side to which it pushes, and the impulse with which it did, in N s.
 #[derive(Clone, Copy, Debug)]

@@ -25,14 +25,10 @@
 //! Khatib 1987, the operational space inertia; Chang & Khatib 2000, of several points.
 
 use super::of_body::Mechanism;
-use crate::spatial::stack_spatial;
+use crate::body::spatial::stack_spatial;
+use crate::scales::mechanism::{ISOLATED_COMPLIANCE, JOINT_COMPLIANCE};
 use ::nalgebra::{DMatrix, DVector, Matrix6, UnitQuaternion, Vector6};
 use lariat_ancf::island::{CoupledInertia, RigidBody};
-
-/// e: share of its own mobility that a body keeps along what its joints hold.
-const JOINT_COMPLIANCE: f64 = 1e-4;
-/// c of a mechanism that touches nothing.
-const ISOLATED_COMPLIANCE: f64 = 0.1;
 
 /// The members of an island that are bodies of one mechanism.
 #[derive(Clone, Debug)]

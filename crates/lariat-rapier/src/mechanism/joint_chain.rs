@@ -20,15 +20,13 @@ use super::limits;
 use super::loads::{CarriedLoads, are_isolated, can_predict_loads};
 use super::of_body::{Mechanism, Velocities};
 use super::request::Request;
+use crate::body::ledger::is_ledger;
+use crate::body::spatial::stack_spatial;
 use crate::convert::{rotation, symmetric, vector};
-use crate::ledger::is_ledger;
-use crate::spatial::stack_spatial;
+use crate::scales::mechanism::MAX_BODIES;
 use ::nalgebra::{DMatrix, DVector, Matrix3, UnitQuaternion, Vector3, Vector6};
 use rapier::dynamics::{ImpulseJoint, RigidBody, RigidBodyHandle};
 use rapier::pipeline::PhysicsWorld;
-
-/// Largest number of bodies of a chain; those beyond count as free.
-const MAX_BODIES: usize = 24;
 
 /// A joint, and by its two bodies their index in the chain; `None` for one that is not part of it.
 type ChainJoint<'a> = ([Option<usize>; 2], &'a ImpulseJoint);

@@ -13,14 +13,10 @@
 //! rate of 1 it chatters (5 to 24 N).
 
 use crate::convert::{rotation, vector};
+use crate::scales::mechanism::{LIMIT_DISTANCE, OPENING_RATE};
 use rapier::dynamics::{ImpulseJoint, JointLimits, RigidBody};
 use rapier::math::Real;
 use rapier::pipeline::PhysicsWorld;
-
-/// Distance in m or rad.
-const LIMIT_DISTANCE: f64 = 1e-3;
-/// Rate in m/s or rad/s.
-const OPENING_RATE: f64 = 0.1;
 
 /// Returns the coordinate of a joint along or about an axis, as Rapier's limits see it.
 fn coordinate(world: &PhysicsWorld, joint: &ImpulseJoint, axis: usize) -> Option<f64> {

@@ -24,10 +24,10 @@
 
 use super::joint_damping::{JointDamping, edit_damping};
 use super::request::Request;
+use crate::body::proximity::may_touch;
+use crate::body::spatial::stack_spatial;
 use crate::body::{SavedBody, replace_loads};
 use crate::convert::vector;
-use crate::proximity::may_touch;
-use crate::spatial::stack_spatial;
 use ::nalgebra::{DVector, Vector6};
 use rapier::dynamics::RigidBodyHandle;
 use rapier::geometry::Collider;

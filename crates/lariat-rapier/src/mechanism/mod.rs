@@ -35,6 +35,8 @@
 //! touches nothing: motors are then not predicted.
 
 mod constraints;
+mod find;
+mod generalised;
 mod group;
 mod joint_chain;
 mod joint_damping;
@@ -44,7 +46,9 @@ mod multibody;
 mod of_body;
 mod request;
 
+pub(crate) use find::{bodies, find};
+pub(crate) use generalised::refresh;
 pub(crate) use group::{Group, Jointed, own_inertia, velocity_of};
-pub(crate) use multibody::{prepare, refresh};
-pub(crate) use of_body::{Mechanism, bodies, find};
+pub(crate) use multibody::prepare;
+pub(crate) use of_body::Mechanism;
 pub(crate) use request::Request;

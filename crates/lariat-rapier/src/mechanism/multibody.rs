@@ -27,8 +27,8 @@ use super::limits;
 use super::loads::{CarriedLoads, are_isolated, can_predict_loads};
 use super::of_body::{Mechanism, Velocities};
 use super::request::Request;
-use crate::convert::{symmetric, to_vector};
-use crate::spatial::{split_spatial, stack_spatial};
+use crate::body::spatial::{split_spatial, stack_spatial};
+use crate::convert::symmetric;
 use ::nalgebra::{DMatrix, DVector, Matrix3, Matrix6, Vector6};
 use rapier::dynamics::{Multibody, RigidBody, RigidBodyHandle};
 use rapier::math::Real;
@@ -168,36 +168,4 @@ fn active_limits(multibody: &Multibody) -> Vec<(usize, Option<Limit>)> {
         }
     }
     active
-}
-
-/// Gives the bodies of a link's multibody the velocities of its generalised velocity; does nothing
-/// for other bodies.
-pub(crate) fn refresh(world: &mut PhysicsWorld, handle: RigidBodyHandle) {
-    let Some(link) = world.multibody_joints.rigid_body_link(handle) else { return };
-    let Some(multibody) = world.multibody_joints.get_multibody(link.multibody) else { return };
-    for id in 0..multibody.num_links() {
-        let (Some(link), jacobian) = (multibody.link(id), multibody.body_jacobian(id)) else { continue };
-        let Some(body) = world.bodies.get_mut(link.rigid_body_handle()) else { continue };
-        if jacobian.ncols() == multibody.ndofs() && body.is_dynamic() {
-            let v = jacobian * multibody.generalized_velocity();
-            let (linear, angular) = split_spatial(&v.map(f64::from));
-            body.set_linvel(to_vector(&linear), false);
-            body.set_angvel(to_vector(&angular), false);
-        }
-    }
-}
-
-/// Edits the components of the generalised velocity of a link's multibody with `values`, and
-/// refreshes its bodies.
-pub(super) fn edit_velocity<T>(
-    world: &mut PhysicsWorld,
-    handle: RigidBodyHandle,
-    values: impl Iterator<Item = T>,
-    edit: impl Fn(&mut Real, T),
-) {
-    let Some(link) = world.multibody_joints.rigid_body_link(handle).copied() else { return };
-    if let Some(multibody) = world.multibody_joints.get_multibody_mut(link.multibody) {
-        multibody.generalized_velocity_mut().iter_mut().zip(values).for_each(|(u, value)| edit(u, value));
-    }
-    refresh(world, handle);
 }

@@ -13,13 +13,13 @@
 //! In each substep of h Rapier multiplies the attitude by the normalised quaternion (1, w h/2), a
 //! rotation by 2 atan(|w| h/2); `angvel` is corrected for it up to [`MAX_HALF_ROTATION`].
 
+use crate::body::proximity;
+use crate::body::spatial::split_spatial;
 use crate::body::{SavedBody, replace_loads};
 use crate::contents::Contents;
 use crate::convert::{rotation, to_vector, vector};
 use crate::islands::{Island, Member};
-use crate::pose::MAX_HALF_ROTATION;
-use crate::proximity;
-use crate::spatial::split_spatial;
+use crate::scales::body::MAX_HALF_ROTATION;
 use crate::step::groups;
 use crate::step::prediction::{AppliedMotion, BodyStep, Prediction};
 use ::nalgebra::{Vector3, Vector6};

@@ -8,15 +8,16 @@
 //! v0 is the uniform velocity of the step and v1 the predicted one at its end; L, R, a and a0 are
 //! those of the [mechanism](crate::mechanism). What Rapier made of the uniform velocity stays.
 
+use crate::body::spatial::stack_spatial;
+use crate::body::unsettled::SettleStep;
 use crate::contents::Contents;
 use crate::convert::{rotation, to_vector, vector};
 use crate::islands::{Island, Member};
 use crate::mechanism::{self, Group, Mechanism, velocity_of};
-use crate::spatial::stack_spatial;
+use crate::scales::step::REACTION_GAIN;
 use crate::step::impedance::motor_impulse;
 use crate::step::prediction::{AppliedMotion, Prediction};
-use crate::step::reaction::{REACTION_GAIN, persisting_share};
-use crate::unsettled::SettleStep;
+use crate::step::reaction::persisting_share;
 use ::nalgebra::{DVector, Vector6};
 use lariat_ancf::island::RigidBody;
 use rapier::pipeline::PhysicsWorld;

@@ -30,26 +30,22 @@
 //!
 //! [`Impedance`]: lariat_ancf::island::Impedance
 
-use crate::attachment::Attachment;
+use crate::body::ledger::{Drive, Ledger};
+use crate::body::proximity;
+use crate::body::record::ExactState;
+use crate::body::spatial::stack_spatial;
 use crate::contents::Contents;
+use crate::contents::attachment::Attachment;
 use crate::error::Error;
 use crate::islands::{Island, Member};
-use crate::ledger::{Drive, Ledger};
 use crate::mechanism::Mechanism;
-use crate::proximity;
-use crate::record::ExactState;
-use crate::spatial::stack_spatial;
+use crate::scales::step::{JUNCTION_MASS, MOBILITY_SHARE};
 use crate::step::prediction::{Prediction, StepParameters};
 use ::nalgebra::{Matrix3, SMatrix, Vector3, Vector6};
 use lariat_ancf::Cable;
 use lariat_ancf::island::{Impedance, PinConstraint, RigidBody};
 use rapier::dynamics::RigidBodyHandle;
 use rapier::pipeline::PhysicsWorld;
-
-/// Share of the body's own mobility in B.
-const MOBILITY_SHARE: f64 = 0.1;
-/// Mass in kg given to a junction, which has none, so that the matrix is finite.
-const JUNCTION_MASS: f64 = 1e-6;
 
 /// Linearises a cable at some nodes for a step: [`Impedance::update`] or [`Impedance::update_held`].
 pub(super) type Update = fn(&mut Impedance, &mut Cable, &[usize], f64) -> Result<(), lariat_ancf::Error>;

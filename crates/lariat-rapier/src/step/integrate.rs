@@ -5,19 +5,17 @@
 //! reads and writes nothing of another, nor of Rapier's world, so results are bitwise the same for
 //! any number of threads.
 
-use crate::budget::step_within;
 use crate::contents::{Contents, Slot};
 use crate::error::Error;
 use crate::islands::Island;
+#[cfg(feature = "parallel")]
+use crate::scales::step::FEW_ELEMENTS;
+use crate::step::budget::step_within;
 use crate::step::prediction::Prediction;
 use core::cell::RefCell;
 use lariat_ancf::integrate::WorkLimit;
 use lariat_ancf::island::Island as IslandSolver;
 use lariat_ancf::{Cable, Integrator};
-
-/// Number of elements to integrate below which threads are left asleep: to wake them takes as long.
-#[cfg(feature = "parallel")]
-const FEW_ELEMENTS: usize = 64;
 
 thread_local! {
     /// Buffers of the islands that this thread integrates.

@@ -6,13 +6,13 @@
 //! arc and rotates the tangent. The pose of the body after the step is computed as Rapier does, so
 //! that the end is where Rapier puts the body.
 
-use crate::attachment::Attachment;
+use crate::body::pose::OriginPose;
+use crate::body::prescribed_motion::PrescribedMotions;
 use crate::contents::Contents;
+use crate::contents::attachment::Attachment;
 use crate::error::Error;
 use crate::islands::{Island, Member};
-use crate::pose::OriginPose;
 use crate::step::prediction::StepParameters;
-use crate::step::prescribed_motion::PrescribedMotions;
 use ::nalgebra::{Matrix3, Vector3};
 use lariat_ancf::Motion;
 use lariat_ancf::island::{CLOSING_SPEED, RigidBody};

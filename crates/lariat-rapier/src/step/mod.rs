@@ -9,20 +9,23 @@
 //! | [`integrate`] | integrates them together, all islands at once |
 //! | [`apply`] | gives Rapier the predicted motion; reverts it |
 //! | [`impedance`] | lets a body that may deviate feel its cables within Rapier's step, and the cables what that did |
-//! | [`reconcile`] | takes over what Rapier's step made of it |
+//! | [`mod@reconcile`] | takes over what Rapier's step made of it |
 //! | [`reaction`] | what contacts and joints did to it, expected again |
 //!
 //! The others hold only for what they name:
 //!
 //! | file | |
 //! |---|---|
-//! | [`prescribed_motion`], [`kinematic_ends`] | ends of cables on fixed and kinematic bodies |
+//! | [`kinematic_ends`] | ends of cables on fixed and kinematic bodies |
 //! | [`groups`], [`mechanism`](crate::mechanism) | bodies on joints |
-//! | [`waking`] | bodies that Rapier's step woke |
+//! | [`sleep`], [`waking`] | bodies that rest, and those that Rapier's step woke |
+//! | [`reels`] | attachments and junctions of cables whose nodes move along them |
+//! | [`budget`], [`settings`] | what a host step may cost, and how a set steps |
 //! | [`energy`] | the energy balance of watched cables |
 //! | [`refused`] | bodies of an island that cannot step |
 
 pub(crate) mod apply;
+pub(crate) mod budget;
 pub(crate) mod energy;
 pub(crate) mod groups;
 pub(crate) mod impedance;
@@ -30,32 +33,33 @@ pub(crate) mod integrate;
 pub(crate) mod kinematic_ends;
 pub(crate) mod predict;
 pub(crate) mod prediction;
-pub(crate) mod prescribed_motion;
 mod reaction;
 pub(crate) mod reconcile;
+pub(crate) mod reels;
 pub(crate) mod refused;
+pub(crate) mod settings;
+pub(crate) mod sleep;
 pub(crate) mod substepping;
 mod waking;
 
-use crate::attach;
 use crate::body;
-use crate::budget::Remaining;
+use crate::body::prescribed_motion::PrescribedMotions;
+use crate::body::proximity;
 use crate::contact::broad::Finder;
 use crate::contents::Contents;
+use crate::edit::attach;
 use crate::error::{Error, Failure};
 use crate::events::Event;
 use crate::handle::CableHandle;
 use crate::islands::{Island, Islands};
-use crate::proximity;
-use crate::reels;
-use crate::settings::Settings;
-use crate::sleep;
+use crate::scales::step::MAX_TURN_ERROR;
+use budget::Remaining;
 use lariat_ancf::Snapshot;
 use prediction::{Prediction, StepParameters};
-use prescribed_motion::PrescribedMotions;
 use rapier::dynamics::RigidBodyHandle;
 use rapier::math::Real;
 use rapier::pipeline::PhysicsWorld;
+use settings::Settings;
 
 /// A host step in progress; see [`CableSet::begin`](crate::CableSet::begin).
 #[derive(Clone, Debug)]
@@ -125,9 +129,10 @@ pub(crate) fn begin(
         stepper.predictions.iter_mut().for_each(|p| (p.budget, p.degraded) = (stepper.budget, false));
         host.steps = substepping::count(contents, world, settings, f64::from(dt));
         host.motions = core::mem::take(&mut stepper.motions);
-        host.motions.read(contents, world, f64::from(dt));
+        let attached = contents.attachments.values().map(|a| a.body);
+        host.motions.read(attached, &contents.records, world, f64::from(dt));
         if host.steps > 1 {
-            host.motions.add_others(contents, world, f64::from(dt));
+            host.motions.add_others(&contents.records, world, f64::from(dt));
         }
         world.integration_parameters.dt = dt / host.steps as Real;
     }
@@ -155,7 +160,7 @@ pub(crate) fn predict_next(
     }
     reels::remesh(contents)?;
     loop {
-        host.motions.advance(contents, world, host.done, host.steps);
+        host.motions.advance(&mut contents.records, world, host.done, host.steps);
         let outcome = predict_islands(stepper, contents, world, settings, host);
         host.failed = outcome.is_err();
         let parts = outcome?;
@@ -184,7 +189,7 @@ pub(crate) fn finish(stepper: &mut Stepper, contents: &mut Contents, world: &mut
     if host.is_unfinished() || host.failed {
         host.motions.restore(world);
     } else if host.dt > 0.0 {
-        host.motions.remember(contents);
+        host.motions.remember(&mut contents.records);
     }
     stepper.motions = host.motions;
 }
@@ -217,9 +222,14 @@ fn predict_islands(
         integrate::integrate(contents, &islands.list, predictions, buffers, step.h);
         let turn = predictions.iter().filter(|p| p.integrator.is_some() && p.error.is_none());
         let turn = turn.map(|p| groups::largest_turn_error(p, step.h)).fold(0.0, f64::max);
-        let parts = (turn / substepping::MAX_TURN_ERROR).sqrt().ceil().min(f64::from(settings.max_rapier_steps)) as u32;
+        let parts = (turn / MAX_TURN_ERROR).sqrt().ceil().min(f64::from(settings.max_rapier_steps)) as u32;
         let parts = parts.min(settings.max_rapier_steps / host.steps).max(1);
-        if !finder.neighbours.complete(contents, &islands.list, predictions) && parts == 1 {
+        // an island that cannot step has no motion, and no state from before it
+        let before = |island: usize, cable: usize| {
+            let moved = predictions.get(island).filter(|p| !p.refused && p.error.is_none())?;
+            moved.snapshots.get(cable).map(Snapshot::positions)
+        };
+        if !finder.neighbours.complete(contents, &islands.list, before) && parts == 1 {
             break step;
         }
         // a mechanism turned otherwise, or cables met that were not expected to: they are united, and the step begins anew
@@ -319,7 +329,7 @@ fn prepare_island(
         island.bodies().next().is_some() && kinematic_ends::have_moved(contents, world, motions, island, step.h);
     let mut moved = ends_moved;
     for &cable in &island.cables {
-        moved |= finder.gather(contents, world, (cable, island), (motions, step), events)?;
+        moved |= finder.gather(contents, world, (cable, island), (motions, step.share, step.h), events)?;
     }
     prediction.sleep = sleep::update(contents, world, island, moved, step.sleep_speed, events);
     if prediction.sleep.asleep {

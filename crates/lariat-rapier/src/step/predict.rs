@@ -20,30 +20,24 @@
 //! waves grow as fast.
 
 use crate::body;
-use crate::budget::CHEAPEST;
+use crate::body::prescribed_motion::PrescribedMotions;
+use crate::body::proximity;
+use crate::body::spatial::stack_spatial;
 use crate::contents::Contents;
 use crate::error::Error;
 use crate::islands::{Island, Member};
 use crate::mechanism::{self, Group, Jointed};
-use crate::proximity;
-use crate::spatial::stack_spatial;
+use crate::scales::TIME_ROUNDING;
+use crate::scales::step::{MAX_CONTROLLED_STEP, MAX_PARTS, MAX_PHASE, MIN_DAMPING};
+use crate::step::budget::CHEAPEST;
 use crate::step::energy;
 use crate::step::kinematic_ends;
 use crate::step::prediction::{Prediction, StepParameters};
-use crate::step::prescribed_motion::PrescribedMotions;
 use crate::step::substepping;
 use ::nalgebra::Vector6;
 use lariat_ancf::island::{PinConstraint, RigidBody};
 use lariat_ancf::{Integrator, StepControl};
 use rapier::pipeline::PhysicsWorld;
-
-/// Longest step in s of an integrator that controls the error of cables: it does not see that of
-/// the bodies. Two balls on a cable lose 3e-5 of their angular momentum in 10 s if only the cable
-/// chooses the step, and 4e-7 with this bound.
-const MAX_CONTROLLED_STEP: f64 = 1.0 / 240.0;
-
-/// Least Kelvin-Voigt time, in Rapier steps, of cables on a body with a reaction estimate, under error control.
-const MIN_DAMPING: f64 = 0.1;
 
 /// Reads members and integrator of an island that will be [integrated](crate::step::integrate) over a step.
 pub(crate) fn prepare(
@@ -77,7 +71,7 @@ pub(crate) fn prepare(
             if is_controlled(&integrator) {
                 let held = held_phase(contents, world, island, prediction, step.h);
                 least = if held.is_some() { MIN_DAMPING * step.h } else { 0.0 };
-                if held.is_some_and(|phase| phase > substepping::MAX_PHASE) {
+                if held.is_some_and(|phase| phase > MAX_PHASE) {
                     integrator = CHEAPEST;
                     prediction.degraded = true;
                 }
@@ -250,7 +244,7 @@ fn integrator(contents: &Contents, island: &Island, step: &StepParameters) -> In
 /// divided.
 fn parts(integrator: &Integrator, h: f64) -> u32 {
     if is_controlled(integrator) {
-        ((h / MAX_CONTROLLED_STEP) * (1.0 - 1e-6)).ceil().clamp(1.0, 1024.0) as u32
+        ((h / MAX_CONTROLLED_STEP) * (1.0 - TIME_ROUNDING)).ceil().clamp(1.0, MAX_PARTS) as u32
     } else {
         1
     }

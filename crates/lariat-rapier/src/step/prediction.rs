@@ -2,11 +2,11 @@
 //! reconciliation.
 
 use crate::body::SavedBody;
-use crate::budget::Remaining;
 use crate::error::Error;
 use crate::mechanism::{Group, Mechanism};
-use crate::sleep::SleepState;
+use crate::step::budget::Remaining;
 use crate::step::refused::HeldBodies;
+use crate::step::sleep::SleepState;
 use ::nalgebra::Vector3;
 use lariat_ancf::island::{CoupledInertia, Impedance, PinAccount, RigidBody};
 use lariat_ancf::warning::balance::CableTerms;

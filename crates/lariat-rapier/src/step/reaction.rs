@@ -14,15 +14,13 @@
 //! The share s for places too: a ball with a thread rebounds with 0.09 to 0.14 of its speed where continuous collision detection stops it.
 //! Leaving p out: bodies of 1 to 5 kg on a steel wire leave a jam when the host step is not split.
 
+use crate::body::record::BodyRecord;
+use crate::body::spatial::stack_spatial;
 use crate::mechanism::{own_inertia, velocity_of};
-use crate::record::BodyRecord;
-use crate::spatial::stack_spatial;
+use crate::scales::step::REACTION_GAIN;
 use crate::step::prediction::BodyStep;
 use ::nalgebra::Vector6;
 use lariat_ancf::island::RigidBody;
-
-/// Share of the observed reaction that the estimate takes in a step.
-pub(super) const REACTION_GAIN: f64 = 0.3;
 
 /// Updates the estimate of the force and torque of contacts and joints from the deviations of
 /// velocity and position of a body that is `settled`.

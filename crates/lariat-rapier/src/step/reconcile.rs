@@ -20,13 +20,13 @@
 //! deviated, `v_after + s (v1 - v0)`, s = 1 where it landed and 0 where it was stopped: a random
 //! scene in free flight gained 8e-3 m/s per mass.
 
+use crate::body::pose::rounding;
+use crate::body::record::{BodyRecord, ExactState};
+use crate::body::spatial::{split_spatial, stack_spatial};
 use crate::contents::Contents;
 use crate::convert::{rotation, to_pose, to_vector, vector};
 use crate::islands::{Island, Member};
-use crate::pose::rounding;
-use crate::record::{BodyRecord, ExactState};
-use crate::sleep;
-use crate::spatial::{split_spatial, stack_spatial};
+use crate::scales::step::{MAX_LINK_GAP_SHARE, POSITION_ROUNDING, VELOCITY_ROUNDING};
 use crate::step::apply::restore_cables;
 use crate::step::energy;
 use crate::step::groups;
@@ -34,20 +34,13 @@ use crate::step::impedance::{apply_motor_impulses, follow_body, motor_impulse, t
 use crate::step::kinematic_ends;
 use crate::step::prediction::{AppliedMotion, BodyStep, Prediction};
 use crate::step::reaction::update_reaction;
+use crate::step::sleep;
 use crate::step::waking;
 use ::nalgebra::{UnitQuaternion, Vector3, Vector6};
 use lariat_ancf::island::RigidBody;
 use rapier::dynamics::{RigidBody as RapierBody, RigidBodyHandle};
 use rapier::math::Real;
 use rapier::pipeline::PhysicsWorld;
-
-/// Gap at a link of a multibody, as a share of the length of the cable, beyond which the island is refused if
-/// the gap grows.
-const MAX_LINK_GAP_SHARE: f64 = 2e-3;
-/// A body landed where it was predicted if it is within this many units of rounding of its position and of the velocity that it
-/// was given: Rapier adds up balanced forces, and every substep rounds.
-const POSITION_ROUNDING: f64 = 32.0;
-const VELOCITY_ROUNDING: f64 = 256.0;
 
 /// Updates cables, bodies and attachments of an island after a Rapier step of `h` (s).
 pub(crate) fn reconcile(

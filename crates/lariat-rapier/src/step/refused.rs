@@ -11,9 +11,9 @@
 //! set back afterwards. A body whose position is not finite is held where it was last; if that is
 //! not known, Rapier disables it.
 
+use crate::body::record::{ExactState, Records};
 use crate::body::{SavedBody, replace_loads};
 use crate::islands::Island;
-use crate::record::{ExactState, Records};
 use rapier::dynamics::{LockedAxes, Multibody, RigidBodyHandle};
 use rapier::math::{Pose, Vector};
 use rapier::pipeline::PhysicsWorld;

@@ -28,7 +28,7 @@
 //! step is predicted anew, divided. Impulse joints turn a velocity by removing what they do not allow of it, in each substep the share (w h/N)^2/2, which is the left
 //! side of the third line per radian.
 //!
-//! The collisions and the taut cables of the whole coming host step count ([`crate::proximity`]). All is evaluated again before each Rapier
+//! The collisions and the taut cables of the whole coming host step count ([`crate::body::proximity`]). All is evaluated again before each Rapier
 //! step, and the rest of the host step is split finer.
 //!
 //! # Validity
@@ -42,36 +42,21 @@
 //! A fine split always: a pile of 500 boxes costs 0.5 ms in each Rapier step. A bound of the gap that a collision at v opens before the
 //! cable follows, h v g/(1 + g) <= 1 mm with g = 0.1 h^2 k/m: with 32 steps at most, h w <= 0.6 asks for more of them below 50 m/s.
 
-use crate::attachment::Attachment;
 use crate::body::is_integrated;
+use crate::body::proximity;
+use crate::body::spatial::split_spatial;
 use crate::contact;
 use crate::contents::Contents;
-use crate::pose::MAX_HALF_ROTATION;
-use crate::proximity;
-use crate::settings::Settings;
-use crate::spatial::split_spatial;
+use crate::contents::attachment::Attachment;
+use crate::scales::body::MAX_HALF_ROTATION;
+use crate::scales::step::{
+    DEVIATION_SHARE, JOINTED_STEPS, MAX_LOSS, MAX_PHASE, MAX_REBOUND, MIN_REACTION, SLACK_SHARE,
+};
+use crate::step::settings::Settings;
 use ::nalgebra::Vector3;
 use lariat_ancf::At;
 use rapier::dynamics::RigidBodyHandle;
 use rapier::pipeline::PhysicsWorld;
-
-/// Largest h w.
-pub(super) const MAX_PHASE: f64 = 0.6;
-/// Steps of a host step of a body that joints hold: the reactions of joints are estimated from step
-/// to step. With one step, arms that close at a limit or are near a body blow up.
-const JOINTED_STEPS: f64 = 4.0;
-/// Largest share of its velocity that a body on impulse joints loses per radian.
-const MAX_LOSS: f64 = 5e-3;
-/// Largest error in rad of the attitude at which a mechanism is predicted.
-pub(super) const MAX_TURN_ERROR: f64 = 0.01;
-/// Share of a cable's slack by which its chord may grow, so that its stiffness does not double.
-const SLACK_SHARE: f64 = 0.37;
-/// Share of the length of an element by which a collision may displace its end in a Rapier step.
-const DEVIATION_SHARE: f64 = 0.5;
-/// Largest change of velocity of a body that collides, per speed of the collision.
-const MAX_REBOUND: f64 = 2.0;
-/// Share of the force at an attachment from which a reaction estimate counts.
-const MIN_REACTION: f64 = 0.1;
 
 /// Returns the number of Rapier steps for a host step of `dt` (s).
 pub(crate) fn count(contents: &Contents, world: &PhysicsWorld, settings: &Settings, dt: f64) -> u32 {

@@ -6,7 +6,7 @@
 //! cable:     dv = -A^-1 J^T (p - F h)      dx = h dv
 //! ```
 //! F is the force of the cable at rest, C its compliance over the step with all other pins held, p the impulse that the
-//! motors of the [ledger](crate::ledger) exerted. The body is as Rapier leaves it.
+//! motors of the [ledger](crate::body::ledger) exerted. The body is as Rapier leaves it.
 //!
 //! # Validity
 //! The first step is that of an implicit Euler method, as that of every body that deviates. In it a body has no contacts
@@ -17,8 +17,8 @@
 //! from outside. To repair the step after it: a body that 5 kN press against a stop would be thrown by them. The
 //! force among the user's forces on the body: who resets these forces would reset it.
 
-use crate::attachment::Attachment;
 use crate::contents::Contents;
+use crate::contents::attachment::Attachment;
 use crate::islands::Island;
 use crate::step::impedance;
 use crate::step::impedance::apply_motor_impulses;

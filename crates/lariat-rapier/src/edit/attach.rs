@@ -1,0 +1,169 @@
+//! Attaching cables to bodies and detaching them.
+
+use super::{drums, sheaves, world_mark};
+use crate::contents::Contents;
+use crate::contents::attachment::{Attachment, AttachmentKind, AttachmentOptions, AttachmentReading, Gap};
+use crate::contents::gaps::GapWatch;
+use crate::convert::{rotation, vector};
+use crate::error::Error;
+use crate::events::Event;
+use crate::handle::{AttachmentHandle, CableHandle};
+use ::nalgebra::{Vector3, Vector6};
+use lariat_ancf::At;
+use lariat_ancf::island::PinAccount;
+use rapier::dynamics::{RigidBody, RigidBodyHandle};
+use rapier::pipeline::PhysicsWorld;
+
+/// Attaches a point of a cable to a point of a body.
+pub(crate) fn attach(
+    contents: &mut Contents,
+    world: &PhysicsWorld,
+    (cable, at): (CableHandle, At),
+    (body, anchor): (RigidBodyHandle, Vector3<f64>),
+    AttachmentOptions { kind, gap }: AttachmentOptions,
+) -> Result<AttachmentHandle, Error> {
+    let rigid = check(contents, world, (cable, at), (body, anchor), gap)?;
+    let node = free_node(contents, cable, at)?;
+    let attached = contents.cable_mut(cable)?;
+    let arc_length = attached.node_arc_lengths()[node];
+    let direction = match kind {
+        AttachmentKind::Ball => {
+            attached.attach(At::Node(node))?;
+            None
+        }
+        AttachmentKind::Clamp => {
+            attached.attach_clamped(At::Node(node))?;
+            let slope = Vector3::from_column_slice(&attached.positions()[6 * node + 3..6 * node + 6]);
+            Some(rotation(*rigid.rotation()).inverse() * slope.normalize())
+        }
+    };
+    let index = contents.attachments.push(Attachment {
+        cable,
+        node,
+        arc_length,
+        body,
+        anchor,
+        direction,
+        ledger: None,
+        last_anchor: None,
+        reading: AttachmentReading::default(),
+        watch: GapWatch::default(),
+        lost_link: false,
+        at_eye: false,
+        from_start: 0,
+        steady_force: Vector3::zeros(),
+        predicted: PinAccount::default(),
+    });
+    contents.changed = true;
+    Ok(AttachmentHandle(index as u32))
+}
+
+/// Returns the point of a body, in body axes from its origin, where a point of a cable is now.
+pub(crate) fn anchor_here(
+    contents: &Contents,
+    world: &PhysicsWorld,
+    (cable, at): (CableHandle, At),
+    body: RigidBodyHandle,
+) -> Result<Vector3<f64>, Error> {
+    let rigid = world.bodies.get(body).ok_or(Error::NoBody(body))?;
+    let cable = contents.cable(cable)?;
+    let position = cable.sample(cable.arc_length(at)?)?.position;
+    Ok(rotation(*rigid.rotation()).inverse() * (position - vector(rigid.translation())))
+}
+
+/// Ends an attachment and frees its node.
+pub(crate) fn detach(
+    contents: &mut Contents,
+    world: &mut PhysicsWorld,
+    attachment: AttachmentHandle,
+) -> Result<(), Error> {
+    let removed = contents.attachments.remove(attachment.0 as usize);
+    let Attachment { cable, node, body, ledger, .. } = removed.ok_or(Error::NoAttachment(attachment))?;
+    contents.changed = true;
+    let held = contents.cable(cable)?;
+    if node == 0 || node + 1 == held.nodes() {
+        sheaves::remove_at(contents, cable, Some(node == 0))?;
+    }
+    // the reaction estimate is invalid without this cable
+    contents.records.record_mut(body).reaction = Vector6::zeros();
+    if world_mark::is_own(contents, world) {
+        if let Some(ledger) = ledger {
+            world.remove_body(ledger.body);
+        }
+        if world.bodies.contains(body) {
+            world.islands.wake_up(&mut world.bodies, body, true);
+        }
+    }
+    if contents.attachments.values().next().is_none() {
+        world_mark::remove(contents, world);
+    }
+    contents.cable_mut(cable)?.detach(At::Node(node))?;
+    Ok(())
+}
+
+/// Ends the attachments whose bodies were removed from the world, and drops the records of such
+/// bodies.
+pub(crate) fn end_lost(
+    contents: &mut Contents,
+    world: &mut PhysicsWorld,
+    events: &mut Vec<Event>,
+) -> Result<(), Error> {
+    for i in 0..contents.attachments.len() {
+        let Some(body) = contents.attachments.get(i).map(|a| a.body) else { continue };
+        if !world.bodies.contains(body) {
+            let attachment = AttachmentHandle(i as u32);
+            detach(contents, world, attachment)?;
+            events.push(Event::AttachmentEnded { attachment, body });
+        }
+    }
+    contents.records.retain_existing(world);
+    drums::end_lost(contents, &world.bodies)
+}
+
+/// Checks that a point of a cable can be attached to a point of a body, and returns the body.
+pub(crate) fn check<'a>(
+    contents: &Contents,
+    world: &'a PhysicsWorld,
+    (cable, at): (CableHandle, At),
+    (body, anchor): (RigidBodyHandle, Vector3<f64>),
+    gap: Gap,
+) -> Result<&'a RigidBody, Error> {
+    if !world_mark::is_own(contents, world) {
+        return Err(Error::OtherWorld);
+    }
+    let rigid = world.bodies.get(body).ok_or(Error::NoBody(body))?;
+    if !anchor.iter().all(|x| x.is_finite()) {
+        return Err(Error::AnchorNotFinite { body, anchor });
+    }
+    check_free(contents, cable, at)?;
+    let existing = contents.cable(cable)?;
+    let point = existing.sample(existing.arc_length(at)?)?.position;
+    gap.check(existing, &point, &(vector(rigid.translation()) + rotation(*rigid.rotation()) * anchor))?;
+    Ok(rigid)
+}
+
+/// Checks that no attachment and no junction has the node at a point of a cable.
+fn check_free(contents: &Contents, cable: CableHandle, at: At) -> Result<(), Error> {
+    let existing = contents.cable(cable)?;
+    let Ok(node) = existing.node(at) else { return Ok(()) };
+    let attached = contents.attachments.values().map(|a| (a.cable, a.node));
+    let mut nodes = attached.chain(contents.junctions.values().flat_map(|j| j.nodes.iter().copied()));
+    let taken = nodes.any(|taken| taken == (cable, node));
+    if taken { Err(Error::AlreadyAttached { cable: existing.name().to_string(), node }) } else { Ok(()) }
+}
+
+/// Returns the node at a point of a cable, inserting one if there is none. It must be neither
+/// attached nor part of a junction.
+pub(crate) fn free_node(contents: &mut Contents, cable: CableHandle, at: At) -> Result<usize, Error> {
+    check_free(contents, cable, at)?;
+    let edited = contents.cable_mut(cable)?;
+    let before = edited.nodes();
+    let node = edited.insert_node(at)?;
+    if edited.nodes() > before {
+        let attached = contents.attachments.values_mut().map(|a| (a.cable, &mut a.node));
+        let tied = contents.junctions.values_mut().flat_map(|j| &mut j.nodes).map(|(c, n)| (*c, n));
+        attached.chain(tied).filter(|(c, n)| *c == cable && **n >= node).for_each(|(_, n)| *n += 1);
+        contents.changed = true;
+    }
+    Ok(node)
+}

@@ -1,0 +1,71 @@
+//! An island: cables that are connected, and what connects them.
+
+use crate::contents::Contents;
+use crate::error::{Error, Failure};
+use crate::handle::CableHandle;
+use lariat_ancf::contact::CablePair;
+use lariat_ancf::island::{Drum, PinConstraint};
+use rapier::dynamics::RigidBodyHandle;
+
+/// Something that pins connect cables to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Member {
+    /// An integrated body.
+    Body(RigidBodyHandle),
+    /// A body with prescribed motion.
+    Driven(RigidBodyHandle),
+    /// A junction, by its index.
+    Junction(usize),
+}
+
+impl Member {
+    /// Returns the handle of an integrated body.
+    pub fn body(&self) -> Option<RigidBodyHandle> {
+        if let Member::Body(handle) = self { Some(*handle) } else { None }
+    }
+}
+
+/// Cables that are connected, and what connects them.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Island {
+    /// Indices of its cables.
+    pub cables: Vec<usize>,
+    pub members: Vec<Member>,
+    /// Pins, with indices into the two lists above.
+    pub pins: Vec<PinConstraint>,
+    /// By pin, the index of its attachment; `None` at a junction.
+    pub attachments: Vec<Option<usize>>,
+    /// Attachments whose nodes have a prescribed position.
+    pub supports: Vec<usize>,
+    /// Indices of its sheaves.
+    pub sheaves: Vec<usize>,
+    pub drums: Vec<Drum>,
+    /// Those of its cables that may touch each other, with indices into the first list.
+    pub pairs: Vec<CablePair>,
+}
+
+impl Island {
+    /// Returns whether nothing connects its cables.
+    pub fn is_loose(&self) -> bool {
+        self.members.is_empty() && self.sheaves.is_empty() && self.pairs.is_empty()
+    }
+
+    /// Returns the handles of its integrated bodies.
+    pub fn bodies(&self) -> impl Iterator<Item = RigidBodyHandle> {
+        self.members.iter().filter_map(Member::body)
+    }
+
+    /// Returns that it could not step, with the names of its cables and their time.
+    pub fn failure(&self, contents: &Contents, cause: Error) -> Failure {
+        let slots = || self.cables.iter().filter_map(|&c| contents.cables.get(c));
+        let cables = slots().map(|slot| slot.cable.name().to_string()).collect();
+        let time = slots().next().map_or(0.0, |slot| slot.cable.time());
+        let error = Error::StepRefused { cables, time, cause: Box::new(cause) };
+        Failure { cables: self.cables.iter().map(|&c| CableHandle(c as u32)).collect(), error }
+    }
+
+    /// Returns the indices of the pins on a member.
+    pub fn pins_on(&self, member: usize) -> impl Iterator<Item = usize> {
+        self.pins.iter().enumerate().filter(move |(_, p)| p.body == member).map(|(i, _)| i)
+    }
+}

@@ -1,0 +1,80 @@
+//! Where a cable runs through a collider.
+//!
+//! # Validity
+//!
+//! Tested are the line through five points of each element, which is inside where it is deeper than half the thickness of the cable and a
+//! millimetre, and lines from one point outside to the next: such a line runs through a collider, however thin, that it enters by one
+//! face and leaves by an opposite one. An edge sharper than 60 degrees that only touches the cable is taken for such a collider.
+
+use crate::convert::{to_vector, vector};
+use crate::scales::read::{DEEPER, OPPOSITE, POINTS, TOUCHING};
+use lariat_ancf::Cable;
+use nalgebra::Vector3;
+use rapier::geometry::{Aabb, BoundingVolume, Collider, Ray};
+use rapier::math::Real;
+
+/// Returns arc length and depth in m of the place where a cable is deepest in a collider, if it runs through it.
+pub fn deepest_inside(cable: &Cable, collider: &Collider) -> Option<(f64, f64)> {
+    let nodes = (0..cable.nodes()).map(|node| cable.node_position(node));
+    let mut around = Aabb::new_invalid();
+    nodes.for_each(|x| around.take_point(to_vector(&x)));
+    let slack = cable.elements().iter().fold(0.0, |longest: f64, element| longest.max(element.length));
+    if !collider.compute_aabb().intersects(&around.loosened(0.5 * slack as Real)) {
+        return None;
+    }
+    let diameter = |element: &lariat_ancf::Element| element.section.diameter.unwrap_or(0.0);
+    let touching = cable.elements().iter().map(diameter).fold(2.0 * TOUCHING, f64::max) * 0.5;
+    let mut deepest: Option<(f64, f64)> = None;
+    let mut note = |s: f64, depth: f64| {
+        if deepest.is_none_or(|(_, known)| depth > known * (1.0 + DEEPER)) {
+            deepest = Some((s, depth));
+        }
+    };
+    let mut outside: Option<(f64, Vector3<f64>)> = None;
+    let arc_lengths = cable.node_arc_lengths();
+    let starts = arc_lengths
+        .windows(2)
+        .flat_map(|ends| (0..POINTS).map(move |k| ends[0] + (ends[1] - ends[0]) * k as f64 / POINTS as f64));
+    for s in starts.chain([cable.length()]) {
+        let Ok(sample) = cable.sample(s) else { continue };
+        let point = sample.position;
+        let (depth, is_inside) = depth(collider, &point);
+        if is_inside && depth > touching {
+            note(s, depth);
+        }
+        if is_inside {
+            continue;
+        }
+        if let Some((from, start)) = outside
+            && let Some((share, depth)) = pierced(collider, &start, &point, touching)
+        {
+            note(from + share * (s - from), depth);
+        }
+        outside = Some((s, point));
+    }
+    deepest
+}
+
+/// Returns where on a line between two points outside a collider, from 0 to 1, it is in the collider, and how deep in m, if that is deeper than
+/// `touching`; or half of the length inside, if the line enters by one face and leaves by an opposite one.
+fn pierced(collider: &Collider, from: &Vector3<f64>, to: &Vector3<f64>, touching: f64) -> Option<(f64, f64)> {
+    let cast = |origin: &Vector3<f64>, end: &Vector3<f64>| {
+        let ray = Ray::new(to_vector(origin), to_vector(&(end - origin)));
+        collider.shape().cast_ray_and_get_normal(collider.position(), &ray, 1.0, false)
+    };
+    let (entry, exit) = (cast(from, to)?, cast(to, from)?);
+    let (start, end) = (entry.time_of_impact as f64, 1.0 - exit.time_of_impact as f64);
+    let length = (end - start).max(0.0) * (to - from).norm();
+    let places = (1..2 * POINTS).map(|k| start + (end - start) * k as f64 / (2 * POINTS) as f64);
+    let depths = places.map(|share| (share, depth(collider, &(from + (to - from) * share)).0));
+    let deepest =
+        depths.reduce(|a, b| if b.1 > a.1 { b } else { a }).filter(|(_, depth)| *depth > touching && length > 0.0);
+    let through = entry.normal.dot(exit.normal) < OPPOSITE;
+    deepest.or_else(|| through.then_some((0.5 * (start + end), 0.5 * length)))
+}
+
+/// Returns the distance in m of a point from the surface of a collider, and whether it is inside.
+fn depth(collider: &Collider, point: &Vector3<f64>) -> (f64, bool) {
+    let surface = collider.shape().project_point(collider.position(), to_vector(point), false);
+    ((vector(surface.point) - point).norm(), surface.is_inside)
+}

@@ -1,0 +1,221 @@
+//! Warnings about cables in their world, beside those that a cable has by itself.
+//!
+//! Cables of a set are watched ([`Settings::watch`](crate::Settings::watch)): each warning of [`lariat_ancf::warning`] is an
+//! [`Event::Warning`] once, after the host step in which it came up. [`CableSet::warnings`](crate::CableSet::warnings) returns all at any time.
+
+use crate::body::unsettled::Unsettled;
+use crate::contents::Contents;
+use crate::contents::attachment::Attachment;
+use crate::contents::gaps::OpenGap;
+use crate::convert::{rotation, to_vector, vector};
+use crate::error::Error;
+use crate::events::Event;
+use crate::handle::{AttachmentHandle, CableHandle};
+use crate::read::inside::deepest_inside;
+use crate::scales::HOST_ROUNDING;
+use crate::scales::read::JOLT;
+use lariat_ancf::contact::LARGEST_RESTITUTION;
+use rapier::dynamics::RigidBodyType;
+use rapier::geometry::ColliderHandle;
+use rapier::math::Real;
+use rapier::pipeline::PhysicsWorld;
+
+/// A warning about a cable of a set; its text says what to do.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum Warning {
+    /// What the cable says about itself.
+    #[error("{warning}")]
+    Cable {
+        /// The cable.
+        cable: CableHandle,
+        /// Its warning.
+        warning: lariat_ancf::Warning,
+    },
+    /// A cable runs through a collider of a body that it is not attached to.
+    #[error(
+        "cable {name:?}: at {arc_length:.4} m it is {depth:.2e} m inside a collider: contact does not push it out, and without contact it \
+         passes through; check the points of the cable and the place of the collider"
+    )]
+    InCollider {
+        /// The cable.
+        cable: CableHandle,
+        /// Its name.
+        name: String,
+        /// The collider.
+        collider: ColliderHandle,
+        /// Arc length of the deepest place in m.
+        arc_length: f64,
+        /// Its distance from the surface in m; where no point that is tested is inside, half the length inside.
+        depth: f64,
+    },
+    /// An attachment whose two sides are apart.
+    #[error(
+        "cable {name:?}: at {:.4} s it is {:.1e} m off the anchor of an attachment{}", gap.time, gap.gap,
+        if gap.closed { ": take shorter steps, or find what holds the body back" } else { ", and they never met: start them together, or wait" }
+    )]
+    OpenGap {
+        /// The attachment.
+        attachment: AttachmentHandle,
+        /// Name of its cable.
+        name: String,
+        /// The gap.
+        gap: OpenGap,
+    },
+    /// What joints, limits and contacts do to a body on joints changed from step to step.
+    #[error(
+        "cable {name:?}: the body of an attachment is on joints that did not hold it as predicted: in {:.0} % of the steps before {:.3} s, and its \
+         forces are {:.1} % off those that moved it; do not trust them: take shorter host steps, more `rapier_steps` or solver iterations, weld links \
+         into one body, or keep heavy links away from light ones", 100.0 * how.steps, how.time, 100.0 * how.force
+    )]
+    Unsettled {
+        /// The attachment.
+        attachment: AttachmentHandle,
+        /// Name of its cable.
+        name: String,
+        /// When, and by how much.
+        how: Unsettled,
+    },
+    /// Cable and body of an attachment that has not been stepped have different velocities.
+    #[error(
+        "cable {name:?}: cable and body start with velocities {difference:.3e} m/s apart where they are attached, which gives a shock: give both the same \
+         velocity there"
+    )]
+    VelocityJump {
+        /// The attachment.
+        attachment: AttachmentHandle,
+        /// Name of its cable.
+        name: String,
+        /// Difference of the velocities in m/s.
+        difference: f64,
+    },
+    /// A cable that touches bodies would bounce off a collider with more of its velocity than it can.
+    #[error(
+        "cable {name:?}: with a collider that it may touch it has a coefficient of restitution of {restitution}, and impacts of cables have at \
+         most 15/17: it leaves with less"
+    )]
+    HighRestitution {
+        /// The cable.
+        cable: CableHandle,
+        /// Its name.
+        name: String,
+        /// The collider with which it is largest.
+        collider: ColliderHandle,
+        /// Their coefficient of restitution.
+        restitution: f64,
+    },
+}
+
+/// Returns the warnings about all cables of a set.
+pub(crate) fn all(contents: &Contents, world: &PhysicsWorld) -> Vec<Warning> {
+    let mut warnings = Vec::new();
+    for (cable, slot) in contents.cables.iter() {
+        let handle = CableHandle(cable as u32);
+        warnings.extend(slot.cable.warnings().into_iter().map(|warning| Warning::Cable { cable: handle, warning }));
+        for (collider, shape) in world.colliders.iter().filter(|(_, collider)| !collider.is_sensor()) {
+            let attached = contents.attachments.values();
+            if attached.into_iter().any(|a| a.cable == handle && Some(a.body) == shape.parent()) {
+                continue;
+            }
+            if let Some((arc_length, depth)) = deepest_inside(&slot.cable, shape) {
+                let name = slot.cable.name().to_string();
+                warnings.push(Warning::InCollider { cable: handle, name, collider, arc_length, depth });
+            }
+        }
+        if let Some(contact) = slot.cable.effects().contact {
+            let allowed = world.colliders.iter().filter(|(_, collider)| slot.rules.allow(collider));
+            let bounces = allowed.map(|(h, collider)| (h, slot.rules.restitution(contact.restitution, collider)));
+            let largest = bounces.max_by(|a, b| a.1.total_cmp(&b.1)).filter(|found| found.1 > LARGEST_RESTITUTION);
+            if let Some((collider, restitution)) = largest {
+                let name = slot.cable.name().to_string();
+                warnings.push(Warning::HighRestitution { cable: handle, name, collider, restitution });
+            }
+        }
+    }
+    let attachments = contents.attachments.iter();
+    for (i, a) in attachments {
+        let attachment = AttachmentHandle(i as u32);
+        warnings.extend(of_attachment(contents, attachment, a, world));
+        if let (Ok(Some(how)), Ok(cable)) = (unsettled(contents, attachment), contents.cable(a.cable)) {
+            warnings.push(Warning::Unsettled { attachment, name: cable.name().to_string(), how });
+        }
+    }
+    warnings
+}
+
+/// Returns the gap of an attachment if it is longer than its limit.
+pub(crate) fn open_gap(contents: &Contents, attachment: AttachmentHandle) -> Result<Option<OpenGap>, Error> {
+    let own = contents.attachment(attachment)?;
+    Ok(own.watch.open(contents.cable(own.cable)?.length()))
+}
+
+/// Returns the worst half second of the body of an attachment, if there was one.
+pub(crate) fn unsettled(contents: &Contents, attachment: AttachmentHandle) -> Result<Option<Unsettled>, Error> {
+    let own = contents.attachment(attachment)?;
+    Ok(contents.records.get(own.body).and_then(|record| record.settling.worst()))
+}
+
+/// Returns what is to be said about an attachment.
+fn of_attachment(
+    contents: &Contents,
+    attachment: AttachmentHandle,
+    own: &Attachment,
+    world: &PhysicsWorld,
+) -> Option<Warning> {
+    let (cable, body) = (contents.cable(own.cable).ok()?, world.bodies.get(own.body)?);
+    let name = cable.name().to_string();
+    if own.watch.is_read() {
+        return Some(Warning::OpenGap { attachment, name, gap: own.watch.open(cable.length())? });
+    }
+    // how a body whose positions are prescribed moves is known only within a step
+    if body.body_type() == RigidBodyType::KinematicPositionBased {
+        return None;
+    }
+    let anchor = vector(body.translation()) + rotation(*body.rotation()) * own.anchor;
+    let there = vector(body.velocity_at_point(to_vector(&anchor)));
+    let difference = (cable.sample(own.arc_length).ok()?.velocity - there).norm();
+    let rounding = HOST_ROUNDING * f64::from(Real::EPSILON) * there.amax();
+    (difference > JOLT + rounding).then_some(Warning::VelocityJump { attachment, name, difference })
+}
+
+/// Reads the cables at the end of a host step, and tells them first whether nothing else acts on them and by how much what holds them was rounded;
+/// what is new is an event.
+pub(crate) fn note(contents: &mut Contents, world: &PhysicsWorld, events: &mut Vec<Event>) {
+    let dt = f64::from(world.integration_parameters.dt);
+    let Contents { cables, attachments, junctions, sheaves, drums, records, .. } = contents;
+    for slot in cables.values_mut() {
+        (slot.alone, slot.rounding) = (slot.cable.effects().contact.is_none(), 0.0);
+    }
+    let at_junctions = junctions.values().flat_map(|junction| &junction.nodes).map(|(cable, _)| *cable);
+    let at_sheaves = sheaves.values().flat_map(|sheave| sheave.ends()).map(|(cable, _)| cable);
+    let at_drums = drums.iter().map(|drum| drum.cable);
+    for cable in at_junctions.chain(at_sheaves).chain(at_drums) {
+        if let Some(slot) = cables.get_mut(cable.0 as usize) {
+            slot.alone = false;
+        }
+    }
+    for index in 0..attachments.len() {
+        let Some(attachment) = attachments.get_mut(index) else { continue };
+        let Some(slot) = cables.get_mut(attachment.cable.0 as usize) else { continue };
+        slot.alone &= !world.bodies.get(attachment.body).is_some_and(|body| body.is_dynamic());
+        slot.rounding = records.rounding(world, attachment.body, &attachment.anchor).max(slot.rounding);
+        if slot.asleep {
+            continue;
+        }
+        let opened = attachment.watch.note(attachment.gap(), slot.cable.time(), slot.cable.length());
+        if let Some(gap) = opened.filter(|_| slot.cable.is_watched()) {
+            events.push(Event::GapOpened { attachment: AttachmentHandle(index as u32), gap });
+        }
+        let how = records.get(attachment.body).and_then(|record| record.settling.due());
+        if let Some(how) = how.filter(|_| slot.cable.is_watched()) {
+            events.push(Event::Unsettled { attachment: AttachmentHandle(index as u32), how });
+        }
+    }
+    records.settle_told();
+    for index in 0..cables.len() {
+        let Some(slot) = cables.get_mut(index).filter(|slot| !slot.asleep) else { continue };
+        let cable = CableHandle(index as u32);
+        slot.cable.set_end_rounding(slot.rounding, dt);
+        slot.cable.note_host_step(slot.alone, |warning| events.push(Event::Warning { cable, warning }));
+    }
+}

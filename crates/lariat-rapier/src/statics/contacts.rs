@@ -1,0 +1,44 @@
+//! Contacts of bodies that were moved to their place, which statics do not compute.
+
+use crate::error::Error;
+use crate::scales::statics::TOUCH;
+use rapier::dynamics::RigidBodyHandle;
+use rapier::geometry::{BoundingVolume, Collider};
+use rapier::math::{Pose, Real};
+use rapier::parry::query::contact;
+use rapier::pipeline::PhysicsWorld;
+
+/// Rejects moved bodies that touch another, where they were or where they are to be.
+pub(super) fn check_contacts(world: &PhysicsWorld, poses: &[(RigidBodyHandle, Pose)]) -> Result<(), Error> {
+    let solid: Vec<&Collider> =
+        world.colliders.iter().map(|(_, c)| c).filter(|c| c.is_enabled() && !c.is_sensor()).collect();
+    let after = |c: &Collider| {
+        let moved = c.parent().and_then(|parent| poses.iter().find(|(handle, _)| *handle == parent));
+        match (moved, c.position_wrt_parent()) {
+            (Some((_, pose)), Some(local)) => *pose * *local,
+            _ => *c.position(),
+        }
+    };
+    let before = |c: &Collider| match (c.parent().and_then(|b| world.bodies.get(b)), c.position_wrt_parent()) {
+        (Some(body), Some(local)) => *body.position() * *local,
+        _ => *c.position(),
+    };
+    for &(handle, _) in poses {
+        let own = solid.iter().filter(|c| c.parent() == Some(handle));
+        for (a, b) in own.flat_map(|a| solid.iter().map(move |b| (a, b))) {
+            if b.parent() == Some(handle) || !a.collision_groups().test(b.collision_groups()) {
+                continue;
+            }
+            for (at, to) in [(before(a), before(b)), (after(a), after(b))] {
+                let near = a.shape().compute_aabb(&at).loosened(TOUCH as Real);
+                // pairs of shapes that parry does not compare cannot collide in Rapier either
+                if near.intersects(&b.shape().compute_aabb(&to))
+                    && matches!(contact(&at, a.shape(), &to, b.shape(), TOUCH as Real), Ok(Some(_)))
+                {
+                    return Err(Error::ContactInStatics { body: handle, other: b.parent() });
+                }
+            }
+        }
+    }
+    Ok(())
+}

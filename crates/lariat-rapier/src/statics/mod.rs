@@ -1,0 +1,74 @@
+//! Static equilibrium of the cables of a set and the bodies that they carry.
+//!
+//! # Scheme
+//! Each island is solved by [`lariat_ancf::island::equilibrium`], with six unknowns per dynamic body.
+//! Fixed, kinematic and disabled bodies hold their cables where they are. Everything is written back
+//! only when all islands are in equilibrium.
+//!
+//! # Validity
+//! No joints and no contacts of bodies: a body that has one is an error, before or after the search. Cables with contact lie on the
+//! colliders of fixed and kinematic bodies, without friction; one that would be in another collider, or on a sharp edge or something thin, is an error. Contact of
+//! cables with each other takes no part. A cable alone may end in an indifferent shape, which its report says.
+
+mod contacts;
+mod report;
+mod solve;
+mod write;
+
+pub use report::Equilibrium;
+
+use crate::body::is_integrated;
+use crate::body::ledger::is_ledger;
+use crate::contact::broad::Finder;
+use crate::contents::Contents;
+use crate::error::Error;
+use crate::islands::Islands;
+use contacts::check_contacts;
+use lariat_ancf::EquilibriumOptions;
+use rapier::dynamics::RigidBodyHandle;
+use rapier::math::Pose;
+use rapier::pipeline::PhysicsWorld;
+use solve::{poses, solve};
+use write::{read_forces, write};
+
+/// Moves cables and the dynamic bodies attached to them to static equilibrium.
+pub(crate) fn equilibrium(
+    contents: &mut Contents,
+    finder: &mut Finder,
+    world: &mut PhysicsWorld,
+    options: EquilibriumOptions,
+) -> Result<Equilibrium, Error> {
+    contents.follow_gravity(world)?;
+    let mut islands = Islands::default();
+    let found = islands.update(contents, world, &[], &[]);
+    // the stepper has not seen these changes
+    contents.changed = true;
+    found?;
+    let mut out = Equilibrium::default();
+    let mut solved = Vec::new();
+    for island in &islands.list {
+        solved.push(solve(contents, finder, world, island, options, &mut out)?);
+    }
+    let poses: Vec<(RigidBodyHandle, Pose)> = solved.iter().flat_map(|s| poses(world, s)).collect();
+    check_contacts(world, &poses)?;
+    finder.begin(contents, world, 0.0);
+    for solved in &mut solved {
+        for (&index, cable) in solved.island.cables.iter().zip(&mut solved.cables) {
+            finder.check_statics(contents, world, index, cable)?;
+        }
+    }
+    for a in contents.attachments.values() {
+        if !is_integrated(world, a.body) && !out.held.contains(&a.body) {
+            out.held.push(a.body);
+        }
+    }
+    let attached = |handle| contents.attachments.values().any(|a| a.body == handle);
+    let loose = world.bodies.iter().filter(|(h, b)| is_integrated(world, *h) && !is_ledger(b) && !attached(*h));
+    out.unattached = loose.map(|(handle, _)| handle).collect();
+    for island in solved {
+        write(contents, world, island);
+    }
+    read_forces(contents, world);
+    out.moved = poses.into_iter().map(|(handle, _)| handle).collect();
+    Ok(out)
+}

@@ -1,0 +1,120 @@
+//! Solves an island on copies.
+
+use super::report::Equilibrium;
+use crate::body::ledger::is_ledger;
+use crate::body::rigid_body;
+use crate::contact::broad::Finder;
+use crate::contents::Contents;
+use crate::convert::{rotation, to_pose, vector};
+use crate::error::Error;
+use crate::handle::CableHandle;
+use crate::islands::{Island, Member};
+use ::nalgebra::Matrix3;
+use lariat_ancf::island::{self, RigidBody};
+use lariat_ancf::{At, Cable, EquilibriumFailure, EquilibriumOptions, Motion};
+use rapier::dynamics::RigidBodyHandle;
+use rapier::math::Pose;
+use rapier::pipeline::PhysicsWorld;
+
+/// Cables and members of an island in equilibrium.
+pub(super) struct Solved<'a> {
+    pub island: &'a Island,
+    pub cables: Vec<Cable>,
+    pub members: Vec<RigidBody>,
+}
+
+/// Returns an error of statics with the collider in which a cable would be.
+fn name_collider(error: lariat_ancf::Error) -> Error {
+    match error {
+        lariat_ancf::Error::NoEquilibrium {
+            cable,
+            failure: EquilibriumFailure::Touches { obstacle, arc_length, depth },
+            ..
+        } => Error::CableTouchesInStatics { cable, collider: crate::contact::collider(obstacle), arc_length, depth },
+        error => error.into(),
+    }
+}
+
+/// Solves an island on copies.
+pub(super) fn solve<'a>(
+    contents: &mut Contents,
+    finder: &mut Finder,
+    world: &PhysicsWorld,
+    island: &'a Island,
+    options: EquilibriumOptions,
+    out: &mut Equilibrium,
+) -> Result<Solved<'a>, Error> {
+    let slots = island.cables.iter().filter_map(|&index| contents.cables.get(index));
+    let mut cables: Vec<Cable> = slots.map(|slot| slot.cable.clone()).collect();
+    for (&index, cable) in island.cables.iter().zip(&mut cables) {
+        finder.gather_for_statics(contents, world, index, cable)?;
+    }
+    for a in island.supports.iter().filter_map(|&i| contents.attachments.get(i)) {
+        let Some(cable) = island.cables.iter().position(|&c| c == a.cable.0 as usize) else { continue };
+        let body = world.bodies.get(a.body).ok_or(Error::NoBody(a.body))?;
+        let anchor = vector(body.translation()) + rotation(*body.rotation()) * a.anchor;
+        let mut support = cables[cable].support(At::Node(a.node))?;
+        (support.position, support.attached) = (Some(Motion::fixed(anchor)), false);
+        cables[cable].set_support(At::Node(a.node), support)?;
+    }
+    let mut members = Vec::new();
+    for member in &island.members {
+        members.push(match member {
+            Member::Body(handle) => free_body(contents, world, *handle)?,
+            Member::Driven(handle) => held_body(world, *handle)?,
+            Member::Junction(j) => {
+                let junction = contents.junctions.get(*j).expect("islands are found anew when a junction ends");
+                junction.point(contents.cable(junction.nodes[0].0)?)?
+            }
+        });
+    }
+    let reports = if members.is_empty() {
+        cables
+            .iter_mut()
+            .map(|cable| cable.equilibrium_with(options).map_err(name_collider))
+            .collect::<Result<Vec<_>, _>>()?
+    } else {
+        let mut refs: Vec<&mut Cable> = cables.iter_mut().collect();
+        vec![island::equilibrium(&mut refs, &mut members, &island.pins, options)?; island.cables.len()]
+    };
+    out.cables.extend(island.cables.iter().map(|&c| CableHandle(c as u32)).zip(reports));
+    Ok(Solved { island, cables, members })
+}
+
+/// Returns a dynamic body at its place, with gravity and the user's forces.
+fn free_body(contents: &Contents, world: &PhysicsWorld, handle: RigidBodyHandle) -> Result<RigidBody, Error> {
+    let ledger = |b: RigidBodyHandle| world.bodies.get(b).is_some_and(is_ledger);
+    let joined = world.impulse_joints.attached_enabled_joints(handle).any(|(a, b, _, _)| !ledger(a) && !ledger(b));
+    if joined || world.multibody_joints.rigid_body_link(handle).is_some() {
+        return Err(Error::JointInStatics { body: handle });
+    }
+    let mut body = rigid_body(world, handle).ok_or(Error::NoBody(handle))?;
+    if let Some(exact) = contents.records.get(handle).and_then(|record| record.exact.as_ref()) {
+        exact.apply_to(&world.bodies[handle], &mut body);
+    }
+    if body.inertia == Matrix3::zeros() {
+        body.inertia = Matrix3::identity();
+    }
+    Ok(body)
+}
+
+/// Returns a body that holds its clamps where it is.
+fn held_body(world: &PhysicsWorld, handle: RigidBodyHandle) -> Result<RigidBody, Error> {
+    let body = world.bodies.get(handle).ok_or(Error::NoBody(handle))?;
+    let mut out = RigidBody::new(1.0, Matrix3::identity(), vector(body.translation()))?;
+    out.rotation = rotation(*body.rotation());
+    out.free = [false; 6];
+    Ok(out)
+}
+
+/// Returns the poses of the dynamic bodies of an island.
+pub(super) fn poses(world: &PhysicsWorld, solved: &Solved<'_>) -> Vec<(RigidBodyHandle, Pose)> {
+    let members = solved.island.members.iter().zip(&solved.members);
+    members
+        .filter_map(|(member, end)| {
+            let Member::Body(handle) = member else { return None };
+            let centre = vector(world.bodies[*handle].local_center_of_mass());
+            Some((*handle, to_pose(&(end.position - end.rotation * centre), &end.rotation)))
+        })
+        .collect()
+}

@@ -1,0 +1,49 @@
+//! Writes what was solved to the set and the world.
+
+use super::solve::{Solved, poses};
+use crate::body::record::ExactState;
+use crate::contents::Contents;
+use crate::convert::{rotation, vector};
+use crate::islands::Member;
+use ::nalgebra::{Vector3, Vector6};
+use rapier::math::Vector;
+use rapier::pipeline::PhysicsWorld;
+
+/// Writes an island in equilibrium to the set and the world.
+pub(super) fn write(contents: &mut Contents, world: &mut PhysicsWorld, solved: Solved<'_>) {
+    let poses = poses(world, &solved);
+    let Solved { island, cables, members } = solved;
+    for (&index, cable) in island.cables.iter().zip(cables) {
+        if let Some(slot) = contents.cables.get_mut(index) {
+            (slot.cable, slot.modified, slot.asleep) = (cable, true, false);
+        }
+    }
+    for (handle, pose) in poses {
+        let body = &mut world.bodies[handle];
+        body.set_position(pose, true);
+        body.set_linvel(Vector::ZERO, true);
+        body.set_angvel(Vector::ZERO, true);
+        let end = island.members.iter().position(|m| *m == Member::Body(handle)).map(|m| &members[m]);
+        let record = contents.records.record_mut(handle);
+        record.reaction = Vector6::zeros();
+        let still = (Vector3::zeros(), Vector3::zeros());
+        record.exact = end.map(|end| ExactState::new(end, still, body));
+    }
+}
+
+/// Updates the readings of all attachments.
+pub(super) fn read_forces(contents: &mut Contents, world: &PhysicsWorld) {
+    let Contents { cables, attachments, records, .. } = contents;
+    for a in attachments.values_mut() {
+        let (Some(slot), Some(body)) = (cables.get_mut(a.cable.0 as usize), world.bodies.get(a.body)) else { continue };
+        let (force, moment) = slot.cable.pull(a.node);
+        let anchor = match records.get(a.body).and_then(|record| record.exact.as_ref()) {
+            Some(exact) => exact.point(&(a.anchor - vector(body.local_center_of_mass()))),
+            None => vector(body.translation()) + rotation(*body.rotation()) * a.anchor,
+        };
+        a.reading.force = force;
+        a.reading.moment = if a.direction.is_some() { moment } else { Vector3::zeros() };
+        a.reading.gap = slot.cable.node_position(a.node) - anchor;
+        a.steady_force = force;
+    }
+}

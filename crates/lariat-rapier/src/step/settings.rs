@@ -1,0 +1,59 @@
+//! Settings of a set.
+
+use crate::scales::step::{MAX_RAPIER_STEPS, RAPIER_STEPS, SLEEP_SPEED};
+use crate::step::budget::Budget;
+use lariat_ancf::Fidelity;
+use serde::{Deserialize, Serialize};
+
+/// How a [`CableSet`](crate::CableSet) steps. All of its cables share one number of Rapier steps.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Settings {
+    /// Smallest number of Rapier steps per host step. Default 1. Rapier's cost, of the whole world,
+    /// grows in proportion.
+    pub rapier_steps: u32,
+    /// Largest number of Rapier steps per host step. More than `rapier_steps` are taken where a
+    /// light body in contact hangs on a stiff, taut cable, enough to resolve its vibration, and for
+    /// as long as it does. Default 32. A value of `rapier_steps` or less fixes the number at
+    /// `rapier_steps`.
+    #[serde(default = "max_rapier_steps")]
+    pub max_rapier_steps: u32,
+    /// Speed in m/s below which cables and the bodies on them may fall asleep, if the forces
+    /// between them are steady. Default 2e-3; 0 disables sleep.
+    pub sleep_speed: f64,
+    /// Fidelity of the cables that are inserted without a chosen integrator. Default: game, whose
+    /// cost per step is bounded and which cannot make energy.
+    #[serde(default = "fidelity")]
+    pub fidelity: Fidelity,
+    /// Whether cables that are inserted from now on are [watched](lariat_ancf::Cable::set_watched): each warning
+    /// is an event. Default true; each cable is then read once per host step.
+    #[serde(default = "watch")]
+    pub watch: bool,
+    /// The largest amount of work in a host step. Default: no limit.
+    #[serde(default)]
+    pub budget: Option<Budget>,
+}
+
+fn watch() -> bool {
+    true
+}
+
+fn fidelity() -> Fidelity {
+    Fidelity::Game
+}
+
+fn max_rapier_steps() -> u32 {
+    MAX_RAPIER_STEPS
+}
+
+impl Default for Settings {
+    fn default() -> Self {
+        Settings {
+            rapier_steps: RAPIER_STEPS,
+            max_rapier_steps: max_rapier_steps(),
+            sleep_speed: SLEEP_SPEED,
+            fidelity: fidelity(),
+            watch: watch(),
+            budget: None,
+        }
+    }
+}
