@@ -26,7 +26,7 @@
 //! |---|---|
 //! | [`cable`] | description, state, builder, sampling, energies, edits |
 //! | [`contact`] | what a cable can touch: obstacles, their shapes and motions |
-//! | [`effect`] | one file per effect: damping, drag, buoyancy, rest shape ..., and forces per length of your own |
+//! | [`effect`] | one file per effect: damping, drag, buoyancy, rest shape ..., and forces per length and potentials of your own |
 //! | [`integrate`] | one file per time integrator, over one trait, which other crates can implement |
 //! | `statics` | static equilibrium: [`Cable::equilibrium`] |
 //! | [`warning`] | what a cable says about its own mesh, steps, law and sizes |

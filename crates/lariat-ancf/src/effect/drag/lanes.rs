@@ -11,7 +11,7 @@
 //! D = -df/dv and A = df/dt ([`drag`](super)); rows and columns of slopes are multiplied by l at the end. Elements are added in
 //! ascending order whatever the width of the lanes.
 
-use super::{Drag, POINTS, Split};
+use super::law::{Drag, POINTS, Split};
 use crate::dual::{Dual, constant};
 use crate::effect::acts::{ForceInput, PointForce, StepInput};
 use crate::effect::{Flow, Target};

@@ -10,8 +10,8 @@
 //! D is positive semi-definite, so the power in a fluid at rest is never positive, at any step and any iterate, and the step matrix stays
 //! definite. At convergence w = v^ - u, and this is the force of [`drag`](super).
 
-use super::Split;
 use super::lanes::{DragTable, Lanes, PAIRS, combine};
+use super::law::Split;
 use crate::effect::acts::StepInput;
 use crate::element::gram::dot;
 use crate::linalg::BlockTridiagonal;

@@ -14,12 +14,14 @@
 //! is that of the whole: forces and torques on the bodies do work, as do gaps that close and the axes along which a body is locked.
 
 mod angular;
+mod aside;
 mod body;
 mod coupled;
 mod holds;
 mod host_step;
 mod impact;
 mod laws;
+mod method;
 mod pairs;
 mod rescale;
 mod rigid;
@@ -36,12 +38,12 @@ use super::pin_accounts::PinAccounts;
 use crate::cable::Cable;
 use crate::contact::{BodyPath, CablePair, PairStep};
 use crate::effect::EffectWork;
-use crate::error::StepFailure;
-use crate::integrate::discrete_gradient::{Balance, Closing, DiscreteGradientSystem, Event, sum_of_forces};
+use crate::integrate::discrete_gradient::{Balance, sum_of_forces};
 use crate::state::State;
 use crate::support::SlopeSupport;
 use crate::system::StepVectors;
 use crate::system::{CableStep, System, Unknowns, dot, project_vector};
+use aside::Aside;
 use body::BodyStep;
 use coupled::{add_coupled_energies, complete_rows};
 use holds::HoldStep;
@@ -64,7 +66,7 @@ pub(super) struct StepBuffers {
     paths: Vec<BodyPath>,
     /// Contacts between the cables.
     pairs: PairStep,
-    aside: pairs::Aside,
+    aside: Aside,
     /// The cables that may touch each other, in ascending order; `None` for all.
     pub may_touch: Option<Vec<CablePair>>,
     /// Rates of reels that are unknown, and sheaves.
@@ -205,125 +207,5 @@ impl CableBuffers {
         system.mass.multiply(system.level, external, product);
         let held = self.holds.iter().filter(|hold| !hold.slope).map(|hold| (hold.at, hold.impulse));
         accounts.momentum.add_step(c, rhs, held, [&state.q, change, product]);
-    }
-}
-
-impl DiscreteGradientSystem for IslandStep<'_, '_> {
-    fn time(&self) -> f64 {
-        self.cables[0].time()
-    }
-
-    fn set_time(&mut self, time: f64) {
-        self.cables.iter_mut().for_each(|cable| cable.snapshot.state.time = time);
-    }
-
-    fn begin(&mut self) {
-        for cable in self.cables.iter_mut() {
-            let CableStep { mut equations, state, .. } = cable.step_parts();
-            equations.begin_host_step(state);
-            equations.note_load(state.time, &state.q, &state.v);
-        }
-        self.cables[0].step_buffers.after = None;
-    }
-
-    fn predict(&mut self, h: f64, closing: Closing) {
-        self.note_angular_momentum();
-        for cable in self.cables.iter_mut() {
-            let CableStep { mut equations, state, buffers } = cable.step_parts();
-            equations.begin_laws(state.time, h);
-            buffers.recall(state, h);
-            equations.prescribe_change(state, buffers);
-        }
-        self.begin_wheels(h);
-        self.buffers.bodies.iter_mut().for_each(|body| body.predict(h));
-        self.begin_drums(h);
-        self.follow();
-        for cable in self.cables.iter_mut() {
-            let CableStep { equations, state, buffers } = cable.step_parts();
-            equations.find_contacts(state, buffers, (&self.buffers.paths, closing.obstacles));
-        }
-        self.find_pairs(h, closing.cables);
-    }
-
-    fn iterate(&mut self, fresh: bool, share: f64) -> Result<Balance, StepFailure> {
-        self.cables.iter_mut().for_each(|cable| cable.diagnostics_mut().newton_iterations += 1);
-        if fresh {
-            self.linearise_pairs();
-            self.linearise()?;
-            self.factor_bodies(self.cables[0].step_buffers.h)?;
-            self.factor_pairs()?;
-            self.linearise_laws();
-        }
-        self.add_increment(share)?;
-        self.follow();
-        Ok(self.balance())
-    }
-
-    fn rescale(&mut self, balance: &mut Balance, largest_share: f64) -> bool {
-        rescale::rescale(self, balance, largest_share)
-    }
-
-    fn renew_friction(&mut self, least: f64) -> bool {
-        let missed: f64 = self.cables.iter_mut().map(|cable| cable.step_buffers.contact.find_lag()).sum();
-        let mut any = false;
-        for cable in self.cables.iter_mut() {
-            let contact = &mut cable.step_buffers.contact;
-            contact.lags &= missed > least;
-            contact.renew_friction();
-            any |= contact.lags;
-        }
-        any
-    }
-
-    fn add_missed(&mut self) -> bool {
-        // each cable, although one will do
-        self.cables.iter_mut().fold(false, |any, cable| {
-            let CableStep { equations, state, buffers } = cable.step_parts();
-            equations.add_missed_contacts(state, buffers) || any
-        })
-    }
-
-    fn crosses(&mut self) -> bool {
-        let passes = self.cables.iter_mut().fold(false, |any, cable| {
-            let CableStep { equations, state, buffers } = cable.step_parts();
-            equations.passes_obstacles(state, buffers) || any
-        });
-        self.do_pairs_cross() || passes
-    }
-
-    fn land(&mut self, balance: &mut Balance, least: f64) {
-        self.land_contacts(balance, least);
-    }
-
-    fn accept(&mut self, balance: &Balance) {
-        self.accept_wheels();
-        for (c, (cable, own)) in self.cables.iter_mut().zip(&self.buffers.cables).enumerate() {
-            let CableStep { mut equations, state, buffers } = cable.step_parts();
-            if self.accounts.momentum.holds(c) {
-                own.give_momentum(c, equations.system, state, buffers, self.accounts);
-            }
-            for hold in &own.holds {
-                let action = hold.action(&self.buffers.bodies[hold.body], buffers.h);
-                self.accounts.pins[hold.pin].add_mean(buffers.h, hold.slope, action);
-            }
-            equations.accept_step(state, buffers);
-        }
-        self.remember_pairs();
-        self.buffers.bodies.iter_mut().for_each(BodyStep::accept);
-        let balance = self.restore_angular_momentum(balance);
-        // the law is that of the whole: the first cable keeps it
-        self.cables[0].system.meter.law.add(&balance);
-        for cable in self.cables.iter_mut() {
-            let CableStep { mut equations, state, .. } = cable.step_parts();
-            equations.note_load(state.time, &state.q, &state.v);
-        }
-    }
-
-    fn count(&mut self, event: Event) {
-        self.count_event(event);
-    }
-
-    fn splits(&self) -> u64 {
-        self.cables[0].diagnostics().split_steps
     }
 }

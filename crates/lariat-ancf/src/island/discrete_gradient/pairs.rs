@@ -2,6 +2,7 @@
 
 use super::super::hold::vector;
 use super::super::layout::Layout;
+use super::aside::Aside;
 use super::{IslandStep, StepBuffers};
 use crate::cable::Cable;
 use crate::contact::{CablePair, ContactBalance, LowRank, PairStep, PairSystem, Row, Strand, Strands};
@@ -9,13 +10,6 @@ use crate::diagnostics::Diagnostics;
 use crate::error::StepFailure;
 use crate::integrate::discrete_gradient::Event;
 use core::mem::{swap, take};
-
-/// Right-hand sides that are put aside, by cable, and of the bodies.
-#[derive(Clone, Debug, Default)]
-pub(in crate::island) struct Aside {
-    cables: Vec<Vec<f64>>,
-    rows: Vec<f64>,
-}
 
 /// The equations of an island without these contacts.
 struct OnIsland<'x, 'a, 'b> {
