@@ -6,6 +6,7 @@
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use fearless_simd::Level;
+use lariat_ancf::coupling::{Coupling, Linearisation};
 use lariat_ancf::{At, Cable, Integrator, Method, Rule, Section, Vector3};
 use std::hint::black_box;
 use std::time::{Duration, Instant};

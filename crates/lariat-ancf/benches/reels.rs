@@ -3,6 +3,7 @@
 //!
 //! `cargo bench -p lariat-ancf --bench reels`
 
+use lariat_ancf::coupling::Coupling;
 use lariat_ancf::{At, Cable, Damping, Integrator, Method, Reel, Section, StepControl, Vector3};
 use std::hint::black_box;
 use std::time::{Duration, Instant};

@@ -3,6 +3,7 @@
 //! instruction set, because valgrind does not know the newer ones.
 
 use fearless_simd::Level;
+use lariat_ancf::coupling::Linearisation;
 use lariat_ancf::{At, Cable, Integrator, Method, Section, Vector3};
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {

@@ -8,7 +8,7 @@
 //! # Validity
 //!
 //! Exact to rounding wherever the function is smooth; at the kinks, sqrt(0) and |0|, the derivative is taken as 0. Used by
-//! [`Cable::jacobians`](crate::Cable::jacobians): one pass per coordinate of an element, so not for the step.
+//! [`Cable::jacobians`](crate::coupling::Linearisation::jacobians): one pass per coordinate of an element, so not for the step.
 //!
 //! # References
 //!

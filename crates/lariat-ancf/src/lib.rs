@@ -31,6 +31,7 @@
 //! | `statics` | static equilibrium: [`Cable::equilibrium`] |
 //! | [`warning`] | what a cable says about its own mesh, steps, law and sizes |
 //! | [`study`] | runs to a given error: mesh and tolerance chosen, and the error proven |
+//! | [`coupling`] | what couplings to engines need of a cable, and its matrices |
 //! | [`island`] | cables and rigid bodies pinned together, as one system, for couplings to physics engines |
 //!
 //! Public for tests and benchmarks of the numerics, and for the matrices that [`Cable`] returns; no rope needs them, and they may change
@@ -41,6 +42,7 @@ mod at;
 
 pub mod cable;
 pub mod contact;
+pub mod coupling;
 mod diagnostics;
 mod dual;
 mod edit;

@@ -227,6 +227,6 @@ pub struct Break {
     /// Strain energy in J of both parts at the break. No more than this, and their weight, is set free as motion.
     pub strain_energy: f64,
     /// Change of the total energy in J by the edit itself: zero at a node, else what a node placed there
-    /// [adds](crate::Cable::inserted_energy).
+    /// [adds](crate::coupling::Coupling::inserted_energy).
     pub inserted_energy: f64,
 }

@@ -77,7 +77,7 @@ pub enum SlopeSupport {
     /// The whole vector is prescribed.
     Prescribed(Motion),
     /// Its direction follows a body of an [`island`](crate::island), and is this unit vector now; its length is free. Set by
-    /// [`Cable::attach_clamped`](crate::Cable::attach_clamped).
+    /// [`Cable::attach_clamped`](crate::coupling::Coupling::attach_clamped).
     Attached(Vector3<f64>),
 }
 
@@ -95,7 +95,7 @@ pub struct Support {
     pub position: Option<Motion>,
     /// What holds the slope.
     pub slope: SlopeSupport,
-    /// The position follows a body of an [`island`](crate::island); set by [`Cable::attach`](crate::Cable::attach).
+    /// The position follows a body of an [`island`](crate::island); set by [`Cable::attach`](crate::coupling::Coupling::attach).
     #[serde(default)]
     pub attached: bool,
 }

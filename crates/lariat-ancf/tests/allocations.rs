@@ -6,6 +6,7 @@ mod counting;
 use common::pendulum;
 use counting::{HELD, allocations};
 use lariat_ancf::contact::{Cuboid, HalfSpace, Obstacle};
+use lariat_ancf::coupling::{Coupling, Linearisation};
 use lariat_ancf::island::{Island, PinConstraint, RigidBody};
 use lariat_ancf::{
     At, Contact, Damping, Drag, Effects, Fidelity, Flow, Integrator, LineLoad, Method, PointLoad, RestShape,

@@ -1,6 +1,7 @@
 //! Changing a cable between steps: supports, loads, integrator, snapshots from before, descriptions from files.
 
 use approx::assert_relative_eq;
+use lariat_ancf::coupling::{Coupling, Linearisation};
 use lariat_ancf::{
     At, AxialRule, BendingRule, Cable, CableBuilder, Error, Fidelity, Integrator, Method, PointLoad, Rule, Section,
     SlopeSupport, StepControl, Support, Vector3,

@@ -6,6 +6,7 @@ mod common;
 use common::{Random, dense, largest_difference, map3};
 use lariat_ancf::axial::AxialTable;
 use lariat_ancf::bending::{Bending, NoBending, gauss::Gauss, t1::RHO, t1::T1, t2::T2};
+use lariat_ancf::coupling::Linearisation;
 use lariat_ancf::element::gram::{form, gram};
 use lariat_ancf::element::kernel::{Stiffness, energy, force, force_and_tangent};
 use lariat_ancf::{AxialRule, BendingRule, Cable, Rule, Section, Vector3};

@@ -1,5 +1,6 @@
 //! Cables drawn around corners start without strain, near the line that was drawn.
 
+use lariat_ancf::coupling::Coupling;
 use lariat_ancf::{At, Cable, CableBuilder, Section, Vector3};
 
 const EA: f64 = 1e5;

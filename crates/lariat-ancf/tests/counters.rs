@@ -3,6 +3,7 @@
 mod common;
 
 use common::{pendulum, rule};
+use lariat_ancf::coupling::Coupling;
 use lariat_ancf::{Diagnostics, Fidelity, Integrator, Method, PointLoad, StepControl, Vector3};
 
 fn counted(name: &str, load: bool, method: Method, steps: usize) -> Diagnostics {

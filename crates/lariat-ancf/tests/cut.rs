@@ -1,6 +1,7 @@
 //! A cable that is cut in two.
 
 use approx::assert_relative_eq;
+use lariat_ancf::coupling::Coupling;
 use lariat_ancf::{At, Cable, Effects, LineLoad, PointLoad, RestPiece, RestShape, Section, Vector3};
 
 /// A cable that swings and bends, with a load at either end and a held start.

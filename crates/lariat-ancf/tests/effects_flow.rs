@@ -3,6 +3,7 @@
 mod common;
 
 use common::largest_difference;
+use lariat_ancf::coupling::Linearisation;
 use lariat_ancf::effect::Profile;
 use lariat_ancf::{Cable, Drag, Effects, Error, Flow, Integrator, Method, Section, Vector3};
 

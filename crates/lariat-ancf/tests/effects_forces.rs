@@ -3,6 +3,7 @@
 mod common;
 
 use common::{Random, dense, rule, soft_cable};
+use lariat_ancf::coupling::Linearisation;
 use lariat_ancf::{
     At, Buoyancy, Cable, Damping, Drag, Effects, Error, Flow, GravityScale, Integrator, LineLoad, Method, RestPiece,
     RestShape, Section, Vector3,

@@ -3,6 +3,7 @@
 mod common;
 
 use common::{implicit, largest_difference, pendulum, rule};
+use lariat_ancf::coupling::Coupling;
 use lariat_ancf::island::{Island, PinConstraint, RigidBody};
 use lariat_ancf::{
     At, Buoyancy, Cable, CableBuilder, Damping, Drag, Effects, Fidelity, Flow, GravityScale, Integrator, LineLoad,

@@ -4,6 +4,7 @@ mod common;
 
 use common::beam::{cantilever, first_mode, only};
 use common::rule;
+use lariat_ancf::coupling::{Coupling, Linearisation};
 use lariat_ancf::{At, Buoyancy, Cable, Damping, Drag, Effects, Flow, Integrator, Method, Section, Vector3};
 
 const G: f64 = 9.81;

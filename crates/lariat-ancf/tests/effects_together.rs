@@ -4,6 +4,7 @@
 mod common;
 
 use common::{Random, rule, soft_cable};
+use lariat_ancf::coupling::{Coupling, Linearisation};
 use lariat_ancf::effect::Profile;
 use lariat_ancf::{
     At, Buoyancy, Cable, Damping, Drag, Effects, Error, Flow, GravityScale, Integrator, LineLoad, Method, PointLoad,

@@ -3,6 +3,7 @@
 mod common;
 
 use common::pendulum;
+use lariat_ancf::coupling::Coupling;
 use lariat_ancf::{Cable, Error, Fidelity, Vector3, step_all};
 
 /// Cables of different sizes and initial velocities.

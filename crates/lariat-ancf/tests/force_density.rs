@@ -3,6 +3,7 @@
 mod common;
 
 use common::{Random, implicit, largest_difference, soft_cable};
+use lariat_ancf::coupling::{Coupling, Linearisation};
 use lariat_ancf::island::{Island, PinConstraint, RigidBody};
 use lariat_ancf::{
     At, Cable, CablePoint, Error, ForceDensity, ForceDerivatives, Integrator, LineLoad, Method, StepFailure, Vector3,

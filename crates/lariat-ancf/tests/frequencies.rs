@@ -3,6 +3,7 @@
 mod common;
 
 use common::{dense, reference_json, rule};
+use lariat_ancf::coupling::Linearisation;
 use lariat_ancf::linalg::{Definiteness, Factorisation};
 use lariat_ancf::{At, Cable, CableBuilder, Integrator, Method, Rule, Section, Vector3};
 use nalgebra::DMatrix;

@@ -3,6 +3,7 @@
 mod common;
 
 use common::{EXACT_IN_TIME, Random, largest_difference, map3, soft_cable};
+use lariat_ancf::coupling::Linearisation;
 use lariat_ancf::{At, Cable, Integrator, Method, Motion, PointLoad, SlopeSupport, StepControl, Support, Vector3};
 
 /// The soft cable held at its start, which moves along a cubic of time.

@@ -3,6 +3,7 @@
 mod common;
 
 use common::Random;
+use lariat_ancf::coupling::{Coupling, Linearisation};
 use lariat_ancf::{At, Cable, CableBuilder, Motion, PointLoad, Section, Support, Vector3};
 
 /// A rod of unit length along x.

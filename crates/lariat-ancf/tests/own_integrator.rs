@@ -7,6 +7,7 @@
 mod common;
 
 use common::{EXACT_IN_TIME, largest_difference, soft_cable};
+use lariat_ancf::coupling::Coupling;
 use lariat_ancf::integrate::dirk::Tableau;
 use lariat_ancf::integrate::{Dynamics, IntegratorRef, OneStep, Scratch, Stage, State, StepRequest};
 use lariat_ancf::island::{Island, PinConstraint, RigidBody};

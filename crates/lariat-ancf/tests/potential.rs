@@ -1,6 +1,7 @@
 //! Terms from outside the crate: springs from points of cables to points of the world, in motion, in statics, on an island, beside contact.
 
 use lariat_ancf::contact::{HalfSpace, Obstacle};
+use lariat_ancf::coupling::Coupling;
 use lariat_ancf::island::{Island, PinConstraint, RigidBody};
 use lariat_ancf::{
     At, Cable, CableBuilder, Contact, Effects, Error, Integrator, Method, PointLoad, Potential, Reel, Section,

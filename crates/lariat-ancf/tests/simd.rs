@@ -1,6 +1,7 @@
 //! The vector instructions change the time of a run and nothing else.
 
 use fearless_simd::Level;
+use lariat_ancf::coupling::Linearisation;
 use lariat_ancf::{
     At, Cable, Damping, Drag, Effects, Flow, Integrator, Method, RestPiece, RestShape, Rule, Section, StepControl,
     Vector3,

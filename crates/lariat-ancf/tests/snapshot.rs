@@ -4,6 +4,7 @@
 mod common;
 
 use common::soft_cable;
+use lariat_ancf::coupling::Linearisation;
 use lariat_ancf::{
     At, Cable, Error, Integrator, Method, Motion, PointLoad, SlopeSupport, StepControl, Support, Vector3,
 };

@@ -4,6 +4,7 @@ mod common;
 
 use approx::assert_relative_eq;
 use common::pendulum;
+use lariat_ancf::coupling::Coupling;
 use lariat_ancf::island::{Island, PinConstraint, RigidBody};
 use lariat_ancf::{At, Break, Cable, Fidelity, Integrator, Method, Section, Strength, Vector3, Warning};
 use nalgebra::Matrix3;

@@ -3,6 +3,7 @@
 mod common;
 
 use common::Random;
+use lariat_ancf::coupling::Coupling;
 use lariat_ancf::{At, Cable, CableBuilder, Integrator, Method, Section, StepControl, Vector3, Warning};
 use std::f64::consts::PI;
 

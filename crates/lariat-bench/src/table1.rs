@@ -11,6 +11,7 @@ use crate::clock::Timing;
 use crate::error::Error;
 use crate::table::{Format, Table, hidden, shown};
 use cpu_time::ProcessTime;
+use lariat_ancf::coupling::Linearisation;
 use lariat_ancf::{BendingRule, Cable, Integrator, Method, Rule, StepControl};
 use lariat_figures::reference_pendulum::{self as pendulum, Trace};
 use std::time::Instant;

@@ -13,6 +13,7 @@ use bevy_ecs::component::Component;
 use bevy_ecs::entity::Entity;
 use bevy_ecs::query::{Changed, Or};
 use bevy_ecs::world::{EntityRef, EntityWorldMut};
+use lariat_ancf::coupling::Coupling;
 use lariat_ancf::{At, BendingRule, Effects, Error, Feed, PointLoad, Section};
 
 macro_rules! components {

@@ -1,5 +1,6 @@
 //! The description that a cable is built from.
 
+use lariat_ancf::coupling::Linearisation;
 use lariat_ancf::{At, Effects, Error, Fidelity, Integrator, IntegratorChoice, PointLoad, Rule, Section, Vector3};
 
 /// The geometry, section and integrator of a cable; rule, effects and loads are components beside

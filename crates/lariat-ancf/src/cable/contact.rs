@@ -57,14 +57,14 @@ impl Cable {
         })
     }
 
-    /// Returns the largest radius in m with which it touches; 0 without [`Contact`](crate::Contact).
-    pub fn contact_radius(&self) -> f64 {
+    /// See [`Coupling`](crate::coupling::Coupling).
+    pub(crate) fn contact_radius(&self) -> f64 {
         let Some(contact) = self.effects().contact else { return 0.0 };
         self.elements().iter().fold(0.0, |most: f64, element| most.max(contact.radius_of(&element.section)))
     }
 
-    /// Returns the energy in J that contacts store.
-    pub fn contact_energy(&self) -> f64 {
+    /// See [`Coupling`](crate::coupling::Coupling).
+    pub(crate) fn contact_energy(&self) -> f64 {
         let memory = &self.snapshot.state.memory;
         let pairs = memory.pairs.iter().map(PairMemory::energy);
         memory.contacts.iter().map(|contact| contact.energy).chain(pairs).sum()
@@ -84,14 +84,13 @@ impl Cable {
         })
     }
 
-    /// Returns the key by which other cables remember their contacts with this one.
-    pub fn contact_key(&self) -> u64 {
+    /// See [`Coupling`](crate::coupling::Coupling).
+    pub(crate) fn contact_key(&self) -> u64 {
         self.model.contact_key
     }
 
-    /// Sets the key by which other cables remember their contacts with this one, unique among cables that can touch. Default: 0, which stands for
-    /// the place of the cable in its island.
-    pub fn set_contact_key(&mut self, key: u64) {
+    /// See [`Coupling`](crate::coupling::Coupling).
+    pub(crate) fn set_contact_key(&mut self, key: u64) {
         self.model.contact_key = key;
     }
 }

@@ -25,9 +25,8 @@ impl Corner {
 }
 
 impl Cable {
-    /// Gives an end at a corner of the drawn shape, where the cable was [cut](Self::cut), the slope of its own side, as drawn. Does nothing
-    /// at another point, and where the end has moved since the cable was built.
-    pub fn open_corner(&mut self, at: impl Into<At>) {
+    /// See [`Coupling`](crate::coupling::Coupling).
+    pub(crate) fn open_corner(&mut self, at: impl Into<At>) {
         let Some(side) = self.side(at.into()) else { return };
         let [far, end] = side.nodes(self.nodes()).map(|node| 6 * node);
         let State { q, v, .. } = &mut self.snapshot.state;

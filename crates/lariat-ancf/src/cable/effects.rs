@@ -157,10 +157,8 @@ impl Cable {
         Ok(())
     }
 
-    /// Sets the Kelvin-Voigt time in s that the axial strain has at least from the next step on: 0 by default and for numbers that are not positive.
-    /// For a host that can move the cable only in steps of its own: what these excite and do not resolve, a time of a tenth of a step damps.
-    /// It is no effect and no part of a saved cable; what it takes is work of [`damping`](Self::effect_work).
-    pub fn set_least_damping(&mut self, time: f64) {
+    /// See [`Coupling`](crate::coupling::Coupling).
+    pub(crate) fn set_least_damping(&mut self, time: f64) {
         let time = if time.is_finite() { time.max(0.0) } else { 0.0 };
         if self.model.least_damping != time {
             self.model.least_damping = time;
@@ -173,22 +171,8 @@ impl Cable {
         }
     }
 
-    /// Returns the Kelvin-Voigt times that damp the `mode`-th lowest natural frequency, counted from 1, by this damping ratio (fraction of
-    /// critical): [`natural_frequencies`](Self::natural_frequencies) at the present state without zero-frequency modes, and
-    /// [`Damping::from_ratio`]. In space a bending mode comes twice, once per plane. The curvature's time is 0 for a cable without bending.
-    ///
-    /// ```
-    /// # use lariat_ancf::{At, Cable, Section, Vector3};
-    /// # let points = [Vector3::zeros(), Vector3::new(2.0, 0.0, 0.0)];
-    /// # let mut cable = Cable::builder().points(points).section(Section::round(0.01, 1e8, 4000.0)?).clamp(At::Start).build()?;
-    /// let damping = cable.damping_at_mode(0.05, 1)?;
-    /// cable.set_damping(damping)?;
-    /// # Ok::<(), lariat_ancf::Error>(())
-    /// ```
-    ///
-    /// # Errors
-    /// [`Error::OutOfRange`] for a mode that the cable does not have, [`Error::InvalidValue`] for a ratio below 0 or not finite.
-    pub fn damping_at_mode(&mut self, ratio: f64, mode: usize) -> Result<Damping, Error> {
+    /// See [`Linearisation`](crate::coupling::Linearisation).
+    pub(crate) fn damping_at_mode(&mut self, ratio: f64, mode: usize) -> Result<Damping, Error> {
         let frequencies = self.natural_frequencies();
         let still = 1e-7 * frequencies.last().copied().unwrap_or(0.0);
         let elastic: Vec<f64> = frequencies.into_iter().filter(|omega| *omega > still).collect();

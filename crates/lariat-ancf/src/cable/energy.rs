@@ -46,9 +46,8 @@ pub struct Momentum {
 }
 
 impl Cable {
-    /// Returns the energy in J that the method `discrete-gradient` holds beyond the mechanical energy: S of the last step. Its law is about
-    /// the sum of both.
-    pub fn energy_in_store(&self) -> f64 {
+    /// See [`Coupling`](crate::coupling::Coupling).
+    pub(crate) fn energy_in_store(&self) -> f64 {
         self.system.energy_in_store(&self.snapshot.state)
     }
 

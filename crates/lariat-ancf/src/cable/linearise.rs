@@ -9,23 +9,21 @@ use crate::system::project_matrix;
 use nalgebra::DMatrix;
 
 impl Cable {
-    /// Returns the consistent mass matrix over all coordinates (kg, kg m, kg m^2); supports are not applied.
-    pub fn mass_matrix(&mut self) -> BlockTridiagonal {
+    /// See [`Linearisation`](crate::coupling::Linearisation).
+    pub(crate) fn mass_matrix(&mut self) -> BlockTridiagonal {
         let mut matrix = BlockTridiagonal::zeros(self.nodes());
         self.system.mass.add_to(&mut matrix, 1.0);
         matrix
     }
 
-    /// Returns the tangent stiffness -dF/dq at the present state over all coordinates (N/m, N, N m); supports are not applied. Of damping,
-    /// drag and forces of your own the part that the step matrix takes, see [`damping`](crate::effect::damping),
-    /// [`drag`](crate::effect::drag) and [`force_density`](crate::effect::force_density); all of it: [`jacobians`](Self::jacobians).
-    pub fn stiffness_matrix(&mut self) -> BlockTridiagonal {
+    /// See [`Linearisation`](crate::coupling::Linearisation).
+    pub(crate) fn stiffness_matrix(&mut self) -> BlockTridiagonal {
         let mut force = vec![0.0; self.positions().len()];
         self.with_workspace(|cable| cable.evaluate_with_stiffness(&mut force).clone())
     }
 
-    /// Returns the damping matrix -dF/dq' at the present state over all coordinates (N s/m, N s, N m s); supports are not applied.
-    pub fn damping_matrix(&mut self) -> BlockTridiagonal {
+    /// See [`Linearisation`](crate::coupling::Linearisation).
+    pub(crate) fn damping_matrix(&mut self) -> BlockTridiagonal {
         let mut force = vec![0.0; self.positions().len()];
         let (stiffness, mut damping) = self.with_workspace(|cable| {
             (cable.evaluate_with_stiffness(&mut force).clone(), cable.evaluate_with_matrix(1.0, &mut force).clone())
@@ -37,29 +35,26 @@ impl Cable {
         damping
     }
 
-    /// Returns the exact derivatives of the force at the present state, supports not applied. Dense, and some ten times the work of
-    /// [`stiffness_matrix`](Self::stiffness_matrix): for tens or hundreds of nodes.
-    pub fn jacobians(&self) -> Jacobians {
+    /// See [`Linearisation`](crate::coupling::Linearisation).
+    pub(crate) fn jacobians(&self) -> Jacobians {
         Jacobians::new(&self.system, &self.model, input(&self.snapshot.state, 0.0))
     }
 
-    /// Returns the generalised force at the present state: elastic, gravity, loads and effects (N on positions, N m on slopes); no
-    /// reactions.
-    pub fn force(&mut self) -> Vec<f64> {
+    /// See [`Linearisation`](crate::coupling::Linearisation).
+    pub(crate) fn force(&mut self) -> Vec<f64> {
         let mut force = vec![0.0; self.positions().len()];
         self.evaluate(&mut force);
         force
     }
 
-    /// Computes [`force`](Self::force) into a slice of 6 numbers per node; allocates nothing.
-    pub fn evaluate(&mut self, force: &mut [f64]) {
+    /// See [`Linearisation`](crate::coupling::Linearisation).
+    pub(crate) fn evaluate(&mut self, force: &mut [f64]) {
         let (mut equations, state) = self.equations();
         equations.force(input(state, 0.0), force);
     }
 
-    /// Computes the force into a slice of 6 numbers per node, and the stiffness as [`stiffness_matrix`](Self::stiffness_matrix) does;
-    /// allocates nothing after the first time, when the cable gets a matrix of its own.
-    pub fn evaluate_with_stiffness(&mut self, force: &mut [f64]) -> &BlockTridiagonal {
+    /// See [`Linearisation`](crate::coupling::Linearisation).
+    pub(crate) fn evaluate_with_stiffness(&mut self, force: &mut [f64]) -> &BlockTridiagonal {
         self.evaluate_with_matrix(0.0, force)
     }
 
@@ -69,14 +64,14 @@ impl Cable {
         &self.system.step.matrix
     }
 
-    /// Applies the supports to a matrix: held rows and columns become those of the identity.
-    pub fn apply_supports(&self, matrix: &mut BlockTridiagonal) {
+    /// See [`Linearisation`](crate::coupling::Linearisation).
+    pub(crate) fn apply_supports(&self, matrix: &mut BlockTridiagonal) {
         project_matrix(&self.model, matrix);
     }
 
     /// Returns the angular frequencies in rad/s of small motions about the present state, supports in place, ascending:
     /// `det(K - omega^2 M) = 0`. 0 for a mode of zero or negative stiffness (buckling). A dense eigenproblem, reduced by Cholesky's factors
-    /// (Golub & Van Loan 2013, section 8.7): for tens or hundreds of nodes. [`damping_at_mode`](Self::damping_at_mode) damps one of them
+    /// (Golub & Van Loan 2013, section 8.7): for tens or hundreds of nodes. [`damping_at_mode`](crate::coupling::Linearisation::damping_at_mode) damps one of them
     /// by a given ratio.
     pub fn natural_frequencies(&mut self) -> Vec<f64> {
         let held_at = 10.0 * self.frequency_bound() * self.frequency_bound();

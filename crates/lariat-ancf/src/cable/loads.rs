@@ -80,8 +80,8 @@ impl Cable {
         self.take_loads();
     }
 
-    /// Returns whether all loads are at their full value now, that is no ramp is in progress.
-    pub fn is_loaded_steadily(&self) -> bool {
+    /// See [`Coupling`](crate::coupling::Coupling).
+    pub(crate) fn is_loaded_steadily(&self) -> bool {
         self.model.loads.iter().all(|load| load.factor(self.time()) == 1.0)
     }
 }

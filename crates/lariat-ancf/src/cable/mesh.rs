@@ -53,8 +53,8 @@ pub struct MotionIndicator {
 }
 
 impl Cable {
-    /// Returns an indicator of the error of the mesh for the present shape.
-    pub fn mesh_indicator(&self) -> MeshIndicator {
+    /// See [`Linearisation`](crate::coupling::Linearisation).
+    pub(crate) fn mesh_indicator(&self) -> MeshIndicator {
         let q = self.positions();
         let (mut turn, mut judged_before) = (0.0f64, false);
         let position = self.largest_jump(
@@ -70,12 +70,8 @@ impl Cable {
         MeshIndicator { position, turn }
     }
 
-    /// Returns the indicator for the displacement from the positions `start`, as [`positions`](Self::positions) returned them: for
-    /// a small motion of a cable whose shape is resolved.
-    ///
-    /// # Errors
-    /// [`Error::WrongCount`] for positions of another number of nodes.
-    pub fn motion_indicator(&self, start: &[f64]) -> Result<MotionIndicator, Error> {
+    /// See [`Linearisation`](crate::coupling::Linearisation).
+    pub(crate) fn motion_indicator(&self, start: &[f64]) -> Result<MotionIndicator, Error> {
         let q = self.positions();
         if start.len() != q.len() {
             let (cable, count) = (self.name().to_string(), start.len());
@@ -88,9 +84,8 @@ impl Cable {
         Ok(MotionIndicator { error, displacement: moved.fold(0.0, f64::max).sqrt() })
     }
 
-    /// Returns the largest jump of the tension between neighbouring elements before it is averaged, in N: a bound of its error that converges
-    /// with the first order under bending, where the average that is read has the second. `None` if no node can judge.
-    pub fn tension_jump(&self) -> Option<f64> {
+    /// See [`Coupling`](crate::coupling::Coupling).
+    pub(crate) fn tension_jump(&self) -> Option<f64> {
         let mut largest: Option<f64> = None;
         self.visit_elements(|e, judged| {
             if judged {

@@ -135,12 +135,8 @@ impl Cable {
         Ok(())
     }
 
-    /// Forces a SIMD level, for benchmarks and for the test that all levels agree. Not part of the state.
-    ///
-    /// # Errors
-    /// [`Error::StepFailed`] if the mass matrix cannot be factored.
-    #[doc(hidden)]
-    pub fn set_simd_level(&mut self, level: Level) -> Result<(), Error> {
+    /// See [`Linearisation`](crate::coupling::Linearisation).
+    pub(crate) fn set_simd_level(&mut self, level: Level) -> Result<(), Error> {
         self.system.level = level;
         let failure = self.system.factor_mass(&self.model).err();
         failure.map_or(Ok(()), |failure| Err(self.step_failed(self.time(), 0.0, failure)))
@@ -199,8 +195,8 @@ impl Cable {
         &self.diagnostics
     }
 
-    /// Returns the counters, to reset them.
-    pub fn diagnostics_mut(&mut self) -> &mut Diagnostics {
+    /// See [`Coupling`](crate::coupling::Coupling).
+    pub(crate) fn diagnostics_mut(&mut self) -> &mut Diagnostics {
         &mut self.diagnostics
     }
 
@@ -209,14 +205,14 @@ impl Cable {
         self.integrator
     }
 
-    /// Returns the integrator that `choice` means for this cable: an implicit one where internal damping needs it.
-    pub fn integrator_for(&self, choice: impl Into<IntegratorChoice>) -> Integrator {
+    /// See [`Coupling`](crate::coupling::Coupling).
+    pub(crate) fn integrator_for(&self, choice: impl Into<IntegratorChoice>) -> Integrator {
         let implicit = self.model.effects.needs_implicit_integrator();
         choice.into().integrator(if implicit { f64::INFINITY } else { self.frequency_bound() })
     }
 
-    /// Returns whether the integrator is the builder's default, because nobody chose one. A set of cables may then give it its own.
-    pub fn has_default_integrator(&self) -> bool {
+    /// See [`Coupling`](crate::coupling::Coupling).
+    pub(crate) fn has_default_integrator(&self) -> bool {
         self.default_integrator
     }
 
@@ -232,9 +228,8 @@ impl Cable {
         Ok(())
     }
 
-    /// Returns an upper bound of the cable's angular frequencies in rad/s; effects and forces of your own are not in it, but added mass and
-    /// the rest stretch.
-    pub fn frequency_bound(&self) -> f64 {
+    /// See [`Linearisation`](crate::coupling::Linearisation).
+    pub(crate) fn frequency_bound(&self) -> f64 {
         self.system.scales.frequency_bound
     }
 

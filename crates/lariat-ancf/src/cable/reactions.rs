@@ -61,9 +61,8 @@ impl Cable {
         Ok(equations.model.supports.iter().map(reaction).collect())
     }
 
-    /// Returns force (N) and moment about the node (N m) of the cable on what holds `node`, at the present state and its known
-    /// accelerations; unknown ones are taken as zero. Allocates nothing.
-    pub fn pull(&mut self, node: usize) -> (Vector3<f64>, Vector3<f64>) {
+    /// See [`Coupling`](crate::coupling::Coupling).
+    pub(crate) fn pull(&mut self, node: usize) -> (Vector3<f64>, Vector3<f64>) {
         self.with_workspace(|cable| cable.pull_in_workspace(node))
     }
 

@@ -108,12 +108,12 @@ impl Cable {
         self.refresh_memory();
     }
 
-    /// Sets the velocity field of a rigid motion: `velocity` (m/s) of the start point, `angular_velocity` (rad/s) about it. Held points keep
-    /// the velocity of their supports.
-    ///
-    /// # Errors
-    /// [`Error::InvalidValue`] for numbers that are not finite.
-    pub fn set_rigid_motion(&mut self, velocity: Vector3<f64>, angular_velocity: Vector3<f64>) -> Result<(), Error> {
+    /// See [`Coupling`](crate::coupling::Coupling).
+    pub(crate) fn set_rigid_motion(
+        &mut self,
+        velocity: Vector3<f64>,
+        angular_velocity: Vector3<f64>,
+    ) -> Result<(), Error> {
         require_finite("velocity (m/s)", &velocity)?;
         require_finite("angular velocity (rad/s)", &angular_velocity)?;
         let start = self.node_position(0);
@@ -132,26 +132,22 @@ impl Cable {
         Ok(())
     }
 
-    /// Returns the speed of the fastest node in m/s.
-    pub fn speed(&self) -> f64 {
+    /// See [`Coupling`](crate::coupling::Coupling).
+    pub(crate) fn speed(&self) -> f64 {
         let squared = |v: &[f64]| v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
         self.velocities().chunks_exact(6).map(squared).fold(0.0, f64::max).sqrt()
     }
 
-    /// Advances the clock by `dt` (s) at rest: positions stay, velocities become zero. For a caller who knows that the cable is at rest,
-    /// or wants it frozen.
-    pub fn rest(&mut self, dt: f64) {
+    /// See [`Coupling`](crate::coupling::Coupling).
+    pub(crate) fn rest(&mut self, dt: f64) {
         let state = &mut self.snapshot.state;
         state.time += dt;
         state.v.fill(0.0);
         self.disturb_motion();
     }
 
-    /// Sets the clock to `time` (s); prescribed motions and the ramps of loads keep their distance from it.
-    ///
-    /// # Errors
-    /// [`Error::InvalidValue`] for a time that is not finite.
-    pub fn set_time(&mut self, time: f64) -> Result<(), Error> {
+    /// See [`Coupling`](crate::coupling::Coupling).
+    pub(crate) fn set_time(&mut self, time: f64) -> Result<(), Error> {
         require("time (s)", time, true, "a number")?;
         let later = time - self.time();
         self.model.loads.iter_mut().for_each(|load| load.start += later);

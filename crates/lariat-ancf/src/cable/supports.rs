@@ -87,8 +87,8 @@ impl Cable {
         self.set_support(at, Support::default())
     }
 
-    /// Returns whether no support and no reel moves.
-    pub fn is_held_still(&self) -> bool {
+    /// See [`Coupling`](crate::coupling::Coupling).
+    pub(crate) fn is_held_still(&self) -> bool {
         self.model.supports.iter().all(|(_, support)| support.is_still()) && self.is_reel_still()
     }
 }

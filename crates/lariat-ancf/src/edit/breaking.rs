@@ -83,8 +83,8 @@ impl Cable {
         self.snapshot.load = LoadRecord::of_part(load.share, until);
     }
 
-    /// Returns the largest load since the cable was compared with its limits last, the present one included; `None` without a limit.
-    pub fn peak_load(&self) -> Option<Load> {
+    /// See [`Coupling`](crate::coupling::Coupling).
+    pub(crate) fn peak_load(&self) -> Option<Load> {
         let strength = self.strength();
         if !strength.is_limited() {
             return None;

@@ -9,7 +9,7 @@
 //!
 //! The nodal coordinates of the cut are doubled ([`insert_node`](Cable::insert_node) places them first): mass, momenta and kinetic energy
 //! of the parts sum to those of the whole to rounding. So does elastic energy at a node; between two nodes the part before the cut
-//! records the difference ([`inserted_energy`](Cable::inserted_energy)).
+//! records the difference ([`inserted_energy`](crate::coupling::Coupling::inserted_energy)).
 
 use crate::at::At;
 use crate::cable::{Cable, Snapshot};

@@ -19,13 +19,8 @@ impl Cable {
         self.redefine(rule, self.effects().clone(), self.integrator())
     }
 
-    /// Replaces rule, effects and integrator together from the next step on, where one needs the other: damping needs an implicit
-    /// integrator, a natural curvature a bending rule.
-    ///
-    /// # Errors
-    /// As [`set_rule`](Self::set_rule) (except for zero-energy modes, which a cable may be built with), [`set_effects`](Self::set_effects)
-    /// and [`set_integrator`](Self::set_integrator). The cable is then as before.
-    pub fn redefine(&mut self, rule: Rule, effects: Effects, integrator: Integrator) -> Result<(), Error> {
+    /// See [`Coupling`](crate::coupling::Coupling).
+    pub(crate) fn redefine(&mut self, rule: Rule, effects: Effects, integrator: Integrator) -> Result<(), Error> {
         let integrator = integrator.checked()?;
         let mut model = self.model.clone();
         model.rule = rule;

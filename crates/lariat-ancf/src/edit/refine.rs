@@ -13,7 +13,7 @@
 //! ```
 //!
 //! since both parts together project on a larger space. The change is recorded:
-//! [`Cable::inserted_energy`](crate::Cable::inserted_energy).
+//! [`Cable::inserted_energy`](crate::coupling::Coupling::inserted_energy).
 //!
 //! # Validity
 //!
@@ -97,9 +97,8 @@ impl Cable {
         Ok(node)
     }
 
-    /// Returns the elastic energy in J that [inserted nodes](Self::insert_node) have added so far, those of [cuts](Self::cut) included: it
-    /// belongs in an energy balance over such an edit. Zero with the exact axial rule, or 5 Gauss points and more, and no bending.
-    pub fn inserted_energy(&self) -> f64 {
+    /// See [`Coupling`](crate::coupling::Coupling).
+    pub(crate) fn inserted_energy(&self) -> f64 {
         self.snapshot.inserted_energy
     }
 }

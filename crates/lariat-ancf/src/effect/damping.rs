@@ -21,7 +21,7 @@
 //! The derivative of the force by velocity is exact. By position the step takes the part that keeps its matrix symmetric: the
 //! geometric stiffness of the viscous stress, of bending that across the curvature and where it stiffens (along it, the derivative
 //! of g' cancels it). Left out is C (dg'/dq), which is unsymmetric; its symmetric half would make stiff matrices indefinite. The exact
-//! derivative is [`Cable::jacobians`](crate::Cable::jacobians)'s.
+//! derivative is [`Cable::jacobians`](crate::coupling::Linearisation::jacobians)'s.
 //!
 //! Over a step of the [discrete gradient](crate::integrate::discrete_gradient) the moment `m = EI tau D kappa/h` acts along the mean n of the curvature, and its derivative by the
 //! curvature vector k is `EI tau/h n n^T + m (1 - n n^T)/(2 |k|)`. The tangent takes both while m resists bending further, with `N(P_g)/Q^3`, never negative, for the second, and
@@ -86,7 +86,7 @@ pub struct Damping {
 impl Damping {
     /// Returns the times in s that damp a mode of this angular frequency (rad/s) with this damping ratio: 2 ratio/omega, for both
     /// kinds. Valid for a mode whose restoring force is elastic; where gravity or tension restores, less of the energy is strain. By the
-    /// number of a mode: [`Cable::damping_at_mode`](crate::Cable::damping_at_mode).
+    /// number of a mode: [`Cable::damping_at_mode`](crate::coupling::Linearisation::damping_at_mode).
     ///
     /// # Errors
     /// [`Error::InvalidValue`] for a ratio below 0 or a frequency that is not positive.

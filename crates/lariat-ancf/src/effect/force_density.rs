@@ -7,7 +7,7 @@
 //! ```
 //!
 //! in N per m of unstretched cable, integrated at three Gauss points per element. The step matrix takes the symmetric part of D (it
-//! is stored by one triangle); the whole of it is in [`Cable::jacobians`](crate::Cable::jacobians). A function that gives no derivatives
+//! is stored by one triangle); the whole of it is in [`Cable::jacobians`](crate::coupling::Linearisation::jacobians). A function that gives no derivatives
 //! gets central differences, over 1e-5 of the element's length and 1e-5 of the speed, but at least 1e-5 m/s: six further calls per
 //! point and matrix, and six more if it depends on velocity.
 //!
@@ -15,7 +15,7 @@
 //!
 //! Smooth functions that change little over a third of an element. Every implicit method steps them to its own order; explicit methods
 //! keep their order if the force does not depend on velocity (see [`explicit`](crate::integrate::explicit)), and do not know its
-//! stiffness: [`Cable::frequency_bound`](crate::Cable::frequency_bound) is the cable's alone. Statics follow the motion to rest, because
+//! stiffness: [`Cable::frequency_bound`](crate::coupling::Linearisation::frequency_bound) is the cable's alone. Statics follow the motion to rest, because
 //! no potential is known. The control of spurious energy is off, because the work of an unknown force cannot be told from it.
 //!
 //! *Snapshots.* A [`Snapshot`](crate::Snapshot) holds the state and the work that the force has done; the function stays with the

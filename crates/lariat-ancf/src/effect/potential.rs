@@ -16,7 +16,7 @@
 //!
 //! # Validity
 //!
-//! Two derivatives of V. Explicit methods do not know its stiffness: [`Cable::frequency_bound`](crate::Cable::frequency_bound) is the cable's
+//! Two derivatives of V. Explicit methods do not know its stiffness: [`Cable::frequency_bound`](crate::coupling::Linearisation::frequency_bound) is the cable's
 //! alone. A [`Snapshot`](crate::Snapshot) holds the state; the function stays with the cable. A *serialised* cable cannot hold a function: read
 //! back, it refuses to step until as many potentials are added again, in the same order; they are where they were.
 //!

@@ -12,7 +12,7 @@
 //! between kappa_0/2 and 2 kappa_0 moments change by less than 0.5 % of EI kappa_0.
 //!
 //! The tangent is exact beyond kappa_0. Below, the geometric stiffness of the compressive bending moment across the curvature is
-//! left out, which keeps the step matrix definite and costs Newton iterations; [`Cable::jacobians`](crate::Cable::jacobians) has all
+//! left out, which keeps the step matrix definite and costs Newton iterations; [`Cable::jacobians`](crate::coupling::Linearisation::jacobians) has all
 //! of it.
 //!
 //! # Validity

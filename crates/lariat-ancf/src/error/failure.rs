@@ -146,7 +146,7 @@ impl fmt::Display for Requirement {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ThisError)]
 #[non_exhaustive]
 pub enum PinProblem {
-    /// The node has a pin and is not [attached](crate::Cable::attach).
+    /// The node has a pin and is not [attached](crate::coupling::Coupling::attach).
     #[error("is pinned but not attached")]
     NotAttached,
     /// One of node and pin holds the tangent and the other does not.
@@ -155,7 +155,7 @@ pub enum PinProblem {
     /// The node has two pins.
     #[error("has two pins")]
     Duplicate,
-    /// The node is [attached](crate::Cable::attach) and has no pin.
+    /// The node is [attached](crate::coupling::Coupling::attach) and has no pin.
     #[error("is attached but has no pin")]
     Missing,
 }

@@ -293,7 +293,7 @@ pub enum Error {
         /// Arc length of the nearest node in m.
         nearest: f64,
     },
-    /// A step or statics of a cable alone of which a node is [attached](crate::Cable::attach) to a
+    /// A step or statics of a cable alone of which a node is [attached](crate::coupling::Coupling::attach) to a
     /// body.
     #[error("cable {cable:?}: node {node} is attached to a body: only an island can move it")]
     Attached {

@@ -7,12 +7,8 @@ use crate::error::Error;
 use crate::support::{SlopeSupport, Support};
 
 impl Cable {
-    /// Gives the position of a node to an island: it will follow the body that a
-    /// [`PinConstraint`](super::PinConstraint) names.
-    ///
-    /// # Errors
-    /// As [`node`](Self::node).
-    pub fn attach(&mut self, at: impl Into<At>) -> Result<usize, Error> {
+    /// See [`Coupling`](crate::coupling::Coupling).
+    pub(crate) fn attach(&mut self, at: impl Into<At>) -> Result<usize, Error> {
         let node = self.node(at)?;
         let mut support = self.support(At::Node(node))?;
         support.position = None;
@@ -21,12 +17,8 @@ impl Cable {
         Ok(node)
     }
 
-    /// Frees a node that was attached: its position, and its tangent if that was clamped to the
-    /// body.
-    ///
-    /// # Errors
-    /// As [`node`](Self::node).
-    pub fn detach(&mut self, at: impl Into<At>) -> Result<(), Error> {
+    /// See [`Coupling`](crate::coupling::Coupling).
+    pub(crate) fn detach(&mut self, at: impl Into<At>) -> Result<(), Error> {
         let node = self.node(at)?;
         let mut support = self.support(At::Node(node))?;
         support.attached = false;
@@ -37,12 +29,8 @@ impl Cable {
         self.set_support(At::Node(node), support)
     }
 
-    /// Gives the position of a node and the direction of its tangent to an island, for a
-    /// [`PinConstraint`](super::PinConstraint) with a direction.
-    ///
-    /// # Errors
-    /// As [`node`](Self::node); [`Error::NoTangent`] if the tangent has no length.
-    pub fn attach_clamped(&mut self, at: impl Into<At>) -> Result<usize, Error> {
+    /// See [`Coupling`](crate::coupling::Coupling).
+    pub(crate) fn attach_clamped(&mut self, at: impl Into<At>) -> Result<usize, Error> {
         let node = self.node(at)?;
         let Some(tangent) = vector(&self.positions()[6 * node + 3..]).try_normalize(1e-9) else {
             return Err(Error::NoTangent { cable: self.name().to_string(), node });

@@ -173,7 +173,7 @@ impl RigidBody {
     }
 
     /// Returns the energy in J that the method `discrete-gradient` holds beyond the kinetic energy, as
-    /// [`Cable::energy_in_store`](crate::Cable::energy_in_store); without that of the carried inertia.
+    /// [`Cable::energy_in_store`](crate::coupling::Coupling::energy_in_store); without that of the carried inertia.
     pub fn energy_in_store(&self) -> f64 {
         let Some(last) = self.memory.as_ref().and_then(|memory| memory.differences.as_ref()) else { return 0.0 };
         let [velocity, spin] = last.change;

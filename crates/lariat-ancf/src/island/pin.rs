@@ -12,14 +12,14 @@ use nalgebra::Vector3;
 pub struct PinConstraint {
     /// Index of the cable in the island.
     pub cable: usize,
-    /// Node of the cable; it must be [attached](Cable::attach).
+    /// Node of the cable; it must be [attached](crate::coupling::Coupling::attach).
     pub node: usize,
     /// Index of the body in the island.
     pub body: usize,
     /// Point of the body in body axes, from the centre of mass, in m.
     pub anchor: Vector3<f64>,
     /// For a clamp, the direction of the tangent in body axes, a unit vector; the node must be
-    /// [attached with its tangent](Cable::attach_clamped).
+    /// [attached with its tangent](crate::coupling::Coupling::attach_clamped).
     pub direction: Option<Vector3<f64>>,
 }
 

@@ -1,7 +1,7 @@
 //! Linear algebra of a cable: symmetric block-tridiagonal matrices with 6x6 blocks, O(n).
 //!
 //! Public for users of the matrices of a cable, such as
-//! [`Cable::stiffness_matrix`](crate::Cable::stiffness_matrix), and for the benchmarks; a
+//! [`Cable::stiffness_matrix`](crate::coupling::Linearisation::stiffness_matrix), and for the benchmarks; a
 //! simulation does not call it.
 //!
 //! # Equation

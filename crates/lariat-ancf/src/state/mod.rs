@@ -50,7 +50,7 @@ pub struct Memory {
     /// Contacts with other cables and with itself, likewise.
     #[serde(default)]
     pub pairs: Vec<PairMemory>,
-    /// Least axial damping time in s that the accelerations were computed with; see [`Cable::set_least_damping`](crate::Cable::set_least_damping).
+    /// Least axial damping time in s that the accelerations were computed with; see [`Cable::set_least_damping`](crate::coupling::Coupling::set_least_damping).
     #[serde(default)]
     pub least_damping: f64,
 }

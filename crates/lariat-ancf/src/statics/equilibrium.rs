@@ -31,7 +31,7 @@ impl Cable {
     ///
     /// # Errors
     /// [`Error::NoEquilibrium`] if none is found; the cable is then as before. [`Error::Attached`]
-    /// for a cable with [attached](Self::attach) nodes.
+    /// for a cable with [attached](crate::coupling::Coupling::attach) nodes.
     pub fn equilibrium(&mut self) -> Result<EquilibriumReport, Error> {
         self.equilibrium_with(EquilibriumOptions::default())
     }

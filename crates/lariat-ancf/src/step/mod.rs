@@ -17,7 +17,7 @@ impl Cable {
     /// # Errors
     /// [`Error::InvalidValue`] for a `dt` that is negative, not finite, or below 1e-100 and not zero; [`Error::StepFailed`] if
     /// the step failed: the cable is then exactly as before. [`Error::Attached`] for a cable with
-    /// [attached](Self::attach) nodes, which only an [`island`](crate::island) can step.
+    /// [attached](crate::coupling::Coupling::attach) nodes, which only an [`island`](crate::island) can step.
     pub fn step(&mut self, dt: f64) -> Result<(), Error> {
         let integrator = self.integrator;
         self.step_with(dt, &integrator)

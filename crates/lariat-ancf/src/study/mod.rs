@@ -7,7 +7,7 @@
 //!
 //! - `e_mesh = d max(1, 1/(f^p - 1))` for the error of the mesh, with the largest distance `d` between the two runs and the least ratio `f`
 //!   of their element lengths, found on the meshes themselves. The order p is 1: the whole difference of a mesh and its half. Where the last two
-//!   distances or the [mesh indicator](crate::Cable::mesh_indicator) of both runs show less than the first order, it is what they show, at least 1/4.
+//!   distances or the [mesh indicator](crate::coupling::Linearisation::mesh_indicator) of both runs show less than the first order, it is what they show, at least 1/4.
 //!   It is 2/3 at most with two meshes alone of a motion, where [velocities jump](Record::velocities_jump), and for an equilibrium that is held between the ends of a cable;
 //!   for one that is smooth there it is what both show, up to 2, with two meshes what the indicator shows, as far as the claim is at least four times
 //!   the indicator of the finer one;

@@ -22,7 +22,7 @@ pub struct Record {
     cables: Vec<CableRecord>,
     /// Cables of the present frame.
     present: usize,
-    /// Largest [mesh indicator](Cable::mesh_indicator) in m.
+    /// Largest [mesh indicator](crate::coupling::Linearisation::mesh_indicator) in m.
     indicator: f64,
     /// True if velocities jump in the motion.
     jumps: bool,

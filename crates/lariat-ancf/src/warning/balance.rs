@@ -74,8 +74,8 @@ impl Cable {
         self.watch.as_deref().map(|watch| watch.account.balance)
     }
 
-    /// Adds a step of the [island](crate::island) of which it is the first cable to its energy balance, if it is watched: for those who step islands.
-    pub fn note_island(&mut self, step: &IslandChange) {
+    /// See [`Coupling`](crate::coupling::Coupling).
+    pub(crate) fn note_island(&mut self, step: &IslandChange) {
         let time = self.time();
         if let Some(watch) = &mut self.watch {
             watch.account.add(time, step);

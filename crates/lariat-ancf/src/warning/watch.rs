@@ -4,7 +4,7 @@
 //!
 //! Limits of the error of position: 2e-3 of the length, and a tenth of the largest displacement. Both were found on 30 scenes: what exceeds
 //! them was off by 0.2 to 11 % of the length, what does not by less than 0.25 %. A mesh is judged as
-//! [`Cable::mesh_indicator`] says, steps as `steps` says; the strain by the law of the material, which is 7.5 % above Hooke's at 5 %.
+//! [`Cable::mesh_indicator`](crate::coupling::Linearisation::mesh_indicator) says, steps as `steps` says; the strain by the law of the material, which is 7.5 % above Hooke's at 5 %.
 
 use super::{Warning, sizes};
 use crate::cable::Cable;
@@ -216,10 +216,8 @@ impl Cable {
         self.size_warnings().chain(noted).collect()
     }
 
-    /// Tells by how much (m) positions of what holds the cable were rounded in a host step of `h` (s); for those who hold cables by bodies in
-    /// single precision. If the cable is straight, the rounding u makes forces of `u EA/L (1 + T/h)` with the axial retardation time T;
-    /// warnings compare them with the tension. What is not finite counts as zero.
-    pub fn set_end_rounding(&mut self, rounding: f64, h: f64) {
+    /// See [`Coupling`](crate::coupling::Coupling).
+    pub(crate) fn set_end_rounding(&mut self, rounding: f64, h: f64) {
         if rounding == 0.0 {
             self.end_noise = 0.0;
             return;
@@ -257,8 +255,8 @@ impl Cable {
         });
     }
 
-    /// Returns whether the cable reads itself.
-    pub fn is_watched(&self) -> bool {
+    /// See [`Coupling`](crate::coupling::Coupling).
+    pub(crate) fn is_watched(&self) -> bool {
         self.watch.is_some()
     }
 
@@ -282,10 +280,8 @@ impl Cable {
         self.watch = Some(watch);
     }
 
-    /// Reads the cable at the end of a host step, if it is watched, and calls `tell` with each warning that it was not called with before. For
-    /// those who step [islands](crate::island), and those who want to hear of warnings as they come up. `alone` says whether nothing but its own
-    /// supports, loads and effects acted on it, which its energy balance needs: neither a dynamic body nor another cable.
-    pub fn note_host_step(&mut self, alone: bool, tell: impl FnMut(Warning)) {
+    /// See [`Coupling`](crate::coupling::Coupling).
+    pub(crate) fn note_host_step(&mut self, alone: bool, tell: impl FnMut(Warning)) {
         self.note_with(alone);
         if let Some(mut watch) = self.watch.take() {
             watch.raise(self, tell);

@@ -77,7 +77,7 @@ impl CableTerms {
     }
 }
 
-/// What a step of integration made of an island, cables and the bodies that move with them: for [`Cable::note_island`](crate::Cable::note_island).
+/// What a step of integration made of an island, cables and the bodies that move with them: for [`Cable::note_island`](crate::coupling::Coupling::note_island).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct IslandChange {
     /// Change of the balance in J.

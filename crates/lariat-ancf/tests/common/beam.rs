@@ -1,5 +1,6 @@
 //! A rod of unit numbers and its lowest mode: for tests of effects.
 
+use lariat_ancf::coupling::Linearisation;
 use lariat_ancf::{At, Cable, CableBuilder, Effects, Section, Vector3};
 use nalgebra::{DMatrix, SymmetricEigen};
 

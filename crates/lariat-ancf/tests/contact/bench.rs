@@ -1,6 +1,7 @@
 //! The rope of these tests, and how it is run.
 
 use lariat_ancf::contact::Obstacle;
+use lariat_ancf::coupling::Coupling;
 use lariat_ancf::{Cable, CableBuilder, Contact, Damping, Integrator, Method, Section, StepControl, Vector3};
 
 /// Radius of the rope in m.

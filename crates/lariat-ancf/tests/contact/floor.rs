@@ -2,6 +2,7 @@
 
 use crate::bench::{GRAVITY, RADIUS, deepest, energies, rope, run, steps, up, with};
 use lariat_ancf::contact::{HalfSpace, Obstacle, RigidMotion};
+use lariat_ancf::coupling::Coupling;
 use lariat_ancf::{At, Cable, Motion, Section, Support, Vector3};
 
 fn floor(friction: f64) -> Obstacle {

@@ -2,6 +2,7 @@
 
 use crate::bench::{RADIUS, deepest, rope, up};
 use lariat_ancf::contact::{Cuboid, Cylinder, HalfSpace, Obstacle};
+use lariat_ancf::coupling::Coupling;
 use lariat_ancf::{At, Cable, Contact, Error, PointLoad, Section, Vector3};
 use nalgebra::UnitQuaternion;
 

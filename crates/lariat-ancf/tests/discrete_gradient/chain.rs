@@ -3,6 +3,7 @@
 use crate::common::Random;
 use crate::law::{HEIGHT, energies};
 use crate::recipe::{choose, power};
+use lariat_ancf::coupling::Coupling;
 use lariat_ancf::island::{Island, PinConstraint, RigidBody};
 use lariat_ancf::{At, Cable, Integrator, Method, Rule, Section, StepControl, Vector3};
 use nalgebra::Matrix3;

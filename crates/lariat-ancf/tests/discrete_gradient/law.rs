@@ -1,6 +1,7 @@
 //! The energy law of single steps, from any state and with anything that acts, read from the outside.
 
 use crate::common::{Random, rule};
+use lariat_ancf::coupling::Coupling;
 use lariat_ancf::{
     At, Cable, Damping, Drag, Effects, Flow, Integrator, LineLoad, LineLoads, Method, Motion, PointLoad, RestPiece,
     RestShape, Section, StepControl, Support, Vector3,

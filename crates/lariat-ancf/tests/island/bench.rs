@@ -1,5 +1,6 @@
 //! Scenes and tools shared by several files.
 
+use lariat_ancf::coupling::Coupling;
 use lariat_ancf::island::{Island, PinAccount, PinConstraint, RigidBody};
 use lariat_ancf::{At, Cable, Integrator, Section, Vector3};
 use nalgebra::Matrix3;

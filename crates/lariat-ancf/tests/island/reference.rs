@@ -14,6 +14,7 @@
 
 use super::bench::{Scene, payload};
 use super::common::dense;
+use lariat_ancf::coupling::Linearisation;
 use lariat_ancf::{Cable, Integrator, Section};
 use nalgebra::{DMatrix, DVector, Matrix3, Vector2, Vector3};
 

@@ -3,6 +3,7 @@
 //! *Physics.* In equilibrium force and moment of every body are zero; a hanging body is at a minimum of the
 //! potential energy. *Source.* Hand values and Newton's method on two forces and a moment, written here.
 
+use lariat_ancf::coupling::Coupling;
 use lariat_ancf::island::{PinConstraint, RigidBody, equilibrium};
 use lariat_ancf::{
     At, Cable, CableBuilder, EquilibriumFailure, EquilibriumOptions, Error, PointLoad, Section, Vector3,

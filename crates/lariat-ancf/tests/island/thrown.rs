@@ -1,6 +1,7 @@
 //! Slack ropes in fast motion at the steps of games, and under impulses: no spurious energy.
 
 use super::bench::{Scene, cube};
+use lariat_ancf::coupling::Coupling;
 use lariat_ancf::island::{Impedance, RigidBody};
 use lariat_ancf::{At, Cable, Fidelity, Section, Vector3};
 

@@ -1,5 +1,6 @@
 //! A reel at the start, and one at each end.
 
+use lariat_ancf::coupling::Coupling;
 use lariat_ancf::{At, Cable, Damping, Error, Integrator, Method, PointLoad, Reel, Section, StepControl, Vector3};
 
 /// Returns a rope from the ground to an eye at its start or end, with a load near the ground.

@@ -1,6 +1,7 @@
 //! Drums that are bodies: the reel has the rate of their spin, and they feel its pull.
 
 use super::common::G;
+use lariat_ancf::coupling::Coupling;
 use lariat_ancf::island::{Drum, Island, PinConstraint, RigidBody};
 use lariat_ancf::{At, Cable, Damping, Error, Integrator, Method, Reel, Section, StepControl, Vector3};
 use nalgebra::{Matrix3, UnitQuaternion};

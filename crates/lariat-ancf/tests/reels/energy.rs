@@ -1,6 +1,7 @@
 //! Accounts of energy and length.
 
 use super::common::{G, account, implicit, rope};
+use lariat_ancf::coupling::Coupling;
 use lariat_ancf::island::{Island, PinConstraint, RigidBody};
 use lariat_ancf::{At, Cable, Damping, Integrator, Method, PointLoad, Reel, Section, StepControl, Vector3};
 use nalgebra::Matrix3;

@@ -1,6 +1,7 @@
 //! Reels whose rate is an unknown: clutch, brake, free spool.
 
 use super::common::{G, rope};
+use lariat_ancf::coupling::Coupling;
 use lariat_ancf::island::{Island, PinConstraint, RigidBody};
 use lariat_ancf::{At, Cable, Damping, Error, Feed, Integrator, Method, Reel, Section, StepControl, Vector3};
 use nalgebra::Matrix3;

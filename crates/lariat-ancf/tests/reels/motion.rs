@@ -3,6 +3,7 @@
 use super::common::{G, implicit, rope};
 use super::random::Random;
 use approx::assert_relative_eq;
+use lariat_ancf::coupling::Coupling;
 use lariat_ancf::island::{Island, PinConstraint, RigidBody};
 use lariat_ancf::{At, Cable, Damping, ErrorNorm, Integrator, Method, Reel, Section, StepControl, Vector3};
 use nalgebra::Matrix3;

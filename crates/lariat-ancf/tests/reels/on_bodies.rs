@@ -1,5 +1,6 @@
 //! Reels on bodies that move freely: the stock rides with them.
 
+use lariat_ancf::coupling::Coupling;
 use lariat_ancf::island::{Island, PinConstraint, RigidBody};
 use lariat_ancf::{At, Cable, Damping, Error, Integrator, Method, Reel, Section, StepControl, Vector3};
 use nalgebra::Matrix3;

@@ -1,6 +1,7 @@
 //! What splits and merges do to momentum and tension.
 
 use super::random::Random;
+use lariat_ancf::coupling::Coupling;
 use lariat_ancf::island::Island;
 use lariat_ancf::{At, Cable, Damping, Integrator, Method, Reel, Section, StepControl, Vector3};
 

@@ -1,6 +1,7 @@
 //! Cables that run over sheaves.
 
 use super::common::G;
+use lariat_ancf::coupling::Coupling;
 use lariat_ancf::island::{Island, PinConstraint, RigidBody, Sheave};
 use lariat_ancf::{At, Cable, Damping, Error, Integrator, Method, Reel, Section, StepControl, Vector3};
 use nalgebra::Matrix3;

@@ -2,6 +2,7 @@
 
 use super::common::G;
 use super::random::Random;
+use lariat_ancf::coupling::Coupling;
 use lariat_ancf::island::{Drum, Island, PinConstraint, RigidBody};
 use lariat_ancf::{At, Cable, Damping, Error, Integrator, Method, Reel, Section, StepControl, Vector3};
 use nalgebra::Matrix3;

@@ -2,6 +2,7 @@
 
 use super::common::{account, implicit, rope};
 use approx::assert_relative_eq;
+use lariat_ancf::coupling::Coupling;
 use lariat_ancf::island::Island;
 use lariat_ancf::{
     At, Buoyancy, Cable, Damping, Drag, Error, Integrator, LineLoad, Method, PointLoad, Reel, Section, StepControl,

@@ -5,6 +5,7 @@ use crate::error::Error;
 use crate::single::convert::from_rapier;
 use crate::table::{Format, Table, shown};
 use cpu_time::ProcessTime;
+use lariat_ancf::coupling::Coupling;
 use lariat_rapier::lariat_ancf::{At, Cable, Damping, Diagnostics, Section, Vector3};
 use lariat_rapier::rapier::prelude::*;
 use lariat_rapier::{AttachmentKind, CableHandle, CableSet};

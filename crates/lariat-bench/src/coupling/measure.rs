@@ -6,6 +6,7 @@ use super::world::{self, World, host_steps};
 use crate::clock::{Repeats, repeat};
 use crate::error::Error;
 use cpu_time::ProcessTime;
+use lariat_ancf::coupling::Coupling;
 use lariat_ancf::{Diagnostics, Vector3};
 use std::time::Instant;
 

@@ -6,6 +6,7 @@ use super::{catenary, payload, pendulum, taut};
 use crate::error::Error;
 use crate::page::Section;
 use crate::table::{Cell, Format, Table, hidden, shown};
+use lariat_ancf::coupling::Linearisation;
 use lariat_ancf::{BendingRule, Fidelity, Rule};
 use lariat_figures::reference_pendulum::INTERVAL;
 

@@ -14,6 +14,7 @@ use crate::page::Section;
 use crate::table::{Cell, Format, Table, hidden, shown};
 use cpu_time::ProcessTime;
 use fearless_simd::Level;
+use lariat_ancf::coupling::{Coupling, Linearisation};
 use lariat_ancf::{At, Cable, Effects, Fidelity, Integrator, Method, Rule, Section as CrossSection, Vector3};
 use std::hint::black_box;
 

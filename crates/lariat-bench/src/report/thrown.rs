@@ -15,6 +15,7 @@ use crate::page::Section;
 use crate::stability::recipe::Recipe;
 use crate::table::{Format, Table, shown};
 use cpu_time::ProcessTime;
+use lariat_ancf::coupling::Coupling;
 use lariat_ancf::{At, Cable, Diagnostics, Fidelity, Integrator, Rule, Section as CableSection, Vector3};
 use lariat_figures::reference_pendulum as pendulum;
 

@@ -4,6 +4,7 @@ use super::Cable;
 use crate::convert::{data, result, vector};
 use crate::error::{Raise, raise};
 use lariat_ancf::contact::{Ball, Capsule, Cuboid, Cylinder, HalfSpace, Obstacle, RigidMotion, Surface, Touch};
+use lariat_ancf::coupling::Coupling;
 use lariat_ancf::{Contact, Error, Vector3};
 use nalgebra::{Quaternion, UnitQuaternion};
 use pyo3::prelude::*;

@@ -13,6 +13,7 @@ use crate::section::Section;
 use crate::shared::{Shared, repeat_for_a_while};
 use crate::world::Contents;
 use lariat_ancf as ancf;
+use lariat_ancf::coupling::Coupling;
 use lariat_ancf::{EquilibriumOptions, Error};
 use lariat_rapier::CableHandle;
 use pyo3::exceptions::PyTypeError;

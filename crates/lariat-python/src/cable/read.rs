@@ -4,6 +4,7 @@ use super::Cable;
 use crate::convert::{Array, Place, object, result, table, vector, vectors};
 use crate::integrator::Integrator;
 use crate::section::Section;
+use lariat_ancf::coupling::Linearisation;
 use lariat_ancf::{Sample, Vector3};
 use numpy::{PyArray1, PyArray2, PyArrayMethods, PyUntypedArrayMethods};
 use pyo3::prelude::*;

@@ -18,6 +18,7 @@
 use super::link::Link;
 use crate::error::Raise;
 use fearless_simd::Level;
+use lariat_ancf::coupling::{Coupling, Linearisation};
 use lariat_ancf::linalg::{BlockTridiagonal, Definiteness, Factorisation, SchurComplement};
 use lariat_ancf::{self as ancf, At, Vector3};
 use nalgebra::DMatrix;

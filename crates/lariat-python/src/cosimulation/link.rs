@@ -5,6 +5,7 @@
 //! Each body follows the cubic between the velocities at both ends of the step, and a node of the cable is held to it
 //! (`lariat_ancf::island`, driven bodies).
 
+use lariat_ancf::coupling::Coupling;
 use lariat_ancf::island::{Island, PinConstraint, RigidBody};
 use lariat_ancf::{self as ancf, At, Error, Vector3};
 use nalgebra::{Matrix3, UnitQuaternion};

@@ -22,6 +22,7 @@ use crate::convert::{Array, Place, Vector, result, table, vectors};
 use crate::error::raise;
 use crate::saved;
 use crate::shared::Shared;
+use lariat_ancf::coupling::Coupling;
 use lariat_ancf::{self as ancf, At, Error, Vector3};
 use link::{End, Link, Motion, Wrench};
 use nalgebra::{Quaternion, UnitQuaternion};

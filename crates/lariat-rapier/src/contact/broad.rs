@@ -19,6 +19,7 @@ use crate::islands::{Island, Member};
 use crate::scales::contact::{CHUNK, HELD, IGNORED, MARGIN, SWEEP};
 use ::nalgebra::{UnitQuaternion, Vector3};
 use lariat_ancf::contact::{LARGEST_RESTITUTION, Mount, Obstacle, Overlap, RigidMotion, Surface};
+use lariat_ancf::coupling::Coupling;
 use lariat_ancf::{Cable, Warning};
 use rapier::dynamics::{RigidBody, RigidBodyHandle};
 use rapier::geometry::{Aabb, BoundingVolume, Collider, ColliderHandle};

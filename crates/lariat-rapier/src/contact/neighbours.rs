@@ -18,6 +18,7 @@ use crate::scales::contact::{CHUNK, MARGIN, REACH, SWEEP};
 use ::nalgebra::Vector3;
 use lariat_ancf::Cable;
 use lariat_ancf::contact::CablePair;
+use lariat_ancf::coupling::Coupling;
 
 /// A piece of a cable with the box that it is in.
 #[derive(Clone, Copy, Debug)]

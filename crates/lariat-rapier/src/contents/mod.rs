@@ -26,6 +26,7 @@ use attachment::Attachment;
 use drum::Wound;
 use junction::Junction;
 use lariat_ancf::Cable;
+use lariat_ancf::coupling::Coupling;
 use mark::WorldMark;
 use rapier::math::Vector;
 use rapier::pipeline::PhysicsWorld;

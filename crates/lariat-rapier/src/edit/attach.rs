@@ -10,6 +10,7 @@ use crate::events::Event;
 use crate::handle::{AttachmentHandle, CableHandle};
 use ::nalgebra::{Vector3, Vector6};
 use lariat_ancf::At;
+use lariat_ancf::coupling::Coupling;
 use lariat_ancf::island::PinAccount;
 use rapier::dynamics::{RigidBody, RigidBodyHandle};
 use rapier::pipeline::PhysicsWorld;

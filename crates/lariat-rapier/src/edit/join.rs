@@ -7,6 +7,7 @@ use crate::contents::junction::Junction;
 use crate::error::Error;
 use crate::handle::{CableHandle, JunctionHandle};
 use lariat_ancf::At;
+use lariat_ancf::coupling::Coupling;
 
 /// Ties a point of a cable to a point of another, or of itself.
 pub(crate) fn join(

@@ -9,6 +9,7 @@ use crate::contents::sheave::SheaveOptions;
 use crate::error::Error;
 use crate::handle::{CableHandle, SheaveHandle};
 use ::nalgebra::Vector3;
+use lariat_ancf::coupling::Coupling;
 use lariat_ancf::{At, Cable, Reel};
 use rapier::dynamics::RigidBodyHandle;
 use rapier::pipeline::PhysicsWorld;

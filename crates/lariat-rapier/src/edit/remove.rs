@@ -7,6 +7,7 @@ use crate::contents::Contents;
 use crate::error::Error;
 use crate::handle::{AttachmentHandle, CableHandle, JunctionHandle};
 use lariat_ancf::Cable;
+use lariat_ancf::coupling::Coupling;
 use rapier::pipeline::PhysicsWorld;
 
 /// Removes a cable with its attachments, and takes it out of its junctions.

@@ -12,6 +12,7 @@ use crate::handle::CableHandle;
 use crate::mechanism;
 use ::nalgebra::Vector3;
 use lariat_ancf::contact::CablePair;
+use lariat_ancf::coupling::Coupling;
 use lariat_ancf::island::PinConstraint;
 use lariat_ancf::{At, SlopeSupport};
 use rapier::dynamics::{RigidBodyHandle, RigidBodyType};

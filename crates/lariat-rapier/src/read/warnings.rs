@@ -15,6 +15,7 @@ use crate::read::inside::deepest_inside;
 use crate::scales::HOST_ROUNDING;
 use crate::scales::read::JOLT;
 use lariat_ancf::contact::LARGEST_RESTITUTION;
+use lariat_ancf::coupling::Coupling;
 use rapier::dynamics::RigidBodyType;
 use rapier::geometry::ColliderHandle;
 use rapier::math::Real;

@@ -7,6 +7,7 @@ use crate::error::Error;
 use crate::handle::CableHandle;
 use lariat_ancf::Contact;
 use lariat_ancf::contact::{PairTouch, Touch};
+use lariat_ancf::coupling::Coupling;
 use rapier::geometry::ColliderHandle;
 
 impl CableSet {

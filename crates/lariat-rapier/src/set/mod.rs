@@ -27,6 +27,7 @@ use crate::handle::CableHandle;
 use crate::statics::{self, Equilibrium};
 use crate::step::Stepper;
 use crate::step::settings::Settings;
+use lariat_ancf::coupling::Coupling;
 use lariat_ancf::{At, Cable, EquilibriumOptions, Strength};
 use rapier::dynamics::RigidBodyHandle;
 use rapier::pipeline::PhysicsWorld;

@@ -6,6 +6,7 @@ use crate::contents::Contents;
 use crate::convert::{rotation, vector};
 use crate::islands::Member;
 use ::nalgebra::{Vector3, Vector6};
+use lariat_ancf::coupling::Coupling;
 use rapier::math::Vector;
 use rapier::pipeline::PhysicsWorld;
 

@@ -34,6 +34,7 @@ use crate::islands::{Island, Member};
 use crate::mechanism::velocity_of;
 use crate::step::prediction::Prediction;
 use lariat_ancf::Method;
+use lariat_ancf::coupling::Coupling;
 use lariat_ancf::island::RigidBody;
 use lariat_ancf::warning::IslandChange;
 use lariat_ancf::warning::balance::{CableTerms, Sizes, weight_and_stiffness};

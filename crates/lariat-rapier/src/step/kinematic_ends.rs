@@ -15,6 +15,7 @@ use crate::islands::{Island, Member};
 use crate::step::prediction::StepParameters;
 use ::nalgebra::{Matrix3, Vector3};
 use lariat_ancf::Motion;
+use lariat_ancf::coupling::Coupling;
 use lariat_ancf::island::{CLOSING_SPEED, RigidBody};
 use rapier::dynamics::RigidBodyHandle;
 use rapier::pipeline::PhysicsWorld;

@@ -55,6 +55,7 @@ use crate::islands::{Island, Islands};
 use crate::scales::step::MAX_TURN_ERROR;
 use budget::Remaining;
 use lariat_ancf::Snapshot;
+use lariat_ancf::coupling::Coupling;
 use prediction::{Prediction, StepParameters};
 use rapier::dynamics::RigidBodyHandle;
 use rapier::math::Real;

@@ -10,7 +10,7 @@
 //! ([`Impedance`](lariat_ancf::island::Impedance)). Error control resolves waves that this step does not, and each correction adds a little to
 //! them: on undamped cables they grow until the tension is lost. As long as a body rests against a contact or a limit of a multibody, cables under error control therefore have
 //! a Kelvin-Voigt time of 0.1 h or more, which adds 0.05 h w to the damping ratio of an axial wave of angular frequency w
-//! ([`Cable::set_least_damping`](lariat_ancf::Cable::set_least_damping)). For one body that is enough at any mass; where bodies are so light that
+//! ([`Cable::set_least_damping`](lariat_ancf::coupling::Coupling::set_least_damping)). For one body that is enough at any mass; where bodies are so light that
 //! Rapier's steps do not resolve their vibration (h w > 0.6, [`substepping`]), the island is integrated by the discrete gradient in
 //! Rapier's steps, of 1/240 s or less, and an [event](crate::Event::Degraded) says so (test contact.rs).
 //!
@@ -35,6 +35,7 @@ use crate::step::kinematic_ends;
 use crate::step::prediction::{Prediction, StepParameters};
 use crate::step::substepping;
 use ::nalgebra::Vector6;
+use lariat_ancf::coupling::Coupling;
 use lariat_ancf::island::{PinConstraint, RigidBody};
 use lariat_ancf::{Integrator, StepControl};
 use rapier::pipeline::PhysicsWorld;

@@ -37,6 +37,7 @@ use crate::step::reaction::update_reaction;
 use crate::step::sleep;
 use crate::step::waking;
 use ::nalgebra::{UnitQuaternion, Vector3, Vector6};
+use lariat_ancf::coupling::Coupling;
 use lariat_ancf::island::RigidBody;
 use rapier::dynamics::{RigidBody as RapierBody, RigidBodyHandle};
 use rapier::math::Real;

@@ -4,6 +4,7 @@
 use crate::contents::Contents;
 use crate::error::Error;
 use crate::handle::CableHandle;
+use lariat_ancf::coupling::Coupling;
 use lariat_ancf::{At, Cable};
 
 /// Splits and merges elements at the eyes of all reels, before a step. Arc lengths stay, numbers of nodes change.

@@ -24,6 +24,7 @@ use crate::events::Event;
 use crate::handle::CableHandle;
 use crate::islands::Island;
 use crate::scales::step::STEADY_FORCE_CHANGE;
+use lariat_ancf::coupling::Coupling;
 use rapier::pipeline::PhysicsWorld;
 
 /// Whether an island sleeps through a step.

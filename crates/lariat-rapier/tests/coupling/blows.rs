@@ -1,6 +1,7 @@
 //! Blows on bodies with cables.
 
 use super::common::{cable, gap, soft, weightless, wire};
+use lariat_ancf::coupling::Coupling;
 use lariat_rapier::lariat_ancf::{At, Fidelity, Section, Vector3};
 use lariat_rapier::rapier::prelude::*;
 use lariat_rapier::{AttachmentKind, CableSet};

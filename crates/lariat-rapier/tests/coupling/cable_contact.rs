@@ -1,5 +1,6 @@
 //! Contact of cables with colliders.
 
+use lariat_ancf::coupling::Coupling;
 use lariat_rapier::lariat_ancf::{At, Cable, Contact, Damping, PointLoad, Section, Vector3};
 use lariat_rapier::rapier::dynamics::CoefficientCombineRule;
 use lariat_rapier::rapier::math::Vector as RVector;

@@ -1,5 +1,6 @@
 //! Contact of cables with dynamic bodies.
 
+use lariat_ancf::coupling::Coupling;
 use lariat_rapier::convert::vector;
 use lariat_rapier::lariat_ancf::{At, CableBuilder, Contact, Damping, Section, Vector3};
 use lariat_rapier::rapier::math::Vector as RVector;

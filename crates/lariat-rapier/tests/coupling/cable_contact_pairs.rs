@@ -1,6 +1,7 @@
 //! Contact of the cables of a set with each other.
 
 use super::common::bits;
+use lariat_ancf::coupling::Coupling;
 use lariat_rapier::lariat_ancf::{At, Cable, CableBuilder, Contact, Damping, PointLoad, Section, Vector3};
 use lariat_rapier::rapier::math::Vector as RVector;
 use lariat_rapier::rapier::prelude::*;

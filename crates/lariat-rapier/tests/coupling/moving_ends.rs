@@ -1,6 +1,7 @@
 //! Cable ends on kinematic bodies that turn, circle, start and stop.
 
 use super::common::{add_cube, cable, weightless};
+use lariat_ancf::coupling::Coupling;
 use lariat_rapier::convert::vector;
 use lariat_rapier::lariat_ancf::{At, CableBuilder, Damping, Fidelity, Section, Vector3};
 use lariat_rapier::rapier::prelude::*;

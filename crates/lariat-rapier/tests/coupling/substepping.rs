@@ -1,6 +1,7 @@
 //! The number of Rapier steps per host step, and of solver iterations.
 
 use super::common::{add_cube, cable, gap, l_stable_integrator, run, soft, tension, weightless, wire};
+use lariat_ancf::coupling::Coupling;
 use lariat_rapier::lariat_ancf::{At, Section, Vector3};
 use lariat_rapier::rapier::prelude::*;
 use lariat_rapier::{AttachmentKind, CableSet, Rope};

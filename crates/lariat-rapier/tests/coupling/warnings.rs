@@ -1,6 +1,7 @@
 //! Warnings of a set: as events, once each, and when asked for.
 
 use super::common::{add_cube, cable, run, soft};
+use lariat_ancf::coupling::Coupling;
 use lariat_rapier::lariat_ancf::{At, Contact, Integrator, Method, Section, StepControl, Warning as CableWarning};
 use lariat_rapier::rapier::prelude::*;
 use lariat_rapier::{AttachmentKind, CableHandle, CableSet, Event, Gap, Warning};

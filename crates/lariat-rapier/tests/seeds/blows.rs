@@ -1,6 +1,7 @@
 //! Blows: a body with a trailing cable that hits a floor, and two bodies on a cable of which one is struck.
 
 use super::common::{Random, cable, judge, told};
+use lariat_ancf::coupling::Coupling;
 use lariat_rapier::lariat_ancf::{At, Damping, Fidelity, Section, Vector3};
 use lariat_rapier::rapier::prelude::*;
 use lariat_rapier::{AttachmentKind, CableSet};

@@ -1,6 +1,7 @@
 //! Ropes on the rims of rotors.
 
 use super::common::{Random, cable, judge, told};
+use lariat_ancf::coupling::Coupling;
 use lariat_rapier::lariat_ancf::{At, Damping, Fidelity, Section, Vector3};
 use lariat_rapier::rapier::prelude::*;
 use lariat_rapier::{AttachmentKind, CableSet};

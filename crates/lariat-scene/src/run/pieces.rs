@@ -2,6 +2,7 @@
 
 use super::World;
 use lariat_ancf::Break;
+use lariat_ancf::coupling::Coupling;
 use serde::{Deserialize, Serialize};
 
 /// A part of a cable of the file: what a break or a sheave left of it.

@@ -5,6 +5,7 @@ use super::balance::Terms;
 use crate::error::Error;
 use crate::physics::BodyState;
 use crate::scene::AttachmentScene;
+use lariat_ancf::coupling::Coupling;
 use lariat_ancf::{Cable, Energy, Method, Momentum, Reaction, Vector3};
 use std::collections::BTreeMap;
 

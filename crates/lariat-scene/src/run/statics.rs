@@ -5,6 +5,7 @@ use super::World;
 use crate::error::Error;
 use crate::physics::Settled;
 use crate::scene::Scene;
+use lariat_ancf::coupling::Coupling;
 use lariat_ancf::{Cable, EquilibriumReport, Vector3};
 use serde::{Deserialize, Serialize};
 

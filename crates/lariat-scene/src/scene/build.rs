@@ -1,6 +1,7 @@
 //! From a checked scene to cables: elements, supports, loads and motion at the start.
 
 use super::{AttachmentScene, LoadScene, Scene};
+use lariat_ancf::coupling::Coupling;
 use lariat_ancf::{At, Cable, Error, Motion, PointLoad, Vector3};
 
 impl Scene {
@@ -98,7 +99,7 @@ impl Scene {
     /// Sets the initial rigid motion of a cable, with supported points at rest.
     ///
     /// # Errors
-    /// As [`Cable::set_rigid_motion`].
+    /// As [`Cable::set_rigid_motion`](lariat_ancf::coupling::Coupling::set_rigid_motion).
     pub fn set_in_motion(&self, cable: &mut Cable, index: usize) -> Result<(), Error> {
         let scene = &self.cables[index];
         cable.set_rigid_motion(scene.velocity, scene.angular_velocity)

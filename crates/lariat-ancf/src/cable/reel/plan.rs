@@ -22,9 +22,8 @@ pub(super) const NEAR: f64 = 1e-9;
 pub(super) const LEAST: f64 = 0.4;
 
 impl Cable {
-    /// Plans the rates of the reels for the coming host step of `dt` (s), which the caller takes in several steps: they are linear over all of it, but for one in which
-    /// the table of the reel has a row. A step that nothing was planned for is planned by itself. Does nothing without a reel.
-    pub fn plan_reels(&mut self, dt: f64) {
+    /// See [`Coupling`](crate::coupling::Coupling).
+    pub(crate) fn plan_reels(&mut self, dt: f64) {
         let (begin, end) = (self.time(), self.time() + dt);
         let within = |row: &[f64; 2]| row[0] > begin && row[0] < end;
         for side in self.model.reels.sides() {

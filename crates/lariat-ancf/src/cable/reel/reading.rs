@@ -87,20 +87,18 @@ impl Cable {
         !self.model.reels.is_empty()
     }
 
-    /// Returns the number of elements that came through the eye of a reel at the start so far, on balance: the numbers of all nodes but
-    /// that one have grown by this.
-    pub fn nodes_from_start(&self) -> i64 {
+    /// See [`Coupling`](crate::coupling::Coupling).
+    pub(crate) fn nodes_from_start(&self) -> i64 {
         self.snapshot.nodes_from_start()
     }
 
-    /// Returns the length in m that came through the eye of a reel at the start so far, on balance: the arc lengths of all material have
-    /// grown by this.
-    pub fn length_from_start(&self) -> f64 {
+    /// See [`Coupling`](crate::coupling::Coupling).
+    pub(crate) fn length_from_start(&self) -> f64 {
         self.snapshot.passed_at_start()
     }
 
-    /// Returns whether all reels stand and are not asked to turn; true without one.
-    pub fn is_reel_still(&self) -> bool {
+    /// See [`Coupling`](crate::coupling::Coupling).
+    pub(crate) fn is_reel_still(&self) -> bool {
         self.model.reels.sides().all(|side| {
             let (reel, winding) = (self.model.reels.get(side), &self.snapshot.windings[side as usize]);
             let (Some(reel), Some(winding)) = (reel, winding) else { return true };

@@ -77,14 +77,8 @@ impl Turned {
 }
 
 impl Cable {
-    /// Splits or merges the elements at the eyes of reels where their lengths ask for it; does nothing without a reel.
-    /// [`step`](Self::step) does so by itself. Between the steps of an [`Island`](crate::island::Island) the caller does, because the
-    /// numbers of nodes change: at a reel at the end that of the eye, at one at the start all others
-    /// ([`nodes_from_start`](Self::nodes_from_start)).
-    ///
-    /// # Errors
-    /// [`Error::StepFailed`] if the mass matrix of the new mesh is singular.
-    pub fn remesh_reel(&mut self) -> Result<(), Error> {
+    /// See [`Coupling`](crate::coupling::Coupling).
+    pub(crate) fn remesh_reel(&mut self) -> Result<(), Error> {
         Side::BOTH.into_iter().try_for_each(|side| self.remesh_at(side))
     }
 

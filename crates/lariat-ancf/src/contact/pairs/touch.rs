@@ -5,7 +5,7 @@ use nalgebra::Vector3;
 /// A contact of a cable with a cable, or with itself, as it was at the end of the last step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PairTouch {
-    /// [Key](crate::Cable::set_contact_key) of the other cable.
+    /// [Key](crate::coupling::Coupling::set_contact_key) of the other cable.
     pub other: u64,
     /// Arc length in m of the point that touches.
     pub arc_length: f64,

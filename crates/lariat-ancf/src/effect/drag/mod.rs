@@ -14,7 +14,7 @@
 //!
 //! The derivative by velocity is exact and symmetric. By the slope the formula above is exact, of which the step takes the symmetric
 //! half (its matrix is stored by one triangle); the gradient of the flow in space is left out. Newton's iteration is then linear with
-//! a small factor, which its stopping test knows. The exact derivative is [`Cable::jacobians`](crate::Cable::jacobians)'s.
+//! a small factor, which its stopping test knows. The exact derivative is [`Cable::jacobians`](crate::coupling::Linearisation::jacobians)'s.
 //!
 //! # Validity
 //!
