@@ -14,6 +14,7 @@ use nalgebra::Vector3;
 
 impl ContactPoint {
     /// Makes it linear at changes of its position and of that of its row.
+    #[inline]
     pub fn linearise(&mut self, obstacle: &ObstacleStep, changes: impl Fn(usize, &[f64; 4]) -> Vector3<f64>) {
         let (element, row) = (self.key.0 as usize, self.row());
         let mut tangents = Tangents::default();
@@ -40,6 +41,7 @@ impl ContactPoint {
     }
 
     /// Evaluates it at the result of the linear solve, and returns how far that was off in N.
+    #[inline]
     pub fn follow(&mut self, obstacle: &ObstacleStep, changes: impl Fn(usize, &[f64; 4]) -> Vector3<f64>) -> f64 {
         let linear = &self.linear;
         self.now = self.evaluate(obstacle, &changes(self.key.0 as usize, &self.shape), About::default(), None);

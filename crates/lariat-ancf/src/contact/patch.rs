@@ -39,6 +39,7 @@ pub(in crate::contact) struct GapStep {
 impl Patch {
     /// Returns the gap over a step in which the point at `x` moves by `change`; the surface is met at the gap `reach`; without
     /// one the way is not asked whether it goes through.
+    #[inline]
     pub(in crate::contact) fn over_step(
         &self,
         obstacle: &ObstacleStep,

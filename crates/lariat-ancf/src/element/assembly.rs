@@ -4,6 +4,7 @@ use crate::linalg::BlockTridiagonal;
 use nalgebra::{Matrix3, Vector3};
 
 /// Adds a force or impulse, whose work is on the vector with these weights, to the rows of an element.
+#[inline]
 pub(crate) fn add_force(rows: &mut [f64], element: usize, weights: &[f64; 4], force: &Vector3<f64>) {
     let out = &mut rows[6 * element..6 * element + 12];
     for (k, weight) in weights.iter().enumerate() {
@@ -14,6 +15,7 @@ pub(crate) fn add_force(rows: &mut [f64], element: usize, weights: &[f64; 4], fo
 }
 
 /// Adds the tangent of such a force to the blocks of an element, of which one triangle is stored.
+#[inline]
 pub(crate) fn add_tangent(matrix: &mut BlockTridiagonal, element: usize, weights: &[f64; 4], tangent: &Matrix3<f64>) {
     for (p, left) in weights.iter().enumerate() {
         for (q, right) in weights.iter().enumerate() {

@@ -30,6 +30,7 @@ pub fn second_derivative(xi: f64, length: f64) -> [f64; 4] {
 }
 
 /// Returns a nodal vector at a point of an element.
+#[inline]
 pub(crate) fn combine(q: &[f64], element: usize, shape: &[f64; 4]) -> Vector3<f64> {
     let d = &q[6 * element..6 * element + 12];
     let part = |x: usize| shape[0] * d[x] + shape[1] * d[3 + x] + shape[2] * d[6 + x] + shape[3] * d[9 + x];

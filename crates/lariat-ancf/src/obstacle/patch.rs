@@ -49,6 +49,7 @@ impl Default for Patch {
 
 impl Patch {
     /// Returns the gap and the outward normal at a point in the obstacle's axes.
+    #[inline]
     pub(crate) fn gap(&self, y: &Vector3<f64>) -> (f64, Vector3<f64>) {
         match *self {
             Patch::Plane { point, normal } => (normal.dot(&(y - point)), normal),

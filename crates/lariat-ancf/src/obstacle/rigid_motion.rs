@@ -12,6 +12,7 @@ pub(crate) struct Pose {
 
 impl Pose {
     /// Returns a point of the world in the body's axes.
+    #[inline]
     pub fn own(&self, x: &Vector3<f64>) -> Vector3<f64> {
         self.rotation.tr_mul(&(x - self.position))
     }
@@ -54,6 +55,7 @@ impl RigidMotion {
         RigidMotion { position: position.into(), ..Self::default() }
     }
 
+    #[inline]
     pub(crate) fn pose(&self, time: f64) -> Pose {
         let t = time - self.start;
         let turned = if self.angular_velocity == Vector3::zeros() {

@@ -62,6 +62,7 @@ pub trait Surface: Debug + Send + Sync {
 impl Feature {
     /// Returns the patch that a point nearest to the core sees, and the vector from the core to it; `None` if the nearest point of a
     /// segment is an end, which belongs to another feature.
+    #[inline]
     pub(crate) fn patch(&self, point: &Vector3<f64>) -> Option<(Patch, Vector3<f64>)> {
         let radius = self.radius;
         match self.shape {
@@ -82,6 +83,7 @@ impl Feature {
     }
 
     /// Returns the point of the core that is nearest to a point, ends included.
+    #[inline]
     pub(crate) fn core(&self, point: &Vector3<f64>) -> Vector3<f64> {
         match self.shape {
             FeatureShape::Point(p) => p,
@@ -97,6 +99,7 @@ impl Feature {
     }
 
     /// Returns the square of the distance of a point from the core, ends included.
+    #[inline]
     pub(crate) fn distance_squared(&self, point: &Vector3<f64>) -> f64 {
         (point - self.core(point)).norm_squared()
     }
