@@ -72,9 +72,10 @@ impl Cable {
 
     /// Returns the contacts with other cables and with itself at the end of the last step. A contact of two cables is with the one of the lower key.
     pub fn cable_contacts(&self) -> impl Iterator<Item = PairTouch> {
-        self.snapshot.state.memory.pairs.iter().map(|PairMemory { contact, arcs }| PairTouch {
+        let now = self.snapshot.passed_at_start();
+        self.snapshot.state.memory.pairs.iter().map(move |PairMemory { contact, arcs, passed }| PairTouch {
             other: contact.obstacle,
-            arc_length: arcs[0],
+            arc_length: arcs[0] + (now - passed[0]),
             other_arc_length: arcs[1],
             normal: contact.direction,
             normal_force: contact.force,

@@ -23,6 +23,9 @@ impl Cable {
         for (e, element) in self.elements().iter().enumerate() {
             let begin = from;
             from += element.length;
+            if self.model.is_at_eye(e) {
+                continue;
+            }
             let radius = contact.radius_of(&element.section);
             let middle = combine(q, e, &shape::position(0.5, element.length));
             for obstacle in self.obstacles().iter().filter(|obstacle| obstacle.mount.is_none()) {
@@ -80,6 +83,11 @@ impl Cable {
                 }
             };
             for (e, element) in self.elements().iter().enumerate() {
+                if self.model.is_at_eye(e) {
+                    end(&mut deepest, held);
+                    (held, begin) = (false, begin + element.length);
+                    continue;
+                }
                 let radius = contact.radius_of(&element.section);
                 let last = usize::from(e + 1 == self.elements().len());
                 for i in 0..POINTS + last {

@@ -50,6 +50,9 @@ impl ContactStep {
         for (element, section) in motion.model.elements.iter().enumerate() {
             let from = begin;
             begin += section.length;
+            if motion.model.is_at_eye(element) {
+                continue;
+            }
             let (centre, size, way) = bounding_ball(motion, element, section.length);
             let radius = contact.radius_of(&section.section);
             for (number, obstacle) in obstacles.iter().enumerate() {
@@ -87,7 +90,7 @@ impl ContactStep {
 
     /// Adds the samples of an element that are near an obstacle.
     fn add_samples(&mut self, pair: &Pair<'_>) {
-        for (place, xi, weight) in samples(pair.contact, &pair.motion.model.elements, pair.element) {
+        for (place, xi, weight) in samples(pair.contact, pair.motion.model, pair.element) {
             if pair.is_apart(xi) {
                 continue;
             }

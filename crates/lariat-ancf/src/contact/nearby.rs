@@ -26,7 +26,12 @@ impl Nearby {
             let element = self.element.checked_sub(1)?;
             (element, self.from - elements[element].length)
         };
-        (element < elements.len()).then_some(Nearby { element, from, start: None, ..*self })
+        (element < elements.len() && !motion.model.is_at_eye(element)).then_some(Nearby {
+            element,
+            from,
+            start: None,
+            ..*self
+        })
     }
 
     /// Returns whether it is the same element and feature.

@@ -8,6 +8,7 @@ use super::point::ContactPoint;
 use crate::effect::Contact;
 use crate::element::shape;
 use crate::element::shape::combine;
+use crate::model::Model;
 use crate::obstacle::Obstacle;
 use crate::obstacle::{Feature, Nearest};
 use crate::section::Element;
@@ -39,15 +40,13 @@ const SECTIONS: usize = 32;
 
 /// Returns the samples of an element: number, local coordinate, and the length that it stands for. A node stands for parts of both of its elements, that of the one
 /// before by its stiffness.
-pub(super) fn samples(
-    contact: &Contact,
-    elements: &[Element],
-    element: usize,
-) -> impl Iterator<Item = (u32, f64, f64)> {
+pub(super) fn samples(contact: &Contact, model: &Model, element: usize) -> impl Iterator<Item = (u32, f64, f64)> {
+    let elements = &model.elements;
     let own = elements[element];
     let stiffness = |element: &Element| contact.stiffness_of(&element.section);
-    let before = element.checked_sub(1).map_or(0.0, |e| elements[e].length * stiffness(&elements[e]) / stiffness(&own));
-    let last = element + 1 == elements.len();
+    let neighbour = element.checked_sub(1).filter(|_| !model.begins_contact(element));
+    let before = neighbour.map_or(0.0, |e| elements[e].length * stiffness(&elements[e]) / stiffness(&own));
+    let last = model.ends_contact(element);
     let own_samples = SAMPLES.into_iter().enumerate().take(if last { SAMPLES.len() } else { SAMPLES.len() - 1 });
     own_samples.map(move |(place, (xi, share))| {
         let length = if place == 0 { own.length + before } else { own.length };
@@ -176,7 +175,7 @@ impl Pair<'_> {
             let slope = start.rotation.tr_mul(&first(3)).lerp(&end.rotation.tr_mul(&last(3)), share);
             (y - feature.core(&y)).dot(&slope)
         };
-        let last = self.motion.model.elements.len() - 1;
+        let model = self.motion.model;
         let mut best: Option<(f64, f64)> = None;
         let mut d = [0.0; INTERVALS + 1];
         for (i, d) in d.iter_mut().enumerate() {
@@ -189,9 +188,9 @@ impl Pair<'_> {
             }
             let falls = |node: usize| growth(node) <= 0.0;
             let xi = match i {
-                0 if !falls(e) && e > 0 => continue,
+                0 if !falls(e) && !model.begins_contact(e) => continue,
                 0 if !falls(e) => 0.0,
-                INTERVALS if falls(e + 1) && e < last => continue,
+                INTERVALS if falls(e + 1) && !model.ends_contact(e) => continue,
                 INTERVALS if falls(e + 1) => 1.0,
                 _ => golden_section(&distance, low as f64 / INTERVALS as f64, high as f64 / INTERVALS as f64),
             };

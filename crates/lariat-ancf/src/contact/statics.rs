@@ -216,6 +216,9 @@ impl StaticContact {
         for (element, section) in model.elements.iter().enumerate() {
             let from = begin;
             begin += section.length;
+            if model.is_at_eye(element) {
+                continue;
+            }
             let (radius, law) = (contact.radius_of(&section.section), NormalLaw::of(&contact, &section.section));
             let law = if self.depth > 0.0 { law.softened(self.load, self.depth) } else { law };
             let third = section.length / 3.0;
@@ -229,7 +232,7 @@ impl StaticContact {
                 if obstacle.surface.nearest(&own(obstacle, self.time, &centre).0).distance > size + reach {
                     continue;
                 }
-                for (place, xi, weight) in samples(&contact, &model.elements, element) {
+                for (place, xi, weight) in samples(&contact, model, element) {
                     let at = from + xi * section.length;
                     let held = self.held.iter().any(|(k, [low, high])| *k == i && (*low..=*high).contains(&at));
                     if held || obstacle.excepts(at) {

@@ -139,6 +139,21 @@ impl Model {
         unreachable!("a cable has at least one element")
     }
 
+    /// Returns whether an element is at the eye of a reel, where material flows: it touches nothing.
+    pub(crate) fn is_at_eye(&self, element: usize) -> bool {
+        self.reels.sides().any(|side| side.element(self.elements.len()) == element)
+    }
+
+    /// Returns whether contact begins with an element: it is the first, or behind one at an eye.
+    pub(crate) fn begins_contact(&self, element: usize) -> bool {
+        element == 0 || self.is_at_eye(element - 1)
+    }
+
+    /// Returns whether contact ends with an element.
+    pub(crate) fn ends_contact(&self, element: usize) -> bool {
+        element + 1 == self.elements.len() || self.is_at_eye(element + 1)
+    }
+
     /// The support of a node, if any.
     pub(crate) fn support(&self, node: usize) -> Option<&Support> {
         self.supports.iter().find(|(n, _)| *n == node).map(|(_, s)| s)

@@ -73,6 +73,9 @@ pub struct PairMemory {
     pub(crate) contact: ContactMemory,
     /// Arc lengths in m along this cable and the other one.
     pub(crate) arcs: [f64; 2],
+    /// Lengths in m that had come through the eye of a reel at the start of each: arc lengths of all material have grown by them.
+    #[serde(default)]
+    pub(crate) passed: [f64; 2],
 }
 
 impl PairMemory {
@@ -83,7 +86,10 @@ impl PairMemory {
 
     pub(crate) fn check(&self, elements: usize) -> Result<(), Error> {
         self.contact.check(elements)?;
-        self.arcs.into_iter().try_for_each(|x| require("arc length of a contact", x, true, "a number"))
+        self.arcs
+            .into_iter()
+            .chain(self.passed)
+            .try_for_each(|x| require("arc length of a contact", x, true, "a number"))
     }
 }
 

@@ -14,4 +14,5 @@ mod remesh;
 mod sheaves;
 mod slack;
 mod state;
+mod touch;
 mod weakened;

@@ -16,7 +16,8 @@
 //! the eye is held by a support, or by an attachment to a body. On a body that moves freely the stock rides with it, as a point mass at the
 //! eye beside the body's own mass; [`Reel::stock`] says how much there is, and energy and momentum of the cable include it. That takes
 //! the discrete gradient. Implicit methods only. Gravity, internal damping, a uniform rest stretch, drag, buoyancy and line loads on all of the
-//! cable act on the element at the eye, stock at most weighs (less buoyancy); other effects are refused ([`Error::NotWithReel`]).
+//! cable act on the element at the eye, stock at most weighs (less buoyancy); other effects are refused ([`Error::NotWithReel`]). Contact acts on
+//! all other elements: the one at the eye goes into the device, and touches nothing.
 //!
 //! # Alternatives considered
 //!
@@ -261,7 +262,6 @@ impl Model {
         let refused = [
             ("a sampled flow", self.effects.drag.as_ref().is_some_and(|drag| !drag.flow.samples.is_empty())),
             ("added mass", self.effects.buoyancy.is_some_and(|buoyancy| buoyancy.added_mass > 0.0)),
-            ("contact", self.effects.contact.is_some()),
             (
                 "line loads on a part of the cable",
                 self.effects.line_loads.as_ref().is_some_and(|loads| !loads.are_whole()),

@@ -22,6 +22,7 @@
 //!
 //! # Validity
 //!
+//! Contacts are of elements that are not at an eye: those of one that comes to it are forgotten, and their energy is lost.
 //! A node that is held, or before an element with a point load or of another section, is not merged away: the reel stops before it.
 //!
 //! # Alternatives considered
@@ -38,7 +39,7 @@ use crate::element::side::Side;
 use crate::error::Error;
 use crate::quadrature::gauss_legendre;
 use crate::section::Element;
-use crate::state::Differences;
+use crate::state::{ContactMemory, Differences};
 use crate::system::project_vector;
 use nalgebra::Vector3;
 
@@ -152,8 +153,33 @@ impl Cable {
         memory.acceleration.clear();
         memory.algorithmic.clear();
         let (step, differences) = (memory.step, core::mem::take(&mut memory.differences));
+        let (contacts, pairs) = (core::mem::take(&mut memory.contacts), core::mem::take(&mut memory.pairs));
         self.disturb();
         let memory = &mut self.snapshot.state.memory;
+        let moved = |contact: &ContactMemory| match side {
+            Side::End => Some(contact.element as usize).filter(|&e| e < inner),
+            Side::Start => (contact.element as usize).checked_sub(removed).map(|e| e + elements.len()),
+        };
+        let mut lost = 0.0;
+        for mut contact in contacts {
+            match moved(&contact) {
+                Some(element) => {
+                    contact.element = element as u32;
+                    memory.contacts.push(contact);
+                }
+                None => lost += contact.energy,
+            }
+        }
+        for mut pair in pairs {
+            match moved(&pair.contact) {
+                Some(element) => {
+                    pair.contact.element = element as u32;
+                    memory.pairs.push(pair);
+                }
+                None => lost += pair.contact.energy,
+            }
+        }
+        self.snapshot.law.contacts += lost;
         // the length of steps is still a good proposal
         memory.step = step;
         if let Some([displacement, velocity]) = changes {

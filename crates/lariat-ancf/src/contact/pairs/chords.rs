@@ -37,6 +37,8 @@ pub(crate) struct Strand<'a> {
     /// Change of the coordinates in the present iterate.
     pub change: &'a [f64],
     pub memory: &'a [PairMemory],
+    /// Length in m that came through the eye of a reel at the start: arc lengths of all material have grown by it.
+    pub passed: f64,
 }
 
 /// An element of a strand, at a share of the step.
@@ -101,8 +103,9 @@ pub(super) fn refine(a: &Piece<'_>, chord: usize, b: &Piece<'_>, from: [f64; 2],
     let n = a.chords as f64;
     let (low, high) = (chord as f64 / n, (chord + 1) as f64 / n);
     let middle = 0.5 * (low + high);
-    let is_last = b.element + 1 == b.strand.model.elements.len();
-    let (first, last) = (if b.element == 0 { 0.0 } else { -1.0 }, if is_last { 1.0 } else { 2.0 });
+    let is_last = b.strand.model.ends_contact(b.element);
+    let (first, last) =
+        (if b.strand.model.begins_contact(b.element) { 0.0 } else { -1.0 }, if is_last { 1.0 } else { 2.0 });
     for _ in 0..REFINEMENTS {
         let (u, v) = (a.slope(x, share), b.slope(y, share));
         let w = a.at(x, share) - b.at(y, share);

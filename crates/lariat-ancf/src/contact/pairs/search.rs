@@ -164,6 +164,10 @@ impl Search {
             let Some(contact) = strand.model.effects.contact.filter(|_| strands.may_touch(c)) else { continue };
             let mut from = 0.0;
             for (e, element) in strand.model.elements.iter().enumerate() {
+                if strand.model.is_at_eye(e) {
+                    from += element.length;
+                    continue;
+                }
                 let radius = contact.radius_of(&element.section);
                 let third = element.length / 3.0;
                 let corners = |start: bool| {
@@ -232,7 +236,7 @@ impl Search {
             nodes.extend((0..=piece.chords).map(|i| piece.place(i as f64 / piece.chords as f64)));
         }
         // where the chord before the first one of b begins
-        let before = (second.element > 0).then(|| {
+        let before = (!b.strand.model.begins_contact(second.element)).then(|| {
             let piece = Piece::new(b.strand, b.element - 1);
             piece.place((piece.chords - 1) as f64 / piece.chords as f64)
         });
@@ -268,7 +272,7 @@ impl Search {
                     continue;
                 }
                 // of two chords that share the closest point on b, one has it
-                let last = second.element + 1 == b.strand.model.elements.len() && j + 1 == b.chords;
+                let last = b.strand.model.ends_contact(second.element) && j + 1 == b.chords;
                 if t >= 1.0 && !last {
                     continue;
                 }
@@ -300,7 +304,9 @@ impl Search {
                 }
                 // beside a crossing the end of a chord is no place of contact
                 let slope = a.slope(xi[0], share);
-                let is_tip = arcs[0] <= 0.0 || xi[0] >= 1.0 && first.element + 1 == a.strand.model.elements.len();
+                let model = a.strand.model;
+                let is_tip = xi[0] <= 0.0 && model.begins_contact(first.element)
+                    || xi[0] >= 1.0 && model.ends_contact(first.element);
                 if !is_tip && y.dot(&slope).abs() > TILT * y.norm() * slope.norm() {
                     continue;
                 }

@@ -179,10 +179,12 @@ impl PairStep {
     fn recall(&mut self, strands: &Strands<'_, '_>, candidate: &Candidate, way: f64) -> Option<ContactMemory> {
         let [a, b] = candidate.strands;
         let key = (strands.get)(b).key;
+        let arcs = [0, 1].map(|k| candidate.arcs[k] - (strands.get)(candidate.strands[k]).passed);
         let limit = HAND_ON * candidate.reach + 2.0 * way;
         let mut best: Option<(f64, usize)> = None;
         for (i, memory) in (strands.get)(a).memory.iter().enumerate() {
-            let apart = (memory.arcs[0] - candidate.arcs[0]).abs() + (memory.arcs[1] - candidate.arcs[1]).abs();
+            let of = |k: usize| (memory.arcs[k] - memory.passed[k] - arcs[k]).abs();
+            let apart = of(0) + of(1);
             let may = memory.contact.obstacle == key && !self.taken[a][i] && apart < limit;
             if may && best.is_none_or(|(least, _)| apart < least) {
                 best = Some((apart, i));
@@ -242,14 +244,16 @@ impl PairStep {
         sum
     }
 
-    /// Remembers the contacts of a strand that touch at the end of the step.
-    pub fn remember(&self, strand: usize, memory: &mut Vec<PairMemory>) {
+    /// Remembers the contacts of a strand that touch at the end of the step; `passed` is the length in m that came through the eye at the start of one.
+    pub fn remember(&self, strand: usize, passed: impl Fn(usize) -> f64, memory: &mut Vec<PairMemory>) {
         memory.clear();
         let touching =
             self.points.iter().filter(|pair| pair.ends[0].strand == strand && pair.point.now.normal_force > 0.0);
-        memory.extend(
-            touching.map(|pair| PairMemory { contact: in_world_axes(pair), arcs: pair.ends.map(|end| end.arc) }),
-        );
+        memory.extend(touching.map(|pair| PairMemory {
+            contact: in_world_axes(pair),
+            arcs: pair.ends.map(|end| end.arc),
+            passed: pair.ends.map(|end| passed(end.strand)),
+        }));
     }
 }
 

@@ -82,7 +82,8 @@ fn with_strands<T>(
         let Cable { model, snapshot, step_buffers, .. } = &*cables[c];
         let state = &snapshot.state;
         let key = if model.contact_key == 0 { c as u64 } else { model.contact_key };
-        Strand { key, model, q: &state.q, change: &step_buffers.change, memory: &state.memory.pairs }
+        let passed = snapshot.passed_at_start();
+        Strand { key, model, q: &state.q, change: &step_buffers.change, memory: &state.memory.pairs, passed }
     };
     let over_bodies = |strands: [usize; 2], arcs: [f64; 2]| {
         let on = |k: usize| {
@@ -191,8 +192,11 @@ impl IslandStep<'_, '_> {
 
     /// Remembers those that touch at the end of the step.
     pub(super) fn remember_pairs(&mut self) {
-        for (c, cable) in self.cables.iter_mut().enumerate() {
-            self.buffers.pairs.remember(c, &mut cable.snapshot.state.memory.pairs);
+        let (cables, pairs) = (&mut *self.cables, &self.buffers.pairs);
+        for c in 0..cables.len() {
+            let mut memory = core::mem::take(&mut cables[c].snapshot.state.memory.pairs);
+            pairs.remember(c, |other| cables[other].snapshot.passed_at_start(), &mut memory);
+            cables[c].snapshot.state.memory.pairs = memory;
         }
     }
 
