@@ -43,11 +43,11 @@ pub(crate) use unknowns::Unknowns;
 pub(crate) use wheel::{STOP, Wheel};
 
 use super::System;
-use super::elements::with_bending;
+use super::elements::Elements;
 use crate::effect::acts::{ForceInput, Single};
 use crate::element::flow::{Extent, FlowElement};
 use crate::element::gram::{Control, gram};
-use crate::element::kernel::{ElementState, GramState, Kernel, NoEffects, Stiffness, energy};
+use crate::element::kernel::{ElementState, GramState, Kernel, Stiffness, energy};
 use crate::element::side::Side;
 use crate::linalg::BlockTridiagonal;
 use crate::model::Model;
@@ -348,7 +348,7 @@ impl System {
     fn flow_energy(&self, model: &Model, flow: &Flow, d: &Control<f64>, length: f64) -> (f64, f64) {
         let stiffness = flow.stiffness(model, length);
         let elements = &self.forces.elements;
-        let own = with_bending!(&elements.bending, bending => energy(&elements.table, bending, stiffness, d));
+        let own = energy(&elements.table, &elements.bending, stiffness, d);
         let state = GramState { table: &elements.table, stiffness, g: gram(d), rates: None };
         let e = flow.element(model);
         let of_effects = self.forces.in_element.as_ref().map_or((0.0, 0.0), |effects| effects.energy(e, &state));
@@ -374,11 +374,9 @@ impl System {
 
     /// Returns the forces that oppose changes of the control vectors of an element.
     fn flow_gradient(&self, element: usize, state: &ElementState<f64>) -> Control<f64> {
-        let table = &self.forces.elements.table;
-        with_bending!(&self.forces.elements.bending, bending => match &self.forces.in_element {
-            None => Kernel { table, bending, effects: &NoEffects }.force(state, &NoEffects),
-            Some(effects) => Kernel { table, bending, effects }.force(state, &Single(element)),
-        })
+        let Elements { table, bending, .. } = &self.forces.elements;
+        let effects = &self.forces.in_element.as_ref();
+        Kernel { table, bending, effects }.force(state, &Single(element))
     }
 }
 
