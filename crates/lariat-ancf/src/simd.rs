@@ -5,47 +5,61 @@
 //!
 //! # Alternatives considered
 //!
-//! A copy of the kernels for SSE4.2 too: its instructions on `f64` are those of SSE2 but for rounding and selection, so it costs time
-//! to compile and saves none.
+//! - A copy of the kernels for SSE4.2 too: its instructions on `f64` are those of SSE2 but for rounding and selection, so it costs time
+//!   to compile and saves none.
+//! - A loop over elements for each bending rule, which is compiled at each level: the rules are chosen within the loop, so that they add
+//!   to the code and do not multiply it.
+//! - Closures and `map` within kernels: the compiler does not inline them into a function of another level, so each call goes through
+//!   memory.
 
 use fearless_simd::{Simd, SimdBase, f64x8};
 
 /// Elements evaluated together.
 pub(crate) const LANES: usize = 8;
 
-/// Runs an expression with `$simd` bound to the token of a level's instructions: AVX-512, AVX2 and SSE2 on x86-64.
+/// Runs an expression with the instructions of a level: AVX-512, AVX2 or SSE2 on x86-64, with `$simd` bound to its token. An expression
+/// that takes no token has no lanes of its own; AVX-512 would not make it faster, so it is compiled for AVX2 and SSE2.
 #[cfg(target_arch = "x86_64")]
 macro_rules! dispatch {
     ($level:expr, $simd:ident => $body:expr) => {
         match $level {
-            fearless_simd::Level::Avx512($simd) => fearless_simd::Simd::vectorize(
-                $simd,
-                #[inline(always)]
-                || $body,
-            ),
-            fearless_simd::Level::Avx2($simd) => fearless_simd::Simd::vectorize(
-                $simd,
-                #[inline(always)]
-                || $body,
-            ),
+            fearless_simd::Level::Avx512($simd) => crate::simd::with_instructions!($simd => $body),
+            fearless_simd::Level::Avx2($simd) => crate::simd::with_instructions!($simd => $body),
             other => {
                 let $simd = other.as_sse2().expect("every x86-64 processor has SSE2");
-                fearless_simd::Simd::vectorize(
-                    $simd,
-                    #[inline(always)]
-                    || $body,
-                )
+                crate::simd::with_instructions!($simd => $body)
             }
         }
+    };
+    ($level:expr => $body:expr) => {
+        match $level.as_avx2() {
+            Some(simd) => crate::simd::with_instructions!(simd => $body),
+            None => $body,
+        }
+    };
+}
+
+/// Runs an expression in a function of its own with the instructions of a token.
+#[cfg(target_arch = "x86_64")]
+macro_rules! with_instructions {
+    ($simd:ident => $body:expr) => {
+        fearless_simd::Simd::vectorize(
+            $simd,
+            #[inline(always)]
+            || $body,
+        )
     };
 }
 
 #[cfg(not(target_arch = "x86_64"))]
 macro_rules! dispatch {
     ($level:expr, $simd:ident => $body:expr) => { fearless_simd::dispatch!($level, $simd => $body) };
+    ($level:expr => $body:expr) => { fearless_simd::dispatch!($level, _ => $body) };
 }
 
 pub(crate) use dispatch;
+#[cfg(target_arch = "x86_64")]
+pub(crate) use with_instructions;
 
 /// Eight consecutive values from `first` on.
 #[inline(always)]

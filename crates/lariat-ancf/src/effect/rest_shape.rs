@@ -372,8 +372,8 @@ impl<T: Real> NaturalCurvature<T> {
             at.add_gradient(first, &mut sum.n);
             // with the bending rule's own share not below zero: across the curvature, and along it
             let own = flexural * point.weight;
-            let positive = |x: T| (x + x.abs()) * 0.5 - own;
-            let (across, along) = (positive(first + own), positive(first * self.rounding / square + own));
+            let (across, along) = (first + own, first * self.rounding / square + own);
+            let (across, along) = ((across + across.abs()) * 0.5 - own, (along + along.abs()) * 0.5 - own);
             at.add_gradient(across, &mut tangent.geometric);
             point.add_second(g, &at, across, &mut tangent.h);
             at.add_square((along - across) * 0.5 / (at.w + NOISE), &mut tangent.h);

@@ -29,6 +29,7 @@ pub struct Stiffness<T> {
 pub type Blocks<T> = [[[T; 3]; 3]; 6];
 
 /// Axial and bending energy in J.
+#[inline]
 pub fn energy<B: Bending>(table: &AxialTable, bending: &B, stiffness: Stiffness<f64>, d: &Control<f64>) -> (f64, f64) {
     let g = gram(d);
     (0.5 * stiffness.axial * table.energy(&g), stiffness.bending * bending.energy(&g))
@@ -144,6 +145,35 @@ pub(crate) trait DiscreteGradientForce {
 
     /// Adds f_0^2 - 1, f_0 the stretch without stress.
     fn add_rest_strain<T: Real, L: Load<T>>(&self, from: &L, strain: &mut T);
+}
+
+impl<E: GramForce> GramForce for Option<&E> {
+    #[inline(always)]
+    fn needs_rates(&self) -> bool {
+        match self {
+            Some(effects) => effects.needs_rates(),
+            None => false,
+        }
+    }
+    #[inline(always)]
+    fn add_gradient<T: Real, L: Load<T>>(&self, at: &GramState<'_, T>, from: &L, sum: &mut Gradient<T>) {
+        if let Some(effects) = self {
+            effects.add_gradient(at, from, sum);
+        }
+    }
+    #[inline(always)]
+    fn add_hessian<T: Real, L: Load<T>>(
+        &self,
+        at: &GramState<'_, T>,
+        rate: f64,
+        from: &L,
+        sum: &mut Gradient<T>,
+        tangent: &mut Hessian<T>,
+    ) {
+        if let Some(effects) = self {
+            effects.add_hessian(at, rate, from, sum, tangent);
+        }
+    }
 }
 
 /// No effect: no code runs.

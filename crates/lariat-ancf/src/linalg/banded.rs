@@ -25,7 +25,8 @@ use super::block::BlockTridiagonal;
 use super::equilibrate::{check_finite, equilibrate, for_lower_triangle};
 use super::inertia;
 use super::outcome::{Definiteness, Reason, SingularMatrix};
-use fearless_simd::{Level, dispatch};
+use crate::simd::dispatch;
+use fearless_simd::Level;
 
 /// Number of diagonals below the main one.
 const BELOW: usize = 11;
@@ -128,7 +129,7 @@ impl Banded {
         check_finite(a)?;
         equilibrate(a, &mut self.scale, &mut self.exponents, &mut self.largest)?;
         let (largest, norm) = self.assemble(a);
-        dispatch!(level, _ => eliminate(&mut self.columns, &mut self.exchanged));
+        dispatch!(level => eliminate(&mut self.columns, &mut self.exchanged));
         let unusable = |c: &Column| c[ABOVE] == 0.0 || !c[ABOVE].is_finite();
         if let Some(j) = self.columns.iter().position(unusable) {
             let zero = self.columns[j][ABOVE] == 0.0;
@@ -192,7 +193,7 @@ impl Banded {
     pub(super) fn solve(&self, level: Level, rhs: &mut [f64]) {
         let scale = |x: &mut [f64]| x.iter_mut().zip(&self.scale).for_each(|(v, s)| *v *= s);
         scale(rhs);
-        dispatch!(level, _ => substitute(&self.columns, &self.exchanged, rhs));
+        dispatch!(level => substitute(&self.columns, &self.exchanged, rhs));
         scale(rhs);
     }
 
@@ -207,7 +208,7 @@ impl Banded {
     fn inverse_norm(&mut self, level: Level) -> f64 {
         let n = self.columns.len();
         let Self { columns, exchanged, work: [x, y, z], .. } = self;
-        let solve = |x: &mut [f64]| dispatch!(level, _ => substitute(columns, exchanged, x));
+        let solve = |x: &mut [f64]| dispatch!(level => substitute(columns, exchanged, x));
         let one_norm = |v: &[f64]| v.iter().fold(0.0, |s, v| s + v.abs());
         // a vector of alternating signs covers cases that the iteration misses
         y.clear();

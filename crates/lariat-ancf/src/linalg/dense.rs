@@ -16,7 +16,8 @@
 //! nalgebra's Cholesky: its products choose kernels at run time, with other bits on other machines.
 
 use super::outcome::{Reason, SingularMatrix};
-use fearless_simd::{Level, dispatch};
+use crate::simd::dispatch;
+use fearless_simd::Level;
 
 /// Share of its diagonal entry above which a pivot needs no exchange.
 const MIN_PIVOT_SHARE: f64 = 1e-3;
@@ -71,7 +72,7 @@ impl Dense {
             let end = (k + 1..n).rev().find(|i| f[i * n + k] != 0.0).map_or(k + 1, |last| last + 1);
             self.column.clear();
             self.column.extend((k + 1..end).map(|i| f[i * n + k]));
-            dispatch!(level, _ => eliminate(&mut f[(k + 1) * n..end * n], (n, k), &self.column, pivot));
+            dispatch!(level => eliminate(&mut f[(k + 1) * n..end * n], (n, k), &self.column, pivot));
         }
         Ok(())
     }

@@ -24,7 +24,8 @@ use super::block::BlockTridiagonal;
 use super::outcome::{Definiteness, SingularMatrix};
 use super::substitution;
 use super::twisted::{self, Node};
-use fearless_simd::{Level, dispatch};
+use crate::simd::dispatch;
+use fearless_simd::Level;
 
 /// Which factors are in the buffers.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

@@ -109,15 +109,26 @@ pub(super) fn diagonal<S: Simd>(simd: S, columns: &Columns<S>) -> f64x8<S> {
 /// Returns A x, the sum of the columns times x_j, added pairwise.
 #[inline(always)]
 pub(super) fn columns_times<S: Simd>(simd: S, columns: &Columns<S>, x: f64x8<S>) -> f64x8<S> {
-    let p = |j: usize| columns[j] * splat(simd, x[j]);
-    ((p(0) + p(1)) + (p(2) + p(3))) + (p(4) + p(5))
+    let mut p = *columns;
+    for j in 0..6 {
+        p[j] = columns[j] * splat(simd, x[j]);
+    }
+    ((p[0] + p[1]) + (p[2] + p[3])) + (p[4] + p[5])
 }
 
 /// Returns A^T x for a block given by columns: lane j is the dot product of column j with x.
 #[inline(always)]
 pub(super) fn transpose_dots<S: Simd>(columns: &Columns<S>, x: f64x8<S>) -> f64x8<S> {
-    let fold = |a: f64x8<S>, b: f64x8<S>| a.unzip_low(b) + a.unzip_high(b);
-    let p = |j: usize| columns[j] * x;
-    let (p01, p23, p45) = (fold(p(0), p(1)), fold(p(2), p(3)), fold(p(4), p(5)));
+    let mut p = *columns;
+    for j in 0..6 {
+        p[j] = columns[j] * x;
+    }
+    let (p01, p23, p45) = (fold(p[0], p[1]), fold(p[2], p[3]), fold(p[4], p[5]));
     fold(fold(p01, p23), fold(p45, p45))
+}
+
+/// Returns the sums of neighbours in `a`, then those in `b`.
+#[inline(always)]
+fn fold<S: Simd>(a: f64x8<S>, b: f64x8<S>) -> f64x8<S> {
+    a.unzip_low(b) + a.unzip_high(b)
 }

@@ -22,7 +22,8 @@
 //! - The explicit inverse: it is dense.
 
 use super::outcome::{Reason, SingularMatrix};
-use fearless_simd::{Level, Simd, dispatch, f64x4, prelude::*};
+use crate::simd::dispatch;
+use fearless_simd::{Level, Simd, f64x4, prelude::*};
 
 /// Mass matrix: per unknown ordering of a node r (3 numbers), t (3 numbers).
 #[derive(Clone, Debug, Default, PartialEq)]

@@ -10,7 +10,8 @@
 
 use super::block::BlockTridiagonal;
 use super::lanes::{columns_times, load_block, load_six, store_six, transpose_dots};
-use fearless_simd::{Level, Simd, dispatch};
+use crate::simd::dispatch;
+use fearless_simd::{Level, Simd};
 
 impl BlockTridiagonal {
     /// Computes y = A x; both have length 6 * nodes.

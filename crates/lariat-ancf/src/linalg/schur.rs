@@ -29,7 +29,8 @@ use super::factorisation::Factorisation;
 use super::lanes::{Columns, load, load_block, load_six, splat, store_six, transpose_dots};
 use super::substitution;
 use super::twisted::Node;
-use fearless_simd::{Level, Simd, dispatch, f64x8, prelude::*};
+use crate::simd::dispatch;
+use fearless_simd::{Level, Simd, f64x8, prelude::*};
 
 /// Number of columns in a group.
 const LANES: usize = 8;

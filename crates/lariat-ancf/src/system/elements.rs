@@ -1,5 +1,6 @@
 //! The numbers of all elements of a cable, ready for the kernels.
 
+use crate::Real;
 use crate::effect::EffectWork;
 use crate::effect::tables::ElementTables;
 use crate::element::axial::AxialTable;
@@ -7,7 +8,7 @@ use crate::element::bending::gauss::Gauss;
 use crate::element::bending::t1::T1;
 use crate::element::bending::t2::T2;
 use crate::element::bending::{Bending, NoBending};
-use crate::element::gram::{Control, gram, gram_rates};
+use crate::element::gram::{Control, Six, Upper, gram, gram_rates};
 use crate::element::kernel::{self, GramState, Stiffness};
 use crate::element::mass;
 use crate::model::Model;
@@ -32,15 +33,32 @@ pub(crate) enum BendingKernel {
 macro_rules! with_bending {
     ($bending:expr, $kernel:ident => $body:expr) => {
         match $bending {
-            crate::system::elements::BendingKernel::None($kernel) => $body,
-            crate::system::elements::BendingKernel::T1($kernel) => $body,
-            crate::system::elements::BendingKernel::T2($kernel) => $body,
-            crate::system::elements::BendingKernel::Gauss($kernel) => $body,
+            BendingKernel::None($kernel) => $body,
+            BendingKernel::T1($kernel) => $body,
+            BendingKernel::T2($kernel) => $body,
+            BendingKernel::Gauss($kernel) => $body,
         }
     };
 }
 
-pub(crate) use with_bending;
+/// The rule is chosen where it acts, once for a group of elements: a loop that was compiled for each rule would repeat all the rest.
+impl Bending for BendingKernel {
+    fn energy(&self, g: &Six<f64>) -> f64 {
+        with_bending!(self, rule => rule.energy(g))
+    }
+    #[inline(always)]
+    fn add_gradient<T: Real>(&self, g: &Six<T>, scale: T, n: &mut Six<T>) {
+        with_bending!(self, rule => rule.add_gradient(g, scale, n));
+    }
+    #[inline(always)]
+    fn add_hessian<T: Real>(&self, g: &Six<T>, scale: T, n: &mut Six<T>, h: &mut Upper<T>) {
+        with_bending!(self, rule => rule.add_hessian(g, scale, n, h));
+    }
+    #[inline(always)]
+    fn add_discrete_gradient<T: Real>(&self, g: [&Six<T>; 2], scale: T, n: &mut Six<T>) {
+        with_bending!(self, rule => rule.add_discrete_gradient(g, scale, n));
+    }
+}
 
 /// The numbers of all elements, ready for the kernels.
 #[derive(Clone, Debug)]
@@ -91,8 +109,9 @@ impl Elements {
     }
 
     /// Returns whether a bending rule runs.
+    #[inline(always)]
     pub fn bends(&self) -> bool {
-        !with_bending!(&self.bending, b => absent(b))
+        !matches!(self.bending, BendingKernel::None(_))
     }
 
     /// Returns 3/l of element `e`.
@@ -116,7 +135,8 @@ impl Elements {
         let mut sum = (0.0, 0.0);
         for e in 0..self.count {
             let (d, stiffness) = (self.control(e, q), self.stiffness(e));
-            let (axial, bending) = with_bending!(&self.bending, b => kernel::energy(&self.table, b, stiffness, &d));
+            let (axial, bending) =
+                with_bending!(&self.bending, rule => kernel::energy(&self.table, rule, stiffness, &d));
             sum = (sum.0 + axial, sum.1 + bending);
         }
         sum
@@ -149,8 +169,4 @@ impl Elements {
             effects.add_power(&self.gram_state(e, q, v), &self.control(e, v), power);
         }
     }
-}
-
-fn absent<B: Bending>(_: &B) -> bool {
-    B::ABSENT
 }

@@ -20,12 +20,12 @@
 //! [`drag`](crate::effect::drag) name.
 
 use super::System;
-use super::elements::with_bending;
+use super::elements::Elements;
 use super::forces::Forces;
 use crate::dual::{Dual, constant};
 use crate::effect::acts::{ForceInput, PointForce, Single};
 use crate::element::gram::Control;
-use crate::element::kernel::{ElementState, Kernel, NoEffects, Stiffness};
+use crate::element::kernel::{ElementState, Kernel, Stiffness};
 use crate::element::shape;
 use crate::model::Model;
 use nalgebra::{DMatrix, Vector3};
@@ -77,11 +77,8 @@ fn element_force(forces: &Forces, e: usize, time: f64, q: &[Dual; 12], v: &[Dual
     let Stiffness { axial, bending } = elements.stiffness(e);
     let stiffness = Stiffness { axial: constant(axial), bending: constant(bending) };
     let state = ElementState { stiffness, d: control(q), velocity: Some(control(v)) };
-    let table = &elements.table;
-    let f = with_bending!(&elements.bending, bending => match &forces.in_element {
-        None => Kernel { table, bending, effects: &NoEffects }.force(&state, &Single(e)),
-        Some(effects) => Kernel { table, bending, effects }.force(&state, &Single(e)),
-    });
+    let Elements { table, bending, .. } = elements;
+    let f = Kernel { table, bending, effects: &forces.in_element.as_ref() }.force(&state, &Single(e));
     let mut out = [constant(0.0); 12];
     for x in 0..3 {
         out[x] = f[1][x] * s;

@@ -187,7 +187,10 @@ fn a_reel_stops_before_what_it_cannot_swallow_and_stays_with_its_part() {
         assert!(reel.stopped && reel.rate == 0.0, "{reel:?}");
         assert_relative_eq!(reel.length_out, last + 0.4 * 0.2, epsilon = 1e-3);
         let at_eye = cable.add_load(PointLoad::force(reel.length_out - 0.01, [0.0, -5.0, 0.0]));
-        assert!(matches!(at_eye, Err(Error::NotWithReel { what: "a point load or potential on the element at the eye", .. })));
+        assert!(matches!(
+            at_eye,
+            Err(Error::NotWithReel { what: "a point load or potential on the element at the eye", .. })
+        ));
         // mass is that of the sections
         let mass = if case == "section" { 0.6 * 1.0 + 0.08 * 0.4 } else { 0.4 * reel.length_out };
         let of_elements =

@@ -172,12 +172,13 @@ impl DragTable {
             let length = load(simd, &self.length, first);
             let inverse = Lanes::splat(simd, 1.0) / length;
             let (x, w) = (self.gather(simd, first, q, length), self.gather(simd, first, v, length));
-            let [kn, kt] = [&self.normal, &self.tangential].map(|k| load(simd, k, first) * length * scale);
+            let kn = load(simd, &self.normal, first) * length * scale;
+            let kt = load(simd, &self.tangential, first) * length * scale;
             let mut force = [[zero; 3]; 4];
             let mut blocks = [[[zero; 3]; 3]; 10];
             for point in &self.points {
                 let place = combine(&x, &point.position);
-                let slope = combine(&x, &point.slope).map(|c| c * inverse);
+                let slope = times(&combine(&x, &point.slope), inverse);
                 let velocity = combine(&w, &point.position);
                 let flow = self.flow(simd, &base, first, point.xi, &place);
                 let relative = [velocity[0] - flow[0], velocity[1] - flow[1], velocity[2] - flow[2]];
@@ -220,13 +221,15 @@ impl DragTable {
         matrix: Option<&mut BlockTridiagonal>,
     ) {
         for k in [1, 3] {
-            force[k] = force[k].map(|f| f * length);
+            force[k] = times(&force[k], length);
         }
         self.scatter_force(first, force, out);
         if let Some(a) = matrix {
             for (block, (k, m)) in blocks.iter_mut().zip(PAIRS) {
                 for _ in 0..k % 2 + m % 2 {
-                    *block = block.map(|row| row.map(|x| x * length));
+                    for row in &mut *block {
+                        *row = times(row, length);
+                    }
                 }
             }
             self.scatter_matrix(first, blocks, a);
@@ -295,10 +298,7 @@ impl PointForce for DragTable {
         out: &mut [f64],
         matrix: Option<&mut BlockTridiagonal>,
     ) {
-        match matrix {
-            None => dispatch!(level, simd => self.over_step(simd, step, out, None)),
-            Some(matrix) => dispatch!(level, simd => self.over_step(simd, step, out, Some(matrix))),
-        }
+        dispatch!(level, simd => self.over_step(simd, step, out, matrix));
     }
 
     fn add_dual(&self, e: usize, time: f64, q: &[Dual; 12], v: &[Dual; 12], out: &mut [Dual; 12]) {
@@ -350,6 +350,15 @@ impl PointForce for DragTable {
 
 #[inline(always)]
 pub(super) fn combine<S: Simd>(x: &[[Lanes<S>; 3]; 4], weights: &[f64; 4]) -> [Lanes<S>; 3] {
-    let c = |c: usize| x[0][c] * weights[0] + x[1][c] * weights[1] + x[2][c] * weights[2] + x[3][c] * weights[3];
-    [c(0), c(1), c(2)]
+    let mut out = x[0];
+    for c in 0..3 {
+        out[c] = x[0][c] * weights[0] + x[1][c] * weights[1] + x[2][c] * weights[2] + x[3][c] * weights[3];
+    }
+    out
+}
+
+/// Returns `factor x`.
+#[inline(always)]
+pub(super) fn times<S: Simd>(x: &[Lanes<S>; 3], factor: Lanes<S>) -> [Lanes<S>; 3] {
+    [x[0] * factor, x[1] * factor, x[2] * factor]
 }

@@ -64,8 +64,11 @@ impl<T: Real> Split<T> {
     #[inline(always)]
     pub fn force(&self, kn: T, kt: T) -> [T; 3] {
         let (n, t) = (kn * self.size, kt * self.speed.abs() * self.speed);
-        let x = |i: usize| -(n * self.normal[i]) - t * self.along[i];
-        [x(0), x(1), x(2)]
+        let mut f = self.normal;
+        for i in 0..3 {
+            f[i] = -(n * self.normal[i]) - t * self.along[i];
+        }
+        f
     }
 
     /// Returns the symmetric matrix D of `f = -D v` for k_n and k_t, `[row][column]`.

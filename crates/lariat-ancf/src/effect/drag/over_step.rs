@@ -10,7 +10,7 @@
 //! D is positive semi-definite, so the power in a fluid at rest is never positive, at any step and any iterate, and the step matrix stays
 //! definite. At convergence w = v^ - u, and this is the force of [`drag`](super).
 
-use super::lanes::{DragTable, Lanes, PAIRS, combine};
+use super::lanes::{DragTable, Lanes, PAIRS, combine, times};
 use super::law::Split;
 use crate::effect::acts::StepInput;
 use crate::element::gram::dot;
@@ -33,21 +33,20 @@ impl DragTable {
         for first in (0..self.count).step_by(LANES) {
             let length = load(simd, &self.length, first);
             let inverse = Lanes::splat(simd, 1.0) / length;
-            let [x, about, velocity] =
-                [step.middle_before, step.velocity_before, step.velocity].map(|x| self.gather(simd, first, x, length));
-            let [kn, kt] = [&self.normal, &self.tangential].map(|k| load(simd, k, first) * length);
+            let x = self.gather(simd, first, step.middle_before, length);
+            let about = self.gather(simd, first, step.velocity_before, length);
+            let velocity = self.gather(simd, first, step.velocity, length);
+            let kn = load(simd, &self.normal, first) * length;
+            let kt = load(simd, &self.tangential, first) * length;
             let mut force = [[zero; 3]; 4];
             let mut blocks = [[[zero; 3]; 3]; 10];
             for point in &self.points {
                 let place = combine(&x, &point.position);
-                let slope = combine(&x, &point.slope).map(|c| c * inverse);
+                let slope = times(&combine(&x, &point.slope), inverse);
                 let flow = self.flow(simd, &base, first, point.xi, &place);
-                let relative = |velocity: &[[Lanes<S>; 3]; 4]| {
-                    let v = combine(velocity, &point.position);
-                    [v[0] - flow[0], v[1] - flow[1], v[2] - flow[2]]
-                };
-                let drag = Split::new(&relative(&about), &slope).resistance(kn * point.weight, kt * point.weight);
-                let v = relative(&velocity);
+                let about = relative(&combine(&about, &point.position), &flow);
+                let drag = Split::new(&about, &slope).resistance(kn * point.weight, kt * point.weight);
+                let v = relative(&combine(&velocity, &point.position), &flow);
                 let f = [dot(&drag[0], &v), dot(&drag[1], &v), dot(&drag[2], &v)];
                 for k in 0..4 {
                     for c in 0..3 {
@@ -68,4 +67,9 @@ impl DragTable {
             self.scatter_by_length(first, length, (&mut force, &mut blocks), out, matrix.as_deref_mut());
         }
     }
+}
+
+#[inline(always)]
+fn relative<S: Simd>(v: &[Lanes<S>; 3], flow: &[Lanes<S>; 3]) -> [Lanes<S>; 3] {
+    [v[0] - flow[0], v[1] - flow[1], v[2] - flow[2]]
 }

@@ -5,11 +5,11 @@ use super::flows::control;
 use crate::effect::acts::Single;
 use crate::element::flow::Extent;
 use crate::element::gram::{Control, gram};
-use crate::element::kernel::{ElementState, GramState, Kernel, NoEffects, energy};
+use crate::element::kernel::{ElementState, GramState, Kernel, energy};
 use crate::element::side::Side;
 use crate::model::Model;
 use crate::system::System;
-use crate::system::elements::with_bending;
+use crate::system::elements::Elements;
 
 impl System {
     /// Sets what depends on the lengths of the elements at eyes to `time` (s).
@@ -77,7 +77,7 @@ impl System {
     pub(super) fn flow_energy(&self, model: &Model, flow: &Flow, d: &Control<f64>, length: f64) -> (f64, f64) {
         let stiffness = flow.stiffness(model, length);
         let elements = &self.forces.elements;
-        let own = with_bending!(&elements.bending, bending => energy(&elements.table, bending, stiffness, d));
+        let own = energy(&elements.table, &elements.bending, stiffness, d);
         let state = GramState { table: &elements.table, stiffness, g: gram(d), rates: None };
         let e = flow.element(model);
         let of_effects = self.forces.in_element.as_ref().map_or((0.0, 0.0), |effects| effects.energy(e, &state));
@@ -109,10 +109,8 @@ impl System {
 
     /// Returns the forces that oppose changes of the control vectors of an element.
     pub(super) fn flow_gradient(&self, element: usize, state: &ElementState<f64>) -> Control<f64> {
-        let table = &self.forces.elements.table;
-        with_bending!(&self.forces.elements.bending, bending => match &self.forces.in_element {
-            None => Kernel { table, bending, effects: &NoEffects }.force(state, &NoEffects),
-            Some(effects) => Kernel { table, bending, effects }.force(state, &Single(element)),
-        })
+        let Elements { table, bending, .. } = &self.forces.elements;
+        let effects = &self.forces.in_element.as_ref();
+        Kernel { table, bending, effects }.force(state, &Single(element))
     }
 }

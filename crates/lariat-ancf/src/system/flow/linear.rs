@@ -54,7 +54,7 @@ struct OfLength {
 impl Equations<'_> {
     /// Linearises flow `k` about the present iterate, whose motors have been [read](Self::read_motors), and writes the column c to `out`.
     pub fn linearise_law(&mut self, k: usize, state: &State, b: &StepVectors, out: &mut Vec<f64>) {
-        dispatch!(self.system.level, _simd => self.linearise_in_lanes(k, state, b, out));
+        dispatch!(self.system.level => self.linearise_in_lanes(k, state, b, out));
     }
 
     #[inline(always)]

@@ -76,7 +76,7 @@ impl Equations<'_> {
         impulses.resize(list.len(), Impulse::default());
         for (flow, impulse) in list.iter().zip(impulses).filter(|(flow, _)| !flow.stands()) {
             let motion = StepMotion::of(flow, state, b);
-            let own = dispatch!(system.level, _simd => {
+            let own = dispatch!(system.level => {
                 // a given rate does not change within a step
                 if matrix || flow.law.is_some() || impulse.step != step {
                     *impulse = flow.impulse(model, step, false);

@@ -131,8 +131,7 @@ impl Equations<'_> {
         let rate = 1.0 / b.h;
         let [velocity, acceleration] = [change, flow.side.gather(&b.velocity_change)].map(|x| x.map(|x| rate * x));
         let (element, dead) = (flow.with(model, mean), flow.dead(model));
-        let inertial =
-            dispatch!(system.level, _simd => element.length_force([&middle, &velocity, &acceleration], &dead));
+        let inertial = dispatch!(system.level => element.length_force([&middle, &velocity, &acceleration], &dead));
         OnLength { force: elastic + inertial - flow.of_points, inertial, begin: Some(begin), end }
     }
 

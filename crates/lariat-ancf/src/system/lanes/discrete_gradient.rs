@@ -15,7 +15,8 @@
 //! sigma is the stress of the last linear solve, and before the first the stress in the middle of the step before: the strains of an
 //! iterate whose slopes have rotated are far from those of the solution.
 
-use super::{Elements, Group, MatrixOutput};
+use super::group::{Group, dispatch_groups};
+use super::{Elements, MatrixOutput};
 use crate::Real;
 use crate::effect::tables::ElementTables;
 use crate::element::bending::Bending;
@@ -25,9 +26,7 @@ use crate::element::kernel::{DiscreteGradientForce, Gradient, GramForce, GramSte
 use crate::element::step::{ElementStep, STRAIGHT, combined, product, scaled, shifted};
 use crate::linalg::Block;
 use crate::one_leg::{ALPHA, BETA};
-use crate::simd::{LANES, dispatch};
-use crate::system::elements::with_bending;
-use fearless_simd::{Level, Simd, SimdBase, f64x8};
+use fearless_simd::Level;
 
 /// A step of the coordinates of a cable.
 #[derive(Clone, Copy, Debug)]
@@ -69,9 +68,7 @@ impl Elements {
         out: &mut [f64],
         to: MatrixOutput<'_>,
     ) {
-        with_bending!(&self.bending, bending => {
-            dispatch!(level, simd => self.step_matrix_lanes(simd, bending, effects, step, out, to))
-        });
+        dispatch_groups!(level, groups => self.step_matrix_groups(groups, effects, step, out, to));
     }
 
     /// Adds h times the discrete-gradient force to `out`, and returns what the elements lose.
@@ -82,20 +79,18 @@ impl Elements {
         step: CoordinateStep<'_>,
         out: &mut [f64],
     ) -> ElementLoss {
-        with_bending!(&self.bending, bending => {
-            dispatch!(level, simd => self.discrete_gradient_lanes(simd, bending, effects, step, out))
-        })
+        dispatch_groups!(level, groups => self.discrete_gradient_groups(groups, effects, step, out))
     }
 
     #[inline(always)]
-    fn gather_step<S: Simd>(
+    fn gather_step<G: Group>(
         &self,
-        group: Group<S>,
+        group: G,
         step: CoordinateStep<'_>,
-    ) -> (ElementStep<f64x8<S>>, Stiffness<f64x8<S>>) {
-        let d = self.gather_control(group, step.start);
-        let change = self.gather_control(group, step.change);
-        let before = self.gather_control(group, step.before);
+    ) -> (ElementStep<G::Number>, Stiffness<G::Number>) {
+        let d = group.control(self, step.start);
+        let change = group.control(self, step.change);
+        let before = group.control(self, step.before);
         let stiffness =
             Stiffness { axial: group.load(&self.axial) * step.h, bending: group.load(&self.flexural) * step.h };
         (ElementStep::new(&d, &change, &before, step.kept), stiffness)
@@ -103,10 +98,10 @@ impl Elements {
 
     /// Returns the pairs of the axial rule and of the bending rule.
     #[inline(always)]
-    fn pairs<T: Real, B: Bending>(&self, bending: &B, stiffness: Stiffness<T>, s: &ElementStep<T>) -> [Six<T>; 2] {
+    fn pairs<T: Real>(&self, stiffness: Stiffness<T>, s: &ElementStep<T>) -> [Six<T>; 2] {
         let axial = self.table.gradient(&s.one_leg(ALPHA), stiffness.axial);
         let mut flexural = [stiffness.axial.splat(0.0); 6];
-        bending.add_discrete_gradient([&s.start, &s.end], stiffness.bending, &mut flexural);
+        self.bending.add_discrete_gradient([&s.start, &s.end], stiffness.bending, &mut flexural);
         [axial, flexural]
     }
 
@@ -127,21 +122,20 @@ impl Elements {
         stiffness: Stiffness<T>,
         h: f64,
     ) -> Control<T> {
-        with_bending!(&self.bending, bending => self.element_force(bending, effects, from, (step, stiffness, h)).0)
+        self.element_force(effects, from, (step, stiffness, h)).0
     }
 
     /// Returns h times the negative force on the control vectors, and h times numerical dissipation, dissipation by effects (times 1) and
     /// strain energy.
     #[inline(always)]
-    fn element_force<T: Real, B: Bending, L: Load<T>>(
+    fn element_force<T: Real, L: Load<T>>(
         &self,
-        bending: &B,
         effects: Option<&ElementTables>,
         from: &L,
         (s, stiffness, h): (&ElementStep<T>, Stiffness<T>, f64),
     ) -> (Control<T>, [T; 3]) {
         let (zero, rate) = (stiffness.axial.splat(0.0), 1.0 / h);
-        let [axial, flexural] = self.pairs(bending, stiffness, s);
+        let [axial, flexural] = self.pairs(stiffness, s);
         let mut sum = Gradient { n: combined(&axial, &flexural, 1.0), viscous: [zero; 6] };
         let mut dissipated = zero;
         if let Some(effects) = effects {
@@ -150,7 +144,7 @@ impl Elements {
         let mut force = gradient(&sum.n, &s.mean);
         let mut numerical = self.axial_square(stiffness, &s.gram_second()) * (0.5 * ALPHA);
         let mut strain = self.axial_square(stiffness, &over_straight(&s.start)) * 0.5;
-        if !B::ABSENT {
+        if self.bends() {
             let of_bending = gradient(&numerical_bending(stiffness.bending), &s.second);
             force = shifted(&force, &of_bending, 1.0);
             numerical = numerical + product(&of_bending, &s.second) * 0.5;
@@ -165,31 +159,23 @@ impl Elements {
     }
 
     #[inline(always)]
-    fn discrete_gradient_lanes<S: Simd, B: Bending>(
+    fn discrete_gradient_groups<G: Group>(
         &self,
-        simd: S,
-        bending: &B,
+        groups: G,
         effects: Option<&ElementTables>,
         step: CoordinateStep<'_>,
         out: &mut [f64],
     ) -> ElementLoss {
         let rate = 1.0 / step.h;
         let mut losses = [0.0; 3];
-        for first in (0..self.count).step_by(LANES) {
-            let group = Group { simd, first };
+        for first in (0..self.count).step_by(G::SIZE) {
+            let group = groups.at(first);
             let (s, stiffness) = self.gather_step(group, step);
-            let (force, [numerical, dissipated, strain]) =
-                self.element_force(bending, effects, &group, (&s, stiffness, step.h));
-            self.scatter_force(simd, first, &force, out);
-            let mut raw = [[0.0; LANES]; 3];
-            numerical.store_slice(&mut raw[0]);
-            dissipated.store_slice(&mut raw[1]);
-            strain.store_slice(&mut raw[2]);
-            for lane in 0..LANES.min(self.count - first) {
-                for k in 0..3 {
-                    losses[k] += raw[k][lane];
-                }
-            }
+            let (force, [numerical, dissipated, strain]) = self.element_force(effects, &group, (&s, stiffness, step.h));
+            group.add_force(self, &force, out);
+            group.add_to(self, numerical, &mut losses[0]);
+            group.add_to(self, dissipated, &mut losses[1]);
+            group.add_to(self, strain, &mut losses[2]);
         }
         // the stiffness of the lanes has the factor h; what is dissipated is a power
         let [numerical, effects, strain] = losses;
@@ -197,10 +183,9 @@ impl Elements {
     }
 
     #[inline(always)]
-    fn step_matrix_lanes<S: Simd, B: Bending>(
+    fn step_matrix_groups<G: Group>(
         &self,
-        simd: S,
-        bending: &B,
+        groups: G,
         effects: Option<&ElementTables>,
         step: CoordinateStep<'_>,
         out: &mut [f64],
@@ -208,22 +193,23 @@ impl Elements {
     ) {
         let moving = effects.is_some_and(|effects| effects.needs_rates());
         to.matrix.diag[0] = Block::ZERO;
-        for first in (0..self.count).step_by(LANES) {
-            let group = Group { simd, first };
+        for first in (0..self.count).step_by(G::SIZE) {
+            let group = groups.at(first);
             let (s, stiffness) = self.gather_step(group, step);
-            let [axial, flexural] = self.pairs(bending, stiffness, &s);
-            let mut sum = Gradient { n: combined(&axial, &flexural, 1.0), viscous: [zero(simd); 6] };
+            let [axial, flexural] = self.pairs(stiffness, &s);
+            let zero = stiffness.axial.splat(0.0);
+            let mut sum = Gradient { n: combined(&axial, &flexural, 1.0), viscous: [zero; 6] };
             if let Some(effects) = effects {
                 effects.add_discrete_gradient(&self.gram_step(stiffness, &s, step.h), &group, &mut sum);
             }
             let mut force = gradient(&sum.n, &s.mean);
-            let mut tangent = Hessian { geometric: [zero(simd); 6], h: self.table.hessian(stiffness.axial * BETA) };
+            let mut tangent = Hessian { geometric: [zero; 6], h: self.table.hessian(stiffness.axial * BETA) };
             let stress = self.mean_stress(group, effects, stiffness, step, &s);
             self.table.add_mean(stress * 0.5, &mut tangent.geometric);
-            if !B::ABSENT {
+            if self.bends() {
                 let mean = combined(&s.start, &s.gram_change, 0.5);
-                let mut unused = [zero(simd); 6];
-                bending.add_hessian(&mean, stiffness.bending * 0.5, &mut unused, &mut tangent.h);
+                let mut unused = [zero; 6];
+                self.bending.add_hessian(&mean, stiffness.bending * 0.5, &mut unused, &mut tangent.h);
                 let numerical = numerical_bending(stiffness.bending);
                 tangent.geometric = combined(&combined(&tangent.geometric, &flexural, 0.5), &numerical, 1.0);
                 force = shifted(&force, &gradient(&numerical, &s.second), 1.0);
@@ -236,12 +222,12 @@ impl Elements {
             if moving {
                 force = shifted(&force, &gradient(&sum.viscous, &s.change), 1.0 / step.h);
             }
-            self.scatter_force(simd, first, &force, out);
+            group.add_force(self, &force, out);
             let implicit = BETA * step.h;
             let geometric = scaled(&tangent.geometric, implicit);
             let mut h = tangent.h;
             for i in 0..21 {
-                h[i] *= implicit;
+                h[i] = h[i] * implicit;
             }
             let blocks = [
                 hessian_block(0, 0, &geometric, &h, &s.mean),
@@ -251,7 +237,7 @@ impl Elements {
                 hessian_block(1, 2, &geometric, &h, &s.mean),
                 hessian_block(2, 2, &geometric, &h, &s.mean),
             ];
-            self.scatter_matrix(simd, first, &blocks, to.mass_scale, to.matrix);
+            group.add_matrix(self, &blocks, to.mass_scale, to.matrix);
         }
     }
 
@@ -265,33 +251,28 @@ impl Elements {
 
     /// Returns the mean axial stress times EA l/4, not below zero.
     #[inline(always)]
-    fn mean_stress<S: Simd>(
+    fn mean_stress<G: Group>(
         &self,
-        group: Group<S>,
+        group: G,
         effects: Option<&ElementTables>,
-        stiffness: Stiffness<f64x8<S>>,
+        stiffness: Stiffness<G::Number>,
         step: CoordinateStep<'_>,
-        s: &ElementStep<f64x8<S>>,
-    ) -> f64x8<S> {
+        s: &ElementStep<G::Number>,
+    ) -> G::Number {
         let g = if step.linearised.is_empty() {
             combined(&s.start, &s.gram_before, -0.5)
         } else {
-            let about = self.gather_control(group, step.linearised);
+            let about = group.control(self, step.linearised);
             let mean = shifted(&shifted(&s.mean, &s.change, -0.5), &about, 0.5);
             let change = gram_rates(&mean, &s.change);
             combined(&combined(&s.start, &change, BETA), &s.gram_before, -ALPHA)
         };
-        let mut rest = <f64x8<S> as SimdBase<S>>::splat(group.simd, 1.0);
+        let mut rest = stiffness.axial.splat(1.0);
         if let Some(effects) = effects {
             effects.add_rest_strain(&group, &mut rest);
         }
         (form(&self.table.a, &g) - rest).at_least(0.0) * stiffness.axial
     }
-}
-
-#[inline(always)]
-fn zero<S: Simd>(simd: S) -> f64x8<S> {
-    <f64x8<S> as SimdBase<S>>::splat(simd, 0.0)
 }
 
 /// Returns the pairs of the numerical dissipation of bending: those of rule T1 times a.
