@@ -53,6 +53,8 @@ fn a_run_writes_its_probes_and_a_summary_with_every_key() {
         "rejected_steps",
         "newton_iterations",
         "factorisations",
+        "solves",
+        "divided_steps",
         "element_evaluations",
         "effect_evaluations",
         "max_gap_m",

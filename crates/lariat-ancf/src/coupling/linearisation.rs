@@ -66,6 +66,7 @@ pub trait Linearisation {
     /// [`Damping::from_ratio`]. In space a bending mode comes twice, once per plane. The curvature's time is 0 for a cable without bending.
     ///
     /// ```
+    /// # use lariat_ancf::coupling::Linearisation;
     /// # use lariat_ancf::{At, Cable, Section, Vector3};
     /// # let points = [Vector3::zeros(), Vector3::new(2.0, 0.0, 0.0)];
     /// # let mut cable = Cable::builder().points(points).section(Section::round(0.01, 1e8, 4000.0)?).clamp(At::Start).build()?;

@@ -43,6 +43,10 @@ impl CableTerms {
 impl CableAccount {
     /// Reads the cable at a host time.
     pub fn note(&mut self, cable: &Cable) {
+        // the law knows no winch, and what impacts take is in the law alone
+        if cable.has_reel() && cable.effects().contact.is_some() {
+            return self.interrupt();
+        }
         let terms = CableTerms::of(cable, &mut self.buffer);
         let now = Last { revision: cable.revision, terms, strain: terms.strain, gravity: terms.gravity };
         let Some(last) = self.last.replace(now).filter(|last| last.revision == now.revision) else { return };

@@ -8,7 +8,8 @@
 //! # Validity
 //!
 //! The energy law of the discrete gradient takes its place in a run in which all cables step by it. A body in a host step in which a collider
-//! is near it, or with a joint, takes part by what its cables do on it: what contacts and joints take is not known.
+//! is near it, or with a joint, takes part by what its cables do on it: what contacts and joints take is not known. A run with a cable that has
+//! contact and a reel is not judged: the law knows no winch, and what impacts take is in the law alone.
 
 use super::World;
 use crate::error::Error;
@@ -28,6 +29,8 @@ pub(super) struct Terms {
     pub dissipated: f64,
     /// Work on cables, but that of damping and drag.
     pub work: f64,
+    /// Whether a cable has contact and a reel: its works are not all known.
+    pub unknown: bool,
     /// Energy that the discrete gradient made, less what it lost; only if all cables step by it.
     pub by_law: Option<f64>,
     /// By how much the works may be wrong.
@@ -57,6 +60,10 @@ impl Account {
     /// [`Error::Coupling`]; not for a running scene.
     pub fn note(&mut self, world: &World) -> Result<(), Error> {
         let now = world.terms()?;
+        if now.unknown {
+            self.start = None;
+            return Ok(());
+        }
         let Account { start, last, steps_rounding, largest_rounding, balance } = self;
         let start = start.get_or_insert_with(|| {
             last.clone_from(&now);

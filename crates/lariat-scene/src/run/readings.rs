@@ -85,6 +85,7 @@ impl World {
             // impacts do no work: they take energy
             terms.work += work + dissipated - law.impacts;
             terms.uncertain += law.uncertain;
+            terms.unknown |= cable.has_reel() && cable.effects().contact.is_some();
             // the energy law of a step knows no winch
             all_by_law &= !cable.has_reel();
             terms.work += cable.reels().map(|reel| reel.work + reel.remeshed).sum::<f64>();
