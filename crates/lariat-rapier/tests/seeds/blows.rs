@@ -100,7 +100,7 @@ impl Fall {
 /// Reference: Rapier alone, in host steps that are divided into 1 to 32 as the set may do. The cable has at most a hundredth of its mass; the bound is 0.02 of the speed.
 #[test]
 fn a_body_with_a_trailing_cable_rebounds_as_alone_or_tells() {
-    judge(0..40, |seed| {
+    judge(0..40, 0.2, |seed| {
         let fall = Fall::random(seed);
         let (tied, told) = fall.run(true);
         let alone: Vec<f64> = (1..=32).map(|parts| Fall { rate: parts * fall.rate, ..fall }.run(false).0).collect();
@@ -197,7 +197,7 @@ impl Pair {
 /// Reference: the laws of conservation.
 #[test]
 fn a_struck_pair_keeps_its_momenta_or_tells() {
-    judge(0..24, |seed| {
+    judge(0..24, 0.2, |seed| {
         let pair = Pair::random(seed);
         let ([linear, angular, gained], told) = pair.run();
         let off = !(linear < 1e-4 && angular < 1e-2 && gained < 1e-2);

@@ -141,7 +141,7 @@ fn apart(boom: &Boom, run: &Run, fine: &Run, finer: usize) -> (f64, f64) {
 /// again and again without friction, and heaps of slack rope.
 #[test]
 fn a_boom_moves_as_in_fine_steps_or_tells() {
-    judge(0..8, |seed| {
+    judge(0..8, 0.2, |seed| {
         let boom = Boom::random(seed);
         let (run, fine) = (boom.run(false), boom.fine(960));
         let (off, turned) = apart(&boom, &run, &fine, 960 / boom.rate);

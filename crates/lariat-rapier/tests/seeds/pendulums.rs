@@ -130,7 +130,7 @@ where
 /// Runge-Kutta method. That of a rope without stretch, `(l^2 theta')' = -g l sin theta`, is printed beside it: its frequency is that of another length, off by half of the strain m g/EA, which adds up.
 #[test]
 fn a_body_on_a_rope_of_variable_length_follows_its_equation() {
-    judge(0..12, |seed| {
+    judge(0..12, 0.2, |seed| {
         let pendulum = Pendulum::random(seed);
         let ([error, rigid, length], told) = pendulum.run();
         let strain = pendulum.mass * G / pendulum.section.axial_stiffness;

@@ -97,7 +97,7 @@ impl Crane {
 /// Reference: the same with 960 host steps per second by poses, and an integrator that controls its error.
 #[test]
 fn the_load_of_a_slewing_crane_moves_as_in_fine_steps_or_tells() {
-    judge(0..12, |seed| {
+    judge(0..12, 0.2, |seed| {
         let crane = Crane::random(seed);
         let ((path, told), (fine, _)) = (crane.run(false), Crane { by_pose: true, rate: 960, ..crane }.run(true));
         let way = fine.iter().map(|x| (x - fine[0]).norm()).fold(0.0, f64::max);
@@ -198,7 +198,7 @@ impl Jam {
 /// Reference: the law of the rope, between where body and winch hold it.
 #[test]
 fn a_rope_jams_a_body_with_the_force_of_its_stretch_or_tells() {
-    judge(0..40, |seed| {
+    judge(0..40, 0.2, |seed| {
         let jam = Jam::random(seed);
         let (seen, expected, told) = jam.run();
         let off = !seen.iter().all(|force| (force / expected - 1.0).abs() < 0.05);
