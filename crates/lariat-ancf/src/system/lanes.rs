@@ -16,6 +16,7 @@
 //! any runs code that does not contain them.
 
 pub(crate) mod discrete_gradient;
+mod dispatch;
 mod group;
 #[cfg(target_arch = "x86_64")]
 mod one;
@@ -25,8 +26,9 @@ use crate::effect::acts::ForceInput;
 use crate::effect::tables::ElementTables;
 use crate::element::kernel::{ElementState, GramForce, Kernel, NoEffects, Stiffness};
 use crate::linalg::{Block, BlockTridiagonal};
+use dispatch::dispatch_groups;
 use fearless_simd::Level;
-use group::{Group, dispatch_groups};
+use group::Group;
 
 /// Where the tangent goes.
 pub(crate) struct MatrixOutput<'a> {

@@ -15,7 +15,8 @@
 //! sigma is the stress of the last linear solve, and before the first the stress in the middle of the step before: the strains of an
 //! iterate whose slopes have rotated are far from those of the solution.
 
-use super::group::{Group, dispatch_groups};
+use super::dispatch::dispatch_groups;
+use super::group::Group;
 use super::{Elements, MatrixOutput};
 use crate::Real;
 use crate::effect::tables::ElementTables;
