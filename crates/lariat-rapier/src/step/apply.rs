@@ -23,6 +23,7 @@ use crate::scales::body::MAX_HALF_ROTATION;
 use crate::step::groups;
 use crate::step::prediction::{AppliedMotion, BodyStep, Prediction};
 use ::nalgebra::{Vector3, Vector6};
+use rapier::dynamics::RigidBody;
 use rapier::math::Real;
 use rapier::pipeline::PhysicsWorld;
 
@@ -88,7 +89,17 @@ fn apply_prediction(world: &mut PhysicsWorld, step: &BodyStep, reaction: &Vector
         body.set_linvel(linvel, false);
         body.set_angvel(angvel, false);
     }
+    stay_awake(body, h as Real);
     applied
+}
+
+/// Keeps Rapier from putting a body to sleep within a step of `h` (s) that is longer than the time for which a body must be slow: it compares the
+/// poses before and after the step alone, and a load that swings may come back to its place. Whether it rests is decided after the step.
+fn stay_awake(body: &mut RigidBody, h: Real) {
+    let until = body.activation().time_until_sleep;
+    if h >= until {
+        body.activation_mut().time_since_can_sleep = 0.5 * until - h;
+    }
 }
 
 /// Returns the angular velocity with which Rapier rotates a body as `spin` (rad/s) would, in

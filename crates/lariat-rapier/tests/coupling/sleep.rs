@@ -141,6 +141,39 @@ fn a_slow_pendulum_does_not_fall_asleep() {
     assert!(least < -0.04, "{least}");
 }
 
+/// A swinging load does not fall asleep in host steps that are longer than the time for which Rapier wants a body to be slow, and is where short
+/// steps take it.
+///
+/// Reference: the same in steps of 1/60 s; conservation of energy.
+#[test]
+fn a_load_swings_on_in_host_steps_of_seconds() {
+    let swing = |dt: f64, every: usize| {
+        let mut world = PhysicsWorld::new();
+        world.integration_parameters.dt = dt as Real;
+        let (sine, cosine) = 0.4f64.sin_cos();
+        let end = Vector3::new(5.0 * sine, -5.0 * cosine, 0.0);
+        let load = add_cube(&mut world, 100.0, 0.1, [end.x as Real, end.y as Real - 0.1, 0.0]);
+        let mut set = CableSet::new();
+        let rope = set.insert(cable([0.0; 3], end.into(), soft()).fix(At::Start).build().unwrap());
+        set.attach(&world, rope, At::End, load, Vector::new(0.0, 0.1, 0.0), AttachmentKind::Ball).unwrap();
+        let mut path = Vec::new();
+        for k in 1..=(18.0 / dt).round() as usize {
+            set.step(&mut world).unwrap();
+            assert!(!world.bodies[load].is_sleeping() && !set.is_asleep(rope).unwrap(), "{dt} s: step {k}");
+            if k % every == 0 {
+                path.push(vector(world.bodies[load].translation()));
+            }
+        }
+        path
+    };
+    for dt in [0.45, 0.6, 1.5, 4.5] {
+        let (long, short) = (swing(dt, 1), swing(1.0 / 60.0, (60.0 * dt) as usize));
+        let apart = long.iter().zip(&short).map(|(a, b)| (a - b).norm()).fold(0.0, f64::max);
+        println!("{dt} s: {apart:.4} m");
+        assert!(long.len() == short.len() && apart < 0.05, "{dt} s: {apart} m");
+    }
+}
+
 /// A load that hangs at rest on a cable clamped to a body wakes up when that body moves, turns, or is moved.
 ///
 /// Reference: the contract.
