@@ -163,3 +163,43 @@ fn it_is_saved_and_contacts_stay_across_splits() {
     run(&mut read, 250);
     assert_eq!(bits(&read), expected);
 }
+
+/// A winch that hauls a load over a round edge pulls with the friction of a quarter turn, with the reel at either end.
+///
+/// *Source.* Euler and Eytelwein: `T1 = T0 exp(mu phi)`, within 1 %, of which 0.3 % is the sag before the edge; the load with the rope that hangs, at a
+/// steady speed.
+#[test]
+fn a_winch_hauls_a_load_over_an_edge_with_the_friction_of_a_capstan() {
+    let (friction, radius, load) = (0.3, 0.1, 120.0);
+    let around = radius + RADIUS;
+    let bend = |angle: f64| Vector3::new(around * angle.sin(), around * angle.cos(), 0.0);
+    let quarter = std::f64::consts::FRAC_PI_2;
+    let mut points = vec![Vector3::new(-1.5, around, 0.0)];
+    points.extend((0..=6).map(|k| bend(f64::from(k) / 6.0 * quarter)));
+    points.push(Vector3::new(around, -1.5, 0.0));
+    for at in [At::Start, At::End] {
+        if at == At::End {
+            points.reverse();
+        }
+        let mut cable = rope(&points, 80, friction);
+        cable.fix(at).unwrap();
+        let far = if at == At::Start { cable.length() } else { 0.0 };
+        cable.add_load(lariat_ancf::PointLoad::force(far, [0.0, -load, 0.0])).unwrap();
+        let mut bar = Obstacle::new(7, Cylinder { half_height: 1.0, radius }, [0.0; 3], friction);
+        bar.motion.rotation = UnitQuaternion::from_axis_angle(&Vector3::x_axis(), quarter);
+        cable.set_obstacles([bar]).unwrap();
+        cable.add_reel(at, Reel { rate: vec![[0.0, 0.0], [0.5, -0.2]], ..Reel::default() }).unwrap();
+        let (mut ratio, mut count) = (0.0, 0.0);
+        for step in 0..240 {
+            cable.step(1.0 / 60.0).unwrap();
+            if step >= 120 {
+                let tip = cable.node_position(if at == At::Start { cable.nodes() - 1 } else { 0 });
+                ratio += cable.reel(at).unwrap().tension / (load - WEIGHT * G * tip.y);
+                count += 1.0;
+            }
+        }
+        let expected = (friction * quarter).exp();
+        println!("{at:?}: {:.4} of {expected:.4}", ratio / count);
+        assert!((ratio / count / expected - 1.0).abs() < 0.01 && cable.reel(at).unwrap().merges > 10);
+    }
+}
