@@ -28,8 +28,8 @@
 //! - One Newton step on the divided mesh: costs a factorisation, and the raw strain of the coarse shape appears as a load.
 
 use super::Cable;
-use super::sample::combine;
 use crate::element::axial::projected;
+use crate::element::shape::combine;
 use crate::error::Error;
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
@@ -126,24 +126,18 @@ impl Cable {
     /// Calls `visit` for each element in order, with whether its last node judges the mesh.
     fn visit_elements(&self, mut visit: impl FnMut(usize, bool)) {
         let elements = self.elements();
-        let near = 1e-9 * self.length();
-        let mut supports = self.model.supports.iter().map(|(node, _)| *node).peekable();
         let mut s = 0.0;
         for (e, element) in elements.iter().enumerate() {
             let node = e + 1;
             s += element.length;
-            while supports.next_if(|held| *held < node).is_some() {}
-            let held = supports.peek() == Some(&node);
-            let loaded = || self.model.loads.iter().any(|load| (load.arc_length - s).abs() <= near);
-            let same = elements.get(node).is_some_and(|next| next.section == element.section);
-            visit(e, same && !held && !loaded());
+            visit(e, node < elements.len() && self.model.is_smooth_at(node, s));
         }
     }
 
     /// Returns h^3 r''' of an element in m.
     fn third(&self, q: &[f64], e: usize) -> Vector3<f64> {
         let h = self.elements()[e].length;
-        combine(q, e, [12.0, 6.0 * h, -12.0, 6.0 * h])
+        combine(q, e, &[12.0, 6.0 * h, -12.0, 6.0 * h])
     }
 
     /// Returns the largest h^3 |[[r''']]|/96 in m at the nodes that judge, h^3 r''' being given by `third`; calls `visit` as

@@ -55,12 +55,12 @@ impl Cable {
 
     /// Returns the arc lengths in m at which potentials act, in their order.
     pub fn potentials(&self) -> impl Iterator<Item = f64> {
-        self.model.potentials.list.iter().map(|own| own.arc_length)
+        self.model.potentials.list.iter().filter(|own| own.potential.is_some()).map(|own| own.arc_length)
     }
 
     /// Removes all potentials, missing ones included.
     pub fn clear_potentials(&mut self) {
-        self.model.potentials.clear();
+        self.model.potentials.list.clear();
         self.system.potentials.locate(&self.model);
         self.revise();
     }

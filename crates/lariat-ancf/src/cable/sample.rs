@@ -21,7 +21,7 @@ use super::Cable;
 use crate::effect::acts::SampledPoint;
 use crate::element::bending::regularisation::RegularisedPower;
 use crate::element::flow::flow_weights;
-use crate::element::shape;
+use crate::element::shape::{self, combine};
 use crate::error::Error;
 use crate::system::{NodeTension, Pull, Reading, missing_at_ends};
 use nalgebra::Vector3;
@@ -47,12 +47,6 @@ pub struct Sample {
     /// Uncertainty of the tension in N: the larger of its jumps at the nodes of the element before averaging; all of the tension where no
     /// node can judge.
     pub tension_uncertainty: f64,
-}
-
-/// A nodal quantity inside element `e`, by the weights of its four node vectors.
-pub(in crate::cable) fn combine(x: &[f64], e: usize, weights: [f64; 4]) -> Vector3<f64> {
-    let n = &x[6 * e..6 * e + 12];
-    (0..4).map(|k| weights[k] * Vector3::new(n[3 * k], n[3 * k + 1], n[3 * k + 2])).sum()
 }
 
 impl Cable {
@@ -96,7 +90,7 @@ impl Cable {
     /// Returns the position at an arc length in m, which is on the cable.
     pub(crate) fn position_at(&self, arc_length: f64) -> Vector3<f64> {
         let (e, xi) = self.model.locate(arc_length);
-        combine(self.positions(), e, shape::position(xi, self.model.elements[e].length))
+        combine(self.positions(), e, &shape::position(xi, self.model.elements[e].length))
     }
 
     /// Returns the state at a local coordinate of an element.
@@ -105,17 +99,17 @@ impl Cable {
         let length = element.length;
         let (q, v) = (self.positions(), self.velocities());
         let position = shape::position(xi, length);
-        let slope = combine(q, e, shape::slope(xi, length));
-        let second = combine(q, e, shape::second_derivative(xi, length));
+        let slope = combine(q, e, &shape::slope(xi, length));
+        let second = combine(q, e, &shape::second_derivative(xi, length));
         let stretch = slope.norm();
         let reading = self.reading();
         let at = reading.state(e, true);
         let Pull { tension, green_strain } = reading.pull(e, xi, &at);
-        let mut velocity = combine(v, e, position);
+        let mut velocity = combine(v, e, &position);
         for flow in self.system.flows.list.iter().filter(|flow| flow.side.element(self.elements().len()) == e) {
             let extent = flow.extent;
             let local = flow.side.gather(q);
-            velocity += extent.rate * combine(&local, 0, flow_weights(flow.side.local(xi), length)[0]);
+            velocity += extent.rate * combine(&local, 0, &flow_weights(flow.side.local(xi), length)[0]);
         }
         // a collapsed element has no curvature
         let curvature = if stretch > 0.0 { slope.cross(&second) / stretch.powi(3) } else { Vector3::zeros() };
@@ -127,11 +121,11 @@ impl Cable {
             length,
             at,
             curvature: regular,
-            vector_rate: slope.cross(&combine(v, e, shape::second_derivative(xi, length))),
+            vector_rate: slope.cross(&combine(v, e, &shape::second_derivative(xi, length))),
             power: RegularisedPower::new(slope.norm_squared()).cube().sqrt(),
         };
         Sample {
-            position: combine(q, e, position),
+            position: combine(q, e, &position),
             velocity,
             slope,
             green_strain,

@@ -29,11 +29,10 @@
 
 use crate::at::At;
 use crate::cable::Cable;
-use crate::element::shape;
+use crate::element::shape::{self, combine};
 use crate::error::Error;
 use crate::section::Element;
-use crate::state::State;
-use nalgebra::Vector3;
+use crate::state::{State, renumber};
 
 impl Cable {
     /// Returns the node at a point, and places one if none is within 1e-9 of the length. Nodes behind it move up by one.
@@ -69,10 +68,7 @@ impl Cable {
         let before = strain_energy(self);
         let mut snapshot = self.snapshot.clone();
         let cut = |x: &mut Vec<f64>| {
-            let point = |weights: [f64; 4]| -> Vector3<f64> {
-                (0..4).map(|k| weights[k] * Vector3::from_column_slice(&x[6 * e + 3 * k..6 * e + 3 * k + 3])).sum()
-            };
-            let (r, t) = (point(shape::position(xi, whole.length)), point(shape::slope(xi, whole.length)));
+            let [r, t] = [shape::position, shape::slope].map(|of| combine(x, e, &of(xi, whole.length)));
             x.splice(6 * node..6 * node, r.iter().chain(t.iter()).copied());
         };
         let State { q, v, memory, .. } = &mut snapshot.state;
@@ -81,7 +77,9 @@ impl Cable {
         memory.acceleration.clear();
         memory.algorithmic.clear();
         memory.valid = false;
-        crate::state::split_element(&mut memory.contacts, e);
+        // contacts of the element that is split are found anew
+        let number = |element: usize| (element != e).then_some(element + usize::from(element > e));
+        renumber(&mut memory.contacts, |contact| contact, number);
         if !memory.differences.is_empty() {
             cut(&mut memory.differences.velocity);
             cut(&mut memory.differences.displacement);

@@ -30,7 +30,7 @@
 
 use core::fmt::Debug;
 use nalgebra::{Matrix3, Vector3};
-use serde::{Deserialize, Deserializer, Serialize, Serializer};
+use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
 /// Distance in m over which a gradient is differentiated, where no Hessian is given.
@@ -78,92 +78,77 @@ pub(crate) fn over_step(
     (gradient + change * (rest / square), half + (0.5 * (outer + outer.transpose()) + turning * rest) / square)
 }
 
-/// A potential, and the material that it acts on.
-#[derive(Clone, Debug)]
+/// A potential, and the material that it acts on. Serialised is its place alone.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+#[serde(from = "[f64; 2]", into = "[f64; 2]")]
 pub(crate) struct Attached {
     /// Arc length in m.
     pub arc_length: f64,
     /// That less what had come through the eye of a reel at the start when it was added: it stays.
     origin: f64,
-    pub potential: Arc<dyn Potential>,
+    /// None if it was not added again since the cable was read back.
+    pub potential: Option<Arc<dyn Potential>>,
 }
 
-/// The potentials of a cable. Serialised are their places alone.
-#[derive(Clone, Debug, Default)]
+impl From<[f64; 2]> for Attached {
+    fn from([arc_length, origin]: [f64; 2]) -> Self {
+        Attached { arc_length, origin, potential: None }
+    }
+}
+
+impl From<Attached> for [f64; 2] {
+    fn from(own: Attached) -> Self {
+        [own.arc_length, own.origin]
+    }
+}
+
+impl PartialEq for Attached {
+    /// Compares functions by identity.
+    fn eq(&self, other: &Self) -> bool {
+        let same = match (&self.potential, &other.potential) {
+            (Some(a), Some(b)) => Arc::ptr_eq(a, b),
+            (a, b) => a.is_none() && b.is_none(),
+        };
+        same && (self.arc_length, self.origin) == (other.arc_length, other.origin)
+    }
+}
+
+/// The potentials of a cable.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(transparent)]
 pub(crate) struct Potentials {
     pub list: Vec<Attached>,
-    /// Places of those that were not added again since the cable was read back: arc length and origin in m.
-    missing: Vec<[f64; 2]>,
 }
 
 impl Potentials {
     /// Adds one, in place of the first that is missing, where that was; `passed` is the length in m that came through the eye at the start.
     pub fn add(&mut self, arc_length: f64, passed: f64, potential: Arc<dyn Potential>) {
-        let new = [arc_length, arc_length - passed];
-        let [arc_length, origin] = if self.missing.is_empty() { new } else { self.missing.remove(0) };
-        self.list.push(Attached { arc_length, origin, potential });
-    }
-
-    pub fn clear(&mut self) {
-        *self = Self::default();
+        match self.list.iter_mut().find(|own| own.potential.is_none()) {
+            Some(own) => own.potential = Some(potential),
+            None => self.list.push(Attached { arc_length, origin: arc_length - passed, potential: Some(potential) }),
+        }
     }
 
     /// Number of those that were not added again.
     pub fn missing(&self) -> usize {
-        self.missing.len()
-    }
-
-    /// Returns all arc lengths in m.
-    pub fn arc_lengths(&self) -> impl Iterator<Item = f64> {
-        self.list.iter().map(|own| own.arc_length).chain(self.missing.iter().map(|[arc_length, _]| *arc_length))
+        self.list.iter().filter(|own| own.potential.is_none()).count()
     }
 
     /// Puts them where their material is on a cable of this length (m) after so much came through the eye at the start.
     pub fn move_to(&mut self, passed: f64, length: f64) {
-        let at = |origin: f64| (origin + passed).clamp(0.0, length);
-        self.list.iter_mut().for_each(|own| own.arc_length = at(own.origin));
-        self.missing.iter_mut().for_each(|[arc_length, origin]| *arc_length = at(*origin));
+        self.list.iter_mut().for_each(|own| own.arc_length = (own.origin + passed).clamp(0.0, length));
     }
 
     /// Cuts the cable at an arc length (m): keeps those before it, and returns the others, on a cable that begins there.
     pub fn cut(&mut self, at: f64) -> Self {
-        let (list, rest) = core::mem::take(&mut self.list).into_iter().partition(|own| own.arc_length <= at);
-        let (missing, others) = core::mem::take(&mut self.missing).into_iter().partition(|[s, _]| *s <= at);
-        (self.list, self.missing) = (list, missing);
-        let (rest, others): (Vec<Attached>, Vec<[f64; 2]>) = (rest, others);
-        let moved = |s: f64| s - at;
-        Potentials {
-            list: rest
-                .into_iter()
-                .map(|own| Attached { arc_length: moved(own.arc_length), origin: moved(own.arc_length), ..own })
-                .collect(),
-            missing: others.into_iter().map(|[s, _]| [moved(s); 2]).collect(),
+        let (list, mut rest): (_, Vec<_>) =
+            core::mem::take(&mut self.list).into_iter().partition(|own| own.arc_length <= at);
+        self.list = list;
+        for own in &mut rest {
+            own.arc_length -= at;
+            own.origin = own.arc_length;
         }
-    }
-
-    fn places(&self) -> impl Iterator<Item = [f64; 2]> {
-        self.list.iter().map(|own| [own.arc_length, own.origin]).chain(self.missing.iter().copied())
-    }
-}
-
-impl PartialEq for Potentials {
-    /// Compares functions by identity.
-    fn eq(&self, other: &Self) -> bool {
-        self.places().eq(other.places())
-            && self.list.len() == other.list.len()
-            && self.list.iter().zip(&other.list).all(|(a, b)| Arc::ptr_eq(&a.potential, &b.potential))
-    }
-}
-
-impl Serialize for Potentials {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        self.places().collect::<Vec<_>>().serialize(serializer)
-    }
-}
-
-impl<'de> Deserialize<'de> for Potentials {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        Ok(Potentials { list: Vec::new(), missing: Vec::deserialize(deserializer)? })
+        Potentials { list: rest }
     }
 }
 

@@ -94,7 +94,7 @@ impl Model {
             require_finite("moment (N m)", &load.moment)?;
             require("ramp (s)", load.ramp, load.ramp >= 0.0, ">= 0")?;
         }
-        for s in self.potentials.arc_lengths() {
+        for s in self.potentials.list.iter().map(|own| own.arc_length) {
             require("arc length of a potential (m)", s, s >= 0.0 && s <= length * (1.0 + 1e-12), "on the cable")?;
         }
         let nodes = self.nodes();
@@ -170,7 +170,7 @@ impl Model {
 
     /// Returns the arc lengths in m of point loads and potentials.
     pub(crate) fn pulled_points(&self) -> impl Iterator<Item = f64> {
-        self.loads.iter().map(|load| load.arc_length).chain(self.potentials.arc_lengths())
+        self.loads.iter().map(|load| load.arc_length).chain(self.potentials.list.iter().map(|own| own.arc_length))
     }
 
     /// Sets the support of a node; a free one is removed.

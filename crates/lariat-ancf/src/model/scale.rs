@@ -35,7 +35,8 @@ impl LoadScale {
         let shortest = model.elements.iter().map(|e| e.length).fold(f64::INFINITY, f64::min);
         let pull = |own: &Attached| {
             let (e, xi) = model.locate(own.arc_length);
-            own.potential.gradient(&combine(q, e, &shape::position(xi, model.elements[e].length))).norm()
+            let position = combine(q, e, &shape::position(xi, model.elements[e].length));
+            own.potential.as_ref().map_or(0.0, |potential| potential.gradient(&position).norm())
         };
         let loads: f64 = model.loads.iter().map(|l| l.force.norm() + l.moment.norm() / length).sum();
         let loads = loads + model.potentials.list.iter().map(pull).sum::<f64>();

@@ -93,8 +93,22 @@ impl PairMemory {
     }
 }
 
-/// Adapts contacts to an element that is split in two: its own are found anew.
-pub(crate) fn split_element(contacts: &mut Vec<ContactMemory>, element: usize) {
-    contacts.retain(|contact| contact.element as usize != element);
-    contacts.iter_mut().filter(|contact| contact.element as usize > element).for_each(|contact| contact.element += 1);
+/// Gives the elements of contacts, which are found in their memory by `contact`, other numbers. Contacts whose element has none are found
+/// anew; returns the energy in J that those held.
+pub(crate) fn renumber<T>(
+    list: &mut Vec<T>,
+    contact: impl Fn(&mut T) -> &mut ContactMemory,
+    number: impl Fn(usize) -> Option<usize>,
+) -> f64 {
+    let mut lost = 0.0;
+    list.retain_mut(|own| {
+        let contact = contact(own);
+        let new = number(contact.element as usize);
+        match new {
+            Some(element) => contact.element = element as u32,
+            None => lost += contact.energy,
+        }
+        new.is_some()
+    });
+    lost
 }

@@ -5,7 +5,7 @@ mod contact;
 mod differences;
 
 pub use contact::{ContactMemory, PairMemory};
-pub(crate) use contact::{Key, split_element};
+pub(crate) use contact::{Key, renumber};
 pub use differences::Differences;
 
 use crate::error::{Error, require};

@@ -1,7 +1,7 @@
 //! [Potentials](crate::Potential) of points of the cable in its equations.
 
 use super::step_vectors::StepVectors;
-use crate::effect::potential::over_step;
+use crate::effect::potential::{Potential, over_step};
 use crate::element::assembly::{add_force, add_tangent};
 use crate::element::shape::{self, combine};
 use crate::linalg::BlockTridiagonal;
@@ -36,12 +36,15 @@ impl PointPotentials {
         self.located.len() as u64
     }
 
+    /// Returns the functions, each with its element and shape functions.
+    fn iter<'a>(&'a self, model: &'a Model) -> impl Iterator<Item = (&'a dyn Potential, usize, &'a [f64; 4])> {
+        let located = model.potentials.list.iter().zip(&self.located);
+        located.filter_map(|(own, (element, shape))| Some((own.potential.as_deref()?, *element, shape)))
+    }
+
     /// Returns their energy in J.
     pub fn energy(&self, model: &Model, q: &[f64]) -> f64 {
-        let energy = |(own, (e, shape)): (&crate::effect::potential::Attached, &(usize, [f64; 4]))| {
-            own.potential.energy(&combine(q, *e, shape))
-        };
-        model.potentials.list.iter().zip(&self.located).map(energy).sum()
+        self.iter(model).map(|(potential, e, shape)| potential.energy(&combine(q, e, shape))).sum()
     }
 
     /// Adds `scale` times their forces to `out`, and minus the derivatives to the matrix.
@@ -52,11 +55,11 @@ impl PointPotentials {
         out: &mut [f64],
         mut matrix: Option<&mut BlockTridiagonal>,
     ) {
-        for (own, (e, shape)) in model.potentials.list.iter().zip(&self.located) {
-            let position = combine(q, *e, shape);
-            add_force(out, *e, shape, &(own.potential.gradient(&position) * -scale));
+        for (potential, e, shape) in self.iter(model) {
+            let position = combine(q, e, shape);
+            add_force(out, e, shape, &(potential.gradient(&position) * -scale));
             if let Some(matrix) = matrix.as_deref_mut() {
-                add_tangent(matrix, *e, shape, &(own.potential.hessian(&position) * scale));
+                add_tangent(matrix, e, shape, &(potential.hessian(&position) * scale));
             }
         }
     }
@@ -69,20 +72,20 @@ impl PointPotentials {
         b: &mut StepVectors,
         mut matrix: Option<&mut BlockTridiagonal>,
     ) {
-        for (own, (e, shape)) in model.potentials.list.iter().zip(&self.located) {
-            let (start, change) = (combine(q, *e, shape), combine(&b.change, *e, shape));
-            let (gradient, tangent) = over_step(&*own.potential, &start, &change);
-            add_force(&mut b.external, *e, shape, &-gradient);
+        for (potential, e, shape) in self.iter(model) {
+            let (start, change) = (combine(q, e, shape), combine(&b.change, e, shape));
+            let (gradient, tangent) = over_step(potential, &start, &change);
+            add_force(&mut b.external, e, shape, &-gradient);
             if let Some(matrix) = matrix.as_deref_mut() {
-                add_tangent(matrix, *e, shape, &(tangent * (BETA * b.h * b.h)));
+                add_tangent(matrix, e, shape, &(tangent * (BETA * b.h * b.h)));
             }
         }
     }
 
     /// Adds minus the derivatives of their forces to a full matrix.
     pub fn add_stiffness(&self, model: &Model, q: &[f64], matrix: &mut DMatrix<f64>) {
-        for (own, (e, shape)) in model.potentials.list.iter().zip(&self.located) {
-            let hessian = own.potential.hessian(&combine(q, *e, shape));
+        for (potential, e, shape) in self.iter(model) {
+            let hessian = potential.hessian(&combine(q, e, shape));
             for (i, j) in (0..12).flat_map(|i| (0..12).map(move |j| (i, j))) {
                 matrix[(6 * e + i, 6 * e + j)] += shape[i / 3] * shape[j / 3] * hessian[(i % 3, j % 3)];
             }

@@ -32,14 +32,13 @@
 
 use super::plan::LEAST;
 use crate::cable::Cable;
-use crate::cable::sample::combine;
 use crate::element::flow::flow_weights;
-use crate::element::shape;
+use crate::element::shape::{self, combine};
 use crate::element::side::Side;
 use crate::error::Error;
 use crate::quadrature::gauss_legendre;
 use crate::section::Element;
-use crate::state::{ContactMemory, Differences};
+use crate::state::{Differences, renumber};
 use crate::system::project_vector;
 use nalgebra::Vector3;
 
@@ -153,32 +152,16 @@ impl Cable {
         memory.acceleration.clear();
         memory.algorithmic.clear();
         let (step, differences) = (memory.step, core::mem::take(&mut memory.differences));
-        let (contacts, pairs) = (core::mem::take(&mut memory.contacts), core::mem::take(&mut memory.pairs));
+        let (mut contacts, mut pairs) = (core::mem::take(&mut memory.contacts), core::mem::take(&mut memory.pairs));
         self.disturb();
-        let memory = &mut self.snapshot.state.memory;
-        let moved = |contact: &ContactMemory| match side {
-            Side::End => Some(contact.element as usize).filter(|&e| e < inner),
-            Side::Start => (contact.element as usize).checked_sub(removed).map(|e| e + elements.len()),
+        let moved = |element: usize| match side {
+            Side::End => Some(element).filter(|&e| e < inner),
+            Side::Start => element.checked_sub(removed).map(|e| e + elements.len()),
         };
-        let mut lost = 0.0;
-        for mut contact in contacts {
-            match moved(&contact) {
-                Some(element) => {
-                    contact.element = element as u32;
-                    memory.contacts.push(contact);
-                }
-                None => lost += contact.energy,
-            }
-        }
-        for mut pair in pairs {
-            match moved(&pair.contact) {
-                Some(element) => {
-                    pair.contact.element = element as u32;
-                    memory.pairs.push(pair);
-                }
-                None => lost += pair.contact.energy,
-            }
-        }
+        let lost =
+            renumber(&mut contacts, |contact| contact, moved) + renumber(&mut pairs, |pair| &mut pair.contact, moved);
+        let memory = &mut self.snapshot.state.memory;
+        (memory.contacts, memory.pairs) = (contacts, pairs);
         self.snapshot.law.contacts += lost;
         // the length of steps is still a good proposal
         memory.step = step;
@@ -222,8 +205,8 @@ impl Cable {
             [shape::position(xi, length), shape::slope(xi, length)].into_iter().zip([w, w_y]).fold(
                 [Vec::new(), Vec::new()],
                 |[mut r, mut u], (s, w)| {
-                    r.extend(combine(q, e, s).iter());
-                    u.extend((combine(v, e, s) + rate * combine(q, e, w)).iter());
+                    r.extend(combine(q, e, &s).iter());
+                    u.extend((combine(v, e, &s) + rate * combine(q, e, &w)).iter());
                     [r, u]
                 },
             )
@@ -250,7 +233,7 @@ impl Cable {
         let (old_q, old_v) = (turned.q.clone(), turned.v.clone());
         turned.vectors().for_each(|x| drop(x.drain(6 * (e + 1)..6 * (e + 2))));
         let Turned { q, v, .. } = &mut turned;
-        let bend = |q: &[f64], e: usize, length: f64| combine(q, e, shape::second_derivative(1.0, length));
+        let bend = |q: &[f64], e: usize, length: f64| combine(q, e, &shape::second_derivative(1.0, length));
         let bent = rate * (bend(q, e, whole.length) - bend(&old_q, e + 1, gone.length));
         let eye = v.len() - 3;
         (0..3).for_each(|x| v[eye + x] += bent[x]);
@@ -259,13 +242,13 @@ impl Cable {
         let mut missed = vec![0.0; v.len()];
         for (from, part, element) in [(0.0, e, kept), (kept.length, e + 1, gone)] {
             for (x, g) in gauss_legendre(6) {
-                let mut old: Vector3<f64> = combine(&old_v, part, shape::position(x, element.length));
+                let mut old: Vector3<f64> = combine(&old_v, part, &shape::position(x, element.length));
                 if part > e {
-                    old += rate * combine(&old_q, part, flow_weights(x, element.length)[0]);
+                    old += rate * combine(&old_q, part, &flow_weights(x, element.length)[0]);
                 }
                 let xi = (from + x * element.length) / whole.length;
                 let s = shape::position(xi, whole.length);
-                let new = combine(v, e, s) + rate * combine(q, e, flow_weights(xi, whole.length)[0]);
+                let new = combine(v, e, &s) + rate * combine(q, e, &flow_weights(xi, whole.length)[0]);
                 for k in 0..4 {
                     for i in 0..3 {
                         missed[6 * e + 3 * k + i] += g * element.length * inertia * s[k] * (old - new)[i];

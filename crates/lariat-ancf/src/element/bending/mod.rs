@@ -32,8 +32,6 @@ use crate::element::gram::{Six, Upper};
 
 /// A bending energy `u(g)` per `2 EI/l`, with weighted derivatives (see [`gram`](crate::element::gram)).
 pub trait Bending {
-    /// Whether the rule has no energy at all.
-    const ABSENT: bool = false;
     /// Returns the energy u(g).
     fn energy(&self, g: &Six<f64>) -> f64;
     /// Adds `scale * e_a du/dg_a` to `n`.
@@ -50,7 +48,6 @@ pub trait Bending {
 pub struct NoBending;
 
 impl Bending for NoBending {
-    const ABSENT: bool = true;
     fn energy(&self, _: &Six<f64>) -> f64 {
         0.0
     }
