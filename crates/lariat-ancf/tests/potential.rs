@@ -2,10 +2,10 @@
 
 use lariat_ancf::contact::{HalfSpace, Obstacle};
 use lariat_ancf::coupling::Coupling;
-use lariat_ancf::island::{Island, PinConstraint, RigidBody};
+use lariat_ancf::island::{self, Island, PinConstraint, RigidBody};
 use lariat_ancf::{
-    At, Cable, CableBuilder, Contact, Effects, Error, Integrator, Method, PointLoad, Potential, Reel, Section,
-    StepControl, Vector3,
+    At, Cable, CableBuilder, Contact, Effects, EquilibriumFailure, EquilibriumOptions, Error, Integrator, Method,
+    PointLoad, Potential, Reel, Section, StepControl, Vector3,
 };
 use nalgebra::Matrix3;
 use std::sync::Arc;
@@ -85,6 +85,30 @@ fn statics_know_it() {
     let reaction = sprung.reactions().unwrap()[0].force;
     println!("apart {apart:.1e} m, unbalanced {:.1e} N", (sum + reaction).norm());
     assert!(apart < 1e-8 && (sum + reaction).norm() < 1e-6 * reaction.norm());
+}
+
+/// A rope that hangs on springs alone comes to rest, by itself and on an island: they carry its weight. Without them it is not held.
+///
+/// *Source.* Balance of forces.
+#[test]
+fn springs_alone_hold_a_rope() {
+    let springs = [(At::Start, spring(30.0, [0.0, 0.5, 0.0])), (At::End, spring(80.0, [1.2, 0.6, 0.2]))];
+    let weight = 9.81 * 0.3 * 1.5;
+    let mut alone = rope().build().unwrap();
+    assert!(matches!(alone.equilibrium(), Err(Error::NoEquilibrium { failure: EquilibriumFailure::NotHeld, .. })));
+    springs.iter().for_each(|(at, own)| alone.add_potential(*at, own.clone()).unwrap());
+    let mut on_island = alone.clone();
+    alone.equilibrium().unwrap();
+    island::equilibrium(&mut [&mut on_island], &mut [], &[], EquilibriumOptions::default()).unwrap();
+    for cable in [&alone, &on_island] {
+        let pulls = springs.iter().map(|(at, own)| {
+            let s = cable.arc_length(*at).unwrap();
+            -own.gradient(&cable.sample(s).unwrap().position)
+        });
+        let missed = (pulls.sum::<Vector3<f64>>() - Vector3::new(0.0, weight, 0.0)).norm();
+        println!("unbalanced {missed:.1e} N");
+        assert!(missed < 1e-6 * weight);
+    }
 }
 
 /// The energy law closes with the energies of springs in it, at the steps of games and far beyond, whatever their stiffness.

@@ -219,12 +219,13 @@ impl Cable {
 }
 
 /// Returns the resultant of the loads in N that no support can take, if there is one: a force on a
-/// cable without a held position, or moments alone (divided by the length) on one that is free to
+/// cable without a held position or a potential, which may hold, or moments alone (divided by the length) on one that is free to
 /// rotate about its only held point.
 fn unheld(model: &Model) -> Option<f64> {
     let (weight, size) = model.dead_resultant();
     let size = model.loads.iter().fold(size, |sum, load| sum + load.force.norm());
-    let held = model.supports.iter().filter(|(_, support)| support.holds_position()).count();
+    let supports = model.supports.iter().filter(|(_, support)| support.holds_position()).count();
+    let held = supports + model.potentials.list.len();
     let rotates = model.supports.iter().all(|(_, support)| support.slope == SlopeSupport::Free);
     let force = model.loads.iter().fold(weight, |sum, load| sum + load.force).norm();
     let moment = model.loads.iter().map(|load| load.moment).sum::<Vector3<f64>>().norm();

@@ -9,7 +9,7 @@ use crate::island::hold::vector;
 use crate::island::layout::Layout;
 use crate::island::pin::PinConstraint;
 use crate::island::rotation::{exponential, jacobian_inverse};
-use crate::model::{LoadScale, largest_force};
+use crate::model::{LoadScale, Model, largest_force};
 use crate::statics::{first_fold, move_with_supports, potential, straighten};
 use crate::system::project_vector;
 use nalgebra::Vector3;
@@ -160,8 +160,11 @@ impl Search {
 
     /// Returns the resultant of the loads in N if nothing holds the island.
     fn unheld(&self, cables: &[&mut Cable]) -> Option<f64> {
-        let held = cables.iter().any(|c| c.model.supports.iter().any(|(_, s)| s.position.is_some()))
-            || self.layout.bodies.iter().any(|b| b.free[..3] != [true; 3]);
+        let is_held = |model: &Model| {
+            !model.potentials.list.is_empty() || model.supports.iter().any(|(_, s)| s.position.is_some())
+        };
+        let held =
+            cables.iter().any(|c| is_held(&c.model)) || self.layout.bodies.iter().any(|b| b.free[..3] != [true; 3]);
         let of_cable =
             |c: &&mut Cable| c.model.loads.iter().fold(c.model.dead_resultant().0, |sum, load| sum + load.force);
         let sum = cables.iter().map(of_cable).chain(self.layout.bodies.iter().map(|b| b.force)).sum::<Vector3<f64>>();
