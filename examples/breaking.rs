@@ -21,7 +21,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let mut scene = Scene::read(Path::new("assets/scenes/bridge.toml"), &overrides, Purpose::Run)?;
     for cable in &mut scene.cables {
         // the ends whip: a step that is controlled by its error follows every crack
-        cable.integrator = Fidelity::Game.into();
+        cable.integrator = Fidelity::Game;
     }
     let out = Path::new("out/breaking");
     let summary = run(&scene, out, &mut Options::default())?;

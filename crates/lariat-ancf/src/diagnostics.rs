@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 
 /// Counts since the cable was built or [`reset`](Diagnostics::reset). Plain data; two runs of the same cable count the same.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct Diagnostics {
     /// Host steps taken.
     pub host_steps: u64,

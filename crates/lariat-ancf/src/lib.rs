@@ -87,7 +87,7 @@ pub use effect::{
 };
 pub use element::{axial, bending};
 pub use error::{EquilibriumFailure, Error, PinProblem, Requirement, StepFailure};
-pub use integrate::{ErrorNorm, Fidelity, Integrator, IntegratorChoice, IntegratorRef, Method, StepControl};
+pub use integrate::{ErrorNorm, Fidelity, Integrator, Method, StepControl};
 pub use load::PointLoad;
 pub use model::STANDARD_GRAVITY;
 /// The vector type of the public interface (nalgebra's).

@@ -63,6 +63,7 @@ impl From<f64> for Strength {
 /// Why a cable became two.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
+#[non_exhaustive]
 pub enum BreakCause {
     /// The tension exceeded its limit.
     Tension,
@@ -85,6 +86,7 @@ impl BreakCause {
 
 /// The largest load of a cable, beside what it withstands.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct Load {
     /// Share of the limit that it reaches: above 1 the cable breaks.
     pub share: f64,
@@ -213,6 +215,7 @@ impl LoadRecord {
 
 /// Where, why and under which load a cable became two.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct Break {
     /// Why.
     pub cause: BreakCause,

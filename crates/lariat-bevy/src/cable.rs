@@ -10,7 +10,7 @@ use bevy_ecs::entity::Entity;
 use bevy_ecs::lifecycle::HookContext;
 use bevy_ecs::name::Name;
 use bevy_ecs::world::DeferredWorld;
-use lariat_ancf::{Fidelity, IntegratorChoice, Point, Section};
+use lariat_ancf::{Fidelity, Point, Section};
 
 /// The description of a cable. Spawn it with its rule and effects as components beside it;
 /// [`Cables`] then holds the cable:
@@ -109,7 +109,7 @@ impl Cable {
     }
 
     /// Sets the time integrator. Default: that of the fidelity.
-    pub fn integrator(mut self, integrator: impl Into<IntegratorChoice>) -> Self {
+    pub fn integrator(mut self, integrator: impl Into<Fidelity>) -> Self {
         self.0.integrator = integrator.into();
         self
     }

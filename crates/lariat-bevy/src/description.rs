@@ -1,7 +1,7 @@
 //! The description that a cable is built from.
 
 use lariat_ancf::coupling::Linearisation;
-use lariat_ancf::{At, Effects, Error, Fidelity, Integrator, IntegratorChoice, PointLoad, Rule, Section, Vector3};
+use lariat_ancf::{At, Effects, Error, Fidelity, Integrator, PointLoad, Rule, Section, Vector3};
 
 /// The geometry, section and integrator of a cable; rule, effects and loads are components beside
 /// it.
@@ -17,7 +17,7 @@ pub(crate) struct Description {
     pub nodes_at: Vec<f64>,
     /// Whether it starts in static equilibrium between its ends.
     pub hanging: bool,
-    pub integrator: IntegratorChoice,
+    pub integrator: Fidelity,
     /// In m/s^2; `None`: that of the world.
     pub gravity: Option<Vector3<f64>>,
     /// Initial velocity in m/s.
@@ -33,7 +33,7 @@ impl Description {
             elements: 10,
             nodes_at: Vec::new(),
             hanging: false,
-            integrator: Fidelity::Game.into(),
+            integrator: Fidelity::Game,
             gravity: None,
             velocity: Vector3::zeros(),
         }

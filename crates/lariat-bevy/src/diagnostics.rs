@@ -25,6 +25,7 @@ pub struct Diagnostics {
 
 /// Wall-clock time spent in each stage.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct Times {
     /// Applying what was spawned, changed and removed.
     pub prepare: Duration,

@@ -59,7 +59,7 @@ impl SpawnRope for Commands<'_, '_> {
         description.length = Some(rope.length(&from.point, &to.point));
         description.elements = rope.elements;
         if let Some(fidelity) = rope.fidelity {
-            description.integrator = fidelity.into();
+            description.integrator = fidelity;
         }
         let damping = Damping::critical_fraction(ROPE_DAMPING);
         // the cable is built when the component `Cable` is inserted, with what is there

@@ -1,7 +1,7 @@
 //! `Integrator`: a method with its step control; names of methods and kinds of rope.
 
 use crate::error::{Raise, raise};
-use lariat_ancf::{self as ancf, ErrorNorm, Fidelity, IntegratorChoice, Method, RopeKind, StepControl};
+use lariat_ancf::{self as ancf, ErrorNorm, Fidelity, Method, RopeKind, StepControl};
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::types::PyString;
@@ -67,7 +67,7 @@ impl Integrator {
 }
 
 /// An `Integrator`, or the name of a fidelity.
-pub struct Choice(pub IntegratorChoice);
+pub struct Choice(pub Fidelity);
 
 impl<'a, 'py> FromPyObject<'a, 'py> for Choice {
     type Error = PyErr;

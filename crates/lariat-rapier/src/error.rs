@@ -147,6 +147,7 @@ fn name_of(body: &Option<RigidBodyHandle>) -> String {
 
 /// An island of cables and bodies that could not step: it stays as it is, and all others go on.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Failure {
     /// The cables of the island.
     pub cables: Vec<CableHandle>,

@@ -96,6 +96,7 @@ pub enum Problem {
 /// A value of a scene that is not accepted.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("{place}: {key}: {problem}; accepted: {accepted}{}", did_you_mean(.suggestion.as_deref()))]
+#[non_exhaustive]
 pub struct SceneError {
     /// Where it was written.
     pub place: Place,

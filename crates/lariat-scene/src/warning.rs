@@ -7,6 +7,7 @@ use serde::{Deserialize, Serialize, Serializer};
 /// A warning about a scene or a run; its text says what to do. In `summary.json` it is its fields with `kind` and `text`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, thiserror::Error)]
 #[serde(tag = "kind", rename_all = "snake_case")]
+#[non_exhaustive]
 pub enum Warning {
     /// A dynamic body that nothing holds and nothing stops.
     #[error(

@@ -1,6 +1,6 @@
 //! The energy balance of runs: closed with error control, and a warning where integration makes or takes energy.
 
-use lariat_ancf::{Fidelity, Integrator, IntegratorChoice, Method, StepControl};
+use lariat_ancf::{Fidelity, Integrator, Method, StepControl};
 use lariat_scene::run::{self, EnergyBalance, Options, Summary, World};
 use lariat_scene::{Purpose, Scene, Warning};
 use std::path::Path;
@@ -62,7 +62,7 @@ fn the_balance_of_every_scene_closes_with_error_control() {
 fn the_discrete_gradient_makes_no_energy_and_knows_what_it_loses() {
     for name in ["falling_pendulum", "cantilever", "elastica", "towed_line", "dumbbell", "slung_load", "bridge"] {
         let mut scene = read(name, &["duration=1.0"]);
-        scene.cables.iter_mut().for_each(|cable| cable.integrator = IntegratorChoice::from(Fidelity::Game));
+        scene.cables.iter_mut().for_each(|cable| cable.integrator = Fidelity::Game);
         let (summary, balance) = execute(&scene);
         let gained = summary.energy_end_j.unwrap() - summary.energy_start_j.unwrap();
         // the energy in store apart, which is the square of a step
@@ -169,7 +169,7 @@ fn the_work_of_a_body_that_rotates_is_in_the_balance() {
         );
         let works = [Fidelity::Engineering, Fidelity::Game].map(|fidelity| {
             let mut scene = Scene::parse("crane.toml", &text, &[], Purpose::Run).unwrap();
-            scene.cables[0].integrator = IntegratorChoice::from(fidelity);
+            scene.cables[0].integrator = fidelity;
             let (_, balance) = execute(&scene);
             assert!(share(&balance) < 1e-4, "{radius}, {fidelity:?}: {:.1e}", share(&balance));
             balance.work_j

@@ -4,7 +4,7 @@
 //! *Source of all errors.* The same scene with more elements, and error control at a tight tolerance.
 
 use lariat_ancf::study::Outcome;
-use lariat_ancf::{Fidelity, Integrator, IntegratorChoice, Method};
+use lariat_ancf::{Fidelity, Integrator, Method};
 use lariat_scene::run::{self, Options, World};
 use lariat_scene::{Purpose, Scene};
 
@@ -119,7 +119,7 @@ fn no_random_scene_is_wrong_without_a_warning_and_none_that_is_right_has_one() {
         let elements = [2, 3, 4, 6, 8, 12, 20, 30][(8.0 * random.next()) as usize];
         let mut scene = scene(&mut random, case, elements);
         if case % 2 == 1 {
-            scene.cables[0].integrator = IntegratorChoice::from(Fidelity::Game);
+            scene.cables[0].integrator = Fidelity::Game;
         }
         let length = scene.cables[0].length;
         let summary = run::collect(&scene, Purpose::Run, &mut Options::default()).unwrap().summary;

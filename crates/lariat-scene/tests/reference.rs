@@ -121,7 +121,7 @@ fn defaults_are_what_the_schema_says() {
     let scene = |sets: &[String]| Scene::parse("scene.toml", SCENE, sets, Purpose::Run).unwrap();
     let plain = scene(&[]);
     assert_eq!(plain.cables[0].rule, lariat_ancf::Rule::default());
-    assert_eq!(plain.cables[0].integrator, lariat_ancf::IntegratorChoice::default());
+    assert_eq!(plain.cables[0].integrator, lariat_ancf::Fidelity::default());
     assert_eq!(plain.gravity, lariat_ancf::STANDARD_GRAVITY);
     // the two forms of damping and rest shape leave the other key to its default
     let values: toml::Table = SCENE.replace("axial = 0.1", "").replace("bending = 0.1", "").parse().unwrap();

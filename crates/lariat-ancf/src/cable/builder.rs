@@ -7,7 +7,7 @@ use crate::effect::force_density::ForceDensities;
 use crate::effect::potential::Potentials;
 use crate::effect::{Damping, Effects, ForceDensity, RopeKind};
 use crate::error::{Error, require, require_finite};
-use crate::integrate::{Fidelity, IntegratorChoice};
+use crate::integrate::Fidelity;
 use crate::load::PointLoad;
 use crate::model::{Corner, MAX_ELEMENTS, Model, STANDARD_GRAVITY};
 use crate::obstacle::Obstacles;
@@ -38,7 +38,7 @@ pub struct CableBuilder {
     nodes_at: Vec<f64>,
     rule: Option<Rule>,
     allow_rank_deficient: bool,
-    integrator: Option<IntegratorChoice>,
+    integrator: Option<Fidelity>,
     gravity: Vector3<f64>,
     velocity: Vector3<f64>,
     angular_velocity: Vector3<f64>,
@@ -138,7 +138,7 @@ impl CableBuilder {
 
     /// Time integrator: an [`Integrator`](crate::Integrator), or a [`Fidelity`] that chooses one by the cable's
     /// frequencies. Default: [`Fidelity::Engineering`] for a cable by itself; in a set of cables beside Rapier, the set's.
-    pub fn integrator(mut self, integrator: impl Into<IntegratorChoice>) -> Self {
+    pub fn integrator(mut self, integrator: impl Into<Fidelity>) -> Self {
         self.integrator = Some(integrator.into());
         self
     }
@@ -311,8 +311,8 @@ impl CableBuilder {
         };
         // contact has one method that can step it
         let default = match &model.effects.contact {
-            Some(_) => IntegratorChoice::from(Fidelity::Game),
-            None => IntegratorChoice::default(),
+            Some(_) => Fidelity::Game,
+            None => Fidelity::default(),
         };
         let mut cable = Cable::from_parts(model, snapshot, default.integrator(f64::INFINITY))?;
         for (at, hold) in self.holds {

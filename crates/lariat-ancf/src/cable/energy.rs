@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 
 /// Energies in J. Potential of gravity is zero at the origin.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct Energy {
     /// Kinetic, that of added mass included.
     pub kinetic: f64,

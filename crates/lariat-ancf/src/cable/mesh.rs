@@ -36,6 +36,7 @@ use serde::{Deserialize, Serialize};
 
 /// What the shape of a cable says about its mesh.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct MeshIndicator {
     /// Estimate of the largest error of position in m; 0 if no node judges.
     pub position: f64,
@@ -45,6 +46,7 @@ pub struct MeshIndicator {
 
 /// What a displacement says about the mesh.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct MotionIndicator {
     /// Estimate of the largest error of the displacement in m.
     pub error: f64,

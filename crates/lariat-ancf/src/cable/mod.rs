@@ -41,7 +41,7 @@ mod workspace;
 pub(crate) use crate::at::At;
 use crate::diagnostics::Diagnostics;
 use crate::error::Error;
-use crate::integrate::{Integrator, IntegratorChoice, Scratch};
+use crate::integrate::{Fidelity, Integrator, Scratch};
 use crate::model::Model;
 use crate::rule::Rule;
 use crate::section::Element;
@@ -206,7 +206,7 @@ impl Cable {
     }
 
     /// See [`Coupling`](crate::coupling::Coupling).
-    pub(crate) fn integrator_for(&self, choice: impl Into<IntegratorChoice>) -> Integrator {
+    pub(crate) fn integrator_for(&self, choice: impl Into<Fidelity>) -> Integrator {
         let implicit = self.model.effects.needs_implicit_integrator();
         choice.into().integrator(if implicit { f64::INFINITY } else { self.frequency_bound() })
     }

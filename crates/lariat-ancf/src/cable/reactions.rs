@@ -16,6 +16,7 @@ use serde::{Deserialize, Serialize};
 
 /// Force and moment of a support on the cable.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct Reaction {
     /// Node number.
     pub node: usize,

@@ -29,6 +29,7 @@ use serde::{Deserialize, Serialize};
 
 /// A cable at one point.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct Sample {
     /// Position in m.
     pub position: Vector3<f64>,

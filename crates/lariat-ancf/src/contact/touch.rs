@@ -4,6 +4,7 @@ use nalgebra::Vector3;
 
 /// A contact of a cable with an obstacle, as it was at the end of the last step.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Touch {
     /// Key of the obstacle.
     pub obstacle: u64,
@@ -23,6 +24,7 @@ pub struct Touch {
 
 /// Where a cable is in an obstacle.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Overlap {
     /// Key of the obstacle.
     pub obstacle: u64,

@@ -5,7 +5,7 @@ use crate::cable::Cable;
 use crate::diagnostics::Diagnostics;
 use crate::effect::Effects;
 use crate::error::Error;
-use crate::integrate::{Integrator, IntegratorChoice};
+use crate::integrate::{Fidelity, Integrator};
 use crate::rule::Rule;
 use crate::strength::Load;
 use crate::warning::{IslandChange, Warning};
@@ -142,7 +142,7 @@ pub trait Coupling {
     fn is_watched(&self) -> bool;
 
     /// Returns the integrator that `choice` means for this cable: an implicit one where internal damping needs it.
-    fn integrator_for(&self, choice: impl Into<IntegratorChoice>) -> Integrator;
+    fn integrator_for(&self, choice: impl Into<Fidelity>) -> Integrator;
 
     /// Replaces rule, effects and integrator together from the next step on, where one needs the other: damping needs an implicit
     /// integrator, a natural curvature a bending rule.
@@ -277,7 +277,7 @@ impl Coupling for Cable {
         Cable::is_watched(self)
     }
 
-    fn integrator_for(&self, choice: impl Into<IntegratorChoice>) -> Integrator {
+    fn integrator_for(&self, choice: impl Into<Fidelity>) -> Integrator {
         Cable::integrator_for(self, choice)
     }
 

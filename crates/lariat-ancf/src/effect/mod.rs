@@ -98,6 +98,7 @@ pub trait Effect: Clone + Debug + PartialEq + Serialize + DeserializeOwned {
 
 /// Where a cable is cut.
 #[derive(Clone, Copy, Debug)]
+#[non_exhaustive]
 pub struct Cut<'a> {
     /// The node at the cut.
     pub node: usize,

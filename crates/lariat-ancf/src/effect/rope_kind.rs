@@ -50,6 +50,7 @@ const HALF_WAVES: f64 = 10.0;
 /// A kind of rope, by which its damping is named.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
+#[non_exhaustive]
 pub enum RopeKind {
     /// Parallel wires or strands of steel: 0.1 % of critical.
     ParallelWires,

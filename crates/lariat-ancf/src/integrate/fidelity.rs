@@ -17,16 +17,17 @@ use crate::rule::{BendingRule, Rule};
 use serde::{Deserialize, Serialize};
 use std::str::FromStr;
 
-/// A preset of accuracy against time.
+/// Accuracy against time: a preset, or an integrator of your own, which converts to it.
 ///
-/// Each is measured in three scenes, with its own integrator, its own rule, and the number of
+/// Each preset is measured in three scenes, with its own integrator, its own rule, and the number of
 /// elements in the table (`docs/accuracy`, CPU time of one thread): *pendulum*, the paper's, 2 s,
 /// against the beam without discretisation; *payload*, a crate of 50 kg in Rapier on a cable, 1 s,
 /// against an independent code; *taut steel*, a plucked cable of 10 mm, 0.1 s, against its analytic
 /// modes (amplitude 1e-4 m). The payload's cable vibrates undamped, and a tolerance resolves that
 /// vibration.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
+#[non_exhaustive]
 pub enum Fidelity {
     /// Guarded discrete gradient at h <= 1/240 s: it cannot make energy, and costs the same in every
     /// step of a smooth motion.
@@ -55,6 +56,8 @@ pub enum Fidelity {
     /// | payload | 10 | 1.3e-4 | 264 |
     /// | taut steel | 80 | 2.0e-8 | 227 |
     Reference,
+    /// This integrator.
+    Custom(Integrator),
 }
 
 /// Largest angular frequency in rad/s of a cable for which the reference fidelity is explicit: of
@@ -66,12 +69,13 @@ impl Fidelity {
     /// All presets, from the cheapest.
     pub const ALL: [Fidelity; 3] = [Fidelity::Game, Fidelity::Engineering, Fidelity::Reference];
 
-    /// Returns the name: `game`, `engineering` or `reference`.
+    /// Returns the name: `game`, `engineering`, `reference` or `custom`.
     pub fn name(self) -> &'static str {
         match self {
             Fidelity::Game => "game",
             Fidelity::Engineering => "engineering",
             Fidelity::Reference => "reference",
+            Fidelity::Custom(_) => "custom",
         }
     }
 
@@ -81,17 +85,18 @@ impl Fidelity {
     pub fn rule(self) -> Rule {
         match self {
             Fidelity::Game => Rule { bending: BendingRule::T1, ..Rule::default() },
-            Fidelity::Engineering | Fidelity::Reference => Rule::default(),
+            Fidelity::Engineering | Fidelity::Reference | Fidelity::Custom(_) => Rule::default(),
         }
     }
 
     /// Returns the recommended number of elements: the mesh error is about the time error for a
     /// cable that swings and bends as the pendulum of `docs/accuracy` does. A taut cable needs
-    /// fewer elements, one with sharper bends more.
+    /// fewer elements, one with sharper bends more. For an integrator of your own it is that of
+    /// [`Engineering`](Self::Engineering).
     pub fn elements(self) -> usize {
         match self {
             Fidelity::Game => 10,
-            Fidelity::Engineering => 20,
+            Fidelity::Engineering | Fidelity::Custom(_) => 20,
             Fidelity::Reference => 80,
         }
     }
@@ -107,6 +112,7 @@ impl Fidelity {
                 Integrator { method: Method::Rkn4, control: StepControl::Stable(0.5) }
             }
             Fidelity::Reference => Integrator { method: Method::Esdirk4, control: StepControl::Tolerance(1e-9) },
+            Fidelity::Custom(integrator) => integrator,
         }
     }
 }
@@ -121,48 +127,8 @@ impl FromStr for Fidelity {
     }
 }
 
-/// An integrator, or a fidelity that chooses one by the cable's frequencies. Default:
-/// [`Fidelity::Engineering`].
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum IntegratorChoice {
-    /// The integrator of a preset.
-    Fidelity(Fidelity),
-    /// This integrator.
-    Integrator(Integrator),
-}
-
-impl IntegratorChoice {
-    /// Returns the integrator for a cable whose frequencies stay below `frequency_bound` (rad/s).
-    pub fn integrator(self, frequency_bound: f64) -> Integrator {
-        match self {
-            IntegratorChoice::Fidelity(fidelity) => fidelity.integrator(frequency_bound),
-            IntegratorChoice::Integrator(integrator) => integrator,
-        }
-    }
-
-    /// Returns the force strategy of a cable for which none is chosen: that of the fidelity, or the default.
-    pub fn rule(self) -> Rule {
-        match self {
-            IntegratorChoice::Fidelity(fidelity) => fidelity.rule(),
-            IntegratorChoice::Integrator(_) => Rule::default(),
-        }
-    }
-}
-
-impl Default for IntegratorChoice {
-    fn default() -> Self {
-        IntegratorChoice::Fidelity(Fidelity::default())
-    }
-}
-
-impl From<Fidelity> for IntegratorChoice {
-    fn from(fidelity: Fidelity) -> Self {
-        IntegratorChoice::Fidelity(fidelity)
-    }
-}
-
-impl From<Integrator> for IntegratorChoice {
+impl From<Integrator> for Fidelity {
     fn from(integrator: Integrator) -> Self {
-        IntegratorChoice::Integrator(integrator)
+        Fidelity::Custom(integrator)
     }
 }

@@ -25,7 +25,8 @@ pub enum StepControl {
     Stable(f64),
 }
 
-/// A method and its step control.
+/// A method and its step control. The method is one of the library by its name, or an implementation of
+/// [`OneStep`] of your own, with which [`Cable::step_with`](crate::Cable::step_with) steps.
 ///
 /// ```
 /// use lariat_ancf::{Integrator, Method, StepControl};
@@ -35,9 +36,9 @@ pub enum StepControl {
 /// # Ok::<(), lariat_ancf::Error>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Integrator {
+pub struct Integrator<M = Method> {
     /// The method.
-    pub method: Method,
+    pub method: M,
     /// How steps are chosen.
     pub control: StepControl,
 }
@@ -66,7 +67,9 @@ impl Integrator {
     pub fn substeps(method: Method, substeps: u32) -> Result<Self, Error> {
         Integrator { method, control: StepControl::Substeps(substeps) }.checked()
     }
+}
 
+impl<M: OneStep> Integrator<M> {
     /// Returns the same, if the method supports the step control.
     ///
     /// # Errors
@@ -76,9 +79,8 @@ impl Integrator {
     }
 }
 
-/// A borrowed method of any crate and its step control: what
-/// [`Cable::step_with`](crate::Cable::step_with) and
-/// [`Island::step_with`](crate::island::Island::step_with) take. An [`Integrator`] converts to it.
+/// An [`Integrator`] of any method, borrowed, with a limit to its work: what an
+/// [`island`](crate::island::Island::step_with) takes. `&Integrator` converts to it.
 #[derive(Clone, Copy, Debug)]
 pub struct IntegratorRef<'a> {
     /// The method.
@@ -89,18 +91,13 @@ pub struct IntegratorRef<'a> {
     pub limit: Option<&'a WorkLimit>,
 }
 
-impl<'a> From<&'a Integrator> for IntegratorRef<'a> {
-    fn from(integrator: &'a Integrator) -> Self {
-        IntegratorRef::new(&integrator.method, integrator.control)
+impl<'a, M: OneStep> From<&'a Integrator<M>> for IntegratorRef<'a> {
+    fn from(integrator: &'a Integrator<M>) -> Self {
+        IntegratorRef { method: &integrator.method, control: integrator.control, limit: None }
     }
 }
 
 impl<'a> IntegratorRef<'a> {
-    /// Returns a method with a step control, without a limit.
-    pub fn new(method: &'a dyn OneStep, control: StepControl) -> Self {
-        IntegratorRef { method, control, limit: None }
-    }
-
     /// Returns the same with this limit to its work.
     pub fn within(self, limit: Option<&'a WorkLimit>) -> Self {
         IntegratorRef { limit, ..self }

@@ -14,6 +14,7 @@ use std::str::FromStr;
 /// A time integration method. [`Method::properties`] says what each is suited for.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(into = "String", try_from = "String")]
+#[non_exhaustive]
 pub enum Method {
     /// Implicit midpoint rule.
     Midpoint,
@@ -42,6 +43,7 @@ pub enum Method {
 
 /// Order, cost, stability and range of a method.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Properties {
     /// Order of convergence in time.
     pub order: u32,

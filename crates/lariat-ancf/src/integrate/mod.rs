@@ -61,7 +61,7 @@ pub use crate::state::{Differences, Memory, State};
 pub use discrete_gradient::EnergyLaw;
 pub use dynamics::{Dynamics, Stage};
 pub use error_norm::ErrorNorm;
-pub use fidelity::{Fidelity, IntegratorChoice};
+pub use fidelity::Fidelity;
 pub use integrator::{Integrator, IntegratorRef, StepControl};
 pub use method::{Method, Properties};
 pub(crate) use one_step::add_scaled;

@@ -72,8 +72,8 @@ impl Scratch {
 /// [`Island::step_with`](crate::island::Island::step_with).
 ///
 /// ```
-/// use lariat_ancf::integrate::{Dynamics, IntegratorRef, OneStep, Scratch, State, StepRequest};
-/// use lariat_ancf::{At, Cable, Section, StepControl, StepFailure, Vector3};
+/// use lariat_ancf::integrate::{Dynamics, OneStep, Scratch, State, StepRequest};
+/// use lariat_ancf::{At, Cable, Integrator, Section, StepControl, StepFailure, Vector3};
 ///
 /// /// Symplectic Euler: v += h a, q += h v.
 /// #[derive(Debug)]
@@ -109,8 +109,8 @@ impl Scratch {
 ///     .section(Section::from_stiffness(100.0, 0.0, 0.1)?)
 ///     .fix(At::Start)
 ///     .build()?;
-/// let control = StepControl::Stable(0.5);
-/// cable.step_with(1.0 / 60.0, IntegratorRef::new(&SymplecticEuler, control))?;
+/// let integrator = Integrator { method: SymplecticEuler, control: StepControl::Stable(0.5) };
+/// cable.step_with(1.0 / 60.0, &integrator)?;
 /// assert!(cable.node_position(10).y < 0.0);
 /// # Ok::<(), lariat_ancf::Error>(())
 /// ```

@@ -47,22 +47,22 @@ impl Island {
         integrator: Integrator,
         dt: f64,
     ) -> Result<(), Error> {
-        self.step_with(cables, bodies, pins, (&integrator).into(), dt)
+        self.step_with(cables, bodies, pins, &integrator, dt)
     }
 
     /// Advances as [`step`](Self::step) does, with a method that may be of another crate.
     ///
     /// # Errors
     /// As [`step`](Self::step).
-    pub fn step_with(
+    pub fn step_with<'i>(
         &mut self,
         cables: &mut [&mut Cable],
         bodies: &mut [RigidBody],
         pins: &[PinConstraint],
-        integrator: IntegratorRef<'_>,
+        integrator: impl Into<IntegratorRef<'i>>,
         dt: f64,
     ) -> Result<(), Error> {
-        self.step_with_sheaves(cables, bodies, pins, (&mut [], &[]), integrator, dt)
+        self.step_with_sheaves(cables, bodies, pins, (&mut [], &[]), integrator.into(), dt)
     }
 
     /// Advances as [`step_with`](Self::step_with) does, with cables that run over sheaves and on drums.

@@ -30,6 +30,7 @@ pub enum Reason {
 /// The matrix is singular to working precision, or not finite.
 #[derive(thiserror::Error, Debug, Clone, PartialEq)]
 #[error("matrix cannot be factored at node {node}: {reason:?} (pivot {pivot:e}, scale {scale:e})")]
+#[non_exhaustive]
 pub struct SingularMatrix {
     /// Node of the offending entry or of the smallest pivot.
     pub node: usize,

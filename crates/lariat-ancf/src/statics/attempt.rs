@@ -4,6 +4,7 @@ use crate::error::StepFailure;
 
 /// The result of [`Cable::equilibrium`](crate::Cable::equilibrium).
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct EquilibriumReport {
     /// Iterations of all attempts together.
     pub iterations: usize,

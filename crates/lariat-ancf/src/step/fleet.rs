@@ -29,6 +29,7 @@ use std::sync::Mutex;
 /// Cables of a fleet that could not step.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("{} cables could not step; number {}: {}", .failures.len(), .failures[0].0, .failures[0].1)]
+#[non_exhaustive]
 pub struct FleetError {
     /// Number in the fleet and error of each of them, ascending; there is at least one.
     pub failures: Vec<(usize, Error)>,

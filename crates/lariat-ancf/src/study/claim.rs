@@ -16,6 +16,7 @@ pub enum Outcome {
 
 /// What is claimed about the last run of a study.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct Claim {
     /// Error that was asked for in m.
     pub asked_m: f64,

@@ -39,6 +39,7 @@ const LEAST_STRAIN: f64 = 1e-6;
 
 /// The energy of a run: what integration made or lost, and what to compare it with.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct EnergyBalance {
     /// Change of the energy less the work at the end, in J: what integration made, or lost.
     pub balance_j: f64,

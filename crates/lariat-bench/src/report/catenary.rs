@@ -12,7 +12,7 @@ use crate::error::Error;
 use crate::numbers::largest;
 use crate::page::Section;
 use cpu_time::ProcessTime;
-use lariat_ancf::{At, AxialRule, BendingRule, Cable, Diagnostics, Rule, Section as CrossSection, Vector3};
+use lariat_ancf::{At, AxialRule, BendingRule, Cable, Rule, Section as CrossSection, Vector3};
 
 const AXIAL: f64 = 1e5;
 const LENGTH: f64 = 12.0;
@@ -67,7 +67,8 @@ pub fn against_shooting(options: &Options, line: &str, rule: Rule, elements: usi
         cable.equilibrium()?;
         Ok::<f64, lariat_ancf::Error>(clock.elapsed().as_secs_f64())
     });
-    let counts = Diagnostics { newton_iterations: report.iterations as u64, ..*found.diagnostics() };
+    let mut counts = *found.diagnostics();
+    counts.newton_iterations = report.iterations as u64;
     match timed {
         Ok(time) => Point { setting, error: Some(error), time, counts, failed: None },
         Err(reason) => Point::failed(setting, reason),

@@ -74,7 +74,7 @@ fn fidelities(options: &Options) -> Result<Vec<(Fidelity, &'static str, Point)>,
 
         // with the mesh of the reference
         let mut scene = payload::scene(rule, payload::ELEMENTS, 60)?;
-        scene.cables[0].integrator = fidelity.into();
+        scene.cables[0].integrator = fidelity;
         let integrator = scene.build_cable(0)?.integrator();
         let setting = Setting::new("", rule, integrator, payload::ELEMENTS, scene.dt);
         out.push((fidelity, "payload", payload::against_monolithic(options, setting, &scene, 60)));

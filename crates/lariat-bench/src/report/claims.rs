@@ -15,7 +15,7 @@ use crate::error::Error;
 use crate::page::Section;
 use crate::table::{Cell, Format, Table, hidden, shown};
 use lariat_ancf::study::Resolution;
-use lariat_ancf::{Integrator, IntegratorChoice, Method};
+use lariat_ancf::{Integrator, Method};
 use lariat_scene::run::{self, World};
 use lariat_scene::scene::{Purpose, Scene};
 
@@ -107,7 +107,7 @@ fn at(scene: &Scene, resolution: &Resolution) -> Scene {
     for cable in &mut scene.cables {
         cable.elements = resolution.elements_of(cable.elements, largest);
         if resolution.tolerance.is_some() {
-            cable.integrator = IntegratorChoice::from(resolution.integrator());
+            cable.integrator = resolution.integrator().into();
         }
     }
     scene

@@ -177,7 +177,7 @@ pub fn section(options: &Options) -> Result<Section, Error> {
             for (name, mut scene, free) in scenes {
                 scene.dt = 1.0 / f64::from(hz);
                 scene.solver_iterations = Some(iterations);
-                scene.cables[0].integrator = fidelity.into();
+                scene.cables[0].integrator = fidelity;
                 rows.push(row(options, name, &scene, fidelity, hz, free));
             }
         }

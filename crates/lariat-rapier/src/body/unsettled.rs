@@ -25,6 +25,7 @@ use serde::{Deserialize, Serialize};
 
 /// A body on joints whose motion was not the predicted one for half a second, so that forces and tensions of its cables are not to be trusted.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct Unsettled {
     /// Time of the cable in s at the end of the worst half second.
     pub time: f64,

@@ -237,7 +237,7 @@ impl Finder {
         cable.set_obstacles(obstacles)?;
         match cable.overlap() {
             None => Ok(()),
-            Some(Overlap { obstacle, arc_length, depth }) => Err(Error::CableTouchesInStatics {
+            Some(Overlap { obstacle, arc_length, depth, .. }) => Err(Error::CableTouchesInStatics {
                 cable: cable.name().to_string(),
                 collider: super::collider(obstacle),
                 arc_length,

@@ -119,6 +119,7 @@ pub struct Attachment {
 
 /// Force, moment, gap and work at an attachment after a step. World axes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct AttachmentReading {
     /// Force of the cable on the body at the end of the step in N.
     pub force: Vector3<f64>,

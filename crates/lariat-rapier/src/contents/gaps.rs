@@ -10,6 +10,7 @@ use serde::{Deserialize, Serialize};
 
 /// A gap of an attachment that is longer than its limit.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct OpenGap {
     /// Largest distance in m since cable and anchor met, or if they did not, the least.
     pub gap: f64,

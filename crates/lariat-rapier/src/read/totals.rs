@@ -13,6 +13,7 @@ use rapier::pipeline::PhysicsWorld;
 
 /// Energies of a world in J; potentials of gravity are zero at the origin.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[non_exhaustive]
 pub struct WorldEnergy {
     /// Energy of all cables.
     pub cables: Energy,

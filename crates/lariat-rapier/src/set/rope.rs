@@ -145,6 +145,7 @@ rope_ends!([f64; 3], [f32; 3], Vector3<f64>, Vector, Point);
 
 /// The handles of a rope that was added.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct RopeHandles {
     /// The cable.
     pub cable: CableHandle,

@@ -6,6 +6,7 @@ use rapier::dynamics::RigidBodyHandle;
 
 /// The result of [`CableSet::equilibrium`](crate::CableSet::equilibrium).
 #[derive(Clone, Debug, Default)]
+#[non_exhaustive]
 pub struct Equilibrium {
     /// By cable, the report of its island: cables of one island share it.
     pub cables: Vec<(CableHandle, EquilibriumReport)>,

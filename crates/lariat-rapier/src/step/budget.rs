@@ -11,8 +11,9 @@
 //! bounds, are not in it. By how much it can be exceeded: [`WorkLimit`].
 
 use crate::scales::step::CHEAPEST_STEP;
+use lariat_ancf::integrate::IntegratorRef;
 use lariat_ancf::integrate::WorkLimit;
-use lariat_ancf::{Error, Integrator, IntegratorRef, Method, StepControl, StepFailure};
+use lariat_ancf::{Error, Integrator, Method, StepControl, StepFailure};
 use serde::{Deserialize, Serialize};
 use std::time::{Duration, Instant};
 

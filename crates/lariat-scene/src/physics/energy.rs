@@ -12,6 +12,7 @@ use nalgebra::UnitQuaternion;
 
 /// Energy of a dynamic body and work on it, in J.
 #[derive(Clone, Copy, Debug, Default)]
+#[non_exhaustive]
 pub struct BodyTerms {
     /// Kinetic energy.
     pub kinetic: f64,

@@ -7,6 +7,7 @@ use nalgebra::UnitQuaternion;
 
 /// Position and velocity of a body.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct BodyState {
     /// Origin in m.
     pub position: Vector3<f64>,

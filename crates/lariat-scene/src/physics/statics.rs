@@ -14,6 +14,7 @@ const MAX_ROUNDS: usize = 100;
 const SAME_ATTITUDE: f64 = 1e-6;
 
 /// What statics did with the bodies of a scene, by their positions in it.
+#[non_exhaustive]
 pub struct Settled {
     /// By cable, the report of its equilibrium.
     pub cables: Vec<EquilibriumReport>,

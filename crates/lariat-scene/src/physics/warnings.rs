@@ -10,7 +10,7 @@ impl Physics {
     pub fn open_gaps(&self, scene: &Scene) -> Vec<Warning> {
         let attachments = self.attachments.iter().zip(&scene.attachments);
         let open = attachments.filter_map(|(handle, attachment)| {
-            let OpenGap { gap, time, closed } = self.cables.open_gap((*handle)?).ok()??;
+            let OpenGap { gap, time, closed, .. } = self.cables.open_gap((*handle)?).ok()??;
             Some(Warning::OpenGap { attachment: attachment.name.clone(), time_s: time, gap_m: gap, closed })
         });
         open.collect()

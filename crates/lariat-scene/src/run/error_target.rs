@@ -21,6 +21,7 @@ const LEAST_SINGLE: f64 = 1e-5;
 
 /// What `summary.json` says about the error that was asked for.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct ErrorClaim {
     /// What is claimed.
     #[serde(flatten)]

@@ -16,6 +16,7 @@ pub struct Piece {
 
 /// A cable that became two, in `summary.json`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct Parted {
     /// Name of the cable.
     pub cable: String,

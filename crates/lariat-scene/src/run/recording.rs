@@ -8,6 +8,7 @@ use crate::view::Recorder;
 
 /// The rows of a probe.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct ProbeRecord {
     /// Name of the probe.
     pub name: String,

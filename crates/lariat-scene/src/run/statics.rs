@@ -14,6 +14,7 @@ const POINTS: usize = 8;
 
 /// The static equilibrium of a cable.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct CableStatics {
     /// Name of the cable.
     pub name: String,
@@ -38,6 +39,7 @@ pub struct CableStatics {
 
 /// Force and moment of a cable on what holds it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct StaticReaction {
     /// Name of the attachment or junction.
     pub name: String,
@@ -51,6 +53,7 @@ pub struct StaticReaction {
 
 /// What statics did with the bodies of a scene.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct BodyStatics {
     /// Dynamic bodies in equilibrium.
     pub moved: Vec<BodyPlace>,
@@ -62,6 +65,7 @@ pub struct BodyStatics {
 
 /// A body in equilibrium.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct BodyPlace {
     /// Name of the body.
     pub name: String,

@@ -9,6 +9,7 @@ use std::time::Duration;
 
 /// The summary of a run; keys as docs/scene.md lists them.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct Summary {
     /// Name of the scene.
     pub name: String,

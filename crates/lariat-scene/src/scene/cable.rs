@@ -7,7 +7,7 @@ use super::reel::{self, DrumScene, DrumTable, REEL};
 use crate::document::{Document, KeyPath};
 use crate::error::{Error, Problem};
 use crate::schema::{Choose, Kind, NOT_NEGATIVE, POSITIVE, VECTOR, choice, parse_as, table};
-use lariat_ancf::{AxialRule, BendingRule, Effects, IntegratorChoice, Reel, Rule, Section, Shape, Vector3};
+use lariat_ancf::{AxialRule, BendingRule, Effects, Fidelity, Reel, Rule, Section, Shape, Vector3};
 use serde::Deserialize;
 
 choice! {
@@ -135,7 +135,7 @@ pub struct CableScene {
     /// Body on which the reel winds it.
     pub drum: Option<DrumScene>,
     /// Time integrator.
-    pub integrator: IntegratorChoice,
+    pub integrator: Fidelity,
     /// Initial velocity in m/s.
     pub velocity: Vector3<f64>,
     /// Initial angular velocity about the start point in rad/s.

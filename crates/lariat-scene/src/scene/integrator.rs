@@ -3,7 +3,7 @@
 use crate::document::{Document, KeyPath};
 use crate::error::{Error, Problem};
 use crate::schema::{Choose, Kind, MANY, POSITIVE, SHARE, parse_as, table};
-use lariat_ancf::{ErrorNorm, Fidelity, Integrator, IntegratorChoice, Method, StepControl};
+use lariat_ancf::{ErrorNorm, Fidelity, Integrator, Method, StepControl};
 
 /// Least tolerance over the length of the cable: some tens of roundings of a position.
 const ROUNDING: f64 = 1e-14;
@@ -30,10 +30,10 @@ table! {
 }
 
 /// Reads the integrator at a path.
-pub(super) fn read(doc: &Document<'_>, at: &KeyPath, row: &IntegratorTable) -> Result<IntegratorChoice, Error> {
+pub(super) fn read(doc: &Document<'_>, at: &KeyPath, row: &IntegratorTable) -> Result<Fidelity, Error> {
     if let Some(fidelity) = row.fidelity {
         return match (row.method, row.norm) {
-            (None, None) => Ok(fidelity.into()),
+            (None, None) => Ok(fidelity),
             (Some(_), _) => Err(doc.error(at, Problem::TooManyGiven(vec!["method", "fidelity"]))),
             (None, Some(_)) => Err(doc.error(at, Problem::TooManyGiven(vec!["norm", "fidelity"]))),
         };
@@ -62,7 +62,7 @@ pub(super) fn read(doc: &Document<'_>, at: &KeyPath, row: &IntegratorTable) -> R
         None => return Err(doc.missing(&at.key("method"))),
     };
     let checked = Integrator { method, control }.checked();
-    checked.map(IntegratorChoice::from).map_err(|error| doc.conflict(&at.key(key), error.to_string()))
+    checked.map(Fidelity::from).map_err(|error| doc.conflict(&at.key(key), error.to_string()))
 }
 
 /// Checks that a tolerance is above the rounding of positions on a cable of this length (m): below, steps get ever shorter for nothing.
@@ -88,13 +88,13 @@ pub(super) fn check_tolerance(
 pub(super) fn by_discrete_gradient(
     doc: &Document<'_>,
     at: &KeyPath,
-    written: IntegratorChoice,
+    written: Fidelity,
     what: &str,
-) -> Result<IntegratorChoice, Error> {
+) -> Result<Fidelity, Error> {
     let method = written.integrator(f64::INFINITY).method;
     match method {
         Method::DiscreteGradient => Ok(written),
-        _ if !doc.contains(at) => Ok(Fidelity::Game.into()),
+        _ if !doc.contains(at) => Ok(Fidelity::Game),
         _ => Err(doc.error_accepting(
             at,
             Problem::Conflict(format!("{method} cannot step {what}")),

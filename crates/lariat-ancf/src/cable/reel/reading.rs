@@ -7,6 +7,7 @@ use crate::reel::Reel;
 
 /// What a reel does now.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct ReelReading {
     /// Unstretched length of cable that is out, in m.
     pub length_out: f64,

@@ -4,6 +4,7 @@ use nalgebra::Vector3;
 
 /// A contact of a cable with a cable, or with itself, as it was at the end of the last step.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct PairTouch {
     /// [Key](crate::coupling::Coupling::set_contact_key) of the other cable.
     pub other: u64,

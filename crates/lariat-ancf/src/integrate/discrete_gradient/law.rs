@@ -11,6 +11,7 @@ pub(super) const CLOSURE: f64 = 1e-2;
 /// quadrature of the step. The work of effects, internal damping among them, is in [`EffectWork`](crate::EffectWork).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
+#[non_exhaustive]
 pub struct EnergyLaw {
     /// Numerical dissipation; never falls.
     pub numerical: f64,
