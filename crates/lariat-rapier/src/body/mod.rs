@@ -23,5 +23,5 @@ pub(crate) mod spatial;
 pub(crate) mod unsettled;
 
 pub use rigid_body::rigid_body;
-pub(crate) use rigid_body::{is_integrated, read, update_mass};
+pub(crate) use rigid_body::{give_mass, is_integrated, read, update_mass};
 pub(crate) use saved::{SavedBody, replace_loads};

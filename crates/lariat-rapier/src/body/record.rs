@@ -135,6 +135,11 @@ impl Records {
         self.0.binary_search_by_key(&body.into_raw_parts(), |record| record.handle.into_raw_parts())
     }
 
+    /// Returns the bodies that have a record: those with attachments, and those that moved with them.
+    pub fn handles(&self) -> impl Iterator<Item = RigidBodyHandle> {
+        self.0.iter().map(|record| record.handle)
+    }
+
     /// Returns the record of a body.
     pub fn get(&self, body: RigidBodyHandle) -> Option<&BodyRecord> {
         self.find(body).ok().map(|i| &self.0[i])

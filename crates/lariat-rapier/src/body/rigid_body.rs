@@ -7,6 +7,7 @@ use crate::error::{BodyQuantity, Error};
 use ::nalgebra::{Matrix3, Vector3};
 use lariat_ancf::island::RigidBody;
 use rapier::dynamics::{LockedAxes, RigidBody as RapierBody, RigidBodyHandle};
+use rapier::geometry::Collider;
 use rapier::pipeline::PhysicsWorld;
 
 /// Returns whether the coupling integrates a body: dynamic, enabled, of finite mass. The motion of
@@ -18,14 +19,31 @@ pub(crate) fn is_integrated(world: &PhysicsWorld, handle: RigidBodyHandle) -> bo
         .is_some_and(|b| b.is_dynamic() && b.is_enabled() && b.mass_properties().local_mprops.inv_mass > 0.0)
 }
 
-/// Makes Rapier compute the mass of a body that was given one besides its colliders, which it does
-/// in its next step only.
-pub(crate) fn update_mass(world: &mut PhysicsWorld, handle: RigidBodyHandle) {
-    let PhysicsWorld { bodies, colliders, .. } = world;
+/// Makes Rapier compute the mass of a body that has none yet: one that was given a mass besides its
+/// colliders has it from its next step on only.
+pub(crate) fn give_mass(world: &mut PhysicsWorld, handle: RigidBodyHandle) {
     let massless = |b: &RapierBody| b.is_dynamic() && b.mass_properties().local_mprops.inv_mass == 0.0;
-    if bodies.get(handle).is_some_and(massless) {
-        bodies[handle].recompute_mass_properties_from_colliders(colliders);
+    if world.bodies.get(handle).is_some_and(massless) {
+        recompute_mass(world, handle);
     }
+}
+
+/// Makes Rapier compute the mass, centre of mass and inertia of a body with what the user changed
+/// of them, or of its colliders, since the last step: it does so in its next step only, when the
+/// forces of the cables are known. A body without a collider that is enabled keeps its mass, since
+/// those of one that was just enabled are so from the next step on only.
+pub(crate) fn update_mass(world: &mut PhysicsWorld, handle: RigidBodyHandle) {
+    let Some(body) = world.bodies.get(handle) else { return };
+    let mut colliders = body.colliders().iter().filter_map(|&c| world.colliders.get(c)).peekable();
+    let is_known = colliders.peek().is_none() || colliders.any(Collider::is_enabled);
+    if body.is_dynamic() && body.is_enabled() && !body.is_sleeping() && is_known {
+        recompute_mass(world, handle);
+    }
+}
+
+fn recompute_mass(world: &mut PhysicsWorld, handle: RigidBodyHandle) {
+    let PhysicsWorld { bodies, colliders, .. } = world;
+    bodies[handle].recompute_mass_properties_from_colliders(colliders);
 }
 
 /// Returns a body as Rapier holds it: mass, inertia, state in `f64`, and the forces of gravity and

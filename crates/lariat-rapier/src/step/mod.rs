@@ -128,6 +128,7 @@ pub(crate) fn begin(
         stepper.failures.clear();
         stepper.budget = Remaining::new(settings.budget);
         stepper.predictions.iter_mut().for_each(|p| (p.budget, p.degraded) = (stepper.budget, false));
+        contents.records.handles().for_each(|body| body::update_mass(world, body));
         host.steps = substepping::count(contents, world, settings, f64::from(dt));
         host.motions = core::mem::take(&mut stepper.motions);
         let attached = contents.attachments.values().map(|a| a.body);
@@ -213,7 +214,7 @@ fn predict_islands(
     attach::end_lost(contents, world, &mut stepper.events)?;
     contents.follow_gravity(world)?;
     let held = contents.attachments.values().map(|a| a.body);
-    held.chain(contents.drums.iter().map(|wound| wound.drum.body)).for_each(|b| body::update_mass(world, b));
+    held.chain(contents.drums.iter().map(|wound| wound.drum.body)).for_each(|b| body::give_mass(world, b));
     let h = f64::from(world.integration_parameters.dt);
     stepper.finder.begin(contents, world, h);
     let step = loop {

@@ -216,6 +216,59 @@ fn a_body_that_loses_half_its_mass_hangs_on_with_the_other() {
     }
 }
 
+/// Changes of mass between two host steps, by each of Rapier's ways.
+const CHANGES_OF_MASS: [fn(&mut PhysicsWorld, RigidBodyHandle); 6] = [
+    |world, load| world.bodies[load].set_additional_mass(7.0, true),
+    |world, load| {
+        let heavy = MassProperties::new(Vector::new(0.03, -0.05, 0.02), 3.0, Vector::new(0.1, 0.2, 0.3));
+        world.bodies[load].set_additional_mass_properties(heavy, true);
+    },
+    |world, load| each_collider(world, load, |collider| collider.set_mass(0.5)),
+    |world, load| each_collider(world, load, |collider| collider.set_density(9000.0)),
+    |world, load| {
+        let weight = ColliderBuilder::ball(0.05).mass(2.0).translation(Vector::new(0.0, -0.2, 0.1));
+        world.insert_collider(weight, Some(load));
+    },
+    |world, load| {
+        each_collider(world, load, |collider| collider.set_position_wrt_parent(Pose::translation(0.05, -0.1, 0.0)));
+    },
+];
+
+fn each_collider(world: &mut PhysicsWorld, load: RigidBodyHandle, change: fn(&mut Collider)) {
+    for collider in world.bodies[load].colliders().to_vec() {
+        change(&mut world.colliders[collider]);
+    }
+}
+
+/// The mass, the centre of mass or the inertia of a swinging load is changed between two host
+/// steps: it acts in the next one, as if the user had called
+/// `recompute_mass_properties_from_colliders`, to the bit, and no gap opens.
+///
+/// Reference: the same run with that call, which this crate's step does not need.
+#[test]
+fn a_change_of_mass_acts_in_the_next_step() {
+    for (i, change) in CHANGES_OF_MASS.into_iter().enumerate() {
+        let run = |by_hand: bool| {
+            let mut h = hanging_load();
+            let before = h.world.bodies[h.load].mass_properties().local_mprops;
+            change(&mut h.world, h.load);
+            let PhysicsWorld { bodies, colliders, .. } = &mut h.world;
+            if by_hand {
+                bodies[h.load].recompute_mass_properties_from_colliders(colliders);
+            }
+            let mut places = Vec::new();
+            for _ in 0..10 {
+                h.run(1);
+                assert!(gap(&h.set) < 1e-6, "change {i}: gap {:.1e} m", gap(&h.set));
+                places.push((h.end(), vector(h.world.bodies[h.load].linvel()), tension(&h.set, h.rope, 1.0)));
+            }
+            assert_ne!(before, h.world.bodies[h.load].mass_properties().local_mprops, "change {i}");
+            places
+        };
+        assert_eq!(run(false), run(true), "change {i}");
+    }
+}
+
 /// A cable is cut between the prediction of a step and its reconciliation.
 ///
 /// Reference: the contract; the load falls, by g t^2/2 within 10 % for the swing of the cut end.
