@@ -111,10 +111,10 @@ fn is_almost_solved(balance: &Balance) -> bool {
 
 /// Returns the verdict of the general tests about the energy.
 fn judge_energy(balance: &Balance) -> Verdict {
-    if !is_certain(balance) {
-        Verdict::Iterate(Reason::Uncertain)
-    } else if !keeps_law(balance) {
+    if balance.excess() > balance.tolerance() {
         Verdict::Iterate(Reason::MakesEnergy)
+    } else if !keeps_law(balance) {
+        Verdict::Iterate(Reason::Uncertain)
     } else if !is_dissipation_right(balance) {
         Verdict::Iterate(Reason::LosesEnergy)
     } else if !closes(balance) {
