@@ -1,6 +1,7 @@
 //! What a cable did: counts, so that cost can be read without a clock, and the same on every machine.
 
 use crate::effect::EffectCounts;
+use crate::term::ReasonCounts;
 use core::ops::AddAssign;
 use serde::{Deserialize, Serialize};
 
@@ -47,6 +48,12 @@ pub struct Diagnostics {
     /// Steps of the discrete gradient whose friction did not settle on the normal forces of the step itself.
     #[serde(default)]
     pub lagging_steps: u64,
+    /// Newton iterations of the discrete gradient beyond the first one of a step, by the reason for them.
+    #[serde(default)]
+    pub iterations_for: ReasonCounts,
+    /// Divisions of its steps, by the reason for them.
+    #[serde(default)]
+    pub divisions_for: ReasonCounts,
     /// [Warnings](crate::Cable::warnings) that came up in host steps, each kind once; zero for a cable that is not
     /// [watched](crate::Cable::set_watched).
     #[serde(default)]
@@ -57,30 +64,37 @@ pub struct Diagnostics {
     pub effects: EffectCounts,
 }
 
-/// Applies `$op` field by field.
+/// Applies `$op` field by field; the rest is given.
 macro_rules! by_field {
-    ($a:expr, $b:expr, $op:expr, $effects:expr) => {
-        by_field!(@ $a, $b, $op, $effects; host_steps, steps, rejected_steps, newton_iterations, factorisations,
+    ($a:expr, $b:expr, $op:expr, $rest:expr) => {
+        by_field!(@ $a, $b, $op, $rest; host_steps, steps, rejected_steps, newton_iterations, factorisations,
             indefinite_factorisations, solves, mass_solves, force_evaluations, tangent_evaluations, bending_evaluations,
             load_evaluations, load_readings, rescaled_steps, split_steps, crossed_steps, lagging_steps, warnings)
     };
-    (@ $a:expr, $b:expr, $op:expr, $effects:expr; $($field:ident),*) => {
-        Diagnostics { $($field: $op($a.$field, $b.$field),)* effects: $effects }
+    (@ $a:expr, $b:expr, $op:expr, $rest:expr; $($field:ident),*) => {
+        Diagnostics { $($field: $op($a.$field, $b.$field),)* ..$rest }
     };
 }
 
 impl AddAssign for Diagnostics {
     fn add_assign(&mut self, other: Self) {
-        let mut effects = self.effects;
-        effects += other.effects;
-        *self = by_field!(self, other, |a: u64, b: u64| a + b, effects);
+        self.effects += other.effects;
+        self.iterations_for += other.iterations_for;
+        self.divisions_for += other.divisions_for;
+        *self = by_field!(self, other, |a: u64, b: u64| a + b, *self);
     }
 }
 
 impl Diagnostics {
     /// What was counted after `earlier`; zero where it was reset since.
     pub fn since(&self, earlier: &Self) -> Self {
-        by_field!(self, earlier, u64::saturating_sub, self.effects.since(&earlier.effects))
+        let rest = Diagnostics {
+            effects: self.effects.since(&earlier.effects),
+            iterations_for: self.iterations_for.since(&earlier.iterations_for),
+            divisions_for: self.divisions_for.since(&earlier.divisions_for),
+            ..*self
+        };
+        by_field!(self, earlier, u64::saturating_sub, rest)
     }
 
     /// All counts to zero.

@@ -70,6 +70,7 @@ mod strength;
 pub mod study;
 mod support;
 mod system;
+mod term;
 pub mod warning;
 mod watch;
 
@@ -102,4 +103,5 @@ pub use step::{FleetError, step_all};
 pub use strength::{Break, BreakCause, Load, Strength};
 pub use support::{Motion, SlopeSupport, Support};
 pub use system::jacobian::Jacobians;
+pub use term::ReasonCounts;
 pub use warning::{Warning, Watch};

@@ -149,3 +149,15 @@ fn without(mut values: toml::Table) -> toml::Table {
     }
     values
 }
+
+/// The page has a row for every reason for which iterations and divisions are counted.
+///
+/// *Source.* The list of the counters.
+#[test]
+fn the_page_lists_all_reasons() {
+    let page = page();
+    let section = page.split("### Reasons").nth(1).and_then(|rest| rest.split("\n## ").next()).unwrap();
+    for key in lariat_ancf::ReasonCounts::KEYS {
+        assert_eq!(section.matches(&format!("\n| `{key}` | ")).count(), 1, "{key}");
+    }
+}

@@ -195,6 +195,12 @@ fn a_load_stops_a_rope_before_the_wheel_at_no_cost() {
     // 2 kg hang on one side, 3 kg on the other, and the stop takes the difference
     assert!((last[4] - last[3]).abs() > 5.0, "{last:?}");
     assert!(recording.summary.newton_iterations < 20 * recording.summary.steps, "{:?}", recording.summary);
+    // counting: what asked for iterations and divisions are laws of the sheave and those of all
+    let s = &recording.summary;
+    let [asked, divided] = [&s.iterations_for, &s.divisions_for].map(|counts| counts.values().sum::<u64>());
+    let at_once = s.divisions_for.get("like_the_last").unwrap_or(&0);
+    assert_eq!((s.divided_steps, s.newton_iterations), (divided, s.steps + 4 * divided - at_once + asked));
+    assert!(s.iterations_for.contains_key("reel_laws") && !s.iterations_for.contains_key("contact_forces"), "{s:?}");
     let told = recording.summary.warnings.iter().any(|warning| warning.to_string().contains("it stopped at"));
     assert!(told, "{:?}", recording.summary.warnings);
 }

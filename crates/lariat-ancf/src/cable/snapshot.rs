@@ -2,10 +2,10 @@
 
 use super::reel::Winding;
 use crate::effect::EffectWork;
-use crate::integrate::EnergyLaw;
 use crate::state::State;
 use crate::strength::LoadRecord;
 use crate::system::System;
+use crate::term::EnergyLaw;
 use serde::{Deserialize, Serialize};
 
 /// Everything that changes while a cable moves, as plain data: clone it, serialise it, [restore](crate::Cable::restore) it, and the run continues

@@ -3,8 +3,8 @@
 use super::reel::Winding;
 use super::{Cable, Snapshot};
 use crate::error::{Error, require, require_finite};
-use crate::integrate::EnergyLaw;
 use crate::support::SlopeSupport;
+use crate::term::EnergyLaw;
 use nalgebra::Vector3;
 
 impl Cable {

@@ -7,11 +7,11 @@ use super::path::{BodyPath, ObstacleStep};
 use super::point::ContactPoint;
 use crate::element::assembly::{add_force, add_tangent};
 use crate::element::shape::combine;
-use crate::integrate::discrete_gradient::Balance;
 use crate::linalg::BlockTridiagonal;
 use crate::obstacle::Obstacle;
 use crate::one_leg::BETA;
 use crate::state::{ContactMemory, Key};
+use crate::term::{Account, Balance};
 use nalgebra::Matrix3;
 
 /// The contacts of a step, and what may become one; empty for a cable that is near nothing.
@@ -67,14 +67,15 @@ pub(crate) struct ContactBalance {
 impl ContactBalance {
     /// Adds what contacts do in a step of length `h` (s) to its balance.
     pub fn add_to(&self, balance: &mut Balance, h: f64) {
-        balance.near = true;
+        balance.nonsmooth = true;
         balance.held += self.before;
-        balance.contacts += self.loss;
-        balance.left += self.left;
-        balance.obstacles += self.obstacles;
-        balance.missed += self.missed;
-        balance.forces += self.forces;
         balance.impulse += h * self.forces;
+        let entry = balance.to(Account::Contacts);
+        entry.loss += self.loss;
+        entry.aside += self.left;
+        entry.work += self.obstacles;
+        entry.missed += self.missed;
+        entry.forces += self.forces;
     }
 }
 

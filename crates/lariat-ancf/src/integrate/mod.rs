@@ -58,7 +58,7 @@ pub mod verlet;
 mod work_limit;
 
 pub use crate::state::{Differences, Memory, State};
-pub use discrete_gradient::EnergyLaw;
+pub use crate::term::EnergyLaw;
 pub use dynamics::{Dynamics, Stage};
 pub use error_norm::ErrorNorm;
 pub use fidelity::Fidelity;

@@ -4,10 +4,10 @@ use super::{Equations, dot};
 use crate::contact::{BodyPath, ContactStep, Motion, When};
 use crate::effect::EffectWork;
 use crate::element::shape::combine;
-use crate::integrate::discrete_gradient::Balance;
 use crate::one_leg::ALPHA;
 use crate::state::State;
 use crate::system::StepVectors;
+use crate::term::Balance;
 use nalgebra::Vector3;
 
 impl Equations<'_> {
@@ -53,7 +53,6 @@ impl Equations<'_> {
         self.diagnostics.effects.contact += b.contact.count();
         work.contact += contacts.work;
         b.lost = contacts.loss;
-        balance.given_back = (-contacts.loss).max(0.0);
         contacts.add_to(balance, b.h);
     }
 

@@ -7,11 +7,12 @@ use super::vectors::dot;
 use super::{Equations, System};
 use crate::effect::EffectWork;
 use crate::effect::acts::{ForceInput, PointForce, StepInput};
-use crate::integrate::discrete_gradient::{Balance, sum_of_forces};
+use crate::integrate::discrete_gradient::sum_of_forces;
 use crate::one_leg::{ALPHA, BETA};
 use crate::state::State;
 use crate::support::{SlopeSupport, Support};
 use crate::system::StepVectors;
+use crate::term::{Account, Balance};
 use core::ops::Range;
 
 /// A cable, its state and the buffers of a step.
@@ -183,11 +184,12 @@ impl Equations<'_> {
     pub fn step_balance(&mut self, state: &State, b: &mut StepVectors, work: &mut EffectWork) -> Balance {
         let loss = self.step_residual(state, b, false, work);
         b.lost = 0.0;
-        let mut balance = Balance { numerical: loss.numerical, effects: loss.effects, ..Balance::default() };
+        let mut balance = Balance { numerical: loss.numerical, ..Balance::default() };
+        balance.to(Account::Elements).loss = loss.effects;
         let StepVectors { h, external, product, .. } = &*b;
         balance.impulse = sum_of_forces(product) + *h * sum_of_forces(external);
         if !self.model.loads.is_empty() {
-            balance.loads = b.load_work;
+            balance.to(Account::Loads).work = b.load_work;
         }
         if !b.contact.is_empty() {
             self.balance_contacts(state, b, &mut balance, work);
@@ -200,7 +202,7 @@ impl Equations<'_> {
                 balance.impulse += sum_of_forces(&rhs[6 * node..6 * node + 6]);
             }
             for x in prescribed(support) {
-                balance.supports -= rhs[6 * node + x] * change[6 * node + x] / *h;
+                balance.to(Account::Supports).work -= rhs[6 * node + x] * change[6 * node + x] / *h;
             }
         }
         // the forces are used up

@@ -1,7 +1,7 @@
 //! What is summed over a host step, and the vectors for it.
 
 use crate::effect::EffectWork;
-use crate::integrate::EnergyLaw;
+use crate::term::EnergyLaw;
 
 /// The work of effects in the present host step, and the vectors to compute work and energy.
 #[derive(Clone, Debug, Default)]

@@ -39,6 +39,11 @@ fn a_dropped_rope_comes_to_rest_without_making_energy() {
             d.rescaled_steps
         );
         assert!(made < 1e-8, "{tilt}: {made:e}");
+        // counting, as in discrete_gradient/verdicts.rs: contacts are what asked for most
+        let tried = d.steps + 4 * d.split_steps - d.divisions_for.like_the_last;
+        assert_eq!(d.newton_iterations, tried + d.iterations_for.total());
+        let [forces, bounds] = [d.iterations_for.contact_forces, d.iterations_for.friction_bounds];
+        assert!(forces > 0 && (bounds > 0) == (friction > 0.0), "{:?}", d.iterations_for);
         assert!(rest < limit, "{tilt}: at rest after {rest} s");
         assert!((held / (0.28 * GRAVITY) - 1.0).abs() < 1e-3, "{tilt}: {held}");
     }

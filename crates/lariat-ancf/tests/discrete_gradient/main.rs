@@ -9,3 +9,4 @@ mod motion;
 mod preset;
 mod recipe;
 mod thrown;
+mod verdicts;

@@ -6,7 +6,7 @@ use crate::error::Error;
 use crate::physics::BodyState;
 use crate::scene::AttachmentScene;
 use lariat_ancf::coupling::Coupling;
-use lariat_ancf::{Cable, Energy, Method, Momentum, Reaction, Vector3};
+use lariat_ancf::{Cable, Energy, Method, Momentum, Reaction, ReasonCounts, Vector3};
 use std::collections::BTreeMap;
 
 impl World {
@@ -46,6 +46,18 @@ impl World {
             }
         }
         counts
+    }
+
+    /// Returns Newton iterations and divisions of steps of all cables, by the reason for them; only
+    /// reasons for which there are any.
+    pub fn reasons(&self) -> [BTreeMap<String, u64>; 2] {
+        let mut sums = [ReasonCounts::default(); 2];
+        for cable in self.cables() {
+            sums[0] += cable.diagnostics().iterations_for;
+            sums[1] += cable.diagnostics().divisions_for;
+        }
+        let any = |(key, count): (&str, u64)| (count > 0).then(|| (key.to_string(), count));
+        sums.map(|sum| sum.by_key().filter_map(any).collect())
     }
 
     /// Returns the work in J that a cable, or all, have done on the bodies that they are attached to.

@@ -35,6 +35,12 @@ pub struct Summary {
     /// Steps that were divided.
     #[serde(default)]
     pub divided_steps: u64,
+    /// Newton iterations beyond the first one of a step, by the reason for them; of `discrete-gradient`.
+    #[serde(default)]
+    pub iterations_for: BTreeMap<String, u64>,
+    /// Divisions of its steps, by the reason for them.
+    #[serde(default)]
+    pub divisions_for: BTreeMap<String, u64>,
     /// Elements evaluated, with or without tangent.
     pub element_evaluations: u64,
     /// Elements evaluated by effect, for the effects that are on.
@@ -74,6 +80,7 @@ impl Summary {
         };
         let finite = |x: f64| Some(x).filter(|x| x.is_finite());
         let simulated = world.time();
+        let [iterations_for, divisions_for] = world.reasons();
         Summary {
             name: world.scene.name.clone(),
             simulated_s: simulated,
@@ -86,6 +93,8 @@ impl Summary {
             factorisations: count(|d| d.factorisations),
             solves: count(|d| d.solves),
             divided_steps: count(|d| d.split_steps),
+            iterations_for,
+            divisions_for,
             element_evaluations: count(|d| d.element_evaluations()),
             effect_evaluations: world.effect_evaluations(),
             max_gap_m: world.max_gap(),

@@ -7,8 +7,8 @@ use crate::integrate::{IntegratorRef, StepControl};
 
 /// Advances the system by `horizon` (s), and returns the numbers of steps with the outcome. After a failure the state is the last accepted
 /// one.
-pub(crate) fn advance(
-    system: &mut dyn DiscreteGradientSystem,
+pub(crate) fn advance<S: DiscreteGradientSystem>(
+    system: &mut S,
     integrator: IntegratorRef<'_>,
     horizon: f64,
 ) -> (Counts, Result<(), FailedStep>) {

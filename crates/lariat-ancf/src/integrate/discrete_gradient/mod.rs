@@ -56,9 +56,9 @@ mod safeguard;
 use super::{Dynamics, OneStep, Scratch, State, StepRequest};
 use crate::error::StepFailure;
 pub use crate::state::Differences;
+pub use crate::term::EnergyLaw;
 pub(crate) use advance::advance;
-pub use law::EnergyLaw;
-pub(crate) use law::{Balance, Closing, DiscreteGradientSystem, Event, share_of_impact, share_to_take, sum_of_forces};
+pub(crate) use law::{DiscreteGradientSystem, Event, share_to_take, sum_of_forces};
 
 /// The guarded discrete gradient as a method; only [`Cable`](crate::Cable) and [`Island`](crate::island::Island) can take it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

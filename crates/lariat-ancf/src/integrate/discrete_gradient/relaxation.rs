@@ -1,4 +1,4 @@
-//! What share of its increments Newton's iteration takes near an obstacle.
+//! What share of its increments Newton's iteration takes where a nonsmooth term acts, most often contact.
 //!
 //! # Equation
 //!
@@ -18,7 +18,7 @@
 //! instead of the energy: a few per cent more, and up to twice as many in dearest host steps. Whole increments again as soon as a half one improves: 15 % fewer iterations of ropes thrown at a floor and a
 //! drum, 40 % more in heaps, whose dearest host steps are those of a cable that kinks while its contacts are solved.
 
-use super::law::Balance;
+use crate::term::Balance;
 
 /// Number of iterations that take the whole increment.
 const WHOLE_INCREMENTS: usize = 4;
@@ -55,7 +55,8 @@ impl Relaxation {
     /// Sets the share of the next increment by what the last one left.
     pub fn note(&mut self, balance: &Balance) {
         self.taken += 1;
-        self.swings |= balance.near && self.taken >= WHOLE_INCREMENTS && balance.imbalance > SWINGING * self.imbalance;
+        self.swings |=
+            balance.nonsmooth && self.taken >= WHOLE_INCREMENTS && balance.imbalance > SWINGING * self.imbalance;
         let left = balance.residual / self.energy;
         let linear = self.share < 1.0 && (left - (1.0 - self.share)).abs() < LINEAR;
         self.share = if self.swings && !linear { HALF } else { 1.0 };

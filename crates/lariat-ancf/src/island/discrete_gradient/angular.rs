@@ -2,9 +2,9 @@
 
 use super::IslandStep;
 use super::body::BodyStep;
-use crate::integrate::discrete_gradient::Balance;
 use crate::system::angular::Momenta;
 use crate::system::{CableStep, Source};
+use crate::term::Balance;
 
 impl IslandStep<'_, '_> {
     /// Returns whether nothing holds the island, and all of it is in the equations.
@@ -47,8 +47,7 @@ impl IslandStep<'_, '_> {
     }
 
     /// Restores the angular momentum after an accepted step, and returns its balance with what that does to the energy.
-    pub(super) fn restore_angular_momentum(&mut self, balance: &Balance) -> Balance {
-        let mut balance = *balance;
+    pub(super) fn restore_angular_momentum(&mut self, mut balance: Balance) -> Balance {
         let Some(before) = self.cables[0].step_buffers.before else { return balance };
         if self.cables.iter().any(|cable| cable.step_buffers.contact.is_held()) {
             return balance;

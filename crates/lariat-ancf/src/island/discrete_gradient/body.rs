@@ -27,11 +27,12 @@
 
 use super::rigid::RigidMotion;
 use crate::contact::{BodyPath, When};
-use crate::integrate::discrete_gradient::{Balance, sum_of_forces};
+use crate::integrate::discrete_gradient::sum_of_forces;
 use crate::island::body::{BodyDifferences, RigidBody};
 use crate::model::STANDARD_GRAVITY;
 use crate::one_leg::{ALPHA, BETA};
 use crate::system::angular::{Momenta, Turn};
+use crate::term::{Account, Balance};
 use nalgebra::{Matrix3, Matrix6, Quaternion, UnitQuaternion, Vector3, Vector6};
 
 /// Height in m of the weight by which a body at rest is measured.
@@ -232,12 +233,12 @@ impl BodyStep {
         self.lock(row);
         total.residual -= power(row);
         // the locks take what is left
-        total.supports -= all - power(row);
+        total.to(Account::Supports).work -= all - power(row);
         total.imbalance += sum_of_forces(row);
         total.impulse += self.mass * self.change.fixed_rows::<3>(0).norm() + self.h * self.force.norm();
         let (second, start) = (self.second_difference(), self.velocity);
         total.numerical += 0.5 * ALPHA * second.dot(&(self.matrix * second));
-        total.loads += self.h * (self.force.dot(&self.mean[0]) + self.torque.dot(&self.mean[1]));
+        total.to(Account::Loads).work += self.h * (self.force.dot(&self.mean[0]) + self.torque.dot(&self.mean[1]));
         total.held += 0.5 * start.dot(&(self.matrix * start)) + self.mass * STANDARD_GRAVITY.norm() * HEIGHT;
     }
 

@@ -6,9 +6,9 @@
 //! in body axes. The energy law is then that of the quadratic form of all bodies.
 
 use super::body::BodyStep;
-use crate::integrate::discrete_gradient::Balance;
 use crate::island::CoupledInertia;
 use crate::one_leg::ALPHA;
+use crate::term::Balance;
 use nalgebra::Vector6;
 
 /// Completes the rows of the bodies: loads and inertia, that which couples them included.

@@ -5,10 +5,10 @@ use super::IslandStep;
 use super::coupled::coupled_product;
 use crate::contact::solves_again;
 use crate::element::shape::combine;
-use crate::integrate::discrete_gradient::{Balance, share_of_impact};
 use crate::one_leg::ALPHA;
 use crate::system::CableStep;
 use crate::system::StepVectors;
+use crate::term::{Account, Balance};
 use nalgebra::Vector3;
 
 impl IslandStep<'_, '_> {
@@ -105,5 +105,28 @@ impl IslandStep<'_, '_> {
         let cables = &*self.cables;
         let landed = |c: usize, e: usize, shape: &[f64; 4]| combine(&cables[c].step_buffers.landed, e, shape);
         self.buffers.pairs.settle_impacts(landed) || on_obstacles
+    }
+}
+
+/// Returns the share of an impact that makes no energy ([`impact`](crate::contact)) but the work of
+/// obstacles and what contacts lost in the step, and adds it to the balance: `[P, E, W]` are its
+/// terms. One that `gives` velocity may also take back what the step lost numerically.
+fn share_of_impact(balance: &mut Balance, [taken, held, work]: [f64; 3], gives: bool) -> f64 {
+    let lost = balance.of(Account::Contacts).loss + if gives { balance.numerical } else { 0.0 };
+    let (half, lost) = (0.5 * (taken + work), (lost - balance.residual.max(0.0)).max(0.0));
+    let most = half + (half * half + held * lost).sqrt();
+    let share = (most / held).clamp(0.0, 1.0);
+    if share > 0.0 {
+        let entry = balance.to(Account::Contacts);
+        entry.loss += share * (taken + work) - share * share * held;
+        entry.work += share * work;
+        if gives && entry.loss < 0.0 {
+            let taken_back = core::mem::take(&mut entry.loss);
+            balance.numerical += taken_back;
+        }
+        share
+    } else {
+        // also of what is no number
+        0.0
     }
 }

@@ -6,8 +6,8 @@ use super::body::BodyStep;
 use super::{IslandStep, StepBuffers};
 use crate::cable::Cable;
 use crate::element::side::Side;
-use crate::integrate::discrete_gradient::Balance;
 use crate::system::{CableStep, Flow, Unknowns, Wheel, Winch};
+use crate::term::Balance;
 use nalgebra::Vector3;
 
 /// Returns the flow at an end of a cable.
@@ -159,6 +159,12 @@ impl IslandStep<'_, '_> {
                 winch.add_balance(flow, balance);
             }
         }
+    }
+
+    /// Returns whether friction stops a sheave that runs when the step begins.
+    pub(super) fn do_sheaves_stop(&self) -> bool {
+        let stops = |wheel: &Wheel| self.flows(wheel).is_some_and(|[a, b]| wheel.stops([&a, &b]));
+        self.buffers.unknowns.wheels.iter().any(stops)
     }
 
     /// Adds the accepted step to what ran over sheaves, and notes the forces of drums.

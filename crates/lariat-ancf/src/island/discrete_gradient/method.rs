@@ -1,10 +1,11 @@
 //! An island as the [discrete gradient](crate::integrate::discrete_gradient) sees it.
 
-use super::body::BodyStep;
+use super::terms::Terms;
 use super::{IslandStep, rescale};
 use crate::error::StepFailure;
-use crate::integrate::discrete_gradient::{Balance, Closing, DiscreteGradientSystem, Event};
+use crate::integrate::discrete_gradient::{DiscreteGradientSystem, Event};
 use crate::system::CableStep;
+use crate::term::{Balance, Settled, Stage, StepStart, StepTerm, Verdict};
 
 impl DiscreteGradientSystem for IslandStep<'_, '_> {
     fn time(&self) -> f64 {
@@ -24,23 +25,9 @@ impl DiscreteGradientSystem for IslandStep<'_, '_> {
         self.cables[0].step_buffers.after = None;
     }
 
-    fn predict(&mut self, h: f64, closing: Closing) {
+    fn predict(&mut self, step: &StepStart) {
         self.note_angular_momentum();
-        for cable in self.cables.iter_mut() {
-            let CableStep { mut equations, state, buffers } = cable.step_parts();
-            equations.begin_laws(state.time, h);
-            buffers.recall(state, h);
-            equations.prescribe_change(state, buffers);
-        }
-        self.begin_wheels(h);
-        self.buffers.bodies.iter_mut().for_each(|body| body.predict(h));
-        self.begin_drums(h);
-        self.follow();
-        for cable in self.cables.iter_mut() {
-            let CableStep { equations, state, buffers } = cable.step_parts();
-            equations.find_contacts(state, buffers, (&self.buffers.paths, closing.obstacles));
-        }
-        self.find_pairs(h, closing.cables);
+        Terms::begin(self, step);
     }
 
     fn iterate(&mut self, fresh: bool, share: f64) -> Result<Balance, StepFailure> {
@@ -54,60 +41,32 @@ impl DiscreteGradientSystem for IslandStep<'_, '_> {
         }
         self.add_increment(share)?;
         self.follow();
-        Ok(self.balance())
+        self.buffers.rows.fill(0.0);
+        Terms::evaluate(self);
+        let mut balance = Balance::default();
+        Terms::balance(self, &mut balance);
+        Ok(balance)
+    }
+
+    fn verdict(&self, balance: &Balance, stage: Stage) -> Verdict {
+        Terms::verdict(self, balance, stage)
+    }
+
+    fn settle(&mut self, balance: &Balance) -> Settled {
+        Terms::settle(self, balance)
+    }
+
+    fn inspect(&mut self, balance: &Balance) -> Verdict {
+        Terms::inspect(self, balance)
     }
 
     fn rescale(&mut self, balance: &mut Balance, largest_share: f64) -> bool {
         rescale::rescale(self, balance, largest_share)
     }
 
-    fn renew_friction(&mut self, least: f64) -> bool {
-        let missed: f64 = self.cables.iter_mut().map(|cable| cable.step_buffers.contact.find_lag()).sum();
-        let mut any = false;
-        for cable in self.cables.iter_mut() {
-            let contact = &mut cable.step_buffers.contact;
-            contact.lags &= missed > least;
-            contact.renew_friction();
-            any |= contact.lags;
-        }
-        any
-    }
-
-    fn add_missed(&mut self) -> bool {
-        // each cable, although one will do
-        self.cables.iter_mut().fold(false, |any, cable| {
-            let CableStep { equations, state, buffers } = cable.step_parts();
-            equations.add_missed_contacts(state, buffers) || any
-        })
-    }
-
-    fn crosses(&mut self) -> bool {
-        let passes = self.cables.iter_mut().fold(false, |any, cable| {
-            let CableStep { equations, state, buffers } = cable.step_parts();
-            equations.passes_obstacles(state, buffers) || any
-        });
-        self.do_pairs_cross() || passes
-    }
-
-    fn land(&mut self, balance: &mut Balance, least: f64) {
-        self.land_contacts(balance, least);
-    }
-
-    fn accept(&mut self, balance: &Balance) {
-        self.accept_wheels();
-        for (c, (cable, own)) in self.cables.iter_mut().zip(&self.buffers.cables).enumerate() {
-            let CableStep { mut equations, state, buffers } = cable.step_parts();
-            if self.accounts.momentum.holds(c) {
-                own.give_momentum(c, equations.system, state, buffers, self.accounts);
-            }
-            for hold in &own.holds {
-                let action = hold.action(&self.buffers.bodies[hold.body], buffers.h);
-                self.accounts.pins[hold.pin].add_mean(buffers.h, hold.slope, action);
-            }
-            equations.accept_step(state, buffers);
-        }
-        self.remember_pairs();
-        self.buffers.bodies.iter_mut().for_each(BodyStep::accept);
+    fn accept(&mut self, mut balance: Balance) {
+        Terms::finish(self, &mut balance);
+        Terms::accept(self);
         let balance = self.restore_angular_momentum(balance);
         // the law is that of the whole: the first cable keeps it
         self.cables[0].system.meter.law.add(&balance);
@@ -118,7 +77,17 @@ impl DiscreteGradientSystem for IslandStep<'_, '_> {
     }
 
     fn count(&mut self, event: Event) {
-        self.count_event(event);
+        for cable in self.cables.iter_mut() {
+            let diagnostics = cable.diagnostics_mut();
+            match event {
+                Event::Iterated(reason) => diagnostics.iterations_for.count(reason),
+                Event::Rescaled => diagnostics.rescaled_steps += 1,
+                Event::Divided(reason) => {
+                    diagnostics.split_steps += 1;
+                    diagnostics.divisions_for.count(reason);
+                }
+            }
+        }
     }
 
     fn splits(&self) -> u64 {

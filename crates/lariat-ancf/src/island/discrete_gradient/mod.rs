@@ -15,7 +15,10 @@
 
 mod angular;
 mod aside;
+mod bodies;
 mod body;
+mod cables;
+mod contacts;
 mod coupled;
 mod holds;
 mod host_step;
@@ -23,31 +26,31 @@ mod impact;
 mod laws;
 mod method;
 mod pairs;
+mod pins;
+mod reels;
 mod rescale;
 mod rigid;
+mod rounds;
 mod solve;
+mod terms;
 
 pub(super) use host_step::HostStep;
 
 use super::body_matrix::BodyMatrix;
 use super::condense::Condensed;
 use super::coupling::CoupledInertia;
-use super::hold::vector;
 use super::layout::Layout;
 use super::pin_accounts::PinAccounts;
 use crate::cable::Cable;
 use crate::contact::{BodyPath, CablePair, PairStep};
-use crate::effect::EffectWork;
-use crate::integrate::discrete_gradient::{Balance, sum_of_forces};
 use crate::state::State;
 use crate::support::SlopeSupport;
-use crate::system::StepVectors;
-use crate::system::{CableStep, System, Unknowns, dot, project_vector};
+use crate::system::{CableStep, Unknowns};
 use aside::Aside;
 use body::BodyStep;
-use coupled::{add_coupled_energies, complete_rows};
 use holds::HoldStep;
 use nalgebra::Vector3;
+use rounds::ContactRounds;
 
 /// Length below which the free direction of a clamped slope has no direction.
 const MIN_DIRECTION: f64 = 1e-9;
@@ -67,6 +70,8 @@ pub(super) struct StepBuffers {
     /// Contacts between the cables.
     pairs: PairStep,
     aside: Aside,
+    /// What was done about contacts in the step.
+    rounds: ContactRounds,
     /// The cables that may touch each other, in ascending order; `None` for all.
     pub may_touch: Option<Vec<CablePair>>,
     /// Rates of reels that are unknown, and sheaves.
@@ -131,81 +136,5 @@ impl IslandStep<'_, '_> {
             }
             cable.step_buffers.contact.follow(&cable.model.obstacles.0, paths);
         }
-    }
-
-    /// Returns what the present iterate does to the energy.
-    fn balance(&mut self) -> Balance {
-        let pairs = self.balance_pairs();
-        let StepBuffers { bodies, coupled, cables: own, rows, unknowns, .. } = &mut *self.buffers;
-        rows.fill(0.0);
-        unknowns.winches.iter().for_each(|winch| winch.pass(winch.force, self.cables[0].step_buffers.h, rows));
-        let mut total = Balance::default();
-        let closed = self.cables.iter().any(|cable| cable.system.flows.are_closed());
-        for (cable, own) in self.cables.iter_mut().zip(own) {
-            let CableStep { mut equations, state, buffers } = cable.step_parts();
-            let mut work = EffectWork::default();
-            total.add(&equations.step_balance(state, buffers, &mut work));
-            equations.system.meter.work_of_step = work;
-            own.pass_impulses(&buffers.rhs, rows);
-            buffers.contact.pass_impulses(false, rows);
-            for hold in &own.holds {
-                total.residual += hold.residual(buffers.h);
-                total.closing += hold.work(buffers.h);
-                if !hold.slope {
-                    total.impulse += hold.impulse.norm();
-                }
-                buffers.rhs[hold.at..hold.at + 3].fill(0.0);
-            }
-            project_vector(equations.model, &mut buffers.rhs);
-            total.residual -= dot(&buffers.rhs, &buffers.change) / buffers.h;
-            total.imbalance += sum_of_forces(&buffers.rhs);
-            if closed {
-                buffers.rhs.chunks_exact(6).for_each(|row| (0..3).for_each(|x| total.drift[x] += row[x]));
-            }
-            // the free direction of a slope, for another iteration with the same factors
-            for hold in own.holds.iter().filter(|hold| hold.slope) {
-                buffers.rhs[hold.at..hold.at + 3].copy_from_slice(hold.impulse.as_slice());
-            }
-        }
-        complete_rows(bodies, coupled, rows);
-        add_coupled_energies(bodies, coupled, &mut total);
-        for (body, row) in bodies.iter().zip(rows.chunks_exact_mut(6)) {
-            body.add_balance(row, &mut total);
-            if closed {
-                (0..3).for_each(|x| total.drift[x] += row[x]);
-            }
-        }
-        self.balance_wheels(&mut total);
-        if let Some(pairs) = pairs {
-            pairs.add_to(&mut total, self.cables[0].step_buffers.h);
-            self.cables[0].system.meter.work_of_step.contact += pairs.work;
-        }
-        total
-    }
-}
-
-impl CableBuffers {
-    /// Reads the impulses of the holds from the rows of the cable, and adds them to the rows of the bodies.
-    fn pass_impulses(&mut self, rhs: &[f64], rows: &mut [f64]) {
-        for hold in &mut self.holds {
-            hold.impulse = vector(&rhs[hold.at..]);
-            hold.pass(&hold.impulse, rows);
-        }
-    }
-
-    /// Gives the momentum that the step leaves beside the reactions to the pins.
-    fn give_momentum(&self, c: usize, system: &System, state: &State, b: &mut StepVectors, accounts: &mut PinAccounts) {
-        let StepVectors { rhs, external, product, velocity_change, taken, landed, change, .. } = b;
-        let taken_at = |i: usize| taken.get(i).unwrap_or(&0.0) + landed.get(i).unwrap_or(&0.0);
-        external.iter_mut().enumerate().for_each(|(i, w)| *w = taken_at(i));
-        system.mass.multiply(system.level, external, product);
-        // the residual of free rows, and reactions of slopes
-        rhs.iter_mut().zip(&*product).for_each(|(f, taken)| *f += taken);
-        for i in 0..external.len() {
-            external[i] = state.v[i] + 0.5 * (velocity_change[i] - taken_at(i));
-        }
-        system.mass.multiply(system.level, external, product);
-        let held = self.holds.iter().filter(|hold| !hold.slope).map(|hold| (hold.at, hold.impulse));
-        accounts.momentum.add_step(c, rhs, held, [&state.q, change, product]);
     }
 }

@@ -6,9 +6,7 @@ use super::aside::Aside;
 use super::{IslandStep, StepBuffers};
 use crate::cable::Cable;
 use crate::contact::{CablePair, ContactBalance, LowRank, PairStep, PairSystem, Row, Strand, Strands};
-use crate::diagnostics::Diagnostics;
 use crate::error::StepFailure;
-use crate::integrate::discrete_gradient::Event;
 use core::mem::{swap, take};
 
 /// The equations of an island without these contacts.
@@ -172,24 +170,6 @@ impl IslandStep<'_, '_> {
         self.with_pairs(PairStep::crosses)
     }
 
-    /// Counts an event for the cables that it concerns.
-    pub(super) fn count_event(&mut self, event: Event) {
-        let crossed = self.buffers.pairs.crossed();
-        for (c, cable) in self.cables.iter_mut().enumerate() {
-            let contact = &cable.step_buffers.contact;
-            let is_its = match event {
-                Event::Crossed => {
-                    crossed.is_some_and(|crossed| crossed.contains(&c)) || contact.passed || contact.missed
-                }
-                Event::Lagging => contact.lags,
-                Event::Rescaled | Event::Split => true,
-            };
-            if is_its {
-                count(cable.diagnostics_mut(), event);
-            }
-        }
-    }
-
     /// Remembers those that touch at the end of the step.
     pub(super) fn remember_pairs(&mut self) {
         let (cables, pairs) = (&mut *self.cables, &self.buffers.pairs);
@@ -209,15 +189,5 @@ impl IslandStep<'_, '_> {
         let contacts = self.with_pairs(PairStep::balance);
         self.pass_pairs(false);
         Some(contacts)
-    }
-}
-
-/// Counts an event.
-fn count(diagnostics: &mut Diagnostics, event: Event) {
-    match event {
-        Event::Rescaled => diagnostics.rescaled_steps += 1,
-        Event::Crossed => diagnostics.crossed_steps += 1,
-        Event::Lagging => diagnostics.lagging_steps += 1,
-        Event::Split => diagnostics.split_steps += 1,
     }
 }

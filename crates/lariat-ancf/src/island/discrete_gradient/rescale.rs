@@ -20,10 +20,11 @@ use super::body::BodyStep;
 use super::coupled::coupled_product;
 use super::rigid::RigidMotion;
 use crate::cable::Cable;
-use crate::integrate::discrete_gradient::{Balance, share_to_take};
+use crate::integrate::discrete_gradient::share_to_take;
 use crate::island::hold::vector;
 use crate::system::StepVectors;
 use crate::system::{CableStep, Modes, dot, relative_velocities, solve_semidefinite as solve};
+use crate::term::Balance;
 use nalgebra::{Matrix6, Vector3, Vector6};
 
 /// See [`DiscreteGradientSystem::rescale`](crate::integrate::discrete_gradient::DiscreteGradientSystem::rescale).
@@ -65,14 +66,14 @@ pub(in crate::island) fn rescale(island: &mut IslandStep<'_, '_>, balance: &mut 
     let (bodies, coupled) = (&island.buffers.bodies, &island.buffers.coupled);
     energy += 0.5 * coupled_product(coupled, |i| bodies[i].taken, |i| bodies[i].taken);
     product += coupled_product(coupled, |i| bodies[i].final_velocity(), |i| bodies[i].taken);
-    let share = share_to_take(energy, product, balance.to_take(), largest_share);
+    let share = share_to_take(energy, product, balance.surplus(), largest_share);
     let factor = share.unwrap_or(0.0);
     for cable in island.cables.iter_mut() {
         cable.step_buffers.taken.iter_mut().for_each(|w| *w *= factor);
     }
     island.buffers.bodies.iter_mut().for_each(|body| body.taken *= factor);
     if share.is_some() {
-        balance.rescaled += balance.to_take();
+        balance.rescaled += balance.surplus();
     }
     share.is_some()
 }
@@ -89,10 +90,10 @@ fn rescale_alone(cable: &mut Cable, balance: &mut Balance, largest_share: f64) -
     taken.clone_from(rhs);
     relative_velocities(equations.model, equations.system, product, taken, external, linearised);
     let energy = 0.5 * equations.system.mass_square(taken, external);
-    let share = share_to_take(energy, dot(rhs, external), balance.to_take(), largest_share);
+    let share = share_to_take(energy, dot(rhs, external), balance.surplus(), largest_share);
     if let Some(share) = share {
         taken.iter_mut().for_each(|x| *x *= share);
-        balance.rescaled += balance.to_take();
+        balance.rescaled += balance.surplus();
     } else {
         taken.clear();
     }

@@ -36,8 +36,8 @@
 
 use super::Flow;
 use crate::element::side::Side;
-use crate::integrate::discrete_gradient::Balance;
 use crate::one_leg::BETA;
+use crate::term::{Account, Balance};
 use nalgebra::Vector3;
 
 /// A drum in a step.
@@ -104,8 +104,9 @@ impl Winch {
         let pull = flow.pull_of_iterate();
         let beyond = self.force - pull;
         // a stop that opposes what goes beyond it
-        balance.slip[0] += if self.stop * beyond < 0.0 { 0.0 } else { beyond.abs() };
-        balance.slip[1] += pull.abs();
+        let entry = balance.to(Account::Reels);
+        entry.missed += if self.stop * beyond < 0.0 { 0.0 } else { beyond.abs() };
+        entry.forces += pull.abs();
     }
 }
 

@@ -3,12 +3,12 @@
 use super::law::Law;
 use super::{Flow, Flows};
 use crate::element::flow::Extent;
-use crate::integrate::discrete_gradient::Balance;
 use crate::model::Model;
 use crate::reel::Feed;
 use crate::state::State;
 use crate::system::Equations;
 use crate::system::StepVectors;
+use crate::term::{Account, Balance};
 
 impl Flow {
     /// Returns the pull in N in the last iterate, at a sheave.
@@ -133,8 +133,9 @@ impl Equations<'_> {
                 let acceleration = flow.extent.acceleration;
                 // a sheave has one law for both of its flows, and a drum that of its body
                 if !matches!(flow.feed, Feed::Sheave | Feed::BodyDrum) {
-                    balance.slip[0] += law.violation(acceleration);
-                    balance.slip[1] += law.force.abs();
+                    let entry = balance.to(Account::Reels);
+                    entry.missed += law.violation(acceleration);
+                    entry.forces += law.force.abs();
                 }
                 if law.reach.contains(&acceleration) {
                     // no law of energy: the step is divided

@@ -39,7 +39,7 @@ use super::sheave::Sheave;
 use super::{Flow, Flows};
 use crate::element::flow::Extent;
 use crate::element::side::Side;
-use crate::integrate::discrete_gradient::Balance;
+use crate::term::{Account, Balance};
 
 /// Deceleration in m/s^2 with which a cable stops before its end reaches a sheave or the drum that it is on.
 pub(crate) const STOP: f64 = 100.0;
@@ -176,9 +176,15 @@ impl Wheel {
     pub fn add_balance(&self, flows: [&Flow; 2], balance: &mut Balance) {
         let acceleration = flows[1].extent.acceleration;
         let (_, missed) = self.violation(flows.map(Flow::pull_of_iterate), acceleration);
-        balance.stops |= self.grip > 0.0 && self.planned[1] != 0.0 && acceleration == self.planned[1];
-        balance.slip[0] += missed;
-        balance.slip[1] += flows.iter().map(|flow| flow.pull_of_iterate().abs()).sum::<f64>();
+        let entry = balance.to(Account::Reels);
+        entry.missed += missed;
+        entry.forces += flows.iter().map(|flow| flow.pull_of_iterate().abs()).sum::<f64>();
+    }
+
+    /// Returns whether friction stops it in the iterate although it runs when the step begins: a long
+    /// step may have such a solution beside the one that runs on.
+    pub fn stops(&self, flows: [&Flow; 2]) -> bool {
+        self.grip > 0.0 && self.planned[1] != 0.0 && flows[1].extent.acceleration == self.planned[1]
     }
 
     /// Adds an accepted step of length `h` (s) from `time` to what passed and was lost.

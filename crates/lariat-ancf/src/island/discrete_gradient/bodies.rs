@@ -1,0 +1,28 @@
+//! Rigid bodies as a term of a step. Equations: [`body`](super::body).
+
+use super::body::BodyStep;
+use super::coupled::{add_coupled_energies, complete_rows};
+use super::{IslandStep, StepBuffers};
+use crate::term::{Balance, StepStart, StepTerm};
+
+/// The bodies, with the inertia that couples them.
+pub(super) struct Bodies;
+
+impl StepTerm<IslandStep<'_, '_>> for Bodies {
+    fn begin(island: &mut IslandStep<'_, '_>, step: &StepStart) {
+        island.buffers.bodies.iter_mut().for_each(|body| body.predict(step.h));
+    }
+
+    fn balance(island: &mut IslandStep<'_, '_>, balance: &mut Balance) {
+        let StepBuffers { bodies, coupled, rows, .. } = &mut *island.buffers;
+        complete_rows(bodies, coupled, rows);
+        add_coupled_energies(bodies, coupled, balance);
+        for (body, row) in bodies.iter().zip(rows.chunks_exact_mut(6)) {
+            body.add_balance(row, balance);
+        }
+    }
+
+    fn accept(island: &mut IslandStep<'_, '_>) {
+        island.buffers.bodies.iter_mut().for_each(BodyStep::accept);
+    }
+}

@@ -1,0 +1,11 @@
+//! The list of what acts in a step of an island.
+
+use super::bodies::Bodies;
+use super::cables::Cables;
+use super::contacts::Contacts;
+use super::pins::Pins;
+use super::reels::Reels;
+
+/// All terms, in the order in which they begin a step and are balanced; they are accepted in
+/// reverse. A [term](crate::term) that is not in the list does not exist.
+pub(super) type Terms = (Cables, (Bodies, (Reels, (Pins, Contacts))));

@@ -1,0 +1,77 @@
+//! The energy law of all steps, by name.
+
+use super::account::Account;
+use super::balance::Balance;
+use serde::{Deserialize, Serialize};
+
+/// Terms of the energy law `D H = work - losses + residual` since the cable was built, in J. The
+/// [discrete gradient](crate::integrate::discrete_gradient) knows them all; the other methods know
+/// the work of supports and loads by a quadrature of the step. The work of effects, internal
+/// damping among them, is in [`EffectWork`](crate::EffectWork).
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+#[non_exhaustive]
+pub struct EnergyLaw {
+    /// Numerical dissipation; never falls.
+    pub numerical: f64,
+    /// Energy of motion relative to rigid motion, taken where the iteration did not converge; never
+    /// falls.
+    pub rescaled: f64,
+    /// Work of supports that move.
+    pub supports: f64,
+    /// Work of point loads.
+    pub loads: f64,
+    /// Energy that contacts lost: friction and impact. Never falls.
+    pub contacts: f64,
+    /// Energy that the inelastic impacts lost by which pinned nodes and their bodies begin a step
+    /// with one velocity, where an engine, a user or a collision changed that of the body; of the
+    /// methods with accelerations. Never falls.
+    pub impacts: f64,
+    /// By how much the works of effects may be wrong: the difference of two quadratures of each
+    /// step; zero under the discrete gradient. Never falls.
+    pub uncertain: f64,
+    /// Work of obstacles that move.
+    pub obstacles: f64,
+    /// Sum over all steps of the product of the residual and the velocity: energy by which the
+    /// iteration missed the law.
+    pub residual: f64,
+    /// Most energy that a single step made: the product of its residual and velocity beyond what it
+    /// lost. At most the tolerance, 1e-9 of the energy of the system.
+    pub made: f64,
+}
+
+impl EnergyLaw {
+    /// Adds a step.
+    pub(crate) fn add(&mut self, step: &Balance) {
+        let [supports, loads, contacts] =
+            [Account::Supports, Account::Loads, Account::Contacts].map(|account| step.of(account));
+        self.numerical += step.numerical;
+        self.rescaled += step.rescaled;
+        self.supports += supports.work + supports.aside;
+        self.loads += loads.work;
+        self.contacts += contacts.loss + contacts.aside;
+        self.obstacles += contacts.work;
+        self.residual += step.residual;
+        self.made = self.made.max(step.excess());
+    }
+
+    /// Adds another part of the run.
+    pub(crate) fn merge(&mut self, other: &EnergyLaw) {
+        self.numerical += other.numerical;
+        self.rescaled += other.rescaled;
+        self.supports += other.supports;
+        self.loads += other.loads;
+        self.contacts += other.contacts;
+        self.impacts += other.impacts;
+        self.uncertain += other.uncertain;
+        self.obstacles += other.obstacles;
+        self.residual += other.residual;
+        self.made = self.made.max(other.made);
+    }
+
+    /// The terms, to check them.
+    pub(crate) fn terms(&self) -> [f64; 10] {
+        let EnergyLaw { numerical, rescaled, supports, loads, contacts, impacts, uncertain, .. } = *self;
+        [numerical, rescaled, supports, loads, contacts, impacts, uncertain, self.obstacles, self.residual, self.made]
+    }
+}
