@@ -140,7 +140,7 @@ impl IslandStep<'_, '_> {
         rows.fill(0.0);
         unknowns.winches.iter().for_each(|winch| winch.pass(winch.force, self.cables[0].step_buffers.h, rows));
         let mut total = Balance::default();
-        let closed = self.cables.iter().any(|cable| cable.system.flows.are_closed());
+        let closed = self.cables.iter().any(|cable| cable.system.feeds.are_closed());
         for (cable, own) in self.cables.iter_mut().zip(own) {
             let CableStep { mut equations, state, buffers } = cable.step_parts();
             let mut work = EffectWork::default();

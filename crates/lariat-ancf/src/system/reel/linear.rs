@@ -17,16 +17,16 @@
 //! Exact for the motion above, else to first order of the step; but for drag, whose coefficients in the step are those of the iterate before, and for its dependence on the length.
 
 use super::effects::drift;
-use super::flows::control;
+use super::feeds::control;
 use super::step::StepMotion;
 use super::work::strain_on_length;
-use super::{Flow, Source};
+use super::{FeedElement, Source};
 use crate::dual::{Dual, constant};
 use crate::effect::acts::Single;
-use crate::element::flow::{Extent, dot};
 use crate::element::gram::Control;
 use crate::element::kernel::Stiffness;
 use crate::element::step::ElementStep;
+use crate::element::variable_length::{Extent, dot};
 use crate::model::Model;
 use crate::one_leg::BETA;
 use crate::simd::dispatch;
@@ -52,33 +52,34 @@ struct OfLength {
 }
 
 impl Equations<'_> {
-    /// Linearises flow `k` about the present iterate, whose motors have been [read](Self::read_motors), and writes the column c to `out`.
+    /// Linearises feed `k` about the present iterate, whose motors have been [read](Self::read_motors), and writes the column c to `out`.
     pub fn linearise_law(&mut self, k: usize, state: &State, b: &StepVectors, out: &mut Vec<f64>) {
         dispatch!(self.system.level => self.linearise_in_lanes(k, state, b, out));
     }
 
     #[inline(always)]
     fn linearise_in_lanes(&mut self, k: usize, state: &State, b: &StepVectors, out: &mut Vec<f64>) {
-        let flow = self.system.flows.list[k];
-        let Some(mut law) = flow.law else { return };
+        let feed = self.system.feeds.list[k];
+        let Some(mut law) = feed.law else { return };
         let (model, system, h) = (self.model, &*self.system, b.h);
-        let (mean, _) = flow.over(state.time, h);
-        let motion = StepMotion::of(&flow, state, b);
-        let [q, v, a] = self.motion_of_step(&flow, state, b);
-        let before = flow.side.gather(&b.change_before);
-        let strains = system.strains_by_length(model, &flow, (&motion, state.time, h), (&before, b.kept));
-        let points = system.points_by_acceleration(&flow, model, state.time + 0.5 * h, h, [&q, &v]);
-        let moved = Flow { extent: Extent { acceleration: flow.extent.acceleration + PROBE, ..flow.extent }, ..flow };
-        let impulses = [&flow, &moved].map(|flow| flow.impulse(model, (state.time, h), true));
+        let (mean, _) = feed.over(state.time, h);
+        let motion = StepMotion::of(&feed, state, b);
+        let [q, v, a] = self.motion_of_step(&feed, state, b);
+        let before = feed.side.gather(&b.change_before);
+        let strains = system.strains_by_length(model, &feed, (&motion, state.time, h), (&before, b.kept));
+        let points = system.points_by_acceleration(&feed, model, state.time + 0.5 * h, h, [&q, &v]);
+        let moved =
+            FeedElement { extent: Extent { acceleration: feed.extent.acceleration + PROBE, ..feed.extent }, ..feed };
+        let impulses = [&feed, &moved].map(|feed| feed.impulse(model, (state.time, h), true));
         let by_acceleration = impulses[0].derivative(&impulses[1], PROBE).of(&motion);
-        let dead = flow.dead_by_length(model, mean.length);
-        let (element, weight) = (flow.with(model, mean), flow.dead(model));
+        let dead = feed.dead_by_length(model, mean.length);
+        let (element, weight) = (feed.with(model, mean), feed.dead(model));
         let (moved, _) = moved.over(state.time, h);
-        let of_moved = flow.with(model, moved).length_force([&q, &v, &a], &weight);
+        let of_moved = feed.with(model, moved).length_force([&q, &v, &a], &weight);
         let motors =
-            [(mean, flow.on_length.inertial), (moved, of_moved)].map(|(at, force)| flow.motor(model, at, &q, force));
+            [(mean, feed.on_length.inertial), (moved, of_moved)].map(|(at, force)| feed.motor(model, at, &q, force));
         let [by_q, by_v, by_a] = element.length_force_gradient([&q, &v, &a], &weight);
-        let [of_square, _] = flow.feed.momentum(mean.rate);
+        let [of_square, _] = feed.kind.momentum(mean.rate);
         let thrust = 2.0 * of_square * element.inertia * mean.rate * mean.rate;
         let (mut row, mut column) = ([0.0; 12], [0.0; 12]);
         for i in 0..12 {
@@ -91,7 +92,7 @@ impl Equations<'_> {
         }
         out.clear();
         out.resize(b.rhs.len(), 0.0);
-        flow.side.add(&column, out);
+        feed.side.add(&column, out);
         let [on_length, at_strains] = strains.on_length;
         // by the strains, the row has b times the impulse, and the far node the velocity h/2b times its movement
         let along: f64 = (0..3).map(|x| strains.impulse[x] * strains.far[x]).sum();
@@ -103,7 +104,7 @@ impl Equations<'_> {
         }
         law.row = row;
         law.own = (motors[1] - motors[0]) / PROBE - 0.5 * h * h * on_length + dot(&drift(&q, mean.length), &points);
-        self.system.flows.list[k].law = Some(law);
+        self.system.feeds.list[k].law = Some(law);
     }
 }
 
@@ -114,25 +115,25 @@ impl System {
     fn strains_by_length(
         &self,
         model: &Model,
-        flow: &Flow,
+        feed: &FeedElement,
         (motion, time, h): (&StepMotion, f64, f64),
         (before, kept): (&[f64; 12], f64),
     ) -> OfLength {
         let [start, change] = &motion.q;
         let end: &[f64; 12] = &core::array::from_fn(|i| start[i] + change[i]);
-        let (_, [l0, l1]) = flow.over(time, h);
-        let at_before = control(&core::array::from_fn(|i| start[i] - before[i]), flow.length_before);
+        let (_, [l0, l1]) = feed.over(time, h);
+        let at_before = control(&core::array::from_fn(|i| start[i] - before[i]), feed.length_before);
         let (d0, d1) = (control(start, l0), control(end, l1));
         let difference = |x: &Control<f64>, y: &Control<f64>| -> Control<f64> {
             core::array::from_fn(|k| core::array::from_fn(|i| x[k][i] - y[k][i]))
         };
         let (change, before) = (difference(&d1, &d0), difference(&d0, &at_before));
         let [mean, inverse] = [0.5 * (l0 + l1), 0.5 * (1.0 / l0 + 1.0 / l1)];
-        let section = &model.elements[flow.element(model)].section;
+        let section = &model.elements[feed.element(model)].section;
         let [axial, bending] =
             [0.25 * section.axial_stiffness * mean * h, 2.0 * section.bending_stiffness * inverse * h];
         let (elements, effects) = (&self.forces.elements, self.forces.in_element.as_ref());
-        let from = Single(flow.element(model));
+        let from = Single(feed.element(model));
         let fixed = |x: &Control<f64>| x.map(|vector| vector.map(constant));
         // the middle one of the control vectors is 3 (r_j - r_i)/l
         let mut moving = fixed(&change);
@@ -172,13 +173,13 @@ impl System {
             eye[2] += scale * (of_length(1, x) * chord + pull[1][x].value * d1[1][x] / 6.0);
         }
         let probe = STRAIN_PROBE * l1;
-        let u0 = flow.on_length.begin.unwrap_or_else(|| self.flow_energy(model, flow, &d0, l0));
-        let u1 = flow.on_length.end;
+        let u0 = feed.on_length.begin.unwrap_or_else(|| self.feed_energy(model, feed, &d0, l0));
+        let u1 = feed.on_length.end;
         let present = strain_on_length([u0, u1], [l0, l1], eye[0]);
         let moved = |u1: (f64, f64), by: f64| {
             (strain_on_length([u0, u1], [l0, l1 + probe], eye[0] + probe * by) - present) / probe
         };
-        let strained = self.flow_energy(model, flow, &control(end, l1 + probe), l1 + probe);
+        let strained = self.feed_energy(model, feed, &control(end, l1 + probe), l1 + probe);
         let still = (u1.0 * (1.0 + probe / l1), u1.1 / (1.0 + probe / l1));
         OfLength {
             impulse: core::array::from_fn(|i| by_strains[i] + by_length[i]),
@@ -191,7 +192,7 @@ impl System {
     /// Returns the derivatives of the forces of effects at Gauss points by the acceleration, through the velocity of the material.
     fn points_by_acceleration(
         &self,
-        flow: &Flow,
+        feed: &FeedElement,
         model: &Model,
         time: f64,
         h: f64,
@@ -200,14 +201,14 @@ impl System {
         if !self.forces.at_points.any() {
             return [0.0; 12];
         }
-        let Extent { length, rate, .. } = flow.over(time - 0.5 * h, h).0;
+        let Extent { length, rate, .. } = feed.over(time - 0.5 * h, h).0;
         let drift = drift(q, length);
         let material = core::array::from_fn(|i| Dual { value: v[i] + rate * drift[i], slope: 0.5 * h * drift[i] });
-        self.points_of_flow(model, flow, time, q, &material).map(|f| f.slope)
+        self.points_of_feed(model, feed, time, q, &material).map(|f| f.slope)
     }
 }
 
-impl Flow {
+impl FeedElement {
     /// Returns the derivative of weights and line loads on the coordinates by the length, in N/m.
     fn dead_by_length(&self, model: &Model, length: f64) -> [f64; 12] {
         let (dead, weight) = (self.dead(model), self.weight(model));
@@ -261,21 +262,21 @@ mod tests {
                     b.velocity_change[i] += 1e-2 * some(31 * trial + i);
                     b.change[i] += 1e-2 * BETA * h * some(31 * trial + i);
                 }
-                let side = equations.system.flows.list[0].side;
+                let side = equations.system.feeds.list[0].side;
                 let mut column = Vec::new();
                 equations.step_residual(state, b, true, &mut EffectWork::default());
                 let matrix = equations.system.step.matrix.clone();
-                let flow = equations.system.flows.list[0];
-                let end_length = flow.at(state.time + h).length;
+                let feed = equations.system.feeds.list[0];
+                let end_length = feed.at(state.time + h).length;
                 equations.read_motors(state, b);
                 equations.linearise_law(0, state, b, &mut column);
-                let law = equations.system.flows.list[0].law.unwrap();
-                let present = equations.system.flows.list[0].extent.acceleration;
+                let law = equations.system.feeds.list[0].law.unwrap();
+                let present = equations.system.feeds.list[0].extent.acceleration;
                 let mut at = |b: &mut StepVectors, acceleration: f64| {
-                    equations.system.flows.list[0].extent.acceleration = acceleration;
+                    equations.system.feeds.list[0].extent.acceleration = acceleration;
                     equations.step_residual(state, b, false, &mut EffectWork::default());
                     equations.read_motors(state, b);
-                    (b.rhs.clone(), equations.system.flows.list[0].pull_of_iterate())
+                    (b.rhs.clone(), equations.system.feeds.list[0].pull_of_iterate())
                 };
                 let close = |name: &str, own: &[f64], other: &[f64], share: f64| {
                     let scale = other.iter().fold(0.0f64, |most, x| most.max(x.abs()));

@@ -2,10 +2,10 @@
 
 use super::law::Law;
 use crate::effect::acts::ForceInput;
-use crate::element::flow::{Extent, FlowElement, Table};
 use crate::element::gram::Control;
 use crate::element::kernel::Stiffness;
 use crate::element::side::Side;
+use crate::element::variable_length::{Extent, Table, VariableLength};
 use crate::linalg::BlockTridiagonal;
 use crate::model::Model;
 use crate::reel::Feed;
@@ -21,7 +21,7 @@ pub(crate) struct Impulse {
 
 /// The element at the eye of a reel during a step.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Flow {
+pub(crate) struct FeedElement {
     /// The end of the cable at which it is.
     pub side: Side,
     /// Time in s at which the extent is.
@@ -41,7 +41,7 @@ pub(crate) struct Flow {
     /// Whether an end of the cable stops it.
     pub stopped: bool,
     /// How material comes to the eye.
-    pub feed: Feed,
+    pub kind: Feed,
     /// What drives it, if its rate is an unknown.
     pub law: Option<Law>,
     /// Length in m that a reel with a motor can take in beside this element, with the revision of the cable of which that is.
@@ -84,19 +84,19 @@ pub(crate) struct OnLength {
 
 /// The elements at eyes.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Flows {
-    pub list: Vec<Flow>,
+pub(crate) struct Feeds {
+    pub list: Vec<FeedElement>,
     /// Impulses of their inertia over the last step of the discrete gradient.
     pub(super) impulses: Vec<Impulse>,
     /// Velocities as internal damping sees them, and those of the material.
     pub(super) velocities: [Vec<f64>; 2],
 }
 
-impl Flow {
-    /// A flow at rest.
+impl FeedElement {
+    /// A feed at rest.
     pub fn new(side: Side, length: f64) -> Self {
         let extent = Extent { length, ..Extent::default() };
-        Flow {
+        FeedElement {
             side,
             start: 0.0,
             extent,
@@ -106,7 +106,7 @@ impl Flow {
             left_rate: None,
             length_before: length,
             stopped: false,
-            feed: Feed::Drum,
+            kind: Feed::Drum,
             law: None,
             beside: None,
             linearised: 0.0,
@@ -154,8 +154,8 @@ impl Flow {
     }
 
     /// Returns the element with an extent.
-    pub(super) fn with(&self, model: &Model, extent: Extent) -> FlowElement {
-        FlowElement { inertia: model.inertia(&model.elements[self.element(model)]), extent }
+    pub(super) fn with(&self, model: &Model, extent: Extent) -> VariableLength {
+        VariableLength { inertia: model.inertia(&model.elements[self.element(model)]), extent }
     }
 
     /// Returns the weight per length of the element in N/m.
@@ -169,7 +169,7 @@ impl Flow {
         Stiffness { axial: 0.25 * section.axial_stiffness * length, bending: 2.0 * section.bending_stiffness / length }
     }
 
-    /// Adds the forces of the flow to `out`, and their negative derivatives to the matrix.
+    /// Adds the forces of the feed to `out`, and their negative derivatives to the matrix.
     pub(super) fn add(
         &self,
         model: &Model,
@@ -212,12 +212,12 @@ impl Flow {
     }
 }
 
-impl Flows {
-    /// The flows of the reels of a cable, at rest.
+impl Feeds {
+    /// The feeds of the reels of a cable, at rest.
     pub fn new(model: &Model) -> Self {
         let length = |side: Side| model.elements[side.element(model.elements.len())].length;
-        let list = model.reels.sides().map(|side| Flow::new(side, length(side))).collect();
-        Flows { list, ..Flows::default() }
+        let list = model.reels.sides().map(|side| FeedElement::new(side, length(side))).collect();
+        Feeds { list, ..Feeds::default() }
     }
 
     /// Returns whether there are none.
@@ -227,34 +227,34 @@ impl Flows {
 
     /// Returns whether what is behind an eye is a part of the system.
     pub fn are_closed(&self) -> bool {
-        self.list.iter().any(|flow| flow.source != Source::Outside)
+        self.list.iter().any(|feed| feed.source != Source::Outside)
     }
 
     /// Returns whether all stand still.
     pub fn are_still(&self) -> bool {
-        self.list.iter().all(|flow| flow.extent.rate == 0.0 && flow.extent.acceleration == 0.0)
+        self.list.iter().all(|feed| feed.extent.rate == 0.0 && feed.extent.acceleration == 0.0)
     }
 
     /// Makes the equations be set anew, whatever their lengths.
     pub fn forget_lengths(&mut self) {
-        self.list.iter_mut().for_each(|flow| flow.set = None);
+        self.list.iter_mut().for_each(|feed| feed.set = None);
     }
 
     /// Makes of velocities those that internal damping sees, at `time` (s).
     pub(super) fn strain_velocity(&self, time: f64, q: &[f64], v: &mut [f64]) {
-        for flow in &self.list {
-            let Extent { length, rate, .. } = flow.at(time);
-            let [far, eye] = flow.side.nodes(v.len() / 6);
+        for feed in &self.list {
+            let Extent { length, rate, .. } = feed.at(time);
+            let [far, eye] = feed.side.nodes(v.len() / 6);
             for x in 0..3 {
                 v[6 * eye + x] -= (q[6 * eye + x] - q[6 * far + x]) * rate / length;
             }
         }
     }
 
-    /// Adds the forces of all flows to `out`, and their negative derivatives to the matrix; at rest there are none.
+    /// Adds the forces of all feeds to `out`, and their negative derivatives to the matrix; at rest there are none.
     pub fn add(&self, model: &Model, at: &ForceInput<'_>, out: &mut [f64], mut matrix: Option<&mut BlockTridiagonal>) {
-        for flow in self.list.iter().filter(|_| !at.v.is_empty()) {
-            flow.add(model, at, out, matrix.as_deref_mut());
+        for feed in self.list.iter().filter(|_| !at.v.is_empty()) {
+            feed.add(model, at, out, matrix.as_deref_mut());
         }
     }
 }

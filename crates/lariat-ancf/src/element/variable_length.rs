@@ -88,12 +88,12 @@ pub(crate) struct Extent {
 
 /// The element at an instant: mass per length in kg/m and extent.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct FlowElement {
+pub(crate) struct VariableLength {
     pub inertia: f64,
     pub extent: Extent,
 }
 
-impl FlowElement {
+impl VariableLength {
     /// Returns `D (sum of factors times tables) D`, times the mass per length.
     #[inline(always)]
     fn weighted<const N: usize>(&self, terms: [(f64, &Table); N]) -> Table {
@@ -118,7 +118,7 @@ impl FlowElement {
         [self.weighted([(2.0 * rate, &G)]), self.weighted([(acceleration, &G), (rate * rate / length, &H)])]
     }
 
-    /// Adds `scale` times the force `-(2 l' G v + (l'' G + l'^2 H) q)` of the flow on the element's 12 coordinates.
+    /// Adds `scale` times the force `-(2 l' G v + (l'' G + l'^2 H) q)` of the feed on the element's 12 coordinates.
     pub fn add_force(&self, scale: f64, q: &[f64; 12], v: &[f64; 12], out: &mut [f64; 12]) {
         let [by_velocity, by_position] = self.matrices();
         add_product(&by_velocity, -scale, v, out);
@@ -220,7 +220,7 @@ pub(crate) fn add_product(table: &Table, scale: f64, x: &[f64; 12], out: &mut [f
 }
 
 /// Returns the weights of the coordinates in w = S_l e and in dw/dy at `xi`.
-pub(crate) fn flow_weights(xi: f64, length: f64) -> [[f64; 4]; 2] {
+pub(crate) fn feed_weights(xi: f64, length: f64) -> [[f64; 4]; 2] {
     let (n, slope, second) =
         (shape::position(xi, length), shape::slope(xi, length), shape::second_derivative(xi, length));
     let p = |k: usize| if k % 2 == 1 { 1.0 } else { 0.0 };
@@ -252,10 +252,10 @@ mod tests {
     }
 
     /// Velocity and acceleration of a material point by differences of its position in time: S(y; l(t)) e(t) is all that is used.
-    fn motion(y: f64, [q, v, a]: &[[f64; 12]; 3], flow: &Extent) -> [[f64; 3]; 2] {
+    fn motion(y: f64, [q, v, a]: &[[f64; 12]; 3], feed: &Extent) -> [[f64; 3]; 2] {
         let h = 1e-3;
         let place = |t: f64| {
-            let l = flow.length + t * flow.rate + 0.5 * t * t * flow.acceleration;
+            let l = feed.length + t * feed.rate + 0.5 * t * t * feed.acceleration;
             at(y, l, &core::array::from_fn(|i| q[i] + t * v[i] + 0.5 * t * t * a[i]))
         };
         // six points: error h^6
@@ -271,16 +271,16 @@ mod tests {
     /// *Source.* D'Alembert: generalised force of inertia = int rho a . dr, by Gauss points and differences in time.
     #[test]
     fn the_tables_are_the_inertia_of_the_particles() {
-        let flow = Extent { length: L, rate: 0.8, acceleration: -1.9 };
-        let element = FlowElement { inertia: RHO, extent: flow };
+        let feed = Extent { length: L, rate: 0.8, acceleration: -1.9 };
+        let element = VariableLength { inertia: RHO, extent: feed };
         let state = [some(0.3), some(1.1), some(2.9)];
         let [q, v, a] = state;
         let weight = [0.4, -9.0, 2.0];
         let mass = crate::element::mass::consistent(RHO, L);
         let (mut force, mut momentum, mut kinetic, mut on_length) = ([0.0; 12], [0.0; 12], 0.0, 0.0);
         for (x, g) in gauss_legendre(6) {
-            let [speed, acceleration] = motion(x * L, &state, &flow);
-            let (s, [w, _]) = (shape::position(x, L), flow_weights(x, L));
+            let [speed, acceleration] = motion(x * L, &state, &feed);
+            let (s, [w, _]) = (shape::position(x, L), feed_weights(x, L));
             for i in 0..3 {
                 for k in 0..4 {
                     force[3 * k + i] -= g * L * RHO * s[k] * acceleration[i];
@@ -318,10 +318,10 @@ mod tests {
 
     /// w is the derivative of S(y; l) e by l at a fixed particle, and dw/dy that along the cable; w = -t at the eye.
     #[test]
-    fn flow_weights_are_derivatives_at_a_fixed_particle() {
+    fn feed_weights_are_derivatives_at_a_fixed_particle() {
         let (q, h) = (some(0.7), 1e-5);
         for xi in [0.0, 0.3, 0.8, 1.0] {
-            let [w, dw] = flow_weights(xi, L).map(|weights| -> [f64; 3] {
+            let [w, dw] = feed_weights(xi, L).map(|weights| -> [f64; 3] {
                 core::array::from_fn(|x| (0..4).map(|k| weights[k] * q[3 * k + x]).sum())
             });
             let w_at = |y: f64| -> [f64; 3] {
