@@ -1,6 +1,7 @@
 //! The elements at the eyes of reels, as data of a step.
 
 use super::law::Law;
+use crate::Real;
 use crate::effect::acts::ForceInput;
 use crate::element::gram::Control;
 use crate::element::kernel::Stiffness;
@@ -75,8 +76,6 @@ pub(crate) enum Source {
 pub(crate) struct OnLength {
     /// All: B.
     pub(super) force: f64,
-    /// Of inertia and weight.
-    pub(super) inertial: f64,
     /// Strain energies in J, axial and bending, at the beginning of the step, once they are known, and at its end.
     pub(super) begin: Option<(f64, f64)>,
     pub(super) end: (f64, f64),
@@ -118,8 +117,9 @@ impl FeedElement {
     }
 
     /// Returns the length in m of the stock that rides with the body at the eye, when the element has this length.
-    pub(super) fn stock(&self, length: f64) -> f64 {
-        if let Source::Stock(both) = self.source { both - length } else { 0.0 }
+    #[inline(always)]
+    pub(super) fn stock<T: Real>(&self, length: T) -> T {
+        if let Source::Stock(both) = self.source { length.splat(both) - length } else { length.splat(0.0) }
     }
 
     /// Returns whether it stands, did so in the last step, and is not driven by an unknown force: it is then an element like others, if no
@@ -132,20 +132,32 @@ impl FeedElement {
 
     /// Returns the extent at a time in s.
     pub fn at(&self, time: f64) -> Extent {
-        let Extent { length, rate, acceleration } = self.extent;
-        let t = time - self.start;
-        Extent { length: length + t * (rate + 0.5 * t * acceleration), rate: rate + t * acceleration, acceleration }
+        self.at_with(time, self.extent.acceleration)
+    }
+
+    /// Returns the extent at a time in s with another acceleration.
+    #[inline(always)]
+    pub(super) fn at_with<T: Real>(&self, time: f64, acceleration: T) -> Extent<T> {
+        let (Extent { length, rate, .. }, t) = (self.extent, time - self.start);
+        Extent { length: (acceleration * (0.5 * t) + rate) * t + length, rate: acceleration * t + rate, acceleration }
     }
 
     /// Returns the mean of a step from `time` of length `h` (s), and the lengths at both ends.
     pub(super) fn over(&self, time: f64, h: f64) -> (Extent, [f64; 2]) {
-        let [first, last] = [self.at(time), self.at(time + h)];
-        let mean = Extent {
-            length: 0.5 * (first.length + last.length),
-            rate: (last.length - first.length) / h,
-            acceleration: first.acceleration,
-        };
+        let (mean, [first, last]) = self.over_with((time, h), self.extent.acceleration);
         (mean, [first.length, last.length])
+    }
+
+    /// Returns the mean of a step from a time of a length in s with another acceleration, and the extents at both ends.
+    #[inline(always)]
+    pub(super) fn over_with<T: Real>(&self, (time, h): (f64, f64), acceleration: T) -> (Extent<T>, [Extent<T>; 2]) {
+        let [first, last] = [self.at_with(time, acceleration), self.at_with(time + h, acceleration)];
+        let mean = Extent {
+            length: (first.length + last.length) * 0.5,
+            rate: (last.length - first.length) / acceleration.splat(h),
+            acceleration,
+        };
+        (mean, [first, last])
     }
 
     /// Returns the number of the element.
@@ -154,7 +166,8 @@ impl FeedElement {
     }
 
     /// Returns the element with an extent.
-    pub(super) fn with(&self, model: &Model, extent: Extent) -> VariableLength {
+    #[inline(always)]
+    pub(super) fn with<T>(&self, model: &Model, extent: Extent<T>) -> VariableLength<T> {
         VariableLength { inertia: model.inertia(&model.elements[self.element(model)]), extent }
     }
 

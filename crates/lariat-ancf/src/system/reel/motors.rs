@@ -2,6 +2,7 @@
 
 use super::law::Law;
 use super::{FeedElement, Feeds};
+use crate::Real;
 use crate::element::variable_length::Extent;
 use crate::integrate::discrete_gradient::Balance;
 use crate::model::Model;
@@ -68,14 +69,18 @@ impl Law {
 
 impl FeedElement {
     /// Returns the force in N of the motor at an extent, from the force on the length.
-    pub(super) fn motor(&self, model: &Model, extent: Extent, q: &[f64; 12], on_length: f64) -> f64 {
+    #[inline(always)]
+    pub(super) fn motor<T: Real>(&self, model: &Model, extent: Extent<T>, q: &[T; 12], on_length: T) -> T {
         let element = self.with(model, extent);
-        let wheel = self.law.map_or(0.0, |law| {
-            let stock = (law.motor.bounds[1] - extent.length).max(0.0);
-            let wound = matches!(self.kind, Feed::Drum | Feed::BodyDrum) && stock.is_finite();
-            law.motor.wheel + if wound { element.inertia * stock } else { 0.0 }
-        });
-        self.kind.pull(&element, q, on_length) - wheel * extent.acceleration
+        let mut wheel = on_length.splat(0.0);
+        if let Some(law) = &self.law {
+            wheel = wheel + law.motor.wheel;
+            let stock = law.motor.bounds[1];
+            if matches!(self.kind, Feed::Drum | Feed::BodyDrum) && stock.is_finite() {
+                wheel = wheel + (-(extent.length - stock)).at_least(0.0) * element.inertia;
+            }
+        }
+        self.kind.pull(&element, q, on_length) + self.lost(model, q, extent.rate) - wheel * extent.acceleration
     }
 }
 
@@ -118,7 +123,7 @@ impl Equations<'_> {
             }
             let on_length = self.on_length_of_step(feed, state, b);
             let (mean, q) = (feed.over(state.time, b.h).0, self.middle_of_step(feed, state, b));
-            let force = feed.motor(self.model, mean, &q, on_length.force) + feed.lost(self.model, &q, mean.rate);
+            let force = feed.motor(self.model, mean, &q, on_length.force);
             let feed = &mut self.system.feeds.list[k];
             feed.on_length = on_length;
             feed.law.iter_mut().for_each(|law| law.force = force);

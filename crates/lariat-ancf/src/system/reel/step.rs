@@ -2,8 +2,9 @@
 
 use super::feeds::Impulse;
 use super::{FeedElement, Feeds, Source};
+use crate::Real;
 use crate::element::mass;
-use crate::element::variable_length::{Table, VariableLength, add_product};
+use crate::element::variable_length::{Table, add_product};
 use crate::model::Model;
 use crate::one_leg::BETA;
 use crate::simd::dispatch;
@@ -79,9 +80,9 @@ impl Equations<'_> {
             let own = dispatch!(system.level => {
                 // a given rate does not change within a step
                 if matrix || feed.law.is_some() || impulse.step != step {
-                    *impulse = feed.impulse(model, step, false);
+                    *impulse = Impulse { step, tables: feed.impulse(model, step, feed.extent.acceleration, false) };
                 }
-                impulse.of(&motion)
+                motion.impulse(&impulse.tables)
             });
             feed.side.add(&own.map(|x| rate * x), &mut b.external);
             if matrix {
@@ -119,12 +120,22 @@ impl StepMotion {
         let of = |x: &[f64]| feed.side.gather(x);
         StepMotion { q: [of(&state.q), of(&b.change)], v: [of(&state.v), of(&b.velocity_change)] }
     }
+
+    /// Returns the product with tables.
+    #[inline(always)]
+    pub fn impulse(&self, tables: &[Table; 4]) -> [f64; 12] {
+        let mut out = [0.0; 12];
+        for (table, x) in tables.iter().zip(self.q.iter().chain(&self.v)) {
+            add_product(table, 1.0, x, &mut out);
+        }
+        out
+    }
 }
 
 /// Returns a table by its entries.
 #[inline(always)]
-fn table(entry: impl Fn(usize, usize) -> f64) -> Table {
-    let mut out = [[0.0; 4]; 4];
+fn table<T: Real>(entry: impl Fn(usize, usize) -> T) -> Table<T> {
+    let mut out = [[entry(0, 0); 4]; 4];
     for a in 0..4 {
         for b in 0..4 {
             out[a][b] = entry(a, b);
@@ -133,58 +144,45 @@ fn table(entry: impl Fn(usize, usize) -> f64) -> Table {
     out
 }
 
-impl Impulse {
-    #[inline(always)]
-    pub fn of(&self, motion: &StepMotion) -> [f64; 12] {
-        let mut out = [0.0; 12];
-        for (table, x) in self.tables.iter().zip(motion.q.iter().chain(&motion.v)) {
-            add_product(table, 1.0, x, &mut out);
-        }
-        out
-    }
-
-    /// Returns the derivative by a number that changed by `by` to that of `moved`.
-    #[inline(always)]
-    pub fn derivative(&self, moved: &Impulse, by: f64) -> Impulse {
-        let rate = 1.0 / by;
-        let of = |k: usize| table(|a, b| rate * (moved.tables[k][a][b] - self.tables[k][a][b]));
-        Impulse { tables: [of(0), of(1), of(2), of(3)], ..*self }
-    }
-}
-
 impl FeedElement {
     /// Returns the impulse of the inertia of the element over a step, `-D p + h l' (G^T v^ + l' K q_m)` and the momentum of the material that
     /// enters at the eye; that of riding stock is a part of p, and what enters comes from it. Without `all` it is less the part
     /// `-M_m D v`, which the mass matrix has.
     #[inline(always)]
-    pub(super) fn impulse(&self, model: &Model, (time, h): (f64, f64), all: bool) -> Impulse {
-        let (mean, lengths) = self.over(time, h);
-        let of_mean = self.with(model, mean);
-        let inertia = of_mean.inertia;
-        let [mut first, last] = [time, time + h].map(|time| VariableLength { inertia, extent: self.at(time) });
-        first.extent.rate = self.left_rate.unwrap_or(first.extent.rate);
-        let mut mass_first = mass::consistent(inertia, lengths[0]);
-        let mut mass_last = mass::consistent(inertia, lengths[1]);
-        let mut in_matrix = [[0.0; 4]; 4];
-        mass_first[2][2] += self.stock(lengths[0]) * inertia;
-        mass_last[2][2] += self.stock(lengths[1]) * inertia;
-        if !all {
-            in_matrix = mass::consistent(inertia, mean.length);
-            in_matrix[2][2] += self.stock(mean.length) * inertia;
+    pub(super) fn impulse<T: Real>(
+        &self,
+        model: &Model,
+        step: (f64, f64),
+        acceleration: T,
+        all: bool,
+    ) -> [Table<T>; 4] {
+        let (_, h) = step;
+        let (mean, [mut first, last]) = self.over_with(step, acceleration);
+        let [first_length, last_length] = [first.length, last.length];
+        if let Some(rate) = self.left_rate {
+            first.rate = first.rate.splat(rate);
         }
+        let [of_mean, first, last] = [mean, first, last].map(|extent| self.with(model, extent));
+        let inertia = of_mean.inertia;
+        let mass = |length: T| {
+            let mut mass = mass::consistent(inertia, length);
+            mass[2][2] = mass[2][2] + self.stock(length) * inertia;
+            mass
+        };
+        let (mass_first, mass_last) = (mass(first_length), mass(last_length));
+        let in_matrix = if all { [[mean.rate.splat(0.0); 4]; 4] } else { mass(mean.length) };
         let (momentum_first, momentum_last) = (first.momentum_matrix(), last.momentum_matrix());
         let [mut by_change, mut by_position] = of_mean.gradient_matrices();
         if self.source == Source::Outside {
-            by_change[2][2] += inertia * mean.rate;
-            by_position[2][3] -= inertia * mean.rate * mean.rate;
+            by_change[2][2] = by_change[2][2] + mean.rate * inertia;
+            by_position[2][3] = by_position[2][3] - mean.rate * inertia * mean.rate;
         }
-        let tables = [
-            table(|a, b| momentum_first[a][b] - momentum_last[a][b] + h * by_position[a][b]),
-            table(|a, b| by_change[a][b] + 0.5 * h * by_position[a][b] - momentum_last[a][b]),
+        [
+            table(|a, b| momentum_first[a][b] - momentum_last[a][b] + by_position[a][b] * h),
+            table(|a, b| by_change[a][b] + by_position[a][b] * (0.5 * h) - momentum_last[a][b]),
             table(|a, b| mass_first[a][b] - mass_last[a][b]),
             table(|a, b| in_matrix[a][b] - mass_last[a][b]),
-        ];
-        Impulse { step: (time, h), tables }
+        ]
     }
 
     /// Returns the negative derivatives of the [impulse](Self::impulse), without the part of the mass matrix, by the changes of velocity. With

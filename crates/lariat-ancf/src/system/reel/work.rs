@@ -37,6 +37,7 @@
 
 use super::feeds::{OnLength, control};
 use super::{FeedElement, Source};
+use crate::Real;
 use crate::effect::work::{POINTS, hermite};
 use crate::element::variable_length::{Extent, VariableLength};
 use crate::model::Model;
@@ -132,7 +133,7 @@ impl Equations<'_> {
         let [velocity, acceleration] = [change, feed.side.gather(&b.velocity_change)].map(|x| x.map(|x| rate * x));
         let (element, dead) = (feed.with(model, mean), feed.dead(model));
         let inertial = dispatch!(system.level => element.length_force([&middle, &velocity, &acceleration], &dead));
-        OnLength { force: elastic + inertial - feed.of_points, inertial, begin: Some(begin), end }
+        OnLength { force: elastic + inertial - feed.of_points, begin: Some(begin), end }
     }
 
     /// Returns what entering material brings in N beside the force on the length, in the mean of a step of the discrete gradient.
@@ -178,41 +179,40 @@ impl Equations<'_> {
 
 impl Feed {
     /// Returns the pull of the winch from the force on the length, without the energy that is lost.
-    pub(super) fn pull(self, element: &VariableLength, q: &[f64; 12], on_length: f64) -> f64 {
+    #[inline(always)]
+    pub(super) fn pull<T: Real>(self, element: &VariableLength<T>, q: &[T; 12], on_length: T) -> T {
         let rate = element.extent.rate;
-        let [of_square, constant] = self.momentum(rate);
-        -on_length - element.inertia * rate * rate * (of_square * square_of_stretch(q) + constant)
-    }
-
-    /// Returns what the pull loses to the momentum of entering material over rho l'^2: the factor of f^2, and the rest.
-    pub(super) fn momentum(self, rate: f64) -> [f64; 2] {
-        match self {
-            Feed::Bag if rate > 0.0 => [0.5, 0.0],
-            Feed::Coil if rate > 0.0 => [1.0, 0.0],
+        // what is lost to the momentum of entering material over rho l'^2: the factor of f^2, and the rest
+        let [of_square, constant] = match self {
+            Feed::Bag if rate.is_above(0.0) => [0.5, 0.0],
+            Feed::Coil if rate.is_above(0.0) => [1.0, 0.0],
             _ => [0.5, -0.5],
-        }
+        };
+        -on_length - rate * element.inertia * rate * (square_of_stretch(q) * of_square + constant)
     }
 }
 
 impl FeedElement {
     /// Returns the strain energy per length at the eye, if stock from a coil loses it, in N.
-    pub(super) fn lost(&self, model: &Model, q: &[f64; 12], rate: f64) -> f64 {
-        if self.kind != Feed::Coil || rate <= 0.0 {
-            return 0.0;
+    #[inline(always)]
+    pub(super) fn lost<T: Real>(&self, model: &Model, q: &[T; 12], rate: T) -> T {
+        if self.kind != Feed::Coil || !rate.is_above(0.0) {
+            return rate.splat(0.0);
         }
-        let strain = 0.5 * (square_of_stretch(q) - 1.0);
-        0.5 * model.elements[self.element(model)].section.axial_stiffness * strain * strain
+        let strain = (square_of_stretch(q) - 1.0) * 0.5;
+        strain * (0.5 * model.elements[self.element(model)].section.axial_stiffness) * strain
     }
 }
 
 /// Returns the mean force of strains on the length over a step: D U at fixed coordinates over D l, for `(1/l1 - 1/l0)/(l1 - l0) =
 /// -1/(l0 l1)`, from axial and bending energies at both ends and the product of mean chord and mean force on the eye.
-pub(super) fn strain_on_length([u0, u1]: [(f64, f64); 2], [l0, l1]: [f64; 2], of_eye: f64) -> f64 {
+fn strain_on_length([u0, u1]: [(f64, f64); 2], [l0, l1]: [f64; 2], of_eye: f64) -> f64 {
     0.5 * (u0.0 / l0 + u1.0 / l1) - (0.5 * (u0.1 * l0 + u1.1 * l1) - l0 * of_eye) / (l0 * l1)
 }
 
 /// Returns the square of the stretch at the eye.
-fn square_of_stretch(q: &[f64; 12]) -> f64 {
+#[inline(always)]
+fn square_of_stretch<T: Real>(q: &[T; 12]) -> T {
     q[9] * q[9] + q[10] * q[10] + q[11] * q[11]
 }
 
