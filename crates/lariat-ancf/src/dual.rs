@@ -7,8 +7,9 @@
 //!
 //! # Validity
 //!
-//! Exact to rounding wherever the function is smooth; at the kinks, sqrt(0) and |0|, the derivative is taken as 0. Used by
-//! [`Cable::jacobians`](crate::coupling::Linearisation::jacobians): one pass per coordinate of an element, so not for the step.
+//! Exact to rounding wherever the function is smooth; at the kinks, sqrt(0) and |0|, the derivative is taken as 0. With one
+//! derivative, [`Cable::jacobians`](crate::coupling::Linearisation::jacobians) makes a pass per coordinate of an element; with several at
+//! once, an unknown rate of a reel makes one per iteration.
 //!
 //! # References
 //!
@@ -17,91 +18,149 @@
 use crate::Real;
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
-/// A value and its derivative.
+/// A derivative, or several.
+pub(crate) trait Slope: Copy {
+    /// Of a constant.
+    const ZERO: Self;
+    /// Returns `a x + b y`.
+    fn combined(a: f64, x: Self, b: f64, y: Self) -> Self;
+}
+
+impl Slope for f64 {
+    const ZERO: Self = 0.0;
+    #[inline(always)]
+    fn combined(a: f64, x: Self, b: f64, y: Self) -> Self {
+        a * x + b * y
+    }
+}
+
+impl<const N: usize> Slope for [f64; N] {
+    const ZERO: Self = [0.0; N];
+    #[inline(always)]
+    fn combined(a: f64, x: Self, b: f64, y: Self) -> Self {
+        let mut out = x;
+        for i in 0..N {
+            out[i] = a * x[i] + b * y[i];
+        }
+        out
+    }
+}
+
+/// A value and its derivative, or its derivatives by several arguments.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Dual {
+pub(crate) struct Dual<S = f64> {
     pub value: f64,
-    pub slope: f64,
+    pub slope: S,
 }
 
 /// A constant: the derivative is 0.
-pub(crate) fn constant(value: f64) -> Dual {
-    Dual { value, slope: 0.0 }
+#[inline(always)]
+pub(crate) fn constant<S: Slope>(value: f64) -> Dual<S> {
+    Dual { value, slope: S::ZERO }
 }
 
-impl Add for Dual {
+impl<const N: usize> Dual<[f64; N]> {
+    /// Returns a number that changes by `rate` with argument `i`.
+    #[inline(always)]
+    pub fn along(value: f64, i: usize, rate: f64) -> Self {
+        let mut slope = [0.0; N];
+        slope[i] = rate;
+        Dual { value, slope }
+    }
+}
+
+impl<S: Slope> Dual<S> {
+    /// Returns what a function of this value is, with its derivative.
+    #[inline(always)]
+    fn map(self, value: f64, rate: f64) -> Self {
+        Dual { value, slope: S::combined(rate, self.slope, 0.0, S::ZERO) }
+    }
+}
+
+impl<S: Slope> Add for Dual<S> {
     type Output = Self;
+    #[inline(always)]
     fn add(self, other: Self) -> Self {
-        Dual { value: self.value + other.value, slope: self.slope + other.slope }
+        Dual { value: self.value + other.value, slope: S::combined(1.0, self.slope, 1.0, other.slope) }
     }
 }
 
-impl Sub for Dual {
+impl<S: Slope> Sub for Dual<S> {
     type Output = Self;
+    #[inline(always)]
     fn sub(self, other: Self) -> Self {
-        Dual { value: self.value - other.value, slope: self.slope - other.slope }
+        Dual { value: self.value - other.value, slope: S::combined(1.0, self.slope, -1.0, other.slope) }
     }
 }
 
-impl Mul for Dual {
+impl<S: Slope> Mul for Dual<S> {
     type Output = Self;
+    #[inline(always)]
     fn mul(self, other: Self) -> Self {
-        Dual { value: self.value * other.value, slope: self.slope * other.value + self.value * other.slope }
+        Dual { value: self.value * other.value, slope: S::combined(other.value, self.slope, self.value, other.slope) }
     }
 }
 
-impl Div for Dual {
+impl<S: Slope> Div for Dual<S> {
     type Output = Self;
+    #[inline(always)]
     fn div(self, other: Self) -> Self {
-        let value = self.value / other.value;
-        Dual { value, slope: (self.slope - value * other.slope) / other.value }
+        let (value, rate) = (self.value / other.value, 1.0 / other.value);
+        Dual { value, slope: S::combined(rate, self.slope, -value * rate, other.slope) }
     }
 }
 
-impl Neg for Dual {
+impl<S: Slope> Neg for Dual<S> {
     type Output = Self;
+    #[inline(always)]
     fn neg(self) -> Self {
-        Dual { value: -self.value, slope: -self.slope }
+        self.map(-self.value, -1.0)
     }
 }
 
-impl Add<f64> for Dual {
+impl<S: Slope> Add<f64> for Dual<S> {
     type Output = Self;
+    #[inline(always)]
     fn add(self, other: f64) -> Self {
         Dual { value: self.value + other, ..self }
     }
 }
 
-impl Sub<f64> for Dual {
+impl<S: Slope> Sub<f64> for Dual<S> {
     type Output = Self;
+    #[inline(always)]
     fn sub(self, other: f64) -> Self {
         Dual { value: self.value - other, ..self }
     }
 }
 
-impl Mul<f64> for Dual {
+impl<S: Slope> Mul<f64> for Dual<S> {
     type Output = Self;
+    #[inline(always)]
     fn mul(self, other: f64) -> Self {
-        Dual { value: self.value * other, slope: self.slope * other }
+        self.map(self.value * other, other)
     }
 }
 
-impl Real for Dual {
+impl<S: Slope> Real for Dual<S> {
+    #[inline(always)]
     fn splat(self, value: f64) -> Self {
         constant(value)
     }
+    #[inline(always)]
     fn sqrt(self) -> Self {
         let value = self.value.sqrt();
-        Dual { value, slope: if value == 0.0 { 0.0 } else { 0.5 * self.slope / value } }
+        self.map(value, if value == 0.0 { 0.0 } else { 0.5 / value })
     }
+    #[inline(always)]
     fn abs(self) -> Self {
-        let slope = if self.value == 0.0 { 0.0 } else { self.slope * self.value.signum() };
-        Dual { value: self.value.abs(), slope }
+        self.map(self.value.abs(), if self.value == 0.0 { 0.0 } else { self.value.signum() })
     }
+    #[inline(always)]
     fn at_least(self, least: f64) -> Self {
         if self.value < least { constant(least) } else { self }
     }
-    #[inline]
+    #[inline(always)]
     fn is_above(self, limit: f64) -> bool {
         self.value > limit
     }

@@ -64,7 +64,7 @@ impl Cable {
         self.system.mass.multiply(self.system.level, self.velocities(), momentum);
         let (time, q, v) = (self.time(), self.positions(), self.velocities());
         let kinetic = 0.5 * momentum.iter().zip(v).map(|(p, v)| p * v).sum::<f64>()
-            + self.system.flow_kinetic(&self.model, time, q, v);
+            + self.system.feed_kinetic(&self.model, time, q, v);
         let gravity = -self.system.loads.gravity_work(self.positions());
         let potentials = self.system.potentials.energy(&self.model, self.positions());
         Energy { kinetic, axial, bending, gravity, potentials }
@@ -85,7 +85,7 @@ impl Cable {
 
     pub(super) fn generalised_momentum(&self) -> Vec<f64> {
         let mut p = self.mass_times_velocity();
-        self.system.add_flow_momentum(&self.model, self.time(), self.positions(), &mut p);
+        self.system.add_feed_momentum(&self.model, self.time(), self.positions(), &mut p);
         p
     }
 

@@ -20,8 +20,8 @@
 use super::Cable;
 use crate::effect::acts::SampledPoint;
 use crate::element::bending::regularisation::RegularisedPower;
-use crate::element::flow::flow_weights;
 use crate::element::shape::{self, combine};
+use crate::element::variable_length::feed_weights;
 use crate::error::Error;
 use crate::system::{NodeTension, Pull, Reading, missing_at_ends};
 use nalgebra::Vector3;
@@ -107,10 +107,10 @@ impl Cable {
         let at = reading.state(e, true);
         let Pull { tension, green_strain } = reading.pull(e, xi, &at);
         let mut velocity = combine(v, e, &position);
-        for flow in self.system.flows.list.iter().filter(|flow| flow.side.element(self.elements().len()) == e) {
-            let extent = flow.extent;
-            let local = flow.side.gather(q);
-            velocity += extent.rate * combine(&local, 0, &flow_weights(flow.side.local(xi), length)[0]);
+        for feed in self.system.feeds.list.iter().filter(|feed| feed.side.element(self.elements().len()) == e) {
+            let extent = feed.extent;
+            let local = feed.side.gather(q);
+            velocity += extent.rate * combine(&local, 0, &feed_weights(feed.side.local(xi), length)[0]);
         }
         // a collapsed element has no curvature
         let curvature = if stretch > 0.0 { slope.cross(&second) / stretch.powi(3) } else { Vector3::zeros() };

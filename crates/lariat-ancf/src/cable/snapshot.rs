@@ -60,7 +60,7 @@ impl Snapshot {
             winding.iter_mut().for_each(|winding| winding.work += work);
         }
         // with a reel, the lengths on which they act change: it is in the work of the steps
-        if system.flows.is_empty() {
+        if system.feeds.is_empty() {
             system.loads.of_effects.add_work(before, &self.state.q, &mut self.work);
         }
     }

@@ -1,7 +1,7 @@
 //! How effects enter the equations of motion: by constants, within the element kernel, or at Gauss points.
 
 use super::{Effect, Target};
-use crate::dual::Dual;
+use crate::dual::{Dual, Slope};
 use crate::element::gram::Control;
 use crate::element::kernel::{DiscreteGradientForce, Gradient, GramForce, GramState, GramStep, Hessian, Load};
 use crate::linalg::BlockTridiagonal;
@@ -94,8 +94,8 @@ impl Load<f64> for Single {
     }
 }
 
-impl Load<Dual> for Single {
-    fn load(&self, by_element: &[f64]) -> Dual {
+impl<S: Slope> Load<Dual<S>> for Single {
+    fn load(&self, by_element: &[f64]) -> Dual<S> {
         crate::dual::constant(by_element[self.0])
     }
 }

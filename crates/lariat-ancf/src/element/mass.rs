@@ -12,17 +12,19 @@
 //!
 //! Lumping: order two in space, and the slopes would have no inertia, which limits the step.
 
+use crate::Real;
+
 /// The 4x4 matrix over (r_i, t_i, r_j, t_j), for mass per length in kg/m and length in m.
 #[inline(always)]
-pub fn consistent(mass_per_length: f64, length: f64) -> [[f64; 4]; 4] {
+pub fn consistent<T: Real>(mass_per_length: f64, length: T) -> [[T; 4]; 4] {
     let l = length;
-    let k = mass_per_length * l / 420.0;
-    let row = |a: f64, b: f64, c: f64, d: f64| [k * a, k * b, k * c, k * d];
+    let k = l * mass_per_length / l.splat(420.0);
+    let [l3, l4, l13, l22] = [l * 3.0, l * 4.0, l * 13.0, l * 22.0];
     [
-        row(156.0, 22.0 * l, 54.0, -13.0 * l),
-        row(22.0 * l, 4.0 * l * l, 13.0 * l, -3.0 * l * l),
-        row(54.0, 13.0 * l, 156.0, -22.0 * l),
-        row(-13.0 * l, -3.0 * l * l, -22.0 * l, 4.0 * l * l),
+        [k * 156.0, k * l22, k * 54.0, -(k * l13)],
+        [k * l22, k * (l4 * l), k * l13, -(k * (l3 * l))],
+        [k * 54.0, k * l13, k * 156.0, -(k * l22)],
+        [-(k * l13), -(k * (l3 * l)), -(k * l22), k * (l4 * l)],
     ]
 }
 

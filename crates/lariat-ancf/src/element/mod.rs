@@ -6,16 +6,16 @@
 //! - [`mass`]: the consistent mass matrix in closed form
 //! - `assembly`: forces at points, added to the coordinates of the nodes
 //! - [`axial`], [`bending`]: one file per rule of the elastic forces
-//! - `flow`: the element into which material flows from a reel
+//! - `variable_length`: the element of 13 coordinates, into which material flows
 //! - `side`: the end of the cable at which it is
 
 pub(crate) mod assembly;
 pub mod axial;
 pub mod bending;
-pub(crate) mod flow;
 pub mod gram;
 pub mod kernel;
 pub mod mass;
 pub mod shape;
 pub(crate) mod side;
 pub mod step;
+pub(crate) mod variable_length;

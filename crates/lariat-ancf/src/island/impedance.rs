@@ -110,7 +110,7 @@ impl Impedance {
                 break half;
             }
         };
-        if cable.system.flows.is_empty() {
+        if cable.system.feeds.is_empty() {
             // the rest is added to what is assembled: projected twice it is as projected once
             let system = &mut cable.system;
             system.mass.add_to(&mut system.step.matrix, inertia - assembled);

@@ -9,14 +9,12 @@ use super::layout::Layout;
 use super::memory;
 use super::pin::{PinConstraint, check, is_on_free_body};
 use super::pin_accounts::{PinAccount, PinAccounts};
-use super::sheave;
-use super::{Drum, drum};
+use super::reel::{self, Drum, Sheave};
 use crate::cable::{Cable, SHORTEST_STEP, check_integrator};
 use crate::contact::CablePair;
 use crate::error::{Error, require};
 use crate::integrate::{Integrator, IntegratorRef, Scratch, step_control};
 use crate::state::State;
-use crate::system::{Sheave, Wheel};
 
 /// Buffers of an island, reused from step to step; nothing in them is state.
 #[derive(Clone, Debug, Default)]
@@ -83,8 +81,7 @@ impl Island {
         check(cables, bodies, pins)?;
         cables.iter().try_for_each(|cable| check_integrator(&cable.model, integrator.method))?;
         cables.iter().try_for_each(|cable| cable.model.obstacles.check_bodies(cable.name(), bodies.len()))?;
-        sheave::check(cables, sheaves)?;
-        drum::check(cables, bodies, pins, drums)?;
+        reel::check(cables, bodies, pins, (&*sheaves, drums))?;
         coupling::check(&self.layout.coupled, bodies.len())?;
         if dt == 0.0 {
             return Ok(());
@@ -96,11 +93,7 @@ impl Island {
             cable.set_riding_stock(|node| is_on_free_body(bodies, pins, i, node));
         }
         cables.iter_mut().for_each(|cable| cable.begin_reel(dt));
-        let unknowns = &mut self.by_discrete_gradient.unknowns;
-        unknowns.wheels.clear();
-        unknowns.wheels.extend(sheaves.iter().copied().map(Wheel::new));
-        unknowns.winches.clear();
-        unknowns.winches.extend(drums.iter().map(|drum| drum.winch(cables, pins)));
+        reel::begin(&mut self.by_discrete_gradient.unknowns, cables, pins, (&*sheaves, drums));
         cables.iter_mut().for_each(|cable| cable.take_workspace());
         let outcome = self.step_in_workspaces(cables, bodies, pins, integrator, dt);
         cables.iter_mut().rev().for_each(|cable| cable.return_workspace());

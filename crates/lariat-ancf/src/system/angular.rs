@@ -124,8 +124,8 @@ impl Momenta {
         let StepVectors { product: p, external: full, .. } = b;
         p.resize(state.q.len(), 0.0);
         full.resize(state.q.len(), 0.0);
-        if !system.flows.is_empty() {
-            system.set_flows(model, state.time);
+        if !system.feeds.is_empty() {
+            system.set_feeds(model, state.time);
         }
         system.mass.multiply(system.level, &state.q, p);
         for (q, p) in state.q.chunks_exact(6).zip(p.chunks_exact(6)) {
@@ -135,8 +135,8 @@ impl Momenta {
         self.mass += system.mass.total();
         self.squares[0] += system.mass_square(&state.v, p);
         full.copy_from_slice(p);
-        if !system.flows.is_empty() {
-            system.add_flow_momentum(model, state.time, &state.q, full);
+        if !system.feeds.is_empty() {
+            system.add_feed_momentum(model, state.time, &state.q, full);
         }
         self.squares[1] += dot(&state.v, full);
         add_sums(&mut self.own, &state.q, p);
@@ -197,7 +197,7 @@ impl Momenta {
         let lost = momentum + force - self.all[0] + vector(owed);
         let [p, l] = self.second_difference;
         let second = l - self.centre().cross(&p);
-        let ([p, _], [with_flow, _]) = (self.own, self.all);
+        let ([p, _], [with_feed, _]) = (self.own, self.all);
         let (velocity, spin) = (p / self.mass, self.spin_of(&own));
         let mut turn = Turn {
             centre: self.centre(),
@@ -208,9 +208,9 @@ impl Momenta {
         };
         // kinetic energy beside the rigid motion, and its velocities times all momenta
         let energy = (0.5 * (self.squares[0] - velocity.dot(&p) - spin.dot(&own))).max(0.0);
-        let product = self.squares[1] - velocity.dot(&with_flow) - spin.dot(&all);
+        let product = self.squares[1] - velocity.dot(&with_feed) - spin.dot(&all);
         let taken = 0.5 * ALPHA * second.dot(&self.spin_of(&second));
-        let wanted = turn.spin.dot(&(all + 0.5 * missing)) + turn.push.dot(&(with_flow + 0.5 * lost));
+        let wanted = turn.spin.dot(&(all + 0.5 * missing)) + turn.push.dot(&(with_feed + 0.5 * lost));
         let given = wanted.clamp(0.0, taken.min(balance.numerical).min(-balance.excess()).max(0.0));
         let most = LARGEST_SHARE * (product - LARGEST_SHARE * energy);
         let available = given + most.max(0.0);
@@ -232,7 +232,7 @@ impl Momenta {
         balance.numerical -= given;
         let covered = turn.share * (product - turn.share * energy);
         balance.rescaled += (covered - left).max(0.0);
-        (turn, [with_flow + lost - vector(owed), all + missing - vector(&owed[3..]), self.centre()])
+        (turn, [with_feed + lost - vector(owed), all + missing - vector(&owed[3..]), self.centre()])
     }
 }
 

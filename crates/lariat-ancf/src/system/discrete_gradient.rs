@@ -74,9 +74,9 @@ impl Equations<'_> {
         matrix: bool,
         work: &mut EffectWork,
     ) -> ElementLoss {
-        let eyes = self.begin_flow_step(state, b);
+        let eyes = self.begin_feed_step(state, b);
         let loss = self.step_elements(state, b, matrix);
-        self.end_flow_step(state, b, eyes);
+        self.end_feed_step(state, b, eyes);
         self.external_forces(state, b, matrix, work);
         let (system, to) = (&mut *self.system, matrix);
         let to = to.then_some(&mut system.step.matrix);
@@ -85,7 +85,7 @@ impl Equations<'_> {
         if !matrix && b.outside.is_some() {
             b.outside = Some(outside_impulses(&state.q, b));
         }
-        self.add_flows_over_step(state, b, matrix);
+        self.add_feeds_over_step(state, b, matrix);
         if let Some(effects) = &self.system.forces.in_element {
             effects.add_dissipated(loss.effects, work);
         }
@@ -137,17 +137,17 @@ impl Equations<'_> {
         let (level, forces) = (system.level, &mut system.forces);
         let count = forces.elements.count() as u64;
         let at_points = forces.at_points.any() || forces.densities.is_some();
-        let lines_flow = !system.flows.is_empty() && self.model.effects.line_loads.is_some();
-        if at_points || lines_flow || !self.model.loads.is_empty() {
+        let lines_feed = !system.feeds.is_empty() && self.model.effects.line_loads.is_some();
+        if at_points || lines_feed || !self.model.loads.is_empty() {
             if matrix {
                 b.linearised.clear();
             }
             b.find_means(&state.q);
-            system.flows.add_drift_over_step(state, b, matrix);
+            system.feeds.add_drift_over_step(state, b, matrix);
         }
-        if lines_flow {
+        if lines_feed {
             let lines = &system.loads.of_effects.line_loads;
-            work.line_loads += dot(lines, &b.change) + system.flows.work_on_lengths(state, b, lines);
+            work.line_loads += dot(lines, &b.change) + system.feeds.work_on_lengths(state, b, lines);
         }
         let time = state.time + 0.5 * b.h;
         let [middle, velocity, middle_before, velocity_before] = &b.means;
@@ -168,7 +168,7 @@ impl Equations<'_> {
         }
         let loads = ForceInput { time, q: middle_before, v: &[], dv_dq: 0.0, scale: 1.0 };
         if at_points {
-            system.flows.note_point_forces((state.time, b.h), middle, external);
+            system.feeds.note_point_forces((state.time, b.h), middle, external);
         }
         if self.model.loads.is_empty() {
             return system.loads.add(&self.model.loads, loads, external, None, diagnostics);
@@ -228,7 +228,7 @@ impl Equations<'_> {
 
     /// Makes the end of the step the state.
     pub fn accept_step(&mut self, state: &mut State, b: &StepVectors) {
-        self.end_flows_of_step(state, b);
+        self.end_feeds_of_step(state, b);
         for i in 0..b.change.len() {
             state.q[i] += b.change[i];
             state.v[i] += b.velocity_change[i];

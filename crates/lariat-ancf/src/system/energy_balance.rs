@@ -66,9 +66,9 @@ impl Equations<'_> {
     /// Adds the work of effects, point loads, moving supports and nodes `driven` by an island in a step of length `h` (s); `range` is the
     /// cable's part of the states.
     pub fn add_work(&mut self, before: &State, after: &State, h: f64, range: Range<usize>, driven: &[usize]) {
-        for k in 0..self.system.flows.list.len() {
-            let flow = self.system.flows.list[k];
-            self.system.meter.reel_work[flow.side as usize] += self.flow_work(&flow, before, after, h, range.clone());
+        for k in 0..self.system.feeds.list.len() {
+            let feed = self.system.feeds.list[k];
+            self.system.meter.reel_work[feed.side as usize] += self.feed_work(&feed, before, after, h, range.clone());
         }
         self.add_effect_work(before, after, h, range.clone());
         if !driven.is_empty() || self.model.supports.iter().any(moves) {
@@ -79,7 +79,7 @@ impl Equations<'_> {
     fn add_effect_work(&mut self, before: &State, after: &State, h: f64, range: Range<usize>) {
         let forces = &self.system.forces;
         let dissipates = forces.in_element.as_ref().is_some_and(|effects| effects.dissipates());
-        let line_loads = !self.system.flows.is_empty() && self.model.effects.line_loads.is_some();
+        let line_loads = !self.system.feeds.is_empty() && self.model.effects.line_loads.is_some();
         let effects = dissipates || forces.at_points.any() || forces.densities.is_some() || line_loads;
         if !effects && self.model.loads.is_empty() {
             return;
@@ -126,16 +126,16 @@ impl Equations<'_> {
     /// Returns the power of effects that have no energy, at positions and velocities of the meter.
     fn effect_power(&mut self, time: f64) -> EffectWork {
         let system = &mut *self.system;
-        system.set_flows(self.model, time);
+        system.set_feeds(self.model, time);
         let (forces, EnergyMeter { q, v, force, .. }) = (&mut system.forces, &mut system.meter);
         let input = ForceInput { time, q, v, dv_dq: 0.0, scale: 1.0 };
-        let with_flows = !system.flows.is_empty();
-        let [strain, input] = system.flows.velocities(input);
+        let with_feeds = !system.feeds.is_empty();
+        let [strain, input] = system.feeds.velocities(input);
         let mut power = EffectWork::default();
         if let Some(effects) = forces.in_element.as_ref().filter(|effects| effects.dissipates()) {
             forces.elements.add_effect_power(effects, q, strain.v, &mut power);
         }
-        if with_flows {
+        if with_feeds {
             let of_lines = &system.loads.of_effects.line_loads;
             power.line_loads = of_lines.iter().zip(input.v).map(|(f, v)| f * v).sum();
         }
@@ -203,8 +203,8 @@ impl Equations<'_> {
             let at = 6 * node;
             let mean = Vector3::from_fn(|x, _| 0.5 * h * (r0[at + x] + r1[at + x]));
             // the mass of an element at a reel changes
-            let flows = !self.system.flows.is_empty();
-            let impulse = if flows { mean } else { self.impulse_at(held, &missed) };
+            let feeds = !self.system.feeds.is_empty();
+            let impulse = if feeds { mean } else { self.impulse_at(held, &missed) };
             let resolved = (impulse - mean).norm() <= 0.5 * impulse.norm();
             work +=
                 (0..3).map(|x| impulse[x] * way(at + x) / h + if resolved { beyond(at + x) } else { 0.0 }).sum::<f64>();
@@ -235,18 +235,18 @@ impl Equations<'_> {
         self.model.supports.iter().all(|(_, support)| support.is_still())
             && self.model.loads.iter().all(steady)
             && self.system.forces.densities.is_none()
-            && self.system.flows.are_still()
+            && self.system.feeds.are_still()
     }
 
     /// Returns kinetic and strain energy, and their sum with the potential of gravity and loads, in J.
     fn mechanical_energy(&mut self, time: f64, q: &[f64], v: &[f64]) -> (f64, f64) {
         let system = &mut *self.system;
-        system.set_flows(self.model, time);
+        system.set_feeds(self.model, time);
         let momentum = &mut system.meter.force;
         momentum.resize(v.len(), 0.0);
         system.mass.multiply(system.level, v, momentum);
         let kinetic =
-            0.5 * momentum.iter().zip(v).map(|(p, v)| p * v).sum::<f64>() + system.flow_kinetic(self.model, time, q, v);
+            0.5 * momentum.iter().zip(v).map(|(p, v)| p * v).sum::<f64>() + system.feed_kinetic(self.model, time, q, v);
         let (axial, bending) = system.forces.strain_energy(q);
         let own = kinetic + axial + bending;
         let loads = &system.loads;

@@ -63,9 +63,9 @@ impl Equations<'_> {
         out.fill(0.0);
         if input.v.is_empty() {
             // statics know no time, and nothing flows
-            self.system.set_flows_at_start(self.model);
+            self.system.set_feeds_at_start(self.model);
         } else {
-            self.system.set_flows(self.model, input.time);
+            self.system.set_feeds(self.model, input.time);
         }
         let (system, diagnostics) = (&mut *self.system, &mut *self.diagnostics);
         let matrix = &mut system.step.matrix;
@@ -75,7 +75,7 @@ impl Equations<'_> {
         }
         let n = self.model.elements.len() as u64;
         let to = mass_scale.map(|mass_scale| MatrixOutput { matrix: &mut *matrix, mass_scale });
-        system.forces.add(system.level, system.flows.velocities(input), out, to, diagnostics);
+        system.forces.add(system.level, system.feeds.velocities(input), out, to, diagnostics);
         match mass_scale {
             None => diagnostics.force_evaluations += n,
             Some(_) => diagnostics.tangent_evaluations += n,
@@ -89,7 +89,7 @@ impl Equations<'_> {
         diagnostics.load_evaluations += system.potentials.count();
         system.potentials.add(self.model, (q, scale), out, mass_scale.map(|_| &mut *matrix));
         system.static_contact.add(self.model, (q, scale), out, mass_scale.map(|_| &mut *matrix));
-        system.flows.add(self.model, &input, out, mass_scale.map(|_| matrix));
+        system.feeds.add(self.model, &input, out, mass_scale.map(|_| matrix));
     }
 
     /// Overwrites prescribed coordinates and velocities by their values at `time`.
@@ -102,10 +102,10 @@ impl Equations<'_> {
 
     /// Factors the mass matrix at `time` (s) if it depends on time.
     pub fn begin_acceleration(&mut self, time: f64) -> Result<(), StepFailure> {
-        if self.system.flows.is_empty() {
+        if self.system.feeds.is_empty() {
             return Ok(());
         }
-        self.system.set_flows(self.model, time);
+        self.system.set_feeds(self.model, time);
         self.system.factor_mass(self.model)
     }
 

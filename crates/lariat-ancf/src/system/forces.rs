@@ -34,7 +34,7 @@ impl Forces {
     }
 
     /// Adds all forces to `out`, and overwrites the step matrix if that is asked for; `material` has the velocities of the material, which
-    /// the others are not [at the eye of a reel](super::flow).
+    /// the others are not [at the eye of a reel](super::reel).
     pub fn add(
         &mut self,
         level: Level,

@@ -13,7 +13,7 @@
 //! | [`equations`] | one evaluation of everything, factorisation, solution |
 //! | [`dynamics`] | the equations as integrators see them |
 //! | [`energy_balance`] | work of effects and change of energy over a step |
-//! | [`flow`] | the elements at the eyes of reels |
+//! | [`reel`] | the elements at the eyes of reels |
 //! | [`jacobian`] | exact derivatives |
 //! | [`frequency`] | a bound of the frequencies |
 //! | [`reading`] | tension and strain, and the largest load |
@@ -26,7 +26,6 @@ pub(crate) mod dynamics;
 pub(crate) mod elements;
 pub(crate) mod energy_balance;
 pub(crate) mod equations;
-pub(crate) mod flow;
 pub(crate) mod forces;
 mod frequency;
 pub(crate) mod jacobian;
@@ -37,6 +36,7 @@ mod meter;
 mod potentials;
 mod projection;
 mod reading;
+pub(crate) mod reel;
 mod rigid_motion;
 mod step_vectors;
 mod store;
@@ -45,10 +45,10 @@ mod vectors;
 pub(crate) use discrete_gradient::CableStep;
 pub(crate) use dynamics::CableDynamics;
 pub(crate) use equations::Equations;
-pub use flow::Sheave;
-pub(crate) use flow::{Flow, Law, Motor, MotorState, STOP, Source, Unknowns, Wheel, Winch, rates};
 pub(crate) use projection::{project_matrix, project_vector};
 pub(crate) use reading::{NodeTension, Pull, Reading, missing_at_ends};
+pub use reel::Sheave;
+pub(crate) use reel::{FeedElement, Law, Motor, MotorState, STOP, Source, Unknowns, Wheel, Winch, rates};
 pub(crate) use rigid_motion::{Modes, relative_velocities, solve as solve_semidefinite};
 pub(crate) use step_vectors::StepVectors;
 pub(crate) use vectors::dot;
@@ -59,12 +59,12 @@ use crate::linalg::{BlockTridiagonal, Factorisation};
 use crate::model::{Model, STANDARD_GRAVITY};
 use crate::strength::LoadRecord;
 use fearless_simd::Level;
-use flow::Flows;
 use forces::Forces;
 use loads::Loads;
 use mass::Mass;
 use meter::EnergyMeter;
 use potentials::PointPotentials;
+use reel::Feeds;
 
 /// Everything derived from a [`Model`].
 #[derive(Clone, Debug)]
@@ -80,7 +80,7 @@ pub(crate) struct System {
     /// The load of a cable with limits, in the present host step.
     pub load: LoadRecord,
     /// The elements at the eyes of reels.
-    pub flows: Flows,
+    pub feeds: Feeds,
     /// Time in s at which statics evaluate forces that depend on it.
     pub static_time: f64,
     /// Contact in statics.
@@ -142,7 +142,7 @@ impl System {
             scales: Scales::new(model),
             meter: EnergyMeter::default(),
             load: LoadRecord::default(),
-            flows: Flows::new(model),
+            feeds: Feeds::new(model),
             static_time: 0.0,
             static_contact: StaticContact::default(),
         })

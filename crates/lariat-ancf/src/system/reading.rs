@@ -16,9 +16,9 @@
 
 use super::{Equations, System};
 use crate::element::axial::projected;
-use crate::element::flow::Extent;
 use crate::element::gram::{gram, gram_rates};
 use crate::element::kernel::GramState;
+use crate::element::variable_length::Extent;
 use crate::model::Model;
 use crate::strength::{Load, Strength};
 
@@ -60,9 +60,9 @@ impl<'a> Reading<'a> {
     pub fn state(&self, e: usize, rates: bool) -> GramState<'a, f64> {
         let elements = &self.system.forces.elements;
         let v = if rates { self.v } else { &[] };
-        let flow = self.system.flows.list.iter().find(|flow| flow.side.element(elements.count()) == e);
-        let Some(flow) = flow else { return elements.gram_state(e, self.q, v) };
-        let Extent { length, rate, .. } = flow.at(self.time);
+        let feed = self.system.feeds.list.iter().find(|feed| feed.side.element(elements.count()) == e);
+        let Some(feed) = feed else { return elements.gram_state(e, self.q, v) };
+        let Extent { length, rate, .. } = feed.at(self.time);
         let of = |x: &[f64]| elements.control_at(e, x, 3.0 / length);
         let d = of(self.q);
         let rates = rates.then(|| {

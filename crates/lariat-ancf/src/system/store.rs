@@ -23,7 +23,7 @@ impl System {
         let still = vec![0.0; q.len()];
         let mut buffer = still.clone();
         let mut before = differences.displacement.clone();
-        self.flows.shift_eyes_before(q, &mut before);
+        self.feeds.shift_eyes_before(q, &mut before);
         let step = CoordinateStep {
             start: q,
             change: &still,

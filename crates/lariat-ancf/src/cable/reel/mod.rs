@@ -2,7 +2,7 @@
 //!
 //! # Equation
 //!
-//! Only the element at the eye, the last one of that end, is of changing material ([`element::flow`](crate::element)): its length l is a
+//! Only the element at the eye, the last one of that end, is of changing material ([`element::variable_length`](crate::element)): its length l is a
 //! function of time, given by the rate of the reel. All others are made of the same particles for ever, so supports and loads keep
 //! their material. Arc lengths count from the first node as it is: those of all material grow with what a reel at the start pays out.
 //! [`remesh`] keeps l near the length of the elements, and [`plan`] chooses the rate.
@@ -10,7 +10,7 @@
 //! # Validity
 //!
 //! The rate is prescribed, and the winch as strong as it must be: [`ReelReading::force`] says how strong that is; or the motor slips above
-//! a [largest force](Reel::max_force), and the rate is an unknown of the discrete gradient (system/flow/law.rs). A rate above 0.3 of the speed of transverse waves, `sqrt(T/rho A)`, needs internal damping. A rope
+//! a [largest force](Reel::max_force), and the rate is an unknown of the discrete gradient (system/reel/law.rs). A rate above 0.3 of the speed of transverse waves, `sqrt(T/rho A)`, needs internal damping. A rope
 //! that is paid out faster than it falls crumples at the eye; what splitting and merging crumpled elements adds of strain energy is taken back by
 //! [`settle`], and [`ReelReading::remeshed`] says what is left. The node at
 //! the eye is held by a support, or by an attachment to a body. On a body that moves freely the stock rides with it, as a point mass at the
@@ -165,20 +165,20 @@ impl Cable {
         }
         self.system.scales.measure_ends(&self.model);
         let forgotten = self.snapshot.state.memory.differences.is_empty();
-        for flow in &mut self.system.flows.list {
-            let Some(winding) = &self.snapshot.windings[flow.side as usize] else { continue };
-            (flow.start, flow.left_rate) = (self.snapshot.state.time, None);
-            flow.extent = winding.extent();
+        for feed in &mut self.system.feeds.list {
+            let Some(winding) = &self.snapshot.windings[feed.side as usize] else { continue };
+            (feed.start, feed.left_rate) = (self.snapshot.state.time, None);
+            feed.extent = winding.extent();
             // without memory of coordinates there is none of lengths: at a split at the other end
-            flow.length_before = if forgotten { flow.extent.length } else { winding.length_before };
-            let stock = self.model.reels.get(flow.side).and_then(|reel| reel.stock).filter(|_| winding.rides);
+            feed.length_before = if forgotten { feed.extent.length } else { winding.length_before };
+            let stock = self.model.reels.get(feed.side).and_then(|reel| reel.stock).filter(|_| winding.rides);
             // what came from the other end is none of this reel
-            let passed = self.snapshot.windings[1 - flow.side as usize].map_or(0.0, |other| other.passed);
-            let both = stock.map(|stock| (stock + passed - self.model.length()).max(0.0) + flow.extent.length);
-            let over_sheave = self.model.reels.get(flow.side).is_some_and(|reel| reel.feed == Feed::Sheave);
-            flow.source = if over_sheave { Source::Cable } else { both.map_or(Source::Outside, Source::Stock) };
+            let passed = self.snapshot.windings[1 - feed.side as usize].map_or(0.0, |other| other.passed);
+            let both = stock.map(|stock| (stock + passed - self.model.length()).max(0.0) + feed.extent.length);
+            let over_sheave = self.model.reels.get(feed.side).is_some_and(|reel| reel.feed == Feed::Sheave);
+            feed.source = if over_sheave { Source::Cable } else { both.map_or(Source::Outside, Source::Stock) };
         }
-        self.system.set_flows(&self.model, self.snapshot.state.time);
+        self.system.set_feeds(&self.model, self.snapshot.state.time);
     }
 
     /// Sets the mesh to that of the state of reels in a snapshot with this number of nodes.

@@ -43,13 +43,13 @@ impl Cable {
 
     pub(super) fn reel_at(&self, side: Side) -> Option<ReelReading> {
         let winding = self.snapshot.windings[side as usize]?;
-        let flow = self.system.flows.list.iter().find(|flow| flow.side == side)?;
+        let feed = self.system.feeds.list.iter().find(|feed| feed.side == side)?;
         let memory = &self.snapshot.state.memory;
         let acceleration = if memory.valid { side.gather(&memory.acceleration) } else { [0.0; 12] };
         let element = &self.elements()[side.element(self.elements().len())];
         let (q, v) = (side.gather(self.positions()), side.gather(self.velocities()));
         let inertia = self.model.inertia(element);
-        let present = || self.system.flow_force(&self.model, flow, self.time(), [&q, &v, &acceleration]).pull;
+        let present = || self.system.feed_force(&self.model, feed, self.time(), [&q, &v, &acceleration]).pull;
         let excess = winding.motor.map_or(0.0, |motor| motor.excess);
         let force = winding.pull.map_or_else(present, |pull| pull - excess);
         let rate = winding.extent[1];

@@ -32,9 +32,9 @@
 
 use super::plan::LEAST;
 use crate::cable::Cable;
-use crate::element::flow::flow_weights;
 use crate::element::shape::{self, combine};
 use crate::element::side::Side;
+use crate::element::variable_length::feed_weights;
 use crate::error::Error;
 use crate::quadrature::gauss_legendre;
 use crate::section::Element;
@@ -201,7 +201,7 @@ impl Cable {
         // the particle at `full` from the far node: position and slope, and their rates
         let particle = |q: &[f64], v: &[f64], length: f64, rate: f64| {
             let xi = full.length / length;
-            let [w, w_y] = flow_weights(xi, length);
+            let [w, w_y] = feed_weights(xi, length);
             [shape::position(xi, length), shape::slope(xi, length)].into_iter().zip([w, w_y]).fold(
                 [Vec::new(), Vec::new()],
                 |[mut r, mut u], (s, w)| {
@@ -244,11 +244,11 @@ impl Cable {
             for (x, g) in gauss_legendre(6) {
                 let mut old: Vector3<f64> = combine(&old_v, part, &shape::position(x, element.length));
                 if part > e {
-                    old += rate * combine(&old_q, part, &flow_weights(x, element.length)[0]);
+                    old += rate * combine(&old_q, part, &feed_weights(x, element.length)[0]);
                 }
                 let xi = (from + x * element.length) / whole.length;
                 let s = shape::position(xi, whole.length);
-                let new = combine(v, e, &s) + rate * combine(q, e, &flow_weights(xi, whole.length)[0]);
+                let new = combine(v, e, &s) + rate * combine(q, e, &feed_weights(xi, whole.length)[0]);
                 for k in 0..4 {
                     for i in 0..3 {
                         missed[6 * e + 3 * k + i] += g * element.length * inertia * s[k] * (old - new)[i];

@@ -1,8 +1,8 @@
 //! The reels of a cable in a part of a host step, in which little material passes the eye.
 
 use crate::cable::Cable;
-use crate::element::flow::Extent;
 use crate::element::side::Side;
+use crate::element::variable_length::Extent;
 use crate::error::{Error, require};
 use crate::integrate::OneStep;
 use crate::reel::{Feed, Reel};
@@ -43,24 +43,24 @@ impl Cable {
             return;
         }
         self.sync_reel();
-        for k in 0..self.system.flows.list.len() {
-            let side = self.system.flows.list[k].side;
+        for k in 0..self.system.feeds.list.len() {
+            let side = self.system.feeds.list[k].side;
             let (Some(reel), Some(winding)) = (self.model.reels.get(side), &self.snapshot.windings[side as usize])
             else {
                 continue;
             };
             let planned = winding.plan.and_then(|plan| Some((plan, plan.left(self.time(), h)?)));
             let left = planned.map_or(h, |(_, left)| left);
-            let reach = self.system.flows.list[k].beside.filter(|(revision, _)| *revision == self.revision);
+            let reach = self.system.feeds.list[k].beside.filter(|(revision, _)| *revision == self.revision);
             let law = self.law((side, reel, winding), [h, left], reach.map(|(_, reach)| reach));
             let plan = || planned.map_or_else(|| self.plan(side, reel, winding, h), |(plan, _)| plan);
             let plan = law.is_none().then(plan);
-            let flow = &mut self.system.flows.list[k];
-            (flow.feed, flow.law, flow.pull) = (reel.feed, law.map(|(law, _)| law), None);
-            flow.beside = law.map(|(_, reach)| (self.revision, reach));
+            let feed = &mut self.system.feeds.list[k];
+            (feed.kind, feed.law, feed.pull) = (reel.feed, law.map(|(law, _)| law), None);
+            feed.beside = law.map(|(_, reach)| (self.revision, reach));
             if let Some(plan) = plan {
-                flow.extent.acceleration = plan.acceleration(flow.extent.rate, left);
-                flow.stopped = plan.stopped;
+                feed.extent.acceleration = plan.acceleration(feed.extent.rate, left);
+                feed.stopped = plan.stopped;
             }
         }
     }
@@ -70,20 +70,20 @@ impl Cable {
         if !self.has_reel() {
             return;
         }
-        for flow in self.system.flows.list.iter().filter(|_| succeeded) {
-            let Some(winding) = &mut self.snapshot.windings[flow.side as usize] else { continue };
-            let Extent { length, rate, acceleration } = flow.at(self.snapshot.state.time);
+        for feed in self.system.feeds.list.iter().filter(|_| succeeded) {
+            let Some(winding) = &mut self.snapshot.windings[feed.side as usize] else { continue };
+            let Extent { length, rate, acceleration } = feed.at(self.snapshot.state.time);
             // braking to rest ends at rest
             let rate = if rate.abs() < LEAST_RATE { 0.0 } else { rate };
             let passed = length - winding.extent[0];
             winding.passed += passed;
             winding.extent = [length, rate, acceleration];
-            winding.length_before = flow.length_before;
-            winding.motor = flow.law.map(|law| law.state());
-            (winding.stopped, winding.pull) = (flow.stopped, flow.pull);
-            let h = self.snapshot.state.time - flow.start;
+            winding.length_before = feed.length_before;
+            winding.motor = feed.law.map(|law| law.state());
+            (winding.stopped, winding.pull) = (feed.stopped, feed.pull);
+            let h = self.snapshot.state.time - feed.start;
             winding.plan = winding.plan.filter(|plan| plan.left(self.snapshot.state.time, h).is_some());
-            let e = flow.side.element(self.model.elements.len());
+            let e = feed.side.element(self.model.elements.len());
             self.model.elements[e].length = length;
         }
         if succeeded && self.model.pulled_points().next().is_some() {
@@ -149,11 +149,11 @@ impl Cable {
     /// # Errors
     /// [`Error::InvalidValue`].
     pub(crate) fn check_reach_of_reels(&self, dt: f64) -> Result<(), Error> {
-        for flow in &self.system.flows.list {
-            let Some(winding) = &self.snapshot.windings[flow.side as usize] else { continue };
-            let full = self.model.reels.element(self.number(flow.side.element(self.elements().len()))).length;
+        for feed in &self.system.feeds.list {
+            let Some(winding) = &self.snapshot.windings[feed.side as usize] else { continue };
+            let full = self.model.reels.element(self.number(feed.side.element(self.elements().len()))).length;
             let [length, rate, _] = winding.extent;
-            let moved = flow.at(self.snapshot.state.time).length - length;
+            let moved = feed.at(self.snapshot.state.time).length - length;
             let passing = moved.abs().max(rate.abs() * dt);
             require_share(passing, full.min(length)).map_err(|e| e.of_cable(self.name()))?;
         }

@@ -1,6 +1,6 @@
 //! The state of a reel.
 
-use crate::element::flow::Extent;
+use crate::element::variable_length::Extent;
 use crate::error::{Error, require};
 use crate::system::MotorState;
 use serde::{Deserialize, Serialize};

@@ -13,7 +13,7 @@ impl IslandStep<'_, '_> {
             let of = self.cables.iter().flat_map(|cable| &cable.model.supports);
             of.filter(|(_, support)| support.attached == attached).count()
         };
-        let outside = |cable: &crate::Cable| cable.system.flows.list.iter().any(|flow| flow.source == Source::Outside);
+        let outside = |cable: &crate::Cable| cable.system.feeds.list.iter().any(|feed| feed.source == Source::Outside);
         supports(false) == 0
             && supports(true) == self.layout.pins.len()
             && !self.cables.iter().any(|cable| outside(cable))

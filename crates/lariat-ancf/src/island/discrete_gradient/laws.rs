@@ -1,4 +1,4 @@
-//! Reels whose rate is unknown, sheaves and drums of the cables of an island in a step of the discrete gradient. Equations: `system/flow/law.rs`,
+//! Reels whose rate is unknown, sheaves and drums of the cables of an island in a step of the discrete gradient. Equations: `system/reel/law.rs`,
 //! `wheel.rs` and `drum.rs`.
 
 use super::super::hold::vector;
@@ -6,28 +6,28 @@ use super::body::BodyStep;
 use super::{IslandStep, StepBuffers};
 use crate::cable::Cable;
 use crate::element::side::Side;
-use crate::system::{CableStep, Flow, Unknowns, Wheel, Winch};
+use crate::system::{CableStep, FeedElement, Unknowns, Wheel, Winch};
 use crate::term::Balance;
 use nalgebra::Vector3;
 
-/// Returns the flow at an end of a cable.
-fn flow_at<'a>(cables: &'a mut [&mut Cable], (cable, side): (usize, Side)) -> Option<&'a mut Flow> {
-    cables[cable].system.flows.list.iter_mut().find(|flow| flow.side == side)
+/// Returns the feed at an end of a cable.
+fn feed_at<'a>(cables: &'a mut [&mut Cable], (cable, side): (usize, Side)) -> Option<&'a mut FeedElement> {
+    cables[cable].system.feeds.list.iter_mut().find(|feed| feed.side == side)
 }
 
 impl IslandStep<'_, '_> {
-    /// Returns the flows at a sheave.
-    fn flows(&self, wheel: &Wheel) -> Option<[Flow; 2]> {
-        let of = |(cable, side): (usize, Side)| self.cables[cable].system.flows.at_side(side).copied();
+    /// Returns the feeds at a sheave.
+    fn feeds(&self, wheel: &Wheel) -> Option<[FeedElement; 2]> {
+        let of = |(cable, side): (usize, Side)| self.cables[cable].system.feeds.at_side(side).copied();
         let [a, b] = wheel.sheave.ends();
         Some([of(a)?, of(b)?])
     }
 
-    /// Begins a step of length `h` (s) for sheaves: both flows at one have opposite rates.
+    /// Begins a step of length `h` (s) for sheaves: both feeds at one have opposite rates.
     pub(super) fn begin_wheels(&mut self, h: f64) {
         for w in 0..self.buffers.unknowns.wheels.len() {
             let mut wheel = self.buffers.unknowns.wheels[w];
-            let Some([a, b]) = self.flows(&wheel) else { continue };
+            let Some([a, b]) = self.feeds(&wheel) else { continue };
             let tangents = wheel.sheave.ends().map(|(cable, side)| {
                 let local = side.gather(self.cables[cable].positions());
                 [local[9], local[10], local[11]]
@@ -38,8 +38,8 @@ impl IslandStep<'_, '_> {
             let acceleration = wheel.begin([&a, &b], tangents, inertia, h);
             let rate = b.extent.rate;
             for ((cable, side), sign) in wheel.sheave.ends().into_iter().zip([-1.0, 1.0]) {
-                if let Some(flow) = flow_at(self.cables, (cable, side)) {
-                    (flow.extent.rate, flow.extent.acceleration) = (sign * rate, sign * acceleration);
+                if let Some(feed) = feed_at(self.cables, (cable, side)) {
+                    (feed.extent.rate, feed.extent.acceleration) = (sign * rate, sign * acceleration);
                 }
             }
             self.buffers.unknowns.wheels[w] = wheel;
@@ -54,8 +54,8 @@ impl IslandStep<'_, '_> {
             let [drum, holder] = winch.bodies.map(|body| body.map(|body| &bodies[body]));
             let spin = |body: Option<&BodyStep>| body.map_or_else(Vector3::zeros, BodyStep::spin);
             let arm = drum.map_or(winch.axis, |drum| drum.ends(&winch.axis)[0]) * winch.radius;
-            if let Some(flow) = flow_at(cables, winch.end) {
-                flow.restart(arm.dot(&(spin(drum) - spin(holder))), h);
+            if let Some(feed) = feed_at(cables, winch.end) {
+                feed.restart(arm.dot(&(spin(drum) - spin(holder))), h);
             }
         }
     }
@@ -70,8 +70,8 @@ impl IslandStep<'_, '_> {
             let [first, last] = drum.map_or([winch.axis; 2], |drum| drum.ends(&winch.axis));
             winch.arm = (first + last).try_normalize(f64::MIN_POSITIVE).unwrap_or(first) * winch.radius;
             let rate = winch.arm.dot(&(spin(drum) - spin(holder)));
-            if let Some(flow) = flow_at(cables, winch.end) {
-                flow.follow(2.0 * (rate - flow.extent.rate) / h);
+            if let Some(feed) = feed_at(cables, winch.end) {
+                feed.follow(2.0 * (rate - feed.extent.rate) / h);
             }
         }
     }
@@ -79,7 +79,7 @@ impl IslandStep<'_, '_> {
     /// Linearises the laws of reels whose rate is unknown, and solves for their columns.
     pub(super) fn linearise_laws(&mut self) {
         let mut unknowns = core::mem::take(&mut self.buffers.unknowns);
-        unknowns.begin(self.cables.iter().map(|cable| &cable.system.flows));
+        unknowns.begin(self.cables.iter().map(|cable| &cable.system.feeds));
         for cable in self.cables.iter_mut().filter(|_| !unknowns.reels.is_empty()) {
             let CableStep { mut equations, state, buffers } = cable.step_parts();
             equations.read_motors(state, buffers);
@@ -133,7 +133,7 @@ impl IslandStep<'_, '_> {
             return;
         }
         let h = cables[0].step_buffers.h;
-        unknowns.solve(|c| &cables[c].system.flows, |c| &cables[c].step_buffers.rhs, (rows, h));
+        unknowns.solve(|c| &cables[c].system.feeds, |c| &cables[c].step_buffers.rhs, (rows, h));
         unknowns.add_to_drums();
         for (i, &increment) in unknowns.increments.iter().enumerate() {
             if let Some(&(c, k)) = unknowns.reels.get(i) {
@@ -149,21 +149,21 @@ impl IslandStep<'_, '_> {
     /// Adds to a balance by how much the iterate breaks the laws of sheaves.
     pub(super) fn balance_wheels(&self, balance: &mut Balance) {
         for wheel in &self.buffers.unknowns.wheels {
-            if let Some([a, b]) = self.flows(wheel) {
+            if let Some([a, b]) = self.feeds(wheel) {
                 wheel.add_balance([&a, &b], balance);
             }
         }
         for winch in &self.buffers.unknowns.winches {
             let (cable, side) = winch.end;
-            if let Some(flow) = self.cables[cable].system.flows.at_side(side) {
-                winch.add_balance(flow, balance);
+            if let Some(feed) = self.cables[cable].system.feeds.at_side(side) {
+                winch.add_balance(feed, balance);
             }
         }
     }
 
     /// Returns whether friction stops a sheave that runs when the step begins.
     pub(super) fn do_sheaves_stop(&self) -> bool {
-        let stops = |wheel: &Wheel| self.flows(wheel).is_some_and(|[a, b]| wheel.stops([&a, &b]));
+        let stops = |wheel: &Wheel| self.feeds(wheel).is_some_and(|[a, b]| wheel.stops([&a, &b]));
         self.buffers.unknowns.wheels.iter().any(stops)
     }
 
@@ -172,7 +172,7 @@ impl IslandStep<'_, '_> {
         self.buffers.unknowns.winches.iter_mut().for_each(Winch::accept);
         for w in 0..self.buffers.unknowns.wheels.len() {
             let mut wheel = self.buffers.unknowns.wheels[w];
-            if let Some([a, b]) = self.flows(&wheel) {
+            if let Some([a, b]) = self.feeds(&wheel) {
                 wheel.accept([&a, &b], self.cables[0].time(), self.cables[0].step_buffers.h);
             }
             self.buffers.unknowns.wheels[w] = wheel;

@@ -60,7 +60,7 @@ impl IslandStep<'_, '_> {
     /// Returns the sum over the axes of the impulse in N s that the residual leaves unbalanced in
     /// all; zero unless stock of a reel rides with a body that moves freely.
     fn drift(&self) -> f64 {
-        if !self.cables.iter().any(|cable| cable.system.flows.are_closed()) {
+        if !self.cables.iter().any(|cable| cable.system.feeds.are_closed()) {
             return 0.0;
         }
         let mut drift = [0.0_f64; 3];

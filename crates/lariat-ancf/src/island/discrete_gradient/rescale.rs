@@ -121,7 +121,7 @@ fn rigid_motion(island: &mut IslandStep<'_, '_>) -> RigidMotion {
         }
     }
     common.unwrap_or_else(|| {
-        let reels = island.cables.iter().any(|cable| !cable.system.flows.is_empty());
+        let reels = island.cables.iter().any(|cable| !cable.system.feeds.is_empty());
         if reels || island.buffers.bodies.iter().any(BodyStep::carries) {
             RigidMotion { velocity: mean_velocity(island), ..RigidMotion::default() }
         } else {
@@ -171,7 +171,7 @@ fn mean_velocity(island: &mut IslandStep<'_, '_>) -> Vector3<f64> {
         for p in b.product.chunks_exact(6) {
             momentum += Vector3::new(p[0], p[1], p[2]);
         }
-        mass += if system.flows.is_empty() {
+        mass += if system.feeds.is_empty() {
             system.scales.mass
         } else {
             b.external.iter_mut().enumerate().for_each(|(i, x)| *x = if i % 6 == 0 { 1.0 } else { 0.0 });

@@ -1,11 +1,12 @@
 //! The elements at the eyes of reels, as data of a step.
 
 use super::law::Law;
+use crate::Real;
 use crate::effect::acts::ForceInput;
-use crate::element::flow::{Extent, FlowElement, Table};
 use crate::element::gram::Control;
 use crate::element::kernel::Stiffness;
 use crate::element::side::Side;
+use crate::element::variable_length::{Extent, Table, VariableLength};
 use crate::linalg::BlockTridiagonal;
 use crate::model::Model;
 use crate::reel::Feed;
@@ -21,7 +22,7 @@ pub(crate) struct Impulse {
 
 /// The element at the eye of a reel during a step.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Flow {
+pub(crate) struct FeedElement {
     /// The end of the cable at which it is.
     pub side: Side,
     /// Time in s at which the extent is.
@@ -41,7 +42,7 @@ pub(crate) struct Flow {
     /// Whether an end of the cable stops it.
     pub stopped: bool,
     /// How material comes to the eye.
-    pub feed: Feed,
+    pub kind: Feed,
     /// What drives it, if its rate is an unknown.
     pub law: Option<Law>,
     /// Length in m that a reel with a motor can take in beside this element, with the revision of the cable of which that is.
@@ -75,8 +76,6 @@ pub(crate) enum Source {
 pub(crate) struct OnLength {
     /// All: B.
     pub(super) force: f64,
-    /// Of inertia and weight.
-    pub(super) inertial: f64,
     /// Strain energies in J, axial and bending, at the beginning of the step, once they are known, and at its end.
     pub(super) begin: Option<(f64, f64)>,
     pub(super) end: (f64, f64),
@@ -84,19 +83,19 @@ pub(crate) struct OnLength {
 
 /// The elements at eyes.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Flows {
-    pub list: Vec<Flow>,
+pub(crate) struct Feeds {
+    pub list: Vec<FeedElement>,
     /// Impulses of their inertia over the last step of the discrete gradient.
     pub(super) impulses: Vec<Impulse>,
     /// Velocities as internal damping sees them, and those of the material.
     pub(super) velocities: [Vec<f64>; 2],
 }
 
-impl Flow {
-    /// A flow at rest.
+impl FeedElement {
+    /// A feed at rest.
     pub fn new(side: Side, length: f64) -> Self {
         let extent = Extent { length, ..Extent::default() };
-        Flow {
+        FeedElement {
             side,
             start: 0.0,
             extent,
@@ -106,7 +105,7 @@ impl Flow {
             left_rate: None,
             length_before: length,
             stopped: false,
-            feed: Feed::Drum,
+            kind: Feed::Drum,
             law: None,
             beside: None,
             linearised: 0.0,
@@ -118,8 +117,9 @@ impl Flow {
     }
 
     /// Returns the length in m of the stock that rides with the body at the eye, when the element has this length.
-    pub(super) fn stock(&self, length: f64) -> f64 {
-        if let Source::Stock(both) = self.source { both - length } else { 0.0 }
+    #[inline(always)]
+    pub(super) fn stock<T: Real>(&self, length: T) -> T {
+        if let Source::Stock(both) = self.source { length.splat(both) - length } else { length.splat(0.0) }
     }
 
     /// Returns whether it stands, did so in the last step, and is not driven by an unknown force: it is then an element like others, if no
@@ -132,20 +132,32 @@ impl Flow {
 
     /// Returns the extent at a time in s.
     pub fn at(&self, time: f64) -> Extent {
-        let Extent { length, rate, acceleration } = self.extent;
-        let t = time - self.start;
-        Extent { length: length + t * (rate + 0.5 * t * acceleration), rate: rate + t * acceleration, acceleration }
+        self.at_with(time, self.extent.acceleration)
+    }
+
+    /// Returns the extent at a time in s with another acceleration.
+    #[inline(always)]
+    pub(super) fn at_with<T: Real>(&self, time: f64, acceleration: T) -> Extent<T> {
+        let (Extent { length, rate, .. }, t) = (self.extent, time - self.start);
+        Extent { length: (acceleration * (0.5 * t) + rate) * t + length, rate: acceleration * t + rate, acceleration }
     }
 
     /// Returns the mean of a step from `time` of length `h` (s), and the lengths at both ends.
     pub(super) fn over(&self, time: f64, h: f64) -> (Extent, [f64; 2]) {
-        let [first, last] = [self.at(time), self.at(time + h)];
-        let mean = Extent {
-            length: 0.5 * (first.length + last.length),
-            rate: (last.length - first.length) / h,
-            acceleration: first.acceleration,
-        };
+        let (mean, [first, last]) = self.over_with((time, h), self.extent.acceleration);
         (mean, [first.length, last.length])
+    }
+
+    /// Returns the mean of a step from a time of a length in s with another acceleration, and the extents at both ends.
+    #[inline(always)]
+    pub(super) fn over_with<T: Real>(&self, (time, h): (f64, f64), acceleration: T) -> (Extent<T>, [Extent<T>; 2]) {
+        let [first, last] = [self.at_with(time, acceleration), self.at_with(time + h, acceleration)];
+        let mean = Extent {
+            length: (first.length + last.length) * 0.5,
+            rate: (last.length - first.length) / acceleration.splat(h),
+            acceleration,
+        };
+        (mean, [first, last])
     }
 
     /// Returns the number of the element.
@@ -154,8 +166,9 @@ impl Flow {
     }
 
     /// Returns the element with an extent.
-    pub(super) fn with(&self, model: &Model, extent: Extent) -> FlowElement {
-        FlowElement { inertia: model.inertia(&model.elements[self.element(model)]), extent }
+    #[inline(always)]
+    pub(super) fn with<T>(&self, model: &Model, extent: Extent<T>) -> VariableLength<T> {
+        VariableLength { inertia: model.inertia(&model.elements[self.element(model)]), extent }
     }
 
     /// Returns the weight per length of the element in N/m.
@@ -169,7 +182,7 @@ impl Flow {
         Stiffness { axial: 0.25 * section.axial_stiffness * length, bending: 2.0 * section.bending_stiffness / length }
     }
 
-    /// Adds the forces of the flow to `out`, and their negative derivatives to the matrix.
+    /// Adds the forces of the feed to `out`, and their negative derivatives to the matrix.
     pub(super) fn add(
         &self,
         model: &Model,
@@ -212,12 +225,12 @@ impl Flow {
     }
 }
 
-impl Flows {
-    /// The flows of the reels of a cable, at rest.
+impl Feeds {
+    /// The feeds of the reels of a cable, at rest.
     pub fn new(model: &Model) -> Self {
         let length = |side: Side| model.elements[side.element(model.elements.len())].length;
-        let list = model.reels.sides().map(|side| Flow::new(side, length(side))).collect();
-        Flows { list, ..Flows::default() }
+        let list = model.reels.sides().map(|side| FeedElement::new(side, length(side))).collect();
+        Feeds { list, ..Feeds::default() }
     }
 
     /// Returns whether there are none.
@@ -227,34 +240,34 @@ impl Flows {
 
     /// Returns whether what is behind an eye is a part of the system.
     pub fn are_closed(&self) -> bool {
-        self.list.iter().any(|flow| flow.source != Source::Outside)
+        self.list.iter().any(|feed| feed.source != Source::Outside)
     }
 
     /// Returns whether all stand still.
     pub fn are_still(&self) -> bool {
-        self.list.iter().all(|flow| flow.extent.rate == 0.0 && flow.extent.acceleration == 0.0)
+        self.list.iter().all(|feed| feed.extent.rate == 0.0 && feed.extent.acceleration == 0.0)
     }
 
     /// Makes the equations be set anew, whatever their lengths.
     pub fn forget_lengths(&mut self) {
-        self.list.iter_mut().for_each(|flow| flow.set = None);
+        self.list.iter_mut().for_each(|feed| feed.set = None);
     }
 
     /// Makes of velocities those that internal damping sees, at `time` (s).
     pub(super) fn strain_velocity(&self, time: f64, q: &[f64], v: &mut [f64]) {
-        for flow in &self.list {
-            let Extent { length, rate, .. } = flow.at(time);
-            let [far, eye] = flow.side.nodes(v.len() / 6);
+        for feed in &self.list {
+            let Extent { length, rate, .. } = feed.at(time);
+            let [far, eye] = feed.side.nodes(v.len() / 6);
             for x in 0..3 {
                 v[6 * eye + x] -= (q[6 * eye + x] - q[6 * far + x]) * rate / length;
             }
         }
     }
 
-    /// Adds the forces of all flows to `out`, and their negative derivatives to the matrix; at rest there are none.
+    /// Adds the forces of all feeds to `out`, and their negative derivatives to the matrix; at rest there are none.
     pub fn add(&self, model: &Model, at: &ForceInput<'_>, out: &mut [f64], mut matrix: Option<&mut BlockTridiagonal>) {
-        for flow in self.list.iter().filter(|_| !at.v.is_empty()) {
-            flow.add(model, at, out, matrix.as_deref_mut());
+        for feed in self.list.iter().filter(|_| !at.v.is_empty()) {
+            feed.add(model, at, out, matrix.as_deref_mut());
         }
     }
 }

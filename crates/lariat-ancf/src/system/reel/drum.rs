@@ -34,7 +34,7 @@
 //!
 //! A rate that follows the spin of the step before: it makes energy with a light drum.
 
-use super::Flow;
+use super::FeedElement;
 use crate::element::side::Side;
 use crate::one_leg::BETA;
 use crate::term::{Account, Balance};
@@ -57,7 +57,7 @@ pub(crate) struct Winch {
     pub force: f64,
     /// T of the last accepted step in N, with which the next begins.
     accepted: f64,
-    /// Unknown of its flow.
+    /// Unknown of its feed.
     pub reel: usize,
     /// Sign of the stop at which it is, or 0.
     pub(super) stop: f64,
@@ -100,8 +100,8 @@ impl Winch {
     }
 
     /// Adds to a balance by how much the iterate breaks the law.
-    pub fn add_balance(&self, flow: &Flow, balance: &mut Balance) {
-        let pull = flow.pull_of_iterate();
+    pub fn add_balance(&self, feed: &FeedElement, balance: &mut Balance) {
+        let pull = feed.pull_of_iterate();
         let beyond = self.force - pull;
         // a stop that opposes what goes beyond it
         let entry = balance.to(Account::Reels);

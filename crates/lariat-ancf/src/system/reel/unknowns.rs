@@ -5,7 +5,7 @@
 //! The forces of all are linear in the increments of all accelerations; the laws are met by projected Gauss-Seidel iteration, one reel,
 //! sheave or [drum](super::drum) after the other.
 
-use super::Flows;
+use super::Feeds;
 use super::drum::{Pair, Winch};
 use super::law::Law;
 use super::wheel::{Pulls, Wheel};
@@ -28,7 +28,7 @@ struct Unknown {
 /// The unknown rates of a system of cables, and the columns of its linear equations.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Unknowns {
-    /// Cable and flow of each.
+    /// Cable and feed of each.
     pub reels: Vec<(usize, usize)>,
     /// By reel and cable, c and then y; by reel, the rows of bodies. Behind those of the reels, those of the drums.
     pub columns: Vec<Vec<Vec<f64>>>,
@@ -49,20 +49,20 @@ pub(crate) struct Unknowns {
 
 impl Unknowns {
     /// Lists the unknowns of cables, each with its equations and the forces of its motors; where all of these stick, no rate is unknown.
-    pub fn begin<'a>(&mut self, cables: impl ExactSizeIterator<Item = &'a Flows>) {
+    pub fn begin<'a>(&mut self, cables: impl ExactSizeIterator<Item = &'a Feeds>) {
         self.reels.clear();
         let (count, mut stick) = (cables.len(), self.winches.is_empty());
-        for (c, flows) in cables.enumerate() {
-            stick &= flows.stick();
-            for (k, flow) in flows.list.iter().enumerate().filter(|(_, flow)| flow.law.is_some()) {
+        for (c, feeds) in cables.enumerate() {
+            stick &= feeds.stick();
+            for (k, feed) in feeds.list.iter().enumerate().filter(|(_, feed)| feed.law.is_some()) {
                 for wheel in &mut self.wheels {
-                    for (end, unknown) in wheel.sheave.ends().iter().zip(&mut wheel.flows) {
-                        if *end == (c, flow.side) {
+                    for (end, unknown) in wheel.sheave.ends().iter().zip(&mut wheel.feeds) {
+                        if *end == (c, feed.side) {
                             *unknown = self.reels.len();
                         }
                     }
                 }
-                for winch in self.winches.iter_mut().filter(|winch| winch.end == (c, flow.side)) {
+                for winch in self.winches.iter_mut().filter(|winch| winch.end == (c, feed.side)) {
                     winch.reel = self.reels.len();
                 }
                 self.reels.push((c, k));
@@ -95,11 +95,11 @@ impl Unknowns {
         }
     }
 
-    /// Solves for the increments of all accelerations and adds them to the iterate. `flows` and `increment` return those of a cable,
+    /// Solves for the increments of all accelerations and adds them to the iterate. `feeds` and `increment` return those of a cable,
     /// the increments of its velocity changes with all rates as they are; `rows` are those of the bodies over a step of `h` (s).
     pub fn solve<'a>(
         &mut self,
-        flows: impl Fn(usize) -> &'a Flows,
+        feeds: impl Fn(usize) -> &'a Feeds,
         increment: impl Fn(usize) -> &'a [f64],
         (rows, h): (&[f64], f64),
     ) {
@@ -108,13 +108,13 @@ impl Unknowns {
         self.list.clear();
         self.stiffness.clear();
         for (i, &(c, k)) in self.reels.iter().enumerate() {
-            let flow = &flows(c).list[k];
-            let Some(law) = flow.law else { continue };
-            let force = law.force + law.along_row(flow, increment(c));
-            self.list.push(Unknown { law, acceleration: flow.extent.acceleration, force });
+            let feed = &feeds(c).list[k];
+            let Some(law) = feed.law else { continue };
+            let force = law.force + law.along_row(feed, increment(c));
+            self.list.push(Unknown { law, acceleration: feed.extent.acceleration, force });
             for (j, columns) in self.columns.iter().enumerate() {
                 let own = if i == j { -law.own } else { 0.0 };
-                self.stiffness.push(law.along_row(flow, &columns[c]) + own);
+                self.stiffness.push(law.along_row(feed, &columns[c]) + own);
             }
         }
         self.increments.clear();
@@ -125,7 +125,7 @@ impl Unknowns {
         let mut stops = core::mem::take(&mut self.stops);
         self.solve_unknowns(&mut increments, &mut stops);
         for wheel in &mut self.wheels {
-            let [a, b] = wheel.flows;
+            let [a, b] = wheel.feeds;
             increments[b] = wheel.secant(self.list[b].acceleration, increments[b]);
             increments[a] = -increments[b];
         }
@@ -138,7 +138,7 @@ impl Unknowns {
         let count = increments.len();
         let stiffness = |i: usize, j: usize| self.stiffness[i * count + j];
         let law_of_other = |i: usize| {
-            wheels.iter().any(|wheel| wheel.flows.contains(&i)) || winches.iter().any(|winch| winch.reel == i)
+            wheels.iter().any(|wheel| wheel.feeds.contains(&i)) || winches.iter().any(|winch| winch.reel == i)
         };
         // with all increments but those of some
         let without = |base: f64, increments: &[f64], own: &[usize], column: &dyn Fn(usize) -> f64| {
@@ -160,10 +160,10 @@ impl Unknowns {
                 increments[i] = new;
             }
             for wheel in wheels {
-                let [a, b] = wheel.flows;
+                let [a, b] = wheel.feeds;
                 let acceleration = unknowns[b].acceleration;
                 let pulls = Pulls {
-                    force: [a, b].map(|i| force(increments, i, &wheel.flows)),
+                    force: [a, b].map(|i| force(increments, i, &wheel.feeds)),
                     stiffness: [a, b].map(|i| stiffness(i, b) - stiffness(i, a)),
                     acceleration,
                 };

@@ -35,44 +35,50 @@
 //! - Releasing node by node, or a rest length without its mass: jumps, and the wrong mass.
 
 use super::shape;
+use crate::Real;
 
 /// A table over (r_i, t_i, r_j, t_j); those of integers are times 420.
-pub(crate) type Table = [[f64; 4]; 4];
+pub(crate) type Table<T = f64> = [[T; 4]; 4];
 
 const G: Table =
     [[78.0, 26.0, -78.0, -2.0], [18.0, 6.0, -18.0, -1.0], [132.0, 44.0, -132.0, -68.0], [-24.0, -8.0, 24.0, 6.0]];
-const H: Table =
-    [[-144.0, -22.0, 144.0, 34.0], [-30.0, -4.0, 30.0, 10.0], [144.0, 92.0, -144.0, 316.0], [12.0, -4.0, -12.0, -32.0]];
 const K: Table = [
     [144.0, 48.0, -144.0, -36.0],
     [48.0, 16.0, -48.0, -12.0],
     [-144.0, -48.0, 144.0, 36.0],
     [-36.0, -12.0, 36.0, 44.0],
 ];
-const J: Table = [
-    [-72.0, 24.0, 72.0, 192.0],
-    [-24.0, 8.0, 24.0, 64.0],
-    [72.0, -24.0, -72.0, -192.0],
-    [-192.0, -76.0, 192.0, -188.0],
-];
 const W: [f64; 4] = [210.0, 70.0, -210.0, -70.0];
-/// Transposes of G, and J with its own.
-const G_T: Table = transposed(&G);
-const J_SUM: Table = sum(&J, &transposed(&J));
-
-const fn transposed(table: &Table) -> Table {
-    let (mut out, mut k) = ([[0.0; 4]; 4], 0);
+const G_T: Table = {
+    let (mut out, mut k) = (G, 0);
     while k < 16 {
-        out[k / 4][k % 4] = table[k % 4][k / 4];
+        out[k / 4][k % 4] = G[k % 4][k / 4];
         k += 1;
     }
     out
-}
-
-const fn sum(x: &Table, y: &Table) -> Table {
-    let (mut out, mut k) = ([[0.0; 4]; 4], 0);
+};
+/// `dG/dl - K`, with what is at the eye: `S^T S_l` is -1 there over (r_j, t_j).
+const H: Table = {
+    let (mut out, mut k) = (by_length(&G, 0.0), 0);
     while k < 16 {
-        out[k / 4][k % 4] = x[k / 4][k % 4] + y[k / 4][k % 4];
+        out[k / 4][k % 4] -= K[k / 4][k % 4];
+        k += 1;
+    }
+    out[2][3] += 420.0;
+    out
+};
+/// `J + J^T = dK/dl`, less what is at the eye: `S_l^T S_l` is 1 there over (t_j, t_j).
+const J_SUM: Table = {
+    let mut out = by_length(&K, -1.0);
+    out[3][3] -= 420.0;
+    out
+};
+
+/// Returns l times the derivative by l of `l^power D (table) D`, as such a table.
+const fn by_length(table: &Table, power: f64) -> Table {
+    let (mut out, mut k) = (*table, 0);
+    while k < 16 {
+        out[k / 4][k % 4] *= power + (k / 4 % 2 + k % 2) as f64;
         k += 1;
     }
     out
@@ -80,73 +86,74 @@ const fn sum(x: &Table, y: &Table) -> Table {
 
 /// Length of the element, its rate and acceleration: m, m/s, m/s^2.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(crate) struct Extent {
-    pub length: f64,
-    pub rate: f64,
-    pub acceleration: f64,
+pub(crate) struct Extent<T = f64> {
+    pub length: T,
+    pub rate: T,
+    pub acceleration: T,
 }
 
 /// The element at an instant: mass per length in kg/m and extent.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct FlowElement {
+pub(crate) struct VariableLength<T = f64> {
     pub inertia: f64,
-    pub extent: Extent,
+    pub extent: Extent<T>,
 }
 
-impl FlowElement {
+impl<T: Real> VariableLength<T> {
     /// Returns `D (sum of factors times tables) D`, times the mass per length.
     #[inline(always)]
-    fn weighted<const N: usize>(&self, terms: [(f64, &Table); N]) -> Table {
-        let d = [1.0, self.extent.length, 1.0, self.extent.length];
-        let unit = self.inertia / 420.0;
-        let mut out = [[0.0; 4]; 4];
+    fn weighted<const N: usize>(&self, terms: [(T, &Table); N]) -> Table<T> {
+        let length = self.extent.length;
+        let (zero, one) = (length.splat(0.0), length.splat(1.0));
+        let (unit, d) = (self.inertia / 420.0, [one, length, one, length]);
+        let mut out = [[zero; 4]; 4];
         for a in 0..4 {
             for b in 0..4 {
-                let mut entry = 0.0;
+                let mut entry = zero;
                 for (factor, table) in &terms {
-                    entry += factor * table[a][b];
+                    entry = entry + *factor * table[a][b];
                 }
-                out[a][b] = unit * d[a] * d[b] * entry;
+                out[a][b] = d[a] * unit * d[b] * entry;
             }
         }
         out
     }
 
     /// Returns the matrices of `2 l' G` and of `l'' G + l'^2 H`.
-    pub fn matrices(&self) -> [Table; 2] {
+    pub fn matrices(&self) -> [Table<T>; 2] {
         let Extent { length, rate, acceleration } = self.extent;
-        [self.weighted([(2.0 * rate, &G)]), self.weighted([(acceleration, &G), (rate * rate / length, &H)])]
+        [self.weighted([(rate * 2.0, &G)]), self.weighted([(acceleration, &G), (rate * rate / length, &H)])]
     }
 
-    /// Adds `scale` times the force `-(2 l' G v + (l'' G + l'^2 H) q)` of the flow on the element's 12 coordinates.
-    pub fn add_force(&self, scale: f64, q: &[f64; 12], v: &[f64; 12], out: &mut [f64; 12]) {
+    /// Adds `scale` times the force `-(2 l' G v + (l'' G + l'^2 H) q)` of the feed on the element's 12 coordinates.
+    pub fn add_force(&self, scale: f64, q: &[T; 12], v: &[T; 12], out: &mut [T; 12]) {
         let [by_velocity, by_position] = self.matrices();
         add_product(&by_velocity, -scale, v, out);
         add_product(&by_position, -scale, q, out);
     }
 
     /// Adds the momentum `l' G q`.
-    pub fn add_momentum(&self, q: &[f64; 12], out: &mut [f64; 12]) {
+    pub fn add_momentum(&self, q: &[T; 12], out: &mut [T; 12]) {
         add_product(&self.momentum_matrix(), 1.0, q, out);
     }
 
     /// Returns `l' G`.
     #[inline(always)]
-    pub fn momentum_matrix(&self) -> Table {
+    pub fn momentum_matrix(&self) -> Table<T> {
         self.weighted([(self.extent.rate, &G)])
     }
 
     /// Returns `l' G^T` and `l'^2 K`, which give the derivative of the kinetic energy by the coordinates.
     #[inline(always)]
-    pub fn gradient_matrices(&self) -> [Table; 2] {
+    pub fn gradient_matrices(&self) -> [Table<T>; 2] {
         let Extent { length, rate, .. } = self.extent;
         [self.weighted([(rate, &G_T)]), self.weighted([(rate * rate / length, &K)])]
     }
 
     /// Returns the kinetic energy beyond that of the mass matrix, `l' v.G q + 1/2 l'^2 q.K q`, in J.
-    pub fn kinetic_energy(&self, q: &[f64; 12], v: &[f64; 12]) -> f64 {
+    pub fn kinetic_energy(&self, q: &[T; 12], v: &[T; 12]) -> T {
         let [by_velocity, by_position] = self.gradient_matrices();
-        let mut force = [0.0; 12];
+        let mut force = [self.extent.rate.splat(0.0); 12];
         add_product(&by_position, 0.5, q, &mut force);
         add_product(&by_velocity, 1.0, v, &mut force);
         dot(q, &force)
@@ -154,54 +161,30 @@ impl FlowElement {
 
     /// Returns B without the strain energy, in N: inertia and weight, with accelerations `a` of the coordinates.
     #[inline(always)]
-    pub fn length_force(&self, [q, v, a]: [&[f64; 12]; 3], weight: &[f64; 3]) -> f64 {
+    pub fn length_force(&self, [q, v, a]: [&[T; 12]; 3], weight: &[f64; 3]) -> T {
         let Extent { length, rate, acceleration } = self.extent;
-        let square = [(acceleration / length, &K), (rate * rate / (length * length), &J)];
-        let mut force = [0.0; 12];
-        add_product(&self.weighted([(1.0, &G_T)]), 1.0, a, &mut force);
-        if rate != 0.0 || acceleration != 0.0 {
-            add_product(&self.weighted([(2.0 * rate / length, &K)]), 1.0, v, &mut force);
-            add_product(&self.weighted(square), 1.0, q, &mut force);
-        }
-        self.add_weight(-1.0, weight, &mut force);
-        dot(q, &force)
-    }
-
-    /// Returns the derivatives of the [force on the length](Self::length_force) by coordinates, velocities and accelerations.
-    #[inline(always)]
-    pub fn length_force_gradient(&self, [q, v, a]: [&[f64; 12]; 3], weight: &[f64; 3]) -> [[f64; 12]; 3] {
-        let Extent { length, rate, acceleration } = self.extent;
-        let of_rate = self.weighted([(2.0 * rate / length, &K)]);
-        let square = [(2.0 * acceleration / length, &K), (rate * rate / (length * length), &J_SUM)];
-        let mut out = [[0.0; 12]; 3];
-        add_product(&self.weighted([(1.0, &G_T)]), 1.0, a, &mut out[0]);
-        add_product(&of_rate, 1.0, v, &mut out[0]);
-        add_product(&self.weighted(square), 1.0, q, &mut out[0]);
-        self.add_weight(-1.0, weight, &mut out[0]);
-        add_product(&of_rate, 1.0, q, &mut out[1]);
-        add_product(&self.weighted([(1.0, &G)]), 1.0, q, &mut out[2]);
-        out
-    }
-
-    /// Adds `scale` times `w^ D` times a force per length to 12 numbers.
-    #[inline(always)]
-    fn add_weight(&self, scale: f64, weight: &[f64; 3], out: &mut [f64; 12]) {
+        let square = [(acceleration / length, &K), (rate * rate / (length * length) * 0.5, &J_SUM)];
+        let mut force = [length.splat(0.0); 12];
+        add_product(&self.weighted([(length.splat(1.0), &G_T)]), 1.0, a, &mut force);
+        add_product(&self.weighted([(rate * 2.0 / length, &K)]), 1.0, v, &mut force);
+        add_product(&self.weighted(square), 1.0, q, &mut force);
         for b in 0..4 {
-            let d = if b % 2 == 1 { self.extent.length } else { 1.0 };
+            let d = if b % 2 == 1 { length } else { length.splat(1.0) };
             for x in 0..3 {
-                out[3 * b + x] += scale * W[b] / 420.0 * d * weight[x];
+                force[3 * b + x] = force[3 * b + x] - d * (W[b] / 420.0) * weight[x];
             }
         }
+        dot(q, &force)
     }
 }
 
 /// Returns the product of 12 numbers.
 #[inline(always)]
-pub(crate) fn dot(x: &[f64; 12], y: &[f64; 12]) -> f64 {
-    let mut sums = [0.0; 3];
+pub(crate) fn dot<T: Real>(x: &[T; 12], y: &[T; 12]) -> T {
+    let mut sums = [x[0].splat(0.0); 3];
     for b in 0..4 {
         for i in 0..3 {
-            sums[i] += x[3 * b + i] * y[3 * b + i];
+            sums[i] = sums[i] + x[3 * b + i] * y[3 * b + i];
         }
     }
     sums[0] + sums[1] + sums[2]
@@ -209,18 +192,18 @@ pub(crate) fn dot(x: &[f64; 12], y: &[f64; 12]) -> f64 {
 
 /// Adds `scale` times the product of a table and 12 coordinates.
 #[inline(always)]
-pub(crate) fn add_product(table: &Table, scale: f64, x: &[f64; 12], out: &mut [f64; 12]) {
+pub(crate) fn add_product<T: Real>(table: &Table<T>, scale: f64, x: &[T; 12], out: &mut [T; 12]) {
     for a in 0..4 {
         for b in 0..4 {
             for i in 0..3 {
-                out[3 * a + i] += scale * table[a][b] * x[3 * b + i];
+                out[3 * a + i] = out[3 * a + i] + table[a][b] * scale * x[3 * b + i];
             }
         }
     }
 }
 
 /// Returns the weights of the coordinates in w = S_l e and in dw/dy at `xi`.
-pub(crate) fn flow_weights(xi: f64, length: f64) -> [[f64; 4]; 2] {
+pub(crate) fn feed_weights(xi: f64, length: f64) -> [[f64; 4]; 2] {
     let (n, slope, second) =
         (shape::position(xi, length), shape::slope(xi, length), shape::second_derivative(xi, length));
     let p = |k: usize| if k % 2 == 1 { 1.0 } else { 0.0 };
@@ -252,10 +235,10 @@ mod tests {
     }
 
     /// Velocity and acceleration of a material point by differences of its position in time: S(y; l(t)) e(t) is all that is used.
-    fn motion(y: f64, [q, v, a]: &[[f64; 12]; 3], flow: &Extent) -> [[f64; 3]; 2] {
+    fn motion(y: f64, [q, v, a]: &[[f64; 12]; 3], feed: &Extent) -> [[f64; 3]; 2] {
         let h = 1e-3;
         let place = |t: f64| {
-            let l = flow.length + t * flow.rate + 0.5 * t * t * flow.acceleration;
+            let l = feed.length + t * feed.rate + 0.5 * t * t * feed.acceleration;
             at(y, l, &core::array::from_fn(|i| q[i] + t * v[i] + 0.5 * t * t * a[i]))
         };
         // six points: error h^6
@@ -271,16 +254,16 @@ mod tests {
     /// *Source.* D'Alembert: generalised force of inertia = int rho a . dr, by Gauss points and differences in time.
     #[test]
     fn the_tables_are_the_inertia_of_the_particles() {
-        let flow = Extent { length: L, rate: 0.8, acceleration: -1.9 };
-        let element = FlowElement { inertia: RHO, extent: flow };
+        let feed = Extent { length: L, rate: 0.8, acceleration: -1.9 };
+        let element = VariableLength { inertia: RHO, extent: feed };
         let state = [some(0.3), some(1.1), some(2.9)];
         let [q, v, a] = state;
         let weight = [0.4, -9.0, 2.0];
         let mass = crate::element::mass::consistent(RHO, L);
         let (mut force, mut momentum, mut kinetic, mut on_length) = ([0.0; 12], [0.0; 12], 0.0, 0.0);
         for (x, g) in gauss_legendre(6) {
-            let [speed, acceleration] = motion(x * L, &state, &flow);
-            let (s, [w, _]) = (shape::position(x, L), flow_weights(x, L));
+            let [speed, acceleration] = motion(x * L, &state, &feed);
+            let (s, [w, _]) = (shape::position(x, L), feed_weights(x, L));
             for i in 0..3 {
                 for k in 0..4 {
                     force[3 * k + i] -= g * L * RHO * s[k] * acceleration[i];
@@ -301,27 +284,14 @@ mod tests {
         let own: f64 = (0..12).map(|i| 0.5 * v[i] * product(&v, i)).sum();
         assert_relative_eq!(own + element.kinetic_energy(&q, &v), kinetic, epsilon = 1e-9);
         assert_relative_eq!(element.length_force([&q, &v, &a], &weight), on_length, epsilon = 1e-6);
-        // the force on the length is a polynomial of the second degree: central differences are exact
-        let gradient = element.length_force_gradient([&q, &v, &a], &weight);
-        for (k, gradient) in gradient.iter().enumerate() {
-            for i in 0..12 {
-                let at = |sign: f64| {
-                    let mut moved = state;
-                    moved[k][i] += 0.5 * sign;
-                    let [q, v, a] = &moved;
-                    element.length_force([q, v, a], &weight)
-                };
-                assert_relative_eq!(gradient[i], at(1.0) - at(-1.0), epsilon = 1e-12);
-            }
-        }
     }
 
     /// w is the derivative of S(y; l) e by l at a fixed particle, and dw/dy that along the cable; w = -t at the eye.
     #[test]
-    fn flow_weights_are_derivatives_at_a_fixed_particle() {
+    fn feed_weights_are_derivatives_at_a_fixed_particle() {
         let (q, h) = (some(0.7), 1e-5);
         for xi in [0.0, 0.3, 0.8, 1.0] {
-            let [w, dw] = flow_weights(xi, L).map(|weights| -> [f64; 3] {
+            let [w, dw] = feed_weights(xi, L).map(|weights| -> [f64; 3] {
                 core::array::from_fn(|x| (0..4).map(|k| weights[k] * q[3 * k + x]).sum())
             });
             let w_at = |y: f64| -> [f64; 3] {

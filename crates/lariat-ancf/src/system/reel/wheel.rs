@@ -1,4 +1,4 @@
-//! A sheave: two reels at one point with opposite flow, and one law for both.
+//! A sheave: two reels at one point with opposite feed, and one law for both.
 //!
 //! # Equation
 //!
@@ -28,7 +28,7 @@
 //!
 //! # References
 //!
-//! Euler 1769 (the capstan); Peng, Wei & Zhou, Appl. Math. Mech. 38 (2017) 1785 (cables that flow over pulleys).
+//! Euler 1769 (the capstan); Peng, Wei & Zhou, Appl. Math. Mech. 38 (2017) 1785 (cables that run over pulleys).
 //!
 //! # Alternatives considered
 //!
@@ -36,9 +36,9 @@
 
 use super::law::rates;
 use super::sheave::Sheave;
-use super::{Flow, Flows};
-use crate::element::flow::Extent;
+use super::{FeedElement, Feeds};
 use crate::element::side::Side;
+use crate::element::variable_length::Extent;
 use crate::term::{Account, Balance};
 
 /// Deceleration in m/s^2 with which a cable stops before its end reaches a sheave or the drum that it is on.
@@ -54,8 +54,8 @@ pub(crate) struct Wheel {
     lift: f64,
     /// Accelerations: least, that which stops it, largest.
     planned: [f64; 3],
-    /// Unknowns of its flows.
-    pub flows: [usize; 2],
+    /// Unknowns of its feeds.
+    pub feeds: [usize; 2],
     /// Acceleration of the iterate before, and the increment that its linear equations asked for.
     before: Option<[f64; 2]>,
 }
@@ -71,17 +71,17 @@ pub(super) struct Pulls {
 impl Wheel {
     /// Creates the wheel of a sheave.
     pub fn new(sheave: Sheave) -> Self {
-        Wheel { sheave, grip: 0.0, lift: 0.0, planned: [0.0; 3], flows: [0; 2], before: None }
+        Wheel { sheave, grip: 0.0, lift: 0.0, planned: [0.0; 3], feeds: [0; 2], before: None }
     }
 
-    /// Begins a step of length `h` (s): `flows` are those of its cables, `tangents` their tangents there, away from the cables, and
+    /// Begins a step of length `h` (s): `feeds` are those of its cables, `tangents` their tangents there, away from the cables, and
     /// `inertia` the mass per length in kg/m. Returns the acceleration of the first iterate.
-    pub fn begin(&mut self, flows: [&Flow; 2], tangents: [[f64; 3]; 2], inertia: f64, h: f64) -> f64 {
+    pub fn begin(&mut self, feeds: [&FeedElement; 2], tangents: [[f64; 3]; 2], inertia: f64, h: f64) -> f64 {
         self.before = None;
-        let rate = flows[1].extent.rate;
-        let left = flows.map(|flow| flow.left());
+        let rate = feeds[1].extent.rate;
+        let left = feeds.map(|feed| feed.left());
         let [least, largest] = rates(STOP, rate, [left[1], left[0]], h);
-        let reach = [flows[1].reach()[0].max(-flows[0].reach()[1]), flows[1].reach()[1].min(-flows[0].reach()[0])];
+        let reach = [feeds[1].reach()[0].max(-feeds[0].reach()[1]), feeds[1].reach()[1].min(-feeds[0].reach()[0])];
         self.planned = [least, 0.0f64.clamp(least, largest), largest].map(|end| (end - rate) / h);
         let planned = self.planned;
         self.planned[0] = planned[0].max(reach[0]).min(reach[1]);
@@ -93,7 +93,7 @@ impl Wheel {
         let angle = cosine.clamp(-1.0, 1.0).acos() + self.sheave.turns;
         self.grip = if self.sheave.friction > 0.0 { (self.sheave.friction * angle).exp() - 1.0 } else { 0.0 };
         self.lift = inertia * rate * rate;
-        let present = if rate == 0.0 { self.planned[1] } else { flows[1].extent.acceleration };
+        let present = if rate == 0.0 { self.planned[1] } else { feeds[1].extent.acceleration };
         self.bounded(present)
     }
 
@@ -172,33 +172,33 @@ impl Wheel {
         (friction, missed)
     }
 
-    /// Adds to a balance by how much the iterate breaks the law; the flows hold its pulls.
-    pub fn add_balance(&self, flows: [&Flow; 2], balance: &mut Balance) {
-        let acceleration = flows[1].extent.acceleration;
-        let (_, missed) = self.violation(flows.map(Flow::pull_of_iterate), acceleration);
+    /// Adds to a balance by how much the iterate breaks the law; the feeds hold its pulls.
+    pub fn add_balance(&self, feeds: [&FeedElement; 2], balance: &mut Balance) {
+        let acceleration = feeds[1].extent.acceleration;
+        let (_, missed) = self.violation(feeds.map(FeedElement::pull_of_iterate), acceleration);
         let entry = balance.to(Account::Reels);
         entry.missed += missed;
-        entry.forces += flows.iter().map(|flow| flow.pull_of_iterate().abs()).sum::<f64>();
+        entry.forces += feeds.iter().map(|feed| feed.pull_of_iterate().abs()).sum::<f64>();
     }
 
     /// Returns whether friction stops it in the iterate although it runs when the step begins: a long
     /// step may have such a solution beside the one that runs on.
-    pub fn stops(&self, flows: [&Flow; 2]) -> bool {
-        self.grip > 0.0 && self.planned[1] != 0.0 && flows[1].extent.acceleration == self.planned[1]
+    pub fn stops(&self, feeds: [&FeedElement; 2]) -> bool {
+        self.grip > 0.0 && self.planned[1] != 0.0 && feeds[1].extent.acceleration == self.planned[1]
     }
 
     /// Adds an accepted step of length `h` (s) from `time` to what passed and was lost.
-    pub fn accept(&mut self, flows: [&Flow; 2], time: f64, h: f64) {
-        let Extent { rate, .. } = flows[1].over(time, h).0;
-        self.sheave.force = self.violation(flows.map(Flow::pull_of_iterate), flows[1].extent.acceleration).0;
+    pub fn accept(&mut self, feeds: [&FeedElement; 2], time: f64, h: f64) {
+        let Extent { rate, .. } = feeds[1].over(time, h).0;
+        self.sheave.force = self.violation(feeds.map(FeedElement::pull_of_iterate), feeds[1].extent.acceleration).0;
         self.sheave.passed += rate * h;
         self.sheave.lost += self.sheave.force * rate * h;
     }
 }
 
-impl Flows {
-    /// Returns the flow at an end.
-    pub fn at_side(&self, side: Side) -> Option<&Flow> {
-        self.list.iter().find(|flow| flow.side == side)
+impl Feeds {
+    /// Returns the feed at an end.
+    pub fn at_side(&self, side: Side) -> Option<&FeedElement> {
+        self.list.iter().find(|feed| feed.side == side)
     }
 }

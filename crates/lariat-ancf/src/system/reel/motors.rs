@@ -1,8 +1,9 @@
 //! Reels whose rate is an unknown, in the equations of their cable. Equation: [`law`](super::law).
 
 use super::law::Law;
-use super::{Flow, Flows};
-use crate::element::flow::Extent;
+use super::{FeedElement, Feeds};
+use crate::Real;
+use crate::element::variable_length::Extent;
 use crate::model::Model;
 use crate::reel::Feed;
 use crate::state::State;
@@ -10,7 +11,7 @@ use crate::system::Equations;
 use crate::system::StepVectors;
 use crate::term::{Account, Balance};
 
-impl Flow {
+impl FeedElement {
     /// Returns the pull in N in the last iterate, at a sheave.
     pub(super) fn pull_of_iterate(&self) -> f64 {
         self.law.map_or(0.0, |law| law.force)
@@ -35,7 +36,7 @@ impl Flow {
     /// Returns whether a motor holds the rate that is asked for, with a force in N of the last iterate that it has.
     fn sticks(&self) -> bool {
         self.law.is_none_or(|law| {
-            let alone = !matches!(self.feed, Feed::Sheave | Feed::BodyDrum);
+            let alone = !matches!(self.kind, Feed::Sheave | Feed::BodyDrum);
             alone && self.extent.acceleration == law.bounded(law.planned[1]) && law.force.abs() <= law.limit
         })
     }
@@ -51,88 +52,92 @@ impl Flow {
     }
 }
 
-impl Flows {
-    /// Returns whether all rates that could be unknown are as the last iterate has them: the motors of all [stick](Flow::sticks). If the result
+impl Feeds {
+    /// Returns whether all rates that could be unknown are as the last iterate has them: the motors of all [stick](FeedElement::sticks). If the result
     /// of an iteration breaks a law, the next one solves for the rates.
     pub fn stick(&self) -> bool {
-        self.list.iter().all(Flow::sticks)
+        self.list.iter().all(FeedElement::sticks)
     }
 }
 
 impl Law {
-    /// Returns the product of the row of a flow and the increments of the velocity changes of its cable.
-    pub(super) fn along_row(&self, flow: &Flow, increment: &[f64]) -> f64 {
-        self.row.iter().zip(flow.side.gather(increment)).map(|(a, b)| a * b).sum()
+    /// Returns the product of the row of a feed and the increments of the velocity changes of its cable.
+    pub(super) fn along_row(&self, feed: &FeedElement, increment: &[f64]) -> f64 {
+        self.row.iter().zip(feed.side.gather(increment)).map(|(a, b)| a * b).sum()
     }
 }
 
-impl Flow {
+impl FeedElement {
     /// Returns the force in N of the motor at an extent, from the force on the length.
-    pub(super) fn motor(&self, model: &Model, extent: Extent, q: &[f64; 12], on_length: f64) -> f64 {
+    #[inline(always)]
+    pub(super) fn motor<T: Real>(&self, model: &Model, extent: Extent<T>, q: &[T; 12], on_length: T) -> T {
         let element = self.with(model, extent);
-        let wheel = self.law.map_or(0.0, |law| {
-            let stock = (law.motor.bounds[1] - extent.length).max(0.0);
-            let wound = matches!(self.feed, Feed::Drum | Feed::BodyDrum) && stock.is_finite();
-            law.motor.wheel + if wound { element.inertia * stock } else { 0.0 }
-        });
-        self.feed.pull(&element, q, on_length) - wheel * extent.acceleration
+        let mut wheel = on_length.splat(0.0);
+        if let Some(law) = &self.law {
+            wheel = wheel + law.motor.wheel;
+            let stock = law.motor.bounds[1];
+            if matches!(self.kind, Feed::Drum | Feed::BodyDrum) && stock.is_finite() {
+                wheel = wheel + (-(extent.length - stock)).at_least(0.0) * element.inertia;
+            }
+        }
+        self.kind.pull(&element, q, on_length) + self.lost(model, q, extent.rate) - wheel * extent.acceleration
     }
 }
 
 impl Equations<'_> {
     /// Begins a step of length `h` (s) for reels whose rate is unknown: sets the first iterate.
     pub fn begin_laws(&mut self, time: f64, h: f64) {
-        for flow in self.system.flows.list.iter_mut() {
-            if !flow.extent.acceleration.is_finite() {
+        for feed in self.system.feeds.list.iter_mut() {
+            if !feed.extent.acceleration.is_finite() {
                 // left by the last iterate of a step that failed
-                flow.extent.acceleration = 0.0;
+                feed.extent.acceleration = 0.0;
             }
-            let extent = flow.at(time);
-            let Some(law) = &mut flow.law else { continue };
-            flow.on_length.begin = None;
-            if flow.feed == Feed::BodyDrum && (flow.start != time || flow.left_rate.is_none()) {
-                flow.left_rate = Some(extent.rate);
+            let extent = feed.at(time);
+            let Some(law) = &mut feed.law else { continue };
+            feed.on_length.begin = None;
+            if feed.kind == Feed::BodyDrum && (feed.start != time || feed.left_rate.is_none()) {
+                feed.left_rate = Some(extent.rate);
             }
-            let slipped = flow.extent.acceleration != law.planned[1];
-            (flow.start, flow.extent) = (time, extent);
+            let slipped = feed.extent.acceleration != law.planned[1];
+            (feed.start, feed.extent) = (time, extent);
             law.begin(&extent, time, h);
             let [least, wanted, largest] = law.planned;
-            flow.extent.acceleration = law.bounded(if slipped { extent.acceleration } else { wanted });
-            flow.stopped = wanted == least || wanted == largest;
+            feed.extent.acceleration = law.bounded(if slipped { extent.acceleration } else { wanted });
+            feed.stopped = wanted == least || wanted == largest;
         }
     }
 
     /// Returns the middle and the mean rates of the element at an eye over the present iterate.
-    pub(super) fn motion_of_step(&self, flow: &Flow, state: &State, b: &StepVectors) -> [[f64; 12]; 3] {
+    pub(super) fn motion_of_step(&self, feed: &FeedElement, state: &State, b: &StepVectors) -> [[f64; 12]; 3] {
         let rate = 1.0 / b.h;
-        let [velocity, acceleration] = [&b.change, &b.velocity_change].map(|x| flow.side.gather(x).map(|x| rate * x));
-        [self.middle_of_step(flow, state, b), velocity, acceleration]
+        let [velocity, acceleration] = [&b.change, &b.velocity_change].map(|x| feed.side.gather(x).map(|x| rate * x));
+        [self.middle_of_step(feed, state, b), velocity, acceleration]
     }
 
     /// Computes the forces of the motors of the present iterate.
     pub fn read_motors(&mut self, state: &State, b: &StepVectors) {
-        for k in 0..self.system.flows.list.len() {
-            let flow = &self.system.flows.list[k];
-            if flow.law.is_none() {
+        for k in 0..self.system.feeds.list.len() {
+            let feed = &self.system.feeds.list[k];
+            if feed.law.is_none() {
                 continue;
             }
-            let on_length = self.on_length_of_step(flow, state, b);
-            let (mean, q) = (flow.over(state.time, b.h).0, self.middle_of_step(flow, state, b));
-            let force = flow.motor(self.model, mean, &q, on_length.force) + flow.lost(self.model, &q, mean.rate);
-            let flow = &mut self.system.flows.list[k];
-            flow.on_length = on_length;
-            flow.law.iter_mut().for_each(|law| law.force = force);
+            let on_length = self.on_length_of_step(feed, state, b);
+            let (mean, q) = (feed.over(state.time, b.h).0, self.middle_of_step(feed, state, b));
+            let force = feed.motor(self.model, mean, &q, on_length.force);
+            let feed = &mut self.system.feeds.list[k];
+            feed.on_length = on_length;
+            feed.law.iter_mut().for_each(|law| law.force = force);
         }
     }
 
     /// Adds to a balance by how much the motors break their laws.
     pub fn balance_motors(&mut self, state: &State, b: &StepVectors, balance: &mut Balance) {
         self.read_motors(state, b);
-        for flow in &self.system.flows.list {
-            if let Some(law) = &flow.law {
-                let acceleration = flow.extent.acceleration;
-                // a sheave has one law for both of its flows, and a drum that of its body
-                if !matches!(flow.feed, Feed::Sheave | Feed::BodyDrum) {
+        for feed in &self.system.feeds.list {
+            if let Some(law) = &feed.law {
+                let acceleration = feed.extent.acceleration;
+                // a sheave has one law for both of its feeds, and a drum that of its body
+                if !matches!(feed.kind, Feed::Sheave | Feed::BodyDrum) {
                     let entry = balance.to(Account::Reels);
                     entry.missed += law.violation(acceleration);
                     entry.forces += law.force.abs();
@@ -147,8 +152,8 @@ impl Equations<'_> {
 
     /// Adds an increment to the acceleration of the iterate.
     pub fn add_to_law(&mut self, k: usize, increment: f64) {
-        let flow = &mut self.system.flows.list[k];
-        flow.linearised = flow.extent.acceleration;
-        flow.extent.acceleration += increment;
+        let feed = &mut self.system.feeds.list[k];
+        feed.linearised = feed.extent.acceleration;
+        feed.extent.acceleration += increment;
     }
 }

@@ -1,29 +1,29 @@
 //! What depends on the lengths of the elements at eyes: their stiffness, mass and weight, energies and momenta.
 
-use super::Flow;
-use super::flows::control;
+use super::FeedElement;
+use super::feeds::control;
 use crate::effect::acts::Single;
-use crate::element::flow::Extent;
 use crate::element::gram::{Control, gram};
 use crate::element::kernel::{ElementState, GramState, Kernel, energy};
 use crate::element::side::Side;
+use crate::element::variable_length::Extent;
 use crate::model::Model;
 use crate::system::System;
 use crate::system::elements::Elements;
 
 impl System {
     /// Sets what depends on the lengths of the elements at eyes to `time` (s).
-    pub fn set_flows(&mut self, model: &Model, time: f64) {
-        for k in 0..self.flows.list.len() {
-            let length = self.flows.list[k].at(time).length;
+    pub fn set_feeds(&mut self, model: &Model, time: f64) {
+        for k in 0..self.feeds.list.len() {
+            let length = self.feeds.list[k].at(time).length;
             self.set_each_length(model, k, [length, length, 1.0 / length]);
         }
     }
 
     /// Sets what depends on the lengths of the elements at eyes to those at the beginning of the host step.
-    pub fn set_flows_at_start(&mut self, model: &Model) {
-        for k in 0..self.flows.list.len() {
-            let length = self.flows.list[k].extent.length;
+    pub fn set_feeds_at_start(&mut self, model: &Model) {
+        for k in 0..self.feeds.list.len() {
+            let length = self.feeds.list[k].extent.length;
             self.set_each_length(model, k, [length, length, 1.0 / length]);
         }
     }
@@ -31,13 +31,13 @@ impl System {
     /// Sets the lengths of an element at an eye: that of its control vectors, that of axial stiffness and mass, and the inverse of that
     /// of bending.
     pub(super) fn set_each_length(&mut self, model: &Model, k: usize, [shape, mean, inverse]: [f64; 3]) {
-        let System { flows, forces, mass, loads, .. } = self;
-        let set = Some([shape, mean, inverse, flows.list[k].stock(mean)]);
-        if flows.list[k].set == set {
+        let System { feeds, forces, mass, loads, .. } = self;
+        let set = Some([shape, mean, inverse, feeds.list[k].stock(mean)]);
+        if feeds.list[k].set == set {
             return;
         }
-        (flows.list[k].set, flows.list[k].weighed) = (set, mean);
-        let e = flows.list[k].element(model);
+        (feeds.list[k].set, feeds.list[k].weighed) = (set, mean);
+        let e = feeds.list[k].element(model);
         let element = &model.elements[e];
         let elements = &mut forces.elements;
         elements.scale[e] = 3.0 / shape;
@@ -46,40 +46,40 @@ impl System {
         elements.set_mass(e, model.inertia(element), mean);
         forces.at_points.set_length(e, mean);
         let length = |e: usize| {
-            let flow = flows.list.iter().find(|flow| flow.element(model) == e);
-            flow.map_or(model.elements[e].length, |flow| flow.weighed)
+            let feed = feeds.list.iter().find(|feed| feed.element(model) == e);
+            feed.map_or(model.elements[e].length, |feed| feed.weighed)
         };
         let stock = Side::BOTH.map(|side| {
-            let flow = flows.list.iter().find(|flow| flow.side == side);
-            flow.map_or(0.0, |flow| flow.stock(flow.weighed))
+            let feed = feeds.list.iter().find(|feed| feed.side == side);
+            feed.map_or(0.0, |feed| feed.stock(feed.weighed))
         });
         let inertia = |side: Side| model.inertia(&model.elements[side.element(model.elements.len())]);
         mass.set_element(model, e, length, Side::BOTH.map(|side| stock[side as usize] * inertia(side)));
         loads.weigh_element(model, e, length, stock);
     }
 
-    /// Returns the kinetic energy in J that the flows add to that of the mass matrix.
-    pub fn flow_kinetic(&self, model: &Model, time: f64, q: &[f64], v: &[f64]) -> f64 {
-        let kinetic = |f: &Flow| f.with(model, f.at(time)).kinetic_energy(&f.side.gather(q), &f.side.gather(v));
-        self.flows.list.iter().map(kinetic).sum()
+    /// Returns the kinetic energy in J that the feeds add to that of the mass matrix.
+    pub fn feed_kinetic(&self, model: &Model, time: f64, q: &[f64], v: &[f64]) -> f64 {
+        let kinetic = |f: &FeedElement| f.with(model, f.at(time)).kinetic_energy(&f.side.gather(q), &f.side.gather(v));
+        self.feeds.list.iter().map(kinetic).sum()
     }
 
-    /// Adds the momentum of the flows at `time` (s) to `p`.
-    pub fn add_flow_momentum(&self, model: &Model, time: f64, q: &[f64], p: &mut [f64]) {
-        for flow in &self.flows.list {
+    /// Adds the momentum of the feeds at `time` (s) to `p`.
+    pub fn add_feed_momentum(&self, model: &Model, time: f64, q: &[f64], p: &mut [f64]) {
+        for feed in &self.feeds.list {
             let mut own = [0.0; 12];
-            flow.with(model, flow.at(time)).add_momentum(&flow.side.gather(q), &mut own);
-            flow.side.add(&own, p);
+            feed.with(model, feed.at(time)).add_momentum(&feed.side.gather(q), &mut own);
+            feed.side.add(&own, p);
         }
     }
 
     /// Returns the strain energy in J of an element at an eye, axial and bending, at a length and control vectors.
-    pub(super) fn flow_energy(&self, model: &Model, flow: &Flow, d: &Control<f64>, length: f64) -> (f64, f64) {
-        let stiffness = flow.stiffness(model, length);
+    pub(super) fn feed_energy(&self, model: &Model, feed: &FeedElement, d: &Control<f64>, length: f64) -> (f64, f64) {
+        let stiffness = feed.stiffness(model, length);
         let elements = &self.forces.elements;
         let own = energy(&elements.table, &elements.bending, stiffness, d);
         let state = GramState { table: &elements.table, stiffness, g: gram(d), rates: None };
-        let e = flow.element(model);
+        let e = feed.element(model);
         let of_effects = self.forces.in_element.as_ref().map_or((0.0, 0.0), |effects| effects.energy(e, &state));
         (own.0 + of_effects.0, own.1 + of_effects.1)
     }
@@ -89,17 +89,17 @@ impl System {
     pub(super) fn strain_length_force(
         &self,
         model: &Model,
-        flow: &Flow,
+        feed: &FeedElement,
         extent: &Extent,
         [q, v]: [&[f64; 12]; 2],
     ) -> [f64; 2] {
         let Extent { length, rate, .. } = *extent;
         let (d, mut velocity) = (control(q, length), control(v, length));
         (0..3).for_each(|x| velocity[1][x] -= rate / length * d[1][x]);
-        let stiffness = flow.stiffness(model, length);
-        let (axial, bending) = self.flow_energy(model, flow, &d, length);
+        let stiffness = feed.stiffness(model, length);
+        let (axial, bending) = self.feed_energy(model, feed, &d, length);
         let along = |velocity: Option<Control<f64>>| {
-            let gradient = self.flow_gradient(flow.element(model), &ElementState { stiffness, d, velocity });
+            let gradient = self.feed_gradient(feed.element(model), &ElementState { stiffness, d, velocity });
             (0..3).map(|x| d[1][x] * gradient[1][x]).sum::<f64>() / length
         };
         let elastic = along(None);
@@ -108,7 +108,7 @@ impl System {
     }
 
     /// Returns the forces that oppose changes of the control vectors of an element.
-    pub(super) fn flow_gradient(&self, element: usize, state: &ElementState<f64>) -> Control<f64> {
+    pub(super) fn feed_gradient(&self, element: usize, state: &ElementState<f64>) -> Control<f64> {
         let Elements { table, bending, .. } = &self.forces.elements;
         let effects = &self.forces.in_element.as_ref();
         Kernel { table, bending, effects }.force(state, &Single(element))

@@ -2,7 +2,7 @@
 //!
 //! # Equation
 //!
-//! With B the [force on the length](crate::element::flow), less that of [effects](super::effects), w the weight per length, f the stretch and v the velocity of the material at
+//! With B the [force on the length](crate::element::variable_length), less that of [effects](super::effects), w the weight per length, f the stretch and v the velocity of the material at
 //! the eye r:
 //!
 //! ```text
@@ -35,10 +35,11 @@
 //! 1e-5, generalised-alpha 5e-5 with rho 0.5 and up to 1.6 % with others, by the same points. Strains on the line, and inertia at both ends
 //! with the mean acceleration: misses 3e-4 still. The middle alone misses up to a third of the work of a rope that is paid out.
 
-use super::flows::{OnLength, control};
-use super::{Flow, Source};
+use super::feeds::{OnLength, control};
+use super::{FeedElement, Source};
+use crate::Real;
 use crate::effect::work::{POINTS, hermite};
-use crate::element::flow::{Extent, FlowElement};
+use crate::element::variable_length::{Extent, VariableLength};
 use crate::model::Model;
 use crate::reel::Feed;
 use crate::simd::dispatch;
@@ -48,7 +49,7 @@ use crate::system::{StepVectors, System};
 
 /// What a reel does, at an instant.
 #[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct FlowForce {
+pub(crate) struct FeedForce {
     /// Pull of the winch on the cable in N.
     pub pull: f64,
     /// Power in W that winch and entering material bring, without that against internal damping.
@@ -59,16 +60,16 @@ pub(crate) struct FlowForce {
 
 impl System {
     /// Returns pull and power of a winch at the coordinates, velocities and accelerations of its element.
-    pub fn flow_force(&self, model: &Model, flow: &Flow, time: f64, motion: [&[f64; 12]; 3]) -> FlowForce {
-        let extent = flow.at(time);
-        let (element, weight) = (flow.with(model, extent), flow.weight(model));
+    pub fn feed_force(&self, model: &Model, feed: &FeedElement, time: f64, motion: [&[f64; 12]; 3]) -> FeedForce {
+        let extent = feed.at(time);
+        let (element, weight) = (feed.with(model, extent), feed.weight(model));
         let [q, v, _] = motion;
-        let [strain, damping] = self.strain_length_force(model, flow, &extent, [q, v]);
+        let [strain, damping] = self.strain_length_force(model, feed, &extent, [q, v]);
         let others =
-            element.length_force(motion, &flow.dead(model)) + strain - self.points_on_length(model, flow, time, [q, v]);
+            element.length_force(motion, &feed.dead(model)) + strain - self.points_on_length(model, feed, time, [q, v]);
         let on_length = others + damping;
-        FlowForce {
-            pull: flow.feed.pull(&element, q, on_length) + flow.lost(model, q, extent.rate),
+        FeedForce {
+            pull: feed.kind.pull(&element, q, on_length) + feed.lost(model, q, extent.rate),
             power: extent.rate * (others + entering(&element, &weight, q, v)),
             damping: extent.rate * damping,
         }
@@ -78,15 +79,15 @@ impl System {
 impl Equations<'_> {
     /// Returns the work of winch and entering material over a step of a method with accelerations, by the two points of Gauss on
     /// the cubics of velocity, and against internal damping by the mean velocity if that is [not resolved](crate::system::energy_balance); `range` is the cable's part of the states.
-    pub fn flow_work(
+    pub fn feed_work(
         &mut self,
-        flow: &Flow,
+        feed: &FeedElement,
         before: &State,
         after: &State,
         h: f64,
         range: core::ops::Range<usize>,
     ) -> f64 {
-        let of = |x: &[f64]| flow.side.gather(&x[range.clone()]);
+        let of = |x: &[f64]| feed.side.gather(&x[range.clone()]);
         let [q0, v0, a0] = [&before.q, &before.v, &before.memory.acceleration].map(|x| of(x));
         let [q1, v1, a1] = [&after.q, &after.v, &after.memory.acceleration].map(|x| of(x));
         let (mut work, mut along) = (0.0, 0.0);
@@ -97,8 +98,8 @@ impl Equations<'_> {
             };
             let q = mix(cubic, &q0, &v0, &q1, &v1);
             let (v, a) = (mix(cubic, &v0, &a0, &v1, &a1), mix(slope, &v0, &a0, &v1, &a1).map(|x| x / h));
-            self.system.set_flows(self.model, before.time + s * h);
-            let force = self.system.flow_force(self.model, flow, before.time + s * h, [&q, &v, &a]);
+            self.system.set_feeds(self.model, before.time + s * h);
+            let force = self.system.feed_force(self.model, feed, before.time + s * h, [&q, &v, &a]);
             work += 0.5 * h * force.power;
             along += 0.5 * h * force.damping;
         }
@@ -107,42 +108,42 @@ impl Equations<'_> {
         }
         let middle = core::array::from_fn(|k| 0.5 * (q0[k] + q1[k]) + h / 8.0 * (v0[k] - v1[k]));
         let velocity = core::array::from_fn(|k| (q1[k] - q0[k]) / h);
-        let extent = flow.at(before.time + 0.5 * h);
-        let [_, damping] = self.system.strain_length_force(self.model, flow, &extent, [&middle, &velocity]);
+        let extent = feed.at(before.time + 0.5 * h);
+        let [_, damping] = self.system.strain_length_force(self.model, feed, &extent, [&middle, &velocity]);
         let mean = h * extent.rate * damping;
         work + if (along - mean).abs() <= mean.abs() { along } else { mean }
     }
 
     /// Returns the mean forces on the length over a step of the discrete gradient.
-    pub(super) fn on_length_of_step(&self, flow: &Flow, state: &State, b: &StepVectors) -> OnLength {
+    pub(super) fn on_length_of_step(&self, feed: &FeedElement, state: &State, b: &StepVectors) -> OnLength {
         let (model, system) = (self.model, &*self.system);
-        let (mean, [l0, l1]) = flow.over(state.time, b.h);
-        let (start, change) = (flow.side.gather(&state.q), flow.side.gather(&b.change));
+        let (mean, [l0, l1]) = feed.over(state.time, b.h);
+        let (start, change) = (feed.side.gather(&state.q), feed.side.gather(&b.change));
         let (mut middle, mut end) = (start, start);
         for i in 0..12 {
             middle[i] += 0.5 * change[i];
             end[i] += change[i];
         }
-        let energy = |q: &[f64; 12], l: f64| system.flow_energy(model, flow, &control(q, l), l);
-        let begin = flow.on_length.begin.filter(|_| flow.law.is_some()).unwrap_or_else(|| energy(&start, l0));
+        let energy = |q: &[f64; 12], l: f64| system.feed_energy(model, feed, &control(q, l), l);
+        let begin = feed.on_length.begin.filter(|_| feed.law.is_some()).unwrap_or_else(|| energy(&start, l0));
         let end = energy(&end, l1);
-        let of_eye: f64 = (0..3).map(|x| flow.eye_force[x] * (middle[6 + x] - middle[x])).sum();
+        let of_eye: f64 = (0..3).map(|x| feed.eye_force[x] * (middle[6 + x] - middle[x])).sum();
         let elastic = strain_on_length([begin, end], [l0, l1], of_eye);
         let rate = 1.0 / b.h;
-        let [velocity, acceleration] = [change, flow.side.gather(&b.velocity_change)].map(|x| x.map(|x| rate * x));
-        let (element, dead) = (flow.with(model, mean), flow.dead(model));
+        let [velocity, acceleration] = [change, feed.side.gather(&b.velocity_change)].map(|x| x.map(|x| rate * x));
+        let (element, dead) = (feed.with(model, mean), feed.dead(model));
         let inertial = dispatch!(system.level => element.length_force([&middle, &velocity, &acceleration], &dead));
-        OnLength { force: elastic + inertial - flow.of_points, inertial, begin: Some(begin), end }
+        OnLength { force: elastic + inertial - feed.of_points, begin: Some(begin), end }
     }
 
     /// Returns what entering material brings in N beside the force on the length, in the mean of a step of the discrete gradient.
-    fn entering_in_step(&self, flow: &Flow, element: &FlowElement, q: &[f64; 12], b: &StepVectors) -> f64 {
+    fn entering_in_step(&self, feed: &FeedElement, element: &VariableLength, q: &[f64; 12], b: &StepVectors) -> f64 {
         let rate = element.extent.rate;
-        match flow.source {
+        match feed.source {
             Source::Outside => {
                 let rate = 1.0 / b.h;
-                let velocity = flow.side.gather(&b.change).map(|x| rate * x);
-                entering(element, &flow.weight(self.model), q, &velocity)
+                let velocity = feed.side.gather(&b.change).map(|x| rate * x);
+                entering(element, &feed.weight(self.model), q, &velocity)
             }
             // the stock, or the other cable, is a part of the system
             Source::Stock(_) | Source::Cable => 0.5 * element.inertia * rate * rate * square_of_stretch(q),
@@ -150,18 +151,18 @@ impl Equations<'_> {
     }
 
     /// Adds the work of winches and entering material over a step of the discrete gradient, and notes its lengths for the next one.
-    pub fn end_flows_of_step(&mut self, state: &State, b: &StepVectors) {
-        for k in 0..self.system.flows.list.len() {
-            let flow = &self.system.flows.list[k];
-            let (mean, [l0, l1]) = flow.over(state.time, b.h);
-            let force = match flow.law {
-                Some(_) => flow.on_length.force,
-                None => self.on_length_of_step(flow, state, b).force,
+    pub fn end_feeds_of_step(&mut self, state: &State, b: &StepVectors) {
+        for k in 0..self.system.feeds.list.len() {
+            let feed = &self.system.feeds.list[k];
+            let (mean, [l0, l1]) = feed.over(state.time, b.h);
+            let force = match feed.law {
+                Some(_) => feed.on_length.force,
+                None => self.on_length_of_step(feed, state, b).force,
             };
-            let (element, q) = (flow.with(self.model, mean), self.middle_of_step(flow, state, b));
-            let work = (l1 - l0) * (force + self.entering_in_step(flow, &element, &q, b));
-            let pull = flow.feed.pull(&element, &q, force) + flow.lost(self.model, &q, mean.rate);
-            let own = &mut self.system.flows.list[k];
+            let (element, q) = (feed.with(self.model, mean), self.middle_of_step(feed, state, b));
+            let work = (l1 - l0) * (force + self.entering_in_step(feed, &element, &q, b));
+            let pull = feed.kind.pull(&element, &q, force) + feed.lost(self.model, &q, mean.rate);
+            let own = &mut self.system.feeds.list[k];
             (own.length_before, own.pull) = (l0, Some(pull));
             self.system.meter.reel_work[own.side as usize] += work;
         }
@@ -170,54 +171,53 @@ impl Equations<'_> {
 
 impl Equations<'_> {
     /// Returns the middle of the coordinates of the element at an eye over a step of the discrete gradient.
-    pub fn middle_of_step(&self, flow: &Flow, state: &State, b: &StepVectors) -> [f64; 12] {
-        let (q, change) = (flow.side.gather(&state.q), flow.side.gather(&b.change));
+    pub fn middle_of_step(&self, feed: &FeedElement, state: &State, b: &StepVectors) -> [f64; 12] {
+        let (q, change) = (feed.side.gather(&state.q), feed.side.gather(&b.change));
         core::array::from_fn(|i| q[i] + 0.5 * change[i])
     }
 }
 
 impl Feed {
     /// Returns the pull of the winch from the force on the length, without the energy that is lost.
-    pub(super) fn pull(self, element: &FlowElement, q: &[f64; 12], on_length: f64) -> f64 {
+    #[inline(always)]
+    pub(super) fn pull<T: Real>(self, element: &VariableLength<T>, q: &[T; 12], on_length: T) -> T {
         let rate = element.extent.rate;
-        let [of_square, constant] = self.momentum(rate);
-        -on_length - element.inertia * rate * rate * (of_square * square_of_stretch(q) + constant)
-    }
-
-    /// Returns what the pull loses to the momentum of entering material over rho l'^2: the factor of f^2, and the rest.
-    pub(super) fn momentum(self, rate: f64) -> [f64; 2] {
-        match self {
-            Feed::Bag if rate > 0.0 => [0.5, 0.0],
-            Feed::Coil if rate > 0.0 => [1.0, 0.0],
+        // what is lost to the momentum of entering material over rho l'^2: the factor of f^2, and the rest
+        let [of_square, constant] = match self {
+            Feed::Bag if rate.is_above(0.0) => [0.5, 0.0],
+            Feed::Coil if rate.is_above(0.0) => [1.0, 0.0],
             _ => [0.5, -0.5],
-        }
+        };
+        -on_length - rate * element.inertia * rate * (square_of_stretch(q) * of_square + constant)
     }
 }
 
-impl Flow {
+impl FeedElement {
     /// Returns the strain energy per length at the eye, if stock from a coil loses it, in N.
-    pub(super) fn lost(&self, model: &Model, q: &[f64; 12], rate: f64) -> f64 {
-        if self.feed != Feed::Coil || rate <= 0.0 {
-            return 0.0;
+    #[inline(always)]
+    pub(super) fn lost<T: Real>(&self, model: &Model, q: &[T; 12], rate: T) -> T {
+        if self.kind != Feed::Coil || !rate.is_above(0.0) {
+            return rate.splat(0.0);
         }
-        let strain = 0.5 * (square_of_stretch(q) - 1.0);
-        0.5 * model.elements[self.element(model)].section.axial_stiffness * strain * strain
+        let strain = (square_of_stretch(q) - 1.0) * 0.5;
+        strain * (0.5 * model.elements[self.element(model)].section.axial_stiffness) * strain
     }
 }
 
 /// Returns the mean force of strains on the length over a step: D U at fixed coordinates over D l, for `(1/l1 - 1/l0)/(l1 - l0) =
 /// -1/(l0 l1)`, from axial and bending energies at both ends and the product of mean chord and mean force on the eye.
-pub(super) fn strain_on_length([u0, u1]: [(f64, f64); 2], [l0, l1]: [f64; 2], of_eye: f64) -> f64 {
+fn strain_on_length([u0, u1]: [(f64, f64); 2], [l0, l1]: [f64; 2], of_eye: f64) -> f64 {
     0.5 * (u0.0 / l0 + u1.0 / l1) - (0.5 * (u0.1 * l0 + u1.1 * l1) - l0 * of_eye) / (l0 * l1)
 }
 
 /// Returns the square of the stretch at the eye.
-fn square_of_stretch(q: &[f64; 12]) -> f64 {
+#[inline(always)]
+fn square_of_stretch<T: Real>(q: &[T; 12]) -> T {
     q[9] * q[9] + q[10] * q[10] + q[11] * q[11]
 }
 
 /// Returns what entering material brings beside the force on the length, in N: its kinetic energy and its weight at the eye.
-fn entering(element: &FlowElement, weight: &[f64; 3], q: &[f64; 12], v: &[f64; 12]) -> f64 {
+fn entering(element: &VariableLength, weight: &[f64; 3], q: &[f64; 12], v: &[f64; 12]) -> f64 {
     let Extent { rate, .. } = element.extent;
     let mut sum = 0.0;
     for x in 0..3 {

@@ -24,11 +24,11 @@
 //!
 //! Own derivation, checked against the power of the force along the path of its points (tests/reels/fluid.rs).
 
-use super::{Flow, Flows};
+use super::{FeedElement, Feeds};
 use crate::dual::{Dual, constant};
 use crate::effect::acts::ForceInput;
-use crate::element::flow::{Extent, dot};
 use crate::element::shape;
+use crate::element::variable_length::{Extent, dot};
 use crate::model::Model;
 use crate::state::State;
 use crate::system::StepVectors;
@@ -44,7 +44,7 @@ pub(super) fn drift(q: &[f64; 12], length: f64) -> [f64; 12] {
     })
 }
 
-impl Flow {
+impl FeedElement {
     /// Makes of the velocities of a cable those of the material of this element.
     fn add_drift(&self, extent: &Extent, q: &[f64], v: &mut [f64]) {
         let own = drift(&self.side.gather(q), extent.length);
@@ -62,7 +62,7 @@ impl Flow {
     }
 }
 
-impl Flows {
+impl Feeds {
     /// Returns an evaluation with velocities as internal damping sees them, and one with those of the material.
     pub fn velocities<'a>(&'a mut self, at: ForceInput<'a>) -> [ForceInput<'a>; 2] {
         if self.list.is_empty() || at.v.is_empty() {
@@ -74,7 +74,7 @@ impl Flows {
             v.extend_from_slice(at.v);
         }
         self.strain_velocity(at.time, at.q, &mut strain);
-        self.list.iter().for_each(|flow| flow.add_drift(&flow.at(at.time), at.q, &mut material));
+        self.list.iter().for_each(|feed| feed.add_drift(&feed.at(at.time), at.q, &mut material));
         self.velocities = [strain, material];
         let [strain, material] = &self.velocities;
         [strain, material].map(|v| ForceInput { v, ..at })
@@ -84,30 +84,30 @@ impl Flows {
     /// from now on if the equations are made linear about it.
     pub fn add_drift_over_step(&mut self, state: &State, b: &mut StepVectors, linearise: bool) {
         let [middle, velocity, middle_before, velocity_before] = &mut b.means;
-        for flow in &mut self.list {
+        for feed in &mut self.list {
             if linearise {
-                flow.linearised = flow.extent.acceleration;
+                feed.linearised = feed.extent.acceleration;
             }
-            let acceleration = if flow.law.is_some() { flow.linearised } else { flow.extent.acceleration };
-            let about = Flow { extent: Extent { acceleration, ..flow.extent }, ..*flow };
-            flow.add_drift(&flow.over(state.time, b.h).0, middle, velocity);
-            flow.add_drift(&about.over(state.time, b.h).0, middle_before, velocity_before);
+            let acceleration = if feed.law.is_some() { feed.linearised } else { feed.extent.acceleration };
+            let about = FeedElement { extent: Extent { acceleration, ..feed.extent }, ..*feed };
+            feed.add_drift(&feed.over(state.time, b.h).0, middle, velocity);
+            feed.add_drift(&about.over(state.time, b.h).0, middle_before, velocity_before);
         }
     }
 
     /// Notes the forces on the lengths of mean forces on the nodes over a step of the discrete gradient from `time` of length `h` (s), in
     /// whose middle the coordinates are `middle`.
     pub fn note_point_forces(&mut self, (time, h): (f64, f64), middle: &[f64], force: &[f64]) {
-        for flow in &mut self.list {
-            flow.of_points = flow.on_length(flow.over(time, h).0.length, middle, force);
+        for feed in &mut self.list {
+            feed.of_points = feed.on_length(feed.over(time, h).0.length, middle, force);
         }
     }
 
     /// Returns the work in J that constant forces on the nodes do through the changes of lengths in a step of the discrete gradient.
     pub fn work_on_lengths(&self, state: &State, b: &StepVectors, force: &[f64]) -> f64 {
-        let work = |flow: &Flow| {
-            let mean = flow.over(state.time, b.h).0;
-            b.h * mean.rate * flow.on_length(mean.length, &b.means[0], force)
+        let work = |feed: &FeedElement| {
+            let mean = feed.over(state.time, b.h).0;
+            b.h * mean.rate * feed.on_length(mean.length, &b.means[0], force)
         };
         self.list.iter().map(work).sum()
     }
@@ -115,37 +115,43 @@ impl Flows {
 
 impl System {
     /// Returns the force on the length in N of effects at Gauss points, at the coordinates and velocities of an element at an eye; the lengths
-    /// must be [set](System::set_flows) to `time` (s).
-    pub(super) fn points_on_length(&self, model: &Model, flow: &Flow, time: f64, [q, v]: [&[f64; 12]; 2]) -> f64 {
+    /// must be [set](System::set_feeds) to `time` (s).
+    pub(super) fn points_on_length(
+        &self,
+        model: &Model,
+        feed: &FeedElement,
+        time: f64,
+        [q, v]: [&[f64; 12]; 2],
+    ) -> f64 {
         if !self.forces.at_points.any() {
             return 0.0;
         }
-        let extent = flow.at(time);
+        let extent = feed.at(time);
         let drift = drift(q, extent.length);
         let material = core::array::from_fn(|i| constant(v[i] + extent.rate * drift[i]));
-        dot(&drift, &self.points_of_flow(model, flow, time, q, &material).map(|f| f.value))
+        dot(&drift, &self.points_of_feed(model, feed, time, q, &material).map(|f| f.value))
     }
 
     /// Returns the forces in N of effects at Gauss points on the coordinates of an element at an eye, at these and the velocities of the material.
-    pub(super) fn points_of_flow(
+    pub(super) fn points_of_feed(
         &self,
         model: &Model,
-        flow: &Flow,
+        feed: &FeedElement,
         time: f64,
         q: &[f64; 12],
         material: &[Dual; 12],
     ) -> [Dual; 12] {
         let turned = |x: &dyn Fn(usize) -> f64| {
             let mut out = [0.0; 12];
-            flow.side.add(&core::array::from_fn(x), &mut out);
+            feed.side.add(&core::array::from_fn(x), &mut out);
             out
         };
         let [value, slope] = [turned(&|i| material[i].value), turned(&|i| material[i].slope)];
         let v = core::array::from_fn(|i| Dual { value: value[i], slope: slope[i] });
         let mut force = [constant(0.0); 12];
         let q = turned(&|i| q[i]).map(constant);
-        self.forces.at_points.add_dual(flow.element(model), time, &q, &v, &mut force);
-        let [value, slope] = [force.map(|f| f.value), force.map(|f| f.slope)].map(|x| flow.side.gather(&x));
+        self.forces.at_points.add_dual(feed.element(model), time, &q, &v, &mut force);
+        let [value, slope] = [force.map(|f| f.value), force.map(|f| f.slope)].map(|x| feed.side.gather(&x));
         core::array::from_fn(|i| Dual { value: value[i], slope: slope[i] })
     }
 }
@@ -155,8 +161,8 @@ mod tests {
     use super::super::some;
     use super::*;
     use crate::effect::Profile;
-    use crate::element::flow::flow_weights;
     use crate::element::side::Side;
+    use crate::element::variable_length::feed_weights;
     use crate::quadrature::gauss_legendre;
     use crate::{At, Cable, Drag, Flow as Fluid, Integrator, Method, Reel, Section, StepControl};
     use approx::assert_relative_eq;
@@ -165,7 +171,7 @@ mod tests {
     /// The generalised forces of drag, times the rates of all coordinates and lengths, are the power of the force per length on the
     /// particles, at random states of a cable with a reel at each end.
     ///
-    /// *Source.* Morison's formula at the Gauss points, and the velocity of the particles by [`flow_weights`], which is checked against
+    /// *Source.* Morison's formula at the Gauss points, and the velocity of the particles by [`feed_weights`], which is checked against
     /// differences in time.
     #[test]
     fn generalised_forces_of_drag_have_its_power() {
@@ -189,23 +195,23 @@ mod tests {
             let v: Vec<f64> = (0..30).map(|i| 2.0 * some(77 * seed + i + 5)).collect();
             let lengths = Side::BOTH.map(|side| 0.5 + 0.25 * some(seed + side as usize));
             let rates = Side::BOTH.map(|side| 3.0 * some(13 * seed + 7 * side as usize));
-            for flow in &mut cable.system.flows.list {
-                let side = flow.side as usize;
-                flow.extent = Extent { length: lengths[side], rate: rates[side], acceleration: 0.0 };
+            for feed in &mut cable.system.feeds.list {
+                let side = feed.side as usize;
+                feed.extent = Extent { length: lengths[side], rate: rates[side], acceleration: 0.0 };
             }
             let Cable { model, system, .. } = &mut cable;
-            system.set_flows(model, 0.0);
+            system.set_feeds(model, 0.0);
             let mut force = vec![0.0; 30];
             let at = ForceInput { time: 0.0, q: &q, v: &v, dv_dq: 0.0, scale: 1.0 };
-            let [_, material] = system.flows.velocities(at);
+            let [_, material] = system.feeds.velocities(at);
             let mut counts = Default::default();
             system.forces.at_points.add(system.level, material, &mut force, None, (4, &mut counts));
             let mut power: f64 = force.iter().zip(&v).map(|(f, v)| f * v).sum();
-            for flow in &system.flows.list {
-                let (q, v) = (flow.side.gather(&q), flow.side.gather(&v));
-                let own = system.points_on_length(model, flow, 0.0, [&q, &v]);
-                assert_relative_eq!(own, flow.on_length(lengths[flow.side as usize], at.q, &force), epsilon = 1e-9);
-                power += own * rates[flow.side as usize];
+            for feed in &system.feeds.list {
+                let (q, v) = (feed.side.gather(&q), feed.side.gather(&v));
+                let own = system.points_on_length(model, feed, 0.0, [&q, &v]);
+                assert_relative_eq!(own, feed.on_length(lengths[feed.side as usize], at.q, &force), epsilon = 1e-9);
+                power += own * rates[feed.side as usize];
             }
             let mut physical = 0.0;
             for e in 0..4 {
@@ -220,7 +226,7 @@ mod tests {
                     let place = of(&q, shape::position(xi, length), &q_own);
                     let mut speed = of(&v, shape::position(xi, length), &v_own);
                     if let Some(side) = side {
-                        speed += rates[side as usize] * of(&q, flow_weights(xi, length)[0], &q_own);
+                        speed += rates[side as usize] * of(&q, feed_weights(xi, length)[0], &q_own);
                     }
                     let along = of(&q, shape::slope(xi, length), &q_own).normalize();
                     let relative = speed - fluid.at(0.0, &place);

@@ -21,7 +21,7 @@
 //! dv = A^-1 r - y da,  y = A^-1 c        T(da) = T + row.(A^-1 r) - S da        S = row.y - T_a
 //! ```
 //!
-//! S > 0 is the apparent stiffness of all cables and bodies to the flow, so the alternative is decided by `T(a_0 - a)` exactly; several reels
+//! S > 0 is the apparent stiffness of all cables and bodies to the feed, so the alternative is decided by `T(a_0 - a)` exactly; several reels
 //! one after the other ([`unknowns`](super::unknowns)). c, row and T_a are of the element at the eye alone ([`linear`](super::linear)). Where all
 //! motors stick in an iterate, within the forces that are known of them last, da = 0 is tried first: such a reel costs what one with a given rate does. Whether the forces
 //! are within their limits is judged by the result.
@@ -37,7 +37,7 @@
 //! coordinate of every integrator. A limit on acceleration that begins at the rate of the wheel: a wheel that has slipped, because stretch was let go, is led back
 //! so slowly that the rope falls slack, and a brake stops nothing faster than that limit.
 
-use crate::element::flow::Extent;
+use crate::element::variable_length::Extent;
 use crate::error::{Error, require};
 use serde::{Deserialize, Serialize};
 
@@ -156,8 +156,8 @@ impl Law {
     }
 
     /// Begins a step of length `h` (s) at `time` (s) from an extent.
-    pub(super) fn begin(&mut self, flow: &Extent, time: f64, h: f64) {
-        let Extent { length, rate, .. } = *flow;
+    pub(super) fn begin(&mut self, feed: &Extent, time: f64, h: f64) {
+        let Extent { length, rate, .. } = *feed;
         let Motor { limits, duration, host, asked, acceleration, bounds, before, .. } = self.motor;
         let left = [length - bounds[0], bounds[1] - length];
         let [least, largest] = rates(acceleration, rate, left, h);

@@ -1,9 +1,10 @@
-//! Elements at eyes over a step of the [discrete gradient](crate::integrate::discrete_gradient): see [`flow`](super).
+//! Elements at eyes over a step of the [discrete gradient](crate::integrate::discrete_gradient): see [`feed`](super).
 
-use super::flows::Impulse;
-use super::{Flow, Flows, Source};
-use crate::element::flow::{FlowElement, Table, add_product};
+use super::feeds::Impulse;
+use super::{FeedElement, Feeds, Source};
+use crate::Real;
 use crate::element::mass;
+use crate::element::variable_length::{Table, add_product};
 use crate::model::Model;
 use crate::one_leg::BETA;
 use crate::simd::dispatch;
@@ -16,22 +17,22 @@ type Iterates = [[f64; 3]; 3];
 
 impl Equations<'_> {
     /// Sets the lengths of a step of the discrete gradient, and moves the eyes in its iterates to where they are on elements of the
-    /// lengths at the beginning; returns the true iterates by flow.
-    pub fn begin_flow_step(&mut self, state: &State, b: &mut StepVectors) -> [Iterates; 2] {
+    /// lengths at the beginning; returns the true iterates by feed.
+    pub fn begin_feed_step(&mut self, state: &State, b: &mut StepVectors) -> [Iterates; 2] {
         let mut saved = [Iterates::default(); 2];
-        for (k, saved) in (0..self.system.flows.list.len()).zip(&mut saved) {
-            let (mean, [l0, l1]) = self.system.flows.list[k].over(state.time, b.h);
+        for (k, saved) in (0..self.system.feeds.list.len()).zip(&mut saved) {
+            let (mean, [l0, l1]) = self.system.feeds.list[k].over(state.time, b.h);
             self.system.set_each_length(self.model, k, [l0, mean.length, 0.5 * (1.0 / l0 + 1.0 / l1)]);
-            let flow = &self.system.flows.list[k];
-            if flow.stands() {
+            let feed = &self.system.feeds.list[k];
+            if feed.stands() {
                 continue;
             }
-            let [far, eye] = flow.side.nodes(self.model.nodes()).map(|node| 6 * node);
+            let [far, eye] = feed.side.nodes(self.model.nodes()).map(|node| 6 * node);
             let lists = [&mut b.change, &mut b.linearised, &mut b.change_before];
             for (i, (list, saved)) in lists.into_iter().zip(saved).enumerate().filter(|(_, (list, _))| !list.is_empty())
             {
                 // the other end of the step: its end, or the beginning of the one before
-                let (sign, other) = if i < 2 { (1.0, l1) } else { (-1.0, flow.length_before) };
+                let (sign, other) = if i < 2 { (1.0, l1) } else { (-1.0, feed.length_before) };
                 for x in 0..3 {
                     saved[x] = list[eye + x];
                     let at_far = state.q[far + x] + sign * list[far + x];
@@ -43,14 +44,14 @@ impl Equations<'_> {
         saved
     }
 
-    /// Ends what [`begin_flow_step`](Self::begin_flow_step) began, and scales the forces of the elements on the eyes in the residual.
-    pub fn end_flow_step(&mut self, state: &State, b: &mut StepVectors, saved: [Iterates; 2]) {
-        for (flow, saved) in self.system.flows.list.iter_mut().zip(saved) {
-            let (_, [l0, l1]) = flow.over(state.time, b.h);
+    /// Ends what [`begin_feed_step`](Self::begin_feed_step) began, and scales the forces of the elements on the eyes in the residual.
+    pub fn end_feed_step(&mut self, state: &State, b: &mut StepVectors, saved: [Iterates; 2]) {
+        for (feed, saved) in self.system.feeds.list.iter_mut().zip(saved) {
+            let (_, [l0, l1]) = feed.over(state.time, b.h);
             let share = 0.5 * (1.0 + l0 / l1);
-            let [far, eye] = flow.side.nodes(self.model.nodes()).map(|node| 6 * node);
-            if flow.stands() {
-                flow.eye_force = core::array::from_fn(|x| b.rhs[eye + x] / b.h);
+            let [far, eye] = feed.side.nodes(self.model.nodes()).map(|node| 6 * node);
+            if feed.stands() {
+                feed.eye_force = core::array::from_fn(|x| b.rhs[eye + x] / b.h);
                 continue;
             }
             for (list, saved) in [&mut b.change, &mut b.linearised, &mut b.change_before].into_iter().zip(saved) {
@@ -60,44 +61,44 @@ impl Equations<'_> {
             }
             for x in 0..3 {
                 let force = b.rhs[eye + x];
-                flow.eye_force[x] = force / b.h;
+                feed.eye_force[x] = force / b.h;
                 b.rhs[eye + x] = share * force;
                 b.rhs[far + x] += (1.0 - share) * force;
             }
         }
     }
 
-    /// Adds the forces of the flows over a step of the discrete gradient to those without potential, and their derivatives to the
+    /// Adds the forces of the feeds over a step of the discrete gradient to those without potential, and their derivatives to the
     /// matrix if it is asked for.
-    pub fn add_flows_over_step(&mut self, state: &State, b: &mut StepVectors, matrix: bool) {
+    pub fn add_feeds_over_step(&mut self, state: &State, b: &mut StepVectors, matrix: bool) {
         let (model, system) = (self.model, &mut *self.system);
         let (step, rate) = ((state.time, b.h), 1.0 / b.h);
-        let Flows { list, impulses, .. } = &mut system.flows;
+        let Feeds { list, impulses, .. } = &mut system.feeds;
         impulses.resize(list.len(), Impulse::default());
-        for (flow, impulse) in list.iter().zip(impulses).filter(|(flow, _)| !flow.stands()) {
-            let motion = StepMotion::of(flow, state, b);
+        for (feed, impulse) in list.iter().zip(impulses).filter(|(feed, _)| !feed.stands()) {
+            let motion = StepMotion::of(feed, state, b);
             let own = dispatch!(system.level => {
                 // a given rate does not change within a step
-                if matrix || flow.law.is_some() || impulse.step != step {
-                    *impulse = flow.impulse(model, step, false);
+                if matrix || feed.law.is_some() || impulse.step != step {
+                    *impulse = Impulse { step, tables: feed.impulse(model, step, feed.extent.acceleration, false) };
                 }
-                impulse.of(&motion)
+                motion.impulse(&impulse.tables)
             });
-            flow.side.add(&own.map(|x| rate * x), &mut b.external);
+            feed.side.add(&own.map(|x| rate * x), &mut b.external);
             if matrix {
-                let table = flow.impulse_table(model, impulse);
-                flow.add_symmetric(model, &mut system.step.matrix, |r, c| table[r][c]);
+                let table = feed.impulse_table(model, impulse);
+                feed.add_symmetric(model, &mut system.step.matrix, |r, c| table[r][c]);
             }
         }
     }
 }
 
-impl Flows {
+impl Feeds {
     /// Moves the eyes in the change of coordinates over the last step to where they would be on elements of the present lengths.
     pub fn shift_eyes_before(&self, q: &[f64], change: &mut [f64]) {
-        for flow in &self.list {
-            let [far, eye] = flow.side.nodes(q.len() / 6).map(|node| 6 * node);
-            let ratio = flow.extent.length / flow.length_before;
+        for feed in &self.list {
+            let [far, eye] = feed.side.nodes(q.len() / 6).map(|node| 6 * node);
+            let ratio = feed.extent.length / feed.length_before;
             for x in 0..3 {
                 let [at_far, at_eye] = [far, eye].map(|node| q[node + x] - change[node + x]);
                 change[eye + x] = q[eye + x] - at_far - ratio * (at_eye - at_far);
@@ -115,16 +116,26 @@ pub(super) struct StepMotion {
 
 impl StepMotion {
     /// Returns that of the present iterate.
-    pub fn of(flow: &Flow, state: &State, b: &StepVectors) -> Self {
-        let of = |x: &[f64]| flow.side.gather(x);
+    pub fn of(feed: &FeedElement, state: &State, b: &StepVectors) -> Self {
+        let of = |x: &[f64]| feed.side.gather(x);
         StepMotion { q: [of(&state.q), of(&b.change)], v: [of(&state.v), of(&b.velocity_change)] }
+    }
+
+    /// Returns the product with tables.
+    #[inline(always)]
+    pub fn impulse(&self, tables: &[Table; 4]) -> [f64; 12] {
+        let mut out = [0.0; 12];
+        for (table, x) in tables.iter().zip(self.q.iter().chain(&self.v)) {
+            add_product(table, 1.0, x, &mut out);
+        }
+        out
     }
 }
 
 /// Returns a table by its entries.
 #[inline(always)]
-fn table(entry: impl Fn(usize, usize) -> f64) -> Table {
-    let mut out = [[0.0; 4]; 4];
+fn table<T: Real>(entry: impl Fn(usize, usize) -> T) -> Table<T> {
+    let mut out = [[entry(0, 0); 4]; 4];
     for a in 0..4 {
         for b in 0..4 {
             out[a][b] = entry(a, b);
@@ -133,58 +144,45 @@ fn table(entry: impl Fn(usize, usize) -> f64) -> Table {
     out
 }
 
-impl Impulse {
-    #[inline(always)]
-    pub fn of(&self, motion: &StepMotion) -> [f64; 12] {
-        let mut out = [0.0; 12];
-        for (table, x) in self.tables.iter().zip(motion.q.iter().chain(&motion.v)) {
-            add_product(table, 1.0, x, &mut out);
-        }
-        out
-    }
-
-    /// Returns the derivative by a number that changed by `by` to that of `moved`.
-    #[inline(always)]
-    pub fn derivative(&self, moved: &Impulse, by: f64) -> Impulse {
-        let rate = 1.0 / by;
-        let of = |k: usize| table(|a, b| rate * (moved.tables[k][a][b] - self.tables[k][a][b]));
-        Impulse { tables: [of(0), of(1), of(2), of(3)], ..*self }
-    }
-}
-
-impl Flow {
+impl FeedElement {
     /// Returns the impulse of the inertia of the element over a step, `-D p + h l' (G^T v^ + l' K q_m)` and the momentum of the material that
     /// enters at the eye; that of riding stock is a part of p, and what enters comes from it. Without `all` it is less the part
     /// `-M_m D v`, which the mass matrix has.
     #[inline(always)]
-    pub(super) fn impulse(&self, model: &Model, (time, h): (f64, f64), all: bool) -> Impulse {
-        let (mean, lengths) = self.over(time, h);
-        let of_mean = self.with(model, mean);
-        let inertia = of_mean.inertia;
-        let [mut first, last] = [time, time + h].map(|time| FlowElement { inertia, extent: self.at(time) });
-        first.extent.rate = self.left_rate.unwrap_or(first.extent.rate);
-        let mut mass_first = mass::consistent(inertia, lengths[0]);
-        let mut mass_last = mass::consistent(inertia, lengths[1]);
-        let mut in_matrix = [[0.0; 4]; 4];
-        mass_first[2][2] += self.stock(lengths[0]) * inertia;
-        mass_last[2][2] += self.stock(lengths[1]) * inertia;
-        if !all {
-            in_matrix = mass::consistent(inertia, mean.length);
-            in_matrix[2][2] += self.stock(mean.length) * inertia;
+    pub(super) fn impulse<T: Real>(
+        &self,
+        model: &Model,
+        step: (f64, f64),
+        acceleration: T,
+        all: bool,
+    ) -> [Table<T>; 4] {
+        let (_, h) = step;
+        let (mean, [mut first, last]) = self.over_with(step, acceleration);
+        let [first_length, last_length] = [first.length, last.length];
+        if let Some(rate) = self.left_rate {
+            first.rate = first.rate.splat(rate);
         }
+        let [of_mean, first, last] = [mean, first, last].map(|extent| self.with(model, extent));
+        let inertia = of_mean.inertia;
+        let mass = |length: T| {
+            let mut mass = mass::consistent(inertia, length);
+            mass[2][2] = mass[2][2] + self.stock(length) * inertia;
+            mass
+        };
+        let (mass_first, mass_last) = (mass(first_length), mass(last_length));
+        let in_matrix = if all { [[mean.rate.splat(0.0); 4]; 4] } else { mass(mean.length) };
         let (momentum_first, momentum_last) = (first.momentum_matrix(), last.momentum_matrix());
         let [mut by_change, mut by_position] = of_mean.gradient_matrices();
         if self.source == Source::Outside {
-            by_change[2][2] += inertia * mean.rate;
-            by_position[2][3] -= inertia * mean.rate * mean.rate;
+            by_change[2][2] = by_change[2][2] + mean.rate * inertia;
+            by_position[2][3] = by_position[2][3] - mean.rate * inertia * mean.rate;
         }
-        let tables = [
-            table(|a, b| momentum_first[a][b] - momentum_last[a][b] + h * by_position[a][b]),
-            table(|a, b| by_change[a][b] + 0.5 * h * by_position[a][b] - momentum_last[a][b]),
+        [
+            table(|a, b| momentum_first[a][b] - momentum_last[a][b] + by_position[a][b] * h),
+            table(|a, b| by_change[a][b] + by_position[a][b] * (0.5 * h) - momentum_last[a][b]),
             table(|a, b| mass_first[a][b] - mass_last[a][b]),
             table(|a, b| in_matrix[a][b] - mass_last[a][b]),
-        ];
-        Impulse { step: (time, h), tables }
+        ]
     }
 
     /// Returns the negative derivatives of the [impulse](Self::impulse), without the part of the mass matrix, by the changes of velocity. With

@@ -1,9 +1,9 @@
 //! Drums that are bodies of an island.
 //!
-//! Equation, validity and alternatives: `system/flow/drum.rs`.
+//! Equation, validity and alternatives: `system/reel/drum.rs`.
 
-use super::body::RigidBody;
-use super::pin::PinConstraint;
+use super::super::body::RigidBody;
+use super::super::pin::PinConstraint;
 use crate::cable::Cable;
 use crate::element::side::Side;
 use crate::error::{Error, require};
