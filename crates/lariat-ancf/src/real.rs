@@ -39,6 +39,11 @@ pub trait Real:
     fn is_above(self, limit: f64) -> bool;
 }
 
+/// A number that can be combined with those of a type of fewer derivatives, or of the same.
+pub(crate) trait Over<T>: Real + Sub<T, Output = Self> + Mul<T, Output = Self> {}
+
+impl<T, U: Real + Sub<T, Output = U> + Mul<T, Output = U>> Over<T> for U {}
+
 impl Real for f64 {
     #[inline(always)]
     fn splat(self, value: f64) -> Self {

@@ -56,7 +56,7 @@ impl Snapshot {
         self.work += core::mem::take(&mut system.meter.work);
         self.load = system.load;
         self.law.merge(&core::mem::take(&mut system.meter.law));
-        for (winding, work) in self.windings.iter_mut().zip(core::mem::take(&mut system.meter.reel_work)) {
+        for (winding, work) in self.windings.iter_mut().zip(core::mem::take(&mut system.meter.feed_work)) {
             winding.iter_mut().for_each(|winding| winding.work += work);
         }
         // with a reel, the lengths on which they act change: it is in the work of the steps

@@ -36,6 +36,7 @@
 
 use super::shape;
 use crate::Real;
+use crate::real::Over;
 
 /// A table over (r_i, t_i, r_j, t_j); those of integers are times 420.
 pub(crate) type Table<T = f64> = [[T; 4]; 4];
@@ -161,10 +162,10 @@ impl<T: Real> VariableLength<T> {
 
     /// Returns B without the strain energy, in N: inertia and weight, with accelerations `a` of the coordinates.
     #[inline(always)]
-    pub fn length_force(&self, [q, v, a]: [&[T; 12]; 3], weight: &[f64; 3]) -> T {
+    pub fn length_force<U: Over<T>>(&self, [q, v, a]: [&[U; 12]; 3], weight: &[f64; 3]) -> U {
         let Extent { length, rate, acceleration } = self.extent;
         let square = [(acceleration / length, &K), (rate * rate / (length * length) * 0.5, &J_SUM)];
-        let mut force = [length.splat(0.0); 12];
+        let mut force = [q[0].splat(0.0); 12];
         add_product(&self.weighted([(length.splat(1.0), &G_T)]), 1.0, a, &mut force);
         add_product(&self.weighted([(rate * 2.0 / length, &K)]), 1.0, v, &mut force);
         add_product(&self.weighted(square), 1.0, q, &mut force);
@@ -192,11 +193,11 @@ pub(crate) fn dot<T: Real>(x: &[T; 12], y: &[T; 12]) -> T {
 
 /// Adds `scale` times the product of a table and 12 coordinates.
 #[inline(always)]
-pub(crate) fn add_product<T: Real>(table: &Table<T>, scale: f64, x: &[T; 12], out: &mut [T; 12]) {
+pub(crate) fn add_product<T: Real, U: Over<T>>(table: &Table<T>, scale: f64, x: &[U; 12], out: &mut [U; 12]) {
     for a in 0..4 {
         for b in 0..4 {
             for i in 0..3 {
-                out[3 * a + i] = out[3 * a + i] + table[a][b] * scale * x[3 * b + i];
+                out[3 * a + i] = out[3 * a + i] + x[3 * b + i] * (table[a][b] * scale);
             }
         }
     }

@@ -68,7 +68,7 @@ impl Equations<'_> {
     pub fn add_work(&mut self, before: &State, after: &State, h: f64, range: Range<usize>, driven: &[usize]) {
         for k in 0..self.system.feeds.list.len() {
             let feed = self.system.feeds.list[k];
-            self.system.meter.reel_work[feed.side as usize] += self.feed_work(&feed, before, after, h, range.clone());
+            self.system.meter.feed_work[feed.side as usize] += self.feed_work(&feed, before, after, h, range.clone());
         }
         self.add_effect_work(before, after, h, range.clone());
         if !driven.is_empty() || self.model.supports.iter().any(moves) {

@@ -54,7 +54,7 @@ impl Loads {
         self.of_effects.add(&mut self.dead_force);
     }
 
-    /// Sets weight and line load of element `e` to those of its length in m, with the weight of stock of a length in m at each end.
+    /// Sets weight and line load of element `e` to those of its length in m, with the weight of a length in m of material beyond each end.
     pub fn weigh_element(&mut self, model: &Model, e: usize, length: impl Fn(usize) -> f64, at_ends: [f64; 2]) {
         let (own, last) = (6 * e..6 * e + 12, model.elements.len());
         let loaded = !self.of_effects.line_loads.is_empty();
@@ -76,11 +76,11 @@ impl Loads {
                 }
             }
         }
-        for (node, stock) in
+        for (node, beyond) in
             [(0, at_ends[0]), (last, at_ends[1])].into_iter().filter(|(node, _)| (e..=e + 1).contains(node))
         {
             let weight = model.weight(&model.elements[node.min(last - 1)]);
-            (0..3).for_each(|x| self.gravity_force[6 * node + x] += stock * weight[x]);
+            (0..3).for_each(|x| self.gravity_force[6 * node + x] += beyond * weight[x]);
         }
         self.dead_force[own.clone()].copy_from_slice(&self.gravity_force[own.clone()]);
         if loaded {

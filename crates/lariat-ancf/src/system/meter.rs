@@ -9,8 +9,8 @@ pub(crate) struct EnergyMeter {
     pub work: EffectWork,
     /// The work of effects in a step of the discrete gradient.
     pub work_of_step: EffectWork,
-    /// By end, work of a reel and of the material that enters in the present host step, in J.
-    pub reel_work: [f64; 2],
+    /// By end, work of what pays material out, and of the material, in the present host step, in J.
+    pub feed_work: [f64; 2],
     /// The energy law of the present host step.
     pub law: EnergyLaw,
     pub(super) q: Vec<f64>,
@@ -25,7 +25,7 @@ impl EnergyMeter {
     /// Begins a host step.
     pub fn begin(&mut self) {
         self.work = EffectWork::default();
-        self.reel_work = [0.0; 2];
+        self.feed_work = [0.0; 2];
         self.law = EnergyLaw::default();
     }
 }

@@ -6,7 +6,7 @@
 //! [pull](super::work) of the winch, m the inertia of the wheel and of the stock on it, and T the force of the motor,
 //!
 //! ```text
-//! m a = F - T        a = a_0 and |T| <= T_max,   or   T = T_max and a > a_0,   or   T = -T_max and a < a_0
+//! m a = F - T        T in T_max Sign(a - a_0)
 //! ```
 //!
 //! a_0 is what the *commanded rate* c needs. The shaft of the motor turns with it: c approaches the rate asked for, linearly over a host step and within the limit on
@@ -21,7 +21,7 @@
 //! dv = A^-1 r - y da,  y = A^-1 c        T(da) = T + row.(A^-1 r) - S da        S = row.y - T_a
 //! ```
 //!
-//! S > 0 is the apparent stiffness of all cables and bodies to the feed, so the alternative is decided by `T(a_0 - a)` exactly; several reels
+//! S > 0 is the apparent stiffness of all cables and bodies to the feed, so the [graph](super::graph) is met exactly; several reels
 //! one after the other ([`unknowns`](super::unknowns)). c, row and T_a are of the element at the eye alone ([`linear`](super::linear)). Where all
 //! motors stick in an iterate, within the forces that are known of them last, da = 0 is tried first: such a reel costs what one with a given rate does. Whether the forces
 //! are within their limits is judged by the result.
@@ -37,6 +37,7 @@
 //! coordinate of every integrator. A limit on acceleration that begins at the rate of the wheel: a wheel that has slipped, because stretch was let go, is led back
 //! so slowly that the rope falls slack, and a brake stops nothing faster than that limit.
 
+use super::graph::{Bound, Graph};
 use crate::element::variable_length::Extent;
 use crate::error::{Error, require};
 use serde::{Deserialize, Serialize};
@@ -107,8 +108,8 @@ pub(crate) struct Law {
     pub(super) commanded: f64,
     /// Largest force of the motor in N, in the mean of the step.
     pub(super) limit: f64,
-    /// Accelerations of the step: least, wanted, largest.
-    pub(super) planned: [f64; 3],
+    /// Accelerations of the step.
+    pub(super) graph: Graph,
     /// Accelerations beyond which no iterate goes.
     pub(super) reach: [f64; 2],
     /// Derivatives of the force of the motor by the velocity changes of the element, and by the acceleration.
@@ -168,7 +169,8 @@ impl Law {
         });
         let target = asked.clamp(from - acceleration * over, from + acceleration * over);
         self.commanded = if share == 1.0 { target } else { from + share * (target - from) }.clamp(least, largest);
-        self.planned = [least, self.commanded, largest].map(|end| (end - rate) / h);
+        let [least, wanted, largest] = [least, self.commanded, largest].map(|end| (end - rate) / h);
+        self.graph = Graph { least, wanted, largest };
         let middle = (time + 0.5 * h - self.begun) / duration;
         self.limit = limits[1] + (1.0 - middle).clamp(0.0, 1.0) * (limits[0] - limits[1]);
         self.reach = REACH.map(|share| 2.0 * ((share - 1.0) * length - h * rate) / (h * h));
@@ -176,47 +178,11 @@ impl Law {
 
     /// Returns the acceleration that is nearest to one, within the stops and the reach of an iterate.
     pub(super) fn bounded(&self, acceleration: f64) -> f64 {
-        let [least, _, largest] = self.planned;
-        acceleration.max(least).min(largest).max(self.reach[0]).min(self.reach[1])
+        self.graph.bounded(acceleration).max(self.reach[0]).min(self.reach[1])
     }
 
-    /// Returns the acceleration of a stop at an end of the cable, if this one goes beyond it.
-    pub(super) fn stop(&self, acceleration: f64) -> Option<f64> {
-        let [least, _, largest] = self.planned;
-        let rounding = 1e-9 * (1.0 + acceleration.abs());
-        if acceleration > largest - rounding {
-            Some(largest)
-        } else {
-            (acceleration < least + rounding).then_some(least)
-        }
-    }
-
-    /// Returns the acceleration of an iterate at which the motor would have the force `at(a)`, which falls with the slope `-stiffness`.
-    pub(super) fn acceleration_for(&self, present: f64, force: f64, stiffness: f64) -> f64 {
-        let wanted = self.planned[1];
-        let stuck = force - stiffness * (wanted - present);
-        let slipping = present + (force - self.limit.copysign(stuck)) / stiffness;
-        let wished = if stuck.abs() <= self.limit { wanted } else { slipping };
-        self.bounded(wished)
-    }
-
-    /// Returns by how much the force of the motor in N breaks the law at an acceleration.
-    pub(super) fn violation(&self, acceleration: f64) -> f64 {
-        let [least, wanted, largest] = self.planned;
-        let rounding = 1e-12 * (1.0 + acceleration.abs());
-        let limit = self.limit;
-        if (acceleration - wanted).abs() <= rounding {
-            // a motor that is asked to stand at a stop: that pulls what the motor cannot
-            let beyond = if wanted >= largest - rounding { 0.0 } else { (self.force - limit).max(0.0) };
-            let below = if wanted <= least + rounding { 0.0 } else { (-limit - self.force).max(0.0) };
-            beyond.max(below)
-        } else if acceleration >= largest - rounding {
-            // a stop pulls as it must
-            (limit - self.force).max(0.0)
-        } else if acceleration <= least + rounding {
-            (limit + self.force).max(0.0)
-        } else {
-            (self.force - limit.copysign(acceleration - wanted)).abs()
-        }
+    /// Returns the largest force of the motor.
+    pub(super) fn bound(&self) -> Bound {
+        Bound { limit: self.limit, ..Bound::default() }
     }
 }

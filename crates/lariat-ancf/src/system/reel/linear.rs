@@ -28,6 +28,7 @@ use super::effects::drift;
 use super::feeds::control;
 use super::step::StepMotion;
 use super::{FeedElement, Source};
+use crate::Real;
 use crate::dual::{Dual, constant};
 use crate::effect::acts::Single;
 use crate::element::gram::Control;
@@ -36,13 +37,14 @@ use crate::element::step::ElementStep;
 use crate::element::variable_length::{Extent, dot};
 use crate::model::Model;
 use crate::one_leg::BETA;
+use crate::real::Over;
 use crate::simd::dispatch;
 use crate::state::State;
 use crate::system::StepVectors;
 use crate::system::{Equations, System};
 
-/// A number with its derivatives by the 12 velocity changes of an element and by its acceleration.
-type ByMotion = Dual<[f64; 13]>;
+/// A number with its derivatives by the 12 velocity changes of an element.
+type ByVelocity = Dual<[f64; 12]>;
 /// A number with its derivatives by the nine components of the control vectors at the end of a step, and by the length there.
 type ByStrain = Dual<[f64; 10]>;
 
@@ -67,11 +69,11 @@ impl Equations<'_> {
         let (model, system, h) = (self.model, &*self.system, b.h);
         let (step, acceleration) = ((state.time, h), feed.extent.acceleration);
         let (mean, motion) = (feed.over(state.time, h).0, StepMotion::of(&feed, state, b));
-        let [q, v, a] = self.motion_of_step(&feed, state, b);
+        let [q, v, a] = motion.mean(h);
         let before = feed.side.gather(&b.change_before);
         let strains = system.strains_over_step(model, &feed, (&motion, step), (&before, b.kept));
         let points = system.points_by_acceleration(&feed, model, state.time + 0.5 * h, h, [&q, &v]);
-        let inertia = motor_by_motion(model, &feed, step, [&q, &v, &a]);
+        let (inertia, inertia_own) = motor_by_motion(model, &feed, step, [&q, &v, &a]);
         let moving = Dual { value: acceleration, slope: 1.0 };
         let by_acceleration =
             motion.impulse(&feed.impulse(model, step, moving, true).map(|table| table.map(|row| row.map(|x| x.slope))));
@@ -84,7 +86,7 @@ impl Equations<'_> {
             // drag is symmetric
             law.row[i] = inertia[i] - BETA * h * by_coordinate[i] + 2.0 * BETA / h * points[i];
         }
-        law.own = inertia[12] - 0.5 * h * h * by_length + dot(&drift(&q, mean.length), &points);
+        law.own = inertia_own - 0.5 * h * h * by_length + dot(&drift(&q, mean.length), &points);
         out.clear();
         out.resize(b.rhs.len(), 0.0);
         feed.side.add(&column, out);
@@ -92,15 +94,24 @@ impl Equations<'_> {
     }
 }
 
-/// Returns the derivatives of the force of a motor without that of strains, by 12 velocity changes and the acceleration.
+/// Returns the derivatives of the force of a motor without that of strains, by 12 velocity changes and by the acceleration.
 #[inline(always)]
-fn motor_by_motion(model: &Model, feed: &FeedElement, step: (f64, f64), motion: [&[f64; 12]; 3]) -> [f64; 13] {
-    let h = step.1;
-    let rates = [0.5 * BETA * h, BETA, 1.0 / h];
-    let [q, v, a] = core::array::from_fn(|k| core::array::from_fn(|i| ByMotion::along(motion[k][i], i, rates[k])));
-    let (mean, _) = feed.over_with(step, ByMotion::along(feed.extent.acceleration, 12, 1.0));
-    let on_length = feed.with(model, mean).length_force([&q, &v, &a], &feed.dead(model));
-    feed.motor(model, mean, &q, on_length).slope
+fn motor_by_motion(model: &Model, feed: &FeedElement, step: (f64, f64), motion: [&[f64; 12]; 3]) -> ([f64; 12], f64) {
+    #[inline(always)]
+    fn force<T: Real, U: Over<T>>(
+        (model, feed): (&Model, &FeedElement),
+        mean: Extent<T>,
+        [q, v, a]: [&[U; 12]; 3],
+    ) -> U {
+        let on_length = feed.with(model, mean).length_force([q, v, a], &feed.dead(model));
+        feed.motor(model, mean, q, on_length)
+    }
+    let rates = [0.5 * BETA * step.1, BETA, 1.0 / step.1];
+    let [q, v, a] = core::array::from_fn(|k| core::array::from_fn(|i| ByVelocity::along(motion[k][i], i, rates[k])));
+    let row = force((model, feed), feed.over(step.0, step.1).0, [&q, &v, &a]).slope;
+    let [q, v, a] = motion.map(|x| x.map(constant::<f64>));
+    let moving = Dual { value: feed.extent.acceleration, slope: 1.0 };
+    (row, force((model, feed), feed.over_with(step, moving).0, [&q, &v, &a]).slope)
 }
 
 impl System {
@@ -114,8 +125,7 @@ impl System {
         (motion, (time, h)): (&StepMotion, (f64, f64)),
         (before, kept): (&[f64; 12], f64),
     ) -> Strains {
-        let [start, change] = &motion.q;
-        let end: &[f64; 12] = &core::array::from_fn(|i| start[i] + change[i]);
+        let (start, end) = (&motion.q[0], &motion.end());
         let (_, [l0, l1]) = feed.over(time, h);
         let at_before = control(&core::array::from_fn(|i| start[i] - before[i]), feed.length_before);
         let (d0, d1) = (control(start, l0), control(end, l1));

@@ -29,6 +29,7 @@
 mod drum;
 mod effects;
 mod feeds;
+mod graph;
 mod law;
 mod lengths;
 mod linear;

@@ -1,10 +1,13 @@
 //! Reels whose rate is an unknown, in the equations of their cable. Equation: [`law`](super::law).
 
+use super::graph::Graph;
 use super::law::Law;
+use super::step::StepMotion;
 use super::{FeedElement, Feeds};
 use crate::Real;
 use crate::element::variable_length::Extent;
 use crate::model::Model;
+use crate::real::Over;
 use crate::reel::Feed;
 use crate::state::State;
 use crate::system::Equations;
@@ -30,14 +33,14 @@ impl FeedElement {
         let [least, largest] = self.reach();
         self.linearised = self.extent.acceleration;
         self.extent.acceleration = acceleration.max(least).min(largest);
-        self.stopped = self.law.is_some_and(|law| law.stop(acceleration).is_some());
+        self.stopped = self.law.is_some_and(|law| law.graph.stop(acceleration).is_some());
     }
 
     /// Returns whether a motor holds the rate that is asked for, with a force in N of the last iterate that it has.
     fn sticks(&self) -> bool {
         self.law.is_none_or(|law| {
             let alone = !matches!(self.kind, Feed::Sheave | Feed::BodyDrum);
-            alone && self.extent.acceleration == law.bounded(law.planned[1]) && law.force.abs() <= law.limit
+            alone && self.extent.acceleration == law.bounded(law.graph.wanted) && law.force.abs() <= law.limit
         })
     }
 
@@ -70,9 +73,9 @@ impl Law {
 impl FeedElement {
     /// Returns the force in N of the motor at an extent, from the force on the length.
     #[inline(always)]
-    pub(super) fn motor<T: Real>(&self, model: &Model, extent: Extent<T>, q: &[T; 12], on_length: T) -> T {
+    pub(super) fn motor<T: Real, U: Over<T>>(&self, model: &Model, extent: Extent<T>, q: &[U; 12], on_length: U) -> U {
         let element = self.with(model, extent);
-        let mut wheel = on_length.splat(0.0);
+        let mut wheel = extent.length.splat(0.0);
         if let Some(law) = &self.law {
             wheel = wheel + law.motor.wheel;
             let stock = law.motor.bounds[1];
@@ -80,7 +83,7 @@ impl FeedElement {
                 wheel = wheel + (-(extent.length - stock)).at_least(0.0) * element.inertia;
             }
         }
-        self.kind.pull(&element, q, on_length) + self.lost(model, q, extent.rate) - wheel * extent.acceleration
+        self.pull(model, &element, q, on_length) - wheel * extent.acceleration
     }
 }
 
@@ -98,20 +101,13 @@ impl Equations<'_> {
             if feed.kind == Feed::BodyDrum && (feed.start != time || feed.left_rate.is_none()) {
                 feed.left_rate = Some(extent.rate);
             }
-            let slipped = feed.extent.acceleration != law.planned[1];
+            let slipped = feed.extent.acceleration != law.graph.wanted;
             (feed.start, feed.extent) = (time, extent);
             law.begin(&extent, time, h);
-            let [least, wanted, largest] = law.planned;
+            let Graph { least, wanted, largest } = law.graph;
             feed.extent.acceleration = law.bounded(if slipped { extent.acceleration } else { wanted });
             feed.stopped = wanted == least || wanted == largest;
         }
-    }
-
-    /// Returns the middle and the mean rates of the element at an eye over the present iterate.
-    pub(super) fn motion_of_step(&self, feed: &FeedElement, state: &State, b: &StepVectors) -> [[f64; 12]; 3] {
-        let rate = 1.0 / b.h;
-        let [velocity, acceleration] = [&b.change, &b.velocity_change].map(|x| feed.side.gather(x).map(|x| rate * x));
-        [self.middle_of_step(feed, state, b), velocity, acceleration]
     }
 
     /// Computes the forces of the motors of the present iterate.
@@ -122,7 +118,7 @@ impl Equations<'_> {
                 continue;
             }
             let on_length = self.on_length_of_step(feed, state, b);
-            let (mean, q) = (feed.over(state.time, b.h).0, self.middle_of_step(feed, state, b));
+            let (mean, [q, ..]) = (feed.over(state.time, b.h).0, StepMotion::of(feed, state, b).mean(b.h));
             let force = feed.motor(self.model, mean, &q, on_length.force);
             let feed = &mut self.system.feeds.list[k];
             feed.on_length = on_length;
@@ -139,7 +135,7 @@ impl Equations<'_> {
                 // a sheave has one law for both of its feeds, and a drum that of its body
                 if !matches!(feed.kind, Feed::Sheave | Feed::BodyDrum) {
                     let entry = balance.to(Account::Reels);
-                    entry.missed += law.violation(acceleration);
+                    entry.missed += law.graph.violation(acceleration, law.force, law.limit);
                     entry.forces += law.force.abs();
                 }
                 if law.reach.contains(&acceleration) {

@@ -121,6 +121,19 @@ impl StepMotion {
         StepMotion { q: [of(&state.q), of(&b.change)], v: [of(&state.v), of(&b.velocity_change)] }
     }
 
+    /// Returns the coordinates at the end.
+    pub fn end(&self) -> [f64; 12] {
+        let [start, change] = &self.q;
+        core::array::from_fn(|i| start[i] + change[i])
+    }
+
+    /// Returns the middle and the mean rates over the step of length `h` (s).
+    pub fn mean(&self, h: f64) -> [[f64; 12]; 3] {
+        let ([start, change], [_, velocity_change], rate) = (&self.q, &self.v, 1.0 / h);
+        let middle = core::array::from_fn(|i| start[i] + 0.5 * change[i]);
+        [middle, change.map(|x| rate * x), velocity_change.map(|x| rate * x)]
+    }
+
     /// Returns the product with tables.
     #[inline(always)]
     pub fn impulse(&self, tables: &[Table; 4]) -> [f64; 12] {

@@ -7,8 +7,9 @@
 
 use super::Feeds;
 use super::drum::{Pair, Winch};
+use super::graph::Line;
 use super::law::Law;
-use super::wheel::{Pulls, Wheel};
+use super::wheel::Wheel;
 
 /// Most sweeps over several reels and sheaves.
 const SWEEPS: usize = 1000;
@@ -124,11 +125,6 @@ impl Unknowns {
         let mut increments = core::mem::take(&mut self.increments);
         let mut stops = core::mem::take(&mut self.stops);
         self.solve_unknowns(&mut increments, &mut stops);
-        for wheel in &mut self.wheels {
-            let [a, b] = wheel.feeds;
-            increments[b] = wheel.secant(self.list[b].acceleration, increments[b]);
-            increments[a] = -increments[b];
-        }
         (self.increments, self.stops) = (increments, stops);
     }
 
@@ -152,22 +148,21 @@ impl Unknowns {
             let mut moved = 0.0f64;
             for i in (0..unknowns.len()).filter(|&i| !law_of_other(i)) {
                 let unknown = &unknowns[i];
-                let own = stiffness(i, i);
-                let own = if own > 0.0 { own } else { f64::MIN_POSITIVE };
-                let new = unknown.law.acceleration_for(unknown.acceleration, force(increments, i, &[i]), own)
-                    - unknown.acceleration;
+                let Unknown { law, acceleration, .. } = unknown;
+                let line = Line { value: force(increments, i, &[i]), stiffness: stiffness(i, i) };
+                let at = law.graph.meet(*acceleration, line, &law.bound(), &[Line::default(); 2]);
+                let new = law.bounded(at) - acceleration;
                 moved = moved.max((new - increments[i]).abs());
                 increments[i] = new;
             }
             for wheel in wheels {
                 let [a, b] = wheel.feeds;
                 let acceleration = unknowns[b].acceleration;
-                let pulls = Pulls {
-                    force: [a, b].map(|i| force(increments, i, &wheel.feeds)),
-                    stiffness: [a, b].map(|i| stiffness(i, b) - stiffness(i, a)),
-                    acceleration,
-                };
-                let new = wheel.acceleration_for(&pulls) - acceleration;
+                let pulls = [a, b].map(|i| Line {
+                    value: force(increments, i, &wheel.feeds),
+                    stiffness: stiffness(i, b) - stiffness(i, a),
+                });
+                let new = wheel.acceleration_for(acceleration, &pulls) - acceleration;
                 moved = moved.max((new - increments[b]).abs());
                 (increments[a], increments[b]) = (-new, new);
             }
@@ -181,7 +176,7 @@ impl Unknowns {
                     stiffness: own.map(|j| stiffness(own[0], j)),
                 };
                 let Unknown { law, acceleration, .. } = unknowns[own[0]];
-                let (new, stop) = pair.solve(|x| law.stop(acceleration + x).map(|end| end - acceleration));
+                let (new, stop) = pair.solve(|x| law.graph.stop(acceleration + x).map(|end| end - acceleration));
                 moved = moved.max((new[0] - increments[own[0]]).abs());
                 (increments[own[0]], increments[own[1]], stops[k]) = (new[0], new[1], stop);
             }

@@ -36,11 +36,13 @@
 //! with the mean acceleration: misses 3e-4 still. The middle alone misses up to a third of the work of a rope that is paid out.
 
 use super::feeds::{OnLength, control};
+use super::step::StepMotion;
 use super::{FeedElement, Source};
 use crate::Real;
 use crate::effect::work::{POINTS, hermite};
 use crate::element::variable_length::{Extent, VariableLength};
 use crate::model::Model;
+use crate::real::Over;
 use crate::reel::Feed;
 use crate::simd::dispatch;
 use crate::state::State;
@@ -69,7 +71,7 @@ impl System {
             element.length_force(motion, &feed.dead(model)) + strain - self.points_on_length(model, feed, time, [q, v]);
         let on_length = others + damping;
         FeedForce {
-            pull: feed.kind.pull(&element, q, on_length) + feed.lost(model, q, extent.rate),
+            pull: feed.pull(model, &element, q, on_length),
             power: extent.rate * (others + entering(&element, &weight, q, v)),
             damping: extent.rate * damping,
         }
@@ -118,33 +120,23 @@ impl Equations<'_> {
     pub(super) fn on_length_of_step(&self, feed: &FeedElement, state: &State, b: &StepVectors) -> OnLength {
         let (model, system) = (self.model, &*self.system);
         let (mean, [l0, l1]) = feed.over(state.time, b.h);
-        let (start, change) = (feed.side.gather(&state.q), feed.side.gather(&b.change));
-        let (mut middle, mut end) = (start, start);
-        for i in 0..12 {
-            middle[i] += 0.5 * change[i];
-            end[i] += change[i];
-        }
+        let motion = StepMotion::of(feed, state, b);
+        let [middle, velocity, acceleration] = &motion.mean(b.h);
         let energy = |q: &[f64; 12], l: f64| system.feed_energy(model, feed, &control(q, l), l);
-        let begin = feed.on_length.begin.filter(|_| feed.law.is_some()).unwrap_or_else(|| energy(&start, l0));
-        let end = energy(&end, l1);
+        let begin = feed.on_length.begin.filter(|_| feed.law.is_some()).unwrap_or_else(|| energy(&motion.q[0], l0));
+        let end = energy(&motion.end(), l1);
         let of_eye: f64 = (0..3).map(|x| feed.eye_force[x] * (middle[6 + x] - middle[x])).sum();
         let elastic = strain_on_length([begin, end], [l0, l1], of_eye);
-        let rate = 1.0 / b.h;
-        let [velocity, acceleration] = [change, feed.side.gather(&b.velocity_change)].map(|x| x.map(|x| rate * x));
         let (element, dead) = (feed.with(model, mean), feed.dead(model));
-        let inertial = dispatch!(system.level => element.length_force([&middle, &velocity, &acceleration], &dead));
+        let inertial = dispatch!(system.level => element.length_force([middle, velocity, acceleration], &dead));
         OnLength { force: elastic + inertial - feed.of_points, begin: Some(begin), end }
     }
 
     /// Returns what entering material brings in N beside the force on the length, in the mean of a step of the discrete gradient.
-    fn entering_in_step(&self, feed: &FeedElement, element: &VariableLength, q: &[f64; 12], b: &StepVectors) -> f64 {
+    fn entering_in_step(&self, feed: &FeedElement, element: &VariableLength, [q, v, _]: &[[f64; 12]; 3]) -> f64 {
         let rate = element.extent.rate;
         match feed.source {
-            Source::Outside => {
-                let rate = 1.0 / b.h;
-                let velocity = feed.side.gather(&b.change).map(|x| rate * x);
-                entering(element, &feed.weight(self.model), q, &velocity)
-            }
+            Source::Outside => entering(element, &feed.weight(self.model), q, v),
             // the stock, or the other cable, is a part of the system
             Source::Stock(_) | Source::Cable => 0.5 * element.inertia * rate * rate * square_of_stretch(q),
         }
@@ -159,48 +151,40 @@ impl Equations<'_> {
                 Some(_) => feed.on_length.force,
                 None => self.on_length_of_step(feed, state, b).force,
             };
-            let (element, q) = (feed.with(self.model, mean), self.middle_of_step(feed, state, b));
-            let work = (l1 - l0) * (force + self.entering_in_step(feed, &element, &q, b));
-            let pull = feed.kind.pull(&element, &q, force) + feed.lost(self.model, &q, mean.rate);
+            let (element, motion) = (feed.with(self.model, mean), StepMotion::of(feed, state, b).mean(b.h));
+            let work = (l1 - l0) * (force + self.entering_in_step(feed, &element, &motion));
+            let pull = feed.pull(self.model, &element, &motion[0], force);
             let own = &mut self.system.feeds.list[k];
             (own.length_before, own.pull) = (l0, Some(pull));
-            self.system.meter.reel_work[own.side as usize] += work;
+            self.system.meter.feed_work[own.side as usize] += work;
         }
-    }
-}
-
-impl Equations<'_> {
-    /// Returns the middle of the coordinates of the element at an eye over a step of the discrete gradient.
-    pub fn middle_of_step(&self, feed: &FeedElement, state: &State, b: &StepVectors) -> [f64; 12] {
-        let (q, change) = (feed.side.gather(&state.q), feed.side.gather(&b.change));
-        core::array::from_fn(|i| q[i] + 0.5 * change[i])
-    }
-}
-
-impl Feed {
-    /// Returns the pull of the winch from the force on the length, without the energy that is lost.
-    #[inline(always)]
-    pub(super) fn pull<T: Real>(self, element: &VariableLength<T>, q: &[T; 12], on_length: T) -> T {
-        let rate = element.extent.rate;
-        // what is lost to the momentum of entering material over rho l'^2: the factor of f^2, and the rest
-        let [of_square, constant] = match self {
-            Feed::Bag if rate.is_above(0.0) => [0.5, 0.0],
-            Feed::Coil if rate.is_above(0.0) => [1.0, 0.0],
-            _ => [0.5, -0.5],
-        };
-        -on_length - rate * element.inertia * rate * (square_of_stretch(q) * of_square + constant)
     }
 }
 
 impl FeedElement {
-    /// Returns the strain energy per length at the eye, if stock from a coil loses it, in N.
+    /// Returns the pull of the winch from the force on the length.
     #[inline(always)]
-    pub(super) fn lost<T: Real>(&self, model: &Model, q: &[T; 12], rate: T) -> T {
+    pub(super) fn pull<T: Real, U: Over<T>>(
+        &self,
+        model: &Model,
+        element: &VariableLength<T>,
+        q: &[U; 12],
+        on_length: U,
+    ) -> U {
+        let (rate, square) = (element.extent.rate, square_of_stretch(q));
+        // what entering material takes over rho l'^2: the factor of f^2, and the rest
+        let [of_square, constant] = match self.kind {
+            Feed::Bag if rate.is_above(0.0) => [0.5, 0.0],
+            Feed::Coil if rate.is_above(0.0) => [1.0, 0.0],
+            _ => [0.5, -0.5],
+        };
+        let pull = -on_length - (square * of_square + constant) * (rate * element.inertia * rate);
         if self.kind != Feed::Coil || !rate.is_above(0.0) {
-            return rate.splat(0.0);
+            return pull;
         }
-        let strain = (square_of_stretch(q) - 1.0) * 0.5;
-        strain * (0.5 * model.elements[self.element(model)].section.axial_stiffness) * strain
+        // stock from a coil loses its strain energy
+        let strain = (square - 1.0) * 0.5;
+        pull + strain * (0.5 * model.elements[self.element(model)].section.axial_stiffness) * strain
     }
 }
 

@@ -1,0 +1,175 @@
+//! The law of an unknown rate: a monotone graph of force over acceleration, for motors, brakes, free spools, sheaves and drums alike.
+//!
+//! # Equation
+//!
+//! The acceleration a of a length over a step is unknown. F is the force that the system has on it beyond the inertia, P the largest
+//! force of motor or friction, a_0 the acceleration at which that does not slip, and N the reaction of the stops:
+//!
+//! ```text
+//! F(a) in P Sign(a - a_0) + N(a)      N <= 0 at the least a, N >= 0 at the largest one, else N = 0
+//! P = grip max(0, min(F_1, F_2) - lift) + limit
+//! ```
+//!
+//! | law | F | P | a_0 |
+//! |---|---|---|---|
+//! | [motor](super::law), brake, free spool | pull less inertia | largest force | that of the commanded rate |
+//! | [sheave](super::wheel) | difference of both pulls, less inertia | capstan and bearing | that which stops it |
+//! | [drum](super::drum) | what its spin leaves, with its torque eliminated | 0: the stops alone | none |
+//!
+//! F and the pulls are linear in a within a Newton iteration, and F falls, so the graph is met exactly by one of five points: two
+//! that slip, one that sticks, two stops.
+//!
+//! # Validity
+//!
+//! With a grip, P grows with the pulls and there can be two points: one that runs on, and one that stops what runs at once with
+//! pulls that press it enough. The first is taken if it does not turn back.
+//!
+//! # References
+//!
+//! Moreau, Unilateral contact and dry friction in finite freedom dynamics, 1988 (laws as monotone graphs).
+
+/// A number that is linear in the change x of an acceleration: `value - stiffness x`.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Line {
+    pub value: f64,
+    pub stiffness: f64,
+}
+
+impl Line {
+    fn at(&self, x: f64) -> f64 {
+        self.value - self.stiffness * x
+    }
+}
+
+/// The largest force of a law in N, `grip max(0, pull - lift) + limit`.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Bound {
+    pub limit: f64,
+    pub grip: f64,
+    pub lift: f64,
+}
+
+impl Bound {
+    /// Returns it under a pull in N.
+    pub fn under(&self, pull: f64) -> f64 {
+        self.grip * (pull - self.lift).max(0.0) + self.limit
+    }
+}
+
+/// Accelerations of a step: least, that which does not slip, largest.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Graph {
+    pub least: f64,
+    pub wanted: f64,
+    pub largest: f64,
+}
+
+impl Graph {
+    /// Returns the acceleration that is nearest to one, within the stops.
+    pub fn bounded(&self, acceleration: f64) -> f64 {
+        acceleration.max(self.least).min(self.largest)
+    }
+
+    /// Returns the acceleration of a stop, if this one is that or goes beyond it.
+    pub fn stop(&self, acceleration: f64) -> Option<f64> {
+        let rounding = 1e-9 * (1.0 + acceleration.abs());
+        if acceleration > self.largest - rounding {
+            Some(self.largest)
+        } else {
+            (acceleration < self.least + rounding).then_some(self.least)
+        }
+    }
+
+    /// Returns the acceleration at which a force meets the graph, from a present one; `pulls` press where it slips to larger and to
+    /// lesser accelerations.
+    pub fn meet(&self, present: f64, force: Line, bound: &Bound, pulls: &[Line; 2]) -> f64 {
+        let slip = |sign: f64| {
+            let pull = pulls[usize::from(sign < 0.0)];
+            let with = |grip: f64| {
+                let stiffness = force.stiffness - sign * grip * pull.stiffness;
+                let over = force.value - sign * (grip * (pull.value - bound.lift) + bound.limit);
+                over / stiffness.max(f64::MIN_POSITIVE)
+            };
+            let x = with(bound.grip);
+            present + if pull.at(x) >= bound.lift { x } else { with(0.0) }
+        };
+        let wanted = self.wanted;
+        if wanted != 0.0 {
+            let running = -1.0f64.copysign(wanted);
+            let on = slip(running);
+            if (on - wanted) * running > 0.0 {
+                return self.bounded(on);
+            }
+        }
+        let x = wanted - present;
+        let needed = force.at(x);
+        if needed.abs() <= bound.under(pulls[0].at(x).min(pulls[1].at(x))) {
+            return self.bounded(wanted);
+        }
+        self.bounded(slip(1.0f64.copysign(needed)))
+    }
+
+    /// Returns by how much a force in N at an acceleration is off the graph, whose largest force is `bound` (N).
+    pub fn violation(&self, acceleration: f64, force: f64, bound: f64) -> f64 {
+        let rounding = 1e-12 * (1.0 + acceleration.abs());
+        let stopped = |at: f64| at >= self.largest - rounding;
+        let stopped_below = |at: f64| at <= self.least + rounding;
+        let (beyond, below) = ((force - bound).max(0.0), (-bound - force).max(0.0));
+        if (acceleration - self.wanted).abs() <= rounding {
+            // one that is to stand at a stop: that takes what friction and motor do not
+            let beyond = if stopped(self.wanted) { 0.0 } else { beyond };
+            beyond.max(if stopped_below(self.wanted) { 0.0 } else { below })
+        } else if stopped(acceleration) {
+            (bound - force).max(0.0)
+        } else if stopped_below(acceleration) {
+            (bound + force).max(0.0)
+        } else {
+            (force - bound.copysign(acceleration - self.wanted)).abs()
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The point that is met is on the graph: of motors, and of sheaves without inertia, at rest and running, with stops near and far.
+    ///
+    /// *Source.* The graph itself: force, bound and stops at the point.
+    #[test]
+    fn what_is_met_is_on_the_graph() {
+        let (mut seen, mut seed) = ([0; 4], 1u64);
+        // any number in -1..1
+        let mut any = || {
+            seed = seed.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+            (seed >> 11) as f64 / (1u64 << 52) as f64 - 1.0
+        };
+        for i in 0..20_000 {
+            let wanted = if i % 3 == 0 { 0.0 } else { 4.0 * any() };
+            let graph = Graph { least: wanted - 9.0 * any().abs(), wanted, largest: wanted + 9.0 * any().abs() };
+            let pulls = [-1.0, 1.0].map(|sign| {
+                let stiffness = sign * (0.1 + any().abs());
+                Line { value: 2.0 + 10.0 * any(), stiffness }
+            });
+            let [a, b] = pulls;
+            let force = Line { value: b.value - a.value, stiffness: b.stiffness - a.stiffness };
+            let grip = if i % 2 == 0 { 0.0 } else { 3.0 * any().abs() };
+            let bound = Bound { limit: 3.0 * any().abs(), grip, lift: 0.3 * any().abs() };
+            let present = 5.0 * any();
+            let at = graph.meet(present, force, &bound, &pulls);
+            let x = at - present;
+            let missed = graph.violation(at, force.at(x), bound.under(a.at(x).min(b.at(x))));
+            assert!(missed < 1e-9, "{i}: {missed:e} at {at} of {graph:?}, {force:?}, {bound:?}");
+            seen[if at == wanted {
+                0
+            } else if at == graph.least {
+                1
+            } else if at == graph.largest {
+                2
+            } else {
+                3
+            }] += 1;
+        }
+        assert!(seen.iter().all(|count| *count > 1000), "{seen:?}");
+    }
+}
