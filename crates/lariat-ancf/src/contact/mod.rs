@@ -91,8 +91,10 @@ pub(crate) use border::Border;
 pub(crate) use impact::{When, solves_again};
 pub(crate) use motion::Motion;
 pub(crate) use pair::between_samples;
+#[cfg(test)]
+pub(crate) use pairs::PairEnd;
 pub use pairs::{CablePair, PairTouch};
-pub(crate) use pairs::{LowRank, PairStep, PairSystem, Row, Strand, Strands};
+pub(crate) use pairs::{PairColumns, PairStep, Strand, Strands};
 pub(crate) use path::BodyPath;
 pub(crate) use statics::{Growth, StaticContact};
 pub(crate) use step::{ContactBalance, ContactStep};

@@ -10,9 +10,9 @@
 //! ```
 //!
 //! Bodies that the cable touches stand beside the held coordinates, with columns and blocks of their own
-//! ([`contact`](crate::contact)).
+//! ([`contact`](crate::contact)), and so do the forces of contacts with cables.
 //!
-//! W (3 rows per pin, 6 per clamp or touched body) is the dynamic stiffness of the cable at the bodies; Y gives the
+//! W (3 rows per pin, 6 per clamp or touched body, 3 per contact with a cable) is the dynamic stiffness of the cable at the bodies; Y gives the
 //! increments of the cable from those of the bodies. Neither needs the columns of Y: a [`SchurComplement`] brings them half of the way.
 //!
 //! # References
@@ -24,9 +24,22 @@
 //! Lagrange multipliers: the same solves, and an indefinite matrix in addition.
 
 use super::hold::Hold;
-use crate::contact::Border;
+use crate::contact::{Border, PairColumns};
 use crate::linalg::{BlockTridiagonal, Factorisation, SchurComplement};
 use fearless_simd::Level;
+
+/// What stands beside the free coordinates of a cable, in the order of the rows of W.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Columns<'a> {
+    pub holds: &'a [Hold],
+    /// The bodies that it touches.
+    pub touched: &'a [Border],
+    /// Its number among the cables.
+    pub strand: usize,
+    /// Contacts between cables, and which of them are its own.
+    pub pairs: &'a [PairColumns],
+    pub own: &'a [usize],
+}
 
 /// Nonzero rows of a column of A: up to three nodes from `first`.
 #[derive(Clone, Copy, Debug, Default)]
@@ -84,11 +97,13 @@ impl Condensed {
         &mut self,
         level: Level,
         factorisation: &Factorisation,
-        (holds, borders): (&[Hold], &[Border]),
+        columns: Columns<'_>,
         project: impl Fn(&mut [f64]),
     ) {
+        let Columns { holds, touched: borders, strand, pairs, own } = columns;
         let (held, size) = (self.columns.len(), self.size);
-        let count = held + 6 * borders.len();
+        let before_pairs = held + 6 * borders.len();
+        let count = before_pairs + 3 * own.len();
         self.w.clear();
         self.w.resize(count * count, 0.0);
         self.scratch.clear();
@@ -125,12 +140,36 @@ impl Condensed {
             project(column);
             self.schur.set(held + k, 0, column);
         }
+        for (k, ends) in own.iter().map(|pair| &pairs[*pair]).enumerate() {
+            for x in 0..3 {
+                let j = before_pairs + 3 * k + x;
+                for end in ends.iter().filter(|end| end.strand == strand) {
+                    let part = &mut self.scratch[6 * end.element..6 * end.element + 12];
+                    part.iter_mut().zip(&end.columns[x]).for_each(|(out, value)| *out += value);
+                }
+                for (q, &Hold { node, slope, .. }) in holds.iter().enumerate() {
+                    for y in 0..3 {
+                        let value = self.scratch[6 * node + if slope { 3 } else { 0 } + y];
+                        self.w[(3 * q + y) * count + j] = value;
+                        self.w[j * count + 3 * q + y] = value;
+                    }
+                }
+                project(&mut self.scratch);
+                for end in ends.iter().filter(|end| end.strand == strand) {
+                    let range = 6 * end.element..6 * end.element + 12;
+                    self.schur.set(j, end.element, &self.scratch[range]);
+                }
+                for end in ends.iter().filter(|end| end.strand == strand) {
+                    self.scratch[6 * end.element..6 * end.element + 12].fill(0.0);
+                }
+            }
+        }
         self.schur.complete(level, factorisation);
         self.schur.subtract_from(level, &mut self.w);
     }
 
     /// Computes `out = A_pf A_ff^-1 r_f` for projected rows `r_f`, which [`expand`](Self::expand) needs as this leaves them. The held
-    /// coordinates come first, then those of touched bodies. The factorisation is that of [`complete`](Self::complete).
+    /// coordinates come first, then those of touched bodies, then contacts. The factorisation is that of [`complete`](Self::complete).
     pub fn reduce(&self, level: Level, factorisation: &Factorisation, rows: &mut [f64], out: &mut Vec<f64>) {
         out.clear();
         out.resize(self.w.len().isqrt(), 0.0);

@@ -1,7 +1,7 @@
 //! The matrices of an island and its linear equations: see [`island`](super).
 
-use super::body_matrix::{BodyMatrix, Lever};
-use super::condense::Condensed;
+use super::bordered::{Bordered, Lever};
+use super::condense::Columns;
 use super::hold::{Hold, direction_near, vector};
 use super::layout::{Layout, Part};
 use super::rotation::skew;
@@ -22,44 +22,23 @@ pub(super) enum MatrixKind {
     Step,
 }
 
-/// A matrix of one cable, condensed on its held coordinates.
-#[derive(Clone, Debug, Default)]
-struct HeldMatrix {
-    condensed: Condensed,
-    /// By hold, the direction of the slope when the matrix was factored.
-    directions: Vec<Vector3<f64>>,
-}
-
 /// Matrices and buffers of one cable.
 #[derive(Clone, Debug, Default)]
 struct CableBuffers {
-    step: HeldMatrix,
-    mass: HeldMatrix,
+    /// By hold, the direction of the slope when the mass matrix was factored, and the step matrix.
+    directions: [Vec<Vector3<f64>>; 2],
     /// Factors of the mass matrix; those of the step matrix are the cable's own.
     mass_factorisation: Factorisation,
     /// Mass matrix times accelerations.
     product: Vec<f64>,
-    /// A_pf A_ff^-1 r_f, then the displacements of held coordinates.
-    at_bodies: Vec<f64>,
 }
 
 impl CableBuffers {
-    fn matrix(&self, kind: MatrixKind) -> &HeldMatrix {
+    /// Returns the factors of a matrix; `step` are those of the step matrix.
+    fn factors<'a>(&'a self, kind: MatrixKind, step: &'a Factorisation) -> &'a Factorisation {
         match kind {
-            MatrixKind::Mass => &self.mass,
-            MatrixKind::Step => &self.step,
-        }
-    }
-
-    /// Returns a matrix with its factors, those of the step matrix in `step`, and `at_bodies`.
-    fn split<'a>(
-        &'a mut self,
-        kind: MatrixKind,
-        step: &'a Factorisation,
-    ) -> (&'a HeldMatrix, &'a Factorisation, &'a mut Vec<f64>) {
-        match kind {
-            MatrixKind::Mass => (&self.mass, &self.mass_factorisation, &mut self.at_bodies),
-            MatrixKind::Step => (&self.step, step, &mut self.at_bodies),
+            MatrixKind::Mass => &self.mass_factorisation,
+            MatrixKind::Step => step,
         }
     }
 }
@@ -68,8 +47,8 @@ impl CableBuffers {
 #[derive(Clone, Debug, Default)]
 pub(super) struct Matrices {
     cables: Vec<CableBuffers>,
-    /// The matrix of the bodies, and its factors.
-    bodies: BodyMatrix,
+    mass: Bordered,
+    step: Bordered,
     mass_is_factored: bool,
     /// c2 of the stage whose step matrix is factored; 0 = none.
     pub factored: f64,
@@ -79,9 +58,18 @@ impl Matrices {
     /// Begins a host step.
     pub fn begin(&mut self, layout: &Layout) {
         self.cables.resize_with(layout.parts.len(), CableBuffers::default);
+        self.mass.resize(layout.parts.len());
+        self.step.resize(layout.parts.len());
         self.cables.iter_mut().zip(&layout.parts).for_each(|(buffers, part)| buffers.product.resize(part.size, 0.0));
         self.mass_is_factored = false;
         self.factored = 0.0;
+    }
+
+    fn of(&mut self, kind: MatrixKind) -> &mut Bordered {
+        match kind {
+            MatrixKind::Mass => &mut self.mass,
+            MatrixKind::Step => &mut self.step,
+        }
     }
 }
 
@@ -147,19 +135,21 @@ impl IslandEquations<'_, '_> {
         rhs: &mut [f64],
     ) -> Result<(), StepFailure> {
         let layout = self.layout;
-        for ((cable, part), buffers) in self.cables.iter_mut().zip(&layout.parts).zip(&mut self.matrices.cables) {
+        let Matrices { cables: buffers, step, .. } = &mut *self.matrices;
+        for (c, ((cable, part), buffers)) in self.cables.iter_mut().zip(&layout.parts).zip(buffers).enumerate() {
             let range = part.range();
             let rows = &mut rhs[range.clone()];
-            let CableBuffers { step, product, .. } = buffers;
-            update_clamp_directions(cable, &part.holds, at.q, &mut step.directions);
+            let CableBuffers { directions, product, .. } = buffers;
+            update_clamp_directions(cable, &part.holds, at.q, &mut directions[MatrixKind::Step as usize]);
             let (mut equations, _) = cable.equations();
             let input = ForceInput { q: &at.q[range.clone()], v: &at.v[range.clone()], ..*at };
             equations.force_and_matrix(input, 1.0, rows);
-            step.condensed.read(&equations.system.step.matrix, &part.holds, &[]);
+            step.cable(c).read(&equations.system.step.matrix, &part.holds, &[]);
             equations.factor_to_solve()?;
             let (level, model) = (equations.system.level, equations.model);
             let factorisation = &equations.system.step.factorisation;
-            step.condensed.complete(level, factorisation, (&part.holds, &[]), |x| project_vector(model, x));
+            let columns = Columns { holds: &part.holds, ..Columns::default() };
+            step.cable(c).complete(level, factorisation, columns, |x| project_vector(model, x));
             equations.system.mass.multiply(equations.system.level, &z[range], product);
             subtract(rows, product);
         }
@@ -172,18 +162,19 @@ impl IslandEquations<'_, '_> {
         let layout = self.layout;
         let clamped = layout.clamps.iter().any(Option::is_some);
         if !self.matrices.mass_is_factored || clamped {
-            for ((cable, part), buffers) in self.cables.iter_mut().zip(&layout.parts).zip(&mut self.matrices.cables) {
-                let CableBuffers { mass, mass_factorisation, .. } = buffers;
-                update_clamp_directions(cable, &part.holds, q, &mut mass.directions);
+            let Matrices { cables: buffers, mass, .. } = &mut *self.matrices;
+            for (c, ((cable, part), buffers)) in self.cables.iter_mut().zip(&layout.parts).zip(buffers).enumerate() {
+                let CableBuffers { directions, mass_factorisation, .. } = buffers;
+                update_clamp_directions(cable, &part.holds, q, &mut directions[MatrixKind::Mass as usize]);
                 let Cable { model, system, .. } = &mut **cable;
                 let matrix = &mut system.step.matrix;
                 matrix.clear();
                 system.mass.add_to(matrix, 1.0);
-                mass.condensed.read(matrix, &part.holds, &[]);
+                mass.cable(c).read(matrix, &part.holds, &[]);
                 project_matrix(model, matrix);
                 mass_factorisation.factor(system.level, matrix)?;
-                let parts = (&part.holds[..], &[][..]);
-                mass.condensed.complete(system.level, mass_factorisation, parts, |x| project_vector(model, x));
+                let columns = Columns { holds: &part.holds, ..Columns::default() };
+                mass.cable(c).complete(system.level, mass_factorisation, columns, |x| project_vector(model, x));
             }
             self.matrices.mass_is_factored = true;
         }
@@ -194,8 +185,8 @@ impl IslandEquations<'_, '_> {
     /// geometric stiffness of the levers under the rows `rhs` of the held coordinates.
     pub fn factor_bodies(&mut self, kind: MatrixKind, q: &[f64], v: &[f64], rhs: &[f64]) -> Result<(), StepFailure> {
         let layout = self.layout;
-        let Matrices { cables, bodies: matrix, .. } = &mut *self.matrices;
-        matrix.begin(layout.bodies.len());
+        let matrix = self.matrices.of(kind);
+        matrix.begin(layout.bodies.len(), 0);
         for (i, body) in layout.bodies.iter().enumerate() {
             let at = layout.body_at(i);
             let motion = layout.motion(i, &q[at..at + 6], &v[at..at + 6]);
@@ -208,16 +199,14 @@ impl IslandEquations<'_, '_> {
             matrix.add_inertia(i, &inertia);
         }
         layout.coupled.iter().for_each(|coupled| matrix.add_coupled(coupled));
-        for (buffers, part) in cables.iter().zip(&layout.parts) {
+        for (c, part) in layout.parts.iter().enumerate() {
             if kind == MatrixKind::Step {
                 for hold in &part.holds {
                     let geometric = -skew(&vector(&rhs[hold.at..])) * skew(&layout.rotating_vector(hold, q));
                     matrix.add_rotational(layout.pins[hold.pin].body, &((geometric + geometric.transpose()) * 0.5));
                 }
             }
-            let lever =
-                |hold: &Hold| Lever::held(layout.pins[hold.pin].body, &layout.rotating_vector(hold, q), hold.slope);
-            matrix.add_cable(&buffers.matrix(kind).condensed.w, part.holds.iter().map(lever));
+            matrix.add_cable(c, levers(layout, part, q));
         }
         for (i, body) in layout.bodies.iter().enumerate() {
             matrix.lock(i, &body.free);
@@ -240,61 +229,48 @@ impl IslandEquations<'_, '_> {
         }
         self.cable_rows_and_matrices(at, &none, rhs)?;
         self.factor_bodies(MatrixKind::Step, at.q, at.v, rhs)?;
-        Ok(definite && self.matrices.bodies.is_positive_definite())
+        Ok(definite && self.matrices.step.is_positive_definite())
     }
 
     /// Solves in place: rows in, increments out, those of pinned coordinates included. The
     /// increments of bodies are displacements and rotations in world axes.
     pub fn solve(&mut self, kind: MatrixKind, q: &[f64], rhs: &mut [f64]) {
         let layout = self.layout;
-        let Matrices { cables: buffers, bodies: matrix, .. } = &mut *self.matrices;
-        for ((cable, part), buffers) in self.cables.iter_mut().zip(&layout.parts).zip(buffers.iter_mut()) {
+        let Matrices { cables: buffers, mass, step, .. } = &mut *self.matrices;
+        let matrix = if kind == MatrixKind::Mass { mass } else { step };
+        let (own, rows) = rhs.split_at_mut(layout.bodies_at);
+        for (c, ((cable, part), buffers)) in self.cables.iter_mut().zip(&layout.parts).zip(&*buffers).enumerate() {
             let cable = &mut **cable;
-            let (HeldMatrix { condensed, directions }, factors, at_bodies) =
-                buffers.split(kind, &cable.system.step.factorisation);
+            let directions = &buffers.directions[kind as usize];
             for (hold, factored) in part.holds.iter().zip(directions).filter(|(h, _)| h.slope) {
                 // the matrix was factored with this direction
-                let along = direction_near(&q[hold.at..], factored).dot(&vector(&rhs[hold.at..]));
-                rhs[hold.at..hold.at + 3].copy_from_slice((factored * along).as_slice());
+                let along = direction_near(&q[hold.at..], factored).dot(&vector(&own[hold.at..]));
+                own[hold.at..hold.at + 3].copy_from_slice((factored * along).as_slice());
                 if let Some((_, support)) = cable.model.supports.iter_mut().find(|(n, _)| *n == hold.node) {
                     support.slope = SlopeSupport::Attached(*factored);
                 }
             }
-            let rows = &mut rhs[part.range()];
-            project_vector(&cable.model, rows);
-            condensed.reduce(cable.system.level, factors, rows, at_bodies);
+            let own = &mut own[part.range()];
+            project_vector(&cable.model, own);
+            let factors = (cable.system.level, buffers.factors(kind, &cable.system.step.factorisation));
+            matrix.reduce(c, factors, levers(layout, part, q), own, rows);
             cable.diagnostics_mut().solves += 1;
         }
-        for (part, buffers) in layout.parts.iter().zip(buffers.iter()) {
-            for (hold, reduced) in part.holds.iter().zip(buffers.at_bodies.chunks_exact(3)) {
-                layout.pass(hold, &-vector(reduced), &layout.rotating_vector(hold, q), rhs);
-            }
-        }
-        let at = layout.bodies_at;
-        for (i, body) in layout.bodies.iter().enumerate() {
+        for (body, six) in layout.bodies.iter().zip(rows.chunks_exact_mut(6)) {
             for x in (0..6).filter(|&x| !body.free[x]) {
-                rhs[at + 6 * i + x] = 0.0;
+                six[x] = 0.0;
             }
         }
-        matrix.solve(&mut rhs[at..at + 6 * layout.bodies.len()]);
-        for ((cable, part), buffers) in self.cables.iter().zip(&layout.parts).zip(buffers.iter_mut()) {
-            let (HeldMatrix { condensed, directions }, factors, at_bodies) =
-                buffers.split(kind, &cable.system.step.factorisation);
-            at_bodies.clear();
-            for hold in &part.holds {
-                let at = layout.body_at(layout.pins[hold.pin].body);
-                let rotated = vector(&rhs[at + 3..]).cross(&layout.rotating_vector(hold, q));
-                let displacement = if hold.slope { rotated } else { vector(&rhs[at..]) + rotated };
-                at_bodies.extend_from_slice(displacement.as_slice());
-            }
-            condensed.expand(cable.system.level, factors, at_bodies, &mut rhs[part.range()]);
-            let held = at_bodies.chunks_exact(3).map(vector);
-            for ((hold, factored), mut held) in part.holds.iter().zip(directions).zip(held) {
+        matrix.solve(rows);
+        for (c, ((cable, part), buffers)) in self.cables.iter().zip(&layout.parts).zip(&*buffers).enumerate() {
+            let factors = (cable.system.level, buffers.factors(kind, &cable.system.step.factorisation));
+            let moved = matrix.expand(c, factors, &mut own[part.range()], rows).chunks_exact(3).map(vector);
+            for ((hold, factored), mut held) in part.holds.iter().zip(&buffers.directions[kind as usize]).zip(moved) {
                 if hold.slope {
-                    let along = factored.dot(&vector(&rhs[hold.at..]));
+                    let along = factored.dot(&vector(&own[hold.at..]));
                     held += direction_near(&q[hold.at..], factored) * along;
                 }
-                rhs[hold.at..hold.at + 3].copy_from_slice(held.as_slice());
+                own[hold.at..hold.at + 3].copy_from_slice(held.as_slice());
             }
         }
     }
@@ -327,6 +303,12 @@ impl IslandEquations<'_, '_> {
         });
         sizes.reduce(|worst, size| if size > worst || size.is_nan() { size } else { worst })
     }
+}
+
+/// Returns what the held coordinates of a cable follow at coordinates `q`.
+fn levers(layout: &Layout, part: &Part, q: &[f64]) -> impl Iterator<Item = Lever> {
+    let lever = |hold: &Hold| Lever::held(layout.pins[hold.pin].body, &layout.rotating_vector(hold, q), hold.slope);
+    part.holds.iter().map(lever)
 }
 
 /// Sets the directions of a cable's clamps at coordinates `q` of the island in its supports, and

@@ -1,4 +1,5 @@
-//! Linear algebra of a cable: symmetric block-tridiagonal matrices with 6x6 blocks, O(n).
+//! Linear algebra of a cable: symmetric block-tridiagonal matrices with 6x6 blocks, O(n); and of an
+//! island: symmetric sparse matrices of such blocks.
 //!
 //! Public for users of the matrices of a cable, such as
 //! [`Cable::stiffness_matrix`](crate::coupling::Linearisation::stiffness_matrix), and for the benchmarks; a
@@ -32,6 +33,7 @@
 mod banded;
 mod block;
 mod dense;
+mod elimination;
 mod equilibrate;
 mod factorisation;
 mod inertia;
@@ -40,12 +42,13 @@ mod mass;
 mod outcome;
 mod product;
 mod schur;
+mod sparse;
 mod substitution;
 mod twisted;
 
 pub use block::{Block, BlockTridiagonal};
-pub(crate) use dense::Dense;
 pub use factorisation::Factorisation;
 pub use mass::{MassFactorisation, MassMatrix};
 pub use outcome::{Definiteness, Reason, SingularMatrix};
 pub use schur::SchurComplement;
+pub(crate) use sparse::SparseSymmetric;

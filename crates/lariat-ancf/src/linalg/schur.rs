@@ -174,9 +174,9 @@ fn subtract_product<S: Simd>(simd: S, m: &Block, x: &Columns<S>, y: &mut Columns
     }
 }
 
-/// Returns S^-1 y of a node; its entries as in [`substitution`].
+/// Returns S^-1 y of a node, of eight columns at a time; its entries as in [`substitution`].
 #[inline(always)]
-fn solve_node<S: Simd>(simd: S, node: &Node, mut y: Columns<S>) -> Columns<S> {
+pub(super) fn solve_node<S: Simd>(simd: S, node: &Node, mut y: Columns<S>) -> Columns<S> {
     let (columns, inverse) = (&node.columns.0, &node.inverse);
     for k in 0..5 {
         let scaled = y[k] * splat(simd, inverse[k]);
@@ -193,8 +193,9 @@ fn solve_node<S: Simd>(simd: S, node: &Node, mut y: Columns<S>) -> Columns<S> {
     y
 }
 
+/// Stores six columns, or rows, of a block.
 #[inline(always)]
-fn store_block<S: Simd>(rows: &Columns<S>, block: &mut Block) {
+pub(super) fn store_block<S: Simd>(rows: &Columns<S>, block: &mut Block) {
     for k in 0..6 {
         rows[k].store_array(&mut block.0[k]);
     }

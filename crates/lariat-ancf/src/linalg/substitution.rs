@@ -36,7 +36,7 @@ use fearless_simd::{Simd, f64x8, prelude::*};
 /// Returns S^-1 b. Column k of `node.columns` holds the unscaled u_rk = d_k l_rk below and, by
 /// symmetry, u_kr above the diagonal; times 1/d_k it serves both triangles.
 #[inline(always)]
-fn solve_block<S: Simd>(simd: S, node: &Node, b: f64x8<S>) -> f64x8<S> {
+pub(super) fn solve_block<S: Simd>(simd: S, node: &Node, b: f64x8<S>) -> f64x8<S> {
     let columns = load_block(simd, &node.columns);
     let scaled = |k: usize| columns[k] * splat(simd, node.inverse[k]);
     let mut y = b;

@@ -38,11 +38,11 @@
 //! features ([`slide`](super::slide)): a knot that snaps shut is lost, and its iterations take many times as long.
 
 mod chords;
+mod columns;
 mod crossing;
 mod impact;
 mod point;
 mod search;
-mod solve;
 mod step;
 mod touch;
 
@@ -56,8 +56,10 @@ pub struct CablePair {
 }
 
 pub(crate) use chords::Strand;
+pub(crate) use columns::PairColumns;
+#[cfg(test)]
+pub(crate) use columns::PairEnd;
 pub(in crate::contact) use crossing::crossing;
 pub(crate) use search::Strands;
-pub(crate) use solve::{LowRank, PairSystem, Row};
 pub(crate) use step::PairStep;
 pub use touch::PairTouch;

@@ -4,9 +4,9 @@ use super::super::ContactBalance;
 use super::super::law::NormalLaw;
 use super::super::point::{ContactPoint, OFFSET_TIME_OF_PAIRS, PAID};
 use super::chords::{Piece, Strand};
+use super::columns::{PairColumns, PairEnd};
 use super::point::{End, PairPoint, frame};
 use super::search::{Candidate, NEAR, Search, Strands};
-use super::solve::LowRank;
 use crate::element::shape::{self, combine};
 use crate::obstacle::Patch;
 use crate::one_leg::BETA;
@@ -44,7 +44,8 @@ pub(crate) struct PairStep {
     close: bool,
     /// Whether any cable can touch another or itself.
     on: bool,
-    pub low_rank: LowRank,
+    /// Those that have a tangent, as columns of the linear equations.
+    pub columns: Vec<PairColumns>,
 }
 
 impl PairStep {
@@ -63,7 +64,7 @@ impl PairStep {
         self.points.clear();
         (self.h, self.before, self.searches, self.close) = (h, 0.0, 0, close);
         self.on = (0..strands.count).any(|c| strands.may_touch(c));
-        self.low_rank.clear();
+        self.columns.clear();
         if !self.on {
             return;
         }
@@ -195,23 +196,23 @@ impl PairStep {
         Some((strands.get)(a).memory[i].contact)
     }
 
-    /// Makes the contacts linear at the present iterate, as the rows of the matrix that they add.
+    /// Makes the contacts linear at the present iterate, as columns of the linear equations.
     pub fn linearise(&mut self, strands: &Strands<'_, '_>) {
-        self.low_rank.clear();
+        self.columns.clear();
         for pair in &mut self.points {
             pair.linearise(pair.ends.map(|end| (strands.get)(end.strand)).each_ref());
             let tangents = pair.point.linear.tangents;
             let tangent = (tangents.normal + tangents.friction) * (BETA * self.h * self.h);
             let eigen = tangent.symmetric_eigen();
             let most = eigen.eigenvalues.amax();
-            for k in 0..3 {
-                let value = eigen.eigenvalues[k];
-                if value > 1e-12 * most {
-                    let forces = pair.forces(&(eigen.eigenvectors.column(k) * value.sqrt()));
-                    let [one, other] = pair.ends;
-                    self.low_rank
-                        .push([(one.strand, one.element, forces[0]), (other.strand, other.element, forces[1])]);
-                }
+            let mut out =
+                pair.ends.map(|end| PairEnd { strand: end.strand, element: end.element, columns: [[0.0; 12]; 3] });
+            for k in (0..3).filter(|&k| eigen.eigenvalues[k] > 1e-12 * most) {
+                let forces = pair.forces(&(eigen.eigenvectors.column(k) * eigen.eigenvalues[k].sqrt()));
+                out.iter_mut().zip(forces).for_each(|(end, force)| end.columns[k] = force);
+            }
+            if most > 0.0 {
+                self.columns.push(out);
             }
         }
     }

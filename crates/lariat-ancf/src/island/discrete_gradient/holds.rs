@@ -97,13 +97,6 @@ impl HoldStep {
         }
     }
 
-    /// Returns the change of the held velocities by increments of the bodies, their rotations in world axes.
-    pub fn moved(&self, increments: &[f64]) -> Vector3<f64> {
-        let of = &increments[6 * self.body..6 * self.body + 6];
-        let rotated = vector(&of[3..]).cross(&self.arm);
-        if self.slope { rotated } else { vector(of) + rotated }
-    }
-
     /// Returns the stiffening part of the lever under the impulse: rotations turn a pulled lever out of the pull.
     pub fn stiffening(&self) -> Matrix3<f64> {
         let (square, pull) = (self.arm.norm_squared(), self.impulse.dot(&self.arm));

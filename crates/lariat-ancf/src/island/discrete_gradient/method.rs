@@ -36,7 +36,6 @@ impl DiscreteGradientSystem for IslandStep<'_, '_> {
             self.linearise_pairs();
             self.linearise()?;
             self.factor_bodies(self.cables[0].step_buffers.h)?;
-            self.factor_pairs()?;
             self.linearise_laws();
         }
         self.add_increment(share)?;

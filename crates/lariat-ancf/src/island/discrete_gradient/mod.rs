@@ -14,7 +14,6 @@
 //! is that of the whole: forces and torques on the bodies do work, as do gaps that close and the axes along which a body is locked.
 
 mod angular;
-mod aside;
 mod bodies;
 mod body;
 mod cables;
@@ -36,8 +35,7 @@ mod terms;
 
 pub(super) use host_step::HostStep;
 
-use super::body_matrix::BodyMatrix;
-use super::condense::Condensed;
+use super::bordered::Bordered;
 use super::coupling::CoupledInertia;
 use super::layout::Layout;
 use super::pin_accounts::PinAccounts;
@@ -46,7 +44,6 @@ use crate::contact::{BodyPath, CablePair, PairStep};
 use crate::state::State;
 use crate::support::SlopeSupport;
 use crate::system::{CableStep, Unknowns};
-use aside::Aside;
 use body::BodyStep;
 use holds::HoldStep;
 use nalgebra::Vector3;
@@ -62,14 +59,13 @@ pub(super) struct StepBuffers {
     /// Inertia that couples bodies, with rotations in their axes.
     coupled: Vec<CoupledInertia>,
     pub cables: Vec<CableBuffers>,
-    matrix: BodyMatrix,
+    matrix: Bordered,
     /// Rows of the bodies, then their increments.
     rows: Vec<f64>,
     /// The bodies as the contacts see them.
     paths: Vec<BodyPath>,
     /// Contacts between the cables.
     pairs: PairStep,
-    aside: Aside,
     /// What was done about contacts in the step.
     rounds: ContactRounds,
     /// The cables that may touch each other, in ascending order; `None` for all.
@@ -84,9 +80,8 @@ pub(super) struct StepBuffers {
 #[derive(Clone, Debug, Default)]
 pub(super) struct CableBuffers {
     pub holds: Vec<HoldStep>,
-    condensed: Condensed,
-    /// A_pf A_ff^-1 r_f, then the displacements of held coordinates and touched bodies.
-    at_bodies: Vec<f64>,
+    /// Contacts with other cables and with itself, by number.
+    pairs: Vec<usize>,
     /// The cable at the beginning of the host step.
     pub start: State,
 }
@@ -109,6 +104,7 @@ impl StepBuffers {
         self.coupled.extend(layout.coupled.iter().map(|coupled| coupled.turned(coupled.bodies.map(inverse))));
         self.rows.resize(6 * layout.bodies.len(), 0.0);
         self.cables.resize_with(layout.parts.len(), CableBuffers::default);
+        self.matrix.resize(layout.parts.len());
         for (own, part) in self.cables.iter_mut().zip(&layout.parts) {
             own.holds.clear();
             own.holds.extend(part.holds.iter().map(|hold| HoldStep::new(hold, part.at, layout.pins[hold.pin].body)));
