@@ -113,11 +113,11 @@ pub enum Error {
         /// The other body; `None` for a collider without one.
         other: Option<RigidBodyHandle>,
     },
-    /// A cable with contact that would be in a collider in equilibrium: on a dynamic body, a sharp edge or something thin, with which statics compute no
-    /// contact, or between the samples of a mesh that is too coarse.
+    /// A cable with contact that would run through a collider in equilibrium: over a sharp edge or something thin, which the samples of
+    /// contact do not see.
     #[error(
-        "statics compute contact at samples, not with dynamic bodies, sharp edges and thin things: cable {cable:?} would be {depth:.1e} m in collider {collider:?} at {arc_length} m: \
-         step until it rests"
+        "cable {cable:?} would run through collider {collider:?}, {depth:.1e} m deep at {arc_length:.4} m: statics compute contact at samples, which do \
+         not see sharp edges and thin things between them: use more elements, or step until it rests"
     )]
     CableTouchesInStatics {
         /// Name of the cable.

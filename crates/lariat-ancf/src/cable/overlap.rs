@@ -3,12 +3,15 @@
 use super::Cable;
 use crate::contact::{Overlap, between_samples};
 use crate::element::shape::{self, combine};
+use core::ops::RangeInclusive;
 use nalgebra::Vector3;
 
 /// Depth as a share of the radius below which a cable only touches.
 const TOUCH: f64 = 0.02;
 /// Depth between samples as a multiple of that at the deepest of them.
 const BETWEEN: f64 = 2.0;
+/// Cosine of the angle between normals that point to one side: a sharp edge has others.
+const SAME_SIDE: f64 = 0.5;
 /// Points of an element that are looked at, without its last node.
 const POINTS: usize = 8;
 
@@ -61,7 +64,7 @@ impl Cable {
         worst
     }
 
-    /// Returns where the cable is deepest in one of its [obstacles](Self::obstacles), deeper than 2 % of its radius beyond what its
+    /// Returns where the cable runs through one of its [obstacles](Self::obstacles), or else where it is deepest in one, deeper than 2 % of its radius beyond what its
     /// contacts carry, as they are now; `None` if
     /// it is in none, or has no [`Contact`](crate::Contact). A piece that reaches to a supported node is left out: a cable may begin within
     /// what holds it.
@@ -71,20 +74,22 @@ impl Cable {
         let carried = BETWEEN * self.contacts().fold(0.0, |most: f64, touch| most.max(touch.depth));
         let mut worst: Option<Overlap> = None;
         for obstacle in self.obstacles() {
+            let mut first = 0;
             let motion = &obstacle.motion;
             let elapsed = self.time() - motion.start;
             let origin = motion.position + motion.velocity * elapsed;
             let axes = nalgebra::UnitQuaternion::new(motion.angular_velocity * elapsed) * motion.rotation;
             let (mut begin, mut held, mut deepest): (f64, bool, Option<Overlap>) = (0.0, false, None);
-            let mut end = |deepest: &mut Option<Overlap>, held: bool| {
-                let found = deepest.take().filter(|_| !held);
-                if let Some(found) = found.filter(|found| worst.is_none_or(|worst| found.depth > worst.depth)) {
+            let mut end = |deepest: &mut Option<Overlap>, held: bool, elements: RangeInclusive<usize>| {
+                let Some(mut found) = deepest.take().filter(|_| !held) else { return };
+                found.crosses &= !self.is_kept_out(obstacle.key, elements);
+                if worst.is_none_or(|worst| (found.crosses, found.depth) > (worst.crosses, worst.depth)) {
                     worst = Some(found);
                 }
             };
             for (e, element) in self.elements().iter().enumerate() {
                 if self.model.is_at_eye(e) {
-                    end(&mut deepest, held);
+                    end(&mut deepest, held, first..=e);
                     (held, begin) = (false, begin + element.length);
                     continue;
                 }
@@ -95,23 +100,37 @@ impl Cable {
                     let arc_length = (begin + xi * element.length).min(self.length());
                     let Ok(sample) = self.sample(arc_length) else { continue };
                     let y: Vector3<f64> = axes.inverse() * (sample.position - origin) + motion.centre;
-                    let depth = radius + obstacle.skin - obstacle.surface.nearest(&y).distance;
+                    let distance = obstacle.surface.nearest(&y).distance;
+                    let depth = radius + obstacle.skin - distance;
                     if depth <= TOUCH * radius + carried {
-                        end(&mut deepest, held);
+                        end(&mut deepest, held, first..=e);
                         held = false;
                         continue;
                     }
                     held |= obstacle.excepts(arc_length);
                     let node = if i == 0 { Some(e) } else { (i == POINTS).then_some(e + 1) };
                     held |= node.is_some_and(|node| self.model.support(node).is_some());
+                    if deepest.is_none() {
+                        // contacts at the end of the element before keep it out too
+                        first = if i == 0 { e.saturating_sub(1) } else { e };
+                    }
                     if deepest.is_none_or(|deepest| depth > deepest.depth) {
-                        deepest = Some(Overlap { obstacle: obstacle.key, arc_length, depth });
+                        deepest = Some(Overlap { obstacle: obstacle.key, arc_length, depth, crosses: distance < 0.0 });
                     }
                 }
                 begin += element.length;
             }
-            end(&mut deepest, held);
+            end(&mut deepest, held, first..=self.elements().len() - 1);
         }
         worst
+    }
+
+    /// Returns whether contacts in these elements keep the cable out of an obstacle, all on one side of it: what is in it between them
+    /// is a bulge, which a finer mesh does not have.
+    fn is_kept_out(&self, obstacle: u64, elements: RangeInclusive<usize>) -> bool {
+        let touches = self.snapshot.state.memory.contacts.iter();
+        let own = touches.filter(|touch| touch.obstacle == obstacle && elements.contains(&(touch.element as usize)));
+        let sides: Vec<Vector3<f64>> = own.map(|touch| touch.direction).collect();
+        !sides.is_empty() && sides.iter().all(|a| a.dot(&sides[0]) > SAME_SIDE)
     }
 }

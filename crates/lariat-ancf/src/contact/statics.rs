@@ -9,14 +9,13 @@
 //! at the samples of the elements; g is the distance from the patch that a sample sees, n its gradient and H its Hessian. Friction takes nothing: in the
 //! shape that is found none is needed.
 //!
-//! The law is stiff, and which samples touch is not known. If no shape is found from the present one, it is searched for with a law so soft that the loads per
-//! length have the depth in which the cable is now, then with one up to ten times as stiff, less where that fails, and so on up to the law itself.
+//! The search begins with a softer law where it has to ([`continuation`](crate::statics)).
 //!
 //! # Validity
 //!
 //! Obstacles that stand still, as they are at the cable's time; bodies that carry obstacles are left out. Samples do not see what is thinner than their
-//! spacing, nor sharp edges between them: the shape is compared with all surfaces in the end, and refused where it is in one
-//! ([`overlap`](super::overlap)). The search is no motion: a cable that begins behind a thin obstacle may end on its other side. Within four radii of a held node, and as much
+//! spacing, nor sharp edges between them: the shape is compared with all surfaces in the end, and refused where the centre line
+//! runs through one; where the cable is a part of its radius deep between samples, the warning `sinks` tells. The search is no motion: a cable that begins behind a thin obstacle may end on its other side. Within four radii of a held node, and as much
 //! further as it is deep, there is no contact.
 //!
 //! # References
@@ -118,6 +117,13 @@ impl StaticContact {
                 }
             }
         }
+    }
+
+    /// Returns whether the cable at `q` is deeper in an obstacle than its radius, where the law itself is of no use.
+    pub fn is_deep(&self, model: &Model, q: &[f64]) -> bool {
+        let mut deep = false;
+        self.visit(model, q, |sample| deep |= sample.depth > sample.reach);
+        deep
     }
 
     /// Softens the law, so that the loads per length have the depth in which the cable is at `q`, or that of a radius. Returns whether there is anything to

@@ -93,10 +93,11 @@ pub enum EquilibriumFailure {
         /// The first folded element.
         element: usize,
     },
-    /// The shape that was found is in something that the cable can touch: on a body, a sharp edge or something thin, with
-    /// which statics compute no contact, or between the samples of a mesh that is too coarse.
+    /// The shape that was found runs through something that the cable can touch: through a sharp edge or something thin, which
+    /// the samples of contact do not see, or something that it was in before.
     #[error(
-        "statics compute contact at samples, not with bodies, sharp edges and thin things: the cable would be {depth:.1e} m in obstacle {obstacle} at {arc_length} m"
+        "the cable would run through obstacle {obstacle}, {depth:.1e} m deep at {arc_length:.4} m: statics compute contact at samples, which do not see \
+         sharp edges and thin things between them: use more elements, or begin beside it"
     )]
     Touches {
         /// Key of the obstacle.

@@ -17,6 +17,22 @@ pub struct EquilibriumReport {
     pub stable: bool,
 }
 
+/// Tolerance and number of iterations of an equilibrium.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct EquilibriumOptions {
+    /// Largest residual force over the sum of the loads. Default 1e-9.
+    pub tolerance: f64,
+    /// Largest number of steps of each attempt; an attempt takes at most twice as many iterations,
+    /// all attempts together at most five times as many. Default 400.
+    pub iterations: usize,
+}
+
+impl Default for EquilibriumOptions {
+    fn default() -> Self {
+        EquilibriumOptions { tolerance: 1e-9, iterations: 400 }
+    }
+}
+
 /// Largest change of a slope vector in one iteration.
 pub(super) const MAX_SLOPE_CHANGE: f64 = 0.3;
 /// Largest number of iterations of one attempt, with those of its steps, and of all attempts together, as
@@ -25,7 +41,7 @@ const MAX_ITERATIONS: usize = 2;
 const MAX_ATTEMPTS: usize = 5;
 
 /// Iterations done and remaining.
-pub(super) struct Budget {
+pub(crate) struct Budget {
     /// Largest residual force over the sum of the loads.
     pub tolerance: f64,
     /// Largest number of steps of one attempt.
@@ -38,8 +54,8 @@ pub(super) struct Budget {
 
 impl Budget {
     /// Returns an unspent budget.
-    pub fn new(tolerance: f64, attempt: usize) -> Self {
-        Budget { tolerance, attempt, done: 0, began: 0 }
+    pub fn new(options: &EquilibriumOptions) -> Self {
+        Budget { tolerance: options.tolerance, attempt: options.iterations, done: 0, began: 0 }
     }
 
     /// Begins an attempt.
@@ -54,6 +70,11 @@ impl Budget {
         more
     }
 
+    /// Returns the number of steps that a search of an island may take.
+    pub fn left(&self) -> usize {
+        self.attempt.min(MAX_ATTEMPTS.saturating_mul(self.attempt) - self.done)
+    }
+
     /// Returns whether no iteration remains.
     pub fn spent(&self) -> bool {
         self.done >= MAX_ATTEMPTS.saturating_mul(self.attempt)
@@ -61,7 +82,7 @@ impl Budget {
 }
 
 /// Why an attempt failed.
-pub(super) struct Failure {
+pub(crate) struct Failure {
     /// The failure of a matrix or a step, if that was the reason.
     pub cause: Option<StepFailure>,
     /// Largest residual force in N where it ended.

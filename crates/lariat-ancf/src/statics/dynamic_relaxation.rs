@@ -19,7 +19,7 @@ const REST_SHARE: f64 = 1e-10;
 
 impl Cable {
     /// Moves the cable towards rest; it stays where the last successful step left it.
-    pub(super) fn relax(&mut self, budget: &mut Budget) -> Result<(), Failure> {
+    pub(crate) fn relax(&mut self, budget: &mut Budget) -> Result<(), Failure> {
         let integrator = self.integrator();
         let scale = LoadScale::new(&self.model, self.positions());
         let mut step = 0.3 / scale.mu.sqrt();
@@ -63,11 +63,5 @@ impl Cable {
         // valid, because it was the cable's own
         let _ = self.set_integrator(integrator);
         if fits { Ok(()) } else { Err(Failure::default()) }
-    }
-
-    /// Sets all velocities to zero.
-    pub(super) fn set_at_rest(&mut self) {
-        self.snapshot.state.v.fill(0.0);
-        self.disturb();
     }
 }

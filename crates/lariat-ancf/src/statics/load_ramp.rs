@@ -33,7 +33,7 @@ const CARRIED_RESIDUAL: f64 = 1e-4;
 
 impl Cable {
     /// Ramps the loads up to their full size.
-    pub(super) fn ramp_loads(&mut self, budget: &mut Budget) -> Result<EquilibriumReport, Failure> {
+    pub(crate) fn ramp_loads(&mut self, budget: &mut Budget) -> Result<EquilibriumReport, Failure> {
         let mut share = self.carried_share();
         if share.is_none() {
             self.minimise_energy(0.0, budget)?;

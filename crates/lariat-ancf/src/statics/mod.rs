@@ -9,7 +9,9 @@
 //! - `start_shape`: minimisation from the shape that a new cable would have between the supports;
 //! - `dynamic_relaxation`, then minimisation from there.
 //!
-//! In a flow there is no potential energy to minimise: `rest_in_flow` is the only attempt.
+//! In a flow there is no potential energy to minimise: the search of an [island](crate::island)
+//! without bodies, and, for a cable that it does not bring to rest and that touches nothing, `rest_in_flow`.
+//! With contact, the law of contact is made harder from search to search (`continuation`).
 //!
 //! A shape with [folded elements](folds) is straightened once and minimised again; if it folds
 //! again the attempt has failed. A small residual is not enough: the increments of Newton's method must
@@ -28,8 +30,8 @@
 //! - Arc length methods: no branch has to be followed.
 
 mod attempt;
+mod continuation;
 mod dynamic_relaxation;
-mod equilibrium;
 mod folds;
 mod load_ramp;
 mod polish;
@@ -39,8 +41,9 @@ mod rest_in_flow;
 mod saddle;
 mod start_shape;
 
-pub use attempt::EquilibriumReport;
-pub use equilibrium::EquilibriumOptions;
+pub(crate) use attempt::{Budget, Failure};
+pub use attempt::{EquilibriumOptions, EquilibriumReport};
+pub(crate) use continuation::{Continued, find};
 pub(crate) use folds::{first_fold, straighten};
 pub(crate) use potential::potential;
-pub(crate) use start_shape::move_with_supports;
+pub(crate) use start_shape::{lay_out, move_with_supports};

@@ -87,7 +87,7 @@ pub(super) struct Minimisation<'a> {
 
 impl Cable {
     /// Minimises the potential energy at a share `load` of the point loads.
-    pub(super) fn minimise_energy(&mut self, load: f64, budget: &mut Budget) -> Result<EquilibriumReport, Failure> {
+    pub(crate) fn minimise_energy(&mut self, load: f64, budget: &mut Budget) -> Result<EquilibriumReport, Failure> {
         let scale = LoadScale::new(&self.model, self.positions());
         let tolerance = budget.tolerance * scale.force + scale.rounding;
         let n = self.positions().len();

@@ -6,9 +6,11 @@
 //! the shape: drag damps it, and a step far longer than all periods is an implicit Euler step
 //! towards rest, whose error falls with its length in periods.
 //!
+//! The search of an island takes a quarter of the time, and does not converge on a towed cable without bending stiffness: this follows it.
+//!
 //! # Validity
 //!
-//! Steady flow (that of the cable's present time), and shapes that are stable in it. Convergence is
+//! No contact. Steady flow (that of the cable's present time), and shapes that are stable in it. Convergence is
 //! linear.
 //!
 //! # References
@@ -35,7 +37,7 @@ const MAX_FAILURES: usize = 12;
 
 impl Cable {
     /// Moves the cable to rest in the flow.
-    pub(super) fn come_to_rest_in_flow(&mut self, budget: &mut Budget) -> Result<EquilibriumReport, Failure> {
+    pub(crate) fn follow_to_rest_in_flow(&mut self, budget: &mut Budget) -> Result<EquilibriumReport, Failure> {
         let (integrator, time) = (self.integrator(), self.time());
         let method = Method::GeneralisedAlpha { rho: 0.0 };
         let damping = Integrator { method, control: StepControl::Substeps(1) };

@@ -67,7 +67,7 @@ pub(crate) fn move_with_supports(model: &Model, before: &[f64], q: &mut [f64]) {
 }
 
 /// Lays out the whole cable.
-pub(super) fn lay_out(model: &Model, q: &mut [f64]) {
+pub(crate) fn lay_out(model: &Model, q: &mut [f64]) {
     let held = held(model);
     let (Some(&first), Some(&last)) = (held.first(), held.last()) else { return };
     let s: Vec<f64> = model.node_arc_lengths().collect();

@@ -4,7 +4,8 @@
 //!
 //! The centre line is looked at three places between two samples of its elements, at host times, beside obstacles that are fixed or move as prescribed. Between
 //! samples a cable sags with the square of their distance. Where an element that touches turns by more than a ninth of a turn, tensions along a drum are off by 5 to
-//! 8 % (8 elements per turn; 10: by 1 %), and the iterations of a step grow to tens. Both are told of if they last longer than an impact.
+//! 8 % (8 elements per turn; 10: by 1 %), and the iterations of a step grow to tens. Both are told of if they last longer than an impact, and
+//! at once of a cable that rests on what it touches.
 
 use super::Warning;
 use crate::cable::Cable;
@@ -37,6 +38,13 @@ impl Excess {
         }
     }
 
+    /// Notes the reading of a cable at rest, which lasts.
+    fn rest(&mut self, reading: [f64; 2], limit: f64) {
+        if reading[1] > limit.max(self.worst[1]) {
+            self.worst = reading;
+        }
+    }
+
     fn told(&self) -> Option<[f64; 2]> {
         Some(self.worst).filter(|worst| worst[1] > 0.0)
     }
@@ -49,15 +57,20 @@ impl Contacts {
             return;
         }
         let [depth, turn] = cable.contact_quality(TURN);
-        self.depth.note(cable.time(), depth, DEPTH);
-        self.turn.note(cable.time(), turn, 1.0);
+        let rests = !cable.snapshot.state.memory.contacts.is_empty() && cable.velocities().iter().all(|v| *v == 0.0);
+        for (excess, reading, limit) in [(&mut self.depth, depth, DEPTH), (&mut self.turn, turn, 1.0)] {
+            excess.note(cable.time(), reading, limit);
+            if rests {
+                excess.rest(reading, limit);
+            }
+        }
     }
 
     pub fn sinks(&self, cable: &Cable) -> Option<Warning> {
         self.depth.told().map(|[arc_length_m, share]| {
             let enough = (cable.elements().len() as f64 * (2.0 * share / DEPTH).sqrt()).ceil() as usize;
             let cable = cable.name().to_string();
-            Warning::Sinks { cable, arc_length_m, share, duration_s: DURATION, enough }
+            Warning::Sinks { cable, arc_length_m, share, enough }
         })
     }
 

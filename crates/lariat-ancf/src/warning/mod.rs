@@ -191,9 +191,9 @@ pub enum Warning {
         /// Number of steps in which it did.
         steps: u64,
     },
-    /// It is deep in what it touches, for longer than an impact takes.
+    /// It is deep in what it touches, for longer than an impact takes, or at rest.
     #[error(
-        "cable {cable:?}: at {arc_length_m:.4} m it has been deep in what it touches for {duration_s} s, by {share:.2} of its radius: between its points of contact, try \
+        "cable {cable:?}: at {arc_length_m:.4} m it lies deep in what it touches, by {share:.2} of its radius: between its points of contact, try \
          elements = {enough}; pressed in by its load, try a larger stiffness of contact"
     )]
     Sinks {
@@ -203,8 +203,6 @@ pub enum Warning {
         arc_length_m: f64,
         /// Depth over radius.
         share: f64,
-        /// For how long, in s.
-        duration_s: f64,
         /// Number of elements that would do.
         enough: usize,
     },

@@ -3,7 +3,7 @@
 use crate::bench::{RADIUS, deepest, rope, up};
 use lariat_ancf::contact::{Cuboid, Cylinder, HalfSpace, Obstacle};
 use lariat_ancf::coupling::Coupling;
-use lariat_ancf::{At, Cable, Contact, Error, PointLoad, Section, Vector3};
+use lariat_ancf::{At, Cable, Contact, Drag, Error, Flow, PointLoad, Section, Vector3, Warning};
 use nalgebra::UnitQuaternion;
 
 fn with(builder: lariat_ancf::CableBuilder, obstacles: Vec<Obstacle>) -> Cable {
@@ -140,4 +140,144 @@ fn what_statics_cannot_see_is_refused() {
         other => panic!("{other:?}"),
     }
     assert_eq!(cable.positions(), before);
+}
+
+/// The mooring line of these tests, from an anchor at the origin on a seabed to a fairlead 186 m above it: 850 m of chain.
+mod mooring {
+    pub const LENGTH: f64 = 850.0;
+    pub const HEIGHT: f64 = 186.0;
+    pub const STIFFNESS: f64 = 7.536e8;
+    pub const MASS: f64 = 113.35;
+    pub const RADIUS: f64 = 0.05;
+}
+
+fn mooring_line(span: f64, elements: usize) -> Cable {
+    use mooring::*;
+    let mut cable = Cable::builder()
+        .points([Vector3::zeros(), Vector3::new(span, HEIGHT, 0.0)])
+        .length(LENGTH)
+        .section(Section::from_stiffness(STIFFNESS, 0.0, MASS).unwrap())
+        .elements(elements)
+        .gravity(Vector3::new(0.0, -9.81, 0.0))
+        .integrator(crate::bench::steps(200.0))
+        .fix(At::Start)
+        .fix(At::End)
+        .build()
+        .unwrap();
+    cable.set_contact(Contact::with_friction(0.0).with_radius(RADIUS)).unwrap();
+    cable.set_obstacles([Obstacle::new(1, HalfSpace { normal: up() }, up() * -RADIUS, 0.0)]).unwrap();
+    cable
+}
+
+/// Tension at the fairlead in N of the elastic catenary on a seabed without friction: `x = L - s + H L/EA + a asinh(s/a)`,
+/// `h = a (sqrt(1 + s^2/a^2) - 1) + w s^2/(2 EA)`, a = H/w, s the length that hangs.
+fn catenary(span: f64) -> f64 {
+    use mooring::*;
+    let w = MASS * 9.81;
+    let hanging = |force: f64| {
+        let a = force / w;
+        let height = |s: f64| a * ((1.0 + (s / a).powi(2)).sqrt() - 1.0) + w * s * s / (2.0 * STIFFNESS);
+        root(|s| height(s) - HEIGHT, 0.0, LENGTH)
+    };
+    let reach = |force: f64| {
+        let (s, a) = (hanging(force), force / w);
+        LENGTH - s + LENGTH * force / STIFFNESS + a * f64::asinh(s / a)
+    };
+    let force = root(|force| reach(force) - span, 1.0, 1e7);
+    force.hypot(w * hanging(force))
+}
+
+/// The root of a function that grows.
+fn root(f: impl Fn(f64) -> f64, mut low: f64, mut high: f64) -> f64 {
+    for _ in 0..200 {
+        let middle = 0.5 * (low + high);
+        if f(middle) < 0.0 { low = middle } else { high = middle }
+    }
+    low
+}
+
+/// Largest displacement in m of a node in 10 s of motion.
+fn moves(cable: &mut Cable) -> f64 {
+    let start = cable.positions().to_vec();
+    for _ in 0..200 {
+        cable.step(0.05).unwrap();
+    }
+    let moved = cable.positions().chunks_exact(6).zip(start.chunks_exact(6));
+    moved.map(|(a, b)| (0..3).map(|x| (a[x] - b[x]).powi(2)).sum::<f64>().sqrt()).fold(0.0, f64::max)
+}
+
+/// A mooring line on its seabed is found at every offset and mesh, with the tension of the elastic catenary; a bulge between samples of
+/// a coarse mesh is a warning with the number of elements that would do, and not an error. It stays at rest.
+///
+/// *Source.* The elastic catenary with touchdown (Jonkman, NREL/TP-500-41958, 2007, section 2.6.2).
+#[test]
+fn a_mooring_line_has_the_tension_of_the_elastic_catenary_at_any_offset_and_mesh() {
+    let mut told = [0; 3];
+    for span in [740.0, 755.0, 770.0, 780.0, 790.0] {
+        for (k, elements) in [25, 50, 100].into_iter().enumerate() {
+            let mut cable = mooring_line(span, elements);
+            let report = cable.equilibrium().unwrap_or_else(|e| panic!("{span} {elements}: {e}"));
+            let top = cable.pull(elements).0.norm();
+            let error = top / catenary(span) - 1.0;
+            let sinks =
+                cable.warnings().iter().any(|w| matches!(w, Warning::Sinks { enough, .. } if *enough > elements));
+            told[k] += usize::from(sinks);
+            let moved = moves(&mut cable);
+            println!(
+                "{span} m, {elements}: {top:.0} N, error {error:.1e}, sinks {sinks}, moves {moved:.1e} m, {report:?}"
+            );
+            assert!(error.abs() < 1e-3, "{span} {elements}: {error}");
+            assert!(moved < 1e-6, "{span} {elements}: {moved}");
+        }
+    }
+    println!("told {told:?}");
+    assert!(told[0] > 0 && told[2] == 0, "{told:?}");
+}
+
+/// A mooring line on its seabed comes to rest in a current across and along it, is carried by bed, anchor and fairlead against weight and
+/// drag, and motion, whose drag and contacts are computed otherwise, leaves it where it is.
+///
+/// *Source.* Newton's first law, for the whole and for each node.
+#[test]
+fn a_mooring_line_rests_on_its_seabed_in_a_current() {
+    for (flow, elements) in
+        [([0.0, 0.0, 1.0], 40), ([1.5, 0.0, 0.0], 40), ([-1.0, 0.0, 1.0], 80), ([0.3, 0.0, 2.0], 20)]
+    {
+        let mut cable = mooring_line(770.0, elements);
+        let still = {
+            let mut still = cable.clone();
+            still.equilibrium().unwrap();
+            still.positions().to_vec()
+        };
+        let drag = Drag::new(1025.0, 1.2, 0.05, Flow::uniform(Vector3::from(flow)));
+        let section = Section { diameter: Some(0.153), ..cable.elements()[0].section };
+        cable = {
+            let mut other = Cable::builder()
+                .points([Vector3::zeros(), Vector3::new(770.0, mooring::HEIGHT, 0.0)])
+                .length(mooring::LENGTH)
+                .section(section)
+                .elements(elements)
+                .gravity(cable.gravity())
+                .integrator(cable.integrator())
+                .fix(At::Start)
+                .fix(At::End)
+                .build()
+                .unwrap();
+            other.set_contact(cable.effects().contact).unwrap();
+            other.set_obstacles(cable.obstacles().to_vec()).unwrap();
+            other.set_drag(drag).unwrap();
+            other
+        };
+        let report = cable.equilibrium().unwrap();
+        let w = mooring::MASS * 9.81;
+        let moved_by_flow = cable.positions().iter().zip(&still).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        let bed = carried(&cable);
+        let moved = moves(&mut cable);
+        println!(
+            "{flow:?} {elements}: {moved_by_flow:.2} m by the flow, bed {bed:.0} N, moves {moved:.1e} m, {report:?}"
+        );
+        assert!(report.stable && report.residual < 1e-8 * w * mooring::LENGTH);
+        assert!(moved_by_flow > 0.05 && bed > 0.1 * w * mooring::LENGTH, "{moved_by_flow} {bed}");
+        assert!(moved < 1e-6, "{moved}");
+    }
 }

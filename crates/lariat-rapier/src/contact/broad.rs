@@ -12,13 +12,12 @@ use crate::body::prescribed_motion::PrescribedMotions;
 use crate::contents::Contents;
 use crate::contents::rules::{ContactFilter, ContactRules};
 use crate::convert::{rotation, to_vector, vector};
-use crate::error::Error;
 use crate::events::Event;
 use crate::handle::CableHandle;
 use crate::islands::{Island, Member};
 use crate::scales::contact::{CHUNK, HELD, IGNORED, MARGIN, SWEEP};
 use ::nalgebra::{UnitQuaternion, Vector3};
-use lariat_ancf::contact::{LARGEST_RESTITUTION, Mount, Obstacle, Overlap, RigidMotion, Surface};
+use lariat_ancf::contact::{LARGEST_RESTITUTION, Mount, Obstacle, RigidMotion, Surface};
 use lariat_ancf::coupling::Coupling;
 use lariat_ancf::{Cable, Warning};
 use rapier::dynamics::{RigidBody, RigidBodyHandle};
@@ -168,7 +167,8 @@ impl Finder {
         Ok(changed)
     }
 
-    /// Gives a cable whose statics are solved the colliders of fixed and kinematic bodies in its reach as obstacles.
+    /// Gives a cable whose statics are solved the colliders of all bodies that stay where they are as obstacles: fixed, kinematic, and
+    /// dynamic ones that no cable is attached to.
     pub fn gather_for_statics(
         &mut self,
         contents: &Contents,
@@ -179,10 +179,24 @@ impl Finder {
         let mut obstacles = Vec::new();
         let slot = contents.cables.get(index).filter(|_| cable.effects().contact.is_some());
         for (found, collider) in slot.iter().flat_map(|_| world.colliders.iter()) {
-            let dynamic = collider.parent().and_then(|body| world.bodies.get(body)).is_some_and(RigidBody::is_dynamic);
             let touched = slot.and_then(|slot| self.touched(world, CableHandle(index as u32), &slot.rules, found));
-            if touched.is_some() && !dynamic {
-                obstacles.extend(self.still_obstacle(contents, CableHandle(index as u32), (found, collider), cable));
+            if touched.is_some() && !moves(contents, world, collider) {
+                let except = |surface: &dyn Surface| {
+                    held_pieces(contents, CableHandle(index as u32), collider, surface, cable.contact_radius())
+                };
+                obstacles.extend(self.still_obstacle((found, collider), cable, except));
+            }
+        }
+        cable.set_obstacles(obstacles)
+    }
+
+    /// Gives a cable that is in no set all colliders of a world as obstacles, as they stand.
+    pub fn gather_still(&mut self, world: &PhysicsWorld, cable: &mut Cable) -> Result<(), lariat_ancf::Error> {
+        let mut obstacles = Vec::new();
+        if cable.effects().contact.is_some() {
+            let rules = ContactRules::default();
+            for (found, collider) in world.colliders.iter().filter(|(_, collider)| rules.allow(collider)) {
+                obstacles.extend(self.still_obstacle((found, collider), cable, |_| Vec::new()));
             }
         }
         cable.set_obstacles(obstacles)
@@ -191,15 +205,14 @@ impl Finder {
     /// Returns a collider as an obstacle of a cable that stands still.
     fn still_obstacle(
         &mut self,
-        contents: &Contents,
-        handle: CableHandle,
         (found, collider): (ColliderHandle, &Collider),
         cable: &Cable,
+        except: impl FnOnce(&dyn Surface) -> Vec<[f64; 2]>,
     ) -> Option<Obstacle> {
         let surface = self.surfaces.of(found, collider.shared_shape())?;
         Some(Obstacle {
             key: key(found),
-            except: held_pieces(contents, handle, collider, &*surface, cable.contact_radius()),
+            except: except(&*surface),
             surface,
             motion: still(collider, cable.time()),
             mount: None,
@@ -207,43 +220,6 @@ impl Finder {
             restitution: 0.0,
             skin: f64::from(collider.contact_skin()),
         })
-    }
-
-    /// Refuses the static shape of a cable with contact that is in something that it can touch.
-    pub fn check_statics(
-        &mut self,
-        contents: &Contents,
-        world: &PhysicsWorld,
-        index: usize,
-        cable: &mut Cable,
-    ) -> Result<(), Error> {
-        let Some(slot) = contents.cables.get(index).filter(|_| cable.effects().contact.is_some()) else {
-            return Ok(());
-        };
-        self.find(world, cable, 0.0);
-        let handle = CableHandle(index as u32);
-        let mut obstacles = Vec::new();
-        for i in 0..self.found.len() {
-            let found = self.found[i];
-            let Some(collider) = self.touched(world, handle, &slot.rules, found) else { continue };
-            // the body moves with its cables to a place that the world does not know yet
-            let moves =
-                |body| crate::body::is_integrated(world, body) && contents.attachments.values().any(|a| a.body == body);
-            if collider.parent().is_some_and(moves) {
-                continue;
-            }
-            obstacles.extend(self.still_obstacle(contents, handle, (found, collider), cable));
-        }
-        cable.set_obstacles(obstacles)?;
-        match cable.overlap() {
-            None => Ok(()),
-            Some(Overlap { obstacle, arc_length, depth, .. }) => Err(Error::CableTouchesInStatics {
-                cable: cable.name().to_string(),
-                collider: super::collider(obstacle),
-                arc_length,
-                depth,
-            }),
-        }
     }
 
     /// Finds the colliders that a cable can reach in a step of `h` (s).
@@ -351,6 +327,12 @@ fn held_pieces(
         [a.arc_length - reach, a.arc_length + reach]
     })
     .collect()
+}
+
+/// Returns whether the body of a collider moves with its cables in statics.
+fn moves(contents: &Contents, world: &PhysicsWorld, collider: &Collider) -> bool {
+    let attached = |body| contents.attachments.values().any(|a| a.body == body);
+    collider.parent().is_some_and(|body| crate::body::is_integrated(world, body) && attached(body))
 }
 
 /// Returns the largest speed in m/s of a point of a collider of a dynamic body that is awake.

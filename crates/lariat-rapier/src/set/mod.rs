@@ -28,7 +28,7 @@ use crate::statics::{self, Equilibrium};
 use crate::step::Stepper;
 use crate::step::settings::Settings;
 use lariat_ancf::coupling::Coupling;
-use lariat_ancf::{At, Cable, EquilibriumOptions, Strength};
+use lariat_ancf::{At, Cable, EquilibriumOptions, EquilibriumReport, Strength};
 use rapier::dynamics::RigidBodyHandle;
 use rapier::pipeline::PhysicsWorld;
 use rope::{Rope, RopeEnd, RopeHandles};
@@ -198,16 +198,26 @@ impl CableSet {
 
     /// Moves all cables, and the dynamic bodies attached to them, to static equilibrium under gravity,
     /// loads and the users' forces; velocities become zero, readings of attachments are those at rest.
-    /// Returns what was moved, what was held, and what nothing is attached to. Cables with contact lie on fixed and kinematic colliders, without
-    /// friction; contact of cables with each other takes no part.
+    /// Returns what was moved, what was held, and what nothing is attached to. Cables with contact lie, without friction, on the
+    /// colliders of bodies that stay where they are: fixed and kinematic ones, and dynamic ones that no cable is attached to; contact of
+    /// cables with each other takes no part.
     ///
     /// # Errors
     /// [`Error::Cable`] with [`NoEquilibrium`](lariat_ancf::Error::NoEquilibrium) if an island has none;
     /// [`Error::JointInStatics`] and [`Error::ContactInStatics`] for bodies with joints and contacts;
-    /// [`Error::CableTouchesInStatics`] for a cable with contact that would be in a collider of a dynamic body, or on a sharp edge;
+    /// [`Error::CableTouchesInStatics`] for a cable with contact that would run through a collider;
     /// [`Error::OtherWorld`]. Set and world are then as before.
     pub fn equilibrium(&mut self, world: &mut PhysicsWorld) -> Result<Equilibrium, Error> {
         world_mark::check(&mut self.contents, world)?;
         statics::equilibrium(&mut self.contents, &mut self.stepper.finder, world, EquilibriumOptions::default())
+    }
+
+    /// Moves a cable that is not in the set to static equilibrium, at its supports, before it is inserted and attached: with contact it lies on
+    /// all colliders of the world, as they stand, without friction.
+    ///
+    /// # Errors
+    /// [`Error::Cable`] as [`Cable::equilibrium`]; [`Error::CableTouchesInStatics`] if it would run through a collider.
+    pub fn equilibrium_among(&mut self, world: &PhysicsWorld, cable: &mut Cable) -> Result<EquilibriumReport, Error> {
+        statics::among(&mut self.stepper.finder, world, cable)
     }
 }

@@ -6,9 +6,11 @@
 //! only when all islands are in equilibrium.
 //!
 //! # Validity
-//! No joints and no contacts of bodies: a body that has one is an error, before or after the search. Cables with contact lie on the
-//! colliders of fixed and kinematic bodies, without friction; one that would be in another collider, or on a sharp edge or something thin, is an error. Contact of
-//! cables with each other takes no part. A cable alone may end in an indifferent shape, which its report says.
+//! No joints and no contacts of bodies: a body that has one is an error, before or after the search. Cables with contact lie, without
+//! friction, on the colliders of all bodies that stay where they are: fixed, kinematic, and dynamic ones that no cable is attached to.
+//! One that would run through a collider, over a sharp edge or something thin that its samples do not see, is an error. Contact of
+//! cables with each other, and with bodies that they move, takes no part. A cable alone may end in an indifferent shape, which its
+//! report says.
 
 mod contacts;
 mod report;
@@ -24,12 +26,18 @@ use crate::contents::Contents;
 use crate::error::Error;
 use crate::islands::Islands;
 use contacts::check_contacts;
-use lariat_ancf::EquilibriumOptions;
+use lariat_ancf::{Cable, EquilibriumOptions, EquilibriumReport};
 use rapier::dynamics::RigidBodyHandle;
 use rapier::math::Pose;
 use rapier::pipeline::PhysicsWorld;
-use solve::{poses, solve};
+use solve::{name_collider, poses, solve};
 use write::{read_forces, write};
+
+/// Moves a cable that is in no set to static equilibrium among all colliders of a world, as they stand.
+pub(crate) fn among(finder: &mut Finder, world: &PhysicsWorld, cable: &mut Cable) -> Result<EquilibriumReport, Error> {
+    finder.gather_still(world, cable)?;
+    cable.equilibrium().map_err(name_collider)
+}
 
 /// Moves cables and the dynamic bodies attached to them to static equilibrium.
 pub(crate) fn equilibrium(
@@ -51,12 +59,6 @@ pub(crate) fn equilibrium(
     }
     let poses: Vec<(RigidBodyHandle, Pose)> = solved.iter().flat_map(|s| poses(world, s)).collect();
     check_contacts(world, &poses)?;
-    finder.begin(contents, world, 0.0);
-    for solved in &mut solved {
-        for (&index, cable) in solved.island.cables.iter().zip(&mut solved.cables) {
-            finder.check_statics(contents, world, index, cable)?;
-        }
-    }
     for a in contents.attachments.values() {
         if !is_integrated(world, a.body) && !out.held.contains(&a.body) {
             out.held.push(a.body);

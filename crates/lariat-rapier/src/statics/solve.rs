@@ -24,7 +24,7 @@ pub(super) struct Solved<'a> {
 }
 
 /// Returns an error of statics with the collider in which a cable would be.
-fn name_collider(error: lariat_ancf::Error) -> Error {
+pub(super) fn name_collider(error: lariat_ancf::Error) -> Error {
     match error {
         lariat_ancf::Error::NoEquilibrium {
             cable,
@@ -75,7 +75,8 @@ pub(super) fn solve<'a>(
             .collect::<Result<Vec<_>, _>>()?
     } else {
         let mut refs: Vec<&mut Cable> = cables.iter_mut().collect();
-        vec![island::equilibrium(&mut refs, &mut members, &island.pins, options)?; island.cables.len()]
+        let report = island::equilibrium(&mut refs, &mut members, &island.pins, options).map_err(name_collider)?;
+        vec![report; island.cables.len()]
     };
     out.cables.extend(island.cables.iter().map(|&c| CableHandle(c as u32)).zip(reports));
     Ok(Solved { island, cables, members })

@@ -6,7 +6,7 @@ use lariat_rapier::rapier::dynamics::CoefficientCombineRule;
 use lariat_rapier::rapier::math::Vector as RVector;
 use lariat_rapier::rapier::pipeline::{DebugColor, DebugRenderBackend, DebugRenderObject};
 use lariat_rapier::rapier::prelude::*;
-use lariat_rapier::{CableHandle, CableSet, ContactFilter, ContactRules, DrawStyle, Error, Event};
+use lariat_rapier::{CableHandle, CableSet, ContactFilter, ContactRules, DrawStyle, Event};
 use std::f64::consts::PI;
 
 const RADIUS: f64 = 5e-3;
@@ -318,17 +318,17 @@ fn a_snapshot_in_contact_continues_bitwise() {
     assert!(cables.get(cable).unwrap().snapshot() == cables_2.get(cable).unwrap().snapshot());
 }
 
-/// In statics a rope lies on a box that is fixed, and stays there when it moves on; one that would lie on the box of a body is refused with the collider, and one
-/// that hangs beside both is as without contact.
+/// In statics a rope lies on a box that is fixed, and stays there when it moves on, or on that of a body that no cable moves; one that
+/// hangs beside both is as without contact.
 ///
 /// *Source.* Statics: box and ends carry the weight; the contract.
 #[test]
-fn in_statics_a_rope_lies_on_what_is_fixed() {
+fn in_statics_a_rope_lies_on_what_stays() {
     for (top, dynamic) in [(-0.2, false), (-0.15, false), (-0.2, true), (-0.6, false), (-0.6, true)] {
         let mut world = PhysicsWorld::new();
         let block = ColliderBuilder::cuboid(0.6, 1.0, 1.0);
         let body = if dynamic { RigidBodyBuilder::dynamic() } else { RigidBodyBuilder::fixed() };
-        let (_, collider) = world.insert(body.translation(RVector::new(0.0, top - 1.0, 0.0)), block);
+        world.insert(body.translation(RVector::new(0.0, top - 1.0, 0.0)), block);
         let section = Section::from_stiffness(1e5, 1e-2, 0.14).unwrap();
         let hanging = Cable::builder()
             .points([Vector3::new(-0.5, 0.0, 0.0), Vector3::new(0.5, 0.0, 0.0)])
@@ -339,14 +339,7 @@ fn in_statics_a_rope_lies_on_what_is_fixed() {
             .fix(At::End);
         let mut cables = CableSet::new();
         let rope = touching(&mut cables, hanging.build().unwrap(), 0.5);
-        match cables.equilibrium(&mut world) {
-            Err(Error::CableTouchesInStatics { collider: found, .. }) => {
-                assert!(dynamic && top > -0.3 && found == collider);
-                continue;
-            }
-            Ok(_) => assert!(!dynamic || top < -0.3),
-            other => panic!("{other:?}"),
-        }
+        cables.equilibrium(&mut world).unwrap();
         let carried: f64 = cables.contacts(rope).unwrap().map(|(_, touch)| touch.normal_force).sum();
         let cable = cables.get_mut(rope).unwrap();
         let ends = -(cable.pull(0).0.y + cable.pull(cable.nodes() - 1).0.y);
@@ -354,6 +347,10 @@ fn in_statics_a_rope_lies_on_what_is_fixed() {
         println!("top {top}: box {carried:.4}, ends {ends:.4} of {weight:.4} N");
         assert!((carried + ends - weight).abs() < 1e-5 * weight);
         assert_eq!(carried > 0.1, top > -0.3);
+        if dynamic {
+            // it falls
+            continue;
+        }
         for _ in 0..30 {
             cables.step(&mut world).unwrap();
         }

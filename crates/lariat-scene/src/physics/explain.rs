@@ -31,7 +31,8 @@ impl Physics {
             lariat_rapier::Error::CableTouchesInStatics { cable, collider, arc_length, depth } => {
                 let body = self.world.colliders.get(collider).and_then(|c| name(c.parent()?)).unwrap_or_default();
                 let problem = format!(
-                    "statics compute contact at samples, not with dynamic bodies, sharp edges and thin things: cable {cable:?} would be {depth:.1e} m in it at {arc_length:.4} m: take a finer mesh, or run the scene until it rests"
+                    "cable {cable:?} would run through it, {depth:.1e} m deep at {arc_length:.4} m: statics compute contact at samples, which do \
+                     not see sharp edges and thin things between them: use more elements, or run the scene until it rests"
                 );
                 Error::Body { time, body, problem }
             }

@@ -3,7 +3,7 @@
 use super::{Physics, reading};
 use crate::error::Error;
 use crate::scene::Scene;
-use lariat_ancf::EquilibriumReport;
+use lariat_ancf::{Cable, EquilibriumReport};
 use lariat_rapier::rapier::dynamics::RigidBodyHandle;
 use lariat_rapier::{AttachmentReading, Equilibrium};
 use nalgebra::UnitQuaternion;
@@ -50,6 +50,15 @@ impl Physics {
         let body = scene.body_loads.first().map_or(String::new(), |load| scene.bodies[load.body].name.clone());
         let problem = "its loads turn with it, and no equilibrium was found".to_string();
         Err(Error::Body { time: 0.0, body, problem })
+    }
+
+    /// Moves a cable that is not yet attached to equilibrium, with all bodies held where they are drawn.
+    ///
+    /// # Errors
+    /// [`Error::Mechanics`] without an equilibrium, [`Error::Body`] for a body that the cable would run through.
+    pub fn equilibrium_among(&mut self, scene: &Scene, cable: &mut Cable) -> Result<EquilibriumReport, Error> {
+        let found = self.cables.equilibrium_among(&self.world, cable);
+        found.map_err(|error| self.explain(scene, 0.0, error))
     }
 
     fn settled(&mut self, scene: &Scene, found: &Equilibrium) -> Result<Settled, Error> {

@@ -70,7 +70,8 @@ impl World {
         Ok(world)
     }
 
-    /// Brings the cables to their start: static equilibrium where the scene asks for it, with bodies held where they are drawn;
+    /// Brings the cables to their start: static equilibrium where the scene asks for it, with bodies held where they are drawn, on
+    /// which cables with contact lie;
     /// loads; initial motion. For a run with Rapier the cables are then attached to the bodies. For statics, all cables go to
     /// equilibrium, and with Rapier the dynamic bodies attached to them, too.
     ///
@@ -94,7 +95,11 @@ impl World {
             }
             if fully || scene.cables[i].equilibrium {
                 scene.move_to_anchors(cable, i)?;
-                let report = cable.equilibrium()?;
+                let report = match physics {
+                    // statics of bodies begin without what the cable can touch
+                    Some(physics) if !fully => physics.equilibrium_among(scene, cable)?,
+                    _ => cable.equilibrium()?,
+                };
                 *static_iterations += report.iterations as u64;
                 // with bodies this is where statics begin
                 if !(report.stable || fully && physics.is_some()) {

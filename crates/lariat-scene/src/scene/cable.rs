@@ -31,7 +31,7 @@ table! {
         /// Unstretched length: a cable shorter than drawn is taut at the start, a longer one hangs slack.
         length: Option<f64> = ("the length of the polyline"), Kind::Number(POSITIVE), "m";
         /// `"straight"` starts as drawn, `"equilibrium"` in the static shape under the loads of the scene, with bodies and junctions
-        /// held where they are drawn.
+        /// held where they are drawn; with contact it lies on the bodies, without friction.
         initial: Initial = "straight", Kind::Choice(Initial::names);
         /// Number of elements. A cable over sheaves shares them out over its parts, each of which has at least two.
         elements: u64 = 10, Kind::Whole(1, 1_000_000);

@@ -147,3 +147,91 @@ fn joints_and_contacts_are_errors_and_held_bodies_are_named() {
     assert_eq!((bodies.held, bodies.unattached), (vec!["mast".to_string()], vec!["bystander".to_string()]));
     assert_eq!(summary.warnings, [Warning::LeftAsDrawn { body: "bystander".to_string() }]);
 }
+
+/// A mooring line of 850 m on its seabed: anchor at the origin, fairlead at 780 m, 186 m up.
+fn mooring(elements: usize, effects: &str) -> String {
+    format!(
+        r#"
+duration = 10.0
+dt = 0.05
+[[body]]
+name = "bed"
+kind = "fixed"
+shape = {{ plane = [0.0, 1.0, 0.0] }}
+friction = 0.5
+[[cable]]
+name = "line"
+points = [[0.0, 0.05, 0.0], [500.0, 0.05, 0.0], [780.0, 186.05, 0.0]]
+length = 850.0
+elements = {elements}
+axial_stiffness = 7.536e8
+bending_stiffness = 0.0
+mass_per_length = 113.35
+diameter = 0.153
+initial = "equilibrium"
+[cable.contact]
+radius = 0.05
+friction = 0.5
+{effects}
+[[attachment]]
+name = "anchor"
+cable = "line"
+at = "start"
+body = "world"
+[[attachment]]
+name = "fairlead"
+cable = "line"
+at = "end"
+body = "world"
+[[probe]]
+name = "fairlead"
+attachment = "fairlead"
+[[probe]]
+name = "middle"
+cable = "line"
+at = 600.0
+"#
+    )
+}
+
+fn start_and_run(text: &str) -> (Summary, Vec<Vec<Vec<f64>>>) {
+    let folder = tempfile::tempdir().unwrap();
+    let scene = Scene::parse("run.toml", text, &[], Purpose::Run).unwrap();
+    let summary = run::run(&scene, folder.path(), &mut run::Options::default()).unwrap();
+    let read = |p: &lariat_scene::scene::probe::ProbeScene| {
+        let path = folder.path().join("probes").join(format!("{}.csv", p.name));
+        let text = std::fs::read_to_string(path).unwrap();
+        text.lines().skip(1).map(|line| line.split(',').map(|x| x.parse().unwrap()).collect()).collect()
+    };
+    let rows = scene.probes.iter().map(read).collect();
+    (summary, rows)
+}
+
+/// `initial = "equilibrium"` knows the seabed, with and without a current: the line starts where `lariat static` finds it, with the tension
+/// of the catenary, and stays there.
+///
+/// *Source.* The elastic catenary with touchdown: 467 786 N at the fairlead (tests/contact/statics.rs of lariat-ancf); Newton's first law.
+#[test]
+fn a_mooring_line_starts_at_rest_on_its_seabed() {
+    for effects in ["", "[cable.drag]\nfluid_density = 1025.0\nflow = [0.0, 0.0, 1.0]\n"] {
+        let text = mooring(40, effects);
+        let (found, probes) = solve(&text).unwrap();
+        let (summary, rows) = start_and_run(&text);
+        let tension = |row: &[f64]| Vector3::new(row[1], row[2], row[3]).norm();
+        let (first, last) = (&rows[0][0], rows[0].last().unwrap());
+        let still = row(&probes[0]);
+        println!("static {:.1} N, start {:.1} N, end {:.1} N", tension(&still), tension(first), tension(last));
+        assert!((tension(first) / tension(&still) - 1.0).abs() < 1e-9);
+        if effects.is_empty() {
+            assert!((tension(first) / 467_786.0 - 1.0).abs() < 1e-3, "{}", tension(first));
+        }
+        let (a, b) = (&rows[1][0], rows[1].last().unwrap());
+        let moved = (0..3).map(|x| (a[1 + x] - b[1 + x]).abs()).fold(0.0, f64::max);
+        println!("moved {moved:.1e} m in 10 s, {:?}", summary.warnings);
+        assert!(moved < 1e-6, "{moved}");
+        for warnings in [&found.warnings, &summary.warnings] {
+            let inside = |w: &Warning| matches!(w, Warning::StartsInside { .. });
+            assert!(!warnings.iter().any(inside), "{warnings:?}");
+        }
+    }
+}

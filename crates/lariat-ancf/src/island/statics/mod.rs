@@ -13,6 +13,9 @@
 //! checked: forces and moments balance at every node and at every body, no element is folded, and the
 //! matrix is positive definite; a saddle is left by a small displacement.
 //!
+//! In a flow, or under a force of the user's own, there is no potential: the tangent is not symmetric, and steps are those of the implicit
+//! Euler method from rest, `h^2 = c2`, whose drag damps; the error falls linearly.
+//!
 //! # Validity
 //!
 //! Loads on bodies that are constant in world axes. Cables touch obstacles that stand still, without friction; contact of the bodies, and
@@ -27,17 +30,17 @@
 //! - Newton's method alone: a body on a slack cable has a singular matrix.
 //! - Motion with damping until it rests: its last digits take as long as all before.
 
+mod alone;
 mod search;
 
 use super::body::RigidBody;
 use super::hold::vector;
 use super::pin::{PinConstraint, check, is_on_free_body};
 use crate::cable::Cable;
-use crate::contact::Growth;
 use crate::element::side::Side;
-use crate::error::{Error, require};
-use crate::load::PointLoad;
-use crate::statics::{EquilibriumOptions, EquilibriumReport};
+use crate::error::{EquilibriumFailure, Error, require};
+use crate::island::layout::Layout;
+use crate::statics::{Continued, EquilibriumOptions, EquilibriumReport, find};
 use nalgebra::Vector3;
 use search::Search;
 
@@ -60,7 +63,8 @@ pub fn equilibrium(
         let reason = "its end is at a sheave or on a drum, whose equilibrium is not computed";
         return Err(Error::ReelPlace { cable: cable.name().to_string(), reason });
     }
-    let windings: Vec<_> = cables.iter().map(|cable| cable.snapshot.windings).collect();
+    let kept = |cable: &&mut Cable| (cable.snapshot.clone(), cable.model.loads.clone(), cable.model.supports.clone());
+    let before: Vec<_> = cables.iter().map(kept).collect();
     for (i, cable) in cables.iter_mut().enumerate().filter(|(_, cable)| cable.has_reel()) {
         cable.set_riding_stock(|node| is_on_free_body(bodies, pins, i, node));
         cable.sync_reel();
@@ -69,70 +73,81 @@ pub fn equilibrium(
     for body in &mut still {
         (body.velocity, body.angular_velocity, body.memory) = (Vector3::zeros(), Vector3::zeros(), None);
     }
-    let loads: Vec<Vec<PointLoad>> = cables.iter().map(|cable| cable.model.loads.clone()).collect();
     cables.iter_mut().flat_map(|cable| &mut cable.model.loads).for_each(|load| load.ramp = 0.0);
-    let supports: Vec<_> = cables.iter().map(|cable| cable.model.supports.clone()).collect();
     cables.iter_mut().for_each(|cable| cable.begin_static_contact());
-    let mut search = Search::new(cables, &still, pins, options.tolerance);
-    let mut outcome = search.run(cables, options.iterations);
-    let mut softened = false;
-    for cable in cables.iter_mut().filter(|_| outcome.is_err()) {
-        let start = cable.positions().to_vec();
-        softened |= cable.soften_static_contact(&start);
-    }
-    if softened {
-        let steps = search.steps;
-        search = Search::new(cables, &still, pins, options.tolerance);
-        search.steps = steps;
-        outcome = search.run(cables, steps + options.iterations);
-    }
-    let mut growth = Growth::default();
-    while outcome.is_ok() {
-        let harden = |cable: &mut &mut Cable| cable.harden_static_contact(&growth);
-        let depths: Vec<_> = cables.iter_mut().map(harden).collect();
-        if depths.iter().all(Option::is_none) {
-            break;
-        }
-        let good = (search.q.clone(), search.layout.clone());
-        let harder = search.run(cables, search.steps + options.iterations);
-        if growth.adapt(harder.is_ok()) {
-            (search.q, search.layout) = good;
-            for (cable, depth) in cables.iter_mut().zip(depths) {
-                depth.into_iter().for_each(|depth| cable.system.static_contact.retreat(depth));
-            }
-        } else {
-            outcome = harder;
-        }
-    }
+    let search = Search::new(cables, &still, pins, options.tolerance);
+    let mut together = Together { cables, search, iterations: options.iterations };
+    let outcome = find(&mut together);
+    let search = together.search;
     let (steps, residual) = (search.steps, search.residual);
-    for (((cable, loads), supports), windings) in cables.iter_mut().zip(loads).zip(supports).zip(windings) {
+    let mut named = 0;
+    let outcome = outcome.and_then(|stable| {
+        for (i, (cable, part)) in cables.iter_mut().zip(&search.layout.parts).enumerate() {
+            cable.snapshot.state.q.copy_from_slice(&search.q[part.range()]);
+            cable.set_at_rest();
+            cable.snapshot.state.memory.contacts = cable.end_static_contact();
+            if let Some(failure) = cable.crosses() {
+                named = i;
+                return Err(failure);
+            }
+        }
+        Ok(stable)
+    });
+    for (cable, (snapshot, loads, supports)) in cables.iter_mut().zip(before) {
         cable.model.loads = loads;
         if outcome.is_err() {
-            cable.model.supports = supports;
-            cable.snapshot.windings = windings;
+            cable.system.static_contact.end();
+            (cable.snapshot, cable.model.supports) = (snapshot, supports);
             cable.sync_reel();
         }
     }
-    if outcome.is_err() {
-        cables.iter_mut().for_each(|cable| cable.system.static_contact.end());
-    }
     let stable = outcome.map_err(|failure| Error::NoEquilibrium {
-        cable: cables[0].name().to_string(),
+        cable: cables[named].name().to_string(),
         time: cables[0].time(),
         failure,
         residual,
         iterations: steps,
     })?;
-    for (cable, part) in cables.iter_mut().zip(&search.layout.parts) {
-        cable.snapshot.state.q.copy_from_slice(&search.q[part.range()]);
-        cable.snapshot.state.v.fill(0.0);
-        cable.disturb();
-        cable.snapshot.state.memory.contacts = cable.end_static_contact();
-    }
     for (i, (body, still)) in bodies.iter_mut().zip(&search.layout.bodies).enumerate() {
         body.position = vector(&search.q[search.layout.body_at(i)..]);
         body.rotation = still.rotation;
         (body.velocity, body.angular_velocity, body.memory) = (Vector3::zeros(), Vector3::zeros(), None);
     }
     Ok(EquilibriumReport { iterations: steps, residual, stable })
+}
+
+/// The search for the equilibrium of an island.
+struct Together<'a, 'b> {
+    cables: &'a mut [&'b mut Cable],
+    search: Search,
+    /// Largest number of steps of one search.
+    iterations: usize,
+}
+
+impl Continued for Together<'_, '_> {
+    type Found = bool;
+    type Failure = EquilibriumFailure;
+    type Shape = (Vec<f64>, Layout);
+
+    fn search(&mut self) -> Result<bool, EquilibriumFailure> {
+        self.search.run(self.cables, self.search.steps + self.iterations)
+    }
+
+    fn improve(&mut self) -> Result<bool, EquilibriumFailure> {
+        self.search()
+    }
+
+    fn shape(&self) -> Self::Shape {
+        (self.search.q.clone(), self.search.layout.clone())
+    }
+
+    fn restore(&mut self, shape: Self::Shape) {
+        (self.search.q, self.search.layout) = shape;
+    }
+
+    fn for_each(&mut self, mut f: impl FnMut(&mut Cable, &[f64])) {
+        for (cable, part) in self.cables.iter_mut().zip(&self.search.layout.parts) {
+            f(cable, &self.search.q[part.range()]);
+        }
+    }
 }

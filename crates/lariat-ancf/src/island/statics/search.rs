@@ -53,6 +53,8 @@ pub(super) struct Search {
     /// First c2 in s^2.
     first: f64,
     has_potential: bool,
+    /// Whether something drives the cables at rest, as a flow does.
+    driven: bool,
     pub steps: usize,
     pub residual: f64,
 }
@@ -67,9 +69,9 @@ impl Search {
         let force = scales.iter().map(|s| s.force).sum::<f64>() + of_bodies;
         let mass: f64 = scales.iter().map(|s| s.mass).sum::<f64>() + bodies.iter().map(|b| b.mass).sum::<f64>();
         let length = scales.iter().map(|s| s.length).fold(0.0, f64::max);
-        let has_potential = cables
-            .iter()
-            .all(|c| !c.system.forces.drive() && c.model.loads.iter().all(|load| load.moment == Vector3::zeros()));
+        let driven = cables.iter().any(|c| c.system.forces.drive());
+        let moments = cables.iter().flat_map(|c| &c.model.loads).any(|load| load.moment != Vector3::zeros());
+        let has_potential = !driven && !moments;
         let mut q: Vec<f64> = cables.iter().flat_map(|cable| cable.positions().iter().copied()).collect();
         bodies.iter().for_each(|body| q.extend(body.position.iter().chain(&[0.0; 3])));
         let zeros = || vec![0.0; layout.size()];
@@ -93,15 +95,34 @@ impl Search {
             force,
             length,
             has_potential,
+            driven,
         }
     }
 
-    /// Iterates to rest, and returns whether the shape is stable.
+    /// Iterates to rest, and returns whether the shape is stable. If no other is found beside one that is not, that one is it.
     pub fn run(&mut self, cables: &mut [&mut Cable], most: usize) -> Result<bool, EquilibriumFailure> {
         if let Some(resultant) = self.unheld(cables) {
             self.residual = resultant;
             return Err(EquilibriumFailure::NotHeld);
         }
+        let mut left = None;
+        let outcome = self.descend(cables, most, &mut left);
+        match left {
+            Some((q, layout, residual)) if outcome.is_err() => {
+                (self.q, self.layout, self.residual) = (q, layout, residual);
+                Ok(false)
+            }
+            _ => outcome,
+        }
+    }
+
+    /// Iterates to rest; the first unstable shape that is left goes into `left`.
+    fn descend(
+        &mut self,
+        cables: &mut [&mut Cable],
+        most: usize,
+        left: &mut Option<(Vec<f64>, Layout, f64)>,
+    ) -> Result<bool, EquilibriumFailure> {
         self.place(cables);
         let (mut shakes, mut straightened, mut lowest) = (0, false, f64::INFINITY);
         let mut c2 = self.first;
@@ -140,7 +161,8 @@ impl Search {
                 for (cable, part) in cables.iter().zip(&self.layout.parts) {
                     straighten(&cable.model, &mut self.q[part.range()]);
                 }
-            } else if self.is_stable(cables).map_err(EquilibriumFailure::Step)? {
+            } else if self.driven || self.is_stable(cables) {
+                // the tangent of a flow is not symmetric; implicit steps end in what is stable alone
                 return Ok(true);
             } else {
                 let lower = energy < lowest - self.energy_rounding;
@@ -149,6 +171,7 @@ impl Search {
                     return Ok(false);
                 }
                 shakes += 1;
+                left.get_or_insert_with(|| (self.q.clone(), self.layout.clone(), self.residual));
                 self.shake();
             }
             self.place(cables);
@@ -189,14 +212,21 @@ impl Search {
 
     /// Solves the step of `c2` (s^2) into the trial, and returns its largest displacement in m.
     fn step(&mut self, cables: &mut [&mut Cable], c2: f64) -> Result<f64, StepFailure> {
-        let Search { layout, matrices, q, trial, z, v, rhs, time, length, .. } = self;
+        let Search { layout, matrices, q, trial, z, v, rhs, time, length, driven, .. } = self;
         trial.copy_from_slice(q);
         z.fill(0.0);
         let mut equations = IslandEquations { cables, layout, matrices };
         let mut before = f64::INFINITY;
+        let rate = if *driven { 1.0 / c2.sqrt() } else { 0.0 };
         for iteration in 1..=MAX_ITERATIONS {
-            let at = ForceInput { time: *time, scale: c2, q: trial, v, dv_dq: 0.0 };
+            if *driven {
+                // drag damps an implicit step from rest: its velocity is z/h with h^2 = c2
+                let cables = 0..layout.bodies_at;
+                v[cables.clone()].iter_mut().zip(&z[cables]).for_each(|(v, z)| *v = rate * z);
+            }
+            let at = ForceInput { time: *time, scale: c2, q: trial, v, dv_dq: rate };
             equations.cable_rows_and_matrices(&at, z, rhs)?;
+            v.fill(0.0);
             equations.factor_bodies(MatrixKind::Step, trial, v, rhs)?;
             layout.body_rows(c2, trial, v, z, rhs);
             equations.solve(MatrixKind::Step, trial, rhs);
@@ -224,7 +254,9 @@ impl Search {
             layout.follow_acceleration(*time, c2, trial, v, z);
             v.fill(0.0);
             let rounding = damp == 1.0 && before <= ROUNDING * *length && size > 0.5 * before;
-            if size <= CONVERGED * *length || rounding {
+            // without a symmetric tangent the iteration is linear; what it leaves falls from step to step
+            let close = *driven && size <= ROUNDING * *length;
+            if size <= CONVERGED * *length || rounding || close {
                 z.iter_mut().zip(trial.iter()).zip(q.iter()).for_each(|((z, y), q)| *z = y - q);
                 return Ok(equations.norm(z));
             }
@@ -275,12 +307,20 @@ impl Search {
         cables.iter().zip(&self.layout.parts).find_map(|(c, part)| first_fold(&c.model, &self.q[part.range()]))
     }
 
-    /// Returns whether the stiffness is positive definite, but for modes softer than any that matters.
-    fn is_stable(&mut self, cables: &mut [&mut Cable]) -> Result<bool, StepFailure> {
+    /// Returns whether the stiffness is positive definite, but for modes softer than any that matters; of a matrix that is singular to
+    /// rounding, but for modes that are softer than those.
+    fn is_stable(&mut self, cables: &mut [&mut Cable]) -> bool {
         let Search { layout, matrices, q, v, rhs, time, first, .. } = self;
         let mut equations = IslandEquations { cables, layout, matrices };
-        let at = ForceInput { time: *time, scale: STABILITY_C2 * *first, q, v, dv_dq: 0.0 };
-        equations.is_positive_definite(&at, rhs)
+        let mut c2 = STABILITY_C2 * *first;
+        while c2 > *first {
+            let at = ForceInput { time: *time, scale: c2, q, v, dv_dq: 0.0 };
+            if let Ok(stable) = equations.is_positive_definite(&at, rhs) {
+                return stable;
+            }
+            c2 *= REDUCTION;
+        }
+        false
     }
 
     /// Displaces everything a little, the same in every run.

@@ -1,29 +1,19 @@
-//! The sequence of attempts: see [`statics`](super).
+//! The equilibrium of a cable by itself: the sequence of attempts, see [`statics`](crate::statics), and with drag the search of an
+//! island without bodies.
 
-use super::attempt::{Budget, EquilibriumReport, Failure};
-use super::{folds, start_shape};
+use super::search::Search;
 use crate::cable::Cable;
-use crate::contact::{ContactMemory, Growth, Overlap};
+use crate::cable::Snapshot;
+use crate::contact::Overlap;
 use crate::error::{EquilibriumFailure, Error, require};
 use crate::model::Model;
+use crate::state::ContactMemory;
+use crate::statics::move_with_supports;
+use crate::statics::{
+    Budget, Continued, EquilibriumOptions, EquilibriumReport, Failure, find, first_fold, lay_out, straighten,
+};
 use crate::support::SlopeSupport;
 use nalgebra::Vector3;
-
-/// Tolerance and number of iterations of an equilibrium.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct EquilibriumOptions {
-    /// Largest residual force over the sum of the loads. Default 1e-9.
-    pub tolerance: f64,
-    /// Largest number of steps of each attempt; an attempt takes at most twice as many iterations,
-    /// all attempts together at most five times as many. Default 400.
-    pub iterations: usize,
-}
-
-impl Default for EquilibriumOptions {
-    fn default() -> Self {
-        EquilibriumOptions { tolerance: 1e-9, iterations: 400 }
-    }
-}
 
 impl Cable {
     /// Moves the cable to static equilibrium under gravity, its full point loads, its effects and
@@ -56,31 +46,9 @@ impl Cable {
         let loads = self.model.loads.clone();
         // the point loads ramp with a time from 0 to 1 while statics are solved
         self.model.loads.iter_mut().for_each(|load| (load.ramp, load.start) = (1.0, 0.0));
-        let mut budget = Budget::new(options.tolerance, options.iterations);
-        let mut searched = 0;
-        let mut outcome = self.with_workspace(|cable| cable.attempts(&mut budget));
-        if outcome.is_err() && self.soften_static_contact(&before.state.q) {
-            self.snapshot = before.clone();
-            searched += budget.done;
-            budget = Budget::new(options.tolerance, options.iterations);
-            outcome = self.with_workspace(|cable| cable.attempts(&mut budget));
-        }
-        let mut growth = Growth::default();
-        while let Some(depth) = outcome.is_ok().then(|| self.harden_static_contact(&growth)).flatten() {
-            searched += budget.done;
-            budget = Budget::new(options.tolerance, options.iterations);
-            let good = self.snapshot.clone();
-            let harder = self.with_workspace(|cable| {
-                let report = cable.minimise_energy(1.0, &mut budget)?;
-                cable.without_folds(report, &mut budget)
-            });
-            if growth.adapt(harder.is_ok()) {
-                self.snapshot = good;
-                self.system.static_contact.retreat(depth);
-            } else {
-                outcome = harder;
-            }
-        }
+        let mut alone = Alone { cable: self, options, budget: Budget::new(&options), searched: 0 };
+        let outcome = find(&mut alone);
+        let iterations = alone.searched + alone.budget.done;
         self.model.loads = loads;
         let contacts = self.end_static_contact();
         match outcome {
@@ -89,16 +57,14 @@ impl Cable {
                 self.snapshot.work = work;
                 self.set_at_rest();
                 self.snapshot.state.memory.contacts = contacts;
-                if let Some(overlap) = self.overlap() {
-                    let Overlap { obstacle, arc_length, depth } = overlap;
+                if let Some(failure) = self.crosses() {
                     self.snapshot = before;
-                    let failure = EquilibriumFailure::Touches { obstacle, arc_length, depth };
-                    return Err(no_equilibrium(self, failure, 0.0, searched + budget.done));
+                    return Err(no_equilibrium(self, failure, 0.0, iterations));
                 }
-                Ok(EquilibriumReport { iterations: searched + report.iterations, ..report })
+                Ok(EquilibriumReport { iterations, ..report })
             }
             Err(failure) => {
-                let fold = folds::first_fold(&self.model, self.positions());
+                let fold = first_fold(&self.model, self.positions());
                 self.snapshot = before;
                 self.revision = revision;
                 let reason = match (failure.cause, fold) {
@@ -106,7 +72,7 @@ impl Cable {
                     (None, Some(element)) => EquilibriumFailure::Folded { element },
                     (None, None) => EquilibriumFailure::NotConverged,
                 };
-                Err(no_equilibrium(self, reason, failure.residual, searched + budget.done))
+                Err(no_equilibrium(self, reason, failure.residual, iterations))
             }
         }
     }
@@ -121,22 +87,18 @@ impl Cable {
         self.system.static_contact.begin(model, time, &q);
     }
 
-    /// Softens the law of contact in statics for a shape, and returns whether there is anything to touch.
-    pub(crate) fn soften_static_contact(&mut self, q: &[f64]) -> bool {
-        self.system.static_contact.soften(&self.model, q)
-    }
-
-    /// Makes a softened law of contact in statics harder, and returns the depth that it had; `None` if it was not softened.
-    pub(crate) fn harden_static_contact(&mut self, growth: &Growth) -> Option<f64> {
-        self.system.static_contact.harden(&self.model, growth)
-    }
-
     /// Ends it, and returns the contacts of the present shape.
     pub(crate) fn end_static_contact(&mut self) -> Vec<ContactMemory> {
         let mut contacts = Vec::new();
         self.system.static_contact.remember(&self.model, &self.snapshot.state.q, &mut contacts);
         self.system.static_contact.end();
         contacts
+    }
+
+    /// Returns the failure of an equilibrium that runs through an obstacle.
+    pub(super) fn crosses(&self) -> Option<EquilibriumFailure> {
+        let Overlap { obstacle, arc_length, depth, .. } = self.overlap().filter(|overlap| overlap.crosses)?;
+        Some(EquilibriumFailure::Touches { obstacle, arc_length, depth })
     }
 
     fn attempts(&mut self, budget: &mut Budget) -> Result<EquilibriumReport, Failure> {
@@ -159,7 +121,7 @@ impl Cable {
                 1 => self.minimise_energy(1.0, budget),
                 2 if loads && !moments => self.ramp_loads(budget),
                 3 => {
-                    start_shape::lay_out(&self.model, &mut self.snapshot.state.q);
+                    lay_out(&self.model, &mut self.snapshot.state.q);
                     self.minimise_energy(1.0, budget)
                 }
                 4 => {
@@ -195,26 +157,116 @@ impl Cable {
         }
     }
 
+    /// Comes to rest in a flow, or under a force of the user's own, which have no potential to minimise.
+    fn come_to_rest_in_flow(&mut self, budget: &mut Budget) -> Result<EquilibriumReport, Failure> {
+        let start = self.snapshot.clone();
+        let found = self.come_to_rest(budget);
+        if found.is_ok() || self.effects().contact.is_some() {
+            return found;
+        }
+        self.snapshot = start;
+        budget.begin_attempt();
+        self.follow_to_rest_in_flow(budget)
+    }
+
+    /// Comes to rest by the search of an island without bodies.
+    fn come_to_rest(&mut self, budget: &mut Budget) -> Result<EquilibriumReport, Failure> {
+        let loads = self.model.loads.clone();
+        self.model.loads.iter_mut().for_each(|load| load.ramp = 0.0);
+        let cables = &mut [&mut *self];
+        let mut search = Search::new(cables, &[], &[], budget.tolerance);
+        let outcome = search.run(cables, budget.left());
+        self.model.loads = loads;
+        self.snapshot.state.q.copy_from_slice(&search.q);
+        self.set_at_rest();
+        budget.done += search.steps;
+        let residual = search.residual;
+        match outcome {
+            Ok(stable) => Ok(EquilibriumReport { iterations: budget.done, residual, stable }),
+            Err(EquilibriumFailure::Step(cause)) => Err(Failure { cause: Some(cause), residual }),
+            Err(_) => Err(Failure { cause: None, residual }),
+        }
+    }
+
+    /// Sets all velocities to zero.
+    pub(crate) fn set_at_rest(&mut self) {
+        self.snapshot.state.v.fill(0.0);
+        self.disturb();
+    }
+
     /// Moves the supports to their prescribed positions, and the cable with them.
     fn place_supports(&mut self) {
         let (equations, state) = self.equations();
         let before = state.q.clone();
         equations.prescribe(state.time, &mut state.q, &mut state.v);
-        start_shape::move_with_supports(equations.model, &before, &mut state.q);
+        move_with_supports(equations.model, &before, &mut state.q);
     }
 
     /// Returns the report if no element is folded; else straightens the folds and minimises the
     /// energy again.
     fn without_folds(&mut self, report: EquilibriumReport, budget: &mut Budget) -> Result<EquilibriumReport, Failure> {
-        if folds::first_fold(&self.model, self.positions()).is_none() {
+        if first_fold(&self.model, self.positions()).is_none() {
             return Ok(report);
         }
-        folds::straighten(&self.model, &mut self.snapshot.state.q);
+        straighten(&self.model, &mut self.snapshot.state.q);
         let report = self.minimise_energy(1.0, budget)?;
-        match folds::first_fold(&self.model, self.positions()) {
+        match first_fold(&self.model, self.positions()) {
             None => Ok(report),
             Some(_) => Err(Failure { cause: None, residual: report.residual }),
         }
+    }
+}
+
+/// The search for the equilibrium of a cable by itself.
+struct Alone<'a> {
+    cable: &'a mut Cable,
+    options: EquilibriumOptions,
+    budget: Budget,
+    /// Iterations of the searches before the present one.
+    searched: usize,
+}
+
+impl Alone<'_> {
+    fn begin(&mut self) {
+        self.searched += self.budget.done;
+        self.budget = Budget::new(&self.options);
+    }
+}
+
+impl Continued for Alone<'_> {
+    type Found = EquilibriumReport;
+    type Failure = Failure;
+    type Shape = Snapshot;
+
+    fn search(&mut self) -> Result<EquilibriumReport, Failure> {
+        self.begin();
+        let Alone { cable, budget, .. } = self;
+        cable.with_workspace(|cable| cable.attempts(budget))
+    }
+
+    fn improve(&mut self) -> Result<EquilibriumReport, Failure> {
+        self.begin();
+        let Alone { cable, budget, .. } = self;
+        cable.with_workspace(|cable| {
+            if cable.system.forces.drive() {
+                return cable.come_to_rest_in_flow(budget);
+            }
+            let report = cable.minimise_energy(1.0, budget)?;
+            cable.without_folds(report, budget)
+        })
+    }
+
+    fn shape(&self) -> Snapshot {
+        self.cable.snapshot.clone()
+    }
+
+    fn restore(&mut self, shape: Snapshot) {
+        self.cable.snapshot = shape;
+    }
+
+    fn for_each(&mut self, mut f: impl FnMut(&mut Cable, &[f64])) {
+        let q = self.cable.positions().to_vec();
+        f(self.cable, &q);
     }
 }
 
