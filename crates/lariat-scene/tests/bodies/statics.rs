@@ -167,7 +167,6 @@ elements = {elements}
 axial_stiffness = 7.536e8
 bending_stiffness = 0.0
 mass_per_length = 113.35
-diameter = 0.153
 initial = "equilibrium"
 [cable.contact]
 radius = 0.05
@@ -213,7 +212,7 @@ fn start_and_run(text: &str) -> (Summary, Vec<Vec<Vec<f64>>>) {
 /// *Source.* The elastic catenary with touchdown: 467 786 N at the fairlead (tests/contact/statics.rs of lariat-ancf); Newton's first law.
 #[test]
 fn a_mooring_line_starts_at_rest_on_its_seabed() {
-    for effects in ["", "[cable.drag]\nfluid_density = 1025.0\nflow = [0.0, 0.0, 1.0]\n"] {
+    for effects in ["", "[cable.drag]\nfluid_density = 1025.0\ndiameter = 0.153\nflow = [0.0, 0.0, 1.0]\n"] {
         let text = mooring(40, effects);
         let (found, probes) = solve(&text).unwrap();
         let (summary, rows) = start_and_run(&text);
@@ -221,7 +220,8 @@ fn a_mooring_line_starts_at_rest_on_its_seabed() {
         let (first, last) = (&rows[0][0], rows[0].last().unwrap());
         let still = row(&probes[0]);
         println!("static {:.1} N, start {:.1} N, end {:.1} N", tension(&still), tension(first), tension(last));
-        assert!((tension(first) / tension(&still) - 1.0).abs() < 1e-9);
+        // the two searches begin from different shapes, and end where the residual is within 1e-9 of the loads
+        assert!((tension(first) / tension(&still) - 1.0).abs() < 1e-6);
         if effects.is_empty() {
             assert!((tension(first) / 467_786.0 - 1.0).abs() < 1e-3, "{}", tension(first));
         }

@@ -217,16 +217,9 @@ impl Search {
         z.fill(0.0);
         let mut equations = IslandEquations { cables, layout, matrices };
         let mut before = f64::INFINITY;
-        let rate = if *driven { 1.0 / c2.sqrt() } else { 0.0 };
         for iteration in 1..=MAX_ITERATIONS {
-            if *driven {
-                // drag damps an implicit step from rest: its velocity is z/h with h^2 = c2
-                let cables = 0..layout.bodies_at;
-                v[cables.clone()].iter_mut().zip(&z[cables]).for_each(|(v, z)| *v = rate * z);
-            }
-            let at = ForceInput { time: *time, scale: c2, q: trial, v, dv_dq: rate };
+            let at = ForceInput { time: *time, scale: c2, q: trial, v, dv_dq: 0.0 };
             equations.cable_rows_and_matrices(&at, z, rhs)?;
-            v.fill(0.0);
             equations.factor_bodies(MatrixKind::Step, trial, v, rhs)?;
             layout.body_rows(c2, trial, v, z, rhs);
             equations.solve(MatrixKind::Step, trial, rhs);
