@@ -76,7 +76,7 @@ impl<'a, 'py> FromPyObject<'a, 'py> for Choice {
             return Ok(Choice(integrator.get().0.into()));
         }
         if object.is_instance_of::<PyString>() {
-            return Ok(Choice(fidelity(&object.extract::<String>()?)?.into()));
+            return Ok(Choice(fidelity(&object.extract::<String>()?)?));
         }
         Err(PyTypeError::new_err("expected an Integrator, or \"game\", \"engineering\" or \"reference\""))
     }

@@ -14,7 +14,7 @@ fn description(reel: &Bound<'_, PyAny>) -> PyResult<Reel> {
 
 /// Makes the Python object of a break.
 pub fn broken<'py>(py: Python<'py>, how: &Break) -> PyResult<Bound<'py, PyAny>> {
-    let Break { cause, arc_length, tension, strain, time, strain_energy, inserted_energy } = *how;
+    let Break { cause, arc_length, tension, strain, time, strain_energy, inserted_energy, .. } = *how;
     result(py, "Break", (cause.name(), arc_length, tension, strain, time, strain_energy, inserted_energy))
 }
 
@@ -45,8 +45,9 @@ impl Cable {
     /// What the reel at an end does now; None without one.
     fn reel<'py>(&self, py: Python<'py>, at: Place) -> PyResult<Option<Bound<'py, PyAny>>> {
         let Some(reading) = self.read(py, |cable| Ok(cable.reel(at.0)))? else { return Ok(None) };
-        let ReelReading { length_out, rate, force, tension, work, remeshed, splits, merges, stopped, speed_ratio } =
-            reading;
+        let ReelReading {
+            length_out, rate, force, tension, work, remeshed, splits, merges, stopped, speed_ratio, ..
+        } = reading;
         let values = (length_out, rate, force, tension, work, remeshed, splits, merges, stopped, speed_ratio);
         result(py, "ReelReading", values).map(Some)
     }
