@@ -80,16 +80,18 @@ impl Cable {
             let origin = motion.position + motion.velocity * elapsed;
             let axes = nalgebra::UnitQuaternion::new(motion.angular_velocity * elapsed) * motion.rotation;
             let (mut begin, mut held, mut deepest): (f64, bool, Option<Overlap>) = (0.0, false, None);
-            let mut end = |deepest: &mut Option<Overlap>, held: bool, elements: RangeInclusive<usize>| {
+            // normals of the surface where the cable comes near it and where it leaves it
+            let (mut last_normal, mut entry) = (None, None);
+            let mut end = |deepest: &mut Option<Overlap>, held: bool, elements: RangeInclusive<usize>, faces| {
                 let Some(mut found) = deepest.take().filter(|_| !held) else { return };
-                found.crosses &= !self.is_kept_out(obstacle.key, elements);
+                found.crosses &= !self.is_kept_out(obstacle.key, elements, faces);
                 if worst.is_none_or(|worst| (found.crosses, found.depth) > (worst.crosses, worst.depth)) {
                     worst = Some(found);
                 }
             };
             for (e, element) in self.elements().iter().enumerate() {
                 if self.model.is_at_eye(e) {
-                    end(&mut deepest, held, first..=e);
+                    end(&mut deepest, held, first..=e, [entry, last_normal]);
                     (held, begin) = (false, begin + element.length);
                     continue;
                 }
@@ -100,10 +102,12 @@ impl Cable {
                     let arc_length = (begin + xi * element.length).min(self.length());
                     let Ok(sample) = self.sample(arc_length) else { continue };
                     let y: Vector3<f64> = axes.inverse() * (sample.position - origin) + motion.centre;
-                    let distance = obstacle.surface.nearest(&y).distance;
+                    let nearest = obstacle.surface.nearest(&y);
+                    let distance = nearest.distance;
+                    let before = last_normal.replace(axes * nearest.patch.gap(&y).1);
                     let depth = radius + obstacle.skin - distance;
                     if depth <= TOUCH * radius + carried {
-                        end(&mut deepest, held, first..=e);
+                        end(&mut deepest, held, first..=e, [entry, last_normal]);
                         held = false;
                         continue;
                     }
@@ -113,24 +117,31 @@ impl Cable {
                     if deepest.is_none() {
                         // contacts at the end of the element before keep it out too
                         first = if i == 0 { e.saturating_sub(1) } else { e };
+                        entry = before.or(last_normal);
                     }
-                    if deepest.is_none_or(|deepest| depth > deepest.depth) {
-                        deepest = Some(Overlap { obstacle: obstacle.key, arc_length, depth, crosses: distance < 0.0 });
-                    }
+                    let crosses = distance < 0.0 || deepest.is_some_and(|deepest| deepest.crosses);
+                    let found = Overlap { obstacle: obstacle.key, arc_length, depth, crosses };
+                    deepest = Some(
+                        deepest
+                            .filter(|deepest| deepest.depth >= depth)
+                            .map_or(found, |deepest| Overlap { crosses, ..deepest }),
+                    );
                 }
                 begin += element.length;
             }
-            end(&mut deepest, held, first..=self.elements().len() - 1);
+            end(&mut deepest, held, first..=self.elements().len() - 1, [entry, last_normal]);
         }
         worst
     }
 
-    /// Returns whether contacts in these elements keep the cable out of an obstacle, all on one side of it: what is in it between them
-    /// is a bulge, which a finer mesh does not have.
-    fn is_kept_out(&self, obstacle: u64, elements: RangeInclusive<usize>) -> bool {
+    /// Returns whether contacts in these elements keep the cable out of an obstacle, all on the side of it on which the cable comes near
+    /// it and leaves it, by the normals of its surface there: what is in it between them is a bulge, which a finer mesh does not have. A
+    /// cable that cuts an edge, or goes through a plate, leaves it on another side.
+    fn is_kept_out(&self, obstacle: u64, elements: RangeInclusive<usize>, faces: [Option<Vector3<f64>>; 2]) -> bool {
         let touches = self.snapshot.state.memory.contacts.iter();
         let own = touches.filter(|touch| touch.obstacle == obstacle && elements.contains(&(touch.element as usize)));
         let sides: Vec<Vector3<f64>> = own.map(|touch| touch.direction).collect();
-        !sides.is_empty() && sides.iter().all(|a| a.dot(&sides[0]) > SAME_SIDE)
+        let first = sides.first();
+        first.is_some_and(|first| sides.iter().chain(faces.iter().flatten()).all(|a| a.dot(first) > SAME_SIDE))
     }
 }

@@ -50,11 +50,16 @@ pub(crate) fn find<S: Continued>(search: &mut S) -> Result<S::Found, S::Failure>
     let mut found = match outcome {
         Some(Ok(found)) => found,
         failed => {
+            let end = search.shape();
             search.restore(start);
             let mut softened = false;
             search.for_each(|cable, q| softened |= cable.system.static_contact.soften(&cable.model, q));
             match failed {
-                Some(Err(failure)) if !softened => return Err(failure),
+                Some(Err(failure)) if !softened => {
+                    // the shape in which it failed tells why
+                    search.restore(end);
+                    return Err(failure);
+                }
                 _ => search.search()?,
             }
         }

@@ -46,8 +46,6 @@ pub(crate) struct StepVectors {
     pub pair_impulses: Vec<f64>,
     /// Where nothing holds the cable, the momenta when the step begins.
     pub before: Option<Before>,
-    /// The one point at rest that is held, in the first cable.
-    pub pivot: Option<Vector3<f64>>,
     /// Those of the end of the step before, if it was in the same host step.
     pub after: Option<Before>,
     /// Impulse and angular impulse about the origin of the forces without potential, if they are asked for.

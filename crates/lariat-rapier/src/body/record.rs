@@ -135,7 +135,7 @@ impl Records {
         self.0.binary_search_by_key(&body.into_raw_parts(), |record| record.handle.into_raw_parts())
     }
 
-    /// Returns the bodies that have a record: those with attachments, and those that moved with them.
+    /// Returns the bodies that have a record: those that moved with cables in an earlier step.
     pub fn handles(&self) -> impl Iterator<Item = RigidBodyHandle> {
         self.0.iter().map(|record| record.handle)
     }

@@ -128,6 +128,10 @@ pub(crate) fn begin(
         stepper.failures.clear();
         stepper.budget = Remaining::new(settings.budget);
         stepper.predictions.iter_mut().for_each(|p| (p.budget, p.degraded) = (stepper.budget, false));
+        // new ones, and those that were there in the last step
+        let held = contents.attachments.values().map(|a| a.body);
+        let held = held.chain(contents.drums.iter().map(|wound| wound.drum.body));
+        held.filter(|&body| contents.records.get(body).is_none()).for_each(|body| body::update_mass(world, body));
         contents.records.handles().for_each(|body| body::update_mass(world, body));
         host.steps = substepping::count(contents, world, settings, f64::from(dt));
         host.motions = core::mem::take(&mut stepper.motions);

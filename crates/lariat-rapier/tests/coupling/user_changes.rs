@@ -269,6 +269,30 @@ fn a_change_of_mass_acts_in_the_next_step() {
     }
 }
 
+/// A body that was given a mass besides its collider is hung up before Rapier has stepped it: the
+/// first step knows all of it.
+///
+/// Reference: the same run with a call of `recompute_mass_properties_from_colliders`.
+#[test]
+fn a_new_body_has_its_whole_mass_in_the_first_step() {
+    let run = |by_hand: bool| {
+        let mut world = PhysicsWorld::new();
+        let body = RigidBodyBuilder::dynamic().additional_mass(100.0).translation(Vector::new(2.0, 0.0, 0.0));
+        let (load, _) = world.insert(body, ColliderBuilder::ball(0.1).mass(0.5));
+        let PhysicsWorld { bodies, colliders, .. } = &mut world;
+        if by_hand {
+            bodies[load].recompute_mass_properties_from_colliders(colliders);
+        }
+        let mut set = CableSet::new();
+        let rope = cable([0.0; 3], [2.0, 0.0, 0.0], soft()).fix(At::Start);
+        let rope = set.insert(rope.build().unwrap());
+        set.attach(&world, rope, At::End, load, Vector::ZERO, AttachmentKind::Ball).unwrap();
+        set.step(&mut world).unwrap();
+        (vector(world.bodies[load].linvel()), set.get(rope).unwrap().positions().to_vec())
+    };
+    assert_eq!(run(false), run(true));
+}
+
 /// A cable is cut between the prediction of a step and its reconciliation.
 ///
 /// Reference: the contract; the load falls, by g t^2/2 within 10 % for the swing of the cut end.

@@ -26,7 +26,7 @@ impl DiscreteGradientSystem for IslandStep<'_, '_> {
     }
 
     fn predict(&mut self, step: &StepStart) {
-        self.note_angular_momentum(step.h);
+        self.note_angular_momentum();
         Terms::begin(self, step);
     }
 

@@ -1,4 +1,4 @@
-//! Reels, sheaves and drums as a term of a step. Equations: `system/flow/law.rs`, `wheel.rs` and
+//! Reels, sheaves and drums as a term of a step. Equations: `system/reel/law.rs`, `wheel.rs` and
 //! `drum.rs`.
 //!
 //! Their verdicts: motors, sheaves and drums must have the forces of their laws, to 1e-3. With

@@ -100,11 +100,11 @@ fn rigid_motion(island: &mut IslandStep<'_, '_>) -> RigidMotion {
         turns = false;
     }
     let reels = island.cables.iter().any(|cable| !cable.system.feeds.is_empty());
-    let whole = !reels && !island.buffers.bodies.iter().any(BodyStep::carries);
+    let carries = island.buffers.bodies.iter().any(BodyStep::carries);
     match common {
-        Some(motion) if whole && turns && holds == 1 => projection(island, Some(motion)),
+        Some(motion) if !carries && turns && holds == 1 => projection(island, Some(motion)),
         Some(motion) => motion,
-        None if whole => projection(island, None),
+        None if !reels && !carries => projection(island, None),
         None => RigidMotion { velocity: mean_velocity(island), ..RigidMotion::default() },
     }
 }

@@ -161,8 +161,10 @@ impl Search {
                 for (cable, part) in cables.iter().zip(&self.layout.parts) {
                     straighten(&cable.model, &mut self.q[part.range()]);
                 }
-            } else if self.driven || self.is_stable(cables) {
-                // the tangent of a flow is not symmetric; implicit steps end in what is stable alone
+            } else if self.driven {
+                // the tangent of a flow is not symmetric: its symmetric part is judged, and nothing is done about it
+                return Ok(self.is_stable(cables));
+            } else if self.is_stable(cables) {
                 return Ok(true);
             } else {
                 let lower = energy < lowest - self.energy_rounding;
