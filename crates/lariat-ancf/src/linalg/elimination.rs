@@ -17,7 +17,7 @@
 //! # Alternatives considered
 //!
 //! - The order of the bodies as they come: right for a chain, not for a net.
-//! - Nested dissection: less fill from some thousands of blocks on; an island has at most hundreds.
+//! - Nested dissection: less fill from some thousands of blocks on; most islands have hundreds.
 //! - Quotient graphs: they save the memory of the bits, which is 45 kB for 600 blocks.
 
 /// The order, and the pattern of the factors; positions are numbers in the order of elimination.

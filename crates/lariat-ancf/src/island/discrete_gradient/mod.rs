@@ -10,7 +10,7 @@
 //! ```
 //!
 //! with the condensed matrices W and the stiffening part of the levers under the impulses p of the pins. It is positive definite if the
-//! step matrices of the cables are. A body that a cable touches has columns of its own beside the held coordinates, and G = 1. The energy law
+//! step matrices of the cables are; beside it stand the forces of contacts between cables, with the diagonal -1. A body that a cable touches has columns of its own beside the held coordinates, and G = 1. The energy law
 //! is that of the whole: forces and torques on the bodies do work, as do gaps that close and the axes along which a body is locked.
 
 mod angular;

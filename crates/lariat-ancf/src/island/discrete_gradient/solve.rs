@@ -36,7 +36,7 @@ impl IslandStep<'_, '_> {
         Ok(())
     }
 
-    /// Factors the matrix of the bodies for steps of length `h` (s).
+    /// Factors the matrix of the border, bodies and forces of contacts, for steps of length `h` (s).
     pub(super) fn factor_bodies(&mut self, h: f64) -> Result<(), StepFailure> {
         let StepBuffers { bodies, coupled, cables: own, matrix, pairs, .. } = &mut *self.buffers;
         matrix.begin(bodies.len(), pairs.columns.len());
