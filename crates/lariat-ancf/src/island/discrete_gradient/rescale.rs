@@ -8,8 +8,7 @@
 //!
 //! Of an island that nothing holds, the rigid motion is the projection of all velocities onto rigid motions in the norm of the kinetic
 //! energy, so its momentum and its angular momentum stay; with reels, or with bodies that carry
-//! others, which joints may hold, the translation of its centre of mass. Of one that is held at one
-//! point, about which it turns freely, it is the motion of that point and the rotation about it with the angular momentum about it. Of one whose driven
+//! others, which joints may hold, the translation of its centre of mass. Of one whose driven
 //! bodies and supports all move as one rigid body, it is their motion. Of any other there is none, and all velocities that nothing
 //! prescribes are scaled. Scaling those of cables and bodies together keeps pinned points on their bodies.
 //!
@@ -20,16 +19,19 @@ use super::IslandStep;
 use super::body::BodyStep;
 use super::coupled::coupled_product;
 use super::rigid::RigidMotion;
+use crate::cable::Cable;
 use crate::integrate::discrete_gradient::share_to_take;
 use crate::island::hold::vector;
-use crate::support::SlopeSupport;
 use crate::system::StepVectors;
-use crate::system::{CableStep, Modes, dot, solve_semidefinite as solve};
+use crate::system::{CableStep, Modes, dot, relative_velocities, solve_semidefinite as solve};
 use crate::term::Balance;
 use nalgebra::{Matrix6, Vector3, Vector6};
 
 /// See [`DiscreteGradientSystem::rescale`](crate::integrate::discrete_gradient::DiscreteGradientSystem::rescale).
 pub(in crate::island) fn rescale(island: &mut IslandStep<'_, '_>, balance: &mut Balance, largest_share: f64) -> bool {
+    if island.cables.len() == 1 && island.buffers.bodies.is_empty() {
+        return rescale_alone(island.cables[0], balance, largest_share);
+    }
     let rigid = rigid_motion(island);
     let (mut energy, mut product) = (0.0, 0.0);
     for (cable, own) in island.cables.iter_mut().zip(&island.buffers.cables) {
@@ -76,20 +78,40 @@ pub(in crate::island) fn rescale(island: &mut IslandStep<'_, '_>, balance: &mut 
     share.is_some()
 }
 
+/// Without bodies, the rotations about the one point that is held are rigid motions too.
+fn rescale_alone(cable: &mut Cable, balance: &mut Balance, largest_share: f64) -> bool {
+    let CableStep { equations, state, buffers } = cable.step_parts();
+    // the other buffers are free now
+    let StepVectors { velocity_change, change, rhs, external, product, taken, linearised, .. } = buffers;
+    for i in 0..change.len() {
+        product[i] = state.q[i] + change[i];
+        rhs[i] = state.v[i] + velocity_change[i];
+    }
+    taken.clone_from(rhs);
+    relative_velocities(equations.model, equations.system, product, taken, external, linearised);
+    let energy = 0.5 * equations.system.mass_square(taken, external);
+    let share = share_to_take(energy, dot(rhs, external), balance.surplus(), largest_share);
+    if let Some(share) = share {
+        taken.iter_mut().for_each(|x| *x *= share);
+        balance.rescaled += balance.surplus();
+    } else {
+        taken.clear();
+    }
+    share.is_some()
+}
+
 /// Returns the rigid motion that an island may keep, at the end of the step.
 fn rigid_motion(island: &mut IslandStep<'_, '_>) -> RigidMotion {
-    let (mut common, mut holds, mut turns) = (None, 0, true);
+    let mut common = None;
     for cable in island.cables.iter_mut() {
         let CableStep { equations, state, buffers: b } = cable.step_parts();
         for (_, support) in equations.model.supports.iter().filter(|(_, support)| !support.attached) {
             let (mut q, mut v) = ([0.0; 6], [0.0; 6]);
             support.prescribe(state.time + b.h, &mut q, &mut v);
-            let motion = RigidMotion { centre: vector(&q), velocity: vector(&v), ..RigidMotion::default() };
-            if vector(&v[3..]) != Vector3::zeros() || !motion.agrees_with(common.get_or_insert(motion)) {
+            let translation = RigidMotion { velocity: vector(&v), ..RigidMotion::default() };
+            if vector(&v[3..]) != Vector3::zeros() || !translation.agrees_with(common.get_or_insert(translation)) {
                 return RigidMotion::default();
             }
-            holds += 1;
-            turns &= support.position.is_some() && support.slope == SlopeSupport::Free;
         }
     }
     for body in island.buffers.bodies.iter().filter(|body| body.free != [true; 6]) {
@@ -97,50 +119,43 @@ fn rigid_motion(island: &mut IslandStep<'_, '_>) -> RigidMotion {
         if !body.is_driven() || !motion.agrees_with(common.get_or_insert(motion)) {
             return RigidMotion::default();
         }
-        turns = false;
     }
-    let reels = island.cables.iter().any(|cable| !cable.system.feeds.is_empty());
-    let carries = island.buffers.bodies.iter().any(BodyStep::carries);
-    match common {
-        Some(motion) if !carries && turns && holds == 1 => projection(island, Some(motion)),
-        Some(motion) => motion,
-        None if !reels && !carries => projection(island, None),
-        None => RigidMotion { velocity: mean_velocity(island), ..RigidMotion::default() },
-    }
+    common.unwrap_or_else(|| {
+        let reels = island.cables.iter().any(|cable| !cable.system.feeds.is_empty());
+        if reels || island.buffers.bodies.iter().any(BodyStep::carries) {
+            RigidMotion { velocity: mean_velocity(island), ..RigidMotion::default() }
+        } else {
+            projection(island)
+        }
+    })
 }
 
-/// Returns the rigid motion with the momenta of an island that nothing holds, at the end of the step, or the rotation about a point that
-/// moves, and its motion.
-fn projection(island: &mut IslandStep<'_, '_>, about: Option<RigidMotion>) -> RigidMotion {
+/// Returns the rigid motion with the momenta of an island that nothing holds, at the end of the step.
+fn projection(island: &mut IslandStep<'_, '_>) -> RigidMotion {
     let (mut matrix, mut momenta) = (Matrix6::zeros(), Vector6::zeros());
-    let of_cable = island.cables[0].node_position(0);
-    let centre = island.buffers.bodies.first().map_or(of_cable, |body| body.position + body.displacement());
-    let motion = about.unwrap_or(RigidMotion { centre, ..RigidMotion::default() });
-    let (first, centre) = (if about.is_some() { 3 } else { 0 }, motion.centre);
+    let centre = island.buffers.bodies.first().map_or_else(Vector3::zeros, |body| body.position + body.displacement());
     for cable in island.cables.iter_mut() {
         let CableStep { equations, state, buffers } = cable.step_parts();
         // the other buffers are free now
         let StepVectors { velocity_change, change, rhs, external, product, taken, .. } = &mut *buffers;
         for i in 0..change.len() {
-            rhs[i] = state.v[i] + velocity_change[i] - if i % 6 < 3 { motion.velocity[i % 6] } else { 0.0 };
+            rhs[i] = state.v[i] + velocity_change[i];
         }
         taken.clear();
         taken.extend(state.q.iter().zip(&*change).map(|(q, change)| q + change));
         let modes = Modes { q: taken, origin: centre };
-        modes.add_momenta(equations.system, (first, rhs), [product, external], (&mut matrix, &mut momenta));
+        modes.add_momenta(equations.system, (0, rhs), [product, external], (&mut matrix, &mut momenta));
     }
     for body in &island.buffers.bodies {
-        let mut velocity = body.final_velocity();
-        (0..3).for_each(|x| velocity[x] -= motion.velocity[x]);
-        for k in first..6 {
+        for k in 0..6 {
             let momentum = body.momentum_of(&body.velocity_in(k, &centre));
-            momenta[k] += momentum.dot(&velocity);
-            (first..6).for_each(|j| matrix[(j, k)] += momentum.dot(&body.velocity_in(j, &centre)));
+            momenta[k] += momentum.dot(&body.final_velocity());
+            (0..6).for_each(|j| matrix[(j, k)] += momentum.dot(&body.velocity_in(j, &centre)));
         }
     }
-    let solved = solve(&mut matrix, momenta);
-    let [velocity, spin] = [0, 3].map(|k| solved.fixed_rows::<3>(k).into_owned());
-    RigidMotion { centre, velocity: motion.velocity + velocity, spin }
+    let motion = solve(&mut matrix, momenta);
+    let [velocity, spin] = [0, 3].map(|k| motion.fixed_rows::<3>(k).into_owned());
+    RigidMotion { centre, velocity, spin }
 }
 
 /// Returns the velocity of the centre of mass of an island at the end of the step.
