@@ -48,7 +48,8 @@ pub struct Diagnostics {
     /// Steps of the discrete gradient whose friction did not settle on the normal forces of the step itself.
     #[serde(default)]
     pub lagging_steps: u64,
-    /// Newton iterations of the discrete gradient beyond the first one of a step, by the reason for them.
+    /// Newton iterations of the discrete gradient beyond the first one of a step, by the reason for
+    /// them.
     #[serde(default)]
     pub iterations_for: ReasonCounts,
     /// Divisions of its steps, by the reason for them.

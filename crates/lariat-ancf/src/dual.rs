@@ -7,9 +7,10 @@
 //!
 //! # Validity
 //!
-//! Exact to rounding wherever the function is smooth; at the kinks, sqrt(0) and |0|, the derivative is taken as 0. With one
-//! derivative, [`Cable::jacobians`](crate::coupling::Linearisation::jacobians) makes a pass per coordinate of an element; with several at
-//! once, an unknown rate of a reel makes one per iteration.
+//! Exact to rounding wherever the function is smooth; at the kinks, sqrt(0) and |0|, the derivative
+//! is taken as 0. With one derivative,
+//! [`Cable::jacobians`](crate::coupling::Linearisation::jacobians) makes a pass per coordinate of
+//! an element; with several at once, an unknown rate of a reel makes one per iteration.
 //!
 //! # References
 //!

@@ -87,7 +87,8 @@ fn statics_know_it() {
     assert!(apart < 1e-8 && (sum + reaction).norm() < 1e-6 * reaction.norm());
 }
 
-/// A rope that hangs on springs alone comes to rest, by itself and on an island: they carry its weight. Without them it is not held.
+/// A rope that hangs on springs alone comes to rest, by itself and on an island: they carry its
+/// weight. Without them it is not held.
 ///
 /// *Source.* Balance of forces.
 #[test]

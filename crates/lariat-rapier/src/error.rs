@@ -113,8 +113,8 @@ pub enum Error {
         /// The other body; `None` for a collider without one.
         other: Option<RigidBodyHandle>,
     },
-    /// A cable with contact that would run through a collider in equilibrium: over a sharp edge or something thin, which the samples of
-    /// contact do not see.
+    /// A cable with contact that would run through a collider in equilibrium: over a sharp edge or
+    /// something thin, which the samples of contact do not see.
     #[error(
         "cable {cable:?} would run through collider {collider:?}, {depth:.1e} m deep at {arc_length:.4} m: statics compute contact at samples, which do \
          not see sharp edges and thin things between them: use more elements, or step until it rests"

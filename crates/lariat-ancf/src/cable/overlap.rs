@@ -64,10 +64,10 @@ impl Cable {
         worst
     }
 
-    /// Returns where the cable runs through one of its [obstacles](Self::obstacles), or else where it is deepest in one, deeper than 2 % of its radius beyond what its
-    /// contacts carry, as they are now; `None` if
-    /// it is in none, or has no [`Contact`](crate::Contact). A piece that reaches to a supported node is left out: a cable may begin within
-    /// what holds it.
+    /// Returns where the cable runs through one of its [obstacles](Self::obstacles), or else where
+    /// it is deepest in one, deeper than 2 % of its radius beyond what its contacts carry, as they
+    /// are now; `None` if it is in none, or has no [`Contact`](crate::Contact). A piece that
+    /// reaches to a supported node is left out: a cable may begin within what holds it.
     pub fn overlap(&self) -> Option<Overlap> {
         let contact = self.effects().contact?;
         // between samples that carry the cable it is a little deeper
@@ -119,13 +119,12 @@ impl Cable {
                         first = if i == 0 { e.saturating_sub(1) } else { e };
                         entry = before.or(last_normal);
                     }
-                    let crosses = distance < 0.0 || deepest.is_some_and(|deepest| deepest.crosses);
-                    let found = Overlap { obstacle: obstacle.key, arc_length, depth, crosses };
-                    deepest = Some(
-                        deepest
-                            .filter(|deepest| deepest.depth >= depth)
-                            .map_or(found, |deepest| Overlap { crosses, ..deepest }),
-                    );
+                    let found =
+                        deepest.get_or_insert(Overlap { obstacle: obstacle.key, arc_length, depth, crosses: false });
+                    if depth > found.depth {
+                        (found.arc_length, found.depth) = (arc_length, depth);
+                    }
+                    found.crosses |= distance < 0.0;
                 }
                 begin += element.length;
             }
@@ -134,9 +133,10 @@ impl Cable {
         worst
     }
 
-    /// Returns whether contacts in these elements keep the cable out of an obstacle, all on the side of it on which the cable comes near
-    /// it and leaves it, by the normals of its surface there: what is in it between them is a bulge, which a finer mesh does not have. A
-    /// cable that cuts an edge, or goes through a plate, leaves it on another side.
+    /// Returns whether contacts in these elements keep the cable out of an obstacle, all on the
+    /// side of it on which the cable comes near it and leaves it, by the normals of its surface
+    /// there: what is in it between them is a bulge, which a finer mesh does not have. A cable that
+    /// cuts an edge, or goes through a plate, leaves it on another side.
     fn is_kept_out(&self, obstacle: u64, elements: RangeInclusive<usize>, faces: [Option<Vector3<f64>>; 2]) -> bool {
         let touches = self.snapshot.state.memory.contacts.iter();
         let own = touches.filter(|touch| touch.obstacle == obstacle && elements.contains(&(touch.element as usize)));

@@ -13,10 +13,12 @@
 //!
 //! # Validity
 //!
-//! Obstacles that stand still, as they are at the cable's time; bodies that carry obstacles are left out. Samples do not see what is thinner than their
-//! spacing, nor sharp edges between them: the shape is compared with all surfaces in the end, and refused where the centre line
-//! runs through one; where the cable is a part of its radius deep between samples, the warning `sinks` tells. The search is no motion: a cable that begins behind a thin obstacle may end on its other side. Within four radii of a held node, and as much
-//! further as it is deep, there is no contact.
+//! Obstacles that stand still, as they are at the cable's time; bodies that carry obstacles are
+//! left out. Samples do not see what is thinner than their spacing, nor sharp edges between them:
+//! the shape is compared with all surfaces in the end, and refused where the centre line runs
+//! through one; where the cable is a part of its radius deep between samples, the warning `sinks`
+//! tells. The search is no motion: a cable that begins behind a thin obstacle may end on its other
+//! side. Within four radii of a held node, and as much further as it is deep, there is no contact.
 //!
 //! # References
 //!
@@ -119,7 +121,8 @@ impl StaticContact {
         }
     }
 
-    /// Returns whether the cable at `q` is deeper in an obstacle than its radius, where the law itself is of no use.
+    /// Returns whether the cable at `q` is deeper in an obstacle than its radius, where the law
+    /// itself is of no use.
     pub fn is_deep(&self, model: &Model, q: &[f64]) -> bool {
         let mut deep = false;
         self.visit(model, q, |sample| deep |= sample.depth > sample.reach);

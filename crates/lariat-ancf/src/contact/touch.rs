@@ -32,6 +32,7 @@ pub struct Overlap {
     pub arc_length: f64,
     /// Its depth in m.
     pub depth: f64,
-    /// Whether the centre line itself runs through the obstacle there, and is not a bulge between contacts that keep it out.
+    /// Whether the centre line itself runs through the obstacle there, and is not a bulge between
+    /// contacts that keep it out.
     pub crosses: bool,
 }

@@ -126,7 +126,8 @@ impl<T: Real> VariableLength<T> {
         [self.weighted([(rate * 2.0, &G)]), self.weighted([(acceleration, &G), (rate * rate / length, &H)])]
     }
 
-    /// Adds `scale` times the force `-(2 l' G v + (l'' G + l'^2 H) q)` of the feed on the element's 12 coordinates.
+    /// Adds `scale` times the force `-(2 l' G v + (l'' G + l'^2 H) q)` of the feed on the element's
+    /// 12 coordinates.
     pub fn add_force(&self, scale: f64, q: &[T; 12], v: &[T; 12], out: &mut [T; 12]) {
         let [by_velocity, by_position] = self.matrices();
         add_product(&by_velocity, -scale, v, out);

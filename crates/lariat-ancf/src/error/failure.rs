@@ -93,8 +93,9 @@ pub enum EquilibriumFailure {
         /// The first folded element.
         element: usize,
     },
-    /// The shape that was found runs through something that the cable can touch: through a sharp edge or something thin, which
-    /// the samples of contact do not see, or something that it was in before.
+    /// The shape that was found runs through something that the cable can touch: through a sharp
+    /// edge or something thin, which the samples of contact do not see, or something that it was in
+    /// before.
     #[error(
         "the cable would run through obstacle {obstacle}, {depth:.1e} m deep at {arc_length:.4} m: statics compute contact at samples, which do not see \
          sharp edges and thin things between them: use more elements, or begin beside it"

@@ -19,12 +19,12 @@ use std::str::FromStr;
 
 /// Accuracy against time: a preset, or an integrator of your own, which converts to it.
 ///
-/// Each preset is measured in three scenes, with its own integrator, its own rule, and the number of
-/// elements in the table (`docs/accuracy`, CPU time of one thread): *pendulum*, the paper's, 2 s,
-/// against the beam without discretisation; *payload*, a crate of 50 kg in Rapier on a cable, 1 s,
-/// against an independent code; *taut steel*, a plucked cable of 10 mm, 0.1 s, against its analytic
-/// modes (amplitude 1e-4 m). The payload's cable vibrates undamped, and a tolerance resolves that
-/// vibration.
+/// Each preset is measured in three scenes, with its own integrator, its own rule, and the number
+/// of elements in the table (`docs/accuracy`, CPU time of one thread): *pendulum*, the paper's, 2
+/// s, against the beam without discretisation; *payload*, a crate of 50 kg in Rapier on a cable, 1
+/// s, against an independent code; *taut steel*, a plucked cable of 10 mm, 0.1 s, against its
+/// analytic modes (amplitude 1e-4 m). The payload's cable vibrates undamped, and a tolerance
+/// resolves that vibration.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 #[non_exhaustive]

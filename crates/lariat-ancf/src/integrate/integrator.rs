@@ -25,8 +25,9 @@ pub enum StepControl {
     Stable(f64),
 }
 
-/// A method and its step control. The method is one of the library by its name, or an implementation of
-/// [`OneStep`] of your own, with which [`Cable::step_with`](crate::Cable::step_with) steps.
+/// A method and its step control. The method is one of the library by its name, or an
+/// implementation of [`OneStep`] of your own, with which
+/// [`Cable::step_with`](crate::Cable::step_with) steps.
 ///
 /// ```
 /// use lariat_ancf::{Integrator, Method, StepControl};

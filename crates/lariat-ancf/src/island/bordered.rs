@@ -115,7 +115,8 @@ impl Bordered {
         &mut self.cables[cable].condensed
     }
 
-    /// Begins the border anew for a number of bodies, and of contacts between cables, of which two are a block.
+    /// Begins the border anew for a number of bodies, and of contacts between cables, of which two
+    /// are a block.
     pub fn begin(&mut self, bodies: usize, contacts: usize) {
         let count = bodies + contacts.div_ceil(2);
         self.sparse.begin(count);
@@ -246,9 +247,9 @@ mod tests {
     use crate::linalg::BlockTridiagonal;
     use nalgebra::{DMatrix, DVector};
 
-    /// Two cables of seven and five nodes with contacts of each with itself and with the other, few and many, soft and
-    /// stiff, satisfy `(T + R^T R) x = r`: x is a difference, whose rounding times the stiffness is
-    /// what is left.
+    /// Two cables of seven and five nodes with contacts of each with itself and with the other, few
+    /// and many, soft and stiff, satisfy `(T + R^T R) x = r`: x is a difference, whose rounding
+    /// times the stiffness is what is left.
     ///
     /// *Source.* The equation itself, with the matrix in full.
     #[test]

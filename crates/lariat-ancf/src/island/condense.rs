@@ -12,8 +12,9 @@
 //! Bodies that the cable touches stand beside the held coordinates, with columns and blocks of their own
 //! ([`contact`](crate::contact)), and so do the forces of contacts with cables.
 //!
-//! W (3 rows per pin, 6 per clamp or touched body, 3 per contact with a cable) is the dynamic stiffness of the cable at the bodies; Y gives the
-//! increments of the cable from those of the bodies. Neither needs the columns of Y: a [`SchurComplement`] brings them half of the way.
+//! W (3 rows per pin, 6 per clamp or touched body, 3 per contact with a cable) is the dynamic
+//! stiffness of the cable at the bodies; Y gives the increments of the cable from those of the
+//! bodies. Neither needs the columns of Y: a [`SchurComplement`] brings them half of the way.
 //!
 //! # References
 //!
@@ -168,8 +169,9 @@ impl Condensed {
         self.schur.subtract_from(level, &mut self.w);
     }
 
-    /// Computes `out = A_pf A_ff^-1 r_f` for projected rows `r_f`, which [`expand`](Self::expand) needs as this leaves them. The held
-    /// coordinates come first, then those of touched bodies, then contacts. The factorisation is that of [`complete`](Self::complete).
+    /// Computes `out = A_pf A_ff^-1 r_f` for projected rows `r_f`, which [`expand`](Self::expand)
+    /// needs as this leaves them. The held coordinates come first, then those of touched bodies,
+    /// then contacts. The factorisation is that of [`complete`](Self::complete).
     pub fn reduce(&self, level: Level, factorisation: &Factorisation, rows: &mut [f64], out: &mut Vec<f64>) {
         out.clear();
         out.resize(self.w.len().isqrt(), 0.0);

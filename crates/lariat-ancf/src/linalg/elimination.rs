@@ -1,4 +1,5 @@
-//! The order in which the blocks of a sparse symmetric matrix are eliminated, and where its factors have entries.
+//! The order in which the blocks of a sparse symmetric matrix are eliminated, and where its factors
+//! have entries.
 //!
 //! # Equation
 //!

@@ -93,8 +93,8 @@ impl PairMemory {
     }
 }
 
-/// Gives the elements of contacts, which are found in their memory by `contact`, other numbers. Contacts whose element has none are found
-/// anew; returns the energy in J that those held.
+/// Gives the elements of contacts, which are found in their memory by `contact`, other numbers.
+/// Contacts whose element has none are found anew; returns the energy in J that those held.
 pub(crate) fn renumber<T>(
     list: &mut Vec<T>,
     contact: impl Fn(&mut T) -> &mut ContactMemory,

@@ -2,9 +2,10 @@
 //!
 //! # Scheme
 //!
-//! The law is stiff, and which samples touch is not known. A search that begins deep in an obstacle, or that finds no shape, begins
-//! with a law so soft that the loads per length have the depth in which the cables are; then the law is made up to ten times as stiff,
-//! less where that fails, and so on up to the law itself. Without contact there is one search.
+//! The law is stiff, and which samples touch is not known. A search that begins deep in an
+//! obstacle, or that finds no shape, begins with a law so soft that the loads per length have the
+//! depth in which the cables are; then the law is made up to ten times as stiff, less where that
+//! fails, and so on up to the law itself. Without contact there is one search.
 //!
 //! # References
 //!
@@ -43,11 +44,7 @@ pub(crate) fn find<S: Continued>(search: &mut S) -> Result<S::Found, S::Failure>
     let mut deep = false;
     search.for_each(|cable, q| deep |= cable.system.static_contact.is_deep(&cable.model, q));
     let start = search.shape();
-    let mut outcome = None;
-    if !deep {
-        outcome = Some(search.search());
-    }
-    let mut found = match outcome {
+    let mut found = match (!deep).then(|| search.search()) {
         Some(Ok(found)) => found,
         failed => {
             let end = search.shape();

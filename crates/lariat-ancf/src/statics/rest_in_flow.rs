@@ -6,12 +6,13 @@
 //! the shape: drag damps it, and a step far longer than all periods is an implicit Euler step
 //! towards rest, whose error falls with its length in periods.
 //!
-//! The search of an island takes a quarter of the time, and does not converge on a towed cable without bending stiffness: this follows it.
+//! The search of an island takes a quarter of the time, and does not converge on a towed cable
+//! without bending stiffness: this follows it.
 //!
 //! # Validity
 //!
-//! No contact. Steady flow (that of the cable's present time), and shapes that are stable in it. Convergence is
-//! linear.
+//! No contact. Steady flow (that of the cable's present time), and shapes that are stable in it.
+//! Convergence is linear.
 //!
 //! # References
 //!

@@ -23,8 +23,8 @@ impl Cable {
         self.step_with(dt, &integrator)
     }
 
-    /// Advances the cable as [`step`](Self::step) does, with this `&Integrator` instead of the cable's own. Its method
-    /// may be of another crate.
+    /// Advances the cable as [`step`](Self::step) does, with this `&Integrator` instead of the
+    /// cable's own. Its method may be of another crate.
     ///
     /// # Errors
     /// As [`step`](Self::step), [`Integrator::checked`](crate::Integrator::checked) and [`set_integrator`](Self::set_integrator).

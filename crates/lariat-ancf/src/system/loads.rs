@@ -54,7 +54,8 @@ impl Loads {
         self.of_effects.add(&mut self.dead_force);
     }
 
-    /// Sets weight and line load of element `e` to those of its length in m, with the weight of a length in m of material beyond each end.
+    /// Sets weight and line load of element `e` to those of its length in m, with the weight of a
+    /// length in m of material beyond each end.
     pub fn weigh_element(&mut self, model: &Model, e: usize, length: impl Fn(usize) -> f64, at_ends: [f64; 2]) {
         let (own, last) = (6 * e..6 * e + 12, model.elements.len());
         let loaded = !self.of_effects.line_loads.is_empty();

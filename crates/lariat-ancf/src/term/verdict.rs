@@ -4,8 +4,8 @@
 //! reason for it:
 //!
 //! ```text
-//! newton_iterations = steps that were tried + sum of iterations_for        split_steps = sum of
-//! divisions_for
+//! newton_iterations = steps that were tried + sum of iterations_for
+//! split_steps = sum of divisions_for
 //! ```
 //!
 //! (of the discrete gradient, for each cable). A reason that is not in the list does not exist;

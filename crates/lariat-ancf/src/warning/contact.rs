@@ -2,10 +2,12 @@
 //!
 //! # Validity
 //!
-//! The centre line is looked at three places between two samples of its elements, at host times, beside obstacles that are fixed or move as prescribed. Between
-//! samples a cable sags with the square of their distance. Where an element that touches turns by more than a ninth of a turn, tensions along a drum are off by 5 to
-//! 8 % (8 elements per turn; 10: by 1 %), and the iterations of a step grow to tens. Both are told of if they last longer than an impact, and
-//! at once of a cable that rests on what it touches.
+//! The centre line is looked at three places between two samples of its elements, at host times,
+//! beside obstacles that are fixed or move as prescribed. Between samples a cable sags with the
+//! square of their distance. Where an element that touches turns by more than a ninth of a turn,
+//! tensions along a drum are off by 5 to 8 % (8 elements per turn; 10: by 1 %), and the iterations
+//! of a step grow to tens. Both are told of if they last longer than an impact, and at once of a
+//! cable that rests on what it touches.
 
 use super::Warning;
 use crate::cable::Cable;

@@ -142,7 +142,8 @@ fn what_statics_cannot_see_is_refused() {
     assert_eq!(cable.positions(), before);
 }
 
-/// The mooring line of these tests, from an anchor at the origin on a seabed to a fairlead 186 m above it: 850 m of chain.
+/// The mooring line of these tests, from an anchor at the origin on a seabed to a fairlead 186 m
+/// above it: 850 m of chain.
 mod mooring {
     pub const LENGTH: f64 = 850.0;
     pub const HEIGHT: f64 = 186.0;
@@ -169,8 +170,9 @@ fn mooring_line(span: f64, elements: usize) -> Cable {
     cable
 }
 
-/// Tension at the fairlead in N of the elastic catenary on a seabed without friction: `x = L - s + H L/EA + a asinh(s/a)`,
-/// `h = a (sqrt(1 + s^2/a^2) - 1) + w s^2/(2 EA)`, a = H/w, s the length that hangs.
+/// Tension at the fairlead in N of the elastic catenary on a seabed without friction: `x = L - s +
+/// H L/EA + a asinh(s/a)`, `h = a (sqrt(1 + s^2/a^2) - 1) + w s^2/(2 EA)`, a = H/w, s the length
+/// that hangs.
 fn catenary(span: f64) -> f64 {
     use mooring::*;
     let w = MASS * 9.81;
@@ -206,8 +208,9 @@ fn moves(cable: &mut Cable) -> f64 {
     moved.map(|(a, b)| (0..3).map(|x| (a[x] - b[x]).powi(2)).sum::<f64>().sqrt()).fold(0.0, f64::max)
 }
 
-/// A mooring line on its seabed is found at every offset and mesh, with the tension of the elastic catenary; a bulge between samples of
-/// a coarse mesh is a warning with the number of elements that would do, and not an error. It stays at rest.
+/// A mooring line on its seabed is found at every offset and mesh, with the tension of the elastic
+/// catenary; a bulge between samples of a coarse mesh is a warning with the number of elements that
+/// would do, and not an error. It stays at rest.
 ///
 /// *Source.* The elastic catenary with touchdown (Jonkman, NREL/TP-500-41958, 2007, section 2.6.2).
 #[test]
@@ -234,8 +237,9 @@ fn a_mooring_line_has_the_tension_of_the_elastic_catenary_at_any_offset_and_mesh
     assert!(told[0] > 0 && told[2] == 0, "{told:?}");
 }
 
-/// A mooring line on its seabed comes to rest in a current across and along it, is carried by bed, anchor and fairlead against weight and
-/// drag, and motion, whose drag and contacts are computed otherwise, leaves it where it is.
+/// A mooring line on its seabed comes to rest in a current across and along it, is carried by bed,
+/// anchor and fairlead against weight and drag, and motion, whose drag and contacts are computed
+/// otherwise, leaves it where it is.
 ///
 /// *Source.* Newton's first law, for the whole and for each node.
 #[test]

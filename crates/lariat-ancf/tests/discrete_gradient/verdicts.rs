@@ -35,8 +35,8 @@ fn thrown(chains: bool) -> Diagnostics {
     sum
 }
 
-/// Reasons account for all iterations and divisions of cables that are thrown; terms that are absent
-/// ask for none.
+/// Reasons account for all iterations and divisions of cables that are thrown; terms that are
+/// absent ask for none.
 ///
 /// *Source.* Counting: the definition of the counters. Contacts and reels are absent.
 #[test]

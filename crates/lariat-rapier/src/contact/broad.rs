@@ -167,8 +167,8 @@ impl Finder {
         Ok(changed)
     }
 
-    /// Gives a cable whose statics are solved the colliders of all bodies that stay where they are as obstacles: fixed, kinematic, and
-    /// dynamic ones that no cable is attached to.
+    /// Gives a cable whose statics are solved the colliders of all bodies that stay where they are
+    /// as obstacles: fixed, kinematic, and dynamic ones that no cable is attached to.
     pub fn gather_for_statics(
         &mut self,
         contents: &Contents,

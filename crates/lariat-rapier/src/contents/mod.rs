@@ -28,6 +28,7 @@ use junction::Junction;
 use lariat_ancf::Cable;
 use lariat_ancf::coupling::Coupling;
 use mark::WorldMark;
+use rapier::dynamics::RigidBodyHandle;
 use rapier::math::Vector;
 use rapier::pipeline::PhysicsWorld;
 use rules::ContactRules;
@@ -98,6 +99,11 @@ pub(crate) struct Contents {
 }
 
 impl Contents {
+    /// Returns the bodies of attachments and drums, some of them more than once.
+    pub fn held_bodies(&self) -> impl Iterator<Item = RigidBodyHandle> {
+        self.attachments.values().map(|a| a.body).chain(self.drums.iter().map(|wound| wound.drum.body))
+    }
+
     /// Adds a cable; its clock is set to that of the others.
     pub fn insert(&mut self, mut cable: Cable) -> CableHandle {
         if let Some(other) = self.cables.values().next() {

@@ -196,10 +196,11 @@ impl CableSet {
         self.contents.slot(cable).map(|slot| slot.asleep).ok_or(Error::NoCable(cable))
     }
 
-    /// Moves all cables, and the dynamic bodies attached to them, to static equilibrium under gravity,
-    /// loads and the users' forces; velocities become zero, readings of attachments are those at rest.
-    /// Returns what was moved, what was held, and what nothing is attached to. Cables with contact lie, without friction, on the
-    /// colliders of bodies that stay where they are: fixed and kinematic ones, and dynamic ones that no cable is attached to; contact of
+    /// Moves all cables, and the dynamic bodies attached to them, to static equilibrium under
+    /// gravity, loads and the users' forces; velocities become zero, readings of attachments are
+    /// those at rest. Returns what was moved, what was held, and what nothing is attached to.
+    /// Cables with contact lie, without friction, on the colliders of bodies that stay where they
+    /// are: fixed and kinematic ones, and dynamic ones that no cable is attached to; contact of
     /// cables with each other takes no part.
     ///
     /// # Errors
@@ -212,11 +213,13 @@ impl CableSet {
         statics::equilibrium(&mut self.contents, &mut self.stepper.finder, world, EquilibriumOptions::default())
     }
 
-    /// Moves a cable that is not in the set to static equilibrium, at its supports, before it is inserted and attached: with contact it lies on
-    /// all colliders of the world, as they stand, without friction.
+    /// Moves a cable that is not in the set to static equilibrium, at its supports, before it is
+    /// inserted and attached: with contact it lies on all colliders of the world, as they stand,
+    /// without friction.
     ///
     /// # Errors
-    /// [`Error::Cable`] as [`Cable::equilibrium`]; [`Error::CableTouchesInStatics`] if it would run through a collider.
+    /// [`Error::Cable`] as [`Cable::equilibrium`]; [`Error::CableTouchesInStatics`] if it would run
+    /// through a collider.
     pub fn equilibrium_among(&mut self, world: &PhysicsWorld, cable: &mut Cable) -> Result<EquilibriumReport, Error> {
         statics::among(&mut self.stepper.finder, world, cable)
     }

@@ -6,11 +6,12 @@
 //! only when all islands are in equilibrium.
 //!
 //! # Validity
-//! No joints and no contacts of bodies: a body that has one is an error, before or after the search. Cables with contact lie, without
-//! friction, on the colliders of all bodies that stay where they are: fixed, kinematic, and dynamic ones that no cable is attached to.
-//! One that would run through a collider, over a sharp edge or something thin that its samples do not see, is an error. Contact of
-//! cables with each other, and with bodies that they move, takes no part. A cable alone may end in an indifferent shape, which its
-//! report says.
+//! No joints and no contacts of bodies: a body that has one is an error, before or after the
+//! search. Cables with contact lie, without friction, on the colliders of all bodies that stay
+//! where they are: fixed, kinematic, and dynamic ones that no cable is attached to. One that would
+//! run through a collider, over a sharp edge or something thin that its samples do not see, is an
+//! error. Contact of cables with each other, and with bodies that they move, takes no part. A cable
+//! alone may end in an indifferent shape, which its report says.
 
 mod contacts;
 mod report;
@@ -33,7 +34,8 @@ use rapier::pipeline::PhysicsWorld;
 use solve::{name_collider, poses, solve};
 use write::{read_forces, write};
 
-/// Moves a cable that is in no set to static equilibrium among all colliders of a world, as they stand.
+/// Moves a cable that is in no set to static equilibrium among all colliders of a world, as they
+/// stand.
 pub(crate) fn among(finder: &mut Finder, world: &PhysicsWorld, cable: &mut Cable) -> Result<EquilibriumReport, Error> {
     finder.gather_still(world, cable)?;
     cable.equilibrium().map_err(name_collider)

@@ -128,11 +128,8 @@ pub(crate) fn begin(
         stepper.failures.clear();
         stepper.budget = Remaining::new(settings.budget);
         stepper.predictions.iter_mut().for_each(|p| (p.budget, p.degraded) = (stepper.budget, false));
-        // new ones, and those that were there in the last step
-        let held = contents.attachments.values().map(|a| a.body);
-        let held = held.chain(contents.drums.iter().map(|wound| wound.drum.body));
-        held.filter(|&body| contents.records.get(body).is_none()).for_each(|body| body::update_mass(world, body));
-        contents.records.handles().for_each(|body| body::update_mass(world, body));
+        let new = contents.held_bodies().filter(|&body| contents.records.get(body).is_none());
+        new.chain(contents.records.handles()).for_each(|body| body::update_mass(world, body));
         host.steps = substepping::count(contents, world, settings, f64::from(dt));
         host.motions = core::mem::take(&mut stepper.motions);
         let attached = contents.attachments.values().map(|a| a.body);
@@ -217,8 +214,7 @@ fn predict_islands(
     }
     attach::end_lost(contents, world, &mut stepper.events)?;
     contents.follow_gravity(world)?;
-    let held = contents.attachments.values().map(|a| a.body);
-    held.chain(contents.drums.iter().map(|wound| wound.drum.body)).for_each(|b| body::give_mass(world, b));
+    contents.held_bodies().for_each(|body| body::give_mass(world, body));
     let h = f64::from(world.integration_parameters.dt);
     stepper.finder.begin(contents, world, h);
     let step = loop {

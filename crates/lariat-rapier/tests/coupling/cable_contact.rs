@@ -318,8 +318,8 @@ fn a_snapshot_in_contact_continues_bitwise() {
     assert!(cables.get(cable).unwrap().snapshot() == cables_2.get(cable).unwrap().snapshot());
 }
 
-/// In statics a rope lies on a box that is fixed, and stays there when it moves on, or on that of a body that no cable moves; one that
-/// hangs beside both is as without contact.
+/// In statics a rope lies on a box that is fixed, and stays there when it moves on, or on that of a
+/// body that no cable moves; one that hangs beside both is as without contact.
 ///
 /// *Source.* Statics: box and ends carry the weight; the contract.
 #[test]

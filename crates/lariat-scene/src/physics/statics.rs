@@ -52,10 +52,12 @@ impl Physics {
         Err(Error::Body { time: 0.0, body, problem })
     }
 
-    /// Moves a cable that is not yet attached to equilibrium, with all bodies held where they are drawn.
+    /// Moves a cable that is not yet attached to equilibrium, with all bodies held where they are
+    /// drawn.
     ///
     /// # Errors
-    /// [`Error::Mechanics`] without an equilibrium, [`Error::Body`] for a body that the cable would run through.
+    /// [`Error::Mechanics`] without an equilibrium, [`Error::Body`] for a body that the cable would
+    /// run through.
     pub fn equilibrium_among(&mut self, scene: &Scene, cable: &mut Cable) -> Result<EquilibriumReport, Error> {
         let found = self.cables.equilibrium_among(&self.world, cable);
         found.map_err(|error| self.explain(scene, 0.0, error))

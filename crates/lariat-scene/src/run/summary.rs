@@ -35,7 +35,8 @@ pub struct Summary {
     /// Steps that were divided.
     #[serde(default)]
     pub divided_steps: u64,
-    /// Newton iterations beyond the first one of a step, by the reason for them; of `discrete-gradient`.
+    /// Newton iterations beyond the first one of a step, by the reason for them; of
+    /// `discrete-gradient`.
     #[serde(default)]
     pub iterations_for: BTreeMap<String, u64>,
     /// Divisions of its steps, by the reason for them.

@@ -70,10 +70,10 @@ impl World {
         Ok(world)
     }
 
-    /// Brings the cables to their start: static equilibrium where the scene asks for it, with bodies held where they are drawn, on
-    /// which cables with contact lie;
-    /// loads; initial motion. For a run with Rapier the cables are then attached to the bodies. For statics, all cables go to
-    /// equilibrium, and with Rapier the dynamic bodies attached to them, too.
+    /// Brings the cables to their start: static equilibrium where the scene asks for it, with
+    /// bodies held where they are drawn, on which cables with contact lie; loads; initial motion.
+    /// For a run with Rapier the cables are then attached to the bodies. For statics, all cables go
+    /// to equilibrium, and with Rapier the dynamic bodies attached to them, too.
     ///
     /// # Errors
     /// [`Error::Mechanics`] if there is no equilibrium, [`Error::Body`] for statics of a body with a joint or a contact.

@@ -206,10 +206,11 @@ fn start_and_run(text: &str) -> (Summary, Vec<Vec<Vec<f64>>>) {
     (summary, rows)
 }
 
-/// `initial = "equilibrium"` knows the seabed, with and without a current: the line starts where `lariat static` finds it, with the tension
-/// of the catenary, and stays there.
+/// `initial = "equilibrium"` knows the seabed, with and without a current: the line starts where
+/// `lariat static` finds it, with the tension of the catenary, and stays there.
 ///
-/// *Source.* The elastic catenary with touchdown: 467 786 N at the fairlead (tests/contact/statics.rs of lariat-ancf); Newton's first law.
+/// *Source.* The elastic catenary with touchdown: 467 786 N at the fairlead
+/// (tests/contact/statics.rs of lariat-ancf); Newton's first law.
 #[test]
 fn a_mooring_line_starts_at_rest_on_its_seabed() {
     for effects in ["", "[cable.drag]\nfluid_density = 1025.0\ndiameter = 0.153\nflow = [0.0, 0.0, 1.0]\n"] {
@@ -220,7 +221,8 @@ fn a_mooring_line_starts_at_rest_on_its_seabed() {
         let (first, last) = (&rows[0][0], rows[0].last().unwrap());
         let still = row(&probes[0]);
         println!("static {:.1} N, start {:.1} N, end {:.1} N", tension(&still), tension(first), tension(last));
-        // the two searches begin from different shapes, and end where the residual is within 1e-9 of the loads
+        // the two searches begin from different shapes, and end where the residual is within 1e-9
+        // of the loads
         assert!((tension(first) / tension(&still) - 1.0).abs() < 1e-6);
         if effects.is_empty() {
             assert!((tension(first) / 467_786.0 - 1.0).abs() < 1e-3, "{}", tension(first));

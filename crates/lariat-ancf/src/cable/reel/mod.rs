@@ -2,22 +2,28 @@
 //!
 //! # Equation
 //!
-//! Only the element at the eye, the last one of that end, is of changing material ([`element::variable_length`](crate::element)): its length l is a
-//! function of time, given by the rate of the reel. All others are made of the same particles for ever, so supports and loads keep
-//! their material. Arc lengths count from the first node as it is: those of all material grow with what a reel at the start pays out.
-//! [`remesh`] keeps l near the length of the elements, and [`plan`] chooses the rate.
+//! Only the element at the eye, the last one of that end, is of changing material
+//! ([`element::variable_length`](crate::element)): its length l is a function of time, given by the
+//! rate of the reel. All others are made of the same particles for ever, so supports and loads keep
+//! their material. Arc lengths count from the first node as it is: those of all material grow with
+//! what a reel at the start pays out. [`remesh`] keeps l near the length of the elements, and
+//! [`plan`] chooses the rate.
 //!
 //! # Validity
 //!
-//! The rate is prescribed, and the winch as strong as it must be: [`ReelReading::force`] says how strong that is; or the motor slips above
-//! a [largest force](Reel::max_force), and the rate is an unknown of the discrete gradient (system/reel/law.rs). A rate above 0.3 of the speed of transverse waves, `sqrt(T/rho A)`, needs internal damping. A rope
-//! that is paid out faster than it falls crumples at the eye; what splitting and merging crumpled elements adds of strain energy is taken back by
-//! [`settle`], and [`ReelReading::remeshed`] says what is left. The node at
-//! the eye is held by a support, or by an attachment to a body. On a body that moves freely the stock rides with it, as a point mass at the
-//! eye beside the body's own mass; [`Reel::stock`] says how much there is, and energy and momentum of the cable include it. That takes
-//! the discrete gradient. Implicit methods only. Gravity, internal damping, a uniform rest stretch, drag, buoyancy and line loads on all of the
-//! cable act on the element at the eye, stock at most weighs (less buoyancy); other effects are refused ([`Error::NotWithReel`]). Contact acts on
-//! all other elements: the one at the eye goes into the device, and touches nothing.
+//! The rate is prescribed, and the winch as strong as it must be: [`ReelReading::force`] says how
+//! strong that is; or the motor slips above a [largest force](Reel::max_force), and the rate is an
+//! unknown of the discrete gradient (system/reel/law.rs). A rate above 0.3 of the speed of
+//! transverse waves, `sqrt(T/rho A)`, needs internal damping. A rope that is paid out faster than
+//! it falls crumples at the eye; what splitting and merging crumpled elements adds of strain energy
+//! is taken back by [`settle`], and [`ReelReading::remeshed`] says what is left. The node at the
+//! eye is held by a support, or by an attachment to a body. On a body that moves freely the stock
+//! rides with it, as a point mass at the eye beside the body's own mass; [`Reel::stock`] says how
+//! much there is, and energy and momentum of the cable include it. That takes the discrete
+//! gradient. Implicit methods only. Gravity, internal damping, a uniform rest stretch, drag,
+//! buoyancy and line loads on all of the cable act on the element at the eye, stock at most weighs
+//! (less buoyancy); other effects are refused ([`Error::NotWithReel`]). Contact acts on all other
+//! elements: the one at the eye goes into the device, and touches nothing.
 //!
 //! # Alternatives considered
 //!

@@ -9,7 +9,8 @@
 //! (M + tau^2 K) d = tau^2 F
 //! ```
 //!
-//! each of which lowers the energy, shortened so that it ends at the bound. Velocities take up what the feed at the eye then misses of its momentum.
+//! each of which lowers the energy, shortened so that it ends at the bound. Velocities take up what
+//! the feed at the eye then misses of its momentum.
 //!
 //! The bound is the energy before the change, and 1e-3 of the pull times the length of the element at the eye: the share of the work of a
 //! reel to which its account is kept.

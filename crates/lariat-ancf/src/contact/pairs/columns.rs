@@ -16,7 +16,8 @@
 //!
 //! # References
 //!
-//! Golub & Van Loan 2013, section 4.5.1 (bordered systems); Vanderbei 1995 (quasidefinite matrices).
+//! Golub & Van Loan 2013, section 4.5.1 (bordered systems); Vanderbei 1995 (quasidefinite
+//! matrices).
 //!
 //! # Alternatives considered
 //!

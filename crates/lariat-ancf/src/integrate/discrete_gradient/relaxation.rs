@@ -1,4 +1,5 @@
-//! What share of its increments Newton's iteration takes where a nonsmooth term acts, most often contact.
+//! What share of its increments Newton's iteration takes where a nonsmooth term acts, most often
+//! contact.
 //!
 //! # Equation
 //!

@@ -10,21 +10,21 @@
 //! With a [limit](WorkLimit) to the work that is spent, one iteration is taken, rescaling may take all of that energy, and instead of a
 //! division the step ends.
 //!
-//! Damping, friction and impact lose so much that any error of the iteration hides behind them: on a
-//! rotor whose rope is damped, errors of the tension grow to a thousand times the tension. A step is
-//! therefore accepted only if its energy balance *closes*, to 1 % of what they lose. Where a term
-//! with corners in its law acts (nonsmooth, most often contact), it must close to 1 % of all that the
-//! step loses; every iteration has a new tangent, up to 20 are taken, and those that swing by halves
-//! (relaxation.rs). After those the balance alone must close; and in the last division the energy law
-//! alone must hold.
+//! Damping, friction and impact lose so much that any error of the iteration hides behind them: on
+//! a rotor whose rope is damped, errors of the tension grow to a thousand times the tension. A step
+//! is therefore accepted only if its energy balance *closes*, to 1 % of what they lose. Where a
+//! term with corners in its law acts (nonsmooth, most often contact), it must close to 1 % of all
+//! that the step loses; every iteration has a new tangent, up to 20 are taken, and those that swing
+//! by halves (relaxation.rs). After those the balance alone must close; and in the last division
+//! the energy law alone must hold.
 //!
 //! # Verdicts
 //!
 //! These tests are about the sum of all [terms](crate::term). What they accept each term judges in
 //! turn: whether its forces are those of its law and of the linear solve, to 1e-3; and whether it
-//! must change its law for this step, whereupon the iteration goes on. When the iteration has ended a
-//! term may find what no iteration makes good; then the step is divided, but in the last division.
-//! Every iteration beyond the first and every division is counted with its reason.
+//! must change its law for this step, whereupon the iteration goes on. When the iteration has ended
+//! a term may find what no iteration makes good; then the step is divided, but in the last
+//! division. Every iteration beyond the first and every division is counted with its reason.
 //!
 //! # Alternatives considered
 //!
@@ -103,8 +103,8 @@ fn are_forces_right(balance: &Balance) -> bool {
     balance.imbalance <= FORCE_TOLERANCE * balance.impulse
 }
 
-/// Returns whether a nonsmooth iterate is close to a solution: rescaling does not repair one that is
-/// thrown to and fro.
+/// Returns whether a nonsmooth iterate is close to a solution: rescaling does not repair one that
+/// is thrown to and fro.
 fn is_almost_solved(balance: &Balance) -> bool {
     !balance.nonsmooth || balance.imbalance <= LARGEST_IMBALANCE * balance.impulse
 }
@@ -254,9 +254,9 @@ pub(super) fn step<S: DiscreteGradientSystem>(
     divide(system, h, (depth, reason), limit)
 }
 
-/// Advances the system by `h` (s) in [`PARTS`] steps. The one after a step that had to be divided is
-/// divided without a try: what kept the iteration from its end, a cable that kinks most often, goes
-/// on, and a try in vain costs more than four short steps.
+/// Advances the system by `h` (s) in [`PARTS`] steps. The one after a step that had to be divided
+/// is divided without a try: what kept the iteration from its end, a cable that kinks most often,
+/// goes on, and a try in vain costs more than four short steps.
 fn divide<S: DiscreteGradientSystem>(
     system: &mut S,
     h: f64,

@@ -1,5 +1,5 @@
-//! Reels whose rate is unknown, sheaves and drums of the cables of an island in a step of the discrete gradient. Equations: `system/reel/law.rs`,
-//! `wheel.rs` and `drum.rs`.
+//! Reels whose rate is unknown, sheaves and drums of the cables of an island in a step of the
+//! discrete gradient. Equations: `system/reel/law.rs`, `wheel.rs` and `drum.rs`.
 
 use super::super::hold::vector;
 use super::body::BodyStep;
@@ -84,38 +84,43 @@ impl IslandStep<'_, '_> {
             let CableStep { mut equations, state, buffers } = cable.step_parts();
             equations.read_motors(state, buffers);
         }
-        let Unknowns { reels, columns, rows, .. } = &mut unknowns;
-        for ((&(c, k), columns), rows) in reels.iter().zip(columns).zip(rows) {
-            for (cable, column) in self.cables.iter().zip(columns.iter_mut()) {
-                column.clear();
-                column.resize(cable.positions().len(), 0.0);
-            }
-            let CableStep { mut equations, state, buffers } = self.cables[c].step_parts();
-            equations.linearise_law(k, state, buffers, &mut columns[c]);
-            rows.clear();
-            rows.resize(self.buffers.rows.len(), 0.0);
-            for hold in &self.buffers.cables[c].holds {
-                hold.pass(&vector(&columns[c][hold.at..]), rows);
-            }
-            self.swap(columns, rows);
-            self.solve();
-            self.swap(columns, rows);
+        let Unknowns { reels, columns, rows, winches, .. } = &mut unknowns;
+        let (of_reels, of_winches) = columns.split_at_mut(reels.len());
+        let (rows_of_reels, rows_of_winches) = rows.split_at_mut(reels.len());
+        for ((&(c, k), columns), rows) in reels.iter().zip(of_reels).zip(rows_of_reels) {
+            self.solve_columns(columns, rows, |island, columns, rows| {
+                let CableStep { mut equations, state, buffers } = island.cables[c].step_parts();
+                equations.linearise_law(k, state, buffers, &mut columns[c]);
+                for hold in &island.buffers.cables[c].holds {
+                    hold.pass(&vector(&columns[c][hold.at..]), rows);
+                }
+            });
         }
-        for k in 0..unknowns.winches.len() {
-            let (at, winch) = (unknowns.reels.len() + k, unknowns.winches[k]);
-            let (columns, rows) = (&mut unknowns.columns[at], &mut unknowns.rows[at]);
-            for (cable, column) in self.cables.iter().zip(columns.iter_mut()) {
-                column.clear();
-                column.resize(cable.positions().len(), 0.0);
-            }
-            rows.clear();
-            rows.resize(self.buffers.rows.len(), 0.0);
-            winch.pass(-1.0, self.cables[0].step_buffers.h, rows);
-            self.swap(columns, rows);
-            self.solve();
-            self.swap(columns, rows);
+        for ((winch, columns), rows) in winches.iter().zip(of_winches).zip(rows_of_winches) {
+            self.solve_columns(columns, rows, |island, _, rows| {
+                winch.pass(-1.0, island.cables[0].step_buffers.h, rows);
+            });
         }
         self.buffers.unknowns = unknowns;
+    }
+
+    /// Solves the linear equations for the right-hand sides that `fill` makes of zeros, in place.
+    fn solve_columns(
+        &mut self,
+        columns: &mut [Vec<f64>],
+        rows: &mut Vec<f64>,
+        fill: impl FnOnce(&mut Self, &mut [Vec<f64>], &mut [f64]),
+    ) {
+        for (cable, column) in self.cables.iter().zip(columns.iter_mut()) {
+            column.clear();
+            column.resize(cable.positions().len(), 0.0);
+        }
+        rows.clear();
+        rows.resize(self.buffers.rows.len(), 0.0);
+        fill(self, columns, rows);
+        self.swap(columns, rows);
+        self.solve();
+        self.swap(columns, rows);
     }
 
     /// Exchanges the right-hand sides of cables and bodies with others.

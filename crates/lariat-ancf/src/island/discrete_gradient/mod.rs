@@ -9,9 +9,11 @@
 //! B + sum G^T W G + b h/2 (p.rho)+ (1 - rho rho^T/rho^2)          G = (1, -[arm]x)
 //! ```
 //!
-//! with the condensed matrices W and the stiffening part of the levers under the impulses p of the pins. It is positive definite if the
-//! step matrices of the cables are; beside it stand the forces of contacts between cables, with the diagonal -1. A body that a cable touches has columns of its own beside the held coordinates, and G = 1. The energy law
-//! is that of the whole: forces and torques on the bodies do work, as do gaps that close and the axes along which a body is locked.
+//! with the condensed matrices W and the stiffening part of the levers under the impulses p of the
+//! pins. It is positive definite if the step matrices of the cables are; beside it stand the forces
+//! of contacts between cables, with the diagonal -1. A body that a cable touches has columns of its
+//! own beside the held coordinates, and G = 1. The energy law is that of the whole: forces and
+//! torques on the bodies do work, as do gaps that close and the axes along which a body is locked.
 
 mod angular;
 mod bodies;

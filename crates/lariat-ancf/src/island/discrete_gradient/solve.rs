@@ -4,6 +4,7 @@
 use super::super::bordered::Lever;
 use super::super::condense::Columns;
 use super::coupled::complete_rows;
+use super::reels::Reels;
 use super::{CableBuffers, IslandStep, StepBuffers};
 use crate::contact::Border;
 use crate::effect::EffectWork;
@@ -11,13 +12,14 @@ use crate::error::StepFailure;
 use crate::one_leg::BETA;
 use crate::system::StepVectors;
 use crate::system::{CableStep, Equations, project_vector};
+use crate::term::StepTerm;
 
 impl IslandStep<'_, '_> {
     /// Computes residuals and step matrices of all cables, factors and condenses these, and sums the rows of the bodies.
     pub(super) fn linearise(&mut self) -> Result<(), StepFailure> {
-        let StepBuffers { bodies, coupled, cables: own, matrix, rows, unknowns, pairs, .. } = &mut *self.buffers;
-        rows.fill(0.0);
-        unknowns.winches.iter().for_each(|winch| winch.pass(winch.force, self.cables[0].step_buffers.h, rows));
+        self.buffers.rows.fill(0.0);
+        Reels::evaluate(self);
+        let StepBuffers { bodies, coupled, cables: own, matrix, rows, pairs, .. } = &mut *self.buffers;
         for (strand, ((cable, own), part)) in self.cables.iter_mut().zip(own).zip(&self.layout.parts).enumerate() {
             let CableStep { mut equations, state, buffers } = cable.step_parts();
             equations.step_residual(state, buffers, true, &mut EffectWork::default());
@@ -36,7 +38,8 @@ impl IslandStep<'_, '_> {
         Ok(())
     }
 
-    /// Factors the matrix of the border, bodies and forces of contacts, for steps of length `h` (s).
+    /// Factors the matrix of the border, bodies and forces of contacts, for steps of length `h`
+    /// (s).
     pub(super) fn factor_bodies(&mut self, h: f64) -> Result<(), StepFailure> {
         let StepBuffers { bodies, coupled, cables: own, matrix, pairs, .. } = &mut *self.buffers;
         matrix.begin(bodies.len(), pairs.columns.len());
@@ -57,7 +60,8 @@ impl IslandStep<'_, '_> {
         matrix.factor()
     }
 
-    /// Solves the linear equations in place: the residuals of cables and the rows of bodies become their increments.
+    /// Solves the linear equations in place: the residuals of cables and the rows of bodies become
+    /// their increments.
     pub(super) fn solve(&mut self) {
         let StepBuffers { bodies, cables: own, matrix, rows, .. } = &mut *self.buffers;
         rows.resize(matrix.rows(), 0.0);
@@ -109,8 +113,8 @@ impl IslandStep<'_, '_> {
     }
 }
 
-/// Returns what the coordinates of a cable in the border follow: those that are held, bodies that it touches, and the
-/// forces of its contacts with cables.
+/// Returns what the coordinates of a cable in the border follow: those that are held, bodies that
+/// it touches, and the forces of its contacts with cables.
 fn levers<'a>(own: &'a CableBuffers, touched: &'a [Border], bodies: usize) -> impl Iterator<Item = Lever> + 'a {
     let held = own.holds.iter().map(|hold| Lever::held(hold.body, &hold.arm, hold.slope));
     let touched = touched.iter().flat_map(|border| Lever::own(border.body));

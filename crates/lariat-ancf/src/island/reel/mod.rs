@@ -12,7 +12,8 @@ use crate::system::{Unknowns, Wheel};
 pub use crate::system::Sheave;
 pub use drum::Drum;
 
-/// Checks that sheaves and drums fit the cables and bodies of an island, and that no end lacks its own.
+/// Checks that sheaves and drums fit the cables and bodies of an island, and that no end lacks its
+/// own.
 pub(super) fn check(
     cables: &[&mut Cable],
     bodies: &[RigidBody],

@@ -1,5 +1,5 @@
-//! The equilibrium of a cable by itself: the sequence of attempts, see [`statics`](crate::statics), and with drag the search of an
-//! island without bodies.
+//! The equilibrium of a cable by itself: the sequence of attempts, see [`statics`](crate::statics),
+//! and with drag the search of an island without bodies.
 
 use super::search::Search;
 use crate::cable::Cable;
@@ -157,7 +157,8 @@ impl Cable {
         }
     }
 
-    /// Comes to rest in a flow, or under a force of the user's own, which have no potential to minimise.
+    /// Comes to rest in a flow, or under a force of the user's own, which have no potential to
+    /// minimise.
     fn come_to_rest_in_flow(&mut self, budget: &mut Budget) -> Result<EquilibriumReport, Failure> {
         let start = self.snapshot.clone();
         let found = self.come_to_rest(budget);
@@ -271,8 +272,8 @@ impl Continued for Alone<'_> {
 }
 
 /// Returns the resultant of the loads in N that no support can take, if there is one: a force on a
-/// cable without a held position or a potential, which may hold, or moments alone (divided by the length) on one that is free to
-/// rotate about its only held point.
+/// cable without a held position or a potential, which may hold, or moments alone (divided by the
+/// length) on one that is free to rotate about its only held point.
 fn unheld(model: &Model) -> Option<f64> {
     let (weight, size) = model.dead_resultant();
     let size = model.loads.iter().fold(size, |sum, load| sum + load.force.norm());

@@ -13,7 +13,8 @@
 //! checked: forces and moments balance at every node and at every body, no element is folded, and the
 //! matrix is positive definite; a saddle is left by a small displacement.
 //!
-//! In a flow, or under a force of the user's own, there is no potential, and the tangent is not symmetric: the error falls linearly.
+//! In a flow, or under a force of the user's own, there is no potential, and the tangent is not
+//! symmetric: the error falls linearly.
 //!
 //! # Validity
 //!

@@ -99,7 +99,8 @@ impl Search {
         }
     }
 
-    /// Iterates to rest, and returns whether the shape is stable. If no other is found beside one that is not, that one is it.
+    /// Iterates to rest, and returns whether the shape is stable. If no other is found beside one
+    /// that is not, that one is it.
     pub fn run(&mut self, cables: &mut [&mut Cable], most: usize) -> Result<bool, EquilibriumFailure> {
         if let Some(resultant) = self.unheld(cables) {
             self.residual = resultant;
@@ -162,7 +163,8 @@ impl Search {
                     straighten(&cable.model, &mut self.q[part.range()]);
                 }
             } else if self.driven {
-                // the tangent of a flow is not symmetric: its symmetric part is judged, and nothing is done about it
+                // the tangent of a flow is not symmetric: its symmetric part is judged, and nothing
+                // is done about it
                 return Ok(self.is_stable(cables));
             } else if self.is_stable(cables) {
                 return Ok(true);
@@ -249,7 +251,8 @@ impl Search {
             layout.follow_acceleration(*time, c2, trial, v, z);
             v.fill(0.0);
             let rounding = damp == 1.0 && before <= ROUNDING * *length && size > 0.5 * before;
-            // without a symmetric tangent the iteration is linear; what it leaves falls from step to step
+            // without a symmetric tangent the iteration is linear; what it leaves falls from step
+            // to step
             let close = *driven && size <= ROUNDING * *length;
             if size <= CONVERGED * *length || rounding || close {
                 z.iter_mut().zip(trial.iter()).zip(q.iter()).for_each(|((z, y), q)| *z = y - q);
@@ -302,8 +305,8 @@ impl Search {
         cables.iter().zip(&self.layout.parts).find_map(|(c, part)| first_fold(&c.model, &self.q[part.range()]))
     }
 
-    /// Returns whether the stiffness is positive definite, but for modes softer than any that matters; of a matrix that is singular to
-    /// rounding, but for modes that are softer than those.
+    /// Returns whether the stiffness is positive definite, but for modes softer than any that
+    /// matters; of a matrix that is singular to rounding, but for modes that are softer than those.
     fn is_stable(&mut self, cables: &mut [&mut Cable]) -> bool {
         let Search { layout, matrices, q, v, rhs, time, first, .. } = self;
         let mut equations = IslandEquations { cables, layout, matrices };

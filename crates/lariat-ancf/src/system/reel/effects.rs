@@ -171,8 +171,8 @@ mod tests {
     /// The generalised forces of drag, times the rates of all coordinates and lengths, are the power of the force per length on the
     /// particles, at random states of a cable with a reel at each end.
     ///
-    /// *Source.* Morison's formula at the Gauss points, and the velocity of the particles by [`feed_weights`], which is checked against
-    /// differences in time.
+    /// *Source.* Morison's formula at the Gauss points, and the velocity of the particles by
+    /// [`feed_weights`], which is checked against differences in time.
     #[test]
     fn generalised_forces_of_drag_have_its_power() {
         let integrator = Integrator { method: Method::DiscreteGradient, control: StepControl::Substeps(1) };

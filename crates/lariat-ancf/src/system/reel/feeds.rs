@@ -148,7 +148,8 @@ impl FeedElement {
         (mean, [first.length, last.length])
     }
 
-    /// Returns the mean of a step from a time of a length in s with another acceleration, and the extents at both ends.
+    /// Returns the mean of a step from a time of a length in s with another acceleration, and the
+    /// extents at both ends.
     #[inline(always)]
     pub(super) fn over_with<T: Real>(&self, (time, h): (f64, f64), acceleration: T) -> (Extent<T>, [Extent<T>; 2]) {
         let [first, last] = [self.at_with(time, acceleration), self.at_with(time + h, acceleration)];
@@ -264,7 +265,8 @@ impl Feeds {
         }
     }
 
-    /// Adds the forces of all feeds to `out`, and their negative derivatives to the matrix; at rest there are none.
+    /// Adds the forces of all feeds to `out`, and their negative derivatives to the matrix; at rest
+    /// there are none.
     pub fn add(&self, model: &Model, at: &ForceInput<'_>, out: &mut [f64], mut matrix: Option<&mut BlockTridiagonal>) {
         for feed in self.list.iter().filter(|_| !at.v.is_empty()) {
             feed.add(model, at, out, matrix.as_deref_mut());

@@ -1,9 +1,11 @@
-//! The law of an unknown rate: a monotone graph of force over acceleration, for motors, brakes, free spools, sheaves and drums alike.
+//! The law of an unknown rate: a monotone graph of force over acceleration, for motors, brakes,
+//! free spools, sheaves and drums alike.
 //!
 //! # Equation
 //!
-//! The acceleration a of a length over a step is unknown. F is the force that the system has on it beyond the inertia, P the largest
-//! force of motor or friction, a_0 the acceleration at which that does not slip, and N the reaction of the stops:
+//! The acceleration a of a length over a step is unknown. F is the force that the system has on it
+//! beyond the inertia, P the largest force of motor or friction, a_0 the acceleration at which that
+//! does not slip, and N the reaction of the stops:
 //!
 //! ```text
 //! F(a) in P Sign(a - a_0) + N(a)      N <= 0 at the least a, N >= 0 at the largest one, else N = 0
@@ -16,17 +18,19 @@
 //! | [sheave](super::wheel) | difference of both pulls, less inertia | capstan and bearing | that which stops it |
 //! | [drum](super::drum) | what its spin leaves, with its torque eliminated | 0: the stops alone | none |
 //!
-//! F and the pulls are linear in a within a Newton iteration, and F falls, so the graph is met exactly by one of five points: two
-//! that slip, one that sticks, two stops.
+//! F and the pulls are linear in a within a Newton iteration, and F falls, so the graph is met
+//! exactly by one of five points: two that slip, one that sticks, two stops.
 //!
 //! # Validity
 //!
-//! With a grip, P grows with the pulls and there can be two points: one that runs on, and one that stops what runs at once with
-//! pulls that press it enough. The first is taken if it does not turn back.
+//! With a grip, P grows with the pulls and there can be two points: one that runs on, and one that
+//! stops what runs at once with pulls that press it enough. The first is taken if it does not turn
+//! back.
 //!
 //! # References
 //!
-//! Moreau, Unilateral contact and dry friction in finite freedom dynamics, 1988 (laws as monotone graphs).
+//! Moreau, Unilateral contact and dry friction in finite freedom dynamics, 1988 (laws as monotone
+//! graphs).
 
 /// A number that is linear in the change x of an acceleration: `value - stiffness x`.
 #[derive(Clone, Copy, Debug, Default)]
@@ -80,8 +84,8 @@ impl Graph {
         }
     }
 
-    /// Returns the acceleration at which a force meets the graph, from a present one; `pulls` press where it slips to larger and to
-    /// lesser accelerations.
+    /// Returns the acceleration at which a force meets the graph, from a present one; `pulls` press
+    /// where it slips to larger and to lesser accelerations.
     pub fn meet(&self, present: f64, force: Line, bound: &Bound, pulls: &[Line; 2]) -> f64 {
         let slip = |sign: f64| {
             let pull = pulls[usize::from(sign < 0.0)];
@@ -109,7 +113,8 @@ impl Graph {
         self.bounded(slip(1.0f64.copysign(needed)))
     }
 
-    /// Returns by how much a force in N at an acceleration is off the graph, whose largest force is `bound` (N).
+    /// Returns by how much a force in N at an acceleration is off the graph, whose largest force is
+    /// `bound` (N).
     pub fn violation(&self, acceleration: f64, force: f64, bound: f64) -> f64 {
         let rounding = 1e-12 * (1.0 + acceleration.abs());
         let stopped = |at: f64| at >= self.largest - rounding;
@@ -133,7 +138,8 @@ impl Graph {
 mod tests {
     use super::*;
 
-    /// The point that is met is on the graph: of motors, and of sheaves without inertia, at rest and running, with stops near and far.
+    /// The point that is met is on the graph: of motors, and of sheaves without inertia, at rest
+    /// and running, with stops near and far.
     ///
     /// *Source.* The graph itself: force, bound and stops at the point.
     #[test]

@@ -21,10 +21,12 @@
 //! dv = A^-1 r - y da,  y = A^-1 c        T(da) = T + row.(A^-1 r) - S da        S = row.y - T_a
 //! ```
 //!
-//! S > 0 is the apparent stiffness of all cables and bodies to the feed, so the [graph](super::graph) is met exactly; several reels
-//! one after the other ([`unknowns`](super::unknowns)). c, row and T_a are of the element at the eye alone ([`linear`](super::linear)). Where all
-//! motors stick in an iterate, within the forces that are known of them last, da = 0 is tried first: such a reel costs what one with a given rate does. Whether the forces
-//! are within their limits is judged by the result.
+//! S > 0 is the apparent stiffness of all cables and bodies to the feed, so the
+//! [graph](super::graph) is met exactly; several reels one after the other
+//! ([`unknowns`](super::unknowns)). c, row and T_a are of the element at the eye alone
+//! ([`linear`](super::linear)). Where all motors stick in an iterate, within the forces that are
+//! known of them last, da = 0 is tried first: such a reel costs what one with a given rate does.
+//! Whether the forces are within their limits is judged by the result.
 //!
 //! # Validity
 //!

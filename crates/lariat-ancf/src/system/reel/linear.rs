@@ -2,27 +2,31 @@
 //!
 //! # Equation
 //!
-//! An acceleration da changes the length at the end of a step of length h by `h^2/2 da`, the mean length by half of that, and the
-//! mean rate by `h/2 da`; a change dv of the velocities changes the coordinates at the end by `b h dv`, b the coefficient of the
-//! one-leg formula. No other element feels the length, so the column c of the acceleration and the row of the pull are those of
-//! the 13 coordinates of the element at the eye alone. Inertia, entering material and the wheel are derived in
-//! [dual numbers](crate::dual) as they stand; so are the forces of strains and of their rates over a step. The mean force of
-//! strains on the length, of the energies `a l` of axial strain and `b/l` of bending at both ends, is
+//! An acceleration da changes the length at the end of a step of length h by `h^2/2 da`, the mean
+//! length by half of that, and the mean rate by `h/2 da`; a change dv of the velocities changes the
+//! coordinates at the end by `b h dv`, b the coefficient of the one-leg formula. No other element
+//! feels the length, so the column c of the acceleration and the row of the pull are those of the
+//! 13 coordinates of the element at the eye alone. Inertia, entering material and the wheel are
+//! derived in [dual numbers](crate::dual) as they stand; so are the forces of strains and of their
+//! rates over a step. The mean force of strains on the length, of the energies `a l` of axial
+//! strain and `b/l` of bending at both ends, is
 //!
 //! ```text
 //! Y = (a0 + a1)/2 - (b0 + b1)/(2 l0 l1) + (r_j - r_i)_m . f_j/l1
 //! ```
 //!
-//! Material that runs through the element without a change of its strains meets no stiffness: the far node moves by `-d1/3` per
-//! length, and what matrix and row say of that must cancel with the column and with the derivative by the length, although each
-//! is as large as the axial stiffness. The matrix is symmetric, and that of the control vectors at the length at which the step
-//! begins: it is off by a share of about `l' h/l`, which is more than the inertia of a light load. So the column is that of the
-//! matrix as it is: both together are exact for this motion.
+//! Material that runs through the element without a change of its strains meets no stiffness: the
+//! far node moves by `-d1/3` per length, and what matrix and row say of that must cancel with the
+//! column and with the derivative by the length, although each is as large as the axial stiffness.
+//! The matrix is symmetric, and that of the control vectors at the length at which the step begins:
+//! it is off by a share of about `l' h/l`, which is more than the inertia of a light load. So the
+//! column is that of the matrix as it is: both together are exact for this motion.
 //!
 //! # Validity
 //!
-//! The row is exact, and so is the column for the motion above, else to first order of the step; but for drag, whose coefficients
-//! in the step are those of the iterate before, and for its dependence on coordinates and length.
+//! The row is exact, and so is the column for the motion above, else to first order of the step;
+//! but for drag, whose coefficients in the step are those of the iterate before, and for its
+//! dependence on coordinates and length.
 
 use super::effects::drift;
 use super::feeds::control;
@@ -45,19 +49,22 @@ use crate::system::{Equations, System};
 
 /// A number with its derivatives by the 12 velocity changes of an element.
 type ByVelocity = Dual<[f64; 12]>;
-/// A number with its derivatives by the nine components of the control vectors at the end of a step, and by the length there.
+/// A number with its derivatives by the nine components of the control vectors at the end of a
+/// step, and by the length there.
 type ByStrain = Dual<[f64; 10]>;
 
 /// Derivatives by the length at the end of a step, and of the force on it.
 struct Strains {
-    /// Of the impulse on the coordinates by the length, with what the far node does in the matrix if the strains stay.
+    /// Of the impulse on the coordinates by the length, with what the far node does in the matrix
+    /// if the strains stay.
     impulse: [f64; 12],
     /// Of the mean force on the length by the coordinates at the end, and by the length.
     on_length: ([f64; 12], f64),
 }
 
 impl Equations<'_> {
-    /// Linearises feed `k` about the present iterate, whose motors have been [read](Self::read_motors), and writes the column c to `out`.
+    /// Linearises feed `k` about the present iterate, whose motors have been
+    /// [read](Self::read_motors), and writes the column c to `out`.
     pub fn linearise_law(&mut self, k: usize, state: &State, b: &StepVectors, out: &mut Vec<f64>) {
         dispatch!(self.system.level => self.linearise_in_lanes(k, state, b, out));
     }
@@ -94,7 +101,8 @@ impl Equations<'_> {
     }
 }
 
-/// Returns the derivatives of the force of a motor without that of strains, by 12 velocity changes and by the acceleration.
+/// Returns the derivatives of the force of a motor without that of strains, by 12 velocity changes
+/// and by the acceleration.
 #[inline(always)]
 fn motor_by_motion(model: &Model, feed: &FeedElement, step: (f64, f64), motion: [&[f64; 12]; 3]) -> ([f64; 12], f64) {
     #[inline(always)]
@@ -115,8 +123,8 @@ fn motor_by_motion(model: &Model, feed: &FeedElement, step: (f64, f64), motion: 
 }
 
 impl System {
-    /// Returns the derivatives of what strains and internal damping do over a step; `before` is the change of the coordinates in the step before,
-    /// and the share of it that counts.
+    /// Returns the derivatives of what strains and internal damping do over a step; `before` is the
+    /// change of the coordinates in the step before, and the share of it that counts.
     #[inline(always)]
     fn strains_over_step(
         &self,
@@ -144,7 +152,8 @@ impl System {
         };
         let (e, effects) = (feed.element(model), self.forces.in_element.as_ref());
         let pull = self.forces.elements.discrete_gradient_of(effects, &Single(e), &step, stiffness, h);
-        // at fixed coordinates the middle control vector, 3 (r_j - r_i)/l, changes by this with the length
+        // at fixed coordinates the middle control vector, 3 (r_j - r_i)/l, changes by this with the
+        // length
         let shrink = d1[1].map(|x| -x / l1);
         let of_strains = |x: &ByStrain| (0..3).map(|i| x.slope[3 + i] * shrink[i]).sum::<f64>();
         let (scale, of_scale, in_matrix) = (3.0 * inverse, -1.5 / (l1 * l1), l1 / l0);
@@ -184,7 +193,8 @@ impl System {
         Strains { impulse, on_length: (by_coordinate, by_length) }
     }
 
-    /// Returns the derivatives of axial and bending energy of an element at an eye by its control vectors.
+    /// Returns the derivatives of axial and bending energy of an element at an eye by its control
+    /// vectors.
     fn energy_gradients(&self, model: &Model, feed: &FeedElement, d: &Control<f64>, length: f64) -> [Control<f64>; 2] {
         let Stiffness { axial, bending } = feed.stiffness(model, length);
         [Stiffness { axial, bending: 0.0 }, Stiffness { axial: 0.0, bending }].map(|stiffness| {
@@ -192,7 +202,8 @@ impl System {
         })
     }
 
-    /// Returns the derivatives of the forces of effects at Gauss points by the acceleration, through the velocity of the material.
+    /// Returns the derivatives of the forces of effects at Gauss points by the acceleration,
+    /// through the velocity of the material.
     fn points_by_acceleration(
         &self,
         feed: &FeedElement,
@@ -233,10 +244,13 @@ mod tests {
     use crate::{At, Cable, Damping, Feed, Integrator, LineLoad, Method, Reel, Section, StepControl};
     use nalgebra::Vector3;
 
-    /// The row of one element is that of the motor, and where material runs through it without a change of strain, matrix and column together, and row and derivative,
-    /// are those of all residuals and of the motor, at random iterates of a cable with weight, line load and internal damping.
+    /// The row of one element is that of the motor, and where material runs through it without a
+    /// change of strain, matrix and column together, and row and derivative, are those of all
+    /// residuals and of the motor, at random iterates of a cable with weight, line load and
+    /// internal damping.
     ///
-    /// *Source.* Central differences of the residual of the whole cable and of the force of the motor.
+    /// *Source.* Central differences of the residual of the whole cable and of the force of the
+    /// motor.
     #[test]
     fn columns_are_derivatives_of_the_whole_residual() {
         let feeds = [Feed::Drum, Feed::Bag, Feed::Coil];

@@ -2,9 +2,10 @@
 //!
 //! # Equation
 //!
-//! Implicit stages evaluate the element at its length l(t): its stiffness, mass and weight are those of l, and the
-//! [forces of the feed](crate::element::variable_length) are added. Internal damping sees the rates of the control vectors, of which
-//! `d1 = 3 (r_j - r_i)/l` changes with l, too.
+//! Implicit stages evaluate the element at its length l(t): its stiffness, mass and weight are
+//! those of l, and the [forces of the feed](crate::element::variable_length) are added. Internal
+//! damping sees the rates of the control vectors, of which `d1 = 3 (r_j - r_i)/l` changes with l,
+//! too.
 //!
 //! In a step of the discrete gradient from l0 to l1 the strain energy is `U = l C_a u_a(g) + C_b u_b(g)/l`. With the means over the step
 //!
@@ -22,9 +23,11 @@
 //!
 //! # Validity
 //!
-//! Elastic work and momentum are exact for any step; kinetic energy and angular momentum to the second order of the step: means of `l' G q` and of M over the step are
-//! not those of its ends. Where nothing holds the system, angular momentum is [restored](crate::system::angular). The tangent takes the symmetric part
-//! of the forces of the feed, and with riding stock its sums over rows are exact. Stock has no inertia about the eye.
+//! Elastic work and momentum are exact for any step; kinetic energy and angular momentum to the
+//! second order of the step: means of `l' G q` and of M over the step are not those of its ends.
+//! Where nothing holds the system, angular momentum is [restored](crate::system::angular). The
+//! tangent takes the symmetric part of the forces of the feed, and with riding stock its sums over
+//! rows are exact. Stock has no inertia about the eye.
 
 mod drum;
 mod effects;

@@ -28,7 +28,8 @@ impl FeedElement {
         }
     }
 
-    /// Sets the acceleration that a drum gives; one beyond the reach of an iterate divides the step.
+    /// Sets the acceleration that a drum gives; one beyond the reach of an iterate divides the
+    /// step.
     pub fn follow(&mut self, acceleration: f64) {
         let [least, largest] = self.reach();
         self.linearised = self.extent.acceleration;
@@ -36,7 +37,8 @@ impl FeedElement {
         self.stopped = self.law.is_some_and(|law| law.graph.stop(acceleration).is_some());
     }
 
-    /// Returns whether a motor holds the rate that is asked for, with a force in N of the last iterate that it has.
+    /// Returns whether a motor holds the rate that is asked for, with a force in N of the last
+    /// iterate that it has.
     fn sticks(&self) -> bool {
         self.law.is_none_or(|law| {
             let alone = !matches!(self.kind, Feed::Sheave | Feed::BodyDrum);
@@ -56,15 +58,17 @@ impl FeedElement {
 }
 
 impl Feeds {
-    /// Returns whether all rates that could be unknown are as the last iterate has them: the motors of all [stick](FeedElement::sticks). If the result
-    /// of an iteration breaks a law, the next one solves for the rates.
+    /// Returns whether all rates that could be unknown are as the last iterate has them: the motors
+    /// of all [stick](FeedElement::sticks). If the result of an iteration breaks a law, the next
+    /// one solves for the rates.
     pub fn stick(&self) -> bool {
         self.list.iter().all(FeedElement::sticks)
     }
 }
 
 impl Law {
-    /// Returns the product of the row of a feed and the increments of the velocity changes of its cable.
+    /// Returns the product of the row of a feed and the increments of the velocity changes of its
+    /// cable.
     pub(super) fn along_row(&self, feed: &FeedElement, increment: &[f64]) -> f64 {
         self.row.iter().zip(feed.side.gather(increment)).map(|(a, b)| a * b).sum()
     }

@@ -1,4 +1,5 @@
-//! Elements at eyes over a step of the [discrete gradient](crate::integrate::discrete_gradient): see [`feed`](super).
+//! Elements at eyes over a step of the [discrete gradient](crate::integrate::discrete_gradient):
+//! see [`feed`](super).
 
 use super::feeds::Impulse;
 use super::{FeedElement, Feeds, Source};
@@ -44,7 +45,8 @@ impl Equations<'_> {
         saved
     }
 
-    /// Ends what [`begin_feed_step`](Self::begin_feed_step) began, and scales the forces of the elements on the eyes in the residual.
+    /// Ends what [`begin_feed_step`](Self::begin_feed_step) began, and scales the forces of the
+    /// elements on the eyes in the residual.
     pub fn end_feed_step(&mut self, state: &State, b: &mut StepVectors, saved: [Iterates; 2]) {
         for (feed, saved) in self.system.feeds.list.iter_mut().zip(saved) {
             let (_, [l0, l1]) = feed.over(state.time, b.h);
@@ -68,8 +70,8 @@ impl Equations<'_> {
         }
     }
 
-    /// Adds the forces of the feeds over a step of the discrete gradient to those without potential, and their derivatives to the
-    /// matrix if it is asked for.
+    /// Adds the forces of the feeds over a step of the discrete gradient to those without
+    /// potential, and their derivatives to the matrix if it is asked for.
     pub fn add_feeds_over_step(&mut self, state: &State, b: &mut StepVectors, matrix: bool) {
         let (model, system) = (self.model, &mut *self.system);
         let (step, rate) = ((state.time, b.h), 1.0 / b.h);

@@ -96,8 +96,9 @@ impl Unknowns {
         }
     }
 
-    /// Solves for the increments of all accelerations and adds them to the iterate. `feeds` and `increment` return those of a cable,
-    /// the increments of its velocity changes with all rates as they are; `rows` are those of the bodies over a step of `h` (s).
+    /// Solves for the increments of all accelerations and adds them to the iterate. `feeds` and
+    /// `increment` return those of a cable, the increments of its velocity changes with all rates
+    /// as they are; `rows` are those of the bodies over a step of `h` (s).
     pub fn solve<'a>(
         &mut self,
         feeds: impl Fn(usize) -> &'a Feeds,

@@ -2,37 +2,42 @@
 //!
 //! # Equation
 //!
-//! Material runs from the end of one cable, whose element has the length `l_a - u`, to that of another, `l_b + u`. The acceleration of u over
-//! a step of the discrete gradient is unknown, as that of a [reel with a motor](super::law). With the pulls F of both, the inertia m of the
-//! wheel over the square of its radius, and the friction P
+//! Material runs from the end of one cable, whose element has the length `l_a - u`, to that of
+//! another, `l_b + u`. The acceleration of u over a step of the discrete gradient is unknown, as
+//! that of a [reel with a motor](super::law). With the pulls F of both, the inertia m of the wheel
+//! over the square of its radius, and the friction P
 //!
 //! ```text
 //! m u'' = F_b - F_a - P          P in b Sign(u')
 //! b = (exp(mu theta) - 1) max(0, min(F_a, F_b) - rho u'^2) + brake
 //! ```
 //!
-//! theta is the angle between the tangents of both cables at the sheave when the step begins, with whole turns added; `rho u'^2` is what the
-//! running rope takes off the pressure. The [graph](super::graph) is met at the end of the step; b is that of the unknown pulls, not of
-//! the iterate before. Near the end of a cable u'' is bounded, as for a reel.
+//! theta is the angle between the tangents of both cables at the sheave when the step begins, with
+//! whole turns added; `rho u'^2` is what the running rope takes off the pressure. The
+//! [graph](super::graph) is met at the end of the step; b is that of the unknown pulls, not of the
+//! iterate before. Near the end of a cable u'' is bounded, as for a reel.
 //!
-//! What leaves one cable enters the other at the same point, so neither row of an eye has an inflow of momentum: the sum of both is the
-//! force on what holds the sheave.
+//! What leaves one cable enters the other at the same point, so neither row of an eye has an inflow
+//! of momentum: the sum of both is the force on what holds the sheave.
 //!
 //! # Validity
 //!
-//! A wheel whose two ends are points of what holds it, one density on both sides. What is on the wheel between them has no weight, and its
-//! mass is to be counted to the inertia. Friction is that of a rope on a wheel that stands, or of a bearing: with it, the inertia
-//! is that of what turns with the rope.
+//! A wheel whose two ends are points of what holds it, one density on both sides. What is on the
+//! wheel between them has no weight, and its mass is to be counted to the inertia. Friction is that
+//! of a rope on a wheel that stands, or of a bearing: with it, the inertia is that of what turns
+//! with the rope.
 //!
 //! # References
 //!
-//! Euler 1769 (the capstan); Peng, Wei & Zhou, Appl. Math. Mech. 38 (2017) 1785 (cables that run over pulleys).
+//! Euler 1769 (the capstan); Peng, Wei & Zhou, Appl. Math. Mech. 38 (2017) 1785 (cables that run
+//! over pulleys).
 //!
 //! # Alternatives considered
 //!
-//! The bound from the pulls of the iterate before: the iteration contracts with (exp(mu theta) - 1)/2 and diverges for large angles.
-//! A secant through what the last two iterates asked for, beside a row that is symmetric: on a short element at an eye the
-//! iteration then goes too far, and with the secant a tackle of four took 7130 iterations where the exact row takes 5580.
+//! The bound from the pulls of the iterate before: the iteration contracts with (exp(mu theta) -
+//! 1)/2 and diverges for large angles. A secant through what the last two iterates asked for,
+//! beside a row that is symmetric: on a short element at an eye the iteration then goes too far,
+//! and with the secant a tackle of four took 7130 iterations where the exact row takes 5580.
 
 use super::graph::{Bound, Graph, Line};
 use super::law::rates;
@@ -42,14 +47,16 @@ use crate::element::side::Side;
 use crate::element::variable_length::Extent;
 use crate::term::{Account, Balance};
 
-/// Deceleration in m/s^2 with which a cable stops before its end reaches a sheave or the drum that it is on.
+/// Deceleration in m/s^2 with which a cable stops before its end reaches a sheave or the drum that
+/// it is on.
 pub(crate) const STOP: f64 = 100.0;
 
 /// A sheave in a step.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Wheel {
     pub sheave: Sheave,
-    /// Friction: the grip is exp(mu theta) - 1, the lift the mass per length times the square of the rate.
+    /// Friction: the grip is exp(mu theta) - 1, the lift the mass per length times the square of
+    /// the rate.
     bound: Bound,
     /// Accelerations: the one that does not slip stops it.
     graph: Graph,
@@ -63,8 +70,9 @@ impl Wheel {
         Wheel { sheave, bound: Bound::default(), graph: Graph::default(), feeds: [0; 2] }
     }
 
-    /// Begins a step of length `h` (s): `feeds` are those of its cables, `tangents` their tangents there, away from the cables, and
-    /// `inertia` the mass per length in kg/m. Returns the acceleration of the first iterate.
+    /// Begins a step of length `h` (s): `feeds` are those of its cables, `tangents` their tangents
+    /// there, away from the cables, and `inertia` the mass per length in kg/m. Returns the
+    /// acceleration of the first iterate.
     pub fn begin(&mut self, feeds: [&FeedElement; 2], tangents: [[f64; 3]; 2], inertia: f64, h: f64) -> f64 {
         let rate = feeds[1].extent.rate;
         let left = feeds.map(|feed| feed.left());
@@ -84,7 +92,8 @@ impl Wheel {
         self.graph.bounded(present)
     }
 
-    /// Returns the acceleration that meets the law, from the pulls of both cables about the present one.
+    /// Returns the acceleration that meets the law, from the pulls of both cables about the present
+    /// one.
     pub(super) fn acceleration_for(&self, present: f64, pulls: &[Line; 2]) -> f64 {
         let ([a, b], inertia) = (pulls, self.sheave.inertia);
         let force =
@@ -107,8 +116,8 @@ impl Wheel {
         entry.forces += a.abs() + b.abs();
     }
 
-    /// Returns whether friction stops it in the iterate although it runs when the step begins: a long
-    /// step may have such a solution beside the one that runs on.
+    /// Returns whether friction stops it in the iterate although it runs when the step begins: a
+    /// long step may have such a solution beside the one that runs on.
     pub fn stops(&self, feeds: [&FeedElement; 2]) -> bool {
         let wanted = self.graph.wanted;
         self.bound.grip > 0.0 && wanted != 0.0 && feeds[1].extent.acceleration == wanted

@@ -2,8 +2,9 @@
 //!
 //! # Equation
 //!
-//! With B the [force on the length](crate::element::variable_length), less that of [effects](super::effects), w the weight per length, f the stretch and v the velocity of the material at
-//! the eye r:
+//! With B the [force on the length](crate::element::variable_length), less that of
+//! [effects](super::effects), w the weight per length, f the stretch and v the velocity of the
+//! material at the eye r:
 //!
 //! ```text
 //! drum      pull = -B - 1/2 rho l'^2 (f^2 - 1)        power = l' (B + 1/2 rho v.v - w.r)
