@@ -81,6 +81,12 @@ pub trait Dynamics {
         None
     }
 
+    /// Takes `energy` (J) from the velocities of a state, or as much of it as changes no velocity by more than `largest` (m/s), and leaves
+    /// the momenta that nothing holds. Returns what was taken. Default: nothing.
+    fn take_energy(&mut self, _state: &mut State, _energy: f64, _largest: f64) -> f64 {
+        0.0
+    }
+
     /// Returns whether nothing but the known work changes the energy. Default true; false for an island, whose bodies
     /// an engine or a user moves besides. A method with an error estimate is then not checked for spurious energy.
     fn is_isolated(&self) -> bool {

@@ -16,6 +16,12 @@
 //! [`StepFailure::EnergyMade`]. The account is part of a snapshot. So
 //! no run gains more than this share between any two times.
 //!
+//! The errors of many steps within a tolerance are no blow-up, but they add up: an undamped pendulum at the default tolerance and 1/90 s
+//! makes 1 % in 20 000 host steps, however each is divided. Where the error is controlled, what the account holds beyond half of that
+//! share is therefore taken from velocities at the end of the step (a projection onto the energy), as far as that moves no point by more
+//! over the step than the error budget leaves beside the estimate. What is left is taken in later steps: near its turning point a pendulum
+//! has hardly any velocity. The order of the method stays, for what is taken is an error of the step.
+//!
 //! # Validity
 //!
 //! Systems that know the work on them: `None` of
@@ -30,13 +36,17 @@
 //! # References
 //!
 //! Page 1954 (the cumulative sum); Simo & Tarnow 1992 (A-stable methods make energy in nonlinear
-//! dynamics).
+//! dynamics); Hairer, Lubich & Wanner 2006, IV.4 (projection onto an invariant keeps the order).
 //!
 //! # Alternatives considered
 //!
 //! - A bound for each step: many steps below it make any amount.
 //! - The net sum since the start: what a damping method has lost long ago would pay for a blow-up.
-//! - Scaling velocities down by the excess: it hides a step that is wrong.
+//! - Scaling velocities down by all of the excess: it hides a step that is wrong.
+//! - Taking all that each step makes: a swing makes energy in one half and loses it in the other, so
+//!   that the sum of what is made is a loss. Below half of the share nothing is taken.
+//! - Giving back what is lost as well: an L-stable method damps vibrations that it does not resolve,
+//!   and their energy would go into the slow motion.
 
 use super::dynamics::Dynamics;
 use crate::error::StepFailure;
@@ -45,6 +55,8 @@ use crate::state::{Memory, State};
 /// Largest spurious energy in any interval of time, as a share of the largest kinetic and strain
 /// energy so far.
 const MAX_ENERGY_SHARE: f64 = 0.01;
+/// Largest spurious energy that is left in an accepted step where the error is controlled.
+const MAX_LEFT_SHARE: f64 = 0.5 * MAX_ENERGY_SHARE;
 /// Shortest step, as a share of the first of the host step, that is tried for less spurious energy.
 pub(super) const MIN_CHECKED_SHARE: f64 = 1.0 / 1024.0;
 
@@ -79,6 +91,15 @@ impl EnergyCheck {
             return Err(StepFailure::EnergyMade { energy: made, scale: largest });
         }
         Ok(EnergyCheck { made, largest, ..self })
+    }
+
+    /// Takes what the account holds beyond half of the largest share from the velocities of a state, but changes none by more than `largest`
+    /// (m/s).
+    pub fn take(&mut self, system: &mut dyn Dynamics, state: &mut State, largest: f64) {
+        let excess = self.made - MAX_LEFT_SHARE * self.largest;
+        if self.active && excess > 0.0 && largest > 0.0 {
+            self.made -= system.take_energy(state, excess, largest);
+        }
     }
 
     /// Stores the account with a state.

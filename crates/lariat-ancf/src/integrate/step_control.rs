@@ -175,6 +175,7 @@ fn run(
                     }
                     continue;
                 }
+                checked.take(system, &mut scratch.next, (allowed - estimate) / h);
                 budget.add(system, &scratch.error, estimate, &mut scratch.error_sum);
                 let growth = budget.growth(h, estimate);
                 // the last step may have been shortened to end with the host step, which does not

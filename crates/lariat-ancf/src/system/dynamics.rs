@@ -5,9 +5,12 @@
 //! A stage `M z = c2 F(base + z, velocity_base + rate z)` is solved with `(M + c2 (K + rate C)) dz = c2 F - M z` by
 //! [`newton`](crate::integrate::newton); K = -dF/dq, C = -dF/dq'.
 
+use super::rigid_motion::relative_velocities;
+use super::vectors::dot;
 use super::{Buffers, Equations, project_vector};
 use crate::effect::acts::ForceInput;
 use crate::error::StepFailure;
+use crate::integrate::discrete_gradient::share_to_take;
 use crate::integrate::newton::{self, Increment, Linearised};
 use crate::integrate::{Dynamics, Stage};
 use crate::state::State;
@@ -189,6 +192,29 @@ impl Dynamics for CableDynamics<'_> {
     fn spurious_energy(&mut self, before: &State, after: &State, h: f64) -> Option<(f64, f64)> {
         let change = self.equations.energy_between(before, after, h, 0..after.q.len())?;
         Some((change.spurious, change.before.max(change.after)))
+    }
+
+    fn take_energy(&mut self, state: &mut State, energy: f64, largest: f64) -> f64 {
+        let CableDynamics { equations, buffers: Buffers { rhs: w, product, z, .. } } = self;
+        w.copy_from_slice(&state.v);
+        if equations.model.supports.is_empty() {
+            relative_velocities(equations.model, equations.system, &state.q, w, product, z);
+        }
+        for (node, support) in &equations.model.supports {
+            support.project(&mut w[6 * node..6 * node + 6]);
+        }
+        let own = 0.5 * equations.system.mass_square(w, product);
+        let all = dot(&state.v, product);
+        let reach = (largest / equations.system.scales.extent(w).0).min(1.0);
+        let share = share_to_take(own, all, energy, reach).unwrap_or(reach);
+        // a cable at rest has none to take
+        if !(own > 0.0 && share > 0.0) {
+            return 0.0;
+        }
+        state.v.iter_mut().zip(w.iter()).for_each(|(v, w)| *v -= share * w);
+        let taken = share * (all - share * own);
+        equations.system.meter.law.rescaled += taken;
+        taken
     }
 
     fn frequency_bound(&self) -> f64 {

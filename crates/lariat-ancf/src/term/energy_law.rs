@@ -14,8 +14,9 @@ use serde::{Deserialize, Serialize};
 pub struct EnergyLaw {
     /// Numerical dissipation; never falls.
     pub numerical: f64,
-    /// Energy of motion relative to rigid motion, taken where the iteration did not converge; never
-    /// falls.
+    /// Energy of motion relative to rigid motion, taken where the iteration did not converge, or
+    /// where the errors of many steps within a tolerance had made half a per cent of the energy;
+    /// never falls.
     pub rescaled: f64,
     /// Work of supports that move.
     pub supports: f64,
