@@ -10,12 +10,10 @@
 
 use crate::element::axial::{self, AxialTable};
 use crate::error::{Error, nearest};
+pub use crate::scales::element::MAX_POINTS;
 use serde::{Deserialize, Serialize};
 use std::fmt;
 use std::str::FromStr;
-
-/// Largest number of Gauss points of a rule.
-pub const MAX_POINTS: u8 = 10;
 
 /// How the axial energy is integrated; see [`axial`](crate::element::axial).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]

@@ -14,7 +14,7 @@
 
 use fearless_simd::{Simd, SimdBase, f64x8};
 
-/// Elements evaluated together.
+/// Layout: elements evaluated together.
 pub(crate) const LANES: usize = 8;
 
 /// Runs an expression with the instructions of a level: AVX-512, AVX2 or SSE2 on x86-64, with `$simd` bound to its token. An expression

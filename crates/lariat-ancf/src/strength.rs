@@ -1,10 +1,8 @@
 //! What a cable withstands before it breaks.
 
 use crate::error::{Error, require};
+use crate::scales::cable::KNOWN;
 use serde::{Deserialize, Serialize};
-
-/// Share by which the mesh may read a known load too high, before the wave of the break comes.
-const KNOWN: f64 = 0.01;
 
 /// What a cable withstands; without limits, the default, it does not break. A number converts into a limit of the tension.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]

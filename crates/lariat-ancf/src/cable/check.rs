@@ -4,9 +4,6 @@ use crate::error::Error;
 use crate::integrate::OneStep;
 use crate::model::Model;
 
-/// Shortest step in s: squares of its smallest part must not vanish.
-pub(crate) const SHORTEST_STEP: f64 = 1e-100;
-
 /// Checks that a cable has an implicit method where an effect or a reel needs one, the discrete gradient for contact, and with a reel a method by
 /// which its account of energy closes.
 pub(crate) fn check_integrator(model: &Model, method: &dyn OneStep) -> Result<(), Error> {

@@ -48,7 +48,7 @@ use crate::section::Element;
 use crate::state::State;
 use crate::system::{Buffers, StepVectors, System};
 use crate::watch::Watch;
-pub(crate) use check::{SHORTEST_STEP, check_integrator};
+pub(crate) use check::check_integrator;
 use fearless_simd::Level;
 pub(crate) use layout::along_polyline;
 use nalgebra::Vector3;

@@ -3,17 +3,10 @@
 use super::Cable;
 use crate::contact::{Overlap, between_samples};
 use crate::element::shape::{self, combine};
+use crate::scales::cable::{BETWEEN, OVERLAP_POINTS, SAME_SIDE};
+use crate::scales::contact::RAMP;
 use core::ops::RangeInclusive;
 use nalgebra::Vector3;
-
-/// Depth as a share of the radius below which a cable only touches.
-const TOUCH: f64 = 0.02;
-/// Depth between samples as a multiple of that at the deepest of them.
-const BETWEEN: f64 = 2.0;
-/// Cosine of the angle between normals that point to one side: a sharp edge has others.
-const SAME_SIDE: f64 = 0.5;
-/// Points of an element that are looked at, without its last node.
-const POINTS: usize = 8;
 
 impl Cable {
     /// Returns the largest depth of the centre line between samples in obstacles that no body of an island carries, as a share of its radius: arc length in m and share; and the
@@ -97,8 +90,8 @@ impl Cable {
                 }
                 let radius = contact.radius_of(&element.section);
                 let last = usize::from(e + 1 == self.elements().len());
-                for i in 0..POINTS + last {
-                    let xi = i as f64 / POINTS as f64;
+                for i in 0..OVERLAP_POINTS + last {
+                    let xi = i as f64 / OVERLAP_POINTS as f64;
                     let arc_length = (begin + xi * element.length).min(self.length());
                     let Ok(sample) = self.sample(arc_length) else { continue };
                     let y: Vector3<f64> = axes.inverse() * (sample.position - origin) + motion.centre;
@@ -106,13 +99,13 @@ impl Cable {
                     let distance = nearest.distance;
                     let before = last_normal.replace(axes * nearest.patch.gap(&y).1);
                     let depth = radius + obstacle.skin - distance;
-                    if depth <= TOUCH * radius + carried {
+                    if depth <= RAMP * radius + carried {
                         end(&mut deepest, held, first..=e, [entry, last_normal]);
                         held = false;
                         continue;
                     }
                     held |= obstacle.excepts(arc_length);
-                    let node = if i == 0 { Some(e) } else { (i == POINTS).then_some(e + 1) };
+                    let node = if i == 0 { Some(e) } else { (i == OVERLAP_POINTS).then_some(e + 1) };
                     held |= node.is_some_and(|node| self.model.support(node).is_some());
                     if deepest.is_none() {
                         // contacts at the end of the element before keep it out too

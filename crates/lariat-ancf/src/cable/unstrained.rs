@@ -33,19 +33,11 @@
 //! strain to zero by the least change, without the rest: a corner then bends the two elements beside it, which hold up to 5e-5 EA L.
 
 use super::layout::Laid;
-use crate::element::axial::projected::DELTA;
 use crate::element::shape;
 use crate::quadrature::{gauss_legendre, legendre};
+use crate::scales::cable::{DAMPING, EASE, ENOUGH, MOST_ITERATIONS, STAYS};
+use crate::scales::element::DELTA;
 use nalgebra::{SMatrix, SVector, Vector3};
-
-/// Energy over EA L below which a shape stays as drawn, and at which the iteration ends.
-const STAYS: f64 = 1e-6;
-const ENOUGH: f64 = 1e-8;
-const MOST_ITERATIONS: usize = 200;
-/// First damping as a share of the mean diagonal, and its largest.
-const DAMPING: [f64; 2] = [1.0, 1e12];
-/// Factor of the damping after a step.
-const EASE: f64 = 0.5;
 
 /// What of a node stays as drawn.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -54,7 +46,7 @@ pub(super) struct Kept {
     pub slope: bool,
 }
 
-/// Number of polynomials in which the strain of an element is written: it is quartic.
+/// Layout: number of polynomials in which the strain of an element is written: it is quartic.
 const TERMS: usize = 5;
 /// Strain of an element in these polynomials, by the root of its energy over EA/2.
 type Strain = SVector<f64, TERMS>;

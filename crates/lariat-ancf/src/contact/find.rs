@@ -10,20 +10,14 @@ use super::motion::Motion;
 use super::nearby::Nearby;
 use super::pair::{PLACES, Pair, bounding_ball, is_thin, samples};
 use super::path::ObstacleStep;
-use super::point::{ContactPoint, OFFSET_TIME, PAID};
+use super::point::ContactPoint;
 use super::step::{ContactStep, find, find_from};
 use crate::obstacle::Patch;
 use crate::obstacle::{Feature, Nearest};
 use crate::obstacle::{comes_near, trace};
+use crate::scales::contact::{APART, NEAR, OFFSET_TIME, PAID, SWEEP};
 use crate::state::ContactMemory;
 use nalgebra::Vector3;
-
-/// Gap in radii of the cable below which a sample is a contact.
-const NEAR: f64 = 2.0;
-/// Gap in radii of the cable from which on a feature has one: a contact that begins deep has an offset.
-const NEAR_FEATURE: f64 = 4.0;
-/// Factor on the way that is expected in a step.
-const SWEEP: f64 = 1.5;
 
 impl ContactStep {
     /// Begins a step.
@@ -58,7 +52,7 @@ impl ContactStep {
             for (number, obstacle) in obstacles.iter().enumerate() {
                 let step = self.obstacles[number];
                 let way = SWEEP * (way + step.way(&centre, size));
-                let near = size + radius * (1.0 + NEAR_FEATURE) + obstacle.skin + way;
+                let near = size + radius * (1.0 + APART) + obstacle.skin + way;
                 let own = step.start.own(&centre);
                 if !comes_near(&*obstacle.surface, &own, near) {
                     continue;
@@ -134,7 +128,7 @@ impl ContactStep {
         let Some((patch, z)) = feature.patch(&y) else { return };
         let end = pair.step.end.own(&(point.start + point.change(pair.motion.change)));
         point.distance = z.norm() - feature.radius;
-        if point.distance - point.reach > NEAR_FEATURE * pair.radius + SWEEP * (end - y).norm() {
+        if point.distance - point.reach > APART * pair.radius + SWEEP * (end - y).norm() {
             return;
         }
         let index = find(pair.motion.memory, point.key);

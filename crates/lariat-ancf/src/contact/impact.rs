@@ -51,12 +51,9 @@ use super::impulse::Impact;
 use super::point::ContactPoint;
 use super::step::ContactStep;
 use crate::element::assembly::add_force;
-use crate::one_leg::BETA;
+use crate::scales::contact::{GIVEN, MAX_SOLVES};
+use crate::scales::integrate::BETA;
 use nalgebra::Vector3;
-
-/// Largest number of solves for the impulses of impacts that give velocity, beside the first, and the share of them that the last may change.
-const MAX_SOLVES: usize = 8;
-const GIVEN: f64 = 1e-3;
 
 /// An end of a step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -33,9 +33,7 @@
 //! and 2.3. The rounds are many where the normal forces of samples that hardly touch change from iterate to iterate.
 
 use super::step::ContactStep;
-
-/// Share of the friction by which it may miss the bound.
-const LAG: f64 = 3e-3;
+use crate::scales::contact::LAG;
 
 impl ContactStep {
     /// Returns the sum in N by which friction misses its bounds by the normal forces of the present iterate, and notes whether that is much.

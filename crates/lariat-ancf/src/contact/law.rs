@@ -11,13 +11,9 @@
 //! positive semi-definite.
 
 use crate::effect::Contact;
+use crate::scales::contact::{RAMP, TANGENTIAL};
 use crate::section::Section;
 use nalgebra::{Matrix3, Vector3};
-
-/// Share of the normal stiffness that friction has.
-const TANGENTIAL: f64 = 0.1;
-/// Depth of the quadratic start as a share of the cable's radius.
-const RAMP: f64 = 0.02;
 
 /// The normal law, per length.
 #[derive(Clone, Copy, Debug, Default)]

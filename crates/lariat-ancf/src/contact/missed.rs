@@ -25,12 +25,8 @@ use super::path::ObstacleStep;
 use super::point::ContactPoint;
 use super::step::ContactStep;
 use crate::obstacle::FeatureShape;
+use crate::scales::contact::{CHORDS, RAMP};
 use nalgebra::Vector3;
-
-/// Share of the cable's radius by which a point is deeper than the contacts of its element where it is missed.
-const MISSED: f64 = 0.02;
-/// Number of chords of an element.
-const CHORDS: usize = 4;
 
 impl ContactStep {
     /// Adds the points that are inside a feature at the end of an iterate, deeper than the contacts of their elements; returns whether there are
@@ -52,7 +48,7 @@ impl ContactStep {
             let same = self.points.iter().filter(|other| other.touches(nearby.obstacle, nearby.element));
             let deepest = same.fold(0.0, |most: f64, other| most.max(other.now.depth + other.offset));
             let patch = nearby.feature.patch(&start).map_or(at_end, |(patch, _)| patch);
-            if depth > deepest + MISSED * pair.radius {
+            if depth > deepest + RAMP * pair.radius {
                 point.patch = patch;
                 point.recall(&start, &pair.step, None);
                 point.nearby = Some(i);

@@ -11,11 +11,12 @@ use crate::element::shape::combine;
 use crate::model::Model;
 use crate::obstacle::Obstacle;
 use crate::obstacle::{Feature, Nearest};
+use crate::scales::contact::{INTERVALS, LEAST_SHARE, MEETINGS, SECTIONS, SPACINGS, WIDE};
 use crate::section::Element;
 use crate::state::Key;
 use nalgebra::Vector3;
 
-/// The points of Lobatto's rule (five, exact to degree seven) with their shares of the length of an element. The last is the first of the next element: only
+/// Coefficient: the points of Lobatto's rule (five, exact to degree seven) with their shares of the length of an element. The last is the first of the next element: only
 /// the last element of a cable has its own.
 const SAMPLES: [(f64, f64); 5] = [
     (0.0, 1.0 / 20.0),
@@ -24,19 +25,8 @@ const SAMPLES: [(f64, f64); 5] = [
     (0.827_326_835_353_988_6, 49.0 / 180.0),
     (1.0, 1.0 / 20.0),
 ];
-/// Number of samples of an element: features are numbered behind them.
+/// Layout: number of samples of an element: features are numbered behind them.
 pub(super) const PLACES: u32 = SAMPLES.len() as u32;
-/// Largest distances of samples in an element.
-const SPACINGS: f64 = 3.0;
-/// A round surface is smooth for samples if its radius, with the cable's, is so many of their spacings.
-const WIDE: f64 = 2.0;
-/// Intervals in which the closest point of an element is looked for.
-const INTERVALS: usize = 8;
-/// Largest number of steps towards where an element meets a feature, and their least share of the step.
-const MEETINGS: usize = 32;
-const LEAST_SHARE: f64 = 1e-3;
-/// Steps of the golden section.
-const SECTIONS: usize = 32;
 
 /// Returns the samples of an element: number, local coordinate, and the length that it stands for. A node stands for parts of both of its elements, that of the one
 /// before by its stiffness.
@@ -234,6 +224,7 @@ pub(super) fn bounding_ball(motion: &Motion<'_>, element: usize, length: f64) ->
 
 /// Returns where a function has its least value in an interval.
 fn golden_section(f: &dyn Fn(f64) -> f64, mut low: f64, mut high: f64) -> f64 {
+    /// Coefficient: of the golden section.
     const SHARE: f64 = 0.618_033_988_749_894_9;
     let (mut a, mut b) = (high - SHARE * (high - low), low + SHARE * (high - low));
     let (mut fa, mut fb) = (f(a), f(b));

@@ -15,11 +15,8 @@
 
 use super::path::ObstacleStep;
 use crate::obstacle::Patch;
+use crate::scales::contact::{MAX_DEPTH, MAX_TURN};
 use nalgebra::Vector3;
-
-/// Cosine of the angle by which z may turn in a step, and how deep its way may then go below where it touches, in reaches.
-const MAX_TURN: f64 = 0.94;
-const MAX_DEPTH: f64 = 0.5;
 
 /// The gap between a point of the centre line and a patch over a step.
 #[derive(Clone, Copy, Debug)]

@@ -21,10 +21,8 @@
 //! Gonzalez, J. Nonlinear Sci. 6 (1996) 449 (discrete gradients of invariants); Simo & Wong, IJNME 31 (1991) 19.
 
 use crate::obstacle::{Mount, Pose, RigidMotion};
+use crate::scales::contact::MAX_HALF_TURN;
 use nalgebra::{Matrix3, Quaternion, UnitQuaternion, Vector3};
-
-/// Largest half angle in rad of a prescribed turn in a step of which friction sees the size: the Cayley map has no half turns.
-const MAX_HALF_TURN: f64 = 1.2;
 
 /// The motion of a body of the island over a step.
 #[derive(Clone, Copy, Debug)]

@@ -7,19 +7,9 @@ use super::linear::{About, Linear, Roll, Tangents};
 use super::path::ObstacleStep;
 use crate::element::shape::combine;
 use crate::obstacle::Patch;
+use crate::scales::contact::{CLOSING_TIME, LIFTED};
 use crate::state::{ContactMemory, Key};
 use nalgebra::Vector3;
-
-/// Time in s in which a body's displacement by others comes to the cable, as a motion of the body. An engine's contact and the cable would
-/// pump energy through each other if it came at once: each answers to what the other did a step before.
-const CLOSING_TIME: f64 = 0.25;
-/// Time in s in which the offset of an obstacle closes, and that of a cable, if losses pay for it.
-pub(in crate::contact) const OFFSET_TIME: f64 = 0.05;
-pub(in crate::contact) const OFFSET_TIME_OF_PAIRS: f64 = 0.25;
-/// Share of the energy lost in the last step that closing offsets may cost.
-pub(in crate::contact) const PAID: f64 = 0.9;
-/// Distance in radii by which others can lift a body off a cable in a step without ending the contact.
-const LIFTED: f64 = 0.1;
 
 /// A material point that can touch an obstacle in the present step.
 #[derive(Clone, Copy, Debug, Default)]

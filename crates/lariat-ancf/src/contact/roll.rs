@@ -36,9 +36,7 @@ use super::slide::{Place, between, mean_point};
 use super::step::ContactStep;
 use crate::element::shape::{self, combine};
 use crate::obstacle::Patch;
-
-/// Least D beside the curvature of the feature: beyond it the element follows the feature's curvature, and every point is the closest.
-const LEAST: f64 = 0.05;
+use crate::scales::contact::LEAST_DETERMINANT;
 
 impl ContactStep {
     /// Moves contacts with features to where they act at an iterate: between the points that are closest at the beginning and at the end.
@@ -162,7 +160,7 @@ fn roll(point: &ContactPoint, pair: &Pair<'_>, nearby: &Nearby) -> Option<Roll> 
         _ => first - normal * normal.dot(&first),
     };
     let curvature = around.norm_squared() / z.norm();
-    let d = (normal.dot(&second) + curvature).max(LEAST * curvature);
+    let d = (normal.dot(&second) + curvature).max(LEAST_DETERMINANT * curvature);
     let share = if point.between.is_some() { 0.5 } else { 1.0 };
     (d > 0.0).then(|| Roll { slope, length: 1.0 / d, share })
 }

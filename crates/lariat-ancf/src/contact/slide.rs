@@ -21,11 +21,8 @@
 
 use super::pair::Pair;
 use crate::obstacle::Feature;
+use crate::scales::contact::{SLIDE_ENOUGH, SLIDE_STEPS};
 use nalgebra::Vector3;
-
-/// Largest number of steps of the search, and the share of the distance to which it goes.
-const STEPS: usize = 24;
-const ENOUGH: f64 = 1e-12;
 
 /// A place of an element.
 pub(super) struct Place<'a, 'b> {
@@ -64,12 +61,12 @@ pub(super) fn mean_point([x0, x1]: &[Place<'_, '_>; 2], feature: &Feature) -> Op
     }
     // regula falsi; of an end that stays twice half counts (the method of Illinois)
     let (mut share, mut excess, mut was_above) = (0.5, 0.0, None);
-    for _ in 0..STEPS {
+    for _ in 0..SLIDE_STEPS {
         share = if above > below { low + (high - low) * above / (above - below) } else { 0.5 * (low + high) };
         let found = distances(share);
         let off = off(found);
         excess = found[0] - start;
-        if off.abs() <= ENOUGH * start {
+        if off.abs() <= SLIDE_ENOUGH * start {
             break;
         }
         let is_above = off > 0.0;

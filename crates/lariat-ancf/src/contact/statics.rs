@@ -38,14 +38,9 @@ use crate::model::LoadScale;
 use crate::model::Model;
 use crate::obstacle::Obstacle;
 use crate::obstacle::Patch;
+use crate::scales::contact::{APART, LEAST_GROWTH, MOST_GROWTH};
 use crate::state::ContactMemory;
 use nalgebra::{Matrix3, UnitQuaternion, Vector3};
-
-/// Largest and smallest growth of the stiffness from one search to the next.
-const MOST_GROWTH: f64 = 10.0;
-const LEAST_GROWTH: f64 = 1.1;
-/// Radii of a cable beside a held node that do not touch.
-const HELD: f64 = 4.0;
 
 /// Whether statics are solved with contact, and where there is none.
 #[derive(Clone, Debug, Default)]
@@ -114,7 +109,7 @@ impl StaticContact {
                 let y = own(obstacle, time, &Vector3::from_column_slice(&q[6 * node..6 * node + 3])).0;
                 let depth = -obstacle.surface.nearest(&y).distance;
                 if depth + radius > 0.0 {
-                    let reach = HELD * radius + depth.max(0.0);
+                    let reach = APART * radius + depth.max(0.0);
                     self.held.push((i, [at - reach, at + reach]));
                 }
             }

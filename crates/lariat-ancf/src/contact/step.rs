@@ -9,7 +9,7 @@ use crate::element::assembly::{add_force, add_tangent};
 use crate::element::shape::combine;
 use crate::linalg::BlockTridiagonal;
 use crate::obstacle::Obstacle;
-use crate::one_leg::BETA;
+use crate::scales::integrate::BETA;
 use crate::state::{ContactMemory, Key};
 use crate::term::{Account, Balance};
 use nalgebra::Matrix3;

@@ -3,11 +3,9 @@
 use super::acts::{Acts, Nothing};
 use super::{Cut, Effect, Target};
 use crate::error::{Error, Requirement, require};
+use crate::scales::effect::SOFTNESS;
 use crate::section::Section;
 use serde::{Deserialize, Serialize};
-
-/// Stiffness of contact: EA over this many squares of the radius.
-const SOFTNESS: f64 = 40.0;
 
 /// Contact with the [obstacles](crate::Cable::set_obstacles) of a cable, and with other cables and itself if it is asked for. Needs the method `discrete-gradient`.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]

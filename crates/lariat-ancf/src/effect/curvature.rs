@@ -22,9 +22,7 @@ use crate::element::bending::regularisation::RegularisedPower;
 use crate::element::gram::{PAIR_WEIGHT, Six, Upper, form, slope_square, upper, weighted};
 use crate::quadrature::gauss_legendre;
 use crate::rule::BendingRule;
-
-/// Floor for w, above the cancellation error of the 2x2 minors.
-pub(crate) const NOISE: f64 = 2.5e-12;
+use crate::scales::effect::POINTS;
 
 /// Constants of one Gauss point.
 #[derive(Clone, Debug)]
@@ -52,9 +50,6 @@ pub(crate) struct Squared<T> {
     /// 1/Q, at most 4.
     pub inverse: T,
 }
-
-/// Gauss points of effects beside a bending rule that has none of its own.
-const POINTS: usize = 3;
 
 /// Points of a bending rule, ascending; none without bending.
 pub(crate) fn points_of(rule: BendingRule) -> Vec<Point> {

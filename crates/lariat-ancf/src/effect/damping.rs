@@ -59,7 +59,7 @@
 //!   place of L D L^T.
 
 use super::acts::{Acts, ElementForce, Nothing, SampledPoint};
-use super::curvature::{self, NOISE, Point, Squared};
+use super::curvature::{self, Point, Squared};
 use super::{Cut, Effect, Target};
 use crate::Real;
 use crate::element::axial::projected;
@@ -67,11 +67,9 @@ use crate::element::gram::{Control, contract, dot, gradient, quadratic_form};
 use crate::element::kernel::{DiscreteGradientForce, Gradient, GramForce, GramState, GramStep, Hessian, Load};
 use crate::element::step::combined;
 use crate::error::{Error, Requirement, require};
+use crate::scales::effect::{NOISE, STRAIGHT};
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
-
-/// e: square of half the turn per element, in rad, below which the curvature is damped as a vector.
-const STRAIGHT: f64 = 1e-7;
 
 /// Kelvin-Voigt times: the time that the rate of strain must last to double the stress.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]

@@ -30,11 +30,9 @@
 
 use crate::error::{Error, require, require_finite};
 use crate::point::Point;
+use crate::scales::effect::ROWS;
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
-
-/// Rows of a table built from a formula.
-const ROWS: usize = 65;
 
 /// A factor of the flow by height.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

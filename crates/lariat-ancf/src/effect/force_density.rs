@@ -33,17 +33,13 @@ use crate::element::assembly::add_tangent;
 use crate::element::shape;
 use crate::linalg::BlockTridiagonal;
 use crate::quadrature::gauss_legendre;
+use crate::scales::effect::{DIFFERENCE, POINTS};
 use crate::section::Element;
 use core::fmt::Debug;
 use fearless_simd::Level;
 use nalgebra::{Matrix3, Vector3};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use std::sync::Arc;
-
-/// Gauss points of an element.
-const POINTS: usize = 3;
-/// Differences over this share of the element's length, and of the speed.
-const DIFFERENCE: f64 = 1e-5;
 
 /// A force per length of your own, for [`Cable::add_force_density`](crate::Cable::add_force_density).
 pub trait ForceDensity: Debug + Send + Sync {

@@ -28,15 +28,11 @@
 //!
 //! The mean of the gradients at both ends: exact for a spring alone, and elsewhere it makes energy.
 
+use crate::scales::effect::{DIFFERENCE, ENERGY_ROUNDING};
 use core::fmt::Debug;
 use nalgebra::{Matrix3, Vector3};
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
-
-/// Distance in m over which a gradient is differentiated, where no Hessian is given.
-const DIFFERENCE: f64 = 1e-5;
-/// Rounding errors of an energy, in units of the last place: what is left of a difference below them is none.
-const ROUNDING: f64 = 8.0 * f64::EPSILON;
 
 /// An energy of your own of a point of a cable, for [`Cable::add_potential`](crate::Cable::add_potential).
 pub trait Potential: Debug + Send + Sync {
@@ -69,7 +65,7 @@ pub(crate) fn over_step(
     let [before, after] = [start, &end].map(|x| potential.energy(x));
     let rest = after - before - gradient.dot(change);
     let square = change.norm_squared();
-    if square == 0.0 || rest.abs() <= ROUNDING * (before.abs() + after.abs()) {
+    if square == 0.0 || rest.abs() <= ENERGY_ROUNDING * (before.abs() + after.abs()) {
         return (gradient, half);
     }
     let slope = potential.gradient(&end) - gradient - half * change;

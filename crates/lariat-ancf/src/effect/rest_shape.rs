@@ -37,20 +37,18 @@
 //! straight cable.
 
 use super::acts::{Acts, ElementForce, Nothing, SampledPoint};
-use super::curvature::{self, NOISE, Point};
+use super::curvature::{self, Point};
 use super::{Cut, Effect, Target};
 use crate::Real;
 use crate::element::bending::gauss::middle;
 use crate::element::gram::{Six, form};
 use crate::element::kernel::{DiscreteGradientForce, Gradient, GramForce, GramState, GramStep, Hessian, Load};
 use crate::error::{Error, Requirement, require};
+use crate::scales::effect::{BLUNTING, NOISE};
 use crate::section::Element;
 use crate::simd::padded;
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
-
-/// k_r over kappa_0.
-const ROUNDING: f64 = 0.01;
 
 /// Stress-free stretch and curvature from an arc length on.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -309,7 +307,7 @@ impl NaturalCurvature<f64> {
     pub fn new(curvature: f64, length: f64) -> Self {
         let half = 0.5 * curvature * length;
         // an element without natural curvature among others that have one: no force, and no zero under the root
-        let rounding = (ROUNDING * half).powi(2).max(f64::MIN_POSITIVE);
+        let rounding = (BLUNTING * half).powi(2).max(f64::MIN_POSITIVE);
         let target = if curvature == 0.0 { 0.0 } else { (half * half + rounding).sqrt() };
         NaturalCurvature { target, rounding }
     }

@@ -38,14 +38,12 @@
 
 use super::Damping;
 use crate::error::{Error, nearest, require};
+use crate::scales::effect::HALF_WAVES;
 use crate::section::{Element, Section};
 use serde::{Deserialize, Serialize};
 use std::f64::consts::{PI, TAU};
 use std::fmt;
 use std::str::FromStr;
-
-/// Half waves over the length in the bending mode whose damping is named.
-const HALF_WAVES: f64 = 10.0;
 
 /// A kind of rope, by which its damping is named.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]

@@ -25,7 +25,7 @@
 //! - Velocities from accelerations at both ends: in a stiff transient h q'' is no velocity that the cable has, and the work a
 //!   hundred times too large.
 
-/// The two Gauss points of a unit step.
+/// Coefficient: the two Gauss points of a unit step.
 pub(crate) const POINTS: [f64; 2] = [0.211_324_865_405_187_1, 0.788_675_134_594_812_9];
 
 /// Returns the weights of (x0, h x0', x1, h x1') in Hermite's cubic, and in its derivative times h, at a share of a step.

@@ -37,7 +37,7 @@ pub type Upper<T> = [T; 21];
 
 /// Weights of the pairs: a repeated index counts twice.
 pub const PAIR_WEIGHT: Six<f64> = [2.0, 1.0, 1.0, 2.0, 1.0, 2.0];
-/// `PAIR[i][j]` is the index of the pair (i, j) in a [`Six`].
+/// Layout: `PAIR[i][j]` is the index of the pair (i, j) in a [`Six`].
 pub const PAIR: [[usize; 3]; 3] = [[0, 1, 2], [1, 3, 4], [2, 4, 5]];
 
 /// Index of entry (a, b), in either order, of a symmetric 6x6 matrix stored as [`Upper`].

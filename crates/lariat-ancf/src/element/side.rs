@@ -11,7 +11,7 @@
 
 use serde::{Deserialize, Serialize};
 
-/// Position of each local vector among (r_i, t_i, r_j, t_j) of the cable, and its sign, at the start.
+/// Layout: position of each local vector among (r_i, t_i, r_j, t_j) of the cable, and its sign, at the start.
 const MIRROR: [(usize, f64); 4] = [(2, 1.0), (3, -1.0), (0, 1.0), (1, -1.0)];
 
 /// An end of a cable.

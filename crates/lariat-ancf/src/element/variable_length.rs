@@ -49,6 +49,7 @@ const K: Table = [
     [-144.0, -48.0, 144.0, 36.0],
     [-36.0, -12.0, 36.0, 44.0],
 ];
+/// Coefficient: of the vector of weight over 420.
 const W: [f64; 4] = [210.0, 70.0, -210.0, -70.0];
 const G_T: Table = {
     let (mut out, mut k) = (G, 0);

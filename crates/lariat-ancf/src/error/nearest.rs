@@ -1,10 +1,10 @@
 //! The name that a misspelt one may have meant.
 
+use crate::scales::cable::LEAST_SIMILARITY;
+
 /// The candidate nearest to `text` by Jaro-Winkler similarity, case ignored, if one is similar
 /// enough to be meant.
 pub(crate) fn nearest(text: &str, candidates: impl IntoIterator<Item = String>) -> Option<String> {
-    /// Similarity (0 to 1) below which a name is not proposed.
-    const LEAST_SIMILARITY: f64 = 0.8;
     let text = text.to_lowercase();
     let similarity = |name: &str| strsim::jaro_winkler(&text, &name.to_lowercase());
     candidates

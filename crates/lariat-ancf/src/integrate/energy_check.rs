@@ -50,15 +50,8 @@
 
 use super::dynamics::Dynamics;
 use crate::error::StepFailure;
+use crate::scales::integrate::{MAX_ENERGY_SHARE, MAX_LEFT_SHARE};
 use crate::state::{Memory, State};
-
-/// Largest spurious energy in any interval of time, as a share of the largest kinetic and strain
-/// energy so far.
-const MAX_ENERGY_SHARE: f64 = 0.01;
-/// Largest spurious energy that is left in an accepted step where the error is controlled.
-const MAX_LEFT_SHARE: f64 = 0.5 * MAX_ENERGY_SHARE;
-/// Shortest step, as a share of the first of the host step, that is tried for less spurious energy.
-pub(super) const MIN_CHECKED_SHARE: f64 = 1.0 / 1024.0;
 
 /// The account of spurious energy.
 #[derive(Clone, Copy)]

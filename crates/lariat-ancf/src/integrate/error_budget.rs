@@ -41,19 +41,9 @@
 //!   1, where these errors are; a longer one needs a factorisation of its own.
 
 use super::dynamics::Dynamics;
-
-/// Smallest error allowed to a step, as a share of the tolerance: after a jump of velocity errors
-/// fall only in proportion to h.
-const MIN_ERROR_SHARE: f64 = 1.0 / 1024.0;
-/// Coherence of errors from which they count as those of a slow motion.
-const MIN_COHERENCE: f64 = 0.25;
-/// Largest error of an incoherent step, as a share of the tolerance.
-const MAX_SHARE_OF_ONE_STEP: f64 = 0.5;
-/// Newton's tolerance, as a share of the error per unit step.
-const NEWTON_TOLERANCE_SHARE: f64 = 0.1;
-/// Error for which the next step is chosen, as a share of the allowed one: one half costs less than
-/// 0.8, with fewer rejections.
-const TARGET_ERROR_SHARE: f64 = 0.5;
+use crate::scales::integrate::{
+    MAX_SHARE_OF_ONE_STEP, MIN_COHERENCE, MIN_ERROR_SHARE, NEWTON_TOLERANCE_SHARE, TARGET_ERROR_SHARE,
+};
 
 /// The errors that the steps of one host step have made and may make.
 pub(super) struct ErrorBudget {

@@ -16,7 +16,9 @@
 
 use super::dirk::{Estimate, Tableau};
 
+/// Coefficient: gamma.
 const G: f64 = 1_767_732_205_903.0 / 4_055_673_282_236.0;
+/// Coefficient: the weights.
 const B: [f64; 4] = [
     1_471_266_399_579.0 / 7_840_856_788_654.0,
     -4_482_444_167_858.0 / 7_529_755_066_697.0,

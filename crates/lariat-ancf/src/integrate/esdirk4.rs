@@ -23,7 +23,9 @@
 
 use super::dirk::{Estimate, Tableau};
 
+/// Coefficient: gamma.
 const G: f64 = 0.25;
+/// Coefficient: the weights.
 const B: [f64; 6] = [82_889.0 / 524_892.0, 0.0, 15_625.0 / 83_664.0, 69_875.0 / 102_672.0, -2_260.0 / 8_211.0, G];
 
 /// The tableau.

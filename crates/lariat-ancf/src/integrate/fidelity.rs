@@ -14,6 +14,7 @@ use super::integrator::{Integrator, StepControl};
 use super::method::Method;
 use crate::error::{Error, nearest};
 use crate::rule::{BendingRule, Rule};
+use crate::scales::integrate::MAX_EXPLICIT_FREQUENCY;
 use serde::{Deserialize, Serialize};
 use std::str::FromStr;
 
@@ -59,11 +60,6 @@ pub enum Fidelity {
     /// This integrator.
     Custom(Integrator),
 }
-
-/// Largest angular frequency in rad/s of a cable for which the reference fidelity is explicit: of
-/// the scenes of `docs/accuracy`, the payload (3.4e4 rad/s) is cheaper with an explicit method, the
-/// pendulum with 80 elements (8.7e4 rad/s) with an implicit one.
-const MAX_EXPLICIT_FREQUENCY: f64 = 5e4;
 
 impl Fidelity {
     /// All presets, from the cheapest.

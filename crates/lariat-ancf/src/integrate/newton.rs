@@ -27,19 +27,7 @@
 //! - Tangents kept across host steps: a restored snapshot would not replay bitwise.
 
 use crate::error::StepFailure;
-
-/// Newton iterations before a stage fails.
-const MAX_ITERATIONS: usize = 12;
-/// Largest change of a slope vector, or rotation of a body in rad, in one Newton iteration.
-const MAX_ROTATION: f64 = 0.5;
-/// A tangent is kept for the next iteration or stage while each increment is below this share of
-/// the one before.
-const MAX_CHORD_CONTRACTION: f64 = 0.3;
-
-/// Share of the impulses that may be unbalanced.
-const FORCE_TOLERANCE: f64 = 1e-3;
-/// Number of iterations after which the balance of impulses is no longer asked for.
-const MAX_FOR_FORCES: usize = 4;
+use crate::scales::integrate::{FORCE_TOLERANCE, MAX_CHORD_CONTRACTION, MAX_FOR_FORCES, MAX_ITERATIONS, MAX_ROTATION};
 
 /// Size of a Newton increment.
 #[derive(Clone, Copy, Debug)]

@@ -16,7 +16,9 @@
 
 use super::explicit::Composition;
 
+/// Coefficient: of the source named above.
 const B4: [f64; 3] = [0.082_984_406_417_405_2, 0.396_309_801_498_368, -0.039_056_304_922_348_6];
+/// Coefficient: of the source named above.
 const A4: [f64; 2] = [0.245_298_957_184_271, 0.604_872_665_711_080];
 
 /// Order 4.
@@ -28,6 +30,7 @@ pub const ORDER_4: Composition = Composition {
     stability_limit: 3.163,
 };
 
+/// Coefficient: of the source named above.
 const B6: [f64; 5] = [
     0.041_464_998_518_262_4,
     0.198_128_671_918_067,
@@ -35,6 +38,7 @@ const B6: [f64; 5] = [
     0.075_253_984_301_580_7,
     -0.011_511_387_420_687_9,
 ];
+/// Coefficient: of the source named above.
 const A6: [f64; 5] = [
     0.123_229_775_946_271,
     0.290_553_797_799_558,

@@ -32,31 +32,17 @@
 //! Hairer & Wanner 1996, IV.8.
 
 use super::dynamics::Dynamics;
-use super::energy_check::{EnergyCheck, MIN_CHECKED_SHARE};
+use super::energy_check::EnergyCheck;
 use super::error_budget::ErrorBudget;
 use super::error_norm::ErrorNorm;
 use super::integrator::{IntegratorRef, StepControl};
 use super::one_step::{Scratch, StepRequest};
 use crate::error::StepFailure;
+use crate::scales::integrate::{
+    BOUND_GROWTH, FIXED_STEP_NEWTON_TOLERANCE, MAX_SHARE_OF_FAILED, MIN_CHECKED_SHARE, MIN_STEP_SHARE, RETRY_SHARE,
+    SINGLE_PRECISION_ROUNDING, TRIES,
+};
 use crate::state::State;
-
-/// Shortest step, as a share of the host step.
-pub(super) const MIN_STEP_SHARE: f64 = 1.0 / (1u64 << 20) as f64;
-/// Newton's tolerance in m where no error is controlled.
-const FIXED_STEP_NEWTON_TOLERANCE: f64 = 1e-10;
-/// Relative rounding error of a host step given in single precision: 1/60 s is then longer than
-/// four steps of 1/240 s.
-pub(super) const SINGLE_PRECISION_ROUNDING: f64 = 1e-7;
-/// Length of the retry of a failed step, as a share of the step.
-const RETRY_SHARE: f64 = 0.25;
-/// Longest step after one at which Newton's iteration failed with an inexact tangent, as a share of
-/// it.
-const MAX_SHARE_OF_FAILED: f64 = 0.5;
-/// Tries per regular step of fixed length in a host step after which a failure ends it: of two
-/// failures at the shortest step, 2 (10 + 76), for 1.2^76 = 4^10.
-const TRIES: u64 = 172;
-/// Growth of that bound with every accepted step.
-const BOUND_GROWTH: f64 = 1.2;
 
 /// Numbers of steps taken.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

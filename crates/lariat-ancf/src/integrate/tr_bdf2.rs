@@ -19,9 +19,9 @@
 
 use super::dirk::{Estimate, Tableau};
 
-/// (2 - sqrt 2)/2.
+/// Coefficient: (2 - sqrt 2)/2.
 const D: f64 = 0.292_893_218_813_452_4;
-/// sqrt 2/4.
+/// Coefficient: sqrt 2/4.
 const W: f64 = 0.353_553_390_593_273_8;
 
 /// The tableau.

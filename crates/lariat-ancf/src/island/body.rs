@@ -12,7 +12,7 @@
 //! Khatib 1987, the operational space inertia.
 
 use crate::error::{Error, require, require_finite};
-use crate::one_leg::ALPHA;
+use crate::scales::integrate::ALPHA;
 use nalgebra::{Matrix3, Matrix6, UnitQuaternion, Vector3, Vector6};
 use serde::{Deserialize, Serialize};
 

@@ -16,10 +16,8 @@
 //! The rate at the end is w1 for small gamma.
 
 use super::rotation::{exponential, jacobian_rate, spin};
+use crate::scales::island::ANGLE_ROUNDING;
 use nalgebra::{UnitVector3, Vector3};
-
-/// Largest angle in rad that is rounding.
-const ANGLE_ROUNDING: f64 = 1e-12;
 
 /// A clamp's direction over one step.
 #[derive(Clone, Copy, Debug)]

@@ -19,13 +19,9 @@ use super::equations::IslandEquations;
 use super::hold::{stack, vector};
 use super::layout::Motion;
 use crate::effect::acts::ForceInput;
+use crate::scales::island::{FAST_CLOSING, SLOW_CLOSING};
 use crate::state::State;
 use nalgebra::Vector3;
-
-/// Closing speed of a gap in m/s above which its work is included.
-const SLOW_CLOSING: f64 = 1e-6;
-/// Closing speed of a gap in m/s above which its work is not known accurately.
-const FAST_CLOSING: f64 = 1e-2;
 
 /// Returns the spurious energy between two states in J, and the kinetic and strain energy to
 /// compare it with; `None` where it is not known. `rhs` is a buffer.

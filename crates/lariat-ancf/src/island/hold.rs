@@ -1,9 +1,7 @@
 //! The coordinates of a cable that follow a body.
 
+use crate::scales::island::MIN_SLOPE;
 use nalgebra::{Vector3, Vector6};
-
-/// Length of a slope below which it has no direction.
-const MIN_SLOPE: f64 = 1e-9;
 
 /// Three coordinates of a cable that follow a body: a pinned position, or a clamped slope.
 #[derive(Clone, Copy, Debug)]

@@ -28,14 +28,9 @@ use crate::effect::acts::ForceInput;
 use crate::error::{Error, StepFailure};
 use crate::integrate::add_scaled;
 use crate::linalg::{Factorisation, SchurComplement};
+use crate::scales::island::{MAX_DIVISOR, MIN_SHARE};
 use crate::system::project_matrix;
 use nalgebra::{Matrix3, Vector3};
-
-/// Largest divisor of D and K against compression that makes A indefinite.
-const MAX_DIVISOR: f64 = 1e6;
-
-/// Smallest share of the displacement that is tried before it is omitted.
-const MIN_SHARE: f64 = 1.0 / 64.0;
 
 /// The impulse response of one cable at some of its nodes.
 #[derive(Clone, Debug, Default)]

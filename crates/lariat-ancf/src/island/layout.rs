@@ -10,17 +10,8 @@ use super::hold::{Hold, direction, vector};
 use super::pin::PinConstraint;
 use super::rotation::{exponential, spin};
 use crate::cable::Cable;
+use crate::scales::island::{CLOSING_SPEED, GAP_ROUNDING, REVERSED_COSINE};
 use nalgebra::{UnitQuaternion, Vector3, Vector6};
-
-/// Largest component of a gap in m that is rounding.
-const GAP_ROUNDING: f64 = 1e-12;
-/// Largest mean speed in m/s with which a gap closes, to limit the acceleration of the cable after
-/// a teleport.
-pub const CLOSING_SPEED: f64 = 10.0;
-/// Where the cosine between a slope and its clamp is below minus this, the slope of a cable without
-/// bending stiffness has reversed: it is along the clamp, with negative stretch. Treating this as a
-/// rotation by pi in one step creates energy without bound.
-const REVERSED_COSINE: f64 = 0.9;
 
 /// The coordinates of one cable.
 #[derive(Clone, Debug, Default)]

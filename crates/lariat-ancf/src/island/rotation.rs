@@ -24,12 +24,10 @@
 //! - Unit quaternions as coordinates: a constraint to project in every stage.
 //! - One chart for all times: it is singular.
 
+use crate::scales::island::SERIES_ANGLE;
 use nalgebra::{Matrix3, Quaternion, UnitQuaternion, Vector3};
 
-/// Angle in rad below which series replace the quotients: they cost less than sines, without
-/// cancellation.
-const SERIES_ANGLE: f64 = 0.5;
-/// Number of terms of a series: the remainder is below 1e-18 of it at [`SERIES_ANGLE`].
+/// Layout: number of terms of a series: the remainder is below 1e-18 of it at [`SERIES_ANGLE`].
 const TERMS: usize = 7;
 const FOURTH: [f64; TERMS] = coefficients(4);
 const FIFTH: [f64; TERMS] = coefficients(5);

@@ -10,10 +10,11 @@ use super::memory;
 use super::pin::{PinConstraint, check, is_on_free_body};
 use super::pin_accounts::{PinAccount, PinAccounts};
 use super::reel::{self, Drum, Sheave};
-use crate::cable::{Cable, SHORTEST_STEP, check_integrator};
+use crate::cable::{Cable, check_integrator};
 use crate::contact::CablePair;
 use crate::error::{Error, require};
 use crate::integrate::{Integrator, IntegratorRef, Scratch, step_control};
+use crate::scales::SMALLEST;
 use crate::state::State;
 
 /// Buffers of an island, reused from step to step; nothing in them is state.
@@ -76,7 +77,7 @@ impl Island {
         integrator: IntegratorRef<'_>,
         dt: f64,
     ) -> Result<(), Error> {
-        require("dt (s)", dt, dt == 0.0 || dt >= SHORTEST_STEP, "0, or >= 1e-100")?;
+        require("dt (s)", dt, dt == 0.0 || dt >= SMALLEST, "0, or >= 1e-100")?;
         integrator.check()?;
         check(cables, bodies, pins)?;
         cables.iter().try_for_each(|cable| check_integrator(&cable.model, integrator.method))?;

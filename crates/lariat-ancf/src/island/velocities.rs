@@ -17,10 +17,8 @@ use super::equations::MatrixKind;
 use super::hold::vector;
 use crate::error::StepFailure;
 use crate::integrate::Dynamics;
+use crate::scales::island::JUMP_ROUNDING;
 use crate::state::State;
-
-/// Largest jump of velocity at a pin in m/s that is rounding.
-const JUMP_ROUNDING: f64 = 1e-10;
 
 impl IslandDynamics<'_, '_> {
     /// Gives pinned nodes the velocity of their bodies, by an inelastic impact.

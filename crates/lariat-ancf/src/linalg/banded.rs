@@ -25,17 +25,14 @@ use super::block::BlockTridiagonal;
 use super::equilibrate::{check_finite, equilibrate, for_lower_triangle};
 use super::inertia;
 use super::outcome::{Definiteness, Reason, SingularMatrix};
+use crate::scales::linalg::{MAX_GROWTH, MIN_RCOND};
 use crate::simd::dispatch;
 use fearless_simd::Level;
 
-/// Number of diagonals below the main one.
+/// Layout: number of diagonals below the main one.
 const BELOW: usize = 11;
-/// Number of diagonals above the main one, fill included.
+/// Layout: number of diagonals above the main one, fill included.
 const ABOVE: usize = 2 * BELOW;
-/// Smallest accepted reciprocal condition number.
-const MIN_RCOND: f64 = 1.0 / (1u64 << 48) as f64;
-/// Largest accepted growth of the entries.
-const MAX_GROWTH: f64 = (1u64 << 20) as f64;
 
 /// One column: the entry of row r, column c is at `ABOVE + r - c`.
 type Column = [f64; ABOVE + 1 + BELOW];

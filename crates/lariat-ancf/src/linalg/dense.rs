@@ -16,11 +16,9 @@
 //! nalgebra's Cholesky: its products choose kernels at run time, with other bits on other machines.
 
 use super::outcome::{Reason, SingularMatrix};
+use crate::scales::linalg::MIN_PIVOT_SHARE;
 use crate::simd::dispatch;
 use fearless_simd::Level;
-
-/// Share of its diagonal entry above which a pivot needs no exchange.
-const MIN_PIVOT_SHARE: f64 = 1e-3;
 
 /// A factored symmetric matrix.
 #[derive(Clone, Debug, Default)]

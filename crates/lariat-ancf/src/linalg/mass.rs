@@ -22,6 +22,7 @@
 //! - The explicit inverse: it is dense.
 
 use super::outcome::{Reason, SingularMatrix};
+use crate::scales::linalg::MIN_PIVOT;
 use crate::simd::dispatch;
 use fearless_simd::{Level, Simd, f64x4, prelude::*};
 
@@ -137,7 +138,6 @@ pub struct MassFactorisation {
 
 /// Factors S = (rr, rt, tt) into l, 1/p, 1/q; `entries` are those of the matrix.
 fn eliminate(s: [f64; 3], entries: [f64; 3], node: usize) -> Result<[f64; 3], SingularMatrix> {
-    const MIN_PIVOT: f64 = 1.0 / (1u64 << 42) as f64;
     let l = s[1] / s[0];
     let q = s[2] - l * s[1];
     for (pivot, scale) in [(s[0], entries[0]), (q, entries[2])] {

@@ -32,9 +32,9 @@ use super::twisted::Node;
 use crate::simd::dispatch;
 use fearless_simd::{Level, Simd, f64x8, prelude::*};
 
-/// Number of columns in a group.
+/// Layout: number of columns in a group.
 const LANES: usize = 8;
-/// Number of rows of the Schur complement that are summed at a time.
+/// Layout: number of rows of the Schur complement that are summed at a time.
 const ROWS: usize = 4;
 
 /// The columns of a border, and what the factors make of them.

@@ -36,12 +36,10 @@ use super::outcome::SingularMatrix;
 use super::schur::{solve_node, store_block};
 use super::substitution::solve_block;
 use super::twisted::Node;
+use crate::scales::linalg::MIN_PIVOT_OF_BORDER;
 use crate::simd::dispatch;
 use fearless_simd::{Level, Simd, prelude::*};
 use nalgebra::Matrix3;
-
-/// Smallest share of its diagonal entry that a pivot keeps.
-const MIN_PIVOT: f64 = 64.0 * f64::EPSILON;
 
 /// A sparse symmetric matrix, and its factors.
 #[derive(Clone, Debug, Default)]
@@ -246,7 +244,7 @@ fn eliminate<S: Simd>(simd: S, matrix: &mut SparseSymmetric) -> bool {
             }
         }
         let pivots = diagonal(simd, &d) * splat(simd, signs[order.block[k]]);
-        let least = load(simd, &before[k]).abs() * splat(simd, MIN_PIVOT);
+        let least = load(simd, &before[k]).abs() * splat(simd, MIN_PIVOT_OF_BORDER);
         if pivots.simd_gt(least).to_bitmask() & 0x3f != 0x3f {
             return false;
         }

@@ -34,6 +34,7 @@
 
 use super::block::{Block, BlockTridiagonal};
 use super::lanes::{Columns, after, diagonal, load_block, load_transposed, splat};
+use crate::scales::linalg::{MIN_PIVOT, RANGE};
 use core::hint::black_box;
 use fearless_simd::{Simd, f64x8, prelude::*};
 
@@ -52,11 +53,6 @@ pub(super) struct Node {
 impl Node {
     pub(super) const ZERO: Self = Self { columns: Block::ZERO, gain: Block::ZERO, inverse: [0.0; 8] };
 }
-
-/// Smallest accepted pivot relative to the diagonal entry of the matrix.
-const MIN_PIVOT: f64 = 1.0 / (1u64 << 42) as f64;
-/// Smallest accepted pivot and, inverted, largest accepted diagonal entry.
-const RANGE: f64 = 1e-140;
 
 /// The checks of the pivots so far.
 #[derive(Clone, Copy)]

@@ -14,6 +14,7 @@ use crate::load::PointLoad;
 use crate::obstacle::Obstacles;
 use crate::reel::Reels;
 use crate::rule::Rule;
+use crate::scales::cable::MAX_ELEMENTS;
 use crate::section::Element;
 use crate::strength::Strength;
 use crate::support::Support;
@@ -23,9 +24,6 @@ use serde::{Deserialize, Serialize};
 /// Gravity that a cable has unless told otherwise, in m/s^2: (0, -9.81, 0). Not the standard 9.80665: the value that games and
 /// engines use.
 pub const STANDARD_GRAVITY: Vector3<f64> = Vector3::new(0.0, -9.81, 0.0);
-
-/// Largest number of elements of a cable.
-pub(crate) const MAX_ELEMENTS: usize = 1_000_000;
 
 /// A node at a corner of the drawn shape.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]

@@ -3,11 +3,11 @@
 use super::rigid_motion::{Mount, RigidMotion};
 use super::surface::Surface;
 use crate::error::{Error, require, require_finite};
-use crate::one_leg::ALPHA;
+use crate::scales::integrate::ALPHA;
 use nalgebra::{UnitQuaternion, Vector3};
 use std::sync::Arc;
 
-/// Largest coefficient of restitution with which the discrete gradient makes no energy.
+/// Coefficient: largest coefficient of restitution with which the discrete gradient makes no energy.
 pub const LARGEST_RESTITUTION: f64 = (1.0 - ALPHA) / (1.0 + ALPHA);
 
 /// Something that a cable can touch: fixed, moving as prescribed, or carried by a body that the cable moves in turn.

@@ -5,12 +5,8 @@
 //! Hart, The Visual Computer 12 (1996) 527 (tracing by distances).
 
 use super::surface::{Nearest, Surface};
+use crate::scales::obstacle::{PAST, TRACES};
 use nalgebra::Vector3;
-
-/// Steps along the way to a surface.
-const TRACES: usize = 64;
-/// Least step of these, as a share of the distance at which the surface is met.
-const PAST: f64 = 0.02;
 
 /// Returns whether a ball comes near a surface.
 pub(crate) fn comes_near(surface: &dyn Surface, centre: &Vector3<f64>, radius: f64) -> bool {

@@ -1,6 +1,7 @@
 //! One attempt to find an equilibrium: its report, its budget of iterations and its failure.
 
 use crate::error::StepFailure;
+use crate::scales::statics::{MAX_ATTEMPTS, MAX_ITERATIONS_OF_ATTEMPT};
 
 /// The result of [`Cable::equilibrium`](crate::Cable::equilibrium).
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -33,13 +34,6 @@ impl Default for EquilibriumOptions {
     }
 }
 
-/// Largest change of a slope vector in one iteration.
-pub(super) const MAX_SLOPE_CHANGE: f64 = 0.3;
-/// Largest number of iterations of one attempt, with those of its steps, and of all attempts together, as
-/// multiples of its number of steps.
-const MAX_ITERATIONS: usize = 2;
-const MAX_ATTEMPTS: usize = 5;
-
 /// Iterations done and remaining.
 pub(crate) struct Budget {
     /// Largest residual force over the sum of the loads.
@@ -65,7 +59,7 @@ impl Budget {
 
     /// Takes one iteration, and returns whether one remained.
     pub fn take(&mut self) -> bool {
-        let more = !self.spent() && self.done - self.began < MAX_ITERATIONS.saturating_mul(self.attempt);
+        let more = !self.spent() && self.done - self.began < MAX_ITERATIONS_OF_ATTEMPT.saturating_mul(self.attempt);
         self.done += usize::from(more);
         more
     }

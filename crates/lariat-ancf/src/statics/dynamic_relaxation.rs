@@ -9,13 +9,7 @@ use super::attempt::{Budget, Failure};
 use crate::cable::Cable;
 use crate::integrate::{Integrator, Method, StepControl};
 use crate::model::LoadScale;
-
-/// Largest number of steps.
-const MAX_STEPS: usize = 400;
-/// Largest number of halvings of a failed step.
-const MAX_HALVINGS: usize = 4;
-/// Peak of the kinetic energy at rest, as a share of its largest peak.
-const REST_SHARE: f64 = 1e-10;
+use crate::scales::statics::{RELAXATION_HALVINGS, RELAXATION_STEPS, REST_SHARE};
 
 impl Cable {
     /// Moves the cable towards rest; it stays where the last successful step left it.
@@ -32,12 +26,12 @@ impl Cable {
         self.model.loads.iter_mut().for_each(|load| load.ramp = 0.0);
         self.set_at_rest();
         let (mut kinetic, mut largest, mut halvings) = (0.0f64, 0.0f64, 0);
-        for _ in 0..MAX_STEPS {
+        for _ in 0..RELAXATION_STEPS {
             if !fits || !budget.take() {
                 break;
             }
             if self.step(step).is_err() {
-                if halvings == MAX_HALVINGS {
+                if halvings == RELAXATION_HALVINGS {
                     break;
                 }
                 halvings += 1;

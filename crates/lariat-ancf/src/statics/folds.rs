@@ -27,18 +27,10 @@
 use crate::element::shape;
 use crate::model::Model;
 use crate::rule::BendingRule;
+use crate::scales::statics::{BACKWARD_COSINE, MIN_SLOPE, REVERSED_STRETCH, THICK};
 use crate::section::Element;
 use crate::support::SlopeSupport;
 use nalgebra::Vector3;
-
-/// Cosine of the angle between slope and chord below which the slope points backwards.
-const BACKWARD_COSINE: f64 = -0.05;
-/// Stretch at a clamp below which its tangent is reversed.
-const REVERSED_STRETCH: f64 = -0.1;
-/// EI/(EA l^2) above which an element is thick.
-const THICK: f64 = 1e-4;
-/// Shortest slope after a fold is straightened.
-const MIN_SLOPE: f64 = 0.1;
 
 fn vector(q: &[f64], at: usize) -> Vector3<f64> {
     Vector3::from_column_slice(&q[at..at + 3])

@@ -8,28 +8,15 @@
 //!
 //! Crisfield 1991, section 9.4 (load incrementation with automatic steps).
 
-use super::attempt::{Budget, EquilibriumReport, Failure, MAX_SLOPE_CHANGE, largest_change};
+use super::attempt::{Budget, EquilibriumReport, Failure, largest_change};
 use crate::cable::Cable;
 use crate::linalg::Definiteness;
 use crate::model::{LoadScale, largest_force};
+use crate::scales::statics::{
+    CARRIED_RESIDUAL, FEW_ITERATIONS, FIRST_INCREMENT, INTERMEDIATE_CHANGE, MAX_ITERATIONS_OF_INCREMENT,
+    MAX_SLOPE_CHANGE, MIN_INCREMENT, RAMP_ROUNDING, STAGNATION,
+};
 use crate::system::project_vector;
-
-/// First increment, as a share of the loads.
-const FIRST_INCREMENT: f64 = 0.125;
-/// Smallest increment.
-const MIN_INCREMENT: f64 = 1.0 / 1024.0;
-/// Largest number of Newton iterations of one increment.
-const MAX_ITERATIONS: usize = 16;
-/// Number of iterations up to which an increment is doubled.
-const FEW_ITERATIONS: usize = 9;
-/// Change of slopes below which an increment within the ramp has converged.
-const INTERMEDIATE_CHANGE: f64 = 1e-4;
-/// Change of slopes that is rounding.
-const ROUNDING: f64 = 1e-13;
-/// Change of slopes below which increments that do not fall are rounding.
-const STAGNATION: f64 = 1e-6;
-/// Residual, as a share of the loads, below which a shape carries a part of them.
-const CARRIED_RESIDUAL: f64 = 1e-4;
 
 impl Cable {
     /// Ramps the loads up to their full size.
@@ -103,7 +90,7 @@ impl Cable {
         let (mut cause, mut residual) = (None, f64::NAN);
         // at rounding on a thin cable no slope changes any more
         let (mut close, mut before) = (false, f64::INFINITY);
-        for _ in 0..MAX_ITERATIONS {
+        for _ in 0..MAX_ITERATIONS_OF_INCREMENT {
             if !budget.take() {
                 break;
             }
@@ -132,7 +119,7 @@ impl Cable {
                 return Ok(EquilibriumReport { iterations: budget.done, residual, stable: false });
             }
             // a small residual is not enough: see `polish`
-            close = slope < ROUNDING || (residual <= tolerance && slope < STAGNATION && slope > 0.5 * before);
+            close = slope < RAMP_ROUNDING || (residual <= tolerance && slope < STAGNATION && slope > 0.5 * before);
             before = slope;
         }
         Err(Failure { cause, residual })

@@ -25,16 +25,8 @@ use super::attempt::{Budget, largest_change};
 use super::pseudo_transient::{Minimisation, Polished};
 use crate::linalg::Definiteness;
 use crate::model::largest_force;
+use crate::scales::statics::{CONVERGED, MAX_ITERATIONS, MAX_STAGNATIONS, STAGNATION};
 use crate::system::project_vector;
-
-/// Largest number of iterations.
-const MAX_ITERATIONS: usize = 12;
-/// Largest change of slopes at which increments may stop to fall: they are rounding.
-const ROUNDING: f64 = 1e-6;
-/// Number of times that they have to.
-const MAX_STAGNATIONS: usize = 3;
-/// Change of slopes below which no further increment is needed: the next one is its square.
-const CONVERGED: f64 = 1e-12;
 
 impl Minimisation<'_> {
     /// Improves `q` until the increments of Newton's method are rounding.
@@ -66,12 +58,12 @@ impl Minimisation<'_> {
             let change = slope.max(displacement / self.scale.length);
             if change > 0.5 * before {
                 stagnations += 1;
-                if stagnations == MAX_STAGNATIONS && before <= ROUNDING {
+                if stagnations == MAX_STAGNATIONS && before <= STAGNATION {
                     return Polished::Converged(residual);
                 }
             }
             // NaN fails too
-            if !(change <= 0.5 * before || change.max(before) <= ROUNDING) {
+            if !(change <= 0.5 * before || change.max(before) <= STAGNATION) {
                 break;
             }
             q.iter_mut().zip(&self.rhs).for_each(|(q, dq)| *q += dq);

@@ -18,29 +18,18 @@
 //!
 //! Kelley & Keyes 1998 (pseudo-transient continuation); Rockafellar 1976 (proximal point).
 
-use super::attempt::{Budget, EquilibriumReport, Failure, MAX_SLOPE_CHANGE, largest_change};
+use super::attempt::{Budget, EquilibriumReport, Failure, largest_change};
 use super::potential::{moment_work, potential};
 use crate::cable::Cable;
 use crate::error::StepFailure;
 use crate::linalg::Definiteness;
 use crate::model::{LoadScale, largest_force};
+use crate::scales::statics::{
+    IMPLICIT_ITERATIONS, MAX_FAILED_POLISHES, MAX_MU, MAX_RESIDUAL_GROWTH, MAX_SADDLES, MAX_SLOPE_CHANGE, MIN_MU,
+    NEAR_SADDLE,
+};
 use crate::system::{Equations, project_vector};
 use nalgebra::Vector3;
-
-/// Newton iterations that make a step that raised the energy an implicit one.
-const IMPLICIT_ITERATIONS: usize = 6;
-/// Growth of the residual above which a step that lowered the energy is made an implicit one too.
-const MAX_RESIDUAL_GROWTH: f64 = 4.0;
-/// Residual, as a share of the loads, at which an indefinite matrix is taken for that of a saddle.
-const NEAR_SADDLE: f64 = 1e-4;
-/// Number of shapes of small residual that may be improved without success before the shape is taken
-/// for an indifferent one.
-const MAX_FAILED_POLISHES: usize = 3;
-/// Number of saddles that are left.
-const MAX_SADDLES: usize = 3;
-/// Smallest mu after a failed step, and largest, as shares of its first value.
-const MIN_MU: f64 = 1e-6;
-const MAX_MU: f64 = 1e15;
 
 /// The outcome of one step.
 enum Step {

@@ -26,15 +26,8 @@ use super::attempt::{Budget, EquilibriumReport, Failure, largest_change};
 use crate::cable::Cable;
 use crate::integrate::{Integrator, Method, StepControl};
 use crate::model::{LoadScale, largest_force};
+use crate::scales::statics::{FLOW_AT_REST, FLOW_GROWTH, FLOW_REDUCTION, MAX_FAILURES};
 use crate::system::project_vector;
-
-/// Factor on the step after a success, and after a failure.
-const GROWTH: f64 = 1.3;
-const REDUCTION: f64 = 0.25;
-/// Change of a slope in a step below which the cable is at rest.
-const AT_REST: f64 = 1e-7;
-/// Successive failures after which the search ends.
-const MAX_FAILURES: usize = 12;
 
 impl Cable {
     /// Moves the cable to rest in the flow.
@@ -70,11 +63,11 @@ impl Cable {
             match self.step(step) {
                 Ok(()) => {
                     failures = 0;
-                    step *= GROWTH;
+                    step *= FLOW_GROWTH;
                 }
                 Err(error) => {
                     failures += 1;
-                    step *= REDUCTION;
+                    step *= FLOW_REDUCTION;
                     if failures == MAX_FAILURES {
                         if let crate::error::Error::StepFailed { failure, .. } = error {
                             cause = Some(failure);
@@ -92,7 +85,7 @@ impl Cable {
             equations.static_force(1.0, &state.q, 1.0, &mut rhs);
             project_vector(equations.model, &mut rhs);
             residual = largest_force(&rhs, scale.element);
-            if residual <= budget.tolerance * scale.force + scale.rounding && change <= AT_REST {
+            if residual <= budget.tolerance * scale.force + scale.rounding && change <= FLOW_AT_REST {
                 return Ok(EquilibriumReport { iterations: budget.done, residual, stable: true });
             }
         }

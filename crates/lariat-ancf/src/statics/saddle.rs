@@ -20,18 +20,8 @@
 use super::attempt::{Budget, largest_change};
 use super::pseudo_transient::Minimisation;
 use crate::linalg::Definiteness;
+use crate::scales::statics::{DISPLACEMENT, GROWTH, INVERSE_ITERATIONS, NEGATIVE, SMALL_SHARE};
 use crate::system::project_vector;
-
-/// Inverse iterations: mu is within a factor of 4 of the lowest lambda.
-const ITERATIONS: usize = 40;
-/// Share of every mode in the start.
-const SMALL_SHARE: f64 = 1e-6;
-/// Largest change of a slope by which the shape is displaced.
-const DISPLACEMENT: f64 = 0.02;
-/// Largest lambda of a saddle, as a share of the first mu.
-const NEGATIVE: f64 = -1e-6;
-/// Growth of mu.
-const GROWTH: f64 = 4.0;
 
 impl Minimisation<'_> {
     /// Displaces `q` along its softest mode, and returns whether it has one of negative stiffness.
@@ -61,7 +51,7 @@ impl Minimisation<'_> {
         project_vector(equations.model, step);
         let downhill: Vec<f64> = rhs.clone();
         let mut lambda = 0.0;
-        for _ in 0..ITERATIONS {
+        for _ in 0..INVERSE_ITERATIONS {
             equations.system.mass.multiply(equations.system.level, step, inertia);
             let square: f64 = step.iter().zip(inertia.iter()).map(|(a, b)| a * b).sum();
             rhs.copy_from_slice(inertia);

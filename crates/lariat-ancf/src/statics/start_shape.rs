@@ -7,14 +7,10 @@
 
 use crate::cable::along_polyline;
 use crate::model::Model;
+use crate::scales::statics::{MAX_SPAN_CHANGE, MIN_OPENING};
 use crate::support::SlopeSupport;
 use nalgebra::Vector3;
 use std::ops::Range;
-
-/// Change of a span, as a share of its unstretched length, above which it is laid out anew.
-const MAX_SPAN_CHANGE: f64 = 0.1;
-/// Smallest distance of the ends of a span, as a share of its length, for an arc.
-const MIN_OPENING: f64 = 0.05;
 
 fn position(q: &[f64], node: usize) -> Vector3<f64> {
     Vector3::from_column_slice(&q[6 * node..6 * node + 3])

@@ -3,9 +3,10 @@
 mod fleet;
 mod reel;
 
+use crate::scales::SMALLEST;
 pub use fleet::{FleetError, step_all};
 
-use crate::cable::{Cable, SHORTEST_STEP, check_integrator};
+use crate::cable::{Cable, check_integrator};
 use crate::error::{Error, require};
 use crate::integrate::{IntegratorRef, step_control};
 use crate::island::advance_alone;
@@ -32,8 +33,7 @@ impl Cable {
         let integrator = integrator.into();
         integrator.check()?;
         check_integrator(&self.model, integrator.method)?;
-        require("dt (s)", dt, dt == 0.0 || dt >= SHORTEST_STEP, "0, or >= 1e-100")
-            .map_err(|e| e.of_cable(self.name()))?;
+        require("dt (s)", dt, dt == 0.0 || dt >= SMALLEST, "0, or >= 1e-100").map_err(|e| e.of_cable(self.name()))?;
         if dt == 0.0 {
             return Ok(());
         }

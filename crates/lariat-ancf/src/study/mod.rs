@@ -56,20 +56,10 @@ pub use claim::{Claim, Outcome, Proof, StudyError};
 pub use record::Record;
 pub use runs::Resolution;
 
+use crate::scales::study::{BRANCH, FIRST, KINKS, LAST_FIRST, LIMIT, REFINED};
 use order::Difference;
 use runs::{Runs, Span};
 use time::{Pilots, Time};
-
-/// Elements of the first run.
-const FIRST: usize = 4;
-/// Largest number of elements of the first run, where coarser ones fail.
-const LAST_FIRST: usize = 16;
-/// Largest number of elements, unless the study is told another.
-const LIMIT: usize = 160;
-/// Ratio of element lengths below which a mesh is not refined.
-const REFINED: f64 = 1.2;
-/// A difference of this share of the longest cable is another branch.
-const BRANCH: f64 = 0.1;
 
 /// A program that builds a world at a resolution and runs it, and the error that is asked of it.
 ///
@@ -179,10 +169,10 @@ impl<F> Study<F> {
             let largest = fine.record.largest_order(span.is_none(), differences.len(), shown);
             let factor = if refined { order::factor(&differences, indicated, largest) } else { f64::INFINITY };
             // an order that no distances show is believed as far as the indicator agrees with the claim
-            let believed = differences.len() == 1 && largest > order::KINKS;
+            let believed = differences.len() == 1 && largest > KINKS;
             let mesh = match refined {
                 true if believed => {
-                    let of_waves = order::factor(&differences, indicated, order::KINKS) * difference;
+                    let of_waves = order::factor(&differences, indicated, KINKS) * difference;
                     (factor * difference).max(fine.record.indicated_error()).min(of_waves)
                 }
                 true => factor * difference,

@@ -30,21 +30,7 @@
 //! - The second order for all equilibria whose distances and indicator show it: of 280 random ones, three that are held between the ends were claimed
 //!   at down to 0.14 of the true error; with the first order at 0.86.
 
-/// Order that is assumed where distances show none.
-const ASSUMED: f64 = 2.5;
-/// Least and largest order.
-const ORDERS: [f64; 2] = [0.25, 4.0];
-/// Share of the allowed error that the next but one mesh is meant to have.
-const AIM: f64 = 0.6;
-/// Least growth of the number of elements, and the factor of a distance in a claim that belongs to it.
-const LEAST: f64 = 1.5;
-/// Order of the largest error of waves with kinks, in a scheme of the second order whose waves of short length lag behind: `q/(q + 1)`, q = 2.
-pub(super) const KINKS: f64 = 2.0 / 3.0;
-/// Largest ratio of the error of an equilibrium to the mesh indicator: 3.6 in eleven cases of 2 to 40 elements.
-pub(super) const INDICATED: f64 = 4.0;
-/// Largest order that is believed of equilibria that are smooth between their ends.
-pub(super) const SMOOTH: f64 = 2.0;
-const FACTOR: f64 = 1.0 / (LEAST - 1.0);
+use crate::scales::study::{AIM, ASSUMED, FACTOR, LEAST, ORDERS};
 
 /// Two meshes.
 #[derive(Clone, Copy, Debug)]
@@ -123,6 +109,7 @@ pub(super) fn needed(differences: &[Difference], error: f64) -> Option<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::scales::study::KINKS;
 
     /// *Source.* A geometric series: all later distances together.
     #[test]

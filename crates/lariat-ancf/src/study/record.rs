@@ -1,15 +1,10 @@
 //! What a run of a study records: positions by time, and the meshes and the work of its cables.
 
 use super::StudyError;
-use super::order;
 use crate::cable::Cable;
 use crate::point::Point;
+use crate::scales::study::{INDICATED, INDICATOR_ROUNDING, KINKS, RECORDED, SMOOTH};
 use nalgebra::Vector3;
-
-/// Points of a cable at equal distances; more than the elements of the first runs have nodes.
-const POINTS: usize = 33;
-/// Indicator of the mesh over the longest cable that is rounding.
-const ROUNDING: f64 = 1e-9;
 
 /// The positions that a run recorded.
 #[derive(Clone, Debug, Default)]
@@ -71,8 +66,8 @@ impl Record {
         }
         self.present += 1;
         self.indicator = self.indicator.max(cable.mesh_indicator().position);
-        for k in 0..POINTS {
-            self.push(cable.position_at(cable.length() * k as f64 / (POINTS - 1) as f64));
+        for k in 0..RECORDED {
+            self.push(cable.position_at(cable.length() * k as f64 / (RECORDED - 1) as f64));
         }
         self
     }
@@ -119,7 +114,7 @@ impl Record {
     /// whose indicator is rounding, as that of straight ones.
     pub(super) fn indicated_order(&self, finer: &Record, ratio: f64) -> Option<f64> {
         let order = (self.indicator / finer.indicator).ln() / ratio.ln();
-        Some(order).filter(|order| order.is_finite() && finer.indicator > ROUNDING * finer.longest())
+        Some(order).filter(|order| order.is_finite() && finer.indicator > INDICATOR_ROUNDING * finer.longest())
     }
 
     /// Returns the largest order of convergence that the motion, or the equilibrium, allows after a number of distances between meshes, of which one
@@ -127,16 +122,16 @@ impl Record {
     pub(super) fn largest_order(&self, equilibrium: bool, distances: usize, seen: Option<f64>) -> f64 {
         let smooth = equilibrium && !self.held && !self.kinked && !self.jumps;
         match seen {
-            Some(seen) if smooth && distances == 1 => seen.clamp(order::KINKS, order::SMOOTH),
-            _ if distances == 1 || self.jumps || equilibrium && self.held => order::KINKS,
-            Some(seen) if smooth => seen.clamp(1.0, order::SMOOTH),
+            Some(seen) if smooth && distances == 1 => seen.clamp(KINKS, SMOOTH),
+            _ if distances == 1 || self.jumps || equilibrium && self.held => KINKS,
+            Some(seen) if smooth => seen.clamp(1.0, SMOOTH),
             _ => 1.0,
         }
     }
 
     /// Returns what the mesh indicator allows to claim of an equilibrium, in m: the most by which it was found to fall below the error.
     pub(super) fn indicated_error(&self) -> f64 {
-        order::INDICATED * self.indicator
+        INDICATED * self.indicator
     }
 
     /// Returns the largest distance between the points of two runs at a frame in m; infinite if they have not the same parts, or are not

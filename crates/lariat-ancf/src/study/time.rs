@@ -35,21 +35,7 @@
 use super::claim::StudyError;
 use super::record::Record;
 use super::runs::{Resolution, Run, Runs, Span};
-
-/// Ratio of the first two tolerances.
-const LOOSER: f64 = 8.0;
-/// Ratio of steps below which the host step limits those of both tolerances.
-const SATURATED: f64 = 1.25;
-/// Ratio of the mean step to the equal steps that judge it: a run with up to 1.25 steps per step of the host is judged by one with two, not three.
-const SHORTER: f64 = 1.6;
-/// Share of the error that is asked for which the error in time may have, and at which it aims.
-const SHARE: [f64; 2] = [0.4, 0.3];
-/// Share of a distance below which the next one must be, if runs come closer.
-const CLOSER: f64 = 0.6;
-/// Most rounds.
-const ROUNDS: usize = 5;
-/// Least tolerance over the longest cable: below it steps are rounding errors.
-const TIGHTEST: f64 = 1e-12;
+use crate::scales::study::{CLOSER, LOOSER, ROUNDS, SATURATED, SHARE, SHORTER, TIGHTEST};
 
 /// Error in time of the first runs.
 #[derive(Clone, Copy, Debug, Default)]

@@ -39,14 +39,12 @@
 //! rigid rotation: where some is owed, there is no more.
 
 use super::{Equations, System, dot, solve_semidefinite};
-use crate::one_leg::ALPHA;
+use crate::scales::integrate::ALPHA;
+use crate::scales::system::LARGEST_SHARE;
 use crate::state::State;
 use crate::system::step_vectors::{Before, StepVectors};
 use crate::term::Balance;
 use nalgebra::{Matrix3, Matrix6, Vector3, Vector6};
-
-/// Largest share u: what the method itself takes of the second difference of a velocity.
-const LARGEST_SHARE: f64 = ALPHA;
 
 /// Sums over all cables and bodies.
 #[derive(Clone, Copy, Debug, Default)]

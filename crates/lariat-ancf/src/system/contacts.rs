@@ -4,7 +4,7 @@ use super::{Equations, dot};
 use crate::contact::{BodyPath, ContactStep, Motion, When};
 use crate::effect::EffectWork;
 use crate::element::shape::combine;
-use crate::one_leg::ALPHA;
+use crate::scales::integrate::ALPHA;
 use crate::state::State;
 use crate::system::StepVectors;
 use crate::term::Balance;

@@ -8,7 +8,7 @@ use super::{Equations, System};
 use crate::effect::EffectWork;
 use crate::effect::acts::{ForceInput, PointForce, StepInput};
 use crate::integrate::discrete_gradient::sum_of_forces;
-use crate::one_leg::{ALPHA, BETA};
+use crate::scales::integrate::{ALPHA, BETA};
 use crate::state::State;
 use crate::support::{SlopeSupport, Support};
 use crate::system::StepVectors;

@@ -16,7 +16,7 @@ use crate::rule::BendingRule;
 use crate::section::Element;
 use crate::simd::padded;
 
-/// Rows and columns, over (r_i, t_i, r_j, t_j), of the entries of the mass matrix that lanes load.
+/// Layout: rows and columns, over (r_i, t_i, r_j, t_j), of the entries of the mass matrix that lanes load.
 const MASS_ENTRIES: [(usize, usize); 10] =
     [(0, 0), (0, 1), (1, 1), (2, 0), (2, 1), (3, 0), (3, 1), (2, 2), (2, 3), (3, 3)];
 

@@ -39,6 +39,8 @@ use crate::effect::EffectWork;
 use crate::effect::acts::{ForceInput, PointForce};
 use crate::effect::work::{POINTS, hermite};
 use crate::load::PointLoad;
+use crate::scales::LEAST_STRAIN;
+use crate::scales::system::ROUNDING;
 use crate::state::State;
 use crate::support::Support;
 use core::ops::Range;
@@ -48,12 +50,6 @@ use nalgebra::Vector3;
 fn moves((_, support): &(usize, Support)) -> bool {
     !support.attached && !support.is_still()
 }
-
-/// Rounding error of the total energy, as a share of it.
-const ROUNDING: f64 = 1e-14;
-
-/// Strain whose energy is added to that of a cable at rest, with which spurious energy is compared.
-const LEAST_STRAIN: f64 = 1e-5;
 
 /// Spurious energy of a step in J, and kinetic and strain energy at both ends, with that of [`LEAST_STRAIN`].
 pub(crate) struct EnergyChange {

@@ -9,11 +9,8 @@ use crate::integrate::Stage;
 use crate::integrate::discrete_gradient::sum_of_forces;
 use crate::linalg::Definiteness;
 use crate::model::Model;
+use crate::scales::system::RELATIVE_TOLERANCE;
 use crate::support::Support;
-
-/// Newton's tolerance is at most this share of the displacement that the acceleration makes in the stage, and of the strain
-/// that it makes in the cable (a hundred times more, and steel gains energy and shows spurious tension at coarse tolerances).
-const RELATIVE_TOLERANCE: f64 = 1e-2;
 
 /// A model with its system and counters.
 pub(crate) struct Equations<'a> {

@@ -48,7 +48,7 @@ pub(crate) use equations::Equations;
 pub(crate) use projection::{project_matrix, project_vector};
 pub(crate) use reading::{NodeTension, Pull, Reading, missing_at_ends};
 pub use reel::Sheave;
-pub(crate) use reel::{FeedElement, Law, Motor, MotorState, STOP, Source, Unknowns, Wheel, Winch, rates};
+pub(crate) use reel::{FeedElement, Law, Motor, MotorState, Source, Unknowns, Wheel, Winch, rates};
 pub(crate) use rigid_motion::{Modes, relative_velocities, solve as solve_semidefinite};
 pub(crate) use step_vectors::StepVectors;
 pub(crate) use vectors::dot;
@@ -57,6 +57,7 @@ use crate::contact::StaticContact;
 use crate::error::StepFailure;
 use crate::linalg::{BlockTridiagonal, Factorisation};
 use crate::model::{Model, STANDARD_GRAVITY};
+use crate::scales::LEAST_HEIGHT;
 use crate::strength::LoadRecord;
 use fearless_simd::Level;
 use forces::Forces;
@@ -217,7 +218,7 @@ impl Scales {
         }
         let [mass, length, stiff] = sums;
         (self.mass, self.stiff_time_squared) = (mass, length * stiff);
-        self.weight_energy = mass * STANDARD_GRAVITY.norm() * 1e-3;
+        self.weight_energy = mass * STANDARD_GRAVITY.norm() * LEAST_HEIGHT;
     }
 
     /// Returns the largest component of a nodal vector as a displacement in m (of r, and of t over l/8), and the largest |t|.

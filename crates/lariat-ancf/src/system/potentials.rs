@@ -6,7 +6,7 @@ use crate::element::assembly::{add_force, add_tangent};
 use crate::element::shape::{self, combine};
 use crate::linalg::BlockTridiagonal;
 use crate::model::Model;
-use crate::one_leg::BETA;
+use crate::scales::integrate::BETA;
 use nalgebra::DMatrix;
 
 /// Where they are: element and shape functions, in their order.

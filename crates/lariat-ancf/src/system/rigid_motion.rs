@@ -13,11 +13,9 @@
 
 use super::System;
 use crate::model::Model;
+use crate::scales::system::LEAST_PIVOT;
 use crate::support::SlopeSupport;
 use nalgebra::{Matrix6, Vector3, Vector6};
-
-/// A pivot below this share of the largest is none: a straight cable has no inertia about its own axis.
-const LEAST_PIVOT: f64 = 1e-10;
 
 /// Translations and rotations about a point.
 pub(crate) struct Modes<'a> {

@@ -10,7 +10,7 @@
 
 use super::System;
 use super::lanes::discrete_gradient::CoordinateStep;
-use crate::one_leg::ALPHA;
+use crate::scales::integrate::ALPHA;
 use crate::state::State;
 
 impl System {

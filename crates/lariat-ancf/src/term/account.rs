@@ -1,7 +1,6 @@
 //! The accounts of the energy law of a step.
 
-/// Share of its forces that a term may miss.
-pub(crate) const CONSISTENCY: f64 = 1e-3;
+use crate::scales::term::CONSISTENCY;
 
 /// An account of the energy law. The order is that of the sums.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -19,7 +18,7 @@ pub(crate) enum Account {
 }
 
 impl Account {
-    /// Number of accounts.
+    /// Layout: number of accounts.
     pub const COUNT: usize = Account::Reels as usize + 1;
 }
 

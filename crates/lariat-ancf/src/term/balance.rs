@@ -11,11 +11,7 @@
 //! iteration hides behind them, so their losses excuse a small share of it alone.
 
 use super::account::{Account, Entry};
-
-/// Share of what damping, friction and impact take that the residual of a step may make.
-pub(crate) const CLOSURE: f64 = 1e-2;
-/// Share of the energy of the system that a step may make.
-const TOLERANCE: f64 = 1e-9;
+use crate::scales::term::{CLOSURE, TOLERANCE};
 
 /// The law of one step, in J.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

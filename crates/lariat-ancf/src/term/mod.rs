@@ -19,8 +19,8 @@ pub(crate) mod energy_law;
 pub(crate) mod step_term;
 pub(crate) mod verdict;
 
-pub(crate) use account::{Account, CONSISTENCY};
-pub(crate) use balance::{Balance, CLOSURE};
+pub(crate) use account::Account;
+pub(crate) use balance::Balance;
 pub use energy_law::EnergyLaw;
 pub(crate) use step_term::{Settled, Stage, StepStart, StepTerm};
 pub use verdict::ReasonCounts;

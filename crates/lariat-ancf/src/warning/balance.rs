@@ -4,7 +4,8 @@ use crate::cable::Cable;
 use crate::integrate::Method;
 use crate::watch::{CableAccount, Last};
 
-pub use crate::watch::{CableTerms, EnergyBalance, IslandChange, ROUNDING, Sizes, Verdict};
+pub use crate::scales::term::TOLERANCE as ROUNDING;
+pub use crate::watch::{CableTerms, EnergyBalance, IslandChange, Sizes, Verdict};
 
 /// Returns the weight of a cable in N and its axial stiffness times its length in J.
 pub fn weight_and_stiffness(cable: &Cable) -> (f64, f64) {

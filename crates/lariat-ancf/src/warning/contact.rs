@@ -11,16 +11,8 @@
 
 use super::Warning;
 use crate::cable::Cable;
+use crate::scales::watch::{ADVISED, CONTACT_TURN, DEPTH, DURATION};
 use crate::watch::{Contacts, Excess};
-use core::f64::consts::TAU;
-
-/// Largest depth as a share of the radius.
-const DEPTH: f64 = 0.2;
-/// Largest angle in rad by which an element turns that touches, and the one that is advised.
-const TURN: f64 = TAU / 9.0;
-const ADVISED: f64 = TAU / 12.0;
-/// For how long in s they may be larger.
-const DURATION: f64 = 0.1;
 
 impl Excess {
     fn note(&mut self, time: f64, [arc_length, reading]: [f64; 2], limit: f64) {
@@ -58,7 +50,7 @@ impl Contacts {
         if cable.effects().contact.is_none() {
             return;
         }
-        let [depth, turn] = cable.contact_quality(TURN);
+        let [depth, turn] = cable.contact_quality(CONTACT_TURN);
         let rests = !cable.snapshot.state.memory.contacts.is_empty() && cable.velocities().iter().all(|v| *v == 0.0);
         for (excess, reading, limit) in [(&mut self.depth, depth, DEPTH), (&mut self.turn, turn, 1.0)] {
             excess.note(cable.time(), reading, limit);
@@ -78,7 +70,7 @@ impl Contacts {
 
     pub fn coarse(&self, cable: &Cable) -> Option<Warning> {
         self.turn.told().map(|[arc_length_m, share]| {
-            let turn_rad = share * TURN;
+            let turn_rad = share * CONTACT_TURN;
             let enough = (cable.elements().len() as f64 * turn_rad / ADVISED).ceil() as usize;
             Warning::CoarseContact { cable: cable.name().to_string(), arc_length_m, turn_rad, enough }
         })

@@ -10,20 +10,8 @@
 //! those of suspension bridges (Akashi Kaikyo: 1.12 m) and the thickest pipelines 1.42 m (56 inches).
 
 use super::Warning;
+use crate::scales::watch::{FASTEST, LIGHTEST, SLENDERNESS, SLOWEST, SOFTEST, THICKEST};
 use crate::section::Section;
-
-/// Least length over thickness.
-const SLENDERNESS: f64 = 10.0;
-/// Least Young's modulus in Pa.
-const SOFTEST: f64 = 1e5;
-/// Least speed of waves along a cable whose material is given, in m/s.
-const SLOWEST: f64 = 6.0;
-/// Least density in kg/m^3.
-const LIGHTEST: f64 = 10.0;
-/// Largest speed of waves along a cable whose material is given, in m/s.
-const FASTEST: f64 = 3.6e4;
-/// Largest thickness in m.
-const THICKEST: f64 = 1.5;
 
 /// Returns the warnings about the section and the unstretched length (m) of a cable.
 pub fn warnings(cable: &str, section: &Section, length_m: f64) -> impl Iterator<Item = Warning> {

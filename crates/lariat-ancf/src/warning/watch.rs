@@ -8,27 +8,9 @@
 
 use super::{Warning, sizes};
 use crate::cable::Cable;
+use crate::scales::watch::{ERROR, MOST, MOTION, NOISE, REEL, ROUNDING, STRAIGHT, STRAIN, TURN};
 use crate::strength::Unseen;
 use crate::watch::{Contacts, Estimate, Verdict, Watch};
-
-/// Largest estimate of an error of position without a warning, as a share of the length.
-const ERROR: f64 = 2e-3;
-/// Largest estimate of the error of a displacement without a warning, as a share of the largest displacement.
-const MOTION: f64 = 0.1;
-/// Errors of a displacement below this share of the length are those of integrators and statics.
-const ROUNDING: f64 = 1e-5;
-/// Largest angle in rad between the end slopes of an element that no node judges.
-const TURN: f64 = 0.2;
-/// Largest tension over EA.
-const STRAIN: f64 = 0.05;
-/// Largest rate of a reel over the speed of transverse waves.
-const REEL: f64 = 0.3;
-/// Largest force that the rounding of what holds a cable may make, as a share of its largest tension.
-const NOISE: f64 = 0.01;
-/// Largest part of its length by which the ends of a straight cable are nearer than that.
-const STRAIGHT: f64 = 1e-4;
-/// Largest number of elements that is advised.
-const MOST: f64 = 1e6;
 
 /// A law that judges the readings; the error (m) that is asked for takes the place of its limit.
 type Law = fn(&Watch, &Cable, Option<f64>) -> Option<Warning>;
@@ -50,7 +32,7 @@ const LAWS: [(Law, bool); 13] = [
     (|_, cable, _| unseen_load(cable), true),
 ];
 
-/// The bit of warnings about sizes.
+/// Layout: the bit of warnings about sizes.
 const SIZES: u16 = 1 << 15;
 
 impl Watch {

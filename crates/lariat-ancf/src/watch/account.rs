@@ -1,10 +1,8 @@
 //! The energy balance of one cable, or of the island of which it is the first, from host step to host step. Equation: [`EnergyBalance`].
 
 use super::balance::{EnergyBalance, Sizes};
+use crate::scales::term::TOLERANCE;
 use serde::{Deserialize, Serialize};
-
-/// Rounding error of a balance over the energy of cables: that of statics.
-pub const ROUNDING: f64 = 1e-9;
 
 /// The balance of one cable, or of the island of which it is the first.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -105,7 +103,7 @@ impl CableAccount {
     /// Notes the rounding errors of energies of this sum, and what is uncertain of a step, in J.
     pub(crate) fn note_errors(&mut self, held: f64, uncertain: f64) {
         let [rounding, sum] = self.errors;
-        self.errors = [rounding.max(ROUNDING * held), sum + uncertain];
+        self.errors = [rounding.max(TOLERANCE * held), sum + uncertain];
         self.balance.rounding_j = self.errors.iter().sum();
     }
 

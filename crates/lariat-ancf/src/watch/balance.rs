@@ -26,16 +26,9 @@
 //!
 //! The total energy alone: it changes by the work of loads and moving supports, and by damping.
 
+use crate::scales::LEAST_HEIGHT;
+use crate::scales::watch::{LEAST_STRAIN_OF_RUN, LOST, MADE};
 use serde::{Deserialize, Serialize};
-
-/// Share of the energy of a run above which energy that it makes is warned of.
-const MADE: f64 = 1e-3;
-/// Share of the energy of a run above which energy that integration takes is warned of.
-const LOST: f64 = 1e-2;
-/// Height in m over which all weight is the least energy to compare with, as in the law of the discrete gradient.
-const LEAST_HEIGHT: f64 = 1e-3;
-/// Strain of all cables that is the least energy to compare with, where nothing has weight and all is at rest.
-const LEAST_STRAIN: f64 = 1e-6;
 
 /// The energy of a run: what integration made or lost, and what to compare it with.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -109,7 +102,7 @@ impl EnergyBalance {
     pub fn add(&mut self, time: f64, change: f64, by_law: bool, sizes: &Sizes) {
         self.balance_j += change;
         let Sizes { kinetic, strain, gravity, weight, stiffness } = *sizes;
-        let least = (weight * LEAST_HEIGHT).max(0.5 * stiffness * LEAST_STRAIN * LEAST_STRAIN);
+        let least = (weight * LEAST_HEIGHT).max(0.5 * stiffness * LEAST_STRAIN_OF_RUN * LEAST_STRAIN_OF_RUN);
         let sizes = [least, kinetic, strain, gravity, self.dissipated_j, self.work_j];
         self.scale_j = sizes.iter().fold(self.scale_j, |largest, size| largest.max(size.abs()));
         let made = self.balance_j - if by_law { self.dissipated_j.max(0.0) } else { 0.0 };

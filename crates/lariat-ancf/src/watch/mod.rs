@@ -6,7 +6,7 @@ mod contact;
 mod steps;
 
 pub(crate) use account::{CableAccount, Last};
-pub use account::{CableTerms, IslandChange, ROUNDING};
+pub use account::{CableTerms, IslandChange};
 pub use balance::{EnergyBalance, Sizes, Verdict};
 pub(crate) use contact::{Contacts, Excess};
 pub(crate) use steps::{Estimate, Steps};

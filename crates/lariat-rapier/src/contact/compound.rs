@@ -3,7 +3,7 @@
 use ::nalgebra::{UnitQuaternion, Vector3};
 use lariat_ancf::contact::{Feature, FeatureShape, Nearest, Patch, Surface};
 
-/// Bits of a feature's number that are its part's own.
+/// Layout: bits of a feature's number that are its part's own.
 const PART: u32 = 16;
 
 /// A shape within another's axes.

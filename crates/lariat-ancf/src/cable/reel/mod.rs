@@ -36,6 +36,7 @@ mod settle;
 mod step;
 mod winding;
 
+use crate::scales::SAME;
 pub use reading::ReelReading;
 pub(crate) use winding::Winding;
 
@@ -47,7 +48,6 @@ use crate::error::{Error, require};
 use crate::model::Model;
 use crate::reel::{Feed, Reel, Reels};
 use crate::system::Source;
-use plan::NEAR;
 
 impl Snapshot {
     /// Returns the number of nodes that the state must have: its own with a reel, else that of the cable.
@@ -248,7 +248,7 @@ impl Model {
     pub(crate) fn check_loads_at_eyes(&self) -> Result<(), Error> {
         for side in self.reels.sides() {
             let length = self.elements[side.element(self.elements.len())].length;
-            if self.loads_from(side).any(|distance| distance < length - NEAR * length) {
+            if self.loads_from(side).any(|distance| distance < length - SAME * length) {
                 return Err(Error::NotWithReel {
                     cable: self.name.clone(),
                     what: "a point load or potential on the element at the eye",

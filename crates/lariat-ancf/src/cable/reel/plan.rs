@@ -14,12 +14,9 @@ use super::winding::{Plan, Winding};
 use crate::cable::Cable;
 use crate::element::side::Side;
 use crate::reel::{Feed, Reel};
-use crate::system::{Law, Motor, MotorState, STOP, rates};
-
-/// Share of the length of an element within which a load is at its node.
-pub(super) const NEAR: f64 = 1e-9;
-/// Least length of the element at the eye, as a share of its full length.
-pub(super) const LEAST: f64 = 0.4;
+use crate::scales::SAME;
+use crate::scales::reel::{LEAST, STOP};
+use crate::system::{Law, Motor, MotorState, rates};
 
 impl Cable {
     /// See [`Coupling`](crate::coupling::Coupling).
@@ -70,7 +67,7 @@ impl Cable {
             return false;
         }
         let [own, next] = [k, k + 1].map(|k| &self.elements()[if side == Side::End { count - 1 - k } else { k }]);
-        let loaded = |distance: f64| distance < from_eye + next.length * (1.0 - NEAR);
+        let loaded = |distance: f64| distance < from_eye + next.length * (1.0 - SAME);
         own.section != next.section || self.model.loads_from(side).any(loaded)
     }
 

@@ -30,24 +30,17 @@
 //! Merging by deleting the node: loses up to 2 % of the momentum, and feeds waves of the mesh. Splitting at 1.5 and merging at 0.5:
 //! no hysteresis, it chatters.
 
-use super::plan::LEAST;
 use crate::cable::Cable;
 use crate::element::shape::{self, combine};
 use crate::element::side::Side;
 use crate::element::variable_length::feed_weights;
 use crate::error::Error;
 use crate::quadrature::gauss_legendre;
+use crate::scales::reel::{LEAST, MOST, MOST_SPLITS, PASSING_RATE};
 use crate::section::Element;
 use crate::state::{Differences, renumber};
 use crate::system::project_vector;
 use nalgebra::Vector3;
-
-/// Length above which the element at the eye is split, as a share of its full length.
-const MOST: f64 = 1.6;
-/// Rate in m/s below which the time in which an element passes the eye is not asked for.
-const LEAST_RATE: f64 = 1e-3;
-/// Largest number of splits in a part of a host step.
-const MOST_SPLITS: usize = 100;
 
 /// The end of a cable at a reel, turned so that the eye is its last node.
 struct Turned {
@@ -123,7 +116,7 @@ impl Cable {
             } else {
                 self.merge(turned)?;
             }
-            self.settle(most, self.longest_wave().max(full.length / winding.extent[1].abs().max(LEAST_RATE)))?;
+            self.settle(most, self.longest_wave().max(full.length / winding.extent[1].abs().max(PASSING_RATE)))?;
             self.bound_store(store);
             let change = self.energy().total() - energy;
             if let Some(winding) = &mut self.snapshot.windings[side as usize] {

@@ -33,22 +33,10 @@ use crate::element::side::Side;
 use crate::error::{Error, StepFailure};
 use crate::integrate::discrete_gradient::share_to_take;
 use crate::linalg::Definiteness;
+use crate::scales::reel::{HALVINGS, LEAST_INERTIA, PROGRESS, ROUNDS, SHARE, STEPS};
 use crate::section::Element;
 use crate::system::{System, relative_velocities};
 use nalgebra::{Matrix3, Vector3};
-
-/// Share of the work of the pull over an element that a change of the mesh may add.
-const SHARE: f64 = 1e-3;
-/// Largest number of steps.
-const STEPS: usize = 60;
-/// Number of halvings to find the length of the last step.
-const HALVINGS: usize = 12;
-/// Least share of the excess that a step has to take.
-const PROGRESS: f64 = 1e-3;
-/// Least principal inertia of a rigid rotation, as a share of their sum.
-const LEAST_INERTIA: f64 = 1e-6;
-/// Largest number of times that what velocities gain is taken, too.
-const ROUNDS: usize = 6;
 
 impl Cable {
     /// Returns the energy in J that a change of the mesh at an end may add.

@@ -6,13 +6,7 @@ use crate::element::variable_length::Extent;
 use crate::error::{Error, require};
 use crate::integrate::OneStep;
 use crate::reel::{Feed, Reel};
-
-/// Largest length of material that passes the eye in a part of a host step, as a share of an element.
-const PASSING: f64 = 0.15;
-/// Largest number of parts.
-const MOST_PARTS: f64 = 1e5;
-/// Rate in m/s below which a reel stands.
-const LEAST_RATE: f64 = 1e-12;
+use crate::scales::reel::{MOST_PARTS, PASSING, STANDING_RATE};
 
 impl Cable {
     /// Returns the number of parts in which a host step of `dt` (s) is to be taken; 1 without a reel.
@@ -74,7 +68,7 @@ impl Cable {
             let Some(winding) = &mut self.snapshot.windings[feed.side as usize] else { continue };
             let Extent { length, rate, acceleration } = feed.at(self.snapshot.state.time);
             // braking to rest ends at rest
-            let rate = if rate.abs() < LEAST_RATE { 0.0 } else { rate };
+            let rate = if rate.abs() < STANDING_RATE { 0.0 } else { rate };
             let passed = length - winding.extent[0];
             winding.passed += passed;
             winding.extent = [length, rate, acceleration];

@@ -16,17 +16,9 @@
 use crate::element::shape;
 use crate::element::shape::combine;
 use crate::model::Model;
+use crate::scales::contact::{CENTRING, CHORD, MOST_CHORDS, REFINEMENTS};
 use crate::state::PairMemory;
 use nalgebra::Vector3;
-
-/// Longest chord in radii.
-const CHORD: f64 = 1.3;
-/// Most chords of an element.
-const MOST_CHORDS: f64 = 512.0;
-/// Weight e of the middle of a chord.
-const CENTRING: f64 = 1e-3;
-/// Steps on the tangents of the curves.
-const REFINEMENTS: usize = 3;
 
 /// A cable in a step.
 #[derive(Clone, Copy)]

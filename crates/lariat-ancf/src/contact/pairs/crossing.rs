@@ -20,15 +20,11 @@
 //! Provot, Graphics Interface 1997, 177 (collision of edges that move).
 
 use super::chords::closest;
+use crate::scales::contact::{CROSSING_ROUNDING, HALVINGS};
 use nalgebra::Vector3;
 
 /// A point at the beginning of a step, and its change.
 pub(in crate::contact) type Moved = [Vector3<f64>; 2];
-
-/// Halvings of an interval with a root.
-const HALVINGS: usize = 40;
-/// Distance, as a share of the lengths of the chords, within which lines in a plane intersect.
-const ROUNDING: f64 = 1e-6;
 
 /// Returns the share of the step at which two chords first go through each other, if they do.
 pub(in crate::contact) fn crossing([a0, a1]: [&Moved; 2], [b0, b1]: [&Moved; 2]) -> Option<f64> {
@@ -94,9 +90,9 @@ fn meets(a: [Vector3<f64>; 2], b: [Vector3<f64>; 2]) -> bool {
     } else {
         closest(a, b)
     };
-    let within = -ROUNDING..=1.0 + ROUNDING;
+    let within = -CROSSING_ROUNDING..=1.0 + CROSSING_ROUNDING;
     let apart = (w + v * t - u * s).norm_squared();
-    within.contains(&s) && within.contains(&t) && apart < ROUNDING * (uu + vv)
+    within.contains(&s) && within.contains(&t) && apart < CROSSING_ROUNDING * (uu + vv)
 }
 
 #[cfg(test)]

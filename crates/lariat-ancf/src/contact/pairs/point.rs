@@ -5,10 +5,8 @@ use super::super::point::ContactPoint;
 use super::Strand;
 use crate::element::shape::combine;
 use crate::obstacle::Mount;
+use crate::scales::contact::ROLLING;
 use nalgebra::{Matrix3, UnitQuaternion, Vector3};
-
-/// Weight e of the direction of y beside those of the tangents.
-const ROLLING: f64 = 1e-3;
 
 /// A place of a strand that touches.
 #[derive(Clone, Copy, Debug)]

@@ -12,23 +12,9 @@
 use super::CablePair;
 use super::chords::{Piece, Strand, closest, refine};
 use super::crossing::crossing;
+use crate::scales::contact::{ADVANCES, APART, FAST, LEAST_ADVANCE, NEAR_PAIR, ONE, TILT};
 use core::cmp::Ordering;
 use nalgebra::Vector3;
-
-/// Gap in reaches below which a pair is a contact: what an iterate may still bring near.
-pub(super) const NEAR: f64 = 1.0;
-/// Way in reaches from which on the time of touch is looked for.
-const FAST: f64 = 0.5;
-/// Steps of the advancement.
-const ADVANCES: usize = 64;
-/// Least of these in reaches.
-const LEAST_ADVANCE: f64 = 0.02;
-/// Largest cosine between the tangent of the first cable and the direction to the second one.
-const TILT: f64 = 0.2;
-/// Distance along both cables, in reaches, below which two contacts are one.
-const SAME: f64 = 0.3;
-/// Distance along a cable, or over a body, in reaches, within which its points do not touch each other.
-pub(super) const APART: f64 = 4.0;
 
 /// The cables of a step.
 pub(crate) struct Strands<'s, 'a> {
@@ -187,7 +173,7 @@ impl Search {
                 for x in all.iter().flatten() {
                     (low, high) = (low.inf(x), high.sup(x));
                 }
-                let margin = Vector3::repeat(radius * (1.0 + NEAR));
+                let margin = Vector3::repeat(radius * (1.0 + NEAR_PAIR));
                 let (low, high) = (low - margin, high + margin);
                 self.boxes.push(Boxed { low, high, strand: c, element: e, from, radius });
                 from += element.length;
@@ -249,7 +235,7 @@ impl Search {
                 let way = relative(a0, b0).max(relative(a0, b1)).max(relative(a1, b0)).max(relative(a1, b1));
                 let size = 0.5 * ((a1[0] - a0[0]).norm() + (b1[0] - b0[0]).norm());
                 let middles = 0.5 * (a0[0] + a1[0] - b0[0] - b1[0]);
-                if middles.norm() > size + way + reach * (1.0 + NEAR) {
+                if middles.norm() > size + way + reach * (1.0 + NEAR_PAIR) {
                     continue;
                 }
                 if first.strand == second.strand {
@@ -295,7 +281,7 @@ impl Search {
                 // chords that meet in the closest point are one contact: that of the nearest points
                 let same = |other: &Candidate| {
                     other.strands == strands
-                        && (other.arcs[0] - arcs[0]).abs() + (other.arcs[1] - arcs[1]).abs() < SAME * reach
+                        && (other.arcs[0] - arcs[0]).abs() + (other.arcs[1] - arcs[1]).abs() < ONE * reach
                 };
                 let known = self.found.iter().position(same);
                 let y = a.at(xi[0], share) - b.at(xi[1], share);

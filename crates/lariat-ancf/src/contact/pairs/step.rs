@@ -2,26 +2,19 @@
 
 use super::super::ContactBalance;
 use super::super::law::NormalLaw;
-use super::super::point::{ContactPoint, OFFSET_TIME_OF_PAIRS, PAID};
+use super::super::point::ContactPoint;
 use super::chords::{Piece, Strand};
 use super::columns::{PairColumns, PairEnd};
 use super::point::{End, PairPoint, frame};
-use super::search::{Candidate, NEAR, Search, Strands};
+use super::search::{Candidate, Search, Strands};
 use crate::element::shape::{self, combine};
 use crate::obstacle::Patch;
-use crate::one_leg::BETA;
+use crate::scales::contact::{CLOSING_TIME, DEVIATION, HAND_ON, NEAR_PAIR, PAID};
+use crate::scales::integrate::BETA;
+use crate::scales::island::MAX_SEARCHES;
 use crate::state::ContactMemory;
 use crate::state::PairMemory;
 use nalgebra::Vector3;
-
-/// Distance in reaches along both cables over which a contact hands on what it remembers, beside the way of the step: a little less than the longest
-/// chord, for a contact moves to the next one. Of those further away the normal is another: with 4, strands that slid quickly over each other
-/// were taken to be on the other side, and in a knot one passed.
-const HAND_ON: f64 = 0.8;
-/// Largest number of searches in a step.
-const MOST_SEARCHES: usize = 3;
-/// Deviation in radii of an iterate from that of the search, from which on it is made anew.
-const DEVIATION: f64 = 0.5;
 
 /// The contacts between cables in a step; empty where none are near.
 #[derive(Clone, Debug, Default)]
@@ -73,13 +66,13 @@ impl PairStep {
             taken.clear();
             taken.resize((strands.get)(c).memory.len(), false);
         }
-        self.look(strands, NEAR);
+        self.look(strands, NEAR_PAIR);
     }
 
     /// Searches again if an iterate is far from that of the last search, and adds what it finds.
     pub fn complete(&mut self, strands: &Strands<'_, '_>) {
         if self.on
-            && self.searches < MOST_SEARCHES
+            && self.searches < MAX_SEARCHES
             && (0..strands.count).any(|c| deviates(&(strands.get)(c), &self.searched[c]))
         {
             self.look(strands, 0.0);
@@ -169,7 +162,7 @@ impl PairStep {
         point.recall(&start, &still, memory.as_ref());
         if let Some(memory) = memory.filter(|memory| self.close && memory.friction_power > 0.0) {
             let paid = PAID * memory.friction_power * self.h;
-            point.close((paid / point.cost()).min(self.h / OFFSET_TIME_OF_PAIRS).min(1.0));
+            point.close((paid / point.cost()).min(self.h / CLOSING_TIME).min(1.0));
         }
         self.before += point.energy_before();
         let tangents = [at(0, &ends[0].slope), at(1, &ends[1].slope)];

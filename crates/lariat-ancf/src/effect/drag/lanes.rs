@@ -11,7 +11,7 @@
 //! D = -df/dv and A = df/dt ([`drag`](super)); rows and columns of slopes are multiplied by l at the end. Elements are added in
 //! ascending order whatever the width of the lanes.
 
-use super::law::{Drag, POINTS, Split};
+use super::law::{Drag, Split};
 use crate::dual::{Dual, constant};
 use crate::effect::acts::{ForceInput, PointForce, StepInput};
 use crate::effect::{Flow, Target};
@@ -19,12 +19,13 @@ use crate::element::shape;
 use crate::error::{Error, require_finite};
 use crate::linalg::BlockTridiagonal;
 use crate::quadrature::gauss_legendre;
+use crate::scales::effect::POINTS;
 use crate::section::Element;
 use crate::simd::{LANES, dispatch, load, padded};
 use fearless_simd::{Level, Simd, SimdBase, SimdFrom, f64x8};
 use nalgebra::Vector3;
 
-/// Pairs (k, m), k >= m, of the coordinates (r_i, t_i, r_j, t_j).
+/// Layout: pairs (k, m), k >= m, of the coordinates (r_i, t_i, r_j, t_j).
 pub(super) const PAIRS: [(usize, usize); 10] =
     [(0, 0), (1, 0), (1, 1), (2, 0), (2, 1), (2, 2), (3, 0), (3, 1), (3, 2), (3, 3)];
 

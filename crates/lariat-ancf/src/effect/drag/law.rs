@@ -3,12 +3,8 @@
 use crate::Real;
 use crate::effect::flow::Flow;
 use crate::element::gram::dot;
+use crate::scales::SMALLEST;
 use serde::{Deserialize, Serialize};
-
-/// Gauss points of an element.
-pub(crate) const POINTS: usize = 3;
-/// Avoids 0/0 at zero relative velocity; far below any speed that matters.
-const LEAST_SPEED: f64 = 1e-100;
 
 /// Drag of a fluid.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -90,7 +86,7 @@ impl<T: Real> Split<T> {
     #[inline(always)]
     pub fn tangents(&self, kn: T, kt: T) -> [[[T; 3]; 3]; 2] {
         let Split { along: e, inverse, speed: c, normal: v, size } = *self;
-        let ratio = kn / (size + LEAST_SPEED);
+        let ratio = kn / (size + SMALLEST);
         let (isotropic, axial) = (kn * size, kt * c.abs() * 2.0);
         let mixed = inverse * (isotropic - axial);
         let transverse = inverse * c * (isotropic - kt * c.abs());

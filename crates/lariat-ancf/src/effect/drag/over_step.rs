@@ -15,7 +15,7 @@ use super::law::Split;
 use crate::effect::acts::StepInput;
 use crate::element::gram::dot;
 use crate::linalg::BlockTridiagonal;
-use crate::one_leg::BETA;
+use crate::scales::integrate::BETA;
 use crate::simd::{LANES, load};
 use fearless_simd::{Simd, SimdBase};
 

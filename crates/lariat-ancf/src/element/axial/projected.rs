@@ -26,10 +26,8 @@
 
 use super::{AxialTable, add_outer, exact, moment};
 use crate::element::gram::Six;
+pub use crate::scales::element::DELTA;
 use std::sync::LazyLock;
-
-/// Share of the exact energy.
-pub const DELTA: f64 = 1e-3;
 
 /// Creates the table of the projected-strain rule.
 pub fn table() -> AxialTable {

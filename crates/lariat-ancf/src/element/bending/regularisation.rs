@@ -27,9 +27,7 @@
 //! - A lower bound of Q: no force against the collapse at all.
 
 use crate::Real;
-
-/// Q_c: the square of the slope below which powers of 1/Q are continued.
-pub(super) const LOWER_LIMIT: f64 = 0.25;
+use crate::scales::element::LOWER_LIMIT;
 
 /// A power of 1/Q, continued below Q_c.
 #[derive(Clone, Copy, Debug)]

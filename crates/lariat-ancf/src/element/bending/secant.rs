@@ -23,13 +23,8 @@
 //! The discrete gradient of Gonzalez (1996), which adds what the derivative at the midpoint misses along the displacement: it divides by
 //! the square of the displacement, which is zero at rest.
 
-use super::regularisation::LOWER_LIMIT;
 use crate::Real;
-
-/// Regularises the quotient Dy/DQ.
-const SMALL_SQUARE: f64 = 1e-20;
-/// Regularises the question whether an end is below Q_c.
-const SMALL: f64 = 1e-200;
+use crate::scales::element::{LOWER_LIMIT, SMALL, SMALL_SQUARE};
 
 /// A regularised power f of Q over a step.
 #[derive(Clone, Copy, Debug)]

@@ -2,8 +2,9 @@
 
 use super::{DiscreteGradientSystem, safeguard};
 use crate::error::StepFailure;
-use crate::integrate::step_control::{Counts, FailedStep, MIN_STEP_SHARE, SINGLE_PRECISION_ROUNDING};
+use crate::integrate::step_control::{Counts, FailedStep};
 use crate::integrate::{IntegratorRef, StepControl};
+use crate::scales::integrate::{MIN_STEP_SHARE, SINGLE_PRECISION_ROUNDING};
 
 /// Advances the system by `horizon` (s), and returns the numbers of steps with the outcome. After a failure the state is the last accepted
 /// one.

@@ -19,16 +19,8 @@
 //! instead of the energy: a few per cent more, and up to twice as many in dearest host steps. Whole increments again as soon as a half one improves: 15 % fewer iterations of ropes thrown at a floor and a
 //! drum, 40 % more in heaps, whose dearest host steps are those of a cable that kinks while its contacts are solved.
 
+use crate::scales::integrate::{HALF, LINEAR, SWINGING, WHOLE_INCREMENTS};
 use crate::term::Balance;
-
-/// Number of iterations that take the whole increment.
-const WHOLE_INCREMENTS: usize = 4;
-/// Share of the imbalance that an iteration leaves where it swings.
-const SWINGING: f64 = 0.5;
-/// Share of the increment that is taken then.
-const HALF: f64 = 0.5;
-/// Share of the energy of the residual by which what is left may differ from that of a linear force.
-const LINEAR: f64 = 0.1;
 
 /// The share of the next increment, and what it is judged by.
 #[derive(Clone, Copy, Debug)]

@@ -42,34 +42,12 @@ use super::law::{DiscreteGradientSystem, Event};
 use super::relaxation::Relaxation;
 use crate::error::StepFailure;
 use crate::integrate::WorkLimit;
-use crate::term::{Balance, CLOSURE, Reason, Settled, Stage, StepStart, Verdict};
-
-/// Share of the impulses of a step that may be unbalanced. The energy law alone lets errors of
-/// tension pass where the motion turns fast: on a rotor, 0.13 rad per step, 20 N of 63.
-const FORCE_TOLERANCE: f64 = 0.01;
-/// Number of iterations after which the balance of impulses is no longer asked for: a slack cable
-/// has hardly any.
-const MAX_FOR_FORCES: usize = 4;
-/// Share of the imbalance that an iteration with the factors of an earlier one may leave; if it
-/// leaves more the next has a new tangent.
-const MAX_LEFT: f64 = 0.1;
-/// Rounding error of the energy law as a share of its terms.
-const ROUNDING: f64 = 1e-13;
-/// Largest number of Newton iterations.
-const MAX_ITERATIONS: usize = 8;
-/// Largest number of Newton iterations where terms have laws of their own to meet.
-const MAX_ITERATIONS_OF_LAWS: usize = 20;
-/// Energy by which a nonsmooth step may miss in any case, as a share of the weight times 1 mm.
-const CLOSURE_OF_WEIGHT: f64 = 1e-6;
-/// Share of the impulses that may be unbalanced where velocities of a nonsmooth step are rescaled.
-const LARGEST_IMBALANCE: f64 = 0.1;
-/// Share of the velocities relative to rigid motion that rescaling may take: that of half of their
-/// energy.
-const SHARE_OF_HALF_THE_ENERGY: f64 = 0.292_893_218_813_452_5;
-/// Number of parts into which a step is divided.
-const PARTS: usize = 4;
-/// Largest number of divisions of divisions.
-const MAX_DEPTH: usize = 6;
+use crate::scales::integrate::{
+    CLOSURE_OF_WEIGHT, FORCE_TOLERANCE_OF_STEP, LARGEST_IMBALANCE, LAW_ROUNDING, MAX_DEPTH, MAX_FOR_FORCES,
+    MAX_ITERATIONS_OF_LAWS, MAX_ITERATIONS_OF_STEP, MAX_LEFT, PARTS, SHARE_OF_HALF_THE_ENERGY,
+};
+use crate::scales::term::CLOSURE;
+use crate::term::{Balance, Reason, Settled, Stage, StepStart, Verdict};
 
 /// Returns whether a step keeps the law, beyond doubt by rounding.
 fn keeps_law(balance: &Balance) -> bool {
@@ -79,7 +57,7 @@ fn keeps_law(balance: &Balance) -> bool {
 /// Returns whether the terms of the law are small enough for their sum to be known to the
 /// tolerance.
 fn is_certain(balance: &Balance) -> bool {
-    ROUNDING * (balance.losses() + balance.residual.abs()) <= balance.tolerance()
+    LAW_ROUNDING * (balance.losses() + balance.residual.abs()) <= balance.tolerance()
 }
 
 /// Returns whether the residual loses no more than method and terms do.
@@ -100,7 +78,7 @@ fn closes(balance: &Balance) -> bool {
 
 /// Returns whether the residual leaves a small share of the impulses unbalanced.
 fn are_forces_right(balance: &Balance) -> bool {
-    balance.imbalance <= FORCE_TOLERANCE * balance.impulse
+    balance.imbalance <= FORCE_TOLERANCE_OF_STEP * balance.impulse
 }
 
 /// Returns whether a nonsmooth iterate is close to a solution: rescaling does not repair one that
@@ -137,7 +115,7 @@ fn judge<S: DiscreteGradientSystem>(system: &S, balance: &Balance, iteration: us
 
 /// Iterates until a result is accepted, or no other may follow, and returns the last one.
 fn iterate<S: DiscreteGradientSystem>(system: &mut S, limit: Option<&WorkLimit>) -> Result<Balance, StepFailure> {
-    let (mut fresh, mut most, mut begun) = (true, MAX_ITERATIONS, 0);
+    let (mut fresh, mut most, mut begun) = (true, MAX_ITERATIONS_OF_STEP, 0);
     let (mut iteration, mut imbalance) = (0, f64::INFINITY);
     let mut relaxation = Relaxation::new();
     loop {

@@ -30,13 +30,11 @@ use crate::contact::{BodyPath, When};
 use crate::integrate::discrete_gradient::sum_of_forces;
 use crate::island::body::{BodyDifferences, RigidBody};
 use crate::model::STANDARD_GRAVITY;
-use crate::one_leg::{ALPHA, BETA};
+use crate::scales::LEAST_HEIGHT;
+use crate::scales::integrate::{ALPHA, BETA};
 use crate::system::angular::{Momenta, Turn};
 use crate::term::{Account, Balance};
 use nalgebra::{Matrix3, Matrix6, Quaternion, UnitQuaternion, Vector3, Vector6};
-
-/// Height in m of the weight by which a body at rest is measured.
-const HEIGHT: f64 = 1e-3;
 
 /// A body, at its present state and over a step.
 #[derive(Clone, Debug)]
@@ -239,7 +237,7 @@ impl BodyStep {
         let (second, start) = (self.second_difference(), self.velocity);
         total.numerical += 0.5 * ALPHA * second.dot(&(self.matrix * second));
         total.to(Account::Loads).work += self.h * (self.force.dot(&self.mean[0]) + self.torque.dot(&self.mean[1]));
-        total.held += 0.5 * start.dot(&(self.matrix * start)) + self.mass * STANDARD_GRAVITY.norm() * HEIGHT;
+        total.held += 0.5 * start.dot(&(self.matrix * start)) + self.mass * STANDARD_GRAVITY.norm() * LEAST_HEIGHT;
     }
 
     /// Returns whether its motion is prescribed.

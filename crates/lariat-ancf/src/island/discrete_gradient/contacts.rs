@@ -11,13 +11,10 @@
 
 use super::IslandStep;
 use super::rounds::ContactRounds;
+use crate::scales::island::{MAX_RENEWALS, MAX_SEARCHES};
+use crate::scales::term::CONSISTENCY;
 use crate::system::CableStep;
-use crate::term::{Account, Balance, CONSISTENCY, Reason, Settled, Stage, StepStart, StepTerm, Verdict};
-
-/// Number of times that contacts are looked for again when the iteration has ended.
-const MAX_SEARCHES: usize = 3;
-/// Largest number of times that the bounds of friction are set by the normal forces of the step.
-const MAX_RENEWALS: usize = 40;
+use crate::term::{Account, Balance, Reason, Settled, Stage, StepStart, StepTerm, Verdict};
 
 /// All contacts.
 pub(super) struct Contacts;

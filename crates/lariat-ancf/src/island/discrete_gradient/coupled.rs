@@ -7,7 +7,7 @@
 
 use super::body::BodyStep;
 use crate::island::CoupledInertia;
-use crate::one_leg::ALPHA;
+use crate::scales::integrate::ALPHA;
 use crate::term::Balance;
 use nalgebra::Vector6;
 

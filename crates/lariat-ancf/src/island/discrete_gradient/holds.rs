@@ -15,7 +15,7 @@
 use super::body::BodyStep;
 use crate::island::hold::{Hold, vector};
 use crate::island::layout::Layout;
-use crate::one_leg::{ALPHA, BETA};
+use crate::scales::integrate::{ALPHA, BETA};
 use crate::state::State;
 use crate::system::StepVectors;
 use nalgebra::{Matrix3, Vector3};

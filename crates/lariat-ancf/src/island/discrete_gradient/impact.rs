@@ -5,7 +5,7 @@ use super::IslandStep;
 use super::coupled::coupled_product;
 use crate::contact::solves_again;
 use crate::element::shape::combine;
-use crate::one_leg::ALPHA;
+use crate::scales::integrate::ALPHA;
 use crate::system::CableStep;
 use crate::system::StepVectors;
 use crate::term::{Account, Balance};

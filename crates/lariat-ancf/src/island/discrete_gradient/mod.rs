@@ -43,6 +43,7 @@ use super::layout::Layout;
 use super::pin_accounts::PinAccounts;
 use crate::cable::Cable;
 use crate::contact::{BodyPath, CablePair, PairStep};
+use crate::scales::island::MIN_SLOPE;
 use crate::state::State;
 use crate::support::SlopeSupport;
 use crate::system::{CableStep, Unknowns};
@@ -50,9 +51,6 @@ use body::BodyStep;
 use holds::HoldStep;
 use nalgebra::Vector3;
 use rounds::ContactRounds;
-
-/// Length below which the free direction of a clamped slope has no direction.
-const MIN_DIRECTION: f64 = 1e-9;
 
 /// Matrices and vectors of a step.
 #[derive(Clone, Debug, Default)]
@@ -126,7 +124,7 @@ impl IslandStep<'_, '_> {
                 let CableStep { state, buffers, .. } = cable.step_parts();
                 hold.follow(self.layout, &bodies[hold.body], state, buffers);
                 if hold.slope
-                    && let Some(along) = hold.along.try_normalize(MIN_DIRECTION)
+                    && let Some(along) = hold.along.try_normalize(MIN_SLOPE)
                     && let Some((_, support)) = cable.model.supports.iter_mut().find(|(node, _)| *node == hold.node)
                 {
                     support.slope = SlopeSupport::Attached(along);

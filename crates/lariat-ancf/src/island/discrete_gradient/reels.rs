@@ -8,11 +8,9 @@
 //! Newton's iteration end there.
 
 use super::IslandStep;
+use crate::scales::reel::DRIFT_TOLERANCE;
 use crate::system::CableStep;
 use crate::term::{Account, Balance, Reason, Stage, StepStart, StepTerm, Verdict};
-
-/// Share of the sum of all impulses that may be unbalanced where stock rides with a body.
-const DRIFT_TOLERANCE: f64 = 1e-9;
 
 /// What moves material through the ends of cables.
 pub(super) struct Reels;

@@ -1,9 +1,7 @@
 //! Rigid motions of an island.
 
+use crate::scales::island::VELOCITY_ROUNDING;
 use nalgebra::Vector3;
-
-/// Share of a velocity by which two that are the same may differ: bodies of an engine in single precision.
-const ROUNDING: f64 = 1e-6;
 
 /// A rigid motion.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -21,7 +19,7 @@ impl RigidMotion {
 
     /// Returns whether it is that of another, but for rounding: what holds a node is prescribed in any case.
     pub fn agrees_with(&self, other: &RigidMotion) -> bool {
-        let same = |a: Vector3<f64>, b: Vector3<f64>| (a - b).norm() <= ROUNDING * a.norm().max(b.norm());
+        let same = |a: Vector3<f64>, b: Vector3<f64>| (a - b).norm() <= VELOCITY_ROUNDING * a.norm().max(b.norm());
         same(self.spin, other.spin) && same(self.at(&self.centre), other.at(&self.centre))
     }
 }

@@ -9,7 +9,7 @@ use super::{CableBuffers, IslandStep, StepBuffers};
 use crate::contact::Border;
 use crate::effect::EffectWork;
 use crate::error::StepFailure;
-use crate::one_leg::BETA;
+use crate::scales::integrate::BETA;
 use crate::system::StepVectors;
 use crate::system::{CableStep, Equations, project_vector};
 use crate::term::StepTerm;

@@ -6,12 +6,9 @@
 use crate::cable::Cable;
 use crate::error::{Error, require};
 use crate::reel::Feed;
+use crate::scales::SAME;
+use crate::scales::reel::GAP;
 use crate::system::Sheave;
-
-/// Largest distance in m between the two ends at a sheave.
-const GAP: f64 = 1e-3;
-/// Share by which the masses per length may differ.
-const SAME: f64 = 1e-9;
 
 /// Checks that sheaves fit the cables of an island, and that each end at a sheave has one.
 pub(super) fn check(cables: &[&mut Cable], sheaves: &[Sheave]) -> Result<(), Error> {

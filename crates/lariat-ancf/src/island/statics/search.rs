@@ -10,29 +10,13 @@ use crate::island::layout::Layout;
 use crate::island::pin::PinConstraint;
 use crate::island::rotation::{exponential, jacobian_inverse};
 use crate::model::{LoadScale, Model, largest_force};
+use crate::scales::statics::{
+    AT_REST, GROWTH, ISLAND_CONVERGED, ISLAND_STAGNATION, MAX_C2, MAX_ITERATIONS, MAX_SHAKES, MAX_SLOPE_CHANGE, MIN_C2,
+    REDUCTION, SHAKE, STABILITY_C2,
+};
 use crate::statics::{first_fold, move_with_supports, potential, straighten};
 use crate::system::project_vector;
 use nalgebra::Vector3;
-
-/// Growth of c2 after a step, and reduction after a rejected one.
-const GROWTH: f64 = 4.0;
-const REDUCTION: f64 = 0.1;
-/// Largest and smallest c2, and that of the test of stability, as multiples of the first.
-const MAX_C2: f64 = 1e8;
-const MIN_C2: f64 = 1e-16;
-const STABILITY_C2: f64 = 1e6;
-/// Newton iterations of one step.
-const MAX_ITERATIONS: usize = 12;
-/// Largest rotation of a body or change of a slope in one iteration.
-const MAX_ROTATION: f64 = 0.3;
-/// Increment that is converged, and below which increments may stop to fall, as shares of the length.
-const CONVERGED: f64 = 1e-13;
-const ROUNDING: f64 = 1e-8;
-/// Displacement of a step at the end, as a share of the length.
-const AT_REST: f64 = 1e-8;
-/// Displacement that leaves a saddle, as a share of the length, and the number of times.
-const SHAKE: f64 = 1e-3;
-const MAX_SHAKES: usize = 3;
 
 /// The iteration.
 pub(super) struct Search {
@@ -231,7 +215,7 @@ impl Search {
             let slopes = equations.parts().map(|(c, part)| c.system.scales.extent(&rhs[part.range()]).1);
             let rotations = (0..layout.bodies.len()).map(|i| vector(&rhs[layout.body_at(i) + 3..]).norm());
             let rotation = slopes.chain(rotations).fold(0.0, f64::max);
-            let damp = (MAX_ROTATION / rotation.max(MAX_ROTATION)).min(*length / size.max(*length));
+            let damp = (MAX_SLOPE_CHANGE / rotation.max(MAX_SLOPE_CHANGE)).min(*length / size.max(*length));
             if !(size * damp).is_finite() {
                 return Err(StepFailure::NotFinite { what: "increment of statics", node: 0 });
             }
@@ -250,11 +234,11 @@ impl Search {
             layout.follow(*time, trial, v);
             layout.follow_acceleration(*time, c2, trial, v, z);
             v.fill(0.0);
-            let rounding = damp == 1.0 && before <= ROUNDING * *length && size > 0.5 * before;
+            let rounding = damp == 1.0 && before <= ISLAND_STAGNATION * *length && size > 0.5 * before;
             // without a symmetric tangent the iteration is linear; what it leaves falls from step
             // to step
-            let close = *driven && size <= ROUNDING * *length;
-            if size <= CONVERGED * *length || rounding || close {
+            let close = *driven && size <= ISLAND_STAGNATION * *length;
+            if size <= ISLAND_CONVERGED * *length || rounding || close {
                 z.iter_mut().zip(trial.iter()).zip(q.iter()).for_each(|((z, y), q)| *z = y - q);
                 return Ok(equations.norm(z));
             }

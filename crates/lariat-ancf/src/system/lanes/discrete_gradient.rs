@@ -26,7 +26,7 @@ use crate::element::gram::{Control, PAIR_WEIGHT, Six, contract, form, gradient, 
 use crate::element::kernel::{DiscreteGradientForce, Gradient, GramForce, GramStep, Hessian, Load, Stiffness};
 use crate::element::step::{ElementStep, STRAIGHT, combined, product, scaled, shifted};
 use crate::linalg::Block;
-use crate::one_leg::{ALPHA, BETA};
+use crate::scales::integrate::{ALPHA, BETA};
 use fearless_simd::Level;
 
 /// A step of the coordinates of a cable.

@@ -52,6 +52,7 @@ impl<S: Simd> Load<f64x8<S>> for Lanes<S> {
 
 impl<S: Simd> Group for Lanes<S> {
     type Number = f64x8<S>;
+    /// Layout: all lanes.
     const SIZE: usize = LANES;
 
     #[inline(always)]

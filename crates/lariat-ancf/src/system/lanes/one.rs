@@ -24,6 +24,7 @@ impl Load<f64> for One {
 
 impl Group for One {
     type Number = f64;
+    /// Layout: one lane.
     const SIZE: usize = 1;
 
     #[inline(always)]

@@ -36,7 +36,7 @@
 
 use super::FeedElement;
 use crate::element::side::Side;
-use crate::one_leg::BETA;
+use crate::scales::integrate::BETA;
 use crate::term::{Account, Balance};
 use nalgebra::Vector3;
 

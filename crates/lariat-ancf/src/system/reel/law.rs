@@ -42,13 +42,8 @@
 use super::graph::{Bound, Graph};
 use crate::element::variable_length::Extent;
 use crate::error::{Error, require};
+use crate::scales::reel::{ALL, REACH};
 use serde::{Deserialize, Serialize};
-
-/// Least and largest length of an element at the end of an iterate, as a multiple of that at the beginning.
-const REACH: [f64; 2] = [0.5, 1.5];
-
-/// Share of a host step that is all of it.
-const ALL: f64 = 1.0 - 1e-9;
 
 /// What drives a reel during a host step.
 #[derive(Clone, Copy, Debug, Default)]

@@ -48,7 +48,7 @@ pub(crate) use feeds::{FeedElement, Feeds, Source};
 pub(crate) use law::{Law, Motor, MotorState, rates};
 pub use sheave::Sheave;
 pub(crate) use unknowns::Unknowns;
-pub(crate) use wheel::{STOP, Wheel};
+pub(crate) use wheel::Wheel;
 
 /// Any number in -1..1, for tests.
 #[cfg(test)]

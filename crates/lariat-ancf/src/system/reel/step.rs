@@ -7,7 +7,7 @@ use crate::Real;
 use crate::element::mass;
 use crate::element::variable_length::{Table, add_product};
 use crate::model::Model;
-use crate::one_leg::BETA;
+use crate::scales::integrate::BETA;
 use crate::simd::dispatch;
 use crate::state::State;
 use crate::system::Equations;

@@ -10,11 +10,7 @@ use super::drum::{Pair, Winch};
 use super::graph::Line;
 use super::law::Law;
 use super::wheel::Wheel;
-
-/// Most sweeps over several reels and sheaves.
-const SWEEPS: usize = 1000;
-/// Change of an acceleration in m/s^2 that ends the sweeps.
-const SMALL: f64 = 1e-12;
+use crate::scales::reel::{SMALL, SWEEPS};
 
 /// A reel in the linear equations of an iteration.
 #[derive(Clone, Copy, Debug)]

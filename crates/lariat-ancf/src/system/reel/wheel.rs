@@ -45,11 +45,8 @@ use super::sheave::Sheave;
 use super::{FeedElement, Feeds};
 use crate::element::side::Side;
 use crate::element::variable_length::Extent;
+use crate::scales::reel::STOP;
 use crate::term::{Account, Balance};
-
-/// Deceleration in m/s^2 with which a cable stops before its end reaches a sheave or the drum that
-/// it is on.
-pub(crate) const STOP: f64 = 100.0;
 
 /// A sheave in a step.
 #[derive(Clone, Copy, Debug)]

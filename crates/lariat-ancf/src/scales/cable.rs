@@ -1,0 +1,44 @@
+//! Of [`cable`](crate::cable): descriptions, shapes, loads that break.
+
+/// Largest number of elements of a cable. Setting: the range of
+/// [`CableBuilder::elements`](crate::CableBuilder::elements).
+pub(crate) const MAX_ELEMENTS: usize = 1_000_000;
+
+/// Similarity (0 to 1) below which a name is not proposed. Unknown: a slip of the pen is above it,
+/// another word below.
+pub(crate) const LEAST_SIMILARITY: f64 = 0.8;
+
+/// Share by which the mesh may read a known load too high, before the wave of the break comes.
+/// Unknown: what meshes miss of a steady tension.
+pub(crate) const KNOWN: f64 = 0.01;
+
+/// Depth between samples as a multiple of that at the deepest of them. Unknown: parabolas through
+/// two samples and a summit.
+pub(crate) const BETWEEN: f64 = 2.0;
+
+/// Cosine of the angle between normals that point to one side. Derived: those of an edge of 120
+/// degrees; a sharp edge has others.
+pub(crate) const SAME_SIDE: f64 = 0.5;
+
+/// Points of an element that are looked at for an overlap, without its last node. Derived: twice
+/// the intervals of the samples of contact.
+pub(crate) const OVERLAP_POINTS: usize = 8;
+
+/// Energy over EA L below which a shape stays as drawn. Derived: that of a strain of 1.4e-3, which
+/// cables have in use.
+pub(crate) const STAYS: f64 = 1e-6;
+
+/// Energy over EA L at which the iteration ends. Measured: random polylines end below 1e-7 (tests,
+/// corners.rs).
+pub(crate) const ENOUGH: f64 = 1e-8;
+
+/// Largest number of iterations of an unstrained shape. Unknown: it ends a loop.
+pub(crate) const MOST_ITERATIONS: usize = 200;
+
+/// First damping as a share of the mean diagonal, and its largest. Derived: at first as stiff as
+/// the shape; at last no step is above rounding.
+pub(crate) const DAMPING: [f64; 2] = [1.0, 1e12];
+
+/// Factor of the damping after a step; its inverse cubed after one that failed. Unknown: as trust
+/// regions have it.
+pub(crate) const EASE: f64 = 0.5;

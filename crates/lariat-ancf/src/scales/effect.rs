@@ -1,0 +1,38 @@
+//! Of [`effect`](crate::effect).
+
+/// EA over this many squares of the radius is the stiffness of contact. Setting:
+/// [`Contact::stiffness`](crate::effect::Contact::stiffness).
+pub(crate) const SOFTNESS: f64 = 40.0;
+
+/// Floor for the square w of half the turn of an element. Derived: above what cancellation leaves
+/// of the 2x2 minors of a straight one.
+pub(crate) const NOISE: f64 = 2.5e-12;
+
+/// Gauss points of an element, where its bending rule has none of its own. Derived: exact to degree
+/// five, of the cubic shape functions and a force that is quadratic along the element.
+pub(crate) const POINTS: usize = 3;
+
+/// e: square of half the turn per element, in rad, below which the curvature is damped as a vector.
+/// Derived: [`damping`](crate::effect::damping) bounds the heat of a spin by e, and 6e-4 rad are no
+/// bend.
+pub(crate) const STRAIGHT: f64 = 1e-7;
+
+/// Rows of a table built from a formula. Unknown: their heights grow by the cube, so most are near
+/// the ground, where a profile is steep.
+pub(crate) const ROWS: usize = 65;
+
+/// Step of central differences, as a share of the element or of the speed, and in m for a
+/// potential. Derived: near the cube root of the rounding of `f64`, where they err least.
+pub(crate) const DIFFERENCE: f64 = 1e-5;
+
+/// What is left of a difference of two energies below this share of them is rounding. Unknown: a
+/// sum of eight terms rounds by as much.
+pub(crate) const ENERGY_ROUNDING: f64 = 8.0 * f64::EPSILON;
+
+/// k_r over kappa_0: share of the rest curvature below which the corner of its energy is rounded.
+/// Unknown: a bend by a hundredth of it is none.
+pub(crate) const BLUNTING: f64 = 0.01;
+
+/// Half waves over the length in the bending mode whose damping is named. Unknown: a mode that a
+/// mesh of usual fineness has.
+pub(crate) const HALF_WAVES: f64 = 10.0;

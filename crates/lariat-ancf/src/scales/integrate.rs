@@ -1,0 +1,145 @@
+//! Of [`integrate`](crate::integrate).
+
+/// Largest angular frequency in rad/s of a cable for which the reference fidelity is explicit.
+/// Measured: of the scenes of `docs/accuracy`, the payload (3.4e4 rad/s) is cheaper with an
+/// explicit method, the pendulum with 80 elements (8.7e4 rad/s) with an implicit one.
+pub(crate) const MAX_EXPLICIT_FREQUENCY: f64 = 5e4;
+
+/// Shortest step, as a share of the host step. Derived: ten retries, each with a quarter of the
+/// step.
+pub(crate) const MIN_STEP_SHARE: f64 = 1.0 / (1u64 << 20) as f64;
+
+/// Newton's tolerance in m where no error is controlled. Unknown: below any error of a step, above
+/// the rounding of coordinates up to 1e5 m.
+pub(crate) const FIXED_STEP_NEWTON_TOLERANCE: f64 = 1e-10;
+
+/// Relative rounding error of a host step given in single precision. Derived: half a unit in the
+/// last place is 6e-8; 1/60 s is then longer than four steps of 1/240 s.
+pub(crate) const SINGLE_PRECISION_ROUNDING: f64 = 1e-7;
+
+/// Number of parts into which a step is divided that failed. Derived: implicit methods fail by
+/// nonlinearity, which the square of a step has; a quarter has a sixteenth of it.
+pub(crate) const PARTS: usize = 4;
+
+/// Length of the retry of a failed step, as a share of the step. Derived.
+pub(crate) const RETRY_SHARE: f64 = 1.0 / PARTS as f64;
+
+/// Longest step after one at which Newton's iteration failed with an inexact tangent, as a share of
+/// it. Unknown: the half is not tried again at once.
+pub(crate) const MAX_SHARE_OF_FAILED: f64 = 0.5;
+
+/// Tries per regular step of fixed length in a host step after which a failure ends it. Derived: of
+/// two failures at the shortest step, 2 (10 + 76), for 1.2^76 = 4^10.
+pub(crate) const TRIES: u64 = 172;
+
+/// Growth of that bound with every accepted step. Unknown: it doubles in four steps.
+pub(crate) const BOUND_GROWTH: f64 = 1.2;
+
+/// Smallest error allowed to a step, as a share of the tolerance: after a jump of velocity errors
+/// fall only in proportion to h. Unknown: a thousand such steps in a host step are not expected.
+pub(crate) const MIN_ERROR_SHARE: f64 = 1.0 / 1024.0;
+
+/// Coherence of errors from which they count as those of a slow motion. Unknown: of errors without
+/// order it is near none.
+pub(crate) const MIN_COHERENCE: f64 = 0.25;
+
+/// Largest error of an incoherent step, as a share of the tolerance. Unknown: the other half is
+/// left to those after it.
+pub(crate) const MAX_SHARE_OF_ONE_STEP: f64 = 0.5;
+
+/// Newton's tolerance, as a share of the error per unit step. Unknown: its errors are then hidden
+/// by those of the step.
+pub(crate) const NEWTON_TOLERANCE_SHARE: f64 = 0.1;
+
+/// Error for which the next step is chosen, as a share of the allowed one. Measured, without a
+/// test: one half costs less than 0.8, with fewer rejections.
+pub(crate) const TARGET_ERROR_SHARE: f64 = 0.5;
+
+/// Newton iterations before a stage fails. Unknown: it converges in two to four where a step is
+/// resolved.
+pub(crate) const MAX_ITERATIONS: usize = 12;
+
+/// Largest change of a slope vector, or rotation of a body in rad, in one Newton iteration.
+/// Unknown: a tangent says little beyond half a radian.
+pub(crate) const MAX_ROTATION: f64 = 0.5;
+
+/// A tangent is kept for the next iteration or stage while each increment is below this share of
+/// the one before. Unknown: one factorisation costs as much as two further iterations.
+pub(crate) const MAX_CHORD_CONTRACTION: f64 = 0.3;
+
+/// Share of the impulses that may be unbalanced in a stage. Unknown: forces are then right to as
+/// much.
+pub(crate) const FORCE_TOLERANCE: f64 = 1e-3;
+
+/// Number of iterations after which the balance of impulses is no longer asked for: a slack cable
+/// has hardly any. Unknown: four are one more than a step needs.
+pub(crate) const MAX_FOR_FORCES: usize = 4;
+
+/// Largest spurious energy in any interval of time, as a share of the largest kinetic and strain
+/// energy so far. Setting: the check is documented with it (tests, energy_check.rs).
+pub(crate) const MAX_ENERGY_SHARE: f64 = 0.01;
+
+/// Largest spurious energy that is left in an accepted step where the error is controlled.
+/// Derived: half of the share, so that two of them are within it.
+pub(crate) const MAX_LEFT_SHARE: f64 = 0.5 * MAX_ENERGY_SHARE;
+
+/// Shortest step, as a share of the first of the host step, that is tried for less spurious energy.
+/// Derived: five retries, each with a quarter of the step.
+pub(crate) const MIN_CHECKED_SHARE: f64 = 1.0 / 1024.0;
+
+/// Coefficient a of the one-leg formula of the [discrete
+/// gradient](crate::integrate::discrete_gradient). Derived: modes that a step does not resolve fall
+/// to a third in every step, and slow ones have the damping ratio a (h omega)^3/2.
+pub(crate) const ALPHA: f64 = 1.0 / 16.0;
+
+/// Coefficient b = 1/2 + a. Derived: the formula is of the second order.
+pub(crate) const BETA: f64 = 0.5 + ALPHA;
+
+/// Share of the impulses that may be unbalanced where velocities of a nonsmooth step are rescaled.
+/// Unknown: what is rescaled beyond it is no error of the iteration.
+pub(crate) const LARGEST_IMBALANCE: f64 = 0.1;
+
+/// Share of the impulses of a step that may be unbalanced. Measured: the energy law alone lets
+/// errors of tension pass where the motion turns fast: on a rotor, 0.13 rad per step, 20 N of 63.
+pub(crate) const FORCE_TOLERANCE_OF_STEP: f64 = 0.01;
+
+/// Share of the imbalance that an iteration with the factors of an earlier one may leave; if it
+/// leaves more the next has a new tangent. Unknown: a factorisation costs some iterations.
+pub(crate) const MAX_LEFT: f64 = 0.1;
+
+/// Rounding error of the energy law as a share of its terms. Derived: that of a sum over some
+/// hundred elements.
+pub(crate) const LAW_ROUNDING: f64 = 1e-13;
+
+/// Largest number of Newton iterations of a step. Unknown: what needs more is divided.
+pub(crate) const MAX_ITERATIONS_OF_STEP: usize = 8;
+
+/// Largest number of Newton iterations where terms have laws of their own to meet. Unknown: bounds
+/// of friction are renewed in these.
+pub(crate) const MAX_ITERATIONS_OF_LAWS: usize = 20;
+
+/// Energy by which a nonsmooth step may miss in any case, as a share of the weight times 1 mm.
+/// Unknown: the weight at a nanometre.
+pub(crate) const CLOSURE_OF_WEIGHT: f64 = 1e-6;
+
+/// Share of the velocities relative to rigid motion that rescaling may take. Derived: that of half
+/// of their energy, 1 - 2^(-1/2).
+pub(crate) const SHARE_OF_HALF_THE_ENERGY: f64 = 0.292_893_218_813_452_5;
+
+/// Largest number of divisions of divisions. Unknown: 1/240 s is then divided down to 1 us.
+pub(crate) const MAX_DEPTH: usize = 6;
+
+/// Number of iterations that take the whole increment. Unknown: smooth steps need no more.
+pub(crate) const WHOLE_INCREMENTS: usize = 4;
+
+/// Share of the imbalance that an iteration leaves where it swings. Derived: Newton's iteration
+/// leaves less wherever it converges.
+pub(crate) const SWINGING: f64 = 0.5;
+
+/// Share of the increment that is taken then. Derived: what swings between two sides has its
+/// solution between them.
+pub(crate) const HALF: f64 = 0.5;
+
+/// Share of the energy of the residual by which what is left may differ from that of a linear
+/// force. Unknown: below it the next iteration converges by itself.
+pub(crate) const LINEAR: f64 = 0.1;

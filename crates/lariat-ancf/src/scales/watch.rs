@@ -1,0 +1,83 @@
+//! Of readings of a run, and what they are worth a warning for.
+
+/// Share of the energy of a run above which energy that it makes is warned of. Derived: a million
+/// steps at their tolerance make as much.
+pub(crate) const MADE: f64 = 1e-3;
+
+/// Share of the energy of a run above which energy that integration takes is warned of. Unknown:
+/// methods damp what a step does not resolve.
+pub(crate) const LOST: f64 = 1e-2;
+
+/// Strain of all cables that is the least energy to compare with, where nothing has weight and all
+/// is at rest. Unknown: a tenth of [`LEAST_STRAIN`](super::LEAST_STRAIN), so that a run is judged
+/// by less than its steps are.
+pub(crate) const LEAST_STRAIN_OF_RUN: f64 = 1e-6;
+
+/// Largest estimate of an error of position without a warning, as a share of the length. Measured:
+/// on 30 scenes, what exceeds it or [`MOTION`] was off by 0.2 to 11 % of the length, what does not
+/// by less than 0.25 % (tests, mesh_indicator.rs).
+pub(crate) const ERROR: f64 = 2e-3;
+
+/// Largest estimate of the error of a displacement without a warning, as a share of the largest
+/// displacement. Measured: with [`ERROR`].
+pub(crate) const MOTION: f64 = 0.1;
+
+/// Errors of a displacement below this share of the length are those of integrators and statics.
+/// Unknown: both are asked for less.
+pub(crate) const ROUNDING: f64 = 1e-5;
+
+/// Largest angle in rad between the end slopes of an element that no node judges. Unknown: a circle
+/// of 31 elements has it.
+pub(crate) const TURN: f64 = 0.2;
+
+/// Largest tension over EA. Derived: Green's law is 7.5 % above Hooke's there.
+pub(crate) const STRAIN: f64 = 0.05;
+
+/// Largest rate of a reel over the speed of transverse waves. Derived: the square of it, 9 %, is
+/// what the moving rope adds to its tension.
+pub(crate) const REEL: f64 = 0.3;
+
+/// Largest force that the rounding of what holds a cable may make, as a share of its largest
+/// tension. Unknown: tensions are then right to as much.
+pub(crate) const NOISE: f64 = 0.01;
+
+/// Largest part of its length by which the ends of a straight cable are nearer than that. Derived:
+/// a sag of 0.6 % of the span.
+pub(crate) const STRAIGHT: f64 = 1e-4;
+
+/// Largest number of elements that is advised. Derived: the largest that a cable can have.
+pub(crate) const MOST: f64 = 1e6;
+
+/// Largest depth of a contact as a share of the radius. Unknown: a surface is then off by as much.
+pub(crate) const DEPTH: f64 = 0.2;
+
+/// Largest angle in rad by which an element turns that touches. Unknown: nine elements around a
+/// drum.
+pub(crate) const CONTACT_TURN: f64 = core::f64::consts::TAU / 9.0;
+
+/// The angle that is advised. Unknown: twelve elements around a drum.
+pub(crate) const ADVISED: f64 = core::f64::consts::TAU / 12.0;
+
+/// For how long in s they may be larger. Unknown: an impact is over before.
+pub(crate) const DURATION: f64 = 0.1;
+
+/// Least length over thickness. Derived: the deflection of a Timoshenko cantilever is 0.8 % above
+/// Euler's there, 3 % at 5.
+pub(crate) const SLENDERNESS: f64 = 10.0;
+
+/// Least Young's modulus in Pa. Derived: that of the softest technical elastomers.
+pub(crate) const SOFTEST: f64 = 1e5;
+
+/// Least speed of waves along a cable whose material is given, in m/s. Derived: below the 10 m/s of
+/// the softest elastomers, above a thousandth of steel's.
+pub(crate) const SLOWEST: f64 = 6.0;
+
+/// Least density in kg/m^3. Derived: that of the lightest foams.
+pub(crate) const LIGHTEST: f64 = 10.0;
+
+/// Largest speed of waves along a cable whose material is given, in m/s. Derived: none is faster in
+/// any solid ([`sizes`](crate::warning) names the paper).
+pub(crate) const FASTEST: f64 = 3.6e4;
+
+/// Largest thickness in m. Derived: above 1.42 m, the thickest pipelines.
+pub(crate) const THICKEST: f64 = 1.5;
